@@ -4,10 +4,10 @@
 
 #include "scene/words.hpp"
 
-/// The words that a case file has for what the judge tells apart.
+/// The words of a case file for the choices of the judge.
 namespace tripoint {
 
-/// Against what a case is judged: an exact solution, an experiment, another engine.
+/// Truth that a case is judged against: an exact solution, an experiment, another engine.
 enum class CaseKind { verification, validation, comparison };
 constexpr WordTable<3> word_table(CaseKind) { return {"kind of case", {"verification", "validation", "comparison"}}; }
 
@@ -28,7 +28,7 @@ constexpr WordTable<5> word_table(Axis) {
   return {"axis of a study", {"spacing", "time_step", "support_ratio", "walkers", "iterations"}};
 }
 
-/// How a metric makes one number of errors in space and time; metric_norms() says what each does.
+/// How a metric makes one number of errors in space and time; metric_norms() describes each.
 enum class Norm { L1, L2, L2raw, Linf, chi, max, rms, L2mean, mean, stationary, final, drift, frequency, slope };
 constexpr WordTable<14> word_table(Norm) {
   return {
@@ -44,7 +44,7 @@ constexpr WordTable<14> word_table(Norm) {
 /// it judges. none = all; not paper = every engine's but ours in the printed form. In the order of the words.
 enum class JudgedMode { none, corrected, not_paper, paper };
 constexpr WordTable<4> word_table(JudgedMode) { return {"mode", {"", "corrected", "not paper", "paper"}}; }
-/// Whether a run of one mode is of what is wanted.
+/// Whether a run of one mode is among the wanted ones.
 [[nodiscard]] constexpr bool fits(JudgedMode wanted, JudgedMode run) {
   return wanted == JudgedMode::none || (wanted == JudgedMode::not_paper ? run != JudgedMode::paper : run == wanted);
 }

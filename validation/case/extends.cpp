@@ -44,7 +44,7 @@ fs::path real(const fs::path& path) {
   return error ? fs::path() : found;
 }
 
-/// Tables of a case, and a scene or what has one: any other file is left unread, so that no message can quote it.
+/// Accepts tables of a case with a scene, or with a base. Any other file is left unread, so that no message can quote it.
 void check_is_case(const TomlNode& document, const TomlNode& extends) {
   const auto known = case_keys().names("");
   const bool knows_all = std::all_of(document.members.begin(), document.members.end(), [&](const auto& m) {

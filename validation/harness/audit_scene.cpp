@@ -9,7 +9,7 @@
 namespace tripoint {
 namespace {
 
-/// An engine may hold reciprocals or other units of what it was given: a few roundings of its own precision, but no more.
+/// An engine may hold its inputs as reciprocals or in other units: a few roundings of its own precision, but no more.
 double roundings(const Readback& held) { return held.precision == "single" ? 1e-6 : 1e-9; }
 
 bool same(double a, double b, double room) { return std::abs(a - b) <= room; }

@@ -13,7 +13,7 @@
 /// writes it, nothing else does.
 namespace tripoint {
 
-/// One gate as it was accepted: what it judges, what it allows, what was measured then.
+/// One gate as it was accepted: its metric, its limits, and the value measured then.
 struct AcceptedGate {
   std::string metric, engine, preset, allows;  ///< allows: "limit 0.01", as the gate describes itself
   JudgedMode mode = JudgedMode::none;
@@ -63,7 +63,7 @@ struct Baseline {
 /// The folder of cases that a case file belongs to: `cases` beside `baselines`, or the folder that it lies in.
 [[nodiscard]] std::string folder_of_cases(const std::string& case_file);
 
-/// @throws InputError with the place of what is wrong
+/// @throws InputError with the place of the fault
 [[nodiscard]] Baseline read_baseline(const std::string& file);
 [[nodiscard]] std::string baseline_text(const Baseline&);
 
@@ -98,7 +98,7 @@ struct Baseline {
 /// @throws InputError for an id that the results do not hold, and where a case is not green
 [[nodiscard]] std::string accept(const Results&, const std::vector<std::string>& ids, const Acceptance&);
 
-/// Removes the baselines of cases that are no more. @return what was removed
+/// Removes the baselines of cases that are no more. @return text that names the removed ones
 /// @throws InputError for an id that has no baseline, and for one whose case is still there
 [[nodiscard]] std::string accept_removal(const std::vector<std::string>& ids, const Acceptance&);
 

@@ -46,7 +46,7 @@ Baseline accepted_from(const CaseResult& c, const Tool& tool, std::uint64_t seed
   }
   if (!before) return b;
   b.removed = before->removed + static_cast<int>(gone(c, own, *before, engines_were_chosen).size());
-  for (const auto& g : before->gates)  // an engine that is not on this machine keeps what was accepted of it elsewhere
+  for (const auto& g : before->gates)  // an engine that is not on this machine keeps its gates accepted elsewhere
     if (is_absent(c, g, engines_were_chosen)) b.gates.push_back(g);
   return b;
 }

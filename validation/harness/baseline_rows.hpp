@@ -5,7 +5,7 @@
 
 #include "validation/harness/baseline.hpp"
 
-/// The rows of results as a baseline holds them: what comparison and acceptance share.
+/// The rows of results as a baseline holds them; comparison and acceptance share them.
 namespace tripoint {
 
 /// Green gates as they stand: two that judge the same row (a limit and a band) are told apart by their order.

@@ -24,7 +24,7 @@ struct CaseRun {
   RunPlan plan;
   Job job;
   std::shared_ptr<const InitialState> initial;
-  std::shared_ptr<const ChangedRun> changed;  ///< what is run in its place; empty = itself
+  std::shared_ptr<const ChangedRun> changed;  ///< the run made in its place; empty = itself
   std::string folder, particles;
   std::shared_ptr<std::string> particles_hash;  ///< shared by the runs that start from one file
   RunRow row;

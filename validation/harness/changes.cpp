@@ -179,7 +179,7 @@ void settle(MetricChange& c, const Gate& base_gate, const Gate& head_gate, doubl
   if (std::abs(c.change) > std::max(c.noise, least_change)) c.trend = c.change > 0.0 ? Trend::worse : Trend::better;
 }
 
-/// Worse and better first, by their size; then what has not moved; then new, then gone.
+/// Worse and better first, by their size; then unchanged ones; then new, then gone.
 bool goes_before(const MetricChange& a, const MetricChange& b) {
   const auto rank = [](const MetricChange& c) {
     return c.trend == Trend::worse || c.trend == Trend::better ? 0

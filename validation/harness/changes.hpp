@@ -44,18 +44,18 @@ struct MetricChange {
 
 struct Comparison {
   std::string base_name;
-  std::vector<MetricChange> changes;  ///< most changed first, then what is new and what is gone
+  std::vector<MetricChange> changes;  ///< most changed first, then new and lost ones
   std::vector<std::string>
       remarks;  ///< why the two may not be comparable: another profile, other seeds, another version of the program
   [[nodiscard]] int count(Trend) const;
 };
 
 /// Share of a gate's allowance that a value takes, 1 at the edge, less is better. It is |value| over the limit; distance from the
-/// middle of a band over half its width; 2 - value/at_least. Of several edges the largest. A limit of 0 has the metric's own
-/// unit. NaN for no value, and for a gate without an edge.
+/// middle of a band over half its width; 2 - value/at_least. With several edges the largest counts. A limit of 0 has the metric's
+/// own unit. NaN for no value, and for a gate without an edge.
 [[nodiscard]] double used_of(const Gate&, double value);
 
-/// @param repeat the base once more (A/A): what differs between the two is noise of its own, the larger one counts   @pre both
+/// @param repeat the base once more (A/A): the difference between the two is noise of its own, the larger one counts @pre both
 /// are judged
 [[nodiscard]] Comparison compare_results(const Results& base, const Results& head, const std::string& base_name,
                                          const Results* repeat = nullptr);

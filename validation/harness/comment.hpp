@@ -31,8 +31,8 @@ struct CommentOptions {
 [[nodiscard]] std::string comment_text(const Results&, const GateVerdict&, const Comparison* against, const CommentOptions&);
 
 /// A list of {name, unit, value, range, extra}, an entry for each judged metric, as benchmark actions read it.
-/// @param in_limits values in units of the limit, the less the better: what such an action needs to know a regression; else in
-/// the metric's own unit
+/// @param in_limits values in units of the limit, the less the better, so that such an action knows a regression; else in the
+/// metric's own unit
 [[nodiscard]] std::string dashboard_json(const Results&, bool in_limits);
 
 /// "accuracy | 12/12 gates", green where the verdict is PASS. @param json as an endpoint's answer {schemaVersion, label, message,

@@ -9,7 +9,7 @@ namespace tripoint {
 struct EngineCheck {
   std::string what;  ///< the sentence that must hold
   bool passed = false;
-  std::string found;  ///< what was found instead
+  std::string found;  ///< the result found instead
 };
 
 /// Asks --info, hands over broken jobs, and runs small scenes, of which the engine must be able to do one. They are the flight of

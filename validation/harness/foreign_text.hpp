@@ -17,7 +17,7 @@ namespace tripoint {
 /// For XML and SVG, as text or in quotes: one line, in which markup is text.
 [[nodiscard]] std::string xml(std::string_view);
 
-/// For the path of a URL: what is no letter, digit or one of -._~/ is written %XX.
+/// Text for the path of a URL: a byte that is no letter, digit or one of -._~/ is written %XX.
 [[nodiscard]] std::string url_path(std::string_view);
 
 /// Text for a workflow command of GitHub. Characters that would end its line, or in a property the property, are escaped. Control

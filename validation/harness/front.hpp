@@ -13,7 +13,7 @@ namespace tripoint {
 struct LadderPoint {
   double level = 0.0;  ///< in the axis's own unit
   double step = 0.0;   ///< finer = smaller
-  double error = 0.0;  ///< |value| + 2 u: what a limit is held against
+  double error = 0.0;  ///< |value| + 2 u, which is compared with a limit
   double cpu_s = 0.0;
   double pairs = 0.0;
 };
@@ -39,7 +39,7 @@ struct Prediction {
 [[nodiscard]] Prediction predicted_error(const Ladder&, double step);
 [[nodiscard]] Prediction predicted_cpu(const Ladder&, double step);
 
-/// Settings that are wished: a level of a ladder, and what it will give.
+/// Recommended settings: a level of a ladder, and the expected result.
 struct Recommendation {
   const Ladder* ladder = nullptr;
   double level = 0.0;

@@ -15,7 +15,7 @@
 namespace tripoint {
 namespace {
 
-/// Collects what is wrong with a case: a sentence and its exit code.
+/// Collects the faults of a case: a sentence and its exit code.
 struct Findings {
   std::vector<std::string>& problems;
   std::set<int> codes;
@@ -212,7 +212,7 @@ void judge(Results& results) {
     codes.insert(c.exit_code);
   }
   check_planned(results, results.problems, codes);
-  // Nothing is wrong but that who was asked takes no case: nobody passes unjudged, and nothing of it is missing either.
+  // The only fault is that the chosen engines take no case: none passes unjudged, and nothing is missing either.
   const bool all_refused =
       codes == std::set<int>{exit_pass} &&
       std::all_of(results.cases.begin(), results.cases.end(), [](const auto& c) { return c.verdict == CaseVerdict::refused; });

@@ -205,7 +205,7 @@ std::vector<std::string> presets_of(const EngineChoice& engine, const EngineEntr
   return {entry && !contains(entry->presets, default_preset) ? entry->presets.front() : default_preset};
 }
 
-/// Counts what a case asks for before any of it is planned.
+/// Counts the runs of a case before any of them is planned.
 class Budget {
  public:
   void spend(std::size_t runs, const SourcePlace& place) {

@@ -19,7 +19,7 @@ struct RunPlan {
   std::optional<double> walkers, iterations;
   std::map<StudyAxes, double> levels;  ///< of a study -> level
   bool base = false;
-  std::string input;  ///< "key=VALUE" of an uncertain input at one end, in the place of what the case says; empty = none
+  std::string input;  ///< "key=VALUE" of an uncertain input at one end, in place of the case's value; empty = none
   std::string label;  ///< name of its folder below runs/<case>/<engine>
   std::string group;  ///< runs of one group differ by seed only
 };

@@ -214,7 +214,7 @@ void add_cost(ProcessEnd& end, const rusage& use) {
 /// Time until we look at a child again [ms]. It is a fifth of its run time so far, so that its memory is seen in a short run too.
 double until_next_look(double ran, double left) { return std::min({100.0, std::max(2.0, 200.0 * ran), 1e3 * left + 1.0}); }
 
-/// Reads what is there without waiting. @return false at the end of the stream
+/// Reads the bytes that are there, without waiting. @return false at the end of the stream
 template <class Take>
 bool drain(int fd, Take take) {
   char buffer[65536];

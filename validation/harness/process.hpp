@@ -19,7 +19,7 @@ struct ProcessSpec {
   std::function<void(double)> progress;            ///< called with 0..1 for each line `progress X` of stderr
   std::function<void(const std::string&)>
       status;                       ///< called with the rest of each line `status REST` of stderr, of 400 bytes at most
-  bool outlives_interrupt = false;  ///< Ctrl-C does not end it: it shows what was complete by then
+  bool outlives_interrupt = false;  ///< Ctrl-C does not end it: it shows the results that are complete by then
   bool in_sandbox = false;          ///< argv is bubblewrap's, which leaves the process that it starts to us: that one is paid for
 };
 
@@ -35,7 +35,7 @@ struct ProcessEnd {
 };
 
 /// Runs a program to its end, its limit or our Ctrl-C, whichever is first. Nothing of its group survives, nor does it where we
-/// are killed. Never throws for what the program does.
+/// are killed. Never throws for a fault of the program.
 [[nodiscard]] ProcessEnd run_process(const ProcessSpec&);
 
 /// Held while a program is started, and by all code that uses HDF5. Its files are not close-on-exec, so a child would inherit

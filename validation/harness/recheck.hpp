@@ -4,7 +4,7 @@
 
 #include "validation/harness/remarks.hpp"
 
-/// Results against the case files as they are now: what is judged must be what the cases ask.
+/// Results against the case files as they are now: the judged question must be that of the cases.
 namespace tripoint {
 
 /// Errors, exit 4. One stands for each case whose file cannot be read again, or whose metrics, gates, studies, reference or

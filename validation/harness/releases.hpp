@@ -48,7 +48,7 @@ struct ReleaseTable {
 
 /// releases.json, format 1.
 [[nodiscard]] std::string releases_text(const ReleaseTable&);
-/// The same as Markdown: a table for each metric, what changed from each release to the next, and what the gates say.
+/// The same as Markdown: a table for each metric, the changes from each release to the next, and the verdicts of the gates.
 [[nodiscard]] std::string releases_markdown(const ReleaseTable&);
 /// One line: whether the last release may take the place of the first.
 [[nodiscard]] std::string upgrade_line(const ReleaseTable&);

@@ -12,7 +12,7 @@ struct Remark {
   bool error = true;    ///< else a warning, which turns nothing red
   int code = 0;         ///< exit code of the contract; 0 for a warning
   SourcePlace place;    ///< of the limit in the case file; line 0 = the file as a whole, no file = the suite
-  std::string title;    ///< case and what is judged
+  std::string title;    ///< case and judged metric
   std::string text;     ///< one sentence
   double excess = 0.0;  ///< how far beyond the limit, to put the worst first: |value|/limit; infinite where there is no value
   std::string word;     ///< the verdict where nothing else is wrong: LOOSENED, CHANGED, GONE; empty = that of the code

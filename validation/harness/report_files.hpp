@@ -37,7 +37,7 @@ void set_aside_report(const std::string& folder);
 /// number of cases.
 [[nodiscard]] std::string notes_text(const Results&);
 
-/// One line for a case: its verdict, id and what is not green.
+/// One line for a case: its verdict, id and the gates that are not green.
 [[nodiscard]] std::string case_line(const CaseResult&);
 
 /// Shards into one set of results. @throws InputError when a shard is missing, two overlap, or one holds a link, a pipe or a

@@ -33,7 +33,7 @@ struct Judged {
 };
 template <class T>
 Judged(T&) -> Judged<T>;
-/// A number that may not be stated: what is absent leaves the default, null is NaN.
+/// A number that may not be stated: an absent one leaves the default, null is NaN.
 template <class T>
 struct Stated {
   T& value;

@@ -135,7 +135,7 @@ void count_instructions(const RunRequest& request, ProcessSpec spec, Outcome& ou
   fs::remove_all(folder, ignored);
 }
 
-/// Bytes that a trajectory can need: what flows in, twice as much again and again, is far below the gibibyte.
+/// Bytes that a trajectory can need: inflowing liquid, doubled again and again, stays far below the gibibyte.
 std::uintmax_t greatest_trajectory(const RunRequest& request) {
   constexpr std::uintmax_t a_row = 4096, at_least = std::uintmax_t{1} << 30;
   return at_least + a_row * request.job->times.size() * (request.initial->size() + request.job->bodies.size());
@@ -149,7 +149,8 @@ void expect_own_files(const fs::path& folder) {
       throw EngineError(fmt::format("{} is a link to another file, or no regular file; refused: an engine writes its own", name));
 }
 
-/// Frames that a trajectory may have: a small one may show each step of its engine, a large one little more than what was asked.
+/// Frames that a trajectory may have: a small one may show each step of its engine, a large one little more than the output
+/// times.
 std::size_t most_frames(const RunRequest& request) {
   constexpr std::size_t rows = 1'000'000;
   return std::max(2 * request.job->times.size() + 16, rows / std::max<std::size_t>(1, request.initial->size()));
@@ -178,7 +179,7 @@ Trajectory read_files(const RunRequest& request) {
   return trajectory;
 }
 
-/// Nobody promises that a library bears every file: what an engine of others has written is read by a confined copy of us.
+/// No library is sure to survive every file. So a confined copy of us reads the files of foreign engines.
 std::shared_ptr<const Trajectory> read_any_trajectory(const RunRequest& request) {
   const std::lock_guard lock(no_spawn_mutex());  // Debian's HDF5 is not thread-safe either
   const fs::path folder(request.folder);

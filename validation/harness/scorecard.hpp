@@ -22,7 +22,8 @@ constexpr WordTable<9> word_table(Score) {
 struct ScoreRow {
   std::string case_id, title;
   Score verdict = Score::missing;
-  std::string reason;           ///< of a verdict that is not pass: what failed, why it was refused; of a known defect its name
+  std::string reason;           ///< of a verdict that is not pass: the failed gate, the reason of a refusal, or the name of a
+                                ///< known defect
   std::string metric, unit;     ///< the metric by which engines are ranked: that of the first acceptance limit of the case
   double error = not_a_number;  ///< its value at the case's own resolution, scaled
   std::string allowed;          ///< "limit 0.05": the acceptance limit on it
@@ -83,7 +84,7 @@ struct Scorecard {
 [[nodiscard]] std::string scorecard_text(const Scorecard&, const std::vector<std::string>& asked);
 /// The whole as Markdown.
 [[nodiscard]] std::string scorecard_markdown(const Scorecard&);
-/// scorecard.json, format 1: what the page is made of.
+/// scorecard.json, format 1: the data of the page.
 [[nodiscard]] std::string scorecard_json(const Scorecard&);
 /// Writes scorecard.json, scorecard.md and, where the report program can, scorecard.html. @return why there is no page; empty
 /// where it is there

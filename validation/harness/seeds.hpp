@@ -8,7 +8,7 @@
 #include "validation/harness/plan_runs.hpp"
 #include "validation/harness/selftest.hpp"
 
-/// False alarms: what chance has a hand in is run again with other seeds, and no gate may turn.
+/// False alarms: runs that depend on a seed are made again with other seeds, and no gate may turn.
 namespace tripoint {
 
 /// One gate of one engine's runs, over the seeds.
@@ -19,8 +19,8 @@ struct SeedOutcome {
   std::vector<double> values;                            ///< one a seed
   std::vector<std::uint64_t> alarms;                     ///< seeds at which the gate was not green
   double mean = not_a_number, deviation = not_a_number;  ///< of the values; standard deviation over seeds
-  double distance = not_a_number;  ///< from the mean to the nearest edge of what is allowed, in standard deviations
-  Gate gate;                       ///< what it allows, and where that is written
+  double distance = not_a_number;  ///< from the mean to the nearest edge of the gate, in standard deviations
+  Gate gate;                       ///< its limits, and where they are written
 };
 
 struct SeedsOutcome {

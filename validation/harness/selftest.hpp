@@ -27,7 +27,7 @@ struct DefectOutcome {
   std::string defect, case_id;
   double size = 0.0;
   bool killed = false;
-  std::string found;  ///< what the gates said
+  std::string found;  ///< verdicts of the gates
   SourcePlace place;
   bool tried = true;  ///< false where the engine that it is for is not there
 };

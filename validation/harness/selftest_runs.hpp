@@ -9,8 +9,8 @@ namespace tripoint {
 /// the solver over ranks alone.
 [[nodiscard]] std::string engine_of_defect(const Case&, const Defect&);
 
-/// Runs what the gates of this engine on these metrics need, with a defect ("name=size"; empty = none), into `folder` below the
-/// self-test's own.
+/// Makes the runs that the gates of this engine on these metrics need, with a defect ("name=size"; empty = none). They go into
+/// `folder` below the self-test's own.
 /// @throws EngineError when interrupted
 [[nodiscard]] CaseResult run_with_defect(const Case&, const EngineEntry&, const std::vector<std::string>& metrics,
                                          const std::string& defect, const std::string& folder, const SelftestOptions&);

@@ -13,7 +13,7 @@ struct StrangersFile {
 
 /// Reads what an engine of others left or said, in a confined copy of this process. Under --sandbox nothing is read where the
 /// system cannot confine it.
-/// @param read gives back what it read, as bytes
+/// @param read returns its result as bytes
 /// @param limit wall clock [s]; then the copy is killed
 /// @returns what `read` returned in the copy
 /// @throws InputError what `read` threw there

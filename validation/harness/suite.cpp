@@ -83,7 +83,7 @@ class Suite {
     preparing_ = false;
     ++prepared_;
     if (failure) {
-      if (!interrupted()) give_up(failure);  // what is stopped half-way is no failure: the complete cases are reported
+      if (!interrupted()) give_up(failure);  // a suite stopped half-way is no failure: the complete cases are reported
       given_up_ = true;
     } else {
       slots_[c].left = n;

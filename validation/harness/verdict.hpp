@@ -20,7 +20,7 @@ enum ExitCode : int {
   exit_interrupted = 130
 };
 
-/// Of several codes at once the first of 5 2 7 4 1 3 6; of none, 0.
+/// The first of 5 2 7 4 1 3 6 that is among the codes; 0 where there is none.
 [[nodiscard]] int first_of(const std::set<int>& codes);
 
 /// Verdict on a case, or on a whole: a word for each exit code. PASS goes with 0; refused goes with 0 too, where no engine that

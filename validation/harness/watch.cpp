@@ -26,7 +26,7 @@ namespace {
 // The watcher is a copy of a process with many threads, any of which may have held a lock. So it makes system calls only, in
 // memory that was taken before.
 struct Watch {
-  std::string entry;  // what the environment of each process of ours holds
+  std::string entry;  // entry in the environment of each process of ours
   std::vector<char> names, text;
   int door = -1;  // the watcher's end of a pair of sockets: the other one closes when we end, however we end
 };

@@ -158,7 +158,7 @@ bool is_resolved(const Job& job, const Snapshot& a, double time, bool falls) {
   return led || (most + (falls ? norm(job.scene.gravity) * time : 0.0)) * time > single * place;
 }
 
-/// Whether the way between two frames is longer than what is lost to rounding.
+/// Whether the way between two frames is longer than the rounding error.
 bool goes_far(const Job& job, const Snapshot& a, double time) {
   double most = 0.0;
   for (const Vec3& v : a.velocity) most = std::max(most, norm(v));

@@ -8,7 +8,7 @@ namespace tripoint {
 /// The sine about an offset that explains most of a series.
 struct DominantFrequency {
   double frequency = 0.0;               ///< [Hz]
-  double uncertainty = 0.0;             ///< standard, of a sine in noise of the size of what is left [Hz]
+  double uncertainty = 0.0;             ///< standard, of a sine in noise of the size of the remainder [Hz]
   double amplitude = 0.0, share = 0.0;  ///< of the sine; of the variance that it explains [1]
   std::string problem;                  ///< why there is none
 };

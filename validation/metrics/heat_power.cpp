@@ -104,7 +104,7 @@ std::optional<Spread> spread_of(const MetricInput& in, const Snapshot& s, std::s
   return Spread{square, std::sqrt(variance)};
 }
 
-/// Half of what the mean square distance grows a second, as long as no heat has come to a wall [Einstein 1905].
+/// Half of the growth of the mean square distance a second, as long as no heat has come to a wall [Einstein 1905].
 MetricValue diffusivity_by_spread(const MetricInput& in, const Frames& frames) {
   const auto axis = in.reference.measuring().axis;
   const auto base = in.reference.number("value");

@@ -36,7 +36,7 @@ struct MetricValue {
 
 /// Refuses what cannot be judged: times missing to 1e-9 of the end, permuted ids, non-finite values, frozen frames, changed
 /// masses.
-/// @return empty when sound, else what is wrong ("time not reached", "ids are permuted", ...)
+/// @return empty when sound, else the fault ("time not reached", "ids are permuted", ...)
 [[nodiscard]] std::string audit(const Job&, const InitialState&, const Trajectory&);
 
 /// Names that `quantity` and `norm` may take, with units and meaning, for the schema.

@@ -46,7 +46,7 @@ Line fit(const std::vector<double>& t, const std::vector<double>& y) {
 
 // --- a body's motion along an axis ----------------------------------------------------------------------------------------
 
-/// Speeds of the metric's body along the reference's axis; what hinders, or an empty text.
+/// Speeds of the metric's body along the reference's axis; the reason why there are none, or an empty text.
 std::string speeds(const MetricInput& in, const Frames& frames, std::vector<double>& t, std::vector<double>& v) {
   const auto axis = in.reference.measuring().axis;
   const long row = body_row(in);

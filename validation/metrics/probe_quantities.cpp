@@ -6,7 +6,7 @@
 #include "validation/metrics/members.hpp"
 #include "validation/references/measuring.hpp"
 
-/// Numbers at a point and means over a region, of what any engine shows of its particles.
+/// Numbers at a point and means over a region, from the particles that any engine shows.
 namespace tripoint {
 namespace {
 

@@ -8,7 +8,7 @@ namespace tripoint {
 
 /// Mean of a series that fluctuates about a steady value, with what its own correlation leaves known of it.
 struct StationaryMean {
-  double value = 0.0;        ///< of what follows the burn-in
+  double value = 0.0;        ///< of the samples after the burn-in
   double uncertainty = 0.0;  ///< standard; NaN where the blocks reach no plateau
   std::size_t burn_in = 0;   ///< samples that were cut from the front
   double effective = 0.0;    ///< number of independent samples: variance of one sample over that of the mean

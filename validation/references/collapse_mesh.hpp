@@ -21,7 +21,7 @@ struct LiquidColumn {
 class CollapseMesh {
  public:
   /// @param cells across the width; up the height as many as make them nearly square
-  /// @param damping of what no pressure resists, over sqrt(gravity height)/(width/cells)
+  /// @param damping of the motion that no pressure resists, over sqrt(gravity height)/(width/cells)
   CollapseMesh(const LiquidColumn&, int cells, double damping = 1.0);
   ~CollapseMesh();
 

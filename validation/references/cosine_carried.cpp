@@ -5,7 +5,7 @@
 namespace tripoint {
 namespace {
 
-/// The scene as one who moves along with it sees it: at rest.
+/// The scene in the frame that moves along with it: at rest.
 Job at_rest(const Job& job) {
   Job still = job;
   for (auto& body : still.bodies) body.velocity = {};

@@ -40,16 +40,16 @@ struct Measuring {
   std::optional<std::size_t> flip_body = {};  ///< row in Snapshot::bodies
   std::optional<MeasuredPhase> phase = {};    ///< particles that count; empty = all
   std::optional<MeasuredBox> box = {};
-  bool outside = false;                       ///< what is not in the box
+  bool outside = false;                       ///< particles that are not in the box
   bool follows = false;                       ///< the box moves and turns with the metric's body
   std::optional<Vec3> point = {};             ///< of a probe [m]
   std::optional<Vec3> direction = {};         ///< of a deflection, unit vector
   std::optional<bool> free_end_is_high = {};  ///< of a beam
-  std::optional<bool> melts = {};             ///< of a front: what it leaves behind is liquid
+  std::optional<bool> melts = {};             ///< of a front: the phase that it leaves behind is liquid
   std::optional<MeasuredWave> wave = {};
 };
 
-/// Truth, as far as it is known: what an exact (or exactly discrete) solution says of this job's particles and bodies.
+/// Truth, as far as it is known: an exact (or exactly discrete) solution for this job's particles and bodies.
 class Reference {
  public:
   virtual ~Reference() = default;
@@ -71,7 +71,7 @@ class Reference {
     (void)column;
     return nullptr;
   }
-  /// Standard uncertainty of what it says of a quantity at a time, in SI; empty where its data state none.
+  /// Standard uncertainty of its value of a quantity at a time, in SI; empty where its data state none.
   [[nodiscard]] virtual std::optional<double> uncertainty(std::string_view quantity, double time) const {
     (void)quantity;
     (void)time;
