@@ -161,7 +161,7 @@ void write_job(const std::string& path, const Job& job) { write_durably(path, jo
 
 namespace {
 
-/// What an engine may say of its own run; the other ends are not its own to tell.
+/// Status that an engine may give of its own run; the other ends are not its own to tell.
 Status status_from(const JsonObject& o, const std::string& path) {
   const auto word = o.text("status");
   for (const auto status : {Status::ok, Status::refused, Status::diverged, Status::error})

@@ -12,7 +12,7 @@
 #include "scene/scene.hpp"
 #include "scene/settings.hpp"
 
-/// What an engine is handed (JOB.json) and what it hands back (result.json), contract 1.
+/// Input (JOB.json) and output (result.json) of an engine, contract 1.
 namespace tripoint {
 
 /// One body of a job: of every [[body]], liquid too, in the order of the case file.
@@ -85,7 +85,7 @@ struct Divergence {
   std::string field, stage;
   double time = 0.0;
   std::string guard;       ///< which one tripped; empty = the engine has none
-  std::string file;        ///< in the run's folder: the culprit and what is around it, for ParaView; empty = none
+  std::string file;        ///< in the run's folder: the culprit and its surroundings, for ParaView; empty = none
   std::string checkpoint;  ///< last good one; empty = none
 };
 

@@ -10,8 +10,8 @@
 #include "scene/place_records.hpp"
 #include "scene/scene_records.hpp"
 
-/// A record goes into JSON and comes back by the list of its keys (scene/record.hpp). By hand is only what a job says otherwise
-/// than a case file.
+/// A record goes into JSON and comes back by the list of its keys (scene/record.hpp). Only fields that a job states otherwise
+/// than a case file are written by hand.
 namespace tripoint {
 namespace {
 
@@ -126,7 +126,7 @@ void take(const JsonObject& o, const std::string& name, const Key& key, std::str
     value = o.rows(name);
   } else if constexpr (std::is_same_v<T, std::vector<Keyframe>>) {
     for (const JsonObject& k : o.objects(name)) take_record(k, value.emplace_back());
-  } else {  // what may be unknown
+  } else {  // values that may be unknown
     value.reset();
     if (o.has(name)) take(o, name, key, yes, false, value.emplace());
   }
@@ -155,7 +155,7 @@ void put_effect_values(const Owner& owner, std::string_view table, json& out) {
   each_effect_key(owner, table, [&](const Key& key, const auto& value) { out[std::string(key.name)] = put(key, "", value); });
 }
 
-/// What is not there stays as the owner has it.
+/// A missing value stays as the owner has it.
 template <class Owner>
 void take_effect_values(const JsonObject& o, std::string_view table, Owner& owner) {
   each_effect_key(owner, table, [&](const Key& key, auto& value) { take(o, std::string(key.name), key, "", true, value); });

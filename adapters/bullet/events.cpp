@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Merge and split: bodies are taken out of Bullet's world and others put in, with the momenta of the very particles, so that
+// Merge and split: bodies are taken out of Bullet's world and others put in. They have the momenta of the very particles, so that
 // P and L hold to round-off. (A btFixedConstraint between two bodies would lose angular momentum.)
 #include <fmt/format.h>
 
@@ -111,7 +111,7 @@ std::vector<Piece> BulletEngine::world_pieces(const std::vector<int>& members, c
   return pieces;
 }
 
-/// Members in the region, of the bodies named or of all, become a new body; what stays goes on in its own row.
+/// Members in the region, of the bodies named or of all, become a new body; the rest goes on in its own row.
 void BulletEngine::split(const Event& event) {
   if (!event.region) throw EngineError(fmt::format("the split at t = {} s has no region", event.time));
   const Snapshot now = observe();

@@ -8,8 +8,8 @@
 namespace tripoint::bullet {
 namespace {
 
-/// "impact": the position correction never enters the velocity and no contact acts before touch, so that a central hit is
-/// exact at every step; Bullet's defaults err by O(1) in velocity at any step. "resting": more iterations, defaults else.
+/// "impact": the position correction never enters the velocity and no contact acts before touch, so that a central hit is exact
+/// at every step. Bullet's defaults err by O(1) in velocity at any step. "resting": more iterations, defaults else.
 const std::map<std::string, Preset>& presets() {
   static const std::map<std::string, Preset> table{
       {"default", {}},

@@ -41,7 +41,7 @@ struct RigidPart {
   std::vector<Piece> pieces;
 };
 
-/// What Bullet itself holds of a body.
+/// Values that Bullet itself holds of a body.
 struct HeldBody {
   double mass = 0.0;  ///< 0 = infinite, as for fixed and driven bodies
   Vec3 centre, principal_inertia;

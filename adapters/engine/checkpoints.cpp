@@ -36,8 +36,8 @@ const Values& take(const std::map<std::string, Values>& arrays, const std::strin
   return at->second;
 }
 
-/// Times up to the one that the run was on its way to must be times of this job, or its steps would not be those of the whole
-/// run.
+/// Times up to the one that the run was on its way to must be times of this job. Otherwise its steps would not be those of the
+/// whole run.
 void expect_times(const Job& job, const std::vector<double>& times) {
   for (std::size_t k = 0; k < times.size(); ++k) {
     if (k < job.times.size() && job.times[k] == times[k]) continue;

@@ -8,11 +8,11 @@
 #include "io/trajectory.hpp"
 #include "job/job.hpp"
 
-/// Checkpoints of a job: what belongs to the run beside the engine's own state, when they are due, and where they lie.
+/// Checkpoints of a job: data of the run beside the engine's own state, when they are due, and where they lie.
 namespace tripoint {
 
-/// What a checkpoint must be resumed with: the scene, its particles and the build. Threads, paths, the end and the interval of
-/// checkpoints may change.
+/// Data that must be the same when a checkpoint is resumed: the scene, its particles and the build. Threads, paths, the end and
+/// the interval of checkpoints may change.
 [[nodiscard]] std::vector<std::string> identity_of(const Job&, const InitialState&, const std::string& build);
 
 /// The run as far as its frames go: they are in trajectory.h5 beside the checkpoint.
@@ -32,7 +32,7 @@ class Checkpoints {
   double go_on_from(const Checkpoint&);
   /// @return true once for each multiple of the interval that `time` has passed
   [[nodiscard]] bool due(double time);
-  /// Adds what the run knows, writes the file durably, and removes what is older than the one before.
+  /// Adds the data of the run, writes the file durably, and removes files older than the one before.
   /// @return its path   @throws EngineError
   std::string write(Checkpoint, double time, long step, const Progress&);
   /// Name of the last file written, empty = none.

@@ -18,7 +18,7 @@ struct EngineInfo {
   std::string library_path;               ///< of the engine's own library; its hash is taken by serve()
   std::vector<std::string> capabilities;  ///< e.g. rigid-free-flight, gravity, merge, split, heat, contact, prescribed
   std::vector<std::string> presets{"default"};
-  std::map<std::string, std::string> settings;  ///< settings that change results -> what they mean and their default
+  std::map<std::string, std::string> settings;  ///< settings that change results -> their meaning and their default
   bool deterministic = true;
   std::vector<DefectEntry> defects;  ///< run-time defects that the test build of this engine knows
   bool available = true;             ///< false: the engine's library is missing; --info still answers, with the reason
@@ -30,20 +30,21 @@ class Engine {
   virtual ~Engine() = default;
   [[nodiscard]] virtual EngineInfo info() const = 0;
   [[nodiscard]] virtual std::string refusal(const Job&) const = 0;  ///< why not; empty = can. A report row, not an error
-  /// What only a start with the job's particles tells, asked by --check after refusal(): why it cannot begin; empty = it can.
+  /// Why the engine cannot begin, as only a start with the job's particles tells; empty = it can. --check asks it after
+  /// refusal().
   [[nodiscard]] virtual std::string trial(const Job&) const { return {}; }
   virtual void load(const Job&, const InitialState&) = 0;  ///< @throws EngineError with the engine's own words
   virtual void advance_to(double time) = 0;                ///< [s] @throws Diverged, EngineError
   [[nodiscard]] virtual Snapshot observe() const = 0;      ///< SI, world frame, particles by id
-  [[nodiscard]] virtual Readback readback() const = 0;     ///< what the engine itself holds, read from it
-  /// After Diverged: leaves the culprit and what is around it in `folder`, as a file that ParaView opens. @return its name, empty
+  [[nodiscard]] virtual Readback readback() const = 0;     ///< values that the engine itself holds, read from it
+  /// After Diverged: leaves the culprit and its surroundings in `folder`, as a file that ParaView opens. @return its name, empty
   /// = none
   [[nodiscard]] virtual std::string show_failure(const Diverged&, const std::string& /*folder*/) const { return {}; }
   /// Fills steps, counters and extra of the result at the end of a run.
   virtual void account(Result&) const {}
 };
 
-/// What an engine is beside, that can be cut between two steps and continued with the same bits; its info() lists `restart`.
+/// Interface of an engine that can be cut between two steps and continued with the same bits; its info() lists `restart`.
 class Restartable {
  public:
   virtual ~Restartable() = default;

@@ -25,7 +25,7 @@ namespace {
 using json = nlohmann::ordered_json;
 enum Exit { ok = 0, failed = 1, bad_job = 2, refused = 4, diverged = 7, interrupted = exit_interrupted };
 
-/// For whoever listens on stderr. A terminal that has closed takes no words; that is no reason to fail.
+/// For listeners on stderr. A terminal that has closed takes no words; that is no reason to fail.
 template <class... Args>
 void tell(fmt::format_string<Args...> format, Args&&... args) {
   const std::string words = fmt::format(format, std::forward<Args>(args)...);
@@ -99,7 +99,7 @@ Domain domain_of(const Scene& scene) {
   return domain;
 }
 
-/// Sums of the ledger at the frames so far: what the run's status says of it.
+/// Sums of the ledger at the frames so far, for the run's status.
 class LedgerChange {
  public:
   void add(const std::map<std::string, double>& energy) {

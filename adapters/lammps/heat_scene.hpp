@@ -8,7 +8,7 @@
 #include "io/trajectory.hpp"
 #include "job/job.hpp"
 
-/// What walkers and sph/heatconduction share: heat in bodies at rest.
+/// Parts that walkers and sph/heatconduction share: heat in bodies at rest.
 namespace tripoint::lammps {
 
 /// Why this is no scene of pure conduction at rest; empty = it is.
@@ -36,7 +36,7 @@ struct CellBox {
   int held_axis = -1;              ///< across the faces whose temperature is held; -1 = none is
   std::optional<double> held_low, held_high;  ///< temperatures of these faces [K]
 };
-/// Of the bodies whose temperature is free; those that are held must be plates that cover whole faces of it.
+/// Box of the bodies whose temperature is free; held bodies must be plates that cover whole faces of it.
 /// @param why receives the reason where the bodies tile no such box
 [[nodiscard]] std::optional<CellBox> cell_box(const Scene&, std::string& why);
 

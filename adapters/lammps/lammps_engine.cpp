@@ -20,8 +20,7 @@ struct Style {
   const char *category, *name;
 };
 
-/// One way to run a scene: the styles that the loaded build must have, what it may not run, what it makes, and what --info says
-/// of it.
+/// One way to run a scene: the styles that the loaded build must have, its refusals, its model, and its words in --info.
 struct Way {
   std::string name;
   std::vector<Style> needs;
@@ -49,7 +48,7 @@ const std::vector<Way>& ways() {
   return list;
 }
 
-/// What the loaded build is and which ways it has the styles for.
+/// Facts about the loaded build, and the ways for which it has the styles.
 struct Build {
   std::string version;
   std::vector<std::string> ways;

@@ -15,7 +15,7 @@ struct Layer {
   std::size_t count = 1;         ///< layers
 };
 
-/// Why the scene cannot be run in one layer, from what the job tells; empty = it can.
+/// Why the scene cannot be run in one layer, by the job alone; empty = it can.
 [[nodiscard]] std::string why_no_layer(const Job&);
 /// @throws EngineError where the particles are no stack of equal layers
 [[nodiscard]] Layer lowest_layer(const Job&, const InitialState&);

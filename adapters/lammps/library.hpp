@@ -7,7 +7,7 @@
 
 namespace tripoint::lammps {
 
-/// One LAMMPS instance behind plain data. A build with exceptions throws EngineError in LAMMPS's own words; one without
+/// One LAMMPS instance behind plain data. A build with exceptions throws EngineError in LAMMPS's own words. One without
 /// (Debian's) writes them to the log and ends the process, which supervise() turns into a result.
 class Library {
  public:

@@ -7,8 +7,8 @@
 
 namespace tripoint::lammps {
 
-/// Units in which LAMMPS holds a scene: lengths from an origin in spacings, and a time and a mass that make its own numbers of
-/// order one, because some of its tolerances are absolute.
+/// Units in which LAMMPS holds a scene. Lengths are in spacings from an origin. Time and mass make its own numbers of order one,
+/// because some of its tolerances are absolute.
 struct Units {
   double length = 1.0, time = 1.0, mass = 1.0;  ///< [m], [s], [kg]
   Vec3 origin;                                  ///< [m]
@@ -36,7 +36,7 @@ struct Drive {
 [[nodiscard]] double particle_mass(const InitialState&, int source, const std::string& name);
 
 /// The job's own particles under a style of LAMMPS; id = row + 1.
-/// Directions that are not periodic end where the particles end: nothing holds them but what the scene says.
+/// Directions that are not periodic end where the particles end: nothing holds them but the scene's own bodies.
 class ParticleModel : public Model {
  public:
   void advance_to(double time) override;
@@ -45,7 +45,7 @@ class ParticleModel : public Model {
  protected:
   /// @param limit greatest step [s]
   ParticleModel(const Job&, const InitialState&, const Units&, double limit);
-  /// Everything up to the particles. @param style atom_style with what has to stand before the box
+  /// Everything up to the particles. @param style atom_style with the commands that must stand before the box
   /// @param extra of create_box, e.g. bonds @param margin about the particles at the start [spacings]
   /// @param types of the bodies of the case, 1..n
   void make_particles(const std::string& style, const std::string& extra, double margin, const std::vector<int>& types);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-only
-// In LAMMPS spacing, mass of a particle, heat capacity and the speed of sound of the liquid are 1, and energy is temperature [K].
+// In LAMMPS spacing, mass of a particle, heat capacity and the speed of sound of the liquid are 1. Energy is temperature [K].
 //
-// Known to be another model, measured in docs/engines.md: solids are networks of equal central springs out to the second
-// neighbours, on the cubic lattice an isotropic solid of Poisson's ratio 1/4 and E = 5/2 stiffness/spacing whatever the scene
-// says; bonds and contacts are damped; matter melts and freezes at one temperature; viscous heat is not counted.
+// It is known to be another model, measured in docs/engines.md. Solids are networks of equal central springs out to the second
+// neighbours. On the cubic lattice this is an isotropic solid of Poisson's ratio 1/4 and E = 5/2 stiffness/spacing, whatever the
+// scene says. Bonds and contacts are damped. Matter melts and freezes at one temperature. Viscous heat is not counted.
 #include "adapters/lammps/rheo.hpp"
 
 #include <fmt/format.h>

@@ -33,7 +33,7 @@ double modulus(const Job& job) {
   return E;
 }
 
-/// Density of what is free; walls are made of the same, which they have no other use for.
+/// Density of the free matter; walls have the same, because they use it for nothing else.
 double density_of(const Job& job) {
   for (std::size_t b = 0; b < job.bodies.size(); ++b)
     if (job.bodies[b].motion == Motion::free) return material_of(job, b).density;
@@ -48,7 +48,7 @@ double fastest_diffusion(const Job& job) {
   return D;
 }
 
-/// Of the liquid, else of the bonds; where everything is held nothing sounds, and heat sets the time [m/s].
+/// Speed of sound of the liquid, else of the bonds [m/s]. Where everything is held there is no sound, and heat sets the time.
 double speed_of_sound(const Job& job) {
   if (const auto given = choice_for(job).sound_speed) return *given;
   double k = 0.0;

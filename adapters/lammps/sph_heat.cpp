@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-only
-// Lengths are scaled to spacings and a particle has mass and density 1, so that sph/heatconduction's
+// Lengths are scaled to spacings and a particle has mass and density 1. Then sph/heatconduction's
 // 2 m_i m_j/(m_i + m_j) (rho_i + rho_j)/(rho_i rho_j) D (e_i - e_j) W'/r is the diffusion of e = T with D in spacings^2/s.
 #include "adapters/lammps/sph_heat.hpp"
 

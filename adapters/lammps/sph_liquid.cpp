@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-only
-// In LAMMPS a particle of the liquid has mass 1 and rest density 1, and sound goes one spacing in a unit of time.
+// In LAMMPS a particle of the liquid has mass 1 and rest density 1. Sound goes one spacing in a unit of time.
 //
-// Known to be wrong in it, measured in docs/engines.md: walls act about half a spacing outside their surface, as the velocity is
-// not reflected in them; nothing brings a particle's density back to where its neighbours are, as it only follows the continuity
-// equation; there is no clamp, so that stretched liquid pulls, and particles pair up under the Lucy kernel; the viscosity acts
-// along the difference of velocities, which brakes a liquid that turns; fix sph lets sound grow at w2 dt/4.
+// It has known faults, measured in docs/engines.md. Walls act about half a spacing outside their surface, as the velocity is not
+// reflected in them. A particle's density only follows the continuity equation, and nothing brings it back to that of its
+// neighbours' positions. There is no clamp, so that stretched liquid pulls, and particles pair up under the Lucy kernel. The
+// viscosity acts along the difference of velocities, which brakes a liquid that turns. fix sph lets sound grow at w2 dt/4.
 #include "adapters/lammps/sph_liquid.hpp"
 
 #include <fmt/format.h>

@@ -94,7 +94,7 @@ class Tlsph final : public ParticleModel {
   }
 
  private:
-  /// What the object exerts on an end, which fix smd/setvel keeps from moving it [N].
+  /// Force of the object on an end, which fix smd/setvel keeps from moving the end [N].
   [[nodiscard]] Vec3 force_on_end(std::size_t b) const {
     Vec3 force;
     for (std::size_t k = 0; k < 3; ++k)

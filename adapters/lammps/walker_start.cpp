@@ -71,7 +71,7 @@ double WalkerStart::excess_at(const Vec3& at) const {
   return excess(particle_of_cell_[static_cast<std::size_t>(c[0] + box_.cells[0] * (c[1] + box_.cells[1] * c[2]))], at);
 }
 
-/// Between two held faces the straight line, beside one its temperature: what is left then vanishes at the held faces.
+/// Between two held faces the straight line, beside one its temperature: the rest then vanishes at the held faces.
 double WalkerStart::base(const Vec3& cells) const {
   if (box_.held_axis < 0) return baseline_;
   const auto axis = static_cast<std::size_t>(box_.held_axis);

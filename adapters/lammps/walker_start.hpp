@@ -19,8 +19,8 @@ class Random {
 };
 
 /// Temperature beside a base as a density to draw walkers from: T(r) = base(r) + (content / N) n(r), n the number density of
-/// walkers with their signs. The base is the field's least value, so that all count as +1; between held faces it is the steady
-/// profile, and walkers where the start lies below it count as -1.
+/// walkers with their signs. The base is the field's least value, so that all walkers count as +1. Between held faces it is the
+/// steady profile, and walkers count as -1 where the start lies below it.
 class WalkerStart {
  public:
   WalkerStart(const Job&, const InitialState&, const CellBox&);

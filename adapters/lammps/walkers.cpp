@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-only
 // Lengths are scaled to spacings, time stays in seconds; kT = D / dx2 and unit friction.
 //
-// A face of held temperature is a mirror that turns signs. What is left of the temperature beside the steady profile vanishes
-// there, so it goes on as an odd field beyond the face: walkers cross it freely and count with the opposite sign on the other
-// side. Between two held faces the box of twice the length is periodic; beside one, its ends are insulated walls. Both are exact.
+// A face of held temperature is a mirror that turns signs. The temperature less the steady profile vanishes there, so it goes on
+// as an odd field beyond the face. Walkers cross the face freely and count with the opposite sign on the other side. Between two
+// held faces the box of twice the length is periodic; beside one, its ends are insulated walls. Both are exact.
 //
-// Langevin walkers (v' = -v/tau + noise, kT/m = D/tau) spread as 2 D (t - tau (1 - exp(-t/tau))), late by tau. Their steps form
-// a Gaussian process that mirror walls reflect exactly, so the lag is all there is: with the ratio step/tau below, the lag
-// of LAMMPS's discrete scheme is exactly two steps, and the clock is started two steps early. What stays is exp(-t/tau).
+// Langevin walkers (v' = -v/tau + noise, kT/m = D/tau) spread as 2 D (t - tau (1 - exp(-t/tau))), late by tau. Their steps form a
+// Gaussian process that mirror walls reflect exactly, so there is no other error than the lag. With the ratio step/tau below, the
+// lag of LAMMPS's discrete scheme is exactly two steps, and the clock is started two steps early. A remainder of exp(-t/tau)
+// stays.
 #include "adapters/lammps/walkers.hpp"
 
 #include <fmt/format.h>
@@ -166,8 +167,8 @@ class Walkers final : public Model {
   /// Whether the box begins with the mirrored half.
   [[nodiscard]] bool held_low_alone() const { return box_.held_low && !box_.held_high; }
 
-  /// The diffusivity that a gauge asks for, along its axis or, where it has none, along all; {} where walkers do not go on for
-  /// ever there.
+  /// The diffusivity that a gauge asks for, along its axis or, without one, along all. {} where walkers do not go on for ever
+  /// there.
   [[nodiscard]] std::pair<double, double> gauged(const JobGauge& gauge) const {
     if (gauge.quantity != "diffusivity") return {};
     const auto axis = gauge.where.find("axis");
@@ -204,7 +205,7 @@ class Walkers final : public Model {
     const std::array<int, 3> c{cell % n[0], cell / n[0] % n[1], cell / n[0] / n[1]};
     return c[static_cast<std::size_t>(axis_)];
   }
-  /// Of the cells, or of the layers that are counted together: walkers with their signs, and all.
+  /// Counts of the cells, or of the layers that are counted together: walkers with their signs, and all.
   struct Counts {
     std::vector<double> net, all;
   };

@@ -88,7 +88,7 @@ void LammpsHalo::share_out(Particles& particles, Bonds& bonds, OwnPairs& own, co
 
 void LammpsHalo::migrate(Particles& particles, Bonds& bonds, OwnPairs& own, const PeriodicBox& box,
                          std::span<const double> cost) {
-  if (ranks_->size() == 1) {  // its part is the whole; what more ranks would ask each other is counted
+  if (ranks_->size() == 1) {  // its part is the whole; requests that more ranks would make are counted
     collectives_ += has_lists_ ? 1.0 : 0.0;
     return share_out(particles, bonds, own, box, {}, {});
   }
@@ -103,8 +103,8 @@ void LammpsHalo::migrate(Particles& particles, Bonds& bonds, OwnPairs& own, cons
   hand_over(particles, bonds, own);
 }
 
-/// Each atom carries from now on the particle of its row: what lies side by side in memory goes together, and columns are written
-/// and read one after the other. Rows of this rank's own come first. @return of each atom the id
+/// From now on each atom carries the particle of its row. Neighbours in memory then move together, and columns are written and
+/// read one after the other. Rows of this rank's own come first. @return for each atom the id
 std::vector<std::uint32_t> LammpsHalo::follow_rows(const Particles& particles) {
   const auto id = particles[field::id];
   std::vector<std::uint32_t> ids(id.begin(), id.begin() + static_cast<std::ptrdiff_t>(owned()));
@@ -133,8 +133,7 @@ void LammpsHalo::hand_over(Particles& particles, Bonds& bonds, OwnPairs& own) {
   }
 }
 
-/// As far as the longest bond of all ranks reaches now: until the next migration nobody takes copies away, however bonds are
-/// stretched.
+/// Copies reach as far as the longest bond of all ranks now. They stay until the next migration, however bonds are stretched.
 double LammpsHalo::reach_of(double longest_bond) {
   if (!has_lists_) return reach_;
   double least = -longest_bond;
@@ -143,7 +142,7 @@ double LammpsHalo::reach_of(double longest_bond) {
   return std::max(reach_, -least * (1.0 + 1e-9));
 }
 
-/// Lists are written down as the scene is shared out, with the numbers that ids are there: its parts nobody changes.
+/// Lists are written down as the scene is shared out, where ids are numbers. Nobody changes the lists of its parts.
 void LammpsHalo::expect_known(const Bonds& bonds, const OwnPairs& own) const {
   if (known_changes_ != std::array{bonds.changes(), own.changes()})
     throw EngineError("bonds or own pairs of a scene that is shared out have changed");
@@ -195,7 +194,7 @@ void LammpsHalo::unpack_lists(Bonds& bonds, OwnPairs& own) {
   known_changes_ = {bonds.changes(), own.changes()};
 }
 
-/// Only what other ranks are to have is written for LAMMPS; of the rest the row alone is noted.
+/// Only rows that other ranks are to have are written for LAMMPS; for the rest the row number alone is noted.
 /// @param rows of the atoms   @param places that LAMMPS is told, by number; empty: those of now
 void LammpsHalo::pack(const Particles& particles, const PeriodicBox& box, const std::vector<std::size_t>& rows,
                       std::span<const Vec3> places) {
@@ -213,8 +212,8 @@ void LammpsHalo::pack(const Particles& particles, const PeriodicBox& box, const 
   }
 }
 
-/// Copies of one particle at several images are one here, and so are copies of what is this rank's own: across a periodic
-/// boundary lists find it by themselves.
+/// Copies of one particle at several images are one here, and so are copies of this rank's own particles. Lists find them across
+/// a periodic boundary by themselves.
 void LammpsHalo::number_atoms() {
   const auto owned = static_cast<std::uint32_t>(ranks_->owned()), all = static_cast<std::uint32_t>(ranks_->all());
   numbers_.clear();

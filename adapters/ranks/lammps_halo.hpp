@@ -14,7 +14,7 @@ namespace tripoint::ranks {
 /// The solver's halo on LAMMPS's atoms: every column of a particle goes with its atom as a number.
 class LammpsHalo : public Halo {
  public:
-  /// What only LAMMPS itself can do, beside its fix.
+  /// Actions that only LAMMPS itself can do, beside its fix.
   struct Host {
     std::function<Ranks&(int columns)> begin;                    ///< makes the fix, when the columns are known
     std::function<void(const std::vector<Vec3>& places)> renew;  ///< other atoms for those that there are, by number [m]
@@ -47,8 +47,8 @@ class LammpsHalo : public Halo {
   [[nodiscard]] Ranks* ranks() const noexcept { return ranks_; }
   [[nodiscard]] long migrations() const noexcept { return migrations_; }
   [[nodiscard]] long gatherings() const noexcept { return gatherings_; }
-  /// What was asked of the other ranks so far, counted also where there is no other: exchanges of columns, numbers that each copy
-  /// took in them, and collective calls. `tripoint predict` has its counts from here.
+  /// Requests to the other ranks so far, counted also where there is no other. They are exchanges of columns, numbers that each
+  /// copy took in them, and collective calls. `tripoint predict` has its counts from here.
   struct Traffic {
     double exchanges = 0.0, numbers_a_copy = 0.0, collectives = 0.0;
     int columns = 0;                                    ///< that go with a particle or a new copy

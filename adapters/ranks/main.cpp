@@ -20,7 +20,8 @@ Lammps* this_rank = nullptr;
 
 std::unique_ptr<Engine> make() { return std::make_unique<RanksEngine>(this_rank); }
 
-/// What one new share gives back the next one needs: the system would have to hand out empty pages each time.
+/// Keeps the memory that one new share gives back, because the next share needs it. Otherwise the system would hand out empty
+/// pages each time.
 void keep_memory() {
   constexpr int most = 1 << 30;  // [bytes]
   ::mallopt(M_MMAP_THRESHOLD, most);
@@ -30,7 +31,7 @@ void keep_memory() {
 /// All ranks have ended after the same step, and the first has left a checkpoint.
 struct Stopped {};
 
-/// What the first rank does through serve(), without its files. Whether a checkpoint fits is for the first to say.
+/// Does the work of the first rank through serve(), without its files. The first rank alone says whether a checkpoint fits.
 void follow(const Job& job) {
   RanksEngine engine(this_rank);
   const InitialState initial = read_particles(job.particles);

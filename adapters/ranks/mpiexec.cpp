@@ -26,13 +26,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What mpiexec says, where its own words do not get into the engine's answers.
+/// File for the messages of mpiexec, where they do not get into the engine's answers.
 std::string log_of(const std::string& output) { return output + "/mpiexec.log"; }
 
 volatile sig_atomic_t mpiexec_pid = 0, stop_came = 0;
 
-/// mpiexec hands SIGINT on to the ranks, which leave a checkpoint; SIGTERM it would answer by killing them, and so a second
-/// SIGINT, for which a second SIGHUP does not ask.
+/// mpiexec hands SIGINT on to the ranks, which leave a checkpoint. It would answer SIGTERM, and a second SIGINT, by killing them.
+/// A second SIGHUP does not ask for that.
 extern "C" void on_stop_of_ranks(int signal) {
   if (signal == SIGHUP && stop_came) return;
   stop_came = 1;
@@ -70,7 +70,7 @@ int start_and_wait(const Wheel& wheel, int count, const std::string& job_path, c
   if (pid == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(1);  // the parent died before the line above
-    ::setpgid(0, 0);                        // what is sent to our group is for the parent alone
+    ::setpgid(0, 0);                        // signals to our group are for the parent alone
     ::sigprocmask(SIG_SETMASK, &before, nullptr);
     const int nothing = ::open("/dev/null", O_RDONLY), words = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     ::dup2(nothing, STDIN_FILENO);
@@ -122,7 +122,7 @@ Words words_of(const std::string& output, int rank) {
   return words;
 }
 
-/// What a rank wrote as it failed; else who was ended, and its last words.
+/// Result that a rank wrote as it failed; else the rank that was ended, and its last words.
 Result result_of_failure(const std::string& output, int count, int status) {
   std::error_code none;
   for (int rank = 0; rank < count; ++rank) {

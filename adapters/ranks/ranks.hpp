@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-/// What the LAMMPS plugin gives the solver's program. Both are built together: this is no interface for others.
+/// Interface of the LAMMPS plugin to the solver's program. Both are built together: this is no interface for others.
 namespace tripoint::ranks {
 
-/// What a plugin was built with, or finds as it is loaded.
+/// Facts that a plugin was built with, or finds as it is loaded.
 struct Facts {
   int lammps = 0;                                               ///< version as a date, 20250722
   int bytes_of_id = 0, bytes_of_count = 0, bytes_of_image = 0;  ///< LAMMPS's tagint, bigint, imageint
@@ -28,9 +28,9 @@ class Ranks {
   /// From now on the atom carries that particle: its place, row and lists are to be written.
   virtual void set_id(std::size_t atom, int id) = 0;
   [[nodiscard]] virtual double* position(std::size_t atom) const = 0;  ///< x, y, z [m]
-  /// Writes the numbers of rows of the solver's, each to its own place: asked for those that other ranks are to have.
+  /// Writes the numbers of rows of the solver, each to its own place. It is asked for those that other ranks are to have.
   using Write = std::function<void(std::span<const std::size_t> rows, std::span<double* const> to)>;
-  /// Each atom of its own stands for a row, until balance() and migrate(). What had arrived is forgotten.
+  /// Each atom of its own stands for a row, until balance() and migrate(). Arrived numbers are forgotten.
   virtual void set_rows(std::span<const std::size_t> rows, Write) = 0;
   static constexpr std::size_t no_row = ~std::size_t{0};
   [[nodiscard]] virtual std::size_t row(std::size_t atom) const = 0;        ///< that it stood for; no_row: it has arrived
@@ -38,7 +38,7 @@ class Ranks {
   /// Bonds and own pairs, as numbers that go with the atom; no more of them than make_room() was told.
   [[nodiscard]] virtual std::vector<double>& lists(std::size_t atom) const = 0;
   virtual void make_room(std::size_t lists) = 0;
-  /// What the atom costs in a step, in a unit of any kind: goes with it.
+  /// Cost of the atom in a step, in a unit of any kind: goes with it.
   [[nodiscard]] virtual double& cost(std::size_t atom) const = 0;
   /// Moves the cuts between ranks so that each has atoms of about equal cost, where the dearest has over `allowed` of the mean.
   virtual void balance(double allowed) = 0;
@@ -46,7 +46,7 @@ class Ranks {
   /// Atoms go to the rank that has their place, and are copied to those that it is near to. @param reach of copies [m]
   /// @throws EngineError when LAMMPS has lost one
   virtual void migrate(double reach) = 0;
-  /// What copies take from their owners: columns, of which a row has one number each.
+  /// Columns that copies take from their owners; a row has one number in each.
   struct Columns {
     double* const* first;  ///< number of row 0 in each column
     int count;
@@ -73,7 +73,7 @@ class Ranks {
 /// Symbols of the plugin that the program asks for.
 extern "C" {
 const tripoint::ranks::Facts* tripoint_built_with();
-/// Of the libraries that are there. @param lammps an instance of LAMMPS, or null: its version and sizes are then 0
+/// Facts about the libraries that are there. @param lammps an instance of LAMMPS, or null: its version and sizes are then 0
 const tripoint::ranks::Facts* tripoint_found(void* lammps);
 /// The fix of this process; null before it is made.
 tripoint::ranks::Ranks* tripoint_ranks();

@@ -42,7 +42,7 @@ There columns_there(const Snapshot& s, Ranks& ranks) {
   return there;
 }
 
-/// The columns of a snapshot that are there, as one list: what of a particle goes to the first rank.
+/// The columns of a snapshot that are there, as one list: the values of a particle that go to the first rank.
 template <class S, class Visit>
 void each_column(S& s, const There& there, Visit visit) {
   for (auto* column : {&s.position, &s.velocity}) visit(*column);
@@ -101,7 +101,7 @@ void add_bodies(Snapshot& s, Ranks& ranks) {
   for (auto& [name, heat] : s.heat_given) take(from, heat);
 }
 
-/// What deformable bodies do as a whole, from their particles, which are all on the first rank.
+/// Sets the motions of deformable bodies as a whole, from their particles, which are all on the first rank.
 void set_whole_motions(Snapshot& s, const World& world) {
   for (std::size_t b = 0; b < s.bodies.size(); ++b) {
     if (is_rigid(world, b) || !is_alive(world, b)) continue;
@@ -173,7 +173,7 @@ std::string RanksEngine::trial(const Job& job) const {
   return why.empty() ? why : "tripoint-mpi: " + why;
 }
 
-/// A scene that goes on from a checkpoint is set up only for what the engine reads back of it: resume() shares it out.
+/// A scene resumed from a checkpoint is set up only for the values that the engine reads back: resume() shares it out.
 void RanksEngine::load(const Job& job, const InitialState& initial) {
   words_path_ = words_file(job.output, lammps_->rank());
   checkpoints_.emplace(job, std::vector<std::string>{});
@@ -238,8 +238,8 @@ bool RanksEngine::stops(bool asked) {
   return least < 0.0;
 }
 
-/// How far this rank is: what is told of it where it ends without a word.
-/// By a rename, so that the words of a rank that is killed here are those of before, not half a line.
+/// How far this rank is: its last news where it ends without a word. By a rename, so that the words of a rank that is killed here
+/// are those of before, not half a line.
 void RanksEngine::write_words() const {
   words_at_ = wall_seconds();
   const std::string next = words_path_ + ".part";

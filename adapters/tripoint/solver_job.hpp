@@ -13,9 +13,10 @@ inline constexpr std::string_view no_squish = "no_squish-";
 
 /// The scene with the time step of the job's resolution.
 [[nodiscard]] Scene scene_of(const Job&);
-/// What the job's settings and preset say. @throws InputError for a setting of the wrong kind, and for a preset that there is not
+/// Options from the job's settings and preset. @throws InputError for a setting of the wrong kind, and for a preset that there is
+/// not
 [[nodiscard]] SimulationOptions options_of(const Job&);
-/// What the solver itself holds of the scene's bodies.
+/// Values that the solver itself holds of the scene's bodies.
 [[nodiscard]] Readback readback_of(const World&, const TimeStepBound&);
 
 }  // namespace tripoint

@@ -18,7 +18,8 @@ std::string refuse_settings(const Job& job, const EngineInfo& info) {
   for (const auto& [name, meaning] : info.settings) known.push_back(name);
   for (const auto& [name, value] : job.settings) {
     if (std::ranges::find(known, name) != known.end()) continue;
-    if (name == "restitution") {  // of all engines: contact is the gradient of an energy, which gives back what it took
+    if (name == "restitution") {  // for all engines: contact is the gradient of an energy, which gives back the energy that it
+                                  // took
       if (const double* e = std::get_if<double>(&value); e && *e == 1.0) continue;
       return "tripoint: contact in the particle model is elastic by its energy: restitution is no setting, and only 1 is what it "
              "does";

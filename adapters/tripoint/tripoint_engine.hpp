@@ -28,11 +28,11 @@ class TripointEngine : public Engine, public Restartable {
   std::unique_ptr<Simulation> simulation_;  ///< not const where the engine is: observe() and save() ask it, and asking computes
 };
 
-/// The culprit of a failure with all that is within two support radii of it (of no single particle: everything), every column of
-/// the solver as an array; as listed last where a place is not finite.
+/// The culprit of a failure with all particles within two support radii of it (of no single particle: everything). Every column
+/// of the solver is an array. A particle whose place is not finite has the place where it was listed last.
 [[nodiscard]] PointCloud culprits_of(const World&, const Diverged&);
 
-/// What the world shows: rows by id, places not put back into a periodic box.
+/// Snapshot of the world: rows by id, places not put back into a periodic box.
 [[nodiscard]] Snapshot snapshot_of(Simulation&);
 
 }  // namespace tripoint

@@ -6,12 +6,12 @@
 
 #include "core/aligned.hpp"
 
-/// The machine's limit: the pair loops of one scene fused by hand, in the best layout known, for a `tripoint bench` to compare
-/// the solver's own passes with. They know nothing of columns, slots, groups or bodies.
+/// The machine's limit: the pair loops of one scene fused by hand, in the best layout known. `tripoint bench` compares the
+/// solver's own passes with them. They know nothing of columns, slots, groups or bodies.
 namespace tripoint::bench {
 
-/// What the loops read and add, one column each, padded by one vector. The seed's forms read the first nine, the corrected ones
-/// all.
+/// Columns that the loops read, and those that they add to, each padded by one vector. The seed's forms read the first nine, the
+/// corrected ones all.
 struct LaneColumns {
   enum : std::size_t { x, y, z, u, v, w, pressure, volume, temperature, viscosity, conductivity, moment, count = moment + 6 };
   std::array<AlignedVector<double>, count> of;
@@ -19,7 +19,7 @@ struct LaneColumns {
   std::size_t rows = 0;
 };
 
-/// Clusters of as many rows as a vector has lanes, which follow one another in a row of cells; each lists the rows in reach of
+/// Clusters of as many rows as a vector has lanes, which follow one another in a row of cells. Each lists the rows in reach of
 /// any.
 struct LaneLists {
   std::vector<std::uint32_t> first;  ///< row of each cluster, and the number of rows
@@ -48,7 +48,7 @@ struct LaneLoops {
 /// @tparam U the vector unit
 template <class U>
 [[nodiscard]] LaneLoops lane_loops();
-/// Those that this machine can run, the narrowest first.
+/// The loops that this machine can run, the narrowest first.
 [[nodiscard]] std::vector<LaneLoops> all_lane_loops();
 
 }  // namespace tripoint::bench

@@ -75,7 +75,7 @@ struct CorrectedDensity {
   }
 };
 
-/// Conductance of a pair (model 8.6). @param m first of the six moments among what is read
+/// Conductance of a pair (model 8.6). @param m first of the six moments among the columns that are read
 template <class V>
 [[nodiscard, gnu::always_inline]] inline V conductance(const LanePair<V>& g, V k, V per_r2, V k_i, double k_j, const V* i,
                                                        const double* j) {

@@ -17,7 +17,7 @@ struct LimitSeconds {
   [[nodiscard]] double step(double rebuilds) const { return density + rates + again + rebuilds * search; }
 };
 
-/// The hand-written loops at given places, timed part by part in rounds, so that they can be interleaved with what they are
+/// The hand-written loops at given places, timed part by part in rounds. So they can be interleaved with the loops that they are
 /// compared with: this machine's speed drifts while it runs.
 class Limit {
  public:
@@ -28,11 +28,11 @@ class Limit {
   void round();
   /// Least seconds of the parts, of the vector unit with the least step. @param rebuilds of lists a step
   [[nodiscard]] LimitSeconds best(double rebuilds) const;
-  /// Seconds of a step of that unit in each round, as they come: what the mean of some steps of a solver is to be compared with.
+  /// Seconds of a step of that unit in each round, in order. The mean of some steps of a solver is to be compared with them.
   [[nodiscard]] std::vector<double> steps(double rebuilds) const;
   /// The same in CPU seconds of all threads, which other work on the machine does not lengthen.
   [[nodiscard]] std::vector<double> steps_cpu(double rebuilds) const;
-  /// What the density loop of a vector unit sums, row by row as the search sorts them; for tests.
+  /// Sums of the density loop of a vector unit, row by row as the search sorts them; for tests.
   [[nodiscard]] std::vector<double> density(std::size_t unit);
   /// The same of the rate loop, one sum after the other.
   [[nodiscard]] std::vector<double> sums(std::size_t unit);

@@ -16,13 +16,13 @@ struct Spread {
 };
 [[nodiscard]] Spread spread_of(std::vector<double> values);
 
-/// What one work took. Seconds are wall seconds.
+/// Time and size of one work. Seconds are wall seconds.
 struct Measured {
   std::size_t particles = 0;
   int threads = 1;
   long steps = 0;              ///< of the timed part
   Spread step_seconds;         ///< of one step: over the rounds
-  Spread cpu_seconds;          ///< of one step, all threads: what other work on the machine does not touch
+  Spread cpu_seconds;          ///< of one step, all threads: not affected by other work on the machine
   StageSeconds stages{};       ///< of one step in the mean
   double outside = 0.0;        ///< of a step, in no stage
   double setup_seconds = 0.0;  ///< from the particles to the first rates

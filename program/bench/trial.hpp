@@ -8,7 +8,7 @@
 
 namespace tripoint::bench {
 
-/// What the first steps of a scene took on this machine. Seconds are wall seconds, so other work on the machine is in them.
+/// Time of the first steps of a scene on this machine. Seconds are wall seconds, so other work on the machine is in them.
 struct Trial {
   std::size_t particles = 0;
   long steps = 0;              ///< that were timed
@@ -20,7 +20,7 @@ struct Trial {
   double bytes = 0.0;          ///< a particle, that the process grew by: fields, lists and scratch
   std::string failure;         ///< why there is nothing; empty = all is well
 
-  /// Of the whole run, at the cost of these steps [s].
+  /// Time of the whole run, at the cost of these steps [s].
   [[nodiscard]] double run_seconds() const { return setup_seconds + run_steps * step_seconds; }
 };
 

@@ -37,7 +37,7 @@ std::string simulated(const Scene& scene, const bench::Trial& trial) {
   return fmt::format("{}{:g} m apart, from 0 to {:g} s", particles, scene.spacing, scene.end_time);
 }
 
-/// What a liquid under gravity does first.
+/// Says how a liquid under gravity starts.
 std::string start_of(const Scene& scene) {
   if (scene.settle) return "liquids are let down into equilibrium before time 0 (settle = true)";
   if (scene.gravity == Vec3{} ||

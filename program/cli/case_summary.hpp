@@ -8,7 +8,7 @@
 
 namespace tripoint {
 
-/// A case on ten lines: what it claims, what is simulated, what is true, what is judged, which engines, and what it costs.
+/// A case on ten lines: its claim, the simulated scene, the truth, the judged metrics, the engines, and the cost.
 [[nodiscard]] std::string case_summary(const Case&, const Scene&, const Plan&, const bench::Trial&);
 
 }  // namespace tripoint

@@ -65,7 +65,7 @@ Results run_one_case(const Case& value, const SuiteOptions& options, const std::
   return results;
 }
 
-/// What kept the runs from being compared; accuracy is not judged here.
+/// Exit code for the fault that kept the runs from being compared; accuracy is not judged here.
 int code_of_runs(const CaseResult& result) {
   if (interrupted()) return exit_interrupted;
   int code = exit_pass;

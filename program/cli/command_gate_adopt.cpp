@@ -59,7 +59,7 @@ std::string text_of(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// The case's own text; where it has a short form, the whole case below its first comment: what is adopted stands on its own, and
+/// The case's own text; where it has a short form, the whole case below its first comment. An adopted case stands on its own, and
 /// its gates are tables that can be dropped one by one.
 std::string source_text(const std::string& file) {
   const std::string text = text_of(file);
@@ -96,7 +96,7 @@ EngineEntry engine_of(const GateAdoptOptions& o, std::vector<EngineEntry>& engin
   return *found;
 }
 
-/// Writes the case files of what was measured. @return their paths
+/// Writes the case files of the measured values. @return their paths
 std::vector<std::string> write_cases(const GateAdoptOptions& o, const std::vector<AdoptedCase>& measured,
                                      const EngineEntry& engine) {
   std::vector<std::string> files;

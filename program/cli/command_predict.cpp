@@ -42,8 +42,7 @@ constexpr const char* description =
 
 /// Particles times ranks up to which shares are counted one by one; beyond, they are scaled by volume.
 constexpr double most_counted = 1e9;
-constexpr double slow_latency =
-    1e-4;  ///< [s] of a message between two processes of one machine: fifty times what a quiet one takes
+constexpr double slow_latency = 1e-4;  ///< [s] of a message between two processes of one machine: fifty times that of a quiet one
 constexpr int most_ranks = 1000000, most_measured = 1024;
 
 struct Options {
@@ -75,8 +74,8 @@ void check(const std::vector<int>& list, const char* option, int most) {
     if (n < 1 || n > most) throw InputError(fmt::format("{} {}: write whole numbers from 1 to {}", option, n, most));
 }
 
-/// The runs on one rank: the case, the same coarser, the same with a wider support, which tells the cost of a pair from that of a
-/// particle.
+/// The runs on one rank: the case, the same coarser, the same with a wider support. The last tells the cost of a pair from that
+/// of a particle.
 struct OneRankRuns {
   std::vector<Prepared> prepared;
   std::vector<Timed> timed;
@@ -154,7 +153,7 @@ void measure(PredictRuns& runs, const std::vector<const Prepared*>& prepared, st
     line->measured_efficiency = each * line->prediction.particles / (line->prediction.ranks * line->measured->best_wall());
 }
 
-/// A line of the report that is also run, and what is run for it.
+/// A line of the report that is also run, and the runs for it.
 struct ToMeasure {
   std::size_t line;
   const Prepared* prepared;

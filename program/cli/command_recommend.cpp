@@ -29,8 +29,8 @@ constexpr const char* recommend_description =
     "  tripoint recommend fluid/sound-wave --seconds 5 --from report/results.json   the front of runs that were made before\n"
     "Exit: 0 the run met the wish, 1 it did not, 3 no settings within twice of what was measured promise it.";
 
-/// How much finer than the finest measured level a plan still names a level: an order that is read off two or three coarse levels
-/// may be off by 0.3, which over this factor makes the error wrong by 2.
+/// How much finer than the finest measured level a plan still names a level. An order from two or three coarse levels may be off
+/// by 0.3. Over this factor that makes the error wrong by 2.
 constexpr double farthest = 16.0;
 
 constexpr const char* plan_description =

@@ -52,7 +52,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// The installer's answer. @throws InputError, EngineError with what it said
+/// The installer's answer. @throws InputError, EngineError with its message
 std::vector<std::string> ask_installer(const std::vector<std::string>& words) {
   ProcessSpec spec;
   spec.argv = {"/usr/bin/python3", "-B", (fs::path(share_folder()) / "vendors" / "install.py").string()};

@@ -107,7 +107,7 @@ int code_of(const RunOptions& o, const Outcome& outcome) {
   return outcome.status == Status::diverged ? exit_diverged : interrupted() ? exit_interrupted : exit_missing;
 }
 
-/// What the case allows the metric in this run; empty where it sets nothing.
+/// Limits that the case sets for the metric in this run; empty where it sets none.
 std::string limits_of(const Case& value, const EnginePlan& plan, const RunPlan& run, const std::string& metric,
                       const MetricValue& m) {
   std::string text;
@@ -180,7 +180,7 @@ void print_json(const RunOptions& o, const Outcome& outcome, const std::map<std:
         "\n");
 }
 
-/// What `check` would say of the particles and metrics: a run of its own is not refused for it, but not silent either.
+/// Says the findings of `check` about particles and metrics: a run of its own is not refused for them, but not silent either.
 void say_findings(const CaseReading& reading, const Scene& scene, const InitialState& initial, const Job& job) {
   for (const auto& f : library_values(reading)) say("note: " + with_place(f));
   for (const auto& f : start_notes(scene, initial)) say("note: " + with_place(f));
@@ -200,7 +200,7 @@ EnginePlan plan_for(const Case& value, const std::vector<EngineEntry>& engines, 
   return plan;
 }
 
-/// What the command leaves open: where the run goes on, and which folder it is in.
+/// Fills in options that the command leaves open: where the run goes on, and its folder.
 void fill_in(RunOptions& o, const Case& value) {
   if (!o.resume.empty()) o.resume = checkpoint_file(o.resume);
   if (o.out.empty() && !o.resume.empty()) o.out = fs::path(o.resume).parent_path().string();

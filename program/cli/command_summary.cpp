@@ -32,8 +32,8 @@ struct SummaryOptions {
   CommentOptions comment;
 };
 
-/// Where the case files are not here, as in a job that reads the results of another, the stored values and limits are judged, and
-/// that is said.
+/// Where the case files are not here, as in a job that reads the results of another, stored values and limits are judged. The
+/// comment says so.
 GateVerdict verdict_of(const Results& results, SummaryOptions& o) {
   const bool here =
       std::all_of(results.cases.begin(), results.cases.end(), [](const auto& c) { return std::filesystem::exists(c.file); });

@@ -69,14 +69,14 @@ std::vector<std::string> failed_last_time(const std::string& out) {
   return failed;
 }
 
-/// Holds OUT where it is there already: what an earlier call has left in it is read and set aside before there are runs.
+/// Holds OUT where it is there already: files of an earlier call are read and set aside before there are runs.
 std::optional<FolderLock> hold_earlier(const std::string& out) {
   if (!std::filesystem::is_directory(out)) return {};
   return hold_folder(out);
 }
 
-/// The cases of this call; the report of an earlier one is set aside, so that what ends 2 leaves nothing to be judged in its
-/// place. A call that selects nothing, as one with a mistyped tag, asks for no run and leaves the report as it is.
+/// The cases of this call. The report of an earlier call is set aside, so that a call that ends 2 leaves nothing to be judged in
+/// its place. A call that selects nothing, as one with a mistyped tag, asks for no run and leaves the report as it is.
 /// @param held a folder that was not there when we came holds nothing of ours to set aside
 std::vector<Case> cases_of(const ValidateOptions& o, bool held) {
   try {
@@ -145,7 +145,7 @@ Results run_all(const std::vector<Case>& cases, const std::vector<EngineEntry>& 
   return results;
 }
 
-/// What was asked for, so that the results can be judged by who has nothing but them.
+/// Records the call, so that the results can be judged without anything else.
 void describe_call(Results& results, const ValidateOptions& o) {
   results.command = command_line();
   results.profile = o.filter.profile;

@@ -10,7 +10,7 @@
 #include "validation/harness/folder_lock.hpp"
 #include "validation/harness/plan_runs.hpp"
 
-/// What the commands share: how errors become exit codes, and how lists and progress look.
+/// Parts that the commands share: how errors become exit codes, and how lists and progress look.
 namespace CLI {
 class App;
 }
@@ -20,7 +20,8 @@ namespace tripoint {
 /// Calls the command and turns its exceptions into messages on stderr and the exit codes of the contract.
 [[nodiscard]] int guarded(const std::function<int()>& command);
 
-/// What a case simulates and stores. @throws InputError naming its file, also where the scene as a whole asks for what cannot be
+/// Plan of the quantities that a case simulates and stores. @throws InputError naming its file, also where the scene as a whole
+/// asks for what cannot be
 [[nodiscard]] Plan plan_of(const CaseReading&);
 
 /// One line on stderr; further lines of it are indented, and none of them is a workflow command.
@@ -71,10 +72,10 @@ void make_folder(const std::string& out);
 /// @throws InputError also where another call has it
 [[nodiscard]] FolderLock hold_folder(const std::string& out);
 
-/// What is said of a command or option that does not exist, with the nearest one; empty where none is mistyped.
+/// Message about a command or option that does not exist, with the nearest one; empty where none is mistyped.
 [[nodiscard]] std::string mistyped_word(const CLI::App& app, int argc, char** argv);
 
-/// Opens the standard streams that the caller has closed: the next file that is opened would take their place, and our words
+/// Opens the standard streams that the caller has closed. Otherwise the next opened file would take their place, and our words
 /// would go into it.
 void hold_standard_streams();
 /// Whether all that was printed has arrived; says so where it has not (a full disk, a closed pipe).

@@ -10,7 +10,7 @@
 
 namespace tripoint {
 
-/// One line: what is predicted, and what was measured of it.
+/// One line: a prediction, and its measurement.
 struct PredictedLine {
   predict::Prediction prediction;
   std::array<int, 3> grid{1, 1, 1};
@@ -33,7 +33,7 @@ struct PredictionReport {
   std::vector<predict::OneRank> runs;
   std::vector<std::string> labels;  ///< of the runs
   std::vector<PredictedLine> lines;
-  std::vector<std::string> notes;  ///< what could not be done
+  std::vector<std::string> notes;  ///< warnings: runs that failed, a slow probe
 };
 
 [[nodiscard]] nlohmann::ordered_json prediction_json(const PredictionReport&);

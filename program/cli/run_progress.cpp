@@ -26,7 +26,7 @@ std::string wall_time(double seconds) {
   return s < 6000 ? fmt::format("{} min {:02} s", s / 60, s % 60) : fmt::format("{} h {:02} min", s / 3600, s / 60 % 60);
 }
 
-/// Shown to whoever looks: a terminal that has closed takes no words, and the run must end as it should all the same.
+/// Shown to a reader, if any: a terminal that has closed takes no words, and the run must end as it should all the same.
 void tell(const std::string& words) { std::fwrite(words.data(), 1, words.size(), stderr); }
 
 }  // namespace

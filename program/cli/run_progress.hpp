@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-/// What `tripoint run` says of a run that goes on: time, step, what bounds the step, the ledger, and the time that is left.
+/// Progress lines of `tripoint run`: time, step, the bound of the step, the ledger, and the time that is left.
 namespace tripoint {
 
 /// One line `status {...}` of an engine, as far as the engine says it.

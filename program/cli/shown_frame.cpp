@@ -13,7 +13,7 @@
 namespace tripoint {
 namespace {
 
-constexpr double clip = 3.0;         // sizes of what is shown, beyond which nothing is looked at
+constexpr double clip = 3.0;         // sizes of the shown objects, beyond which nothing is looked at
 constexpr double ball = 0.5;         // radius of a ball [spacings]
 constexpr double least_span = 1e-6;  // of temperatures, for colours [K]
 

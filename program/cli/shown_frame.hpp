@@ -15,7 +15,7 @@ namespace tripoint {
 enum class Colouring { temperature, phase, body };
 enum class WallsDrawn { cut, show, hide };
 
-/// What pictures of one run have in common, so that a film is steady.
+/// Choices that all pictures of one run share, so that a film is steady.
 struct Showing {
   Colouring colouring = Colouring::phase;
   WallsDrawn walls = WallsDrawn::cut;
@@ -26,14 +26,14 @@ struct Showing {
   int width = 640, height = 480;
   double cold = 0.0, hot = 1.0;  ///< temperatures at the ends of the colours [K]
   ShownRoom room;
-  std::vector<Vec3> looked_at;  ///< what the camera has in the picture [m]
+  std::vector<Vec3> looked_at;  ///< room that the camera has in the picture [m]
   int threads = 1;
 };
 
-/// What a run is coloured by where nobody says: temperature where it varies, else phase where there are several, else body.
+/// Default colouring of a run: temperature where it varies, else phase where there are several, else body.
 [[nodiscard]] Colouring natural_colouring(const ShownRun&, const std::vector<std::size_t>& frames);
 
-/// Least and greatest temperature of what is no wall; of everything where that has none or one only; nothing without temperatures
+/// Least and greatest temperature of all but walls; of everything where that has none or one only; nothing without temperatures
 /// [K].
 [[nodiscard]] std::optional<std::pair<double, double>> temperatures_of(const ShownRun&, const std::vector<std::size_t>& frames);
 

@@ -7,7 +7,7 @@
 #include "render/camera.hpp"
 #include "surface/point_cells.hpp"
 
-/// A run's folder as pictures see it: its frames, what of it are walls, and what belongs together.
+/// A run's folder as pictures see it: its frames, its walls, and the particles that belong together.
 namespace tripoint {
 
 struct ShownRun {
@@ -15,7 +15,7 @@ struct ShownRun {
   Trajectory trajectory;
   double spacing = 0.0;                                 ///< of the particles [m]
   Vec3 gravity;                                         ///< 0 where the folder has no job [m/s2]
-  bool has_job = false;                                 ///< whether job.json says what is fixed
+  bool has_job = false;                                 ///< whether job.json says which bodies are fixed
   std::vector<char> wall;                               ///< by row: a particle that belonged to a fixed body in the first frame
   std::vector<std::string> body_names, material_names;  ///< by row of the bodies, of the materials; may be too short
 };
@@ -40,15 +40,15 @@ struct ShownPart {
 /// @return parts of the particles that are alive in a frame, in the order walls, liquids, bodies
 [[nodiscard]] std::vector<ShownPart> parts_of(const ShownRun&, const Snapshot&, bool whole);
 
-/// What the frames have room for: free particles without the few that have flown off, and all walls. Both may be empty (low above
+/// Room that the frames show: free particles without the few that have flown off, and all walls. Both may be empty (low above
 /// high).
 struct ShownRoom {
   Box free, walls;
 };
 [[nodiscard]] ShownRoom room_for(const ShownRun&, const std::vector<std::size_t>& frames);
 
-/// Whether a wall's particle hides free ones from the viewer: it stands beyond their box, on a side that faces the viewer, and
-/// above the floor.
+/// Whether a wall's particle hides free ones from the viewer. It then stands beyond their box, on a side that faces the viewer,
+/// and above the floor.
 [[nodiscard]] bool hides(const Vec3& place, const Box& free, const Vec3& up, const Vec3& towards, double spacing);
 
 }  // namespace tripoint

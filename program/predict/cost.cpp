@@ -48,8 +48,8 @@ std::optional<Row> least_squares(const std::vector<Row>& rows, const std::vector
 
 }  // namespace
 
-/// Terms are scaled by their values in the greatest run, and each run by its time: what is fitted is 1 in each run. The first run
-/// is of the case itself and counts most: what is predicted is nearest to it, in what caches do too.
+/// Terms are scaled by their values in the greatest run, and each run by its time: the fitted value is 1 in each run. The first
+/// run is of the case itself and counts most: predictions are nearest to it, also in the effect of caches.
 WorkCost fit_work(const std::vector<OneRank>& runs) {
   if (runs.empty()) throw InputError("no run on one rank to fit the cost of a step to");
   for (const OneRank& r : runs)
@@ -61,8 +61,8 @@ WorkCost fit_work(const std::vector<OneRank>& runs) {
   std::vector<Row> rows;
   for (const OneRank& r : runs)
     rows.push_back({scale[0] / r.seconds, scale[1] * r.particles / r.seconds, scale[2] * r.pairs / r.seconds});
-  // Pairs are what a step is made of, so that they are never left out; fewer terms go first where they do as well, and particles
-  // before what is fixed: runs of one number of particles do not tell these two apart.
+  // A step consists mainly of pairs, so that they are never left out. Fewer terms go first where they do as well, and particles
+  // before fixed costs. Runs of one number of particles do not tell these two apart.
   const std::array<std::vector<std::size_t>, 4> choices{{{2}, {1, 2}, {0, 2}, {0, 1, 2}}};
   constexpr double better = 1e-9;
   WorkCost best;

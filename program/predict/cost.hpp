@@ -34,7 +34,7 @@ struct Memory {
 /// From the smallest and the greatest run. @param scene_bytes a particle of the scene as it is handed over and loaded
 [[nodiscard]] Memory fit_memory(const std::vector<OneRank>&, double scene_bytes);
 
-/// What a step asks of other ranks, counted on one rank.
+/// Requests of a step to other ranks, counted on one rank.
 struct Traffic {
   double exchanges = 0.0, numbers_a_copy = 0.0, collectives = 0.0;  ///< a step
   double migrations = 0.0;                                          ///< a step

@@ -67,8 +67,8 @@ Machine machine_of_probe(const std::string& text, int cores) {
     Machine m;
     m.cores_a_node = cores;
     m.source = "a probe of " + o.at("mpi").get<std::string>() + " between two ranks";
-    // On a machine that is not quiet a small exchange may take longer than a large one: none is faster than the latency, and the
-    // best rate was possible.
+    // On a machine that is not quiet a small exchange may take longer than a large one. No exchange is faster than the latency,
+    // and the best rate was possible.
     m.latency = INFINITY;
     for (const auto& e : o.at("exchanges")) m.latency = std::min(m.latency, e.at("seconds").get<double>());
     for (const auto& e : o.at("exchanges")) {

@@ -5,7 +5,7 @@
 
 namespace tripoint::predict {
 
-/// What a machine does between ranks: from the probe of the engine tripoint-mpi, or from a file.
+/// Speeds of a machine between ranks: from the probe of the engine tripoint-mpi, or from a file.
 struct Machine {
   std::string name = "this machine";
   int cores_a_node = 1;
@@ -14,7 +14,7 @@ struct Machine {
   double allreduce = 0.0;   ///< of one number, for each doubling of the ranks [s]
   double pack_rate = 0.0;   ///< at which scattered numbers are put together [bytes/s]
   double core_speed = 1.0;  ///< of its cores over those here
-  double waiting = 0.05;    ///< of a step's work that ranks wait for the slowest, beyond what the shares say
+  double waiting = 0.05;    ///< of a step's work that ranks wait for the slowest, beyond the prediction of the shares
   std::string source;       ///< "probe of MPICH 5.0.2 between two ranks", or the file
 };
 
@@ -23,7 +23,7 @@ struct Machine {
 /// @throws InputError with place, also for a key that is not known
 [[nodiscard]] Machine read_machine(const std::string& file);
 
-/// What `engine-tripoint-mpi --probe` printed. @throws EngineError where it is no such answer
+/// Reads the output of `engine-tripoint-mpi --probe`. @throws EngineError where it is no such answer
 [[nodiscard]] Machine machine_of_probe(const std::string& json, int cores);
 
 }  // namespace tripoint::predict

@@ -46,7 +46,7 @@ SeenBy seen_by_all(const Cloud& cloud, const Cuts& cuts, Vec3 r) {
   return seen;
 }
 
-/// What a rank has: its own particles and copies.
+/// Particles of a rank: its own and copies.
 struct Held {
   std::vector<Point> points;
   std::vector<char> own;  ///< of each

@@ -16,7 +16,8 @@ struct Part {
 
 double overlap(double a, double b, double low, double high) { return std::max(0.0, std::min(b, high) - std::max(a, low)); }
 
-/// Of the cube from a to b, in each part whose widened interval it touches; ends of a direction that does not wrap have no end.
+/// Lists the shares of the cube from a to b in each part whose widened interval it touches. The outer parts of a direction that
+/// does not wrap have no outer end.
 void parts_of(const std::vector<double>& at, double a, double b, double reach, double width, std::vector<Part>& parts) {
   parts.clear();
   const std::size_t n = at.size() - 1;

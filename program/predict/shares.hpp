@@ -6,8 +6,8 @@
 #include "core/vec3.hpp"
 #include "particles/rank_grid.hpp"
 
-/// What each rank would hold of a scene, were it shared out as the engine tripoint-mpi does it (decision 021), without a rank
-/// that runs.
+/// Particles that each rank would hold of a scene, were it shared out as the engine tripoint-mpi does it (decision 021). No rank
+/// runs for it.
 namespace tripoint::predict {
 
 /// The particles of a scene as far as sharing them out depends on them.
@@ -18,7 +18,7 @@ struct Cloud {
   double pair_reach = 0.0;     ///< of a neighbour list [m]
   std::array<bool, 3> periodic{};
   Vec3 min, max;           ///< the domain, used in periodic directions only [m]
-  std::vector<char> idle;  ///< of each, 1 where it is fixed and pairs of what is fixed have no work; empty: all have
+  std::vector<char> idle;  ///< of each, 1 where it is fixed and pairs of fixed particles have no work; empty: all have
   [[nodiscard]] bool is_idle(std::size_t i) const { return !idle.empty() && idle[i] != 0; }
 };
 
@@ -34,13 +34,14 @@ struct Shares {
   std::vector<Share> ranks;          ///< of each, z slowest
 };
 
-/// Counts particles one by one: the cuts of LAMMPS's `balance 1.02 shift xyz 20 1.02`, each particle weighed by what it costs at
-/// the start (ParticleCost), own particles between them, copies in the box around by `reach`, pairs among both.
+/// Counts particles one by one. The cuts are those of LAMMPS's `balance 1.02 shift xyz 20 1.02`, each particle weighed by its
+/// cost at the start (ParticleCost). Own particles lie between the cuts, copies in the box around them by `reach`. Pairs are
+/// counted among both.
 /// @param ranks > 0   @throws InputError for an empty cloud
 [[nodiscard]] Shares share_out(const Cloud&, int ranks);
 
-/// The same scene of another number of particles, by volume: each particle of the cloud stands for a cube of matter, and reaches
-/// shrink with the spacing.
+/// The same scene with another number of particles, by volume. Each particle of the cloud stands for a cube of matter, and
+/// reaches shrink with the spacing.
 /// @param particles of the scene that is meant, > 0
 [[nodiscard]] Shares share_volume(const Cloud&, int ranks, double particles);
 
@@ -57,7 +58,7 @@ struct Point {
 struct NeighbourCount {
   double all = 0.0, worked = 0.0;  ///< of all, and those of which not both are idle
 };
-/// Of each member, how many members and images are within `reach`, itself left out.
+/// For each member, how many members and images are within `reach`, itself left out.
 [[nodiscard]] std::vector<NeighbourCount> count_neighbours(const std::vector<Point>& members, const std::vector<Point>& images,
                                                            double reach);
 [[nodiscard]] std::vector<Point> points_of(const Cloud&);

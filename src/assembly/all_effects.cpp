@@ -48,7 +48,7 @@ constexpr bool in_build(const Registered& effect) {
 #endif
 }
 
-/// Those of this build; what it leaves out is in no table, so that the linker leaves it out too.
+/// The effects of this build; an effect that it leaves out is in no table, so that the linker leaves it out too.
 constexpr auto all_effects = [] {
   std::array<Registered, static_cast<std::size_t>(std::ranges::count_if(every_effect, in_build))> list{};
   std::ranges::copy_if(every_effect, list.begin(), in_build);
@@ -100,7 +100,7 @@ void check_bounds(const std::vector<Active>& effects) {
   }
 }
 
-/// What each effect may ask for: what it owns and reads, the table of bodies, and the forces of all where it sums them.
+/// Columns that each effect may ask for: those that it owns and reads, the table of bodies, and all forces where it sums them.
 void set_declared(std::vector<Active>& effects) {
   std::vector<FieldInfo> forces;
   for (const Active& a : effects)
@@ -195,7 +195,7 @@ Plan plan(const Scene& scene) {
   for (const FieldInfo& f : common_fields(scene.periodic[0] || scene.periodic[1] || scene.periodic[2])) add(f, "particles");
   if (can_have_bodies(scene))
     for (const FieldInfo& f : body_table_fields()) add(f, "bodies");
-  // What is called for and not in this build is listed all the same: explain says what a scene means.
+  // An effect that is called for and not in this build is listed all the same: explain says what a scene means.
   for (const CalledEffect& c : needed_effects(scene)) {
     if (!find(c.name)) p.effects.push_back({c.name, c.why + " (not in this build)", std::string(to_string(scene.mode))});
   }

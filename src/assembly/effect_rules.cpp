@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rules of all effects: what scene/effect_rule.hpp asks for. A test may have a list of its own.
+// The rules of all effects, as scene/effect_rule.hpp asks for them. A test may have a list of its own.
 #include "scene/effect_rule.hpp"
 
 #ifndef TRIPOINT_EFFECT_LIST

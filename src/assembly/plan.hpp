@@ -16,7 +16,7 @@ struct PlannedEffect {
   std::string name, why;
   std::string mode;  ///< corrected, paper, or the terms that differ
 };
-/// What a scene simulates and stores: the union of what its effects own.
+/// Plan of a scene, what it simulates and stores: the union of what its effects own.
 struct Plan {
   std::vector<PlannedEffect> effects;
   std::vector<PlannedEffect> idle;  ///< what the scene does without, and why it can never act

@@ -11,7 +11,7 @@
 namespace tripoint {
 namespace {
 
-/// What all effects of a scene ask of the passes.
+/// Work that all effects of a scene ask of the passes.
 struct AllWork {
   std::vector<PairTerm> terms, again;
   bool any_acts = false;   ///< an effect's terms add something where pairs act on each other alone

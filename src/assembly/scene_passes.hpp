@@ -11,7 +11,7 @@ namespace tripoint {
 /// The fused pair passes, as the scene's modes choose them.
 class Passes {
  public:
-  /// @param lanes particles of a cluster, 0 = what is fastest here: measured only where a pair is worked on at all
+  /// @param lanes particles of a cluster, 0 = the fastest number here: measured only where a pass works on any pair
   /// @param sums_all whether clusters in which nothing meets are summed over too
   Passes(const Scene&, const std::vector<Active>&, int lanes, bool sums_all = false);
   ~Passes();
@@ -20,12 +20,12 @@ class Passes {
   [[nodiscard]] bool needed() const;  ///< whether any pair is worked on at all
   [[nodiscard]] int lanes() const;    ///< particles of a cluster that the neighbours must have
   void run(PassName, World&) const;
-  /// What no step reads of fixed particles (World::forms_fixed).
+  /// Sums the values of fixed particles that no step reads (World::forms_fixed).
   void run_fixed(PassName, World&) const;
   /// How far around what something can reach fixed particles must be awake, for every bit to stay [m]; none: nothing may sleep.
   [[nodiscard]] std::optional<double> sleeps_beyond() const;
-  [[nodiscard]] bool works_on_all() const;  ///< pairs of what is fixed have work too, as where they conduct heat
-  /// What each particle costs in a step, by row, as lists and bonds are now; and before there are any, a guess (ParticleCost).
+  [[nodiscard]] bool works_on_all() const;  ///< pairs of fixed particles have work too, as where they conduct heat
+  /// Cost of each particle in a step, by row, as lists and bonds are now; before there are any, a guess (ParticleCost).
   /// @param steps from new lists to new lists
   [[nodiscard]] std::vector<double> cost(const World&, double steps) const;
   [[nodiscard]] std::vector<double> cost_at_start(const World&) const;
@@ -37,7 +37,7 @@ class Passes {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Of each particle, 1 where its body never moves and pairs among such have no work (ParticleCost); empty: all pairs have work.
+/// By particle, 1 where its body never moves and pairs among such have no work (ParticleCost); empty: all pairs have work.
 [[nodiscard]] std::vector<char> idle_particles(const Scene&, const InitialState&);
 
 }  // namespace tripoint

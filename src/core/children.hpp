@@ -12,9 +12,9 @@
 
 namespace tripoint {
 
-/// How children of ours end is told to us from now on. Who started us may have ignored SIGCHLD, as a shell does after `trap ''
-/// CHLD`, and that is handed down: the system then throws the ends of children away, and who waits for one learns nothing. Called
-/// before each child that is waited for.
+/// From now on the system tells us how our children end. Our parent may have ignored SIGCHLD, as a shell does after `trap ''
+/// CHLD`, and we inherit that. The system then throws the ends of children away, and a wait for one learns nothing. Called before
+/// each child that is waited for.
 inline void keep_ends_of_children() noexcept {
   struct sigaction action {};
   if (::sigaction(SIGCHLD, nullptr, &action) != 0) return;

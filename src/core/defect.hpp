@@ -5,12 +5,12 @@
 #include <string_view>
 #include <vector>
 
-/// Run-time defects: faults that the self-test injects to prove that the gate sees them. No source of the solver knows one:
-/// a folder's defects.toml says what can be broken there and how, and tools/break_sources.py writes broken copies of the files,
-/// which the self-test's engines are made of.
+/// Run-time defects: faults that the self-test injects to prove that the gate sees them. No source of the solver knows one. The
+/// defects.toml of a folder says what can be broken there and how. tools/break_sources.py writes broken copies of the files, and
+/// the self-test's engines are made of these.
 namespace tripoint {
 
-/// What a physical term registers: the case that must turn red when it is broken.
+/// Registration of a physical term: the case that must turn red when the term is broken.
 struct DefectEntry {
   std::string name;     ///< e.g. heat.conductivity
   std::string what;     ///< what is broken, and what the size means

@@ -13,7 +13,7 @@
 
 namespace tripoint {
 
-/// What a file holds, or the names in a folder, survive a loss of power from now on. @throws EngineError naming it and the
+/// From now on the contents of a file, or the names in a folder, survive a loss of power. @throws EngineError naming it and the
 /// system's reason
 inline void make_durable(const std::string& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);

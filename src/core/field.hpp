@@ -20,7 +20,7 @@ enum class Per { particle, bond, body };
   return per == Per::particle ? "particle" : per == Per::bond ? "bond" : "body";
 }
 
-/// What a column is found by: FNV-1a of its name, at compile time where the name is a constant.
+/// Key of a column: FNV-1a of its name, at compile time where the name is a constant.
 [[nodiscard]] constexpr std::uint64_t key_of(std::string_view name) noexcept {
   std::uint64_t key = 14695981039346656037u;
   for (const char c : name) key = (key ^ static_cast<unsigned char>(c)) * 1099511628211u;

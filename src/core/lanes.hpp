@@ -11,8 +11,8 @@
 /// Vectors of doubles, a lane a particle. With one lane a vector is a double: the same source, the oracle of the others.
 namespace tripoint {
 
-/// The vector unit that a file is compiled for. It is part of the type of what is compiled for several, so that the linker never
-/// takes one for another; in what is compiled for any machine it is `Any`.
+/// The vector unit that a file is compiled for. It is part of the type of everything that is compiled for several units, so that
+/// the linker never mixes them up. In code compiled for any machine it is `Any`.
 #ifndef TRIPOINT_UNIT
 #define TRIPOINT_UNIT Any
 #define TRIPOINT_UNIT_LANES 1
@@ -91,7 +91,7 @@ template <int L>
   }
 }
 
-/// What comparing such vectors gives: a mask, of one lane a bool.
+/// Result of a comparison of such vectors: a mask, or a bool for one lane.
 template <class V>
 using MaskOf = typename Lanes<static_cast<int>(sizeof(V) / sizeof(double))>::Mask;
 
@@ -120,11 +120,11 @@ template <class V>
 /// The same number in each lane.
 template <class V>
 [[nodiscard, gnu::always_inline]] inline V every_lane(double value) noexcept {
-  return value - V{};  // -0 and what is not finite keep their bits
+  return value - V{};  // -0 and values that are not finite keep their bits
 }
 
-/// 2ab/(a + b) of what is not negative. Where both are equal it is they themselves, to the bit; where they are in every lane
-/// nothing is divided.
+/// 2ab/(a + b) of numbers that are not negative. Where both are equal it is they themselves, to the bit; where they are in every
+/// lane nothing is divided.
 template <class V>
 [[nodiscard, gnu::always_inline]] inline V harmonic_mean(V a, V b) noexcept {
   const MaskOf<V> differ = a != b;

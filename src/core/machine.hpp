@@ -2,7 +2,7 @@
 #pragma once
 #include <cstddef>
 
-/// What the machine that runs this can do.
+/// Abilities of the machine that runs this program.
 namespace tripoint {
 
 /// Particles from which a short loop over them is worth a team of threads.

@@ -5,7 +5,7 @@
 
 #include "core/field.hpp"
 
-/// Pair terms by their types, for those who choose among compiled passes at run time.
+/// Pair terms by their types, for code that chooses among compiled passes at run time.
 namespace tripoint {
 
 struct PairTerm {

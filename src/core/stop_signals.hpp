@@ -6,11 +6,11 @@
 
 namespace tripoint {
 
-/// What asks a process to end: Ctrl-C, SIGTERM, and SIGHUP, which comes where its terminal closes.
+/// Signals that ask a process to end: Ctrl-C, SIGTERM, and SIGHUP, which comes where its terminal closes.
 inline constexpr std::array stop_signals{SIGINT, SIGTERM, SIGHUP};
 
-/// From now on they call this handler. A second Ctrl-C or SIGTERM ends us at once; a second SIGHUP does not, since a terminal
-/// that closes is told by the system and by the shell. Where SIGHUP is ignored, as after nohup, it stays ignored.
+/// From now on they call this handler. A second Ctrl-C or SIGTERM ends us at once. A second SIGHUP does not, because the system
+/// and the shell each send one when a terminal closes. Where SIGHUP is ignored, as after nohup, it stays ignored.
 inline void on_stop_signals(void (*handler)(int)) noexcept {
   struct sigaction action {};
   action.sa_handler = handler;

@@ -14,7 +14,7 @@
 /// Files that are written by calls of the system: a stream of the library would not say why it failed.
 namespace tripoint {
 
-/// Writes all of it in as many calls as that takes. @param write takes what is left and answers as write(2) does
+/// Writes all of it in as many calls as that takes. @param write takes the remaining bytes and answers as write(2) does
 /// @return 0, or the errno of the call that failed
 template <class Write>
 [[nodiscard]] int write_whole(std::string_view bytes, Write write) {
@@ -28,7 +28,8 @@ template <class Write>
   return 0;
 }
 
-/// A file that is made anew and grows by what is added. Each call throws EngineError with its path and the system's reason.
+/// A file that is made anew and grows by the bytes that are added. Each call throws EngineError with its path and the system's
+/// reason.
 class WrittenFile {
  public:
   explicit WrittenFile(const std::string& path)

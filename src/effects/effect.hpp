@@ -17,20 +17,20 @@ namespace tripoint {
 
 struct PairKernels;
 
-/// What an effect owns and what it reads of others. It is given no other column (declared_view.hpp).
+/// The columns that an effect owns and those that it reads of others. The effect is given no other column (declared_view.hpp).
 struct EffectSpec {
   std::string_view name;
   Mode mode = Mode::corrected;
-  std::vector<FieldInfo> owns;                  ///< that exist because of it
+  std::vector<FieldInfo> owns;                  ///< columns that exist because of it
   std::vector<FieldInfo> reads;                 ///< of others, that it reads or sets; each has an owner in the scene
   std::vector<Force> forces{};                  ///< that it makes
   std::vector<Account> accounts{};              ///< that it books on beside those of its forces; common ones need no word
-  std::vector<Account> numerical{};             ///< that its numerical terms book on: what they take on purpose
+  std::vector<Account> numerical{};             ///< accounts of the energy that its numerical terms take on purpose
   std::vector<Guarded> guards{};                ///< of its columns those that are looked at after every step
   std::vector<Bounded> bounded{};               ///< of its columns those of whole numbers that stand for something
   std::vector<Field<double>> positive{};        ///< of its columns those that formulas divide by, and densities
   std::vector<GuardedEntry> guarded_entries{};  ///< of its entries of the ledger, how the guard of energy takes them
-  /// Of its columns of bodies, those that are sums over particles. Where several processes share a scene, each sums its own part.
+  /// Its columns of bodies that are sums over particles. Where several processes share a scene, each sums its own part.
   std::vector<Field<double>> body_sums{};
   std::vector<StepNumber> step_numbers{};   ///< that it keeps from step to step beside its columns
   std::vector<FieldInfo> reads_if_there{};  ///< of others, where the scene has them
@@ -48,8 +48,8 @@ inline void tighten(TimeStepBound& bound, double dt, std::string_view name) {
   if (dt < bound.dt) bound = {dt, std::string(name)};
 }
 
-/// Of sqrt(h/a), what a step under an acceleration a takes [1]: a choice that guards accuracy, not stability. The energy that
-/// four times such a step loses is measured by AccelerationBound (tests/step/bounds_test.cpp).
+/// Share of sqrt(h/a) that a step under an acceleration a takes [1]: a choice that guards accuracy, not stability.
+/// AccelerationBound measures the energy that four times such a step loses (tests/step/bounds_test.cpp).
 inline constexpr double courant_of_acceleration = 0.25;
 
 /// Greatest step under an acceleration (model 8.10) [s]. @param support radius h of the support [m] @param acceleration its
@@ -58,13 +58,14 @@ inline constexpr double courant_of_acceleration = 0.25;
   return courant_of_acceleration * std::sqrt(support / acceleration);
 }
 
-/// What an effect asks of the fused passes in a scene: of the terms that its pair_slots.hpp has compiled, those that it needs.
+/// Work that an effect asks of the fused passes in a scene: the terms that it needs, of those that its pair_slots.hpp has
+/// compiled.
 struct PairWork {
   std::vector<PairTerm> terms{};         ///< that the passes of density and rates sum
   bool where_it_acts = false;            ///< its terms add nothing to pairs that do not act on each other (Clusters::acting)
   bool leaves_own_pairs = false;         ///< its density leaves own pairs out
   bool again = false;                    ///< its rates are computed a second time in each step, without those of others
-  const PairKernels* kernels = nullptr;  ///< that all terms of the scene are given; of one effect at most
+  const PairKernels* kernels = nullptr;  ///< the kernels that all terms of the scene use; at most one effect may set them
   double awake_around = 0.0;             ///< how far around what something can reach its sums read fixed particles [m]
 };
 
@@ -77,8 +78,8 @@ struct Happening {
   bool begins;
 };
 
-/// An effect keeps nothing from step to step in members of its own: what the next step needs is a column or a step number, where
-/// a checkpoint finds it.
+/// An effect keeps nothing from step to step in members of its own. State that the next step needs is a column or a step number,
+/// where a checkpoint finds it.
 class Effect {
  public:
   virtual ~Effect() = default;
@@ -90,14 +91,15 @@ class Effect {
   virtual void drift(World&, double /*dt*/) {}
   /// Sets the columns that the pass adds to.
   virtual void clear(World&, PassName) {}
-  /// What follows from the densities of the present places: pressures, temperatures, strains.
+  /// Sets the quantities that follow from the densities at the present places: pressures, temperatures, strains.
   virtual void state(World&) {}
   /// Forces of bonds, after all states of the present time.
   virtual void bonds(World&) {}
-  /// Sets what no step reads of fixed particles, but for what the passes sum (World::forms_fixed): after their density.
+  /// Sets the values of fixed particles that no step reads, except the sums of the passes (World::forms_fixed). Called after
+  /// their density.
   virtual void form_fixed(World&) {}
-  /// Whether change() has anything to decide; what a particle's state does to it alone is done here first. Each process that
-  /// shares the scene is asked, of its own particles and of what it knows of copies.
+  /// Whether change() has anything to decide. Changes that depend on one particle's state alone are made here first. Each process
+  /// that shares the scene is asked, about its own particles and about the known values of copies.
   [[nodiscard]] virtual bool wants_change(World&) { return false; }
   /// Decides what melts, freezes or breaks, changes bonds, phases and bodies, and tells it in World::change. It is called where
   /// wants_change() said so, in any of the processes that share the scene; each of them then holds all of it.
@@ -110,7 +112,7 @@ class Effect {
   /// rates must be computed again (PassName::again)
   virtual bool correct(World&, double /*dt*/) { return false; }
   virtual void happen(World&, const Happening&) {}
-  /// Rows and ids stand for other particles (World::halo): what the effect keeps by them is void.
+  /// Rows and ids stand for other particles (World::halo): data that the effect keeps by row or id are void.
   virtual void renumber(World&) {}
   /// Looks, after every step, for a state that the effect's equations do not hold for. @throws Diverged
   virtual void check(const World&) const {}

@@ -32,10 +32,10 @@
 namespace tripoint {
 namespace {
 
-/// How a copy ends by itself. What else ends with a code, as a sanitizer does that has found something, counts as a death.
+/// Exit codes of the copy. Any other exit code (for example a sanitizer's) counts as a crash.
 enum Code { done = 81, refusal = 82, memory_is_short = 83, cannot_confine = 84 };
 
-constexpr int to_us = 3;                    ///< the copy's descriptor of what it hands back; it has no other above 2
+constexpr int to_us = 3;                    ///< the copy's descriptor of the bytes that it hands back; it has no other above 2
 constexpr std::size_t most_letters = 4096;  ///< of each part of a refusal
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -65,7 +65,7 @@ class Descriptor {
   int fd_;
 };
 
-/// What a reader needs. All else fails with EPERM, as if the user might not do it.
+/// System calls that a reader needs. All others fail with EPERM, as if the user lacked the right.
 constexpr std::array free_calls{SCMP_SYS(read),
                                 SCMP_SYS(pread64),
                                 SCMP_SYS(readv),
@@ -109,7 +109,7 @@ constexpr std::array free_calls{SCMP_SYS(read),
                                 SCMP_SYS(geteuid),
                                 SCMP_SYS(sched_getaffinity)};
 
-/// What the n-th word of a call must be. @param a value, or a mask   @param b value of what the mask leaves
+/// Rule for the n-th word of a call. @param a value, or a mask @param b value of the bits that the mask leaves
 scmp_arg_cmp word(unsigned n, scmp_compare how, scmp_datum_t a, scmp_datum_t b = 0) {
   scmp_arg_cmp rule{};
   rule.arg = n;
@@ -140,7 +140,7 @@ class Filter {
   bool good_;
 };
 
-/// Whether the system knows filters, or who stands in its place: valgrind does not, and would be held to ours itself.
+/// Whether the kernel supports seccomp filters. Valgrind does not, and its own system calls would be filtered.
 bool has_filters() {
   std::uint32_t action = SECCOMP_RET_ERRNO;
   return ::syscall(SYS_seccomp, SECCOMP_GET_ACTION_AVAIL, 0, &action) == 0;
@@ -201,7 +201,7 @@ bool confine(const CopyBounds& bounds) {
   return filtered && sees_one;
 }
 
-/// No file of ours but what it hands back; its words go nowhere.
+/// The copy keeps none of our files but the one that it hands bytes back by; its words go nowhere.
 void let_go_of_our_files(int file) {
   if (file != to_us) ::dup2(file, to_us);
   ::close_range(to_us + 1, ~0U, 0);
@@ -235,7 +235,7 @@ void bound(const CopyBounds& bounds, rlim_t space) {
   ::signal(SIGXFSZ, SIG_IGN);  // a write fails then, and says so
 }
 
-/// A copy of somebody who is no more reads for nobody.
+/// A copy whose parent has ended reads for nobody.
 void end_with(pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(cannot_confine);
@@ -277,7 +277,7 @@ int read_and_hand_over(const std::function<std::string()>& read) {
   }
 }
 
-/// What is set before the fork, where it can still be asked for.
+/// Values that are taken before the fork, where they can still be asked for.
 struct Start {
   pid_t parent = ::getpid();
   rlim_t space = address_space();
@@ -326,7 +326,7 @@ std::string bytes_of(int file, rlim_t most) {
   return bytes;
 }
 
-/// What refusal_text() made; anything else, which a copy that somebody else steers could hand back, is words.
+/// Reads the bytes that refusal_text() made. Any other bytes, which a hijacked copy could hand back, are taken as words.
 void take_refusal(CopyEnd& end) {
   end.how = CopyEnd::How::refused;
   const std::string bytes = end.bytes.substr(0, 3 * most_letters);

@@ -7,15 +7,15 @@
 
 #include "core/errors.hpp"
 
-/// What strangers wrote is read by a copy of this process that can do nothing but read and hand bytes back. Nobody promises that
-/// a library bears every file: one that it does not bear costs a copy, and code that a file brings along finds no network, no
-/// program to start, no process to signal and no file to write.
+/// A copy of this process reads files of strangers; it can do nothing but read and hand bytes back. No library is sure to survive
+/// every file: one that it does not survive costs a copy. Code that a file brings along finds no network, no program to start, no
+/// process to signal and no file to write.
 namespace tripoint {
 
 /// Memory of this machine [bytes].
 [[nodiscard]] rlim_t machine_memory();
 
-/// What a copy may use.
+/// Bounds of a copy.
 struct CopyBounds {
   std::string what;                  ///< is read, for the words of errors: "trajectory.h5"
   double wall_limit = 0.0;           ///< wall clock [s]; then it is killed
@@ -28,7 +28,7 @@ struct CopyBounds {
 /// How a copy ended.
 struct CopyEnd {
   enum class How {
-    read,          ///< it handed back what it read
+    read,          ///< it handed back the bytes that it read
     refused,       ///< the reader threw: rethrow()
     killed,        ///< by a signal, which `code` is
     late,          ///< it was killed at the limit
@@ -36,22 +36,22 @@ struct CopyEnd {
     not_confined,  ///< this system has no seccomp, and it had to be confined
   } how = How::read;
   int code = 0;
-  std::string bytes;  ///< what it handed back; of a refusal, its words
+  std::string bytes;  ///< bytes that it handed back; of a refusal, its words
   SourcePlace place;  ///< of a refusal
 };
 
-/// Reads in a copy of this process and gives back what it returned there. The copy may ask for memory, open files of one folder
-/// for reading (Landlock, where the system has it) and hand its bytes back; the system refuses it all else (seccomp). It has no
-/// open file of ours, and ends with us.
+/// Calls `read` in a copy of this process and returns its result. The copy may ask for memory, open files of one folder for
+/// reading (Landlock, where the system has it) and hand its bytes back. The system refuses all else (seccomp). It has no open
+/// file of ours, and ends with us.
 /// @pre no other thread is within a library that `read` uses, such as HDF5: its lock would stay closed in the copy for ever
-/// @throws std::system_error where no process, or no file for what it hands back, is to spare
+/// @throws std::system_error where no process, or no file for the result, is to spare
 [[nodiscard]] CopyEnd read_in_confined_copy(const std::function<std::string()>& read, const CopyBounds&);
 
 /// Why nothing was read: "trajectory.h5 kills the library that reads it (signal 11, Segmentation fault)". Empty where it was, and
 /// where the reader refused it.
 [[nodiscard]] std::string failure_of(const CopyEnd&, const CopyBounds&);
 
-/// Throws here what the reader threw in the copy, where it did. @throws InputError
+/// Throws here the error that the reader threw in the copy, if any. @throws InputError
 void rethrow(const CopyEnd&);
 
 }  // namespace tripoint

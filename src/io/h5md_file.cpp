@@ -62,7 +62,7 @@ std::vector<std::size_t> shape_of(hid_t dataset, const std::string& what) {
   return {dims, dims + rank};
 }
 
-/// A small file can claim a great dataset: what was never written reads as fill values, and zeros pack a thousandfold.
+/// A small file can claim a great dataset: parts never written read as fill values, and zeros pack a thousandfold.
 void refuse_bombs(hid_t dataset, const std::vector<std::size_t>& shape, const std::string& what) {
   constexpr double harmless = 1e9, packed = 64.0;  // [bytes], and as dense as particles ever pack
   double bytes = 8.0;
@@ -103,8 +103,8 @@ void expect_class(hid_t dataset, H5T_class_t wanted, const std::string& what) {
     throw InputError(what + ": is of the wrong type, expected " + (wanted == H5T_FLOAT ? "floating point" : "integers"));
 }
 
-/// errno of the call of the system that failed: the library writes it among the words of its last error, innermost first, and so
-/// does io/ordered_file.cpp. @return 0 where no such call failed
+/// errno of the system call that failed. The library writes it into the text of its last error, innermost first, and so does
+/// io/ordered_file.cpp. @return 0 where no such call failed
 int errno_of_last_error() {
   const auto look = [](unsigned, const H5E_error2_t* error, void* found) -> herr_t {
     constexpr std::string_view key = "errno = ";
@@ -193,7 +193,7 @@ Handle make_group(hid_t parent, const std::string& path) {
 
 namespace {
 
-/// Of variable length in UTF-8: Python's readers take a string of fixed length for bytes.
+/// The type is UTF-8 of variable length: Python's readers take a string of fixed length for bytes.
 void write_texts(hid_t object, const std::string& name, const Handle& space, const char* const* texts) {
   const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, name);
   check(H5Tset_size(type.get(), H5T_VARIABLE), name);
@@ -281,7 +281,7 @@ std::vector<std::string> members(hid_t file, const std::string& path) {
     static_cast<std::vector<std::string>*>(list)->emplace_back(name);
     return 0;
   };
-  // In the file's own order: where a read fails, the library frees the table of one that it was to sort before it has filled it.
+  // Uses the file's own order. Where a read fails, the library frees the table of a sorted order before it has filled it.
   if (H5Literate(group.get(), H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, add, &names) < 0)
     throw InputError("the group " + path + " of an HDF5 file cannot be read");
   std::ranges::sort(names);
@@ -300,8 +300,8 @@ void follow_no_links_into_other_files() {
   static_cast<void>(no_such_links);
 }
 
-/// Without HDF5's lock on the file: a process just started holds a copy of every open file, and the lock with it, until
-/// it runs its own program, so that a file closed here would for a moment be refused to the next who opens it.
+/// Opens without HDF5's lock on the file. A process just started holds a copy of every open file, and the lock with it, until it
+/// runs its own program. A file closed here would for a moment be refused to the next that opens it.
 Handle unlocked_access(const std::string& path) {
   static const herr_t no_clean_up_at_exit =
       H5dont_atexit();  // it ends by a signal where a file could not be written; handles close their files

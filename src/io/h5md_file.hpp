@@ -24,7 +24,7 @@ class Handle {
   Handle& operator=(Handle&& other) noexcept;
   ~Handle() { reset(); }
   void reset() noexcept;
-  /// The library writes what it still holds when it closes: where that fails, reset() would not say so. @throws EngineError as
+  /// The library writes its remaining data when it closes: where that fails, reset() would not say so. @throws EngineError as
   /// above
   void close(const std::string& what);
   [[nodiscard]] hid_t get() const noexcept { return id_; }
@@ -40,7 +40,8 @@ void check(herr_t status, const std::string& what);
 
 enum class Type { float64, int32, int64 };
 
-/// A dataset of shape frames x rows x width (width 0: frames x rows; rows 0 as well: frames) that grows by one frame at a time.
+/// A dataset that grows by one frame at a time. Its shape is frames x rows x width (width 0: frames x rows; rows 0 as well:
+/// frames).
 class Column {
  public:
   /// Rows that are not written hold NaN (or -1 for integers). The unit, if any, is an attribute of the dataset.
@@ -83,9 +84,9 @@ struct Block {
 /// @throws InputError when it is no readable HDF5 file
 [[nodiscard]] Handle open_for_reading(const std::string& path);
 [[nodiscard]] Handle open_for_change(const std::string& path);
-/// Who is killed while it writes leaves all that was flushed before (io/ordered_file.hpp).
+/// When a writer is killed, all frames flushed before stay readable (io/ordered_file.hpp).
 [[nodiscard]] Handle create_file(const std::string& path);
-/// Of the library's latest format, whose own structures carry checksums, after `user_block` bytes left free.
+/// Creates a file of the library's latest format, whose own structures carry checksums, after `user_block` bytes left free.
 [[nodiscard]] Handle create_latest(const std::string& path, std::size_t user_block);
 
 }  // namespace tripoint::h5

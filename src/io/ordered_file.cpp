@@ -52,10 +52,9 @@ int read_all(int file, haddr_t at, char* data, std::size_t size) {
   return 0;
 }
 
-/// Which block goes first: the superblock, which says where the file ends; then the nodes of indexes, those nearest to the root
-/// first, since a node that still has what it hands over does no harm; then the rest, as a dataset's extent, from the end of the
-/// file to its beginning, so that a dataset that was made first is the last to grow. (HDF5's format: a node begins with TREE,
-/// type, level.)
+/// Order of writes: 1. the superblock, which holds the end of the file; 2. index nodes, nearest to the root first; 3. all other
+/// blocks, from the end of the file to its beginning. A dataset made first therefore grows last. An early write of a node does no
+/// harm, because the old node still has the entries that it hands over. (HDF5's format: a node begins with TREE, type, level.)
 int rank_of(const std::pair<haddr_t, std::string>& block) {
   constexpr int first = 1000, last = -1;
   const std::string& bytes = block.second;
@@ -64,9 +63,9 @@ int rank_of(const std::pair<haddr_t, std::string>& block) {
   return last;
 }
 
-/// A file of HDF5. What lies where nothing lay at the last flush is written at once, since nothing leads to it yet; what replaces
-/// older bytes is held until the next flush. Once a change has failed there are no more: what the library still does to close
-/// would lead into the gap.
+/// A file of HDF5. Blocks where nothing lay at the last flush are written at once, since nothing leads to them yet. Blocks that
+/// replace older bytes are held until the next flush. Once a change has failed there are no more changes: the library's last
+/// writes, made to close the file, would lead into the gap.
 class OrderedFile {
  public:
   OrderedFile(int file, haddr_t end) : file_(file), end_of_file_(end) {}
@@ -116,7 +115,7 @@ class OrderedFile {
     return failure_;
   }
 
-  /// What could not be kept in memory is a gap as well.
+  /// A block that could not be kept in memory is a gap as well.
   int give_up() {
     if (failure_ == 0) failure_ = ENOMEM;
     return failure_;
@@ -155,7 +154,7 @@ class OrderedFile {
       fresh_;  ///< address -> size of blocks of the file's structure, before and since the last flush
 };
 
-/// What HDF5 holds of an open file; it fills in the first member.
+/// HDF5's view of an open file; it fills in the first member.
 struct Open {
   H5FD_t of_library;
   OrderedFile file;
@@ -165,13 +164,14 @@ struct Open {
 Open& own(H5FD_t* file) { return *reinterpret_cast<Open*>(file); }
 const Open& own(const H5FD_t* file) { return *reinterpret_cast<const Open*>(file); }
 
-/// Puts the reason for a failure where the library's own drivers put it, in their words: who called the library finds it there.
+/// Puts the reason for a failure where the library's own drivers put it, in their words. The caller of the library finds it
+/// there.
 void note_failure(int why) noexcept {
   H5Epush2(H5E_DEFAULT, __FILE__, "tripoint-ordered", __LINE__, H5E_ERR_CLS, H5E_IO, H5E_SYSERRSTR,
            "errno = %d, error message = '%s'", why, std::strerror(why));
 }
 
-/// No exception may pass through the library: for want of memory a call fails, and the file changes no more.
+/// No exception may pass through the library: where memory runs out the call fails, and the file changes no more.
 template <class Act>
 herr_t carry_out(H5FD_t* file, Act act) noexcept {
   OrderedFile& own_file = own(file).file;

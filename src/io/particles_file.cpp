@@ -26,7 +26,7 @@ void write_particles(const std::string& path, const InitialState& s) {
   writer.close();
 
   h5::Handle file = h5::open_for_change(path);
-  {  // a file closes after what is in it
+  {  // a file closes after the objects in it
     const h5::Handle group = h5::make_group(file.get(), "particles/all/source");
     h5::Column column(group.get(), "value", h5::Type::int32, n, 0, "");
     column.append(0, n, s.source.data());

@@ -23,8 +23,8 @@ struct BodyState {
   Vec3 force, torque;                         ///< from all others [N], [N m]
 };
 
-/// What an engine shows at one time: SI, world frame. Each column of particles has one value a particle, row = particle id, or is
-/// empty where the engine has no such values.
+/// Values that an engine shows at one time: SI, world frame. Each column of particles has one value a particle, row = particle
+/// id, or is empty where the engine has no such values.
 struct Snapshot {
   double time = 0.0;                           ///< [s]
   long step = 0;                               ///< steps that the engine has taken
@@ -42,7 +42,7 @@ struct Snapshot {
   std::map<std::string, double> energy;        ///< TERM of the ledger -> [J]
   std::map<std::string, double> counts;        ///< [1]: recoveries so far; objects that bonds hold together
   std::map<std::string, double> heat_given;    ///< name of a body -> heat given to it so far by what holds its temperature [J]
-  std::map<std::string, double> gauges;        ///< name of a gauge of the job -> what the engine itself reads there [SI]
+  std::map<std::string, double> gauges;        ///< name of a gauge of the job -> value that the engine itself reads there [SI]
   /// Whether the engine shows no particles at all: a solver of fields that answers by its gauges.
   [[nodiscard]] bool gauges_only() const { return position.empty() && temperature.empty() && !gauges.empty(); }
 };
@@ -73,7 +73,7 @@ class TrajectoryWriter {
   /// @throws EngineError when the disk is full or the file cannot be written
   void append(const Snapshot&);
   [[nodiscard]] long frames() const;
-  /// @throws EngineError when what the library still holds cannot be written
+  /// @throws EngineError when the library's remaining data cannot be written
   void close();
 
  private:
@@ -83,8 +83,8 @@ class TrajectoryWriter {
 
 inline constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
 
-/// Reads trajectory.h5. @throws InputError naming file and what is missing, torn or of the wrong shape, and where it has more
-/// than most_frames frames; sizes are bounded before reading.
+/// Reads trajectory.h5. @throws InputError naming the file and the part that is missing, torn or of the wrong shape, and where it
+/// has more than most_frames frames. Sizes are bounded before reading.
 [[nodiscard]] Trajectory read_trajectory(const std::string& path, std::size_t most_frames = any_number);
 /// Reads a small engine's trajectory.csv (contracts): rows of particles or, with the column `body`, of bodies.
 /// Masses, phases and materials come from `initial`. @throws InputError with the line, and where it has more than most_frames
@@ -103,7 +103,7 @@ void read_gauges_csv(const std::string& path, const std::vector<std::string>& na
 /// @throws InputError where the bytes are no whole trajectory: none of its sizes is taken on trust
 [[nodiscard]] Trajectory unpacked(const std::string& bytes, std::size_t most_frames = any_number);
 
-/// particles.h5: one frame, time 0, of what the harness sampled.
+/// particles.h5: one frame, time 0, of the particles that the harness sampled.
 void write_particles(const std::string& path, const InitialState&);
 [[nodiscard]] InitialState read_particles(const std::string& path);
 
@@ -115,8 +115,8 @@ void write_xdmf(const std::string& folder, const std::vector<double>& times, con
 [[nodiscard]] std::string state_hash(const Snapshot&);
 /// FNV-1a over the bits of all that was sampled.
 [[nodiscard]] std::string state_hash(const InitialState&);
-/// FNV-1a over the bits of all that these frames show, one after the other; rows that do not exist count for nothing, so that
-/// frames read back hash as they did when written.
+/// FNV-1a over the bits of all that these frames show, one after the other. Rows that do not exist count for nothing, so frames
+/// read back have the hash that they had when written.
 class FramesHash {
  public:
   void add(const Snapshot&);

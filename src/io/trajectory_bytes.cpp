@@ -54,7 +54,7 @@ void pack(const Trajectory& trajectory, Sink sink) {
   for (const Snapshot& s : trajectory.frames) each_part(s, packer);
 }
 
-/// Takes no size on trust: what says that it is longer than what is left is refused before memory is asked for.
+/// Takes no size on trust. An item that claims more than the remaining bytes is refused before memory is asked for.
 class Unpacker {
  public:
   explicit Unpacker(const std::string& bytes) : bytes_(bytes) {}

@@ -60,7 +60,7 @@ class Reader {
  private:
   static std::size_t total(const h5::Block& block) { return block.shape[0] * block.shape[1] * block.shape[2]; }
 
-  /// Blocks that a killed writer left torn are filled up with what can never pass for a value; their frames are cut off at the
+  /// Blocks that a killed writer left torn are padded with a marker that is never a valid value. Their frames are cut off at the
   /// end.
   void expect(h5::Block& block, std::size_t width, const std::string& what) {
     if (block.shape.size() < 3) block.shape.resize(3, 1);
@@ -82,8 +82,8 @@ class Reader {
     }
   }
 
-  /// Where a writer was killed while it made the columns wider for what is born in its last frame, those that it had not come to
-  /// are still narrow.
+  /// A writer makes the columns wider for particles born in its last frame. Where it was killed meanwhile, the columns that it
+  /// had not come to are still narrow.
   template <class T>
   void widen(const std::string& element, h5::Block& block, std::vector<T>& values, T nothing) {
     const std::size_t rows = rows_[element.substr(0, element.rfind('/'))], row = block.shape[2];
@@ -96,7 +96,7 @@ class Reader {
     block.shape[1] = rows;
   }
 
-  /// H5MD gives each element times of its own: what is not of the times of the positions is not of these frames.
+  /// H5MD gives each element times of its own. An element without the times of the positions is not of these frames.
   void expect_own_times(const std::string& element) const {
     const std::string name = "/" + element + "/time";
     if (!h5::has(file_.get(), name)) return;

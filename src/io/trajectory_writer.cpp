@@ -73,7 +73,7 @@ struct TrajectoryWriter::Impl {
     if (at == columns.end()) {
       if (frames > 0) throw EngineError(path + ": " + element + " appears after the first frame");
       const h5::Handle group = h5::make_group(file.get(), element);
-      link_time(group.get());  // before the column: what is made first is written last
+      link_time(group.get());  // before the column: the object that is made first is written last
       at = columns.emplace(element, h5::Column(group.get(), "value", type, rows, width, unit)).first;
     }
     at->second.append(static_cast<std::size_t>(frames), rows == scalar ? 1 : rows, data);

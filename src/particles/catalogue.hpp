@@ -21,7 +21,8 @@ inline constexpr Field<double> density{"density", "kg/m3"};
 // liquids and contact (4), (7)-(9)
 inline constexpr Field<double> volume{"volume", "m3"}, pressure{"pressure", "Pa"};
 inline constexpr Field<double> force_x{"force.x", "N"}, force_y{"force.y", "N"}, force_z{"force.z", "N"};  ///< of pressure
-/// Whose members exert nothing on each other: its values are below.
+/// Group of the particle. Members of one group of 0 and above exert no force on each other. The values are listed at the end of
+/// this file.
 inline constexpr Field<double> group{"group", "1"};
 /// Transport velocity less velocity.
 inline constexpr Field<double> shift_x{"shift.x", "m/s"}, shift_y{"shift.y", "m/s"}, shift_z{"shift.z", "m/s"};
@@ -29,19 +30,19 @@ inline constexpr Field<double> shift_x{"shift.x", "m/s"}, shift_y{"shift.y", "m/
 /// sum of W(x_ij) over the own pairs of a member of a deformable body: a constant part of its number density (model 8.2)
 inline constexpr Field<double> own_density{"own_density", "1/m3"};
 
-/// Who moves a particle that forces do not: 0 nobody, else a code of those below.
+/// Code of the agent that moves this particle in place of forces: 0 none, else one of the codes at the end of this file.
 inline constexpr Field<int> driven{"driven", "1"};
 
 // elastic solids (10)-(17)
-/// A_i = pinv M_i of the reference list (model 8.7), symmetric; its rank: 3 solid (and members of rigid bodies that own no strain
-/// energy), 2 sheet, 1 chain, 0 without neighbours.
+/// A_i = pinv M_i of the reference list (model 8.7), symmetric, and its rank: 3 solid, 2 sheet, 1 chain, 0 without neighbours.
+/// Members of rigid bodies that own no strain energy have rank 3.
 inline constexpr Field<double> shape_inverse_xx{"shape_inverse.xx", "1"}, shape_inverse_yy{"shape_inverse.yy", "1"},
     shape_inverse_zz{"shape_inverse.zz", "1"};
 inline constexpr Field<double> shape_inverse_yz{"shape_inverse.yz", "1"}, shape_inverse_xz{"shape_inverse.xz", "1"},
     shape_inverse_xy{"shape_inverse.xy", "1"};
 inline constexpr Field<int> shape_rank{"shape_rank", "1"};
 inline constexpr Field<double> solid_volume{"solid_volume", "m3"};  ///< v_i: m/rho0, printed (11)
-/// Whose constants the strain energy of a particle has, and how many times: 0 where it owns none.
+/// Material whose constants the strain energy of a particle has, and how many times: 0 where it owns none.
 inline constexpr Field<int> solid_material{"solid_material", "1"};
 inline constexpr Field<double> solid_stiffness{"solid_stiffness", "1"};
 /// 1 where neither this particle nor any of its body neighbours is a sheet or a chain.
@@ -59,7 +60,7 @@ inline constexpr Field<int> may_flow{"may_flow", "1"};  ///< 1 where the strain 
 
 // phase change, Fig. 5
 inline constexpr Field<double> liquid_fraction{"liquid_fraction", "1"};
-/// What is left of E and mu of a solid that softens.
+/// Remaining share of E and mu of a solid that softens.
 inline constexpr Field<double> stiffness_share{"stiffness_share", "1"};
 
 // heat (21)
@@ -71,7 +72,7 @@ inline constexpr Field<int> held{"temperature.held", "1"};
 // solid bodies: one row for each that ever existed, [[body]] order, then births
 inline constexpr Field<double> body_mass{"body.mass", "kg", Per::body};
 inline constexpr Field<Vec3> body_centre{"body.centre", "m", Per::body}, body_velocity{"body.velocity", "m/s", Per::body};
-/// Of the last kick: what it added to the velocities, over its length.
+/// Velocity change of the last kick, divided by the kick's length.
 inline constexpr Field<Vec3> body_acceleration{"body.acceleration", "m/s2", Per::body},
     body_angular_acceleration{"body.angular_acceleration", "rad/s2", Per::body};
 inline constexpr Field<Vec3> body_angular_momentum{"body.angular_momentum", "kg m2/s", Per::body};
@@ -99,10 +100,10 @@ inline constexpr Field<int> body_motion{"body.motion", "1", Per::body}, body_ali
 
 namespace tripoint {
 
-/// Values of field::group; members of a free rigid body have 1 + its row. What is of one group of 0 and above exerts nothing on
-/// its like.
+/// Values of field::group; members of a free rigid body have 1 + its row. Members of one group of 0 and above exert no force on
+/// each other.
 inline constexpr double deformable_group = -2.0, liquid_group = -1.0, wall_group = 0.0;
-/// Whether what is of this group exerts something on every other particle, also of its own group.
+/// Whether a particle of this group exerts a force on every other particle, also of its own group.
 [[nodiscard]] constexpr bool acts_on_all(double group) noexcept { return group < wall_group; }
 
 /// Values of field::driven: flowing in, held in place, and from there on the number of the event that grips.

@@ -47,8 +47,8 @@ class Columns {
   }
   [[nodiscard]] std::vector<FieldInfo> fields() const;
 
-  /// Only these columns are given out until it is called anew; null: all. It is looked at where a column is fetched, not where a
-  /// value is, and in the test build alone: what users get pays nothing for it.
+  /// Only these columns are given out until it is called anew; null: all. The test build alone checks this, where a column is
+  /// fetched, not at each value. The users' build pays nothing for it.
   void show_only(const DeclaredFields* declared) const noexcept { declared_ = declared; }
 
   /// @throws MissingField by name when no effect of this scene owns it   @throws UndeclaredField where show_only() hides it
@@ -72,15 +72,15 @@ class Columns {
       std::visit([&](const auto& values) { visit(c.info, std::span(values.data(), rows_)); }, c.values);
   }
 
-  /// Row n becomes what was row order[n], in every column; spans taken before are no longer valid. @param order a permutation of
-  /// 0..size()-1
+  /// Row n takes the values of the old row order[n], in every column; spans taken before are no longer valid. @param order a
+  /// permutation of 0..size()-1
   void permute(std::span<const std::uint32_t> order, int threads = 1);
-  /// Row to[k] becomes what was row from[k], in every column, for each k; other rows stay. @param from,to the same rows, each
-  /// once
+  /// Row to[k] takes the values of the old row from[k], in every column, for each k; other rows stay. @param from,to the same
+  /// rows, each once
   void rearrange(std::span<const std::uint32_t> from, std::span<const std::uint32_t> to, int threads = 1);
   static constexpr std::uint32_t none = ~std::uint32_t{0};
-  /// As many rows from now on as `from` has: row n becomes what was row from[n], in every column. What is in it where from[n] is
-  /// `none` is not said, and to be written.
+  /// Resizes every column to from.size() rows. Row n takes the values of the old row from[n]. Where from[n] is `none` the row is
+  /// uninitialised, and the caller must write it.
   void gather(std::span<const std::uint32_t> from);
   /// Adds a row of zeros to every column; spans taken before are no longer valid.
   void append_row();

@@ -5,9 +5,9 @@
 
 namespace tripoint {
 
-/// An entry of a neighbour list: the row of j in the low 26 bits and, from bit 27 on, the image of the box that j is seen in.
-/// Lists keep own pairs in a column beside (Clusters::own); RowEntries sets the bit between the two for who walks the entries of
-/// one row.
+/// An entry of a neighbour list. The low 26 bits are the row of j. The bits from 27 on are the periodic image in which j is seen.
+/// Lists keep own pairs in a separate column (Clusters::own). RowEntries sets the bit between the two while a caller walks the
+/// entries of one row.
 struct Entry {
   std::uint32_t bits;
   static constexpr std::uint32_t row_bits = 26, row_mask = (1u << row_bits) - 1, own_bit = 1u << row_bits,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lists where fixed particles can sleep: rows of what moves, of what is fixed and read, and of what sleeps (decisions 020, 028).
+// Lists where fixed particles can sleep: rows of moving particles, of fixed ones that are read, and of sleeping ones (decisions
+// 020, 028).
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -36,12 +37,13 @@ std::vector<std::uint32_t> sort_by_cell(const std::vector<std::uint32_t>& rows, 
   return place;
 }
 
-/// A permutation of rows: what is in row from[k] goes to row to[k].
+/// A permutation of rows: the content of row from[k] goes to row to[k].
 struct Moves {
   std::vector<std::uint32_t> from, to;
 };
 
-/// The rows `was` come to the front, in that order. What was in these rows goes to those that were left; the rest stays.
+/// The rows `was` come to the front, in that order. Rows displaced from the front take the places that became free; all other
+/// rows stay.
 Moves bring_to_front(const std::vector<std::uint32_t>& was, std::size_t all) {
   std::vector<char> taken(all, 0);
   for (const std::uint32_t one : was) taken[one] = 1;
@@ -160,13 +162,13 @@ Neighbours::Awake Neighbours::awake_rows(const Particles& particles, const Grid&
   return found;
 }
 
-/// Rows of what moves first, ordered by (cell, id); then of the fixed particles that a step reads, in that order; then of those
-/// that are in reach and act by their place alone; then what sleeps, most of it where it was.
+/// Row order: 1. moving particles; 2. fixed particles that a step reads; 3. fixed particles in reach that act only by their
+/// position; 4. sleeping particles. The first two groups are sorted by (cell, id). Most sleeping particles keep their row.
 void Neighbours::sort_awake(Particles& particles, Grid& grid, const Resting& resting) {
   const std::size_t n = particles.size();
   const auto x = positions(particles);
   const auto id = particles[field::id];
-  still_.place.resize(n, ~std::uint32_t{0});  // what has flowed in moves
+  still_.place.resize(n, ~std::uint32_t{0});  // particles that have flowed in move
   const auto [rows, part, can_meet] = awake_rows(particles, grid, resting);
   const std::vector<std::uint32_t> place = sort_by_cell(rows, x, id, grid, threads_);
   if (!grid_ || grid_->count != grid.count) {  // their order stays where there are more cells or fewer
@@ -267,8 +269,8 @@ void Neighbours::list_sleeping() {
   list({x.data(), y.data(), z.data()}, *grid_, clusters_.on_demand, listed_by_[2]);
 }
 
-/// Pairs of what has no list are counted all the same. Those of moving with fixed particles were counted twice, since the lists
-/// of the fixed ones do not count; those among fixed ones are known.
+/// Pairs without a list are counted too. A pair of a moving and a fixed particle was counted twice, because the lists of fixed
+/// particles do not count. The number of pairs among fixed particles is known.
 void Neighbours::count_still_pairs(const Particles& particles) {
   if (!listed_all_) pairs_ += still_.pairs;
   if (!may_rest_next()) return;

@@ -10,8 +10,8 @@
 
 namespace tripoint {
 
-/// Cells finer than the list's reach, most of all in x, which runs fastest: as measured, so that the particles of a cluster are
-/// near to each other and what is near to them is few whole rows of cells.
+/// Cells are finer than the reach of the lists, most of all in x, whose index runs fastest. The numbers are measured. The
+/// particles of a cluster are then near each other, and their neighbours fill few whole rows of cells.
 struct Neighbours::Grid {
   static constexpr std::array<double, 3> cells_a_reach{6.0, 1.5, 1.5};
   static constexpr int cells_a_stretch = 6;  ///< see Neighbours::Still
@@ -57,7 +57,7 @@ struct Neighbours::Grid {
     }
   }
 
-  /// Of the cells of a whole scene those that a part of it, with these corners, touches: never more than the whole has.
+  /// Keeps the cells of a whole scene that its part between these corners touches: never more than the whole has.
   void keep(const Vec3& low, const Vec3& high, const PeriodicBox& box) {
     for (std::size_t a = 0; a < 3; ++a) {
       if (box.periodic[a]) continue;

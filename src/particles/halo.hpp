@@ -23,30 +23,31 @@ struct WholeScene {
   OwnPairs own;
 };
 
-/// What a simulation asks of those that hold the rest of its scene, where this process holds a part of it (decision 021). Its
-/// rows are then its own particles and, after them, copies of those of others that are within reach of its own. What a step does
-/// to a particle by itself, all do that see it, with the same bits; its sums over pairs are complete at its owner alone, who
-/// hands them on. Every call is made by all processes, in the same order.
+/// The other processes, as seen by a simulation that holds a part of its scene (decision 021). Its rows are its own particles,
+/// then copies of particles of other processes within reach of them. A change of a particle by itself is made by every process
+/// that has it, with the same bits. Sums over pairs are complete at the owner only, which sends them to the copies. All
+/// processes make every call, in the same order.
 class Halo {
  public:
   virtual ~Halo() = default;
-  /// Each process holds the whole scene, by number, and all hold the same: of it each keeps its part, as migrate() leaves it.
-  /// More particles than before are taken in.
-  /// @param places by number, to share out by [m], where lists are to be those of before; empty: the places of now
-  /// @param cost of each in a step, by number, in a unit of any kind: parts are then made anew so that each costs as much; empty:
-  /// parts of space stay as they are
+  /// On entry each process holds the same whole scene, ordered by particle number. It keeps its part, as migrate() leaves it. The
+  /// scene may have more particles than before.
+  /// @param places positions by particle number, used to split the scene as it was at the last lists [m]; empty: the present
+  /// positions
+  /// @param cost cost of each particle in one step, by number, any unit. If given, the parts are recut so that each has the same
+  /// cost. Empty: the parts of space stay
   virtual void share_out(Particles&, Bonds&, OwnPairs&, const PeriodicBox&, std::span<const Vec3> places,
                          std::span<const double> cost) = 0;
-  /// The whole scene, for each process: what share_out() takes again. Parts stay as they are.
+  /// The whole scene, for each process, as share_out() takes it again. Parts stay as they are.
   [[nodiscard]] virtual WholeScene gather(const Particles&, const Bonds&, const OwnPairs&) = 0;
-  /// Who has a part of space now is handed what has moved there, and copies of what is within reach of it. Ids are 0..size()-1
-  /// anew, those of own particles first; every column goes with its particle, and so do its bonds and own pairs
-  /// (moving_lists.hpp): what one of its own has a bond with is among the copies, however far it is. Nobody may change lists of a
-  /// scene that is shared out. Each particle is here once, at the place that its owner has: who sees it across a periodic
-  /// boundary does so as one process does.
-  /// @param cost of each of its own, by id, as in share_out()
+  /// Particles go to the process that owns their part of space, and each process gets copies of particles within reach of its
+  /// own. Ids are renumbered 0..size()-1, own particles first. Every column, bond and own pair goes with its particle
+  /// (moving_lists.hpp). The bond partners of own particles are always among the copies, at any distance. Nobody may change lists
+  /// of a shared scene. Each particle is here once, at the position that its owner has. Across a periodic boundary it is seen as
+  /// in a run of one process.
+  /// @param cost cost of each own particle, by id, as in share_out()
   virtual void migrate(Particles&, Bonds&, OwnPairs&, const PeriodicBox&, std::span<const double> cost) = 0;
-  /// Of each id here its number among the particles of all processes.
+  /// Number of each particle here, by id, among the particles of all processes.
   /// @pre the scene is shared out
   [[nodiscard]] virtual std::span<const int> numbers() const = 0;
   /// Directions in which the scene is split, some of which may be periodic. None:
@@ -63,12 +64,12 @@ class Halo {
   [[nodiscard]] virtual std::vector<double> all_of(const std::vector<double>& own) = 0;
   /// A number becomes the least of all processes, and the word the one beside it.
   virtual void take_least(double& number, std::string& word) = 0;
-  /// Whether this is the one process that tells what all hold alike.
+  /// Whether this is the one process that reports values that all hold alike.
   [[nodiscard]] virtual bool is_first() const = 0;
 };
 
-/// Where each record of `width` numbers begins, in order of their first numbers: what is summed so has the bits of one process,
-/// however particles are shared out. Those of equal first numbers stay in their order.
+/// Start of each record of `width` numbers, in ascending order of the first numbers. A sum in this order has the bits of one
+/// process, however particles are shared out. Records of equal first numbers stay in their order.
 [[nodiscard]] inline std::vector<const double*> records_in_order(const std::vector<double>& all, std::size_t width) {
   std::vector<const double*> order;
   for (std::size_t k = 0; k < all.size(); k += width) order.push_back(&all[k]);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t of_counts = 2, of_bond = 8, of_own = 2;  ///< numbers
 
-/// The ids here of a particle, by its number: of its own before copies, of which there is one for each image that is near.
+/// The ids here of a particle, by its number: an own particle before its copies. There is one copy for each image that is near.
 class Ids {
  public:
   explicit Ids(const std::vector<int>& number) {

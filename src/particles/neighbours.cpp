@@ -14,7 +14,7 @@ namespace tripoint {
 namespace {
 
 const char* const axis_names[] = {"x", "y", "z"};
-/// @param listed rows that the last lists knew: of these, what is fixed is where it was
+/// @param listed rows that the last lists knew: the fixed ones among them have not moved
 void refuse_not_finite(const Particles& particles, double time, std::size_t listed) {
   const auto x = positions(particles);
   for (std::size_t i = 0; i < particles.size(); ++i) {
@@ -62,8 +62,7 @@ Neighbours Neighbours::anew(const PeriodicBox& box) const {
 bool Neighbours::outdated(const Particles& particles) const {
   if (!are_made_ || built_.size() != particles.size() || rebuilds_ == 0) return true;
   const auto x = positions(particles);
-  const double limit =
-      0.25 * skin_ * skin_ * (1.0 - 1e-9);  // beyond rounding: what is within the support now was within reach then
+  const double limit = 0.25 * skin_ * skin_ * (1.0 - 1e-9);  // beyond rounding: all within the support now was within reach then
   double greatest = 0.0;
 #pragma omp parallel for schedule(static) num_threads(threads_) reduction(max : greatest) if (particles.moving() > worth_threads)
   for (std::size_t i = 0; i < particles.moving(); ++i) {
@@ -105,7 +104,7 @@ void Neighbours::wrap(Particles& particles) const {
   const std::array<std::span<int>, 3> n{image.x, image.y, image.z};
   for (std::size_t a = 0; a < 3; ++a) {
     if (!box_.periodic[a]) continue;
-    for (std::size_t i = 0; i < particles.size(); ++i) {  // what sleeps is within the box
+    for (std::size_t i = 0; i < particles.size(); ++i) {  // sleeping particles are within the box
       const double widths = std::floor((r[a][i] - box_.min[a]) / box_.width[a]);
       if (widths == 0.0) continue;
       r[a][i] -= widths * box_.width[a];
@@ -202,8 +201,8 @@ void Neighbours::sort_all(Particles& particles, Grid& grid) {
   grid_.reset();
 }
 
-/// Of a scene that is shared out, rows of this process's own come before those of copies, each in the order of (cell, number): a
-/// cluster has then members of one kind, and copies need no lists, since their sums are their owners'.
+/// In a shared scene the rows of this process's own particles come before the rows of copies, each in order of (cell, number). A
+/// cluster then has members of one kind. Copies need no lists, because their owners form their sums.
 /// @param order of each place the row that it was, and then of each row
 void Neighbours::bring_own_first(const Particles& particles, std::vector<std::uint32_t>& order) {
   own_first_.clear();
@@ -218,7 +217,7 @@ void Neighbours::bring_own_first(const Particles& particles, std::vector<std::ui
   order.swap(rows);
 }
 
-/// Clusters of what moves, then of what is fixed. The first are those that have lists.
+/// Clusters of moving particles, then of fixed ones. The first are those that have lists.
 void Neighbours::form_clusters(const Particles& particles, const Grid& grid) {
   Clusters& c = clusters_;
   const std::size_t rows = order_.empty() ? particles.size() : order_.size();
@@ -239,8 +238,8 @@ void Neighbours::form_clusters(const Particles& particles, const Grid& grid) {
   for (std::uint32_t k = 0; k < c.size() && c.first[k] < own; ++k) c.listed.push_back(k);
 }
 
-/// Of these rows. Clusters end with a row of cells, so that what is near to their members has the same order for each of them,
-/// and where rows begin that can meet nothing that moves.
+/// Makes clusters of these rows. A cluster ends with a row of cells, so that its members have their neighbours in the same order.
+/// It also ends where rows begin that can meet no moving particle.
 void Neighbours::add_clusters(const Grid& grid, std::size_t from, std::size_t to) {
   if (from == to) return;
   Clusters& c = clusters_;
@@ -260,9 +259,9 @@ void Neighbours::add_clusters(const Grid& grid, std::size_t from, std::size_t to
   }
 }
 
-/// Lists some clusters, ascending, after the entries that there are. Each thread lists a run of them into a room of its own, as
-/// large as at the last build and a little more; where that is too small, as at the first, the lists are made again. So they are
-/// never held twice.
+/// Lists some clusters, ascending, after the entries that there are. Each thread lists a run of clusters into its own buffer, as
+/// large as at the last build and a little more. Where a buffer is too small, as at the first build, the lists are made again. So
+/// entries are never held twice.
 /// @param clusters those after the first have no list yet   @param listed_by entries of each thread, at the last build and here
 /// @return directed pairs
 std::size_t Neighbours::list(const Places& places, const Grid& grid, std::span<const std::uint32_t> clusters,

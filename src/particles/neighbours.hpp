@@ -25,8 +25,8 @@ struct PeriodicBox {
   [[nodiscard]] bool any() const noexcept { return periodic[0] || periodic[1] || periodic[2]; }
 };
 
-/// Clusters of up to `lanes` consecutive rows, each with one list of the rows that are near to any of its members: what a vector
-/// of particles is worked on with.
+/// Clusters of up to `lanes` consecutive rows. Each has one list of the rows that are near to any of its members. A pass works on
+/// a cluster as one vector of particles.
 struct Clusters {
   int lanes = 1;
   std::vector<std::uint32_t> first;    ///< first row of each cluster, and one past the last row
@@ -34,14 +34,15 @@ struct Clusters {
   std::vector<std::uint32_t> entries;  ///< row and image, as in Entry
   std::vector<std::uint8_t> near;      ///< of each entry: bit l where it is near to member l; a particle is not near to itself
   std::vector<std::uint8_t> own;       ///< of each entry: bit l where it is an own pair of member l; empty where there is none
-  /// Of each entry a bit: whether it is within the support of a member now, not only near to it. Each cluster begins a word, at
-  /// within_start(). As found by the last pass that finds them: of the present places, as densities are. Empty where none has.
+  /// One bit for each entry: whether it is within the support of a member now, not only near to it. Each cluster begins a word,
+  /// at within_start(). The last finding pass sets them for the present places, as densities are. Empty where no pass has set
+  /// them.
   std::vector<std::uint64_t> within;
-  /// Of each entry a bit, as in `within`: whether it acts on a member at all. Found anew with each list; empty where all may.
+  /// One bit for each entry, as in `within`: whether it acts on a member at all. Found anew with each list; empty where all may.
   std::vector<std::uint64_t> acting;
   std::vector<std::uint32_t> listed,  ///< clusters with a list, ascending
       unlisted,                       ///< without, since all they meet is fixed as they are
-      on_demand;  ///< of what sleeps in reach of what moves, after all others: see Neighbours::list_sleeping()
+      on_demand;  ///< of sleeping rows in reach of moving ones, after all others: see Neighbours::list_sleeping()
   [[nodiscard]] std::size_t size() const noexcept { return first.empty() ? 0 : first.size() - 1; }
   /// The cluster that a row is a member of.
   [[nodiscard]] std::uint32_t of(std::size_t row) const {
@@ -96,7 +97,7 @@ class RowEntries {
   unsigned lane_;
 };
 
-/// What can sleep: see Particles.
+/// Particles that can sleep: see Particles.
 struct Resting {
   std::vector<char> bodies;  ///< of each solid body, 1 where its members stay where they are; empty: nothing sleeps
   double around =
@@ -104,7 +105,7 @@ struct Resting {
   std::span<const char> unread{};  ///< of each id, 1 where no step reads of a fixed particle but its place; empty: it reads all
 };
 
-/// What the lists of a part of a scene know of the whole, so that each list has the order that it has there.
+/// Facts about the whole scene that the lists of a part need, so that each has the order that it has in the whole.
 struct Whole {
   Vec3 low, high;             ///< corners of all places that are listed [m]
   std::size_t particles = 0;  ///< of the whole
@@ -112,9 +113,9 @@ struct Whole {
   std::size_t own = 0;        ///< ids below it are no copies
 };
 
-/// Full directed lists: every i has all its j within support + skin, ordered by (cell, id) at the last rebuild, so that
-/// a sum over them has the same bits whatever the threads or the order of particles before. Periodic images count each;
-/// a particle may be its own neighbour through a periodic boundary.
+/// Full directed lists: every i has all its j within support + skin, ordered by (cell, id) at the last rebuild. A sum over them
+/// has the same bits for any number of threads and any earlier order of particles. Periodic images count each; a particle may be
+/// its own neighbour through a periodic boundary.
 class Neighbours {
  public:
   /// @param support radius beyond which pairs do nothing [m]
@@ -125,9 +126,9 @@ class Neighbours {
 
   /// Sorts the particles and lists them anew when one has moved by more than skin/2 since the last time.
   /// @throws Diverged when a position is not finite
-  /// @param resting asked where lists are made. What sleeps is left out of them, and what is awake and can meet only what is
-  /// fixed has none. Members of fixed bodies must not have moved since the rebuild before the last. The first lists are whole: of
-  /// all particles
+  /// @param resting asked where lists are made. Sleeping particles are left out of the lists. An awake particle that can meet
+  /// only fixed ones has no list. Members of fixed bodies must not have moved since the rebuild before the last. The first lists
+  /// are whole: of all particles
   /// @return whether the rows have a new order
   bool update(Particles&, double time, const std::function<Resting()>& resting = {});
   /// Lists the particles anew from the positions of an earlier rebuild, as a restart must to continue the same bits.
@@ -157,8 +158,8 @@ class Neighbours {
   /// Whether that was done since the last rebuild.
   [[nodiscard]] bool marked() const noexcept { return marked_; }
 
-  /// Lists also what sleeps though something that moves can reach it, as the last lists would have: once for each of them, and
-  /// only where somebody asks what it has beside its place.
+  /// Also lists sleeping particles that something moving can reach, as the last lists would have. This is done once for each set
+  /// of lists, and only when values other than their places are asked for.
   void list_sleeping();
   /// Rows 0..rows()-1 are members of clusters, with a list or without.
   [[nodiscard]] std::size_t rows() const noexcept { return clusters_.size() > 0 ? clusters_.first.back() : 0; }
@@ -175,17 +176,17 @@ class Neighbours {
   [[nodiscard]] double support() const noexcept { return support_; }
   [[nodiscard]] std::size_t entries() const noexcept {
     return pairs_;
-  }  ///< directed pairs within support + skin, of what sleeps too
-  /// Lists of all particles that were made until now. What follows from fixed places alone is to be found with them.
+  }  ///< directed pairs within support + skin, of sleeping rows too
+  /// Lists of all particles that were made until now. Quantities that follow from fixed places alone are to be found anew with
+  /// them.
   [[nodiscard]] long whole_lists() const noexcept { return whole_lists_; }
-  /// Whether the present lists are whole, and those after them need not be: who keeps what follows from fixed places alone finds
-  /// it now.
+  /// Whether the present lists are whole, and the next need not be. Quantities that follow from fixed places alone are found now.
   [[nodiscard]] bool may_rest_next() const noexcept { return still_.known && listed_all_; }
   /// Fixed particles by id, in an order that stays; the place of one in it. Only where may_rest_next() or something sleeps.
   [[nodiscard]] std::span<const std::uint32_t> still_ids() const noexcept { return still_.id; }
   [[nodiscard]] std::uint32_t still_place(std::size_t id) const noexcept { return still_.place[id]; }
-  /// First moving row of each block of 1024 rows, and one past the last: blocks are counted over all rows in order of (cell, id),
-  /// as if what is fixed lay among them.
+  /// First moving row of each block of 1024 rows, and one past the last. Blocks are counted over all rows in order of (cell, id),
+  /// as if fixed rows lay among the moving ones.
   [[nodiscard]] std::span<const std::uint32_t> row_blocks() const noexcept { return row_blocks_; }
   /// All rows in order of (cell, id).
   [[nodiscard]] std::vector<std::uint32_t> rows_in_order(const Particles&) const;
@@ -233,7 +234,7 @@ class Neighbours {
   Clusters clusters_;
   ScanFunction scan_;
   std::array<std::vector<std::size_t>, 3>
-      listed_by_;  ///< entries of each thread at the last build, of what moves, is fixed, and sleeps
+      listed_by_;  ///< entries of each thread at the last build, of moving, fixed and sleeping rows
   std::size_t pairs_ = 0;
   std::vector<Vec3> built_;
   /// Fixed particles in stretches along x, each as long as the reach of a list and one cell wide: they are woken by stretches.

@@ -11,9 +11,9 @@
 
 namespace tripoint {
 
-/// Lists of partners by particle id, each a stretch of one pool in order of insertion: a change costs what it changes, and
-/// neither threads nor the order of rows touch the order of a list. Changes are counted, so that what is made from lists can
-/// follow.
+/// Lists of partners by particle id, each a stretch of one pool, in order of insertion. The cost of a change depends on its size
+/// alone. Neither threads nor the order of rows affect the order of a list. Changes are counted, so that data made from the lists
+/// can follow.
 template <class Pair>
 class PairLists {
  public:

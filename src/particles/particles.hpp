@@ -11,16 +11,16 @@
 namespace tripoint {
 
 /// The particles of a scene. Rows are in order of the neighbour grid's cells; ids are for ever. Where members of fixed bodies can
-/// sleep, what moves has the first rows, then come the fixed particles that a step reads, each in that order; then those that
-/// sleep: nothing that moves can reach them, or they act by their place alone (decisions 020 and 028).
+/// sleep, moving particles have the first rows, then come the fixed particles that a step reads. Each of the two has that order.
+/// Sleeping particles come last: nothing that moves can reach them, or they act by their place alone (decisions 020 and 028).
 class Particles : public Columns {
  public:
   Particles() = default;
   /// Particles 0..count-1, in rows of the same number. @param fields every field that the scene's effects own
   Particles(std::size_t count, std::span<const FieldInfo> fields);
 
-  /// Other particles in the same columns: particle n has what was in row rows[n], or what is to be written where that is `none`.
-  /// number() is to be called then.
+  /// Other particles in the same columns. Particle n has the values of the old row rows[n]; where that is `none` the caller must
+  /// write them. number() is to be called then.
   void make_of(std::span<const std::uint32_t> rows) { gather(rows); }
   /// Row n is of particle n from now on.
   void number();
@@ -28,7 +28,7 @@ class Particles : public Columns {
   /// Row of the particle with this id, which is in 0..size()-1.
   [[nodiscard]] std::size_t row(std::size_t id) const noexcept { return row_of_id_[id]; }
   [[nodiscard]] std::span<const std::uint32_t> rows() const noexcept { return row_of_id_; }  ///< of each id
-  /// Rows 0..moving()-1 are of what is not known to be fixed: forces, velocities and places are theirs.
+  /// Rows 0..moving()-1 are of particles that are not known to be fixed: forces, velocities and places are theirs.
   [[nodiscard]] std::size_t moving() const noexcept { return moving_; }
   /// Rows 0..awake()-1 take part in a step.
   [[nodiscard]] std::size_t awake() const noexcept { return awake_; }

@@ -63,7 +63,7 @@ double most_copies(const ToShareOut& what, const Cuts& cuts, std::size_t a) {
   return std::ranges::max(copies);
 }
 
-/// What a step takes, in entries.
+/// Predicted cost of a step, in entries.
 double predicted_step(const ToShareOut& what, const Cuts& cuts) {
   const int ranks = cuts.grid[0] * cuts.grid[1] * cuts.grid[2];
   std::vector<double> rows(static_cast<std::size_t>(ranks), 0.0), entries = rows;

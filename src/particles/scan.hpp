@@ -15,7 +15,7 @@ struct CandidateRange {
   std::uint32_t from, to, image;
 };
 
-/// What a cluster's list is made from.
+/// Input for the list of one cluster.
 struct Scan {
   const double *x, *y, *z;  ///< positions by row, readable a whole vector past the last [m]
   std::size_t first;        ///< first row of the cluster
@@ -33,8 +33,8 @@ struct Scanned {
   std::size_t entries, pairs;
 };
 
-/// Writes what is within reach of any member, in the order of the ranges: as in Entry, and to `near` the bits of the
-/// members that it is near to. Both must have room for all candidates.
+/// Writes the candidates within reach of any member, in the order of the ranges, as in Entry. `near` gets the bits of the members
+/// that each one is near to. Both must have room for all candidates.
 using ScanFunction = Scanned (*)(const Scan&, std::uint32_t* rows, std::uint8_t* near);
 
 template <int L, class ForUnit, bool ordered>

@@ -16,9 +16,9 @@ namespace {
 
 enum Work : std::uint8_t { none = 0, density = 1, rates = 2, density_is_still = 4 };
 
-/// What is to be done for a cluster. Two act on each other unless they are an own pair, or members of one group of 0 and above.
-/// @param moving rows that are not apart from those of what moves   @param acting of each entry of the cluster a bit, set where
-/// it acts on a member; zero until now
+/// The work that a cluster needs. Two act on each other unless they are an own pair, or members of one group of 0 and above.
+/// @param moving number of rows that may move @param acting of each entry of the cluster a bit, set where it acts on a member;
+/// zero until now
 Work work_of(const Clusters& c, std::size_t cluster, std::span<const double> group, const std::vector<char>& fixed,
              std::size_t moving, bool leaves_own, std::uint64_t* acting) {
   const std::uint32_t first = c.first[cluster], past = c.first[cluster + 1];
@@ -122,7 +122,7 @@ void BusyClusters::find(World& world, bool leaves_own) {
   known_ = true;
 }
 
-/// What the density of fixed particles is where they meet nothing else, for when their lists are no longer made.
+/// Finds the density of fixed particles that meet only fixed ones, for the time when their lists are no longer made.
 void BusyClusters::learn_still(const PassFunction& pass, World& world, const PairKernels& kernels) {
   Neighbours& n = *world.neighbours;
   Particles& p = world.particles;
@@ -146,7 +146,7 @@ void BusyClusters::learn_still(const PassFunction& pass, World& world, const Pai
   still_known_ = n.whole_lists();
 }
 
-/// Sums over all lists there are; who has none gets what it has among what is fixed.
+/// Sums over all lists there are. A particle without a list gets its density among fixed particles.
 void BusyClusters::sum_listed(const PassFunction& pass, World& world, const PairKernels& kernels) {
   Neighbours& n = *world.neighbours;
   Particles& p = world.particles;
@@ -183,8 +183,8 @@ void BusyClusters::put_back(const PassFunction& pass, Particles& p) const {
   }
 }
 
-/// The first over new lists sums all, also because the passes that follow ask which pairs are within the support. So does the one
-/// after what is fixed was put to its place by its body's pose, which can move it by a rounding error.
+/// The first over new lists sums all, also because the passes that follow ask which pairs are within the support. So does the
+/// first one after fixed particles were placed by their body's pose, which can move them by a rounding error.
 void BusyClusters::sum_density(const PassFunction& pass, World& world, const PairKernels& kernels, bool leaves_own) {
   Particles& p = world.particles;
   if (known_ && placed_ == world.placed) {

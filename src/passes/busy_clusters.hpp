@@ -10,15 +10,15 @@
 
 namespace tripoint {
 
-/// Of each row of these whether it never moves: a member of a fixed rigid body. Beyond Particles::moving() all are.
+/// For each of these rows, whether it never moves: a member of a fixed rigid body. Beyond Particles::moving() all rows are fixed.
 [[nodiscard]] std::vector<char> fixed_rows(const World&, std::size_t rows);
 
-/// Clusters that a pass has work in, and the entries of their lists that act: a dry wall and the inside of a body meet nothing,
-/// and cost nothing. What is left out keeps every bit: the forces between what never acts on each other are sums of zeros, and
-/// the density of what is fixed among what is fixed stays what the first pass over the present lists found. Of use where no term
-/// works on every pair, as heat does.
+/// Clusters in which a pass has work, and the entries of their lists that act. A dry wall and the inside of a body meet nothing,
+/// and cost nothing. Skipping these clusters changes no bit. Forces between groups that never act on each other are sums of
+/// zeros. The density of fixed particles that have only fixed neighbours stays as first computed for these lists. The class helps
+/// only where no term works on every pair; heat conduction does.
 ///
-/// Of a scene that is shared out (World::copies), clusters of copies alone are left out too: their sums are their owners'.
+/// In a shared scene (World::copies) clusters of copies alone are left out too: their owners form their sums.
 class BusyClusters {
  public:
   /// The lists, the groups, the own pairs or the motion of bodies have changed: all is found anew.
@@ -26,17 +26,18 @@ class BusyClusters {
     known_ = false;
     own_is_known_ = false;
   }
-  /// Over all pairs, of what is this process's own.
+  /// Over all pairs, for this process's own particles.
   void sum_own(const PassFunction&, World&, const PairKernels&);
   /// @param leaves_own whether the density terms leave own pairs out, as the corrected one does
   void sum_density(const PassFunction&, World&, const PairKernels&, bool leaves_own);
   /// After sum_density() over the same lists.
   void sum_rates(const PassFunction&, World&, const PairKernels&) const;
-  /// What no step reads of fixed particles (World::forms_fixed): the density of those that sleep, and the forces on all of them.
+  /// Values of fixed particles that no step reads (World::forms_fixed): the density of those that sleep, and the forces on all of
+  /// them.
   void sum_fixed_density(const PassFunction&, World&, const PairKernels&) const;
   void sum_fixed_rates(const PassFunction&, World&, const PairKernels&) const;
-  /// What lists, a density and a rates pass cost for each row in a step, shared among the members of a cluster, as ParticleCost
-  /// weighs them; of copies nothing. @param steps from new lists to new lists   @param all no pair is left out
+  /// Cost of lists, a density and a rates pass for each row in a step, weighed as in ParticleCost. It is shared among the members
+  /// of a cluster; copies cost nothing. @param steps from new lists to new lists @param all no pair is left out
   /// @pre has_entries()
   [[nodiscard]] std::vector<double> cost_by_row(const World&, double steps, bool all) const;
   /// Whether there are lists of these particles, and it is known where they have work.

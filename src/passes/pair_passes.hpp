@@ -6,8 +6,8 @@
 
 namespace tripoint {
 
-/// Every pass that effects have brought slots for (sph/pair_slots.hpp), as one vector unit has them. Of the terms that are wanted
-/// a pass sums those that it has.
+/// Every pass that effects have brought slots for (sph/pair_slots.hpp), as one vector unit has them. A pass sums the wanted terms
+/// that it has.
 struct PairPasses {
   PassFunction (*density)(std::span<const PairTerm> wanted);
   PassFunction (*rates)(std::span<const PairTerm> wanted);

@@ -10,7 +10,7 @@
 
 namespace tripoint {
 
-/// Adds each term's sum to its columns; what they hold before is the caller's.
+/// Adds each term's sum to its columns; the caller sets their values before.
 /// @param function made for clusters as wide as those of the neighbours   @throws MissingField that a term names and nobody owns
 void run_pass(const PassFunction& function, Particles&, Neighbours&, const PairKernels&, int threads);
 
@@ -23,16 +23,16 @@ struct ChosenClusters {
   std::vector<std::uint32_t> clusters;
   std::vector<std::uint8_t> members;  ///< of each, bit l where member l is to be summed; empty: all are
 };
-/// Those of these rows, with these rows alone as members. @param rows each once, ascending
+/// The clusters of these rows, with these rows alone as members. @param rows each once, ascending
 [[nodiscard]] ChosenClusters clusters_of(const Clusters&, const std::vector<std::uint32_t>& rows);
 
-/// Adds each term's sum to the rows of these clusters; to all where none are chosen. As run_pass(), and what is within the
-/// support is found of these alone.
+/// Adds each term's sum to the rows of these clusters; to all where none are chosen. As run_pass(), and entries within the
+/// support are found for these alone.
 void run_pass_in(const PassFunction&, Particles&, Neighbours&, const PairKernels&, int threads,
                  const std::optional<ChosenClusters>&);
 
-/// For these clusters only, and for what acts there (Clusters::acting): terms add nothing where nothing acts. What a finding pass
-/// found of the others stays; it looks at all entries, and must not be asked for some members alone.
+/// For these clusters only, and for what acts there (Clusters::acting): terms add nothing where nothing acts. Results of a
+/// finding pass for other clusters stay. A finding pass looks at all entries, and must not be asked for some members alone.
 void run_pass_over(const PassFunction&, Particles&, Neighbours&, const PairKernels&, int threads, const ChosenClusters&);
 
 }  // namespace tripoint

@@ -28,8 +28,8 @@ CameraAxes::CameraAxes(const Vec3& up, const View& view) noexcept {
   upward = cross(right, forward);
 }
 
-// A place at (x, y) across and f along the axes is in the picture where |x - X| <= w (f - E) and |y - Y| <= h (f - E), with the
-// eye at (X, Y, E): each side of the picture bounds one sum of two of them, and the greatest of all places counts.
+// The eye is at (X, Y, E), a place at (x, y) across and f along the axes. The place is in the picture where |x - X| <= w (f - E)
+// and |y - Y| <= h (f - E). Each side of the picture bounds one sum of two coordinates, and the greatest of all places counts.
 Camera::Camera(std::span<const Vec3> places, double room, const CameraAxes& axes, double aspect) noexcept
     : axes_(axes), half_width_(aspect * std::tan(radians(half_angle))), half_height_(std::tan(radians(half_angle))) {
   const double w = half_width_ / margin, h = half_height_ / margin, most = std::numeric_limits<double>::infinity();

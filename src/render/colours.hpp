@@ -9,9 +9,9 @@ namespace tripoint {
 /// Light that a surface gives back, red, green, blue, each 0 to 1 and linear (not as screens store it).
 using Colour = Vec3;
 
-/// Of the three bytes that screens store.
+/// Colour from the three bytes that screens store.
 [[nodiscard]] Colour colour_of(std::uint8_t red, std::uint8_t green, std::uint8_t blue) noexcept;
-/// One byte of a screen. @param light linear, 0 to 1; what lies beyond is cut off
+/// One byte of a screen. @param light linear, 0 to 1; values beyond are cut off
 [[nodiscard]] std::uint8_t screen_byte(double light) noexcept;
 
 /// From dark blue (cold) by red and orange to pale yellow (hot), ever lighter, as in the paper's figures. @param share 0 to 1

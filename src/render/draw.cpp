@@ -19,7 +19,7 @@ const Colour ground_colour{0.62, 0.62, 0.60}, sky_low{0.90, 0.92, 0.94}, sky_hig
 
 Vec3 unit(const Vec3& a) { return a / norm(a); }
 
-/// Light and number of what a ray meets first: 0 the sky, 1 the ground, from 2 the targets.
+/// Light and number of the object that a ray meets first: 0 the sky, 1 the ground, from 2 the targets.
 struct Seen {
   Colour light;
   std::size_t what = 0;

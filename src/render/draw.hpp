@@ -10,7 +10,7 @@
 
 namespace tripoint {
 
-/// What a picture shows, and what it stands on.
+/// Objects that a picture shows, and the ground below them.
 struct Display {
   std::vector<std::unique_ptr<Target>> targets;
   Vec3 up{0.0, 0.0, 1.0};        ///< against gravity
@@ -18,8 +18,8 @@ struct Display {
   double size = 1.0;             ///< of what is shown: the ground fades away some of it off [m]
 };
 
-/// Casts a ray through each pixel, and eight more where it differs from its neighbours; light comes from the upper left, behind
-/// the viewer, with hard shadows. No random numbers: the picture does not depend on the number of threads.
+/// Casts a ray through each pixel, and eight more where it differs from its neighbours. Light comes from the upper left, behind
+/// the viewer, with hard shadows. It uses no random numbers: the picture does not depend on the number of threads.
 [[nodiscard]] Picture draw(const Display&, const Camera&, int width, int height, int threads);
 
 }  // namespace tripoint

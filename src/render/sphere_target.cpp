@@ -12,7 +12,7 @@ class SphereGaze : public Gaze {
   SphereGaze(const PointCells& cells, double radius, std::span<const Colour> colours)
       : cells_(&cells), cache_(cells, radius), radius_(radius), colours_(colours) {}
 
-  /// Goes from cell to cell: a cell's list holds every ball that reaches into it, so that a ball met within the cell is the
+  /// Goes from cell to cell. A cell's list holds every ball that reaches into it, so that a ball met within the cell is the
   /// first.
   std::optional<Hit> first(const Ray& ray, const Span& span) override {
     const Span box = inside(ray, grown(cells_->box(), radius_));

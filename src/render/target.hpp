@@ -15,7 +15,7 @@ struct Hit {
   Colour colour;
 };
 
-/// One thread's way of asking a target: may keep what it found last. Its answers do not depend on what was asked before.
+/// One thread's way of asking a target: may keep its last result. Its answers do not depend on earlier questions.
 class Gaze {
  public:
   virtual ~Gaze() = default;

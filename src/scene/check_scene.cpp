@@ -10,7 +10,7 @@
 #include "scene/readers.hpp"
 #include "scene/shared_terms.hpp"
 
-/// Rules between the tables of a scene: names that refer to each other, and what one key means for another.
+/// Rules between the tables of a scene: names that refer to each other, and the effect of one key on another.
 namespace tripoint {
 namespace {
 
@@ -50,7 +50,7 @@ class Checker : NameChecks {
     }
   }
 
-  /// A kernel of its own form belongs to each term: alone it cannot be another than what the scene runs.
+  /// A kernel of its own form belongs to each term: alone it cannot differ from that of the scene.
   void kernel() const {
     const auto given = scene_.modes_given.find(term::kernel);
     if (given == scene_.modes_given.end() || std::ranges::all_of(runs_, [&](Mode m) { return m == given->second; })) return;
@@ -142,7 +142,7 @@ class Checker : NameChecks {
     }
   }
 
-  /// Bodies that this kind of event cannot act on, or only as what they are not.
+  /// Refuses bodies that this kind of event cannot act on as they are.
   void acts_on(const Event& e, const std::string& path) const {
     for (const auto& b : scene_.bodies) {
       if (!holds(e.bodies, b.name)) continue;

@@ -6,11 +6,11 @@
 
 #include "scene/scene.hpp"
 
-/// What a scene has where its file says nothing, or a run wants otherwise.
+/// Values that a scene has where its file says nothing, or a run wants otherwise.
 
 namespace tripoint {
 
-/// What one run changes of its scene.
+/// Changes of one run to its scene.
 struct RunChoice {
   std::optional<Mode> mode;
   std::optional<double> spacing, time_step, support_ratio, jitter;
@@ -25,14 +25,14 @@ struct DefaultStiffness {
   double value = 0.0;
   std::string rule;
 };
-/// What flows takes k = (10 v)^2: v the greatest of initial and prescribed speeds and sqrt(2 |g| depth of the liquids), so that
-/// the speed of sound is ten times what is to be expected. Solids of which two can meet (meeting.hpp) take it from their speed of
-/// approach and the height of the scene, and from the moduli of elastic bodies. Empty where a material gives one, nothing flows
-/// or can meet, or no speed is known.
+/// Liquids take k = (10 v)^2, v the greatest of initial and prescribed speeds and sqrt(2 |g| depth of the liquids). The speed of
+/// sound is then ten times the expected speed. Solids of which two can meet (meeting.hpp) take it from their speed of approach,
+/// the height of the scene, and the moduli of elastic bodies. Empty where a material gives one, nothing flows or can meet, or no
+/// speed is known.
 [[nodiscard]] std::optional<DefaultStiffness> default_stiffness(const Scene&);
 
-/// How near a freezing particle joins where the scene does not say [spacings]: as the paper has it, whatever its bonds reach
-/// (h = 2.12 dx); corrected, nearest and diagonal neighbours of the lattice, so that no bond bridges a molten layer.
+/// Distance within which a freezing particle joins where the scene does not say [spacings]. As in the paper: all that its bonds
+/// reach (h = 2.12 dx). Corrected: nearest and diagonal neighbours of the lattice, so that no bond bridges a molten layer.
 [[nodiscard]] double default_merge_distance(const Scene&);
 
 }  // namespace tripoint

@@ -9,8 +9,8 @@
 #include "scene/key_table.hpp"
 #include "scene/scene.hpp"
 
-/// What an effect says of itself to whoever reads scenes and runs nothing. Each effect's rule stands in its folder, in rule.cpp;
-/// a build without the effect has its rule all the same.
+/// Facts about an effect for code that reads scenes and runs nothing. Each effect's rule stands in its folder, in rule.cpp; a
+/// build without the effect has its rule all the same.
 namespace tripoint {
 
 class TableReader;
@@ -51,7 +51,7 @@ struct EffectKey {
   std::string (*idle)(const Scene&) = nullptr;
   bool ablated = false;  ///< of [scene], without a member: 0 leaves out a term that the paper does not have, which is a row of
                          ///< `tripoint ablate`
-  bool limit = false;    ///< of [[material]]: what is beyond it yields or breaks; `tripoint check` tells where nothing ever can
+  bool limit = false;    ///< of [[material]]: matter beyond it yields or breaks; `tripoint check` tells where nothing ever can
 };
 
 /// A key of [scene] that stands with those of no effect (scene_records.hpp), and acts where its effect is on.
@@ -66,10 +66,10 @@ struct WrongKey {
   std::string why;
 };
 
-/// What the two forms of a term are of, in the order in which jobs and pages list terms.
+/// Kinds of terms with two forms, in the order in which jobs and pages list terms.
 enum class TermKind { kernel, law, time };
 
-/// A term of two forms, as whoever it belongs to declares it.
+/// A term of two forms, as its owner declares it.
 struct DeclaredTerm {
   Term term;
   TermKind kind = TermKind::law;
@@ -81,19 +81,20 @@ struct DeclaredTerm {
 
 struct EffectRule {
   std::string_view name;
-  /// Who calls for the effect, and why: "body a: elastic, and not held in place". "" = nobody does.
+  /// The body or other item that calls for the effect, and why: "body a: elastic, and not held in place". "" = none does.
   std::string (*called_for)(const Scene&) = nullptr;
   /// The proof that it can never act, asked where nobody calls for it. Both empty: it only serves others.
   std::string (*left_out)(const Scene&) = nullptr;
-  /// What effects that are called for, or needed before this one, need of it; "" = nothing. Asked where nobody calls for it.
+  /// The need that effects called for, or needed before this one, have of it; "" = none. Asked where nobody calls for it.
   std::string (*needed_for)(const Scene&, const Called&) = nullptr;
-  /// Of two forms that act where it is on: a word of [modes] and a row of `tripoint ablate` each.
+  /// Terms with two forms that act where the effect is on: a word of [modes] and a row of `tripoint ablate` each.
   std::vector<DeclaredTerm> terms{};
   std::vector<Term> terms_shared{};  ///< of others that its forms read too
   std::vector<EffectKey> keys{};     ///< of [scene] and [[material]]
   std::vector<SceneKey> scene_keys{};
   std::vector<std::string_view> scene_keys_shared{};  ///< scene_keys of others that it reads too
-  /// What keys of a material say of each other, once all are read: refuses what cannot be, and sets what a rule gives.
+  /// Checks keys of a material against each other, once all are read: refuses impossible values, and sets those that a rule
+  /// gives.
   void (*settle_material)(TableReader&, Material&) = nullptr;
   /// Keys of a material that fit no run of a case, asked where the effect is on in one. @param runs the scene in each mode
   std::vector<WrongKey> (*wrong_keys)(const Material&, std::span<const Scene> runs) = nullptr;
@@ -112,18 +113,18 @@ struct EffectRule {
   bool changes_temperatures = false;  ///< temperatures change by it even where all are equal
 };
 
-/// Of every effect, in the order in which effects run.
+/// Rules of every effect, in the order in which effects run.
 [[nodiscard]] std::span<const EffectRule> effect_rules();
 
 /// Names that entries of the ledger can have, each once: those of all effects, and those of every scene.
 [[nodiscard]] std::vector<std::string> ledger_entries();
 
-/// Every term of two forms, in the order of jobs and pages: what effects declare, the kernel, and the scheme of steps.
+/// Every term of two forms, in the order of jobs and pages: those that effects declare, the kernel, and the scheme of steps.
 /// @throws std::logic_error where two effects declare one term
 [[nodiscard]] std::span<const DeclaredTerm> declared_terms();
 /// The term of a word of [modes]. @throws InputError naming the nearest word, or all
 [[nodiscard]] Term term_from(std::string_view word);
-/// Terms of two forms that act in a scene: those of the effects that it calls for and, where there is one, the scheme of steps.
+/// Terms with two forms that act in a scene: those of the effects that it calls for and, if any, of the step scheme.
 [[nodiscard]] std::vector<Term> acting_terms(const Scene&);
 /// Whether a term acts in every scene, whatever it calls for.
 [[nodiscard]] bool acts_everywhere(const Term&);
@@ -144,7 +145,7 @@ struct EffectRule {
 [[nodiscard]] bool calls_for(const Scene&, std::string_view effect);
 /// Whether it calls for an effect that says this of itself.
 [[nodiscard]] bool calls_for(const Scene&, bool EffectRule::*says);
-/// What a scene calls for, and what that in turn needs.
+/// Effects that a scene calls for, and those that these in turn need.
 [[nodiscard]] std::vector<CalledEffect> needed_effects(const Scene&);
 
 // --- what rules ask ----------------------------------------------------------------------------------------------------
@@ -160,12 +161,12 @@ using BodyTest = bool (*)(const Scene&, const Body&, const Material&);
 /// A body that is held for good needs no equations of motion.
 [[nodiscard]] bool moves(const Scene&, const Body&);
 
-/// Who melts or freezes: the scene's temperatures pass t_melt or t_solid of the material. "" = nobody.
+/// The body or material that melts or freezes: the scene's temperatures pass t_melt or t_solid of the material. "" = none.
 [[nodiscard]] std::string who_changes_phase(const Scene&);
-/// Who is elastic once it has frozen, of a material that passes the test.
+/// The body or material that is elastic once it has frozen, of a material that passes the test.
 [[nodiscard]] std::string who_freezes_elastic(const Scene&, bool (*limited)(const Material&));
-/// For a limit of what is elastic, as of yield or fracture: who has it or freezes with it, and what it `can` do then. `limit`
-/// names it with its article.
+/// For a limit of elastic matter, as of yield or fracture. It gives the body that has it or freezes with it, and what it `can` do
+/// then. `limit` names it with its article.
 [[nodiscard]] std::string limit_called_for(const Scene&, bool (*limited)(const Material&), std::string_view limit,
                                            std::string_view can);
 /// Why that limit never acts.

@@ -7,9 +7,9 @@
 
 namespace tripoint {
 
-/// A formula of x, y, z [m] from a case file: numbers, + - * / ^, brackets, the functions of one and two arguments of the page of
-/// the case file, pi, and sum(n, 1, 40, f) of f over whole n from 1 to 40. ^ binds tighter than a sign before it and groups to
-/// the right: -2^2 = -4, 2^3^2 = 512.
+/// A formula of x, y, z [m] from a case file. It has numbers, + - * / ^, brackets, pi, and the functions of one and two arguments
+/// on the case-file page. It also has sum(n, 1, 40, f), the sum of f over whole n from 1 to 40. The sign ^ binds tighter than a
+/// sign before it and groups to the right: -2^2 = -4, 2^3^2 = 512.
 class Expression {
  public:
   /// Whether t [s] may stand in it: a start is of one time.
@@ -52,7 +52,7 @@ class Expression {
     Op op;
     double value;  ///< number; of a sum its place in the list of sums
   };
-  /// Of the steps over index = first .. last.
+  /// The steps over index = first .. last.
   struct Sum {
     long first, last;
     std::vector<Step> steps;

@@ -13,8 +13,8 @@ struct Bounds {
   [[nodiscard]] Vec3 extent() const { return max - min; }
 };
 
-/// Box that holds the shape (for a difference: of what is cut, shortened where a half space along an axis cuts it). @throws
-/// InputError for a mesh that cannot be read
+/// Box that holds the shape (for a difference: that of the shape that is cut, shortened where a half space along an axis cuts
+/// it). @throws InputError for a mesh that cannot be read
 [[nodiscard]] Bounds bounds(const Shape&);
 
 /// Centre of the shape's symmetry, where it has one that a lattice should share: sphere, cylinder (of its whole axis).

@@ -76,7 +76,7 @@ void add_rows_of_kinds(std::vector<Key>& list, const auto& kinds) {
   std::apply([&](const auto&... all) { (add_rows(list, all.record), ...); }, kinds);
 }
 
-/// Those that every scene reads; in each table behind them those that effects bring.
+/// Keys that every scene reads; in each table behind them the keys that effects bring.
 std::vector<Key> all_keys() {
   std::vector<Key> list(top_keys.begin(), top_keys.end());
   add_rows(list, record<Scene>);

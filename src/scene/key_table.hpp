@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-/// The one list of what a scene may say. The reader's checks, the JSON Schema and the reference page come from it.
+/// The one list of the keys of a scene. The reader's checks, the JSON Schema and the reference page come from it.
 namespace tripoint {
 
 enum class ValueType {
@@ -45,7 +45,7 @@ struct Key {
   [[nodiscard]] bool required() const { return fallback == "!"; }
 };
 
-/// A table of the list and what it is: title for the page, and how it is written.
+/// A table of the list: its title for the page, and how it is written.
 struct TableInfo {
   std::string_view name, written, meaning;
 };

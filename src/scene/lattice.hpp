@@ -9,9 +9,9 @@
 namespace tripoint {
 
 /// Particle centres of one body: (k + 1/2) dx from an origin along each axis.
-/// Periodic directions share the domain's lattice. Else a body whose corner lies on the scene's lattice (multiples of dx) shares
-/// that, so that bodies which touch fit; any other body has a lattice of its own from its corner, or about its centre of
-/// symmetry.
+/// Periodic directions share the domain's lattice. Otherwise a body whose corner lies on the scene's lattice (multiples of dx)
+/// shares that lattice, so that bodies which touch fit. Any other body has a lattice of its own from its corner, or about its
+/// centre of symmetry.
 struct Lattice {
   Vec3 origin;
   double spacing = 0.0;

@@ -7,7 +7,7 @@
 #include <array>
 #include <filesystem>
 
-/// Where the program finds what it ships: beside the executable, so that any working folder serves.
+/// Where the program finds its shipped files: beside the executable, so that any working folder serves.
 namespace tripoint {
 namespace fs = std::filesystem;
 

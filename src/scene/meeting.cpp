@@ -46,7 +46,7 @@ double expression_speed(const std::array<std::string, 3>& text, const Bounds& bo
   return most;
 }
 
-/// Where a body can be: its box at the start, moved by what is known of its motion.
+/// Where a body can be: its box at the start, moved by its known motion.
 struct Path {
   Bounds box;  ///< at the start; of a body that can turn, around the sphere about its box's centre
   Box velocity, acceleration;
@@ -54,7 +54,7 @@ struct Path {
   double spread = 0.0;              ///< speed at which its parts can leave its box [m/s]
   double rim = 0.0;                 ///< greatest speed that its spin gives a part of it [m/s]
   bool turns = false;
-  bool bends = false;      ///< what it is joined to turns its motion into any direction
+  bool bends = false;      ///< the body that it is joined to turns its motion into any direction
   double lost = INFINITY;  ///< time from which nothing is known of it [s]
 };
 
@@ -102,7 +102,7 @@ Path own_path(const Scene& s, const Body& b) {
   return p;
 }
 
-/// What the segments of its keyframes, or its start, give it.
+/// Velocities by the segments of its keyframes, or by its start.
 Box velocities_of(const Path& p) {
   Box v = p.velocity;
   for (std::size_t k = 1; k < p.keyframes.size(); ++k)

@@ -22,8 +22,8 @@ struct Meeting {
 /// Greatest speed that a body starts with or is driven at, as far as the file tells without sampling [m/s].
 [[nodiscard]] double greatest_speed(const Body&);
 
-/// Box that holds a run which goes as it should, where the scene gives no domain: twice the diagonal of the start beyond its
-/// particles, and all that bodies are driven to or can fly to. What has a wall below it does not fall freely.
+/// Box that holds a healthy run, where the scene gives no domain. It reaches twice the diagonal of the start beyond its
+/// particles, and to all places that bodies are driven to or can fly to. A body with a wall below it does not fall freely.
 [[nodiscard]] Bounds escape_domain(const Scene&, const InitialState&);
 
 }  // namespace tripoint

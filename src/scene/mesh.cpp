@@ -111,7 +111,7 @@ void append(std::string& bytes, const std::vector<T>& from) {
   bytes.append(reinterpret_cast<const char*>(from.data()), from.size() * sizeof(T));
 }
 
-/// What the copy handed back: the number of points, the points, the triangles. Their numbers are checked by who takes them.
+/// The data that the copy handed back: the number of points, the points, the triangles. The caller checks their numbers.
 Mesh unpacked(const std::string& bytes) {
   Mesh mesh;
   std::uint64_t points = 0;

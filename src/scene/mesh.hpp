@@ -16,7 +16,7 @@ struct Mesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Reads .obj or .stl (ASCII or binary), joins equal corners, and checks that the surface is closed: every edge is used by
+/// Reads .obj or .stl (ASCII or binary), joins equal corners, and checks that the surface is closed. Every edge must be used by
 /// exactly two triangles in opposite directions. A confined copy of this process reads the file.
 /// @throws InputError naming the file, and for an open mesh the number of open edges and the first of them
 [[nodiscard]] Mesh read_mesh(const std::string& file, double scale);

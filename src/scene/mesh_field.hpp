@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Signed distance to a closed mesh, made by OpenVDB. It is a module of its own, loaded when the first mesh is met: with OpenVDB
-/// come 40 libraries, which every start of every program would wait for. C names, and no exception leaves it.
+/// Signed distance to a closed mesh, made by OpenVDB. It is a module of its own, loaded when the first mesh is met. With OpenVDB
+/// come 40 libraries, and every start of every program would wait for them. C names, and no exception leaves it.
 extern "C" {
 struct TripointMeshField;
 

@@ -66,7 +66,7 @@ MeshInterior::MeshInterior(const Mesh& mesh, double voxel, const std::string& fi
   TripointMeshField* field = vdb.make(points.data(), mesh.points.size(), triangles.data(), mesh.triangles.size(), voxel);
   if (field == nullptr) throw InputError({file, 0, 0}, fmt::format("no distance field of the mesh at voxels of {} m", voxel));
   grid_ = std::make_unique<Grid>(field);
-  // A leaking mesh has no inside at all, silently: what is left below zero is round-off at its surface.
+  // A leaking mesh has no inside at all, silently: values below zero are round-off at its surface.
   if (!(vdb.deepest(field) < -1e-3 * voxel))
     throw InputError(
         {file, 0, 0},

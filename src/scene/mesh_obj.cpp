@@ -37,7 +37,7 @@ bool is_corner(const std::string& word) {
   return number >= 1 && number <= 3;
 }
 
-/// The library reads what is no number as 0: corners and faces are looked at before it sees them.
+/// The library reads text that is no number as 0: corners and faces are checked before it sees them.
 /// @throws InputError naming file and line
 void check_lines(const std::string& bytes, const std::string& file) {
   std::istringstream in(bytes);

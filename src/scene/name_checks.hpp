@@ -17,7 +17,7 @@ std::vector<std::string> names_of(const std::vector<T>& list) {
 
 [[nodiscard]] bool holds(const std::vector<std::string>& list, const std::string& name);
 
-/// What every check of names needs. All throw InputError with the place of the name.
+/// Parts that every check of names needs. All throw InputError with the place of the name.
 class NameChecks {
  public:
   explicit NameChecks(const Reading& reading) : reading_(reading) {}

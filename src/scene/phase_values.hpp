@@ -18,15 +18,15 @@ namespace tripoint {
   return m.softens && m.solid == SolidKind::rigid && m.young_modulus && m.poisson_ratio && has_printed_stage(scene, m);
 }
 
-/// Of a phase [W/m/K]. @pre the material conducts
+/// Conductivity of a phase [W/m/K]. @pre the material conducts
 [[nodiscard]] inline double conductivity_of(const Material& m, Phase phase) {
   return phase == Phase::liquid ? *m.conductivity : m.solid_conductivity.value_or(*m.conductivity);
 }
-/// Of a phase [J/kg/K]. @pre the material holds heat
+/// Heat capacity of a phase [J/kg/K]. @pre the material holds heat
 [[nodiscard]] inline double heat_capacity_of(const Material& m, Phase phase) {
   return phase == Phase::liquid ? *m.heat_capacity : m.solid_heat_capacity.value_or(*m.heat_capacity);
 }
-/// Heat of fusion at a temperature [J/kg]: that at t_melt, and what the liquid takes up more than the solid on the way
+/// Heat of fusion at a temperature [J/kg]: that at t_melt, plus the difference of heat between liquid and solid on the way
 /// (Kirchhoff's law).
 [[nodiscard]] inline double latent_heat_at(const Material& m, double temperature) {
   const double latent = m.latent_heat.value_or(0.0);

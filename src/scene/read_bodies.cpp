@@ -13,7 +13,7 @@
 namespace tripoint {
 namespace {
 
-/// What a body is where the case does not say: by melting, else by what its material can do.
+/// Phase of a body where the case does not say: by melting, else by the abilities of its material.
 std::pair<Phase, std::string> phase_rule(const Material& m, const std::optional<TemperatureField>& temperature) {
   const Phase solid = m.solid == SolidKind::rigid ? Phase::rigid : Phase::elastic;
   const bool constant = temperature && temperature->kind == TemperatureField::Kind::constant;
@@ -61,7 +61,7 @@ Material read_material(const TomlNode& node, Reading& reading) {
     if (rule.settle_material) rule.settle_material(in, m);
   if (read("solid")) {
     m.solid = m.young_modulus ? SolidKind::elastic : SolidKind::rigid;
-    // A liquid that never freezes is no solid; the word then only says what it would be.
+    // A liquid that never freezes is no solid; the word then only names the solid that it would be.
     if (m.viscosity > 0.0 && !m.young_modulus && !m.t_melt) m.solid = SolidKind::elastic;
     in.ruled("solid", fmt::format("\"{}\"", to_string(m.solid)),
              m.young_modulus                 ? "young_modulus is given"

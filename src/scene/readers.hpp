@@ -9,7 +9,7 @@
 /// The parts of the reader of scenes, one function a table. All throw InputError with the place and what to write instead.
 namespace tripoint {
 
-/// What the parts share.
+/// Data that the parts share.
 struct Reading {
   std::string file;    ///< of the case
   std::string folder;  ///< of the file, where meshes and data lie

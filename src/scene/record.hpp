@@ -6,7 +6,7 @@
 
 #include "scene/key_table.hpp"
 
-/// A key of a scene and the member that keeps its value, written once: the reader of case files, both directions of a job's JSON,
+/// A key of a scene and the member that keeps its value, written once. The reader of case files, both directions of a job's JSON,
 /// the schema and the reference page go by it (decision 025). The lists stand in scene_records.hpp and place_records.hpp.
 namespace tripoint {
 
@@ -19,7 +19,7 @@ struct Kept {
   bool later;               ///< came after the first jobs: where one lacks it, the member stays as it is
 };
 
-/// What a key is beside its row.
+/// Properties of a key beside its row.
 struct As {
   std::string_view yes{}, in_job{};
   bool later = false;
@@ -35,7 +35,7 @@ inline constexpr bool is_kept = false;
 template <class Owner, class T>
 inline constexpr bool is_kept<Kept<Owner, T>> = true;
 
-/// The record of a table: its keys in the order of the reference page. A plain Key has no member; whoever reads it has a rule.
+/// The record of a table: its keys in the order of the reference page. A plain Key has no member; its reader has a rule.
 template <class Owner>
 inline constexpr auto record = std::make_tuple();
 

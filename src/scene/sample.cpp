@@ -15,7 +15,7 @@
 namespace tripoint {
 namespace {
 
-constexpr std::size_t max_particles = 20'000'000;  // about 2 GB here; far beyond what one machine steps
+constexpr std::size_t max_particles = 20'000'000;  // about 2 GB here; far beyond the particles that one machine steps
 
 /// Fields with their expressions compiled once.
 class TemperatureAt {

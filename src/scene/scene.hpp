@@ -14,12 +14,12 @@
 #include "core/vec3.hpp"
 #include "scene/term.hpp"
 
-/// The checked scene: what a case file says, in SI, with every default filled in. No physics.
+/// The checked scene: the content of a case file, in SI, with every default filled in. It contains no physics.
 namespace tripoint {
 
 enum class Phase : int { liquid = 0, elastic = 1, rigid = 2 };
 enum class Motion { free, fixed, prescribed };
-enum class SolidKind { elastic, rigid };          ///< what a material is when solid
+enum class SolidKind { elastic, rigid };          ///< kind of a material when solid
 enum class ViscosityForm { laplacian, central };  ///< of corrected viscosity (model 8.5)
 enum class GuardName;                             ///< scene/guard_name.hpp
 
@@ -137,8 +137,8 @@ struct Inflow {
   std::optional<double> rate;  ///< [m3/s]
 };
 
-/// Support radius h/dx where a file says nothing: as the paper has it where every term is as printed, about 40 neighbours by
-/// volume; else that of the Wendland kernel, about 74.
+/// Support radius h/dx where a file says nothing. Where every term is as printed it is that of the paper, about 40 neighbours by
+/// volume. Else it is that of the Wendland kernel, about 74.
 inline constexpr double printed_support = 2.12, corrected_support = 2.6;
 /// Reach over nearest and diagonal neighbours of the lattice [spacings].
 inline constexpr double lattice_reach = 1.5;
@@ -176,7 +176,7 @@ struct Scene {
   std::vector<Event> events;
   std::vector<Inflow> inflows;
 
-  /// A look-up: what a loop over particles or bodies needs is asked before it. @throws UndeclaredTerm
+  /// A look-up: a loop over particles or bodies asks for its values before it begins. @throws UndeclaredTerm
   [[nodiscard]] Mode mode_of(const Term& t) const {
     const auto at = modes.find(t);
     return at != modes.end() ? at->second : mode_of_unresolved(t);

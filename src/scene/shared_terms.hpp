@@ -3,7 +3,7 @@
 #include "scene/term.hpp"
 
 /// Terms that several rooms read, each written once for all of them. Their effects declare them; one that an effect alone reads
-/// stands in its folder. Who goes over all terms asks declared_terms(), and needs no name.
+/// stands in its folder. Code that goes over all terms asks declared_terms(), and needs no name.
 namespace tripoint::term {
 
 inline constexpr Term kernel{"kernel"};        ///< (1) to (3), brought by each term in its form

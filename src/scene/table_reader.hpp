@@ -16,9 +16,9 @@ namespace tripoint {
 /// Whether an array may hold a text more than once: names may not, components of a vector may.
 enum class Repeats { refused, allowed };
 
-/// One table of a case file, read by its rows of the key table: every value is checked for type, unit, range and words, and
-/// every key, given or by default, leaves a Decision. Refuses unknown keys when it is made.
-/// All functions throw InputError with the place of the value and what to write instead.
+/// One table of a case file, read by its rows of the key table. Every value is checked for type, unit, range and words. Every
+/// key, given or by default, leaves a Decision. Refuses unknown keys when it is made. All functions throw InputError with the
+/// place of the value and what to write instead.
 class TableReader {
  public:
   /// @param table name in the key table   @param path how decisions and messages name it: "body.block"

@@ -5,13 +5,13 @@
 
 #include "scene/scene.hpp"
 
-/// What temperatures a scene can ever have. All that brings heat stands in its file: what bodies and inflows have, and what is
-/// held.
+/// The temperatures that a scene can ever have. All heat comes from entries of its file: temperatures of bodies and inflows, and
+/// held temperatures.
 namespace tripoint {
 
-/// Least and greatest temperature [K] that anything in a scene can reach: a step of conduction within its bound keeps to the
-/// range of its neighbours (model 8.10, a discrete maximum principle), and no effect but a change of phase turns other energy
-/// into heat.
+/// Least and greatest temperature [K] that anything in a scene can reach. A step of conduction within its bound keeps to the
+/// range of its neighbours (model 8.10, a discrete maximum principle). No effect but a change of phase turns other energy into
+/// heat.
 struct TemperatureRange {
   double least = INFINITY, greatest = -INFINITY;
   [[nodiscard]] bool empty() const noexcept { return !(least <= greatest); }

@@ -5,8 +5,8 @@
 
 #include "scene/toml_node.hpp"
 
-/// toml++ 3.3 aborts on `[,]` and `v=[1,}` and overflows the stack on a 400 kB dotted key: bounds come before it. A dotted key is
-/// as deep as brackets are, so that both count together: what is read is walked by recursion, here and by those who read it.
+/// toml++ 3.3 aborts on `[,]` and `v=[1,}` and overflows the stack on a 400 kB dotted key: bounds come before it. A dotted key
+/// nests as deep as brackets do, so both count together. The document is walked by recursion, here and by its readers.
 namespace tripoint {
 namespace {
 
@@ -23,7 +23,7 @@ class Scanner {
   }
 
  private:
-  /// A bracket that waits for its other half, and how many brackets and dots of keys lead to what it holds.
+  /// A bracket that waits for its other half, and how many brackets and dots of keys lead to its content.
   struct Open {
     char bracket;
     int depth;

@@ -8,7 +8,7 @@
 
 #include "core/errors.hpp"
 
-/// A TOML document as plain data: what the rest of this room reads, so that the parser stays behind one file.
+/// A TOML document as plain data. The rest of this room reads it, so that the parser stays behind one file.
 namespace tripoint {
 
 struct TomlNode {
@@ -56,8 +56,8 @@ inline TomlNode::~TomlNode() = default;
 /// @throws InputError also when the file is not there, no regular file, empty or above the bound
 [[nodiscard]] TomlNode read_toml(const std::string& file);
 
-/// Bounds before a parser sees a stranger's text: size, line length, control bytes, length of dotted keys, nesting by brackets
-/// and dots together, a comma where a value belongs. @throws InputError with line and column
+/// Bounds on a stranger's text before a parser sees it: size, line length, control bytes, length of dotted keys. Also nesting by
+/// brackets and dots together, and a comma where a value belongs. @throws InputError with line and column
 void check_size(std::size_t bytes, const std::string& file);
 void check_text(std::string_view text, const std::string& file);
 

@@ -86,11 +86,11 @@ TomlNode convert(const toml::node& from, const std::string& file) {
 TomlNode document_of(const std::string& text, const std::string& file) {
   TomlNode root = convert_table(toml::parse(text), file);
   const auto lines = static_cast<int>(std::count(text.begin(), text.end(), '\n'));
-  root.place = {file, lines + 1, 0};  // what the file lacks is missing at its end
+  root.place = {file, lines + 1, 0};  // a missing key is reported at the file's end
   return root;
 }
 
-/// Whether a child process makes a document of the text, and frees it, without dying. That is a pure function of the text: what
+/// Whether a child process makes a document of the text, and frees it, without dying. That is a pure function of the text: where
 /// the child survives, the parent survives. (Upstream has an open report of unreachable points that are reached.)
 /// @throws std::system_error where there is no process to spare: no fault of the text, which is not read then
 /// @throws InputError where the child takes longer than the limit

@@ -17,7 +17,7 @@ struct Unit {
 };
 
 /// Reads "kg/m3", "m s^-2", "W/m/K", "J/(kg K)", "rad/s", "degC". An empty text is the number 1.
-/// @throws std::invalid_argument saying what is not known
+/// @throws std::invalid_argument naming the unknown word
 [[nodiscard]] Unit parse_unit(std::string_view text);
 
 /// "m/s2" of a dimension; "1" for a plain number.

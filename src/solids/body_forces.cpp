@@ -67,8 +67,8 @@ void put(std::vector<double>& to, const Vec3& force, const Vec3& torque) {
   to.insert(to.end(), {force.x, force.y, force.z, torque.x, torque.y, torque.z});
 }
 
-/// What a process sends to the others of its own members: for each that feels a force its number, its body, and each force with
-/// its torque. Above `most_told` members it sends only their sums by body.
+/// Data that a process sends to the others for each own member that feels a force: number, body, and each force with its torque.
+/// Above `most_told` members it sends only their sums by body.
 constexpr std::size_t most_told = 1024;
 constexpr double sum_of_process = std::numeric_limits<double>::max();  ///< in place of a number
 

@@ -7,8 +7,8 @@
 
 namespace tripoint {
 
-/// What the members of one rigid body feel from all others (18): the sum of each of World::forces that bodies feel, in their
-/// order, and its torque about the centre of mass.
+/// Forces on the members of one rigid body from all others (18). These are the sum of each of World::forces that bodies feel, in
+/// their order, and its torque about the centre of mass.
 struct BodyForces {
   std::array<Vec3, most_forces> forces;   ///< [N]
   std::array<Vec3, most_forces> torques;  ///< [N m]

@@ -73,7 +73,7 @@ void refuse_narrow_box(const World& world) {
   }
 }
 
-/// Which candidates are members of rigid bodies with a particle of a deformable body within reach: these own strain energy, and
+/// Which candidates are members of rigid bodies with a particle of a deformable body within reach. These own strain energy, and
 /// need their mates for it.
 std::vector<char> joints_of(const World& world, const Joins& joined, const Candidates& found, const Neighbours& near,
                             double reach) {

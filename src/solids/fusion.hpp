@@ -12,11 +12,11 @@
 /// Melting and freezing of one particle, the state (H, f) of model 8.9: H = m (c_p T + L f), 0 <= f <= 1.
 namespace tripoint {
 
-/// What a material's phase change is made of. It melts at one temperature and freezes at another, not higher: a true hysteresis.
+/// Constants of a material's phase change. It melts at one temperature and freezes at another, not higher: a true hysteresis.
 struct Fusion {
   double melts = std::numeric_limits<double>::infinity();        ///< t_melt [K]
   double solidifies = -std::numeric_limits<double>::infinity();  ///< t_solid [K]
-  double heat = 0.0;       ///< L/c_p: what the heat of fusion is worth in temperature of the solid [K]
+  double heat = 0.0;                                             ///< L/c_p: the heat of fusion as a temperature of the solid [K]
   bool soft_band = false;  ///< printed (Fig. 5): f follows T between the two, solid below t_melt and the softer the nearer to it
   double jump = 0.0;       ///< heat capacity of the liquid over that of the solid, minus 1
 };
@@ -24,9 +24,9 @@ struct Fusion {
 /// Heat capacity of the solid [J/kg/K], by which the heat of a particle of any phase is counted. @pre the material holds heat
 [[nodiscard]] inline double solid_capacity(const Material& m) { return m.solid_heat_capacity.value_or(*m.heat_capacity); }
 
-/// Of a material: none where it does not melt. `paper` (Fig. 5) knows no latent heat and no hysteresis: T alone decides, at
-/// t_melt. An elastic solid is soft between t_solid and t_melt, and so is a rigid one that softens (`turns_elastic`); else it is
-/// rigid up to t_melt.
+/// Fusion of a material: none where it does not melt. `paper` (Fig. 5) knows no latent heat and no hysteresis: T alone decides,
+/// at t_melt. An elastic solid is soft between t_solid and t_melt, and so is a rigid one that softens (`turns_elastic`); else it
+/// is rigid up to t_melt.
 [[nodiscard]] inline Fusion fusion_of(const Scene& scene, const Material& m) {
   if (!m.t_melt || !m.heat_capacity) return {};
   if (scene.mode_of(term::phase) == Mode::paper) {
@@ -48,9 +48,9 @@ struct ThermalState {
   double temperature, liquid_fraction;
 };
 
-/// H/(m c) [K] above what the same particle holds at temperature T and f = 0, by the heat capacity c of the solid: of fusion, and
-/// what the liquid holds more. The heat of fusion is L at t_melt; elsewhere it differs by what the two phases take up on the way
-/// (Kirchhoff).
+/// H/(m c) [K] above that of the same particle at temperature T and f = 0, by the heat capacity c of the solid. It is the heat of
+/// fusion, plus the extra heat that the liquid holds. The heat of fusion is L at t_melt; elsewhere it differs by the heat that
+/// the two phases take up on the way (Kirchhoff).
 [[nodiscard]] inline double bound_heat(const Fusion& fusion, double T, double f) noexcept {
   if (fusion.jump == 0.0) return fusion.heat * f;
   return f * (fusion.heat + fusion.jump * (T - fusion.melts));
@@ -74,7 +74,7 @@ struct ThermalState {
   return {next == f ? trial : temperature_at(fusion, content, next), next};
 }
 
-/// The state of a particle whose liquid fraction was f and whose temperature would be `trial` if f stayed: heated above t_melt f
+/// The state of a particle whose liquid fraction was f and whose temperature would be `trial` if f stayed. Heated above t_melt f
 /// grows, cooled below t_solid it falls, and between the two it keeps (model 8.9). c_p T + L f is kept. With L = 0 f jumps.
 [[nodiscard]] inline ThermalState settled(const Fusion& fusion, double trial, double f) noexcept {
   assert(f >= 0.0 && f <= 1.0);
@@ -93,8 +93,9 @@ struct ThermalState {
   return fusion.soft_band ? f < 1.0 : f <= 0.0;
 }
 
-/// Gives heat to one particle [J], of either sign, in the state of the form that is on (H, or as printed T); one whose
-/// temperature is held hands it on to who holds it. While a step of H is under way f waits for its end, as for all other heat.
+/// Gives heat to one particle [J], of either sign, in the state of the form that is on (H, or as printed T). A particle whose
+/// temperature is held hands the heat on to its holder. While a step of H is under way f waits for its end, as for all other
+/// heat.
 inline void give_heat(World& world, std::size_t row, double joules) {
   Particles& p = world.particles;
   if (p[field::held][row] != 0) {

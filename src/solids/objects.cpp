@@ -73,7 +73,7 @@ class Grouping {
   [[nodiscard]] bool same_body_or_new(const Node& a, const Node& b) const { return a.body == b.body || a.body < 0 || b.body < 0; }
   [[nodiscard]] std::map<std::pair<int, int>, std::uint32_t> blocks_that_never_melt() const;
   [[nodiscard]] int new_row(std::size_t component);
-  /// What holds the particle with this id: its component, or below -1 the unchanged body that it is of; -1 for liquids.
+  /// Component that the particle with this id belongs to, or below -1 its unchanged body; -1 for liquids.
   [[nodiscard]] int holder(std::uint32_t id) const;
 
   World& world_;
@@ -104,7 +104,7 @@ void Grouping::collect(const std::vector<std::uint32_t>& frozen) {
   }
 }
 
-/// First node of what each rigid body has of each source and never melts.
+/// First node of the members that each rigid body has of each source and that never melt.
 std::map<std::pair<int, int>, std::uint32_t> Grouping::blocks_that_never_melt() const {
   std::map<std::pair<int, int>, std::uint32_t> first;
   for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
@@ -290,8 +290,8 @@ Held held_here(const World& world) {
   return held;
 }
 
-/// Of a shared scene each process tells which bodies it has seen, and which of them hold together: of a chain of bodies not each
-/// pair, but one less than there are bodies.
+/// In a shared scene each process tells which bodies it has seen, and which of them hold together. For a chain of bodies it does
+/// not tell each pair, but one less than there are bodies.
 void add_over_halo(const World& world, Held& held) {
   if (!world.halo) return;
   Sets here(std::vector<int>(world.bodies.size(), -1));

@@ -17,8 +17,8 @@ namespace {
 
 constexpr int no_energy_rank = 3;  ///< members of rigid bodies without energy: their lists need no special form
 
-/// Which material's constants a particle's energy has, and how many times: its own, or for a member of a rigid body that of the
-/// elastic partner with the lowest id.
+/// Which material's constants a particle's energy has, and how many times. They are its own; a member of a rigid body has those
+/// of the elastic partner with the lowest id.
 void set_stiffness(World& world, const ElasticParticles& is_elastic, std::uint32_t id) {
   Particles& p = world.particles;
   const std::size_t i = p.row(id);
@@ -85,7 +85,7 @@ bool is_regular(const World& world, std::uint32_t id) {
   return std::ranges::all_of(world.bonds.of(id), [&](const Bond& b) { return rank[world.particles.row(b.other)] == 3; });
 }
 
-/// What one energy U_k adds to K_ii, with d = d_ki: v_k (mu |d|^2 + (lambda + mu) d d^T).
+/// Part of one energy U_k in K_ii, with d = d_ki: v_k (mu |d|^2 + (lambda + mu) d d^T).
 Symmetric stiffness(double volume, const ElasticConstants& c, const Vec3& d) {
   const double isotropic = volume * c.mu * dot(d, d);
   return (volume * (c.lambda + c.mu)) * square(d) + Symmetric{isotropic, isotropic, isotropic, 0.0, 0.0, 0.0};

@@ -8,11 +8,11 @@
 #include "sph/solid.hpp"
 #include "world/body_table.hpp"
 
-/// What elasticity, plasticity, fracture and change of phase share: bonds and own pairs of a world, and how its particles are
-/// deformed. Particles are named by id.
+/// Parts that elasticity, plasticity, fracture and change of phase share: bonds and own pairs of a world, and how its particles
+/// are deformed. Particles are named by id.
 namespace tripoint::solid {
 
-/// A bond with this reference vector x_ij = r_i - r_j [m] and its kernel (17); who it is with is set by connect().
+/// A bond with this reference vector x_ij = r_i - r_j [m] and its kernel (17); connect() sets its partner.
 [[nodiscard]] Bond bond_of(const ElasticityKernel&, const Vec3& x_ij);
 /// The kernel (17), with the support scene.bond_reach dx [m].
 [[nodiscard]] ElasticityKernel bond_kernel(const Scene&);
@@ -60,9 +60,9 @@ class EnergyOwners {
   std::span<const double> stiffness_;
 };
 
-/// Sets the columns that follow from the lists and bodies of these particles (model 8.7): volume [m3] and, zero where they own no
-/// strain energy, stiffness [1], A_i [1] and rank. Of them and their partners also which are regular and, where the scene can
-/// freeze, the square of the frequency of each [1/s2].
+/// Sets the columns that follow from the lists and bodies of these particles (model 8.7). They are volume [m3] and, zero where
+/// they own no strain energy, stiffness [1], A_i [1] and rank. For them and their partners it also sets which are regular and,
+/// where the scene can freeze, the square of the frequency of each [1/s2].
 /// @param first lists are those of the start: no frequency is needed
 void refresh_shapes(World&, std::span<const std::uint32_t> ids, bool first = false);
 
@@ -90,8 +90,9 @@ class ElasticForms {
   class Constants {
    public:
     [[nodiscard]] ElasticConstants operator()(std::size_t row) const;
-    /// Whether its matter may flow by this elastic strain: of a solid, whether |dev e| passes the elastic limit, and by round-off
-    /// at most where it does not; of a sheet or chain, whether there is a limit. Never false of what flows (model 8.8).
+    /// Whether its matter may flow by this elastic strain. Of a solid: whether |dev e| passes the elastic limit, and by round-off
+    /// at most where it does not. Of a sheet or chain: whether there is a limit. It is never false for matter that flows (model
+    /// 8.8).
     [[nodiscard]] bool may_flow(std::size_t row, int rank, const Symmetric& elastic) const;
 
    private:
@@ -109,7 +110,7 @@ class ElasticForms {
   [[nodiscard]] Symmetric strain(const Matrix3& F, const Symmetric& P, int rank) const;
   /// S [Pa] of the elastic strain P (eps - eps_p) P [1].
   [[nodiscard]] Symmetric stress(const Symmetric& elastic_strain, const Symmetric& P, int rank, const ElasticConstants&) const;
-  /// What multiplies v F S d_ij in (12) [1]: 1, printed 2.
+  /// Factor of v F S d_ij in (12) [1]: 1, printed 2.
   [[nodiscard]] double force_factor() const noexcept { return factor_; }
 
  private:
@@ -177,7 +178,7 @@ void set_plastic_strain(Particles&, std::size_t row, const Symmetric&);
 [[nodiscard]] Deformation deformation_of(const World&, const ElasticForms&, std::uint32_t id, double back = 0.0);
 [[nodiscard]] Deformation deformation_of(const World&, std::uint32_t id);
 
-/// What one particle stores by its deformation.
+/// Energy that one particle stores by its deformation.
 struct DeformationEnergy {
   double elastic = 0.0, hourglass = 0.0;  ///< [J]
   [[nodiscard]] double total() const noexcept { return elastic + hourglass; }

@@ -6,8 +6,8 @@
 
 /// Smoothing kernels in three dimensions. h is the support radius, h > 0 [m]: W = 0 for r >= h. r is a distance, r >= 0 [m]. Each
 /// integrates to 1 over space: tests/sph/kernels_test.cpp. Constants are formed once, so that a pair pass only multiplies.
-/// `..._inside` is for r <= h alone, where it need not be asked whether r is within the support: a pass leaves out the pairs
-/// beyond it in one place, and such a function has the unit of the one without `_inside`.
+/// `..._inside` is for r <= h alone, where no check is needed that r is within the support. A pass leaves out the pairs beyond it
+/// in one place. Such a function has the unit of the one without `_inside`.
 namespace tripoint {
 
 /// poly6 [Mueller, Charypar, Gross 2003, (20)], the paper's density kernel (4): W(r) = 315/(64 pi h^9) (h^2 - r^2)^3.
@@ -56,7 +56,7 @@ class Spiky {
   double h_, c_;
 };
 
-/// Viscosity kernel [Mueller, Charypar, Gross 2003, (22)], the paper's kernel of viscosity (8) and heat (21):
+/// Viscosity kernel [Mueller, Charypar, Gross 2003, (22)], the paper's kernel of viscosity (8) and heat (21).
 /// W(r) = 15/(2 pi h^3) (-q^3/2 + q^2 + 1/(2q) - 1), q = r/h.
 class ViscosityKernel {
  public:
@@ -81,7 +81,7 @@ class ViscosityKernel {
   double h_, c_;
 };
 
-/// Elasticity kernel (17), made for solids of as few as two particles:
+/// Elasticity kernel (17), made for solids of as few as two particles.
 /// W(r) = c (2h/pi) (cos((r + h) pi/(2h)) + 1), c = pi / (8 h^4 (pi/3 - 8/pi + 16/pi^2)).
 class ElasticityKernel {
  public:
@@ -143,8 +143,8 @@ class WendlandC2 {
   double h_, per_h_, c_, g_;
 };
 
-/// Core of pairs that exert pressure on each other (model 8.3): energy 1/2 kappa (reach - r)^2 for r < reach, so that they do
-/// not close up where the clamped pressure leaves no repulsion.
+/// Core of pairs that exert pressure on each other (model 8.3): energy 1/2 kappa (reach - r)^2 for r < reach. It keeps particles
+/// apart where the clamped pressure leaves no repulsion.
 struct Core {
   double stiffness = 0.0;  ///< kappa [N/m]
   double reach = 0.0;      ///< scene.core_reach times dx [m]
@@ -155,7 +155,7 @@ struct Core {
     const V repulsion = r < reach ? stiffness * (reach * (r * per_r2) - 1.0) : 0.0;
     return r > 0.0 ? repulsion : 0.0;
   }
-  /// Of one pair [J]. @param r [m]
+  /// Energy of one pair [J]. @param r [m]
   [[nodiscard]] double energy(double r) const noexcept { return r < reach ? 0.5 * stiffness * (reach - r) * (reach - r) : 0.0; }
 };
 

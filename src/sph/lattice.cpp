@@ -96,7 +96,7 @@ ShearWeight isotropic_shear(double q) {
 
 namespace {
 
-/// What the energy of unlike pairs with the kernel K gives a layer a from the interface, times 2/(rho - rho') [1/m].
+/// Weight of a layer a from the interface that the energy of unlike pairs with the kernel K gives, times 2/(rho - rho') [1/m].
 double lifted(double q, double a, const InterfaceKernel& K) {
   const WendlandC2 W(q);
   double sum = 0.0;
@@ -107,7 +107,7 @@ double lifted(double q, double a, const InterfaceKernel& K) {
   return sum;
 }
 
-/// What is missing of its weight, times 2/(rho - rho') [1/m].
+/// Missing part of its weight, times 2/(rho - rho') [1/m].
 double missing(double q, double a) {
   const WendlandC2 W(q);
   double sum = 0.0;

@@ -5,7 +5,7 @@
 #include "core/vec3.hpp"
 #include "sph/kernels.hpp"
 
-/// Sums over the cubic lattice: what a kernel makes of undisturbed particles, exact at any number of them. Lengths are in
+/// Sums over the cubic lattice: the values of a kernel on undisturbed particles, exact at any number of them. Lengths are in
 /// spacings where nothing else is said, so that the support radius is the support ratio q = h/dx. Proof:
 /// tests/sph/lattice_test.cpp.
 namespace tripoint {
@@ -20,7 +20,7 @@ struct LatticeMoments {
   double laplacian = 0.0;  ///< 1/6 sum_j V r^2 lap W
 };
 
-// Of each kernel of kernels.hpp. @param q support ratio, > 0 [spacings]
+// Moments of each kernel of kernels.hpp. @param q support ratio, > 0 [spacings]
 [[nodiscard]] LatticeMoments poly6_moments(double q);       ///< density, layer
 [[nodiscard]] LatticeMoments spiky_moments(double q);       ///< density, layer, gradient
 [[nodiscard]] LatticeMoments viscosity_moments(double q);   ///< laplacian
@@ -36,8 +36,8 @@ struct ShearModuli {
 [[nodiscard]] ShearModuli shear_moduli(double q, const ShearWeight& weight);
 
 /// The weight with which both moduli are 1 (model 8.5). A constant below 0 would drive near pairs in the place of braking them.
-/// Where the two conditions ask for one, it is 0, the moduli differ as little as they can, and their mean over all directions
-/// is 1.
+/// Where the two conditions ask for a constant below 0, it is 0. The moduli then differ as little as they can, and their mean
+/// over all directions is 1.
 /// @param q support ratio, > 1.5 [spacings]   @return its square [1/spacing2]
 [[nodiscard]] ShearWeight isotropic_shear(double q);
 
@@ -61,8 +61,8 @@ struct InterfaceKernel {
 [[nodiscard]] InterfaceKernel interface_kernel(double q);
 
 /// Decay rate over diffusivity of the mode cos(k.r) under (21) as printed, on the cubic lattice:
-/// sum_j V lapW_visc(r_j) (1 - cos k.r_j) [1/m2], V = dx^3/S0 of poly6, the volume m/rho that (4) gives. Times the
-/// diffusivity [m2/s] it is the rate of decay in continuous time [1/s].
+/// sum_j V lapW_visc(r_j) (1 - cos k.r_j) [1/m2]. V = dx^3/S0 of poly6 is the volume m/rho that (4) gives. Times the diffusivity
+/// [m2/s] it is the rate of decay in continuous time [1/s].
 /// @param spacing dx > 0 [m]   @param support h > dx [m]   @param wave_vector k [1/m]
 [[nodiscard]] double paper_heat_rate(double spacing, double support, const Vec3& wave_vector);
 

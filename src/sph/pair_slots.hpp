@@ -5,13 +5,14 @@
 
 #include "sph/pass.hpp"
 
-/// The slots of the fused passes, put together from what each effect brings. An effect with pair terms has a header
-/// effects/NAME/pair_slots.hpp with a type NAME::PairSlots and, in it, what there is of
-///   using density = SlotList<Slot<...>...>;  what the pass of density sums
-///   using rates = SlotList<Slot<...>...>;    what the pass of rates sums
+/// The slots of the fused passes, put together from those of each effect. An effect with pair terms has a header
+/// effects/NAME/pair_slots.hpp with a type NAME::PairSlots. The type has any of these aliases:
+///   using density = SlotList<Slot<...>...>;  terms that the pass of density sums
+///   using rates = SlotList<Slot<...>...>;    terms that the pass of rates sums
 ///   using alone = Together<...>;             terms that have a pass each
 ///   using timed = Together<...>;             the form of rates by which the fastest width is found
-/// One without pair terms says nothing: NAME::PairSlots is then never defined. All functions here are for their types alone.
+/// An effect without pair terms has no such header: NAME::PairSlots is then never defined. All functions here are for their types
+/// alone.
 namespace tripoint {
 
 template <class... Slots>

@@ -18,9 +18,9 @@
 #include "particles/entry.hpp"
 #include "sph/kernels.hpp"
 
-/// The fused pair pass. A pair term says which fields it reads of i and j, which it adds to i, and the formula; a pass fuses the
-/// terms of its slots at compile time, for whole vectors of particles i against one neighbour j at a time, and a scene picks one
-/// of the combinations at run time (passes/run_pass.hpp).
+/// The fused pair pass. A pair term names the fields that it reads of i and j, those that it adds to i, and the formula. A pass
+/// fuses the terms of its slots at compile time, for whole vectors of particles i against one neighbour j at a time. A scene
+/// picks one of the combinations at run time (passes/run_pass.hpp).
 namespace tripoint {
 
 template <const auto&... fields>
@@ -29,11 +29,11 @@ struct Keys {
   static constexpr std::array<const Field<double>*, size> list{&fields...};
 };
 
-/// What every term is told of a pair.
+/// Geometry of a pair that every term gets.
 template <class V>
 struct PairGeometry {
   V dx, dy, dz;     ///< r_j - r_i [m]
-  V r2, r;          ///< its square [m2], |r_j - r_i| [m]; what no term asks for is not formed
+  V r2, r;          ///< its square [m2], |r_j - r_i| [m]; values that no term asks for are not formed
   V per_r2;         ///< 1/r^2; where r is 0, a number that keeps products with dx, dy, dz and r at 0 [1/m2]
   V gradient;       ///< W'(r)/r of the Wendland kernel [1/m5]
   MaskOf<V> apart;  ///< not an own pair, two members of one deformable body that meet through their bonds alone
@@ -51,8 +51,8 @@ template <class V>
   sum[5] += w * (g.dx * g.dy);
 }
 
-/// Clusters of particles and what they are to be summed over, as plain memory: what is compiled for one vector unit shares no
-/// code with the rest.
+/// Clusters of particles and their neighbours to sum over, as plain memory. Code compiled for one vector unit shares nothing with
+/// the rest.
 struct PassTask {
   const double *x = nullptr, *y = nullptr, *z = nullptr;  ///< [m]
   double* const* columns = nullptr;        ///< those that the terms read and add to, in the order of PassFunction::fields
@@ -135,8 +135,8 @@ template <std::size_t n, class Make>
   (std::make_index_sequence<n>{});
 }
 
-/// Adds a term's part of a pair to its sums, for the members whose lane is in `acting`; the sums of the others keep their bits.
-/// @tparam mention first of the term's fields among those of all terms   @param i, j what all terms read, each field once @param
+/// Adds a term's part of a pair to its sums, for the members whose lane is in `acting`. The sums of the others keep their bits.
+/// @tparam mention first of the term's fields among those of all terms @param i, j fields that all terms read, each once @param
 /// sum the term's first
 template <class Fields, class Term, std::size_t mention, class V, class Mask>
 void add_term(const PairGeometry<V>& g, Mask acting, const std::array<V, Fields::reads>& i, const std::array<V, Fields::reads>& j,
@@ -213,8 +213,8 @@ template <int L, class ForUnit, bool finds, class... Terms>
         dz += s.z;
       }
       const V r2 = dx * dx + dy * dy + dz * dz;
-      // What is within the support is near: nothing has moved by more than half the skin. But for a member, which is not near to
-      // itself.
+      // Particles within the support are near, because nothing has moved by more than half the skin. A member is the exception:
+      // it is not near to itself.
       Mask acting = r2 < t.support2;
       if (entry.bits - members_bits < static_cast<std::uint32_t>(L)) [[unlikely]]
         acting &= mask_of<L>(t.near[e]);
@@ -334,7 +334,7 @@ struct AnyPass {
   [[nodiscard]] static PassFunction choose(const std::array<int, slots>& forms) {
     return detail::Pick<L, ForUnit, finds, Together<>, Slots...>::get(forms.data());
   }
-  /// Of each slot the form all of whose terms are wanted; terms of other passes may be among them.
+  /// For each slot the form all of whose terms are wanted; terms of other passes may be among them.
   template <int L, class ForUnit>
   [[nodiscard]] static PassFunction choose_among(std::span<const PairTerm> wanted) {
     return choose<L, ForUnit>({detail::wanted_form<ForUnit>(Slots{}, wanted.data(), wanted.size())...});
@@ -342,7 +342,7 @@ struct AnyPass {
 };
 template <class... Slots>
 using Pass = AnyPass<false, Slots...>;
-/// The first pass over new places: it also finds what is within the support.
+/// The first pass over new places: it also finds the entries within the support.
 template <class... Slots>
 using FindingPass = AnyPass<true, Slots...>;
 

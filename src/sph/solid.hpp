@@ -31,7 +31,7 @@ struct ShapeInverse {
 [[nodiscard]] constexpr Symmetric green_strain(const Matrix3& F) noexcept {
   return symmetric_part(0.5 * (transposed(F) * F - identity3));
 }
-/// Strain of MKN04, which the paper follows: F^T F - I [1]. What fails: without the 1/2 the material is 4 times as stiff.
+/// Strain of MKN04, which the paper follows: F^T F - I [1]. Its fault: without the 1/2 the material is 4 times as stiff.
 [[nodiscard]] constexpr Symmetric strain_paper(const Matrix3& F) noexcept { return 2.0 * green_strain(F); }
 
 /// Young's modulus E and Lame's constants of an isotropic solid.

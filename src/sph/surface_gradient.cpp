@@ -38,7 +38,7 @@ bool at_surface(std::span<const GradientPoint> points) {
 }
 
 std::vector<Vec3> curvature_correction(std::span<const GradientPoint> points, const Symmetric& A) {
-  Eigen::Matrix<double, 6, 3> read = Eigen::Matrix<double, 6, 3>::Zero();  // what the gradient makes of each curvature
+  Eigen::Matrix<double, 6, 3> read = Eigen::Matrix<double, 6, 3>::Zero();  // the gradient's value for each curvature
   for (const GradientPoint& p : points) read += square_of(p.x) * vector_of(p.weight * (A * p.x)).transpose();
   const auto rest = [&](const GradientPoint& p) { return Curvature(square_of(p.x) - read * vector_of(p.x)); };
   Moment6 whole = Moment6::Zero(), known = Moment6::Zero();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run continues from. Columns and bookings are taken generically, so that a new field or entry is kept without a line
-// here; derived state (neighbour lists) is built again from what it was built from, never from the present.
+// The state that a run continues from. Columns and bookings are taken generically, so that a new field or entry is kept without a
+// line here. Derived state (neighbour lists) is rebuilt from its own earlier input, never from the present state.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -259,7 +259,7 @@ void Simulation::restore(const Checkpoint& kept) {
   schedule_.restore(static_cast<std::size_t>(n[1]), {t[5], t[6], n[2], n[3]});
   restore_booked(world_.booked, kept);
   if (const auto ids = kept.whole.find("particles/id"); ids != kept.whole.end())
-    while (world_.particles.size() < ids->second.size()) world_.particles.append();  // those that had flowed in
+    while (world_.particles.size() < ids->second.size()) world_.particles.append();  // particles that had flowed in
   const std::vector<std::uint32_t> order = row_order(kept, world_.particles.size());
   world_.particles.permute(order);  // rows were in order of id
   restore_all_pairs(world_, kept);

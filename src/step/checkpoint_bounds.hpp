@@ -2,9 +2,9 @@
 #pragma once
 #include "world/world.hpp"
 
-/// What a checkpoint may say. Its seal shows what was altered by accident; a file of another program, or of a broken memory, can
-/// have a seal that holds. So numbers that stand for rows are held to the rows that there are, and amounts to those that formulas
-/// bear, before anything is worked out of them. Whether a state is one that a run can come to, nobody can tell.
+/// Checks of the values in a checkpoint. The seal shows accidental changes only: a file of another program, or of a broken
+/// memory, can have a valid seal. So row numbers are held to the rows that there are, and amounts to the range that formulas
+/// bear, before anything is computed from them. No check can tell whether a run can reach the state.
 namespace tripoint {
 
 /// @throws InputError naming the list, where a partner is no particle, or a bond is not in the list of its partner

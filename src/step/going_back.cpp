@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes that recover: what a run does when a guard trips.
+// Scenes that recover: actions of a run when a guard trips.
 #include <utility>
 
 #include "step/simulation.hpp"

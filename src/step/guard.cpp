@@ -13,12 +13,12 @@
 namespace tripoint {
 namespace {
 
-/// Of the energy that the mass would have at one spacing a step, what is not told apart from round-off [1]: a choice, far above
-/// that of sums over particles.
+/// Share of the energy that the mass would have at one spacing a step, below which nothing is told apart from round-off [1]. A
+/// choice, far above the round-off of sums over particles.
 constexpr double round_off_share = 1e-10;
-/// Of the energy that was turned over, what the scheme may make or lose [1]: more is no error of integration any more.
+/// Share of the turned-over energy that the scheme may make or lose [1]: more is no error of integration any more.
 constexpr double most_made = 0.5;
-/// Of the first step, what one may shrink to [1]: a choice. Such a run would go on for ever.
+/// Share of the first step that a step may shrink to [1]: a choice. Such a run would go on for ever.
 constexpr double least_step_share = 1e-5;
 
 /// Whether test(from, to) holds for all rows, shared among threads where there are enough: a team costs more than a short column.
@@ -32,7 +32,7 @@ bool holds_for_all(std::size_t rows, int threads, Test test) {
   return holds;
 }
 
-/// The sum of a column times zero is not finite when one of its values is not: no branch in the loop, and no order in the sum.
+/// The sum of a column times zero is not finite when one of its values is not. So the loop needs no branch, and the sum no order.
 bool all_finite(std::span<const double> values, int threads) {
   return holds_for_all(values.size(), threads, [&](std::size_t from, std::size_t to) {
     double zero = 0.0;
@@ -76,7 +76,7 @@ class Movable {
   std::span<const int> body_, driven_;
 };
 
-/// The row of the greatest kinetic energy: who is looked at where no single particle is to blame.
+/// The row of the greatest kinetic energy: the particle that is named where no single particle is to blame.
 std::size_t fastest(const World& world) {
   const auto v = velocities(world.particles);
   const auto m = world.particles[field::mass];
@@ -96,8 +96,9 @@ double entry_of(const Ledger& ledger, std::string_view name) {
 }
 
 /// The largest energy that the scheme has made [J], lost where negative, and what made it. Effects declare which of their entries
-/// mean energy from nowhere where they fall below 0 (EntryRole). Who drives a wall pays for it in the entry `walls`. The printed
-/// pressure has no energy behind it: it makes some in every column at rest, which is its known defect, and contacts store some.
+/// mean energy from nowhere where they fall below 0 (EntryRole). The driver of a wall pays for it in the entry `walls`. The
+/// printed pressure has no energy behind it: it makes some in every column at rest, which is its known defect, and contacts store
+/// some.
 struct Made {
   double energy = 0.0;
   std::string_view by;
@@ -118,7 +119,7 @@ Made made_by_scheme(const Ledger& ledger, const std::vector<GuardedEntry>& entri
   return most;
 }
 
-/// Sizes of all entries but those apart, and what the scheme made.
+/// Sizes of all entries but those apart, and the energy that the scheme made.
 double turnover(const Ledger& ledger, const std::vector<GuardedEntry>& entries, double start_potential) {
   double sum = 0.0;
   for (const auto& [entry, energy] : ledger.energy) {

@@ -6,7 +6,7 @@
 
 namespace tripoint {
 
-/// The ledger as this process has it: masses of its own particles in order of id, and what each effect adds.
+/// The ledger as this process has it: masses of its own particles in order of id, and the entries of each effect.
 [[nodiscard]] Ledger own_ledger(const World&, const std::vector<Active>&);
 
 /// The same of all processes that share the scene, which all call it: all entries are sums over particles, or told by one process

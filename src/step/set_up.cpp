@@ -35,7 +35,7 @@ bool is_static(const Scene& scene, const InitialState& initial) {
   return none_prescribed && at_rest(scene.gravity) && std::ranges::all_of(initial.velocity, at_rest) && scene.events.empty();
 }
 
-/// Whether liquids and what is fixed are all that there is, laid at rest.
+/// Whether the scene has only liquids and fixed bodies, laid at rest.
 bool is_still(const Scene& scene, const InitialState& initial) {
   const auto rests = [](const Body& b) { return b.phase == Phase::liquid || b.motion == Motion::fixed; };
   return scene.inflows.empty() && scene.events.empty() && std::ranges::all_of(scene.bodies, rests) &&

@@ -15,7 +15,7 @@ bool (*stop_wanted)() noexcept = nullptr;
 
 bool is_stopped() noexcept { return stop_wanted && stop_wanted(); }
 
-constexpr double rest = 2e-3;                 ///< of sqrt(g H), rms: a tenth of what counts as still water
+constexpr double rest = 2e-3;                 ///< of sqrt(g H), rms: a tenth of the limit for still water
 constexpr double shaken = 0.05;               ///< spacings, to either side
 constexpr long most_settling_steps = 20'000;  ///< tanks 5 to 10 across take 4,000 to 10,000
 constexpr int calm_cycles = 5;                ///< one after the other below `rest`: single low peaks come of the fastest swings

@@ -24,8 +24,8 @@ class SettlingStopped : public std::runtime_error {
 /// Asked at every step of settled(), which takes up to minutes; nullptr, as at the start: nobody stops it.
 void stop_settling_when(bool (*wanted)() noexcept) noexcept;
 
-/// Particles of a scene with `settle = true`: its liquids are let down into equilibrium under gravity between the solids, which
-/// stand still where they are at the start. A lattice is no equilibrium of a liquid with a free surface: left alone it falls by a
+/// Particles of a scene with `settle = true`. Its liquids are let down into equilibrium under gravity between the solids, which
+/// stand still where they are at the start. A lattice is no equilibrium of a liquid with a free surface. Left alone it falls by a
 /// tenth of a spacing, breaks up, and moves at some percent of sqrt(g H) for seconds.
 ///
 /// Kinetic damping [Barnes 1999]: an inviscid run, all velocities put to zero whenever the kinetic energy has passed a peak,

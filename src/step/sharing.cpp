@@ -15,7 +15,7 @@ bool splits(const Halo& halo) {
   return std::ranges::find(split, true) != split.end();
 }
 
-/// What this process has summed of its own particles, body by body.
+/// Sums of this process over its own particles, body by body.
 std::vector<std::vector<double>> body_sums(const World& world) {
   std::vector<std::vector<double>> sums;
   for (const Field<double>& f : world.body_sums) {
@@ -35,8 +35,8 @@ void set_body_sums(World& world, std::vector<std::vector<double>> sums) {
   }
 }
 
-/// Where particles were as the lists that there are were made, by number, for each process that holds a part of them; of fewer
-/// particles than there are where one has no lists.
+/// Positions of the particles when the present lists were made, by number, for each process that holds a part of them. Where a
+/// process has no lists, some particles are missing.
 std::vector<Vec3> gather_built(const World& world) {
   const std::span<const Vec3> built = world.neighbours->build_positions();
   const std::span<const int> number = world.halo->numbers();
@@ -71,7 +71,7 @@ std::vector<Vec3> built_here(const World& world, const std::vector<Vec3>& built)
   return here;
 }
 
-/// What lists of this part know of the whole. @param places by row, that they are made at
+/// Facts about the whole scene that the lists of this part need. @param places by row, that they are made at
 Whole whole_of(const World& world, std::span<const Vec3> places, std::size_t particles) {
   constexpr double none = std::numeric_limits<double>::infinity();
   Whole whole{{none, none, none}, {-none, -none, -none}, particles, {}, world.halo->owned()};
@@ -170,7 +170,7 @@ void Sharing::share_out(World& world, const Passes& passes) {
   share_particles(world, passes);
 }
 
-/// Lists that are not outdated stay those that they were: of a part there are those that one process has of the whole.
+/// Lists that are not outdated stay. A part then has the lists that one process has of the whole.
 void Sharing::share_particles(World& world, const Passes& passes) {
   const bool keeps = world.neighbours && !world.neighbours->outdated(world.particles);
   const std::vector<Vec3> built = keeps ? by_id(world.particles, world.neighbours->build_positions()) : std::vector<Vec3>{};
@@ -190,7 +190,7 @@ void Sharing::follow(World& world, const std::vector<Active>& effects, const Pas
   if (!world.halo) {
     share_out(world, passes);
   } else if (!is_part(world) && world.particles.size() != count_) {
-    share_particles(world, passes);  // one rank holds the whole always: what has flowed in, lists may know already
+    share_particles(world, passes);  // one rank holds the whole always: lists may know inflowing particles already
   } else {
     ++steps_;
     if (!any(outdated(world))) return;

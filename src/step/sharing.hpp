@@ -20,17 +20,18 @@ class Sharing {
   [[nodiscard]] bool is_part(const World&) const;
   /// Whether one of the processes says so. All call it. @pre the scene is shared out
   [[nodiscard]] bool any(bool here) const;
-  /// Each process holds all of the scene, as one process does, with the lists that one process has: what all then do alike keeps
-  /// them alike. What is booked meanwhile stands with the first alone. Nothing where this process holds all already.
+  /// Each process holds the whole scene, with the lists that a single process has. All then make the same changes and stay equal.
+  /// Bookings made meanwhile stand with the first process alone. Nothing where this process holds all already.
   void gather(World&, const std::vector<Active>&);
   /// The scene as one process would hold it between two steps, with all that processes have booked.
   [[nodiscard]] World whole(const World&) const;
   /// Shares out what this process holds all of, with the lists that it has where they are not outdated. Else, where the lists of
-  /// one process are outdated, particles go to who has their place now, and all make new lists. All call it. @pre there is a halo
+  /// one process are outdated, particles go to the process that has their place now, and all make new lists. All call it. @pre
+  /// there is a halo
   void follow(World&, const std::vector<Active>&, const Passes&);
 
  private:
-  /// What each process has summed of its own part, of a scene that is held by all for now.
+  /// Sums of each process over its own part, of a scene that all hold for now.
   struct Booked {
     Bookings accounts;
     std::vector<std::vector<double>> body_sums;  ///< of each of World::body_sums, by body

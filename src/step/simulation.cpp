@@ -68,7 +68,7 @@ void Simulation::set_bound() {
   if (given && !options_.force_time_step) refuse_above_bound(world_, recovery_.share() * *given, bound_, steps_ > 0);
 }
 
-/// What can sleep as neighbours are listed anew.
+/// Bodies that can sleep as neighbours are listed anew.
 Resting Simulation::resting() const {
   const std::optional<double> beyond = passes_.sleeps_beyond();
   if (!beyond || world_.halo || schedule_.has_moments_left()) return {};

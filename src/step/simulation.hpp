@@ -25,11 +25,11 @@ struct SimulationOptions {
   bool gives_way = false;        ///< takes one thread while other work fills the machine; it changes no bit
   bool force_time_step = false;  ///< run with the scene's time step though it is above a bound
   double skin = 0.1;             ///< of the neighbour lists, in support radii; static scenes need none
-  int lanes = 0;          ///< particles that a pair pass works on at once, 1, 4 or 8; 0 = what is fastest here. It changes no bit
+  int lanes = 0;          ///< particles that a pair pass works on at once, 1, 4 or 8; 0 = the fastest here. It changes no bit
   bool sums_all = false;  ///< pair passes sum also where nothing meets; it changes no bit
   std::optional<std::array<std::size_t, 3>> axis_order{};  ///< rotation by NO_SQUISH in this order instead of the better default
   Halo* halo = nullptr;                   ///< those that hold the rest of the scene; it must outlive the simulation
-  StageSeconds* stage_seconds = nullptr;  ///< where to add what each stage takes; it must outlive the simulation
+  StageSeconds* stage_seconds = nullptr;  ///< where to add the time of each stage; it must outlive the simulation
 };
 
 /// A scene in motion: kick, drift, kick, with the effects that it calls for. The step itself is in step.cpp.
@@ -63,7 +63,8 @@ class Simulation {
   [[nodiscard]] double pairs() const noexcept { return pairs_; }  ///< directed pairs visited by rate passes
   [[nodiscard]] double time_step() const noexcept { return dt_; }
   [[nodiscard]] const TimeStepBound& bound() const noexcept { return bound_; }
-  /// What set the step: the name of the least bound, "scene" where the scene gives it, "output" where nothing bounds it.
+  /// Name of the bound that set the step: that of the least bound, "scene" where the scene gives it, "output" where nothing
+  /// bounds it.
   [[nodiscard]] std::string time_step_set_by() const;
 
  private:
@@ -118,7 +119,7 @@ class Simulation {
   GuardMemory guards_;
   Enclosure enclosure_;
   Recovery recovery_;
-  InitialState start_;  ///< what a run that recovers is set up from again; else empty
+  InitialState start_;  ///< state that a run that recovers is set up from again; else empty
 };
 
 }  // namespace tripoint

@@ -13,7 +13,7 @@
 namespace tripoint {
 namespace {
 
-/// Of a step, what counts as round-off [1]: a choice, far above the 1e-16 of a division and far below what a step changes.
+/// Share of a step that counts as round-off [1]: a choice, far above the 1e-16 of a division and far below any real change.
 constexpr double rounding = 1e-9;
 
 }  // namespace

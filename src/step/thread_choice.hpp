@@ -4,9 +4,9 @@
 
 namespace tripoint {
 
-/// How many threads the next step takes: all that are given, or one while other work fills the machine, for then threads wait for
-/// each other longer than they work. It measures: where threads are pushed aside it tries one, keeps what is faster, and looks
-/// again later. Threads do not change a bit of a run, so they can change between two steps.
+/// How many threads the next step takes: all that are given, or one while other work fills the machine. Several threads would
+/// then wait for each other longer than they work. It measures: where threads are pushed aside it tries one, keeps the faster
+/// choice, and looks again later. Threads do not change a bit of a run, so they can change between two steps.
 class ThreadChoice {
  public:
   explicit ThreadChoice(int most) : most_(most), now_(most) {}

@@ -10,8 +10,8 @@ namespace tripoint {
 /// A cell of an unbounded grid, counted from the cell at its origin.
 using CellIndex = std::array<std::int32_t, 3>;
 
-/// Numbers for those cells of an unbounded grid that hold something. Memory follows their number, not the room they lie in, so
-/// that a drop that has flown far costs no more than one that has not.
+/// Numbers for the occupied cells of an unbounded grid. Memory follows their number, not the room they lie in: a drop that has
+/// flown far costs no more than one that has not.
 class CellTable {
  public:
   static constexpr std::uint32_t none = ~std::uint32_t{0};

@@ -17,7 +17,7 @@ struct SurfaceOptions {
   bool detector = true;           ///< false: f = 1, the surface of [Zhu & Bridson 2005], (22)
   DetectorLimits limits;
 
-  /// What is taken where nobody says otherwise: the paper gives neither length (docs/surface.md says why these).
+  /// Values used where nobody says otherwise: the paper gives neither length (docs/surface.md says why these).
   /// @param spacing of the particles [m]
   [[nodiscard]] static SurfaceOptions for_spacing(double spacing) noexcept {
     SurfaceOptions o;
@@ -25,13 +25,13 @@ struct SurfaceOptions {
     o.distance = distance_per_influence_radius * o.influence_radius;
     return o;
   }
-  /// R/ir at which a flat surface lies half a layer outside the last layer of a cubic lattice: 0.284, 0.273, 0.267 on its planes
-  /// (100), (110), (111) at an ir of 2.4 spacings, 0.2598 in the continuum; a little more, as balls of ten spacings have their
-  /// volume best so.
+  /// R/ir at which a flat surface lies half a layer outside the last layer of a cubic lattice. At an ir of 2.4 spacings it is
+  /// 0.284, 0.273, 0.267 on its planes (100), (110), (111), and 0.2598 in the continuum. The value is a little more, because
+  /// balls of ten spacings then have their volume best.
   static constexpr double distance_per_influence_radius = 0.28;
 };
 
-/// What the surface function is made of at one place.
+/// Parts of the surface function at one place.
 struct SurfaceValue {
   double phi = 0.0;         ///< (23), below zero inside [m]
   double eigenvalue = 0.0;  ///< EV_max [1]; 0 where the detector is off or no particle is near
@@ -52,8 +52,8 @@ class ImplicitSurface {
   [[nodiscard]] Box bounds() const noexcept { return grown(cells_.box(), options_.influence_radius); }
   /// A box around a place in which no place is within ir of a particle; nothing where there is none such.
   [[nodiscard]] std::optional<Box> empty_box(const Vec3&) const noexcept;
-  /// Keys of the cubic cells of side ir, counted from the lower corner of bounds(), that may hold a place within ir of a
-  /// particle; ascending.
+  /// Ascending keys of the cubic cells of side ir that may hold a place within ir of a particle. They are counted from the lower
+  /// corner of bounds().
   [[nodiscard]] std::span<const std::uint64_t> near_cells() const noexcept { return near_keys_; }
 
  private:
@@ -64,8 +64,8 @@ class ImplicitSurface {
   std::vector<std::uint64_t> near_keys_;
 };
 
-/// One thread's view of a surface: keeps the lists of the places that it was asked about last. The values do not depend on what
-/// was asked before.
+/// One thread's view of a surface: keeps the lists of the places that it was asked about last. The values do not depend on
+/// earlier calls.
 class SurfaceProbe {
  public:
   /// @param surface must outlive it

@@ -30,8 +30,8 @@ struct NearPoints {
   [[nodiscard]] bool empty() const noexcept { return row.empty(); }
 };
 
-/// Points sorted into cubic cells, to be asked about any place: unlike `Neighbours`, which lists pairs of particles that move, it
-/// is built once for points that stay, and takes places where no particle is.
+/// Points sorted into cubic cells, to be asked about any place. `Neighbours` lists pairs of particles that move. This is built
+/// once for points that stay, and takes places where no particle is.
 class PointCells {
  public:
   /// @param side of a cell [m]
@@ -62,7 +62,7 @@ class PointCells {
   CellTable table_;
 };
 
-/// What PointCells::gather gave for the cells that one thread asked about last.
+/// Result of PointCells::gather for the cells that one thread asked about last.
 class NearCache {
  public:
   /// @param cells must outlive it   @param reach of the points around a place [m]

@@ -52,7 +52,7 @@ Samples blocks_of(const ImplicitSurface& surface, double voxel) {
   return s;
 }
 
-/// phi over ir at each point, as OpenVDB reads it: what is far off counts no more than ir.
+/// phi over ir at each point, as OpenVDB reads it: far points count no more than ir.
 void fill(const ImplicitSurface& surface, Samples& s, int threads) {
   s.values.resize(s.keys.size() * block_points);
 #pragma omp parallel num_threads(threads)

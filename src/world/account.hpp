@@ -14,7 +14,7 @@
 /// Energies that a run sums as it goes. Accounts are typed keys, as fields are: an effect declares its own in its folder.
 namespace tripoint {
 
-/// A sum of energy over the run [J]: what a force has done, what an event has let go, what was stored at time 0.
+/// A sum of energy over the run [J]: the work of a force, energy that an event has let go, energy stored at time 0.
 struct Account {
   std::string_view name;
   std::uint64_t key = key_of(name);
@@ -32,7 +32,7 @@ inline constexpr Account deformation_released{
     "deformation_released"};  ///< elastic and hourglass energy that events turned into heat, plastic or fracture entries
 inline constexpr Account inflow{"inflow"};    ///< kinetic, potential and thermal energy that flowed in
 inline constexpr Account merging{"merging"};  ///< kinetic energy lost as bodies became one
-inline constexpr Account walls{"walls"};      ///< taken by what is held, fixed or prescribed from outside
+inline constexpr Account walls{"walls"};      ///< taken by bodies held, fixed or prescribed from outside
 }  // namespace account
 
 /// An account was asked for that no effect of this scene has declared: a fault of the program, so it says the account by name.

@@ -49,7 +49,7 @@ class RigidMembers {
   std::span<const int> body_, phase_;
 };
 
-/// What a deformable body does as a whole, from its members: L/I for its spin.
+/// Motion of a deformable body as a whole, from its members: L/I for its spin.
 struct WholeMotion {
   double mass = 0.0;            ///< [kg]
   Vec3 centre, velocity, spin;  ///< [m], [m/s], [rad/s]

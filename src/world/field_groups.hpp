@@ -5,7 +5,8 @@
 
 #include "particles/catalogue.hpp"
 
-/// Fields that are read together, for what an effect declares: components of one thing, and what a shared function reads.
+/// Fields that are read together, for the declaration of an effect: components of one quantity, and the fields that a shared
+/// function reads.
 namespace tripoint::fields {
 
 using List = std::vector<FieldInfo>;

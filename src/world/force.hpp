@@ -7,32 +7,33 @@
 #include "core/field.hpp"
 #include "world/account.hpp"
 
-/// What an effect says of a force that it makes; motion, rigid bodies and the ledger do the rest.
+/// Description of a force by the effect that makes it. Motion, rigid bodies and the ledger do the rest.
 namespace tripoint {
 
-/// The energy whose gradient a force is. What finite steps leave between it and the work of the force is the entry
+/// The energy whose gradient a force is. The difference that finite steps leave between it and the work of the force is the entry
 /// `time_integration`.
 struct StoredEnergy {
   std::vector<std::string_view> entries;  ///< of the ledger, which the effect tells in add_to()
   Account at_start;                       ///< their sum at time 0
-  std::optional<Account> released{};      ///< what events let go of it
-  std::string_view released_to{};         ///< entry that has what they let go; "" where others tell it
+  std::optional<Account> released{};      ///< energy that events let go of
+  std::string_view released_to{};         ///< entry that has the energy they let go; "" where others tell it
 };
 
-/// Who feels a force. all: rigid bodies too, by the sum over their members; particles: only what moves by the forces on its own
-/// particles.
+/// Particles that feel a force. all: rigid bodies too, by the sum over their members; particles: only what moves by the forces on
+/// its own particles.
 enum class Feels { all, particles };
 
 struct Force {
   Field<double> x, y, z;                    ///< columns that the effect owns [N]
   Account work;                             ///< done on what moves by forces
-  std::optional<Account> work_on_driven{};  ///< done on what the scene moves, which pays for it; none: it stands with the other
+  std::optional<Account> work_on_driven{};  ///< done on bodies that the scene moves, which pay for it; none: it stands with the
+                                            ///< other
   std::optional<StoredEnergy> stored{};
   std::string_view entry{};  ///< of the ledger, that takes the work of a force which no energy stores
   Feels feels = Feels::all;
 };
 
-/// Where the work on what the scene moves is booked.
+/// Where the work on bodies that the scene moves is booked.
 [[nodiscard]] inline const Account& work_on_driven(const Force& f) { return f.work_on_driven ? *f.work_on_driven : f.work; }
 
 /// Most forces that a scene may have: their sums are kept side by side in arrays of this length.

@@ -16,13 +16,14 @@ enum class Written { drift, density, rates, kick };
   return words[static_cast<int>(w)];
 }
 
-/// A column that is looked at after every step: its values must be finite. What goes wrong first is named.
+/// A column that is looked at after every step: its values must be finite. The first value that fails is named.
 struct Guarded {
   Field<double> field;
   std::string_view name;  ///< in messages
   Written written;
   std::string_view
-      not_positive{};  ///< of a temperature, which must be above 0: unit and what a lesser one would be, "K, below absolute zero"
+      not_positive{};  ///< where values must be above 0 too: unit and the meaning of a lesser one, "K, below absolute zero"
+};                     ///< of a temperature, which must be above 0: unit and what a lesser one would be, "K, below absolute zero"
 };
 
 /// A column of whole numbers that stand for rows, or for one of so many kinds: each is `least` or above, and below `end`. A
@@ -33,18 +34,18 @@ struct Bounded {
   std::size_t (*end)(const World&);
 };
 
-/// What an entry of the ledger is to the guard of energy (step/guard.hpp). One of which no effect speaks is energy that the scene
-/// turns over.
+/// Role of a ledger entry for the guard of energy (step/guard.hpp). An entry for which no effect gives a role is energy that the
+/// scene turns over.
 enum class EntryRole {
   apart,       ///< heat, which dwarfs what moves, or what comes from outside: it is left out
   only_takes,  ///< minus the work of a force that may only take energy: below 0 it is energy from nowhere
-  unbacked     ///< minus the work of a force that no energy stands behind: below 0 it is energy from nowhere in a scene that was
-               ///< laid at rest, but for what forces that only take have taken again
+  unbacked     ///< minus the work of a force without stored energy. In a scene laid at rest a value below 0 is energy from
+               ///< nowhere, unless `only_takes` forces have taken as much
 };
 struct GuardedEntry {
   std::string_view entry;
   EntryRole role;
-  std::string_view made_by{};  ///< in messages: what has made the energy
+  std::string_view made_by{};  ///< in messages: the source of the energy
 };
 
 }  // namespace tripoint

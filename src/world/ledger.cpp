@@ -24,7 +24,7 @@ void tell_common_entries(const World& world, Ledger& sum) {
       for (const std::string_view entry : rule.always_told(world.scene)) sum.energy.try_emplace(std::string(entry), 0.0);
 }
 
-/// What finite steps left of one force: 0 to round-off where its work is what it took from what it stores.
+/// Energy left by finite steps for one force: 0 to round-off where its work equals the energy taken from its store.
 double by_finite_steps(const World& world, const Force& f, const Ledger& sum) {
   const StoredEnergy& stored = *f.stored;
   const double change = stored_now(sum, stored) - world.booked[stored.at_start];

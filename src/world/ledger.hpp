@@ -9,7 +9,7 @@ namespace tripoint {
 
 struct World;
 
-/// What a closed system keeps, summed in order of id, and where energy is.
+/// Quantities that a closed system conserves, summed in order of id, and its energy by entry.
 struct Ledger {
   double mass = 0.0;                     ///< [kg]
   Vec3 momentum;                         ///< [kg m/s]
@@ -17,11 +17,11 @@ struct Ledger {
   std::map<std::string, double> energy;  ///< entry -> [J]: kinetic potential thermal merging walls ...
 };
 
-/// Keeps what is stored at time 0, which later ledgers are compared with.
+/// Keeps the energy stored at time 0, which later ledgers are compared with.
 void book_start(World&, const Ledger&);
 
-/// Tells the work of all forces, and what finite steps leave between the work of those that store energy and what they store
-/// (model 8.11).
+/// Tells the work of all forces (model 8.11). For forces that store energy, it tells also the difference by finite steps between
+/// work and store.
 /// @param sum what effects tell of themselves
 void close_ledger(const World&, Ledger& sum);
 

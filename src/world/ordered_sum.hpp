@@ -67,7 +67,7 @@ template <std::size_t n, class Add>
 
 }  // namespace detail
 
-/// The same over the rows that move, with the bits of a sum over all: what is fixed must add zeros.
+/// The same over the rows that move, with the bits of a sum over all: fixed rows must add zeros.
 template <std::size_t n, class Add>
 [[nodiscard]] std::array<double, n> ordered_sums(const World& world, std::vector<std::array<double, n>>& blocks, Add add) {
   const Particles& p = world.particles;
@@ -84,7 +84,7 @@ template <std::size_t n, class Add>
   return detail::total_of(blocks);
 }
 
-/// The same over all rows, those of what is fixed too.
+/// The same over all rows, fixed ones too.
 template <std::size_t n, class Add>
 [[nodiscard]] std::array<double, n> ordered_sums_of_all(const World& world, std::vector<std::array<double, n>>& blocks, Add add) {
   const Particles& p = world.particles;

@@ -19,8 +19,8 @@
 
 namespace tripoint {
 
-/// What changed its phase, its body or its lists in this step: written by phase change and fracture, followed by all. Ids, each
-/// once, ascending; of a scene that is shared out among processes those of the whole.
+/// Particles whose phase, body or lists changed in this step. Phase change and fracture write it, and all effects follow it. Ids,
+/// each once, ascending; in a shared scene those of the whole scene.
 struct Change {
   std::vector<std::uint32_t> born;  ///< flowed in: new particles, whose columns are still zero
   std::vector<std::uint32_t> melted, frozen;
@@ -38,7 +38,7 @@ struct Rows {
   [[nodiscard]] std::size_t count() const { return to - from; }
 };
 
-/// All that a step changes, and what it works with.
+/// All that a step changes, and the data that it works with.
 struct World {
   Scene scene;
   Particles particles;
@@ -50,11 +50,11 @@ struct World {
   Change change;                         ///< of this step
   std::optional<Neighbours> neighbours;  ///< none where no effect has pairs
   Bookings booked;
-  std::vector<Force> forces;            ///< that the effects make, in the order in which they are summed
-  std::vector<Account> numerical;       ///< what numerical terms take on purpose: no error of finite steps
-  std::vector<Guarded> guarded;         ///< columns that are looked at after every step, in the order in which it writes them
-  std::vector<Bounded> bounded;         ///< columns whose whole numbers a checkpoint is held to
-  std::vector<Field<double>> positive;  ///< columns whose values a checkpoint must have above 0
+  std::vector<Force> forces;                  ///< that the effects make, in the order in which they are summed
+  std::vector<Account> numerical;             ///< energy that numerical terms dissipate on purpose: not a time-integration error
+  std::vector<Guarded> guarded;               ///< columns that are checked after every step, in the order in which it writes them
+  std::vector<Bounded> bounded;               ///< columns whose whole numbers a checkpoint is held to
+  std::vector<Field<double>> positive;        ///< columns whose values a checkpoint must have above 0
   std::vector<GuardedEntry> guarded_entries;  ///< entries of the ledger that the guard of energy takes by a rule of their own
   std::vector<Field<double>> body_sums;       ///< columns of bodies that are sums over this process's own particles
   StepNumbers step_numbers;                   ///< that effects keep from step to step
@@ -65,24 +65,25 @@ struct World {
   bool placed = false;  ///< members of all rigid bodies have been put to their places by the poses of these
   bool moved = true;    ///< positions differ from those of the last rates
 
-  /// Of each id, 1 where no step reads of a fixed particle but its place, as behind the face of a wall; empty: all is read.
+  /// By id, 1 where a step reads only the place of a fixed particle, as behind the face of a wall; empty: all is read.
   std::vector<char> unread;
-  bool fixed_formed = true;  ///< what no step reads of fixed particles is of the present time too: forces on them, densities
-  bool forms_fixed = false;  ///< it is being formed, since somebody asks for it
+  bool fixed_formed = true;  ///< true when the values of fixed particles that no step needs (forces, densities behind walls) are
+                             ///< up to date
+  bool forms_fixed = false;  ///< these values are being formed now, because somebody asks for them
 
   Halo* halo = nullptr;      ///< those that hold the rest of the scene; null: this process holds all, if only for now
   std::vector<char> copies;  ///< of each row, 1 where it is a copy of another's particle; empty where this process holds all
 
   [[nodiscard]] double support() const { return scene.support_ratio * scene.spacing; }
-  /// Whether a row is this process's own: what is summed over particles is summed over these.
+  /// Whether a row is this process's own: sums over particles are sums over these.
   [[nodiscard]] bool owns(std::size_t row) const { return copies.empty() || copies[row] == 0; }
-  /// Whether this process tells what all hold alike, as the energies of bodies.
+  /// Whether this process reports values that all hold alike, as the energies of bodies.
   [[nodiscard]] bool tells_of_bodies() const { return !halo || halo->is_first(); }
-  /// Rows whose forces are formed now: of what moves, but where forms_fixed says so.
+  /// Rows whose forces are formed now: moving ones, or fixed ones where forms_fixed says so.
   [[nodiscard]] Rows formed() const {
     return forms_fixed ? Rows{particles.moving(), particles.size()} : Rows{0, particles.moving()};
   }
-  /// Copies take from their owners what a pair pass has summed.
+  /// Copies take the sums of a pair pass from their owners.
   void refresh(std::span<const Field<double>* const> columns) {
     if (halo) halo->refresh(particles, columns);
   }

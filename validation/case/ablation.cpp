@@ -27,7 +27,7 @@ bool can_act(const Correction& one, const Scene& scene) {
 Case corrected(Case value) {
   value.modes = {Mode::corrected};
   value.scene.mode = Mode::corrected;
-  // What the transport velocity moves cannot clamp: no scene of it would run.
+  // A scene with the transport velocity cannot clamp, and would not run with it.
   std::erase_if(value.scene.modes_given,
                 [&](const auto& given) { return !(value.scene.transport_velocity && given.first == term::clamp); });
   value.studies.clear();

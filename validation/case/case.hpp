@@ -59,7 +59,7 @@ struct Gate {
   SourcePlace place;
 };
 
-/// A number that the scene takes from a measurement, at one standard uncertainty below and above what the case says.
+/// A number that the scene takes from a measurement, at one standard uncertainty below and above the case's value.
 struct UncertainInput {
   std::string key;        ///< as of --set: material.water.viscosity
   std::string low, high;  ///< TOML values, or numbers with a unit

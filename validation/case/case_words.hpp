@@ -4,14 +4,14 @@
 
 #include "scene/words.hpp"
 
-/// The words that a case file has for what the judge tells apart.
+/// The words of a case file for the choices of the judge.
 namespace tripoint {
 
-/// Against what a case is judged: an exact solution, an experiment, another engine.
+/// Truth that a case is judged against: an exact solution, an experiment, another engine.
 enum class CaseKind { verification, validation, comparison };
 constexpr WordTable<3> word_table(CaseKind) { return {"kind of case", {"verification", "validation", "comparison"}}; }
 
-/// What must be measured for a case to pass. Paper diverges: the printed form does, the corrected one does not.
+/// Result that must be measured for a case to pass. Paper diverges: the printed form does, the corrected one does not.
 enum class Expect { pass, diverges, paper_diverges, defect };
 constexpr WordTable<4> word_table(Expect) { return {"expectation", {"pass", "diverges", "paper-diverges", "defect"}}; }
 
@@ -22,13 +22,13 @@ constexpr WordTable<8> word_table(FitClass) {
           {"asymptotic", "preasymptotic", "plateau", "roundoff", "oscillating", "diverging", "noise-limited", "too-few"}};
 }
 
-/// What a study refines.
+/// Quantity that a study refines.
 enum class Axis { spacing, time_step, support_ratio, walkers, iterations };
 constexpr WordTable<5> word_table(Axis) {
   return {"axis of a study", {"spacing", "time_step", "support_ratio", "walkers", "iterations"}};
 }
 
-/// How a metric makes one number of errors in space and time; metric_norms() says what each does.
+/// How a metric makes one number of errors in space and time; metric_norms() describes each.
 enum class Norm { L1, L2, L2raw, Linf, chi, max, rms, L2mean, mean, stationary, final, drift, frequency, slope };
 constexpr WordTable<14> word_table(Norm) {
   return {
@@ -40,11 +40,11 @@ constexpr WordTable<14> word_table(Norm) {
   return norm == Norm::L1 || norm == Norm::L2 || norm == Norm::L2raw || norm == Norm::Linf || norm == Norm::chi;
 }
 
-/// Of a run: the form of the model that our solver made it in; none of a foreign engine. Of a gate or a study: the runs that it
-/// is of; none = all, not paper = every engine's but ours in the printed form. In the order of the words.
+/// For a run: the form of the model that our solver made it in; none for a foreign engine. For a gate or a study: the runs that
+/// it judges. none = all; not paper = every engine's but ours in the printed form. In the order of the words.
 enum class JudgedMode { none, corrected, not_paper, paper };
 constexpr WordTable<4> word_table(JudgedMode) { return {"mode", {"", "corrected", "not paper", "paper"}}; }
-/// Whether a run of one mode is of what is wanted.
+/// Whether a run of one mode is among the wanted ones.
 [[nodiscard]] constexpr bool fits(JudgedMode wanted, JudgedMode run) {
   return wanted == JudgedMode::none || (wanted == JudgedMode::not_paper ? run != JudgedMode::paper : run == wanted);
 }

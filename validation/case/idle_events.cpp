@@ -51,8 +51,8 @@ bool may_come(const IdleSearch& in, const Event& e) {
          });
 }
 
-/// Whether a body, or what a grip of that name holds, is held when the event comes: by its own motion, a hold or a grip not yet
-/// ended.
+/// Whether a body, or all that a grip of that name holds, is held when the event comes. Its own motion, a hold or a grip not yet
+/// ended may hold it.
 bool is_held(const IdleSearch& in, const std::string& name, const Event& by) {
   bool held = std::ranges::any_of(in.scene.bodies, [&](const Body& b) { return b.name == name && b.motion != Motion::free; });
   std::vector<const Event*> before;

@@ -7,11 +7,11 @@
 #include "validation/case/engine_names.hpp"
 #include "validation/case/idle_search.hpp"
 
-/// What the judgement of a case says and no run of it can show.
+/// Parts of a case's judgement that no run of it can show.
 namespace tripoint {
 namespace {
 
-/// A limit below 0 passes nothing; a floor of 0 under what is never negative passes anything.
+/// A limit below 0 passes nothing; a floor of 0 under a value that is never negative passes anything.
 void can_fail(IdleSearch& in, const Gate& g) {
   if (g.metric.ends_with(".order")) return;
   if (g.limit && *g.limit < 0.0)

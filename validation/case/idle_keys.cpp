@@ -8,7 +8,7 @@
 #include "scene/effect_rule.hpp"
 #include "validation/case/idle_search.hpp"
 
-/// What a case says and no run of it can show: what the searches for it share, and their order.
+/// Parts of a case that no run of it can show: common code of the searches for them, and their order.
 namespace tripoint {
 
 IdleSearch::IdleSearch(const CaseReading& of, const Scene& its_scene, const InitialState& its_state)

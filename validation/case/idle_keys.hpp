@@ -4,8 +4,8 @@
 
 namespace tripoint {
 
-/// What the case says and no run of it can show: an event whose region holds nothing, a release of what is free, a key that no
-/// effect of the scene reads. An error where it is certain, else a warning.
+/// Parts of the case that no run of it can show. For example: an event whose region is empty, a release of a free body, a key
+/// that no effect reads. An error where it is certain, else a warning.
 [[nodiscard]] std::vector<Finding> idle_keys(const CaseReading&, const Scene&, const InitialState&);
 
 }  // namespace tripoint

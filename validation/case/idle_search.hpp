@@ -8,10 +8,10 @@
 #include "scene/geometry.hpp"
 #include "validation/case/preflight.hpp"
 
-/// The parts of idle_keys(), one a subject, and what they share.
+/// The parts of idle_keys(), one a subject, and their common data.
 namespace tripoint {
 
-/// A case that is searched for what changes nothing, and what was found of it so far.
+/// A case that is searched for entries without effect, and the findings so far.
 struct IdleSearch {
   IdleSearch(const CaseReading&, const Scene&, const InitialState&);
 
@@ -36,9 +36,9 @@ struct IdleSearch {
   std::vector<Finding> findings;
 };
 
-/// Events whose region holds nothing, releases of what is free, holds of what is fixed.
+/// Events whose region is empty, releases of free bodies, holds of fixed bodies.
 void find_idle_events(IdleSearch&);
-/// Bodies and inflows out of the domain, joints of what cannot be joined, what a body says of effects that are off.
+/// Bodies and inflows out of the domain, joints of bodies that cannot be joined, keys of a body for effects that are off.
 void find_idle_bodies(IdleSearch&);
 /// Keys of materials and of the scene that no effect reads.
 void find_idle_effect_keys(IdleSearch&);

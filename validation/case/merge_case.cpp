@@ -9,7 +9,7 @@
 #include "validation/case/case_document.hpp"
 #include "validation/case/case_keys.hpp"
 
-/// How a case says less than the one that it extends: what it gives goes over it, what it removes goes.
+/// How a case changes the one that it extends: its own values replace those of the base, and values that it removes go.
 namespace tripoint {
 namespace {
 
@@ -23,7 +23,7 @@ std::string word(const TomlNode& item, std::string_view key) {
   return v->kind == Kind::text ? v->text : to_toml(*v);
 }
 
-/// What tells the tables of an array apart; empty for arrays whose tables have nothing of the kind.
+/// Keys that tell the tables of an array apart; empty for arrays whose tables have none.
 std::vector<std::string_view> identity_keys(std::string_view array) {
   if (array == "material" || array == "body" || array == "metric" || array == "defect" || array == "harmless") return {"name"};
   if (array == "gate") return {"metric", "engine", "mode", "preset", "level"};
@@ -89,7 +89,7 @@ void merge_items(TomlNode& base, TomlNode own, const std::string& array) {
   base.key_place = own.key_place;
 }
 
-/// A table that says anew of what kind it is shares no key with the old one.
+/// A table that states its kind anew shares no key with the old one.
 bool is_other_kind(const TomlNode& own) { return own.find("kind") || own.find("function"); }
 
 void merge_value(TomlNode& base, TomlNode own, const std::string& path) {

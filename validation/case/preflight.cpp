@@ -12,7 +12,7 @@
 #include "validation/case/overlap.hpp"
 #include "validation/case/preflight.hpp"
 
-/// What can be told of a scene before anything runs.
+/// Checks of a scene before anything runs.
 namespace tripoint {
 namespace {
 
@@ -53,7 +53,7 @@ class Preflight {
 
   [[nodiscard]] bool presses() const { return calls_for(scene_, &EffectRule::has_pressure); }
 
-  /// Rows of two bodies nearer than rows of one body are matter that is compressed from the start, and flies apart.
+  /// Finds rows of two bodies that are nearer than rows of one body. Such matter is compressed from the start, and flies apart.
   void gaps() {
     const double overlap = std::min(0.5, 0.99 * (1.0 - 2.0 * scene_.jitter)),
                  near = std::min(0.8, 0.99 * (1.0 - 2.0 * scene_.jitter));
@@ -170,8 +170,9 @@ class Preflight {
                        scene_.bodies[static_cast<std::size_t>(source)].name));
   }
 
-  /// Stability bound of explicit conduction on the lattice [s]: 0.075 h^2/a corrected, 0.130 h^2/a paper (largest eigenvalue
-  /// measured on the lattice at h/dx = 2.6 and 2.12), a = k/(rho c). What is held at a temperature bounds no step.
+  /// Stability bound of explicit conduction on the lattice [s]: 0.075 h^2/a corrected, 0.130 h^2/a paper, a = k/(rho c). The
+  /// factors follow from the largest eigenvalue measured on the lattice at h/dx = 2.6 and 2.12. Matter held at a temperature
+  /// bounds no step.
   [[nodiscard]] double heat_bound(std::string& which) const {
     double least = INFINITY;
     const double h = scene_.support_ratio * scene_.spacing, c = scene_.mode_of(term::heat) == Mode::paper ? 0.130 : 0.075;

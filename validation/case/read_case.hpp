@@ -22,7 +22,7 @@ struct CaseReading {
 /// The scene of one run of the case.
 [[nodiscard]] inline Scene scene_for(const Case& c, const RunChoice& choice) { return scene_for(c.scene, choice); }
 
-/// Path of a case that is given as a path or as the id of a shipped case ("heat/cosine"); a path that is no file comes back as it
+/// Path of a case that is given as a path or as the id of a shipped case ("heat/cosine"). A path that is no file comes back as it
 /// is.
 [[nodiscard]] std::string case_path(const std::string& path_or_id);
 

@@ -107,7 +107,7 @@ JudgedMode read_mode(TableReader& in) {
   in.refuse("mode", fmt::format("unknown mode \"{}\": write corrected, paper or \"not paper\"", printable(word)));
 }
 
-/// What is refined together with the levels of a study: one positive number for each of them.
+/// Values that are refined together with the levels of a study: one positive number for each level.
 std::vector<double> read_together(TableReader& in, std::string_view key, const Study& study) {
   const auto values = in.maybe_numbers(key);
   if (!values) return {};

@@ -99,7 +99,7 @@ body_count = { value = 2, limit = 0, reason = "nothing breaks" }
 
 )";
 
-/// What the names of [invariants] stand for.
+/// Table of the names of [invariants].
 std::string invariants_page() {
   std::string out = "| name | quantity | norm | meaning |\n|---|---|---|---|\n";
   for (const Invariant& one : invariants())

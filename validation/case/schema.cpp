@@ -133,7 +133,7 @@ json required_keys(std::string_view name) {
 
 bool can_be_partial(const Key& k) { return (k.type == ValueType::table || k.type == ValueType::tables) && !k.words.empty(); }
 
-/// Tables of a case that extends another may leave to that one what they need.
+/// Tables of a case that extends another may leave required keys to that one.
 json rule_of_whole_cases() {
   json needs{{"required", required_keys("")}, {"properties", json::object()}};
   for (const auto* k : case_keys().of("")) {

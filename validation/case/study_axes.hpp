@@ -6,7 +6,7 @@
 
 #include "validation/case/case_words.hpp"
 
-/// What studies refine.
+/// Axes that studies refine.
 namespace tripoint {
 
 /// The words of all axes, as an option of a command takes one.
@@ -20,7 +20,7 @@ namespace tripoint {
 /// The number that falls with refinement. @param level in the axis's own unit, > 0
 [[nodiscard]] constexpr double step_of(Axis axis, double level) { return refines_upward(axis) ? 1.0 / level : level; }
 
-/// What the levels of a study are of, and what it refines together with them: "spacing+support_ratio" is a ladder of its own.
+/// Axis of the levels of a study, and the numbers refined together with it: "spacing+support_ratio" is a ladder of its own.
 struct StudyAxes {
   Axis axis = Axis::spacing;
   bool support_ratio = false, time_step = false;  ///< refined together with the axis

@@ -7,8 +7,8 @@
 #include "validation/harness/plan_runs.hpp"
 #include "validation/harness/results.hpp"
 
-/// Adopting an engine: what it is now is measured, and gates are written that turn red where it drifts, to the worse or to the
-/// better.
+/// Adopting an engine: its present results are measured, and gates are written that turn red where it drifts, to the worse or to
+/// the better.
 namespace tripoint {
 
 struct AdoptOptions {
@@ -26,7 +26,7 @@ struct AdoptedRow {
   std::string reason;
   std::vector<Gate> gates;
   std::vector<std::string> lost;   ///< metrics without a finite value: they are left out of the written case
-  std::vector<std::string> notes;  ///< what the repeat showed
+  std::vector<std::string> notes;  ///< result of the repeat
 };
 
 struct AdoptedCase {
@@ -38,7 +38,7 @@ struct AdoptedCase {
 /// The values of one metric at the case's own resolution: the first run, its repeat, then other seeds.
 /// @param uncertainty the largest statistical standard uncertainty that was stated
 /// @param round_off below this an error is one of round-off, and may be anything smaller
-/// @return a band by the margin and the noise, or a limit where the value is of round-off; its reason says what was measured
+/// @return a band by the margin and the noise, or a limit where the value is of round-off; its reason states the measurement
 [[nodiscard]] Gate adopted_gate(const std::string& metric, const std::vector<double>& values, double uncertainty, double margin,
                                 double round_off);
 

@@ -90,7 +90,7 @@ void judge_value(GateRow& row, const MetricValue& metric) {
     row.why = fmt::format("{:.4g} with standard uncertainty {:.2g}, {}", row.value, row.uncertainty, describe(row.gate));
 }
 
-/// An engine may refuse a run, but not one seed of it: what the other seeds gave would be judged by nobody.
+/// An engine may refuse a run, but not one seed of it: nobody would judge the results of the other seeds.
 bool any_ok(const Group& group) {
   return std::any_of(group.runs.begin(), group.runs.end(), [](const auto* run) { return run->status == Status::ok; });
 }

@@ -19,7 +19,7 @@ Applied apply_gate(const CaseResult&, const Gate&, EngineRow&);
 /// The class of convergence that a study declares, as one row for each mode.
 Applied apply_expected_class(const CaseResult&, const Study&, EngineRow&);
 
-/// Verdict of a value with its standard uncertainty against everything that the gate sets; of an order against its interval.
+/// Verdict on a value with its standard uncertainty against everything that the gate sets; on an order against its interval.
 [[nodiscard]] Verdict verdict_of(const Gate&, double value, double uncertainty);
 [[nodiscard]] Verdict verdict_of(const Gate&, const Order&);
 

@@ -9,14 +9,14 @@
 namespace tripoint {
 namespace {
 
-/// An engine may hold reciprocals or other units of what it was given: a few roundings of its own precision, but no more.
+/// An engine may hold its inputs as reciprocals or in other units: a few roundings of its own precision, but no more.
 double roundings(const Readback& held) { return held.precision == "single" ? 1e-6 : 1e-9; }
 
 bool same(double a, double b, double room) { return std::abs(a - b) <= room; }
 
 std::string text(const Vec3& v) { return fmt::format("({:g}, {:g}, {:g})", v.x, v.y, v.z); }
 
-/// A moment below this share of m dx^2 may be left out: a body of particles in a line, or nearly so, turns about it by nothing
+/// A moment below this share of m dx^2 may be left out. A body of particles in a line, or nearly so, has no rotation about it
 /// (model 8.9).
 constexpr double truncated_share = 2e-3;
 
@@ -36,7 +36,7 @@ std::string audit_body(const JobBody& given, const ReadbackBody& held, double sp
   return {};
 }
 
-/// What the engine holds of the laws of contact that all engines were handed, where it says it.
+/// Compares the contact laws that the engine states with those that all engines were given.
 std::string audit_contact(const Settings& asked, const ReadbackBody& held, double share) {
   for (const auto& [law, found] : {std::pair{"friction", held.friction}, {"restitution", held.restitution}}) {
     const auto at = asked.find(law);

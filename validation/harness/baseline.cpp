@@ -98,8 +98,8 @@ JudgedMode mode(const TomlNode& from) {
   throw InputError(from.place, "mode: `" + printable(word) + "` is no mode of a gate");
 }
 
-/// What a row leaves out follows from the rest of it: the words and the room from the edges, the first baseline's figures from
-/// today's.
+/// Fields that a row leaves out follow from the rest of it. The words and the room follow from the edges, the first baseline's
+/// figures from today's.
 AcceptedGate read_gate(const TomlNode& from) {
   AcceptedGate g;
   g.metric = text(from, "metric");

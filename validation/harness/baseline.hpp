@@ -13,7 +13,7 @@
 /// writes it, nothing else does.
 namespace tripoint {
 
-/// One gate as it was accepted: what it judges, what it allows, what was measured then.
+/// One gate as it was accepted: its metric, its limits, and the value measured then.
 struct AcceptedGate {
   std::string metric, engine, preset, allows;  ///< allows: "limit 0.01", as the gate describes itself
   JudgedMode mode = JudgedMode::none;
@@ -28,7 +28,7 @@ struct AcceptedGate {
   std::string measures;  ///< hash of the metric: CaseHashes::metrics; empty = it was accepted by an older version
 };
 
-/// What one run counted. Never seconds: they belong to the machine.
+/// Counts of one run. Seconds are never among them: they belong to the machine.
 struct AcceptedCost {
   std::string run;  ///< engine and folder
   double pairs = 0.0, steps = 0.0, instructions = 0.0;
@@ -63,7 +63,7 @@ struct Baseline {
 /// The folder of cases that a case file belongs to: `cases` beside `baselines`, or the folder that it lies in.
 [[nodiscard]] std::string folder_of_cases(const std::string& case_file);
 
-/// @throws InputError with the place of what is wrong
+/// @throws InputError with the place of the fault
 [[nodiscard]] Baseline read_baseline(const std::string& file);
 [[nodiscard]] std::string baseline_text(const Baseline&);
 
@@ -77,17 +77,17 @@ struct Baseline {
 [[nodiscard]] Baseline accepted_from(const CaseResult&, const Tool&, std::uint64_t seed, const Baseline* before,
                                      const Acceptance&, bool engines_were_chosen = false);
 
-/// Results against their baselines. An edge looser than the accepted one, a gate that is gone, or one whose engine was there and
-/// refused or ended before its time: error, exit 4. So is another metric, scene, reference, or an engine that is required no
-/// more. A value that has moved by more than the `drift` that its gate states and its uncertainty: error, exit 1. More than 1 %
-/// more pairs or steps, or instructions where they were counted in the same way on the same machine, at the accepted seed: error,
-/// exit 6. Where no drift is stated, a value that has got worse than the accepted or the first one by more than a tenth; another
-/// class of convergence; another case file: warning. Cases of a suite that keeps baselines and that have none yet: one warning
-/// that names them; with `required` an error of each, exit 4.
+/// Results against their baselines. An edge looser than the accepted one, a lost gate, or one whose engine was there and refused
+/// or ended early: error, exit 4. So is another metric, scene, reference, or an engine that is required no more. A value that has
+/// moved by more than the `drift` that its gate states and its uncertainty: error, exit 1. More than 1 % more pairs or steps at
+/// the accepted seed: error, exit 6. The same holds for instructions counted in the same way on the same machine. Warning: where
+/// no drift is stated, a value worse than the accepted or the first one by more than a tenth. Another class of convergence or
+/// another case file is a warning too. Cases of a suite that keeps baselines and that have none yet: one warning that names them;
+/// with `required` an error of each, exit 4.
 [[nodiscard]] std::vector<Remark> baseline_remarks(const Results&, bool required = false, const std::string& root = {});
 
-/// Baselines whose case is gone, or has left a profile that it was accepted in, in every suite that the results are of: error,
-/// exit 4.
+/// Baselines whose case is gone, or has left a profile that it was accepted in: error, exit 4. All suites of the results are
+/// searched.
 [[nodiscard]] std::vector<Remark> lost_case_remarks(const Results&, const std::string& root = {});
 
 /// Accepted gates that are not judged here, by engine: one that is missing on this machine, or that was left out by name.
@@ -98,7 +98,7 @@ struct Baseline {
 /// @throws InputError for an id that the results do not hold, and where a case is not green
 [[nodiscard]] std::string accept(const Results&, const std::vector<std::string>& ids, const Acceptance&);
 
-/// Removes the baselines of cases that are no more. @return what was removed
+/// Removes the baselines of cases that are no more. @return text that names the removed ones
 /// @throws InputError for an id that has no baseline, and for one whose case is still there
 [[nodiscard]] std::string accept_removal(const std::vector<std::string>& ids, const Acceptance&);
 

@@ -46,7 +46,7 @@ Baseline accepted_from(const CaseResult& c, const Tool& tool, std::uint64_t seed
   }
   if (!before) return b;
   b.removed = before->removed + static_cast<int>(gone(c, own, *before, engines_were_chosen).size());
-  for (const auto& g : before->gates)  // an engine that is not on this machine keeps what was accepted of it elsewhere
+  for (const auto& g : before->gates)  // an engine that is not on this machine keeps its gates accepted elsewhere
     if (is_absent(c, g, engines_were_chosen)) b.gates.push_back(g);
   return b;
 }
@@ -67,7 +67,7 @@ std::string changes_of_cost(const Baseline& before, const Baseline& after) {
   return text;
 }
 
-/// What acceptance changes of one case: each gate whose edges, metric or value have changed.
+/// Changes of one case by acceptance: each gate whose edges, metric or value have changed.
 std::string changes(const Baseline* before, const Baseline& after) {
   if (!before) return fmt::format("{}: first baseline, {} gates\n", one_line(after.id), after.gates.size());
   std::string text;

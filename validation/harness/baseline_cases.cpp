@@ -38,8 +38,8 @@ std::vector<fs::path> files_below(const fs::path& folder) {
   return files;
 }
 
-/// The case of a baseline: in the folder of the cases, or, as both may share one folder `baselines`, beside the folder `cases`
-/// or below it.
+/// The case of a baseline: in the folder of the cases. As both may share one folder `baselines`, it may also be beside the folder
+/// `cases` or below it.
 fs::path case_of(const fs::path& baseline, const Suite& suite) {
   const auto below = fs::relative(baseline, suite.baselines);
   const fs::path folder(suite.cases);

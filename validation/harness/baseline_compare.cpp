@@ -35,7 +35,7 @@ std::string title_of(const CaseResult& c, const AcceptedGate& g) {
   return fmt::format("{} {}{} {}", c.id, g.engine, after_blank(g.mode), g.metric);
 }
 
-/// What the gate allows and what it measures, against what was accepted.
+/// Compares the limits and the metric of a gate with the accepted ones.
 void compare_limits(const CaseResult& c, const AcceptedGate& now, const SourcePlace& place, const AcceptedGate& old,
                     std::vector<Remark>& list) {
   const auto title = title_of(c, now);
@@ -108,7 +108,7 @@ void compare_cost(const CaseResult& c, const Tool& tool, const Baseline& b, std:
   }
 }
 
-/// The scene, the reference and what is required, against what was accepted.
+/// Compares the scene, the reference and the required engines with the accepted ones.
 void compare_question(const CaseResult& c, const Baseline& b, const std::optional<CaseHashes>& now, std::vector<Remark>& list) {
   const auto say = [&](const std::string& what) {
     list.push_back({true, exit_missing, {c.file, 1, 0}, c.id, what + decide, infinity, "CHANGED"});

@@ -9,7 +9,7 @@
 namespace tripoint {
 namespace {
 
-/// What a gate lets pass, edge by edge. A limit bounds the size, which is both sides.
+/// Edges of the values that a gate lets pass. A limit bounds the size, which is both sides.
 struct Edges {
   std::optional<double> lowest, highest;
   double precision = 1e-9;  ///< share to which they are known
@@ -20,7 +20,7 @@ void narrow(Edges& e, std::optional<double> lowest, std::optional<double> highes
   if (highest && (!e.highest || *highest < *e.highest)) e.highest = highest;
 }
 
-/// Of a baseline that keeps no edges: from its words, which have six digits.
+/// Edges for a baseline that keeps none: from its words, which have six digits.
 Edges edges_of_words(const std::string& allows) {
   Edges e;
   e.precision = 1e-5;

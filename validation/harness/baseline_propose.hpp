@@ -8,8 +8,8 @@
 /// Baselines as they would be if results were accepted, and the patch that shows them. Nothing here writes a baseline.
 namespace tripoint {
 
-/// Reason of a proposal that nobody has decided on: a baseline that carries it last is red (exit 4), so that a patch which is
-/// applied as it comes accepts nothing.
+/// Reason of a proposal that nobody has decided on. A baseline that carries it last is red (exit 4), so that a patch applied as
+/// it comes accepts nothing.
 inline constexpr const char* undecided_reason = "proposed by tripoint gate propose; nobody has decided";
 
 /// One baseline before and after.
@@ -29,7 +29,7 @@ struct Proposal {
 /// A unified diff of two texts with three lines of context and no file header; empty where they are the same.
 [[nodiscard]] std::string unified_diff(const std::string& before, const std::string& after);
 
-/// The patch for `git apply` in the folder that the paths are relative to, and above it, as text, what changes and the line that
+/// The patch for `git apply` in the folder that the paths are relative to. Text above it says what changes, and the line that
 /// accepts it.
 /// @param root folder of the repository: the nearest above the baselines that holds .git, else the one that holds `baselines`
 [[nodiscard]] std::string patch_text(const std::vector<Proposal>&, const std::string& results_file, const std::string& root,

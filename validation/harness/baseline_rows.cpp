@@ -20,7 +20,7 @@ bool same_gate(const AcceptedGate& a, const AcceptedGate& b) {
   return a.metric == b.metric && a.engine == b.engine && a.preset == b.preset && a.mode == b.mode && same_place;
 }
 
-/// Of NAME, NAME.order and NAME.statistical: NAME.
+/// NAME for each of NAME, NAME.order and NAME.statistical.
 std::string metric_of(const std::string& gated) {
   for (const std::string_view end : {".order", ".statistical"})
     if (gated.ends_with(end)) return gated.substr(0, gated.size() - end.size());

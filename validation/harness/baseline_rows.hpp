@@ -5,7 +5,7 @@
 
 #include "validation/harness/baseline.hpp"
 
-/// The rows of results as a baseline holds them: what comparison and acceptance share.
+/// The rows of results as a baseline holds them; comparison and acceptance share them.
 namespace tripoint {
 
 /// Green gates as they stand: two that judge the same row (a limit and a band) are told apart by their order.
@@ -23,8 +23,8 @@ namespace tripoint {
 /// be judged.
 [[nodiscard]] bool is_absent(const CaseResult&, const AcceptedGate&, bool engines_were_chosen);
 
-/// Accepted gates that judge nothing any more: of engines that have run, refused or ended before their time, and of those that
-/// the case names no more.
+/// Accepted gates that judge nothing any more. They are of engines that have run, refused or ended before their time, and of
+/// those that the case no longer names.
 [[nodiscard]] std::vector<const AcceptedGate*> gone(const CaseResult&, const std::vector<AcceptedGate>& now, const Baseline&,
                                                     bool engines_were_chosen);
 

@@ -14,11 +14,10 @@ namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::uintmax_t most_read = std::uintmax_t{256}
-                                     << 20;  // what the greatest mesh may have; no other file may have as much
+constexpr std::uintmax_t most_read = std::uintmax_t{256} << 20;  // size of the greatest mesh; no other file may be as large
 
-/// What a file holds. Of one that every reader refuses for its size, its size: a stranger's case may name one that fits in no
-/// memory.
+/// Content of a file. For a file that every reader refuses for its size it is the size: a stranger's case may name one that fits
+/// in no memory.
 std::string text_of(const fs::path& file) {
   std::error_code none;
   const std::uintmax_t size = fs::file_size(file, none);
@@ -39,7 +38,7 @@ bool is_of_the_scene(const std::string& key) {
   static constexpr std::array<std::string_view, 7> rooms{"scene.", "material.", "body.", "event.", "inflow.", "study.", "input."};
   if (key == "case.modes" || key == "case.expect") return true;
   if (key.starts_with("engines."))
-    return !key.ends_with(".required") && !key.ends_with(".refuses");  // how it is judged, not what is asked
+    return !key.ends_with(".required") && !key.ends_with(".refuses");  // part of the judgement, not of the question
   return !key.ends_with(".source") && std::any_of(rooms.begin(), rooms.end(), [&](auto room) { return key.starts_with(room); });
 }
 

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-/// What a case asks, in a few hashes: a question that changes is seen, also where its limits stay.
+/// The question that a case asks, in a few hashes: a change of it is seen, also where its limits stay.
 namespace tripoint {
 
-/// Of the keys that the file, its base and the library of materials give, resolved to SI: units, comments and the order of tables
-/// do not count, nor does text for people.
+/// Hashes of the keys that the file, its base and the library of materials give, resolved to SI. Units, comments and the order of
+/// tables do not count, nor does text for people.
 struct CaseHashes {
   std::string
       scene;  ///< scene, materials, bodies, events, studies, modes, `expect`, settings of engines; with files that they name

@@ -195,7 +195,7 @@ RunRequest request_of(const CaseRuns& all, const CaseRun& run, const SuiteOption
   return request;
 }
 
-/// What the harness itself knows of a run, before any engine has spoken.
+/// Facts that the harness itself knows of a run, before any engine has spoken.
 void describe_run(CaseRun& run, const Result& result, const SuiteOptions& options) {
   auto& row = run.row;
   row.knobs = knobs_of(run, result);

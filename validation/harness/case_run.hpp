@@ -10,7 +10,7 @@
 /// The parts of the suite that look at one case.
 namespace tripoint {
 
-/// What is run in the place of a run whose scene is changed.
+/// Inputs of a changed run, made in the place of a run whose scene is changed.
 struct ChangedRun {
   Job job;
   InitialState initial;
@@ -24,7 +24,7 @@ struct CaseRun {
   RunPlan plan;
   Job job;
   std::shared_ptr<const InitialState> initial;
-  std::shared_ptr<const ChangedRun> changed;  ///< what is run in its place; empty = itself
+  std::shared_ptr<const ChangedRun> changed;  ///< the run made in its place; empty = itself
   std::string folder, particles;
   std::shared_ptr<std::string> particles_hash;  ///< shared by the runs that start from one file
   RunRow row;
@@ -42,7 +42,7 @@ struct CaseRuns {
 /// Engines of a case and their runs; none is sampled yet.
 [[nodiscard]] CaseRuns plan_case(const Case&, const std::vector<EngineEntry>&, const SuiteOptions&);
 
-/// Of those that the plan wants.
+/// Number of the runs that the plan wants.
 [[nodiscard]] std::size_t number_of_runs(const CaseRuns&, const SuiteOptions&);
 
 /// Samples the runs that are wanted and adds them, ready to be made. @throws InputError when a scene cannot be sampled
@@ -51,7 +51,7 @@ void add_runs(CaseRuns&, const SuiteOptions&);
 /// Plans a case, samples each of its scenes once and writes the particles. @throws InputError when a scene cannot be sampled
 [[nodiscard]] CaseRuns prepare_case(const Case&, const std::vector<EngineEntry>&, const SuiteOptions&);
 
-/// What tells a run of a case from any other run of any case: its place in the report and all that makes it. 16 hex digits.
+/// Identity of a run of a case among all runs of all cases: its place in the report and all that makes it. 16 hex digits.
 [[nodiscard]] std::string run_id(const CaseRuns&, const CaseRun&, const SuiteOptions&);
 
 /// A row for a run that could not be made: its knobs, with a status and a reason.

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// What makes two rows the same metric; `nth` tells gates apart that judge the same row.
+/// Properties that make two rows the same metric; `nth` tells gates apart that judge the same row.
 using Key = std::tuple<std::string, std::string, JudgedMode, std::string, double, int>;
 
 struct Row {
@@ -133,8 +133,8 @@ std::string source_of_noise(const Standing& base, const Standing& head, bool is_
   return seeds > 1 ? fmt::format("{} seeds", seeds) : "stated by the run";
 }
 
-/// Noise of head less base, in the metric's unit: two standard uncertainties by chance, or what the same code was seen to differ
-/// by, the larger one.
+/// Noise of head less base, in the metric's unit. It is the larger of two standard uncertainties by chance and the difference
+/// seen between runs of the same code.
 double noise_between(const Standing& base, const Standing& head, double again) {
   return std::max(2.0 * std::hypot(base.noise, head.noise), again);
 }
@@ -179,7 +179,7 @@ void settle(MetricChange& c, const Gate& base_gate, const Gate& head_gate, doubl
   if (std::abs(c.change) > std::max(c.noise, least_change)) c.trend = c.change > 0.0 ? Trend::worse : Trend::better;
 }
 
-/// Worse and better first, by their size; then what has not moved; then new, then gone.
+/// Worse and better first, by their size; then unchanged ones; then new, then gone.
 bool goes_before(const MetricChange& a, const MetricChange& b) {
   const auto rank = [](const MetricChange& c) {
     return c.trend == Trend::worse || c.trend == Trend::better ? 0

@@ -7,8 +7,8 @@
 #include "validation/harness/remarks.hpp"
 #include "validation/harness/results.hpp"
 
-/// Results beside those of a base, metric by metric: what a change to an engine did, in units of each limit, and whether noise
-/// can explain it.
+/// Results beside those of a base, metric by metric. They show the effect of a change to an engine, in units of each limit, and
+/// whether noise can explain it.
 namespace tripoint {
 
 /// A change of less than this share of its limit is none, however small the noise: another compiler or processor does as much.
@@ -44,23 +44,24 @@ struct MetricChange {
 
 struct Comparison {
   std::string base_name;
-  std::vector<MetricChange> changes;  ///< most changed first, then what is new and what is gone
+  std::vector<MetricChange> changes;  ///< most changed first, then new and lost ones
   std::vector<std::string>
       remarks;  ///< why the two may not be comparable: another profile, other seeds, another version of the program
   [[nodiscard]] int count(Trend) const;
 };
 
-/// How much of what a gate allows a value takes, 1 at the edge, less is better: |value| over the limit; distance from the middle
-/// of a band over half its width; 2 - value/at_least. Of several edges the largest. A limit of 0 has the metric's own unit. NaN
-/// for no value, and for a gate without an edge.
+/// Share of a gate's allowance that a value takes, 1 at the edge, less is better. It is |value| over the limit; distance from the
+/// middle of a band over half its width; 2 - value/at_least. With several edges the largest counts. A limit of 0 has the metric's
+/// own unit. NaN for no value, and for a gate without an edge.
 [[nodiscard]] double used_of(const Gate&, double value);
 
-/// @param repeat the base once more (A/A): what differs between the two is noise of its own, the larger one counts   @pre both
+/// @param repeat the base once more (A/A): the difference between the two is noise of its own, the larger one counts @pre both
 /// are judged
 [[nodiscard]] Comparison compare_results(const Results& base, const Results& head, const std::string& base_name,
                                          const Results* repeat = nullptr);
 
-/// What got worse by more than its noise and is within its limit, what is gone, and which limits changed: warnings.
+/// Warnings for values that got worse by more than their noise and are within their limit, for values that are gone, and for
+/// changed limits.
 /// @param no_worse errors instead: worse is exit 1, gone or looser exit 4
 [[nodiscard]] std::vector<Remark> change_remarks(const Comparison&, bool no_worse);
 

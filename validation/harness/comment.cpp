@@ -83,7 +83,7 @@ std::string table_of(const Comparison& all, const CommentOptions& o) {
          "it is larger than its noise.\n";
 }
 
-/// What is new and what is gone, by name.
+/// New and lost values, by name.
 std::string arrivals(const Comparison& all, Trend trend, const CommentOptions& o) {
   std::string text;
   std::size_t count = 0;
@@ -95,7 +95,7 @@ std::string arrivals(const Comparison& all, Trend trend, const CommentOptions& o
   return count > named ? text + fmt::format("- and {} more\n", count - named) : text;
 }
 
-/// Errors and what a comparison warns of; other warnings are counted, since the log holds them.
+/// Errors, and warnings of a comparison; other warnings are counted, since the log holds them.
 std::string not_green(const GateVerdict& verdict, const CommentOptions& o) {
   std::string text;
   std::size_t errors = 0, warnings = 0;
@@ -111,7 +111,7 @@ std::string not_green(const GateVerdict& verdict, const CommentOptions& o) {
   return warnings > 0 ? text + fmt::format("\n{} warning{} in the log of the gate.\n", warnings, warnings == 1 ? "" : "s") : text;
 }
 
-/// Judged metrics, those that use most of their limits first: what is shown where there is no base.
+/// Judged metrics, those that use most of their limits first, for results without a base.
 std::string most_used(const Results& results, const CommentOptions& o) {
   auto all = compare_results(results, results, {});
   std::erase_if(all.changes, [](const auto& c) { return !std::isfinite(c.head->used); });

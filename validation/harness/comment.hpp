@@ -6,11 +6,11 @@
 #include "validation/harness/gate_verdict.hpp"
 #include "validation/harness/results.hpp"
 
-/// What people and other programs are shown of results: the text of a comment, a badge, data for a dashboard. Every foreign
-/// string in it is escaped.
+/// Results as shown to people and other programs: the text of a comment, a badge, data for a dashboard. Every foreign string in
+/// it is escaped.
 namespace tripoint {
 
-/// First line of a comment, not seen by readers: the comment that holds it is written anew at the next push, so that there is
+/// First line of a comment, not seen by readers. The comment that holds it is written anew at the next push, so that there is
 /// only one.
 inline constexpr const char* comment_mark = "<!-- tripoint: accuracy -->";
 
@@ -22,16 +22,17 @@ struct CommentOptions {
   bool informational = false;
 };
 
-/// Verdict and the most changed metrics as Markdown: base beside head, in units of the limit, with the noise; what is new or
-/// gone; what is not green. Without a comparison the metrics that use most of their limits. @param against may be null
+/// Verdict and the most changed metrics as Markdown. It shows base beside head, in units of the limit, with the noise; new or
+/// lost values; values that are not green. Without a comparison the metrics that use most of their limits. @param against may be
+/// null
 [[nodiscard]] std::string comment_markdown(const Results&, const GateVerdict&, const Comparison* against, const CommentOptions&);
 
 /// The same as plain text.
 [[nodiscard]] std::string comment_text(const Results&, const GateVerdict&, const Comparison* against, const CommentOptions&);
 
 /// A list of {name, unit, value, range, extra}, an entry for each judged metric, as benchmark actions read it.
-/// @param in_limits values in units of the limit, the less the better: what such an action needs to know a regression; else in
-/// the metric's own unit
+/// @param in_limits values in units of the limit, the less the better, so that such an action knows a regression; else in the
+/// metric's own unit
 [[nodiscard]] std::string dashboard_json(const Results&, bool in_limits);
 
 /// "accuracy | 12/12 gates", green where the verdict is PASS. @param json as an endpoint's answer {schemaVersion, label, message,

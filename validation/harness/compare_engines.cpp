@@ -22,7 +22,7 @@ class OtherEngine : public Reference {
   const Trajectory& trajectory_;
 };
 
-/// What the case allows for a metric: the greatest limit that a gate sets on it without a level of its own.
+/// Margin of the case for a metric: the greatest limit that a gate sets on it without a level of its own.
 std::optional<double> margin_of(const Case& value, const std::string& metric) {
   std::optional<double> margin;
   for (const auto& gate : value.gates)

@@ -32,7 +32,7 @@ struct EngineEntry {
 /// @throws EngineError when an extra path is no executable file, and when two executables call themselves by one name
 [[nodiscard]] std::vector<EngineEntry> discover_engines(const std::vector<std::string>& extra = {});
 
-/// Those of the names that stand beside this program or in TRIPOINT_ENGINE_PATH; no other is started.
+/// Engines of these names that stand beside this program or in TRIPOINT_ENGINE_PATH; no other is started.
 [[nodiscard]] std::vector<EngineEntry> discover_engines_named(const std::vector<std::string>& names);
 
 /// nullptr when there is none of that name.

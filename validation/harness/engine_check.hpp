@@ -9,12 +9,12 @@ namespace tripoint {
 struct EngineCheck {
   std::string what;  ///< the sentence that must hold
   bool passed = false;
-  std::string found;  ///< what was found instead
+  std::string found;  ///< the result found instead
 };
 
-/// Asks --info, hands over broken jobs, and runs small scenes (flight of one body; conduction where it says `heat`) of which it
-/// must be able to do one; checks result, times, ids, masses, units and, where it says deterministic, that a second run is the
-/// same.
+/// Asks --info, hands over broken jobs, and runs small scenes, of which the engine must be able to do one. They are the flight of
+/// one body and, where it says `heat`, conduction. Checks result, times, ids, masses and units. Where the engine says
+/// deterministic, a second run must be the same.
 [[nodiscard]] std::vector<EngineCheck> check_engine(const std::string& executable);
 
 /// A case that the check runs, as text of a case file.

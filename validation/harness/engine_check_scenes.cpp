@@ -4,7 +4,7 @@
 namespace tripoint {
 namespace {
 
-/// Of every engine: gravity, and the units of velocity, time and length.
+/// Test for every engine: gravity, and the units of velocity, time and length.
 constexpr const char* flight_case = R"(format = 1
 [case]
 title = "A cube thrown with a spin"
@@ -38,7 +38,7 @@ limit = 0.1
 reason = "units: a tenth of a second's flight"
 )";
 
-/// Of engines that conduct heat: temperatures of a body that stands still.
+/// Test for engines that conduct heat: temperatures of a body that stands still.
 constexpr const char* conduction_case = R"(format = 1
 [case]
 title = "Half a cosine of temperature in a bar"
@@ -77,7 +77,7 @@ limit = 0.2
 reason = "units: a fifth of the step"
 )";
 
-/// Of engines of elastic bodies: a modulus, and a body that is clamped.
+/// Test for engines of elastic bodies: a modulus, and a body that is clamped.
 constexpr const char* elasticity_case = R"(format = 1
 [case]
 title = "A bar clamped at one end, let go under gravity along it"
@@ -120,7 +120,7 @@ limit = 0.2
 reason = "units: a fifth of the way"
 )";
 
-/// Of engines of liquids: the fall of a block that nothing touches.
+/// Test for engines of liquids: the fall of a block that nothing touches.
 constexpr const char* liquid_case = R"(format = 1
 [case]
 title = "A block of liquid falls freely"

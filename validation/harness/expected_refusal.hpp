@@ -15,8 +15,8 @@ inline constexpr const char* refuses_setting = "refuses";
 /// Whether the engine refused the case for the declared reason.
 [[nodiscard]] bool refuses_as_expected(const EngineRow&);
 
-/// What is wrong with a declared refusal: the engine ran, or refused for another reason. Empty where it holds, where none is
-/// declared and where the engine is not here.
+/// Fault of a declared refusal: the engine ran, or refused for another reason. Empty where it holds, where none is declared and
+/// where the engine is not here.
 [[nodiscard]] std::string broken_refusal(const EngineRow&);
 
 }  // namespace tripoint

@@ -29,7 +29,7 @@ std::string record_file(const RunRequest& request) {
   return (fs::path(request.particles).parent_path() / ("outcome-" + engine.string() + "-" + run.string() + ".json")).string();
 }
 
-/// Hash of the files that were left beside the record: what is judged is what the run wrote.
+/// Hash of the files that were left beside the record: the judged files must be those that the run wrote.
 std::string hash_of_files(const RunRequest& request) {
   const fs::path folder(request.folder);
   std::string all;
@@ -66,7 +66,7 @@ std::string file_hash(const std::string& file) {
   return text_hash(all);
 }
 
-/// Hash of an engine's program, read once a call: what it does may change though it calls itself the same.
+/// Hash of an engine's program, read once a call: its behaviour may change though it states the same version.
 static std::string program_hash(const std::string& executable) {
   static std::map<std::string, std::string> known;
   static std::mutex one;

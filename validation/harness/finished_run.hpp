@@ -6,21 +6,21 @@
 
 #include "validation/harness/run_one.hpp"
 
-/// Runs that have ended are recorded in outcome-ENGINE-RUN.json beside their particles, under a hash of all that made them, so
-/// that a suite that was cut need not make them again. An engine writes in its run's folder alone.
+/// Runs that have ended are recorded in outcome-ENGINE-RUN.json beside their particles, under a hash of all that made them. So a
+/// suite that was cut need not make them again. An engine writes in its run's folder alone.
 namespace tripoint {
 
-/// Of a file's bytes; empty where it cannot be read, or is a pipe or a device.
+/// Hash of a file's bytes; empty where it cannot be read, or is a pipe or a device.
 [[nodiscard]] std::string file_hash(const std::string& file);
 
-/// Of the job's text, its particles, the engine's version, build and library, and the environment that it is started with.
+/// Hash of the job's text, its particles, the engine's version, build and library, and the environment that it is started with.
 [[nodiscard]] std::string run_hash(const RunRequest&, const std::string& job_text);
 
 /// Leaves the record where the run is ok or diverged: an outcome that the same run would have again.
 void record_finished(const RunRequest&, const std::string& hash, const ProcessEnd&, const Outcome&);
 
-/// The outcome that is recorded under this hash, with the cost that was paid then; nothing when there is none, when the job, the
-/// result or the trajectory is not as it was left, or when the result does not read back to the same status.
+/// The outcome that is recorded under this hash, with the cost that was paid then; nothing when there is none. Also nothing when
+/// the job, the result or the trajectory has changed since, or when the result does not read back to the same status.
 [[nodiscard]] std::optional<Outcome> finished_run(const RunRequest&, const std::string& hash);
 
 /// Removes the record of an earlier run. @throws std::filesystem::filesystem_error where it cannot be removed

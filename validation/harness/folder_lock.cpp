@@ -36,7 +36,7 @@ std::string holder(int file) {
   return pid > 0 ? fmt::format("process {}", pid) : "another process";
 }
 
-/// For who comes next. A full disk takes no number; the folder is held all the same.
+/// For the next process. A full disk takes no number; the folder is held all the same.
 void sign(int file) {
   const std::string pid = fmt::format("{}\n", ::getpid());
   if (::ftruncate(file, 0) != 0) return;

@@ -41,8 +41,7 @@ bool is_hidden(std::uint32_t c) {
 
 bool is_word(char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
-/// What stands for a character of one line in Markdown. Entities, since a backslash does not keep a bar out of a table
-/// everywhere.
+/// Markdown text for a character of one line. Entities, since a backslash does not keep a bar out of a table everywhere.
 std::string markdown_letter(std::string_view line, std::size_t k) {
   const char c = line[k], before = k > 0 ? line[k - 1] : ' ', after = k + 1 < line.size() ? line[k + 1] : ' ';
   switch (c) {

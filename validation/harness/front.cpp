@@ -124,7 +124,7 @@ std::vector<double> possible_levels(const Scene& scene, const Ladder& ladder) {
     }
     std::erase_if(lengths, [&](double l) {
       return !std::isfinite(l) || !divides(ladder.points.back().level, l);
-    });  // what the measured ones do not divide is no demand
+    });  // lengths that the measured ones do not divide are no demand
     const double whole = lengths.empty() ? coarsest * 60.0 : *std::max_element(lengths.begin(), lengths.end());
     for (double n = std::max(1.0, std::ceil(whole / coarsest - 1e-9)); whole / n >= finest && n < 1e7; n += 1.0)
       if (std::all_of(lengths.begin(), lengths.end(), [&](double l) { return divides(whole / n, l); }))
@@ -139,7 +139,7 @@ std::vector<double> possible_levels(const Scene& scene, const Ladder& ladder) {
 
 namespace {
 
-/// What is possible, good enough and least by `measure`; none = nothing is.
+/// The setting that is possible, good enough and least by `measure`; none = there is none.
 template <class Enough, class Measure>
 std::optional<Recommendation> least(const Scene& scene, const std::vector<Ladder>& ladders, Enough enough, Measure measure) {
   std::optional<Recommendation> best;

@@ -6,14 +6,14 @@
 
 #include "validation/harness/results.hpp"
 
-/// What accuracy costs, from runs that were made: error and CPU seconds along one knob of one engine, and the cheapest settings
-/// for a wish.
+/// Cost of accuracy, from runs that were made: error and CPU seconds along one knob of one engine, and the cheapest settings for
+/// a wish.
 namespace tripoint {
 
 struct LadderPoint {
   double level = 0.0;  ///< in the axis's own unit
   double step = 0.0;   ///< finer = smaller
-  double error = 0.0;  ///< |value| + 2 u: what a limit is held against
+  double error = 0.0;  ///< |value| + 2 u, which is compared with a limit
   double cpu_s = 0.0;
   double pairs = 0.0;
 };
@@ -39,15 +39,16 @@ struct Prediction {
 [[nodiscard]] Prediction predicted_error(const Ladder&, double step);
 [[nodiscard]] Prediction predicted_cpu(const Ladder&, double step);
 
-/// Settings that are wished: a level of a ladder, and what it will give.
+/// Recommended settings: a level of a ladder, and the expected result.
 struct Recommendation {
   const Ladder* ladder = nullptr;
   double level = 0.0;
   Prediction error, cpu_s;
 };
 
-/// Levels that a scene takes: a spacing that divides what the measured ones divide, a time step that divides the output interval,
-/// whole walkers and iterations. Within twice beyond the measured ones at the fine end, and not beyond the coarsest.
+/// Levels that a scene takes. A spacing divides all lengths that the measured ones divide, a time step divides the output
+/// interval, walkers and iterations are whole. Within twice beyond the measured ones at the fine end, and not beyond the
+/// coarsest.
 [[nodiscard]] std::vector<double> possible_levels(const Scene&, const Ladder&);
 
 /// The cheapest level of any ladder whose predicted error is at most this; empty when none is.

@@ -6,8 +6,8 @@
 #include "validation/harness/remarks.hpp"
 #include "validation/harness/results.hpp"
 
-/// What `tripoint gate` says of results: the judge's verdict, the case files read again, slack, baselines. One answer for the
-/// command, the summary and the badge.
+/// Findings of `tripoint gate` about results: the judge's verdict, the case files read again, slack, baselines. One answer for
+/// the command, the summary and the badge.
 namespace tripoint {
 
 struct GateVerdict {

@@ -32,7 +32,7 @@ std::string has_places(const Scene& s) {
   return {};
 }
 
-/// A boost is a symmetry of what nothing holds from outside.
+/// A boost is a symmetry of scenes in which nothing is held from outside.
 std::string is_not_closed(const Scene& s) {
   for (const auto& b : s.bodies)
     if (b.motion != Motion::free) return "body `" + b.name + "` is held or driven from outside";

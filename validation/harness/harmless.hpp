@@ -7,8 +7,8 @@
 #include "io/trajectory.hpp"
 #include "scene/scene.hpp"
 
-/// Changes of a scene that physics does not feel: symmetries, and what is below the last digit. The run of the changed scene,
-/// taken back, must say what the run of the scene itself says. [[harmless]] of a case names those that it must bear.
+/// Changes of a scene that physics does not feel: symmetries, and changes below the last digit. The run of the changed scene,
+/// taken back, must agree with the run of the scene itself. [[harmless]] of a case names those that it must bear.
 namespace tripoint {
 
 /// A scene and its particles, before or after a change.

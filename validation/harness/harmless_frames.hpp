@@ -4,7 +4,7 @@
 
 #include "validation/harness/harmless.hpp"
 
-/// What the changes do to vectors and numbers of scenes and frames.
+/// Action of the changes on vectors and numbers of scenes and frames.
 namespace tripoint {
 
 /// A turn or mirroring of space that only swaps axes and signs, so that no bit of a component is lost.
@@ -22,7 +22,7 @@ struct SignedAxes {
 void turn(const SignedAxes&, ChangedScene&);
 void turn(const SignedAxes&, Snapshot&);
 
-/// New units of length, time and mass, as powers of 2: a number that has a unit and stands in the code shows, round-off does not.
+/// New units of length, time and mass, as powers of 2. A number in the code that has a unit then shows; round-off does not.
 struct Units {
   double length, time, mass;
 };

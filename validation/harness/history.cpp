@@ -90,7 +90,7 @@ std::string acceptance_lines(const Results& r, const std::vector<std::string>& i
 
 void append_history(const std::string& file, const std::string& lines) {
   if (const auto folder = fs::path(file).parent_path(); !folder.empty()) fs::create_directories(folder);
-  // No link is followed and no pipe waited for: who could write in the folder may have left one.
+  // No link is followed and no pipe waited for: anyone who could write in the folder may have left one.
   const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0644);
   const bool good = fd >= 0 && ::write(fd, lines.data(), lines.size()) == static_cast<ssize_t>(lines.size());
   const int error = errno;

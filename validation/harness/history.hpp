@@ -5,12 +5,12 @@
 
 #include "validation/harness/baseline.hpp"
 
-/// What was measured when: JSON lines that are only ever appended. The reference is the truth, the baseline what was last
-/// accepted, the history all of it.
+/// Past measurements: JSON lines that are only ever appended. The reference is the truth, the baseline the last accepted state,
+/// the history the record of all.
 namespace tripoint {
 
-/// One line a case: commit, date, machine, seed, verdict; every gated value with its uncertainty and the share of its limit that
-/// it uses; every count.
+/// One line a case: commit, date, machine, seed, verdict and every count. It also has every gated value with its uncertainty and
+/// the share of its limit that it uses.
 [[nodiscard]] std::string history_lines(const Results&);
 
 /// One line for each accepted case (no ids: all): a mark in the strip.

@@ -16,7 +16,7 @@ class InstructionCounter {
   ~InstructionCounter();
   InstructionCounter(const InstructionCounter&) = delete;
   InstructionCounter& operator=(const InstructionCounter&) = delete;
-  /// Of all that was started and has ended; 0 = not counted.
+  /// Instructions of all that was started and has ended; 0 = not counted.
   [[nodiscard]] double read() const;
 
  private:

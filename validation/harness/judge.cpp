@@ -15,7 +15,7 @@
 namespace tripoint {
 namespace {
 
-/// Collects what is wrong with a case: a sentence and its exit code.
+/// Collects the faults of a case: a sentence and its exit code.
 struct Findings {
   std::vector<std::string>& problems;
   std::set<int> codes;
@@ -105,8 +105,8 @@ void apply_to_all(CaseResult& result, const Gate& gate, bool engines_were_chosen
                                          to_string(gate.place), gate.metric));
 }
 
-/// Every engine that was chosen refuses the case, and none is required: it is no case of theirs. Who ran no case at all is told
-/// by the whole (unanswered).
+/// Every engine that was chosen refuses the case, and none is required: it is no case of theirs. An engine that ran no case at
+/// all is told by the whole (unanswered).
 bool is_refused(const CaseResult& result, bool engines_were_chosen) {
   const auto is_judge = [](const EngineRow& e) { return is_exact(e.name); };  // the truth is no engine that could take the case
   if (!engines_were_chosen || std::all_of(result.engines.begin(), result.engines.end(), is_judge)) return false;
@@ -212,7 +212,7 @@ void judge(Results& results) {
     codes.insert(c.exit_code);
   }
   check_planned(results, results.problems, codes);
-  // Nothing is wrong but that who was asked takes no case: nobody passes unjudged, and nothing of it is missing either.
+  // The only fault is that the chosen engines take no case: none passes unjudged, and nothing is missing either.
   const bool all_refused =
       codes == std::set<int>{exit_pass} &&
       std::all_of(results.cases.begin(), results.cases.end(), [](const auto& c) { return c.verdict == CaseVerdict::refused; });

@@ -9,7 +9,7 @@
 namespace tripoint {
 namespace {
 
-/// What became of one engine over all cases.
+/// Outcome of one engine over all cases.
 struct Answer {
   int rows = 0, missing = 0, refused = 0, ran = 0, judged = 0;
   std::string why;      ///< of the first row that did not run
@@ -38,7 +38,7 @@ Answer answer_of(const Results& results, const std::string& name) {
   return a;
 }
 
-/// "2/4" is a part of a suite, and what it does not judge another part may; "1/1" is the whole.
+/// "2/4" is a part of a suite, and another part may judge the rest; "1/1" is the whole.
 bool is_part(const std::string& shard) { return !shard.empty() && !shard.ends_with("/1"); }
 
 }  // namespace

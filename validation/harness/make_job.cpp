@@ -47,7 +47,7 @@ JobBody job_body(const Body& body, int row, const Gathered& particles) {
   return b;
 }
 
-/// Where a metric's number is read: what its reference states of the place, without what it states of the value.
+/// Where a metric's number is read: its reference's statement of the place, without that of the value.
 JobGauge gauge_of(const Case& value, const MetricChoice& metric) {
   JobGauge gauge{metric.name, metric.quantity, metric.body, {}};
   const auto& args = metric.reference.value_or(value.reference).args;

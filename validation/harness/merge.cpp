@@ -51,7 +51,7 @@ Results merge_shards(const std::vector<std::string>& folders) {
   check_shards(folders, parts);
   check_same_question(folders, parts);
   Results whole = parts.front();
-  whole.interrupted = false;  // what a shard that was stopped lacks is missing in the whole
+  whole.interrupted = false;  // parts that a stopped shard lacks are missing in the whole
   whole.shard.clear();
   whole.history.clear();
   whole.cases.clear();

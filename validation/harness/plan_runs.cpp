@@ -100,13 +100,13 @@ void set_level(RunPlan& run, Axis axis, double level) {
 /// "paper-": how the labels of a mode's runs begin.
 std::string label_start(JudgedMode mode) { return mode == JudgedMode::none ? std::string() : std::string(to_string(mode)) + "-"; }
 
-/// Runs in the order in which they are made. A run is compared with those of its mode, jitter and seed alone, and by numbers that
-/// its scene was asked for once: each seed of a study is a run, and all of them with all others would be millions of scenes.
+/// Runs in the order in which they are made. A run is compared only with those of its mode, jitter and seed, by numbers that its
+/// scene gave once. Each seed of a study is a run, and comparing all of them would take millions of scenes.
 class RunList {
  public:
   explicit RunList(const Case& value) : case_(value) {}
 
-  /// Also where the same run was planned before. What has an input of its own is never compared: no study has another like it.
+  /// Also where the same run was planned before. A run with an input of its own is never compared: no study has another like it.
   void append(const RunPlan& run) {
     if (run.input.empty()) {
       const auto [key, numbers] = told_apart(run);
@@ -205,7 +205,7 @@ std::vector<std::string> presets_of(const EngineChoice& engine, const EngineEntr
   return {entry && !contains(entry->presets, default_preset) ? entry->presets.front() : default_preset};
 }
 
-/// Counts what a case asks for before any of it is planned.
+/// Counts the runs of a case before any of them is planned.
 class Budget {
  public:
   void spend(std::size_t runs, const SourcePlace& place) {

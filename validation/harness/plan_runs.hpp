@@ -19,7 +19,7 @@ struct RunPlan {
   std::optional<double> walkers, iterations;
   std::map<StudyAxes, double> levels;  ///< of a study -> level
   bool base = false;
-  std::string input;  ///< "key=VALUE" of an uncertain input at one end, in the place of what the case says; empty = none
+  std::string input;  ///< "key=VALUE" of an uncertain input at one end, in place of the case's value; empty = none
   std::string label;  ///< name of its folder below runs/<case>/<engine>
   std::string group;  ///< runs of one group differ by seed only
 };
@@ -40,14 +40,14 @@ struct Selection {
   std::optional<std::uint64_t> seed;
 };
 
-/// Runs of one case, those of all its engines, presets and modes together, before the ones that are the same are taken together:
-/// a hundred times what a case of ours asks for, and few enough to be planned at once.
+/// Greatest number of runs of one case, those of all its engines, presets and modes together, before equal ones are merged. This
+/// is a hundred times the number in a case of ours, and few enough to be planned at once.
 inline constexpr std::size_t most_runs = 10'000;
 
-/// Engines that run the case: tripoint (required unless the case says otherwise) and, where the reference has states, exact;
-/// then those that the case lists, the extra ones, and those that TRIPOINT_ENGINE_PATH brings. Modes are tripoint's alone:
-/// foreign engines run once. Runs: the case's own resolution, and each level and seed of each study; a run that two studies share
-/// is made once. @throws InputError with the place in the case file where it comes to ask for more than most_runs
+/// Engines that run the case. First are tripoint (required unless the case says otherwise) and, where the reference has states,
+/// exact. Then come those that the case lists, the extra ones, and those that TRIPOINT_ENGINE_PATH brings. Modes are tripoint's
+/// alone: foreign engines run once. Runs: the case's own resolution, and each level and seed of each study; a run that two
+/// studies share is made once. @throws InputError with the place in the case file where it comes to ask for more than most_runs
 [[nodiscard]] std::vector<EnginePlan> plan_runs(const Case&, const std::vector<EngineEntry>&, const Selection&);
 
 /// The scene that a run is made in.
@@ -59,7 +59,7 @@ inline constexpr std::size_t most_runs = 10'000;
 /// Times 0, interval, 2 interval, ..., end [s]; the last is `end` itself.
 [[nodiscard]] std::vector<double> output_times(double interval, double end);
 
-/// What decides the particles of a scene: runs of one key share one particles.h5.
+/// Key of the particles of a scene: runs of one key share one particles.h5.
 [[nodiscard]] std::string sampling_key(const Scene&);
 
 /// Whether a reference describes states (positions, temperatures), so that the engine `exact` can write them.

@@ -180,7 +180,7 @@ int spawn(const ProcessSpec& spec, const std::string& mark, int out, int err, pi
   return error;
 }
 
-/// No core files, no file above 16 GiB; the address space may not pass four times the machine's memory.
+/// Allows no core files and no file above 16 GiB; the address space may not pass four times the machine's memory.
 void bound_resources(pid_t pid) {
   const rlimit no_core{0, 0}, file{16ull << 30, 16ull << 30};
   const auto memory = static_cast<rlim_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
@@ -201,8 +201,8 @@ double peak_of(pid_t pid) {
   return 0.0;
 }
 
-/// What the system counts as a child's memory begins with the peak of us who started it: it is the child's own only where it is
-/// more.
+/// The system's count of a child's memory begins with the peak of our process, which started it. It is the child's own only where
+/// it is more.
 void add_cost(ProcessEnd& end, const rusage& use) {
   const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
   end.cpu_s += seconds(use.ru_utime) + seconds(use.ru_stime);
@@ -211,10 +211,10 @@ void add_cost(ProcessEnd& end, const rusage& use) {
   if (use.ru_maxrss > ours.ru_maxrss) end.peak_bytes = std::max(end.peak_bytes, 1024.0 * static_cast<double>(use.ru_maxrss));
 }
 
-/// Until we look at a child again [ms]: a fifth of the time that it has run, so that its memory is seen late in a short run too.
+/// Time until we look at a child again [ms]. It is a fifth of its run time so far, so that its memory is seen in a short run too.
 double until_next_look(double ran, double left) { return std::min({100.0, std::max(2.0, 200.0 * ran), 1e3 * left + 1.0}); }
 
-/// Reads what is there without waiting. @return false at the end of the stream
+/// Reads the bytes that are there, without waiting. @return false at the end of the stream
 template <class Take>
 bool drain(int fd, Take take) {
   char buffer[65536];
@@ -256,8 +256,8 @@ void end_group(pid_t leader, ProcessEnd& end, bool leader_reaped) {
   while (wait_for(-leader, 0, status, use) > 0) add_cost(end, use);
 }
 
-/// What the first process inside a sandbox has used, and all that it waited for. Bubblewrap ends without waiting for it, and it
-/// comes to us. @param inside 0 where it was never seen
+/// Adds the use of the first process inside a sandbox, and of all that it waited for. Bubblewrap ends without waiting for it, and
+/// it comes to us. @param inside 0 where it was never seen
 void add_cost_inside(pid_t inside, ProcessEnd& end) {
   if (inside == 0) return;
   const auto begun = Clock::now();

@@ -19,7 +19,7 @@ struct ProcessSpec {
   std::function<void(double)> progress;            ///< called with 0..1 for each line `progress X` of stderr
   std::function<void(const std::string&)>
       status;                       ///< called with the rest of each line `status REST` of stderr, of 400 bytes at most
-  bool outlives_interrupt = false;  ///< Ctrl-C does not end it: it shows what was complete by then
+  bool outlives_interrupt = false;  ///< Ctrl-C does not end it: it shows the results that are complete by then
   bool in_sandbox = false;          ///< argv is bubblewrap's, which leaves the process that it starts to us: that one is paid for
 };
 
@@ -34,19 +34,19 @@ struct ProcessEnd {
   double peak_bytes = 0.0;    ///< greatest resident size of one process of the group
 };
 
-/// Runs a program to its end, its limit or our Ctrl-C, whichever is first; nothing of its group survives, nor does it where we
-/// are killed. Never throws for what the program does.
+/// Runs a program to its end, its limit or our Ctrl-C, whichever is first. Nothing of its group survives, nor does it where we
+/// are killed. Never throws for a fault of the program.
 [[nodiscard]] ProcessEnd run_process(const ProcessSpec&);
 
-/// Held while a program is started, and by whoever uses HDF5: its files are not close-on-exec, a child would inherit them for a
-/// moment; and Debian's library is not thread-safe.
+/// Held while a program is started, and by all code that uses HDF5. Its files are not close-on-exec, so a child would inherit
+/// them for a moment; and Debian's library is not thread-safe.
 [[nodiscard]] std::mutex& no_spawn_mutex();
 
 /// "exited with code 3", "was killed by signal 9 (Killed)", "was stopped after 600 s", ...
 [[nodiscard]] std::string describe(const ProcessEnd&);
 
-/// From now on Ctrl-C, SIGTERM and SIGHUP (core/stop_signals.hpp) ask the children to end, kill those that have not within 10 s,
-/// and set interrupted(), instead of ending this process.
+/// From now on Ctrl-C, SIGTERM and SIGHUP (core/stop_signals.hpp) do not end this process. They ask the children to end, kill
+/// those that have not within 10 s, and set interrupted().
 void catch_interrupts();
 [[nodiscard]] bool interrupted() noexcept;
 

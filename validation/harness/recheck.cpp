@@ -47,7 +47,8 @@ class Recheck {
                      "the results are not of this case: " + what, infinity, "CHANGED"});
   }
 
-  /// What was run, as its hashes tell: a scene that was easier then, or other data, is seen also where limits and metrics stay.
+  /// Compares the hashes of the run with those of now: an easier scene then, or other data, is seen also where limits and metrics
+  /// stay.
   void question() {
     const auto now = case_hashes(stored_.file);
     if (!stored_.hashes || !now) return;

@@ -4,12 +4,13 @@
 
 #include "validation/harness/remarks.hpp"
 
-/// Results against the case files as they are now: what is judged must be what the cases ask.
+/// Results against the case files as they are now: the judged question must be that of the cases.
 namespace tripoint {
 
-/// An error, exit 4, for each case whose file cannot be read again, whose metrics, gates, studies, reference or `expect` are not
-/// those of the results, of which an engine or a planned run has no row, and for each value that is not the norm of its own
-/// series. A case that the profile, tag or folder of the results asks for now and that is not among them is one too.
+/// Errors, exit 4. One stands for each case whose file cannot be read again, or whose metrics, gates, studies, reference or
+/// `expect` are not those of the results. One stands for each case of which an engine or a planned run has no row. One stands for
+/// each value that is not the norm of its own series. One stands for each missing case that the profile, tag or folder of the
+/// results asks for now.
 [[nodiscard]] std::vector<Remark> recheck_remarks(const Results&);
 
 }  // namespace tripoint

@@ -25,8 +25,8 @@ struct ReleaseChange {
   bool worse = false;
 };
 
-/// The case with one engine, in these presets (empty = those of the case, else all of the engine), and its time step refined over
-/// these levels (empty = those of the case's study of this engine, else 2, 1, 1/2 and 1/4 of the case's own step).
+/// The case with one engine, in these presets (empty = those of the case, else all of the engine). Its time step is refined over
+/// these levels. Empty = those of the case's study of this engine, else 2, 1, 1/2 and 1/4 of the case's own step.
 [[nodiscard]] Case case_for_releases(Case, const EngineEntry&, const std::vector<std::string>& presets,
                                      const std::vector<double>& levels);
 
@@ -35,7 +35,7 @@ struct ReleaseChange {
 
 /// The run at the case's own resolution; nullptr where none was made.
 [[nodiscard]] const RunRow* base_run(const EngineRow&);
-/// Of a metric over the time step; NaN where none was fitted.
+/// Order of a metric over the time step; NaN where none was fitted.
 [[nodiscard]] double observed_order(const EngineRow&, const std::string& metric);
 /// Gates that pass in the one and not in the other, described.
 [[nodiscard]] std::vector<std::string> gates_turned_red(const Release& from, const Release& to);
@@ -48,12 +48,12 @@ struct ReleaseTable {
 
 /// releases.json, format 1.
 [[nodiscard]] std::string releases_text(const ReleaseTable&);
-/// The same as Markdown: a table for each metric, what changed from each release to the next, and what the gates say.
+/// The same as Markdown: a table for each metric, the changes from each release to the next, and the verdicts of the gates.
 [[nodiscard]] std::string releases_markdown(const ReleaseTable&);
 /// One line: whether the last release may take the place of the first.
 [[nodiscard]] std::string upgrade_line(const ReleaseTable&);
-/// The last release has a greater error than the first beyond the margin, fails a gate that the first passes, or did not run
-/// where the first did.
+/// Whether the last release is worse: a greater error beyond the margin, a failed gate that the first passes, or only the first
+/// ran.
 [[nodiscard]] bool is_worse(const ReleaseTable&);
 
 }  // namespace tripoint

@@ -90,7 +90,7 @@ std::string change_line(const ReleaseChange& c) {
   return text + "\n";
 }
 
-/// What the case's own gates say of each release.
+/// Results of each release by the case's own gates.
 std::string gates_of(const ReleaseTable& t) {
   std::string text = "\n| release | gates of the case that pass | those that do not |\n|---|---|---|\n";
   bool any = false;

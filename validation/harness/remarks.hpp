@@ -5,14 +5,14 @@
 
 #include "validation/harness/results.hpp"
 
-/// What a gate has to say about results, one sentence each, with the line of the case file that it is about.
+/// Remarks of a gate about results, one sentence each, with the line of the case file that it is about.
 namespace tripoint {
 
 struct Remark {
   bool error = true;    ///< else a warning, which turns nothing red
   int code = 0;         ///< exit code of the contract; 0 for a warning
   SourcePlace place;    ///< of the limit in the case file; line 0 = the file as a whole, no file = the suite
-  std::string title;    ///< case and what is judged
+  std::string title;    ///< case and judged metric
   std::string text;     ///< one sentence
   double excess = 0.0;  ///< how far beyond the limit, to put the worst first: |value|/limit; infinite where there is no value
   std::string word;     ///< the verdict where nothing else is wrong: LOOSENED, CHANGED, GONE; empty = that of the code
@@ -21,8 +21,8 @@ struct Remark {
 /// The word of the verdict: that of the remarks where all that give the code share one, else that of the code.
 [[nodiscard]] std::string verdict_word(int exit_code, const Results&, const std::vector<Remark>&);
 
-/// How much of what its gate allows a value takes: its size over the limit; distance from the middle of a band over half its
-/// width; at_least over it. Infinite where there is no value or nothing is allowed.
+/// Share of its gate's allowance that a value takes. It is its size over the limit; distance from the middle of a band over half
+/// its width; at_least over it. Infinite where there is no value or nothing is allowed.
 [[nodiscard]] double share_used(const GateRow&);
 
 /// Every gate that is not green, and every problem of a case or the suite, worst first.
@@ -31,8 +31,8 @@ struct Remark {
 /// "error: file:line: title: text", one line each.
 [[nodiscard]] std::string remarks_text(const std::vector<Remark>&);
 
-/// The same as workflow commands of GitHub (`::error file=...,line=...`), which it draws beside the line of the limit. It shows
-/// ten of a kind a step: the ten worst errors are written, the last of them saying how many more there are, then likewise the
+/// The same as workflow commands of GitHub (`::error file=...,line=...`), which it draws beside the line of the limit. GitHub
+/// shows ten of a kind a step. So the ten worst errors are written, and the last says how many more there are; then likewise the
 /// warnings.
 [[nodiscard]] std::string annotations_text(const std::vector<Remark>&, std::size_t most = 10);
 

@@ -57,8 +57,7 @@ void read_info(const Json& info, EngineEntry& entry) {
   }
 }
 
-/// A name is a word of the report and a folder of its own: nothing that leads elsewhere, or looks like the name of another
-/// engine.
+/// A name is a word of the report and a folder of its own. It must not lead elsewhere, or look like the name of another engine.
 bool is_plain(const std::string& name) {
   const auto good = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '.';

@@ -5,11 +5,11 @@
 
 #include "validation/harness/discover.hpp"
 
-/// What an engine prints, read: anything may stand in it, and nothing of it is an exception.
+/// Reading of an engine's output: anything may stand in it, and nothing of it is an exception.
 namespace tripoint {
 
-/// The entry with all that `--info` printed. What is not by the contract leaves it not available, with the reason and the name
-/// that it had.
+/// The entry with all that `--info` printed. Output that breaks the contract leaves the entry not available, with the reason and
+/// the name that it had.
 [[nodiscard]] EngineEntry with_info(EngineEntry, const std::string& printed);
 
 /// Why an engine cannot run a job, in its own words or, where it has none, in ours.

@@ -46,11 +46,11 @@ std::string make_page(const fs::path& results, const std::string& history, bool 
   return fmt::format("the report program {}: {}", describe(end), end.log_tail);
 }
 
-/// No old page stands for new results.
+/// Removes old pages, so that none stands for new results.
 void remove_pages(const fs::path& out) {
   std::error_code none;
   for (const char* page : {"index.html", "signable.html", "report.pdf"}) fs::remove(out / page, none);
-  if (fs::is_symlink(out / "case", none)) return;  // what it leads to is not ours
+  if (fs::is_symlink(out / "case", none)) return;  // the link's target is not ours
   for (const auto& page : fs::directory_iterator(out / "case", none))
     if (page.path().extension() == ".html") fs::remove(page.path(), none);
 }

@@ -5,13 +5,13 @@
 
 #include "validation/harness/results.hpp"
 
-/// What lies beside results.json; it exists without Python, but for the page.
+/// Files beside results.json; they exist without Python, except the page.
 namespace tripoint {
 
 /// The Python that draws and exports: that of the variable TRIPOINT_PYTHON, else Debian's.
 [[nodiscard]] std::string python_program();
 
-/// JUnit XML: a suite a case, a test a gate (and one for each engine that did not run); inconclusive is a failure of a type of
+/// JUnit XML: a suite a case, a test a gate, and a test for each engine that did not run. Inconclusive is a failure of a type of
 /// its own.
 [[nodiscard]] std::string junit_text(const Results&);
 
@@ -33,11 +33,11 @@ void set_aside_report(const std::string& folder);
 /// The line that ends every validation: `verdict PASS exit 0  report/index.html`; without a page it names results.json.
 [[nodiscard]] std::string last_line(const Results&, const std::string& folder);
 
-/// What stands above the last line: what is wrong with the results as a whole, and which engines are missing or not judged, with
-/// the number of cases.
+/// Text above the last line. It has faults of the results as a whole, and the engines that are missing or not judged, with the
+/// number of cases.
 [[nodiscard]] std::string notes_text(const Results&);
 
-/// One line for a case: its verdict, id and what is not green.
+/// One line for a case: its verdict, id and the gates that are not green.
 [[nodiscard]] std::string case_line(const CaseResult&);
 
 /// Shards into one set of results. @throws InputError when a shard is missing, two overlap, or one holds a link, a pipe or a

@@ -13,7 +13,7 @@
 #include "validation/metrics/metric.hpp"
 #include "validation/metrics/order.hpp"
 
-/// What results.json holds (contracts: results.json, format 1), as plain data. Verdicts in it are always recomputed: judge.hpp.
+/// Content of results.json (contracts: results.json, format 1), as plain data. Verdicts in it are always recomputed: judge.hpp.
 namespace tripoint {
 
 struct Cost {
@@ -21,7 +21,7 @@ struct Cost {
   double peak_bytes = 0.0;
   double pairs = 0.0, steps = 0.0, iterations = 0.0;  ///< counted by the engine
   double simulated_s = 0.0;                           ///< time of the scene that the steps took it through [s]
-  double particles = 0.0;                             ///< at the end: with what flowed in, without what is no more
+  double particles = 0.0;                             ///< at the end: with inflowing particles, without lost ones
   double instructions = 0.0;                          ///< in user space, of the whole process; 0 = not counted
   std::vector<double> repeats;  ///< CPU seconds of the timed runs (--timing), one a round [s]; empty = it was run once
   std::string counted_by;       ///< of the instructions: counter (the processor's own), callgrind (a second run)
@@ -46,7 +46,7 @@ struct RunRow {
   std::string group;                   ///< runs of one group differ by seed only; empty = alone
   std::string input;                   ///< "key=VALUE" where the run is one end of an uncertain input
   Status status = Status::ok;
-  std::string reason;      ///< of a status that is not ok, and what a run that is ok has to say
+  std::string reason;      ///< of a status that is not ok, and the message of a run that is ok
   bool comparable = true;  ///< false: the engine read back another scene than it was given
   std::map<std::string, MetricValue> metrics;
   Cost cost;
@@ -60,7 +60,7 @@ struct OrderRow {
   JudgedMode mode = JudgedMode::none;
   Order order;
   double formal = 0.0;
-  std::vector<double> step, error, uncertainty;  ///< what was fitted
+  std::vector<double> step, error, uncertainty;  ///< points that were fitted
   std::vector<double> numerical;  ///< standard uncertainty of each level by the grid convergence index, which knows no truth;
                                   ///< empty = no formal order is declared
 };
@@ -72,7 +72,7 @@ struct GateRow {
   std::optional<double> level;
   double value = 0.0;               ///< NaN where there is none
   double uncertainty = 0.0;         ///< standard
-  Uncertainty budget;               ///< what it is made of
+  Uncertainty budget;               ///< its parts
   std::optional<double> low, high;  ///< an order's 95 % interval
   Verdict verdict = Verdict::missing;
   std::string why;                            ///< one sentence for a verdict that is not pass
@@ -158,9 +158,9 @@ struct Results {
 };
 
 [[nodiscard]] std::string results_text(const Results&);
-/// @throws InputError naming the file and what is missing or of the wrong kind
+/// @throws InputError naming the file and the field that is missing or of the wrong kind
 [[nodiscard]] Results read_results(const std::string& path);
-/// One run as results.json holds it, and back again. @throws InputError naming the place and what is wrong
+/// One run as results.json holds it, and back again. @throws InputError naming the place and the fault
 [[nodiscard]] std::string run_row_text(const RunRow&);
 [[nodiscard]] RunRow read_run_row(const std::string& text, const std::string& place);
 /// This build, this machine.

@@ -33,7 +33,7 @@ struct Judged {
 };
 template <class T>
 Judged(T&) -> Judged<T>;
-/// A number that may not be stated: what is absent leaves the default, null is NaN.
+/// A number that may not be stated: an absent one leaves the default, null is NaN.
 template <class T>
 struct Stated {
   T& value;
@@ -155,7 +155,7 @@ void fields(V& v, RecordOf<OrderRow> auto& o) {
   v("numerical", o.numerical);
 }
 
-/// What a gate allows and why: the part that a gate and its row share.
+/// Limits of a gate and their reason: the part that a gate and its row share.
 template <class V>
 void allowed(V& v, RecordOf<Gate> auto& g) {
   v("limit", g.limit);

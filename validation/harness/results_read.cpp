@@ -14,8 +14,8 @@ namespace {
 using Json = nlohmann::json;
 constexpr std::uintmax_t largest_file = 512u << 20;
 
-/// Reads the fields of a record from an object. What is absent, or of another kind, leaves the member's default (of a text: it is
-/// empty); a word that names nothing is an error, which says where it stands.
+/// Reads the fields of a record from an object. An absent field, or one of another kind, leaves the member's default (of a text:
+/// it is empty). A word that names nothing is an error, which says where it stands.
 class Reader {
  public:
   explicit Reader(const Json& from) : from_(from) {}
@@ -157,7 +157,7 @@ class Reader {
     const auto at = from_.find(key);
     return at == from_.end() ? nothing : *at;
   }
-  /// What is no number is no value: NaN, which never passes.
+  /// A value that is no number is read as NaN, which never passes.
   static double number(const Json& v) { return v.is_number() ? v.get<double>() : not_a_number; }
   static Setting setting(const Json& v) {
     if (v.is_boolean()) return v.get<bool>();

@@ -67,7 +67,7 @@ Job job_in_folder(const RunRequest& request) {
   return job;
 }
 
-/// What an earlier run left goes, except what a run that goes on from a checkpoint in this folder still needs.
+/// Removes the files of an earlier run, except those that a run resumed from a checkpoint in this folder still needs.
 void prepare_folder(const RunRequest& request) {
   const fs::path folder(request.folder);
   fs::create_directories(folder);
@@ -84,7 +84,7 @@ void prepare_folder(const RunRequest& request) {
   write_job((folder / "job.json").string(), job_in_folder(request));
 }
 
-/// What an engine says of its run. What others wrote is read by a copy of us first. @throws InputError, EngineError
+/// Result that an engine states of its run. A copy of us first reads files that others wrote. @throws InputError, EngineError
 Result result_of(const RunRequest& request) {
   const std::string file = (fs::path(request.folder) / "result.json").string();
   if (!belongs_to_us(request.engine->executable))
@@ -92,7 +92,7 @@ Result result_of(const RunRequest& request) {
   return read_result(file);
 }
 
-/// What an engine that was stopped by Ctrl-C says last.
+/// Last words of an engine that was stopped by Ctrl-C.
 std::string words_of_the_interrupted(const RunRequest& request) {
   if (is_no_own_file((fs::path(request.folder) / "result.json").string())) return " without a result";
   try {
@@ -140,21 +140,22 @@ void count_instructions(const RunRequest& request, ProcessSpec spec, Outcome& ou
   fs::remove_all(folder, ignored);
 }
 
-/// Bytes that a trajectory can need: what flows in, twice as much again and again, is far below the gibibyte.
+/// Bytes that a trajectory can need: inflowing liquid, doubled again and again, stays far below the gibibyte.
 std::uintmax_t greatest_trajectory(const RunRequest& request) {
   constexpr std::uintmax_t a_row = 4096, at_least = std::uintmax_t{1} << 30;
   return at_least + a_row * request.job->times.size() * (request.initial->size() + request.job->bodies.size());
 }
 
-/// A link would lead to what another engine, or another run, has written; a pipe would keep whoever opens it waiting. No engine
-/// writes any more when this is asked. @throws EngineError
+/// A link would lead to files of another engine, or of another run. A pipe would keep its reader waiting. At the time of this
+/// check no engine writes any more. @throws EngineError
 void expect_own_files(const fs::path& folder) {
   for (const char* name : {"job.json", "result.json", "trajectory.h5", "trajectory.csv", "gauges.csv"})
     if (is_no_own_file((folder / name).string()))
       throw EngineError(fmt::format("{} is a link to another file, or no regular file; refused: an engine writes its own", name));
 }
 
-/// Frames that a trajectory may have: a small one may show each step of its engine, a large one little more than what was asked.
+/// Frames that a trajectory may have: a small one may show each step of its engine, a large one little more than the output
+/// times.
 std::size_t most_frames(const RunRequest& request) {
   constexpr std::size_t rows = 1'000'000;
   return std::max(2 * request.job->times.size() + 16, rows / std::max<std::size_t>(1, request.initial->size()));
@@ -183,7 +184,7 @@ Trajectory read_files(const RunRequest& request) {
   return trajectory;
 }
 
-/// Nobody promises that a library bears every file: what an engine of others has written is read by a confined copy of us.
+/// No library is sure to survive every file. So a confined copy of us reads the files of foreign engines.
 std::shared_ptr<const Trajectory> read_any_trajectory(const RunRequest& request) {
   const std::lock_guard lock(no_spawn_mutex());  // Debian's HDF5 is not thread-safe either
   const fs::path folder(request.folder);

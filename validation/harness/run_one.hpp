@@ -19,7 +19,7 @@ struct RunRequest {
   std::string folder;     ///< results of an earlier run in it are removed first: they are never judged
   std::string particles;  ///< path of particles.h5
   std::shared_ptr<std::string>
-      particles_hash;         ///< file_hash of it as it was written last; no engine may change what all engines start from
+      particles_hash;         ///< file_hash of it as it was written last; no engine may change the start of all engines
   double wall_limit = 600.0;  ///< [s]
   std::map<std::string, std::string> environment;
   std::function<void(double)> progress;
@@ -40,10 +40,10 @@ struct Outcome {
   Cost cost;
 };
 
-/// What tells this run from any other: its job, its particles, and the engine that makes it (finished_run.hpp: run_hash).
+/// Hash that tells this run from any other: its job, its particles, and the engine that makes it (finished_run.hpp: run_hash).
 [[nodiscard]] std::string hash_of(const RunRequest&);
 
-/// Writes the job, asks --check, runs, and reads back; what the engine does wrong becomes a status with its reason, never an
+/// Writes the job, asks --check, runs, and reads back; a fault of the engine becomes a status with its reason, never an
 /// exception.
 [[nodiscard]] Outcome run_one(const RunRequest&);
 
@@ -54,7 +54,7 @@ struct Outcome {
 /// Reads result and trajectory from the folder of a run that has ended.
 [[nodiscard]] Outcome read_back(const RunRequest&, const ProcessEnd&);
 
-/// Compares what the engine holds with what it was given: gravity, masses, inertia, damping.
+/// Compares the values that the engine holds with its input: gravity, masses, inertia, damping.
 /// @return empty when it is the same scene, else what differs, by name
 [[nodiscard]] std::string audit_scene(const Job&, const Readback&);
 

@@ -70,7 +70,7 @@ bool is_within(const fs::path& path, const fs::path& folder) {
   return !relative.empty() && *relative.begin() != "..";
 }
 
-/// The engine's folder as it may be read: an empty one stands where the report is, and where git keeps what it knows.
+/// The engine's folder as it may be read: an empty folder hides the report and the data of git.
 std::vector<std::string> bind_engine(const fs::path& folder) {
   const char* home = std::getenv("HOME");
   if (home && *home == '/' && home[1] != '\0' && is_within(place_of(home), folder))
@@ -93,13 +93,13 @@ std::vector<std::string> bind_engine(const fs::path& folder) {
   return words;
 }
 
-/// This much, or less where we may have no more ourselves: nobody can raise a limit inside.
+/// This much, or our own limit where that is less: nobody can raise a limit inside.
 rlim_t at_most(__rlimit_resource what, rlim_t much) {
   rlimit ours{};
   return ::getrlimit(what, &ours) == 0 ? std::min(much, ours.rlim_max) : much;
 }
 
-/// What the engine may use. Set before it begins, inside: nobody can be faster.
+/// Limits of the engine. They are set inside the sandbox before the engine begins, so that it cannot escape them.
 std::vector<std::string> limits(double wall_limit) {
   const auto memory = static_cast<rlim_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
   const double cpu = std::min(wall_limit * std::max(1u, std::thread::hardware_concurrency()) + 10.0, 1e9);
@@ -161,7 +161,7 @@ void show(Words& words, const char* how, const std::string& path) {
   add(words, {how, place, place});
 }
 
-/// The child in bubblewrap, where it sees what is bound and no more.
+/// The child in bubblewrap, where it sees the bound folders and no more.
 ProcessSpec behind_walls(ProcessSpec spec, const Words& bound) {
   Words words = bare();
   add(words, bound);
@@ -176,7 +176,7 @@ ProcessSpec behind_walls(ProcessSpec spec, const Words& bound) {
   return spec;
 }
 
-/// Where the checkout or the installation keeps what it is made of: also what links in the folder of shared data lead to.
+/// Folders of the checkout or the installation, with the targets of links in the folder of shared data.
 void show_shared(Words& words) {
   show(words, "--ro-bind", share_folder());
   std::error_code none;
@@ -205,7 +205,7 @@ void show_python(Words& words, fs::path python) {
   }
 }
 
-/// What the program that draws the pages makes: pages, and what they show.
+/// Whether an entry is made by the program that draws the pages: a page, or its figures.
 bool is_drawn(const fs::path& entry) {
   const fs::path name = entry.filename();
   return name.extension() == ".html" || name == "case" || name == "figures" || name == "report.pdf" || name == "report.log";

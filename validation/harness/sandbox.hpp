@@ -5,9 +5,9 @@
 
 #include "validation/harness/process.hpp"
 
-/// Engines that somebody else wrote, run by bubblewrap in namespaces of their own: no network, no other process, and of the files
-/// only the system's programs, the engine's own folder without what the suite and git keep there, and its run. Limits are set
-/// before the engine begins.
+/// Engines that somebody else wrote, run by bubblewrap in namespaces of their own. They see no network and no other process. Of
+/// the files they see the system's programs, their run, and their own folder without the files of the suite and of git. Limits
+/// are set before the engine begins.
 namespace tripoint {
 
 /// Whether an engine is one of this program's own: it lies where they do.

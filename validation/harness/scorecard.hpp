@@ -12,17 +12,18 @@
 /// An engine judged by the limits that any engine must hold: a row a case, totals, and its place among the engines that ran.
 namespace tripoint {
 
-/// What the limits that any engine must hold say of an engine in a case.
+/// Score of an engine in a case by the limits that any engine must hold.
 enum class Score { pass, fail, known_defect, inconclusive, diverged, crashed, not_judged, refused, missing };
 constexpr WordTable<9> word_table(Score) {
   return {"score", {"pass", "fail", "known defect", "inconclusive", "diverged", "crashed", "not judged", "refused", "missing"}};
 }
 
-/// One case of one engine and preset. What is not there is NaN, 0 or empty.
+/// One case of one engine and preset. Missing values are NaN, 0 or empty.
 struct ScoreRow {
   std::string case_id, title;
   Score verdict = Score::missing;
-  std::string reason;           ///< of a verdict that is not pass: what failed, why it was refused; of a known defect its name
+  std::string reason;           ///< of a verdict that is not pass: the failed gate, the reason of a refusal, or the name of a
+                                ///< known defect
   std::string metric, unit;     ///< the metric by which engines are ranked: that of the first acceptance limit of the case
   double error = not_a_number;  ///< its value at the case's own resolution, scaled
   std::string allowed;          ///< "limit 0.05": the acceptance limit on it
@@ -53,8 +54,8 @@ struct Witness {
   std::string words;  ///< the vendor's own on preset and settings, with their source; empty = the engine gives none
 };
 
-/// A case in which two engines differ by more than half of the acceptance limit: at most one of them uses less than a quarter of
-/// it.
+/// A case in which two engines differ by more than half of the acceptance limit. At most one of them uses less than a quarter of
+/// the limit.
 struct Disagreement {
   std::string case_id, metric, unit, allowed;
   std::string a, b;                ///< the two that differ most
@@ -83,7 +84,7 @@ struct Scorecard {
 [[nodiscard]] std::string scorecard_text(const Scorecard&, const std::vector<std::string>& asked);
 /// The whole as Markdown.
 [[nodiscard]] std::string scorecard_markdown(const Scorecard&);
-/// scorecard.json, format 1: what the page is made of.
+/// scorecard.json, format 1: the data of the page.
 [[nodiscard]] std::string scorecard_json(const Scorecard&);
 /// Writes scorecard.json, scorecard.md and, where the report program can, scorecard.html. @return why there is no page; empty
 /// where it is there

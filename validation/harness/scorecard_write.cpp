@@ -49,7 +49,7 @@ std::string cell(std::string text) {
   return text;
 }
 
-/// "12 pass, 1 fail, 14 refused": what does not occur is left out, but for pass and fail.
+/// "12 pass, 1 fail, 14 refused": counts of 0 are left out, except pass and fail.
 std::string tally(const EngineScore& s) {
   std::string text;
   for (const auto v : all_of<Score>())

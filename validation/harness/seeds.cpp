@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::uint64_t seeds_apart = 1000;  // from the case's own seed, beyond those of its studies' replicas
 
-/// @param taken places in all.gates that this seed has filled: what judges the same level of two studies is told apart by its
+/// @param taken places in all.gates that this seed has filled: gates of the same level of two studies are told apart by their
 /// order
 SeedOutcome& outcome_for(const CaseResult& c, const EngineRow& e, const GateRow& row, SeedsOutcome& all,
                          std::set<const SeedOutcome*>& taken) {
@@ -48,7 +48,7 @@ SeedOutcome& outcome_for(const CaseResult& c, const EngineRow& e, const GateRow&
   return all.gates.back();
 }
 
-/// From a value to the nearest edge of what the gate allows.
+/// Distance from a value to the nearest edge of the gate.
 double room(const Gate& gate, double value) {
   double least = std::numeric_limits<double>::infinity();
   if (gate.limit) least = std::min(least, *gate.limit - std::abs(value));

@@ -8,7 +8,7 @@
 #include "validation/harness/plan_runs.hpp"
 #include "validation/harness/selftest.hpp"
 
-/// False alarms: what chance has a hand in is run again with other seeds, and no gate may turn.
+/// False alarms: runs that depend on a seed are made again with other seeds, and no gate may turn.
 namespace tripoint {
 
 /// One gate of one engine's runs, over the seeds.
@@ -19,8 +19,8 @@ struct SeedOutcome {
   std::vector<double> values;                            ///< one a seed
   std::vector<std::uint64_t> alarms;                     ///< seeds at which the gate was not green
   double mean = not_a_number, deviation = not_a_number;  ///< of the values; standard deviation over seeds
-  double distance = not_a_number;  ///< from the mean to the nearest edge of what is allowed, in standard deviations
-  Gate gate;                       ///< what it allows, and where that is written
+  double distance = not_a_number;  ///< from the mean to the nearest edge of the gate, in standard deviations
+  Gate gate;                       ///< its limits, and where they are written
 };
 
 struct SeedsOutcome {
@@ -32,8 +32,8 @@ struct SeedsOutcome {
 /// Whether another seed makes another run: jittered particles, walkers, or an engine that says that it is not deterministic.
 [[nodiscard]] bool depends_on_seed(const Case&, const EnginePlan&, const RunPlan&);
 
-/// Runs the engines in whose runs chance has a hand with `count` seeds from `first` on (never the cases' own), and collects every
-/// gate that is judged.
+/// Runs the engines whose results depend on a seed with `count` seeds from `first` on (never the cases' own). Collects every gate
+/// that is judged.
 /// @throws InputError where no case depends on a seed
 [[nodiscard]] SeedsOutcome try_seeds(const std::vector<Case>&, const std::vector<EngineEntry>&, int count,
                                      const SelftestOptions&);

@@ -9,8 +9,8 @@
 #include "validation/harness/results.hpp"
 #include "validation/harness/smallest.hpp"
 
-/// Proof that the gates can fail, and only where they should: faults are put into the test build of our solver and must turn the
-/// gates red that say so; changes that physics does not feel must leave them green.
+/// Proof that the gates can fail, and only where they should. Faults in the test build of our solver must turn the gates red that
+/// say so. Changes that physics does not feel must leave them green.
 namespace tripoint {
 
 struct SelftestOptions {
@@ -27,7 +27,7 @@ struct DefectOutcome {
   std::string defect, case_id;
   double size = 0.0;
   bool killed = false;
-  std::string found;  ///< what the gates said
+  std::string found;  ///< verdicts of the gates
   SourcePlace place;
   bool tried = true;  ///< false where the engine that it is for is not there
 };
@@ -61,9 +61,9 @@ struct SelftestOutcome {
   int exit_code = 0;                  ///< 0 or 5
 };
 
-/// Runs each case once without and once with each of its defects: every metric in killed_by must be green without, and red with
-/// it; and once with each of its harmless changes: every gate must stay green, and no metric may change by more than round-off.
-/// Of each defect that states a `smallest` size, bisection finds the one that is there: it may not have grown by more than a
+/// Runs each case once without and once with each of its defects. Every metric in killed_by must be green without, and red with
+/// it. Also runs it once with each of its harmless changes: every gate must stay green, and no metric may change by more than
+/// round-off. Where a defect states a `smallest` size, bisection finds the present one: it may not have grown by more than a
 /// quarter.
 /// @throws EngineError when the test build is missing
 [[nodiscard]] SelftestOutcome run_selftest(const SelftestOptions&);
@@ -71,8 +71,8 @@ struct SelftestOutcome {
 /// The same as one JSON document, format 1.
 [[nodiscard]] std::string selftest_json(const SelftestOutcome&);
 
-/// Defects that the terms register and no case declares, whose own case is gone or does not declare them (both asked of the whole
-/// suite only), and those that cases declare and the engine does not have.
+/// Lists defects that the terms register and no case declares, or whose own case is gone or does not declare them. Both are asked
+/// of the whole suite only. Also lists defects that cases declare and the engine does not have.
 [[nodiscard]] std::vector<std::string> registry_problems(const std::vector<Case>&, const EngineEntry&, bool whole);
 
 /// Each defect of the case that states a smallest size, bisected.
@@ -80,7 +80,7 @@ struct SelftestOutcome {
 
 /// The case's own resolution in each of its modes, with and without each harmless change that the case names.
 [[nodiscard]] std::vector<HarmlessOutcome> try_harmless(const Case&, const EngineEntry&, const SelftestOptions&);
-/// What a change did to the results of a case: both hold the same runs.
+/// Effect of a change on the results of a case: both hold the same runs.
 [[nodiscard]] HarmlessOutcome judge_harmless(const HarmlessChange&, const CaseResult& without, const CaseResult& with);
 
 }  // namespace tripoint

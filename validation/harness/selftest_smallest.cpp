@@ -31,8 +31,8 @@ SmallestOutcome bisect(const Case& value, const Defect& defect, const EngineEntr
     if (!metric.empty()) outcome.metric = metric;
     return !metric.empty();
   };
-  // Of either sign: a value that happens to lie close to one edge of its limit would make the defects towards that edge look
-  // visible however small.
+  // Takes either sign. A value close to one edge of its limit would otherwise make defects towards that edge look visible however
+  // small.
   const auto found = smallest_visible(*defect.smallest, defect.size, [&](double size) { return is_red(size) && is_red(-size); });
   outcome.runs = found.runs;
   outcome.hidden = found.hidden;

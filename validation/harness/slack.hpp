@@ -10,18 +10,18 @@ namespace tripoint {
 
 inline constexpr double slack_warns = 3.0, slack_fails = 10.0;
 
-/// What the changes that physics does not feel may move a metric by (docs/harness.md: harmless changes). A limit that is not
-/// above it is one of round-off: what it judges changes with compiler and thread count, and how much of it is used says nothing.
+/// Change of a metric that physically neutral changes may cause (docs/harness.md: harmless changes). A limit that is not above it
+/// is one of round-off. Its values change with compiler and thread count, and the used share of it says nothing.
 inline constexpr double roundoff_limit = 1e-10;
 
-/// Limit over |value| + 2 u of one judged row. Of a band that holds zero, its outer end is the limit; of one that does not, the
-/// larger of value over low and high over value. A count changes by whole numbers: a limit below 1 leaves it no room, and half a
-/// count is the least it is compared with. Empty where nothing is to be asked: an order (its interval is judged), a limit of
-/// round-off, no value.
+/// Limit over |value| + 2 u of one judged row. For a band that holds zero, its outer end is the limit. For a band that does not,
+/// it is the larger of value over low and high over value. A count changes by whole numbers: a limit below 1 leaves it no room,
+/// and half a count is the least it is compared with. Empty where nothing is to be asked: an order (its interval is judged), a
+/// limit of round-off, no value.
 [[nodiscard]] std::optional<double> slack_of(const CaseResult&, const GateRow&);
 
-/// One remark for each declared gate whose slack is above 3 in every row that it judges: a warning, and above 10 an error unless
-/// the gate is dated.
+/// One remark for each declared gate whose slack is above 3 in every row that it judges. It is a warning, and above 10 an error
+/// unless the gate is dated.
 [[nodiscard]] std::vector<Remark> slack_remarks(const Results&);
 
 }  // namespace tripoint

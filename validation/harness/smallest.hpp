@@ -8,7 +8,7 @@
 /// The least size of a defect that a gate sees, whichever its sign, by bisection.
 namespace tripoint {
 
-/// What bisection ends at: the gate is red at `size` and green at `hidden`, which is at most 5 % less.
+/// Result of a bisection: the gate is red at `size` and green at `hidden`, which is at most 5 % less.
 struct SmallestVisible {
   std::optional<double> size;  ///< empty = the gate is green up to the greatest size that was asked for
   double hidden = 0.0;         ///< greatest size tried at which it is green
@@ -18,8 +18,8 @@ struct SmallestVisible {
 
 /// Ratio of the sizes between which bisection ends.
 constexpr double smallest_resolution = 1.05;
-/// A stored size may be passed by this factor before the self-test fails: a limit loosened, or a metric blunted, by a quarter is
-/// seen; twice the resolution of the bisection and another machine's round-off are not.
+/// A stored size may be passed by this factor before the self-test fails. A limit loosened, or a metric blunted, by a quarter is
+/// seen. Twice the resolution of the bisection and another machine's round-off are not.
 constexpr double smallest_growth = 1.25;
 
 /// Looks from `start` in ever longer strides for a size that is seen and one that is not, then halves the ratio of the two.
@@ -27,8 +27,8 @@ constexpr double smallest_growth = 1.25;
 /// @param greatest no size beyond it is tried
 [[nodiscard]] SmallestVisible smallest_visible(double start, double greatest, const std::function<bool(double)>& seen);
 
-/// The least visible size beside the one that the case states: UNSEEN where no gate turns red, NEVER GREEN where it is red at
-/// every size.
+/// The least visible size beside the one that the case states. UNSEEN: no gate turns red. NEVER GREEN: the gate is red at every
+/// size.
 enum class Size { held, shrank, grew, unseen, never_green };
 constexpr WordTable<5> word_table(Size) {
   return {"verdict on a smallest size", {"held", "shrank", "GREW", "UNSEEN", "NEVER GREEN"}};

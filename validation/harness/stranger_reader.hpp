@@ -5,7 +5,7 @@
 
 namespace tripoint {
 
-/// What an engine of others left or said.
+/// A file or text of a foreign engine.
 struct StrangersFile {
   std::string what;         ///< for the words of errors: "trajectory.h5"
   std::string folder = {};  ///< where it lies: nothing else may be opened. "" = it is a text that we have already
@@ -13,7 +13,7 @@ struct StrangersFile {
 
 /// Reads what an engine of others left or said, in a confined copy of this process. Under --sandbox nothing is read where the
 /// system cannot confine it.
-/// @param read gives back what it read, as bytes
+/// @param read returns its result as bytes
 /// @param limit wall clock [s]; then the copy is killed
 /// @returns what `read` returned in the copy
 /// @throws InputError what `read` threw there
@@ -21,8 +21,8 @@ struct StrangersFile {
 /// be made
 [[nodiscard]] std::string read_of_stranger(const std::function<std::string()>& read, const StrangersFile& file, double limit);
 
-/// Does this in such a copy first, so that what kills the copy does not kill us. What the copy throws is not told: it ends in the
-/// same way here. @throws EngineError as read_of_stranger
+/// Does this in such a copy first, so that a fault which kills the copy does not kill us. An error of the copy is not told: it
+/// ends in the same way here. @throws EngineError as read_of_stranger
 void try_of_stranger(const std::function<void()>& deed, const StrangersFile& file, double limit);
 
 }  // namespace tripoint

@@ -25,13 +25,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a look over all processes found.
+/// Result of a look over all processes.
 struct Look {
   std::vector<pid_t> marked;
   bool unsure = false;  // one of ours is just becoming another program: for that moment nobody can read its environment
 };
 
-/// What can be read of a file. Reading fails in the middle where the process ends just then, and a bare iterator would throw at
+/// The readable part of a file. Reading fails in the middle where the process ends just then, and a bare iterator would throw at
 /// it.
 std::string all_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -40,7 +40,7 @@ std::string all_of(const fs::path& file) {
   return text.str();
 }
 
-/// What the system says of a process: fields 3, 4, 6, 50, 51 of proc(5).
+/// Data of the system about a process: fields 3, 4, 6, 50, 51 of proc(5).
 struct Standing {
   bool known = false;  ///< false: it is gone, to the last trace
   bool alive = false;
@@ -80,7 +80,7 @@ bool carries(const std::string& environment, const std::string& entry) {
   return false;
 }
 
-/// Finds processes whose environment holds this entry. Those of other users cannot be read, and are none of ours.
+/// Finds processes whose environment holds this entry. Processes of other users cannot be read, and are none of ours.
 Look look_for(const std::string& entry) {
   Look look;
   std::error_code none;
@@ -98,7 +98,7 @@ Look look_for(const std::string& entry) {
   return look;
 }
 
-/// What the buried orphans have used, by process.
+/// Resources that the buried orphans have used, by process.
 std::mutex graves;
 std::map<pid_t, rusage> buried;
 
@@ -113,9 +113,9 @@ bool bury(pid_t pid) {
   return true;
 }
 
-/// Kills children of ours that have this entry, and buries those that came to us from sessions of their own and have ended:
-/// nobody else waits for them. It takes a tenth of the time of a look over all processes, so that it catches what is always
-/// another process. @return whether there was any of either
+/// Kills children of ours that have this entry. Buries children that came to us from sessions of their own and have ended: nobody
+/// else waits for them. It takes a tenth of the time of a look over all processes. So it catches a program that keeps moving to a
+/// new process. @return whether there was any of either
 bool end_children(const std::string& entry) {
   bool found = false;
   for (const pid_t pid : children_of(::getpid())) {

@@ -25,8 +25,8 @@ inline constexpr char mark_end = '/';
 /// Children of a process, the newest first. Empty where the kernel keeps no such list.
 [[nodiscard]] std::vector<pid_t> children_of(pid_t);
 
-/// What a process has used that came to us when its parent ended, with what it waited for: of one that has ended, whoever of our
-/// threads buried it. Nothing while it runs, or where it never came to us. Told once.
+/// Resources of a process that came to us when its parent ended, and of the processes that it waited for. Any of our threads may
+/// have buried it. Nothing while it runs, or where it never came to us. Told once.
 [[nodiscard]] std::optional<rusage> use_of_orphan(pid_t);
 
 /// Kills every process that carries this mark, or one made of it, in its environment, and those that it starts meanwhile. One

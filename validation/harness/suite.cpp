@@ -18,7 +18,7 @@ namespace tripoint {
 namespace {
 
 /// Workers prepare the cases in order and make their runs, no more of either at a time than there are jobs. A case is prepared
-/// when the runs that wait are fewer than the jobs, so that particles of a few cases are held and not of all. Results keep the
+/// when the waiting runs are fewer than the jobs. So the particles of a few cases are held and not those of all. Results keep the
 /// order of the cases whatever ends first.
 class Suite {
  public:
@@ -83,7 +83,7 @@ class Suite {
     preparing_ = false;
     ++prepared_;
     if (failure) {
-      if (!interrupted()) give_up(failure);  // what is stopped half-way is no failure: the complete cases are reported
+      if (!interrupted()) give_up(failure);  // a suite stopped half-way is no failure: the complete cases are reported
       given_up_ = true;
     } else {
       slots_[c].left = n;

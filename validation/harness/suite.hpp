@@ -55,7 +55,7 @@ struct SuiteOptions {
   std::function<void(const CaseResult&)> on_case;  ///< each case as soon as it and those before it are judged
 };
 
-/// The verdicts of all cases, in their order; judged. Stopped by Ctrl-C, it returns what has ended.
+/// The verdicts of all cases, in their order; judged. Stopped by Ctrl-C, it returns the finished cases.
 [[nodiscard]] Results run_suite(const std::vector<Case>&, const std::vector<EngineEntry>&, const SuiteOptions&);
 
 /// Path as people type it: below the working folder if it lies there, with links resolved.

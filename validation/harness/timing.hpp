@@ -6,12 +6,12 @@
 #include "validation/harness/suite.hpp"
 
 /// CPU seconds that can be compared: every run made again in rounds, all after one another, and one run of each engine twice a
-/// round. What that engine differs from itself is the noise floor; a ratio inside it is "not resolved".
+/// round. The difference of that engine from itself is the noise floor; a ratio inside it is "not resolved".
 namespace tripoint {
 
-/// Adds `rounds` timed runs to every sound run of the case, alone on the machine as far as this program goes, every second round
-/// backwards so that a drift cancels. The runs of before were the warm-up; a deterministic engine that ends in other bits is not
-/// timed.
+/// Adds `rounds` timed runs to every sound run of the case, alone on the machine as far as this program goes. Every second round
+/// goes backwards so that a drift cancels. The runs of before were the warm-up; a deterministic engine that ends in other bits is
+/// not timed.
 void time_case(const Case&, const std::vector<EngineEntry>&, int rounds, const SuiteOptions&, CaseResult&);
 
 /// Factor >= 1 within which the same work was seen to differ from itself: exp of the mean log ratio plus two of its standard

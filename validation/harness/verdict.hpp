@@ -20,11 +20,11 @@ enum ExitCode : int {
   exit_interrupted = 130
 };
 
-/// Of several at once the first of 5 2 7 4 1 3 6; of none, 0.
+/// The first of 5 2 7 4 1 3 6 that is among the codes; 0 where there is none.
 [[nodiscard]] int first_of(const std::set<int>& codes);
 
-/// What is said of a case, or of a whole: a word for each exit code. PASS goes with 0; refused goes with 0 too, where no engine
-/// that was asked takes the case.
+/// Verdict on a case, or on a whole: a word for each exit code. PASS goes with 0; refused goes with 0 too, where no engine that
+/// was asked takes the case.
 enum class CaseVerdict { pass, fail, bad_input, inconclusive, missing, selftest, cost, diverged, interrupted, refused };
 constexpr WordTable<10> word_table(CaseVerdict) {
   return {"verdict of a case",

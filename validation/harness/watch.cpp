@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A parent-death signal would not do: it comes at the end of the thread that started the child, and only to the child itself.
+// A parent-death signal would not do. It comes at the end of the thread that started the child, and only to the child itself.
 #include "validation/harness/watch.hpp"
 
 #include <dirent.h>
@@ -23,10 +23,10 @@
 namespace tripoint {
 namespace {
 
-// The watcher is a copy of a process with many threads, any of which may have held a lock: it makes system calls only, in memory
-// that was taken before.
+// The watcher is a copy of a process with many threads, any of which may have held a lock. So it makes system calls only, in
+// memory that was taken before.
 struct Watch {
-  std::string entry;  // what the environment of each process of ours holds
+  std::string entry;  // entry in the environment of each process of ours
   std::vector<char> names, text;
   int door = -1;  // the watcher's end of a pair of sockets: the other one closes when we end, however we end
 };

@@ -46,7 +46,7 @@ std::string wrong_masses(const Snapshot& s, const InitialState& initial) {
   return {};
 }
 
-/// No job loses what it starts with: a particle that is not alive is one that no metric would look at.
+/// No job loses any of its first particles: a particle that is not alive is one that no metric would look at.
 std::string lost(const Snapshot& s, const InitialState& initial) {
   for (std::size_t i = 0; i < std::min(s.id.size(), initial.size()); ++i)
     if (dead(s, i)) return "particle " + std::to_string(i) + " is lost" + at_time(s);
@@ -132,8 +132,8 @@ bool turned_round(const Snapshot& a, const Snapshot& b) {
   return false;
 }
 
-/// Some particle moves the same way in both frames: it has not turned back between them (a pause between keyframes is no fault),
-/// and by more than what a body at rest keeps of its speed in the last digits.
+/// Some particle moves the same way in both frames. It has not turned back between them (a pause between keyframes is no fault).
+/// It moves by more than the speed that a body at rest keeps in the last digits.
 bool goes_on(const Job& job, const Snapshot& a, const Snapshot& b) {
   for (std::size_t i = 0; i < std::min(a.velocity.size(), b.velocity.size()); ++i)
     if (dot(a.velocity[i], b.velocity[i]) > 0.0 && norm(a.velocity[i]) * (b.time - a.time) > 1e-12 * job.scene.spacing)
@@ -146,8 +146,8 @@ bool has_support(const Job& job) {
   return std::any_of(job.bodies.begin(), job.bodies.end(), [](const JobBody& b) { return b.motion != Motion::free; });
 }
 
-/// Whether what moves by itself between two frames goes farther than a coordinate in single precision resolves: a body that has
-/// come to rest on another creeps by less.
+/// Whether free motion between two frames goes farther than a coordinate in single precision resolves. A body that has come to
+/// rest on another creeps by less.
 /// @param falls whether gravity moves it, which it does not where the body lies
 bool is_resolved(const Job& job, const Snapshot& a, double time, bool falls) {
   constexpr double single = 6e-8;  // half a unit in the last of 24 bits
@@ -158,7 +158,7 @@ bool is_resolved(const Job& job, const Snapshot& a, double time, bool falls) {
   return led || (most + (falls ? norm(job.scene.gravity) * time : 0.0)) * time > single * place;
 }
 
-/// Whether the way between two frames is longer than what is lost to rounding.
+/// Whether the way between two frames is longer than the rounding error.
 bool goes_far(const Job& job, const Snapshot& a, double time) {
   double most = 0.0;
   for (const Vec3& v : a.velocity) most = std::max(most, norm(v));

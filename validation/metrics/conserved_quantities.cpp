@@ -9,7 +9,7 @@ namespace {
 
 using Real = long double;  // sums of 1e5 terms stay below 1e-15 of the whole
 
-/// Masses, places and velocities of what is alive; empty when the frame does not have them all.
+/// Masses, places and velocities of living particles; empty when the frame does not have them all.
 bool has_motion(const Snapshot& s, std::size_t n) { return s.position.size() >= n && s.velocity.size() >= n && n > 0; }
 bool is_dead(const Snapshot& s, std::size_t i) { return i < s.id.size() && s.id[i] == -1; }
 double mass_of(const MetricInput& in, const Snapshot& s, std::size_t i) {

@@ -26,7 +26,7 @@ struct Facing {
 };
 
 /// Before the other body's outer layer: 1 - least distance / spacing, 0 at one spacing. Past it: 1 + how far past, which no
-/// distance shows. The outer layer is the highest along the line out of the other body; within 0.8 spacings of that line a
+/// distance shows. The outer layer is the highest along the line out of the other body. Within 0.8 spacings of that line a
 /// lattice always has a particle.
 double depth(const Facing& other, double dx) {
   const double length = norm(other.inward);

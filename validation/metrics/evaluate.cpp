@@ -75,7 +75,7 @@ void refuse_unknown_quantity(const MetricChoice& choice) {
                                      suggestion(choice.quantity, known));
 }
 
-/// A unit for people that is another than the number beside it has: a value in m, divided by a scale of 1, is none in mm.
+/// Refuses a unit for people that is not the unit of the number beside it. A value in m, divided by a scale of 1, is none in mm.
 void refuse_another_unit(const MetricChoice& choice) {
   if (choice.unit.empty() || choice.unit == "degC" || choice.norm == Norm::slope || choice.norm == Norm::frequency ||
       choice.norm == Norm::chi)
@@ -85,12 +85,12 @@ void refuse_another_unit(const MetricChoice& choice) {
                               : std::find_if(metric_quantities().begin(), metric_quantities().end(), [&](const MetricWord& w) {
                                   return w.name == choice.quantity;
                                 })->unit;
-  if (choice.unit == own) return;  // what it is divided by beside its own unit is in the baseline
+  if (choice.unit == own) return;  // the scale beside its own unit is in the baseline
   double factor = 0.0;
   try {
     factor = parse_quantity("1 " + choice.unit, own == "1" ? "" : own);
   } catch (const std::invalid_argument&) {
-    return;  // of another dimension, or words: what the value is divided by has it
+    return;  // of another dimension, or words: the scale of the value has it
   }
   if (std::abs(factor / choice.scale - 1.0) > 1e-9)
     throw InputError(choice.place, "metric `" + choice.name + "`: its value is in " + own +
@@ -98,7 +98,7 @@ void refuse_another_unit(const MetricChoice& choice) {
                                        ": write scale = " + number_text(factor) + ", or another unit");
 }
 
-/// Errors of all chosen frames under one norm in space, and what the norm in time makes of them.
+/// Errors of all chosen frames under one norm in space, and their norm in time.
 struct Series {
   std::vector<double> times, value, uncertainty;
   std::vector<long> worst;
@@ -193,7 +193,7 @@ MetricValue over_time(Norm norm, const Series& s) {
   return v;
 }
 
-/// Each sample's mean error over the window first, then L2: what is left when a settling medium still swings.
+/// Each sample's mean error over the window first, then L2: the error that is left when a settling medium still swings.
 MetricValue l2_of_means(const MetricInput& in, const Quantity& quantity, const Frames& all, const Frames& chosen) {
   FrameError sum;
   for (const auto* now : chosen) {
@@ -260,7 +260,7 @@ Quantity gauge_quantity(const std::string& metric, const std::string& quantity) 
           }};
 }
 
-/// A diffusivity is one number of a whole run: what the engine says of it at the end.
+/// A diffusivity is one number of a whole run: the engine states it at the end.
 MetricValue diffusivity_by_gauge(const MetricInput& in, const Snapshot& end) {
   const auto truth = in.reference.number("diffusivity");
   const auto own = end.gauges.find(in.choice.name);

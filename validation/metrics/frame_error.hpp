@@ -9,7 +9,7 @@
 
 namespace tripoint {
 
-/// What a metric is evaluated from.
+/// Input of a metric.
 struct MetricInput {
   const MetricChoice& choice;
   const Job& job;

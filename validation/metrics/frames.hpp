@@ -16,7 +16,7 @@ struct JobFrames {
 };
 [[nodiscard]] JobFrames frames_of_job(const Job&, const InitialState&, const Trajectory&);
 
-/// Those that a metric looks at: by `at` for a norm in space ("end", "all" or a time in s), by `window` for one in time.
+/// Frames that a metric looks at. For a norm in space: by `at` ("end", "all" or a time in s). For one in time: by `window`.
 /// @throws InputError when `at` is none of these or no output time of the job
 [[nodiscard]] Frames chosen_frames(const MetricChoice&, const Job&, const Frames&);
 [[nodiscard]] Frames frames_in_window(const MetricChoice&, const Job&, const Frames&);

@@ -23,8 +23,8 @@ std::optional<double> heat_of_free(const MetricInput& in, const Snapshot& s) {
   return double(sum);
 }
 
-/// Heat that what holds the body's temperature has given so far: as the engine counts it, else as the others have gained, where
-/// nothing else brings heat.
+/// Heat given so far by the source that holds the body's temperature. It is as the engine counts it, else the gain of the other
+/// bodies, where nothing else brings heat.
 std::optional<double> heat_given(const MetricInput& in, const Snapshot& s, std::string& why) {
   if (const auto counted = s.heat_given.find(in.choice.body); counted != s.heat_given.end()) return counted->second;
   const auto held =
@@ -104,7 +104,7 @@ std::optional<Spread> spread_of(const MetricInput& in, const Snapshot& s, std::s
   return Spread{square, std::sqrt(variance)};
 }
 
-/// Half of what the mean square distance grows a second, as long as no heat has come to a wall [Einstein 1905].
+/// Half of the growth of the mean square distance a second, as long as no heat has come to a wall [Einstein 1905].
 MetricValue diffusivity_by_spread(const MetricInput& in, const Frames& frames) {
   const auto axis = in.reference.measuring().axis;
   const auto base = in.reference.number("value");

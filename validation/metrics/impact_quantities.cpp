@@ -27,7 +27,7 @@ double free_energy(const MetricInput& in, const Snapshot& s) {
   return double(sum);
 }
 
-/// Gravity and hits can only take energy: what a frame has more than any frame before it, the engine has made.
+/// Gravity and hits can only take energy. An excess of a frame over all frames before it is made by the engine.
 MetricValue energy_gain(const MetricInput& in, const Frames& frames) {
   if (frames.size() < 2) return not_formed("an energy gain needs two output times or more");
   MetricValue v;

@@ -7,7 +7,7 @@
 #include "validation/metrics/norms.hpp"
 #include "validation/references/rigid_body.hpp"
 
-/// What the quantities of solids and phases have in common: whose particles they take, and what they are compared with.
+/// Common parts of the quantities of solids and phases: whose particles they take, and their references.
 namespace tripoint {
 
 /// The reference's number of this name at this time, else the `value` that the case states.
@@ -22,7 +22,7 @@ namespace tripoint {
 /// Mass of a particle [kg]: of the frame, else as sampled.
 [[nodiscard]] double particle_mass(const MetricInput&, const Snapshot&, std::size_t particle);
 
-/// c_p T + L f, above 0 K [J/kg]; where the solid has its own heat capacity, (1 - f) c_s T + f (c_s t_melt + L + c_l (T -
+/// c_p T + L f, above 0 K [J/kg]. Where the solid has its own heat capacity: (1 - f) c_s T + f (c_s t_melt + L + c_l (T -
 /// t_melt)).
 [[nodiscard]] long double heat_per_mass(const Material&, const Snapshot&, std::size_t particle);
 

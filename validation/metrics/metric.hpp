@@ -30,13 +30,13 @@ struct MetricValue {
 /// note.
 [[nodiscard]] MetricValue evaluate(const MetricChoice&, const Job&, const InitialState&, const Trajectory&, const Reference&);
 
-/// The value that a stored series gives by the metric's norm in time, by the same rules; nothing where the value is not the norm
+/// The value that a stored series gives by the metric's norm in time, by the same rules. Nothing where the value is not the norm
 /// of a series.
 [[nodiscard]] std::optional<double> value_of_series(const MetricChoice&, const MetricValue&);
 
 /// Refuses what cannot be judged: times missing to 1e-9 of the end, permuted ids, non-finite values, frozen frames, changed
 /// masses.
-/// @return empty when sound, else what is wrong ("time not reached", "ids are permuted", ...)
+/// @return empty when sound, else the fault ("time not reached", "ids are permuted", ...)
 [[nodiscard]] std::string audit(const Job&, const InitialState&, const Trajectory&);
 
 /// Names that `quantity` and `norm` may take, with units and meaning, for the schema.
@@ -45,7 +45,8 @@ struct MetricWord {
 };
 [[nodiscard]] const std::vector<MetricWord>& metric_quantities();
 [[nodiscard]] const std::vector<MetricWord>& metric_norms();
-/// Whether an engine may answer a quantity by a number of its own, read in its own field: a probe, a mean, a way or a centre.
+/// Whether an engine may answer a quantity by a number of its own, read in its own field. Such quantities are a probe, a mean, a
+/// way or a centre.
 [[nodiscard]] bool can_be_gauged(const std::string& quantity);
 
 }  // namespace tripoint

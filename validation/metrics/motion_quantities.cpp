@@ -21,8 +21,8 @@ MetricValue unformed(const std::string& why) {
 struct Line {
   double slope = not_a_number, error = 0.0;
 };
-/// Neighbours in time deviate from the line alike. Of n deviations those count as independent that would change sign as often: n
-/// independent ones do at half of the steps. Frames in between then add no certainty.
+/// Neighbours in time deviate from the line alike. The number of independent deviations follows from the changes of sign: n
+/// independent ones change sign at half of the steps. Frames in between then add no certainty.
 Line fit(const std::vector<double>& t, const std::vector<double>& y) {
   const double n = static_cast<double>(t.size());
   double t0 = 0.0, y0 = 0.0, tt = 0.0, ty = 0.0, rest = 0.0, last = 0.0;
@@ -46,7 +46,7 @@ Line fit(const std::vector<double>& t, const std::vector<double>& y) {
 
 // --- a body's motion along an axis ----------------------------------------------------------------------------------------
 
-/// Speeds of the metric's body along the reference's axis; what hinders, or an empty text.
+/// Speeds of the metric's body along the reference's axis; the reason why there are none, or an empty text.
 std::string speeds(const MetricInput& in, const Frames& frames, std::vector<double>& t, std::vector<double>& v) {
   const auto axis = in.reference.measuring().axis;
   const long row = body_row(in);
@@ -112,8 +112,8 @@ double mode_amplitude(const MetricInput& in, const Snapshot& s, const Vec3& k, d
   return double(product / square);
 }
 
-/// Square of the mode's frequency over the true one, minus 1: of a damped swing a(t) at equal times, a[n+1] + q a[n-1] = 2
-/// sqrt(q) cos(w dt) a[n] (Prony's method), both coefficients by least squares.
+/// Square of the mode's frequency over the true one, minus 1. A damped swing a(t) at equal times follows a[n+1] + q a[n-1] = 2
+/// sqrt(q) cos(w dt) a[n] (Prony's method). Both coefficients are found by least squares.
 MetricValue frequency_squared(const MetricInput& in, const Frames& frames) {
   const auto truth = in.reference.number("frequency");
   const auto wave = in.reference.measuring().wave;
@@ -173,7 +173,7 @@ MetricValue spin_rate(const MetricInput& in, const Frames& frames) {
   return v;
 }
 
-/// Of the centre of mass of the metric's body along the stated axis: a sine about an offset by least squares.
+/// Frequency of the centre of mass of the metric's body along the stated axis: a sine about an offset by least squares.
 MetricValue sway_frequency(const MetricInput& in, const Frames& frames) {
   const auto axis = in.reference.measuring().axis;
   const auto truth = in.reference.number("value");

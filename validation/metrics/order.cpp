@@ -60,8 +60,8 @@ bool asymptotic(const Order& fit, const List& h, const List& e, double formal) {
   return settled && steady && meets && !(fit.low <= formal - 1.0 && formal - 1.0 <= fit.high);
 }
 
-/// The floored law is taken when it explains the data better, its floor is not zero at 95 % and makes up a quarter of the finest
-/// error.
+/// The floored law is taken when it explains the data better. Its floor must not be zero at 95 % and must make up a quarter of
+/// the finest error.
 bool has_floor(const FlooredPowerLaw& floored, const PowerLaw& plain, const List& e) {
   if (!floored.found || floored.floor.low * floored.floor.high <= 0.0) return false;
   if (std::abs(floored.floor.value) < 0.25 * std::abs(e.back())) return false;

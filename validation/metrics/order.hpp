@@ -23,7 +23,7 @@ struct Order {
 /// Grid convergence index by least squares [Eca & Hoekstra 2014]: standard uncertainty of the finest value.
 [[nodiscard]] double grid_convergence_uncertainty(const std::vector<double>& step, const std::vector<double>& value,
                                                   double formal);
-/// The same of every level, coarse to fine; NaN throughout where it cannot be formed (fewer than two levels, no formal order, a
+/// The same for every level, coarse to fine. NaN throughout where it cannot be formed (fewer than two levels, no formal order, a
 /// value that is not finite).
 [[nodiscard]] std::vector<double> grid_convergence_uncertainties(const std::vector<double>& step,
                                                                  const std::vector<double>& value, double formal);
@@ -40,7 +40,7 @@ constexpr WordTable<5> word_table(Verdict) {
 [[nodiscard]] Verdict judge_at_least(double value, double u, double least, double k = 2.0);
 [[nodiscard]] Verdict judge_band(double value, double u, double low, double high, double k = 2.0);
 
-/// What two engines are to each other by the margin that the case sets for their difference.
+/// Relation of two engines by the margin that the case sets for their difference.
 enum class Equivalence { equivalent, different, negligible, unresolved, no_margin };
 constexpr WordTable<5> word_table(Equivalence) {
   return {"verdict on two engines", {"equivalent", "different", "negligible but real", "unresolved", "no margin is set"}};

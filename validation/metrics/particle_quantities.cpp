@@ -11,7 +11,7 @@ namespace {
 
 using Columns = std::vector<double> Snapshot::*;
 
-/// What is wrong with sample i, or an empty text; `absent` when it is in neither. A value that is not finite is never dropped.
+/// Fault of sample i, or an empty text; `absent` when it is in neither. A value that is not finite is never dropped.
 enum class Sample { good, absent, bad };
 Sample look(const Snapshot& now, std::size_t i, bool run_finite, bool truth_finite) {
   if (run_finite && truth_finite) return Sample::good;

@@ -38,7 +38,7 @@ struct Box {
   }
 };
 
-/// What hinders, or an empty text.
+/// Reason why there is no box, or an empty text.
 std::string box_of(const FramePair& f, Box& box) {
   const auto measuring = f.in.reference.measuring();
   if (!measuring.box) return "mass_in_region needs a box: reference = {function = \"stated\", args = {min = [...], max = [...]}}";

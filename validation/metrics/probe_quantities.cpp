@@ -6,7 +6,7 @@
 #include "validation/metrics/members.hpp"
 #include "validation/references/measuring.hpp"
 
-/// Numbers at a point and means over a region, of what any engine shows of its particles.
+/// Numbers at a point and means over a region, from the particles that any engine shows.
 namespace tripoint {
 namespace {
 
@@ -40,8 +40,8 @@ bool counts(const MetricInput& in, const Snapshot& s, std::size_t i) {
   return takes(in, i) && is_alive(s, i) && (s.phase.empty() || of_stated_phase(in, s, i));
 }
 
-/// Value and slope of a scalar at a point, by least squares over what lies near: exact where the scalar is linear, also beside a
-/// surface.
+/// Value and slope of a scalar at a point, by least squares over the particles near it. They are exact where the scalar is
+/// linear, also beside a surface.
 Column at_point(const MetricInput& in, const std::vector<Vec3>& place, const std::vector<std::size_t>& particles,
                 const std::vector<double>& value, const Vec3& point) {
   const double reach = probe_reach * in.job.scene.spacing;
@@ -66,8 +66,8 @@ Column at_point(const MetricInput& in, const std::vector<Vec3>& place, const std
   return {{solver.solve(b)[0]}, ""};
 }
 
-/// A number read off the run, less what the reference states, or else the same number read off the true field at the run's own
-/// places.
+/// A number read off the run, less the value of the reference. Without such a value, less the same number read off the true field
+/// at the run's places.
 template <class Read>
 FrameError against_stated_or_field(const FramePair& f, const char* quantity, Read read) {
   const Column measured = read(f.now);

@@ -54,7 +54,7 @@ Vec3 mean_start(const MetricInput& in, const std::vector<std::size_t>& particles
 
 Measured unknown(const std::string& why) { return {not_a_number, why, false}; }
 
-/// Least squares of offset, cosine and sine at one frequency: the three coefficients and what is left.
+/// Least squares of offset, cosine and sine at one frequency: the three coefficients and the residual.
 std::pair<Eigen::Vector3d, double> at_frequency(const std::vector<double>& t, const std::vector<double>& y, double w) {
   const auto n = static_cast<Eigen::Index>(t.size());
   Eigen::MatrixX3d A(n, 3);

@@ -5,7 +5,7 @@
 
 #include "validation/metrics/members.hpp"
 
-/// What a bar or beam shows in one frame. The reference names the bar (row in the job's bodies), its axis, and which end is free.
+/// Motion of a bar or beam in one frame. The reference names the bar (row in the job's bodies), its axis, and which end is free.
 namespace tripoint {
 
 struct Measured {
@@ -14,8 +14,8 @@ struct Measured {
   bool of_tip = false;  ///< of a rigid body at the end, not of the bar's own last layer
 };
 
-/// Displacement along the reference's direction [m]: of the named rigid body's centre, else the mean of the bar's particles that
-/// began within one spacing of its free end.
+/// Displacement along the reference's direction [m]: of the named rigid body's centre, else a mean. The mean is over the bar's
+/// particles that began within one spacing of its free end.
 [[nodiscard]] Measured deflection(const MetricInput&, const Snapshot&);
 
 /// Distance of two layers, one spacing thick, over their distance at the start [1].

@@ -48,7 +48,7 @@ FrameError spin_ratio(const FramePair& f) {
 
 // --- over a run -----------------------------------------------------------------------------------------------------------
 
-/// Times and deflections of the frames; what hinders, or an empty text.
+/// Times and deflections of the frames; the reason why there are none, or an empty text.
 std::string deflections(const MetricInput& in, const Frames& frames, std::vector<double>& t, std::vector<double>& w) {
   if (frames.size() < 8) return "a swing needs eight output times or more";
   for (const auto* s : frames) {

@@ -26,7 +26,7 @@ std::size_t burn_in_of(const List& x) {
   std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity(), sum = 0.0, sum_of_squares = 0.0;
   const double about = mean(x, 0);
-  for (std::size_t cut = x.size(); cut-- > 0;) {  // from the back: what is left grows by one sample a turn
+  for (std::size_t cut = x.size(); cut-- > 0;) {  // from the back: the rest grows by one sample a turn
     sum += x[cut] - about;
     sum_of_squares += (x[cut] - about) * (x[cut] - about);
     const double n = static_cast<double>(x.size() - cut), error = (sum_of_squares - sum * sum / n) / (n * n);

@@ -23,14 +23,14 @@ Rates rates_of(const std::string& engine) {
   return {0.0, 2e-6, 0.1};  // engines of rigid bodies: their steps are nearly free beside the frames
 }
 
-/// Whether particles push each other: liquids and what is elastic. Else they stand, conduct heat or move as whole bodies, at a
+/// Whether particles push each other: liquids and elastic bodies. Else they stand, conduct heat or move as whole bodies, at a
 /// tenth of the cost.
 bool has_forces(const Scene& scene) {
   return std::any_of(scene.bodies.begin(), scene.bodies.end(),
                      [](const Body& b) { return b.phase != Phase::rigid && b.motion == Motion::free; });
 }
 
-/// Fastest sound of what flows or bends [m/s]; 0 where nothing does. Rigid matter has none, whatever its material says.
+/// Fastest sound of matter that flows or bends [m/s]; 0 where there is none. Rigid matter has none, whatever its material says.
 double fastest_sound(const Scene& scene) {
   const bool flows = calls_for(scene, "fluid"), bends = calls_for(scene, "elastic");
   double fastest = 0.0;
@@ -43,8 +43,8 @@ double fastest_sound(const Scene& scene) {
   return fastest;
 }
 
-/// Greatest diffusivity of what grows warmer or colder [m2/s]; 0 where nothing does. What is held at a temperature bounds no
-/// step.
+/// Greatest diffusivity of matter that grows warmer or colder [m2/s]; 0 where there is none. Matter held at a temperature bounds
+/// no step.
 double greatest_diffusivity(const Scene& scene) {
   double greatest = 0.0;
   if (!calls_for(scene, "heat")) return greatest;

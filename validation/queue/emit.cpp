@@ -19,7 +19,7 @@ std::string quoted(const std::string& word) {
   return out + "'";
 }
 
-/// "1-4,7": what array options of schedulers take.
+/// "1-4,7": the form of array options of schedulers.
 std::string ranges(const std::vector<int>& numbers) {
   std::string text;
   for (std::size_t n = 0; n < numbers.size();) {
@@ -32,7 +32,7 @@ std::string ranges(const std::vector<int>& numbers) {
   return text;
 }
 
-/// Minutes that a shard may take: four times what is predicted, and a quarter of an hour at least.
+/// Minutes that a shard may take: four times the predicted time, and a quarter of an hour at least.
 int minutes(double predicted) { return std::max(15, static_cast<int>(std::ceil(4.0 * predicted / 60.0))); }
 
 std::string head(const Queue& queue, const EmitOptions& o) {

@@ -34,7 +34,7 @@ void check_all_ended(const Queue& queue, const Standing& standing) {
                                  names, open > most ? "\n  ..." : ""));
 }
 
-/// What killed workers of this machine have left.
+/// Removes the remains of killed workers of this machine.
 void sweep(const std::string& dir, const Standing& standing) {
   std::error_code none;
   for (const auto& [name, sign] : standing.workers) {

@@ -16,8 +16,7 @@ namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
 
-/// Jobs of one case. Its particles are sampled here, since they are part of what a run is; what is written of them is removed
-/// again.
+/// Jobs of one case. Its particles are sampled here, since they are part of a run's identity; their files are removed again.
 void add_jobs(const Case& value, const std::vector<EngineEntry>& engines, const SuiteOptions& options,
               const std::map<std::string, double>& costs, QueueMade& made) {
   const auto all = prepare_case(value, engines, options);

@@ -23,7 +23,7 @@ namespace tripoint {
 /// Takes the row away, so that the run counts as not made.
 void withdraw(const std::string& dir, const QueuedJob&);
 
-/// Whether two results of one job agree in all but what they cost.
+/// Whether two results of one job agree in all but their cost.
 [[nodiscard]] bool same_outcome(RunRow, RunRow);
 
 }  // namespace tripoint

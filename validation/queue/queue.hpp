@@ -19,8 +19,8 @@
 ///     runs/...             what the runs left, as `tripoint validate` lays them out, and in each a row.json
 ///     workers/WORKER.json  a worker that lives touches its file every few seconds; workers/WORKER/ is its own workshop
 ///
-/// Every file but the workshops comes to be by a rename, so that it is whole or not there; a job goes forward only (todo,
-/// running, done).
+/// Every file but those of the workshops comes to be by a rename, so that it is whole or not there. A job goes forward only
+/// (todo, running, done).
 namespace tripoint {
 
 struct QueuedJob {
@@ -38,7 +38,7 @@ struct Queue {
   std::string
       folder;  ///< working folder of `suite make`: workers and the merge go there, so that every path is the same text for all
   std::string command;  ///< of `suite make`
-  CaseFilter filter;    ///< what was asked
+  CaseFilter filter;    ///< cases that were asked for
   Selection selection;
   std::vector<std::string> engine_words;  ///< given by --engine, as typed
   int threads = 1;                        ///< of each engine process
@@ -72,7 +72,7 @@ inline constexpr const char *todo = "todo", *running = "running", *done = "done"
 [[nodiscard]] Case case_of(const Queue&, const std::string& id);
 [[nodiscard]] SuiteOptions options_of(const Queue&);
 
-/// A file that appears whole or not at all, without waiting for the disk: what is lost with the machine's power is made again.
+/// A file that appears whole or not at all, without waiting for the disk: a file lost with the machine's power is made again.
 /// @throws EngineError
 void write_by_rename(const std::string& path, const std::string& text, const std::string& own_name);
 

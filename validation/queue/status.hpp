@@ -4,14 +4,14 @@
 
 #include "validation/queue/standing.hpp"
 
-/// What `tripoint status` says.
+/// Output of `tripoint status`.
 namespace tripoint {
 
 struct QueueStatus {
   Standing standing;
   int busy_workers = 0;       ///< that live and hold a job
-  double rest = 0.0;          ///< predicted cost of what is not finished; half of it for what runs [CPU s]
-  double speed = 1.0;         ///< wall seconds that a predicted second took, over a sample of what is done
+  double rest = 0.0;          ///< predicted cost of unfinished jobs; half of it for running ones [CPU s]
+  double speed = 1.0;         ///< wall seconds that a predicted second took, over a sample of finished jobs
   std::size_t sampled = 0;    ///< jobs in that sample
   double seconds_left = 0.0;  ///< rest * speed / workers, one worker where none is at it [s]
 };

@@ -26,7 +26,7 @@ namespace {
 constexpr int most_losses = 3;  // of workers by one job
 constexpr auto pause = std::chrono::milliseconds(200), longest_pause = std::chrono::milliseconds(5000);
 
-/// What the workers of one process share.
+/// Data that the workers of one process share.
 class Crew {
  public:
   Crew(std::string dir, const Queue& queue, const std::vector<EngineEntry>& engines, const WorkOptions& options)

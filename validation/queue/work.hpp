@@ -22,7 +22,7 @@ struct WorkDone {
 };
 
 /// Takes jobs until all of `rows` are finished, or Ctrl-C: then the jobs that it holds go back to those that wait.
-/// A job that has cost three workers their lives is given up: it becomes a killed run, so that it does not take every worker with
+/// A job that has cost three workers their lives is given up. It becomes a killed run, so that it does not take every worker with
 /// it.
 /// @throws InputError where a run is no longer the one that the suite was made of
 [[nodiscard]] WorkDone work(const std::string& dir, const Queue&, const std::vector<EngineEntry>&, const WorkOptions&);

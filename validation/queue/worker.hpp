@@ -8,7 +8,7 @@
 /// A worker: its name, the sign that it lives, and the jobs that it takes.
 namespace tripoint {
 
-/// What a worker leaves in workers/NAME.json, and what can be told from it.
+/// Content of workers/NAME.json, and the conclusions from it.
 struct WorkerSign {
   std::string name, host;
   std::string machine;  ///< boot and process namespace: where it is ours, the process can be asked for
@@ -22,9 +22,9 @@ inline constexpr double lost_after = 60.0;
 
 /// @param now_file a time of the same clock that stamps the workers' files [s]
 [[nodiscard]] WorkerSign read_sign(const std::string& dir, const std::string& worker, double now_file);
-/// Of this machine: whether the process is there. Of another: whether it gave a sign within lost_after.
+/// A worker of this machine: whether the process is there. A worker of another: whether it gave a sign within lost_after.
 [[nodiscard]] bool is_alive(const WorkerSign&);
-/// Of this machine, and its process is not there: nothing of it will be written again.
+/// Whether the worker is of this machine, and its process is gone: nothing of it will be written again.
 [[nodiscard]] bool is_gone(const WorkerSign&);
 /// Time of the file system of DIR, by a file that is written there; our own clock where nothing can be written [s].
 [[nodiscard]] double file_clock(const std::string& dir);

@@ -6,8 +6,8 @@
 namespace tripoint {
 namespace {
 
-/// A body floats where it displaces its own weight. Numbers: draught [m]; for the metric of that name the pool: up (+1, -1),
-/// floor [m], pool_area, block_area [m2], liquid_volume [m3], keel [m] (bottom of the body below its centre).
+/// A body floats where it displaces its own weight. Numbers: draught [m]. For the metric of that name the pool: up (+1, -1),
+/// floor [m], pool_area, block_area [m2], liquid_volume [m3]. Also keel [m] (bottom of the body below its centre).
 class Archimedes : public LiquidReference {
  public:
   Archimedes(const ReferenceInput& in, std::size_t axis, std::map<std::string, double, std::less<>> numbers)

@@ -10,7 +10,7 @@
 
 namespace tripoint {
 
-/// The arguments that a case gives a reference function; what it leaves out is taken from the scene.
+/// The arguments that a case gives a reference function; omitted ones are taken from the scene.
 class Arguments {
  public:
   /// @throws InputError for an argument that the function does not have, with the nearest one that it has, and for one that is

@@ -8,9 +8,8 @@
 namespace tripoint {
 namespace {
 
-/// What semi-implicit Euler (v += g d, then x += v d) does exactly: each step of length d falls g d^2/2 further than the
-/// parabola, so that with one step length dt the body lags by g t dt/2. Between two output times the steps are equal, and none is
-/// above dt.
+/// Exact flight of semi-implicit Euler (v += g d, then x += v d). Each step of length d falls g d^2/2 further than the parabola.
+/// With one step length dt the body lags by g t dt/2. Between two output times the steps are equal, and none is above dt.
 class SemiImplicitFlight : public RigidFlight {
  public:
   SemiImplicitFlight(const Job& job, const InitialState& initial, double dt) : RigidFlight(job, initial), times_(job.times) {

@@ -6,13 +6,13 @@
 
 namespace tripoint {
 
-/// What holds the sides of a stretched bar: nothing, one direction (the other free), or both.
+/// Support of the sides of a stretched bar: nothing, one direction (the other free), or both.
 enum class BarSides { free, plane_strain, confined };
 constexpr WordTable<3> word_table(BarSides) { return {"hold of a bar's sides", {"free", "plane_strain", "confined"}}; }
 
-/// Reference stretch of a homogeneous bar: St Venant-Kirchhoff's S = C : (E - E_p) in Green strain, von Mises flow at |dev(E -
-/// E_p)| = g1, |E_p| <= g2 (model 8.7, 8.8). The printed form is the same law in the strain F^T F - I, with the gradient that the
-/// lattice sees.
+/// Reference stretch of a homogeneous bar: St Venant-Kirchhoff's S = C : (E - E_p) in Green strain. Von Mises flow holds at
+/// |dev(E - E_p)| = g1, |E_p| <= g2 (model 8.7, 8.8). The printed form is the same law in the strain F^T F - I, with the gradient
+/// that the lattice sees.
 struct BarLaw {
   double young = 0.0, poisson_ratio = 0.0;  ///< [Pa], [1]
   BarSides sides = BarSides::free;

@@ -24,7 +24,7 @@ Eigen::Matrix4d exponential(const Eigen::Matrix4d& A) {
 }
 
 /// Residual of the end conditions at angular frequency w, 1 for w = 0. State (w/L, psi, M L/(EI), V L^2/(EI)) over x/L, so that
-/// all entries are of order 1: w' = psi + V/(kappa G A), psi' = M/(EI), M' = -V - rho I w^2 psi, V' = -rho A w^2 w.
+/// all entries are of order 1. It follows w' = psi + V/(kappa G A), psi' = M/(EI), M' = -V - rho I w^2 psi, V' = -rho A w^2 w.
 double determinant(const Beam& b, const BeamTip& tip, double w) {
   const double L = b.length, L2 = L * L, stiffness = b.bending, w2 = w * w;
   Eigen::Matrix4d A = Eigen::Matrix4d::Zero();

@@ -28,8 +28,8 @@ struct BeamPoint {
 /// @param gravity [m/s2]   @param x from the clamp, 0 <= x <= L [m]
 [[nodiscard]] BeamPoint beam_sag(const Beam&, const BeamTip&, double gravity, double x);
 
-/// Lowest angular frequency [rad/s]: root of the determinant of the end conditions, the equations of motion carried from clamp to
-/// end by the exponential of their matrix.
+/// Lowest angular frequency [rad/s]: root of the determinant of the end conditions. The exponential of their matrix carries the
+/// equations of motion from clamp to end.
 [[nodiscard]] double beam_frequency(const Beam&, const BeamTip&);
 
 /// Shear coefficient of a rectangular section [Cowper 1966]: 10 (1 + nu)/(12 + 11 nu); in plane strain with nu/(1 - nu) for nu.

@@ -11,8 +11,9 @@ namespace tripoint {
 namespace {
 
 /// Sag and lowest frequency of a clamped beam. Numbers: deflection [m] of the last layer of particles, half a spacing inside the
-/// end, and tip_deflection of a rigid tip's centre (both where the scene has gravity); frequency [rad/s], period [s]; amplitude
-/// [m] of a beam that starts in its lowest mode; bar, axis, end (+1 or -1: where the free end lies), direction.x, .y, .z.
+/// end, and tip_deflection of a rigid tip's centre. Both are there where the scene has gravity. Also frequency [rad/s], period
+/// [s], and amplitude [m] of a beam that starts in its lowest mode. Also bar, axis, end (+1 or -1: where the free end lies),
+/// direction.x, .y, .z.
 using Cantilever = NumberTable;
 
 /// Where the beam is free: away from the body that holds it.
@@ -66,8 +67,7 @@ double end_velocity(const ReferenceInput& in, std::size_t bar, std::size_t axis,
   return count > 0.0 ? sum / count : 0.0;
 }
 
-/// What others have published of this very plate goes before the theory of beams. They read its end, a run its last layer of
-/// particles.
+/// Published results for this very plate go before the theory of beams. They read its end, a run its last layer of particles.
 /// @param inside displacement of that layer over that of the end
 void take_published(const ReferenceInput& in, double inside, Numbers& n) {
   if (const auto f = in.args.number("frequency")) n["frequency"] = 2.0 * std::numbers::pi * *f;

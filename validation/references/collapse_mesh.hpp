@@ -12,16 +12,16 @@ struct LiquidColumn {
   double width = 0.0, height = 0.0, gravity = 0.0;
 };
 
-/// The collapse of a column in the plane, inviscid and incompressible, on a mesh that moves with the liquid: nodes are masses,
-/// and the area of each cell is a constraint, whose multiplier is the cell's pressure. The equations of such a system are those
-/// of Lagrange for positions under constraints; they are stepped by the Verlet scheme, each step put back onto the constraints
+/// The collapse of a column in the plane, inviscid and incompressible, on a mesh that moves with the liquid. Nodes are masses.
+/// The area of each cell is a constraint, whose multiplier is the cell's pressure. The equations of such a system are those of
+/// Lagrange for positions under constraints. They are stepped by the Verlet scheme, each step put back onto the constraints
 /// [Ryckaert, Ciccotti, Berendsen 1977]. Constant areas leave each cell a motion that no pressure resists, which grows where
-/// cells are drawn out; a viscosity that no linear motion feels damps it, and vanishes as the mesh is refined [Flanagan &
+/// cells are drawn out. A viscosity that no linear motion feels damps it, and vanishes as the mesh is refined [Flanagan &
 /// Belytschko 1981]. Lengths are counted in widths, times in sqrt(width/gravity).
 class CollapseMesh {
  public:
   /// @param cells across the width; up the height as many as make them nearly square
-  /// @param damping of what no pressure resists, over sqrt(gravity height)/(width/cells)
+  /// @param damping of the motion that no pressure resists, over sqrt(gravity height)/(width/cells)
   CollapseMesh(const LiquidColumn&, int cells, double damping = 1.0);
   ~CollapseMesh();
 

@@ -20,7 +20,7 @@ std::optional<double> along(const std::vector<double>& time, const std::vector<d
   return value[k - 1] + (at - time[k - 1]) / (time[k] - time[k - 1]) * (value[k] - value[k - 1]);
 }
 
-/// The front of an inviscid column as a curve in time, as an experiment would have it, and where a point is stated the pressure
+/// The front of an inviscid column as a curve in time, as an experiment would have it. Where a point is stated, also the pressure
 /// there.
 class CollapsingColumn : public Reference {
  public:

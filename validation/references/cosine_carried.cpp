@@ -5,7 +5,7 @@
 namespace tripoint {
 namespace {
 
-/// The scene as one who moves along with it sees it: at rest.
+/// The scene in the frame that moves along with it: at rest.
 Job at_rest(const Job& job) {
   Job still = job;
   for (auto& body : still.bodies) body.velocity = {};
@@ -22,7 +22,7 @@ class CarriedCosine : public Reference {
     out.velocity.assign(out.position.size(), velocity_);
     return out;
   }
-  /// Of places at the start, where the particles' temperatures belong.
+  /// Numbers are those of places at the start, where the particles' temperatures belong.
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override { return still_->number(quantity); }
   [[nodiscard]] Measuring measuring() const override { return still_->measuring(); }
 

@@ -7,7 +7,7 @@
 namespace tripoint {
 namespace {
 
-/// Two free boxes that meet face to face and centre to centre, without friction or loss: straight paths, and at touch the
+/// Two free boxes that meet face to face and centre to centre, without friction or loss. Paths are straight, and at touch the
 /// velocities along the line of centres change as those of points. Numbers: event_time of the touch [s], axis.
 class ElasticCollision : public Reference {
  public:

@@ -3,7 +3,7 @@
 
 namespace tripoint {
 
-/// A round drop drawn out in the plane by u = (-A x, A y): it stays an ellipse of axes a and b, a b = R^2, and
+/// A round drop drawn out in the plane by u = (-A x, A y). It stays an ellipse of axes a and b, a b = R^2:
 /// dA/dt = A^2 (a^2 - b^2)/(a^2 + b^2), da/dt = -A a [Monaghan 1994].
 struct DropState {
   double rate = 0.0, a = 0.0, b = 0.0;  ///< A [1/s], axes along x and y [m]

@@ -187,7 +187,7 @@ std::string text_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// What was measured: curves in time.
+/// Measured curves in time.
 class Experiment : public Reference {
  public:
   Experiment(ExperimentFile file, std::optional<std::size_t> axis) : file_(std::move(file)), axis_(axis) {}

@@ -29,8 +29,8 @@ struct ExperimentFile {
   std::map<std::string, std::string> uncertainty;  ///< by column, as the file words it
 };
 
-/// @throws InputError naming file and line: what is missing, unknown, not a number, not rising, of another width, or changed
-/// since it was hashed
+/// @throws InputError naming file and line of an entry that is missing, unknown, not a number, not rising, of another width, or
+/// changed since it was hashed
 [[nodiscard]] ExperimentFile read_experiment(const std::string& path);
 
 /// Likewise of a table whose first column is time, x, y or z; the curves' `time` is then that column.

@@ -11,7 +11,7 @@
 /// velocity_y, velocity_z.
 namespace tripoint {
 
-/// What a case may give: the fields, and `value`, a number in time.
+/// Arguments of a case: the fields, and `value`, a number in time.
 [[nodiscard]] std::vector<ReferenceArgument> truth_fields();
 
 /// Column of the field that a probe reads ("temperature_at", "velocity_at" along the stated axis); empty for any other quantity.

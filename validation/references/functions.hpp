@@ -8,7 +8,7 @@
 
 namespace tripoint {
 
-/// What a reference function is made from.
+/// Input of a reference function.
 struct ReferenceInput {
   const Arguments& args;
   const Job& job;

@@ -7,7 +7,7 @@
 
 namespace tripoint {
 
-/// What a conducting scene is along one axis: its ends, and whether it closes on itself.
+/// A conducting scene along one axis: its ends, and whether it closes on itself.
 struct BarAxis {
   std::size_t axis = 0;          ///< 0, 1, 2 for x, y, z
   double low = 0.0, high = 0.0;  ///< ends [m]
@@ -15,8 +15,8 @@ struct BarAxis {
   [[nodiscard]] double length() const { return high - low; }
 };
 
-/// The ends of all bodies along an axis: of the domain where it is periodic, else of the bodies' boxes, or of their particles and
-/// half a spacing.
+/// The ends of all bodies along an axis: of the domain where it is periodic, else of the bodies' boxes. Without boxes: of their
+/// particles and half a spacing.
 [[nodiscard]] BarAxis bar_along(std::size_t axis, const Job&, const InitialState&);
 /// Likewise of one body.
 [[nodiscard]] BarAxis body_along(std::size_t axis, std::size_t body, const Job&, const InitialState&);
@@ -24,7 +24,7 @@ struct BarAxis {
 /// The axis that a direction points along. @throws InputError when it points along none
 std::size_t axis_of(const Vec3& direction, const std::string& what);
 
-/// What a phase of a body's material conducts and holds.
+/// Conductivity and heat per volume of a phase of a body's material.
 struct PhaseValues {
   double conductivity = 0.0, heat_per_volume = 0.0;  ///< k [W/m/K], rho c_p [J/m3/K]
   [[nodiscard]] double diffusivity() const { return conductivity / heat_per_volume; }
@@ -32,8 +32,8 @@ struct PhaseValues {
 /// @throws InputError when the material has no conductivity or heat capacity
 [[nodiscard]] PhaseValues phase_values(const Job&, std::size_t body, Phase);
 
-/// Of the phase in which a body begins: diffusivity k/(rho c_p) [m2/s] and effusivity sqrt(k rho c_p) [W s^0.5/m2/K] of a body's
-/// material.
+/// Diffusivity k/(rho c_p) [m2/s] and effusivity sqrt(k rho c_p) [W s^0.5/m2/K] of a body's material, in the phase in which the
+/// body begins.
 /// @throws InputError when its material has no conductivity or heat capacity
 [[nodiscard]] double diffusivity(const Job&, std::size_t body);
 [[nodiscard]] double effusivity(const Job&, std::size_t body);

@@ -13,11 +13,10 @@ struct LiquidLayer {
   std::size_t body;
 };
 
-/// Layers of liquid at rest: the pressure is the weight above. They may be compressed by it, p = c^2 (rho - rho0): then
-/// dp/dz = -rho g gives p + c^2 rho0 = (p_t + c^2 rho0) exp(g (z_t - z)/c^2) in a layer with the pressure p_t at its top z_t,
-/// which has fallen to c^2/g ln(1 + g H/(c^2 + p_t/rho0)) above its bottom, where the layer has the mass of before. Numbers:
-/// bottom_pressure, interface_pressure [Pa], interface [m] (height of the highest interface along the axis, before it has
-/// fallen), axis.
+/// Layers of liquid at rest: the pressure is the weight above. They may be compressed by it, p = c^2 (rho - rho0). Then dp/dz =
+/// -rho g gives p + c^2 rho0 = (p_t + c^2 rho0) exp(g (z_t - z)/c^2) in a layer with the pressure p_t at its top z_t. The top has
+/// fallen to c^2/g ln(1 + g H/(c^2 + p_t/rho0)) above its bottom, where the layer has its former mass. Numbers: bottom_pressure,
+/// interface_pressure [Pa], interface [m] (height of the highest interface along the axis, before it has fallen), axis.
 class Hydrostatic : public LiquidReference {
  public:
   /// @param sound speeds of sound of the layers that their weight compresses [m/s], none = incompressible

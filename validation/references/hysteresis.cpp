@@ -7,8 +7,8 @@
 namespace tripoint {
 namespace {
 
-/// Phases under a programme of temperatures that heat events set: liquid since the last one above t_melt, solid since the last
-/// one below t_solid, unchanged by those between.
+/// Phases under a programme of temperatures that heat events set. Matter is liquid since the last one above t_melt, solid since
+/// the last one below t_solid, unchanged by those between.
 class Hysteresis : public Reference {
  public:
   Hysteresis(const Job& job, const InitialState& initial) : job_(job), initial_(initial) {

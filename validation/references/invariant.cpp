@@ -5,7 +5,8 @@
 namespace tripoint {
 namespace {
 
-/// What the laws of conservation alone say of any scene: no positions, hence no frozen run that looks perfect by them.
+/// Statements of the conservation laws alone about any scene. There are no positions, hence no frozen run that looks perfect by
+/// them.
 class Invariant : public Reference {
  public:
   Invariant(const Job& job, const InitialState& initial) : gravity_(job.scene.gravity) {

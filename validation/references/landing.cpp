@@ -27,7 +27,7 @@ struct FreeBox {
   [[nodiscard]] Vec3 angular_velocity(double t) const { return spin->angular_velocity(t - since); }
 };
 
-/// What the box is and what it falls on.
+/// The box and the floor that it falls on.
 struct Ground {
   Vec3 up;
   double level = 0.0;         ///< of the floor, along up [m]
@@ -53,9 +53,9 @@ std::optional<double> touch(const FreeBox& box, const Ground& ground, double fro
   return {};
 }
 
-/// A free box meets a smooth floor with a corner or an edge: an impulse along the normal at each corner that touches, such that
-/// its normal velocity is -e times what it was (Newton); then free flight again, known until the next touch. Numbers: event_time,
-/// of the touch [s]; next_touch [s].
+/// A free box meets a smooth floor with a corner or an edge. An impulse along the normal acts at each corner that touches. It
+/// makes the corner's normal velocity -e times the earlier one (Newton). Then free flight follows, known until the next touch.
+/// Numbers: event_time, of the touch [s]; next_touch [s].
 class Landing : public Reference {
  public:
   Landing(std::vector<BodyState> rows, std::size_t row, FreeBox before, FreeBox after, double touch_time, double known_to)

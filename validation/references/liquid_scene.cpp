@@ -69,7 +69,7 @@ Snapshot LiquidReference::fields(const std::vector<Vec3>& places, double time) c
     out.density.push_back(s.density);
     density |= std::isfinite(s.density);
   }
-  if (!velocity) out.velocity.clear();  // what it knows of no particle it does not know
+  if (!velocity) out.velocity.clear();  // a column without any known value is left out
   if (!pressure) out.pressure.clear();
   if (!density) out.density.clear();
   out.phase = initial_.phase;

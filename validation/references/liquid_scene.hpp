@@ -7,7 +7,7 @@
 
 namespace tripoint {
 
-/// What an exact flow says at one place and time; not-a-number is what it does not know.
+/// State of an exact flow at one place and time; not-a-number is a value that it does not know.
 struct LiquidState {
   Vec3 velocity{not_a_number, not_a_number, not_a_number};  ///< [m/s]
   double pressure = not_a_number;                           ///< [Pa]
@@ -24,7 +24,7 @@ class LiquidReference : public Reference {
 
  protected:
   [[nodiscard]] virtual LiquidState state(const Vec3& place, double time, std::size_t particle) const = 0;
-  /// What it says of bodies, one row each; none unless overridden.
+  /// States of bodies, one row each; none unless overridden.
   [[nodiscard]] virtual std::vector<BodyState> bodies(double) const { return {}; }
   [[nodiscard]] bool is_liquid(std::size_t particle) const { return initial_.phase[particle] == static_cast<int>(Phase::liquid); }
   InitialState initial_;

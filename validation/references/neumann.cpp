@@ -14,7 +14,7 @@ double NeumannFront::lambda() const {
   const double r = 1.0 / std::sqrt(far_diffusivity_ratio);
   const auto taken = [&](double l) {
     return theta == 0.0 ? 0.0 : theta * far_conductivity_ratio * r * std::exp(-l * l * r * r) / std::erfc(l * r);
-  };  // by what is beyond the front
+  };  // by the phase beyond the front
   const auto residual = [&](double l) { return std::exp(-l * l) / std::erf(l) - taken(l) - slope * l; };
   double low = 1e-12,
          high = std::min(8.0, 20.0 / r);  // erfc is above the smallest number there; falls from infinity to below 0 between them

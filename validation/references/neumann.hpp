@@ -3,8 +3,9 @@
 
 namespace tripoint {
 
-/// A half space x > 0 that melts (or freezes) from its surface, which is held at a temperature: Neumann's similarity solution,
-/// both phases of one density, Stefan's where the far temperature is that of the change [Carslaw & Jaeger 1959, section 11.2].
+/// A half space x > 0 that melts (or freezes) from its surface, which is held at a temperature. This is Neumann's similarity
+/// solution, both phases of one density. It is Stefan's where the far temperature is that of the change [Carslaw & Jaeger 1959,
+/// section 11.2].
 struct NeumannFront {
   double surface = 0.0, change = 0.0, far = 0.0;  ///< temperatures at x = 0, at the front, at rest [K]
   double diffusivity = 0.0;                       ///< k/(rho c_p) of the phase at the surface [m2/s]

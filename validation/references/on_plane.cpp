@@ -25,7 +25,7 @@ Vec3 line_of(const Vec3& velocity, const Vec3& pull, const std::string& name) {
   return {};
 }
 
-/// Half of what the shape measures along a unit vector.
+/// Half of the shape's size along a unit vector.
 double half_along(const Shape& shape, const Vec3& direction) {
   if (shape.kind == Shape::Kind::sphere) return shape.radius;
   const Vec3 half = 0.5 * (shape.max - shape.min);

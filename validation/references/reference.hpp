@@ -12,7 +12,7 @@
 
 namespace tripoint {
 
-/// What an experiment saw of a quantity, in SI.
+/// Measured values of a quantity in an experiment, in SI.
 struct MeasuredCurve {
   std::vector<double> time, value, uncertainty;  ///< times rise; standard uncertainty of each value
 };
@@ -32,7 +32,7 @@ struct MeasuredBox {
   Vec3 low, high;  ///< [m]
 };
 
-/// Of what, along what and where a quantity is measured. Empty: the reference does not say.
+/// Place, axis and object of the measurement of a quantity. Empty: the reference does not say.
 struct Measuring {
   std::optional<std::size_t> axis = {};       ///< 0, 1, 2 = x, y, z
   std::optional<std::size_t> bar = {};        ///< row in Job::bodies of the body that is measured
@@ -40,16 +40,16 @@ struct Measuring {
   std::optional<std::size_t> flip_body = {};  ///< row in Snapshot::bodies
   std::optional<MeasuredPhase> phase = {};    ///< particles that count; empty = all
   std::optional<MeasuredBox> box = {};
-  bool outside = false;                       ///< what is not in the box
+  bool outside = false;                       ///< particles that are not in the box
   bool follows = false;                       ///< the box moves and turns with the metric's body
   std::optional<Vec3> point = {};             ///< of a probe [m]
   std::optional<Vec3> direction = {};         ///< of a deflection, unit vector
   std::optional<bool> free_end_is_high = {};  ///< of a beam
-  std::optional<bool> melts = {};             ///< of a front: what it leaves behind is liquid
+  std::optional<bool> melts = {};             ///< of a front: the phase that it leaves behind is liquid
   std::optional<MeasuredWave> wave = {};
 };
 
-/// Truth, as far as it is known: what an exact (or exactly discrete) solution says of this job's particles and bodies.
+/// Truth, as far as it is known: an exact (or exactly discrete) solution for this job's particles and bodies.
 class Reference {
  public:
   virtual ~Reference() = default;
@@ -57,21 +57,21 @@ class Reference {
   /// empty.
   [[nodiscard]] virtual Snapshot at(double time) const = 0;
   /// The truth that this frame is compared with. A solution that is a field of place (a liquid's) takes the frame's own places,
-  /// so that a particle is judged where it is; others know each particle's place, and this is at(now.time).
+  /// so that a particle is judged where it is. Others know each particle's place, and this is at(now.time).
   [[nodiscard]] virtual Snapshot truth_for(const Snapshot& now) const { return at(now.time); }
   /// A number it knows by name: decay_rate [1/s], event_time [s], energy_ratio ...; empty when it does not.
   [[nodiscard]] virtual std::optional<double> number(std::string_view quantity) const {
     (void)quantity;
     return {};
   }
-  /// What is no number: directions, bodies, places and switches.
+  /// Data that are no numbers: directions, bodies, places and switches.
   [[nodiscard]] virtual Measuring measuring() const { return {}; }
   /// Measured values by the name of their column; nullptr when it has none.
   [[nodiscard]] virtual const MeasuredCurve* measured(std::string_view column) const {
     (void)column;
     return nullptr;
   }
-  /// Standard uncertainty of what it says of a quantity at a time, in SI; empty where its data state none.
+  /// Standard uncertainty of its value of a quantity at a time, in SI; empty where its data state none.
   [[nodiscard]] virtual std::optional<double> uncertainty(std::string_view quantity, double time) const {
     (void)quantity;
     (void)time;
@@ -84,7 +84,7 @@ class Reference {
   }
 };
 
-/// What an argument is: a number with its unit, three numbers, true or false, x y or z, a word or name, a formula.
+/// Type of an argument: a number with its unit, three numbers, true or false, x y or z, a word or name, a formula.
 enum class ArgumentType { number, vector, flag, axis, word, formula };
 constexpr WordTable<6> word_table(ArgumentType) {
   return {"type of argument", {"number", "vector", "flag", "axis", "word", "formula"}};

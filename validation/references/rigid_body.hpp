@@ -8,7 +8,7 @@
 
 namespace tripoint {
 
-/// A rigid body as its particles make it at one moment: what a merge or split leaves, by the conservation laws alone.
+/// A rigid body as its particles make it at one moment: the result of a merge or split, by the conservation laws alone.
 struct RigidBody {
   std::vector<std::size_t> members;  ///< particle ids
   std::vector<Vec3> offset;          ///< of the members from the centre [m]

@@ -10,7 +10,7 @@
 namespace tripoint {
 
 /// Rigid bodies in free flight under gravity, with merges and splits by event and prescribed bodies beside them: exact.
-/// Between events the centre of mass follows a parabola and the body turns freely about it; at an event the particles of the new
+/// Between events the centre of mass follows a parabola and the body turns freely about it. At an event the particles of the new
 /// body keep mass, momentum and angular momentum. At the very time of an event the state is the one after it.
 class RigidFlight : public Reference {
  public:

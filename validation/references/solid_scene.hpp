@@ -28,10 +28,10 @@ struct ElasticConstants {
 /// The longest direction of a body that is not periodic.
 [[nodiscard]] std::size_t long_axis(const ReferenceInput&, std::size_t body);
 
-/// What holds the sides of a bar along an axis: the argument `sides`, else by how many of the other directions are periodic.
+/// Support of the sides of a bar along an axis: the argument `sides`, else by how many of the other directions are periodic.
 [[nodiscard]] BarSides bar_sides(const ReferenceInput&, std::size_t axis);
-/// The law of a bar of the body's material, in the form of the argument `form` or of the run's elastic term; as printed with the
-/// factors of the lattice at the argument `support_ratio` or the run's.
+/// The law of a bar of the body's material, in the form of the argument `form` or of the run's elastic term. The printed law has
+/// the factors of the lattice at the argument `support_ratio` or the run's.
 [[nodiscard]] BarLaw bar_law(const ReferenceInput&, std::size_t bar, std::size_t axis);
 
 }  // namespace tripoint

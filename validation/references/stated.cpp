@@ -4,8 +4,8 @@
 namespace tripoint {
 namespace {
 
-/// What a case states itself: a claim, and what a quantity must know to be measured. It computes nothing, so that a metric says
-/// in the case file what it is compared with. Numbers: value, and those of measuring.hpp.
+/// A case's own statement: a claim, and the data that a quantity must know to be measured. It computes nothing, so that the case
+/// file itself states the value that a metric is compared with. Numbers: value, and those of measuring.hpp.
 using Stated = NumberTable;
 
 std::unique_ptr<Reference> make_stated(const ReferenceInput& in) {

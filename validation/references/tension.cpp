@@ -10,13 +10,13 @@
 namespace tripoint {
 namespace {
 
-/// The bar between its ends: where they are in time, and what the law makes of it.
+/// The bar between its ends: their places in time, and its state by the law.
 struct Bar {
   std::size_t row = 0, axis = 0;
   double length = 0.0, area = 0.0;
   double gauge = 0.5, stretch_gauge = 1.0;  ///< middle shares of the length: for the modulus, for other stretches
   BarLaw law;
-  std::optional<std::size_t> low, high;                      ///< rows in Job::bodies of what holds its ends
+  std::optional<std::size_t> low, high;                      ///< rows in Job::bodies of the bodies that hold its ends
   double release = std::numeric_limits<double>::infinity();  ///< time at which an end is let go [s]
   double tear = std::numeric_limits<double>::infinity();     ///< stretch at which it parts
 };

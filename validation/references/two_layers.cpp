@@ -31,7 +31,8 @@ TwoLayerSolution::Mode TwoLayerSolution::mode(int n) const {
   const auto root = boost::math::tools::toms748_solve(residual, (n - 0.5) * pi / (a + b), (n + 0.5) * pi / (a + b),
                                                       boost::math::tools::eps_tolerance<double>(52), steps);
   const double w = 0.5 * (root.first + root.second), p = w * a, q = w * b;
-  // A cos p = B cos q keeps the temperature continuous, e1 A sin p = -e2 B sin q the flux; the pair that does not vanish is used.
+  // A cos p = B cos q keeps the temperature continuous, and e1 A sin p = -e2 B sin q the flux. The pair that does not vanish is
+  // used.
   const bool cosines = std::hypot(std::cos(p), std::cos(q)) > 0.1;
   const double A = cosines ? std::cos(q) : e2 * std::sin(q), B = cosines ? std::cos(p) : -e1 * std::sin(p);
   const double square =

@@ -3,12 +3,12 @@
 #include "effects/elastic/bond_sums.hpp"
 #include "solids/solid_particles.hpp"
 
-/// The two passes over bonds. Reference data stream by in order of the lists; what a pass needs of a partner lies together, by
-/// id.
+/// The two passes over bonds. Reference data are read in order of the lists. The data of a partner that a pass needs lie
+/// together, by id.
 namespace tripoint::elastic {
 
-/// What a stress is made of. It is kept where matter may flow (field::may_flow): flow comes after the strain, and changes the
-/// stress of few.
+/// The quantities that a stress is formed from. They are kept where matter may flow (field::may_flow): flow comes after the
+/// strain, and changes the stress of few.
 struct BeforeFlow {
   Matrix3 G;            ///< F - I [1]
   Matrix3 H;            ///< sum_j c_ij (F x_ji - r_ji) x_ji^T of the hourglass energy [N m]
@@ -19,7 +19,7 @@ struct BeforeFlow {
 struct Deformations {
   BondLists lists;
   AlignedVector<Place> places;           ///< by id
-  AlignedVector<Deformed> deformed;      ///< by id, of what has bonds or owns strain energy
+  AlignedVector<Deformed> deformed;      ///< by id, of particles that have bonds or own strain energy
   std::vector<ReferenceSums> reference;  ///< by id, the same
   std::vector<Vec3> hourglass_force;     ///< by id: force of a particle's own hourglass energy on it, of a solid [N]
   std::vector<BeforeFlow> before_flow;   ///< by id, set where matter may flow; empty in a scene without flow
@@ -27,11 +27,11 @@ struct Deformations {
   std::vector<char> owns;                ///< by id, 1 where it owns strain energy
 };
 
-/// F, strain, the hourglass part H = sum_j c_ij (F x_ji - r_ji) x_ji^T and the stress of all particles of deformable bodies, by
-/// what has flowed until now.
+/// F, strain, H and the stress of all particles of deformable bodies, at the plastic strain so far. H = sum_j c_ij (F x_ji -
+/// r_ji) x_ji^T is the hourglass part.
 void deform(World&, const solid::ElasticForms&, Deformations&);
-/// @throws Diverged where a particle of a solid is turned inside out: det F <= 0. Printed strain is no measure of F (a rotation
-/// alone changes its sign), and F of a sheet or chain is that within its plane or line: neither is looked at.
+/// @throws Diverged where a particle of a solid is turned inside out: det F <= 0. Two measures are not checked. Printed strain is
+/// no measure of F, because a rotation alone changes its sign. F of a sheet or chain is that within its plane or line.
 void refuse_inversion(const World&, const solid::ElasticForms&, const Deformations&);
 /// (12) and the gradient of the hourglass energies, on every particle that has bonds, rigid or not.
 void add_forces(World&, const solid::ElasticForms&, Deformations&);

@@ -8,7 +8,7 @@
 
 namespace tripoint::elastic {
 
-/// What bonds of one reference vector share: a line of the cache. Bonds of a lattice have few of them.
+/// Data that bonds of one reference vector share: a line of the cache. Bonds of a lattice have few such vectors.
 struct alignas(vector_bytes) BondShape {
   Vec3 x;                  ///< reference vector x_ij [m]
   double slope = 0.0;      ///< grad W(x_ij) = slope x_ij [1/m5]

@@ -15,7 +15,7 @@
 namespace tripoint::elastic {
 namespace {
 
-/// Of h/c_L, 0.47 to 0.57 of the frontier (model 8.10).
+/// Share of h/c_L, 0.47 to 0.57 of the frontier (model 8.10).
 constexpr double courant = 0.3, courant_with_hourglass = 0.25;
 
 class Elastic : public Effect {

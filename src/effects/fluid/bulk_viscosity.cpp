@@ -16,11 +16,11 @@ namespace {
 
 /// 2 c/(w h) [1], w the frequency of the fastest wave of the lattice at the default h/dx = 2.6.
 constexpr double fastest_wave = 0.885;
-/// How many times faster a light liquid is damped than alone [1], beside one of four times its density (damped_density): the most
-/// that was measured on layers and on random mixtures.
+/// Damping rate of a light liquid beside one of four times its density (damped_density), over its rate alone [1]. It is the
+/// greatest measured on layers and on random mixtures.
 constexpr double damping_beside_heavy = 2.12;
-/// What a step takes of the longest stable one [1]: a choice, made so that the bound is 0.4514 h/c at the default zeta = 0.2,
-/// just above that of sound, 0.45 h/c.
+/// Share of the longest stable step that a step takes [1]: a choice. At the default zeta = 0.2 the bound is then 0.4514 h/c, just
+/// above that of sound, 0.45 h/c.
 constexpr double share_of_frontier = 0.81;
 
 }  // namespace
@@ -30,7 +30,7 @@ double bulk_viscosity(const Scene& scene) { return acting_number(scene, "bulk_vi
 void set_bulk_pressure(World& world, const SceneNumbers& n) {
   Particles& p = world.particles;
   const double dt = 2.0 * world.step_numbers[half_step];  // the step was begun by a half kick
-  const bool flows = dt > 0.0 && world.change.empty();    // what is born changes densities at once
+  const bool flows = dt > 0.0 && world.change.empty();    // new particles change densities at once
   const double viscosity = flows ? n.bulk_viscosity * n.sound_speed * world.support() / dt : 0.0;  // [m2/s] over the step
   const auto delta = p[field::number_density], before = p[field::number_density_before], q = p[field::bulk_pressure];
   const auto rest = p[field::rest_density], m = p[field::mass], pressure = p[field::pressure], V = p[field::volume],

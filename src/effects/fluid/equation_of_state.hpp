@@ -13,7 +13,8 @@ struct EquationOfState {
   double rest_density;       ///< rho0 of the particle [kg/m3]
   double reference_density;  ///< rho_ref, the largest rest density of the scene's liquids [kg/m3]
   bool clamp;                ///< no negative pressure: free surfaces and contacts do not pull
-  double work = 1.0;         ///< energy a p dV: what makes p the force on an area, on the kernel's lattice (decision 6)
+  double work = 1.0;         ///< energy a p dV: the factor that makes p the force on an area, on the kernel's lattice (decision
+                             ///< 6)
   double surface = 0.0;      ///< pressure of the topmost layer of a liquid [Pa], 0 = none
   double half_full = 0.5;    ///< density of that layer over the rest density, on the lattice
 };
@@ -24,9 +25,9 @@ struct EquationOfState {
   return e.clamp ? std::max(p, 0.0) : p;
 }
 
-/// What a particle of less than its rest density bears at a free surface (model 8.3) [Pa]: p_s (1 - |s - b|/(1 - b)), s =
-/// rho/rho0, not below 0. It is p_s in the topmost layer of a lattice, where s = b, and 0 in the liquid, in a film of one layer
-/// and in drops.
+/// Pressure of a particle below its rest density at a free surface (model 8.3) [Pa]: p_s (1 - |s - b|/(1 - b)), s = rho/rho0, not
+/// below 0. In the topmost layer of a lattice s = b, and the pressure is p_s. In the liquid, in a film of one layer and in drops
+/// it is 0.
 [[nodiscard]] inline double surface_pressure(const EquationOfState& e, double density) noexcept {
   assert(e.half_full < 1.0);
   return e.surface * std::max(0.0, 1.0 - std::abs(density / e.rest_density - e.half_full) / (1.0 - e.half_full));
@@ -48,9 +49,9 @@ struct EquationOfState {
   return p < 0.0 ? surface_pressure(e, density) : p;
 }
 
-/// Energy of compression of one particle [J], U with dU/d(delta) = work p V^2, V = 1/delta, delta = rho/m:
-/// U = work k rho_ref/rho0 (m ln(rho/rho0) + rho0 (V - V0)); its gradient is the force of model 8.3. At a free surface V is V0,
-/// and U is what the surface pressure has given since the rest density: -work V0 integral from s to 1 of p, with s = rho/rho0.
+/// Energy of compression U of one particle [J], with dU/d(delta) = work p V^2, V = 1/delta, delta = rho/m.
+/// U = work k rho_ref/rho0 (m ln(rho/rho0) + rho0 (V - V0)). Its gradient is the force of model 8.3. At a free surface V is V0. U
+/// is then the work of the surface pressure since the rest density: -work V0 integral from s to 1 of p, s = rho/rho0.
 /// @param mass [kg]   @param density rho = m delta [kg/m3]
 [[nodiscard]] inline double compression_energy(const EquationOfState& e, double mass, double density) noexcept {
   assert(mass > 0.0 && density > 0.0);

@@ -55,7 +55,7 @@ void FacePressure::find(const World& world) {
     pairs_.end_row(i);
   }
   bonded_.clear();
-  // What presses on a copy may be known to its owner alone.
+  // Only the owning process knows all loads on a copy, so a copy counts as loaded.
   const auto is_loaded = [&](std::size_t row) { return elastic_[row] && (pressed[row] || !world.owns(row)); };
   for (std::uint32_t i = 0; i < p.awake(); ++i) {
     const auto list = world.bonds.of(static_cast<std::size_t>(id[i]));

@@ -10,11 +10,11 @@
 
 namespace tripoint::fluid {
 
-/// Pressure acts at the face of an elastic solid (model 8.3). The force of a pair acts between the middles of two particles, and
-/// the half of the way that lies within the solid would not be pressed. So that half is measured in the solid's reference shape:
-/// r*^2 = d.(I + D_i + D_j) d, d = r_j - r_i, D = s/2 (F^-T F^-1 - I), 0 of what is not elastic, s = scene.face_pressure. The
-/// energies of compression are those at r*, and what changes them by F is a load on the bonds of the solid. The pair passes see
-/// r; what r* changes is added after them.
+/// Pressure acts at the face of an elastic solid (model 8.3). The force of a pair acts between the centres of two particles.
+/// Without a correction the half of the distance that lies within the solid would not be loaded. So this half is measured in the
+/// solid's reference shape: r*^2 = d.(I + D_i + D_j) d, d = r_j - r_i. D = s/2 (F^-T F^-1 - I), 0 for matter that is not elastic,
+/// s = scene.face_pressure. The energies of compression are those at r*, and their change with F is a load on the bonds of the
+/// solid. The pair passes see r; the difference due to r* is added after them.
 class FacePressure {
  public:
   explicit FacePressure(const Scene&);

@@ -20,7 +20,7 @@ inline constexpr Field<double> viscous_velocity_x{"viscous_velocity.x", "m/s"}, 
 inline constexpr Field<double> viscosity{"viscosity", "Pa s"}, rest_density{"rest_density", "kg/m3"};
 inline constexpr Field<double> solid{"solid", "1"};  ///< 1 for solids and walls, 0 for liquids
 inline constexpr Field<double> stick{"stick", "1"};  ///< 1 where a liquid sticks to this solid, 0 where it slips
-/// What walls sum over the liquid near them: viscous weights, and velocities times these.
+/// Sums of walls over the liquid near them: viscous weights, and velocities times these.
 inline constexpr Field<double> wall_weight{"wall.weight", "Pa s/m5"};
 inline constexpr Field<double> wall_velocity_x{"wall.velocity.x", "Pa/m4"}, wall_velocity_y{"wall.velocity.y", "Pa/m4"},
     wall_velocity_z{"wall.velocity.z", "Pa/m4"};
@@ -29,7 +29,7 @@ inline constexpr Field<double> background_x{"background.x", "N"}, background_y{"
     background_z{"background.z", "N"};
 inline constexpr Field<double> transport_force_x{"transport_force.x", "N"}, transport_force_y{"transport_force.y", "N"},
     transport_force_z{"transport_force.z", "N"};
-/// What the mean pressure and the damping of sound sum over neighbours (model 8.3).
+/// Sums over neighbours for the mean pressure and the damping of sound (model 8.3).
 inline constexpr Field<double> pressure_around{"pressure_around", "Pa/m3"}, nearing{"nearing", "1/(s m3)"};
 
 }  // namespace tripoint::field

@@ -28,8 +28,8 @@
 namespace tripoint::fluid {
 namespace {
 
-// Of h/(c + |v|), what a step of sound takes [1]. With these both forms take 0.47 to 0.52 of the longest stable step, as measured
-// (docs/guards.md).
+// Share of h/(c + |v|) that a step of sound takes [1]. With these both forms take 0.47 to 0.52 of the longest stable step, as
+// measured (docs/guards.md).
 constexpr double courant_printed = 0.7, courant_corrected = 0.45;
 /// The background pressure of the transport velocity adds half to the stiffness: 0.45/sqrt(1.5) = 0.37, rounded down.
 constexpr double courant_transported = 0.35;
@@ -166,7 +166,7 @@ void Fluid::follow_temperature(World& world) const {
   if (changed > 0.0) world.step_numbers[viscous_age] = 0.0;
 }
 
-/// What the own pairs of a particle add to its number density, once and for all (model 8.2).
+/// Sum that the own pairs of a particle add to its number density, once and for all (model 8.2).
 void Fluid::set_own_density(World& world, std::size_t row) const {
   if (!world.particles.has(field::own_density.name)) return;
   double sum = 0.0;

@@ -9,7 +9,7 @@
 namespace tripoint::fluid {
 namespace {
 
-/// Core energy of the pairs of i that act, half of each pair [J]. What has no list has none.
+/// Core energy of the pairs of i that act, half of each pair [J]. A particle without a list has none.
 double core_energy(const World& world, const Triple<const double>& x, std::span<const double> group, const Core& core,
                    std::size_t i) {
   double sum = 0.0;

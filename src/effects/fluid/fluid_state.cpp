@@ -90,7 +90,7 @@ void predict_velocities(World& world) {
              omega = of_bodies(field::body_angular_velocity);
   const auto gained = of_bodies(field::body_acceleration), turned = of_bodies(field::body_angular_acceleration);
 #pragma omp parallel for schedule(static) num_threads(world.threads)
-  for (std::size_t i = 0; i < p.moving(); ++i) {  // what is fixed is seen at rest
+  for (std::size_t i = 0; i < p.moving(); ++i) {  // fixed particles are seen at rest
     if (!is_member(i)) {
       seen.set(i, ahead != 0.0 ? v.at(i) + ahead * (g + total_force(forces, i) / m[i]) : v.at(i));
       continue;

@@ -3,21 +3,21 @@
 #include "effects/fluid/material_numbers.hpp"
 #include "world/world.hpp"
 
-/// What follows from places and velocities of one time, particle by particle: before the rate pass.
+/// State that follows from places and velocities of one time, particle by particle: before the rate pass.
 namespace tripoint::fluid {
 
-/// @throws Diverged where a particle that is no wall is pressed to the density of two layers in one plane: its body or liquid and
-/// another overlap by one spacing. Printed (4) sums masses, which tells an overlap from a heavy neighbour by nothing: no such
-/// limit.
+/// @throws Diverged where a particle that is no wall has the density of two layers in one plane. Then its body or liquid and
+/// another overlap by one spacing. For printed (4) there is no such limit: it sums masses, so an overlap looks like a heavy
+/// neighbour.
 void refuse_overlap(const World&, const SceneNumbers&);
 /// rho and V from the sums of the density pass: delta = sum W / S0, rho = m delta (model 8.2), or (4) as printed.
 void set_density(World&, const SceneNumbers&);
 /// (9), printed or scaled (model 8.3).
 void set_pressure(World&, const SceneNumbers&);
-/// V^2 p, with the pressure of the bulk viscosity, over the kernel's lattice moment, what the corrected pressure force takes of
-/// each particle.
+/// V^2 p, with the pressure of the bulk viscosity, over the kernel's lattice moment: the share of each particle in the corrected
+/// pressure force.
 void set_pressure_shares(World&, const SceneNumbers&);
-/// The velocities that viscous pairs see: of the full step, a half kick with the old rates ahead (model 7, time).
+/// The velocities that viscous pairs see: those at the full step, half a kick ahead with the old rates (model 7, time).
 void predict_velocities(World&);
 
 }  // namespace tripoint::fluid

@@ -9,8 +9,8 @@
 /// d = r_j - r_i, so that grad_i W = -(W'/r) d.
 namespace tripoint {
 
-/// Number density (model 8.2): delta_i = sum_j W(r_ij) [1/m3]; the particle itself and its own pairs are added before the pass,
-/// and the division by the kernel's lattice sum follows it. [Solenthaler & Pajarola 2008]
+/// Number density (model 8.2) [Solenthaler & Pajarola 2008]: delta_i = sum_j W(r_ij) [1/m3]. The particle itself and its own
+/// pairs are added before the pass. The division by the kernel's lattice sum follows it.
 struct NumberDensity {
   using reads = Keys<>;
   using adds = Keys<field::number_density>;
@@ -27,9 +27,9 @@ template <class V>
 }
 
 /// Pressure force (7) corrected (model 8.3) [N]: F_i = -sum_j (V_i^2 p_i + V_j^2 p_j) grad_i W, the gradient of
-/// compression_energy(); `pressure_share` is V^2 p over the kernel's lattice moment, so that p is the force on an area also on
-/// the lattice (decision 6). With it the core energy 1/2 kappa (b - r)^2, b = scene.core_reach dx, that keeps pairs apart
-/// where the clamp leaves no repulsion.
+/// compression_energy(). `pressure_share` is V^2 p over the kernel's lattice moment, so that p is the force on an area also on
+/// the lattice (decision 6). The core energy 1/2 kappa (b - r)^2, b = scene.core_reach dx, is added. It keeps pairs apart where
+/// the clamp leaves no repulsion.
 struct PressureCorrected {
   using reads = Keys<field::pressure_share, field::group>;
   using adds = Keys<field::force_x, field::force_y, field::force_z>;
@@ -45,7 +45,7 @@ struct PressureCorrected {
 };
 
 /// Pressure force (7) as printed [N]: F_i = -sum_j V_i V_j (p_i + p_j)/2 grad_i W_spiky, V = m/rho of (4).
-/// What fails: it tends to half of grad p, and a clamped mixture of two kernels does not keep energy in contacts.
+/// Its faults: it tends to half of grad p, and a clamped mixture of two kernels does not keep energy in contacts.
 struct PressurePaper {
   using reads = Keys<field::volume, field::pressure, field::group>;
   using adds = Keys<field::force_x, field::force_y, field::force_z>;
@@ -61,8 +61,8 @@ struct PressurePaper {
   }
 };
 
-/// Viscosity of a pair [Pa s] (model 8.5): harmonic between liquids; the liquid's own at a solid, 0 where that slips freely;
-/// the scene's contact viscosity between solids (which is what `viscosity` of a solid holds).
+/// Viscosity of a pair [Pa s] (model 8.5). Between liquids it is the harmonic mean. At a solid it is the liquid's own, 0 where
+/// that slips freely. Between solids it is the scene's contact viscosity, which `viscosity` of a solid holds.
 template <class V>
 [[nodiscard]] inline V pair_viscosity(V mu_i, V solid_i, V stick_i, V mu_j, V solid_j, V stick_j) noexcept {
   const V liquids = harmonic_mean(mu_i, mu_j);
@@ -96,7 +96,7 @@ inline void add_viscous_force(V G, std::span<const V, 8> i, std::span<const V, 8
 }
 
 /// Viscous force (8) as printed [N]: F_i = sum_j V_i V_j (mu_i + mu_j)/2 (v_j - v_i) lap W_visc.
-/// What fails: walls slip, the lattice factor is 0.93, and a rigidly turning liquid ball is braked.
+/// Its faults: walls slip, the lattice factor is 0.93, and a rigidly turning liquid ball is braked.
 struct ViscosityPaper {
   using reads = ViscousKeys;
   using adds = ViscousForce;
@@ -134,7 +134,7 @@ struct ViscosityLaplacian {
   }
 };
 
-/// `central` (model 8.5) [N]: F_ij = 10 mu_ij V_i V_j (-W'/r) ((v_j - v_i).r_ij) r_ij/r^2 over the same moment: along the
+/// `central` (model 8.5) [N]: F_ij = 10 mu_ij V_i V_j (-W'/r) ((v_j - v_i).r_ij) r_ij/r^2 over the same moment. It acts along the
 /// line of centres, so angular momentum is kept and a rigid rotation feels nothing. `weighted`: for isotropic shear.
 template <bool weighted>
 struct ViscosityCentralOf {
@@ -166,8 +166,8 @@ using ViscosityCentral = ViscosityCentralOf<false>;
 using ViscosityCentralWeighted = ViscosityCentralOf<true>;
 
 /// sum_j G_ij of a viscosity [kg/s], and for `central` sum_j G_ij e e^T (xx, yy, zz, yz, xz, xy), for the bound of the step. It
-/// has no columns of its own: between their last use and the pass that fills them anew, the six columns of forces hold these
-/// sums, not newtons, in the order of `adds` (update_viscous_bound() reads them, and nobody else).
+/// has no columns of its own. The six columns of forces hold these sums, not newtons, in the order of `adds`, until the pass that
+/// fills them anew. Only update_viscous_bound() reads them.
 template <class Viscosity>
 struct ViscousSpread {
   static constexpr bool central =

@@ -18,8 +18,8 @@ bool is_liquid(double group) { return group == liquid_group; }
 
 }  // namespace
 
-/// Where the lattices of fixed walls lie: of the places of each wall over the spacing the mean direction, as of angles. The mean
-/// jitter of all particles of a wall stays in it, which moves the wall as a whole and is no roughness.
+/// Where the lattices of fixed walls lie: the mean, as of angles, of the places of each wall over the spacing. The mean jitter of
+/// all particles of a wall stays in it, which moves the wall as a whole and is no roughness.
 void LaidWalls::find_moves(World& world) {
   using std::numbers::pi;
   const Particles& p = world.particles;
@@ -68,7 +68,8 @@ void LaidWalls::find(World& world) {
   }
 }
 
-/// Calls give(i, j, d, d + what the lattice adds) for the pairs of each row within the support, in the order of its list.
+/// Calls give(i, j, d, d') for the pairs of each row within the support, in the order of its list. d' is d plus the lattice's
+/// part.
 template <class Give>
 void LaidWalls::each_pair(const World& world, Give give) const {
   const auto x = positions(world.particles);

@@ -11,8 +11,8 @@
 
 namespace tripoint::fluid {
 
-/// Jitter below which the difference of two jittered places rounds to that of their places of the lattice [spacings]: each place
-/// is off by less than a quarter, and both together by less than a half.
+/// Jitter below which the difference of two jittered places rounds to that of their lattice places [spacings]. Each place is off
+/// by less than a quarter, and both together by less than a half.
 inline constexpr double laid_jitter_limit = 0.25;
 
 /// Whether the jitter of a scene leaves two particles of one lattice nearer to their own places of it than to others. Fixed walls
@@ -22,17 +22,18 @@ inline constexpr double laid_jitter_limit = 0.25;
 /// Difference of two places of one lattice, from that of two that are jittered. @param away, and the result [spacings]
 [[nodiscard]] inline Vec3 laid(const Vec3& away) { return {std::round(away.x), std::round(away.y), std::round(away.z)}; }
 
-/// A run that goes on finds rows in another order, and places of walls that are off by their last bit. A millionth of a spacing,
-/// or of the rest density, is far above what that does to a sum, and far below what matters, so both runs have the same bits.
+/// A resumed run finds rows in another order, and places of walls that are off by their last bit. A millionth of a spacing, or of
+/// the rest density, is far above the effect of that on a sum. It is also far below any size that matters. So both runs have the
+/// same bits.
 [[nodiscard]] inline double to_a_millionth(double x) { return std::ldexp(std::round(std::ldexp(x, 20)), -20); }
 
 /// Liquid feels the fixed walls of a jittered scene from the lattice that they were laid on (model 8.4). A wall never moves, so
-/// nothing evens out what jitter did to it: the first layer of liquid would lie on it as on gravel, and all layers above would
-/// bear the pattern of that. The pair passes see walls where they are; what the places of the lattice change is added after them.
+/// nothing evens out the jitter. Without this the first layer of liquid would lie on rough ground, and all layers above would
+/// bear its pattern. The pair passes see walls where they are; the difference due to the lattice places is added after them.
 class LaidWalls {
  public:
-  /// After the pass of densities: W(|d'|) - W(|d|) to each pair of liquid and fixed wall within the support, d = r_j - r_i and d'
-  /// that from the place of the wall particle on the lattice. The wall's own part is that of Walls.
+  /// After the pass of densities: adds W(|d'|) - W(|d|) to each pair of liquid and fixed wall within the support. d = r_j - r_i,
+  /// and d' is that from the lattice place of the wall particle. The wall's own part is that of Walls.
   void lay_densities(World&, const PairKernels&);
   /// After the pass of rates: the same to the pressure force, so that it is the gradient of the energy at these densities.
   void lay_forces(World&, const PairKernels&);
@@ -43,7 +44,7 @@ class LaidWalls {
   }
 
  private:
-  /// A neighbour, and what the lattice adds to its distance vector [m].
+  /// A neighbour, and the change of its distance vector by the lattice [m].
   struct Pair {
     std::uint32_t row, image;
     Vec3 added;

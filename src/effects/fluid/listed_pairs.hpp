@@ -21,13 +21,13 @@ template <class Places, class Pair>
   return (x.at(pair.row) - x.at(i)) + lists.shift(pair.image);
 }
 
-/// Pairs of a few rows, of which an effect adds something after a fused pass. They are found once for each rebuild of the
-/// neighbour lists, and keep the order of these, so that a sum over them has the same bits whatever the threads.
+/// Pairs of a few rows to which an effect adds something after a fused pass. They are found once for each rebuild of the
+/// neighbour lists, and keep their order. A sum over them has the same bits for any number of threads.
 /// @tparam Pair has at least `row` and `image`, as ListedPair
 template <class Pair = ListedPair>
 class ListedPairs {
  public:
-  /// Groups or rows have changed: the next renew() drops what is listed.
+  /// Groups or rows have changed: the next renew() drops the listed pairs.
   void clear() noexcept { known_ = never; }
   /// Drops all pairs where they are of other neighbour lists, or clear() was called. @param rebuilds Neighbours::rebuilds() of
   /// now
@@ -44,7 +44,7 @@ class ListedPairs {
   void add(const Pair& pair) { pairs_.push_back(pair); }
   /// Whether a pair was added since the last row.
   [[nodiscard]] bool has_open_row() const noexcept { return pairs_.size() > start_.back(); }
-  /// What was added since the last row are the pairs of this one: none, perhaps.
+  /// The pairs added since the last row are those of this row, perhaps none.
   void end_row(std::uint32_t row) {
     rows_.push_back(row);
     start_.push_back(pairs_.size());

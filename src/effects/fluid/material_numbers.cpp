@@ -14,8 +14,8 @@
 namespace tripoint::fluid {
 namespace {
 
-/// kappa/(k rho_ref dx) of the core of pairs [1] (model 8.3): a choice. What the core costs at it, and at four times as much, is
-/// measured in decision 7.
+/// kappa/(k rho_ref dx) of the core of pairs [1] (model 8.3): a choice. Decision 7 gives the measured cost of the core at this
+/// value, and at four times as much.
 constexpr double core_stiffness_share = 0.03;
 
 /// Greatest ratio of densities that the numerical bulk viscosity counts [1] (model 8.4). Without a limit a step of sound is
@@ -34,7 +34,7 @@ double reference_density(const Scene& scene) {
   return most;
 }
 
-/// Smallest rest density that the run can have: what flows in may be lighter than every body, and sound is fastest there.
+/// Smallest rest density that the run can have: inflowing liquid may be lighter than every body, and sound is fastest there.
 double least_density(const Scene& scene) {
   double least = reference_density(scene);
   for (const Body& b : scene.bodies) least = std::min(least, scene.material(b.material).density);
@@ -74,7 +74,8 @@ SceneNumbers numbers_of(const Scene& scene) {
   n.gradient_moment = moments.gradient;
   n.half_full = 0.5 * (1.0 + moments.layer / moments.density);
   n.surface_head = acting_number(scene, "surface_weight") * norm(pressing_gravity(scene)) * scene.spacing;
-  n.least_exposure = 0.25 * (1.0 - moments.layer / moments.density);  // half of what a plane face lacks, (1 - S_layer/S0)/2
+  n.least_exposure = 0.25 * (1.0 - moments.layer / moments.density);  // half of the part that a plane face lacks, (1 -
+                                                                      // S_layer/S0)/2
   if (scene.mode_of(term::pressure) == Mode::corrected) n.pressure_work = n.lattice_density / n.gradient_moment;
   n.core_stiffness = core_stiffness_share * n.stiffness * n.reference_density * scene.spacing;
   n.core_reach = acting_number(scene, "core_reach") * scene.spacing;
@@ -83,7 +84,7 @@ SceneNumbers numbers_of(const Scene& scene) {
   const bool freezes = calls_for(scene, "phase");
   n.averages_walls = corrected && !freezes &&
                      !any_body(scene, [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; });
-  // Half of what a wall particle sees is wall, which does not move: it reads half of the strain of the liquid.
+  // Half of a wall particle's neighbourhood is wall, which does not move: it reads half of the strain of the liquid.
   if (n.averages_walls) n.wall_stiffness = 2.0;
   if (const double stiffer = acting_number(scene, "contact_stiffness"); stiffer > 0.0)
     n.wall_stiffness = n.solid_stiffness = 1.0 + stiffer;

@@ -8,7 +8,7 @@
 
 namespace tripoint::fluid {
 
-/// Pressure and viscosity share a slot: what they read of a pair is much the same.
+/// Pressure and viscosity share a slot: they read much the same fields of a pair.
 struct PairSlots {
   using density = SlotList<Slot<DensityPaper, NumberDensity>>;
   using rates =

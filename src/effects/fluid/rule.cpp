@@ -60,8 +60,8 @@ std::string solid_viscosity_idle(const Scene& scene) {
              : "viscosity is corrected: a liquid takes its own beside a solid, and solids scene.contact_viscosity";
 }
 
-/// Why liquids can have no numerical bulk viscosity: nothing is liquid; it freezes, which changes densities at once; density,
-/// pressure or state are printed; or the scene does not clamp, so that no free surface or contact can be.
+/// Why liquids can have no numerical bulk viscosity. Reasons: nothing is liquid; something freezes, which changes densities at
+/// once; density, pressure or state are printed. Or the scene does not clamp, so that it can have no free surface or contact.
 std::string no_bulk_viscosity(const Scene& scene) {
   if (scene.inflows.empty() && !any_body(scene, is_liquid)) return "nothing is liquid";
   if (calls_for(scene, "phase")) return "where matter melts or freezes, densities change at once";
@@ -70,8 +70,8 @@ std::string no_bulk_viscosity(const Scene& scene) {
   return scene.clamps() ? "" : "the scene does not clamp";
 }
 
-/// Why the topmost layer of a liquid can bear no part of its own weight: as for the numerical bulk viscosity, nothing weighs, or
-/// a free body at the surface weighs what it likes.
+/// Why the topmost layer of a liquid can bear no part of its own weight. The reasons are those of the numerical bulk viscosity,
+/// or there is no gravity. Or a free body floats at the surface and loads it by an unknown weight.
 std::string no_surface_weight(const Scene& scene) {
   if (any_body(scene,
                [](const Scene&, const Body& b, const Material&) { return b.phase != Phase::liquid && b.motion == Motion::free; }))
@@ -168,7 +168,7 @@ std::vector<EffectKey> transport_keys() {
   };
 }
 
-/// What solids do to each other and to liquids where they touch (model 8.3).
+/// Forces of solids on each other and on liquids where they touch (model 8.3).
 std::vector<EffectKey> contact_keys() {
   using enum ValueType;
   using enum Range;
@@ -192,7 +192,7 @@ std::vector<EffectKey> contact_keys() {
   };
 }
 
-/// What stands beside the equation of state of liquids (model 8.3, 8.4).
+/// Keys of the terms beside the equation of state of liquids (model 8.3, 8.4).
 std::vector<EffectKey> pressure_keys() {
   using enum ValueType;
   using enum Range;
@@ -226,7 +226,7 @@ std::vector<EffectKey> pressure_keys() {
   };
 }
 
-/// What a material is.
+/// Keys of a material.
 std::vector<EffectKey> material_keys() {
   using enum ValueType;
   using enum Range;

@@ -13,12 +13,12 @@ namespace tripoint::fluid {
   return solid + f * (liquid - solid);
 }
 
-/// Of the solids of a scene: `material.solid_viscosity` where (8) is as printed and the key is given, else
+/// Viscosity of the solids of a scene: `material.solid_viscosity` where (8) is as printed and the key is given, else
 /// `scene.contact_viscosity` [Pa s].
 class SolidViscosity {
  public:
   explicit SolidViscosity(const Scene&);
-  /// Of a solid particle [Pa s].
+  /// Value for a solid particle [Pa s].
   [[nodiscard]] double operator()(const World&, std::size_t row) const;
   /// Whether that of any solid changes with its temperature.
   [[nodiscard]] bool follows_temperature() const noexcept { return follows_; }

@@ -14,7 +14,7 @@ namespace tripoint::fluid {
 
 namespace {
 
-/// From what the pass has summed. Weights and divergence are symmetric in a pair, so that no force of q ever gives energy.
+/// From the sums of the pass. Weights and divergence are symmetric in a pair, so that no force of q ever gives energy.
 void set_mean_pressure(World& world, const SceneNumbers& n) {
   Particles& p = world.particles;
   const auto pressure = p[field::pressure], q = p[field::bulk_pressure];

@@ -3,8 +3,8 @@
 #include "effects/fluid/material_numbers.hpp"
 #include "world/world.hpp"
 
-/// Transport velocity, the scene's choice for vortical flow without free surface [Adami, Hu, Adams 2013]: particles move
-/// with v + dt/2 (background force)/m, so that they stay even, and the momentum that the difference carries is a force.
+/// Transport velocity, the scene's choice for vortical flow without free surface [Adami, Hu, Adams 2013]. Particles move with v +
+/// dt/2 (background force)/m, so that they stay even. The momentum that the difference carries is a force.
 namespace tripoint::fluid {
 
 /// @throws InputError where the scene's choice cannot hold: free bodies, or pressure clamped at free surfaces

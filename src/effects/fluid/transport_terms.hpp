@@ -5,10 +5,10 @@
 
 namespace tripoint {
 
-/// Transport velocity [Adami, Hu, Adams 2013, J. Comput. Phys. 241, 292, (8), (13), (15)], d = r_j - r_i, w = transport
-/// velocity less velocity:
-/// background force per background pressure [m2]: sum (V_i^2 + V_j^2) (W'/r) d, which evens out the particles;
-/// stress force [N]: sum (V_i^2 + V_j^2) 1/2 (A_i + A_j).grad_i W, A = rho v w^T, the momentum that the difference carries.
+/// Transport velocity [Adami, Hu, Adams 2013, J. Comput. Phys. 241, 292, (8), (13), (15)]. d = r_j - r_i, w = transport velocity
+/// less velocity.
+/// Background force per background pressure [m2]: sum (V_i^2 + V_j^2) (W'/r) d, which evens out the particles.
+/// Stress force [N]: sum (V_i^2 + V_j^2) 1/2 (A_i + A_j).grad_i W. A = rho v w^T is the momentum that the difference carries.
 struct TransportForces {
   using reads = Keys<field::volume, field::density, field::viscous_velocity_x, field::viscous_velocity_y,
                      field::viscous_velocity_z, field::shift_x, field::shift_y, field::shift_z>;
@@ -30,10 +30,9 @@ struct TransportForces {
   }
 };
 
-/// Of liquids that the transport velocity moves (model 8.3), d = r_j - r_i:
-/// sum W (p_j - p_i) over liquid neighbours [Pa/m3], for the mean of the pressure;
-/// sum (W'/r)(v_j - v_i).d over all [1/(s m3)]: times -V_i it is the divergence of the velocity, as the rate of the number
-/// density has it.
+/// Sums for liquids that the transport velocity moves (model 8.3), d = r_j - r_i.
+/// For the mean of the pressure: sum W (p_j - p_i) over liquid neighbours [Pa/m3]. Over all neighbours: sum (W'/r)(v_j - v_i).d
+/// [1/(s m3)]. Times -V_i it is the divergence of the velocity, as the rate of the number density has it.
 struct TransportMeans {
   using reads = Keys<field::pressure, field::group, field::velocity_x, field::velocity_y, field::velocity_z>;
   using adds = Keys<field::pressure_around, field::nearing>;

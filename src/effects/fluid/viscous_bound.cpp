@@ -19,10 +19,10 @@ namespace {
 /// Rates from one bound to the next: positions change little in so few steps, and the sum costs a pass of its own.
 constexpr double rates_between = 32.0;  // [1]
 
-// Velocities are predicted to the full step by the forces of the last one (predict_velocities), so that a mode of rate lambda is
-// stable while lambda dt < 1, not 2: half of what an explicit step of the same rates bears (model 8.10). No lambda is above twice
-// the greatest of the particles' rates, so 0.5 over that one is enough in both forms. `central` takes less: at 0.3 both forms
-// have 0.46 to 0.62 of the longest stable step, as measured (docs/guards.md).
+// Velocities are predicted to the full step by the forces of the last one (predict_velocities). A mode of rate lambda is then
+// stable while lambda dt < 1, not 2. This is half the limit of an explicit step of the same rates (model 8.10). No lambda is
+// above twice the greatest rate of a particle, so 0.5 over that rate is enough in both forms. `central` takes less: at 0.3 both
+// forms have 0.46 to 0.62 of the longest stable step, as measured (docs/guards.md).
 constexpr double share_of_rate = 0.5, share_of_rate_central = 0.3;  // [1]
 
 }  // namespace

@@ -5,8 +5,8 @@
 
 namespace tripoint::fluid {
 
-/// Greatest stable step of the viscous pair forces (model 8.10), formed anew every few steps from the present places:
-/// 0.5/max_i sum_j G_ij/m_i for (8) and `laplacian`; 0.3/max_i lambda_max(sum_j G_ij e e^T/m_i) for `central`.
+/// Greatest stable step of the viscous pair forces (model 8.10), formed anew every few steps from the present places. (8) and
+/// `laplacian`: 0.5/max_i sum_j G_ij/m_i. `central`: 0.3/max_i lambda_max(sum_j G_ij e e^T/m_i).
 void update_viscous_bound(World&, const PairKernels&);
 
 }  // namespace tripoint::fluid

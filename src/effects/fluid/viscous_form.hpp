@@ -6,7 +6,7 @@
 
 namespace tripoint::fluid {
 
-/// A viscosity as the passes have it: its force, and what the bound of the step is made of.
+/// A viscosity as the passes have it: its force, and the sums for the bound of the step.
 struct ViscousForm {
   PairTerm force, spread;
   bool central;  ///< along the line of centres

@@ -21,7 +21,7 @@ constexpr int fixed_frame = -1;
 constexpr std::array<const Field<double>*, 3> seen_velocity{&field::viscous_velocity_x, &field::viscous_velocity_y,
                                                             &field::viscous_velocity_z};
 
-/// What each body moves with: all that is fixed moves as one, each driven body by itself.
+/// Frame that each body moves with: all that is fixed moves as one, each driven body by itself.
 std::vector<int> frames_of(const World& world) {
   std::vector<int> frames(world.bodies.size());
   for (std::size_t b = 0; b < frames.size(); ++b)
@@ -34,7 +34,7 @@ constexpr std::uint32_t none = ~std::uint32_t{0};
 /// Whether every wall brakes liquid: (8) as printed does so at walls that slip too.
 bool all_drag(const World& world) { return world.scene.mode_of(term::viscosity) == Mode::paper; }
 
-/// What a neighbour adds to the kernel sum of a wall particle, and what it would from its place on the lattice.
+/// Part of a neighbour in the kernel sum of a wall particle, and the part that it would have from its place on the lattice.
 struct Share {
   int id;
   double as_it_is, from_lattice;
@@ -77,7 +77,7 @@ void hand_to_copies(const World& world, std::vector<T>& by_id) {
   for (std::size_t id = 0; id < by_id.size(); ++id) by_id[id] = static_cast<T>(numbers[id]);
 }
 
-/// Puts what is known of walls that were here before to their ids. @return of each id, 1 where something is known
+/// Gives walls that were here before their known values, by id. @return of each id, 1 where something is known
 std::vector<char> Walls::recall_exposed(const World& world) {
   std::vector<char> known(world.particles.size(), 0);
   at_face_.resize(known.size());
@@ -109,7 +109,7 @@ void Walls::share_exposed(const World& world) {
 }
 
 /// Which particles lie at a face: those whose number density can in part be other than wall. And what jitter adds to the part
-/// that is fixed wall. Behind the face, where no velocity is mirrored and nothing jittered, no step reads what a wall has.
+/// that is fixed wall. Behind the face, where no velocity is mirrored and nothing jittered, no step reads the values of a wall.
 void Walls::find_exposed(World& world, const SceneNumbers& n, const PairKernels& kernels) {
   const Particles& p = world.particles;
   const auto group = p[field::group];
@@ -154,7 +154,7 @@ void Walls::find_exposed(World& world, const SceneNumbers& n, const PairKernels&
       world.unread[one] = at_face_[one] == 0 && !drags && stick[i] == 0.0 ? 1 : 0;
 }
 
-/// The faces of what is fixed, or of what is driven, with their patches.
+/// The faces of fixed walls, or of driven ones, with their patches.
 void Walls::add_faces(const World& world, bool fixed) {
   const Particles& p = world.particles;
   const auto group = p[field::group];
@@ -233,13 +233,13 @@ void Walls::find_faces(World& world, const SceneNumbers& n, const PairKernels& k
 /// The same for one number a face.
 void Walls::hand_to_copied_faces(const World& world, std::vector<double>& of) {
   if (!world.halo) return;
-  handed_.resize(world.particles.size());  // what is no face's is handed on too, and nobody reads it
+  handed_.resize(world.particles.size());  // values off the faces are handed on too, and nobody reads them
   for (std::size_t k = 0; k < face_.size(); ++k) handed_[face_[k]] = of[k];
   world.halo->refresh(handed_, 1);
   for (std::size_t k = 0; k < face_.size(); ++k) of[k] = handed_[face_[k]];
 }
 
-/// Calls give(k, sum over the patch of k of what was put to its members), for the faces that are awake.
+/// Calls give(k, sum) for the faces that are awake. The sum is over the patch of k, of the values that its members were given.
 template <class Give>
 void Walls::sum_patches(const std::vector<double>& of, int threads, Give give) const {
 #pragma omp parallel for schedule(static) num_threads(threads)
@@ -272,7 +272,7 @@ void Walls::average_density(World& world, const SceneNumbers& n, const PairKerne
   }
 }
 
-/// The transpose of the mean, twice: who is in my patch has me in its own.
+/// The transpose of the mean, twice: a particle in my patch has me in its own.
 void Walls::hand_down_shares(World& world) {
   const auto share = world.particles[field::pressure_share];
   for (std::size_t a = 0; a < awake_.size(); ++a) {

@@ -15,7 +15,7 @@ namespace tripoint::fracture {
 [[nodiscard]] constexpr bool breaks_by_stretch(const Vec3& r, const Vec3& x, double stretch) noexcept {
   return dot(r, r) > stretch * stretch * dot(x, x);
 }
-/// As printed: by distance |r| [m]. What fails: a body's long bonds break first, at a stretch that short ones bear.
+/// As printed: by distance |r| [m]. Its fault: a body's long bonds break first, at a stretch that short ones bear.
 [[nodiscard]] constexpr bool breaks_by_distance(const Vec3& r, double distance) noexcept {
   return dot(r, r) > distance * distance;
 }

@@ -86,7 +86,7 @@ std::vector<Pair> Fracture::broken(const World& world) {
   return pairs;
 }
 
-/// What stored energy and elastic strain were before bonds broke, and what becomes of them.
+/// Stored energy and elastic strain from before bonds broke, and the use of both afterwards.
 class Release {
  public:
   /// @param back time before now at which energies and strains are taken [s]
@@ -124,8 +124,8 @@ class Release {
     const Symmetric plastic = solid::plastic_strain_of(world_.particles, world_.particles.row(id));
     before_[id] = {solid::deformation_energy(world_, forms_, id, back_).total(), between(d.P, d.strain - plastic), plastic};
   }
-  /// A particle that has flowed and loses bonds sees another strain at once: eps_p goes with it, so that P (eps - eps_p) P does
-  /// not jump. Without this the tear of a plastic bar creates energy.
+  /// A particle that has flowed and loses bonds sees another strain at once. eps_p changes with it, so that P (eps - eps_p) P
+  /// does not jump. Without this the tear of a plastic bar creates energy.
   void keep_elastic_strain(std::uint32_t id) {
     const Before& before = before_.at(id);
     if (before.plastic == Symmetric{}) return;
@@ -159,7 +159,7 @@ bool Fracture::find(const World& world) {
   return !found_->empty();
 }
 
-/// A bond is in the lists of both its particles: who owns one of them sees it break.
+/// A bond is in the lists of both its particles: the owner of either of them sees it break.
 bool Fracture::wants_change(World& world) {
   back_ = 0.5 * std::exchange(drifted_, 0.0);
   return find(world);
@@ -168,8 +168,8 @@ bool Fracture::wants_change(World& world) {
 void Fracture::change(World& world) {
   if (!found_ && !find(world)) return;
   const std::vector<Pair> pairs = *std::exchange(found_, {});
-  // Of the kicks around a drift the first has the force of a bond and the second has not, so it broke half way: what it stored
-  // there is what it lets go, to second order in the step.
+  // Only the first of the two kicks around a drift has the force of a bond, so the bond broke half way. It lets go the energy
+  // that it stored there, to second order in the step.
   Release release(world, back_);
   for (const auto& [i, j] : pairs) {
     release.touch(i);

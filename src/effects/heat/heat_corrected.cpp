@@ -19,7 +19,7 @@ namespace {
 
 constexpr double moment_cut = 0.05;  ///< eigenvalues of M_i below this share of the largest count as none (model 8.6)
 
-/// H = m (c_p T + L f) [J] at the particle's temperature, and what the liquid holds more than the solid above t_melt.
+/// H = m (c_p T + L f) [J] at the particle's temperature, and the extra heat of the liquid above t_melt.
 double heat_content(const World& world, std::size_t row) {
   const Particles& p = world.particles;
   const double sensible = enthalpy_of(p[field::mass][row], p[field::heat_capacity][row], p[field::temperature][row]);
@@ -33,8 +33,8 @@ double heat_content(const World& world, std::size_t row) {
 /// Conductivity of both phases of a material [W/m/K].
 struct Conductivity {
   double solid = 0.0, liquid = 0.0;
-  /// Of a particle of the given phase. While it changes it conducts as what it becomes: the front runs through it, and the heat
-  /// that moves the front comes through the phase that grows.
+  /// Conductivity of a particle of the given phase. While it changes it conducts as the phase that it turns into. The front runs
+  /// through it, and the heat that moves the front comes through the phase that grows.
   [[nodiscard]] double of(int phase, double f) const {
     const bool is_liquid = f >= 1.0 || (f > 0.0 && phase != static_cast<int>(Phase::liquid));
     return is_liquid ? liquid : solid;
@@ -45,7 +45,7 @@ Conductivity conductivity_of(const Material& m) {
   return {m.solid_conductivity.value_or(*m.conductivity), *m.conductivity};
 }
 
-/// A particle conducts as its phase does, or as what it becomes.
+/// A particle conducts as its phase does, or as the phase that it turns into.
 void follow_phase(World& world, std::size_t row) {
   const Material& m = world.material_of(row);
   world.particles[field::conductivity][row] =
@@ -63,8 +63,8 @@ double set_temperature(World& world, std::size_t row, double temperature) {
   return p[field::enthalpy][row] - before;
 }
 
-/// H_i += change(i), T from H, and with the last stage f; what a held particle would have taken goes to the walls. Of the first
-/// stage only T is taken: f follows the heat of the whole step, whatever the way between.
+/// H_i += change(i), T from H, and with the last stage f. The heat that a held particle would have taken goes to the walls. The
+/// first stage gives T only: f follows the heat of the whole step, whatever the way between.
 template <class Change>
 void add_heat(World& world, Stage stage, Change change) {
   Particles& p = world.particles;
@@ -124,7 +124,7 @@ void CorrectedHeat::set_material(World& world, std::size_t row) const {
   p[field::enthalpy][row] = heat_content(world, row);
 }
 
-/// What flowed in brings its heat.
+/// Particles that have flowed in bring their heat.
 void CorrectedHeat::adopt(World& world) {
   for (const std::uint32_t id : world.change.born) {
     const std::size_t i = world.particles.row(id);

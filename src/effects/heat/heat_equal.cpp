@@ -22,7 +22,7 @@ void EqualHeat::load(World&, const InitialState& initial) {
     throw InputError("the scene has one temperature everywhere, and its particles have others");
 }
 
-/// What flowed in brings its heat.
+/// Particles that have flowed in bring their heat.
 void EqualHeat::adopt(World& world) {
   for (const std::uint32_t id : world.change.born)
     world.booked[account::inflow] += heat_content(world, world.particles.row(id), temperature_);

@@ -46,7 +46,7 @@ void PaperHeat::set_material(World& world, std::size_t row) const {
   world.particles[field::diffusivity][row] = one > 0.0 ? one : own;                       // the paper's c [m2/s]
 }
 
-/// What flowed in brings its heat.
+/// Particles that have flowed in bring their heat.
 void PaperHeat::adopt(World& world) {
   const Particles& p = world.particles;
   for (const std::uint32_t id : world.change.born) {

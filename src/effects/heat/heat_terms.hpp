@@ -6,8 +6,8 @@
 namespace tripoint {
 
 /// Conduction (21) as printed: dT_i/dt = c_i sum_j (m_j/rho_j) (T_j - T_i) lap W_visc(r_ij) [K/s].
-/// What fails: on the lattice its rate has a floor, 0.93 of the exact one at h/dx = 2.12 whatever the number of particles,
-/// and it keeps sum V T, not energy, where density or conductivity jump.
+/// Its faults: on the lattice its rate has a floor, 0.93 of the exact one at h/dx = 2.12 whatever the number of particles. Where
+/// density or conductivity jump, it keeps sum V T, not energy.
 struct HeatFlowPaper {
   using reads = Keys<field::volume, field::temperature, field::diffusivity>;
   using adds = Keys<field::temperature_rate, field::exchange>;
@@ -33,7 +33,7 @@ struct HeatMoment {
   }
 };
 
-/// Conduction between i and j, (21) corrected (model 8.6) [W]: equal and opposite for each pair, so that sum H is kept:
+/// Conduction between i and j, (21) corrected (model 8.6) [W]: equal and opposite for each pair, so that sum H is kept. It is
 /// G_ij (T_j - T_i), G_ij = V_i V_j [2 k_i k_j/(k_i + k_j)] [1/2 e^T (pinv M_i + pinv M_j) e] K.
 struct HeatFlowCorrected {
   using reads =

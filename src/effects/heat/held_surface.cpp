@@ -25,8 +25,8 @@ constexpr double least_distance = 0.25;
 /// apart.
 constexpr double same_place = 0.75;
 
-/// Least share of the way to a place beyond the surface that lies within the body [1]: jitter may have put the particle outside
-/// the shape, where the share would be 0. A choice, small beside least_distance.
+/// Least share, within the body, of the way to a place beyond the surface [1]. Jitter may have put the particle outside the
+/// shape, where the share would be 0. A choice, small beside least_distance.
 constexpr double least_way = 1e-3;
 
 bool acts(const Scene& scene) { return kept_number(scene.values, key_row("scene", "surface_exchange")) != 0.0; }
@@ -112,7 +112,7 @@ double way_within(const Inside& inside, const Vec3& from, const Vec3& away) {
   return 0.5 * (in + out);
 }
 
-/// Beyond a side of the domain nothing is: a body that it cuts has a plane of symmetry there.
+/// There is nothing outside the domain. Where a side of the domain cuts a body, that side is a plane of symmetry.
 bool cut_off(const Scene& scene, const Vec3& place) {
   if (!(scene.min && scene.max)) return false;
   for (std::size_t a = 0; a < 3; ++a)

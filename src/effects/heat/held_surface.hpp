@@ -9,7 +9,7 @@
 
 namespace tripoint::heat {
 
-/// Of the two-stage scheme.
+/// Stages of the two-stage scheme.
 enum class Stage { first, last };
 
 /// Temperature at which a body's surface is held [K].
@@ -19,17 +19,17 @@ enum class Stage { first, last };
 /// @throws InputError naming a body whose held surface cannot be computed: one that moves, melts or is as printed
 void refuse_held_surfaces(const Scene&);
 
-/// Surfaces of bodies whose temperature is held (model 8.6). What is missing of a particle's neighbourhood beyond the surface is
-/// filled with the places of the lattice there, whose temperature is linear along the way through the surface [Gibou, Fedkiw,
-/// Cheng, Kang 2002]. So the surface lies where the shape has it, and not half a spacing further in or out.
+/// Surfaces of bodies whose temperature is held (model 8.6). The part of a particle's neighbourhood beyond the surface is filled
+/// with lattice places. Their temperature is linear along the way through the surface [Gibou, Fedkiw, Cheng, Kang 2002]. So the
+/// surface lies where the shape has it, and not half a spacing further in or out.
 ///
-/// What is kept here follows from the particles as they were laid, and a run that goes on finds it again.
+/// The data kept here follow from the particles as they were laid, and a resumed run finds them again.
 class HeldSurfaces {
  public:
   /// Finds the places beyond. Where scene.surface_exchange is 0 the outermost particles are held at the surface's temperature.
   void load(World&, const InitialState&);
-  /// Sums of a pass start with the share of what lies beyond, not with 0: of the pass of densities M_i, of others the flow of
-  /// heat [W] and the conductance [W/K].
+  /// Sums of a pass start with the share of the places beyond, not with 0. In the pass of densities this is M_i, in others the
+  /// flow of heat [W] and the conductance [W/K].
   void start_sums(World&, PassName) const;
   /// Books the heat that a stage takes from held surfaces, on the account `walls` and by body. Call it before the stage.
   /// @param dt length of the step [s]

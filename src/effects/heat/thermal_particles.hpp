@@ -2,10 +2,10 @@
 #pragma once
 #include "effects/effect.hpp"
 
-/// What both forms of heat share: material values of particles, and temperatures held from outside.
+/// Parts that both forms of heat share: material values of particles, and temperatures held from outside.
 namespace tripoint::heat {
 
-/// Heat capacity, temperature and what is held, from the scene and the sampled state.
+/// Heat capacity, temperature and held particles, from the scene and the sampled state.
 /// @throws InputError naming the material without heat capacity or conductivity, or a scene without temperatures
 void load_common(World&, const InitialState&);
 /// Columns of one particle. @throws InputError when its material does not conduct, or its temperature [K] is not finite
@@ -23,8 +23,8 @@ using SetTemperature = double (*)(World&, std::size_t row, double temperature);
 /// Melts or freezes a particle whose temperature is set from outside [K]; nothing where the scene has no phase change.
 void set_melted(World&, std::size_t row, double temperature);
 
-/// Counts the heat that held particles hand on, body by body: what holds a body has given it what its neighbours took. @param
-/// change of a row [J]
+/// Counts the heat that held particles hand on, body by body. The source that holds a body has given it the heat that its
+/// neighbours took. @param change of a row [J]
 template <class Change>
 void book_held(World& world, Change change) {
   if (!world.bodies.has(field::body_heat.name)) return;

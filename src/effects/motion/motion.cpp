@@ -25,8 +25,8 @@ class FreeMotion : public Effect {
   std::vector<std::array<double, works>> blocks_;  ///< memory that is used again
 };
 
-/// v += dt (sum F/m + g). The work of each force is booked by its own formula, dt F.(v- + v+)/2, which sums to the change of
-/// kinetic energy to round-off (model 8.11).
+/// v += dt (sum F/m + g). The work of each force is booked by its own formula, dt F.(v- + v+)/2. The sum of these works is the
+/// change of kinetic energy to round-off (model 8.11).
 void FreeMotion::kick(World& world, double dt) {
   Particles& p = world.particles;
   const auto v = velocities(p);
@@ -38,7 +38,7 @@ void FreeMotion::kick(World& world, double dt) {
   const auto driven = guided ? std::as_const(p)[field::driven] : std::span<const int>{};
   const auto sums = ordered_sums(world, blocks_, [&](std::size_t i, std::array<double, works>& work) {
     if (is_member(i)) return;
-    if (guided && driven[i] != 0) {  // whoever moves it takes the work
+    if (guided && driven[i] != 0) {  // its driver takes the work
       for (std::size_t k = 0; k < forces.size(); ++k) work[works_on_driven + k] += dt * dot(forces[k].at(i), v.at(i));
       return;
     }

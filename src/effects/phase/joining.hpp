@@ -6,7 +6,7 @@
 #include "sph/kernels.hpp"
 #include "world/world.hpp"
 
-/// Bonds and own pairs of what freezes (model 8.9).
+/// Bonds and own pairs of freezing particles (model 8.9).
 namespace tripoint::phase {
 
 /// A pair that becomes body neighbours.
@@ -16,15 +16,15 @@ struct Joint {
   bool both;           ///< j freezes too: neither has a reference of its own yet
 };
 
-/// Makes the bonds. What freezes takes the present vectors. A deformable solid j that was there before first turns its list into
-/// the present frame, and takes the new vector in its reference, F_j^-1 r_ji: nothing of j jumps.
+/// Makes the bonds. Frozen particles take the present vectors. A deformable solid j that was there before first turns its list
+/// into the present frame. It takes the new vector in its reference, F_j^-1 r_ji: nothing of j jumps.
 void bond(World&, const std::vector<Joint>&);
 
-/// For a list without strain energy, as a member of a rigid body has that is bonded to no deformable partner: the present vectors
-/// to its bonded neighbours become its reference vectors. They differ by the body's rotation alone.
+/// Applies to a list without strain energy, as of a member of a rigid body that is bonded to no deformable partner. The present
+/// vectors to its bonded neighbours become its reference vectors. They differ by the body's rotation alone.
 void take_present_vectors(World&, const ElasticityKernel&, std::uint32_t id);
 
-/// What froze and is deformable meets the near members of its body through their bonds alone from now on.
+/// From now on frozen deformable particles meet the near members of their body through their bonds alone.
 void make_own_pairs(World&, const std::vector<std::uint32_t>& frozen);
 
 }  // namespace tripoint::phase

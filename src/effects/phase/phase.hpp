@@ -4,8 +4,9 @@
 
 #include "effects/effect.hpp"
 
-/// Change of phase (Fig. 5; model 8.9): what melts, what freezes and what that makes of bodies. Heat moves (H, f); this effect
-/// decides by f, lets the melted leave their bodies and the frozen join those that they touch, and settles the energies.
+/// Change of phase (Fig. 5; model 8.9): the particles that melt or freeze, and the bodies that result. Heat moves (H, f), and
+/// this effect decides by f. Melted particles leave their bodies, and frozen ones join the bodies that they touch. The effect
+/// settles the energies.
 namespace tripoint::phase {
 
 [[nodiscard]] EffectSpec spec(const Scene&);

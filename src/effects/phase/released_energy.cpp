@@ -14,7 +14,7 @@ void share(World& world, const std::vector<std::uint32_t>& ids, double joules) {
   for (const std::uint32_t id : ids) give_heat(world, world.particles.row(id), joules / static_cast<double>(ids.size()));
 }
 
-/// What melted from, or froze to, the body in this step; all events where none did.
+/// Particles that melted from, or froze to, the body in this step; all events where none did.
 std::vector<std::uint32_t> events_of_body(const World& world, std::size_t body) {
   const Change& change = world.change;
   const auto now = world.particles[field::body];

@@ -9,9 +9,9 @@
 
 namespace tripoint::phase {
 
-/// Energy that the events of one step set free, and who is given it as heat (model 8.9). What a particle's bonds store, before
-/// less after, is divided equally among the events that touched the particle. What the joining of a rigid body cost is divided
-/// equally among the events of that body. So the result does not depend on any order.
+/// Energy that the events of one step set free, and the particles that get it as heat (model 8.9). For each particle the energy
+/// in its bonds, before less after, is divided equally among the events that touched it. The cost of the joining of a rigid body
+/// is divided equally among the events of that body. So the result does not depend on any order.
 class ReleasedEnergy {
  public:
   using Energy = std::function<double(std::uint32_t id)>;  ///< of deformation, as the lists are [J]

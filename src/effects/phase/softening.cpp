@@ -10,7 +10,7 @@
 namespace tripoint::phase {
 namespace {
 
-/// What is left of the stiffness of a particle: all of it where its material does not soften.
+/// Remaining share of the stiffness of a particle: all of it where its material does not soften.
 class Shares {
  public:
   explicit Shares(const World& world)
@@ -50,7 +50,9 @@ void follow_stiffness(World& world) {
     const std::size_t i = p.row(id);
     if (!world.owns(i)) continue;  // a copy's list is not whole
     const double now = share_of(i);
-    if (now == share[i] || p[field::liquid_fraction][i] >= 1.0) continue;  // what melts in this step gives all that it stores
+    if (now == share[i] || p[field::liquid_fraction][i] >= 1.0)
+      continue;  // a particle that melts in this step gives all its
+                 // energy
     const double before = is_elastic(i) ? solid::deformation_energy(world, forms, id).total() : 0.0;
     share[i] = now;
     if (!is_elastic(i)) continue;

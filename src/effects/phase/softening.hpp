@@ -9,8 +9,8 @@ namespace tripoint::phase {
 [[nodiscard]] bool any_softens(const Scene&);
 /// The share of E and mu that the state of each particle leaves, at the start.
 void load_stiffness(World&);
-/// The same as the state has moved on, at the present strain: what the bonds store less is heat of the particle, and what they
-/// store more is taken from it.
+/// The same after the state has moved on, at the present strain. Energy that the bonds lose becomes heat of the particle, and
+/// energy that they gain is taken from it.
 void follow_stiffness(World&);
 
 }  // namespace tripoint::phase

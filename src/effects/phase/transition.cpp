@@ -42,10 +42,10 @@ std::vector<Partner> partners_of(const World& world, std::uint32_t id) {
   return list;
 }
 
-/// Whether what a list loses or gains changes the volume of its particle, and with it the energies of all that list it.
+/// Whether a change of a list changes the volume of its particle, and with it the energies of all that list it.
 bool volumes_follow_lists(const World& world) { return world.scene.mode_of(term::elastic) == Mode::paper; }
 
-/// What a solid particle is at this liquid fraction, of a material that may turn.
+/// Phase of a solid particle at this liquid fraction, of a material that may turn.
 Phase solid_phase(const Scene& scene, const Material& m, double f) {
   if (m.solid != SolidKind::rigid) return Phase::elastic;
   return turns_elastic(scene, m) && f > 0.0 ? Phase::elastic : Phase::rigid;
@@ -103,9 +103,9 @@ void Transition::melt(std::uint32_t id) {
   world_.particles[field::phase][i] = static_cast<int>(Phase::liquid);
 }
 
-/// Bonds stay, so that what turns elastic is joined to its mates and to nothing that it touches. What was rigid is not strained,
-/// and what becomes rigid lets its strain go: both have the present vectors. At a joint the list of a rigid member is strained
-/// with its partners, and goes on so.
+/// Bonds stay, so that a particle that turns elastic is joined to its mates and to nothing that it touches. A particle that was
+/// rigid is not strained, and one that becomes rigid lets its strain go: both have the present vectors. At a joint the list of a
+/// rigid member is strained with its partners, and stays so.
 void Transition::turn(const std::vector<std::uint32_t>& ids) {
   if (ids.empty()) return;
   Particles& p = world_.particles;

@@ -14,7 +14,7 @@ struct YieldLimits {
   double plastic = std::numeric_limits<double>::infinity();  ///< g2: largest plastic strain [1]
 };
 
-/// A strain that has flowed lies on its limit to round-off; only what is farther beyond flows, so that a second call changes no
+/// A strain that has flowed lies on its limit to round-off. Only a strain farther beyond flows, so that a second call changes no
 /// bit.
 inline constexpr double on_the_limit = 1.0 + 1e-12;
 
@@ -28,20 +28,21 @@ inline constexpr double on_the_limit = 1.0 + 1e-12;
   return std::sqrt(6.0) * shear_modulus * elastic_limit;
 }
 
-/// |eps_p| with what a sheet or chain gives way across: flow keeps the volume, though only the part within the range is stored.
+/// |eps_p| with the strain of a sheet or chain across itself: flow keeps the volume, though only the part within the range is
+/// stored.
 [[nodiscard]] inline double plastic_size(const Symmetric& plastic, int rank) noexcept {
   const double across = rank < 3 ? trace(plastic) * trace(plastic) / (3 - rank) : 0.0;
   return std::sqrt(contraction(plastic, plastic) + across);
 }
 
 /// Share of its direction by which the strain flows: 1 - g1/|e'|, 0 below the limit.
-/// @param passed what the limit is compared with   @param limit of the same unit
+/// @param passed value that the limit is compared with @param limit of the same unit
 [[nodiscard]] inline double excess(double passed, double limit) noexcept {
   return passed > limit * on_the_limit ? 1.0 - limit / passed : 0.0;
 }
 
-/// eps_p after it grew: back to g2, along itself, where it would be larger. What was larger before, as a broken bond can leave
-/// it, may stay so and not grow: flow never gives energy back.
+/// eps_p after it grew: back to g2, along itself, where it would be larger. A strain that was larger before, as a broken bond can
+/// leave it, may stay so and not grow: flow never gives energy back.
 [[nodiscard]] inline Symmetric capped(const Symmetric& grown, const Symmetric& before, int rank, double plastic_limit) noexcept {
   const double most = std::max(plastic_limit, plastic_size(before, rank)), is = plastic_size(grown, rank);
   return is > most ? (most / is) * grown : grown;
@@ -55,7 +56,7 @@ inline constexpr double on_the_limit = 1.0 + 1e-12;
   return share > 0.0 ? capped(plastic + share * e, plastic, 3, limits.plastic) : plastic;
 }
 
-/// The same of a sheet or chain, rank 2 or 1, within the range of P: e' = P (eps - eps_p) P flows where von Mises' equivalent of
+/// The same for a sheet or chain, rank 2 or 1, within the range of P. e' = P (eps - eps_p) P flows where von Mises' equivalent of
 /// its stress passes the yield stress, down to it.
 /// @param elastic e'   @param stress of e' [Pa]   @param yields yield_stress() [Pa]
 [[nodiscard]] inline Symmetric flowed_flat(const Symmetric& elastic, const Symmetric& stress, const Symmetric& plastic, int rank,

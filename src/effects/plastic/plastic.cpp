@@ -72,7 +72,7 @@ void PlasticFlow::state(World& world) {
   world.booked[account::deformation_released] += lost[0];
 }
 
-/// What melts forgets how it has flowed.
+/// Melted particles lose their plastic strain.
 void PlasticFlow::adopt(World& world) {
   for (const auto* list : {&world.change.melted, &world.change.born})
     for (const std::uint32_t id : *list) solid::set_plastic_strain(world.particles, world.particles.row(id), {});

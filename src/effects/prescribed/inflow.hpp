@@ -4,8 +4,8 @@
 
 #include "world/world.hpp"
 
-/// Liquid that flows in: layers of one spacing, which travel through the inflow's shape at its speed and are free beyond it, so
-/// that what enters never overlaps.
+/// Liquid that flows in: layers of one spacing, which travel through the inflow's shape at its speed and are free beyond it. So
+/// entering particles never overlap.
 namespace tripoint::prescribed {
 
 /// One [[inflow]] on the lattice.
@@ -34,7 +34,7 @@ class Entrance {
 };
 
 /// Particles of every inflow that entered until now, appended in order of inflow, layer and place: they become the next ids.
-/// World::change.born lists them; what they bring is booked as inflow.
+/// World::change.born lists them; the energy that they bring is booked as inflow.
 void let_in(World&, const std::vector<Entrance>&);
 /// Row in Scene::inflows of a particle that flowed in; -1 for one that was there from the start.
 [[nodiscard]] int inflow_of(const World&, std::size_t row);

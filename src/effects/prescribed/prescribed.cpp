@@ -34,7 +34,7 @@ double energy_of(const World& world, std::size_t row) {
   return world.particles[field::mass][row] * (0.5 * dot(v, v) - dot(world.scene.gravity, world.unwrapped(row)));
 }
 
-/// A particle as its guide moves it; what that costs is booked at the walls.
+/// A particle as its guide moves it; the energy that this costs is booked at the walls.
 void guide(World& world, std::size_t row, const Vec3& place, const Vec3& velocity) {
   const double before = energy_of(world, row);
   const Vec3 way = place - world.unwrapped(row);
@@ -70,8 +70,8 @@ void Prescribed::drift(World& world, double dt) {
   }
 }
 
-/// A part of a shared scene does not know the layers of its particles: it looks whether as many have entered as should have, and
-/// for what is about to leave the shape.
+/// A part of a shared scene does not know the layers of its particles. It checks whether as many have entered as should have, and
+/// whether one is about to leave the shape.
 bool Prescribed::wants_change(World& world) {
   if (entrances_.empty() || world.copies.empty()) return !entrances_.empty();
   const auto driven = std::as_const(world.particles)[field::driven];
@@ -107,7 +107,7 @@ void Prescribed::change(World& world) {
   }
 }
 
-/// What became a member of a rigid body moves with it.
+/// A particle that became a member of a rigid body moves with it.
 void Prescribed::adopt(World& world) {
   const RigidMembers is_member(world);
   const auto driven = world.particles[field::driven];

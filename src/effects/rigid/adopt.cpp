@@ -74,7 +74,7 @@ Vec3 Adoption::velocity_of(std::size_t row, int parent) const {
   return at->second.motion.velocity_at(world_.unwrapped(row));
 }
 
-/// What melted from a rigid body, or turned elastic, goes on as the body moved it.
+/// Particles that melted from a rigid body, or turned elastic, keep the velocity that the body gave them.
 void Adoption::release() {
   const auto v = velocities(world_.particles);
   for (const auto* list : {&world_.change.melted, &world_.change.frozen}) {
@@ -113,7 +113,7 @@ void Adoption::measure_anew(std::size_t b) {
   } else {
     t[field::body_velocity][b] = P / t[field::body_mass][b];
     t[field::body_angular_momentum][b] = L;
-    world_.change.kinetic_lost[b] = kinetic;  // less what is left, when L is whole
+    world_.change.kinetic_lost[b] = kinetic;  // less the rest, when L is whole
   }
 }
 

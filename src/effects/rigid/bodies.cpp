@@ -124,8 +124,8 @@ void place_members(World& world) {
   const auto orientation = world.bodies[field::body_orientation];
   const auto alive = world.bodies[field::body_alive];
   const RigidMembers is_member(world);
-  const std::size_t rows =
-      world.placed ? p.moving() : p.size();  // the first time moves members of fixed bodies too, by a rounding error
+  const std::size_t rows = world.placed ? p.moving() : p.size();  // on the first call members of fixed bodies are placed too,
+                                                                  // which shifts them by a rounding error
   world.placed = true;
   for_rows(rows, world.threads, [&](std::size_t i) {
     if (!is_member(i)) return;

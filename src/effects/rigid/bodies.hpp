@@ -9,7 +9,7 @@
 /// Rows of the body table: made from their members, and read as one value.
 namespace tripoint::rigid {
 
-/// What a body is doing, for the formulas of (18)-(20) and for merging and splitting.
+/// Motion of a body, for the formulas of (18)-(20) and for merging and splitting.
 struct BodyMotion {
   double mass = 0.0;
   Vec3 centre, velocity, L, omega;  ///< [m], [m/s], about its centre [kg m2/s], [rad/s]
@@ -26,7 +26,7 @@ struct BodyMotion {
 [[nodiscard]] double potential_energy(const World&, std::size_t body);
 
 /// Mass, centre, inertia and the members' reference places from where the members are now; the orientation stays.
-/// What the body does is not touched. A body without members dies.
+/// The motion of the body is not changed. A body without members dies.
 void measure(World&, std::size_t body);
 /// The same from the rows of its members, in order of id.
 void measure(World&, std::size_t body, const std::vector<std::size_t>& rows);
@@ -38,7 +38,7 @@ void update_spin(World&, std::size_t body);
 /// Places (and speeds) of the members from centre, orientation and reference: rigid to round-off for ever.
 void place_members(World&);
 void give_velocities(World&);
-/// Lets a fixed or prescribed body, already measured, go on as its outside drives it. @param old what it did before
+/// Lets a fixed or prescribed body, already measured, go on as its outside drives it. @param old its motion before
 void go_on_driven(World&, std::size_t body, const BodyMotion& old);
 
 }  // namespace tripoint::rigid

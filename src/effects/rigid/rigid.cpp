@@ -134,8 +134,8 @@ void push(World& world, std::size_t b, const BodyForces& f, const Vec3& g, doubl
   world.booked[account::gravity_work] += dt * m * dot(g, mean);
 }
 
-/// What forces do to a driven body goes to whoever drives it. Half a kick works along the drift that it is beside: at a
-/// keyframe the one before goes with the old velocity and the one after with the new.
+/// The work of forces on a driven body goes to its driver. Half a kick works along the drift beside it. At a keyframe the half
+/// kick before goes with the old velocity, and the one after with the new.
 void book_wall_work(World& world, std::size_t b, const std::vector<BodyForces>& forces, double dt) {
   if (forces.empty() || !world.tells_of_bodies()) return;
   const bool ends_step = world.time == world.next_time;
@@ -219,7 +219,7 @@ Motion own_motion(const World& world, std::size_t b) {
   return source < 0 ? Motion::free : world.scene.bodies[static_cast<std::size_t>(source)].motion;
 }
 
-/// Holds bodies still, or lets them go: what changes of their energy is booked at the walls.
+/// Holds bodies still, or lets them go: the change of their energy is booked at the walls.
 void set_motion(World& world, std::size_t b, Motion motion) {
   Columns& t = world.bodies;
   const double before = kinetic_energy(world, b);
@@ -247,7 +247,7 @@ void grip(World& world, const Event& event) {
   }
 }
 
-/// What a grip drove goes on freely as it moves.
+/// A body that a grip drove goes on freely with its present motion.
 void let_go(World& world, const Event& event) {
   Columns& t = world.bodies;
   for (std::size_t b = 0; b < t.size(); ++b) {

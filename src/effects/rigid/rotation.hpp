@@ -22,9 +22,9 @@ namespace tripoint {
 [[nodiscard]] Quaternion rotated_paper(const Quaternion& to_world, const Vec3& moments, const Vec3& L, double dt) noexcept;
 
 /// Splitting into a symmetric top and one axis [Fasso 2003, J. Comput. Phys. 189, 527]. With 1/I_k = 1/I_mid + d_k the isotropic
-/// part turns the body about L at |L|/I_mid, exactly and commuting with all else; what remains are two axes with the small
-/// d_k, in a symmetric sequence. Symplectic, second order, energy bounded for ever; exact for bodies with two or three equal
-/// moments; 10 to 20 times less error than NO_SQUISH at the same step: tests/effects/rotation_test.cpp.
+/// part turns the body about L at |L|/I_mid, exactly and commuting with all else. Two axes with the small d_k remain, in a
+/// symmetric sequence. Symplectic, second order, energy bounded for ever; exact for bodies with two or three equal moments. The
+/// error is 10 to 20 times less than that of NO_SQUISH at the same step: tests/effects/rotation_test.cpp.
 [[nodiscard]] Quaternion rotated_corrected(const Quaternion& to_world, const Vec3& moments, const Vec3& L, double dt) noexcept;
 
 /// Order of the principal axes in the splitting below, outer to inner; 0, 1, 2 = ascending moment.
