@@ -23,7 +23,6 @@ struct Guarded {
   Written written;
   std::string_view
       not_positive{};  ///< where values must be above 0 too: unit and the meaning of a lesser one, "K, below absolute zero"
-};                     ///< of a temperature, which must be above 0: unit and what a lesser one would be, "K, below absolute zero"
 };
 
 /// A column of whole numbers that stand for rows, or for one of so many kinds: each is `least` or above, and below `end`. A
