@@ -78,6 +78,7 @@ gallery: setup build  ## run the paper's figures, draw them as films and ray-tra
 docs: build  ## write what pages hold of the program, then the guide: build/docs/index.html
 	@build/bin/tripoint schema --page >build/case-file.md
 	@mv build/case-file.md docs/case-file.md
+	@/usr/bin/python3 -B tools/field_dictionary.py build/bin/tripoint --write docs/model.md
 	@/usr/bin/python3 -B tests/cli/pull_requests.py build/bin/tripoint --write docs/ci.md
 	@tools/docs.sh
 

@@ -127,11 +127,13 @@ TEST(FieldDictionary, SaysOfEveryFieldWhatTheCatalogueAndTheEffectsSay) {
     const auto row = page.find(name);
     const std::string right = "| `" + name + "` | " + entry.components + " | " + entry.per + " | SYMBOL | " + entry.unit + " | " +
                               entry.owners + " | MEANING |";
-    EXPECT_TRUE(row != page.end() && row->second == entry) << "docs/model.md, chapter 13, should have the row\n" << right;
+    EXPECT_TRUE(row != page.end() && row->second == entry)
+        << "docs/model.md, chapter 13, should have the row\n"
+        << right << "\nSYMBOL and MEANING stand in the fields.toml beside the declaration; make docs writes the row";
     EXPECT_NE(entry.owners, "nobody") << "no effect of any case owns " << name << ": delete it";
   }
   for (const auto& [name, entry] : page)
-    EXPECT_TRUE(code.contains(name)) << "docs/model.md, chapter 13, has the row " << name << ", which is no field: delete it";
+    EXPECT_TRUE(code.contains(name)) << "docs/model.md, chapter 13, has the row " << name << ", which is no field: make docs";
 }
 
 }  // namespace

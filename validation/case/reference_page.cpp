@@ -68,7 +68,7 @@ end_time = "2 s"
 - Tables of an array are merged key by key with the one that has the same name: `[[material]]`, `[[body]]`, `[[metric]]`, `[[defect]]` and `[[harmless]]` by `name`; `[[input]]` by `key`; `[[gate]]` by `metric`, `engine`, `mode`, `preset` and `level`; `[[study]]` by `axis`, `engine`, `mode` and `metric`. One that meets none comes after those of the other case. Bodies keep the other case's order.
 - `[[event]]`, `[[inflow]]` and every other array have no name to go by: the file's own replace all of the other case's.
 - A gate that gives `limit`, `at_least` or `band` replaces the bound of the gate that it meets, of whatever kind that was.
-- `remove` takes keys and tables out of the other case first: `"scene.jitter"`, `"engines.lammps"`, `"body.lid"`, `"body.lid.velocity"`, `"metric.overlap"` and the gates on it, `"gate.overlap"` (all gates on that metric), or all of a kind: `"study"`, `"gate"`.
+- `remove` takes keys and tables out of the other case first: `"scene.jitter"`, `"engines.lammps"`, `"body.lid"`, `"body.lid.velocity"`, `"metric.overlap"` and the gates on it, `"gate.overlap"` (all gates on that metric), or all of a kind: `"study"`, `"gate"`, `"metric"` with all gates.
 - Data and meshes that the other case names are found beside that case. Errors and gates name the file and the line where the key stands.
 - What is added to the other case later, a gate too, holds in its variants: run them as well.
 

@@ -72,6 +72,18 @@ TEST(AddedEffect, IsCalledForByItsKeyAndLeftOutForAReason) {
   EXPECT_EQ(std::ranges::find(without.fields, "drag_force.x", &PlannedField::name), without.fields.end());
 }
 
+/// The tool that writes the dictionary finds them there (tests/docs/written_test.py).
+TEST(AddedEffect, SaysInItsFolderWhatItsFieldsMean) {
+  const std::string words = text_of(root / "tests/effects/drag/fields.toml");
+  int own = 0;
+  for (const PlannedField& field : plan(scene_for(slowed_ball(), {})).fields) {
+    if (field.owner != "drag") continue;
+    ++own;
+    EXPECT_NE(words.find("\n" + field.name.substr(0, field.name.find('.')) + " = {"), std::string::npos) << field.name;
+  }
+  EXPECT_EQ(own, 3);
+}
+
 TEST(AddedEffect, BringsItsKeyToTheReaderTheSchemaAndThePage) {
   EXPECT_EQ(value_of(slowed_ball().scene.material("ball").values, "drag"), 2.0);
   EXPECT_EQ(value_of(slowed_ball({"material.ball.drag=\"0.5 1/s\""}).scene.material("ball").values, "drag"), 0.5);
@@ -265,9 +277,12 @@ TEST(AddedEffect, IsTheExampleOfThePage) {
     code.erase(0, code.find('\n') + 1);
     EXPECT_NE(page.find("```cpp\n" + code + "```"), std::string::npos) << file << " differs from the page";
   }
-  std::string defects = text_of(root / "tests/effects/drag/defects.toml");
-  defects.erase(0, defects.find('\n') + 1);
-  EXPECT_NE(page.find("```toml\n" + defects + "```"), std::string::npos) << "defects.toml differs from the page";
+  for (const char* file : {"fields.toml", "defects.toml"}) {
+    std::string data = text_of(root / "tests/effects/drag" / file);
+    ASSERT_FALSE(data.empty()) << file;
+    data.erase(0, data.find('\n') + 1);
+    EXPECT_NE(page.find("```toml\n" + data + "```"), std::string::npos) << file << " differs from the page";
+  }
   const std::string toml = text_of(root / "tests/effects/drag/slowed-ball.toml");
   EXPECT_NE(page.find("```toml\n" + toml + "```"), std::string::npos) << "the case differs from the page";
 }
