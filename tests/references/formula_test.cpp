@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "references/liquids.hpp"
 #include "references/measured.hpp"
+#include "scene/case_file.hpp"
 #include "validation/references/reference.hpp"
 
 namespace tripoint {
@@ -32,6 +35,32 @@ Snapshot two_places(double time) {
   s.time = time;
   s.position = {{1.0, 2.0, 3.0}, {0.5, 0.0, 0.0}};
   return s;
+}
+
+bool is_read(const std::string& argument, const std::string& text) {
+  const std::string file =
+      "[scene]\nend_time = 1\nspacing = 0.1\n[[material]]\nname = 'brick'\ndensity = 1000\n[[body]]\nname = 'cube'\nmaterial = "
+      "'brick'\nphase = 'rigid'\nshape = {kind = 'box', min = [0,0,0], max = [1,1,1]}\n[reference]\nkind = 'analytic'\nfunction "
+      "= "
+      "'expression'\nargs = {" +
+      argument + " = '" + text + "'}\n";
+  try {
+    static_cast<void>(test::read_text(file));
+  } catch (const InputError&) {
+    return false;
+  }
+  return true;
+}
+
+/// The reader of cases, which knows no reference, tells words from formulas by a list of its own.
+TEST(ExpressionReference, HasFormulasThatAreCheckedWhereTheCaseIsRead) {
+  const auto function = std::ranges::find(reference_functions(), "expression", &ReferenceFunction::name);
+  ASSERT_NE(function, reference_functions().end());
+  for (const ReferenceArgument& a : function->args) {
+    if (a.type != ArgumentType::formula && a.type != ArgumentType::word && a.type != ArgumentType::axis) continue;
+    EXPECT_TRUE(is_read(a.name, "t")) << a.name;
+    EXPECT_EQ(is_read(a.name, "no formula ("), a.type != ArgumentType::formula) << a.name;
+  }
 }
 
 TEST(ExpressionReference, IsAFieldOfPlaceAndTime) {
