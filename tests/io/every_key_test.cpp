@@ -28,6 +28,10 @@ template <class E>
 requires std::is_enum_v<E>
 void change(E& v) { v = static_cast<E>(1); }
 
+template <class E>
+requires std::is_enum_v<E>
+void change(std::vector<E>& v) { v = {static_cast<E>(1), static_cast<E>(2)}; }
+
 template <class Owner>
 void change_all(Owner& owner);
 
