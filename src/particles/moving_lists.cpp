@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -15,12 +16,17 @@ constexpr std::size_t of_counts = 2, of_bond = 8, of_own = 2;  ///< numbers
 
 /// The ids here of a particle, by its number: an own particle before its copies. There is one copy for each image that is near.
 class Ids {
+  using Pair = std::pair<int, std::uint32_t>;
+
  public:
   explicit Ids(const std::vector<int>& number) {
     for (std::uint32_t id = 0; id < number.size(); ++id) ids_.emplace_back(number[id], id);
     std::ranges::sort(ids_);
   }
-  [[nodiscard]] auto of(int number) const { return std::ranges::equal_range(ids_, number, {}, &Pair::first); }
+  [[nodiscard]] std::span<const Pair> of(int number) const {
+    const auto from = std::ranges::lower_bound(ids_, number, {}, &Pair::first);
+    return {from, std::ranges::upper_bound(from, ids_.end(), number, {}, &Pair::first)};
+  }
   /// The one that has the bonds: places are told apart by the nearest image, so that any image will do. none where it is not here
   [[nodiscard]] std::uint32_t first(int number) const {
     const auto found = of(number);
@@ -29,7 +35,6 @@ class Ids {
   static constexpr std::uint32_t none = ~std::uint32_t{0};
 
  private:
-  using Pair = std::pair<int, std::uint32_t>;
   std::vector<Pair> ids_;
 };
 

@@ -38,7 +38,8 @@ double expression_speed(const std::array<std::string, 3>& text, const Bounds& bo
   const std::array<Expression, 3> value{Expression(text[0]), Expression(text[1]), Expression(text[2])};
   double most = 0.0;
   for (int n = 0; n < points * points * points; ++n) {
-    const Vec3 share{n % points / (points - 1.0), n / points % points / (points - 1.0), n / (points * points) / (points - 1.0)};
+    const int column = n % points, row = n / points % points, layer = n / (points * points);
+    const Vec3 share{column / (points - 1.0), row / (points - 1.0), layer / (points - 1.0)};
     Vec3 r;
     for (std::size_t a = 0; a < 3; ++a) r[a] = box.min[a] + share[a] * (box.max[a] - box.min[a]);
     if (const double v = norm(Vec3{value[0](r), value[1](r), value[2](r)}); std::isfinite(v)) most = std::max(most, v);

@@ -11,6 +11,7 @@ namespace tripoint {
 template <class T>
 std::vector<std::string> names_of(const std::vector<T>& list) {
   std::vector<std::string> names;
+  names.reserve(list.size());
   for (const auto& t : list) names.push_back(t.name);
   return names;
 }

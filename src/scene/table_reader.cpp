@@ -292,7 +292,7 @@ std::vector<double> TableReader::numbers_in(std::string_view unit, std::string_v
   const Found f = find(key);
   Key row = *f.row;
   row.unit = unit;
-  const auto values = numbers_of(f.value ? *f.value : fallback_value(row), row, path_of(key));
+  auto values = numbers_of(f.value ? *f.value : fallback_value(row), row, path_of(key));
   record(f, show(values));
   return values;
 }

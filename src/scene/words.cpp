@@ -25,6 +25,7 @@ const T& by_name(const std::vector<T>& list, std::string_view name, const char* 
   const auto found = std::find_if(list.begin(), list.end(), [&](const T& t) { return t.name == name; });
   if (found != list.end()) return *found;
   std::vector<std::string> names;
+  names.reserve(list.size());
   for (const auto& t : list) names.push_back(t.name);
   throw InputError(std::string("no ") + what + " is named `" + printable(name) + "`" + suggestion(name, names));
 }

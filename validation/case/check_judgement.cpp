@@ -54,7 +54,7 @@ class JudgementChecker : NameChecks {
                                                       printable(name), suggestion(name, known), printable(name)));
   }
 
-  void known_metric(std::string name, const std::string& key, const SourcePlace& table) const {
+  void known_metric(const std::string& name, const std::string& key, const SourcePlace& table) const {
     const auto known = names_of(case_.metrics);
     if (holds(known, name)) return;
     std::string of = name;
