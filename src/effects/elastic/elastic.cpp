@@ -45,7 +45,7 @@ void Elastic::adopt(World& world) {
   std::vector<std::uint32_t> ids = world.change.relisted;
   ids.insert(ids.end(), world.change.regrouped.begin(), world.change.regrouped.end());
   std::ranges::sort(ids);
-  ids.erase(std::ranges::unique(ids).begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   solid::refresh_shapes(world, ids);
 }
 

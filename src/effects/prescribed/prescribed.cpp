@@ -134,10 +134,9 @@ void Prescribed::happen(World& world, const Happening& now) {
     if (grips && now.begins && body[i] >= 0 && inside(world.unwrapped(i))) {
       driven[i] = number;
       place.set(i, world.unwrapped(i));
-    } else if (grips && !now.begins && driven[i] == number) {
-      driven[i] = 0;
-    } else if (releases && driven[i] >= driven_grip &&
-               named(event, world.scene.events[static_cast<std::size_t>(driven[i] - driven_grip)].name)) {
+    } else if ((grips && !now.begins && driven[i] == number) ||
+               (releases && driven[i] >= driven_grip &&
+                named(event, world.scene.events[static_cast<std::size_t>(driven[i] - driven_grip)].name))) {
       driven[i] = 0;
     } else if (holds || releases) {
       const auto source = static_cast<std::size_t>(p[field::source][i]);
