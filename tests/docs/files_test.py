@@ -159,6 +159,7 @@ class Trajectory(unittest.TestCase):
         told = words("TERM", "holds")
         code = "".join(file.read_text() for file in (SOURCE / "src").rglob("*.cpp"))
         known = set(re.findall(r'energy\["(\w+)"\]', code)) | set(re.findall(r'\.entry = "(\w+)"', code))
+        known |= set(re.findall(r'const char\* \w+ = "(\w+)"', (SOURCE / "src/scene/ledger_entry.hpp").read_text()))
         self.assertEqual(told, known)
         written = {path.rpartition("energy_")[2] for _, path, _ in self.elements() if "/energy_" in path}
         self.assertLessEqual(written, told)
