@@ -131,12 +131,11 @@ Neighbours::Awake Neighbours::awake_rows(const Particles& particles, const Grid&
   const auto x = positions(particles);
   const auto body = particles[field::body];
   Awake found;
-  auto& [rows, part, can_meet] = found;
   std::vector<char> moving(still_.first.size() - 1, 0);
   const auto wake = [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) {
       if (body[i] >= 0 && resting.bodies[static_cast<std::size_t>(body[i])]) continue;
-      rows.push_back(static_cast<std::uint32_t>(i));
+      found.rows.push_back(static_cast<std::uint32_t>(i));
       std::array<int, 3> s = Grid::stretch(grid.place(x.at(i)));
       for (std::size_t a = 0; a < 3; ++a) s[a] = std::min(s[a], still_.count[a] - 1);
       moving[still_.index(s)] = 1;
@@ -146,17 +145,17 @@ Neighbours::Awake Neighbours::awake_rows(const Particles& particles, const Grid&
   if (particles.moving() < n) wake(built_.size(), n);
   const std::vector<char> meets = within(moving, support_ + skin_), near = within(meets, support_ + skin_),
                           awake = resting.around > support_ + skin_ ? within(meets, resting.around) : near;
-  part.assign(rows.size(), moves);
-  can_meet.assign(rows.size(), 1);
+  found.part.assign(found.rows.size(), moves);
+  found.can_meet.assign(found.rows.size(), 1);
   for (std::size_t s = 0; s < awake.size(); ++s) {
     if (!awake[s]) continue;
     for (std::size_t k = still_.first[s]; k < still_.first[s + 1]; ++k) {
       const std::uint32_t one = still_.id[k];
       const bool unread = !resting.unread.empty() && resting.unread[one] != 0;
       if (unread && !near[s]) continue;
-      rows.push_back(static_cast<std::uint32_t>(particles.row(one)));
-      part.push_back(unread ? asleep : read);
-      can_meet.push_back(meets[s]);
+      found.rows.push_back(static_cast<std::uint32_t>(particles.row(one)));
+      found.part.push_back(unread ? asleep : read);
+      found.can_meet.push_back(meets[s]);
     }
   }
   return found;
