@@ -148,12 +148,11 @@ class WendlandC2 {
 struct Core {
   double stiffness = 0.0;  ///< kappa [N/m]
   double reach = 0.0;      ///< scene.core_reach times dx [m]
-  /// Repulsion over r, kappa (reach/r - 1) [N/m]; 0 at r = 0, where it has no direction. @param r [m]   @param per_r2 1/r^2
-  /// [1/m2]
+  /// Repulsion over r, kappa (reach/r - 1) [N/m]; finite at r = 0, so that its product with r is 0. @param r [m]
+  /// @param per_r2 1/r^2, finite at r = 0 [1/m2]
   template <class V>
   [[nodiscard]] V force_over_r(V r, V per_r2) const noexcept {
-    const V repulsion = r < reach ? stiffness * (reach * (r * per_r2) - 1.0) : 0.0;
-    return r > 0.0 ? repulsion : 0.0;
+    return r < reach ? stiffness * (reach * (r * per_r2) - 1.0) : 0.0;
   }
   /// Energy of one pair [J]. @param r [m]
   [[nodiscard]] double energy(double r) const noexcept { return r < reach ? 0.5 * stiffness * (reach - r) * (reach - r) : 0.0; }

@@ -32,12 +32,20 @@ struct Keys {
 /// Geometry of a pair that every term gets.
 template <class V>
 struct PairGeometry {
-  V dx, dy, dz;     ///< r_j - r_i [m]
-  V r2, r;          ///< its square [m2], |r_j - r_i| [m]; values that no term asks for are not formed
-  V per_r2;         ///< 1/r^2; where r is 0, a number that keeps products with dx, dy, dz and r at 0 [1/m2]
-  V gradient;       ///< W'(r)/r of the Wendland kernel [1/m5]
-  MaskOf<V> apart;  ///< not an own pair, two members of one deformable body that meet through their bonds alone
+  V dx, dy, dz;      ///< r_j - r_i [m]
+  V r2, r;           ///< its square [m2], |r_j - r_i| [m]; values that no term asks for are not formed
+  V per_r2;          ///< 1/r^2; where r is 0, a number that keeps products with dx, dy, dz and r at 0 [1/m2]
+  V gradient;        ///< W'(r)/r of the Wendland kernel [1/m5]
+  MaskOf<V> within;  ///< within the support
+  MaskOf<V> apart;   ///< within, and not an own pair, two members of one deformable body that meet through their bonds alone
   const PairKernels& kernels;
+};
+
+/// A term that says that it adds 0 beyond the support by itself: each of its parts has a factor that is `where` g.within or
+/// g.apart. The pass then masks none of its sums, which saves up to a sixth of its time.
+template <class Term>
+concept ZeroBeyond = requires {
+  requires Term::zero_beyond;
 };
 
 /// Adds w d d^T, d = r_j - r_i: xx, yy, zz, yz, xz, xy.
@@ -135,27 +143,30 @@ template <std::size_t n, class Make>
   (std::make_index_sequence<n>{});
 }
 
-/// Adds a term's part of a pair to its sums, for the members whose lane is in `acting`. The sums of the others keep their bits.
+/// Adds a term's part of a pair to its sums, for the members within whose support j is. The sums of the others keep their bits.
 /// @tparam mention first of the term's fields among those of all terms @param i, j fields that all terms read, each once @param
 /// sum the term's first
-template <class Fields, class Term, std::size_t mention, class V, class Mask>
-void add_term(const PairGeometry<V>& g, Mask acting, const std::array<V, Fields::reads>& i, const std::array<V, Fields::reads>& j,
-              V* sum) {
+template <class Fields, class Term, std::size_t mention, class V>
+void add_term(const PairGeometry<V>& g, const std::array<V, Fields::reads>& i, const std::array<V, Fields::reads>& j, V* sum) {
   constexpr std::size_t reads = Term::reads::size, adds = Term::adds::size;
   const std::array<V, reads> of_i = array_of<reads>([&](auto k) { return i[Fields::unique.where[mention + k]]; });
   const std::array<V, reads> of_j = array_of<reads>([&](auto k) { return j[Fields::unique.where[mention + k]]; });
   std::array<V, adds> next = array_of<adds>([&](auto k) { return sum[k]; });
   Term::template pair<V>(g, std::span<const V, reads>(of_i), std::span<const V, reads>(of_j), std::span<V, adds>(next));
-  for (std::size_t k = 0; k < adds; ++k) sum[k] = acting ? next[k] : sum[k];
+  for (std::size_t k = 0; k < adds; ++k) {
+    if constexpr (ZeroBeyond<Term>)
+      sum[k] = next[k];
+    else
+      sum[k] = g.within ? next[k] : sum[k];
+  }
 }
 
-template <class Fields, class V, class Mask, std::size_t mention, std::size_t sums>
-void add_terms(const PairGeometry<V>&, Mask, const std::array<V, Fields::reads>&, const std::array<V, Fields::reads>&, V*) {}
-template <class Fields, class V, class Mask, std::size_t mention, std::size_t sums, class Term, class... More>
-void add_terms(const PairGeometry<V>& g, Mask acting, const std::array<V, Fields::reads>& i,
-               const std::array<V, Fields::reads>& j, V* sum) {
-  add_term<Fields, Term, mention>(g, acting, i, j, sum + sums);
-  add_terms<Fields, V, Mask, mention + Term::reads::size, sums + Term::adds::size, More...>(g, acting, i, j, sum);
+template <class Fields, class V, std::size_t mention, std::size_t sums>
+void add_terms(const PairGeometry<V>&, const std::array<V, Fields::reads>&, const std::array<V, Fields::reads>&, V*) {}
+template <class Fields, class V, std::size_t mention, std::size_t sums, class Term, class... More>
+void add_terms(const PairGeometry<V>& g, const std::array<V, Fields::reads>& i, const std::array<V, Fields::reads>& j, V* sum) {
+  add_term<Fields, Term, mention>(g, i, j, sum + sums);
+  add_terms<Fields, V, mention + Term::reads::size, sums + Term::adds::size, More...>(g, i, j, sum);
 }
 
 /// Adds the sums of a cluster to a column. A part of a vector is added lane by lane: the rows beyond are another cluster's.
@@ -215,19 +226,20 @@ template <int L, class ForUnit, bool finds, class... Terms>
       const V r2 = dx * dx + dy * dy + dz * dz;
       // Particles within the support are near, because nothing has moved by more than half the skin. A member is the exception:
       // it is not near to itself.
-      Mask acting = r2 < t.support2;
+      Mask within_support = r2 < t.support2;
       if (entry.bits - members_bits < static_cast<std::uint32_t>(L)) [[unlikely]]
-        acting &= mask_of<L>(t.near[e]);
-      const Mask apart = mask_of<L>(any_own ? ~t.own[e] : ~0u);
+        within_support &= mask_of<L>(t.near[e]);
+      Mask apart = within_support;
+      if (any_own) apart &= mask_of<L>(~t.own[e]);
       if (finds)
         found |= left & -left &
                  -static_cast<std::uint64_t>(
                      any_below(r2, t.support2));  // no branch, which would often be guessed wrong; a member itself does no harm
       const V r = root(r2);
       const auto j = array_of<Fields::reads>([&](auto k) { return every_lane<V>(column[k][row_j]); });
-      const PairGeometry<V> g{dx,    dy,     dz, r2, r, 1.0 / (r2 + 1e-300), kernels.wendland.derivative_over_r_inside(r),
-                              apart, kernels};
-      add_terms<Fields, V, Mask, 0, 0, Terms...>(g, acting, i, j, sum.data());
+      const PairGeometry<V> g{
+          dx, dy, dz, r2, r, 1.0 / (r2 + 1e-300), kernels.wendland.derivative_over_r_inside(r), within_support, apart, kernels};
+      add_terms<Fields, V, 0, 0, Terms...>(g, i, j, sum.data());
     }
     if (finds && within) *within++ = found;
   }

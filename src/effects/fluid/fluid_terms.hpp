@@ -12,6 +12,7 @@ namespace tripoint {
 /// Number density (model 8.2) [Solenthaler & Pajarola 2008]: delta_i = sum_j W(r_ij) [1/m3]. The particle itself and its own
 /// pairs are added before the pass. The division by the kernel's lattice sum follows it.
 struct NumberDensity {
+  static constexpr bool zero_beyond = true;
   using reads = Keys<>;
   using adds = Keys<field::number_density>;
   template <class V>
@@ -31,6 +32,7 @@ template <class V>
 /// the lattice (decision 6). The core energy 1/2 kappa (b - r)^2, b = scene.core_reach dx, is added. It keeps pairs apart where
 /// the clamp leaves no repulsion.
 struct PressureCorrected {
+  static constexpr bool zero_beyond = true;
   using reads = Keys<field::pressure_share, field::group>;
   using adds = Keys<field::force_x, field::force_y, field::force_z>;
   template <class V>
@@ -47,6 +49,7 @@ struct PressureCorrected {
 /// Pressure force (7) as printed [N]: F_i = -sum_j V_i V_j (p_i + p_j)/2 grad_i W_spiky, V = m/rho of (4).
 /// Its faults: it tends to half of grad p, and a clamped mixture of two kernels does not keep energy in contacts.
 struct PressurePaper {
+  static constexpr bool zero_beyond = true;
   using reads = Keys<field::volume, field::pressure, field::group>;
   using adds = Keys<field::force_x, field::force_y, field::force_z>;
   template <class V>
@@ -98,6 +101,7 @@ inline void add_viscous_force(V G, std::span<const V, 8> i, std::span<const V, 8
 /// Viscous force (8) as printed [N]: F_i = sum_j V_i V_j (mu_i + mu_j)/2 (v_j - v_i) lap W_visc.
 /// Its faults: walls slip, the lattice factor is 0.93, and a rigidly turning liquid ball is braked.
 struct ViscosityPaper {
+  static constexpr bool zero_beyond = true;
   using reads = ViscousKeys;
   using adds = ViscousForce;
   /// G_ij [kg/s]
@@ -117,6 +121,7 @@ struct ViscosityPaper {
 /// `laplacian` (model 8.5) [N]: F_i = sum_j (V_i^2 + V_j^2) mu_ij (-W'/r)(v_j - v_i) over the kernel's lattice moment.
 /// For wall-bounded shear only: it does not keep angular momentum.
 struct ViscosityLaplacian {
+  static constexpr bool zero_beyond = true;
   using reads = ViscousKeys;
   using adds = ViscousForce;
   /// G_ij [kg/s]
@@ -138,6 +143,7 @@ struct ViscosityLaplacian {
 /// line of centres, so angular momentum is kept and a rigid rotation feels nothing. `weighted`: for isotropic shear.
 template <bool weighted>
 struct ViscosityCentralOf {
+  static constexpr bool zero_beyond = true;
   using reads = ViscousKeys;
   using adds = ViscousForce;
   /// G_ij [kg/s], of the velocity along the line of centres
@@ -172,6 +178,7 @@ template <class Viscosity>
 struct ViscousSpread {
   static constexpr bool central =
       std::is_same_v<Viscosity, ViscosityCentral> || std::is_same_v<Viscosity, ViscosityCentralWeighted>;
+  static constexpr bool zero_beyond = true;
   using reads = ViscousKeys;
   using adds = Keys<field::force_x, field::force_y, field::force_z, field::viscous_force_x, field::viscous_force_y,
                     field::viscous_force_z>;

@@ -9,12 +9,13 @@ namespace tripoint {
 /// Its faults: on the lattice its rate has a floor, 0.93 of the exact one at h/dx = 2.12 whatever the number of particles. Where
 /// density or conductivity jump, it keeps sum V T, not energy.
 struct HeatFlowPaper {
+  static constexpr bool zero_beyond = true;
   using reads = Keys<field::volume, field::temperature, field::diffusivity>;
   using adds = Keys<field::temperature_rate, field::exchange>;
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 3> i, std::span<const V, 3> j, std::span<V, 2> sum) {
     const V V_j = j[0], T_j = j[1], T_i = i[1], c_i = i[2];
-    const V a = c_i * V_j * g.kernels.viscosity.laplacian_inside(g.r);
+    const V a = where(g.within, c_i * V_j * g.kernels.viscosity.laplacian_inside(g.r));
     sum[0] += a * (T_j - T_i);
     sum[1] += a;
   }
@@ -23,19 +24,21 @@ struct HeatFlowPaper {
 /// Second moment M_i = 1/2 sum_j V_j K r r^T, K = -2 W'(r)/r (model 8.6): the unit matrix in a bulk that is fine enough. It is
 /// summed to the columns of its inverse, and inverted there.
 struct HeatMoment {
+  static constexpr bool zero_beyond = true;
   using reads = Keys<field::rest_volume>;
   using adds = Keys<field::moment_inverse_xx, field::moment_inverse_yy, field::moment_inverse_zz, field::moment_inverse_yz,
                     field::moment_inverse_xz, field::moment_inverse_xy>;
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 1>, std::span<const V, 1> j, std::span<V, 6> sum) {
     const V V_j = j[0];
-    add_outer(V_j * -g.gradient, g, sum);  // 1/2 V_j K
+    add_outer(where(g.within, V_j * -g.gradient), g, sum);  // 1/2 V_j K
   }
 };
 
 /// Conduction between i and j, (21) corrected (model 8.6) [W]: equal and opposite for each pair, so that sum H is kept. It is
 /// G_ij (T_j - T_i), G_ij = V_i V_j [2 k_i k_j/(k_i + k_j)] [1/2 e^T (pinv M_i + pinv M_j) e] K.
 struct HeatFlowCorrected {
+  static constexpr bool zero_beyond = true;
   using reads =
       Keys<field::rest_volume, field::conductivity, field::temperature, field::moment_inverse_xx, field::moment_inverse_yy,
            field::moment_inverse_zz, field::moment_inverse_yz, field::moment_inverse_xz, field::moment_inverse_xy>;
@@ -51,7 +54,7 @@ struct HeatFlowCorrected {
     const V rAr = A_xx * (g.dx * g.dx) + A_yy * (g.dy * g.dy) + A_zz * (g.dz * g.dz) +
                   2.0 * (A_yz * (g.dy * g.dz) + A_xz * (g.dx * g.dz) + A_xy * (g.dx * g.dy));
     const V moment = rAr * g.per_r2;  // e^T A e
-    const V G = (V_i * V_j) * (k * moment) * -g.gradient;
+    const V G = where(g.within, (V_i * V_j) * (k * moment) * -g.gradient);
     sum[0] += G * (T_j - T_i);
     sum[1] += G;
   }
