@@ -110,7 +110,7 @@ void Simulation::sum(PassName name) {
 /// What changes its phase, its body or its lists: decided by some effects, followed by all, and then settled.
 void Simulation::change() {
   const StageTimer timer(options_.stage_seconds, Stage::change);
-  world_.change = {};
+  world_.change.clear();
   for (const Active& a : effects_) {
     if (!a.spec.changes || !wants_change(a)) continue;
     const DeclaredView view(world_, a);

@@ -30,6 +30,13 @@ struct Change {
   std::vector<std::size_t> bodies;             ///< rows of bodies that gained or lost members, ascending
   std::map<std::size_t, double> kinetic_lost;  ///< body row -> kinetic energy that joining cost [J], as the rigid effect finds it
   [[nodiscard]] bool empty() const { return born.empty() && regrouped.empty() && relisted.empty() && bodies.empty(); }
+  /// Forgets all, and keeps the memory of the lists.
+  void clear() {
+    for (auto* list : {&born, &melted, &frozen, &regrouped, &relisted}) list->clear();
+    came_from.clear();
+    bodies.clear();
+    kinetic_lost.clear();
+  }
 };
 
 /// Rows from..to-1.

@@ -87,9 +87,8 @@ void drive(World& world, std::size_t b, double time) {
   t[field::body_angular_momentum][b] = spin_momentum(world, b);
 }
 
-bool is_fixed(const World& world, std::size_t b) {
-  return world.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed);
-}
+/// Of a body that is alive and rigid.
+Motion motion_now(const World& world, std::size_t b) { return static_cast<Motion>(world.bodies[field::body_motion][b]); }
 
 bool at_rest(const World& world, std::size_t b) {
   return world.bodies[field::body_velocity][b] == Vec3{} && world.bodies[field::body_angular_momentum][b] == Vec3{};
@@ -179,9 +178,10 @@ void RigidBodies::kick(World& world, double dt) {
   static const BodyForces none;
   bool any = false;
   for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-    if (!is_alive(world, b) || !is_rigid(world, b) || is_fixed(world, b)) continue;
+    if (!is_alive(world, b) || !is_rigid(world, b) || motion_now(world, b) == Motion::fixed) continue;
     any = true;
-    is_free(world, b) ? push(world, b, forces_.empty() ? none : forces_[b], g, dt) : book_wall_work(world, b, forces_, dt);
+    motion_now(world, b) == Motion::free ? push(world, b, forces_.empty() ? none : forces_[b], g, dt)
+                                         : book_wall_work(world, b, forces_, dt);
   }
   if (any) give_velocities(world);
 }
@@ -190,8 +190,8 @@ void RigidBodies::drift(World& world, double dt) {
   Columns& t = world.bodies;
   bool any = false;
   for (std::size_t b = 0; b < t.size(); ++b) {
-    if (!is_alive(world, b) || !is_rigid(world, b) || is_fixed(world, b)) continue;
-    if (is_free(world, b)) {
+    if (!is_alive(world, b) || !is_rigid(world, b) || motion_now(world, b) == Motion::fixed) continue;
+    if (motion_now(world, b) == Motion::free) {
       if (at_rest(world, b)) continue;
       t[field::body_centre][b] += dt * t[field::body_velocity][b];
       const double before = kinetic_energy(world, b);
