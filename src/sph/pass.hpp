@@ -185,6 +185,30 @@ void add_to(double* target, typename Lanes<L>::Real sum, unsigned members) {
 
 inline constexpr double nowhere = 1e200;  ///< its square is more than any [m]
 
+/// Looks at the entries of a cluster that a pass has to look at, in list order.
+/// @param meet called as meet(e); 1 where entry e is within the support of a member. @tparam finds whether that is kept
+template <bool finds, class Meet>
+void for_entries(const PassTask& t, std::size_t cluster, Meet meet) {
+  const std::size_t start = t.start[cluster], end = t.start[cluster + 1];
+  std::uint64_t* within = t.within ? t.within + within_start(start, cluster) : nullptr;
+  const std::uint64_t* only = t.only ? t.only + within_start(start, cluster) : nullptr;
+  for (std::size_t from = start; from < end; from += within_bits) {
+    const std::size_t count = std::min(end - from, within_bits);
+    std::uint64_t left = ~std::uint64_t{0} >> (within_bits - count), found = 0;
+    if (!finds && within) left = *within++;
+    if (only) left &= *only++;
+    if (finds && !only) {  // all of them: a count costs less than a search for bits
+      for (std::size_t n = 0; n < count; ++n) found |= meet(from + n) << n;
+    } else {
+      for (; left != 0; left &= left - 1) {
+        const auto n = static_cast<std::size_t>(std::countr_zero(left));
+        found |= meet(from + n) << n;
+      }
+    }
+    if (finds && within) *within++ = found;
+  }
+}
+
 /// Every member sums over all its j in list order; nothing is written to j. Each term sums into registers of its own, so that its
 /// bits are the same alone and beside others, and in vectors of any width.
 /// @tparam finds which entries are within the support of a member, for the passes that follow: a root for one that is not is lost
@@ -205,44 +229,34 @@ template <int L, class ForUnit, bool finds, class... Terms>
   const PairKernels& kernels = *t.kernels;
   const bool any_own = t.own != nullptr;
   const std::uint32_t members_bits = Entry::of(static_cast<std::uint32_t>(row), Entry::box_itself).bits;
-  const std::size_t start = t.start[cluster], end = t.start[cluster + 1];
-  std::uint64_t* within = t.within ? t.within + within_start(start, cluster) : nullptr;
-  const std::uint64_t* only = t.only ? t.only + within_start(start, cluster) : nullptr;
-  for (std::size_t from = start; from < end; from += within_bits) {
-    std::uint64_t left = ~std::uint64_t{0} >> (within_bits - std::min(end - from, within_bits)), found = 0;
-    if (!finds && within) left = *within++;
-    if (only) left &= *only++;
-    for (; left != 0; left &= left - 1) {
-      const std::size_t e = from + static_cast<std::size_t>(std::countr_zero(left));
-      const Entry entry{t.entries[e]};
-      const std::size_t row_j = entry.row();
-      V dx = t.x[row_j] - xi, dy = t.y[row_j] - yi, dz = t.z[row_j] - zi;
-      if (entry.image() != Entry::box_itself) [[unlikely]] {
-        const Vec3& s = t.shift[entry.image()];
-        dx += s.x;
-        dy += s.y;
-        dz += s.z;
-      }
-      const V r2 = dx * dx + dy * dy + dz * dz;
-      // Particles within the support are near, because nothing has moved by more than half the skin. A member is the exception:
-      // it is not near to itself.
-      Mask within_support = r2 < t.support2;
-      if (entry.bits - members_bits < static_cast<std::uint32_t>(L)) [[unlikely]]
-        within_support &= mask_of<L>(t.near[e]);
-      Mask apart = within_support;
-      if (any_own) apart &= mask_of<L>(~t.own[e]);
-      if (finds)
-        found |= left & -left &
-                 -static_cast<std::uint64_t>(
-                     any_below(r2, t.support2));  // no branch, which would often be guessed wrong; a member itself does no harm
-      const V r = root(r2);
-      const auto j = array_of<Fields::reads>([&](auto k) { return every_lane<V>(column[k][row_j]); });
-      const PairGeometry<V> g{
-          dx, dy, dz, r2, r, 1.0 / (r2 + 1e-300), kernels.wendland.derivative_over_r_inside(r), within_support, apart, kernels};
-      add_terms<Fields, V, 0, 0, Terms...>(g, i, j, sum.data());
+  // Adds the pairs with entry e to the sums. @return 1 where it is within the support of a member: no branch, which would often
+  // be guessed wrong; a member itself does no harm
+  const auto meet = [&](std::size_t e) -> std::uint64_t {
+    const Entry entry{t.entries[e]};
+    const std::size_t row_j = entry.row();
+    V dx = t.x[row_j] - xi, dy = t.y[row_j] - yi, dz = t.z[row_j] - zi;
+    if (entry.image() != Entry::box_itself) [[unlikely]] {
+      const Vec3& s = t.shift[entry.image()];
+      dx += s.x;
+      dy += s.y;
+      dz += s.z;
     }
-    if (finds && within) *within++ = found;
-  }
+    const V r2 = dx * dx + dy * dy + dz * dz;
+    // Particles within the support are near, because nothing has moved by more than half the skin. A member is the exception:
+    // it is not near to itself.
+    Mask within_support = r2 < t.support2;
+    if (entry.bits - members_bits < static_cast<std::uint32_t>(L)) [[unlikely]]
+      within_support &= mask_of<L>(t.near[e]);
+    Mask apart = within_support;
+    if (any_own) apart &= mask_of<L>(~t.own[e]);
+    const V r = root(r2);
+    const auto j = array_of<Fields::reads>([&](auto k) { return every_lane<V>(column[k][row_j]); });
+    const PairGeometry<V> g{
+        dx, dy, dz, r2, r, 1.0 / (r2 + 1e-300), kernels.wendland.derivative_over_r_inside(r), within_support, apart, kernels};
+    add_terms<Fields, V, 0, 0, Terms...>(g, i, j, sum.data());
+    return finds ? any_below(r2, t.support2) : 0;
+  };
+  for_entries<finds>(t, cluster, meet);
   for (std::size_t k = 0; k < Fields::adds; ++k) add_to<L>(t.columns[Fields::reads + k] + row, sum[k], members);
 }
 
