@@ -8,7 +8,7 @@ OUT ?= report
 .DEFAULT_GOAL := help
 MAKEFLAGS += --no-print-directory
 
-.PHONY: help setup build test validate test-fresh test-image test-package faults bench bench-peers gallery docs wheel sbom fuzz clean
+.PHONY: help setup build test validate test-fresh test-image test-package faults bench bench-peers gallery pages docs wheel sbom fuzz clean
 
 help:  ## this text
 	@echo 'tripoint: one scene in our SPH solver, in Bullet, in LAMMPS and in exact solutions, compared and judged.'
@@ -75,11 +75,13 @@ gallery: setup build  ## run the paper's figures, draw them as films and ray-tra
 	@build/bin/tripoint validate paper --profile commit --engines tripoint --out $(OUT)/gallery --jobs $(JOBS) --no-report --no-history || test -f $(OUT)/gallery/results.json
 	@/usr/bin/python3 reports/gallery.py $(OUT)/gallery/results.json build/bin/tripoint
 
-docs: build  ## write what pages hold of the program, then the guide: build/docs/index.html
+pages: build  ## write what pages hold of the program: keys, metrics, fields, the comments of docs/ci.md
 	@build/bin/tripoint schema --page >build/case-file.md
 	@mv build/case-file.md docs/case-file.md
 	@/usr/bin/python3 -B tools/field_dictionary.py build/bin/tripoint --write docs/model.md
 	@/usr/bin/python3 -B tests/cli/pull_requests.py build/bin/tripoint --write docs/ci.md
+
+docs: pages  ## the same, then the guide: build/docs/index.html
 	@tools/docs.sh
 
 clean:  ## remove build/ and every report; .venv, .venv-peers and .venv-engines stay
