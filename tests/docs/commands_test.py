@@ -31,7 +31,7 @@ TYPED = ("tripoint", "build/bin/tripoint", "sed", "git", "echo", "python3")
 FILE = "# file: "  # then the name under which the block is written
 LISTINGS = ("case file -> runs ->", "report/index.html ")  # blocks that are no commands: a diagram, the files of a report
 PYTHON = ("python",)  # fences of this word are run as a script, in the folder in which the lines before them were typed
-PICTURES = ("math", "mermaid", "markdown", "cmake", "{toctree}")  # fences with these words are drawn, or hold a text that another test makes
+PICTURES = ("math", "mermaid", "markdown", "cmake", "cpp", "{toctree}")  # fences with these words are drawn, or hold a text that another test makes
 SPARED = re.compile(r"\b(\d+|an?|a few) (minutes?|hours?)\b|\bdownload")  # what the page itself says of a line that is not typed
 PLACEHOLDER = re.compile(r"\b[A-Z]{4,}\b|[a-z]/n\b|\.\.\.")  # CASE, RESULTS.json, i/n: stands for what the reader fills in
 AUTHOR = {f"GIT_{who}_{what}": f"nobody{'' if what == 'NAME' else '@localhost'}" for who in ("AUTHOR", "COMMITTER") for what in ("NAME", "EMAIL")}
