@@ -109,11 +109,17 @@ std::vector<CalledEffect> idle_effects(const Scene& s) {
   return list;
 }
 
-std::vector<std::string> ledger_entries() {
-  std::vector<std::string> entries{"merging", "walls", ledger_entry::time_integration};
+std::vector<LedgerEntry> ledger_entries() {
+  std::vector<LedgerEntry> entries;
   for (const EffectRule& rule : effect_rules())
-    for (const std::string_view entry : rule.ledger_entries)
-      if (std::ranges::find(entries, entry) == entries.end()) entries.emplace_back(entry);
+    for (const LedgerEntry& entry : rule.ledger_entries)
+      if (const auto known = std::ranges::find(entries, entry.name, &LedgerEntry::name); known == entries.end())
+        entries.push_back(entry);
+      else if (known->holds.empty())
+        known->holds = entry.holds;
+  entries.push_back({"merging", "energy that merging bodies lost"});
+  entries.push_back({"walls", "work that what is held, fixed or driven took from the scene"});
+  entries.push_back({ledger_entry::time_integration, "what finite steps leave between work and energy"});
   return entries;
 }
 

@@ -79,6 +79,12 @@ struct DeclaredTerm {
   constexpr DeclaredTerm(const Term& t, TermKind k, bool printed = true) noexcept : term(t), kind(k), has_equation(printed) {}
 };
 
+/// An entry of the ledger of energy, and what it holds: a row of docs/case-file.md.
+struct LedgerEntry {
+  std::string_view name;
+  std::string_view holds{};  ///< empty where another effect that tells it too says so
+};
+
 struct EffectRule {
   std::string_view name;
   /// The body or other item that calls for the effect, and why: "body a: elastic, and not held in place". "" = none does.
@@ -98,7 +104,7 @@ struct EffectRule {
   void (*settle_material)(TableReader&, Material&) = nullptr;
   /// Keys of a material that fit no run of a case, asked where the effect is on in one. @param runs the scene in each mode
   std::vector<WrongKey> (*wrong_keys)(const Material&, std::span<const Scene> runs) = nullptr;
-  std::vector<std::string_view> ledger_entries{};  ///< that it tells, or that take the work of its forces
+  std::vector<LedgerEntry> ledger_entries{};  ///< that it tells, or that take the work of its forces
   /// Of these those that every scene with forces tells, 0 where the effect is off: reports put scenes side by side.
   std::vector<std::string_view> (*always_told)(const Scene&) = nullptr;
   bool over_processes = false;  ///< it also runs where several processes share a scene (World::halo)
@@ -116,8 +122,8 @@ struct EffectRule {
 /// Rules of every effect, in the order in which effects run.
 [[nodiscard]] std::span<const EffectRule> effect_rules();
 
-/// Names that entries of the ledger can have, each once: those of all effects, and those of every scene.
-[[nodiscard]] std::vector<std::string> ledger_entries();
+/// Entries that the ledger can have, each once: those of all effects, and those of every scene.
+[[nodiscard]] std::vector<LedgerEntry> ledger_entries();
 
 /// Every term of two forms, in the order of jobs and pages: those that effects declare, the kernel, and the scheme of steps.
 /// @throws std::logic_error where two effects declare one term

@@ -24,9 +24,9 @@ namespace {
 
 /// @throws std::runtime_error where an entry stands in no rule of an effect
 void check_entries(const Ledger& ledger) {
-  const std::vector<std::string> declared = ledger_entries();
+  const std::vector<LedgerEntry> declared = ledger_entries();
   for (const auto& [entry, joule] : ledger.energy)
-    if (std::ranges::find(declared, entry) == declared.end())
+    if (std::ranges::find(declared, entry, &LedgerEntry::name) == declared.end())
       throw std::runtime_error("the ledger has an entry \"" + entry + "\", which no effect declares");
 }
 

@@ -107,6 +107,15 @@ std::string invariants_page() {
   return out + "\n";
 }
 
+/// Table of the terms that the ledger can have.
+std::string ledger_page() {
+  std::string out =
+      "Terms of the ledger of energy, of `ledger.TERM` and of `/observables/energy_TERM` in `trajectory.h5`:\n\n| TERM | holds "
+      "|\n|---|---|\n";
+  for (const LedgerEntry& one : ledger_entries()) out += fmt::format("| `{}` | {} |\n", one.name, cell(one.holds));
+  return out + "\n";
+}
+
 }  // namespace
 
 std::string case_reference_page() {
@@ -122,7 +131,7 @@ std::string case_reference_page() {
   out += short_forms;
   for (const auto& t : case_keys().tables()) {
     out += table_page(t);
-    if (t.name == "invariants") out += invariants_page();
+    if (t.name == "invariants") out += invariants_page() + ledger_page();
     if (t.name == "scene") {
       out += "`modes.TERM` sets one term: `modes.heat = \"paper\"`. TERM: ";
       for (const char* between = ""; const DeclaredTerm& one : declared_terms()) {

@@ -85,8 +85,8 @@ void check_words(const Case& c, std::vector<Finding>& findings) {
 
 /// A term that no engine of ours keeps is a warning: another engine may keep it.
 void check_ledger_terms(const Case& c, std::vector<Finding>& findings) {
-  std::vector<std::string> terms = ledger_entries();
-  terms.emplace_back("residual");
+  std::vector<std::string> terms{"residual"};
+  for (const LedgerEntry& entry : ledger_entries()) terms.emplace_back(entry.name);
   for (const auto& m : c.metrics) {
     const std::string term = m.quantity.starts_with("ledger.") ? m.quantity.substr(7) : "";
     if (!term.empty() && !known(terms, term))

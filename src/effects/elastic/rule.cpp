@@ -69,7 +69,7 @@ EffectRule rule() {
           .terms = {term::elastic, term::hourglass},
           .keys = keys(),
           .settle_material = settle_material,
-          .ledger_entries = {"elastic", "hourglass"},
+          .ledger_entries = {{"elastic", "strain of elastic matter"}, {"hourglass", "deformation that the strain does not see"}},
           .over_processes = true,
           .has_pairs = true,
           .has_bonds = true,

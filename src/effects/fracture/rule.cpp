@@ -58,7 +58,7 @@ EffectRule rule() {
           .keys = keys(),
           .scene_keys_shared = {"merge_distance"},
           .wrong_keys = wrong_keys,
-          .ledger_entries = {"fracture"},
+          .ledger_entries = {{"fracture", "what broken bonds held"}},
           .over_processes = true,
           .has_bonds = true};
 }

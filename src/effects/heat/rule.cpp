@@ -105,7 +105,7 @@ EffectRule rule() {
           .terms_shared = {term::kernel, term::pressure, term::density, term::state, term::clamp, term::viscosity, term::walls},
           .keys = keys(),
           .settle_material = settle_material,
-          .ledger_entries = {"thermal", "latent"},
+          .ledger_entries = {{"thermal", "heat"}, {"latent", "heat of fusion"}},
           .over_processes = true,
           .has_pairs = true};
 }

@@ -17,7 +17,8 @@ std::string needed_for(const Scene& s, const Called& called) {
 EffectRule rule() {
   return {.name = "motion",
           .needed_for = needed_for,
-          .ledger_entries = {ledger_entry::kinetic, ledger_entry::potential},
+          .ledger_entries = {{ledger_entry::kinetic, "motion, of bodies with their spin"},
+                             {ledger_entry::potential, "height in gravity"}},
           .over_processes = true};
 }
 

@@ -84,7 +84,7 @@ EffectRule rule() {
           .keys = keys(),
           .scene_keys = {{"merge_distance", joins_bodies}},
           .settle_material = settle_material,
-          .ledger_entries = {"phase_work"},
+          .ledger_entries = {{"phase_work", "work that melting and freezing took"}},
           .over_processes = true,
           .has_bonds = true,
           .makes_bodies = true,

@@ -39,7 +39,7 @@ EffectRule rule() {
           .left_out = left_out,
           .keys = keys(),
           .settle_material = settle_material,
-          .ledger_entries = {"plastic"},
+          .ledger_entries = {{"plastic", "work that plastic flow took"}},
           .over_processes = true};
 }
 

@@ -23,7 +23,10 @@ std::string needed_for(const Scene& s, const Called& called) {
 }  // namespace
 
 EffectRule rule() {
-  return {.name = "prescribed", .needed_for = needed_for, .ledger_entries = {"inflow"}, .over_processes = true};
+  return {.name = "prescribed",
+          .needed_for = needed_for,
+          .ledger_entries = {{"inflow", "minus the energy that inflows brought"}},
+          .over_processes = true};
 }
 
 }  // namespace tripoint::prescribed

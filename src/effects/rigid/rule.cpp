@@ -35,7 +35,7 @@ EffectRule rule() {
           .left_out = left_out,
           .needed_for = needed_for,
           .terms = {{term::rotation, TermKind::time}},
-          .ledger_entries = {ledger_entry::kinetic, ledger_entry::potential},
+          .ledger_entries = {{ledger_entry::kinetic}, {ledger_entry::potential}},
           .over_processes = true};
 }
 

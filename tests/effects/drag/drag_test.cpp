@@ -218,9 +218,9 @@ TEST(AddedEffect, BooksItsWorkSoThatTheLedgerCloses) {
   for (const auto& [entry, energy] : after.energy) sum += energy;
   EXPECT_NEAR(sum / before, 1.0, 1e-13);                                      // round-off of 100 steps
   EXPECT_NEAR(after.energy.at("drag") / before, 1.0 - std::exp(-4.0), 1e-4);  // second order in the step
-  const std::vector<std::string> known = ledger_entries();
+  const std::vector<LedgerEntry> known = ledger_entries();
   for (const auto& [entry, energy] : after.energy)
-    EXPECT_NE(std::ranges::find(known, entry), known.end()) << entry << " stands in no rule";
+    EXPECT_NE(std::ranges::find(known, entry, &LedgerEntry::name), known.end()) << entry << " stands in no rule";
 }
 
 TEST(AddedEffect, IsPaidByWhoDrivesABody) {

@@ -29,7 +29,7 @@ EffectRule rule() {
           .left_out = left_out,
           .terms = {term::drag},
           .keys = keys(),
-          .ledger_entries = {"drag"}};
+          .ledger_entries = {{"drag", "work that drag took"}}};
 }
 
 }  // namespace tripoint::drag
