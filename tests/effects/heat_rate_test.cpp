@@ -67,6 +67,14 @@ TEST(CorrectedHeat, IsOfSecondOrderInTime) {
   EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.1);
 }
 
+/// Steps of less than dx^2/(200 D), for which rates are formed once a step (decision 040).
+TEST(CorrectedHeat, IsOfSecondOrderWhereTheRatesOfOneStageServeTheNextStep) {
+  const double step = 0.99 * 1e-6 / (200.0 * D);  // [s], of 10 particles a wavelength
+  const double coarse = cosine_rate(10, Mode::corrected, step), middle = cosine_rate(10, Mode::corrected, step / 2.0),
+               fine = cosine_rate(10, Mode::corrected, step / 4.0);
+  EXPECT_NEAR(std::log2((coarse - middle) / (middle - fine)), 2.0, 0.05);
+}
+
 TEST(PaperHeat, IsOfFirstOrderInTime) {
   const double unit = 1.0 / (D * 4e4 * std::numbers::pi * std::numbers::pi);
   const double exact = cosine_rate(10, Mode::paper, 0.0005 * unit);

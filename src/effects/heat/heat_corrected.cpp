@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/machine.hpp"
 #include "effects/heat/enthalpy.hpp"
@@ -17,7 +18,8 @@
 namespace tripoint::heat {
 namespace {
 
-constexpr double moment_cut = 0.05;  ///< eigenvalues of M_i below this share of the largest count as none (model 8.6)
+constexpr double small_step = 0.005;  ///< of dx^2 over the greatest diffusivity (decision 040)
+constexpr double moment_cut = 0.05;   ///< eigenvalues of M_i below this share of the largest count as none (model 8.6)
 
 /// H = m (c_p T + L f) [J] at the particle's temperature, and the extra heat of the liquid above t_melt.
 double heat_content(const World& world, std::size_t row) {
@@ -43,6 +45,18 @@ struct Conductivity {
 Conductivity conductivity_of(const Material& m) {
   if (!m.conductivity) return {};
   return {m.solid_conductivity.value_or(*m.conductivity), *m.conductivity};
+}
+
+/// Greatest conductivity over least heat capacity of a volume, of all materials together [m2/s].
+double greatest_diffusivity(const Scene& scene) {
+  double k = 0.0, least = std::numeric_limits<double>::infinity();
+  for (const Material& m : scene.materials) {
+    if (!m.conductivity || !m.heat_capacity) continue;
+    const Conductivity of = conductivity_of(m);
+    k = std::max({k, of.solid, of.liquid});
+    least = std::min(least, m.density * std::min(*m.heat_capacity, solid_capacity(m)));
+  }
+  return k / least;
 }
 
 /// A particle conducts as its phase does, or as the phase that it turns into.
@@ -142,12 +156,13 @@ void CorrectedHeat::drift(World& world, double dt) {
   add_heat(world, Stage::first, [&](std::size_t i) { return dt * rate[i]; });
 }
 
-/// Second stage: H = 1/2 H_old + 1/2 (H_1 + dt dH/dt(H_1)), written as a change of H_1.
+/// Second stage: H = 1/2 H_old + 1/2 (H_1 + dt dH/dt(H_1)), written as a change of H_1. Where the step is small beside the bound
+/// (8.10), dH/dt(H_1) serves as the rate of the new time too (decision 040).
 bool CorrectedHeat::correct(World& world, double dt) {
   surfaces_.book(world, Stage::last, dt);
   const auto rate = world.particles[field::heat_rate], before = world.particles[field::heat_rate_before];
   add_heat(world, Stage::last, [&](std::size_t i) { return 0.5 * dt * (rate[i] - before[i]); });
-  return true;
+  return dt * greatest_diffusivity(world.scene) > small_step * world.scene.spacing * world.scene.spacing;
 }
 
 void CorrectedHeat::clear(World& world, PassName pass) {
