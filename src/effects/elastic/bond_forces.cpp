@@ -25,20 +25,6 @@ PeriodicWidths periodic_widths(const PeriodicBox& box) {
   return {{half(0), half(1), half(2), never}, {width(0), width(1), width(2), 0.0}};
 }
 
-/// H of a sheet or chain: -F sum_j kappa_ij y y^T, y = P x_ji, kappa_ij = (a E/2) v_i v_j W g_ij/|x_ij|^2.
-Matrix3 flat_hourglass(const World& world, const Deformations& all, std::uint32_t id, double stiff, const Symmetric& strain,
-                       const Symmetric& P, const Matrix3& F) {
-  Symmetric sum;
-  const Place& i = all.places[id];
-  for (const Bond& b : world.bonds.of(id)) {
-    const Place& j = all.places[b.other];
-    const Vec3 r = solid::nearest_image(world.box, j.r - i.r);
-    const double kappa = stiff * i.volume * j.volume * b.weight / dot(b.x, b.x) * solid::hourglass_residual_flat(strain, -b.x, r);
-    sum = sum + kappa * square(P * b.x);
-  }
-  return -1.0 * (F * sum);
-}
-
 /// Sets T = (v F S + H) A, and the force of each particle's own energy on it.
 class Stresses {
  public:
@@ -48,12 +34,11 @@ class Stresses {
         constants_(forms.constants(world)),
         force_(triple(world.particles, field::elastic_force_x, field::elastic_force_y, field::elastic_force_z)) {}
   void none(std::size_t row) { force_.set(row, {}); }
-  /// @param now F - I and H   @param elastic strain less what has flowed   @param A shape inverse   @param P projector on its
-  /// range
-  void set(std::size_t row, std::size_t id, const BeforeFlow& now, const Symmetric& elastic, const Symmetric& A,
+  /// @param G F - I   @param elastic strain less what has flowed   @param A shape inverse   @param P projector on its range
+  void set(std::size_t row, std::size_t id, const Matrix3& G, const Matrix3& H, const Symmetric& elastic, const Symmetric& A,
            const Symmetric& P, int rank) {
     const Symmetric S = forms_.stress(elastic, P, rank, constants_(row));
-    const Matrix3 T = ((forms_.force_factor() * all_.places[id].volume) * ((identity3 + now.G) * S) + now.H) * A;
+    const Matrix3 T = ((forms_.force_factor() * all_.places[id].volume) * ((identity3 + G) * S) + H) * A;
     all_.deformed[id].set_T(T);
     force_.set(row, T * all_.reference[id].gradient + all_.hourglass_force[id]);
   }
@@ -65,8 +50,8 @@ class Stresses {
   Triple<double> force_;
 };
 
-/// det F of a solid.
-double volume_ratio(const Deformed& i) { return determinant(identity3 + i.measure()); }
+/// det F of a solid. @param G F - I
+double volume_ratio(const Matrix3& G) { return determinant(identity3 + G); }
 
 bool flows(const World& world) { return world.particles.has(field::may_flow.name); }
 
@@ -76,26 +61,36 @@ inline Symmetric elastic_strain(const Symmetric& strain, const Symmetric& plasti
   return rank == 3 ? e : between(P, e);
 }
 
-/// How a particle is deformed: its strain, the projector on the range of its shape, F and F - I.
-struct Shape {
-  Symmetric strain, P;
-  Matrix3 F, G;
-};
-
-/// Sets the moduli of the hourglass energy of a particle and, of a solid, the force of its own energy on it. @return H [N m]
-Matrix3 resist_hourglass(const World& world, Deformations& all, std::uint32_t id, int rank, double stiff, const Shape& s,
-                         const ListSums& sums) {
-  Deformed& i = all.deformed[id];
-  if (rank != 3) {
-    i.flat_hourglass = stiff;
-    return flat_hourglass(world, all, id, stiff, s.strain, s.P, s.F);
-  }
-  const ReferenceSums& reference = all.reference[id];
+/// Of the hourglass energy of a solid: its modulus and the force of its own energy on it. @return H [N m]
+Matrix3 resist_hourglass(Deformations& all, std::uint32_t id, double stiff, const Matrix3& G, const ListSums& sums) {
   const double volume = all.places[id].volume;
-  i.solid_hourglass = stiff;
-  i.hourglass_energy = volume * stiff;
-  all.hourglass_force[id] = (volume * stiff) * (s.G * reference.hourglass + sums.residual);
-  return (stiff * volume) * (s.G * reference.moment + sums.swept);
+  const ReferenceSums& reference = all.reference[id];
+  all.deformed[id].set_moduli(stiff, 0.0, volume);
+  all.hourglass_force[id] = (volume * stiff) * (G * reference.hourglass + sums.residual);
+  return (stiff * volume) * (G * reference.moment + sums.swept);
+}
+
+/// Of a sheet or chain, where no force acts on it itself.
+/// @return H = -F sum_j kappa_ij y y^T, y = P x_ji, kappa_ij = (a E/2) v_i v_j W g_ij/|x_ij|^2 [N m]
+Matrix3 resist_flat_hourglass(const World& world, Deformations& all, std::uint32_t id, double stiff, const Symmetric& strain,
+                              const Symmetric& P, const Matrix3& F) {
+  Symmetric sum;
+  const Place& i = all.places[id];
+  all.deformed[id].set_moduli(0.0, stiff, i.volume);
+  all.hourglass_force[id] = {};
+  for (const Bond& b : world.bonds.of(id)) {
+    const Place& j = all.places[b.other];
+    const Vec3 r = solid::nearest_image(world.box, j.r - i.r);
+    const double kappa = stiff * i.volume * j.volume * b.weight / dot(b.x, b.x) * solid::hourglass_residual_flat(strain, -b.x, r);
+    sum = sum + kappa * square(P * b.x);
+  }
+  return -1.0 * (F * sum);
+}
+
+Matrix3 without_hourglass(Deformations& all, std::uint32_t id) {
+  all.deformed[id].set_moduli(0.0, 0.0, 0.0);
+  all.hourglass_force[id] = {};
+  return {};
 }
 
 /// @param changed whether bonds or volumes have since `reference` was summed
@@ -129,27 +124,25 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all, bool
     sum.list(list, all.lists.shapes(), all.places.data(), all.places[id], box, sums);
     const int rank = rank_of[row];
     const Symmetric A = shape.at(row), P = forms.projector(A, rank);
-    const Matrix3 F = solid::deformation_gradient(sums.displacement, A);
-    BeforeFlow now{F - identity3, {}, {}};
+    const Matrix3 F = solid::deformation_gradient(sums.displacement, A), G = F - identity3;
     const Symmetric strain = forms.strain(F, P, rank);
     strain_of.set(row, strain);
-    Deformed& i = all.deformed[id];
-    i = {};
-    i.set_measure(rank == 3 ? now.G : full(strain));
-    all.hourglass_force[id] = {};
-    if (hourglass)
-      now.H = resist_hourglass(world, all, id, rank, 0.5 * forms.hourglass() * constants(row).young, {strain, P, F, now.G}, sums);
-    if (rank == 3) least = std::min(least, volume_ratio(i));
+    all.deformed[id].set_measure(rank == 3 ? G : full(strain));
+    if (rank == 3) least = std::min(least, volume_ratio(G));
+    const double stiff = 0.5 * forms.hourglass() * constants(row).young;
+    const Matrix3 H = !hourglass  ? without_hourglass(all, id)
+                      : rank == 3 ? resist_hourglass(all, id, stiff, G, sums)
+                                  : resist_flat_hourglass(world, all, id, stiff, strain, P, F);
     Symmetric elastic = strain;
     if (plastic_of) {
-      now.plastic = plastic_of->at(row);
-      elastic = elastic_strain(strain, now.plastic, P, rank);
+      const Symmetric plastic = plastic_of->at(row);
+      elastic = elastic_strain(strain, plastic, P, rank);
       if (constants.may_flow(row, rank, elastic)) {
         may_flow[row] = 1;
-        all.before_flow[id] = now;
+        all.before_flow[id] = {G, H, plastic};
       }
     }
-    stresses.set(row, id, now, elastic, A, P, rank);
+    stresses.set(row, id, G, H, elastic, A, P, rank);
   }
   all.least_volume_ratio = least;
 }
@@ -168,7 +161,8 @@ void follow_flow(World& world, const ElasticForms& forms, Deformations& all) {
     if (plastic == all.before_flow[id].plastic) continue;
     const int rank = rank_of[row];
     const Symmetric A = shape.at(row), P = forms.projector(A, rank);
-    stresses.set(row, id, all.before_flow[id], elastic_strain(strain_of.at(row), plastic, P, rank), A, P, rank);
+    const BeforeFlow& before = all.before_flow[id];
+    stresses.set(row, id, before.G, before.H, elastic_strain(strain_of.at(row), plastic, P, rank), A, P, rank);
   }
 }
 
@@ -276,7 +270,7 @@ void refuse_inversion(const World& world, const ElasticForms& forms, const Defor
   const auto rank_of = p[field::shape_rank], id_of = p[field::id];
   const auto is_worst = [&](std::size_t row) {
     return rank_of[row] == 3 && owns(row) && world.owns(row) &&
-           volume_ratio(all.deformed[static_cast<std::size_t>(id_of[row])]) == least;
+           volume_ratio(all.deformed[static_cast<std::size_t>(id_of[row])].measure()) == least;
   };
   for (std::size_t row = 0; row < p.size(); ++row) {
     if (is_worst(row))

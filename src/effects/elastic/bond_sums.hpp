@@ -26,9 +26,9 @@ struct Quad {
 };
 #endif
 
-/// A column of a matrix, as wide as a vector of four.
+/// A column of a matrix, as wide as a vector of four. It has no value of its own: the sums below are written as a whole.
 struct alignas(sizeof(Quad)) Column {
-  double x = 0.0, y = 0.0, z = 0.0, unused = 0.0;
+  double x, y, z, unused;
   operator Vec3() const noexcept { return {x, y, z}; }
 };
 [[nodiscard]] inline Matrix3 by_columns(const Vec3& x, const Vec3& y, const Vec3& z) noexcept {
@@ -64,13 +64,19 @@ struct alignas(vector_bytes) Deformed {
   [[nodiscard]] Matrix3 T() const noexcept { return by_columns(T_x, T_y, T_z); }
   void set_measure(const Matrix3& a) noexcept {
     measure_x = {a.xx, a.yx, a.zx};
-    measure_y = {a.xy, a.yy, a.zy};
-    measure_z = {a.xz, a.yz, a.zz};
+    measure_y = {a.xy, a.yy, a.zy, 0.0};
+    measure_z = {a.xz, a.yz, a.zz, 0.0};
   }
   void set_T(const Matrix3& a) noexcept {
     T_x = {a.xx, a.yx, a.zx};
     T_y = {a.xy, a.yy, a.zy};
-    T_z = {a.xz, a.yz, a.zz};
+    T_z = {a.xz, a.yz, a.zz, 0.0};
+  }
+  /// @param solid,flat a E/2 of the hourglass energy of a solid, and of a sheet or chain [Pa]   @param volume v_i [m3]
+  void set_moduli(double solid, double flat, double volume) noexcept {
+    solid_hourglass = solid;
+    flat_hourglass = flat;
+    hourglass_energy = volume * solid;
   }
 };
 static_assert(sizeof(Deformed) == 3 * vector_bytes);
@@ -146,7 +152,7 @@ template <bool periodic>
     };
     Quad by;
     const Column widths{shift(c.x, box.half.x, box.width.x), shift(c.y, box.half.y, box.width.y),
-                        shift(c.z, box.half.z, box.width.z)};
+                        shift(c.z, box.half.z, box.width.z), 0.0};
     load(by, &widths);
     d -= by;
   }
