@@ -16,6 +16,7 @@ struct Trial {
   double step_seconds = 0.0;   ///< of one step, in the mean
   StageSeconds stages{};       ///< of one step, in the mean
   double time_step = 0.0;      ///< the last one [s]
+  std::string bound_by;        ///< what set it: "scene", or the bound of an effect
   double run_steps = 0.0;      ///< of the whole run at that step
   double bytes = 0.0;          ///< a particle, that the process grew by: fields, lists and scratch
   std::string failure;         ///< why there is nothing; empty = all is well

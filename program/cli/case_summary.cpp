@@ -90,8 +90,8 @@ std::string studies_of(const Case& c) {
 
 std::string cost(const bench::Trial& t) {
   if (t.steps == 0) return t.failure.empty() ? "" : "not timed: " + t.failure;
-  return fmt::format("about {:.2g} s for the case's own run: {:.0f} steps of {:.2g} s", t.run_seconds(), t.run_steps,
-                     t.step_seconds);
+  return fmt::format("about {:.2g} s for the case's own run: {:.0f} steps of {:.3g} s, bound by {}, each computed in {:.2g} s",
+                     t.run_seconds(), t.run_steps, t.time_step, t.bound_by, t.step_seconds);
 }
 
 }  // namespace

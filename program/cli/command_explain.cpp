@@ -86,9 +86,9 @@ void print_trial(const bench::Trial& t, int threads) {
   print(fmt::format("\nMeasured in the first {} steps of {} particles on {} thread{}\n", t.steps, t.particles, threads,
                     threads == 1 ? "" : "s"));
   print(
-      fmt::format("  {:.3g} s a step, {:.3g} us a particle-step; about {:.0f} steps of {:.3g} s, so about {:.3g} s for the whole "
-                  "run, and {:.3g} s to set it up\n",
-                  t.step_seconds, 1e6 * t.step_seconds / static_cast<double>(t.particles), t.run_steps, t.time_step,
+      fmt::format("  {:.3g} s a step, {:.3g} us a particle-step; about {:.0f} steps of {:.3g} s, bound by {}, so about {:.3g} s "
+                  "for the whole run, and {:.3g} s to set it up\n",
+                  t.step_seconds, 1e6 * t.step_seconds / static_cast<double>(t.particles), t.run_steps, t.time_step, t.bound_by,
                   t.run_seconds(), t.setup_seconds));
   if (t.particles >= most_tried / 10)  // else the program itself outweighs them
     print(fmt::format("  {:.0f} bytes a particle in memory: fields, neighbour lists, bonds and what is used between them\n",

@@ -245,6 +245,7 @@ class Newcomer(unittest.TestCase):
         self.assertEqual(head[0], f"{CASE}: Ballistic flight with spin")
         for name in ("claims", "simulates  64 particles", "bodies", "effects", "truth", "measures", "judged by", "engines", "costs"):
             self.assertTrue(any(line.strip().startswith(name) for line in head), name)
+        self.assertIn("100 steps of 0.01 s, bound by scene, each computed in ", head[-1])
 
     # What is not installed or not built is said with the line to type
     def test_a_pdf_without_its_library_is_no_success(self):
