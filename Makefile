@@ -75,7 +75,8 @@ gallery: setup build  ## run the paper's figures, draw them as films and ray-tra
 	@build/bin/tripoint validate paper --profile commit --engines tripoint --out $(OUT)/gallery --jobs $(JOBS) --no-report --no-history || test -f $(OUT)/gallery/results.json
 	@/usr/bin/python3 reports/gallery.py $(OUT)/gallery/results.json build/bin/tripoint
 
-pages: build  ## write what pages hold of the program: keys, metrics, fields, the comments of docs/ci.md
+pages:  ## write what pages hold of the program: keys, metrics, fields, the comments of docs/ci.md
+	@tools/build.sh $(JOBS) tripoint
 	@build/bin/tripoint schema --page >build/case-file.md
 	@mv build/case-file.md docs/case-file.md
 	@/usr/bin/python3 -B tools/field_dictionary.py build/bin/tripoint --write docs/model.md

@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Configures build/ where that is needed, and builds it.
-#   tools/build.sh [--tests|--selftest] JOBS     --tests adds the test programs to the same folder; no object is built anew for it.
-#                                                --selftest adds only what `tripoint gate selftest` needs, and wants no further package
+#   tools/build.sh [--tests|--selftest] JOBS [TARGET...]
+#     --tests adds the test programs to the same folder; no object is built anew for it.
+#     --selftest adds what `tripoint gate selftest` needs, builds that alone, and wants no further package.
+#     TARGET: these and what they need, in place of all
 # With CI set in the environment the first configuration makes warnings errors.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -13,6 +15,8 @@ case ${1:-} in
   --selftest) selftest=ON && shift ;;
 esac
 jobs=${1:-2}
+targets=("${@:2}")
+[[ $selftest == OFF ]] || targets+=(tripoint engine-tripoint-selftest)
 
 if [[ ! -f build/build.ninja ]]; then
   options=(-DTRIPOINT_TESTS=$tests -DTRIPOINT_SELFTEST=$selftest)
@@ -24,4 +28,4 @@ elif [[ $tests == ON ]] && ! grep -q '^TRIPOINT_TESTS:BOOL=ON$' build/CMakeCache
 elif [[ $selftest == ON ]]; then
   cmake -S . -B build -DTRIPOINT_SELFTEST=ON >/dev/null
 fi
-exec ninja -C build -j "$jobs" >&2
+exec ninja -C build -j "$jobs" "${targets[@]}" >&2

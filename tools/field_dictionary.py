@@ -3,7 +3,7 @@
 """Writes the field dictionary of docs/model.md: a table of every field, between two marks.
 
     tools/field_dictionary.py TRIPOINT                         prints the table
-    tools/field_dictionary.py TRIPOINT --write docs/model.md   puts it into the page (make docs)
+    tools/field_dictionary.py TRIPOINT --write docs/model.md   puts it into the page (make pages)
 
 A folder of src that declares fields has a `fields.toml` with the symbol, if there is one, and the meaning of each. Components of a vector have one line:
 

@@ -142,7 +142,7 @@ class PullRequests(unittest.TestCase):
 
     def test_the_page_holds_the_comments_as_they_are_made(self):
         page = (SOURCE / "docs" / "ci.md").read_text()
-        self.assertEqual(page, with_comments(page, comments(TRIPOINT)), "make docs writes them anew")
+        self.assertEqual(page, with_comments(page, comments(TRIPOINT)), "make pages writes them anew")
         self.assertLess({"shorter-steps", "longer-steps"}, set(CHANGES))
 
 

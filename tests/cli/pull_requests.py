@@ -2,7 +2,7 @@
 """Plays pull requests through the action's own steps, in a git repository of its own:
 
     pull_requests.py TRIPOINT                    prints the comments
-    pull_requests.py TRIPOINT --write docs/ci.md puts them into the page, between its marks (make docs)
+    pull_requests.py TRIPOINT --write docs/ci.md puts them into the page, between its marks (make pages)
 """
 import os
 import re

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What pages hold of the program is what make docs writes: docs/case-file.md, and the field dictionary of docs/model.md.
+"""What pages hold of the program is what make pages writes: docs/case-file.md, and the field dictionary of docs/model.md.
 
     written_test.py TRIPOINT SOURCE [unittest arguments]
 """
@@ -26,12 +26,12 @@ def of_drag(owner="drag"):
 class Pages(unittest.TestCase):
     def test_the_page_of_the_case_file_is_what_the_program_prints(self):
         printed = subprocess.run([TRIPOINT, "schema", "--page"], capture_output=True, text=True, check=True).stdout
-        self.assertEqual((SOURCE / "docs/case-file.md").read_text(), printed, "docs/case-file.md is old: make docs")
+        self.assertEqual((SOURCE / "docs/case-file.md").read_text(), printed, "docs/case-file.md is old: make pages")
 
     def test_the_field_dictionary_is_what_the_tool_writes(self):
         rows = table(fields_from(columns_of_all(TRIPOINT, SOURCE / "cases")), words_from(SOURCE / "src"), SOURCE / "src")
         page = (SOURCE / "docs/model.md").read_text()
-        self.assertEqual(page, with_table(page, rows), "docs/model.md is old: make docs")
+        self.assertEqual(page, with_table(page, rows), "docs/model.md is old: make pages")
 
 
 class Dictionary(unittest.TestCase):

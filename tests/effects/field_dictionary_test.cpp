@@ -60,12 +60,12 @@ std::map<std::string, std::set<std::string>> owners() {
   return found;
 }
 
-/// The text of every file that declares fields: those that several rooms know, and those of one effect each.
+/// The text of every file that declares fields: those that several rooms know, and all files of an effect.
 std::string declarations() {
   const fs::path src = fs::path(TRIPOINT_SOURCE_DIR) / "src";
   std::string text = text_of(src / "particles/catalogue.hpp");
-  for (const auto& effect : fs::directory_iterator(src / "effects"))
-    if (fs::exists(effect.path() / "fields.hpp")) text += text_of(effect.path() / "fields.hpp");
+  for (const auto& file : fs::recursive_directory_iterator(src / "effects"))
+    if (file.path().extension() == ".hpp" || file.path().extension() == ".cpp") text += text_of(file.path());
   return text;
 }
 
@@ -129,11 +129,11 @@ TEST(FieldDictionary, SaysOfEveryFieldWhatTheCatalogueAndTheEffectsSay) {
                               entry.owners + " | MEANING |";
     EXPECT_TRUE(row != page.end() && row->second == entry)
         << "docs/model.md, chapter 13, should have the row\n"
-        << right << "\nSYMBOL and MEANING stand in the fields.toml beside the declaration; make docs writes the row";
+        << right << "\nSYMBOL and MEANING stand in the fields.toml beside the declaration; make pages writes the row";
     EXPECT_NE(entry.owners, "nobody") << "no effect of any case owns " << name << ": delete it";
   }
   for (const auto& [name, entry] : page)
-    EXPECT_TRUE(code.contains(name)) << "docs/model.md, chapter 13, has the row " << name << ", which is no field: make docs";
+    EXPECT_TRUE(code.contains(name)) << "docs/model.md, chapter 13, has the row " << name << ", which is no field: make pages";
 }
 
 }  // namespace
