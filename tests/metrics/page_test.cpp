@@ -16,8 +16,9 @@ std::string text_of(const std::filesystem::path& path) {
 TEST(MetricPage, ShowsCodeAsItStands) {
   const std::filesystem::path root = TRIPOINT_SOURCE_DIR;
   const std::string page = text_of(root / "docs/add-a-metric.md");
-  const std::string code =
-      text_of(root / "validation/metrics/contact_quantities.cpp") + text_of(root / "tests/metrics/contact_test.cpp");
+  const std::string code = text_of(root / "validation/metrics/contact_quantities.cpp") +
+                           text_of(root / "validation/metrics/motion_quantities.cpp") +
+                           text_of(root / "tests/metrics/contact_test.cpp") + text_of(root / "tests/metrics/known_runs_test.cpp");
   const std::string fence = "```cpp\n";
   int blocks = 0;
   for (auto at = page.find(fence); at != std::string::npos; at = page.find(fence, at)) {
@@ -26,7 +27,7 @@ TEST(MetricPage, ShowsCodeAsItStands) {
     EXPECT_NE(code.find(block), std::string::npos) << block;
     ++blocks;
   }
-  EXPECT_EQ(blocks, 3);
+  EXPECT_EQ(blocks, 5);
 }
 
 }  // namespace
