@@ -267,8 +267,21 @@ TEST(AddedEffect, GoesOnWithTheSameBitsAfterARestart) {
   EXPECT_EQ(whole.ledger().energy, resumed.ledger().energy);
 }
 
-/// Every block of docs/add-an-effect.md stands in the file that it names, and each of these files stands there in full but its
-/// licence.
+/// Every block of code of docs/add-an-effect.md stands so in this folder or in an effect of the program.
+TEST(AddedEffect, IsShownByThePageAsCodeStands) {
+  std::string code;
+  for (const fs::path& folder : {root / "tests/effects/drag", root / "src/effects"})
+    for (const auto& file : fs::recursive_directory_iterator(folder))
+      if (file.is_regular_file()) code += text_of(file.path());
+  const std::string page = text_of(root / "docs/add-an-effect.md"), fence = "```cpp\n";
+  for (auto at = page.find(fence); at != std::string::npos; at = page.find(fence, at)) {
+    at += fence.size();
+    const std::string block = page.substr(at, page.find("```", at) - at);
+    EXPECT_NE(code.find(block), std::string::npos) << block;
+  }
+}
+
+/// The files of the example stand on the page in full but their licence.
 TEST(AddedEffect, IsTheExampleOfThePage) {
   const std::string page = text_of(root / "docs/add-an-effect.md");
   for (const char* file : {"terms.hpp", "rule.cpp", "drag.cpp", "effect_list.inc"}) {
