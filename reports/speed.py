@@ -32,7 +32,7 @@ def line(raw):
     rate = number(raw.get("particle_steps_per_s"))
     return {"code": text(raw.get("code")), "parallel": raw.get("parallel"), "error": text(raw.get("error")), "leaves_out": text(raw.get("leaves_out")),
             "ms": milliseconds(raw.get("step_s")), "cpu_ms": milliseconds(raw.get("cpu_s")), "rate": f"{1e-6 * rate:.2f}" if rate else "—", "neighbours": page.show(number(raw.get("neighbours"))),
-            "rebuilds": page.show(number(raw.get("rebuilds_per_step"))), "particle_step": spread(raw.get("ratio_particle_step")), "pair": spread(raw.get("ratio_pair")),
+            "rebuilds": page.show(number(raw.get("rebuilds_per_step"))), "particle_step": spread(raw.get("ratio_particle_step")), "pair": spread(raw.get("ratio_pair")), "best": page.show(number(raw.get("ratio_best"))),
             "cpu": spread(raw.get("ratio_cpu")), "limit": spread(raw.get("over_limit"))}
 
 

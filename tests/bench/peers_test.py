@@ -75,6 +75,11 @@ class Ratios(unittest.TestCase):
         self.assertEqual(row["ratio_cpu"], {"median": 3.0, "least": 3.0, "greatest": 4.0})
         self.assertEqual(row["ratio_pair"], {"median": 6.0, "least": 6.0, "greatest": 8.0})
 
+    def test_the_best_times_of_all_rounds_are_compared_too(self):
+        row = bench_peers.row_of(code("other", [8.0, 6.0, 9.0], 20.0), code("tripoint", [4.0, 4.0, 2.0], 40.0).rounds, 40.0)
+        self.assertEqual(row["ratio_best"], 3.0)
+        self.assertEqual(row["ratio_particle_step"]["median"], 2.0)
+
     def test_a_code_that_never_ran_keeps_its_row_and_its_reason(self):
         failed = bench_peers.Code("other", "liquid-heat-40k", 2, "all", lambda: (_ for _ in ()).throw(ValueError("no wheel")))
         bench_peers.run_rounds([failed], 3, lambda line: None)

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The particle solver and its peers on the same particles, interleaved; writes speed.json and the page speed.html.
 
-Each round runs every code once, one after the other, so that a machine which drifts slows all alike; ratios are formed within a round.
+Each round runs every code once, one after the other, so that a machine which drifts slows all alike; ratios are formed within a round. The ratio of the best
+times stands beside them: a core that is slow for a while slows some codes more than others.
 """
 from __future__ import annotations
 
@@ -153,6 +154,7 @@ def row_of(code, ours, neighbours):
            "step_s": spread([r["step_s"] for r in code.rounds]), "cpu_s": spread([r["cpu_s"] for r in code.rounds if r.get("cpu_s")]),
            "particle_steps_per_s": 1.0 / statistics.median(map(cost, code.rounds)) if code.rounds else None,
            "ratio_particle_step": spread([cost(a) / cost(b) for a, b in both]),
+           "ratio_best": min(map(cost, code.rounds)) / min(map(cost, ours)) if code.rounds and ours else None,
            "ratio_cpu": spread([a / b for a, b in busy]),
            "ratio_pair": spread([pair(a, near) / pair(b, mine) for a, b in both]) if near and mine else None}
     limits = [r["over_limit_cpu"]["median"] for r in code.rounds if r.get("limit")]
@@ -191,14 +193,14 @@ def main():
 
 
 def print_table(rows):
-    print(f"{'work':18} {'code':26} {'x':>2} {'ms/step':>9} {'M p-s/s':>8} {'neighb.':>7} {'rebuilds':>8} {'ratio a particle-step':>24} {'of CPU seconds':>20} {'ratio a pair':>20}")
+    print(f"{'work':18} {'code':26} {'x':>2} {'ms/step':>9} {'M p-s/s':>8} {'neighb.':>7} {'rebuilds':>8} {'ratio a particle-step':>24} {'best':>6} {'of CPU seconds':>20} {'ratio a pair':>20}")
     show = lambda s: f"{s['median']:.2f} ({s['least']:.2f}-{s['greatest']:.2f})" if s else "-"
     for row in rows:
         if row["error"]:
             print(f"{row['work']:18} {row['code']:26} {row['parallel']:>2} {row['error']}")
             continue
         print(f"{row['work']:18} {row['code']:26} {row['parallel']:>2} {1e3 * row['step_s']['median']:9.2f} {1e-6 * row['particle_steps_per_s']:8.3f} {row['neighbours'] or 0:7.1f} "
-              f"{row['rebuilds_per_step']:8.2f} {show(row['ratio_particle_step']):>24} {show(row['ratio_cpu']):>20} {show(row['ratio_pair']):>20}")
+              f"{row['rebuilds_per_step']:8.2f} {show(row['ratio_particle_step']):>24} {row['ratio_best']:6.2f} {show(row['ratio_cpu']):>20} {show(row['ratio_pair']):>20}")
 
 
 if __name__ == "__main__":
