@@ -60,18 +60,22 @@ class Schedulers(unittest.TestCase):
         return json.loads(self.call("status", name, "--json"))
 
     def kill_one(self, name):
-        """Kills the first worker that has a job while some are done and many wait; the job that it held."""
+        """Kills the first worker that has a job while some are done and many wait; the job that it held. The worker is halted before,
+        because it may have gone on to another job since the status was read."""
         end = time.monotonic() + 120
         while time.monotonic() < end:
             status = self.status(name)
             if status["done"] >= 3 and status["running_jobs"]:
-                job = status["running_jobs"][0]
-                pid = int(job["worker"].split(".")[-3])
+                worker = status["running_jobs"][0]["worker"]
+                pid = int(worker.split(".")[-3])
                 try:
-                    os.kill(pid, signal.SIGKILL)
+                    os.kill(pid, signal.SIGSTOP)
+                    held = [job["id"] for job in self.status(name)["running_jobs"] if job["worker"] == worker]
+                    os.kill(pid, signal.SIGKILL if held else signal.SIGCONT)
                 except ProcessLookupError:
                     continue
-                return job["id"]
+                if held:
+                    return held[0]
             time.sleep(0.02)
         self.fail(f"no worker was seen at a job: {status}")
 
