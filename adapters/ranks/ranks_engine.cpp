@@ -163,7 +163,8 @@ EngineInfo RanksEngine::info() const {
       {"lanes",
        "particles that pair passes work on at once: 1, 4 (AVX2) or 8 (AVX-512); they change no bit of a particle, and the ledger "
        "by rounding; default what the machine's widest vectors hold"},
-      {"checkpoint_interval", "seconds of simulated time between checkpoints; they change no bit; default none"}};
+      {"checkpoint_interval", "seconds of simulated time between checkpoints; they change no bit; default none"},
+      {"step_times", "true leaves step-times.txt: wall and CPU seconds of each step of the first rank; default false"}};
   info.deterministic = true;
   return info;
 }
@@ -177,6 +178,7 @@ std::string RanksEngine::trial(const Job& job) const {
 void RanksEngine::load(const Job& job, const InitialState& initial) {
   words_path_ = words_file(job.output, lammps_->rank());
   checkpoints_.emplace(job, std::vector<std::string>{});
+  if (lammps_->rank() == 0 && setting(job, "step_times", false)) step_times_.emplace(job.output + "/step-times.txt");
   if (job.resume.empty()) return start(job, initial, nullptr);
   simulation_ = std::make_unique<Simulation>(scene_of(job), initial, options_of(in_one_process(job)));
 }
@@ -213,7 +215,9 @@ void RanksEngine::advance_to(double time) {
 bool RanksEngine::advance_to(double time, const std::function<bool(double, long)>& go_on) {
   constexpr double between_words = 0.2;  // [s]
   try {
+    if (step_times_) step_times_->begin();
     const bool reached = simulation_->advance_to(time, [&] {
+      if (step_times_) step_times_->note();
       if (wall_seconds() - words_at_ > between_words) write_words();
       is_due_ = checkpoints_->due(simulation_->world().time);
       return go_on(simulation_->world().time, simulation_->steps());
@@ -262,6 +266,7 @@ Readback RanksEngine::readback() const { return readback_of(simulation_->world()
 
 void RanksEngine::account(Result& result) const {
   if (!simulation_) return;
+  if (step_times_) step_times_->write();
   result.steps = simulation_->steps();
   result.time_step_bound = simulation_->time_step_set_by();
   result.extra["time_step"] = simulation_->time_step();

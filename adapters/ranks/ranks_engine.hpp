@@ -7,6 +7,7 @@
 #include "adapters/engine/checkpoints.hpp"
 #include "adapters/engine/engine.hpp"
 #include "adapters/ranks/lammps_halo.hpp"
+#include "adapters/ranks/step_times.hpp"
 #include "adapters/ranks/wheel.hpp"
 #include "step/simulation.hpp"
 
@@ -42,9 +43,10 @@ class RanksEngine : public Engine, public Restartable {
   std::optional<LammpsHalo> halo_;
   std::unique_ptr<Simulation> simulation_;  ///< not const where the engine is: observe() and save() ask it, and asking computes
   std::optional<Checkpoints> checkpoints_;
-  bool is_due_ = false;            ///< a checkpoint, after the last step
-  std::string words_path_;         ///< where this rank says how far it is
-  mutable double words_at_ = 0.0;  ///< [s] of wall time
+  std::optional<StepTimes> step_times_;  ///< of the first rank, where the job asks for them
+  bool is_due_ = false;                  ///< a checkpoint, after the last step
+  std::string words_path_;               ///< where this rank says how far it is
+  mutable double words_at_ = 0.0;        ///< [s] of wall time
 };
 
 /// Names of the presets: default, and ranks- with their number.

@@ -6,15 +6,6 @@
 namespace tripoint {
 namespace {
 
-template <class T>
-T setting(const Job& job, const std::string& name, T otherwise) {
-  const auto place = job.settings.find(name);
-  if (place == job.settings.end()) return otherwise;
-  const T* value = std::get_if<T>(&place->second);
-  if (!value) throw InputError("the setting " + name + " of the engine tripoint has the wrong kind of value");
-  return *value;
-}
-
 /// The order of axes that a preset names. @throws InputError for a preset that is not listed by info()
 std::optional<std::array<std::size_t, 3>> axis_order_of(const std::string& preset) {
   if (preset == "default") return {};

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <string>
 #include <string_view>
+#include <variant>
 
+#include "core/errors.hpp"
 #include "job/job.hpp"
 #include "step/simulation.hpp"
 
@@ -10,6 +13,16 @@ namespace tripoint {
 
 /// Begins the presets that turn bodies about one axis after the other; followed by the axes, outer to inner: no_squish-012.
 inline constexpr std::string_view no_squish = "no_squish-";
+
+/// A setting of the job, or the other value where there is none. @throws InputError where it is of another kind
+template <class T>
+T setting(const Job& job, const std::string& name, T otherwise) {
+  const auto place = job.settings.find(name);
+  if (place == job.settings.end()) return otherwise;
+  const T* value = std::get_if<T>(&place->second);
+  if (!value) throw InputError("the setting " + name + " of the engine tripoint has the wrong kind of value");
+  return *value;
+}
 
 /// The scene with the time step of the job's resolution.
 [[nodiscard]] Scene scene_of(const Job&);

@@ -280,7 +280,7 @@ void add_predict(CLI::App& app, int& exit_code) {
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_flag("--weak", o->weak, "also P times the particles on P ranks, by a finer spacing");
-  command->add_option("--repeats", o->repeats, "of each run, in turns; the best counts")
+  command->add_option("--repeats", o->repeats, "of each run, in turns; of each step the best counts")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->add_option("--seconds", o->seconds, "of each run on one rank, about")

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <numeric>
 
 #include "assembly/plan.hpp"
 #include "assembly/scene_passes.hpp"
@@ -50,10 +52,37 @@ double of(const std::map<std::string, double>& extra, const std::string& name) {
   return at == extra.end() ? 0.0 : at->second;
 }
 
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// The less of each pair of entries. @param one empty before the first
+void keep_least(std::vector<double>& one, const std::vector<double>& other) {
+  if (one.empty()) one = other;
+  if (one.size() != other.size()) throw EngineError("two runs of the same job made different numbers of steps");
+  for (std::size_t k = 0; k < one.size(); ++k) one[k] = std::min(one[k], other[k]);
+}
+
+/// Wall and CPU seconds of each step, as the engine has left them in the folder of the run.
+struct StepTimes {
+  std::vector<double> wall, cpu;
+};
+
+StepTimes read_step_times(const std::string& path) {
+  StepTimes times;
+  std::ifstream in(path);
+  for (double wall = 0.0, cpu = 0.0; in >> wall >> cpu;) {
+    times.wall.push_back(wall);
+    times.cpu.push_back(cpu);
+  }
+  if (times.wall.empty()) throw EngineError(path + ": the engine has left no times of steps");
+  return times;
+}
+
 }  // namespace
 
-double Timed::best_wall() const { return *std::min_element(wall.begin(), wall.end()); }
-double Timed::best_cpu() const { return *std::min_element(cpu.begin(), cpu.end()); }
+double Timed::best_wall() const { return mean(least_wall); }
+double Timed::best_cpu() const { return mean(least_cpu); }
 
 PredictRuns::PredictRuns(std::string file, std::vector<std::string> set, std::string folder, double seconds, bool quiet)
     : file_(std::move(file)),
@@ -86,12 +115,17 @@ Prepared PredictRuns::prepare(const std::string& label, const std::vector<std::s
   return p;
 }
 
+std::string PredictRuns::folder_of(const Prepared& p, int ranks) const {
+  return (fs::absolute(folder_) / fmt::format("{}-{}", p.label, ranks)).string();
+}
+
 Outcome PredictRuns::run(const Prepared& p, int ranks, double end) {
   Job job = make_job(p.value, p.plan, p.plan.runs.front(), p.scene, p.initial);
   job.times = {0.0, end};
   job.scene.end_time = end;
   job.settings["ranks"] = static_cast<double>(ranks);
-  const std::string folder = (fs::absolute(folder_) / fmt::format("{}-{}", p.label, ranks)).string();
+  job.settings["step_times"] = true;
+  const std::string folder = folder_of(p, ranks);
   fs::create_directories(folder);
   RunRequest request;
   request.engine = p.plan.entry;
@@ -132,8 +166,10 @@ void PredictRuns::time(const Prepared& p, Timed& t) {
   const Result& r = outcome.result;
   const auto steps = static_cast<double>(r.steps);
   t.steps = r.steps;
-  t.wall.push_back(r.stepping_wall / steps);
-  t.cpu.push_back(r.stepping_cpu / steps);
+  const StepTimes times = read_step_times(folder_of(p, t.ranks) + "/step-times.txt");
+  t.wall.push_back(mean(times.wall));
+  keep_least(t.least_wall, times.wall);
+  keep_least(t.least_cpu, times.cpu);
   t.bytes = std::max(t.bytes, outcome.cost.peak_bytes);
   t.own = of(r.extra, "own_at_start_on_rank_0");
   t.copies = of(r.extra, "copies_at_start_on_rank_0");
@@ -143,7 +179,7 @@ void PredictRuns::time(const Prepared& p, Timed& t) {
                of(r.extra, "columns")};
   if (!quiet_)
     say(fmt::format("predict: {} on {} rank{}: {:.4g} ms a step, {:.4g} CPU ms of rank 0", p.label, t.ranks,
-                    t.ranks == 1 ? "" : "s", 1e3 * t.wall.back(), 1e3 * t.cpu.back()));
+                    t.ranks == 1 ? "" : "s", 1e3 * t.wall.back(), 1e3 * mean(times.cpu)));
 }
 
 predict::Machine PredictRuns::probe() const {

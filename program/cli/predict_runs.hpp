@@ -26,15 +26,17 @@ struct Prepared {
       0;  ///< a particle of the whole scene as each rank has it at the start: handed over, and the solver's fields
 };
 
-/// Repeats of one run.
+/// Repeats of one run. Cores may be slow for a while, and others slow than those of another run: the best times are those of each
+/// step over all repeats, which make the same steps.
 struct Timed {
   int ranks = 1;
   long steps = 0;
-  std::vector<double> wall, cpu;    ///< [s] a step, of each repeat; CPU of rank 0
-  double bytes = 0.0, pairs = 0.0;  ///< of rank 0, pairs a pass as the engine counts them
-  double own = 0.0, copies = 0.0;   ///< of rank 0, as it starts
+  std::vector<double> wall;                   ///< [s] a step, of each repeat
+  std::vector<double> least_wall, least_cpu;  ///< of each step over all repeats [s]; CPU of rank 0
+  double bytes = 0.0, pairs = 0.0;            ///< of rank 0, pairs a pass as the engine counts them
+  double own = 0.0, copies = 0.0;             ///< of rank 0, as it starts
   predict::Traffic traffic;
-  [[nodiscard]] double best_wall() const;
+  [[nodiscard]] double best_wall() const;  ///< [s] a step, in the mean of all steps
   [[nodiscard]] double best_cpu() const;
 };
 
@@ -55,6 +57,7 @@ class PredictRuns {
   [[nodiscard]] predict::Machine probe() const;
 
  private:
+  [[nodiscard]] std::string folder_of(const Prepared&, int ranks) const;
   [[nodiscard]] Outcome run(const Prepared&, int ranks, double end);
 
   std::string file_;

@@ -123,7 +123,8 @@ std::string measured_table(const json& rows) {
   }
   if (text.empty()) return text;
   return fmt::format(
-             "\nmeasured beside the prediction (best of the repeats)\n{:10} {:>7} {:>10} {:>13} {:>13} {:>11} {:>11} {:>11} "
+             "\nmeasured beside the prediction (of each step the best of the repeats)\n{:10} {:>7} {:>10} {:>13} {:>13} {:>11} "
+             "{:>11} {:>11} "
              "{:>12} {:>12}\n",
              "", "ranks", "particles", "prediction ms", "measured ms", "off by %", "pred. eff.", "meas. eff.", "pred. copies",
              "meas. copies") +

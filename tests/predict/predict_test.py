@@ -51,6 +51,18 @@ class Predict(unittest.TestCase):
         self.assertEqual(rows[1000, 1e9]["shares"], "by volume")
         self.assertAlmostEqual(rows[1000, 1e9]["particles_a_rank"], 1e6, delta=1.0)
 
+    def test_times_are_the_best_of_each_step(self):
+        done = self.call("heat/bar-3x3", "--quiet", "--repeats", "2", "--seconds", "0.02", "--machine", "cluster.toml", "--measure", "2", "--out", "steps", "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        (row,) = json.loads(done.stdout)["rows"]
+        measured = row["measured"]
+        seconds = [list(map(float, line.split())) for line in (self.path / "steps" / "case-2" / "step-times.txt").read_text().splitlines()]
+        self.assertEqual(len(seconds), measured["steps"])  # of the last run
+        wall, cpu = zip(*seconds)
+        self.assertAlmostEqual(1e3 * sum(wall) / len(wall), measured["repeats_ms"][-1], delta=1e-6)
+        self.assertLessEqual(measured["ms_a_step"], min(measured["repeats_ms"]) + 1e-9)  # equal where one run is the faster one in each step
+        self.assertLessEqual(measured["cpu_ms_of_rank_0"], 1e3 * sum(cpu) / len(cpu) + 1e-9)
+
     def test_cuts_move_as_those_of_the_engine_do(self):
         """A dam fills a part of its tank: equal parts would give one rank nearly all, so that LAMMPS shifts its cut."""
         done = self.call("fluid/dam-break-small", "--quiet", "--repeats", "1", "--seconds", "0.02", "--machine", "cluster.toml", "--measure", "2", "--json")
