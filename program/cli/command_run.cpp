@@ -138,7 +138,7 @@ void print_metrics(const Case& value, const EnginePlan& plan, const std::map<std
     const auto at = metrics.find(choice.name);
     if (at == metrics.end()) continue;
     const auto& m = at->second;
-    print_line(fmt::format("  {:26} {:12.5g} {:8} {:9.2g}{}{}", choice.name, m.value, choice.unit.empty() ? "1" : choice.unit,
+    print_line(fmt::format("  {:26} {:12.5g} {:8} {:9.2g}{}{}", choice.name, m.value, unit_of_value(choice),
                            m.uncertainty.combined(), limits_of(value, plan, plan.runs.front(), choice.name, m),
                            m.note.empty() ? "" : "  (" + m.note + ")"));
   }

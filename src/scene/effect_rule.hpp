@@ -49,8 +49,8 @@ struct EffectKey {
       kept_in{};
   /// Why a value in this scene changes nothing although the effect is on; "" = it acts. None: it acts wherever the effect is on.
   std::string (*idle)(const Scene&) = nullptr;
-  bool ablated = false;  ///< of [scene], without a member: 0 leaves out a term that the paper does not have, which is a row of
-                         ///< `tripoint ablate`
+  bool ablated = false;  ///< of [scene], without a member: 0 leaves out a correction that the paper does not have, which is a row
+                         ///< of `tripoint ablate`
   bool limit = false;    ///< of [[material]]: matter beyond it yields or breaks; `tripoint check` tells where nothing ever can
 };
 

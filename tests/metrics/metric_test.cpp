@@ -213,5 +213,17 @@ TEST(Walkers, AgreeWithTheTruthWhereTheErrorIsAllNoise) {
   EXPECT_GT(rate.uncertainty.statistical, 0.0);
 }
 
+TEST(Metric, SaysTheUnitOfItsValueWhereTheCaseSaysNone) {
+  auto choice = metric("ledger.residual", "max");
+  EXPECT_EQ(unit_of_value(choice), "J");
+  choice.unit = "of the heat";
+  EXPECT_EQ(unit_of_value(choice), "of the heat");
+  EXPECT_EQ(unit_of_value(metric("centre", "max", "ball")), "m");
+  EXPECT_EQ(unit_of_value(metric("centre", "slope", "ball")), "1");
+  choice = metric("centre", "max", "ball");
+  choice.scale = 2.0;
+  EXPECT_EQ(unit_of_value(choice), "1");
+}
+
 }  // namespace
 }  // namespace tripoint

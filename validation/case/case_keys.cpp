@@ -78,7 +78,8 @@ constexpr auto keys_behind = std::to_array<Key>({
     {"metric", "at", text, "", any, "\"end\"", "where errors have grown", "", "time at which the metric is taken"},
     {"metric", "window", numbers, "s", any, "[0, 0]", "all frames", "", "first and last time that count"},
     {"metric", "scale", number, "", positive, "1", "in the quantity's own unit", "", "number that the error is divided by"},
-    {"metric", "unit", text, "", any, "\"\"", "the quantity's own", "", "unit of the scaled value, as the report prints it"},
+    {"metric", "unit", text, "", any, "\"\"", "the quantity's own, where scale is 1", "",
+     "unit of the scaled value, as the report prints it"},
     {"metric", "reference", table, "", any, "=", "the case's", "reference", "reference of this metric alone"},
     {"metric", "gates", tables, "", any, "", "gates stand in [[gate]]", "gates",
      "gates of this metric, each without the key metric"},
@@ -128,7 +129,7 @@ constexpr auto keys_behind = std::to_array<Key>({
     {"defect", "size", number, "", any, "!", "", "", "size of the defect"},
     {"defect", "smallest", number, "", positive, "", "it is not sought", "",
      "least size that the gates catch: the self-test finds it by bisection and fails where it has grown by more than a quarter"},
-    {"defect", "killed_by", text_or_texts, "", any, "[]", "any gate", "", "metrics whose gates must fail"},
+    {"defect", "killed_by", text_or_texts, "", any, "[]", "any gate", "", "metrics whose gates must fail, all of them"},
     {"harmless", "name", word, "", any, "!", "", "threads order ulp boost mirror rotation units",
      "threads: 2 instead of 1; order: of the particles; ulp: of each coordinate; boost: a velocity added to all of a closed "
      "scene; mirror: in x; rotation: x to y to z to x; units: powers of 2"},

@@ -75,16 +75,19 @@ void refuse_unknown_quantity(const MetricChoice& choice) {
                                      suggestion(choice.quantity, known));
 }
 
+/// Whether a value by this norm has the unit of its quantity: a slope, a frequency and a share of the uncertainty have not.
+bool keeps_unit(Norm norm) { return norm != Norm::slope && norm != Norm::frequency && norm != Norm::chi; }
+
+std::string unit_of_quantity(const std::string& quantity) {
+  if (is_ledger(quantity)) return "J";
+  const auto at = std::ranges::find(metric_quantities(), quantity, &MetricWord::name);
+  return at == metric_quantities().end() ? "1" : at->unit;
+}
+
 /// Refuses a unit for people that is not the unit of the number beside it. A value in m, divided by a scale of 1, is none in mm.
 void refuse_another_unit(const MetricChoice& choice) {
-  if (choice.unit.empty() || choice.unit == "degC" || choice.norm == Norm::slope || choice.norm == Norm::frequency ||
-      choice.norm == Norm::chi)
-    return;
-  const std::string own = is_ledger(choice.quantity)
-                              ? "J"
-                              : std::find_if(metric_quantities().begin(), metric_quantities().end(), [&](const MetricWord& w) {
-                                  return w.name == choice.quantity;
-                                })->unit;
+  if (choice.unit.empty() || choice.unit == "degC" || !keeps_unit(choice.norm)) return;
+  const std::string own = unit_of_quantity(choice.quantity);
   if (choice.unit == own) return;  // the scale beside its own unit is in the baseline
   double factor = 0.0;
   try {
@@ -343,6 +346,11 @@ const std::vector<MetricWord>& metric_quantities() {
     return list;
   }();
   return words;
+}
+
+std::string unit_of_value(const MetricChoice& choice) {
+  if (!choice.unit.empty()) return choice.unit;
+  return choice.scale == 1.0 && keeps_unit(choice.norm) ? unit_of_quantity(choice.quantity) : "1";
 }
 
 bool can_be_gauged(const std::string& quantity) {

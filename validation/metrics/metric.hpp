@@ -45,6 +45,8 @@ struct MetricWord {
 };
 [[nodiscard]] const std::vector<MetricWord>& metric_quantities();
 [[nodiscard]] const std::vector<MetricWord>& metric_norms();
+/// Unit of a metric's value: that of the case, else the quantity's own where nothing scales it, else "1".
+[[nodiscard]] std::string unit_of_value(const MetricChoice&);
 /// Whether an engine may answer a quantity by a number of its own, read in its own field. Such quantities are a probe, a mean, a
 /// way or a centre.
 [[nodiscard]] bool can_be_gauged(const std::string& quantity);
