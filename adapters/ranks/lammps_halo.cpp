@@ -252,6 +252,7 @@ void LammpsHalo::number_atoms() {
 
 void LammpsHalo::unpack(Particles& particles) {
   number_atoms();
+  if (ranks_->size() == 1) return;  // ids are numbers, and every particle keeps its row
   std::vector<std::uint32_t> rows;
   std::vector<std::pair<std::size_t, const double*>> came;  // id and numbers of each that has arrived
   for (std::size_t id = 0; id < numbers_.size(); ++id) {

@@ -75,21 +75,25 @@ void Columns::rearrange(std::span<const std::uint32_t> from, std::span<const std
   }
 }
 
+/// Rows that stay in their places are not touched: of a share of many ranks these are nearly all.
 void Columns::gather(std::span<const std::uint32_t> from) {
+  std::vector<std::uint32_t> of, to;  // of the rows that do not stay in their places
+  for (std::uint32_t n = 0; n < from.size(); ++n) {
+    if (from[n] == none || from[n] == n) continue;
+    of.push_back(from[n]);
+    to.push_back(n);
+  }
   rows_ = from.size();
   const std::size_t needed = rows_ + padding;
   for (Column& c : columns_) {
     std::visit(
         [&]<class T>(AlignedVector<T>& values) {
           auto& moved = std::get<AlignedVector<T>>(moved_);
-          if (moved.capacity() < needed) {
-            moved.clear();  // so that growing copies nothing
-            moved.reserve(needed + needed / 32);
-          }
-          moved.resize(needed);
-          for (std::size_t n = 0; n < rows_; ++n)
-            if (from[n] != none) moved[n] = values[from[n]];
-          values.swap(moved);
+          if (moved.size() < of.size()) moved.resize(of.size());
+          for (std::size_t k = 0; k < of.size(); ++k) moved[k] = values[of[k]];
+          if (values.capacity() < needed) values.reserve(needed + needed / 32);
+          values.resize(needed);
+          for (std::size_t k = 0; k < to.size(); ++k) values[to[k]] = moved[k];
         },
         c.values);
   }

@@ -59,6 +59,26 @@ TEST(Columns, MoveEveryFieldAlikeWhenPermuted) {
   }
 }
 
+/// Rows that stay, change places, come twice, go and are new, in fewer rows, as many and more.
+TEST(Columns, TakeTheRowsThatAreNamed) {
+  constexpr std::uint32_t none = Particles::none;
+  for (const std::vector<std::uint32_t>& rows : std::vector<std::vector<std::uint32_t>>{
+           {0, 1, 2, 3}, {0, 3, 2, 1}, {3, 1}, {}, {1, 1, 2, none}, {0, none, 2, 3, none, 1, 2}}) {
+    Particles particles(4, some_fields());
+    for (std::size_t i = 0; i < 4; ++i) {
+      particles[field::temperature][i] = 300.0 + static_cast<double>(i);
+      particles[field::body][i] = 10 + static_cast<int>(i);
+    }
+    particles.make_of(rows);
+    ASSERT_EQ(particles.size(), rows.size());
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+      if (rows[n] == none) continue;
+      EXPECT_EQ(particles[field::temperature][n], 300.0 + rows[n]);
+      EXPECT_EQ(particles[field::body][n], 10 + static_cast<int>(rows[n]));
+    }
+  }
+}
+
 TEST(Columns, KeepTheirRowsWhenOneIsAdded) {
   Columns bodies(0, Per::body, some_fields());
   bodies.append_row();
