@@ -33,6 +33,8 @@ constexpr const char* description =
     "  tripoint predict fluid/dam-break-small --ranks 1024,10240 --particles 1e8,1e9 --machine cluster.toml\n"
     "  tripoint predict heat/cosine-mode --ranks 1,2 --measure 1,2 --set scene.spacing='0.125 mm'   beside what this machine "
     "takes\n"
+    "  tripoint predict speed/liquid-heat --measure 1,2 --weak-set 'body.cube.shape.max=[0.34,0.34,0.68]'    as many particles a "
+    "rank\n"
     "  tripoint predict heat/cosine-mode --ranks 1,2,4,8 --kit > kit.sh                one file for a cluster: sbatch kit.sh\n"
     "  tripoint predict --compare FILE.json                                            what the kit has brought back\n"
     "A machine file (TOML) has name, cores_a_node, latency (s), bandwidth (bytes/s); where they differ, allreduce (s), pack_rate "
@@ -49,7 +51,7 @@ struct Options {
   std::string what, machine, out, compare;
   std::vector<int> ranks, measure;
   std::vector<double> particles;
-  std::vector<std::string> set;
+  std::vector<std::string> set, larger;
   int repeats = 3;
   double seconds = 1.5;
   bool weak = false, kit = false, quiet = false, json = false;
@@ -170,10 +172,19 @@ std::size_t line_on(PredictionReport& r, const Prepared& base, int ranks) {
   return r.lines.size() - 1;
 }
 
-/// Weak scaling: the scene with finer particles, so that each rank has as many as one has of the scene as it is.
-Prepared add_weak_line(PredictionReport& r, PredictRuns& runs, const Prepared& base, int ranks) {
-  Prepared p =
-      runs.prepare(fmt::format("weak-{}", ranks), {fmt::format("scene.spacing={:.17g}", base.scene.spacing / std::cbrt(ranks))});
+/// Keys of a scene with finer particles, of which each rank has as many as one has of the scene as it is. A time step that the
+/// scene fixes becomes finer too, so that particles pass as much of a spacing in a step and lists last as long.
+std::vector<std::string> finer(const Scene& scene, int ranks) {
+  const double by = 1.0 / std::cbrt(ranks);
+  std::vector<std::string> set{fmt::format("scene.spacing={:.17g}", scene.spacing * by)};
+  if (scene.time_step) set.push_back(fmt::format("scene.time_step={:.17g}", *scene.time_step * by));
+  return set;
+}
+
+/// Weak scaling. @param larger keys that make the larger scene; empty: it is finer
+Prepared add_weak_line(PredictionReport& r, PredictRuns& runs, const Prepared& base, int ranks,
+                       const std::vector<std::string>& larger) {
+  Prepared p = runs.prepare(fmt::format("weak-{}", ranks), larger.empty() ? finer(base.scene, ranks) : larger);
   p.cloud.reach = base.cloud.reach * p.scene.spacing / base.scene.spacing;
   const auto particles = static_cast<double>(p.initial.size());
   r.lines.push_back(line_of(r, p.cloud, whole_of(p.cloud, particles), ranks, particles));
@@ -193,7 +204,7 @@ void add_lines(PredictionReport& r, PredictRuns& runs, const Options& o, const P
   weak.reserve(o.measure.size() + o.ranks.size());  // places of its entries are kept below
   for (const int ranks : o.weak ? (o.measure.empty() ? o.ranks : o.measure) : std::vector<int>{}) {
     if (ranks == 1) continue;
-    weak.push_back(add_weak_line(r, runs, base, ranks));
+    weak.push_back(add_weak_line(r, runs, base, ranks, o.larger));
     measured.push_back({r.lines.size() - 1, &weak.back()});
   }
   if (o.measure.empty()) return;
@@ -253,12 +264,17 @@ int predict_for(Options o) {
   if (o.what.empty()) throw InputError("predict: name a case, or --compare a result.json");
   if (o.ranks.empty()) o.ranks = o.measure;
   if (o.ranks.empty()) throw InputError("predict: say --ranks N[,N...]");
+  if (!o.larger.empty()) o.weak = true;
+  const std::vector<int>& larger_on = o.measure.empty() ? o.ranks : o.measure;
+  if (!o.larger.empty() && std::count_if(larger_on.begin(), larger_on.end(), [](int n) { return n > 1; }) > 1)
+    throw InputError("--weak-set makes one larger scene: name one number of ranks beside 1");
   check(o.ranks, "--ranks", most_ranks);
   check(o.measure, "--measure", most_measured);
   for (const double n : o.particles)
     if (!(n >= 1.0 && n <= 1e15)) throw InputError(fmt::format("--particles {:g}: write numbers from 1 to 1e15", n));
   if (!o.kit) return predict_case(std::move(o));
   static_cast<void>(read_case(shown_path(case_file(o.what)), o.set));  // a kit that cannot run is found out here
+  if (!o.larger.empty()) throw InputError("--weak-set: a kit makes its larger scenes finer; leave one of the two out");
   check(o.ranks, "--ranks", most_measured);
   std::sort(o.ranks.begin(), o.ranks.end());
   print(predict::kit_script(o.what, o.set, o.ranks));
@@ -280,6 +296,11 @@ void add_predict(CLI::App& app, int& exit_code) {
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_flag("--weak", o->weak, "also P times the particles on P ranks, by a finer spacing");
+  command
+      ->add_option("--weak-set", o->larger,
+                   "a.b=VALUE makes the scene of --weak larger, in the place of a finer spacing; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
   command->add_option("--repeats", o->repeats, "of each run, in turns; of each step the best counts")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

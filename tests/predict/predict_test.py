@@ -63,6 +63,20 @@ class Predict(unittest.TestCase):
         self.assertLessEqual(measured["ms_a_step"], min(measured["repeats_ms"]) + 1e-9)  # equal where one run is the faster one in each step
         self.assertLessEqual(measured["cpu_ms_of_rank_0"], 1e3 * sum(cpu) / len(cpu) + 1e-9)
 
+    def test_a_larger_scene_is_finer_in_time_too(self):
+        """Else particles of the finer scene would pass more of a spacing in a step, and make new lists more often."""
+        words = ("speed/liquid-heat", "--set", "scene.spacing=0.04", "--set", "scene.time_step=0.002", "--quiet", "--repeats", "1", "--seconds", "0.02", "--machine", "cluster.toml", "--measure", "2")
+        for more, finer in (("--weak",), 2 ** (-1 / 3)), (("--weak-set", "body.cube.shape.max=[0.34,0.34,0.68]"), 1.0):
+            with self.subTest(more=more):
+                done = self.call(*words, *more, "--out", "larger", "--json")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                strong, weak = json.loads(done.stdout)["rows"]
+                self.assertEqual((strong["scaling"], weak["scaling"], weak["ranks"]), ("strong", "weak", 2))
+                self.assertGreater(weak["particles"], 1.5 * strong["particles"])
+                self.assertEqual((weak["rank_0"]["own"], weak["rank_0"]["copies"]), (weak["measured"]["rank_0"]["own"], weak["measured"]["rank_0"]["copies"]))
+                job = json.loads((self.path / "larger" / "weak-2-2" / "job.json").read_text())
+                self.assertAlmostEqual(job["scene"]["time_step"], 0.002 * finer, delta=1e-12)
+
     def test_cuts_move_as_those_of_the_engine_do(self):
         """A dam fills a part of its tank: equal parts would give one rank nearly all, so that LAMMPS shifts its cut."""
         done = self.call("fluid/dam-break-small", "--quiet", "--repeats", "1", "--seconds", "0.02", "--machine", "cluster.toml", "--measure", "2", "--json")
@@ -105,7 +119,8 @@ class Predict(unittest.TestCase):
         (self.path / "wrong.toml").write_text(MACHINE + "speed = 2\n")
         (self.path / "other.json").write_text('{"format": 1}')
         for words, word in ((("heat/bar-3x3",), "--ranks"), (("heat/bar-3x3", "--ranks", "0"), "from 1 to"), (("heat/none", "--ranks", "2"), "heat/none"), (("heat/bar-3x3", "--ranks", "2", "--machine", "wrong.toml"), "speed"),
-                            (("--compare", "other.json"), "no result"), (("heat/bar-3x3", "--ranks", "2", "--particles", "0"), "--particles")):
+                            (("--compare", "other.json"), "no result"), (("heat/bar-3x3", "--ranks", "2", "--particles", "0"), "--particles"),
+                            (("heat/bar-3x3", "--measure", "1,2,4", "--weak-set", "scene.spacing=0.01"), "one number of ranks"), (("heat/bar-3x3", "--ranks", "2", "--weak-set", "scene.spacing=0.01", "--kit"), "kit")):
             with self.subTest(words=words):
                 done = self.call(*words)
                 self.assertEqual(done.returncode, 2, done.stderr)
