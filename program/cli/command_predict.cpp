@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -134,15 +135,21 @@ predict::Share whole_of(const predict::Cloud& cloud, double particles) {
 }
 
 /// Repeats of all lines that are measured, in turns, one rank among them: other work on the machine then comes upon all alike.
-void measure(PredictRuns& runs, const std::vector<const Prepared*>& prepared, std::vector<PredictedLine*>& lines, int repeats) {
+/// @param cores up to which as many runs of one rank at once take their turn too
+void measure(PredictRuns& runs, const std::vector<const Prepared*>& prepared, std::vector<PredictedLine*>& lines, int repeats,
+             int cores) {
   Timed one;
+  std::map<int, Timed> at_once;  // by how many
   for (PredictedLine* line : lines) {
     line->measured = Timed{};
     line->measured->ranks = line->prediction.ranks;
+    if (line->prediction.ranks > 1 && line->prediction.ranks <= cores) at_once[line->prediction.ranks];
   }
   for (int n = 0; n < repeats; ++n) {
     runs.time(*prepared.front(), one);
     for (std::size_t k = 0; k < lines.size() && !interrupted(); ++k) runs.time(*prepared[k + 1], *lines[k]->measured);
+    for (auto& [count, timed] : at_once)
+      if (!interrupted()) runs.time_at_once(*prepared.front(), count, timed);
     if (interrupted()) return;
   }
   const auto particles = static_cast<double>(prepared.front()->initial.size());
@@ -151,8 +158,11 @@ void measure(PredictRuns& runs, const std::vector<const Prepared*>& prepared, st
     if (line->prediction.ranks == 1 && line->prediction.particles == particles)
       best = std::min(best, line->measured->best_wall());
   const double each = best / particles;
-  for (PredictedLine* line : lines)
+  for (PredictedLine* line : lines) {
     line->measured_efficiency = each * line->prediction.particles / (line->prediction.ranks * line->measured->best_wall());
+    if (const auto found = at_once.find(line->prediction.ranks); found != at_once.end())
+      line->speed_at_once = best / found->second.best_wall();
+  }
 }
 
 /// A line of the report that is also run, and the runs for it.
@@ -215,7 +225,7 @@ void add_lines(PredictionReport& r, PredictRuns& runs, const Options& o, const P
     prepared.push_back(m.prepared);
     lines.push_back(&r.lines[m.line]);
   }
-  measure(runs, prepared, lines, o.repeats);
+  measure(runs, prepared, lines, o.repeats, r.cores);
 }
 
 int predict_case(Options o) {

@@ -53,12 +53,15 @@ class PredictRuns {
   void choose_end(Prepared&, double most = std::numeric_limits<double>::infinity());
   /// One more repeat. @throws EngineError with the reason of a run that did not end well
   void time(const Prepared&, Timed&);
+  /// As many runs on one rank at once, apart from each other: what the cores do where all have work. Of each step the slowest run
+  /// counts. @throws EngineError as time()
+  void time_at_once(const Prepared&, int count, Timed&);
   /// `--probe` of the engine, two ranks. @throws EngineError
   [[nodiscard]] predict::Machine probe() const;
 
  private:
-  [[nodiscard]] std::string folder_of(const Prepared&, int ranks) const;
-  [[nodiscard]] Outcome run(const Prepared&, int ranks, double end);
+  [[nodiscard]] std::string folder_of(const Prepared&, const std::string& which) const;
+  [[nodiscard]] Outcome run(const Prepared&, int ranks, double end, const std::string& folder);
 
   std::string file_;
   std::vector<std::string> set_;

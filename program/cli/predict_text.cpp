@@ -85,6 +85,11 @@ json of(const PredictedLine& line) {
                      {"difference_percent", 100.0 * (p.seconds() / t.best_wall() - 1.0)},
                      {"gb_a_rank", 1e-9 * t.bytes},
                      {"rank_0", {{"own", t.own}, {"copies", t.copies}, {"pairs", t.pairs}}}};
+  if (!line.speed_at_once) return row;
+  const double speed = *line.speed_at_once;
+  row["measured"]["speed_at_once"] = speed;
+  row["measured"]["efficiency_of_cores"] = line.measured_efficiency / speed;
+  row["measured"]["difference_of_cores_percent"] = 100.0 * (p.seconds() / (speed * t.best_wall()) - 1.0);
   return row;
 }
 
@@ -95,6 +100,24 @@ std::string head(const json& d) {
       d.at("case").get<std::string>(), m.at("name").get<std::string>(), m.at("source").get<std::string>(),
       1e6 * m.at("latency").get<double>(), 1e-9 * m.at("bandwidth").get<double>(), 1e6 * m.at("allreduce").get<double>(),
       100.0 * m.at("waiting").get<double>());
+}
+
+/// What ranks add to what the cores themselves lose where all have work.
+std::string at_once_table(const json& rows) {
+  std::string text;
+  for (const json& r : rows) {
+    if (!r.contains("measured") || !r.at("measured").contains("speed_at_once")) continue;
+    const json& m = r.at("measured");
+    text += fmt::format("{:10} {:7} {:10.4g} {:13.3f} {:13.3f} {:+11.1f}\n", r.at("scaling").get<std::string>(),
+                        r.at("ranks").get<int>(), r.at("particles").get<double>(), m.at("speed_at_once").get<double>(),
+                        m.at("efficiency_of_cores").get<double>(), m.at("difference_of_cores_percent").get<double>());
+  }
+  if (text.empty()) return text;
+  return fmt::format(
+             "\nthe same beside as many runs of one rank at once, apart from each other: what these cores themselves lose\n"
+             "{:10} {:>7} {:>10} {:>13} {:>13} {:>11}\n",
+             "", "ranks", "particles", "speed at once", "eff. of that", "off by %") +
+         text;
 }
 
 std::string predicted_table(const json& rows) {
@@ -192,7 +215,7 @@ std::string prediction_text(const json& d) {
         on.at("cpu").get<std::string>(), on.at("cores").get<int>(), 1e6 * c.at("fixed_s").get<double>(),
         1e9 * c.at("particle_s").get<double>(), 1e9 * c.at("pair_s").get<double>(), d.at("one_rank").size(),
         100.0 * c.at("worst_misfit").get<double>());
-    text += predicted_table(rows) + measured_table(rows) + "\nassumptions of the prediction\n";
+    text += predicted_table(rows) + measured_table(rows) + at_once_table(rows) + "\nassumptions of the prediction\n";
     for (const json& line : d.at("assumptions")) text += "  " + line.get<std::string>() + "\n";
     text += "outside what was measured\n";
     for (const json& line : d.at("outside_measured")) text += "  " + line.get<std::string>() + "\n";

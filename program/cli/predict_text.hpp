@@ -18,6 +18,8 @@ struct PredictedLine {
   predict::Share first;  ///< of rank 0
   std::optional<Timed> measured;
   double measured_efficiency = 0.0;  ///< from the measured time on one rank
+  /// Speed of one rank where as many run at once, apart from each other, over its speed alone; none where ranks share cores.
+  std::optional<double> speed_at_once;
 };
 
 /// All that the command says.

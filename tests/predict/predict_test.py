@@ -45,6 +45,9 @@ class Predict(unittest.TestCase):
         passes = two["measured"]["rank_0"]["pairs"] * (steps + 1) / two["rank_0"]["pairs"]
         self.assertAlmostEqual(passes, 2 * steps + 1, delta=1e-6)  # the engine counts a pair once a pass: two a step, and one at the start
         self.assertGreater(two["measured"]["ms_a_step"], 0)
+        self.assertEqual("speed_at_once" in two["measured"], document["measured_on"]["cores"] >= 2)
+        if document["measured_on"]["cores"] >= 2:  # so much of the efficiency is the cores' own
+            self.assertAlmostEqual(two["measured"]["efficiency_of_cores"] * two["measured"]["speed_at_once"], two["measured"]["efficiency"], delta=1e-9)
         self.assertAlmostEqual(rows[1, 270]["efficiency"], 1.0, delta=1e-9)
         self.assertAlmostEqual(rows[1, 1e9]["efficiency"], 1.0, delta=1e-9)
         self.assertLess(two["efficiency"], 1.0)
