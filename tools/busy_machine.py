@@ -10,7 +10,6 @@ gives way as users have it. All rows of a load are measured in turn, the median 
 import argparse
 import json
 import os
-import re
 import statistics
 import subprocess
 import sys
@@ -18,30 +17,29 @@ import tempfile
 from pathlib import Path
 
 ENDLESS = "30000000000"
-TAKEN = re.compile(r"([\d.e+-]+) s a step")
 
 
 def environment(**waits):
     return {name: value for name, value in os.environ.items() if name not in ("GOMP_SPINCOUNT", "OMP_WAIT_POLICY")} | waits
 
 
-def forced(program, case, steps, threads, **waits):
+def trial(program, case, steps, threads, **waits):
+    done = subprocess.run([program, "explain", case, "--trial", str(steps), "--threads", str(threads), "--json"], capture_output=True, text=True, check=True, env=environment(**waits))
+    return json.loads(done.stdout)["trial"]
+
+
+def forced(*words, **waits):
     """A step with so many threads, whatever the machine does [ms]."""
-    done = subprocess.run([program, "explain", case, "--trial", str(steps), "--threads", str(threads)], capture_output=True, text=True, check=True, env=environment(**waits))
-    return 1e3 * float(TAKEN.search(done.stdout)[1])
+    return 1e3 * trial(*words, **waits)["step_seconds"]
 
 
 def as_shipped(program, case, steps, threads, time_step):
     """A step of a run [ms]."""
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([program, "run", case, "--threads", str(threads), "--until", str(steps * time_step), "--out", folder, "--quiet"], capture_output=True, text=True, check=True, env=environment())
+        end = str(steps * time_step)
+        subprocess.run([program, "run", case, "--threads", str(threads), "--until", end, "--set", f"scene.output_interval={end}", "--out", folder, "--quiet"], capture_output=True, text=True, check=True, env=environment())
         result = json.loads(next(Path(folder).rglob("result.json")).read_text(encoding="utf-8"))
     return 1e3 * result["seconds"]["stepping_wall"] / result["steps"]
-
-
-def first_time_step(program, case):
-    done = subprocess.run([program, "explain", case, "--trial", "1"], capture_output=True, text=True, check=True)
-    return float(re.search(r"about \d+ steps of ([\d.e+-]+) s, so", done.stdout)[1])
 
 
 def measured(args, load, time_step):
@@ -73,7 +71,7 @@ def main():
     words.add_argument("--steps", type=int, default=100)
     words.add_argument("--rounds", type=int, default=3)
     args = words.parse_args()
-    time_step = first_time_step(args.program, args.case)
+    time_step = trial(args.program, args.case, 1, 1)["time_step"]
     table = {}
     for load in map(int, args.loads.split(",")):
         table[load] = (measured(args, load, time_step), os.getloadavg()[0])
