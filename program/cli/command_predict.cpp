@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <fstream>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -14,6 +12,7 @@
 #include "program/cli/common.hpp"
 #include "program/cli/predict_runs.hpp"
 #include "program/cli/predict_text.hpp"
+#include "program/cli/predict_turns.hpp"
 #include "program/predict/kit.hpp"
 #include "validation/harness/case_names.hpp"
 #include "validation/harness/process.hpp"
@@ -40,7 +39,8 @@ constexpr const char* description =
     "  tripoint predict --compare FILE.json                                            what the kit has brought back\n"
     "A machine file (TOML) has name, cores_a_node, latency (s), bandwidth (bytes/s); where they differ, allreduce (s), pack_rate "
     "(bytes/s),\n"
-    "core_speed (of its cores over these), waiting (share of the work, 0.05).\n"
+    "core_speed (of its cores over these), speed_at_once (of a core where all have work, over one alone), waiting (share of the "
+    "work, 0.05).\n"
     "Exit: 0 done, 2 bad input, 4 the engine is missing or cannot run the case over ranks.";
 
 /// Particles times ranks up to which shares are counted one by one; beyond, they are scaled by volume.
@@ -77,42 +77,17 @@ void check(const std::vector<int>& list, const char* option, int most) {
     if (n < 1 || n > most) throw InputError(fmt::format("{} {}: write whole numbers from 1 to {}", option, n, most));
 }
 
-/// The runs on one rank: the case, the same coarser, the same with a wider support. The last tells the cost of a pair from that
-/// of a particle.
-struct OneRankRuns {
-  std::vector<Prepared> prepared;
-  std::vector<Timed> timed;
-};
-
-OneRankRuns time_one_rank(PredictRuns& runs, int repeats, std::vector<std::string>& notes) {
-  constexpr double coarser = 2.0, wider = 1.25;
-  OneRankRuns all;
-  all.prepared.push_back(runs.prepare("case", {}));
-  runs.choose_end(all.prepared.front());
-  const Scene scene = all.prepared.front().scene;
-  const std::vector<std::pair<std::string, std::string>> others{
-      {"coarse", fmt::format("scene.spacing={:.17g}", coarser * scene.spacing)},
-      {"wide", fmt::format("scene.support_ratio={:.17g}", wider * scene.support_ratio)}};
-  for (const auto& [label, set] : others) {
-    try {
-      Prepared p = runs.prepare(label, {set});
-      runs.choose_end(p, all.prepared.front().end);
-      all.prepared.push_back(std::move(p));
-    } catch (const std::exception& e) {
-      notes.push_back(fmt::format("no run with {}: {}", set, e.what()));
-    }
-    if (interrupted()) return all;
-  }
-  all.timed.resize(all.prepared.size());
-  for (int n = 0; n < repeats; ++n)
-    for (std::size_t k = 0; k < all.prepared.size() && !interrupted(); ++k) runs.time(all.prepared[k], all.timed[k]);
-  return all;
-}
-
 predict::Shares shares_of(const predict::Cloud& cloud, int ranks, double particles, bool& counted) {
   const auto own = static_cast<double>(cloud.position.size());
   counted = particles == own && own * ranks <= most_counted;
   return counted ? predict::share_out(cloud, ranks) : predict::share_volume(cloud, ranks, particles);
+}
+
+/// Of a core of a node with so many ranks, over its speed where no other has work.
+double speed_where_all_work(const PredictionReport& r, int ranks) {
+  if (r.machine.speed_at_once) return *r.machine.speed_at_once;
+  const auto found = r.speed_at_once.upper_bound(ranks);
+  return found == r.speed_at_once.begin() ? 1.0 : std::prev(found)->second;
 }
 
 PredictedLine line_of(const PredictionReport& r, const predict::Cloud& cloud, const predict::Share& whole, int ranks,
@@ -120,7 +95,7 @@ PredictedLine line_of(const PredictionReport& r, const predict::Cloud& cloud, co
   PredictedLine line;
   bool counted = false;
   const predict::Shares shares = shares_of(cloud, ranks, particles, counted);
-  line.prediction = predict::predict(shares, whole, r.cost, r.memory, r.traffic, r.machine);
+  line.prediction = predict::predict(shares, whole, r.cost, r.memory, r.traffic, r.machine, speed_where_all_work(r, ranks));
   line.prediction.particles = particles;  // shares by volume add up to it but for rounding
   line.prediction.counted = counted;
   line.grid = shares.grid;
@@ -134,43 +109,6 @@ predict::Share whole_of(const predict::Cloud& cloud, double particles) {
   return shares_of(cloud, 1, particles, counted).ranks.front();
 }
 
-/// Repeats of all lines that are measured, in turns, one rank among them: other work on the machine then comes upon all alike.
-/// @param cores up to which as many runs of one rank at once take their turn too
-void measure(PredictRuns& runs, const std::vector<const Prepared*>& prepared, std::vector<PredictedLine*>& lines, int repeats,
-             int cores) {
-  Timed one;
-  std::map<int, Timed> at_once;  // by how many
-  for (PredictedLine* line : lines) {
-    line->measured = Timed{};
-    line->measured->ranks = line->prediction.ranks;
-    if (line->prediction.ranks > 1 && line->prediction.ranks <= cores) at_once[line->prediction.ranks];
-  }
-  for (int n = 0; n < repeats; ++n) {
-    runs.time(*prepared.front(), one);
-    for (std::size_t k = 0; k < lines.size() && !interrupted(); ++k) runs.time(*prepared[k + 1], *lines[k]->measured);
-    for (auto& [count, timed] : at_once)
-      if (!interrupted()) runs.time_at_once(*prepared.front(), count, timed);
-    if (interrupted()) return;
-  }
-  const auto particles = static_cast<double>(prepared.front()->initial.size());
-  double best = one.best_wall();
-  for (const PredictedLine* line : lines)
-    if (line->prediction.ranks == 1 && line->prediction.particles == particles)
-      best = std::min(best, line->measured->best_wall());
-  const double each = best / particles;
-  for (PredictedLine* line : lines) {
-    line->measured_efficiency = each * line->prediction.particles / (line->prediction.ranks * line->measured->best_wall());
-    if (const auto found = at_once.find(line->prediction.ranks); found != at_once.end())
-      line->speed_at_once = best / found->second.best_wall();
-  }
-}
-
-/// A line of the report that is also run, and the runs for it.
-struct ToMeasure {
-  std::size_t line;
-  const Prepared* prepared;
-};
-
 /// The line of the scene as it is on these ranks; where there is none it is added.
 std::size_t line_on(PredictionReport& r, const Prepared& base, int ranks) {
   const auto particles = static_cast<double>(base.initial.size());
@@ -182,50 +120,25 @@ std::size_t line_on(PredictionReport& r, const Prepared& base, int ranks) {
   return r.lines.size() - 1;
 }
 
-/// Keys of a scene with finer particles, of which each rank has as many as one has of the scene as it is. A time step that the
-/// scene fixes becomes finer too, so that particles pass as much of a spacing in a step and lists last as long.
-std::vector<std::string> finer(const Scene& scene, int ranks) {
-  const double by = 1.0 / std::cbrt(ranks);
-  std::vector<std::string> set{fmt::format("scene.spacing={:.17g}", scene.spacing * by)};
-  if (scene.time_step) set.push_back(fmt::format("scene.time_step={:.17g}", *scene.time_step * by));
-  return set;
-}
-
-/// Weak scaling. @param larger keys that make the larger scene; empty: it is finer
-Prepared add_weak_line(PredictionReport& r, PredictRuns& runs, const Prepared& base, int ranks,
-                       const std::vector<std::string>& larger) {
-  Prepared p = runs.prepare(fmt::format("weak-{}", ranks), larger.empty() ? finer(base.scene, ranks) : larger);
-  p.cloud.reach = base.cloud.reach * p.scene.spacing / base.scene.spacing;
-  const auto particles = static_cast<double>(p.initial.size());
-  r.lines.push_back(line_of(r, p.cloud, whole_of(p.cloud, particles), ranks, particles));
-  r.lines.back().weak = true;
-  return p;
-}
-
-void add_lines(PredictionReport& r, PredictRuns& runs, const Options& o, const Prepared& base) {
+/// Predicts each line, and puts what was measured beside it.
+void add_lines(PredictionReport& r, const Options& o, const RunsInTurns& runs) {
+  const Prepared& base = runs.one_rank.front();
   const auto sampled = static_cast<double>(base.initial.size());
   for (const double particles : o.particles.empty() ? std::vector<double>{sampled} : o.particles) {
     const predict::Share whole = whole_of(base.cloud, particles);
     for (const int ranks : o.ranks) r.lines.push_back(line_of(r, base.cloud, whole, ranks, particles));
   }
-  std::vector<ToMeasure> measured;
-  for (const int ranks : o.measure) measured.push_back({line_on(r, base, ranks), &base});
-  std::vector<Prepared> weak;
-  weak.reserve(o.measure.size() + o.ranks.size());  // places of its entries are kept below
-  for (const int ranks : o.weak ? (o.measure.empty() ? o.ranks : o.measure) : std::vector<int>{}) {
-    if (ranks == 1) continue;
-    weak.push_back(add_weak_line(r, runs, base, ranks, o.larger));
-    measured.push_back({r.lines.size() - 1, &weak.back()});
+  for (const int ranks : o.measure) r.lines[line_on(r, base, ranks)].measured = runs.on(ranks);
+  for (const auto& [ranks, larger] : runs.larger) {
+    const auto particles = static_cast<double>(larger.initial.size());
+    r.lines.push_back(line_of(r, larger.cloud, whole_of(larger.cloud, particles), ranks, particles));
+    r.lines.back().weak = true;
+    if (const auto found = runs.weak.find(ranks); found != runs.weak.end()) r.lines.back().measured = found->second;
   }
-  if (o.measure.empty()) return;
-  for (Prepared& p : weak) runs.choose_end(p, base.end);
-  std::vector<const Prepared*> prepared{&base};
-  std::vector<PredictedLine*> lines;
-  for (const ToMeasure& m : measured) {
-    prepared.push_back(m.prepared);
-    lines.push_back(&r.lines[m.line]);
-  }
-  measure(runs, prepared, lines, o.repeats, r.cores);
+  const double each = runs.alone().best_wall() / sampled;
+  for (PredictedLine& line : r.lines)
+    if (line.measured)
+      line.measured_efficiency = each * line.prediction.particles / (line.prediction.ranks * line.measured->best_wall());
 }
 
 int predict_case(Options o) {
@@ -242,27 +155,27 @@ int predict_case(Options o) {
   r.set = o.set;
   r.cpu = tool.cpu;
   r.cores = tool.cores;
-  PredictRuns runs(file, o.set, o.out, o.seconds, o.quiet);
-  const OneRankRuns one = time_one_rank(runs, o.repeats, r.notes);
+  PredictRuns engine(file, o.set, o.out, o.seconds, o.quiet);
+  const RunsInTurns runs = run_in_turns(engine, {o.ranks, o.measure, o.larger, o.weak, o.repeats, r.cores}, r.notes);
   if (interrupted()) return exit_interrupted;
-  for (std::size_t k = 0; k < one.prepared.size(); ++k) {
-    const Prepared& p = one.prepared[k];
-    const Timed& t = one.timed[k];
+  for (std::size_t k = 0; k < runs.one_rank.size(); ++k) {
+    const Prepared& p = runs.one_rank[k];
+    const Timed& t = runs.one_rank_timed[k];
     r.runs.push_back({static_cast<double>(p.initial.size()), whole_of(p.cloud, static_cast<double>(p.initial.size())).worked,
                       t.best_cpu(), t.bytes});
     r.labels.push_back(p.label);
   }
   r.cost = predict::fit_work(r.runs);
-  r.memory = predict::fit_memory(r.runs, one.prepared.front().weight_bytes);
-  r.traffic = one.timed.front().traffic;
-  if (o.machine.empty()) r.machine = runs.probe();
+  r.memory = predict::fit_memory(r.runs, runs.one_rank.front().weight_bytes);
+  r.traffic = runs.alone().traffic;
+  for (const auto& [count, timed] : runs.at_once) r.speed_at_once[count] = runs.alone().best_wall() / timed.best_wall();
+  if (o.machine.empty()) r.machine = engine.probe();
   if (o.machine.empty() && r.machine.latency > slow_latency)
     r.notes.push_back(
         fmt::format("the probe found {:.3g} us for a message: other programs hold the cores, so that what is said of messages is "
                     "far too slow; probe a quiet machine, or give --machine",
                     1e6 * r.machine.latency));
-  add_lines(r, runs, o, one.prepared.front());
-  if (interrupted()) return exit_interrupted;
+  add_lines(r, o, runs);
   const nlohmann::ordered_json document = prediction_json(r);
   print(o.json ? document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n"
                : prediction_text(document));

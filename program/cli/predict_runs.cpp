@@ -188,7 +188,7 @@ void PredictRuns::time(const Prepared& p, Timed& t) {
                     t.ranks == 1 ? "" : "s", 1e3 * t.wall.back(), 1e3 * mean(times.cpu)));
 }
 
-void PredictRuns::time_at_once(const Prepared& p, int count, Timed& t) {
+void PredictRuns::time_at_once(const Prepared& p, int count, Timed& t, Timed& alone) {
   std::vector<std::future<StepTimes>> runs;
   for (int n = 0; n < count; ++n)
     runs.push_back(std::async(std::launch::async, [&, n] {
@@ -201,6 +201,8 @@ void PredictRuns::time_at_once(const Prepared& p, int count, Timed& t) {
     const StepTimes times = one.get();
     slowest.resize(times.wall.size());
     for (std::size_t k = 0; k < slowest.size(); ++k) slowest[k] = std::max(slowest[k], times.wall[k]);
+    keep_least(alone.least_wall, times.wall);
+    keep_least(alone.least_cpu, times.cpu);
   }
   t.wall.push_back(mean(slowest));
   keep_least(t.least_wall, slowest);

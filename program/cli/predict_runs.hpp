@@ -54,8 +54,8 @@ class PredictRuns {
   /// One more repeat. @throws EngineError with the reason of a run that did not end well
   void time(const Prepared&, Timed&);
   /// As many runs on one rank at once, apart from each other: what the cores do where all have work. Of each step the slowest run
-  /// counts. @throws EngineError as time()
-  void time_at_once(const Prepared&, int count, Timed&);
+  /// counts. @param alone of one run: each of these is one too, and a step of it may be the best   @throws EngineError as time()
+  void time_at_once(const Prepared&, int count, Timed&, Timed& alone);
   /// `--probe` of the engine, two ranks. @throws EngineError
   [[nodiscard]] predict::Machine probe() const;
 

@@ -20,7 +20,8 @@ const std::vector<std::string>& assumptions() {
       "work: seconds fixed, a particle and a pair, fitted to CPU seconds on one rank here; a rank pays them for its copies too, "
       "as it computes them",
       "shares: the decomposition at the start; what moves later and is not balanced again is not seen",
-      "every rank has a core of its own, at the speed of one rank alone: no shared memory bandwidth, no lower clock",
+      "every rank has a core of its own, and is as slow beside others as runs on one rank are that go at once on this machine, "
+      "apart from each other",
       "network: each message has the same latency and each rank its whole bandwidth, however many send; messages do not overlap "
       "with work",
       "bonds are part of the cost of a particle, and what they send with a new share is not counted",
@@ -67,6 +68,7 @@ json of(const PredictedLine& line) {
              {"transport", 1e3 * p.transport},
              {"collectives", 1e3 * p.collectives},
              {"waiting", 1e3 * p.waiting}}},
+           {"speed_at_once", p.speed_at_once},
            {"imbalance", p.imbalance},
            {"efficiency", p.efficiency},
            {"particle_steps_a_second", p.rate()},
@@ -82,14 +84,10 @@ json of(const PredictedLine& line) {
                      {"cpu_ms_of_rank_0", 1e3 * t.best_cpu()},
                      {"steps", t.steps},
                      {"efficiency", line.measured_efficiency},
+                     {"efficiency_of_cores", line.measured_efficiency / p.speed_at_once},
                      {"difference_percent", 100.0 * (p.seconds() / t.best_wall() - 1.0)},
                      {"gb_a_rank", 1e-9 * t.bytes},
                      {"rank_0", {{"own", t.own}, {"copies", t.copies}, {"pairs", t.pairs}}}};
-  if (!line.speed_at_once) return row;
-  const double speed = *line.speed_at_once;
-  row["measured"]["speed_at_once"] = speed;
-  row["measured"]["efficiency_of_cores"] = line.measured_efficiency / speed;
-  row["measured"]["difference_of_cores_percent"] = 100.0 * (p.seconds() / (speed * t.best_wall()) - 1.0);
   return row;
 }
 
@@ -100,24 +98,6 @@ std::string head(const json& d) {
       d.at("case").get<std::string>(), m.at("name").get<std::string>(), m.at("source").get<std::string>(),
       1e6 * m.at("latency").get<double>(), 1e-9 * m.at("bandwidth").get<double>(), 1e6 * m.at("allreduce").get<double>(),
       100.0 * m.at("waiting").get<double>());
-}
-
-/// What ranks add to what the cores themselves lose where all have work.
-std::string at_once_table(const json& rows) {
-  std::string text;
-  for (const json& r : rows) {
-    if (!r.contains("measured") || !r.at("measured").contains("speed_at_once")) continue;
-    const json& m = r.at("measured");
-    text += fmt::format("{:10} {:7} {:10.4g} {:13.3f} {:13.3f} {:+11.1f}\n", r.at("scaling").get<std::string>(),
-                        r.at("ranks").get<int>(), r.at("particles").get<double>(), m.at("speed_at_once").get<double>(),
-                        m.at("efficiency_of_cores").get<double>(), m.at("difference_of_cores_percent").get<double>());
-  }
-  if (text.empty()) return text;
-  return fmt::format(
-             "\nthe same beside as many runs of one rank at once, apart from each other: what these cores themselves lose\n"
-             "{:10} {:>7} {:>10} {:>13} {:>13} {:>11}\n",
-             "", "ranks", "particles", "speed at once", "eff. of that", "off by %") +
-         text;
 }
 
 std::string predicted_table(const json& rows) {
@@ -138,19 +118,21 @@ std::string measured_table(const json& rows) {
   for (const json& r : rows) {
     if (!r.contains("measured")) continue;
     const json& m = r.at("measured");
-    text += fmt::format(
-        "{:10} {:7} {:10.4g} {:13.4g} {:13.4g} {:+11.1f} {:11.3f} {:11.3f} {:12} {:12}\n", r.at("scaling").get<std::string>(),
-        r.at("ranks").get<int>(), r.at("particles").get<double>(), r.at("ms_a_step").get<double>(),
-        m.at("ms_a_step").get<double>(), m.at("difference_percent").get<double>(), r.at("efficiency").get<double>(),
-        m.at("efficiency").get<double>(), r.at("rank_0").at("copies").get<double>(), m.at("rank_0").at("copies").get<double>());
+    text +=
+        fmt::format("{:10} {:7} {:10.4g} {:10.4g} {:10.4g} {:+9.1f} {:11.3f} {:10.3f} {:10.3f} {:13.3f} {:8} {:8}\n",
+                    r.at("scaling").get<std::string>(), r.at("ranks").get<int>(), r.at("particles").get<double>(),
+                    r.at("ms_a_step").get<double>(), m.at("ms_a_step").get<double>(), m.at("difference_percent").get<double>(),
+                    r.at("efficiency").get<double>(), m.at("efficiency").get<double>(), r.value("speed_at_once", 1.0),
+                    m.value("efficiency_of_cores", m.at("efficiency").get<double>()), r.at("rank_0").at("copies").get<double>(),
+                    m.at("rank_0").at("copies").get<double>());
   }
   if (text.empty()) return text;
-  return fmt::format(
-             "\nmeasured beside the prediction (of each step the best of the repeats)\n{:10} {:>7} {:>10} {:>13} {:>13} {:>11} "
-             "{:>11} {:>11} "
-             "{:>12} {:>12}\n",
-             "", "ranks", "particles", "prediction ms", "measured ms", "off by %", "pred. eff.", "meas. eff.", "pred. copies",
-             "meas. copies") +
+  return "\nmeasured beside the prediction (of each step the best of the repeats); at once: speed of one rank where as many runs "
+         "of\n"
+         "one rank go at once, over one alone: what the cores themselves lose. eff. of that: what ranks have of what is left\n" +
+         fmt::format("{:10} {:>7} {:>10} {:>10} {:>10} {:>9} {:>11} {:>10} {:>10} {:>13} {:>8} {:>8}\n", "", "ranks", "particles",
+                     "pred. ms", "meas. ms", "off by %", "pred. eff.", "meas. eff.", "at once", "eff. of that", "p.copies",
+                     "m.copies") +
          text;
 }
 
@@ -215,7 +197,7 @@ std::string prediction_text(const json& d) {
         on.at("cpu").get<std::string>(), on.at("cores").get<int>(), 1e6 * c.at("fixed_s").get<double>(),
         1e9 * c.at("particle_s").get<double>(), 1e9 * c.at("pair_s").get<double>(), d.at("one_rank").size(),
         100.0 * c.at("worst_misfit").get<double>());
-    text += predicted_table(rows) + measured_table(rows) + at_once_table(rows) + "\nassumptions of the prediction\n";
+    text += predicted_table(rows) + measured_table(rows) + "\nassumptions of the prediction\n";
     for (const json& line : d.at("assumptions")) text += "  " + line.get<std::string>() + "\n";
     text += "outside what was measured\n";
     for (const json& line : d.at("outside_measured")) text += "  " + line.get<std::string>() + "\n";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,8 +19,6 @@ struct PredictedLine {
   predict::Share first;  ///< of rank 0
   std::optional<Timed> measured;
   double measured_efficiency = 0.0;  ///< from the measured time on one rank
-  /// Speed of one rank where as many run at once, apart from each other, over its speed alone; none where ranks share cores.
-  std::optional<double> speed_at_once;
 };
 
 /// All that the command says.
@@ -32,6 +31,8 @@ struct PredictionReport {
   predict::WorkCost cost;
   predict::Memory memory;
   predict::Traffic traffic;
+  /// By how many runs on one rank went at once, apart from each other: the speed of each, over that of one alone.
+  std::map<int, double> speed_at_once;
   std::vector<predict::OneRank> runs;
   std::vector<std::string> labels;  ///< of the runs
   std::vector<PredictedLine> lines;

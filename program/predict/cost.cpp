@@ -98,14 +98,15 @@ Memory fit_memory(const std::vector<OneRank>& runs, double scene_bytes) {
 }
 
 Prediction predict(const Shares& shares, const Share& whole, const WorkCost& cost, const Memory& memory, const Traffic& traffic,
-                   const Machine& machine) {
+                   const Machine& machine, double speed_at_once) {
   Prediction p;
   p.ranks = static_cast<int>(shares.ranks.size());
+  if (p.ranks > 1) p.speed_at_once = speed_at_once;
   p.particles = whole.own;
   const auto count = static_cast<double>(p.ranks);
   double sum = 0.0, most_copies = 0.0, most_held = 0.0;
   for (const Share& s : shares.ranks) {
-    const double seconds = cost.seconds(s.own + s.copies, s.worked) / machine.core_speed;
+    const double seconds = cost.seconds(s.own + s.copies, s.worked) / (machine.core_speed * p.speed_at_once);
     p.work = std::max(p.work, seconds);
     sum += seconds;
     p.own += s.own / count;

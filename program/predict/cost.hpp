@@ -47,17 +47,19 @@ struct Prediction {
   double particles = 0.0;
   double own = 0.0, copies = 0.0;                                                        ///< mean of the ranks
   double work = 0.0, messages = 0.0, transport = 0.0, collectives = 0.0, waiting = 0.0;  ///< [s] a step
-  double imbalance = 1.0;    ///< work of the slowest rank over the mean
-  double efficiency = 1.0;   ///< seconds of one rank, over ranks times seconds of these
-  double bytes = 0.0;        ///< of the rank that holds most
-  double scene_bytes = 0.0;  ///< of them, the whole scene, which is held from the start
-  bool counted = false;      ///< shares were counted on the scene's own particles, not scaled by volume
+  double speed_at_once = 1.0;  ///< of a core where all have work, over one alone
+  double imbalance = 1.0;      ///< work of the slowest rank over the mean
+  double efficiency = 1.0;     ///< seconds of one rank, over ranks times seconds of these
+  double bytes = 0.0;          ///< of the rank that holds most
+  double scene_bytes = 0.0;    ///< of them, the whole scene, which is held from the start
+  bool counted = false;        ///< shares were counted on the scene's own particles, not scaled by volume
   [[nodiscard]] double seconds() const { return work + messages + transport + collectives + waiting; }
   [[nodiscard]] double rate() const { return particles / seconds(); }  ///< particle-steps a second
 };
 
 /// @param whole particles and pairs of the scene on one rank
+/// @param speed_at_once of a core where all have work, over its speed where no other has; of more than one rank
 [[nodiscard]] Prediction predict(const Shares&, const Share& whole, const WorkCost&, const Memory&, const Traffic&,
-                                 const Machine&);
+                                 const Machine&, double speed_at_once = 1.0);
 
 }  // namespace tripoint::predict

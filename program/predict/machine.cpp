@@ -17,8 +17,8 @@ namespace {
 constexpr double usual_pack_rate = 4e9;     ///< [bytes/s]
 constexpr double least_for_rate = 1 << 16;  ///< [bytes] of the probe's exchanges that the bandwidth is read from
 
-const std::vector<std::string> keys{"name",      "cores_a_node", "latency",    "bandwidth",
-                                    "allreduce", "pack_rate",    "core_speed", "waiting"};
+const std::vector<std::string> keys{"name",      "cores_a_node", "latency",       "bandwidth", "allreduce",
+                                    "pack_rate", "core_speed",   "speed_at_once", "waiting"};
 
 double number(const TomlNode& file, const std::string& key, double otherwise, bool may_be_zero = false) {
   const TomlNode* node = file.find(key);
@@ -57,6 +57,7 @@ Machine read_machine(const std::string& path) {
   m.allreduce = number(file, "allreduce", m.latency);
   m.pack_rate = number(file, "pack_rate", usual_pack_rate);
   m.core_speed = number(file, "core_speed", 1.0);
+  if (file.find("speed_at_once")) m.speed_at_once = number(file, "speed_at_once", 1.0);
   m.waiting = number(file, "waiting", m.waiting, true);
   return m;
 }

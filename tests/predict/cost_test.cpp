@@ -117,5 +117,20 @@ TEST(Cost, RanksAndCoresChangeTheirOwnPart) {
   EXPECT_EQ(p.waiting, 0.0);
 }
 
+/// Beside others each core is half as fast. One rank has no other beside it.
+TEST(Cost, WhereAllCoresHaveWorkEachIsSlower) {
+  Shares s;
+  s.ranks = {{500, 0, 25000, 25000}, {500, 0, 25000, 25000}};
+  const WorkCost cost{0.0, 1e-7, 1e-9, 0.0};
+  const Share whole{1000, 0, 50000, 50000};
+  Machine still = machine();
+  still.waiting = 0.0;
+  const Prediction p = predict(s, whole, cost, {}, {}, still, 0.5);
+  EXPECT_NEAR(p.work, 2.0 * 75e-6, 1e-15);
+  EXPECT_NEAR(p.efficiency, 0.5, 1e-12);
+  s.ranks = {whole};
+  EXPECT_NEAR(predict(s, whole, cost, {}, {}, still, 0.5).work, 150e-6, 1e-15);
+}
+
 }  // namespace
 }  // namespace tripoint::predict

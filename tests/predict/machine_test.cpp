@@ -28,6 +28,7 @@ TEST(Machine, AFileSaysWhatDiffersFromTheUsual) {
   EXPECT_EQ(m.allreduce, 2e-6);
   EXPECT_EQ(m.pack_rate, 4e9);
   EXPECT_EQ(m.core_speed, 1.0);
+  EXPECT_FALSE(m.speed_at_once);  // as measured here
   EXPECT_EQ(m.waiting, 0.05);
 }
 

@@ -45,9 +45,10 @@ class Predict(unittest.TestCase):
         passes = two["measured"]["rank_0"]["pairs"] * (steps + 1) / two["rank_0"]["pairs"]
         self.assertAlmostEqual(passes, 2 * steps + 1, delta=1e-6)  # the engine counts a pair once a pass: two a step, and one at the start
         self.assertGreater(two["measured"]["ms_a_step"], 0)
-        self.assertEqual("speed_at_once" in two["measured"], document["measured_on"]["cores"] >= 2)
-        if document["measured_on"]["cores"] >= 2:  # so much of the efficiency is the cores' own
-            self.assertAlmostEqual(two["measured"]["efficiency_of_cores"] * two["measured"]["speed_at_once"], two["measured"]["efficiency"], delta=1e-9)
+        self.assertEqual(rows[1, 270]["speed_at_once"], 1.0)
+        for ranks in (2, 1000) if document["measured_on"]["cores"] >= 2 else ():  # as many runs on one rank went at once as the cores can take
+            self.assertTrue(0.0 < rows[ranks, 1e9]["speed_at_once"] <= 1.0, ranks)
+        self.assertAlmostEqual(two["measured"]["efficiency_of_cores"] * two["speed_at_once"], two["measured"]["efficiency"], delta=1e-9)
         self.assertAlmostEqual(rows[1, 270]["efficiency"], 1.0, delta=1e-9)
         self.assertAlmostEqual(rows[1, 1e9]["efficiency"], 1.0, delta=1e-9)
         self.assertLess(two["efficiency"], 1.0)
@@ -65,6 +66,14 @@ class Predict(unittest.TestCase):
         self.assertAlmostEqual(1e3 * sum(wall) / len(wall), measured["repeats_ms"][-1], delta=1e-6)
         self.assertLessEqual(measured["ms_a_step"], min(measured["repeats_ms"]) + 1e-9)  # equal where one run is the faster one in each step
         self.assertLessEqual(measured["cpu_ms_of_rank_0"], 1e3 * sum(cpu) / len(cpu) + 1e-9)
+
+    def test_a_machine_file_may_say_what_cores_lose(self):
+        (self.path / "slow.toml").write_text(MACHINE + "speed_at_once = 0.25\n")
+        done = self.call("heat/bar-3x3", "--quiet", "--repeats", "1", "--seconds", "0.02", "--machine", "slow.toml", "--ranks", "1,2", "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        one, two = json.loads(done.stdout)["rows"]
+        self.assertEqual((one["speed_at_once"], two["speed_at_once"]), (1.0, 0.25))
+        self.assertLess(two["efficiency"], 0.26)
 
     def test_a_larger_scene_is_finer_in_time_too(self):
         """Else particles of the finer scene would pass more of a spacing in a step, and make new lists more often."""
