@@ -9,6 +9,15 @@
 #include "adapters/engine/loaded_library.hpp"
 
 namespace tripoint::bullet {
+
+/// A body with its shapes, freed in the right order.
+struct Solid {
+  std::vector<std::unique_ptr<btTriangleMesh>> meshes;
+  std::vector<std::unique_ptr<btCollisionShape>> parts;
+  std::unique_ptr<btCompoundShape> shape;
+  std::unique_ptr<btRigidBody> body;
+};
+
 namespace {
 
 static_assert(sizeof(btScalar) == 8, "Bullet must be the float64 build");
@@ -38,14 +47,6 @@ int flags(Gyro gyro) {
 }
 
 double inverse_or_zero(double x) { return x > 0.0 ? 1.0 / x : 0.0; }
-
-/// A body with its shapes, freed in the right order.
-struct Solid {
-  std::vector<std::unique_ptr<btTriangleMesh>> meshes;
-  std::vector<std::unique_ptr<btCollisionShape>> parts;
-  std::unique_ptr<btCompoundShape> shape;
-  std::unique_ptr<btRigidBody> body;
-};
 
 }  // namespace
 

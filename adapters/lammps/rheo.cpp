@@ -18,17 +18,17 @@
 namespace tripoint::lammps {
 namespace {
 
-constexpr double default_support = 3.0;  ///< [spacings]
-constexpr double bonds_within = 1.5;     ///< [spacings]: first and second neighbours of the cubic lattice
-constexpr double damping = 0.1;          ///< of bonds and contacts, of the critical one
-constexpr double surface_share = 0.79;   ///< of a full set of neighbours, the share of RHEO's examples (22 of 28 in 2D)
-constexpr double courant = 0.25, diffusion_number = 0.1;
+constexpr double rheo_support = 3.0;    ///< [spacings]
+constexpr double bonds_within = 1.5;    ///< [spacings]: first and second neighbours of the cubic lattice
+constexpr double damping = 0.1;         ///< of bonds and contacts, of the critical one
+constexpr double surface_share = 0.79;  ///< of a full set of neighbours, the share of RHEO's examples (22 of 28 in 2D)
+constexpr double rheo_courant = 0.25, diffusion_number = 0.1;
 
 class Rheo final : public ParticleModel {
  public:
   Rheo(const Job& job, const InitialState& state)
       : ParticleModel(job, state, rheo_units(job), step_limit(job)),
-        support_(choice_.cutoff.value_or(default_support)),
+        support_(choice_.cutoff.value_or(rheo_support)),
         bodies_(job, state) {
     flows_ = anything_free(job);
     make_particles("atom_style hybrid rheo/thermal bond\nnewton off\ncomm_modify vel yes",
@@ -89,7 +89,7 @@ class Rheo final : public ParticleModel {
 
 double Rheo::step_limit(const Job& job) {
   const Units u = rheo_units(job);
-  double step = courant / std::max(1.0, std::sqrt(3.0 * 0.4 * bond_modulus(job)));  // C11 of the bonds is 3 k/dx
+  double step = rheo_courant / std::max(1.0, std::sqrt(3.0 * 0.4 * bond_modulus(job)));  // C11 of the bonds is 3 k/dx
   for (std::size_t b = 0; b < job.bodies.size(); ++b) {
     const RheoMatter m = rheo_matter(job, b);
     for (const double diffusivity : {m.viscosity, job.bodies[b].temperature_held ? 0.0 : m.conductivity})

@@ -12,7 +12,7 @@
 namespace tripoint::lammps {
 namespace {
 
-constexpr double default_support = 3.0;   // [spacings]
+constexpr double heat_support = 3.0;      // [spacings]
 constexpr double diffusion_number = 0.1;  ///< D dt / dx2; explicit, and first order in time
 
 class SphHeat final : public Model {
@@ -51,7 +51,7 @@ class SphHeat final : public Model {
     return diffusivity(job_.scene, b) / (job_.scene.spacing * job_.scene.spacing);
   }
 
-  [[nodiscard]] double cutoff() const { return choice_.cutoff.value_or(default_support); }
+  [[nodiscard]] double cutoff() const { return choice_.cutoff.value_or(heat_support); }
 
   /// Periodic directions take the scene's domain; elsewhere the box is wide and particle ends insulate by themselves.
   void make_box() {

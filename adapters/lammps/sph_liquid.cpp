@@ -17,7 +17,7 @@ namespace tripoint::lammps {
 namespace {
 
 constexpr double gamma = 7.0;  // sph/taitwater knows no other
-constexpr double courant = 0.06, viscous_number = 0.1;
+constexpr double sound_courant = 0.06, viscous_number = 0.1;
 
 const JobBody& liquid_of(const Job& job) {
   return *std::find_if(job.bodies.begin(), job.bodies.end(), [](const JobBody& b) { return b.phase == Phase::liquid; });
@@ -37,25 +37,25 @@ double greatest_viscosity(const Scene& scene) {
   return mu;
 }
 
-double support_of(const Job& job) { return choice_for(job).cutoff.value_or(job.resolution.support_ratio); }
+double liquid_support_of(const Job& job) { return choice_for(job).cutoff.value_or(job.resolution.support_ratio); }
 
-Units units_of(const Job& job) {
+Units liquid_units(const Job& job) {
   const double dx = job.resolution.spacing, rho0 = job.scene.material(liquid_of(job).material).density;
   return {dx, dx / sound_speed(job.scene), rho0 * dx * dx * dx, {}};
 }
 
-double step_limit(const Job& job) {
-  const Units u = units_of(job);
+double liquid_step_limit(const Job& job) {
+  const Units u = liquid_units(job);
   const double nu = greatest_viscosity(job.scene) / u.density();
-  const double sound = courant * support_of(job) * u.time;
+  const double sound = sound_courant * liquid_support_of(job) * u.time;
   return nu > 0.0 ? std::min(sound, viscous_number * u.length * u.length / nu) : sound;
 }
 
 class SphLiquid final : public ParticleModel {
  public:
   SphLiquid(const Job& job, const InitialState& state)
-      : ParticleModel(job, state, units_of(job), step_limit(job)),
-        support_(support_of(job)),
+      : ParticleModel(job, state, liquid_units(job), liquid_step_limit(job)),
+        support_(liquid_support_of(job)),
         viscous_(greatest_viscosity(job.scene) > 0.0) {
     make_particles("atom_style sph\nnewton on", "", support_, type_a_body());
     for (std::size_t b = 0; b < job.bodies.size(); ++b) {  // walls are made of still liquid

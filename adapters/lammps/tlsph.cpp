@@ -14,9 +14,9 @@
 namespace tripoint::lammps {
 namespace {
 
-constexpr double default_support = 2.01;  ///< [spacings]: each particle and 32 neighbours
+constexpr double elastic_support = 2.01;  ///< [spacings]: each particle and 32 neighbours
 constexpr double hourglass = 10.0;        ///< of the manual's examples
-constexpr double courant = 0.2;           ///< dt c_L / support
+constexpr double elastic_courant = 0.2;   ///< dt c_L / support
 
 const Material& elastic_material(const Job& job) {
   const auto found = std::find_if(job.bodies.begin(), job.bodies.end(),
@@ -30,26 +30,26 @@ double wave_speed(const Material& m) {
   return std::sqrt(*m.young_modulus * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu) * m.density));
 }
 
-Units units_of(const Job& job) {
+Units elastic_units(const Job& job) {
   const double dx = job.resolution.spacing;
   const Material& m = elastic_material(job);
   return {dx, dx / std::sqrt(*m.young_modulus / m.density), m.density * dx * dx * dx, {}};
 }
 
-double support_of(const Job& job) { return choice_for(job).cutoff.value_or(default_support); }
+double elastic_support_of(const Job& job) { return choice_for(job).cutoff.value_or(elastic_support); }
 
-double step_limit(const Job& job) {
-  return courant * support_of(job) * job.resolution.spacing / wave_speed(elastic_material(job));
+double elastic_step_limit(const Job& job) {
+  return elastic_courant * elastic_support_of(job) * job.resolution.spacing / wave_speed(elastic_material(job));
 }
 
 class Tlsph final : public ParticleModel {
  public:
   Tlsph(const Job& job, const InitialState& whole, Layer layer)
-      : ParticleModel(job, layer.state, units_of(job), step_limit(job)), whole_(whole), layer_(std::move(layer)) {
+      : ParticleModel(job, layer.state, elastic_units(job), elastic_step_limit(job)), whole_(whole), layer_(std::move(layer)) {
     flat_ = job.scene.periodic[2];
-    make_particles("atom_style smd\nnewton off\ncomm_modify vel yes", "", 3.0 * support_of(job), one_type());
-    library_.run(fmt::format("set group all mol 1 volume 1.0 diameter {:.17g} smd/mass/density 1.0", support_of(job)));
-    library_.run(fmt::format("neighbor {:.17g} bin\nneigh_modify every 10 delay 0 check yes\nthermo 0", support_of(job)));
+    make_particles("atom_style smd\nnewton off\ncomm_modify vel yes", "", 3.0 * elastic_support_of(job), one_type());
+    library_.run(fmt::format("set group all mol 1 volume 1.0 diameter {:.17g} smd/mass/density 1.0", elastic_support_of(job)));
+    library_.run(fmt::format("neighbor {:.17g} bin\nneigh_modify every 10 delay 0 check yes\nthermo 0", elastic_support_of(job)));
     make_gravity();
     library_.run("group tlsph union all\npair_style smd/tlsph");
     library_.run(fmt::format("pair_coeff 1 1 *COMMON 1.0 1.0 {:.17g} 0.0 0.0 {} 1.0 *STRENGTH_LINEAR *EOS_LINEAR *END",
@@ -88,9 +88,10 @@ class Tlsph final : public ParticleModel {
   void account(Result& result) const override {
     result.steps = clock_.total();
     result.time_step_bound = wanted_time_step(job_) ? "given" : "elastic wave";
-    result.extra["support_in_spacings"] = support_of(job_);
-    result.message = fmt::format("smd/tlsph, support {:g} dx, hourglass {:g}, no artificial viscosity{}", support_of(job_),
-                                 hourglass, flat_ ? "; one layer in plane strain stands for all along z" : "");
+    result.extra["support_in_spacings"] = elastic_support_of(job_);
+    result.message =
+        fmt::format("smd/tlsph, support {:g} dx, hourglass {:g}, no artificial viscosity{}", elastic_support_of(job_), hourglass,
+                    flat_ ? "; one layer in plane strain stands for all along z" : "");
   }
 
  private:

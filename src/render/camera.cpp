@@ -14,17 +14,16 @@ constexpr double half_angle = 15.0;  // of the picture's height [degrees]
 constexpr double margin = 1.06;
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
-Vec3 unit(const Vec3& a) { return a / norm(a); }
 
 }  // namespace
 
 CameraAxes::CameraAxes(const Vec3& up, const View& view) noexcept {
   const Vec3 y{0.0, 1.0, 0.0}, z{0.0, 0.0, 1.0};
-  const Vec3 ahead = std::abs(up.y) < 0.9 ? unit(y - dot(y, up) * up) : unit(z - dot(z, up) * up);
+  const Vec3 ahead = std::abs(up.y) < 0.9 ? unit_vector(y - dot(y, up) * up) : unit_vector(z - dot(z, up) * up);
   const Vec3 aside = cross(ahead, up);
   const double az = radians(view.azimuth), el = radians(std::clamp(view.elevation, -89.0, 89.0));
   forward = std::cos(el) * (std::cos(az) * ahead - std::sin(az) * aside) - std::sin(el) * up;
-  right = unit(cross(forward, up));
+  right = unit_vector(cross(forward, up));
   upward = cross(right, forward);
 }
 
@@ -47,7 +46,7 @@ Camera::Camera(std::span<const Vec3> places, double room, const CameraAxes& axes
 }
 
 Ray Camera::ray(double x, double y) const noexcept {
-  return {eye_, unit(axes_.forward + x * half_width_ * axes_.right + y * half_height_ * axes_.upward)};
+  return {eye_, unit_vector(axes_.forward + x * half_width_ * axes_.right + y * half_height_ * axes_.upward)};
 }
 
 Span inside(const Ray& ray, const Box& box) noexcept {

@@ -7,6 +7,9 @@
 
 namespace tripoint {
 
+/// a / |a|. @param a not 0
+inline Vec3 unit_vector(const Vec3& a) noexcept { return a / norm(a); }
+
 /// A half line. @param along a unit vector
 struct Ray {
   Vec3 from, along;

@@ -17,8 +17,6 @@ constexpr int finer = 3;                          // rays a pixel along each axi
 
 const Colour ground_colour{0.62, 0.62, 0.60}, sky_low{0.90, 0.92, 0.94}, sky_high{0.70, 0.78, 0.88};
 
-Vec3 unit(const Vec3& a) { return a / norm(a); }
-
 /// Light and number of the object that a ray meets first: 0 the sky, 1 the ground, from 2 the targets.
 struct Seen {
   Colour light;
@@ -30,7 +28,7 @@ class Tracer {
  public:
   Tracer(const Display& display, const Camera& camera)
       : display_(&display),
-        sun_(unit(0.9 * display.up - 0.45 * camera.axes().right + 0.55 * camera.towards())),
+        sun_(unit_vector(0.9 * display.up - 0.45 * camera.axes().right + 0.55 * camera.towards())),
         nudge_(1e-3 * display.size),
         middle_(box_middle(display)) {
     for (const auto& t : display.targets) {
@@ -94,7 +92,7 @@ class Tracer {
     const double facing = dot(normal, sun_);
     const double soft = ambient * (0.75 + 0.25 * dot(normal, display_->up));
     if (facing <= 0.0 || in_shadow(ray.at(hit.distance), normal)) return soft * hit.colour;
-    const double glint = shine * std::pow(std::max(dot(unit(sun_ - ray.along), normal), 0.0), sharpness);
+    const double glint = shine * std::pow(std::max(dot(unit_vector(sun_ - ray.along), normal), 0.0), sharpness);
     return (soft + sun * facing) * hit.colour + Colour{glint, glint, glint};
   }
 

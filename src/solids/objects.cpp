@@ -12,7 +12,7 @@
 namespace tripoint {
 namespace {
 
-constexpr std::uint32_t none = ~std::uint32_t{0};
+constexpr std::uint32_t no_node = ~std::uint32_t{0};
 
 bool is_driven(const World& world, int body) {
   return body >= 0 && world.bodies[field::body_motion][static_cast<std::size_t>(body)] != static_cast<int>(Motion::free);
@@ -94,7 +94,7 @@ void Grouping::collect(const std::vector<std::uint32_t>& frozen) {
   for (std::size_t i = 0; i < body.size(); ++i)
     if (body[i] >= 0 && is_changed[static_cast<std::size_t>(body[i])]) ids.push_back(static_cast<std::uint32_t>(p[field::id][i]));
   sort_once(ids);
-  node_.assign(p.size(), none);
+  node_.assign(p.size(), no_node);
   for (const std::uint32_t id : ids) {
     const std::size_t i = p.row(id);
     const int b = body[i];
@@ -128,7 +128,7 @@ void Grouping::unite() {
       sets.unite(n, blocks.at({node.body, world_.particles[field::source][i]}));
     for (const Bond& bond : world_.bonds.of(node.id)) {
       const std::uint32_t m = node_[bond.other];
-      if (m == none || norm(bond.x) >= joins) continue;
+      if (m == no_node || norm(bond.x) >= joins) continue;
       if (node.rigid == nodes_[m].rigid && same_body_or_new(node, nodes_[m])) sets.unite(n, m);
     }
   }
@@ -195,7 +195,7 @@ int Grouping::new_row(std::size_t component) {
 }
 
 int Grouping::holder(std::uint32_t id) const {
-  if (node_[id] != none) return static_cast<int>(component_[node_[id]]);
+  if (node_[id] != no_node) return static_cast<int>(component_[node_[id]]);
   const int body = world_.particles[field::body][world_.particles.row(id)];
   return body >= 0 ? -2 - body : -1;
 }

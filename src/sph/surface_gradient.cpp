@@ -19,7 +19,7 @@ Curvature square_of(const Vec3& x) {
   return {0.5 * x.x * x.x, 0.5 * x.y * x.y, 0.5 * x.z * x.z, mixed * x.y * x.z, mixed * x.x * x.z, mixed * x.x * x.y};
 }
 
-Eigen::Vector3d vector_of(const Vec3& a) { return {a.x, a.y, a.z}; }
+Eigen::Vector3d column_of(const Vec3& a) { return {a.x, a.y, a.z}; }
 
 }  // namespace
 
@@ -39,8 +39,8 @@ bool at_surface(std::span<const GradientPoint> points) {
 
 std::vector<Vec3> curvature_correction(std::span<const GradientPoint> points, const Symmetric& A) {
   Eigen::Matrix<double, 6, 3> read = Eigen::Matrix<double, 6, 3>::Zero();  // the gradient's value for each curvature
-  for (const GradientPoint& p : points) read += square_of(p.x) * vector_of(p.weight * (A * p.x)).transpose();
-  const auto rest = [&](const GradientPoint& p) { return Curvature(square_of(p.x) - read * vector_of(p.x)); };
+  for (const GradientPoint& p : points) read += square_of(p.x) * column_of(p.weight * (A * p.x)).transpose();
+  const auto rest = [&](const GradientPoint& p) { return Curvature(square_of(p.x) - read * column_of(p.x)); };
   Moment6 whole = Moment6::Zero(), known = Moment6::Zero();
   for (const GradientPoint& p : points) {
     const Curvature q = square_of(p.x), r = rest(p);

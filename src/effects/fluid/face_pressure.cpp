@@ -2,7 +2,6 @@
 #include "effects/fluid/face_pressure.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 #include <type_traits>
@@ -15,9 +14,6 @@
 
 namespace tripoint::fluid {
 namespace {
-
-constexpr std::array<const Field<double>*, 1> densities{&field::number_density};
-constexpr std::array<const Field<double>*, 3> forces{&field::force_x, &field::force_y, &field::force_z};
 
 /// Copies take from their owners what these have by id.
 template <class Numbers>
@@ -115,7 +111,7 @@ void FacePressure::add_densities(World& world, const PairKernels& kernels) {
     }
     acting_[n] = static_cast<std::size_t>(last - first);
   });
-  world.refresh(densities);
+  world.refresh(density_column);
 }
 
 /// With y = F^-1 d: dU/dF = -s/2 F^-T sum_j (share_i + share_j) W'(r*)/r* y y^T.
@@ -145,7 +141,7 @@ void FacePressure::add_forces(World& world) {
   });
   hand_to_copies(world, load_);
   load_bonds(world);
-  world.refresh(forces);
+  world.refresh(pressure_force);
 }
 
 /// As the force of strain energy, (12): F = -v_l T gradW(x_kl) on l and the opposite on k, T = dU/dF A of k.

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
 #include <limits>
 
 #include "core/field.hpp"
+#include "particles/catalogue.hpp"
 #include "world/step_numbers.hpp"
 
 /// Fields of liquids and contact (4), (7) to (9) that no other effect knows.
@@ -33,6 +35,14 @@ inline constexpr Field<double> transport_force_x{"transport_force.x", "N"}, tran
 inline constexpr Field<double> pressure_around{"pressure_around", "Pa/m3"}, nearing{"nearing", "1/(s m3)"};
 
 }  // namespace tripoint::field
+
+/// Columns that ranks hand to each other: the sum (4), and the force of pressure.
+namespace tripoint::fluid {
+
+inline constexpr std::array<const Field<double>*, 1> density_column{&field::number_density};
+inline constexpr std::array<const Field<double>*, 3> pressure_force{&field::force_x, &field::force_y, &field::force_z};
+
+}  // namespace tripoint::fluid
 
 /// What the next step needs of those before it.
 namespace tripoint::fluid {

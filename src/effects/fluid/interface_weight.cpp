@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "effects/fluid/interface_weight.hpp"
 
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -11,8 +10,6 @@
 
 namespace tripoint::fluid {
 namespace {
-
-constexpr std::array<const Field<double>*, 3> forces{&field::force_x, &field::force_y, &field::force_z};
 
 bool are_unlike(double group_i, double rest_i, double group_j, double rest_j) {
   return group_i == liquid_group && group_j == liquid_group && rest_i != rest_j;
@@ -65,7 +62,7 @@ void InterfaceWeight::add_forces(World& world, const PairKernels& kernels) {
     }
     F.set(i, F.at(i) + f);
   });
-  world.refresh(forces);
+  world.refresh(pressure_force);
 }
 
 double InterfaceWeight::energy(const World& world, const PairKernels& kernels, std::size_t i) const {

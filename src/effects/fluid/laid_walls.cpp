@@ -4,15 +4,11 @@
 #include "effects/fluid/fields.hpp"
 
 #include <algorithm>
-#include <array>
 #include <numbers>
 #include <utility>
 
 namespace tripoint::fluid {
 namespace {
-
-constexpr std::array<const Field<double>*, 1> densities{&field::number_density};
-constexpr std::array<const Field<double>*, 3> forces{&field::force_x, &field::force_y, &field::force_z};
 
 bool is_liquid(double group) { return group == liquid_group; }
 
@@ -89,7 +85,7 @@ void LaidWalls::lay_densities(World& world, const PairKernels& kernels) {
   each_pair(world, [&](std::size_t i, std::size_t, const Vec3& d, const Vec3& from_lattice) {
     delta[i] += kernels.wendland.value(norm(from_lattice)) - kernels.wendland.value(norm(d));
   });
-  world.refresh(densities);
+  world.refresh(density_column);
 }
 
 void LaidWalls::lay_forces(World& world, const PairKernels& kernels) {
@@ -103,7 +99,7 @@ void LaidWalls::lay_forces(World& world, const PairKernels& kernels) {
     F.set(i, F.at(i) + pressure * (kernels.wendland.derivative_over_r(norm(from_lattice)) * from_lattice -
                                    kernels.wendland.derivative_over_r(norm(d)) * d));
   });
-  world.refresh(forces);
+  world.refresh(pressure_force);
 }
 
 }  // namespace tripoint::fluid

@@ -10,7 +10,7 @@
 namespace tripoint::heat {
 namespace {
 
-double heat_content(const World& world, std::size_t row, double temperature) {
+double heat_at(const World& world, std::size_t row, double temperature) {
   const auto phase = static_cast<Phase>(world.particles[field::phase][row]);
   return enthalpy_of(world.particles[field::mass][row], heat_capacity_of(world.material_of(row), phase), temperature);
 }
@@ -25,13 +25,13 @@ void EqualHeat::load(World&, const InitialState& initial) {
 /// Particles that have flowed in bring their heat.
 void EqualHeat::adopt(World& world) {
   for (const std::uint32_t id : world.change.born)
-    world.booked[account::inflow] += heat_content(world, world.particles.row(id), temperature_);
+    world.booked[account::inflow] += heat_at(world, world.particles.row(id), temperature_);
 }
 
 void EqualHeat::add_to(const World& world, Ledger& ledger) const {
   std::vector<std::array<double, 1>> blocks;
   const auto sums = ordered_sums_of_all(
-      world, blocks, [&](std::size_t i, std::array<double, 1>& sum) { sum[0] += heat_content(world, i, temperature_); });
+      world, blocks, [&](std::size_t i, std::array<double, 1>& sum) { sum[0] += heat_at(world, i, temperature_); });
   ledger.energy["thermal"] += sums[0];
 }
 

@@ -17,13 +17,13 @@ namespace tripoint::heat {
 namespace {
 
 /// m (c_p T + L f) [J]
-double heat_content(const World& world, std::size_t row) {
+double printed_heat(const World& world, std::size_t row) {
   const Particles& p = world.particles;
   const double sensible = enthalpy_of(p[field::mass][row], p[field::heat_capacity][row], p[field::temperature][row]);
   return p.has(field::liquid_fraction.name) ? sensible + latent_heat(world, row) : sensible;
 }
 
-double set_temperature(World& world, std::size_t row, double temperature) {
+double set_printed_temperature(World& world, std::size_t row, double temperature) {
   Particles& p = world.particles;
   const double given = p[field::mass][row] * p[field::heat_capacity][row] * (temperature - p[field::temperature][row]);
   p[field::temperature][row] = temperature;
@@ -53,7 +53,7 @@ void PaperHeat::adopt(World& world) {
     const std::size_t i = p.row(id);
     load_particle(world, i, inflow_temperature(world, i));
     set_material(world, i);
-    world.booked[account::inflow] += heat_content(world, i);
+    world.booked[account::inflow] += printed_heat(world, i);
   }
 }
 
@@ -86,7 +86,7 @@ void PaperHeat::clear(World& world, PassName pass) {
   fill(world.particles[field::exchange], 0.0, world.threads);
 }
 
-void PaperHeat::happen(World& world, const Happening& now) { hold_temperature(world, now, set_temperature); }
+void PaperHeat::happen(World& world, const Happening& now) { hold_temperature(world, now, set_printed_temperature); }
 
 /// 1/max_i sum_j of the coefficients of T_j - T_i (model 8.10).
 TimeStepBound PaperHeat::max_dt(const World& world) const {
