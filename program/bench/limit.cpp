@@ -2,16 +2,14 @@
 #include "program/bench/limit.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <ctime>
 
 #include "core/lanes.hpp"
 #include "core/machine.hpp"
+#include "program/bench/clock.hpp"
 
 namespace tripoint::bench {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// Runs a part some times. @param least kept where it is less than each   @param mean,mean_cpu of them all
 template <class Part>
@@ -21,7 +19,7 @@ void time_part(int times, double& least, double& mean, double& mean_cpu, Part pa
   for (int n = 0; n < times; ++n) {
     const auto begin = Clock::now();
     part();
-    const double took = std::chrono::duration<double>(Clock::now() - begin).count();
+    const double took = since(begin);
     least = std::min(least, took);
     sum += took;
   }

@@ -3,20 +3,17 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <cstdio>
 #include <ctime>
 #include <numeric>
 
 #include "assembly/plan.hpp"
+#include "program/bench/clock.hpp"
 #include "program/bench/memory.hpp"
 #include "step/simulation.hpp"
 
 namespace tripoint::bench {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-double since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 double cpu_now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 

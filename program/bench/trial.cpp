@@ -3,18 +3,15 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <exception>
 
+#include "program/bench/clock.hpp"
 #include "program/bench/memory.hpp"
 #include "scene/sample.hpp"
 #include "step/simulation.hpp"
 
 namespace tripoint::bench {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-double since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 void take_steps(Trial& trial, const Scene& scene, long steps, int threads, std::size_t most) {
   const InitialState initial = sample(scene);

@@ -25,7 +25,7 @@ namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* description =
+constexpr const char* ablate_description =
     "Puts one term of the model after the other back to its printed form, all others corrected, and prints what each correction "
     "buys:\n"
     "the metrics of each case with that one term as printed, beside those of the corrected model. A term that the paper does not "
@@ -36,7 +36,7 @@ constexpr const char* description =
     "  tripoint ablate                            the cases of the commit profile that run corrected\n"
     "  tripoint ablate heat/cosine-mode solid/rotation --out report";
 
-struct Options {
+struct AblateOptions {
   CaseFilter filter;
   std::string out = own_folder("ablate", "");
   int jobs = 1;
@@ -60,7 +60,7 @@ Json json_of(const CaseResult& result) {
 }
 
 /// One round of runs, in a folder of its own.
-std::map<std::string, Json> round(const std::vector<Case>& chosen, const std::string& name, const Options& o) {
+std::map<std::string, Json> round(const std::vector<Case>& chosen, const std::string& name, const AblateOptions& o) {
   if (chosen.empty()) return {};
   SuiteOptions options;
   options.selection.engines = {engine_name::solver};
@@ -79,7 +79,7 @@ std::string number_text(const Json& run, const std::string& metric) {
 }
 
 /// Cases that run corrected, and in which something can be put back.
-std::vector<Case> cases_of(const Options& o) {
+std::vector<Case> cases_of(const AblateOptions& o) {
   std::vector<Case> cases;
   for (auto& c : select_cases(o.filter)) {
     const bool runs_so = std::find(c.modes.begin(), c.modes.end(), Mode::corrected) != c.modes.end();
@@ -91,7 +91,7 @@ std::vector<Case> cases_of(const Options& o) {
 
 /// By case: its run without each piece, where that has other bits than the corrected run.
 std::map<std::string, Json> runs_without_pieces(const std::vector<Case>& cases, const std::map<std::string, Json>& base,
-                                                const Options& o) {
+                                                const AblateOptions& o) {
   std::map<std::string, Json> found;
   for (const Correction& piece : corrections()) {
     if (interrupted()) break;
@@ -121,7 +121,7 @@ void print_case(const Case& c, const Json& whole, const Json& without_pieces) {
   }
 }
 
-int ablate(const Options& o) {
+int ablate(const AblateOptions& o) {
   catch_interrupts();
   const std::vector<Case> cases = cases_of(o);
   const auto lock = hold_folder(o.out);
@@ -149,8 +149,8 @@ int ablate(const Options& o) {
 }  // namespace
 
 void add_ablate(CLI::App& app, int& exit_code) {
-  auto* command = app.add_subcommand("ablate", description);
-  auto o = std::make_shared<Options>();
+  auto* command = app.add_subcommand("ablate", ablate_description);
+  auto o = std::make_shared<AblateOptions>();
   command->add_option("CASE", o->filter.what, "case files, folders of them, or ids")->type_name("CASE|DIR");
   command->add_option("--profile", o->filter.profile, "only cases of this profile (commit where no CASE is given)")
       ->check(CLI::IsMember({"commit", "nightly", "release"}));

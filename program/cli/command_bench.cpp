@@ -23,7 +23,7 @@ using bench::Measured;
 using bench::Spread;
 using bench::Work;
 
-constexpr const char* description =
+constexpr const char* bench_description =
     "Times standard work on this machine, stage by stage, beside the machine's own limit: the same pair loops fused by hand in "
     "the\n"
     "best layout known, with lists that last as long, measured in the same seconds. Compare ratios, not seconds.\n"
@@ -171,7 +171,7 @@ int run_bench(const BenchOptions& o) {
 }  // namespace
 
 void add_bench(CLI::App& app, int& exit_code) {
-  auto* command = app.add_subcommand("bench", description);
+  auto* command = app.add_subcommand("bench", bench_description);
   auto o = std::make_shared<BenchOptions>();
   command->add_option("--work", o->work, "only this piece of standard work; may be repeated")
       ->take_all()

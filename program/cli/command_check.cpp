@@ -21,7 +21,7 @@
 namespace tripoint {
 namespace {
 
-constexpr const char* description =
+constexpr const char* check_description =
     "Checks a case before anything runs: every key, unit and name; then the particles: bodies that overlap or stand too near,\n"
     "that are too coarse or of wrong mass, a time step above a bound; events and keys that can change nothing; then metrics,\n"
     "references and engines: what would be refused; and whether any gate judges it.\n"
@@ -56,7 +56,7 @@ int check(const std::string& file, const std::vector<std::string>& set) {
 }  // namespace
 
 void add_check(CLI::App& app, int& exit_code) {
-  auto* command = app.add_subcommand("check", description);
+  auto* command = app.add_subcommand("check", check_description);
   auto file = std::make_shared<std::string>();
   auto set = std::make_shared<std::vector<std::string>>();
   command->add_option("CASE", *file, "path of a case file, or the id of a case that is shipped")->required();

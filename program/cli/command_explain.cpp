@@ -28,7 +28,7 @@ using json = nlohmann::ordered_json;
 constexpr long usual_trial = 3;              ///< steps
 constexpr std::size_t most_tried = 100'000;  ///< particles, unless --trial asks for more
 
-constexpr const char* description =
+constexpr const char* explain_description =
     "Says what a case means: a summary; then every key with its value in SI and the reason for it, the effects that the scene "
     "calls for and why, those\n"
     "that it does without and the proof, the bytes of its particles by effect, and the seconds of its first steps.\n"
@@ -138,7 +138,7 @@ json as_json(const CaseReading& reading, const Plan& plan) {
           {"bytes_by_effect", bytes}};
 }
 
-struct Options {
+struct ExplainOptions {
   std::string file;
   std::vector<std::string> set;
   bool as_document = false, as_case = false;
@@ -146,7 +146,7 @@ struct Options {
   int threads = 1;
 };
 
-int explain(const Options& options) {
+int explain(const ExplainOptions& options) {
   const CaseReading reading = read_case(shown_path(case_file(options.file)), options.set);
   if (options.as_case) {
     print(resolved_case(reading, options.set));
@@ -175,8 +175,8 @@ int explain(const Options& options) {
 }  // namespace
 
 void add_explain(CLI::App& app, int& exit_code) {
-  auto* command = app.add_subcommand("explain", description);
-  auto options = std::make_shared<Options>();
+  auto* command = app.add_subcommand("explain", explain_description);
+  auto options = std::make_shared<ExplainOptions>();
   command->add_option("CASE", options->file, "path of a case file, or the id of a case that is shipped")->required();
   command->add_option("--set", options->set, "replace a key: scene.spacing=0.01, body.NAME.velocity=[1,0,0]; may be repeated")
       ->take_all()

@@ -9,7 +9,7 @@
 namespace tripoint {
 namespace {
 
-constexpr const char* description =
+constexpr const char* export_description =
     "Writes a run for other programs, or the numbers of a report for a paper. docs/trajectory.md says which program reads which "
     "file.\n"
     "  tripoint export runs/rigid/ballistic/tripoint --to vtp                     frames.pvd for ParaView and PyVista\n"
@@ -37,7 +37,7 @@ struct ExportOptions {
 }  // namespace
 
 void add_export(CLI::App& app, int& exit_code) {
-  auto* command = app.add_subcommand("export", description);
+  auto* command = app.add_subcommand("export", export_description);
   auto o = std::make_shared<ExportOptions>();
   command->add_option("RUN|RESULTS", o->what, "folder of a run, or a results.json")->required();
   command->add_option("--to", o->to, "formats, with commas between them; may be repeated")

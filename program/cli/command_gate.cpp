@@ -23,7 +23,7 @@
 namespace tripoint {
 namespace {
 
-constexpr const char* description =
+constexpr const char* gate_description =
     "Judges a results.json from its measured values and limits alone; it runs nothing and trusts no stored verdict, and\n"
     "reads the case files again: metrics, gates, runs and values must be those of the cases as they are. Then it judges the\n"
     "limits: none more than 10 times its error (above 3 times warns) unless its reason is dated, none looser than the accepted "
@@ -125,7 +125,7 @@ int selftest(SelftestOptions options, const std::string& profile, int seeds, boo
 }  // namespace
 
 void add_gate(CLI::App& app, int& exit_code) {
-  auto* command = app.add_subcommand("gate", description);
+  auto* command = app.add_subcommand("gate", gate_description);
   auto o = std::make_shared<GateOptions>();
   add_judge_options(*command, o->judge);
   auto* proposes = add_propose(*command, o->propose);

@@ -12,7 +12,7 @@
 namespace tripoint {
 namespace {
 
-constexpr const char* description =
+constexpr const char* list_description =
     "Lists the cases beside the program: id, title, and what each one claims.\n"
     "  tripoint list heat             those of one subject\n"
     "  tripoint list --tag heat       only cases with this tag\n"
@@ -44,7 +44,7 @@ int list(const CaseFilter& filter, bool json) {
 }  // namespace
 
 void add_list(CLI::App& app, int& exit_code) {
-  auto* command = app.add_subcommand("list", description);
+  auto* command = app.add_subcommand("list", list_description);
   auto filter = std::make_shared<CaseFilter>();
   auto json = std::make_shared<bool>(false);
   command->add_option("CASE", filter->what, "only these: case files, folders of them, subjects or ids")->type_name("CASE|DIR");

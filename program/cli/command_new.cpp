@@ -18,7 +18,7 @@
 namespace tripoint {
 namespace {
 
-constexpr const char* description =
+constexpr const char* new_description =
     "Writes a new case file that runs as it is: one steel block in free flight, judged against the exact solution. Change it\n"
     "from there; a file that exists is never overwritten.\n"
     "  tripoint new my-case        writes my-case.toml\n"
@@ -51,7 +51,7 @@ int create(const std::string& name) {
 }  // namespace
 
 void add_new(CLI::App& app, int& exit_code) {
-  auto* command = app.add_subcommand("new", description);
+  auto* command = app.add_subcommand("new", new_description);
   auto name = std::make_shared<std::string>();
   command->add_option("NAME", *name, "name or path of the new case file")->required();
   command->callback([=, &exit_code] { exit_code = guarded([&] { return create(*name); }); });

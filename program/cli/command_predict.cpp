@@ -23,7 +23,7 @@
 namespace tripoint {
 namespace {
 
-constexpr const char* description =
+constexpr const char* predict_description =
     "Predicts what a step of a case costs on many ranks of the engine tripoint-mpi: time, efficiency, memory. Three short runs "
     "on one rank give\n"
     "the cost of a particle and a pair, a probe of MPI between two ranks gives latency and bandwidth, and the particles are "
@@ -48,7 +48,7 @@ constexpr double most_counted = 1e9;
 constexpr double slow_latency = 1e-4;  ///< [s] of a message between two processes of one machine: fifty times that of a quiet one
 constexpr int most_ranks = 1000000, most_measured = 1024;
 
-struct Options {
+struct PredictOptions {
   std::string what, machine, out, compare;
   std::vector<int> ranks, measure;
   std::vector<double> particles;
@@ -64,7 +64,7 @@ std::string text_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-int compare(const Options& o) {
+int compare(const PredictOptions& o) {
   const auto document = nlohmann::ordered_json::parse(text_of(o.compare), nullptr, false);
   if (document.is_discarded()) throw InputError(o.compare + ": is no JSON");
   print(o.json ? document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n"
@@ -121,7 +121,7 @@ std::size_t line_on(PredictionReport& r, const Prepared& base, int ranks) {
 }
 
 /// Predicts each line, and puts what was measured beside it.
-void add_lines(PredictionReport& r, const Options& o, const RunsInTurns& runs) {
+void add_lines(PredictionReport& r, const PredictOptions& o, const RunsInTurns& runs) {
   const Prepared& base = runs.one_rank.front();
   const auto sampled = static_cast<double>(base.initial.size());
   for (const double particles : o.particles.empty() ? std::vector<double>{sampled} : o.particles) {
@@ -141,7 +141,7 @@ void add_lines(PredictionReport& r, const Options& o, const RunsInTurns& runs) {
       line.measured_efficiency = each * line.prediction.particles / (line.prediction.ranks * line.measured->best_wall());
 }
 
-int predict_case(Options o) {
+int predict_case(PredictOptions o) {
   catch_interrupts();
   const std::string file = shown_path(case_file(o.what));
   const Case value = read_case(file, o.set).value;
@@ -182,7 +182,7 @@ int predict_case(Options o) {
   return exit_pass;
 }
 
-int predict_for(Options o) {
+int predict_for(PredictOptions o) {
   if (!o.compare.empty()) return compare(o);
   if (o.what.empty()) throw InputError("predict: name a case, or --compare a result.json");
   if (o.ranks.empty()) o.ranks = o.measure;
@@ -207,8 +207,8 @@ int predict_for(Options o) {
 }  // namespace
 
 void add_predict(CLI::App& app, int& exit_code) {
-  auto* command = app.add_subcommand("predict", description);
-  auto o = std::make_shared<Options>();
+  auto* command = app.add_subcommand("predict", predict_description);
+  auto o = std::make_shared<PredictOptions>();
   command->add_option("CASE", o->what, "a case file or id");
   command->add_option("--ranks", o->ranks, "numbers of ranks to predict, N[,N...]")->delimiter(',')->allow_extra_args(false);
   command->add_option("--particles", o->particles, "numbers of particles in the place of the case's own, by its shape: 1e7,1e9")

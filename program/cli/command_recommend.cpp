@@ -42,7 +42,7 @@ constexpr const char* plan_description =
     "  tripoint plan heat/cosine-mode --within 1%\n"
     "  tripoint plan heat/step-walkers --within 0.5% --metric uncertainty";
 
-struct Options {
+struct RecommendOptions {
   std::string what, error, metric, engines, from, axis, out;
   std::vector<double> levels;
   double seconds = 0.0;
@@ -59,7 +59,7 @@ double wish_of(const std::string& text) {
   return rest.empty() ? value : 0.01 * value;
 }
 
-Case case_of(const Options& o) {
+Case case_of(const RecommendOptions& o) {
   CaseFilter filter;
   filter.what = {o.what};
   auto cases = select_cases(filter);
@@ -80,7 +80,7 @@ Case case_of(const Options& o) {
   return value;
 }
 
-std::string metric_of(const Options& o, const Case& value) {
+std::string metric_of(const RecommendOptions& o, const Case& value) {
   if (!o.metric.empty()) return o.metric;
   for (const auto& s : value.studies)
     if (!s.metric.empty()) return s.metric;
@@ -88,7 +88,7 @@ std::string metric_of(const Options& o, const Case& value) {
   return value.metrics.front().name;
 }
 
-CaseResult measure(const Options& o, const Case& value, const std::function<bool(const RunPlan&)>& wanted) {
+CaseResult measure(const RecommendOptions& o, const Case& value, const std::function<bool(const RunPlan&)>& wanted) {
   const auto words = sort_engine_words(split(o.engines));
   if (o.sandbox) sandbox_strangers(o.out);
   SuiteOptions options;
@@ -140,7 +140,7 @@ double factor_between(double a, double b) {
 }
 
 /// The recommended run itself.
-LadderPoint make_recommended(const Options& o, Case value, const Recommendation& r, const std::string& metric) {
+LadderPoint make_recommended(const RecommendOptions& o, Case value, const Recommendation& r, const std::string& metric) {
   Study only;
   only.axes.axis = r.ladder->axis;
   only.levels = {r.level};
@@ -171,7 +171,7 @@ LadderPoint make_recommended(const Options& o, Case value, const Recommendation&
   throw EngineError("the recommended run gave no value of " + metric);
 }
 
-int recommend(Options o) {
+int recommend(RecommendOptions o) {
   catch_interrupts();
   if (o.error.empty() == !(o.seconds > 0.0)) throw InputError("recommend: give --error X or --seconds Y, one of them");
   const auto value = case_of(o);
@@ -216,7 +216,7 @@ int recommend(Options o) {
   return met ? exit_pass : exit_fail;
 }
 
-int plan_for(Options o) {
+int plan_for(RecommendOptions o) {
   catch_interrupts();
   const auto value = case_of(o);
   const auto metric = metric_of(o, value);
@@ -261,7 +261,7 @@ int plan_for(Options o) {
   return any ? exit_pass : exit_inconclusive;
 }
 
-void add_common(CLI::App& command, Options& o, const std::string& name) {
+void add_common(CLI::App& command, RecommendOptions& o, const std::string& name) {
   command.add_option("CASE", o.what, "a case file or id")->required();
   command.add_option("--metric", o.metric, "which metric (default: that of the case's first study)");
   command.add_option("--engines", o.engines, "only these engines, A,B");
@@ -279,7 +279,7 @@ void add_common(CLI::App& command, Options& o, const std::string& name) {
 
 void add_recommend(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("recommend", recommend_description);
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<RecommendOptions>();
   add_common(*command, *o, "recommend");
   command->add_option("--error", o->error, "the error that is wished, in the metric's unit or as a percentage");
   command->add_option("--seconds", o->seconds, "the CPU seconds that may be spent");
@@ -289,7 +289,7 @@ void add_recommend(CLI::App& app, int& exit_code) {
 
 void add_plan(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("plan", plan_description);
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<RecommendOptions>();
   add_common(*command, *o, "plan");
   command->add_option("--within", o->error, "the error that is wished, in the metric's unit or as a percentage")->required();
   command->callback([o, &exit_code] { exit_code = guarded([&] { return plan_for(*o); }); });

@@ -22,7 +22,7 @@ namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* description =
+constexpr const char* render_description =
     "Draws frames of a run that has ended: the surface of each body and liquid, equations (22) to (26) of the paper, "
     "ray-traced.\n"
     "  tripoint render runs/paper/fig-12/tripoint                   six frames, a contact sheet, and a film where ffmpeg is "
@@ -237,7 +237,7 @@ int render(const RenderOptions& o) {
 }  // namespace
 
 void add_render(CLI::App& app, int& exit_code) {
-  auto* command = app.add_subcommand("render", description);
+  auto* command = app.add_subcommand("render", render_description);
   auto o = std::make_shared<RenderOptions>();
   command->add_option("RUN", o->run, "folder of a run, its trajectory.h5, or the id of a case that has a run in runs/")
       ->required();

@@ -32,7 +32,7 @@ namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* description =
+constexpr const char* run_description =
     "Runs one case on one engine, at the case's own resolution, and prints how it ended, and each metric with its unit, its "
     "standard\n"
     "uncertainty and the limit that the case sets it. The exit code judges nothing: tripoint validate does.\n"
@@ -264,7 +264,7 @@ int run(RunOptions o) {
 }  // namespace
 
 void add_run(CLI::App& app, int& exit_code) {
-  auto* command = app.add_subcommand("run", description);
+  auto* command = app.add_subcommand("run", run_description);
   auto o = std::make_shared<RunOptions>();
   command->add_option("CASE", o->what, "a case file or id")->required();
   command->add_option("--engine", o->engine, "name of an engine, or path of an executable")->capture_default_str();

@@ -16,7 +16,7 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-constexpr const char* description =
+constexpr const char* schema_description =
     "Prints the JSON Schema of the case file, for editors that complete and check while you type; with --page the reference\n"
     "page of all keys, reference functions, quantities and norms in Markdown. Both come from the tables the program reads by.\n"
     "  tripoint schema > case.schema.json      # in the case file: #:schema ./case.schema.json\n"
@@ -67,7 +67,7 @@ std::string page() {
 }  // namespace
 
 void add_schema(CLI::App& app, int& exit_code) {
-  auto* command = app.add_subcommand("schema", description);
+  auto* command = app.add_subcommand("schema", schema_description);
   auto as_page = std::make_shared<bool>(false);
   command->add_flag("--page", *as_page, "print the reference page in Markdown");
   command->callback([=, &exit_code] {

@@ -31,7 +31,7 @@ namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* description =
+constexpr const char* suite_description =
     "Makes a suite by many processes or machines that share a folder: a job is one run of one engine, any worker takes it, and "
     "the\n"
     "merged report is the one that `tripoint validate` would have written.\n"
@@ -79,7 +79,7 @@ constexpr const char* status_description =
     "error; `tripoint suite retry DIR` puts it back. doubled: two workers made it; the first result counts. The time left is a "
     "prediction.";
 
-constexpr const char* merge_description =
+constexpr const char* suite_merge_description =
     "Judges a suite whose jobs are all done, and writes the report: the cases, values and verdicts that `tripoint validate` "
     "would have\n"
     "given, but for times. It refuses (exit 2) and names the jobs while some have no result. Else it ends with the verdict's "
@@ -308,7 +308,7 @@ void add_status_to(CLI::App& app, const char* words, int& exit_code) {
 }
 
 void add_join(CLI::App& suite, int& exit_code) {
-  auto* command = suite.add_subcommand("merge", merge_description);
+  auto* command = suite.add_subcommand("merge", suite_merge_description);
   auto dir = std::make_shared<std::string>(), out = std::make_shared<std::string>();
   auto page = std::make_shared<bool>(true), json = std::make_shared<bool>(false);
   command->add_option("DIR", *dir, "folder of the suite")->required();
@@ -347,7 +347,7 @@ void add_emit(CLI::App& suite, int& exit_code) {
 }  // namespace
 
 void add_suite(CLI::App& app, int& exit_code) {
-  auto* suite = app.add_subcommand("suite", description);
+  auto* suite = app.add_subcommand("suite", suite_description);
   suite->require_subcommand(1);
   for (const auto add : {add_make, add_work, add_join, add_retry, add_emit}) add(*suite, exit_code);
   add_status_to(*suite, suite_status_description, exit_code);

@@ -18,7 +18,7 @@
 namespace tripoint {
 namespace {
 
-constexpr const char* description =
+constexpr const char* summary_description =
     "Writes the text of a comment on a change: the verdict and the ten most changed metrics, base -> head in units of the limit, "
     "with the noise.\n"
     "It runs nothing and ends 0 whatever the verdict: `tripoint gate` is what blocks.\n"
@@ -81,7 +81,7 @@ int summarise(SummaryOptions o) {
 }  // namespace
 
 void add_summary(CLI::App& app, int& exit_code) {
-  auto* command = app.add_subcommand("summary", description);
+  auto* command = app.add_subcommand("summary", summary_description);
   auto o = std::make_shared<SummaryOptions>();
   command->add_option("RESULTS", o->results, "a results.json, or the folder of one")->required();
   command->add_flag("--markdown", o->markdown,

@@ -38,7 +38,7 @@ struct ValidateOptions {
   bool seed_given = false, json = false, page = true, last_failed = false, sandbox = false;
 };
 
-constexpr const char* description =
+constexpr const char* validate_description =
     "Runs cases on their engines, compares each with its reference, judges every gate and writes the report.\n\n"
     "Without CASE it takes the cases beside the program that belong to the profile.\n"
     "  tripoint validate                                     the commit suite\n"
@@ -212,7 +212,7 @@ int validate(ValidateOptions o) {
 }  // namespace
 
 void add_validate(CLI::App& app, int& exit_code) {
-  auto* command = app.add_subcommand("validate", description);
+  auto* command = app.add_subcommand("validate", validate_description);
   auto o = std::make_shared<ValidateOptions>();
   command->add_option("CASE", o->filter.what, "case files, folders of them, or ids")->type_name("CASE|DIR");
   command->add_option("--profile", o->profile, "only cases of this profile (commit where no CASE is given)")

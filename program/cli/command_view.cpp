@@ -11,7 +11,7 @@
 namespace tripoint {
 namespace {
 
-constexpr const char* description =
+constexpr const char* view_description =
     "Writes one page that shows the particles of a run in three dimensions, in any browser and without a network.\n"
     "  tripoint view runs/paper/fig-14-coated/tripoint              view.html in the run's folder: turn it, play it, colour it\n"
     "  tripoint view paper/fig-14-coated --out look.html            the run that `tripoint run` left in runs/, into a file of "
@@ -40,7 +40,7 @@ struct ViewOptions {
 }  // namespace
 
 void add_view(CLI::App& app, int& exit_code) {
-  auto* command = app.add_subcommand("view", description);
+  auto* command = app.add_subcommand("view", view_description);
   auto o = std::make_shared<ViewOptions>();
   command
       ->add_option("RUN", o->runs, "folders of runs, their trajectory.h5, or ids of cases that have a run in runs/; at most six")

@@ -19,13 +19,6 @@ constexpr double least_span = 1e-6;  // of temperatures, for colours [K]
 
 bool has(const Box& b) { return b.low.x <= b.high.x; }
 
-Box united(const Box& a, const Box& b) {
-  if (!has(a)) return b;
-  if (!has(b)) return a;
-  const std::vector<Vec3> corners{a.low, a.high, b.low, b.high};
-  return box_around(corners);
-}
-
 /// The lowest height that a picture shows [m].
 double lowest(const Box& b, const Vec3& up) {
   double least = std::numeric_limits<double>::infinity();

@@ -118,13 +118,13 @@ Box without_flown_off(std::vector<Vec3>& places) {
   return b;
 }
 
+}  // namespace
+
 Box united(const Box& a, const Box& b) {
   const std::vector<Vec3> corners{a.low, a.high, b.low, b.high};
   if (a.low.x > a.high.x) return b;
   return b.low.x > b.high.x ? a : box_around(corners);
 }
-
-}  // namespace
 
 bool is_there(const Snapshot& f, std::size_t row) { return (f.id.empty() || f.id[row] >= 0) && finite(f.position[row]); }
 

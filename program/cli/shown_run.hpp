@@ -47,6 +47,9 @@ struct ShownRoom {
 };
 [[nodiscard]] ShownRoom room_for(const ShownRun&, const std::vector<std::size_t>& frames);
 
+/// The least box around both; of an empty one and another, the other.
+[[nodiscard]] Box united(const Box&, const Box&);
+
 /// Whether a wall's particle hides free ones from the viewer. It then stands beyond their box, on a side that faces the viewer,
 /// and above the floor.
 [[nodiscard]] bool hides(const Vec3& place, const Box& free, const Vec3& up, const Vec3& towards, double spacing);

@@ -16,7 +16,7 @@ namespace {
 using Kind = TomlNode::Kind;
 
 /// The value of a key as one text; "" where it is not given.
-std::string word(const TomlNode& item, std::string_view key) {
+std::string word_at(const TomlNode& item, std::string_view key) {
   const auto* v = item.find(key);
   if (!v) return "";
   if (v->kind == Kind::integer) return show(static_cast<double>(v->integer));
@@ -35,7 +35,7 @@ std::vector<std::string_view> identity_keys(std::string_view array) {
 std::string identity(const TomlNode& item, std::string_view array) {
   std::string text;
   for (const auto key : identity_keys(array))
-    text += (text.empty() ? "" : ", ") + (item.find(key) ? fmt::format("{} = {}", key, word(item, key)) : "");
+    text += (text.empty() ? "" : ", ") + (item.find(key) ? fmt::format("{} = {}", key, word_at(item, key)) : "");
   return text;
 }
 
@@ -108,7 +108,7 @@ void merge_value(TomlNode& base, TomlNode own, const std::string& path) {
 }
 
 bool judges(const TomlNode& gate, const std::string& metric) {
-  const auto name = word(gate, "metric");
+  const auto name = word_at(gate, "metric");
   return name == metric || name == metric + ".order" || name == metric + ".statistical";
 }
 
@@ -120,7 +120,7 @@ void remove_gates(TomlNode& document, const std::string& metric) {
 /// "NAME.key" of a table of the array; false where none has such a name and key.
 bool remove_item_key(TomlNode& list, const std::string& path) {
   for (auto& item : list.items) {
-    const auto name = word(item, "name");
+    const auto name = word_at(item, "name");
     if (name.empty() || !path.starts_with(name + ".")) continue;
     const auto key = path.substr(name.size() + 1);
     if (!item.find(key)) continue;
@@ -138,7 +138,7 @@ void remove_item(TomlNode& document, const std::string& array, const std::string
     remove_gates(document, name);
   } else {
     const std::string_view key = array == "input" ? "key" : "name";
-    std::erase_if(list.items, [&](const auto& item) { return word(item, key) == name; });
+    std::erase_if(list.items, [&](const auto& item) { return word_at(item, key) == name; });
     if (array == "metric") remove_gates(document, name);
   }
   if (list.items.size() == before) not_there(path, path.text);

@@ -186,11 +186,11 @@ Verdict verdict_of(const Gate& gate, double value, double u) {
 }
 
 Verdict verdict_of(const Gate& gate, const Order& order) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr double unbounded = std::numeric_limits<double>::infinity();
   if (!limits_something(gate)) return Verdict::missing;
   auto verdict = Verdict::pass;
-  if (gate.limit) verdict = worse(verdict, interval_within(order, -infinity, *gate.limit));
-  if (gate.at_least) verdict = worse(verdict, interval_within(order, *gate.at_least, infinity));
+  if (gate.limit) verdict = worse(verdict, interval_within(order, -unbounded, *gate.limit));
+  if (gate.at_least) verdict = worse(verdict, interval_within(order, *gate.at_least, unbounded));
   if (gate.band) verdict = worse(verdict, interval_within(order, (*gate.band)[0], (*gate.band)[1]));
   return verdict;
 }

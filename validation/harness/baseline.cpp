@@ -77,7 +77,7 @@ std::vector<T> tables(const TomlNode& from, std::string_view key, Read read) {
 }
 
 /// The edges that were accepted, as the gate of a case.
-Gate edges_of(const AcceptedGate& accepted) {
+Gate accepted_gate(const AcceptedGate& accepted) {
   Gate gate;
   gate.limit = accepted.limit;
   gate.at_least = accepted.at_least;
@@ -115,8 +115,8 @@ AcceptedGate read_gate(const TomlNode& from) {
   g.uncertainty = number(from, "uncertainty");
   g.measures = text(from, "measures");
   g.fit_class = fit_class(from);
-  g.allows = from.find("allows") ? text(from, "allows") : describe(edges_of(g));
-  g.room = maybe_number(from, "room").value_or(room_of(edges_of(g)));
+  g.allows = from.find("allows") ? text(from, "allows") : describe(accepted_gate(g));
+  g.room = maybe_number(from, "room").value_or(room_of(accepted_gate(g)));
   g.first_room = maybe_number(from, "first_room").value_or(g.room);
   g.first_value = maybe_number(from, "first_value").value_or(g.value);
   g.loosened = number(from, "loosened");
@@ -170,12 +170,12 @@ std::string unsealed(const std::string& text) {
   return text.substr(0, before + 1) + (end == std::string::npos ? "" : text.substr(end + 1));
 }
 
+}  // namespace
+
 std::string text_of_file(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
-
-}  // namespace
 
 Baseline read_baseline(const std::string& file) {
   const auto top = read_toml(file);
@@ -235,8 +235,8 @@ std::string row_of(const AcceptedGate& g) {
   row.say("at_least", g.at_least);
   if (g.band) row.add("band", fmt::format("[{}, {}]", number((*g.band)[0]), number((*g.band)[1])));
   row.say("drift", g.drift);
-  if (g.allows != describe(edges_of(g))) row.say("allows", g.allows);
-  row.say_unless(room_of(edges_of(g)), "room", g.room);
+  if (g.allows != describe(accepted_gate(g))) row.say("allows", g.allows);
+  row.say_unless(room_of(accepted_gate(g)), "room", g.room);
   row.say("value", g.value);
   row.say_unless(0.0, "uncertainty", g.uncertainty);
   if (g.fit_class) row.say("class", std::string(to_string(*g.fit_class)));

@@ -63,6 +63,9 @@ struct Baseline {
 /// The folder of cases that a case file belongs to: `cases` beside `baselines`, or the folder that it lies in.
 [[nodiscard]] std::string folder_of_cases(const std::string& case_file);
 
+/// The bytes of a file; none where it cannot be read.
+[[nodiscard]] std::string text_of_file(const std::string& file);
+
 /// @throws InputError with the place of the fault
 [[nodiscard]] Baseline read_baseline(const std::string& file);
 [[nodiscard]] std::string baseline_text(const Baseline&);

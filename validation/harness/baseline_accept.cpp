@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <tuple>
 
 #include "core/durable_file.hpp"
@@ -102,11 +101,6 @@ double loosenings(const Baseline& b, int& count) {
     count += g.loosened > 0.0;
   }
   return sum;
-}
-
-std::string text_of_file(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 void check_reason(const Acceptance& acceptance) {

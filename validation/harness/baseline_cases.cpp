@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <set>
 
 #include "validation/harness/baseline_rows.hpp"
@@ -12,8 +11,6 @@
 namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A folder of baselines and the folder of the cases that they are of.
 struct Suite {

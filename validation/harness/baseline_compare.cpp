@@ -28,7 +28,6 @@ namespace {
 std::string class_word(const AcceptedGate& g) { return g.fit_class ? std::string(to_string(*g.fit_class)) : std::string(); }
 
 constexpr double change_seen = 0.1, cost_seen = 0.01;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr const char* decide = ": tripoint gate accept --reason says who decided and why";
 
 std::string title_of(const CaseResult& c, const AcceptedGate& g) {

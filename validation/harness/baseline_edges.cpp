@@ -36,7 +36,7 @@ Edges edges_of_words(const std::string& allows) {
   return e;
 }
 
-Edges edges_of(const AcceptedGate& g) {
+Edges accepted_edges(const AcceptedGate& g) {
   Edges e;
   if (!g.limit && !g.at_least && !g.band) return edges_of_words(g.allows);
   if (g.limit) narrow(e, -*g.limit, *g.limit);
@@ -56,7 +56,7 @@ std::string edge(const char* name, const std::optional<double>& now, const std::
 }  // namespace
 
 std::string looser_edge(const AcceptedGate& now, const AcceptedGate& old) {
-  const auto a = edges_of(now), b = edges_of(old);
+  const auto a = accepted_edges(now), b = accepted_edges(old);
   const double precision = std::max(a.precision, b.precision);
   if (const auto text = edge("upper", a.highest, b.highest, 1.0, precision); !text.empty()) return text;
   if (const auto text = edge("lower", a.lowest, b.lowest, -1.0, precision); !text.empty()) return text;

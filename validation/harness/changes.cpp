@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <tuple>
 
@@ -18,8 +17,6 @@
 
 namespace tripoint {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Properties that make two rows the same metric; `nth` tells gates apart that judge the same row.
 using Key = std::tuple<std::string, std::string, JudgedMode, std::string, double, int>;

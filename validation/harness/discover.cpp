@@ -30,12 +30,6 @@ std::string name_of_file(const std::string& executable) {
   return file.rfind("engine-", 0) == 0 ? file.substr(7) : file;
 }
 
-EngineEntry unavailable(EngineEntry entry, const std::string& reason) {
-  entry.available = false;
-  entry.reason = reason;
-  return entry;
-}
-
 bool is_program(const fs::path& path) {
   std::error_code none;
   return fs::is_regular_file(path, none) && ::access(path.c_str(), X_OK) == 0;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 
 #include "validation/case/engine_names.hpp"
 #include "validation/case/read_case.hpp"
@@ -20,7 +19,6 @@ namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double rounding = 1e-9;  // of a value against the norm of its series: both were written with all their digits
 
 class Recheck {

@@ -12,8 +12,6 @@
 namespace tripoint {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 int code_of(Verdict verdict) {
   if (verdict == Verdict::fail) return exit_fail;
   if (verdict == Verdict::inconclusive) return exit_inconclusive;

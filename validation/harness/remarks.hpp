@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,9 @@
 
 /// Remarks of a gate about results, one sentence each, with the line of the case file that it is about.
 namespace tripoint {
+
+/// Excess of a remark that no limit bounds, room of a gate without an edge.
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Remark {
   bool error = true;    ///< else a warning, which turns nothing red

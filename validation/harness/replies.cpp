@@ -7,20 +7,20 @@
 #include "core/foreign_json.hpp"
 
 namespace tripoint {
-using Json = nlohmann::json;
+using Reply = nlohmann::json;
 namespace {
 
 constexpr std::size_t most_letters = 4096;  // of a text that an engine says
 
-Json parsed(const std::string& printed) { return unfit_json(printed).empty() ? Json::parse(printed, nullptr, false) : Json(); }
+Reply parsed(const std::string& printed) { return unfit_json(printed).empty() ? Reply::parse(printed, nullptr, false) : Reply(); }
 
-std::string text(const Json& from, const char* key) {
+std::string text(const Reply& from, const char* key) {
   const auto at = from.find(key);
   if (at == from.end() || at->is_null()) return {};
   return (at->is_string() ? at->get<std::string>() : at->dump()).substr(0, most_letters);
 }
 
-std::vector<std::string> words(const Json& from, const char* key) {
+std::vector<std::string> words(const Reply& from, const char* key) {
   std::vector<std::string> list;
   if (const auto at = from.find(key); at != from.end() && at->is_array())
     for (const auto& word : *at)
@@ -28,13 +28,7 @@ std::vector<std::string> words(const Json& from, const char* key) {
   return list;
 }
 
-EngineEntry unavailable(EngineEntry entry, const std::string& reason) {
-  entry.available = false;
-  entry.reason = reason;
-  return entry;
-}
-
-void read_info(const Json& info, EngineEntry& entry) {
+void read_info(const Reply& info, EngineEntry& entry) {
   entry.name = text(info, "name");
   entry.version = text(info, "version");
   entry.build = text(info, "build");
@@ -67,9 +61,15 @@ bool is_plain(const std::string& name) {
 
 }  // namespace
 
+EngineEntry unavailable(EngineEntry entry, const std::string& reason) {
+  entry.available = false;
+  entry.reason = reason;
+  return entry;
+}
+
 EngineEntry with_info(EngineEntry entry, const std::string& printed) {
   const std::string name_before = entry.name;
-  const Json info = parsed(printed);
+  const Reply info = parsed(printed);
   if (!info.is_object() || text(info, "contract") != "1" || text(info, "name").empty())
     return unavailable(entry, "--info did not print one JSON object of contract 1 with a name");
   read_info(info, entry);
@@ -88,7 +88,7 @@ Refusal refusal_for(const std::string& reason) {
 }
 
 std::optional<Refusal> refusal_in(const std::string& printed) {
-  const Json answer = parsed(printed);
+  const Reply answer = parsed(printed);
   if (!answer.is_object() || !answer.contains("can") || !answer["can"].is_boolean())
     return refusal_for("--check did not print {can, reason}");
   if (answer["can"].get<bool>()) return {};

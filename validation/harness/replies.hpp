@@ -8,6 +8,9 @@
 /// Reading of an engine's output: anything may stand in it, and nothing of it is an exception.
 namespace tripoint {
 
+/// The entry with why it is not available.
+[[nodiscard]] EngineEntry unavailable(EngineEntry, const std::string& reason);
+
 /// The entry with all that `--info` printed. Output that breaks the contract leaves the entry not available, with the reason and
 /// the name that it had.
 [[nodiscard]] EngineEntry with_info(EngineEntry, const std::string& printed);

@@ -11,14 +11,14 @@
 namespace tripoint {
 namespace {
 
-using Json = nlohmann::json;
+using ReadJson = nlohmann::json;
 constexpr std::uintmax_t largest_file = 512u << 20;
 
 /// Reads the fields of a record from an object. An absent field, or one of another kind, leaves the member's default (of a text:
 /// it is empty). A word that names nothing is an error, which says where it stands.
 class Reader {
  public:
-  explicit Reader(const Json& from) : from_(from) {}
+  explicit Reader(const ReadJson& from) : from_(from) {}
 
   void operator()(const char* key, std::string& to) const {
     const auto& v = member(key);
@@ -117,7 +117,7 @@ class Reader {
     if (from_.is_object() && from_.contains(key)) to.value = number(member(key));
   }
   void operator()(const char* key, Judged<double> to) const {
-    to.value = member("finite") == Json(false) ? not_a_number : number(member(key));
+    to.value = member("finite") == ReadJson(false) ? not_a_number : number(member(key));
   }
   template <class T>
   void operator()(const char* key, OrNull<T> to) const {
@@ -143,7 +143,7 @@ class Reader {
   }
 
   template <class T>
-  [[nodiscard]] static T record(const Json& from) {
+  [[nodiscard]] static T record(const ReadJson& from) {
     T row;
     const Reader reader(from);
     fields(reader, row);
@@ -151,15 +151,15 @@ class Reader {
   }
 
  private:
-  [[nodiscard]] const Json& member(const char* key) const {
-    static const Json nothing;
+  [[nodiscard]] const ReadJson& member(const char* key) const {
+    static const ReadJson nothing;
     if (!from_.is_object()) return nothing;
     const auto at = from_.find(key);
     return at == from_.end() ? nothing : *at;
   }
   /// A value that is no number is read as NaN, which never passes.
-  static double number(const Json& v) { return v.is_number() ? v.get<double>() : not_a_number; }
-  static Setting setting(const Json& v) {
+  static double number(const ReadJson& v) { return v.is_number() ? v.get<double>() : not_a_number; }
+  static Setting setting(const ReadJson& v) {
     if (v.is_boolean()) return v.get<bool>();
     if (v.is_number()) return v.get<double>();
     if (!v.is_array()) return v.is_string() ? v.get<std::string>() : v.dump();
@@ -177,12 +177,12 @@ class Reader {
       throw InputError(key + (what.starts_with('`') ? ": " : ".") + what);
     }
   }
-  const Json& from_;
+  const ReadJson& from_;
 };
 
 /// @throws InputError naming the place
 template <class Record>
-Record read_record(const Json& from, const std::string& place) {
+Record read_record(const ReadJson& from, const std::string& place) {
   try {
     return Reader::record<Record>(from);
   } catch (const InputError& e) {
@@ -193,7 +193,7 @@ Record read_record(const Json& from, const std::string& place) {
 }  // namespace
 
 RunRow read_run_row(const std::string& text_of_row, const std::string& place_of_row) {
-  const auto document = unfit_json(text_of_row).empty() ? Json::parse(text_of_row, nullptr, false) : Json();
+  const auto document = unfit_json(text_of_row).empty() ? ReadJson::parse(text_of_row, nullptr, false) : ReadJson();
   if (!document.is_object()) throw InputError(place_of_row + ": holds no run of a results.json");
   return read_record<RunRow>(document, place_of_row);
 }
@@ -202,7 +202,7 @@ Results read_results(const std::string& path) {
   const std::string text_of_file = text_of_regular_file(path, largest_file);
   if (const std::string why = unfit_json(text_of_file); !why.empty())
     throw InputError(fmt::format("{}: {}, which no results file does", path, why));
-  const auto document = Json::parse(text_of_file, nullptr, false);
+  const auto document = ReadJson::parse(text_of_file, nullptr, false);
   if (!document.is_object()) throw InputError(path + ": is not a JSON object (a results.json of tripoint validate is wanted)");
   if (!document.contains("format") || document["format"] != 1) throw InputError(path + ": has not \"format\": 1");
   if (!document.contains("cases") || !document["cases"].is_array()) throw InputError(path + ": has no list \"cases\"");

@@ -15,8 +15,6 @@
 namespace tripoint {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 bool is_count(const CaseResult& c, const std::string& metric) {
   static constexpr std::array<std::string_view, 6> counts{"body_count",  "bonded_objects", "object_count",
                                                           "phase_count", "event_count",    "toggles"};

@@ -18,13 +18,6 @@
 namespace tripoint {
 namespace {
 
-MetricValue unformed(const std::string& why) {
-  MetricValue v;
-  v.value = not_a_number;
-  v.note = why;
-  return v;
-}
-
 std::string number_text(double value) {
   std::ostringstream text;
   text << value;

@@ -50,6 +50,14 @@ struct FrameError {
   return e;
 }
 
+/// No value of a metric, and why.
+[[nodiscard]] inline MetricValue unformed(const std::string& why) {
+  MetricValue v;
+  v.value = not_a_number;
+  v.note = why;
+  return v;
+}
+
 /// A quantity that can be compared frame by frame.
 struct Quantity {
   MetricWord word;

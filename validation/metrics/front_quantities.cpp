@@ -9,13 +9,6 @@
 namespace tripoint {
 namespace {
 
-MetricValue unformed(const std::string& why) {
-  MetricValue v;
-  v.value = std::numeric_limits<double>::quiet_NaN();
-  v.note = why;
-  return v;
-}
-
 /// Two companions within 1.5 spacings: a drop that flies alone is not the front.
 bool belongs_to_the_liquid(const MetricInput& in, const Snapshot& s, std::size_t particle) {
   int companions = 0;

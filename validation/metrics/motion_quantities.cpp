@@ -10,13 +10,6 @@
 namespace tripoint {
 namespace {
 
-MetricValue unformed(const std::string& why) {
-  MetricValue v;
-  v.value = not_a_number;
-  v.note = why;
-  return v;
-}
-
 /// Least-squares line through (t, y): slope and its standard error.
 struct Line {
   double slope = not_a_number, error = 0.0;

@@ -8,13 +8,6 @@
 namespace tripoint {
 namespace {
 
-MetricValue unformed(const std::string& why) {
-  MetricValue v;
-  v.value = not_a_number;
-  v.note = why;
-  return v;
-}
-
 // --- decay rate ---------------------------------------------------------------------------------------------------------
 
 /// Amplitude of the mode in one frame [K], least squares with volume weights, and its standard error.

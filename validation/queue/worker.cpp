@@ -73,7 +73,7 @@ std::string claim_file(const std::string& dir, const std::string& id, const std:
 
 bool renamed(const std::string& from, const std::string& to) { return std::rename(from.c_str(), to.c_str()) == 0; }
 
-void touch(const std::string& file) { ::utimensat(AT_FDCWD, file.c_str(), nullptr, 0); }
+void set_time_to_now(const std::string& file) { ::utimensat(AT_FDCWD, file.c_str(), nullptr, 0); }
 
 }  // namespace
 
@@ -134,7 +134,7 @@ Worker::~Worker() {
 void Worker::beat() {
   std::unique_lock lock(mutex_);
   while (!leaving_.wait_for(lock, std::chrono::duration<double>(lost_after / 6.0), [this] { return leaves_; }))
-    touch(sign_file(dir_, name_));
+    set_time_to_now(sign_file(dir_, name_));
 }
 
 std::string Worker::workshop() const { return place(dir_, state::workers, name_); }
@@ -142,14 +142,14 @@ std::string Worker::workshop() const { return place(dir_, state::workers, name_)
 bool Worker::claim(const std::string& id) const {
   const auto mine = claim_file(dir_, id, name_);
   if (!renamed(place(dir_, state::todo, id), mine)) return false;
-  touch(mine);  // says since when it runs
+  set_time_to_now(mine);  // says since when it runs
   return true;
 }
 
 bool Worker::take_over(const std::string& id, const std::string& from) const {
   const auto mine = claim_file(dir_, id, name_);
   if (!renamed(claim_file(dir_, id, from), mine)) return false;
-  touch(mine);
+  set_time_to_now(mine);
   write_by_rename(place(dir_, state::lost, id + "." + from), "", name_);
   return true;
 }

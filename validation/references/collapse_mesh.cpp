@@ -21,24 +21,24 @@ constexpr double step_of_cell = 0.05;
 constexpr double kept = 1e-11;  // error of an area, over the area, at which a step ends
 constexpr int most_rounds = 60;
 
-/// Corners of a cell, counter-clockwise.
-struct Corners {
-  std::array<Eigen::Index, 4> node;
-  [[nodiscard]] double x(const Vector& v, std::size_t k) const { return v[2 * node[k]]; }
-  [[nodiscard]] double y(const Vector& v, std::size_t k) const { return v[2 * node[k] + 1]; }
-  [[nodiscard]] double area(const Vector& p) const {
-    return 0.5 * ((x(p, 2) - x(p, 0)) * (y(p, 3) - y(p, 1)) - (x(p, 3) - x(p, 1)) * (y(p, 2) - y(p, 0)));
-  }
-  /// Derivative of the area by the place of corner k.
-  [[nodiscard]] std::array<double, 2> gradient(const Vector& p, std::size_t k) const {
-    const std::size_t next = (k + 1) % 4, last = (k + 3) % 4;
-    return {0.5 * (y(p, next) - y(p, last)), 0.5 * (x(p, last) - x(p, next))};
-  }
-};
-
 }  // namespace
 
 struct CollapseMesh::System {
+  /// Corners of a cell, counter-clockwise.
+  struct Corners {
+    std::array<Eigen::Index, 4> node;
+    [[nodiscard]] double x(const Vector& v, std::size_t k) const { return v[2 * node[k]]; }
+    [[nodiscard]] double y(const Vector& v, std::size_t k) const { return v[2 * node[k] + 1]; }
+    [[nodiscard]] double area(const Vector& p) const {
+      return 0.5 * ((x(p, 2) - x(p, 0)) * (y(p, 3) - y(p, 1)) - (x(p, 3) - x(p, 1)) * (y(p, 2) - y(p, 0)));
+    }
+    /// Derivative of the area by the place of corner k.
+    [[nodiscard]] std::array<double, 2> gradient(const Vector& p, std::size_t k) const {
+      const std::size_t next = (k + 1) % 4, last = (k + 3) % 4;
+      return {0.5 * (y(p, next) - y(p, last)), 0.5 * (x(p, last) - x(p, next))};
+    }
+  };
+
   System(double height, int cells, double damping)
       : across(cells),
         up(std::max(1, static_cast<int>(std::lround(height * cells)))),

@@ -36,7 +36,7 @@ std::vector<std::string> split(const std::string& line) {
 }
 
 /// A number as the header words it: `scale` turns values of a column into SI, or says their uncertainty.
-struct Stated {
+struct StatedNumber {
   double number = 0.0;
   std::string rest;
 };
@@ -69,8 +69,8 @@ class Reader {
  private:
   [[noreturn]] void refuse(const std::string& what) const { throw InputError(place_, what); }
 
-  Stated stated(const std::string& text) const {
-    Stated s;
+  StatedNumber stated(const std::string& text) const {
+    StatedNumber s;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), s.number);
     if (error != std::errc() || !std::isfinite(s.number)) refuse("`" + printable(text) + "` does not begin with a number");
     s.rest = trimmed(std::string_view(text).substr(static_cast<std::size_t>(end - text.data())));
@@ -105,7 +105,7 @@ class Reader {
     return s.number;
   }
 
-  Stated uncertainty(const std::string& value) const {
+  StatedNumber uncertainty(const std::string& value) const {
     const auto s = stated(value);
     if (!(s.number >= 0.0) || (!s.rest.empty() && s.rest != "%"))
       refuse("write a standard uncertainty as `0.05` in the column's unit or as `2 %` of each value");
@@ -172,7 +172,7 @@ class Reader {
   std::vector<std::string> first_;
   std::string source_, hash_;
   std::map<std::string, double> units_;
-  std::map<std::string, Stated> uncertainty_;
+  std::map<std::string, StatedNumber> uncertainty_;
   std::map<std::string, std::string> words_;
   std::vector<std::string> columns_;
   std::vector<std::vector<double>> rows_;
