@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <numbers>
 
 #include "adapters/wheel.hpp"
 
@@ -14,7 +15,7 @@ using test::Outcome;
 using test::Prepared;
 using test::wheel;
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 Body elastic(const std::string& name, const Shape& shape) {
   Body b;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <numbers>
 
 #include "adapters/wheel.hpp"
 #include "scene/shared_terms.hpp"
@@ -15,7 +16,7 @@ using test::Outcome;
 using test::Prepared;
 using test::wheel;
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 Body liquid(const Shape& shape) {
   Body b;

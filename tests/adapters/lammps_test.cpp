@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "adapters/wheel.hpp"
@@ -200,7 +201,8 @@ TEST(LammpsWalkers, KeepTheirNumber) {
 
 TEST(LammpsWalkers, RunTheCommandsOfTheirSettings) { test::expect_commands_reach(debian, step(1e4)); }
 
-constexpr double pi = 3.14159265358979323846, length = 10e-3, D = 1e-6;  // [m], [m2/s]
+using std::numbers::pi;
+constexpr double length = 10e-3, D = 1e-6;  // [m], [m2/s]
 
 /// A bar of 20 layers between plates of held temperature [K]; an end without one is insulated.
 Prepared between_plates(const TemperatureField& start, std::optional<double> low, std::optional<double> high, double end) {

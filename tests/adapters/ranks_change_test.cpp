@@ -29,7 +29,7 @@ Outcome expect_changes_equal(const Prepared& p) {
   return two;
 }
 
-void expect_kept(const Outcome& out) {
+void expect_mass_and_momenta_kept(const Outcome& out) {
   const Snapshot &start = out.trajectory.frames.front(), &end = out.trajectory.frames.back();
   EXPECT_LT(norm(end.momentum - start.momentum), 1e-11 * norm(start.momentum));
   EXPECT_LT(norm(end.angular_momentum - start.angular_momentum), 1e-11 * norm(start.angular_momentum));
@@ -39,14 +39,14 @@ void expect_kept(const Outcome& out) {
 TEST(Ranks, TearBarsAsOneProcessDoes) {
   NEEDS_RANKS();
   const Outcome two = expect_changes_equal(test::brittle_bar(true, Mode::corrected));
-  expect_kept(two);
+  expect_mass_and_momenta_kept(two);
   EXPECT_GE(two.trajectory.frames.back().counts.at("objects"), 2.0);
 }
 
 TEST(Ranks, MeltFreezeMergeAndSplitAsOneProcessDoes) {
   NEEDS_RANKS();
   const Outcome two = expect_changes_equal(test::merging_and_splitting(SolidKind::rigid));
-  expect_kept(two);
+  expect_mass_and_momenta_kept(two);
   EXPECT_EQ(two.trajectory.frames.front().counts.at("objects"), 3.0);
   EXPECT_EQ(two.trajectory.frames.back().counts.at("objects"), 3.0) << "two became one, and one two";
   EXPECT_GT(two.trajectory.frames.back().bodies.size(), 3u) << "a row of its own for what was cut off";

@@ -127,7 +127,7 @@ Prepared thrown_hammer(bool flows, double jitter, double bending) {
   return test::prepare(s, 0.02, 2);
 }
 
-void expect_kept(const Outcome& out) {
+void expect_momenta_kept(const Outcome& out) {
   const Snapshot &start = out.trajectory.frames.front(), &end = out.trajectory.frames.back();
   EXPECT_GT(norm(start.momentum), 0.1);
   EXPECT_LT(norm(end.momentum - start.momentum), 1e-11 * norm(start.momentum));
@@ -139,7 +139,7 @@ TEST(Ranks, SwingElasticBodiesAsOneProcessDoes) {
   const Prepared p = thrown_hammer(false, 0.1, 0.0);
   expect_equal_on_ranks(p);
   const Outcome two = run_on(2, p);
-  expect_kept(two);
+  expect_momenta_kept(two);
   EXPECT_GT(two.result.extra.at("migrations"), 10.0);
   const auto& frames = two.trajectory.frames;
   for (const std::size_t b : {std::size_t{0}, std::size_t{1}})

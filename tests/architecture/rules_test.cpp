@@ -87,12 +87,12 @@ TEST(Includes, FromARoomThatTheMapDoesNotKnowAreRefused) {
 }
 
 TEST(Libraries, StayInTheirRooms) {
-  const std::vector<std::pair<std::string, std::string>> homes{{"btBulletDynamicsCommon.h", "adapters/bullet"},
+  const std::vector<std::pair<std::string, std::string>> rooms{{"btBulletDynamicsCommon.h", "adapters/bullet"},
                                                                {"lammps/library.h", "adapters/lammps"},
                                                                {"hdf5.h", "src/io"},
                                                                {"toml++/toml.h", "src/scene"},
                                                                {"CLI/CLI.hpp", "program/cli"}};
-  for (const auto& [header, room] : homes) {
+  for (const auto& [header, room] : rooms) {
     const std::string line = "#include <" + header + ">\n";
     EXPECT_TRUE(strayed_libraries(file(room + "/a.cpp", line)).empty()) << header;
     EXPECT_EQ(strayed_libraries(file("validation/harness/a.cpp", line)).size(), 1U) << header;

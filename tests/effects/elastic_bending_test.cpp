@@ -9,9 +9,9 @@
 namespace tripoint {
 namespace {
 
-constexpr double dx = 0.1;
+using lab::dx;
 
-lab::Lab block(const std::array<int, 3>& count, double jitter = 0.1, double bending = 1.0, Mode mode = Mode::corrected) {
+lab::Lab bending_block(const std::array<int, 3>& count, double jitter = 0.1, double bending = 1.0, Mode mode = Mode::corrected) {
   lab::Lab lab = lab::elastic_lab(dx, 0.3, mode);
   lab.scene.values["bending"] = bending;
   lab.add({.count = count, .phase = Phase::elastic});
@@ -19,57 +19,32 @@ lab::Lab block(const std::array<int, 3>& count, double jitter = 0.1, double bend
   return lab;
 }
 
-/// Turned by a radian and strained by some 5 %, differently everywhere.
-Vec3 bent(const Vec3& r) {
-  const Vec3 s = r + Vec3{0.3 * r.x * r.y + 0.05 * r.x, 0.2 * r.x * r.x - 0.04 * r.y, 0.25 * r.y * r.z + 0.1 * r.x * r.y};
-  return rotate(from_rotation_vector({0.3, 0.8, -0.5}), s);
-}
-
-double worst_gradient_error(lab::Deformable& body) {
-  double worst = 0.0;
-  const double scale = body.greatest_force(), step = 1e-6 * dx;
-  for (std::size_t id = 0; id < body.size(); id += 1 + body.size() / 12) {
-    const Vec3 f = body.force(id);
-    for (std::size_t a = 0; a < 3; ++a) {
-      Vec3 by;
-      by[a] = step;
-      body.move(id, by);
-      const double above = body.energy();
-      body.move(id, -2.0 * by);
-      const double below = body.energy();
-      body.move(id, by);
-      worst = std::max(worst, std::abs(f[a] + (above - below) / (2.0 * step)) / scale);
-    }
-  }
-  return worst;
-}
-
 TEST(ElasticBending, ForcesAreMinusTheGradientOfTheEnergy) {
   for (const double bending : {1.0, 0.4})
     for (const std::array<int, 3>& count : {std::array{5, 4, 4}, std::array{6, 2, 2}, std::array{5, 5, 1}, std::array{7, 1, 1}}) {
-      lab::Deformable body(block(count, 0.1, bending));
-      body.place(bent);
+      lab::Deformable body(bending_block(count, 0.1, bending));
+      body.place(lab::bent);
       EXPECT_LT(worst_gradient_error(body), 1e-7) << bending << ": " << count[0] << count[1] << count[2];  // noise of differences
     }
-  lab::Lab without = block({4, 4, 4});
+  lab::Lab without = bending_block({4, 4, 4});
   without.scene.values["hourglass"] = 0.0;
   lab::Deformable body(without);
-  body.place(bent);
+  body.place(lab::bent);
   EXPECT_LT(worst_gradient_error(body), 1e-7);
 }
 
 TEST(ElasticBending, ForcesOfASolidWithFlatPartsAreTheGradientToo) {
-  lab::Lab lab = block({4, 4, 3});
+  lab::Lab lab = bending_block({4, 4, 3});
   lab.add({.name = "fin", .corner = {4.0 * dx, 0.0, dx}, .count = {3, 4, 1}, .phase = Phase::elastic});
   lab.scene.bodies.back().joined_to = {"block"};
   lab::Deformable body(lab);
-  body.place(bent);
+  body.place(lab::bent);
   EXPECT_LT(worst_gradient_error(body), 1e-7);
 }
 
 TEST(ElasticBending, KeepsMomentumAndAngularMomentumToRoundOff) {
-  lab::Deformable body(block({5, 4, 4}));
-  body.place(bent);
+  lab::Deformable body(bending_block({5, 4, 4}));
+  body.place(lab::bent);
   Vec3 sum, torque;
   double forces = 0.0, torques = 0.0;
   for (std::size_t id = 0; id < body.size(); ++id) {
@@ -87,7 +62,7 @@ TEST(ElasticBending, SeesNothingInARigidMotionAndAHomogeneousStrainAsItIs) {
   const Matrix3 G{0.01, 0.004, -0.003, 0.002, -0.006, 0.005, 0.001, -0.002, 0.008};
   const Symmetric expected = solid::green_strain(identity3 + G);
   for (const double jitter : {0.0, 0.2}) {
-    lab::Deformable body(block({5, 5, 5}, jitter));
+    lab::Deformable body(bending_block({5, 5, 5}, jitter));
     const Quaternion q = from_rotation_vector({1.0, -2.0, 0.5});
     body.place([&](const Vec3& r) { return rotate(q, r) + Vec3{0.3, -0.2, 0.5}; });
     EXPECT_LT(body.greatest_strain(), 1e-12);
@@ -112,7 +87,7 @@ struct PureBending {
 /// Energy of a square bar in pure bending over the exact one, by particles far from its ends.
 double energy_in_bending(int across, double bending) {
   const int length = 9;
-  lab::Lab lab = block({length, across, across}, 0.0, bending);
+  lab::Lab lab = bending_block({length, across, across}, 0.0, bending);
   lab.scene.values["hourglass"] = 0.0;
   lab::Deformable body(lab);
   const double middle = 0.5 * (across - 1) * dx, curvature = 1e-6 / dx;
@@ -141,32 +116,33 @@ TEST(ElasticBending, HasTheEnergyOfABentBarWithOrderTwo) {
 double size(const Symmetric& e) { return std::sqrt(contraction(e, e)); }
 
 TEST(ElasticBending, ChangesSurfacesOfSolidsAloneAndNothingAsPrinted) {
-  lab::Deformable on(block({7, 7, 7}, 0.0)), off(block({7, 7, 7}, 0.0, 0.0));
-  on.place(bent);
-  off.place(bent);
+  lab::Deformable on(bending_block({7, 7, 7}, 0.0)), off(bending_block({7, 7, 7}, 0.0, 0.0));
+  on.place(lab::bent);
+  off.place(lab::bent);
   EXPECT_LT(size(on.strain(171) - off.strain(171)), 1e-14);  // the middle one: round-off of sums in another order
   EXPECT_GT(size(on.strain(24) - off.strain(24)), 1e-3);     // of a face
   for (const std::array<int, 3>& count : {std::array{5, 5, 1}, std::array{7, 1, 1}}) {
-    lab::Deformable flat(block(count)), flat_off(block(count, 0.1, 0.0));
-    flat.place(bent);
-    flat_off.place(bent);
+    lab::Deformable flat(bending_block(count)), flat_off(bending_block(count, 0.1, 0.0));
+    flat.place(lab::bent);
+    flat_off.place(lab::bent);
     for (std::size_t id = 0; id < flat.size(); ++id) EXPECT_LT(size(flat.strain(id) - flat_off.strain(id)), 1e-14);
   }
-  lab::Deformable printed(block({4, 4, 4}, 0.1, 1.0, Mode::paper)), printed_off(block({4, 4, 4}, 0.1, 0.0, Mode::paper));
-  printed.place(bent);
-  printed_off.place(bent);
+  lab::Deformable printed(bending_block({4, 4, 4}, 0.1, 1.0, Mode::paper)),
+      printed_off(bending_block({4, 4, 4}, 0.1, 0.0, Mode::paper));
+  printed.place(lab::bent);
+  printed_off.place(lab::bent);
   for (std::size_t id = 0; id < printed.size(); ++id) EXPECT_EQ(printed.force(id), printed_off.force(id));
 }
 
 TEST(ElasticBending, FollowsListsThatLoseBonds) {
-  lab::Deformable body(block({5, 5, 5}, 0.0));
+  lab::Deformable body(bending_block({5, 5, 5}, 0.0));
   World& w = body.world();
   std::vector<std::uint32_t> ids{62};  // inside: it comes to lie at a surface
   const auto upward = [&](const Bond& b) { return b.x.y < 0.0; };
   const std::vector<std::uint32_t> lost = disconnect(w.bonds, 62, upward);
   ids.insert(ids.end(), lost.begin(), lost.end());
   solid::refresh_shapes(w, ids);
-  body.place(bent);
+  body.place(lab::bent);
   EXPECT_LT(worst_gradient_error(body), 1e-7);
   const Bond& side = w.bonds.of(62)[0];
   EXPECT_GT(norm(cross(side.gradient, side.x)), 1e-3 * norm(side.gradient) * norm(side.x));  // no longer along the bond

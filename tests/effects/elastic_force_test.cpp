@@ -7,7 +7,7 @@
 namespace tripoint {
 namespace {
 
-constexpr double dx = 0.1;
+using lab::dx;
 
 lab::Lab block(const std::array<int, 3>& count, Mode mode = Mode::corrected, double jitter = 0.1) {
   lab::Lab lab = lab::elastic_lab(dx, 0.3, mode);
@@ -16,36 +16,10 @@ lab::Lab block(const std::array<int, 3>& count, Mode mode = Mode::corrected, dou
   return lab;
 }
 
-/// Turned by a radian and strained by some 5 %, differently everywhere.
-Vec3 bent(const Vec3& r) {
-  const Vec3 s = r + Vec3{0.3 * r.x * r.y + 0.05 * r.x, 0.2 * r.x * r.x - 0.04 * r.y, 0.25 * r.y * r.z + 0.1 * r.x * r.y};
-  return rotate(from_rotation_vector({0.3, 0.8, -0.5}), s);
-}
-
-/// Worst difference of the forces from central differences of the energy, over the greatest force.
-double worst_gradient_error(lab::Deformable& body) {
-  double worst = 0.0;
-  const double scale = body.greatest_force(), step = 1e-6 * dx;
-  for (std::size_t id = 0; id < body.size(); id += 1 + body.size() / 12) {
-    const Vec3 f = body.force(id);
-    for (std::size_t a = 0; a < 3; ++a) {
-      Vec3 by;
-      by[a] = step;
-      body.move(id, by);
-      const double above = body.energy();
-      body.move(id, -2.0 * by);
-      const double below = body.energy();
-      body.move(id, by);
-      worst = std::max(worst, std::abs(f[a] + (above - below) / (2.0 * step)) / scale);
-    }
-  }
-  return worst;
-}
-
 TEST(ElasticForce, IsMinusTheGradientOfTheEnergyForSolidsSheetsAndChains) {
   for (const std::array<int, 3>& count : {std::array{5, 4, 4}, std::array{5, 5, 1}, std::array{7, 1, 1}, std::array{2, 1, 1}}) {
     lab::Deformable body(block(count));
-    body.place(bent);
+    body.place(lab::bent);
     EXPECT_LT(worst_gradient_error(body), 1e-7) << count[0] << count[1] << count[2];  // noise of differences: 1e-16 U/(step f)
   }
 }
@@ -55,13 +29,13 @@ TEST(ElasticForce, OfASolidWithFlatPartsIsTheGradientToo) {
   lab.add({.name = "fin", .corner = {4.0 * dx, 0.0, dx}, .count = {3, 4, 1}, .phase = Phase::elastic});
   lab.scene.bodies.back().joined_to = {"block"};
   lab::Deformable body(lab);
-  body.place(bent);
+  body.place(lab::bent);
   EXPECT_LT(worst_gradient_error(body), 1e-7);
 }
 
 TEST(ElasticForce, AsPrintedIsTheGradientOfThePrintedEnergy) {
   lab::Deformable body(block({4, 4, 4}, Mode::paper));
-  body.place(bent);
+  body.place(lab::bent);
   EXPECT_LT(worst_gradient_error(body), 1e-7);
 }
 
@@ -69,7 +43,7 @@ TEST(ElasticForce, WithoutHourglassIsTheGradientToo) {
   lab::Lab lab = block({4, 4, 4});
   lab.scene.values["hourglass"] = 0.0;
   lab::Deformable body(lab);
-  body.place(bent);
+  body.place(lab::bent);
   EXPECT_LT(worst_gradient_error(body), 1e-7);
 }
 
@@ -83,7 +57,7 @@ TEST(ElasticForce, ReachesAsFarAsTheSceneSays) {
     lab::Lab small = block({4, 4, 4});
     small.scene.values["bond_reach"] = reach;
     lab::Deformable body(small);
-    body.place(bent);
+    body.place(lab::bent);
     EXPECT_LT(worst_gradient_error(body), 1e-7) << reach;
   }
 }
@@ -91,7 +65,7 @@ TEST(ElasticForce, ReachesAsFarAsTheSceneSays) {
 TEST(ElasticForce, KeepsMomentumAndAngularMomentumToRoundOff) {
   for (const std::array<int, 3>& count : {std::array{5, 4, 4}, std::array{5, 5, 1}, std::array{7, 1, 1}}) {
     lab::Deformable body(block(count));
-    body.place(bent);
+    body.place(lab::bent);
     Vec3 sum, torque;
     double forces = 0.0, torques = 0.0;
     for (std::size_t id = 0; id < body.size(); ++id) {
@@ -119,7 +93,7 @@ TEST(ElasticForce, OfListsThatDoNotMirrorEachOtherIsTheGradientStill) {
     b.weight = turned.weight;
   }
   solid::refresh_shapes(w, std::vector<std::uint32_t>{21});
-  body.place(bent);
+  body.place(lab::bent);
   EXPECT_LT(worst_gradient_error(body), 1e-7);
 }
 
@@ -145,7 +119,7 @@ TEST(ElasticForce, OnTheMembersOfARigidBodyIsWhatTheirElasticPartnersGive) {
       {.name = "clamp", .corner = {-2.0 * dx, 0.0, 0.0}, .count = {2, 4, 4}, .phase = Phase::elastic, .motion = Motion::fixed});
   lab.scene.bodies[0].joined_to = {"clamp"};
   lab::Deformable body(lab);
-  body.place(bent);
+  body.place(lab::bent);
   EXPECT_LT(worst_gradient_error(body), 1e-7);
   Vec3 on_clamp, on_block;
   for (std::size_t id = 0; id < body.size(); ++id) (id < 64 ? on_block : on_clamp) += body.force(id);

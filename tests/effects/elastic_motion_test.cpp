@@ -9,7 +9,7 @@
 namespace tripoint {
 namespace {
 
-constexpr double dx = 0.1;
+using lab::dx;
 
 lab::Lab spinning(Mode mode, const std::array<int, 3>& count = {5, 5, 5}) {
   lab::Lab lab = lab::elastic_lab(dx, 0.3, mode);

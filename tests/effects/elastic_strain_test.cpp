@@ -9,7 +9,7 @@
 namespace tripoint {
 namespace {
 
-constexpr double dx = 0.1;
+using lab::dx;
 
 struct Layout {
   std::string name;

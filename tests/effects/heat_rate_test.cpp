@@ -10,8 +10,6 @@
 namespace tripoint {
 namespace {
 
-constexpr double D = 1e-6;  ///< diffusivity of the lab's material [m2/s]
-
 double amplitude(const Simulation& s, double k, double phase) {
   const auto x = lab::by_id(s, field::position_x), T = lab::by_id(s, field::temperature);
   double sum = 0.0;
@@ -29,9 +27,9 @@ double cosine_rate(int across, Mode mode, std::optional<double> time_step = {}, 
   lab.add({.corner = {0.5 * dx, 0.5 * dx, 0.5 * dx}, .count = count, .motion = Motion::fixed, .temperature = [&](const Vec3& r) {
              return 300.0 + 10.0 * std::cos(k * r.x + phase);
            }});
-  const double time = 0.5 / (D * k * k);
+  const double time = 0.5 / (lab::diffusivity * k * k);
   const Simulation s = lab.run(time, 2);
-  return -std::log(amplitude(s, k, phase) / 10.0) / time / (D * k * k);
+  return -std::log(amplitude(s, k, phase) / 10.0) / time / (lab::diffusivity * k * k);
 }
 
 TEST(CorrectedHeat, LosesACosineAtTheExactRateToSecondOrder) {
@@ -54,13 +52,13 @@ TEST(PaperHeat, LosesACosineAtTheRateOfItsLatticeSum) {
     const double dx = 0.01 / across, k = 200.0 * std::numbers::pi;
     const double predicted = paper_heat_rate(dx, 2.12 * dx, {k, 0.0, 0.0}) / (k * k);
     // Euler's own error, rate dt/2, is 0.02 % at this step; the floor of 7 % is what is predicted.
-    EXPECT_NEAR(cosine_rate(across, Mode::paper, 1e-3 / (D * k * k)) / predicted, 1.0, 1e-3) << across;
+    EXPECT_NEAR(cosine_rate(across, Mode::paper, 1e-3 / (lab::diffusivity * k * k)) / predicted, 1.0, 1e-3) << across;
     EXPECT_LT(predicted, 0.93);
   }
 }
 
 TEST(CorrectedHeat, IsOfSecondOrderInTime) {
-  const double unit = 1.0 / (D * 4e4 * std::numbers::pi * std::numbers::pi);  // [s]
+  const double unit = 1.0 / (lab::diffusivity * 4e4 * std::numbers::pi * std::numbers::pi);  // [s]
   const double exact = cosine_rate(10, Mode::corrected, 0.0025 * unit);
   const double coarse = cosine_rate(10, Mode::corrected, 0.0625 * unit) - exact,
                fine = cosine_rate(10, Mode::corrected, 0.03125 * unit) - exact;
@@ -69,14 +67,14 @@ TEST(CorrectedHeat, IsOfSecondOrderInTime) {
 
 /// Steps of less than dx^2/(200 D), for which rates are formed once a step (decision 040).
 TEST(CorrectedHeat, IsOfSecondOrderWhereTheRatesOfOneStageServeTheNextStep) {
-  const double step = 0.99 * 1e-6 / (200.0 * D);  // [s], of 10 particles a wavelength
+  const double step = 0.99 * 1e-6 / (200.0 * lab::diffusivity);  // [s], of 10 particles a wavelength
   const double coarse = cosine_rate(10, Mode::corrected, step), middle = cosine_rate(10, Mode::corrected, step / 2.0),
                fine = cosine_rate(10, Mode::corrected, step / 4.0);
   EXPECT_NEAR(std::log2((coarse - middle) / (middle - fine)), 2.0, 0.05);
 }
 
 TEST(PaperHeat, IsOfFirstOrderInTime) {
-  const double unit = 1.0 / (D * 4e4 * std::numbers::pi * std::numbers::pi);
+  const double unit = 1.0 / (lab::diffusivity * 4e4 * std::numbers::pi * std::numbers::pi);
   const double exact = cosine_rate(10, Mode::paper, 0.0005 * unit);
   const double coarse = cosine_rate(10, Mode::paper, 0.0625 * unit) - exact,
                fine = cosine_rate(10, Mode::paper, 0.03125 * unit) - exact;
@@ -91,9 +89,9 @@ double bar_rate(int across, int length) {
            .count = {length, across, across},
            .motion = Motion::fixed,
            .temperature = [&](const Vec3& r) { return 300.0 + 10.0 * std::cos(k * r.x); }});
-  const double time = 0.3 / (D * k * k);
+  const double time = 0.3 / (lab::diffusivity * k * k);
   const Simulation s = lab.run(time, 2);
-  return -std::log(amplitude(s, k, 0.0) / 10.0) / time / (D * k * k);
+  return -std::log(amplitude(s, k, 0.0) / 10.0) / time / (lab::diffusivity * k * k);
 }
 
 TEST(CorrectedHeat, ConductsAlongFreeSidedBars) {

@@ -10,8 +10,6 @@
 namespace tripoint {
 namespace {
 
-constexpr double D = 1e-6;  ///< diffusivity of the lab's material [m2/s]
-
 /// A slab of one centimetre between faces held at 300 K, `across` particles thick, periodic along the others.
 lab::Lab slab(int across, const std::function<double(const Vec3&)>& temperature) {
   const double dx = 0.01 / across;
@@ -29,7 +27,7 @@ lab::Lab slab(int across, const std::function<double(const Vec3&)>& temperature)
 
 /// Rate at which half a sine between the faces decays, over the exact one, less 1.
 double error_of_rate(int across) {
-  const double k = std::numbers::pi / 0.01, time = 0.5 / (D * k * k);
+  const double k = std::numbers::pi / 0.01, time = 0.5 / (lab::diffusivity * k * k);
   const auto sine = [&](const Vec3& r) { return std::sin(k * r.x); };
   const Simulation s = slab(across, [&](const Vec3& r) { return 300.0 + 10.0 * sine(r); }).run(time);
   const auto x = lab::by_id(s, field::position_x), T = lab::by_id(s, field::temperature);
@@ -39,7 +37,7 @@ double error_of_rate(int across) {
     sum += (T[i] - 300.0) * wave;
     of_sine += wave * wave;
   }
-  return -std::log(sum / of_sine / 10.0) / time / (D * k * k) - 1.0;
+  return -std::log(sum / of_sine / 10.0) / time / (lab::diffusivity * k * k) - 1.0;
 }
 
 TEST(HeldSurface, LosesASineBetweenItsFacesAtTheExactRateToSecondOrder) {

@@ -13,10 +13,6 @@
 namespace tripoint {
 namespace {
 
-bool lists(const Plan& p, std::string_view field) {
-  return std::ranges::find(p.fields, field, &PlannedField::name) != p.fields.end();
-}
-
 std::string why_without(const Plan& p, std::string_view effect) {
   const auto at = std::ranges::find(p.idle, effect, &PlannedEffect::name);
   return at == p.idle.end() ? "" : at->why;
@@ -116,10 +112,10 @@ TEST(OnlyWhatIsCalledFor, OneOtherTemperatureOfBodyInflowOrEventMakesThemUnequal
 TEST(OnlyWhatIsCalledFor, WhatStaysWarmerThanItFreezesHasNoPhaseCheckAndWhatIsCooledLaterHas) {
   const lab::Lab warm = with_event(splash(Mode::corrected), 100.0, 251.0),
                  cooled = with_event(splash(Mode::corrected), 100.0, 240.0);
-  EXPECT_FALSE(lists(plan(warm.scene), "liquid_fraction"));
+  EXPECT_FALSE(lab::lists(plan(warm.scene), "liquid_fraction"));
   EXPECT_NE(why_without(plan(warm.scene), "phase").find("251 to 300 K"), std::string::npos)
       << why_without(plan(warm.scene), "phase");
-  EXPECT_TRUE(lists(plan(cooled.scene), "liquid_fraction"));
+  EXPECT_TRUE(lab::lists(plan(cooled.scene), "liquid_fraction"));
   EXPECT_EQ(why_without(plan(cooled.scene), "phase"), "");
 }
 

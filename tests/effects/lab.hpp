@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
 #include <array>
 #include <functional>
 
+#include "assembly/plan.hpp"
 #include "scene/initial_state.hpp"
 #include "scene/sample.hpp"
 #include "step/simulation.hpp"
@@ -21,6 +23,9 @@ struct Block {
   std::function<double(const Vec3&)> temperature{};
   bool temperature_held = false;
 };
+
+/// Diffusivity of material 0 of a lab as it comes [m2/s].
+inline constexpr double diffusivity = 1e-6;
 
 struct Lab {
   Scene scene;
@@ -99,6 +104,11 @@ struct Lab {
     return s;
   }
 };
+
+/// Whether a plan has a column of this name.
+inline bool lists(const Plan& p, std::string_view field) {
+  return std::ranges::find(p.fields, field, &PlannedField::name) != p.fields.end();
+}
 
 /// A column by id.
 inline std::vector<double> by_id(const Simulation& s, const Field<double>& f) {

@@ -6,8 +6,9 @@
 namespace tripoint {
 namespace {
 
-constexpr double hot = 400.0,
-                 cold = 300.0;  // far on either side of t_melt = t_solid = 350 K; without latent heat it melts at once
+using lab::cold;
+using lab::constant;
+using lab::hot;
 
 /// With liquids from the start, which press on each other, if next to nothing.
 lab::Lab wet_lab() {
@@ -15,8 +16,6 @@ lab::Lab wet_lab() {
   lab.scene.materials[0].stiffness = 1e-20;
   return lab;
 }
-
-const auto constant = [](double T) { return [T](const Vec3&) { return T; }; };
 
 void expect_kept(const Ledger& a, const Ledger& b, double size_P, double size_L) {
   EXPECT_NEAR(a.mass, b.mass, 1e-12 * a.mass);

@@ -10,8 +10,10 @@
 namespace tripoint {
 namespace {
 
-constexpr double hot = 400.0, cold = 300.0, dx = 0.1, young = 1e5;
-const auto constant = [](double T) { return [T](const Vec3&) { return T; }; };
+using lab::cold;
+using lab::constant;
+using lab::hot;
+constexpr double dx = 0.1, young = 1e5;
 
 /// A block of elastic matter and one liquid particle beside it, as it is when it has been loaded.
 World block_and_drop(std::array<int, 3> count, const Vec3& drop) {

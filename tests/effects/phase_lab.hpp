@@ -10,6 +10,11 @@
 /// Small scenes of what melts and freezes.
 namespace tripoint::lab {
 
+/// Far on either side of t_melt = t_solid = 350 K; without latent heat it melts at once [K].
+inline constexpr double hot = 400.0, cold = 300.0;
+/// One temperature everywhere [K].
+inline const auto constant = [](double T) { return [T](const Vec3&) { return T; }; };
+
 struct Meltable {
   double t_melt = 350.0, t_solid = 350.0, latent_heat = 0.0;  ///< [K], [K], [J/kg]
   SolidKind solid = SolidKind::rigid;

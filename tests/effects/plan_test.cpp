@@ -12,16 +12,12 @@
 namespace tripoint {
 namespace {
 
-bool lists(const Plan& p, std::string_view field) {
-  return std::ranges::find(p.fields, field, &PlannedField::name) != p.fields.end();
-}
-
 TEST(Plan, OfARigidSceneHasNoHeatColumnAndNeitherHasTheRun) {
   const lab::Lab lab = lab::asymmetric_block({1.0, 2.0, 3.0});
   const Plan p = plan(lab.scene);
   ASSERT_EQ(p.effects.size(), 1u);
   EXPECT_EQ(p.effects[0].name, "rigid");
-  for (const char* f : {"temperature", "enthalpy", "heat_rate", "conductivity", "density"}) EXPECT_FALSE(lists(p, f)) << f;
+  for (const char* f : {"temperature", "enthalpy", "heat_rate", "conductivity", "density"}) EXPECT_FALSE(lab::lists(p, f)) << f;
   const Simulation s(lab.scene, lab.initial);
   EXPECT_THROW((void)s.world().particles[field::temperature], MissingField);
   EXPECT_FALSE(s.world().neighbours.has_value()) << "a scene without pair terms needs no lists";
@@ -39,7 +35,7 @@ TEST(Plan, OfASceneWithoutDeformableSolidsHasNoneOfTheirColumnsAndNoBonds) {
   lab.add({.name = "pool", .corner = {1.0, 0.0, 0.0}, .count = {4, 4, 4}, .phase = Phase::liquid});
   const Plan p = plan(lab.scene);
   for (const char* f : {"elastic_force.x", "shape_rank", "strain.xx", "own_density", "plastic_strain.xx", "liquid_fraction"})
-    EXPECT_FALSE(lists(p, f)) << f;
+    EXPECT_FALSE(lab::lists(p, f)) << f;
   for (const PlannedEffect& e : p.effects)
     EXPECT_TRUE(e.name != "elastic" && e.name != "plastic" && e.name != "fracture" && e.name != "phase") << e.name;
   const Simulation s = lab.run(0.01);
@@ -49,10 +45,10 @@ TEST(Plan, OfASceneWithoutDeformableSolidsHasNoneOfTheirColumnsAndNoBonds) {
 
 TEST(Plan, OfHeatOwnsEachFormsOwnFields) {
   const Plan corrected = plan(warm(Mode::corrected).scene), paper = plan(warm(Mode::paper).scene);
-  EXPECT_TRUE(lists(corrected, "enthalpy"));
-  EXPECT_FALSE(lists(corrected, "density"));
-  EXPECT_FALSE(lists(paper, "enthalpy"));
-  EXPECT_TRUE(lists(paper, "density"));
+  EXPECT_TRUE(lab::lists(corrected, "enthalpy"));
+  EXPECT_FALSE(lab::lists(corrected, "density"));
+  EXPECT_FALSE(lab::lists(paper, "enthalpy"));
+  EXPECT_TRUE(lab::lists(paper, "density"));
   EXPECT_EQ(corrected.effects.back().mode, "corrected");
   EXPECT_EQ(paper.effects.back().mode, "paper");
   EXPECT_GT(corrected.bytes_per_particle, paper.bytes_per_particle);
@@ -65,7 +61,7 @@ TEST(Plan, ListsExactlyTheColumnsThatTheRunHas) {
     const Simulation s(lab.scene, lab.initial);
     std::size_t columns = s.world().particles.fields().size() + s.world().bodies.fields().size();
     EXPECT_EQ(columns, p.fields.size());
-    for (const auto& f : s.world().particles.fields()) EXPECT_TRUE(lists(p, f.name)) << f.name;
+    for (const auto& f : s.world().particles.fields()) EXPECT_TRUE(lab::lists(p, f.name)) << f.name;
   }
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi, mass = 2.0, k = 100.0, mu = 3.0;
 constexpr double at_0 = 315.0 / (512.0 * pi), at_1 = 8505.0 / (32768.0 * pi), at_root_2 = 2520.0 / (32768.0 * pi);
-constexpr double slope = 45.0 / (64.0 * pi);  // of spiky at 1, towards the particle, and of the Laplacian at 1
+constexpr double spiky_slope = 45.0 / (64.0 * pi);  // of spiky at 1, towards the particle, and of the Laplacian at 1
 
 /// Liquid particles of 2 kg at these places, as printed in every term, rest density 2 kg/m3.
 lab::Lab printed(const std::vector<Vec3>& places, bool heat = false) {
@@ -42,12 +42,12 @@ TEST(PrintedNumbers, TwoParticlesHaveTheDensityPressureAndForcesOfPaper) {
   lab::Lab lab = printed({{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}});
   lab.initial.velocity[1] = {0.0, 4.0, 0.0};
   lab.scene.time_step = 1e-9;
-  const Simulation s = lab.run(1e-9);            // nothing has moved yet, and viscosity has its first velocities
-  const double rho = mass * (at_0 + at_1);       // (4), 0.5569
-  const double p = k * (rho - 2.0);              // (9), -144.3: no clamp
-  const double V = mass / rho;                   // 3.591
-  const double pull = -V * V * p * slope;        // (7), 416.56 N: negative pressure pulls
-  const double drag = V * V * mu * 4.0 * slope;  // (8), 34.64 N
+  const Simulation s = lab.run(1e-9);                  // nothing has moved yet, and viscosity has its first velocities
+  const double rho = mass * (at_0 + at_1);             // (4), 0.5569
+  const double p = k * (rho - 2.0);                    // (9), -144.3: no clamp
+  const double V = mass / rho;                         // 3.591
+  const double pull = -V * V * p * spiky_slope;        // (7), 416.56 N: negative pressure pulls
+  const double drag = V * V * mu * 4.0 * spiky_slope;  // (8), 34.64 N
   EXPECT_NEAR(rho, 0.55691, 1e-5);
   EXPECT_NEAR(p, -144.309, 1e-3);
   EXPECT_NEAR(pull, 416.556, 1e-3);
@@ -71,7 +71,7 @@ TEST(PrintedNumbers, OfThreeInALineTheMiddleOneIsDenserAndFeelsNothing) {
   EXPECT_NEAR(lab::by_id(s, field::density)[1], middle, 1e-13);
   EXPECT_NEAR(lab::by_id(s, field::density)[2], end, 1e-13);
   const double mean = 0.5 * (k * (end - 2.0) + k * (middle - 2.0));  // (p_i + p_j)/2 of (7)
-  EXPECT_NEAR(force(s, 0).x, -(mass / end) * (mass / middle) * mean * slope, 1e-10);
+  EXPECT_NEAR(force(s, 0).x, -(mass / end) * (mass / middle) * mean * spiky_slope, 1e-10);
   EXPECT_NEAR(force(s, 1).x, 0.0, 1e-10);
   EXPECT_NEAR(force(s, 2).x, -force(s, 0).x, 1e-10);
 }
@@ -82,7 +82,7 @@ TEST(PrintedNumbers, FourInASquareSeeTheDiagonalToo) {
   const double rho = mass * (at_0 + 2.0 * at_1 + at_root_2), p = k * (rho - 2.0), V = mass / rho;
   const double root = std::sqrt(2.0), diagonal = 45.0 * (2.0 - root) * (2.0 - root) / (64.0 * pi);
   for (std::size_t id = 0; id < 4; ++id) EXPECT_NEAR(lab::by_id(s, field::density)[id], rho, 1e-13);
-  EXPECT_NEAR(force(s, 0).x, -V * V * p * (slope + diagonal / root), 1e-10);
+  EXPECT_NEAR(force(s, 0).x, -V * V * p * (spiky_slope + diagonal / root), 1e-10);
   EXPECT_NEAR(force(s, 0).y, force(s, 0).x, 1e-10);
 }
 
@@ -93,7 +93,7 @@ TEST(PrintedNumbers, HeatFlowsByTheConstantOfTheMaterialAndByTheOneOfTheScene) {
     lab.scene.time_step = 1e-6;
     const Simulation s = lab.run(1e-6);
     const double c = one > 0.0 ? one : 5.0, V_middle = mass / (mass * (at_0 + 2.0 * at_1)), V_end = mass / (mass * (at_0 + at_1));
-    const double rate = c * V_middle * 10.0 * slope;  // (21) at the cold end [K/s]
+    const double rate = c * V_middle * 10.0 * spiky_slope;  // (21) at the cold end [K/s]
     const auto T = lab::by_id(s, field::temperature);
     EXPECT_NEAR((T[0] - 300.0) / 1e-6, rate, 1e-5 * rate);
     EXPECT_NEAR((T[1] - 310.0) / 1e-6, 0.0, 1e-4 * rate);  // as much from one side as to the other

@@ -12,6 +12,8 @@
 /// Small scenes of deformable solids.
 namespace tripoint::lab {
 
+inline constexpr double dx = 0.1;  ///< spacing of the elastic blocks of tests [m]
+
 /// Material 0 is elastic: E = 1 Pa, rho = 1 kg/m3 unless said; no stiffness, so that bodies do not touch.
 inline Lab elastic_lab(double spacing, double poisson = 0.3, Mode mode = Mode::corrected) {
   Lab lab(spacing, mode);
@@ -99,5 +101,31 @@ class Deformable {
   std::unique_ptr<Effect> effect_;
   std::vector<Vec3> start_;
 };
+
+/// Turned by a radian and strained by some 5 %, differently everywhere.
+inline Vec3 bent(const Vec3& r) {
+  const Vec3 s = r + Vec3{0.3 * r.x * r.y + 0.05 * r.x, 0.2 * r.x * r.x - 0.04 * r.y, 0.25 * r.y * r.z + 0.1 * r.x * r.y};
+  return rotate(from_rotation_vector({0.3, 0.8, -0.5}), s);
+}
+
+/// Worst difference of the forces from central differences of the energy, over the greatest force.
+inline double worst_gradient_error(Deformable& body) {
+  double worst = 0.0;
+  const double scale = body.greatest_force(), step = 1e-6 * dx;
+  for (std::size_t id = 0; id < body.size(); id += 1 + body.size() / 12) {
+    const Vec3 f = body.force(id);
+    for (std::size_t a = 0; a < 3; ++a) {
+      Vec3 by;
+      by[a] = step;
+      body.move(id, by);
+      const double above = body.energy();
+      body.move(id, -2.0 * by);
+      const double below = body.energy();
+      body.move(id, by);
+      worst = std::max(worst, std::abs(f[a] + (above - below) / (2.0 * step)) / scale);
+    }
+  }
+  return worst;
+}
 
 }  // namespace tripoint::lab

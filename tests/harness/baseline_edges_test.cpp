@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "fakes.hpp"
 #include "judged.hpp"
@@ -12,8 +11,6 @@
 
 namespace tripoint {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A case with a file of its own below cases/test, and a folder of baselines beside it.
 struct Kept {

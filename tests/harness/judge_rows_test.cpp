@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "fakes.hpp"
 #include "judged.hpp"
@@ -13,8 +12,6 @@
 
 namespace tripoint {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // --- who was asked for --------------------------------------------------------------------------------------------------------
 

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "validation/harness/apply_gate.hpp"
 #include "validation/harness/baseline.hpp"
@@ -15,7 +14,6 @@
 namespace tripoint {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 const double nan = std::nan("");
 double above(double x) { return std::nextafter(x, infinity); }
 double below(double x) { return std::nextafter(x, -infinity); }

@@ -27,7 +27,7 @@ struct CheckpointFile : ::testing::Test {
   fs::path folder;
 };
 
-Checkpoint example(std::size_t rows = 200, double scale = 1.0) {
+Checkpoint example_checkpoint(std::size_t rows = 200, double scale = 1.0) {
   Checkpoint c;
   for (std::size_t i = 0; i < rows; ++i) c.real["particles/position.x"].push_back(scale * std::sqrt(static_cast<double>(i)));
   c.real["step/time"] = {0.1, -0.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 5e-324};
@@ -44,14 +44,14 @@ std::string bytes_of(const std::string& path) {
 void put(const std::string& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
 
 TEST_F(CheckpointFile, ReadsBackBitForBit) {
-  write_checkpoint(path("c.h5"), example());
-  EXPECT_TRUE(same_bits(read_checkpoint(path("c.h5")), example()));
-  EXPECT_FALSE(same_bits(read_checkpoint(path("c.h5")), example(200, 1.0 + 1e-16 * 4)));
+  write_checkpoint(path("c.h5"), example_checkpoint());
+  EXPECT_TRUE(same_bits(read_checkpoint(path("c.h5")), example_checkpoint()));
+  EXPECT_FALSE(same_bits(read_checkpoint(path("c.h5")), example_checkpoint(200, 1.0 + 1e-16 * 4)));
   EXPECT_FALSE(fs::exists(path("c.h5.part")));
 }
 
 TEST_F(CheckpointFile, WithAnyBitFlippedIsRefusedByName) {
-  write_checkpoint(path("c.h5"), example(20));
+  write_checkpoint(path("c.h5"), example_checkpoint(20));
   const std::string whole = bytes_of(path("c.h5"));
   std::mt19937 random(1);
   for (int n = 0; n < 500; ++n) {
@@ -69,7 +69,7 @@ TEST_F(CheckpointFile, WithAnyBitFlippedIsRefusedByName) {
 }
 
 TEST_F(CheckpointFile, CutAnywhereIsRefusedByName) {
-  write_checkpoint(path("c.h5"), example(20));
+  write_checkpoint(path("c.h5"), example_checkpoint(20));
   const std::string whole = bytes_of(path("c.h5"));
   for (std::size_t size = 0; size < whole.size(); size += 1 + whole.size() / 300) {
     put(path("cut.h5"), whole.substr(0, size));
@@ -80,7 +80,7 @@ TEST_F(CheckpointFile, CutAnywhereIsRefusedByName) {
 }
 
 TEST_F(CheckpointFile, OfAnotherVersionIsRefusedAsSuch) {
-  write_checkpoint(path("c.h5"), example(20));
+  write_checkpoint(path("c.h5"), example_checkpoint(20));
   std::string other = bytes_of(path("c.h5"));
   other[other.find('1')] = '2';  // "tripoint checkpoint 1"
   put(path("c.h5"), other);
@@ -93,7 +93,7 @@ TEST_F(CheckpointFile, OfAnotherVersionIsRefusedAsSuch) {
 }
 
 TEST_F(CheckpointFile, WhoseWriterIsKilledLeavesTheEarlierOne) {
-  const Checkpoint early = example(), late = example(200000, 2.0);
+  const Checkpoint early = example_checkpoint(), late = example_checkpoint(200000, 2.0);
   int interrupted = 0;
   for (int delay = 0; delay < 60; ++delay) {
     write_checkpoint(path("c.h5"), early);
@@ -116,7 +116,7 @@ TEST_F(CheckpointFile, WhoseWriterIsKilledLeavesTheEarlierOne) {
 
 TEST_F(CheckpointFile, ThatCannotBeWrittenIsAnErrorThatNamesIt) {
   try {
-    write_checkpoint(path("no such folder/c.h5"), example());
+    write_checkpoint(path("no such folder/c.h5"), example_checkpoint());
     FAIL();
   } catch (const EngineError& e) {
     EXPECT_NE(std::string(e.what()).find("c.h5"), std::string::npos);

@@ -14,7 +14,7 @@ std::string temporary(const std::string& name) {
   return (std::filesystem::temp_directory_path() / (std::to_string(::getpid()) + name)).string();
 }
 
-Job example() {
+Job example_job() {
   Job job;
   job.case_id = "heat/example";
   Scene& s = job.scene;
@@ -70,10 +70,10 @@ Job example() {
 
 TEST(Job, ReadsBackWhatWasWritten) {
   const std::string path = temporary("job.json");
-  write_job(path, example());
+  write_job(path, example_job());
   const Job read = read_job(path);
   std::filesystem::remove(path);
-  Job expected = example();
+  Job expected = example_job();
   const std::string folder = std::filesystem::path(path).parent_path().string() + "/";
   expected.particles = folder + "particles.h5";
   expected.output = folder + "out";

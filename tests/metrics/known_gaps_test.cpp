@@ -17,8 +17,6 @@ using test::Still;
 using test::still_blocks;
 using test::value;
 
-const double nan = std::nan("");
-
 struct Gap {
   std::string quantity, body, says;  ///< empty: the value is 0
   std::function<void(Snapshot& run, Snapshot& truth)> change;
@@ -28,19 +26,20 @@ TEST(KnownGaps, OfParticlesAndBodiesAreToldApart) {
   const auto warm = [](Snapshot& s) { s.temperature.assign(136, 300.0); };
   const std::vector<Gap> gaps{
       {"position", "", "", [](Snapshot&, Snapshot&) {}},
-      {"position", "", "position of particle 3 is not finite or missing", [](Snapshot& r, Snapshot&) { r.position[3].x = nan; }},
-      {"position", "", "position of particle 3 is there, but not in the reference",
-       [](Snapshot&, Snapshot& t) { t.position[3].x = nan; }},
       {"position", "", "position of particle 3 is not finite or missing",
-       [](Snapshot& r, Snapshot& t) { r.position[3].x = t.position[3].x = nan; }},
+       [](Snapshot& r, Snapshot&) { r.position[3].x = not_a_number; }},
+      {"position", "", "position of particle 3 is there, but not in the reference",
+       [](Snapshot&, Snapshot& t) { t.position[3].x = not_a_number; }},
+      {"position", "", "position of particle 3 is not finite or missing",
+       [](Snapshot& r, Snapshot& t) { r.position[3].x = t.position[3].x = not_a_number; }},
       {"position", "", "",
        [](Snapshot& r, Snapshot& t) {
-         r.position[3].x = t.position[3].x = nan;
+         r.position[3].x = t.position[3].x = not_a_number;
          r.id[3] = -1;
        }},
       {"position", "", "position of particle 3 is there, but not in the reference",
        [](Snapshot& r, Snapshot& t) {
-         t.position[3].x = nan;
+         t.position[3].x = not_a_number;
          r.id[3] = -1;
        }},
       {"velocity", "", "the trajectory has no velocity", [](Snapshot& r, Snapshot&) { r.velocity.clear(); }},
@@ -50,19 +49,19 @@ TEST(KnownGaps, OfParticlesAndBodiesAreToldApart) {
        [=](Snapshot& r, Snapshot& t) {
          warm(r);
          warm(t);
-         r.temperature[5] = nan;
+         r.temperature[5] = not_a_number;
        }},
       {"temperature", "", "temperature of particle 5 is there, but not in the reference",
        [=](Snapshot& r, Snapshot& t) {
          warm(r);
          warm(t);
-         t.temperature[5] = nan;
+         t.temperature[5] = not_a_number;
        }},
       {"temperature", "", "",
        [=](Snapshot& r, Snapshot& t) {
          warm(r);
          warm(t);
-         r.temperature[5] = t.temperature[5] = nan;
+         r.temperature[5] = t.temperature[5] = not_a_number;
          r.id[5] = -1;
        }},
       {"temperature", "", "a standard error of the temperature is not finite",
@@ -70,14 +69,14 @@ TEST(KnownGaps, OfParticlesAndBodiesAreToldApart) {
          warm(r);
          warm(t);
          r.temperature_error.assign(136, 0.1);
-         r.temperature_error[9] = nan;
+         r.temperature_error[9] = not_a_number;
        }},
       {"temperature_error", "", "the trajectory has no temperature_error",
        [](Snapshot& r, Snapshot&) { r.temperature_error.assign(135, 0.0); }},
       {"temperature_error", "", "temperature_error of particle 7 is not finite or missing",
        [](Snapshot& r, Snapshot&) {
          r.temperature_error.assign(136, 0.0);
-         r.temperature_error[7] = nan;
+         r.temperature_error[7] = not_a_number;
        }},
       {"orientation", "", "", [](Snapshot&, Snapshot&) {}},
       {"orientation", "", "the reference does not know the bodies", [](Snapshot&, Snapshot& t) { t.bodies.clear(); }},
@@ -85,17 +84,18 @@ TEST(KnownGaps, OfParticlesAndBodiesAreToldApart) {
       {"orientation", "", "body row 1 is missing or not finite at t = 1.000000 s",
        [](Snapshot& r, Snapshot&) { r.bodies.pop_back(); }},
       {"orientation", "", "body row 1 is missing or not finite at t = 1.000000 s",
-       [](Snapshot& r, Snapshot&) { r.bodies[1].position.x = nan; }},
+       [](Snapshot& r, Snapshot&) { r.bodies[1].position.x = not_a_number; }},
       {"orientation", "", "body row 1 should not exist at t = 1.000000 s",
-       [](Snapshot&, Snapshot& t) { t.bodies[1].position.x = nan; }},
+       [](Snapshot&, Snapshot& t) { t.bodies[1].position.x = not_a_number; }},
       {"orientation", "", "body row 1 should not exist at t = 1.000000 s", [](Snapshot&, Snapshot& t) { t.bodies.pop_back(); }},
-      {"orientation", "", "", [](Snapshot& r, Snapshot& t) { r.bodies[1].position.x = t.bodies[1].position.x = nan; }},
+      {"orientation", "", "", [](Snapshot& r, Snapshot& t) { r.bodies[1].position.x = t.bodies[1].position.x = not_a_number; }},
       {"orientation", "right", "body row 1 is missing or not finite at t = 1.000000 s",
-       [](Snapshot& r, Snapshot& t) { r.bodies[1].position.x = t.bodies[1].position.x = nan; }},
-      {"orientation", "left", "", [](Snapshot& r, Snapshot&) { r.bodies[1].position.x = nan; }},
-      {"orientation", "", "body row 0 is not finite", [](Snapshot& r, Snapshot&) { r.bodies[0].velocity.x = nan; }},
-      {"orientation", "", "body row 0 is not finite", [](Snapshot& r, Snapshot&) { r.bodies[0].angular_velocity.x = nan; }},
-      {"orientation", "", "body row 0 is not finite", [](Snapshot& r, Snapshot&) { r.bodies[0].orientation.y = nan; }},
+       [](Snapshot& r, Snapshot& t) { r.bodies[1].position.x = t.bodies[1].position.x = not_a_number; }},
+      {"orientation", "left", "", [](Snapshot& r, Snapshot&) { r.bodies[1].position.x = not_a_number; }},
+      {"orientation", "", "body row 0 is not finite", [](Snapshot& r, Snapshot&) { r.bodies[0].velocity.x = not_a_number; }},
+      {"orientation", "", "body row 0 is not finite",
+       [](Snapshot& r, Snapshot&) { r.bodies[0].angular_velocity.x = not_a_number; }},
+      {"orientation", "", "body row 0 is not finite", [](Snapshot& r, Snapshot&) { r.bodies[0].orientation.y = not_a_number; }},
       {"shape", "left", "", [](Snapshot&, Snapshot&) {}},
       {"shape", "", "there is no rigid body of two particles or more", [](Snapshot&, Snapshot&) {}},
       {"shape", "pool", "there is no rigid body of two particles or more", [](Snapshot&, Snapshot&) {}},
@@ -145,7 +145,7 @@ TEST(KnownGaps, OfParticlesAndBodiesAreToldApart) {
       {"pressure_factor", "", "", [](Snapshot& r, Snapshot& t) {
          r.pressure.assign(136, 2.0);
          t.pressure.assign(136, 2.0);
-         t.pressure[0] = nan;
+         t.pressure[0] = not_a_number;
        }}};
   for (const auto& row : gaps) {
     auto f = still_blocks();

@@ -19,8 +19,6 @@ using test::Still;
 using test::still_blocks;
 using test::value;
 
-const double nan = std::nan("");
-
 // --- boxes --------------------------------------------------------------------------------------------------------------------
 
 /// A box that is no more than one particle's place holds it, and none of its six faces may be moved beyond that place.
@@ -59,7 +57,7 @@ TEST(KnownBoxes, NeedTheBodyThatTheyFollow) {
   EXPECT_NEAR(of("left"), 128.0, 1e-12);
   EXPECT_TRUE(std::isnan(of("")));
   EXPECT_TRUE(std::isnan(of("pool")));
-  f.run.frames.back().bodies[0].position.x = nan;
+  f.run.frames.back().bodies[0].position.x = not_a_number;
   EXPECT_TRUE(std::isnan(of("left")));
   f.run.frames.back().bodies.resize(1);
   EXPECT_TRUE(std::isnan(of("right")));
@@ -211,7 +209,7 @@ TEST(KnownSeries, TakeTheUncertaintyOfTheirDataWhereTheyTakeTheirValue) {
 
 TEST(KnownEvents, LieBetweenTwoFrames) {
   auto f = still_blocks();
-  for (std::size_t n = 3; n < 5; ++n) f.run.frames[n].bodies[1].position.x = nan;
+  for (std::size_t n = 3; n < 5; ++n) f.run.frames[n].bodies[1].position.x = not_a_number;
   for (const auto& [truth, off] :
        {std::pair{0.6, 0.0}, std::pair{0.5, 0.0}, std::pair{0.75, 0.0}, std::pair{0.4, 0.1}, std::pair{0.9, -0.15}}) {
     const auto v = value(f, metric("event_time", "final"), {{"value", truth}});
@@ -335,35 +333,35 @@ TEST(KnownHeat, OfALayerIsKnownAsItsParticlesAreOrAsTheirOneCount) {
 
 // --- an audit -------------------------------------------------------------------------------------------------------------
 
-using Change = std::function<void(Still&, Snapshot& middle)>;
+using MiddleChange = std::function<void(Still&, Snapshot& middle)>;
 
 TEST(KnownFaults, AreNamedWithParticleAndTime) {
-  const std::vector<std::pair<std::string, Change>> faults{
+  const std::vector<std::pair<std::string, MiddleChange>> faults{
       {"", [](Still&, Snapshot&) {}},
-      {"position of particle 3 is not finite at t = 0.500000 s", [](Still&, Snapshot& s) { s.position[3].y = nan; }},
-      {"velocity of particle 5 is not finite at t = 0.500000 s", [](Still&, Snapshot& s) { s.velocity[5].z = nan; }},
+      {"position of particle 3 is not finite at t = 0.500000 s", [](Still&, Snapshot& s) { s.position[3].y = not_a_number; }},
+      {"velocity of particle 5 is not finite at t = 0.500000 s", [](Still&, Snapshot& s) { s.velocity[5].z = not_a_number; }},
       {"temperature of particle 7 is not finite at t = 0.500000 s",
        [](Still&, Snapshot& s) {
          s.temperature.assign(136, 1.0);
-         s.temperature[7] = nan;
+         s.temperature[7] = not_a_number;
        }},
       {"temperature_error of particle 0 is not finite at t = 0.500000 s",
        [](Still&, Snapshot& s) {
          s.temperature_error.assign(136, 1.0);
-         s.temperature_error[0] = nan;
+         s.temperature_error[0] = not_a_number;
        }},
       {"density of particle 135 is not finite at t = 0.500000 s",
        [](Still&, Snapshot& s) {
          s.density.assign(136, 1.0);
-         s.density[135] = nan;
+         s.density[135] = not_a_number;
        }},
       {"pressure of particle 1 is not finite at t = 0.500000 s",
        [](Still&, Snapshot& s) {
          s.pressure.assign(136, 1.0);
-         s.pressure[1] = nan;
+         s.pressure[1] = not_a_number;
        }},
-      {"body row 1 is not finite at t = 0.500000 s", [](Still&, Snapshot& s) { s.bodies[1].velocity.x = nan; }},
-      {"body row 0 is not finite at t = 0.500000 s", [](Still&, Snapshot& s) { s.bodies[0].position.x = nan; }},
+      {"body row 1 is not finite at t = 0.500000 s", [](Still&, Snapshot& s) { s.bodies[1].velocity.x = not_a_number; }},
+      {"body row 0 is not finite at t = 0.500000 s", [](Still&, Snapshot& s) { s.bodies[0].position.x = not_a_number; }},
       {"particle 9 is lost at t = 0.500000 s", [](Still&, Snapshot& s) { s.id[9] = -1; }},
       {"masses are missing at t = 0.500000 s", [](Still&, Snapshot& s) { s.mass.pop_back(); }},
       {"", [](Still&, Snapshot& s) { s.mass.clear(); }},
@@ -406,7 +404,7 @@ TEST(KnownFaults, OfAFrameWithoutIdsAreThoseOfAll) {
     for (int& id : frame.id) id = -1;
   for (auto& frame : f.run.frames) frame.id.clear();
   EXPECT_EQ(audit(f.s.job, f.s.initial, f.run), "");
-  f.run.frames[2].position[0].x = nan;
+  f.run.frames[2].position[0].x = not_a_number;
   EXPECT_EQ(audit(f.s.job, f.s.initial, f.run), "position of particle 0 is not finite at t = 0.500000 s");
 }
 

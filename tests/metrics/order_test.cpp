@@ -4,13 +4,14 @@
 #include <cmath>
 #include <random>
 
+#include "scene/initial_state.hpp"
+
 #include "validation/metrics/order.hpp"
 
 namespace tripoint {
 namespace {
 
 using List = std::vector<double>;
-const double nan = std::nan("");
 
 List levels(double first, int count) {
   List h;
@@ -76,8 +77,8 @@ TEST(Order, DoesNotHideDivergenceBehindAMagnitude) {
   EXPECT_EQ(fit.fit_class, FitClass::diverging);
   EXPECT_EQ(fit_order(levels(0.1, 6), {1e-4, 6e-4, 5e-4, 4e-3, 3e-2, 2e-1}, {}, 2.0).fit_class,
             FitClass::diverging);  // not monotone, yet below 0 at 95 %
-  EXPECT_EQ(fit_order(h, {1e-2, 1e-3, nan, 1e-5}, {}, 2.0).fit_class, FitClass::diverging);
-  EXPECT_TRUE(std::isnan(fit_order(h, {1e-2, 1e-3, nan, 1e-5}, {}, 2.0).value));
+  EXPECT_EQ(fit_order(h, {1e-2, 1e-3, not_a_number, 1e-5}, {}, 2.0).fit_class, FitClass::diverging);
+  EXPECT_TRUE(std::isnan(fit_order(h, {1e-2, 1e-3, not_a_number, 1e-5}, {}, 2.0).value));
 }
 
 TEST(Order, TellsTooFewNoiseRoundoffAndOscillation) {
@@ -117,7 +118,7 @@ TEST(GridConvergence, BoundsTheErrorOfASecondOrderSeries) {
   EXPECT_GT(grid_convergence_uncertainty(h, scattered, 2.0), 0.01);
   EXPECT_NEAR(grid_convergence_uncertainty({0.1, 0.05}, {5.02, 5.005}, 2.0), 0.5 * 3.0 * 0.015 / 3.0, 1e-12);
   EXPECT_TRUE(std::isnan(grid_convergence_uncertainty({0.1}, {1.0}, 2.0)));
-  EXPECT_TRUE(std::isnan(grid_convergence_uncertainty(h, {1, nan, 1, 1}, 2.0)));
+  EXPECT_TRUE(std::isnan(grid_convergence_uncertainty(h, {1, not_a_number, 1, 1}, 2.0)));
 }
 
 TEST(GridConvergence, DoesNotTrustAnObservedOrderAboveTheFormalOne) {
@@ -130,10 +131,10 @@ TEST(Verdict, HasThreeAnswersAndNotANumberFails) {
   EXPECT_EQ(judge_limit(0.8, 0.05, 1.0), Verdict::pass);
   EXPECT_EQ(judge_limit(1.2, 0.05, 1.0), Verdict::fail);
   EXPECT_EQ(judge_limit(0.95, 0.05, 1.0), Verdict::inconclusive);
-  EXPECT_EQ(judge_limit(nan, 0.0, 1.0), Verdict::fail);
+  EXPECT_EQ(judge_limit(not_a_number, 0.0, 1.0), Verdict::fail);
   EXPECT_EQ(judge_limit(INFINITY, 0.0, 1.0), Verdict::fail);
-  EXPECT_EQ(judge_limit(0.0, 0.0, nan), Verdict::fail);
-  EXPECT_EQ(judge_limit(0.0, nan, 1.0), Verdict::inconclusive);
+  EXPECT_EQ(judge_limit(0.0, 0.0, not_a_number), Verdict::fail);
+  EXPECT_EQ(judge_limit(0.0, not_a_number, 1.0), Verdict::inconclusive);
   EXPECT_EQ(judge_limit(0.0, 0.0, 0.0), Verdict::pass);
 }
 
@@ -143,11 +144,11 @@ TEST(Verdict, JudgesASignedErrorOnBothSides) {
   EXPECT_EQ(judge_band(0.5, 0.0, 0.7, 1.3), Verdict::fail);  // too good is a finding
   EXPECT_EQ(judge_band(1.0, 0.01, 0.7, 1.3), Verdict::pass);
   EXPECT_EQ(judge_band(1.29, 0.01, 0.7, 1.3), Verdict::inconclusive);
-  EXPECT_EQ(judge_band(nan, 0.0, 0.7, 1.3), Verdict::fail);
+  EXPECT_EQ(judge_band(not_a_number, 0.0, 0.7, 1.3), Verdict::fail);
   EXPECT_EQ(judge_at_least(1.9, 0.01, 1.8), Verdict::pass);
   EXPECT_EQ(judge_at_least(-1.9, 0.01, 1.8), Verdict::fail);
   EXPECT_EQ(judge_at_least(1.81, 0.01, 1.8), Verdict::inconclusive);
-  EXPECT_EQ(judge_at_least(nan, 0.0, 1.8), Verdict::fail);
+  EXPECT_EQ(judge_at_least(not_a_number, 0.0, 1.8), Verdict::fail);
 }
 
 TEST(Equivalence, NeedsAMarginAndKnowsFourAnswers) {
@@ -155,7 +156,7 @@ TEST(Equivalence, NeedsAMarginAndKnowsFourAnswers) {
   EXPECT_EQ(equivalence(0.05, 0.01, 0.1), Equivalence::negligible);
   EXPECT_EQ(equivalence(-0.3, 0.01, 0.1), Equivalence::different);
   EXPECT_EQ(equivalence(0.09, 0.01, 0.1), Equivalence::unresolved);
-  EXPECT_EQ(equivalence(nan, 0.01, 0.1), Equivalence::unresolved);
+  EXPECT_EQ(equivalence(not_a_number, 0.01, 0.1), Equivalence::unresolved);
   EXPECT_EQ(equivalence(0.0, 0.01, 0.0), Equivalence::unresolved);
 }
 

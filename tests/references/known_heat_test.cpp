@@ -20,9 +20,7 @@ namespace {
 using test::pi;
 using test::Prepared;
 
-std::unique_ptr<Reference> made(const Prepared& s, const std::string& name, const Settings& args = {}) {
-  return make_reference(test::function(name, args), s.job, s.initial);
-}
+using test::made;
 
 // --- heat -------------------------------------------------------------------------------------------------------------------
 

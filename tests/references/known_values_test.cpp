@@ -15,12 +15,9 @@
 namespace tripoint {
 namespace {
 
+using test::made;
 using test::pi;
 using test::Prepared;
-
-std::unique_ptr<Reference> made(const Prepared& s, const std::string& name, const Settings& args = {}) {
-  return make_reference(test::function(name, args), s.job, s.initial);
-}
 
 void expect_near(const Vec3& a, const Vec3& b, double tolerance, const std::string& what) {
   EXPECT_NEAR(norm(a - b), 0.0, tolerance) << what;

@@ -24,12 +24,12 @@ inline std::string refusal(Prepared s, const std::string& name, Settings args, c
   return {};
 }
 
-struct Row {
+struct Fault {
   const char* words;
   Change change;
 };
 
-inline void hold(const std::string& function, const Prepared& s, const Settings& args, const std::vector<Row>& rows) {
+inline void hold(const std::string& function, const Prepared& s, const Settings& args, const std::vector<Fault>& rows) {
   for (const auto& row : rows) {
     const auto said = refusal(s, function, args, row.change);
     if (*row.words)
@@ -39,7 +39,7 @@ inline void hold(const std::string& function, const Prepared& s, const Settings&
   }
 }
 
-inline const Row as_it_is{"", [](Prepared&, Settings&) {}};
-inline const Row no_gravity{"gravity", [](Prepared& s, Settings&) { s.job.scene.gravity = {}; }};
+inline const Fault as_it_is{"", [](Prepared&, Settings&) {}};
+inline const Fault no_gravity{"gravity", [](Prepared& s, Settings&) { s.job.scene.gravity = {}; }};
 
 }  // namespace tripoint::test

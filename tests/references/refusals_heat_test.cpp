@@ -6,9 +6,9 @@ namespace tripoint {
 namespace {
 
 using test::as_it_is;
+using test::Fault;
 using test::hold;
 using test::Prepared;
-using test::Row;
 
 /// A bar of 20 x 4 x 4 with a cosine along x, level at both ends, in one body or two of the same material.
 Prepared warm(bool periodic, double phase) {
@@ -36,7 +36,7 @@ void second_body(Prepared& s, double conductivity) {
 }
 
 TEST(Refusals, OfHeat) {
-  const auto at_rest = std::vector<Row>{
+  const auto at_rest = std::vector<Fault>{
       as_it_is,
       {"`bar` moves", [](Prepared& s, Settings&) { s.job.bodies[0].velocity.y = 1.0; }},
       {"`bar` moves", [](Prepared& s, Settings&) { s.job.bodies[0].angular_velocity.y = 1.0; }},

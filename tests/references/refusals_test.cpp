@@ -6,10 +6,10 @@ namespace tripoint {
 namespace {
 
 using test::as_it_is;
+using test::Fault;
 using test::hold;
 using test::no_gravity;
 using test::Prepared;
-using test::Row;
 
 /// A box of 0.4 m that starts 0.2 m above a floor.
 Prepared falling_box() {
@@ -285,7 +285,7 @@ TEST(Refusals, OfADropThatIsNotDrawnOutByHalves) {
   s.job.scene.bodies[0].shape.radius = 0.5;
   const char* words = "needs a cylinder of liquid along z";
   const auto with = [&](std::size_t row, const Vec3& gradient) {
-    return Row{words, [=](Prepared& p, Settings&) { p.job.scene.bodies[0].velocity.gradient[row] = gradient; }};
+    return Fault{words, [=](Prepared& p, Settings&) { p.job.scene.bodies[0].velocity.gradient[row] = gradient; }};
   };
   hold("elliptic_drop", s, {},
        {as_it_is,

@@ -2,11 +2,13 @@
 #pragma once
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "job/job.hpp"
+#include "validation/references/reference.hpp"
 #include "validation/references/rigid_body.hpp"
 
 /// Jobs and particles for the tests of references and metrics, made by hand: no reader, no sampler.
@@ -111,6 +113,9 @@ inline ReferenceChoice function(const std::string& name, const Settings& args = 
   choice.function = name;
   choice.args = args;
   return choice;
+}
+inline std::unique_ptr<Reference> made(const Prepared& s, const std::string& name, const Settings& args = {}) {
+  return make_reference(function(name, args), s.job, s.initial);
 }
 
 }  // namespace tripoint::test

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <gtest/gtest.h>
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -64,5 +65,19 @@ name = "block"
 material = "steel"
 shape = {kind = "box", min = [0, 0, 0], max = [0.4, 0.4, 0.4]}
 )";
+
+/// Every value that a case was given or got, a line each.
+inline std::string decisions_of(const CaseReading& r) {
+  std::string text;
+  for (const auto& d : r.decisions) text += d.key + " = " + d.value + (d.given ? " given\n" : "\n");
+  return text;
+}
+
+/// The reading of this text fails, and says each of these parts.
+inline void expect_refused(const std::string& text, const std::vector<std::string>& parts) {
+  const auto what = refusal(text);
+  EXPECT_NE(what, "") << text;
+  for (const auto& part : parts) EXPECT_NE(what.find(part), std::string::npos) << part << "\n in: " << what;
+}
 
 }  // namespace tripoint::test

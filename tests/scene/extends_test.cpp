@@ -64,12 +64,6 @@ limit = 0.5
 reason = "nothing breaks"
 )";
 
-std::string shown(const CaseReading& r) {
-  std::string text;
-  for (const auto& d : r.decisions) text += d.key + " = " + d.value + (d.given ? " given\n" : "\n");
-  return text;
-}
-
 class Extends : public ::testing::Test {
  protected:
   CaseReading read(const std::string& text) const { return read_case(folder_.write("case.toml", text)); }
@@ -275,7 +269,7 @@ TEST_F(Extends, TheResolvedCaseIsTheSameCase) {
                                          "extends = \"base.toml\"\n[invariants]\nmomentum = { limit = 1e-12, engine = "
                                          "\"tripoint\" }\n[case]\nclaims = \"a \\\"quoted\\\" \\\\ text\"\n"));
   const auto again = read_case(folder_.write("case.toml", resolved_case(r)));
-  std::string before = shown(r), after = shown(again);
+  std::string before = decisions_of(r), after = decisions_of(again);
   EXPECT_NE(before.find("metric.momentum.quantity = \"momentum\" given"), std::string::npos);
   before.erase(before.find("case.id"), before.find('\n', before.find("case.id")) - before.find("case.id"));
   after.erase(after.find("case.id"), after.find('\n', after.find("case.id")) - after.find("case.id"));

@@ -42,12 +42,6 @@ std::string canonical(const TomlNode& n) {
   return text + "}";
 }
 
-std::string shown(const CaseReading& r) {
-  std::string text;
-  for (const auto& d : r.decisions) text += d.key + " = " + d.value + (d.given ? " given\n" : "\n");
-  return text;
-}
-
 bool has_remedy(const std::string& what) {
   static const std::regex remedy(
       "did you mean|\\(known|one of|none of: |write |give |remove|rename|close |must |lacks the key|lower |raise "
@@ -70,8 +64,8 @@ void judge(const Mutant& m, const std::string& source, Tally& tally) {
       ++tally.neutral;  // the change lies in a comment, a blank or the order of keys
     } else {
       ++tally.shown;
-      const auto original = source.empty() ? std::string() : shown(read_case(folder.write("mutant.toml", source)));
-      EXPECT_TRUE(shown(r) != original) << m.what << "\n was accepted and changes nothing that is shown";
+      const auto original = source.empty() ? std::string() : decisions_of(read_case(folder.write("mutant.toml", source)));
+      EXPECT_TRUE(decisions_of(r) != original) << m.what << "\n was accepted and changes nothing that is shown";
     }
   } catch (const InputError& e) {
     ++tally.refused;

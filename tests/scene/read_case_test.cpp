@@ -12,12 +12,6 @@ namespace {
 
 using testing::Test;
 
-void expect_refused(const std::string& text, const std::vector<std::string>& parts) {
-  const auto what = refusal(text);
-  EXPECT_NE(what, "") << text;
-  for (const auto& part : parts) EXPECT_NE(what.find(part), std::string::npos) << part << "\n in: " << what;
-}
-
 TEST(ReadCase, SixLinesRunOnDefaultsAndEachDefaultHasItsReason) {
   const auto r = read_text(six_lines);
   EXPECT_DOUBLE_EQ(r.value.scene.spacing, 0.04);

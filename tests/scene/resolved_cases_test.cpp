@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string shown(const CaseReading& r) {
+std::string decisions_and_id(const CaseReading& r) {
   std::string text;
   for (const auto& d : r.decisions)
     if (d.key != "case.id") text += d.key + " = " + d.value + (d.given ? " given\n" : "\n");  // the resolved text says it
@@ -36,7 +36,7 @@ TEST(ResolvedCases, AreTheSameCasesAndExtendNothing) {
     if (!is_case(entry.path())) continue;
     const auto file = entry.path().string();
     const auto reading = read_case(file);
-    before[file] = shown(reading);
+    before[file] = decisions_and_id(reading);
     texts[file] = resolved_case(reading);
     extend += read_toml(file).find("extends") != nullptr;
   }
@@ -45,7 +45,7 @@ TEST(ResolvedCases, AreTheSameCasesAndExtendNothing) {
   for (const auto& [file, text] : texts) std::ofstream(file, std::ios::binary) << text;
   for (const auto& [file, was] : before) {
     EXPECT_FALSE(has_short_forms(read_toml(file))) << file;
-    EXPECT_EQ(shown(read_case(file)), was) << file;
+    EXPECT_EQ(decisions_and_id(read_case(file)), was) << file;
   }
 }
 

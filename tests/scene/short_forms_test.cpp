@@ -12,7 +12,7 @@ const std::string metric = six_lines + "[[metric]]\nname = \"place\"\nquantity =
 const std::string study = "[[study]]\naxis = \"time_step\"\nlevels = [0.25, 0.001, 0.0005]\nmetric = \"place\"\n";
 
 /// What was read, but for the names that come from the file's place.
-std::string shown(const CaseReading& r) {
+std::string unnamed_decisions(const CaseReading& r) {
   std::string text;
   for (const auto& d : r.decisions)
     if (d.key != "case.id" && d.key != "case.title") text += d.key + " = " + d.value + (d.given ? " given\n" : "\n");
@@ -28,7 +28,7 @@ TEST(ShortForms, GatesWithinAMetricAreGates) {
                                "[[gate]]\nmetric = \"place\"\nengine = \"tripoint\"\nlimit = 1e-3\nreason = "
                                "\"r\"\n[[gate]]\nmetric = \"place.order\"\nband = [1, 2]\nreason = \"q\"\n" +
                                study);
-  EXPECT_EQ(shown(within), shown(apart));
+  EXPECT_EQ(unnamed_decisions(within), unnamed_decisions(apart));
   EXPECT_EQ(within.value.gates[1].place.line, 12);
 }
 
@@ -61,7 +61,7 @@ TEST(ShortForms, InvariantsAreAMetricAndItsGate) {
                                "[[gate]]\nmetric = \"bodies\"\nengine = \"tripoint\"\nlimit = 0\nreason = \"r\"\n"
                                "[[gate]]\nmetric = \"momentum\"\nmode = \"corrected\"\nlimit = 1e-12\nreason = \"round-off\"\n"
                                "[[gate]]\nmetric = \"momentum\"\nmode = \"paper\"\nband = [0, 1]\nreason = \"q\"\n");
-  EXPECT_EQ(shown(brief), shown(whole));
+  EXPECT_EQ(unnamed_decisions(brief), unnamed_decisions(whole));
 }
 
 TEST(ShortForms, EveryInvariantIsAQuantityThatTheReaderTakes) {
@@ -75,41 +75,42 @@ TEST(ShortForms, EveryInvariantIsAQuantityThatTheReaderTakes) {
   }
 }
 
-void expect_refused(const std::string& text, const std::string& place, const std::string& says) {
+void expect_refused_at(const std::string& text, const std::string& place, const std::string& says) {
   const auto what = refusal(text);
   EXPECT_EQ(what.find("case.toml:" + place + ":"), 0U) << what;
   EXPECT_NE(what.find(says), std::string::npos) << what;
 }
 
 TEST(ShortForms, AreRefusedWithTheirPlaceWhereTheyAreWrong) {
-  expect_refused(metric + "gates = 3\n", "10", "array of tables");
-  expect_refused(metric + "gates = [3]\n", "10", "must be a table");
-  expect_refused(metric + "gates = [{ limit = 1 }]\n", "10", "reason");
-  expect_refused(metric + "gates = [{ limt = 1, reason = \"r\" }]\n", "10", "did you mean `limit`");
-  expect_refused(metric + "gates = [{ metric = \"speed\", limit = 1, reason = \"r\" }]\n", "10", "judges \"place\"");
-  expect_refused(metric + "gates = [{ reason = \"r\" }]\n", "10", "no limit and would pass anything");
-  expect_refused(metric + "limits = { 1e-3 = 1 }\n", "10", "need its key `reason`");
-  expect_refused(metric + "reason = \"r\"\n", "10", "is that of its `limits`");
-  expect_refused(metric + "reason = \"r\"\nlimits = { fine = 1 }\n", "11", "`fine` is no number");
-  expect_refused(metric + "reason = \"r\"\nlimits = {}\n", "11", "LEVEL = LIMIT");
-  expect_refused(metric + "gates = [{ limits = { 1 = 1 }, level = 2, reason = \"r\" }]\n", "10", "beside `limits`");
-  expect_refused(six_lines + "[[metric]]\nquantity = \"position\"\ngates = []\n", "7", "needs its `name`");
-  expect_refused(six_lines + "invariants = [\"ledger\"]\n", "7", "");
-  expect_refused(six_lines + "[invariants]\nledgr = 1\n", "8", "did you mean `ledger`");
-  expect_refused(six_lines + "[invariants]\nledger = { limt = 1 }\n", "8", "did you mean `limit`");
-  expect_refused(six_lines + "[invariants]\nledger = { quantity = \"mass\", limit = 1 }\n", "8", "unknown key `quantity`");
-  expect_refused(six_lines + "[invariants]\nledger = { value = 1, limit = 1 }\n", "8", "start of the run");
-  expect_refused(six_lines + "[invariants]\nledger = {}\n", "8", "no limit and would pass anything");
-  expect_refused(six_lines + "[invariants]\nledger = \"little\"\n", "8", "limit");
-  expect_refused(six_lines + "[invariants]\nbody_count = { limit = 1, reason = \"r\" }\n", "8", "lacks the key `value`");
-  expect_refused(six_lines + "[invariants]\noverlap = 1\n", "8", "reason");
-  expect_refused(six_lines +
-                     "[invariants]\noverlap = { value = 1, reference = { kind = \"bound\", function = \"stated\" }, limit = 1, "
-                     "reason = \"r\" }\n",
-                 "8", "beside `reference`");
-  expect_refused(six_lines + "[invariants]\nledger = { engine = \"tripoint\", gates = [{ limit = 1 }] }\n", "8",
-                 "beside `gates`");
-  expect_refused(metric + "[invariants]\nledger = { name = \"place\", limit = 1 }\n", "11", "two tables");
+  expect_refused_at(metric + "gates = 3\n", "10", "array of tables");
+  expect_refused_at(metric + "gates = [3]\n", "10", "must be a table");
+  expect_refused_at(metric + "gates = [{ limit = 1 }]\n", "10", "reason");
+  expect_refused_at(metric + "gates = [{ limt = 1, reason = \"r\" }]\n", "10", "did you mean `limit`");
+  expect_refused_at(metric + "gates = [{ metric = \"speed\", limit = 1, reason = \"r\" }]\n", "10", "judges \"place\"");
+  expect_refused_at(metric + "gates = [{ reason = \"r\" }]\n", "10", "no limit and would pass anything");
+  expect_refused_at(metric + "limits = { 1e-3 = 1 }\n", "10", "need its key `reason`");
+  expect_refused_at(metric + "reason = \"r\"\n", "10", "is that of its `limits`");
+  expect_refused_at(metric + "reason = \"r\"\nlimits = { fine = 1 }\n", "11", "`fine` is no number");
+  expect_refused_at(metric + "reason = \"r\"\nlimits = {}\n", "11", "LEVEL = LIMIT");
+  expect_refused_at(metric + "gates = [{ limits = { 1 = 1 }, level = 2, reason = \"r\" }]\n", "10", "beside `limits`");
+  expect_refused_at(six_lines + "[[metric]]\nquantity = \"position\"\ngates = []\n", "7", "needs its `name`");
+  expect_refused_at(six_lines + "invariants = [\"ledger\"]\n", "7", "");
+  expect_refused_at(six_lines + "[invariants]\nledgr = 1\n", "8", "did you mean `ledger`");
+  expect_refused_at(six_lines + "[invariants]\nledger = { limt = 1 }\n", "8", "did you mean `limit`");
+  expect_refused_at(six_lines + "[invariants]\nledger = { quantity = \"mass\", limit = 1 }\n", "8", "unknown key `quantity`");
+  expect_refused_at(six_lines + "[invariants]\nledger = { value = 1, limit = 1 }\n", "8", "start of the run");
+  expect_refused_at(six_lines + "[invariants]\nledger = {}\n", "8", "no limit and would pass anything");
+  expect_refused_at(six_lines + "[invariants]\nledger = \"little\"\n", "8", "limit");
+  expect_refused_at(six_lines + "[invariants]\nbody_count = { limit = 1, reason = \"r\" }\n", "8", "lacks the key `value`");
+  expect_refused_at(six_lines + "[invariants]\noverlap = 1\n", "8", "reason");
+  expect_refused_at(
+      six_lines +
+          "[invariants]\noverlap = { value = 1, reference = { kind = \"bound\", function = \"stated\" }, limit = 1, "
+          "reason = \"r\" }\n",
+      "8", "beside `reference`");
+  expect_refused_at(six_lines + "[invariants]\nledger = { engine = \"tripoint\", gates = [{ limit = 1 }] }\n", "8",
+                    "beside `gates`");
+  expect_refused_at(metric + "[invariants]\nledger = { name = \"place\", limit = 1 }\n", "11", "two tables");
 }
 
 }  // namespace

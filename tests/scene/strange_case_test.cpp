@@ -16,11 +16,6 @@ std::string with(const std::string& scene, const std::string& more = "") {
          more;
 }
 
-void expect_refused(const std::string& text, const std::vector<std::string>& parts) {
-  const auto told = refusal(text);
-  for (const auto& part : parts) EXPECT_NE(told.find(part), std::string::npos) << "\"" << part << "\" is not in: " << told;
-}
-
 std::string refused_sample(const std::string& text) {
   try {
     static_cast<void>(sample(scene_for(read_text(text).value, {})));

@@ -18,7 +18,7 @@ namespace tripoint {
 namespace {
 
 /// Water on a floor, a jelly that spins and melts, and a rod that tumbles: every term acts within the first steps.
-constexpr const char* everything = R"(
+constexpr const char* every_term = R"(
 [scene]
 end_time = 0.02
 gravity = [0, 0, -9.81]
@@ -84,7 +84,7 @@ std::uint64_t bits_with(const std::string& set) {
   std::string folder = (std::filesystem::temp_directory_path() / "tripoint-modes-XXXXXX").string();
   if (mkdtemp(folder.data()) == nullptr) throw EngineError("no folder");
   const auto file = std::filesystem::path(folder) / "case.toml";
-  std::ofstream(file) << everything;
+  std::ofstream(file) << every_term;
   Case value;
   try {
     value = read_case(file.string(), set.empty() ? std::vector<std::string>{} : std::vector<std::string>{set}).value;

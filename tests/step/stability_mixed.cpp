@@ -41,7 +41,7 @@ Point heat(Mode mode, const char* parameter, double ratio, double jitter) {
 }
 
 /// Viscosities 1 : ratio, jittered, with next to no pressure.
-Point viscosity(ViscosityForm form, double ratio) {
+Point mixed_viscosity(ViscosityForm form, double ratio) {
   Lab lab = lab::liquid_lab(1.0, 1.0, 1.0, 1e-16);
   lab.scene.modes[term::clamp] = Mode::paper;
   lab.scene.viscosity_form = form;
@@ -129,8 +129,8 @@ Point frozen(double jitter) {
 void add_mixed_points(std::vector<Point>& list) {
   for (const double ratio : {1.0, 10.0, 1000.0}) list.push_back(heat(Mode::corrected, "conductivity ratio", ratio, 0.2));
   for (const double ratio : {1.0, 10.0, 1000.0}) list.push_back(heat(Mode::paper, "conductivity ratio", ratio, 0.0));
-  for (const double ratio : {1.0, 100.0}) list.push_back(viscosity(ViscosityForm::laplacian, ratio));
-  for (const double ratio : {1.0, 100.0}) list.push_back(viscosity(ViscosityForm::central, ratio));
+  for (const double ratio : {1.0, 100.0}) list.push_back(mixed_viscosity(ViscosityForm::laplacian, ratio));
+  for (const double ratio : {1.0, 100.0}) list.push_back(mixed_viscosity(ViscosityForm::central, ratio));
   for (const double a : {0.0, 1.0, 4.0}) list.push_back(hourglass(a));
   for (const double ratio : {100.0, 1e4}) list.push_back(joined(ratio));
   for (const double jitter : {0.0, 0.1, 0.2}) list.push_back(frozen(jitter));

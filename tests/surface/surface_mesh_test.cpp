@@ -17,10 +17,10 @@
 namespace tripoint {
 namespace {
 
-constexpr double dx = 0.01;
+constexpr double spacing = 0.01;
 
-Mesh mesh_of(const std::vector<Vec3>& places, bool detector = true, int threads = 2, double voxel = 0.5 * dx) {
-  SurfaceOptions o = SurfaceOptions::for_spacing(dx);
+Mesh mesh_of(const std::vector<Vec3>& places, bool detector = true, int threads = 2, double voxel = 0.5 * spacing) {
+  SurfaceOptions o = SurfaceOptions::for_spacing(spacing);
   o.detector = detector;
   return surface_mesh(ImplicitSurface(places, o), voxel, threads);
 }
@@ -46,32 +46,32 @@ TEST(SurfaceMesh, OfATorusAndASlabConverges) {
 }
 
 TEST(SurfaceMesh, IsClosedAndHasTheGenusOfItsBody) {
-  const auto ball = measures_of(mesh_of(shapes::lattice(shapes::ball(8 * dx), dx, {0.5, 0.5, 0.5})));
+  const auto ball = measures_of(mesh_of(shapes::lattice(shapes::ball(8 * spacing), spacing, {0.5, 0.5, 0.5})));
   EXPECT_EQ(ball.open_edges, 0U);
   EXPECT_EQ(ball.euler, 2);
   EXPECT_EQ(ball.pieces, 1U);
-  const auto torus = measures_of(mesh_of(shapes::lattice(shapes::torus(8 * dx, 4 * dx), dx, {0.21, 0.37, 0.11})));
+  const auto torus = measures_of(mesh_of(shapes::lattice(shapes::torus(8 * spacing, 4 * spacing), spacing, {0.21, 0.37, 0.11})));
   EXPECT_EQ(torus.open_edges, 0U);
   EXPECT_EQ(torus.euler, 0);
   EXPECT_EQ(torus.pieces, 1U);
 }
 
 TEST(SurfaceMesh, TurnsOutwards) {
-  const Mesh mesh = mesh_of(shapes::lattice(shapes::ball(5 * dx), dx, {0.5, 0.5, 0.5}));
+  const Mesh mesh = mesh_of(shapes::lattice(shapes::ball(5 * spacing), spacing, {0.5, 0.5, 0.5}));
   EXPECT_GT(volume(mesh), 0.0);
   EXPECT_NO_THROW(check_closed(mesh, "ball"));
 }
 
 TEST(SurfaceMesh, LiesOnTheSurfaceFunction) {
-  const auto places = shapes::lattice(shapes::ball(6 * dx), dx, {0.5, 0.5, 0.5});
-  const ImplicitSurface surface(places, SurfaceOptions::for_spacing(dx));
+  const auto places = shapes::lattice(shapes::ball(6 * spacing), spacing, {0.5, 0.5, 0.5});
+  const ImplicitSurface surface(places, SurfaceOptions::for_spacing(spacing));
   SurfaceProbe probe(surface);
-  const Mesh mesh = surface_mesh(surface, 0.5 * dx, 2);
-  for (const Vec3& r : mesh.points) EXPECT_LT(std::abs(probe.phi(r)), 1e-4 * dx);
+  const Mesh mesh = surface_mesh(surface, 0.5 * spacing, 2);
+  for (const Vec3& r : mesh.points) EXPECT_LT(std::abs(probe.phi(r)), 1e-4 * spacing);
 }
 
 TEST(SurfaceMesh, HasTheSameBitsForAnyNumberOfThreads) {
-  const auto places = shapes::lattice(shapes::torus(6 * dx, 3 * dx), dx, {0.21, 0.37, 0.11});
+  const auto places = shapes::lattice(shapes::torus(6 * spacing, 3 * spacing), spacing, {0.21, 0.37, 0.11});
   const Mesh one = mesh_of(places, true, 1);
   ASSERT_GT(one.points.size(), 1000U);
   for (const int threads : {2, 3, 7}) {
@@ -83,15 +83,16 @@ TEST(SurfaceMesh, HasTheSameBitsForAnyNumberOfThreads) {
 
 std::vector<Vec3> two_balls(double gap) {
   std::vector<Vec3> places;
-  for (const Vec3& r : shapes::lattice(shapes::ball(5 * dx), dx, {0.5, 0.5, 0.5})) {
-    places.push_back(r - Vec3{0, 0, 5 * dx + 0.5 * gap});
-    places.push_back(r + Vec3{0, 0, 5 * dx + 0.5 * gap});
+  for (const Vec3& r : shapes::lattice(shapes::ball(5 * spacing), spacing, {0.5, 0.5, 0.5})) {
+    places.push_back(r - Vec3{0, 0, 5 * spacing + 0.5 * gap});
+    places.push_back(r + Vec3{0, 0, 5 * spacing + 0.5 * gap});
   }
   return places;
 }
 
 TEST(SurfaceMesh, OfTwoNearBallsIsTwoPiecesAndWithoutTheDetectorIsNot) {
-  const auto with = measures_of(mesh_of(two_balls(2.0 * dx))), without = measures_of(mesh_of(two_balls(2.0 * dx), false));
+  const auto with = measures_of(mesh_of(two_balls(2.0 * spacing))),
+             without = measures_of(mesh_of(two_balls(2.0 * spacing), false));
   EXPECT_EQ(with.pieces, 2U);
   EXPECT_EQ(with.euler, 4);
   EXPECT_FALSE(without.pieces == 2U && without.euler == 4);
@@ -105,7 +106,7 @@ TEST(SurfaceMesh, OfASplashIsClosed) {
   const auto random = [&] {
     return static_cast<double>((state = state * 6364136223846793005ULL + 1442695040888963407ULL) >> 11) / 9007199254740992.0;
   };
-  for (int n = 0; n < 1500; ++n) places.push_back(16 * dx * Vec3{random(), random(), random()});
+  for (int n = 0; n < 1500; ++n) places.push_back(16 * spacing * Vec3{random(), random(), random()});
   for (const bool detector : {true, false}) EXPECT_EQ(measures_of(mesh_of(places, detector)).open_edges, 0U) << detector;
 }
 
@@ -116,7 +117,7 @@ TEST(SurfaceMesh, OfNothingIsEmptyAndOfABadVoxelRefused) {
 }
 
 TEST(SurfaceMesh, KnowsWhatItsParticlesKnow) {
-  std::vector<Vec3> places = shapes::lattice(shapes::slab(12 * dx, 6 * dx), dx, {0.5, 0.5, 0.5});
+  std::vector<Vec3> places = shapes::lattice(shapes::slab(12 * spacing, 6 * spacing), spacing, {0.5, 0.5, 0.5});
   std::vector<double> T;
   std::vector<int> body;
   for (const Vec3& r : places) {
@@ -124,11 +125,11 @@ TEST(SurfaceMesh, KnowsWhatItsParticlesKnow) {
     body.push_back(r.x < 0.0 ? 4 : 7);
   }
   T.front() = std::nan("");
-  const ImplicitSurface surface(places, SurfaceOptions::for_spacing(dx));
-  const Vec3 top{0.02, 0.01, 3 * dx};
+  const ImplicitSurface surface(places, SurfaceOptions::for_spacing(spacing));
+  const Vec3 top{0.02, 0.01, 3 * spacing};
   EXPECT_NEAR(mean_at(surface, std::vector<Vec3>{top}, T, 1).front(), 320.0,
               0.5);  // linear along the face: kept but for the lattice
-  EXPECT_EQ(label_at(surface, std::vector<Vec3>{top, {-0.02, 0.0, 3 * dx}, {5.0, 5.0, 5.0}}, body, 1),
+  EXPECT_EQ(label_at(surface, std::vector<Vec3>{top, {-0.02, 0.0, 3 * spacing}, {5.0, 5.0, 5.0}}, body, 1),
             (std::vector<int>{7, 4, -1}));
   EXPECT_TRUE(std::isnan(mean_at(surface, std::vector<Vec3>{{5.0, 5.0, 5.0}}, T, 1).front()));
 }
@@ -141,7 +142,8 @@ class MeshFiles : public testing::Test {
     std::filesystem::create_directories(folder);
     for (const double z : {-0.2, 0.2}) {
       std::vector<Vec3> places;
-      for (const Vec3& r : shapes::lattice(shapes::ball(5 * dx), dx, {0.5, 0.5, 0.5})) places.push_back(r + Vec3{0, 0, z});
+      for (const Vec3& r : shapes::lattice(shapes::ball(5 * spacing), spacing, {0.5, 0.5, 0.5}))
+        places.push_back(r + Vec3{0, 0, z});
       SurfacePart part{z < 0 ? "body 0" : "liquid wax", mesh_of(places), {}, {}, {}};
       part.temperature.assign(part.mesh.points.size(), 300.0);
       part.phase.assign(part.mesh.points.size(), 2);
