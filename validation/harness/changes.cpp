@@ -24,7 +24,7 @@ using Key = std::tuple<std::string, std::string, JudgedMode, std::string, double
 struct Row {
   Key key;
   MetricChange change;  ///< all but the two standings
-  Standing standing;
+  MetricStanding standing;
   Gate gate;
 };
 
@@ -121,7 +121,7 @@ double unit_of(const Gate& g) {
 bool is_roundoff(const Gate& g) { return g.limit && *g.limit <= roundoff_limit; }
 
 /// Where the larger part of the noise is from.
-std::string source_of_noise(const Standing& base, const Standing& head, bool is_order, double again) {
+std::string source_of_noise(const MetricStanding& base, const MetricStanding& head, bool is_order, double again) {
   const double chance = std::hypot(base.noise, head.noise);
   if (again > 2.0 * chance) return "A/A";
   if (!(chance > 0.0)) return "none known";
@@ -132,7 +132,7 @@ std::string source_of_noise(const Standing& base, const Standing& head, bool is_
 
 /// Noise of head less base, in the metric's unit. It is the larger of two standard uncertainties by chance and the difference
 /// seen between runs of the same code.
-double noise_between(const Standing& base, const Standing& head, double again) {
+double noise_between(const MetricStanding& base, const MetricStanding& head, double again) {
   return std::max(2.0 * std::hypot(base.noise, head.noise), again);
 }
 

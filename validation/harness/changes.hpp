@@ -17,7 +17,7 @@ inline constexpr double least_change = 1e-3;
 enum class Trend { better, worse, same, appeared, gone };
 
 /// One metric in one of the two results.
-struct Standing {
+struct MetricStanding {
   double value = 0.0;  ///< in the metric's unit; NaN where there is none
   double used = 0.0;   ///< in units of the limit, see used_of(); NaN where no gate judges the metric
   double noise = 0.0;  ///< standard uncertainty by chance, in the metric's unit
@@ -33,7 +33,7 @@ struct MetricChange {
   JudgedMode mode = JudgedMode::none;
   std::optional<double> level;
   SourcePlace place;  ///< of the limit; of the case file where there is none
-  std::optional<Standing> base, head;
+  std::optional<MetricStanding> base, head;
   double change =
       0.0;  ///< head less base in units of the limit, above 0 = worse; without a limit as a share of the base, of no sign
   double noise = 0.0;      ///< two standard uncertainties of that difference, in the same unit

@@ -12,13 +12,13 @@ namespace {
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("no value"); }
 std::string share(double value) { return std::isnan(value) ? std::string("-") : fmt::format("{:.3g}", value); }
 
-std::string value_of(const Standing& s) {
+std::string value_of(const MetricStanding& s) {
   return !s.fit_class || std::isfinite(s.used) ? number(s.value) : std::string(to_string(*s.fit_class));
 }
 
 /// Base beside head; one alone where the other has none; one where both read the same.
-std::string pair_of(const std::optional<Standing>& base, const std::optional<Standing>& head,
-                    std::string (*text)(const Standing&)) {
+std::string pair_of(const std::optional<MetricStanding>& base, const std::optional<MetricStanding>& head,
+                    std::string (*text)(const MetricStanding&)) {
   if (!base) return text(*head);
   if (!head) return text(*base);
   return text(*base) + " -> " + text(*head);
@@ -50,7 +50,7 @@ std::string values_text(const MetricChange& c) {
 }
 
 std::string used_text(const MetricChange& c) {
-  return pair_of(c.base, c.head, [](const Standing& s) { return share(s.used); });
+  return pair_of(c.base, c.head, [](const MetricStanding& s) { return share(s.used); });
 }
 
 std::string change_text(const MetricChange& c) {
