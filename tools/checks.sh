@@ -42,7 +42,7 @@ case ${1:-} in
   scorecard) tools/scorecard.py ;;
   tidy)
     # Without tests: with them the self-test compiles the solver again, and each of its files would be read twice.
-    cmake -S . -B build-tidy -G Ninja -DTRIPOINT_TESTS=OFF -DCMAKE_EXPORT_COMPILE_COMMANDS=ON >/dev/null
+    cmake -S . -B build-tidy -G Ninja -DTRIPOINT_TESTS=OFF -DCMAKE_UNITY_BUILD=OFF -DCMAKE_EXPORT_COMPILE_COMMANDS=ON >/dev/null
     git ls-files "${tidied[@]/%//*.cpp}" |
       xargs --max-procs "$jobs" --max-args 4 clang-tidy-14 -p build-tidy --quiet --warnings-as-errors='clang-analyzer-*,bugprone-*'
     ;;

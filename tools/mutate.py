@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Mutation score of the judge: one small fault at a time in gate, metrics or references, and the tests that should see it.
 
-    tools/mutate.py [--seed 1] [--count 50] [--room gate|metrics|references]... [--build build] [--fast] [--list] [--at "FILE:LINE:COLUMN: OPERATOR"]...
+    tools/mutate.py [--seed 1] [--count 50] [--room gate|metrics|references]... [--build build-dev] [--fast] [--list] [--at "FILE:LINE:COLUMN: OPERATOR"]...
 
 A mutant that its tests do not see, and that no reader can show to compute the same, is a test that is missing. No file of the
 checkout is changed: the mutated copy is compiled without optimisation in a folder of its own and linked before the library that holds the true one.
+The build is one whose files are compiled each alone, as by `cmake --preset dev`.
 --list shows the mutants and runs none; --fast leaves out the tests that start processes, which take a minute for each mutant that survives.
 """
 import argparse
@@ -153,6 +154,8 @@ class Build:
     def __init__(self, folder, work):
         self.folder, self.work, self.links = Path(folder).resolve(), Path(work), {}
         self.commands = {entry["file"]: shlex.split(entry["command"]) for entry in json.loads((self.folder / "compile_commands.json").read_text())}
+        if str(ROOT / "validation/metrics/verdict.cpp") not in self.commands:
+            sys.exit(f"{self.folder} compiles several files as one: cmake --preset dev makes build-dev, which does not")
 
     def program(self, name):
         return f"tests/{name}" if name == TWINS[0] else f"tests/test-{name}"
@@ -242,7 +245,7 @@ def main():
     words.add_argument("--seed", type=int, default=1)
     words.add_argument("--count", type=int, default=50)
     words.add_argument("--room", action="append", choices=sorted(ROOMS))
-    words.add_argument("--build", default=str(ROOT / "build"))
+    words.add_argument("--build", default=str(ROOT / "build-dev"))
     words.add_argument("--fast", action="store_true")
     words.add_argument("--list", action="store_true")
     words.add_argument("--at", action="append", help="one mutant, as --list names it: FILE:LINE:COLUMN: OPERATOR")
