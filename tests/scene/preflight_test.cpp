@@ -26,8 +26,7 @@ std::string scene_with(const std::string& bodies, const std::string& scene = "")
   return "[scene]\nend_time = 1\nspacing = 0.1\n" + scene + "\n" + bodies;
 }
 std::string steel_box(const std::string& name, const std::string& min, const std::string& max, const std::string& more = "") {
-  return "[[body]]\nname='" + name + "'\nmaterial='steel'\nshape={kind='steel_box',min=" + min + ",max=" + max + "}\n" + more +
-         "\n";
+  return "[[body]]\nname='" + name + "'\nmaterial='steel'\nshape={kind='box',min=" + min + ",max=" + max + "}\n" + more + "\n";
 }
 
 TEST(Preflight, FindsNothingInASoundScene) { EXPECT_TRUE(findings(six_lines).empty()); }
@@ -60,7 +59,7 @@ TEST(Preflight, FindsOverlapAcrossAPeriodicSide) {
 }
 
 TEST(Preflight, WarnsOfRowsThatStandTooNear) {
-  const std::string liquid = "[[body]]\nname='pool'\nmaterial='water'\nshape={kind='steel_box',min=[0,0,0],max=[0.5,0.5,0.5]}\n";
+  const std::string liquid = "[[body]]\nname='pool'\nmaterial='water'\nshape={kind='box',min=[0,0,0],max=[0.5,0.5,0.5]}\n";
   EXPECT_EQ(told(scene_with(liquid + steel_box("wall", "[-0.36,0,0]", "[0,0.5,0.5]", "motion='fixed'"), "gravity=[0,0,-9.81]"),
                  "of a spacing"),
             "warning")
@@ -78,7 +77,7 @@ TEST(Preflight, WarnsOfRowsThatStandTooNear) {
 TEST(Preflight, WarnsOfPiecesThatNothingKeepsApart) {
   const auto bar = [](const std::string& more, const std::string& scene = "") {
     return scene_with("[[material]]\nname='glue'\ndensity=1000\nyoung_modulus=1e6\npoisson_ratio=0.3\n" + more +
-                          "[[body]]\nname='bar'\nmaterial='glue'\nshape={kind='steel_box',min=[0,0,0],max=[0.5,0.5,0.5]}\n",
+                          "[[body]]\nname='bar'\nmaterial='glue'\nshape={kind='box',min=[0,0,0],max=[0.5,0.5,0.5]}\n",
                       scene);
   };
   EXPECT_EQ(told(bar("fracture_stretch=1.1\n"), "pass through each other"), "warning");
@@ -149,8 +148,8 @@ TEST(CalledEffects, FollowFromWhatTheBodiesAre) {
     return list;
   };
   const auto one = [](const std::string& material, const std::string& more = "") {
-    return "[scene]\nend_time=1\n[[body]]\nname='b'\nmaterial='" + material +
-           "'\nshape={kind='steel_box',min=[0,0,0],max=[1,1,1]}\n" + more;
+    return "[scene]\nend_time=1\n[[body]]\nname='b'\nmaterial='" + material + "'\nshape={kind='box',min=[0,0,0],max=[1,1,1]}\n" +
+           more;
   };
   EXPECT_EQ(names(one("steel")), "rigid");
   EXPECT_EQ(names(one("steel", "motion='fixed'\ntemperature=300")), "heat") << "what is held in place only conducts";
