@@ -131,6 +131,7 @@ void LammpsHalo::hand_over(Particles& particles, Bonds& bonds, OwnPairs& own) {
     own_at_start_ = ranks_->owned();
     copies_at_start_ = ranks_->all() - ranks_->owned();
   }
+  end_part();
 }
 
 /// Copies reach as far as the longest bond of all ranks now. They stay until the next migration, however bonds are stretched.
@@ -275,6 +276,7 @@ void LammpsHalo::refresh(Particles& particles, std::span<const Field<double>* co
   exchanges_ += 1.0;
   numbers_a_copy_ += static_cast<double>(columns_.size());
   ranks_->forward({columns_.data(), static_cast<int>(columns_.size()), id_of_atom_.data(), particles.rows().data(), 1});
+  end_part();
 }
 
 void LammpsHalo::refresh(std::span<double> by_id, std::size_t each) {
@@ -283,11 +285,14 @@ void LammpsHalo::refresh(std::span<double> by_id, std::size_t each) {
   exchanges_ += 1.0;
   numbers_a_copy_ += static_cast<double>(each);
   ranks_->forward({columns_.data(), static_cast<int>(each), id_of_atom_.data(), nullptr, each});
+  end_part();
 }
 
 std::vector<double> LammpsHalo::all_of(const std::vector<double>& own) {
   collectives_ += 2.0;
-  return ranks_->all_of(own);
+  std::vector<double> all = ranks_->all_of(own);
+  end_part();
+  return all;
 }
 
 void LammpsHalo::take_least(double& number, std::string& word) {
@@ -297,6 +302,7 @@ void LammpsHalo::take_least(double& number, std::string& word) {
   collectives_ += word.empty() ? 1.0 : 2.0;
   ranks_->take_least(number, text, word.empty() ? 0 : static_cast<int>(sizeof text));
   word = text;
+  end_part();
 }
 
 }  // namespace tripoint::ranks

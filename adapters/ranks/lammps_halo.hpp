@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "adapters/ranks/ranks.hpp"
+#include "adapters/ranks/step_times.hpp"
 #include "particles/halo.hpp"
 #include "particles/moving_lists.hpp"
 #include "particles/neighbours.hpp"
@@ -38,11 +39,15 @@ class LammpsHalo : public Halo {
     if (ranks_) {
       collectives_ += 2;
       ranks_->add(numbers.data(), static_cast<int>(numbers.size()));
+      end_part();
     }
   }
   [[nodiscard]] std::vector<double> all_of(const std::vector<double>& own) override;
   void take_least(double& number, std::string& word) override;
   [[nodiscard]] bool is_first() const override { return is_first_; }
+
+  /// Every call of all ranks ends a part of a step. @param times null: nobody wants to know
+  void tell_parts_to(StepTimes* times) noexcept { times_ = times; }
 
   [[nodiscard]] Ranks* ranks() const noexcept { return ranks_; }
   [[nodiscard]] long migrations() const noexcept { return migrations_; }
@@ -60,6 +65,9 @@ class LammpsHalo : public Halo {
   [[nodiscard]] double reach_of_copies() const noexcept { return reach_now_; }  ///< at the last migration [m]
 
  private:
+  void end_part() const {
+    if (times_) times_->end_part();
+  }
   void hand_over(Particles&, Bonds&, OwnPairs&);
   [[nodiscard]] std::vector<std::uint32_t> follow_rows(const Particles&);
   void balance(double allowed);
@@ -77,6 +85,7 @@ class LammpsHalo : public Halo {
   bool is_first_;
   Host host_;
   Ranks* ranks_ = nullptr;
+  StepTimes* times_ = nullptr;
   long migrations_ = 0, gatherings_ = 0;
   double exchanges_ = 0.0, numbers_a_copy_ = 0.0, collectives_ = 0.0;
   int columns_of_particle_ = 0;

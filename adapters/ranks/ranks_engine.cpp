@@ -164,7 +164,9 @@ EngineInfo RanksEngine::info() const {
        "particles that pair passes work on at once: 1, 4 (AVX2) or 8 (AVX-512); they change no bit of a particle, and the ledger "
        "by rounding; default what the machine's widest vectors hold"},
       {"checkpoint_interval", "seconds of simulated time between checkpoints; they change no bit; default none"},
-      {"step_times", "true leaves step-times.txt: wall and CPU seconds of each step of the first rank; default false"}};
+      {"step_times",
+       "true leaves step-times.txt: wall and CPU seconds of the first rank, a line for each step, of its parts between calls of "
+       "all ranks; default false"}};
   info.deterministic = true;
   return info;
 }
@@ -199,6 +201,7 @@ void RanksEngine::start(const Job& job, const InitialState& initial, const Check
   halo_.emplace(lammps_->create(scene, placed, reach), reach, placed.position.size(), lammps_->rank() == 0,
                 LammpsHalo::Host{[this](int columns) -> Ranks& { return lammps_->add_halo(columns); },
                                  [this](const std::vector<Vec3>& places) { lammps_->renew(places); }});
+  if (step_times_) halo_->tell_parts_to(&*step_times_);
   options.halo = &*halo_;
   if (kept)
     simulation_ = std::make_unique<Simulation>(scene, initial, options, *kept);
@@ -217,7 +220,7 @@ bool RanksEngine::advance_to(double time, const std::function<bool(double, long)
   try {
     if (step_times_) step_times_->begin();
     const bool reached = simulation_->advance_to(time, [&] {
-      if (step_times_) step_times_->note();
+      if (step_times_) step_times_->end_step();
       if (wall_seconds() - words_at_ > between_words) write_words();
       is_due_ = checkpoints_->due(simulation_->world().time);
       return go_on(simulation_->world().time, simulation_->steps());

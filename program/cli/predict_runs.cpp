@@ -10,6 +10,7 @@
 #include <future>
 #include <mutex>
 #include <numeric>
+#include <sstream>
 
 #include "assembly/plan.hpp"
 #include "assembly/scene_passes.hpp"
@@ -55,28 +56,32 @@ double of(const std::map<std::string, double>& extra, const std::string& name) {
   return at == extra.end() ? 0.0 : at->second;
 }
 
-double mean(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
+double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 /// The less of each pair of entries. @param one empty before the first
 void keep_least(std::vector<double>& one, const std::vector<double>& other) {
   if (one.empty()) one = other;
-  if (one.size() != other.size()) throw EngineError("two runs of the same job made different numbers of steps");
+  if (one.size() != other.size()) throw EngineError("two runs of the same job made different numbers of steps or calls");
   for (std::size_t k = 0; k < one.size(); ++k) one[k] = std::min(one[k], other[k]);
 }
 
-/// Wall and CPU seconds of each step, as the engine has left them in the folder of the run.
-struct StepTimes {
+/// Wall and CPU seconds of all parts of all steps, as the engine has left them in the folder of the run.
+struct PartTimes {
   std::vector<double> wall, cpu;
+  long steps = 0;
+  [[nodiscard]] double wall_a_step() const { return sum(wall) / static_cast<double>(steps); }
+  [[nodiscard]] double cpu_a_step() const { return sum(cpu) / static_cast<double>(steps); }
 };
 
-StepTimes read_step_times(const std::string& path) {
-  StepTimes times;
+PartTimes read_part_times(const std::string& path) {
+  PartTimes times;
   std::ifstream in(path);
-  for (double wall = 0.0, cpu = 0.0; in >> wall >> cpu;) {
-    times.wall.push_back(wall);
-    times.cpu.push_back(cpu);
+  for (std::string line; std::getline(in, line); ++times.steps) {
+    std::istringstream parts(line);
+    for (double wall = 0.0, cpu = 0.0; parts >> wall >> cpu;) {
+      times.wall.push_back(wall);
+      times.cpu.push_back(cpu);
+    }
   }
   if (times.wall.empty()) throw EngineError(path + ": the engine has left no times of steps");
   return times;
@@ -84,8 +89,8 @@ StepTimes read_step_times(const std::string& path) {
 
 }  // namespace
 
-double Timed::best_wall() const { return mean(least_wall); }
-double Timed::best_cpu() const { return mean(least_cpu); }
+double Timed::best_wall() const { return sum(least_wall) / static_cast<double>(steps); }
+double Timed::best_cpu() const { return sum(least_cpu) / static_cast<double>(steps); }
 
 PredictRuns::PredictRuns(std::string file, std::vector<std::string> set, std::string folder, double seconds, bool quiet)
     : file_(std::move(file)),
@@ -172,8 +177,8 @@ void PredictRuns::time(const Prepared& p, Timed& t) {
   const Result& r = outcome.result;
   const auto steps = static_cast<double>(r.steps);
   t.steps = r.steps;
-  const StepTimes times = read_step_times(folder + "/step-times.txt");
-  t.wall.push_back(mean(times.wall));
+  const PartTimes times = read_part_times(folder + "/step-times.txt");
+  t.wall.push_back(times.wall_a_step());
   keep_least(t.least_wall, times.wall);
   keep_least(t.least_cpu, times.cpu);
   t.bytes = std::max(t.bytes, outcome.cost.peak_bytes);
@@ -185,27 +190,29 @@ void PredictRuns::time(const Prepared& p, Timed& t) {
                of(r.extra, "columns")};
   if (!quiet_)
     say(fmt::format("predict: {} on {} rank{}: {:.4g} ms a step, {:.4g} CPU ms of rank 0", p.label, t.ranks,
-                    t.ranks == 1 ? "" : "s", 1e3 * t.wall.back(), 1e3 * mean(times.cpu)));
+                    t.ranks == 1 ? "" : "s", 1e3 * t.wall.back(), 1e3 * times.cpu_a_step()));
 }
 
 void PredictRuns::time_at_once(const Prepared& p, int count, Timed& t, Timed& alone) {
-  std::vector<std::future<StepTimes>> runs;
+  std::vector<std::future<PartTimes>> runs;
   for (int n = 0; n < count; ++n)
     runs.push_back(std::async(std::launch::async, [&, n] {
       const std::string folder = folder_of(p, fmt::format("apart-{}", n));
       static_cast<void>(run(p, 1, p.end, folder));
-      return read_step_times(folder + "/step-times.txt");
+      return read_part_times(folder + "/step-times.txt");
     }));
-  std::vector<double> slowest;
+  PartTimes slowest;
   for (auto& one : runs) {
-    const StepTimes times = one.get();
-    slowest.resize(times.wall.size());
-    for (std::size_t k = 0; k < slowest.size(); ++k) slowest[k] = std::max(slowest[k], times.wall[k]);
+    const PartTimes times = one.get();
+    slowest.steps = times.steps;
+    slowest.wall.resize(times.wall.size());
+    for (std::size_t k = 0; k < slowest.wall.size(); ++k) slowest.wall[k] = std::max(slowest.wall[k], times.wall[k]);
     keep_least(alone.least_wall, times.wall);
     keep_least(alone.least_cpu, times.cpu);
   }
-  t.wall.push_back(mean(slowest));
-  keep_least(t.least_wall, slowest);
+  t.steps = slowest.steps;
+  t.wall.push_back(slowest.wall_a_step());
+  keep_least(t.least_wall, slowest.wall);
   if (!quiet_)
     say(fmt::format("predict: {}, {} apart at once: {:.4g} ms a step of the slowest", p.label, count, 1e3 * t.wall.back()));
 }

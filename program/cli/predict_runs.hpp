@@ -27,12 +27,13 @@ struct Prepared {
 };
 
 /// Repeats of one run. Cores may be slow for a while, and others slow than those of another run: the best times are those of each
-/// step over all repeats, which make the same steps.
+/// part of a step over all repeats, which make the same steps. A part lies between two calls of all ranks, so that no rank is
+/// ahead of another where it ends.
 struct Timed {
   int ranks = 1;
   long steps = 0;
   std::vector<double> wall;                   ///< [s] a step, of each repeat
-  std::vector<double> least_wall, least_cpu;  ///< of each step over all repeats [s]; CPU of rank 0
+  std::vector<double> least_wall, least_cpu;  ///< of each part over all repeats [s]; CPU of rank 0
   double bytes = 0.0, pairs = 0.0;            ///< of rank 0, pairs a pass as the engine counts them
   double own = 0.0, copies = 0.0;             ///< of rank 0, as it starts
   predict::Traffic traffic;
@@ -53,8 +54,8 @@ class PredictRuns {
   void choose_end(Prepared&, double most = std::numeric_limits<double>::infinity());
   /// One more repeat. @throws EngineError with the reason of a run that did not end well
   void time(const Prepared&, Timed&);
-  /// As many runs on one rank at once, apart from each other: what the cores do where all have work. Of each step the slowest run
-  /// counts. @param alone of one run: each of these is one too, and a step of it may be the best   @throws EngineError as time()
+  /// As many runs on one rank at once, apart from each other: what the cores do where all have work. Of each part the slowest run
+  /// counts. @param alone of one run: each of these is one too, and a part of it may be the best   @throws EngineError as time()
   void time_at_once(const Prepared&, int count, Timed&, Timed& alone);
   /// `--probe` of the engine, two ranks. @throws EngineError
   [[nodiscard]] predict::Machine probe() const;

@@ -127,7 +127,8 @@ std::string measured_table(const json& rows) {
                     m.at("rank_0").at("copies").get<double>());
   }
   if (text.empty()) return text;
-  return "\nmeasured beside the prediction (of each step the best of the repeats); at once: speed of one rank where as many runs "
+  return "\nmeasured beside the prediction (of each part of a step the best of the repeats); at once: speed of one rank where as "
+         "many runs "
          "of\n"
          "one rank go at once, over one alone: what the cores themselves lose. eff. of that: what ranks have of what is left\n" +
          fmt::format("{:10} {:>7} {:>10} {:>10} {:>10} {:>9} {:>11} {:>10} {:>10} {:>13} {:>8} {:>8}\n", "", "ranks", "particles",
