@@ -46,6 +46,7 @@ constexpr const char* predict_description =
 /// Particles times ranks up to which shares are counted one by one; beyond, they are scaled by volume.
 constexpr double most_counted = 1e9;
 constexpr double slow_latency = 1e-4;  ///< [s] of a message between two processes of one machine: fifty times that of a quiet one
+constexpr int default_growth = 5;      ///< most repeats over the least
 constexpr int most_ranks = 1000000, most_measured = 1024;
 
 struct PredictOptions {
@@ -53,8 +54,8 @@ struct PredictOptions {
   std::vector<int> ranks, measure;
   std::vector<double> particles;
   std::vector<std::string> set, larger;
-  int repeats = 3;
-  double seconds = 1.5;
+  int repeats = 3, most_repeats = 0;
+  double seconds = 1.5, patience = 60.0;
   bool weak = false, kit = false, quiet = false, json = false;
 };
 
@@ -141,6 +142,20 @@ void add_lines(PredictionReport& r, const PredictOptions& o, const RunsInTurns& 
       line.measured_efficiency = each * line.prediction.particles / (line.prediction.ranks * line.measured->best_wall());
 }
 
+TurnsWanted turns_wanted(const PredictOptions& o, int cores) {
+  TurnsWanted wanted;
+  wanted.ranks = o.ranks;
+  wanted.measure = o.measure;
+  wanted.larger = o.larger;
+  wanted.weak = o.weak;
+  wanted.repeats = o.repeats;
+  wanted.most_repeats = o.most_repeats > 0 ? std::max(o.repeats, o.most_repeats) : default_growth * o.repeats;
+  wanted.patience = o.patience;
+  wanted.cores = cores;
+  wanted.quiet = o.quiet;
+  return wanted;
+}
+
 int predict_case(PredictOptions o) {
   catch_interrupts();
   const std::string file = shown_path(case_file(o.what));
@@ -156,7 +171,7 @@ int predict_case(PredictOptions o) {
   r.cpu = tool.cpu;
   r.cores = tool.cores;
   PredictRuns engine(file, o.set, o.out, o.seconds, o.quiet);
-  const RunsInTurns runs = run_in_turns(engine, {o.ranks, o.measure, o.larger, o.weak, o.repeats, r.cores}, r.notes);
+  const RunsInTurns runs = run_in_turns(engine, turns_wanted(o, r.cores), r.notes);
   if (interrupted()) return exit_interrupted;
   for (std::size_t k = 0; k < runs.one_rank.size(); ++k) {
     const Prepared& p = runs.one_rank[k];
@@ -168,6 +183,7 @@ int predict_case(PredictOptions o) {
   r.cost = predict::fit_work(r.runs);
   r.memory = predict::fit_memory(r.runs, runs.one_rank.front().weight_bytes);
   r.traffic = runs.alone().traffic;
+  r.went = runs.went;
   for (const auto& [count, timed] : runs.at_once) r.speed_at_once[count] = runs.alone().best_wall() / timed.best_wall();
   if (o.machine.empty()) r.machine = engine.probe();
   if (o.machine.empty() && r.machine.latency > slow_latency)
@@ -224,8 +240,18 @@ void add_predict(CLI::App& app, int& exit_code) {
                    "a.b=VALUE makes the scene of --weak larger, in the place of a finer spacing; may be repeated")
       ->take_all()
       ->allow_extra_args(false);
-  command->add_option("--repeats", o->repeats, "of each run, in turns; of each step the best counts")
+  command
+      ->add_option("--repeats", o->repeats,
+                   "of each run at least, in turns; of each part of a step, between calls of all ranks, the best counts")
       ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command
+      ->add_option("--most-repeats", o->most_repeats,
+                   "of each run at most: repeats end when three in a row lower no best time by over half a per cent (default: 5 "
+                   "times --repeats)")
+      ->check(CLI::Range(1, 1000));
+  command->add_option("--patience", o->patience, "seconds to wait in all for cores that are slow before a run; 0: none")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->add_option("--seconds", o->seconds, "of each run on one rank, about")
       ->check(CLI::PositiveNumber)

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "program/cli/predict_runs.hpp"
+#include "program/cli/predict_turns.hpp"
 
 namespace tripoint {
 
@@ -36,6 +36,7 @@ struct PredictionReport {
   std::vector<predict::OneRank> runs;
   std::vector<std::string> labels;  ///< of the runs
   std::vector<PredictedLine> lines;
+  HowRunsWent went;
   std::vector<std::string> notes;  ///< warnings: runs that failed, a slow probe
 };
 

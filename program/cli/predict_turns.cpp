@@ -9,13 +9,18 @@
 #include <limits>
 #include <set>
 
+#include "program/bench/core_pace.hpp"
 #include "program/cli/common.hpp"
+#include "validation/harness/process.hpp"
 
 namespace tripoint {
 namespace {
 
 constexpr double coarser = 2.0, wider = 1.25;
 constexpr double share_of_memory = 0.8;  ///< that runs at once may take of what is free
+constexpr double still_falls = 0.005;    ///< of a best time, by a repeat
+constexpr int even_repeats = 3;          ///< in a row, which lower none: the best times are taken for those of quiet cores
+constexpr double notable = 0.1;          ///< share of slow looks
 
 void prepare_one_rank(PredictRuns& engine, RunsInTurns& runs, std::vector<std::string>& notes) {
   runs.one_rank.push_back(engine.prepare("case", {}));
@@ -84,6 +89,89 @@ std::set<int> numbers_at_once(const TurnsWanted& wanted, double bytes_of_a_run, 
   return counts;
 }
 
+/// Best times of all that is timed [s], in one order.
+std::vector<double> best_times(const RunsInTurns& runs) {
+  std::vector<double> best;
+  for (const Timed& t : runs.one_rank_timed) best.push_back(t.best_wall());
+  for (const auto* timed : {&runs.at_once, &runs.strong, &runs.weak})
+    for (const auto& entry : *timed) best.push_back(entry.second.best_wall());
+  return best;
+}
+
+/// Whether a repeat has lowered a best time by more than counts.
+bool lowered(const std::vector<double>& before, const std::vector<double>& now) {
+  if (before.size() != now.size()) return true;
+  for (std::size_t k = 0; k < now.size(); ++k)
+    if (now[k] < (1.0 - still_falls) * before[k]) return true;
+  return false;
+}
+
+/// Makes the runs, each when the cores are fast or no more patience is left.
+class Turns {
+ public:
+  Turns(PredictRuns& engine, const TurnsWanted& wanted, RunsInTurns& runs)
+      : engine_(engine), wanted_(wanted), runs_(runs), pace_(wanted.cores) {}
+
+  void make(std::vector<std::string>& notes) {
+    std::vector<double> best;
+    int even = 0;
+    for (int n = 0; n < wanted_.most_repeats && !interrupted(); ++n) {
+      one_turn(notes);
+      if (interrupted()) break;
+      runs_.went.repeats = n + 1;
+      std::vector<double> now = best_times(runs_);
+      even = lowered(best, now) ? 0 : even + 1;
+      best = std::move(now);
+      runs_.went.settled = even >= even_repeats;
+      if (runs_.went.repeats >= wanted_.repeats && runs_.went.settled) break;
+    }
+    runs_.went.looks = pace_.looks();
+    runs_.went.slow_looks = pace_.slow_looks();
+  }
+
+ private:
+  template <class Run>
+  void when_fast(const Run& run) {
+    if (interrupted()) return;
+    const double waited = pace_.wait_until_fast(wanted_.patience - runs_.went.waited, interrupted);
+    runs_.went.waited += waited;
+    if (waited > worth_saying && !wanted_.quiet) say(fmt::format("predict: waited {:.1f} s for cores that were slow", waited));
+    if (!interrupted()) run();
+  }
+
+  void one_turn(std::vector<std::string>& notes) {
+    const Prepared& base = runs_.one_rank.front();
+    for (std::size_t k = 0; k < runs_.one_rank.size(); ++k)
+      when_fast([&] { engine_.time(runs_.one_rank[k], runs_.one_rank_timed[k]); });
+    if (runs_.went.repeats == 0 && !interrupted())
+      for (const int count : numbers_at_once(wanted_, runs_.alone().bytes, notes)) runs_.at_once[count];
+    for (auto& [count, timed] : runs_.at_once)
+      when_fast([&, n = count, &t = timed] { engine_.time_at_once(base, n, t, runs_.one_rank_timed.front()); });
+    for (auto& [ranks, timed] : runs_.strong) when_fast([&, &t = timed] { engine_.time(base, t); });
+    for (auto& [ranks, timed] : runs_.weak) when_fast([&, n = ranks, &t = timed] { engine_.time(runs_.larger.at(n), t); });
+  }
+
+  static constexpr double worth_saying = 1.0;  ///< [s]
+  PredictRuns& engine_;
+  const TurnsWanted& wanted_;
+  RunsInTurns& runs_;
+  bench::CorePace pace_;
+};
+
+/// What a reader should know of how the runs went.
+void note_cores(const RunsInTurns& runs, std::vector<std::string>& notes) {
+  if (runs.went.looks > 0 && runs.went.slow_looks > notable * runs.went.looks)
+    notes.push_back(fmt::format(
+        "cores were slow in {} of {} looks at them before runs (over 1.15 times the time of the fastest tenth of all looks): "
+        "other work, or a program outside this machine that shares them; {:.1f} s were spent waiting",
+        runs.went.slow_looks, runs.went.looks, runs.went.waited));
+  if (!runs.went.settled)
+    notes.push_back(
+        fmt::format("the best times still fell in the last of {} repeats, so quiet ones may be lower: give more by "
+                    "--most-repeats",
+                    runs.went.repeats));
+}
+
 }  // namespace
 
 RunsInTurns run_in_turns(PredictRuns& engine, const TurnsWanted& wanted, std::vector<std::string>& notes) {
@@ -96,19 +184,8 @@ RunsInTurns run_in_turns(PredictRuns& engine, const TurnsWanted& wanted, std::ve
     runs.strong[ranks].ranks = ranks;
     if (wanted.weak) runs.weak[ranks].ranks = ranks;
   }
-  const Prepared& base = runs.one_rank.front();
-  for (int n = 0; n < wanted.repeats; ++n) {
-    for (std::size_t k = 0; k < runs.one_rank.size() && !interrupted(); ++k)
-      engine.time(runs.one_rank[k], runs.one_rank_timed[k]);
-    if (n == 0 && !interrupted())
-      for (const int count : numbers_at_once(wanted, runs.alone().bytes, notes)) runs.at_once[count];
-    for (auto& [count, timed] : runs.at_once)
-      if (!interrupted()) engine.time_at_once(base, count, timed, runs.one_rank_timed.front());
-    for (auto& [ranks, timed] : runs.strong)
-      if (!interrupted()) engine.time(base, timed);
-    for (auto& [ranks, timed] : runs.weak)
-      if (!interrupted()) engine.time(runs.larger.at(ranks), timed);
-  }
+  Turns(engine, wanted, runs).make(notes);
+  if (!interrupted()) note_cores(runs, notes);
   return runs;
 }
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 TRIPOINT = str(Path(sys.argv[1]).resolve())
 MACHINE = 'name = "cluster"\ncores_a_node = 64\nlatency = 2e-6\nbandwidth = 1e9\nwaiting = 0.0\n'
-CASE = ["heat/bar-3x3", "--quiet", "--repeats", "1", "--seconds", "0.02"]
+CASE = ["heat/bar-3x3", "--quiet", "--repeats", "1", "--most-repeats", "1", "--seconds", "0.02"]
 
 
 class Predict(unittest.TestCase):
@@ -56,7 +56,7 @@ class Predict(unittest.TestCase):
         self.assertAlmostEqual(rows[1000, 1e9]["particles_a_rank"], 1e6, delta=1.0)
 
     def test_times_are_the_best_of_each_part_of_a_step(self):
-        done = self.call("heat/bar-3x3", "--quiet", "--repeats", "2", "--seconds", "0.02", "--machine", "cluster.toml", "--measure", "2", "--out", "steps", "--json")
+        done = self.call("heat/bar-3x3", "--quiet", "--repeats", "2", "--most-repeats", "2", "--seconds", "0.02", "--machine", "cluster.toml", "--measure", "2", "--out", "steps", "--json")
         self.assertEqual(done.returncode, 0, done.stderr)
         (row,) = json.loads(done.stdout)["rows"]
         measured = row["measured"]
@@ -69,9 +69,23 @@ class Predict(unittest.TestCase):
         self.assertLessEqual(measured["ms_a_step"], min(measured["repeats_ms"]) + 1e-9)  # equal where one run is the faster one in each part
         self.assertLessEqual(measured["cpu_ms_of_rank_0"], 1e3 * sum(cpu) / len(cpu) + 1e-9)
 
+    def test_repeats_end_when_best_times_no_longer_fall(self):
+        done = self.call("heat/bar-3x3", "--quiet", "--repeats", "1", "--most-repeats", "6", "--patience", "0", "--seconds", "0.02", "--machine", "cluster.toml", "--measure", "2", "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        document = json.loads(done.stdout)
+        on = document["measured_on"]
+        repeats = on["repeats"]
+        self.assertEqual(repeats, len(document["rows"][0]["measured"]["repeats_ms"]))
+        self.assertTrue(4 <= repeats <= 6, repeats)  # three that lower nothing, and one before them
+        self.assertTrue(on["settled"] or repeats == 6, on)
+        self.assertEqual(any("still fell" in note for note in document["notes"]), not on["settled"])
+        self.assertEqual(on["looks_at_cores"], 5 * repeats)  # before each run: three on one rank, two at once, two ranks
+        self.assertTrue(0 <= on["slow_looks"] <= on["looks_at_cores"])
+        self.assertLess(on["waited_s"], 1.0)
+
     def test_a_machine_file_may_say_what_cores_lose(self):
         (self.path / "slow.toml").write_text(MACHINE + "speed_at_once = 0.25\n")
-        done = self.call("heat/bar-3x3", "--quiet", "--repeats", "1", "--seconds", "0.02", "--machine", "slow.toml", "--ranks", "1,2", "--json")
+        done = self.call("heat/bar-3x3", "--quiet", "--repeats", "1", "--most-repeats", "1", "--seconds", "0.02", "--machine", "slow.toml", "--ranks", "1,2", "--json")
         self.assertEqual(done.returncode, 0, done.stderr)
         one, two = json.loads(done.stdout)["rows"]
         self.assertEqual((one["speed_at_once"], two["speed_at_once"]), (1.0, 0.25))
@@ -79,7 +93,7 @@ class Predict(unittest.TestCase):
 
     def test_a_larger_scene_is_finer_in_time_too(self):
         """Else particles of the finer scene would pass more of a spacing in a step, and make new lists more often."""
-        words = ("speed/liquid-heat", "--set", "scene.spacing=0.04", "--set", "scene.time_step=0.002", "--quiet", "--repeats", "1", "--seconds", "0.02", "--machine", "cluster.toml", "--measure", "2")
+        words = ("speed/liquid-heat", "--set", "scene.spacing=0.04", "--set", "scene.time_step=0.002", "--quiet", "--repeats", "1", "--most-repeats", "1", "--seconds", "0.02", "--machine", "cluster.toml", "--measure", "2")
         for more, finer in (("--weak",), 2 ** (-1 / 3)), (("--weak-set", "body.cube.shape.max=[0.34,0.34,0.68]"), 1.0):
             with self.subTest(more=more):
                 done = self.call(*words, *more, "--out", "larger", "--json")
@@ -93,7 +107,7 @@ class Predict(unittest.TestCase):
 
     def test_cuts_move_as_those_of_the_engine_do(self):
         """A dam fills a part of its tank: equal parts would give one rank nearly all, so that LAMMPS shifts its cut."""
-        done = self.call("fluid/dam-break-small", "--quiet", "--repeats", "1", "--seconds", "0.02", "--machine", "cluster.toml", "--measure", "2", "--json")
+        done = self.call("fluid/dam-break-small", "--quiet", "--repeats", "1", "--most-repeats", "1", "--seconds", "0.02", "--machine", "cluster.toml", "--measure", "2", "--json")
         self.assertEqual(done.returncode, 0, done.stderr)
         (row,) = json.loads(done.stdout)["rows"]
         self.assertEqual(row["rank_0"], row["measured"]["rank_0"])
