@@ -166,10 +166,10 @@ void note_cores(const RunsInTurns& runs, std::vector<std::string>& notes) {
         "other work, or a program outside this machine that shares them; {:.1f} s were spent waiting",
         runs.went.slow_looks, runs.went.looks, runs.went.waited));
   if (!runs.went.settled)
-    notes.push_back(
-        fmt::format("the best times still fell in the last of {} repeats, so quiet ones may be lower: give more by "
-                    "--most-repeats",
-                    runs.went.repeats));
+    notes.push_back(fmt::format(
+        "the best times had not settled after {} repeats ({} in a row that lower none by {:g} %), so quiet ones may be "
+        "lower: give more by --most-repeats",
+        runs.went.repeats, even_repeats, 100.0 * still_falls));
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ class Predict(unittest.TestCase):
         self.assertEqual(repeats, len(document["rows"][0]["measured"]["repeats_ms"]))
         self.assertTrue(4 <= repeats <= 6, repeats)  # three that lower nothing, and one before them
         self.assertTrue(on["settled"] or repeats == 6, on)
-        self.assertEqual(any("still fell" in note for note in document["notes"]), not on["settled"])
+        self.assertEqual(any("had not settled" in note for note in document["notes"]), not on["settled"])
         self.assertEqual(on["looks_at_cores"], 5 * repeats)  # before each run: three on one rank, two at once, two ranks
         self.assertTrue(0 <= on["slow_looks"] <= on["looks_at_cores"])
         self.assertLess(on["waited_s"], 1.0)
