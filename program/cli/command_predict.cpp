@@ -46,7 +46,7 @@ constexpr const char* predict_description =
 /// Particles times ranks up to which shares are counted one by one; beyond, they are scaled by volume.
 constexpr double most_counted = 1e9;
 constexpr double slow_latency = 1e-4;  ///< [s] of a message between two processes of one machine: fifty times that of a quiet one
-constexpr int default_growth = 5;      ///< most repeats over the least
+constexpr int default_growth = 4;      ///< most repeats over the least
 constexpr int most_ranks = 1000000, most_measured = 1024;
 
 struct PredictOptions {
@@ -247,7 +247,7 @@ void add_predict(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command
       ->add_option("--most-repeats", o->most_repeats,
-                   "of each run at most: repeats end when three in a row lower no best time by over half a per cent (default: 5 "
+                   "of each run at most: repeats end when three in a row lower no best time by over half a per cent (default: 4 "
                    "times --repeats)")
       ->check(CLI::Range(1, 1000));
   command->add_option("--patience", o->patience, "seconds to wait in all for cores that are slow before a run; 0: none")
