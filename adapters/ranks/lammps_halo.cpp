@@ -120,18 +120,20 @@ std::vector<std::uint32_t> LammpsHalo::follow_rows(const Particles& particles) {
 
 void LammpsHalo::balance(double allowed) {
   collectives_ += 2.0;
+  begin_call();
   ranks_->balance(allowed);
 }
 
 void LammpsHalo::hand_over(Particles& particles, Bonds& bonds, OwnPairs& own) {
+  begin_call();
   ranks_->migrate(reach_now_);
+  end_part();
   unpack(particles);
   unpack_lists(bonds, own);
   if (++migrations_ == 1) {
     own_at_start_ = ranks_->owned();
     copies_at_start_ = ranks_->all() - ranks_->owned();
   }
-  end_part();
 }
 
 /// Copies reach as far as the longest bond of all ranks now. They stay until the next migration, however bonds are stretched.
@@ -275,6 +277,7 @@ void LammpsHalo::refresh(Particles& particles, std::span<const Field<double>* co
   for (const Field<double>* f : columns) columns_.push_back(particles[*f].data());
   exchanges_ += 1.0;
   numbers_a_copy_ += static_cast<double>(columns_.size());
+  begin_call();
   ranks_->forward({columns_.data(), static_cast<int>(columns_.size()), id_of_atom_.data(), particles.rows().data(), 1});
   end_part();
 }
@@ -284,12 +287,14 @@ void LammpsHalo::refresh(std::span<double> by_id, std::size_t each) {
   for (std::size_t k = 0; k < each; ++k) columns_.push_back(by_id.data() + k);
   exchanges_ += 1.0;
   numbers_a_copy_ += static_cast<double>(each);
+  begin_call();
   ranks_->forward({columns_.data(), static_cast<int>(each), id_of_atom_.data(), nullptr, each});
   end_part();
 }
 
 std::vector<double> LammpsHalo::all_of(const std::vector<double>& own) {
   collectives_ += 2.0;
+  begin_call();
   std::vector<double> all = ranks_->all_of(own);
   end_part();
   return all;
@@ -300,6 +305,7 @@ void LammpsHalo::take_least(double& number, std::string& word) {
   char text[32] = {};
   word.copy(text, sizeof text - 1);
   collectives_ += word.empty() ? 1.0 : 2.0;
+  begin_call();
   ranks_->take_least(number, text, word.empty() ? 0 : static_cast<int>(sizeof text));
   word = text;
   end_part();

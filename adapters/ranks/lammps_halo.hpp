@@ -38,6 +38,7 @@ class LammpsHalo : public Halo {
     // Before, all hold the whole scene.
     if (ranks_) {
       collectives_ += 2;
+      begin_call();
       ranks_->add(numbers.data(), static_cast<int>(numbers.size()));
       end_part();
     }
@@ -65,6 +66,9 @@ class LammpsHalo : public Halo {
   [[nodiscard]] double reach_of_copies() const noexcept { return reach_now_; }  ///< at the last migration [m]
 
  private:
+  void begin_call() const {
+    if (times_) times_->begin_call();
+  }
   void end_part() const {
     if (times_) times_->end_part();
   }

@@ -54,6 +54,7 @@ void follow(const Job& job) {
     if (time > job.times.front()) engine.advance_to(time, save_too);
     static_cast<void>(engine.observe());
   }
+  engine.write_step_times();
 }
 
 /// Leaves what ended this rank to the process that started mpiexec, and ends the others.

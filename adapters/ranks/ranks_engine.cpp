@@ -180,7 +180,7 @@ std::string RanksEngine::trial(const Job& job) const {
 void RanksEngine::load(const Job& job, const InitialState& initial) {
   words_path_ = words_file(job.output, lammps_->rank());
   checkpoints_.emplace(job, std::vector<std::string>{});
-  if (lammps_->rank() == 0 && setting(job, "step_times", false)) step_times_.emplace(job.output + "/step-times.txt");
+  if (setting(job, "step_times", false)) step_times_.emplace(fmt::format("{}/step-times-{}.txt", job.output, lammps_->rank()));
   if (job.resume.empty()) return start(job, initial, nullptr);
   simulation_ = std::make_unique<Simulation>(scene_of(job), initial, options_of(in_one_process(job)));
 }
@@ -265,11 +265,15 @@ Snapshot RanksEngine::observe() const {
   return s;
 }
 
+void RanksEngine::write_step_times() const {
+  if (step_times_) step_times_->write();
+}
+
 Readback RanksEngine::readback() const { return readback_of(simulation_->world(), simulation_->bound()); }
 
 void RanksEngine::account(Result& result) const {
   if (!simulation_) return;
-  if (step_times_) step_times_->write();
+  write_step_times();
   result.steps = simulation_->steps();
   result.time_step_bound = simulation_->time_step_set_by();
   result.extra["time_step"] = simulation_->time_step();

@@ -34,6 +34,8 @@ class RanksEngine : public Engine, public Restartable {
   [[nodiscard]] Snapshot observe() const override;
   [[nodiscard]] Readback readback() const override;
   void account(Result&) const override;
+  /// Where the job asks for them. account() does so too. @throws EngineError where the file cannot be written
+  void write_step_times() const;
 
  private:
   void write_words() const;
@@ -43,7 +45,7 @@ class RanksEngine : public Engine, public Restartable {
   std::optional<LammpsHalo> halo_;
   std::unique_ptr<Simulation> simulation_;  ///< not const where the engine is: observe() and save() ask it, and asking computes
   std::optional<Checkpoints> checkpoints_;
-  std::optional<StepTimes> step_times_;  ///< of the first rank, where the job asks for them
+  std::optional<StepTimes> step_times_;  ///< where the job asks for them
   bool is_due_ = false;                  ///< a checkpoint, after the last step
   std::string words_path_;               ///< where this rank says how far it is
   mutable double words_at_ = 0.0;        ///< [s] of wall time

@@ -10,22 +10,38 @@
 #include "core/errors.hpp"
 
 namespace tripoint::ranks {
-StepTimes::Clocks StepTimes::clocks() {
+namespace {
+
+double wall_clock() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+double cpu_clock() {
   timespec cpu{};
   ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &cpu);
-  return {std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(),
-          static_cast<double>(cpu.tv_sec) + 1e-9 * static_cast<double>(cpu.tv_nsec)};
+  return static_cast<double>(cpu.tv_sec) + 1e-9 * static_cast<double>(cpu.tv_nsec);
 }
+
+}  // namespace
 
 void StepTimes::begin() {
   parts_.clear();
-  last_ = clocks();
+  in_call_ = false;
+  part_began_ = wall_clock();
+  cpu_ = cpu_clock();
+}
+
+void StepTimes::begin_call() {
+  if (in_call_) return;
+  in_call_ = true;
+  call_began_ = wall_clock();
 }
 
 void StepTimes::end_part() {
-  const Clocks now = clocks();
-  parts_.push_back({now[0] - last_[0], now[1] - last_[1]});
-  last_ = now;
+  const double now = wall_clock(), cpu = cpu_clock();
+  const double worked_until = in_call_ ? call_began_ : now;
+  parts_.push_back({worked_until - part_began_, now - worked_until, cpu - cpu_});
+  part_began_ = now;
+  cpu_ = cpu;
+  in_call_ = false;
 }
 
 void StepTimes::end_step() {
@@ -37,7 +53,11 @@ void StepTimes::end_step() {
 void StepTimes::write() const {
   std::ofstream out(path_);
   for (const auto& parts : steps_) {
-    for (std::size_t k = 0; k < parts.size(); ++k) out << fmt::format("{}{:.9g} {:.9g}", k ? " " : "", parts[k][0], parts[k][1]);
+    const char* blank = "";
+    for (const Part& part : parts) {
+      out << fmt::format("{}{:.9g} {:.9g} {:.9g}", blank, part.work, part.call, part.cpu);
+      blank = " ";
+    }
     out << "\n";
   }
   if (!out.flush()) throw EngineError(path_ + ": cannot be written");

@@ -136,10 +136,14 @@ void add_lines(PredictionReport& r, const PredictOptions& o, const RunsInTurns& 
     r.lines.back().weak = true;
     if (const auto found = runs.weak.find(ranks); found != runs.weak.end()) r.lines.back().measured = found->second;
   }
-  const double each = runs.alone().best_wall() / sampled;
-  for (PredictedLine& line : r.lines)
-    if (line.measured)
-      line.measured_efficiency = each * line.prediction.particles / (line.prediction.ranks * line.measured->best_wall());
+  const auto on_one = [&](double seconds, const PredictedLine& line) {
+    return seconds / sampled * line.prediction.particles / line.prediction.ranks;
+  };
+  for (PredictedLine& line : r.lines) {
+    if (!line.measured) continue;
+    line.measured_efficiency = on_one(runs.alone().best.wall(), line) / line.measured->best.wall();
+    line.undisturbed_efficiency = on_one(runs.alone().best.undisturbed(), line) / line.measured->best.undisturbed();
+  }
 }
 
 TurnsWanted turns_wanted(const PredictOptions& o, int cores) {
@@ -177,14 +181,14 @@ int predict_case(PredictOptions o) {
     const Prepared& p = runs.one_rank[k];
     const Timed& t = runs.one_rank_timed[k];
     r.runs.push_back({static_cast<double>(p.initial.size()), whole_of(p.cloud, static_cast<double>(p.initial.size())).worked,
-                      t.best_cpu(), t.bytes});
+                      t.best.cpu(), t.bytes});
     r.labels.push_back(p.label);
   }
   r.cost = predict::fit_work(r.runs);
   r.memory = predict::fit_memory(r.runs, runs.one_rank.front().weight_bytes);
   r.traffic = runs.alone().traffic;
   r.went = runs.went;
-  for (const auto& [count, timed] : runs.at_once) r.speed_at_once[count] = runs.alone().best_wall() / timed.best_wall();
+  for (const auto& [count, timed] : runs.at_once) r.speed_at_once[count] = runs.alone().best.wall() / timed.best.wall();
   if (o.machine.empty()) r.machine = engine.probe();
   if (o.machine.empty() && r.machine.latency > slow_latency)
     r.notes.push_back(

@@ -6,11 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <future>
 #include <mutex>
-#include <numeric>
-#include <sstream>
 
 #include "assembly/plan.hpp"
 #include "assembly/scene_passes.hpp"
@@ -56,41 +53,14 @@ double of(const std::map<std::string, double>& extra, const std::string& name) {
   return at == extra.end() ? 0.0 : at->second;
 }
 
-double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
-
-/// The less of each pair of entries. @param one empty before the first
-void keep_least(std::vector<double>& one, const std::vector<double>& other) {
-  if (one.empty()) one = other;
-  if (one.size() != other.size()) throw EngineError("two runs of the same job made different numbers of steps or calls");
-  for (std::size_t k = 0; k < one.size(); ++k) one[k] = std::min(one[k], other[k]);
-}
-
-/// Wall and CPU seconds of all parts of all steps, as the engine has left them in the folder of the run.
-struct PartTimes {
-  std::vector<double> wall, cpu;
-  long steps = 0;
-  [[nodiscard]] double wall_a_step() const { return sum(wall) / static_cast<double>(steps); }
-  [[nodiscard]] double cpu_a_step() const { return sum(cpu) / static_cast<double>(steps); }
-};
-
-PartTimes read_part_times(const std::string& path) {
-  PartTimes times;
-  std::ifstream in(path);
-  for (std::string line; std::getline(in, line); ++times.steps) {
-    std::istringstream parts(line);
-    for (double wall = 0.0, cpu = 0.0; parts >> wall >> cpu;) {
-      times.wall.push_back(wall);
-      times.cpu.push_back(cpu);
-    }
-  }
-  if (times.wall.empty()) throw EngineError(path + ": the engine has left no times of steps");
+/// Of all ranks of a run.
+std::vector<predict::PartTimes> part_times_of(const std::string& folder, int ranks) {
+  std::vector<predict::PartTimes> times;
+  for (int n = 0; n < ranks; ++n) times.push_back(predict::read_part_times(fmt::format("{}/step-times-{}.txt", folder, n)));
   return times;
 }
 
 }  // namespace
-
-double Timed::best_wall() const { return sum(least_wall) / static_cast<double>(steps); }
-double Timed::best_cpu() const { return sum(least_cpu) / static_cast<double>(steps); }
 
 PredictRuns::PredictRuns(std::string file, std::vector<std::string> set, std::string folder, double seconds, bool quiet)
     : file_(std::move(file)),
@@ -177,10 +147,9 @@ void PredictRuns::time(const Prepared& p, Timed& t) {
   const Result& r = outcome.result;
   const auto steps = static_cast<double>(r.steps);
   t.steps = r.steps;
-  const PartTimes times = read_part_times(folder + "/step-times.txt");
-  t.wall.push_back(times.wall_a_step());
-  keep_least(t.least_wall, times.wall);
-  keep_least(t.least_cpu, times.cpu);
+  const std::vector<predict::PartTimes> times = part_times_of(folder, t.ranks);
+  t.wall.push_back(times.front().wall_a_step());
+  t.best.add(times);
   t.bytes = std::max(t.bytes, outcome.cost.peak_bytes);
   t.own = of(r.extra, "own_at_start_on_rank_0");
   t.copies = of(r.extra, "copies_at_start_on_rank_0");
@@ -190,29 +159,30 @@ void PredictRuns::time(const Prepared& p, Timed& t) {
                of(r.extra, "columns")};
   if (!quiet_)
     say(fmt::format("predict: {} on {} rank{}: {:.4g} ms a step, {:.4g} CPU ms of rank 0", p.label, t.ranks,
-                    t.ranks == 1 ? "" : "s", 1e3 * t.wall.back(), 1e3 * times.cpu_a_step()));
+                    t.ranks == 1 ? "" : "s", 1e3 * t.wall.back(), 1e3 * times.front().cpu_a_step()));
 }
 
 void PredictRuns::time_at_once(const Prepared& p, int count, Timed& t, Timed& alone) {
-  std::vector<std::future<PartTimes>> runs;
+  std::vector<std::future<predict::PartTimes>> runs;
   for (int n = 0; n < count; ++n)
     runs.push_back(std::async(std::launch::async, [&, n] {
       const std::string folder = folder_of(p, fmt::format("apart-{}", n));
       static_cast<void>(run(p, 1, p.end, folder));
-      return read_part_times(folder + "/step-times.txt");
+      return part_times_of(folder, 1).front();
     }));
-  PartTimes slowest;
+  predict::PartTimes slowest;
   for (auto& one : runs) {
-    const PartTimes times = one.get();
-    slowest.steps = times.steps;
-    slowest.wall.resize(times.wall.size());
-    for (std::size_t k = 0; k < slowest.wall.size(); ++k) slowest.wall[k] = std::max(slowest.wall[k], times.wall[k]);
-    keep_least(alone.least_wall, times.wall);
-    keep_least(alone.least_cpu, times.cpu);
+    const predict::PartTimes times = one.get();
+    alone.best.add({times});
+    if (slowest.work.empty()) slowest = times;
+    for (std::size_t k = 0; k < std::min(slowest.work.size(), times.work.size()); ++k) {
+      slowest.work[k] = std::max(slowest.work[k], times.work[k]);
+      slowest.call[k] = std::max(slowest.call[k], times.call[k]);
+    }
   }
   t.steps = slowest.steps;
   t.wall.push_back(slowest.wall_a_step());
-  keep_least(t.least_wall, slowest.wall);
+  t.best.add({slowest});
   if (!quiet_)
     say(fmt::format("predict: {}, {} apart at once: {:.4g} ms a step of the slowest", p.label, count, 1e3 * t.wall.back()));
 }

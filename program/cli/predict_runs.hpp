@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "program/predict/cost.hpp"
+#include "program/predict/part_times.hpp"
 #include "validation/harness/plan_runs.hpp"
 #include "validation/harness/run_one.hpp"
 
@@ -26,19 +27,15 @@ struct Prepared {
       0;  ///< a particle of the whole scene as each rank has it at the start: handed over, and the solver's fields
 };
 
-/// Repeats of one run. Cores may be slow for a while, and others slow than those of another run: the best times are those of each
-/// part of a step over all repeats, which make the same steps. A part lies between two calls of all ranks, so that no rank is
-/// ahead of another where it ends.
+/// Repeats of one run.
 struct Timed {
   int ranks = 1;
   long steps = 0;
-  std::vector<double> wall;                   ///< [s] a step, of each repeat
-  std::vector<double> least_wall, least_cpu;  ///< of each part over all repeats [s]; CPU of rank 0
-  double bytes = 0.0, pairs = 0.0;            ///< of rank 0, pairs a pass as the engine counts them
-  double own = 0.0, copies = 0.0;             ///< of rank 0, as it starts
+  std::vector<double> wall;         ///< [s] a step, of each repeat
+  predict::BestTimes best;          ///< over all repeats: cores may be slow for a while, and others than those of another run
+  double bytes = 0.0, pairs = 0.0;  ///< of rank 0, pairs a pass as the engine counts them
+  double own = 0.0, copies = 0.0;   ///< of rank 0, as it starts
   predict::Traffic traffic;
-  [[nodiscard]] double best_wall() const;  ///< [s] a step, in the mean of all steps
-  [[nodiscard]] double best_cpu() const;
 };
 
 class PredictRuns {

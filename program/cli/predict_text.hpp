@@ -18,7 +18,8 @@ struct PredictedLine {
   bool weak = false;     ///< as many particles a rank as the case has on one
   predict::Share first;  ///< of rank 0
   std::optional<Timed> measured;
-  double measured_efficiency = 0.0;  ///< from the measured time on one rank
+  double measured_efficiency = 0.0;     ///< from the measured time on one rank
+  double undisturbed_efficiency = 0.0;  ///< from such times where no core is ever slow
 };
 
 /// All that the command says.

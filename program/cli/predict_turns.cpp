@@ -18,8 +18,6 @@ namespace {
 
 constexpr double coarser = 2.0, wider = 1.25;
 constexpr double share_of_memory = 0.8;  ///< that runs at once may take of what is free
-constexpr double still_falls = 0.005;    ///< of a best time, by a repeat
-constexpr int even_repeats = 3;          ///< in a row, which lower none: the best times are taken for those of quiet cores
 constexpr double notable = 0.1;          ///< share of slow looks
 
 void prepare_one_rank(PredictRuns& engine, RunsInTurns& runs, std::vector<std::string>& notes) {
@@ -92,18 +90,10 @@ std::set<int> numbers_at_once(const TurnsWanted& wanted, double bytes_of_a_run, 
 /// Best times of all that is timed [s], in one order.
 std::vector<double> best_times(const RunsInTurns& runs) {
   std::vector<double> best;
-  for (const Timed& t : runs.one_rank_timed) best.push_back(t.best_wall());
+  for (const Timed& t : runs.one_rank_timed) best.push_back(t.best.wall());
   for (const auto* timed : {&runs.at_once, &runs.strong, &runs.weak})
-    for (const auto& entry : *timed) best.push_back(entry.second.best_wall());
+    for (const auto& entry : *timed) best.push_back(entry.second.best.wall());
   return best;
-}
-
-/// Whether a repeat has lowered a best time by more than counts.
-bool lowered(const std::vector<double>& before, const std::vector<double>& now) {
-  if (before.size() != now.size()) return true;
-  for (std::size_t k = 0; k < now.size(); ++k)
-    if (now[k] < (1.0 - still_falls) * before[k]) return true;
-  return false;
 }
 
 /// Makes the runs, each when the cores are fast or no more patience is left.
@@ -113,16 +103,12 @@ class Turns {
       : engine_(engine), wanted_(wanted), runs_(runs), pace_(wanted.cores) {}
 
   void make(std::vector<std::string>& notes) {
-    std::vector<double> best;
-    int even = 0;
+    predict::Settling settling;
     for (int n = 0; n < wanted_.most_repeats && !interrupted(); ++n) {
       one_turn(notes);
       if (interrupted()) break;
       runs_.went.repeats = n + 1;
-      std::vector<double> now = best_times(runs_);
-      even = lowered(best, now) ? 0 : even + 1;
-      best = std::move(now);
-      runs_.went.settled = even >= even_repeats;
+      runs_.went.settled = settling.add(best_times(runs_));
       if (runs_.went.repeats >= wanted_.repeats && runs_.went.settled) break;
     }
     runs_.went.looks = pace_.looks();
@@ -169,7 +155,7 @@ void note_cores(const RunsInTurns& runs, std::vector<std::string>& notes) {
     notes.push_back(fmt::format(
         "the best times had not settled after {} repeats ({} in a row that lower none by {:g} %), so quiet ones may be "
         "lower: give more by --most-repeats",
-        runs.went.repeats, even_repeats, 100.0 * still_falls));
+        runs.went.repeats, predict::Settling::even_repeats, 100.0 * predict::Settling::falls));
 }
 
 }  // namespace

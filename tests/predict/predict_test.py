@@ -60,13 +60,17 @@ class Predict(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         (row,) = json.loads(done.stdout)["rows"]
         measured = row["measured"]
-        seconds = [list(map(float, line.split())) for line in (self.path / "steps" / "case-2" / "step-times.txt").read_text().splitlines()]
-        self.assertEqual(len(seconds), measured["steps"])  # of the last run
-        self.assertGreater(min(map(len, seconds)), 4)  # both clocks, of more than two parts
-        self.assertEqual({len(line) % 2 for line in seconds}, {0})
-        wall, cpu = [sum(line[::2]) for line in seconds], [sum(line[1::2]) for line in seconds]
+        folder = self.path / "steps" / "case-2"
+        seconds = [[list(map(float, line.split())) for line in (folder / f"step-times-{rank}.txt").read_text().splitlines()] for rank in (0, 1)]
+        self.assertEqual([len(lines) for lines in seconds], 2 * [measured["steps"]])  # of the last run
+        self.assertEqual([len(line) for line in seconds[0]], [len(line) for line in seconds[1]])  # all ranks make the same calls
+        self.assertGreater(min(map(len, seconds[0])), 6)  # three times of each part, of more than two parts
+        self.assertEqual({len(line) % 3 for line in seconds[0]}, {0})
+        wall, cpu = [sum(line[::3]) + sum(line[1::3]) for line in seconds[0]], [sum(line[2::3]) for line in seconds[0]]
         self.assertAlmostEqual(1e3 * sum(wall) / len(wall), measured["repeats_ms"][-1], delta=1e-6)
         self.assertLessEqual(measured["ms_a_step"], min(measured["repeats_ms"]) + 1e-9)  # equal where one run is the faster one in each part
+        self.assertLessEqual(measured["undisturbed_ms_a_step"], measured["ms_a_step"] + 1e-9)
+        self.assertGreater(measured["undisturbed_efficiency"], 0)
         self.assertLessEqual(measured["cpu_ms_of_rank_0"], 1e3 * sum(cpu) / len(cpu) + 1e-9)
 
     def test_repeats_end_when_best_times_no_longer_fall(self):
