@@ -66,13 +66,22 @@ struct Neighbours::Grid {
     }
   }
 
-  /// Numbers of the cells that [low, high] along an axis touches; beyond 0..count-1 in periodic directions, where they mean
-  /// images.
-  [[nodiscard]] std::array<int, 2> touched(std::size_t a, double low, double high, bool periodic) const {
-    const double from = std::floor((low - origin[a]) / width[a]) - skipped[a],
-                 to = std::floor((high - origin[a]) / width[a]) - skipped[a];
-    const double least = periodic ? -count[a] : 0.0, most = periodic ? 2.0 * count[a] - 1.0 : count[a] - 1.0;
-    return {static_cast<int>(std::clamp(from, least, most)), static_cast<int>(std::clamp(to, least, most))};
+  /// Cells along an axis, least to most; beyond 0..count-1 in periodic directions, where they mean images.
+  struct Axis {
+    double origin, cells_a_length;
+    int skipped, least, most;
+    /// Numbers of the cells that [low, high] touches. They are cut off before they become whole: what is not below zero does so
+    /// without a call.
+    [[nodiscard]] std::array<int, 2> touched(double low, double high) const { return {cell_of(low), cell_of(high)}; }
+
+   private:
+    [[nodiscard]] int cell_of(double x) const {
+      const double cell = (x - origin) * cells_a_length - static_cast<double>(skipped + least);
+      return static_cast<int>(std::min(std::max(cell, 0.0), static_cast<double>(most - least))) + least;
+    }
+  };
+  [[nodiscard]] Axis axis(std::size_t a, bool periodic) const {
+    return {origin[a], 1.0 / width[a], skipped[a], periodic ? -count[a] : 0, periodic ? 2 * count[a] - 1 : count[a] - 1};
   }
   [[nodiscard]] int image(std::size_t a, int cell) const { return cell < 0 ? -1 : cell >= count[a] ? 1 : 0; }
   /// Distance of an interval to a cell along an axis; 0 where they touch.
@@ -86,29 +95,28 @@ struct Neighbours::Grid {
                   std::vector<CandidateRange>& ranges) const {
     ranges.clear();
     const double wide = reach * (1.0 + slack);
-    const auto zs = touched(2, low.z - wide, high.z + wide, box.periodic[2]),
-               ys = touched(1, low.y - wide, high.y + wide, box.periodic[1]);
+    const Axis along_x = axis(0, box.periodic[0]);
+    const auto zs = axis(2, box.periodic[2]).touched(low.z - wide, high.z + wide),
+               ys = axis(1, box.periodic[1]).touched(low.y - wide, high.y + wide);
     for (int z = zs[0]; z <= zs[1]; ++z) {
       const double dz = gap(2, z, low.z, high.z);
       for (int y = ys[0]; y <= ys[1]; ++y) {
         const double dy = gap(1, y, low.y, high.y), left = wide * wide - dy * dy - dz * dz;
         if (left < 0.0) continue;
         const double along = std::sqrt(left);
-        const auto xs = touched(0, low.x - along, high.x + along, box.periodic[0]);
-        add_row(xs, y, z, ranges);
+        add_row(along_x.touched(low.x - along, high.x + along), y, z, ranges);
       }
     }
   }
 
  private:
-  void add_row(const std::array<int, 2>& xs, int y, int z, std::vector<CandidateRange>& ranges) const {
+  [[gnu::always_inline]] void add_row(const std::array<int, 2>& xs, int y, int z, std::vector<CandidateRange>& ranges) const {
     const int iy = image(1, y), iz = image(2, z);
+    const std::uint32_t* const row = first.data() + index({0, y - iy * count[1], z - iz * count[2]});
     for (int ix = image(0, xs[0]); ix <= image(0, xs[1]); ++ix) {
       const int from = std::max(xs[0] - ix * count[0], 0), to = std::min(xs[1] - ix * count[0], count[0] - 1);
-      const std::array<int, 3> start{from, y - iy * count[1], z - iz * count[2]}, end{to, start[1], start[2]};
-      const std::uint32_t first_row = first[index(start)], past = first[index(end) + 1];
-      if (first_row != past)
-        ranges.push_back({first_row, past, Entry::box_itself + static_cast<std::uint32_t>(ix + 3 * iy + 9 * iz)});
+      if (row[from] != row[to + 1])
+        ranges.push_back({row[from], row[to + 1], Entry::box_itself + static_cast<std::uint32_t>(ix + 3 * iy + 9 * iz)});
     }
   }
 };

@@ -40,21 +40,29 @@ using ScanFunction = Scanned (*)(const Scan&, std::uint32_t* rows, std::uint8_t*
 template <int L, class ForUnit, bool ordered>
 Scanned scan_places(const Scan& s, std::uint32_t* rows, std::uint8_t* near) {
   using V = typename Lanes<L>::Real;
-  const V xi = load_lanes<L>(s.x + s.first), yi = load_lanes<L>(s.y + s.first), zi = load_lanes<L>(s.z + s.first);
+  // Bytes are written to `near`, which might be those of the input: what the loop reads of it is read once.
+  const double *const x = s.x, *const y = s.y, *const z = s.z;
+  const std::uint32_t *const order = s.order, first = static_cast<std::uint32_t>(s.first);
+  const V xi = load_lanes<L>(x + first), yi = load_lanes<L>(y + first), zi = load_lanes<L>(z + first);
+  const double reach2 = s.reach2;
+  const unsigned members = s.members;
+  const std::size_t twice_from = s.twice_from;
   std::size_t n = 0, pairs = 0;
-  for (const CandidateRange* range = s.ranges; range != s.ranges + s.count; ++range) {
-    const Vec3 shift = s.shift[range->image];
-    for (std::uint32_t place = range->from; place < range->to; ++place) {
-      const std::uint32_t j = ordered ? s.order[place] : place;
-      const V dx = (s.x[j] - xi) + shift.x, dy = (s.y[j] - yi) + shift.y, dz = (s.z[j] - zi) + shift.z;
+  for (const CandidateRange *range = s.ranges, *const past = s.ranges + s.count; range != past; ++range) {
+    const CandidateRange places = *range;
+    const Vec3 shift = s.shift[places.image];
+    const std::uint32_t image = Entry::of(0, places.image).bits;
+    const bool may_be_itself = places.image == Entry::box_itself;
+    for (std::uint32_t place = places.from; place < places.to; ++place) {
+      const std::uint32_t j = ordered ? order[place] : place;
+      const V dx = (x[j] - xi) + shift.x, dy = (y[j] - yi) + shift.y, dz = (z[j] - zi) + shift.z;
       const V r2 = dx * dx + dy * dy + dz * dz;
-      unsigned bits = bits_of<L>(r2 < s.reach2) & s.members;
-      if (j - s.first < static_cast<std::size_t>(L) && range->image == Entry::box_itself)
-        bits &= ~(1u << (j - s.first));  // itself
-      rows[n] = Entry::of(j, range->image).bits;
+      unsigned bits = bits_of<L>(r2 < reach2) & members;
+      if (j - first < static_cast<std::uint32_t>(L) && may_be_itself) bits &= ~(1u << (j - first));  // itself
+      rows[n] = image | j;
       near[n] = static_cast<std::uint8_t>(bits);
       n += bits != 0;
-      pairs += static_cast<std::size_t>(std::popcount(bits)) << (ordered && j >= s.twice_from ? 1 : 0);
+      pairs += static_cast<std::size_t>(std::popcount(bits)) << (ordered && j >= twice_from ? 1 : 0);
     }
   }
   return {n, pairs};
