@@ -188,7 +188,8 @@ int predict_case(PredictOptions o) {
   r.memory = predict::fit_memory(r.runs, runs.one_rank.front().weight_bytes);
   r.traffic = runs.alone().traffic;
   r.went = runs.went;
-  for (const auto& [count, timed] : runs.at_once) r.speed_at_once[count] = runs.alone().best.wall() / timed.best.wall();
+  for (const auto& [count, timed] : runs.at_once)
+    r.speed_at_once[count] = std::min(1.0, runs.alone().best.wall() / timed.best.wall());
   if (o.machine.empty()) r.machine = engine.probe();
   if (o.machine.empty() && r.machine.latency > slow_latency)
     r.notes.push_back(

@@ -162,7 +162,7 @@ void PredictRuns::time(const Prepared& p, Timed& t) {
                     t.ranks == 1 ? "" : "s", 1e3 * t.wall.back(), 1e3 * times.front().cpu_a_step()));
 }
 
-void PredictRuns::time_at_once(const Prepared& p, int count, Timed& t, Timed& alone) {
+void PredictRuns::time_at_once(const Prepared& p, int count, Timed& t) {
   std::vector<std::future<predict::PartTimes>> runs;
   for (int n = 0; n < count; ++n)
     runs.push_back(std::async(std::launch::async, [&, n] {
@@ -173,7 +173,6 @@ void PredictRuns::time_at_once(const Prepared& p, int count, Timed& t, Timed& al
   predict::PartTimes slowest;
   for (auto& one : runs) {
     const predict::PartTimes times = one.get();
-    alone.best.add({times});
     if (slowest.work.empty()) slowest = times;
     for (std::size_t k = 0; k < std::min(slowest.work.size(), times.work.size()); ++k) {
       slowest.work[k] = std::max(slowest.work[k], times.work[k]);

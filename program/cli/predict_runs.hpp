@@ -52,8 +52,9 @@ class PredictRuns {
   /// One more repeat. @throws EngineError with the reason of a run that did not end well
   void time(const Prepared&, Timed&);
   /// As many runs on one rank at once, apart from each other: what the cores do where all have work. Of each part the slowest run
-  /// counts. @param alone of one run: each of these is one too, and a part of it may be the best   @throws EngineError as time()
-  void time_at_once(const Prepared&, int count, Timed&, Timed& alone);
+  /// counts. They do not count as runs of one rank alone: of more runs the best is better, and the comparison would not be fair.
+  /// @throws EngineError as time()
+  void time_at_once(const Prepared&, int count, Timed&);
   /// `--probe` of the engine, two ranks. @throws EngineError
   [[nodiscard]] predict::Machine probe() const;
 

@@ -131,8 +131,7 @@ class Turns {
       when_fast([&] { engine_.time(runs_.one_rank[k], runs_.one_rank_timed[k]); });
     if (runs_.went.repeats == 0 && !interrupted())
       for (const int count : numbers_at_once(wanted_, runs_.alone().bytes, notes)) runs_.at_once[count];
-    for (auto& [count, timed] : runs_.at_once)
-      when_fast([&, n = count, &t = timed] { engine_.time_at_once(base, n, t, runs_.one_rank_timed.front()); });
+    for (auto& [count, timed] : runs_.at_once) when_fast([&, n = count, &t = timed] { engine_.time_at_once(base, n, t); });
     for (auto& [ranks, timed] : runs_.strong) when_fast([&, &t = timed] { engine_.time(base, t); });
     for (auto& [ranks, timed] : runs_.weak) when_fast([&, n = ranks, &t = timed] { engine_.time(runs_.larger.at(n), t); });
   }
