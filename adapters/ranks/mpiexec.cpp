@@ -13,10 +13,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <regex>
 
 #include "adapters/engine/stops.hpp"
+#include "adapters/ranks/last_words.hpp"
 #include "adapters/ranks/ranks_engine.hpp"
 #include "core/children.hpp"
 #include "core/stop_signals.hpp"
@@ -87,42 +86,7 @@ int start_and_wait(const Wheel& wheel, int count, const std::string& job_path, c
   return status;
 }
 
-/// Process and signal of the rank that mpiexec saw end first: "PID 123 RUNNING AT host", "EXIT CODE: 9".
-struct Ended {
-  long process = 0;
-  int code = 0;
-};
-Ended first_to_end(const std::string& log) {
-  Ended ended;
-  std::ifstream in(log);
-  static const std::regex process("PID ([0-9]+) RUNNING AT"), code("EXIT CODE: ([0-9]+)");
-  std::smatch found;
-  for (std::string line; std::getline(in, line);) {
-    if (ended.process == 0 && std::regex_search(line, found, process))
-      ended.process = std::stol(found[1]);
-    else if (std::regex_search(line, found, code)) {
-      ended.code = std::stoi(found[1]);
-      return ended;
-    }
-  }
-  return ended;
-}
-
-/// How far a rank was, and as which process.
-struct Words {
-  long process = 0;
-  std::string text;
-};
-Words words_of(const std::string& output, int rank) {
-  Words words;
-  std::ifstream in(words_file(output, rank));
-  std::string line;
-  if (!(in >> words.process) || !std::getline(in, line)) return words;
-  std::getline(in, words.text);
-  return words;
-}
-
-/// Result that a rank wrote as it failed; else the rank that was ended, and its last words.
+/// Result that a rank wrote as it failed; else the ranks that a signal ended, and their last words.
 Result result_of_failure(const std::string& output, int count, int status) {
   std::error_code none;
   for (int rank = 0; rank < count; ++rank) {
@@ -133,16 +97,18 @@ Result result_of_failure(const std::string& output, int count, int status) {
   }
   Result failed;
   failed.status = Status::error;
-  const Ended ended = first_to_end(log_of(output));
-  failed.message = fmt::format("the ranks ended without a result; mpiexec {} {}",
-                               WIFSIGNALED(status) ? "was ended by signal" : "gave exit code",
-                               WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status));
   for (int rank = 0; rank < count; ++rank) {
-    const Words words = words_of(output, rank);
-    if (words.process == 0 || words.process != ended.process) continue;
-    failed.message = fmt::format("rank {} of {} was ended by signal {} ({}); its last words: {}", rank, count, ended.code,
-                                 ::strsignal(ended.code), words.text);
+    const LastWords words = last_words(output, rank);
+    if (words.end.empty()) continue;
+    failed.message += fmt::format("{}rank {} of {} {}; its last words: {}", failed.message.empty() ? "" : "; ", rank, count,
+                                  words.end, words.how_far.empty() ? "none, it had not begun to step" : words.how_far);
   }
+  if (failed.message.empty())
+    failed.message = fmt::format(
+        "the ranks ended without a result, and none was seen to be ended by a signal; mpiexec {} {}, and its words "
+        "are in {}",
+        WIFSIGNALED(status) ? "was ended by signal" : "gave exit code",
+        WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status), log_of(output));
   return failed;
 }
 

@@ -2,14 +2,12 @@
 #include "adapters/ranks/ranks_engine.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
+#include "adapters/ranks/last_words.hpp"
 #include "adapters/tripoint/solver_job.hpp"
 #include "adapters/tripoint/tripoint_engine.hpp"
 #include "core/machine.hpp"
@@ -139,7 +137,6 @@ InitialState places_in(const Checkpoint& kept, InitialState initial) {
 
 }  // namespace
 
-std::string words_file(const std::string& output, int rank) { return fmt::format("{}/rank-{}.log", output, rank); }
 std::string failure_file(const std::string& output, int rank) { return fmt::format("{}/rank-{}.json", output, rank); }
 
 EngineInfo RanksEngine::info() const {
@@ -245,16 +242,11 @@ bool RanksEngine::stops(bool asked) {
   return least < 0.0;
 }
 
-/// How far this rank is: its last news where it ends without a word. By a rename, so that the words of a rank that is killed here
-/// are those of before, not half a line.
 void RanksEngine::write_words() const {
   words_at_ = wall_seconds();
-  const std::string next = words_path_ + ".part";
-  std::ofstream(next) << fmt::format("{} process\nt = {:.6g} s, step {}, {} particles of its own and {} copies\n", ::getpid(),
-                                     simulation_->world().time, simulation_->steps(), halo_->owned(),
-                                     simulation_->world().particles.size() - halo_->owned());
-  std::error_code ignored;  // words are a help; a full disk is told where frames are written
-  std::filesystem::rename(next, words_path_, ignored);
+  ranks::write_words(words_path_,
+                     fmt::format("t = {:.6g} s, step {}, {} particles of its own and {} copies", simulation_->world().time,
+                                 simulation_->steps(), halo_->owned(), simulation_->world().particles.size() - halo_->owned()));
 }
 
 Snapshot RanksEngine::observe() const {

