@@ -15,6 +15,7 @@
 #include <filesystem>
 
 #include "adapters/engine/stops.hpp"
+#include "adapters/ranks/giving_way.hpp"
 #include "adapters/ranks/last_words.hpp"
 #include "adapters/ranks/ranks_engine.hpp"
 #include "core/children.hpp"
@@ -74,6 +75,7 @@ int start_and_wait(const Wheel& wheel, int count, const std::string& job_path, c
     const int nothing = ::open("/dev/null", O_RDONLY), words = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     ::dup2(nothing, STDIN_FILENO);
     ::dup2(words, STDOUT_FILENO);
+    let_waits_give_way();
     ::execl(wheel.mpiexec.c_str(), wheel.mpiexec.c_str(), "-launcher", launcher.c_str(), "-n", ranks.c_str(), self.c_str(),
             "--rank", job_path.c_str(), nullptr);
     ::_exit(127);

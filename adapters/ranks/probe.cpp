@@ -15,6 +15,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "adapters/ranks/giving_way.hpp"
 #include "adapters/ranks/wheel.hpp"
 #include "core/children.hpp"
 #include "core/errors.hpp"
@@ -53,6 +54,7 @@ int start_two(const Wheel& wheel, const std::string& path) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
     ::dup2(STDERR_FILENO, STDOUT_FILENO);
+    let_waits_give_way();
     ::execl(wheel.mpiexec.c_str(), wheel.mpiexec.c_str(), "-launcher", "fork", "-n", "2", self.c_str(), "--probe-rank",
             path.c_str(), nullptr);
     ::_exit(127);
