@@ -62,6 +62,7 @@ function(tripoint_test name)
   add_executable(test-${name} ${T_SOURCES})
   target_include_directories(test-${name} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(test-${name} PRIVATE ${T_PRIVATE} tripoint::warnings GTest::gtest_main)
+  target_compile_options(test-${name} PRIVATE $<$<CONFIG:Release>:-O1>)  # a test's own code is compiled longer than it runs
   set_target_properties(test-${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   gtest_discover_tests(test-${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${name})
 endfunction()
