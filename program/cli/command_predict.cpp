@@ -142,6 +142,8 @@ void add_lines(PredictionReport& r, const PredictOptions& o, const RunsInTurns& 
   for (PredictedLine& line : r.lines) {
     if (!line.measured) continue;
     line.measured_efficiency = on_one(runs.alone().best.wall(), line) / line.measured->best.wall();
+    if (const auto found = runs.at_once.find(std::min(line.prediction.ranks, r.cores)); found != runs.at_once.end())
+      line.measured_at_once = std::min(1.0, runs.alone().best.wall() / found->second.best.wall());
     line.undisturbed_efficiency = on_one(runs.alone().best.undisturbed(), line) / line.measured->best.undisturbed();
   }
 }
@@ -189,7 +191,7 @@ int predict_case(PredictOptions o) {
   r.traffic = runs.alone().traffic;
   r.went = runs.went;
   for (const auto& [count, timed] : runs.at_once)
-    r.speed_at_once[count] = std::min(1.0, runs.alone().best.wall() / timed.best.wall());
+    r.speed_at_once[count] = std::min(1.0, runs.alone().best.undisturbed() / timed.best.undisturbed());
   if (o.machine.empty()) r.machine = engine.probe();
   if (o.machine.empty() && r.machine.latency > slow_latency)
     r.notes.push_back(

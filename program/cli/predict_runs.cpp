@@ -126,19 +126,32 @@ Outcome PredictRuns::run(const Prepared& p, int ranks, double end, const std::st
   return outcome;
 }
 
-void PredictRuns::choose_end(Prepared& p, double most) {
+double PredictRuns::pilot(Prepared& p) {
   const double whole = p.scene.end_time;
   const Outcome pilot = run(p, 1, std::min(whole, p.scene.time_step.value_or(1e-9 * whole)), folder_of(p, "1"));
   const double bound = of(pilot.result.extra, "time_step_bound");
-  const double step = p.scene.time_step.value_or(bound > 0.0 && std::isfinite(bound) ? bound : whole);
+  p.step = p.scene.time_step.value_or(bound > 0.0 && std::isfinite(bound) ? bound : whole);
   if (const double reach = of(pilot.result.extra, "reach_of_copies"); reach > 0.0)
     p.cloud.reach = reach;  // bonds may be longer than a list's reach
-  const double took = std::max(1e-7, pilot.result.stepping_cpu / static_cast<double>(pilot.result.steps));
-  const auto steps = std::clamp(static_cast<long>(seconds_ / took), least_timed, most_timed);
-  p.end = std::min({whole, step * static_cast<double>(steps), std::max(most, step * static_cast<double>(least_timed))});
+  return std::max(1e-7, pilot.result.stepping_cpu / static_cast<double>(pilot.result.steps));
+}
+
+void PredictRuns::say_steps(const Prepared& p) const {
   if (!quiet_)
-    say(fmt::format("predict: {}: {} particles, {} steps on one rank", p.label, p.initial.size(),
-                    std::max(1L, std::lround(p.end / step))));
+    say(fmt::format("predict: {}: {} particles, {} steps", p.label, p.initial.size(), std::max(1L, std::lround(p.end / p.step))));
+}
+
+void PredictRuns::choose_end(Prepared& p, double most) {
+  const auto steps = std::clamp(static_cast<long>(seconds_ / pilot(p)), least_timed, most_timed);
+  p.end = std::min(
+      {p.scene.end_time, p.step * static_cast<double>(steps), std::max(most, p.step * static_cast<double>(least_timed))});
+  say_steps(p);
+}
+
+void PredictRuns::choose_end_as(Prepared& p, const Prepared& other) {
+  pilot(p);
+  p.end = std::min(p.scene.end_time, other.end / other.step * p.step);
+  say_steps(p);
 }
 
 void PredictRuns::time(const Prepared& p, Timed& t) {
@@ -170,18 +183,13 @@ void PredictRuns::time_at_once(const Prepared& p, int count, Timed& t) {
       static_cast<void>(run(p, 1, p.end, folder));
       return part_times_of(folder, 1).front();
     }));
-  predict::PartTimes slowest;
-  for (auto& one : runs) {
-    const predict::PartTimes times = one.get();
-    if (slowest.work.empty()) slowest = times;
-    for (std::size_t k = 0; k < std::min(slowest.work.size(), times.work.size()); ++k) {
-      slowest.work[k] = std::max(slowest.work[k], times.work[k]);
-      slowest.call[k] = std::max(slowest.call[k], times.call[k]);
-    }
-  }
-  t.steps = slowest.steps;
-  t.wall.push_back(slowest.wall_a_step());
-  t.best.add({slowest});
+  std::vector<predict::PartTimes> times;
+  for (auto& one : runs) times.push_back(one.get());
+  double slowest = 0.0;
+  for (const predict::PartTimes& one : times) slowest = std::max(slowest, one.wall_a_step());
+  t.steps = times.front().steps;
+  t.wall.push_back(slowest);
+  t.best.add_apart(times);
   if (!quiet_)
     say(fmt::format("predict: {}, {} apart at once: {:.4g} ms a step of the slowest", p.label, count, 1e3 * t.wall.back()));
 }

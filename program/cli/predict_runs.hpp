@@ -22,7 +22,8 @@ struct Prepared {
   Scene scene;
   InitialState initial;
   predict::Cloud cloud;
-  double end = 0.0;  ///< of the timed runs [s]
+  double end = 0.0;   ///< of the timed runs [s]
+  double step = 0.0;  ///< of time, that they make [s]
   double weight_bytes =
       0;  ///< a particle of the whole scene as each rank has it at the start: handed over, and the solver's fields
 };
@@ -49,6 +50,8 @@ class PredictRuns {
   /// Finds how long the timed runs are, by a run of one step on one rank. @param most time that they cover, but for ten steps
   /// [s]: runs that are compared cover the same, in which as many lists a step are made
   void choose_end(Prepared&, double most = std::numeric_limits<double>::infinity());
+  /// The timed runs make as many steps as those of another scene, whatever they cost: so they make as many lists a step, too.
+  void choose_end_as(Prepared&, const Prepared& other);
   /// One more repeat. @throws EngineError with the reason of a run that did not end well
   void time(const Prepared&, Timed&);
   /// As many runs on one rank at once, apart from each other: what the cores do where all have work. Of each part the slowest run
@@ -59,6 +62,9 @@ class PredictRuns {
   [[nodiscard]] predict::Machine probe() const;
 
  private:
+  /// One step on one rank, which finds the step of the timed runs and the reach of copies. @return [s] of CPU
+  double pilot(Prepared&);
+  void say_steps(const Prepared&) const;
   [[nodiscard]] std::string folder_of(const Prepared&, const std::string& which) const;
   [[nodiscard]] Outcome run(const Prepared&, int ranks, double end, const std::string& folder);
 

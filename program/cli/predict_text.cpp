@@ -21,7 +21,7 @@ const std::vector<std::string>& assumptions() {
       "as it computes them",
       "shares: the decomposition at the start; what moves later and is not balanced again is not seen",
       "every rank has a core of its own, and is as slow beside others as runs on one rank are that go at once on this machine, "
-      "apart from each other",
+      "apart from each other; no core is slow for another reason",
       "network: each message has the same latency and each rank its whole bandwidth, however many send; messages do not overlap "
       "with work",
       "bonds are part of the cost of a particle, and what they send with a new share is not counted",
@@ -84,10 +84,12 @@ json of(const PredictedLine& line) {
                      {"cpu_ms_of_rank_0", 1e3 * t.best.cpu()},
                      {"steps", t.steps},
                      {"efficiency", line.measured_efficiency},
-                     {"efficiency_of_cores", line.measured_efficiency / p.speed_at_once},
+                     {"speed_at_once", line.measured_at_once},
+                     {"efficiency_of_cores", line.measured_efficiency / line.measured_at_once},
                      {"undisturbed_ms_a_step", 1e3 * t.best.undisturbed()},
                      {"undisturbed_efficiency", line.undisturbed_efficiency},
                      {"difference_percent", 100.0 * (p.seconds() / t.best.wall() - 1.0)},
+                     {"undisturbed_difference_percent", 100.0 * (p.seconds() / t.best.undisturbed() - 1.0)},
                      {"gb_a_rank", 1e-9 * t.bytes},
                      {"rank_0", {{"own", t.own}, {"copies", t.copies}, {"pairs", t.pairs}}}};
   return row;
@@ -120,24 +122,33 @@ std::string measured_table(const json& rows) {
   for (const json& r : rows) {
     if (!r.contains("measured")) continue;
     const json& m = r.at("measured");
-    const double efficiency = m.at("efficiency").get<double>();
-    text +=
-        fmt::format("{:10} {:7} {:10.4g} {:10.4g} {:10.4g} {:+9.1f} {:11.3f} {:10.3f} {:10.3f} {:13.3f} {:12.3f} {:8} {:8}\n",
-                    r.at("scaling").get<std::string>(), r.at("ranks").get<int>(), r.at("particles").get<double>(),
-                    r.at("ms_a_step").get<double>(), m.at("ms_a_step").get<double>(), m.at("difference_percent").get<double>(),
-                    r.at("efficiency").get<double>(), efficiency, r.value("speed_at_once", 1.0),
-                    m.value("efficiency_of_cores", efficiency), m.value("undisturbed_efficiency", efficiency),
-                    r.at("rank_0").at("copies").get<double>(), m.at("rank_0").at("copies").get<double>());
+    const double efficiency = m.at("efficiency").get<double>(), measured = m.at("ms_a_step").get<double>(),
+                 off = m.at("difference_percent").get<double>(), at_once = r.value("speed_at_once", 1.0);
+    text += fmt::format(
+        "{:10} {:7} {:10.4g} | {:9.4g} {:10.3f} {:8.3f} | {:9.4g} {:+8.1f} {:10.3f} {:8.3f} {:12.3f} | {:9.4g} {:+8.1f} {:10.3f} "
+        "| "
+        "{:8} {:8}\n",
+        r.at("scaling").get<std::string>(), r.at("ranks").get<int>(), r.at("particles").get<double>(),
+        r.at("ms_a_step").get<double>(), r.at("efficiency").get<double>(), at_once, measured, off, efficiency,
+        m.value("speed_at_once", at_once), m.value("efficiency_of_cores", efficiency), m.value("undisturbed_ms_a_step", measured),
+        m.value("undisturbed_difference_percent", off), m.value("undisturbed_efficiency", efficiency),
+        r.at("rank_0").at("copies").get<double>(), m.at("rank_0").at("copies").get<double>());
   }
   if (text.empty()) return text;
-  return "\nmeasured beside the prediction (of each part of a step the best of the repeats). At once: speed of one rank where as "
-         "many runs of\n"
-         "one rank go at once, over one alone: what the cores themselves lose; eff. of that: what ranks have of what is left. "
-         "Undisturbed:\n"
-         "where no core is ever slow, of each part the work of the slowest rank, each at its best, and the shortest call\n" +
-         fmt::format("{:10} {:>7} {:>10} {:>10} {:>10} {:>9} {:>11} {:>10} {:>10} {:>13} {:>12} {:>8} {:>8}\n", "", "ranks",
-                     "particles", "pred. ms", "meas. ms", "off by %", "pred. eff.", "meas. eff.", "at once", "eff. of that",
-                     "undisturbed", "p.copies", "m.copies") +
+  return "\nmeasured beside the prediction, which is of cores that nothing slows. Undisturbed: of each part of a step the work "
+         "of the "
+         "slowest rank,\n"
+         "each at its best of the repeats, and the shortest call: as if no core were ever slow. Shortest parts: of each part the "
+         "shortest, in which\n"
+         "all cores were fast at once. At once: speed of one rank where as many runs of one rank go at once, over one alone; "
+         "eff. of "
+         "that: what\n"
+         "ranks have of what cores leave. Off by: the prediction over that time\n" +
+         fmt::format("{:29} | {:29} | {:51} | {:29} | copies\n", "", "prediction", "shortest parts", "undisturbed") +
+         fmt::format(
+             "{:10} {:>7} {:>10} | {:>9} {:>10} {:>8} | {:>9} {:>8} {:>10} {:>8} {:>12} | {:>9} {:>8} {:>10} | {:>8} {:>8}\n", "",
+             "ranks", "particles", "ms", "efficiency", "at once", "ms", "off by %", "efficiency", "at once", "eff. of that", "ms",
+             "off by %", "efficiency", "pred.", "meas.") +
          text;
 }
 

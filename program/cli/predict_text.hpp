@@ -19,6 +19,7 @@ struct PredictedLine {
   predict::Share first;  ///< of rank 0
   std::optional<Timed> measured;
   double measured_efficiency = 0.0;     ///< from the measured time on one rank
+  double measured_at_once = 1.0;        ///< speed of a core where all have work, from such times
   double undisturbed_efficiency = 0.0;  ///< from such times where no core is ever slow
 };
 
@@ -32,7 +33,8 @@ struct PredictionReport {
   predict::WorkCost cost;
   predict::Memory memory;
   predict::Traffic traffic;
-  /// By how many runs on one rank went at once, apart from each other: the speed of each, over that of one alone.
+  /// By how many runs on one rank went at once, apart from each other: the speed of each, over that of one alone, where no core
+  /// is ever slow for another reason.
   std::map<int, double> speed_at_once;
   std::vector<predict::OneRank> runs;
   std::vector<std::string> labels;  ///< of the runs

@@ -55,7 +55,7 @@ void prepare_larger(PredictRuns& engine, const TurnsWanted& wanted, RunsInTurns&
     if (ranks == 1 || interrupted()) continue;
     Prepared p = engine.prepare(fmt::format("weak-{}", ranks), wanted.larger.empty() ? finer(base.scene, ranks) : wanted.larger);
     p.cloud.reach = base.cloud.reach * p.scene.spacing / base.scene.spacing;
-    if (!wanted.measure.empty()) engine.choose_end(p, base.end);
+    if (!wanted.measure.empty()) engine.choose_end_as(p, base);
     runs.larger.emplace(ranks, std::move(p));
   }
 }

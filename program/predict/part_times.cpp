@@ -47,9 +47,20 @@ PartTimes read_part_times(const std::string& path) {
   return times;
 }
 
-void BestTimes::add(const std::vector<PartTimes>& ranks) {
+void BestTimes::add(const std::vector<PartTimes>& ranks) { keep(ranks, sums(ranks.front().work, ranks.front().call)); }
+
+void BestTimes::add_apart(const std::vector<PartTimes>& runs) {
+  std::vector<double> slowest(runs.front().work.size(), 0.0);
+  for (const PartTimes& run : runs) {
+    const std::vector<double> wall = sums(run.work, run.call);
+    for (std::size_t k = 0; k < std::min(slowest.size(), wall.size()); ++k) slowest[k] = std::max(slowest[k], wall[k]);
+  }
+  keep(runs, slowest);
+}
+
+void BestTimes::keep(const std::vector<PartTimes>& ranks, const std::vector<double>& wall) {
   steps_ = ranks.front().steps;
-  keep_least(wall_, sums(ranks.front().work, ranks.front().call));
+  keep_least(wall_, wall);
   keep_least(cpu_, ranks.front().cpu);
   work_.resize(ranks.size());
   for (std::size_t n = 0; n < ranks.size(); ++n) {

@@ -23,7 +23,9 @@ class BestTimes {
  public:
   /// One run, with all its ranks. @throws EngineError where it made other steps or calls than the one before
   void add(const std::vector<PartTimes>& ranks);
-  /// [s] a step of the first rank, waiting included: of each part the shortest of all runs.
+  /// One turn of runs that went at once, apart from each other. @throws EngineError as add()
+  void add_apart(const std::vector<PartTimes>& runs);
+  /// [s] a step of the first rank, waiting included, or of the slowest of runs apart: of each part the shortest of all repeats.
   [[nodiscard]] double wall() const;
   [[nodiscard]] double cpu() const;
   /// [s] a step where no core is ever slow: of each part the work of the slowest rank, each at its best, and the call at the
@@ -31,8 +33,10 @@ class BestTimes {
   [[nodiscard]] double undisturbed() const;
 
  private:
+  void keep(const std::vector<PartTimes>& ranks, const std::vector<double>& wall);
+
   long steps_ = 0;
-  std::vector<double> wall_, cpu_;         ///< of the first rank
+  std::vector<double> wall_, cpu_;         ///< of the first rank; wall of the slowest run, of runs apart
   std::vector<std::vector<double>> work_;  ///< of each rank
   std::vector<double> call_;
 };

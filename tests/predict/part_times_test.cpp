@@ -39,6 +39,16 @@ TEST(PartTimes, UndisturbedKeepsWhatIsNotEven) {
   EXPECT_DOUBLE_EQ(best.undisturbed(), 4 + 0.5 + 2 + 0.5);
 }
 
+/// Each turn has one slow core: the slowest of its runs counts, and undisturbed each run is at its best.
+TEST(PartTimes, OfRunsApartAreThoseOfTheSlowest) {
+  BestTimes best;
+  best.add_apart({step(2, 0, 4, 0), step(3, 0, 2, 0)});
+  EXPECT_EQ(best.wall(), 3 + 4);
+  best.add_apart({step(2.5, 0, 2, 0), step(2, 0, 3, 0)});
+  EXPECT_EQ(best.wall(), 2.5 + 3);
+  EXPECT_EQ(best.undisturbed(), 2 + 2);
+}
+
 TEST(PartTimes, OtherStepsAreRefused) {
   BestTimes best;
   best.add({step(1, 1, 1, 1)});

@@ -48,7 +48,7 @@ class Predict(unittest.TestCase):
         self.assertEqual(rows[1, 270]["speed_at_once"], 1.0)
         for ranks in (2, 1000) if document["measured_on"]["cores"] >= 2 else ():  # as many runs on one rank went at once as the cores can take
             self.assertTrue(0.0 < rows[ranks, 1e9]["speed_at_once"] <= 1.0, ranks)
-        self.assertAlmostEqual(two["measured"]["efficiency_of_cores"] * two["speed_at_once"], two["measured"]["efficiency"], delta=1e-9)
+        self.assertAlmostEqual(two["measured"]["efficiency_of_cores"] * two["measured"]["speed_at_once"], two["measured"]["efficiency"], delta=1e-9)
         self.assertAlmostEqual(rows[1, 270]["efficiency"], 1.0, delta=1e-9)
         self.assertAlmostEqual(rows[1, 1e9]["efficiency"], 1.0, delta=1e-9)
         self.assertLess(two["efficiency"], 1.0)
@@ -71,6 +71,7 @@ class Predict(unittest.TestCase):
         self.assertLessEqual(measured["ms_a_step"], min(measured["repeats_ms"]) + 1e-9)  # equal where one run is the faster one in each part
         self.assertLessEqual(measured["undisturbed_ms_a_step"], measured["ms_a_step"] + 1e-9)
         self.assertGreater(measured["undisturbed_efficiency"], 0)
+        self.assertAlmostEqual(100 * (row["ms_a_step"] / measured["undisturbed_ms_a_step"] - 1), measured["undisturbed_difference_percent"], delta=1e-6)
         self.assertLessEqual(measured["cpu_ms_of_rank_0"], 1e3 * sum(cpu) / len(cpu) + 1e-9)
 
     def test_repeats_end_when_best_times_no_longer_fall(self):
@@ -106,6 +107,7 @@ class Predict(unittest.TestCase):
                 self.assertEqual((weak["rank_0"]["own"], weak["rank_0"]["copies"]), (weak["measured"]["rank_0"]["own"], weak["measured"]["rank_0"]["copies"]))
                 job = json.loads((self.path / "larger" / "weak-2-2" / "job.json").read_text())
                 self.assertAlmostEqual(job["scene"]["time_step"], 0.002 * finer, delta=1e-12)
+                self.assertEqual(weak["measured"]["steps"], strong["measured"]["steps"])  # else the share of steps with a new list would differ
 
     def test_cuts_move_as_those_of_the_engine_do(self):
         """A dam fills a part of its tank: equal parts would give one rank nearly all, so that LAMMPS shifts its cut."""
