@@ -100,6 +100,14 @@ TEST(Shares, ByVolumeNothingIsLostHoweverManyRanks) {
     EXPECT_NEAR(total(share_volume(c, ranks, 1e7), &Share::own) / 1e7, 1.0, 1e-9) << ranks;
 }
 
+/// Of a hundred million particles a part is many layers thick, whatever the number of layers that were sampled.
+TEST(Shares, ByVolumeCutsAreNotHeldBetweenSampledLayers) {
+  for (const int layers : {10, 40, 100}) {
+    const Shares s = share_volume(lattice(layers, 6, 6, false), 32, 1e8);
+    for (const Share& r : s.ranks) EXPECT_NEAR(r.own / (1e8 / 32.0), 1.0, 0.04) << layers;
+  }
+}
+
 /// A reach of whole layers, so that both ways see the same copies.
 TEST(Shares, PairsByVolumeAreThoseThatAreCounted) {
   Cloud c = lattice(24, 24, 24, true);
