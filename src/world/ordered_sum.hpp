@@ -32,7 +32,8 @@ template <std::size_t n, class Add>
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const std::size_t end = std::min(count, (b + 1) * block);
     std::array<double, n> sum{};  // here and not in place, so that it can be kept in registers
-    for (std::size_t i = b * block; i < end; ++i) add(i, sum);
+    const Add add_row = add;      // likewise
+    for (std::size_t i = b * block; i < end; ++i) add_row(i, sum);
     blocks[b] = sum;
   }
   return detail::total_of(blocks);
@@ -51,14 +52,15 @@ template <std::size_t n, class Add>
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const std::size_t end = std::min(count, (b + 1) * block);
     std::array<double, n> own{}, of_copies{};
+    const Add add_row = add;
     for (std::size_t i = b * block; i < end;) {
       const bool owns = world.owns(i);
       std::size_t past = i + 1;
       while (past < end && world.owns(past) == owns) ++past;
       if (owns)
-        for (; i < past; ++i) add(i, own);
+        for (; i < past; ++i) add_row(i, own);
       else
-        for (; i < past; ++i) add(i, of_copies);
+        for (; i < past; ++i) add_row(i, of_copies);
     }
     blocks[b] = own;
   }
@@ -78,7 +80,8 @@ template <std::size_t n, class Add>
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (blocks.size() > 1)
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     std::array<double, n> sum{};
-    for (std::size_t i = first[b]; i < first[b + 1]; ++i) add(i, sum);
+    const Add add_row = add;
+    for (std::size_t i = first[b]; i < first[b + 1]; ++i) add_row(i, sum);
     blocks[b] = sum;
   }
   return detail::total_of(blocks);

@@ -13,6 +13,34 @@
 namespace tripoint::motion {
 namespace {
 
+enum Work : std::size_t { by_gravity = most_forces, works_on_driven, works = works_on_driven + most_forces };
+
+/// Moves the velocity of one particle on and adds up the works on it. All that it reads is its own, so that a loop over particles
+/// keeps it in registers.
+template <std::size_t n>
+struct Kick {
+  ForceColumns<n> forces;
+  Triple<double> v;
+  std::span<const double> m;
+  RigidMembers is_member;
+  std::span<const int> driven;  ///< empty: nobody guides a particle
+  Vec3 g;
+  double dt;
+
+  [[gnu::always_inline]] void operator()(std::size_t i, std::array<double, works>& work) const {
+    if (is_member(i)) return;
+    if (!driven.empty() && driven[i] != 0) {  // its driver takes the work
+      for (std::size_t k = 0; k < n; ++k) work[works_on_driven + k] += dt * dot(forces[k].at(i), v.at(i));
+      return;
+    }
+    const Vec3 before = v.at(i), after = before + (dt / m[i]) * total_force(forces, i) + dt * g;
+    const Vec3 way = (0.5 * dt) * (before + after);
+    for (std::size_t k = 0; k < n; ++k) work[k] += dot(forces[k].at(i), way);
+    work[by_gravity] += m[i] * dot(g, way);
+    v.set(i, after);
+  }
+};
+
 class FreeMotion : public Effect {
  public:
   void kick(World&, double dt) override;
@@ -21,7 +49,6 @@ class FreeMotion : public Effect {
   void add_to(const World&, Ledger&) const override;
 
  private:
-  enum Work : std::size_t { by_gravity = most_forces, works_on_driven, works = works_on_driven + most_forces };
   std::vector<std::array<double, works>> blocks_;  ///< memory that is used again
 };
 
@@ -29,26 +56,12 @@ class FreeMotion : public Effect {
 /// change of kinetic energy to round-off (model 8.11).
 void FreeMotion::kick(World& world, double dt) {
   Particles& p = world.particles;
-  const auto v = velocities(p);
-  const std::vector<Triple<const double>> forces = force_columns(world);
-  const auto m = p[field::mass];
-  const RigidMembers is_member(world);
-  const Vec3 g = world.scene.gravity;
-  const bool guided = p.has(field::driven.name);
-  const auto driven = guided ? std::as_const(p)[field::driven] : std::span<const int>{};
-  const auto sums = ordered_sums(world, blocks_, [&](std::size_t i, std::array<double, works>& work) {
-    if (is_member(i)) return;
-    if (guided && driven[i] != 0) {  // its driver takes the work
-      for (std::size_t k = 0; k < forces.size(); ++k) work[works_on_driven + k] += dt * dot(forces[k].at(i), v.at(i));
-      return;
-    }
-    const Vec3 before = v.at(i), after = before + (dt / m[i]) * total_force(forces, i) + dt * g;
-    const Vec3 way = (0.5 * dt) * (before + after);
-    for (std::size_t k = 0; k < forces.size(); ++k) work[k] += dot(forces[k].at(i), way);
-    work[by_gravity] += m[i] * dot(g, way);
-    v.set(i, after);
+  const auto driven = p.has(field::driven.name) ? std::as_const(p)[field::driven] : std::span<const int>{};
+  const auto sums = with_force_columns(world, [&]<std::size_t n>(const ForceColumns<n>& forces) {
+    const Kick<n> kick{forces, velocities(p), p[field::mass], RigidMembers(world), driven, world.scene.gravity, dt};
+    return ordered_sums(world, blocks_, kick);
   });
-  for (std::size_t k = 0; k < forces.size(); ++k) {
+  for (std::size_t k = 0; k < world.forces.size(); ++k) {
     world.booked[world.forces[k].work] += sums[k];
     world.booked[work_on_driven(world.forces[k])] += sums[works_on_driven + k];
   }
