@@ -46,7 +46,7 @@ constexpr const char* predict_description =
 /// Particles times ranks up to which shares are counted one by one; beyond, they are scaled by volume.
 constexpr double most_counted = 1e9;
 constexpr double slow_latency = 1e-4;  ///< [s] of a message between two processes of one machine: fifty times that of a quiet one
-constexpr int default_growth = 4;      ///< most repeats over the least
+constexpr int most_repeats_by_default = 40;  ///< where other work slows the cores, times settle late
 constexpr int most_ranks = 1000000, most_measured = 1024;
 
 struct PredictOptions {
@@ -54,7 +54,7 @@ struct PredictOptions {
   std::vector<int> ranks, measure;
   std::vector<double> particles;
   std::vector<std::string> set, larger;
-  int repeats = 3, most_repeats = 0;
+  int repeats = 3, most_repeats = most_repeats_by_default;
   double seconds = 1.5, patience = 60.0;
   bool weak = false, kit = false, quiet = false, json = false;
 };
@@ -155,7 +155,7 @@ TurnsWanted turns_wanted(const PredictOptions& o, int cores) {
   wanted.larger = o.larger;
   wanted.weak = o.weak;
   wanted.repeats = o.repeats;
-  wanted.most_repeats = o.most_repeats > 0 ? std::max(o.repeats, o.most_repeats) : default_growth * o.repeats;
+  wanted.most_repeats = std::max(o.repeats, o.most_repeats);
   wanted.patience = o.patience;
   wanted.cores = cores;
   wanted.quiet = o.quiet;
@@ -254,9 +254,9 @@ void add_predict(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command
       ->add_option("--most-repeats", o->most_repeats,
-                   "of each run at most: repeats end when three in a row lower no best time by over half a per cent (default: 4 "
-                   "times --repeats)")
-      ->check(CLI::Range(1, 1000));
+                   "of each run at most: repeats end when three in a row lower no best time by over half a per cent")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
   command->add_option("--patience", o->patience, "seconds to wait in all for cores that are slow before a run; 0: none")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
