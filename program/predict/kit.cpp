@@ -26,7 +26,7 @@ std::string kit_script(const std::string& what, const std::vector<std::string>& 
 #   sbatch THIS                          on a node of a Slurm cluster; set partition and account as your site asks
 #   bash THIS                            anywhere, with the mpiexec of the wheel
 #   tripoint predict --compare result.json    prints it, here or at home
-# It needs tripoint with the engine tripoint-mpi (TRIPOINT=path of the program, where it is not on PATH). RANKS="1 2 4", REPEATS=5, SECONDS_A_RUN=5, OUT=result.json change it.
+# It needs tripoint with the engine tripoint-mpi (TRIPOINT=path of the program, where it is not on PATH). RANKS="1 2 4", REPEATS=5, MOST_REPEATS=20 (where times still fall), PATIENCE=60 (seconds in all, for slow cores), SECONDS_A_RUN=5, OUT=result.json change it.
 # result.json holds the processor, its cores, MPI, times and counts; no name of a host, a user or a folder of yours. Runs are in a folder that is deleted at the end.
 # Several nodes: TRIPOINT_MPI_LAUNCHER=slurm hands the ranks to Slurm; nobody has tried that, and the folder of runs must then be shared (TMPDIR).
 #SBATCH --job-name=tripoint-predict
@@ -48,7 +48,7 @@ done
 [ -n "$chosen" ] || {{ echo "no number of ranks fits $cores cores" >&2; exit 2; }}
 runs=$(mktemp -d)
 trap 'rm -rf "$runs"' EXIT
-"$TRIPOINT" predict {what}{words} --ranks "$chosen" --measure "$chosen" --weak --repeats "${{REPEATS:-5}}" --seconds "${{SECONDS_A_RUN:-5}}" --out "$runs" --json > "$runs/result.json"
+"$TRIPOINT" predict {what}{words} --ranks "$chosen" --measure "$chosen" --weak --repeats "${{REPEATS:-5}}" --most-repeats "${{MOST_REPEATS:-20}}" --patience "${{PATIENCE:-60}}" --seconds "${{SECONDS_A_RUN:-5}}" --out "$runs" --json > "$runs/result.json"
 code=$?
 if [ "$code" -eq 0 ]; then mv "$runs/result.json" "$OUT" && "$TRIPOINT" predict --compare "$OUT"; fi
 exit "$code"

@@ -130,7 +130,7 @@ class Predict(unittest.TestCase):
         self.assertEqual(kit.returncode, 0, kit.stderr)
         self.assertIn("#SBATCH --ntasks-per-node=999", kit.stdout)
         (self.path / "kit.sh").write_text(kit.stdout)
-        environment = dict(os.environ, TRIPOINT=TRIPOINT, REPEATS="1", SECONDS_A_RUN="0.02", TMPDIR=str(self.path), NO_COLOR="1")
+        environment = dict(os.environ, TRIPOINT=TRIPOINT, REPEATS="1", MOST_REPEATS="1", PATIENCE="0", SECONDS_A_RUN="0.02", TMPDIR=str(self.path), NO_COLOR="1")
         done = subprocess.run(["bash", "kit.sh"], capture_output=True, text=True, timeout=100, cwd=self.path, env=environment, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("left out: 999 ranks", done.stderr)
