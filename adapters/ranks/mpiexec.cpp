@@ -60,8 +60,8 @@ int start_and_wait(const Wheel& wheel, int count, const std::string& job_path, c
   std::error_code ignored;
   const std::string self = fs::read_symlink("/proc/self/exe", ignored).string(), ranks = std::to_string(count),
                     log = log_of(output);
-  const char* chosen =
-      std::getenv("TRIPOINT_MPI_LAUNCHER");  // hydra's: fork for this machine; slurm or ssh for several, which nobody has tried
+  const char* chosen = std::getenv(
+      "TRIPOINT_MPI_LAUNCHER");  // hydra's: fork for this machine; slurm or ssh for several nodes, which nobody has tried
   const std::string launcher = chosen && *chosen ? chosen : "fork";
   keep_ends_of_children();
   const sigset_t before = hold_stops();

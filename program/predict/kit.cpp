@@ -28,7 +28,7 @@ std::string kit_script(const std::string& what, const std::vector<std::string>& 
 #   tripoint predict --compare result.json    prints it, here or at home
 # It needs tripoint with the engine tripoint-mpi (TRIPOINT=path of the program, where it is not on PATH). RANKS="1 2 4", REPEATS=5, MOST_REPEATS=20 (where times still fall), PATIENCE=60 (seconds in all, for slow cores), SECONDS_A_RUN=5, OUT=result.json change it.
 # result.json holds the processor, its cores, MPI, times and counts; no name of a host, a user or a folder of yours. Runs are in a folder that is deleted at the end.
-# Several nodes: TRIPOINT_MPI_LAUNCHER=slurm hands the ranks to Slurm; nobody has tried that, and the folder of runs must then be shared (TMPDIR).
+# Several nodes: TRIPOINT_MPI_LAUNCHER=slurm hands the ranks to Slurm (tried on one node alone); the folder of runs must then be shared (TMPDIR).
 #SBATCH --job-name=tripoint-predict
 #SBATCH --nodes=1
 #SBATCH --ntasks-per-node={most}

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A suite by Snakemake and by GNU parallel, two at a time, one worker killed in the middle: schedulers_test.py TRIPOINT SOURCE [JOBS [unittest arguments]].
+"""A suite by Snakemake, GNU parallel and Slurm, two at a time, one worker killed in the middle: schedulers_test.py TRIPOINT SOURCE [JOBS [unittest arguments]].
 
-The merged results are those of an undisturbed validation, times aside. Both schedulers are optional (tools/setup.sh schedulers)."""
+The merged results are those of an undisturbed validation, times aside. All are optional: tools/setup.sh schedulers, tools/one-node-slurm.sh start."""
 import json
 import os
 import shutil
@@ -18,6 +18,7 @@ CASES = int(sys.argv[3]) if len(sys.argv) > 3 else 20  # two jobs each
 FLIGHT = (SOURCE / "tests/harness/fake/flight.toml").read_text()
 SNAKEMAKE = next((str(p) for p in (SOURCE / ".venv-schedulers/bin/snakemake",) if p.exists()), shutil.which("snakemake"))
 PARALLEL = shutil.which("parallel")
+SLURM = shutil.which("sinfo") and subprocess.run(["sinfo"], capture_output=True, timeout=60, check=False).returncode == 0
 PAID = {"cpu_s", "wall_s", "setup_cpu_s", "peak_bytes", "instructions", "counted_by", "timed"}
 
 
@@ -110,13 +111,27 @@ class Schedulers(unittest.TestCase):
         self.assertNotEqual(process.returncode, 0, "a killed shard is an error of the workflow")
         left = self.status("by-snakemake")
         self.assertGreater(left["waiting"] + left["lost"], 0, text)
-        again = subprocess.run(command, capture_output=True, text=True, cwd=self.path, timeout=600)
+        again = subprocess.run(command, capture_output=True, text=True, cwd=self.path, timeout=600, check=False)
         self.assertEqual(again.returncode, 0, again.stdout + again.stderr)
         self.check("by-snakemake", killed, time.monotonic() - start, "the same line once more made the rest")
 
+    @unittest.skipUnless(SLURM, "no Slurm answers: tools/one-node-slurm.sh start")
+    def test_slurm(self):
+        script = self.suite("by-slurm", "slurm")
+        start = time.monotonic()
+        process = subprocess.Popen(["sbatch", "--wait", str(script)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=self.path)
+        self.addCleanup(process.kill)
+        killed = self.kill_one("by-slurm")
+        text = process.communicate(timeout=600)[0]
+        self.assertNotEqual(process.returncode, 0, "a killed task is a failed one")
+        again = subprocess.run(["sbatch", "--wait", str(script)], capture_output=True, text=True, cwd=self.path, timeout=600, check=False)
+        self.assertEqual(again.returncode, 0, text + again.stdout + again.stderr)
+        self.call("suite", "merge", "by-slurm")
+        self.check("by-slurm", killed, time.monotonic() - start, "the same line once more made the rest")
+
 
 if __name__ == "__main__":
-    if not SNAKEMAKE and not PARALLEL:
-        print("neither Snakemake nor GNU parallel is here: tools/setup.sh schedulers")
+    if not SNAKEMAKE and not PARALLEL and not SLURM:
+        print("neither Snakemake, GNU parallel nor Slurm is here: tools/setup.sh schedulers, tools/one-node-slurm.sh start")
         sys.exit(77)
     unittest.main(argv=[sys.argv[0], *sys.argv[4:]])
