@@ -300,6 +300,14 @@ std::vector<double> LammpsHalo::all_of(const std::vector<double>& own) {
   return all;
 }
 
+std::vector<std::vector<double>> LammpsHalo::exchange(const std::vector<std::vector<double>>& to) {
+  collectives_ += 2.0;
+  begin_call();
+  std::vector<std::vector<double>> from = ranks_->exchange(to);
+  end_part();
+  return from;
+}
+
 void LammpsHalo::take_least(double& number, std::string& word) {
   if (!ranks_) return;  // all still hold the whole scene, and know the same
   char text[32] = {};

@@ -20,9 +20,9 @@ class LammpsHalo : public Halo {
     std::function<Ranks&(int columns)> begin;                    ///< makes the fix, when the columns are known
     std::function<void(const std::vector<Vec3>& places)> renew;  ///< other atoms for those that there are, by number [m]
   };
-  /// @param reach of a neighbour list [m]: copies reach as far, or as the longest bond does
-  LammpsHalo(std::array<bool, 3> splits, double reach, std::size_t atoms, bool is_first, Host host)
-      : splits_(splits), reach_(reach), atoms_(atoms), is_first_(is_first), host_(std::move(host)) {}
+  /// @param reach of a neighbour list [m]: copies reach as far, or as the longest bond does   @param owners_above as of Halo
+  LammpsHalo(std::array<bool, 3> splits, double reach, std::size_t atoms, bool is_first, std::size_t owners_above, Host host)
+      : splits_(splits), reach_(reach), atoms_(atoms), is_first_(is_first), owners_above_(owners_above), host_(std::move(host)) {}
   void share_out(Particles&, Bonds&, OwnPairs&, const PeriodicBox&, std::span<const Vec3> places,
                  std::span<const double> cost) override;
   /// @throws EngineError where bonds or own pairs are not as the last call left them
@@ -44,6 +44,10 @@ class LammpsHalo : public Halo {
     }
   }
   [[nodiscard]] std::vector<double> all_of(const std::vector<double>& own) override;
+  [[nodiscard]] std::vector<std::vector<double>> exchange(const std::vector<std::vector<double>>& to) override;
+  [[nodiscard]] std::size_t processes() const override { return static_cast<std::size_t>(ranks_->size()); }
+  [[nodiscard]] std::size_t process() const override { return static_cast<std::size_t>(ranks_->rank()); }
+  [[nodiscard]] std::size_t owners_above() const override { return owners_above_; }
   void take_least(double& number, std::string& word) override;
   [[nodiscard]] bool is_first() const override { return is_first_; }
 
@@ -87,6 +91,7 @@ class LammpsHalo : public Halo {
   double reach_, reach_now_ = 0.0;
   std::size_t atoms_;  ///< of all ranks
   bool is_first_;
+  std::size_t owners_above_;
   Host host_;
   Ranks* ranks_ = nullptr;
   StepTimes* times_ = nullptr;

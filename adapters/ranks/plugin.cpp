@@ -82,6 +82,7 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
   void add(double* numbers, int count) override;
   void take_least(double& number, char* word, int length) override;
   [[nodiscard]] std::vector<double> all_of(const std::vector<double>& own) override;
+  [[nodiscard]] std::vector<std::vector<double>> exchange(const std::vector<std::vector<double>>& to) override;
   [[nodiscard]] std::vector<double> gather(const std::vector<double>& own) override;
   [[nodiscard]] double bytes_sent() const override { return bytes_sent_; }
 
@@ -281,33 +282,64 @@ void FixHalo::take_least(double& number, char* word, int length) {
   if (length > 0) MPI_Bcast(word, length, MPI_CHAR, least.rank, world);
 }
 
-std::vector<double> FixHalo::all_of(const std::vector<double>& own) {
-  const int count = static_cast<int>(own.size());
-  std::vector<int> counts(static_cast<std::size_t>(size())), starts(counts.size());
-  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
-  bigint total = 0;
-  for (std::size_t r = 0; r < counts.size(); ++r) {
-    starts[r] = static_cast<int>(total);
-    total += counts[r];
+/// Where the numbers of each rank stand, one rank after the other. @throws EngineError for more than MPI counts
+struct Places {
+  std::vector<int> counts, starts;
+  std::size_t total = 0;
+  explicit Places(std::vector<int> of) : counts(std::move(of)) {
+    for (const int count : counts) {
+      starts.push_back(static_cast<int>(total));
+      total += static_cast<std::size_t>(count);
+      expect_countable(total);
+    }
   }
-  if (total > std::numeric_limits<int>::max() || own.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-    throw EngineError("the whole scene is more than 2^31 numbers, which no rank can hold at once");
-  std::vector<double> all(static_cast<std::size_t>(total));
+  static void expect_countable(std::size_t numbers) {
+    if (numbers > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+      throw EngineError("ranks would tell one another 2^31 numbers, as of a whole scene, which no rank can hold at once");
+  }
+  static int count(const std::vector<double>& numbers) {
+    expect_countable(numbers.size());
+    return static_cast<int>(numbers.size());
+  }
+};
+
+std::vector<double> FixHalo::all_of(const std::vector<double>& own) {
+  const int count = Places::count(own);
+  std::vector<int> counts(static_cast<std::size_t>(size()));
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
+  const Places places(std::move(counts));
+  std::vector<double> all(places.total);
   bytes_sent_ += static_cast<double>(own.size()) * static_cast<double>(sizeof(double)) * (size() - 1);
-  MPI_Allgatherv(own.data(), count, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, world);
+  MPI_Allgatherv(own.data(), count, MPI_DOUBLE, all.data(), places.counts.data(), places.starts.data(), MPI_DOUBLE, world);
   return all;
 }
 
-std::vector<double> FixHalo::gather(const std::vector<double>& own) {
-  const int count = static_cast<int>(own.size());
-  std::vector<int> counts(static_cast<std::size_t>(size())), starts(counts.size());
-  MPI_Gather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, world);
-  std::vector<double> all;
-  if (comm->me == 0) {
-    for (std::size_t r = 1; r < counts.size(); ++r) starts[r] = starts[r - 1] + counts[r - 1];
-    all.resize(static_cast<std::size_t>(starts.back() + counts.back()));
+std::vector<std::vector<double>> FixHalo::exchange(const std::vector<std::vector<double>>& to) {
+  std::vector<int> sent, counts(to.size());
+  std::vector<double> out;
+  for (const std::vector<double>& one : to) {
+    sent.push_back(Places::count(one));
+    out.insert(out.end(), one.begin(), one.end());
   }
-  MPI_Gatherv(own.data(), count, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, 0, world);
+  MPI_Alltoall(sent.data(), 1, MPI_INT, counts.data(), 1, MPI_INT, world);
+  const Places here(std::move(sent)), there(std::move(counts));
+  bytes_sent_ += static_cast<double>(out.size() - to[static_cast<std::size_t>(rank())].size()) * sizeof(double);
+  std::vector<double> in(there.total);
+  MPI_Alltoallv(out.data(), here.counts.data(), here.starts.data(), MPI_DOUBLE, in.data(), there.counts.data(),
+                there.starts.data(), MPI_DOUBLE, world);
+  std::vector<std::vector<double>> from;
+  for (std::size_t r = 0; r < to.size(); ++r)
+    from.emplace_back(in.begin() + there.starts[r], in.begin() + there.starts[r] + there.counts[r]);
+  return from;
+}
+
+std::vector<double> FixHalo::gather(const std::vector<double>& own) {
+  const int count = Places::count(own);
+  std::vector<int> counts(static_cast<std::size_t>(size()), 0);
+  MPI_Gather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, world);
+  const Places places(std::move(counts));
+  std::vector<double> all(places.total);
+  MPI_Gatherv(own.data(), count, MPI_DOUBLE, all.data(), places.counts.data(), places.starts.data(), MPI_DOUBLE, 0, world);
   return all;
 }
 

@@ -60,7 +60,9 @@ class Ranks {
   virtual void take_least(double& number, char* word, int length) = 0;
   /// Numbers of all ranks, one rank after the other, on each of them. @throws EngineError for more than 2^31
   [[nodiscard]] virtual std::vector<double> all_of(const std::vector<double>& own) = 0;
-  /// The same on rank 0 alone, and nothing on others.
+  /// Numbers for each rank. @return those that each has for this one, by rank   @throws EngineError for more than 2^31
+  [[nodiscard]] virtual std::vector<std::vector<double>> exchange(const std::vector<std::vector<double>>& to) = 0;
+  /// Numbers of all ranks, one rank after the other, on rank 0 alone; nothing on others.
   [[nodiscard]] virtual std::vector<double> gather(const std::vector<double>& own) = 0;
   [[nodiscard]] virtual double bytes_sent() const = 0;  ///< by this rank for copies, so far
 

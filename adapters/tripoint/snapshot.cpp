@@ -53,6 +53,7 @@ BodyState body_state(const World& world, std::size_t b) {
 }  // namespace
 
 Snapshot snapshot_of(Simulation& simulation) {
+  simulation.complete_bodies();
   const World& world = simulation.world();
   const Particles& p = world.particles;
   Snapshot s;

@@ -62,6 +62,12 @@ class Halo {
   virtual void add(std::span<double> numbers) = 0;
   /// Numbers of all processes, one process after the other, for each of them.
   [[nodiscard]] virtual std::vector<double> all_of(const std::vector<double>& own) = 0;
+  /// Numbers for each process, of which there are processes(). @return those that each has for this one, by process
+  [[nodiscard]] virtual std::vector<std::vector<double>> exchange(const std::vector<std::vector<double>>& to) = 0;
+  [[nodiscard]] virtual std::size_t processes() const = 0;
+  [[nodiscard]] virtual std::size_t process() const = 0;  ///< this one, from 0
+  /// Up to so many bodies are kept by every process; of more each has an owner (decision 044).
+  [[nodiscard]] virtual std::size_t owners_above() const { return 1000; }
   /// A number becomes the least of all processes, and the word the one beside it.
   virtual void take_least(double& number, std::string& word) = 0;
   /// Whether this is the one process that reports values that all hold alike.

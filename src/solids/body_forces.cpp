@@ -32,29 +32,41 @@ std::vector<Felt> felt_forces(const World& world) {
   return list;
 }
 
-/// Calls visit(row, body, arm from its centre [m]) for each member of asked bodies that is this process's own, in order of id.
+/// Numbers of a record that told_members() makes.
+std::ptrdiff_t width_of(const std::vector<Felt>& felt) { return 2 + 6 * std::ssize(felt); }
+
+BodyForces no_forces(const World& world) {
+  BodyForces none;
+  none.count = world.forces.size();
+  return none;
+}
+
+/// Calls visit(row, body, arm from its centre [m]) for each member of asked bodies that is this process's own.
+/// @param ids of those that may be members, in this order; empty: of all particles
 template <class Visit>
-void each_member(const World& world, const std::vector<char>& asked, Visit visit) {
+void each_member(const World& world, const std::vector<char>& asked, std::span<const std::uint32_t> ids, Visit visit) {
   const Particles& p = world.particles;
   const auto body = p[field::body];
   const auto centre = world.bodies[field::body_centre];
   const auto x = positions(p);
   const bool wraps = world.box.any();
-  for (std::size_t id = 0; id < p.size(); ++id) {
+  const auto look_at = [&](std::size_t id) {
     const std::size_t i = p.row(id);
-    if (body[i] < 0 || !world.owns(i) || !asked[static_cast<std::size_t>(body[i])]) continue;
+    if (body[i] < 0 || !world.owns(i) || !asked[static_cast<std::size_t>(body[i])]) return;
     const auto b = static_cast<std::size_t>(body[i]);
     visit(i, b, (wraps ? world.unwrapped(i) : x.at(i)) - centre[b]);
-  }
+  };
+  for (const std::uint32_t id : ids) look_at(id);
+  for (std::size_t id = 0; ids.empty() && id < p.size(); ++id) look_at(id);
 }
 
-void sum_forces(const World& world, const std::vector<char>& asked, std::vector<BodyForces>& sums) {
+void sum_forces(const World& world, const std::vector<char>& asked, std::span<const std::uint32_t> ids,
+                std::vector<BodyForces>& sums) {
   const std::vector<Felt> felt = felt_forces(world);
-  sums.clear();
-  if (felt.empty()) return;
-  sums.assign(world.bodies.size(), {});
-  for (BodyForces& sum : sums) sum.count = world.forces.size();
-  each_member(world, asked, [&](std::size_t i, std::size_t b, const Vec3& arm) {
+  if (felt.empty()) return sums.clear();
+  sums.resize(world.bodies.size());  // those of bodies that are not kept here stay, and nobody reads them
+  each_kept_body(world, [&](std::size_t b) { sums[b] = no_forces(world); });
+  each_member(world, asked, ids, [&](std::size_t i, std::size_t b, const Vec3& arm) {
     for (const Felt& f : felt) {
       const Vec3 force = f.force.at(i);
       sums[b].forces[f.number] += force;
@@ -67,67 +79,101 @@ void put(std::vector<double>& to, const Vec3& force, const Vec3& torque) {
   to.insert(to.end(), {force.x, force.y, force.z, torque.x, torque.y, torque.z});
 }
 
-/// Data that a process sends to the others for each own member that feels a force: number, body, and each force with its torque.
-/// Above `most_told` members it sends only their sums by body.
+/// Records of the bodies that are wanted. @param width of a record, of which the second number is the body
+std::vector<double> records_of(const std::vector<double>& records, const std::vector<char>& wanted, std::ptrdiff_t width) {
+  std::vector<double> some;
+  for (auto record = records.begin(); record != records.end(); record += width)
+    if (wanted[static_cast<std::size_t>(record[1])]) some.insert(some.end(), record, record + width);
+  return some;
+}
+
+/// Data that a process sends to others for each own member that feels a force: number, body, and each force with its torque.
+/// It sends only their sums by body above `most_told` members. Where bodies have owners these are members of one body, and the
+/// sum is told of a body that no other process has members of, too: it has the order of one process.
 constexpr std::size_t most_told = 1024;
 constexpr double sum_of_process = std::numeric_limits<double>::max();  ///< in place of a number
 
+void put_sum(const std::vector<Felt>& felt, std::size_t b, const BodyForces& sum, std::vector<double>& told) {
+  const auto is_zero = [&](const Felt& f) { return sum.forces[f.number] == Vec3{} && sum.torques[f.number] == Vec3{}; };
+  if (std::ranges::all_of(felt, is_zero)) return;
+  told.insert(told.end(), {sum_of_process, static_cast<double>(b)});
+  for (const Felt& f : felt) put(told, sum.forces[f.number], sum.torques[f.number]);
+}
+
 std::vector<double> told_members(const World& world, const std::vector<char>& asked, const std::vector<BodyForces>& sums) {
   const Particles& p = world.particles;
+  const BodyOwners& owners = world.body_owners;
   const std::vector<Felt> felt = felt_forces(world);
   const std::span<const int> number = world.halo->numbers();
+  std::vector<char> one_by_one = asked;  // bodies whose members are told
+  std::vector<std::size_t> counts(owners.any() ? sums.size() : 1);
+  const auto count_of = [&](std::size_t b) -> std::size_t& { return counts[owners.any() ? b : 0]; };
+  for (const std::size_t b : owners.kept())
+    if (owners.is_alone(b)) one_by_one[b] = 0;
+
   std::vector<double> told;
-  std::size_t members = 0;
-  each_member(world, asked, [&](std::size_t i, std::size_t b, const Vec3& arm) {
-    if (std::ranges::all_of(felt, [&](const Felt& f) { return f.force.at(i) == Vec3{}; }) || ++members > most_told) return;
+  each_member(world, one_by_one, owners.members(), [&](std::size_t i, std::size_t b, const Vec3& arm) {
+    if (std::ranges::all_of(felt, [&](const Felt& f) { return f.force.at(i) == Vec3{}; }) || ++count_of(b) > most_told) return;
     told.insert(told.end(), {static_cast<double>(number[static_cast<std::size_t>(p[field::id][i])]), static_cast<double>(b)});
     for (const Felt& f : felt) put(told, f.force.at(i), cross(arm, f.force.at(i)));
   });
-  if (members <= most_told) return told;
-  told.clear();
-  for (std::size_t b = 0; b < sums.size(); ++b) {
-    if (!asked[b]) continue;
-    told.insert(told.end(), {sum_of_process, static_cast<double>(b)});
-    for (const Felt& f : felt) put(told, sums[b].forces[f.number], sums[b].torques[f.number]);
+  if (std::ranges::any_of(counts, [](std::size_t count) { return count > most_told; })) {
+    each_kept_body(world, [&](std::size_t b) { one_by_one[b] = one_by_one[b] && count_of(b) <= most_told; });
+    told = records_of(told, one_by_one, width_of(felt));
   }
+  each_kept_body(world, [&](std::size_t b) {
+    if (asked[b] && !one_by_one[b]) put_sum(felt, b, sums[b], told);
+  });
   return told;
+}
+
+/// What is told, where it is added up: by every process or, of each body, by its owner.
+std::vector<double> brought(const World& world, const std::vector<double>& told, std::size_t width) {
+  return world.body_owners.any() ? world.body_owners.to_owners(world, told, width) : world.halo->all_of(told);
+}
+
+void take_sum(const std::vector<Felt>& felt, BodyForces& sum, const double* from) {
+  for (const Felt& f : felt) {
+    sum.forces[f.number] += Vec3{from[0], from[1], from[2]};
+    sum.torques[f.number] += Vec3{from[3], from[4], from[5]};
+    from += 6;
+  }
 }
 
 /// The sums of all processes, in the order of one: members by their numbers, and what feels nothing adds nothing.
 void add_over_halo(const World& world, const std::vector<char>& asked, std::vector<BodyForces>& sums) {
   if (!world.halo || sums.empty()) return;
-  const std::vector<double> told = world.halo->all_of(told_members(world, asked, sums));
   const std::vector<Felt> felt = felt_forces(world);
-  for (BodyForces& sum : sums) {
-    sum.forces = {};
-    sum.torques = {};
-  }
-  for (const double* from : records_in_order(told, 2 + 6 * felt.size())) {
-    BodyForces& sum = sums[static_cast<std::size_t>(from[1])];
-    from += 2;
-    for (const Felt& f : felt) {
-      sum.forces[f.number] += Vec3{from[0], from[1], from[2]};
-      sum.torques[f.number] += Vec3{from[3], from[4], from[5]};
-      from += 6;
-    }
-  }
+  const auto width = static_cast<std::size_t>(width_of(felt));
+  const std::vector<double> told = brought(world, told_members(world, asked, sums), width);
+  each_kept_body(world, [&](std::size_t b) { sums[b] = no_forces(world); });
+  for (const double* from : records_in_order(told, width)) take_sum(felt, sums[static_cast<std::size_t>(from[1])], from + 2);
+  if (!world.body_owners.any()) return;
+  world.body_owners.to_keepers(
+      world, width - 2,
+      [&](std::size_t b, std::vector<double>& to) {
+        for (const Felt& f : felt) put(to, sums[b].forces[f.number], sums[b].torques[f.number]);
+      },
+      [&](std::size_t b, const double* from) {
+        sums[b] = no_forces(world);
+        take_sum(felt, sums[b], from);
+      });
 }
 
 }  // namespace
 
 std::vector<BodyForces> forces_on_bodies(const World& world) {
-  std::vector<BodyForces> sums;
-  if (world.bodies.size() > 0) sum_forces(world, std::vector<char>(world.bodies.size(), 1), sums);
+  std::vector<BodyForces> sums(world.bodies.size(), no_forces(world));
+  if (!sums.empty()) sum_forces(world, std::vector<char>(world.bodies.size(), 1), {}, sums);
   return sums;
 }
 
 void forces_on_moving_bodies(const World& world, std::vector<BodyForces>& sums) {
-  sums.clear();
-  if (world.bodies.size() == 0) return;
+  if (world.bodies.size() == 0) return sums.clear();
   std::vector<char> asked(world.bodies.size());
-  for (std::size_t b = 0; b < asked.size(); ++b) asked[b] = moves(world, b);
-  if (std::ranges::find(asked, 1) == asked.end()) return;
-  sum_forces(world, asked, sums);
+  each_kept_body(world, [&](std::size_t b) { asked[b] = moves(world, b); });
+  if (!world.body_owners.any() && std::ranges::find(asked, 1) == asked.end()) return sums.clear();
+  sum_forces(world, asked, world.body_owners.members(), sums);
   add_over_halo(world, asked, sums);
 }
 

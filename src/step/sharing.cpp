@@ -129,6 +129,8 @@ void Sharing::gather(World& world, const std::vector<Active>& effects) {
 }
 
 void Sharing::hold_whole(World& world) const {
+  world.body_owners.complete(world);
+  world.body_owners = {};
   const std::vector<Vec3> built = world.neighbours ? gather_built(world) : std::vector<Vec3>{};
   WholeScene whole = world.halo->gather(world.particles, world.bonds, world.own);
   world.particles = std::move(whole.particles);
@@ -201,6 +203,7 @@ void Sharing::follow(World& world, const std::vector<Active>& effects, const Pas
     else if (world.neighbours)
       world.neighbours->drop_lists({});
   }
+  world.body_owners.share(world);
   for (const Active& a : effects) a.effect->renumber(world);
   mark_copies(world);
   if (world.neighbours) return;

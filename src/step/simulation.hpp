@@ -59,6 +59,8 @@ class Simulation {
   /// Of all processes that share the scene, which all call it. Asking computes: pair passes over what no step reads (form_fixed),
   /// once a state, then sums over all particles and bonds. It changes no bit of the steps that follow.
   [[nodiscard]] Ledger ledger();
+  /// Brings bodies that only other processes keep up to date. All processes that share the scene call it.
+  void complete_bodies() { world_.body_owners.complete(world_); }
   [[nodiscard]] long steps() const noexcept { return steps_; }
   [[nodiscard]] double pairs() const noexcept { return pairs_; }  ///< directed pairs visited by rate passes
   [[nodiscard]] double time_step() const noexcept { return dt_; }

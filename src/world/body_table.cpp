@@ -61,6 +61,16 @@ std::vector<std::size_t> members(const World& world, std::size_t body) {
   return rows;
 }
 
+std::vector<std::vector<std::size_t>> members_of_all(const World& world) {
+  std::vector<std::vector<std::size_t>> rows(world.bodies.size());
+  const auto of = world.particles[field::body];
+  for (std::size_t id = 0; id < of.size(); ++id) {
+    const std::size_t i = world.particles.row(id);
+    if (of[i] >= 0) rows[static_cast<std::size_t>(of[i])].push_back(i);
+  }
+  return rows;
+}
+
 std::size_t add_body(World& world, std::string_view name, Phase phase) {
   Columns& t = world.bodies;
   t.append_row();

@@ -21,10 +21,22 @@ namespace tripoint {
 
 /// Rows of the members of one body, in order of id.
 [[nodiscard]] std::vector<std::size_t> members(const World&, std::size_t body);
+/// The same of every body.
+[[nodiscard]] std::vector<std::vector<std::size_t>> members_of_all(const World&);
 [[nodiscard]] inline bool is_alive(const World& world, std::size_t body) { return world.bodies[field::body_alive][body] != 0; }
 /// Whether its particles move as one: a rigid body, or any that is fixed or prescribed.
 [[nodiscard]] inline bool is_rigid(const World& world, std::size_t body) {
   return world.bodies[field::body_phase][body] == static_cast<int>(Phase::rigid);
+}
+
+/// Calls visit(body) for each one that this process keeps, alive or not, in order of rows.
+template <class Visit>
+void each_kept_body(const World& world, Visit visit) {
+  if (world.body_owners.any()) {
+    for (const std::size_t b : world.body_owners.kept()) visit(b);
+  } else {
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) visit(b);
+  }
 }
 
 /// A new row, alive, free, with identity orientation and no members yet. @return its row

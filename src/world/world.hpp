@@ -12,6 +12,7 @@
 #include "particles/particles.hpp"
 #include "scene/scene.hpp"
 #include "world/account.hpp"
+#include "world/body_owners.hpp"
 #include "world/force.hpp"
 #include "world/guarded.hpp"
 #include "world/ledger.hpp"
@@ -79,13 +80,16 @@ struct World {
   bool forms_fixed = false;  ///< these values are being formed now, because somebody asks for them
 
   Halo* halo = nullptr;      ///< those that hold the rest of the scene; null: this process holds all, if only for now
+  BodyOwners body_owners;    ///< none where this process holds all
   std::vector<char> copies;  ///< of each row, 1 where it is a copy of another's particle; empty where this process holds all
 
   [[nodiscard]] double support() const { return scene.support_ratio * scene.spacing; }
   /// Whether a row is this process's own: sums over particles are sums over these.
   [[nodiscard]] bool owns(std::size_t row) const { return copies.empty() || copies[row] == 0; }
-  /// Whether this process reports values that all hold alike, as the energies of bodies.
-  [[nodiscard]] bool tells_of_bodies() const { return !halo || halo->is_first(); }
+  /// Whether this process reports values that all hold alike.
+  [[nodiscard]] bool is_first() const { return !halo || halo->is_first(); }
+  /// Whether this process, among those that keep the body, reports its energies.
+  [[nodiscard]] bool tells_of(std::size_t body) const { return body_owners.any() ? body_owners.is_here(body) : is_first(); }
   /// Rows whose forces are formed now: moving ones, or fixed ones where forms_fixed says so.
   [[nodiscard]] Rows formed() const {
     return forms_fixed ? Rows{particles.moving(), particles.size()} : Rows{0, particles.moving()};

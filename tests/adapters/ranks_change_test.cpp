@@ -16,12 +16,12 @@ using namespace test::ranks;
 using test::Outcome, test::Prepared;
 
 /// @return the run over two ranks
-Outcome expect_changes_equal(const Prepared& p) {
+Outcome expect_changes_equal(const Prepared& p, double owners_above = few_bodies) {
   const Outcome one = test::run(one_process, p);
   Outcome two;
   for (const int count : {1, 2, 4}) {
     SCOPED_TRACE(std::to_string(count) + " ranks");
-    Outcome many = run_on(count, p);
+    Outcome many = run_on(count, p, owners_above);
     expect_equal(one, many, count == 1 ? alone : shared);
     EXPECT_EQ(many.result.extra.at("gatherings") > 0.0, count > 1) << "several decide of the whole, one holds it";
     if (count == 2) two = std::move(many);
@@ -45,11 +45,14 @@ TEST(Ranks, TearBarsAsOneProcessDoes) {
 
 TEST(Ranks, MeltFreezeMergeAndSplitAsOneProcessDoes) {
   NEEDS_RANKS();
-  const Outcome two = expect_changes_equal(test::merging_and_splitting(SolidKind::rigid));
-  expect_mass_and_momenta_kept(two);
-  EXPECT_EQ(two.trajectory.frames.front().counts.at("objects"), 3.0);
-  EXPECT_EQ(two.trajectory.frames.back().counts.at("objects"), 3.0) << "two became one, and one two";
-  EXPECT_GT(two.trajectory.frames.back().bodies.size(), 3u) << "a row of its own for what was cut off";
+  for (const double owners_above : {few_bodies, 0.0}) {
+    SCOPED_TRACE("owners above " + std::to_string(owners_above));
+    const Outcome two = expect_changes_equal(test::merging_and_splitting(SolidKind::rigid), owners_above);
+    expect_mass_and_momenta_kept(two);
+    EXPECT_EQ(two.trajectory.frames.front().counts.at("objects"), 3.0);
+    EXPECT_EQ(two.trajectory.frames.back().counts.at("objects"), 3.0) << "two became one, and one two";
+    EXPECT_GT(two.trajectory.frames.back().bodies.size(), 3u) << "a row of its own for what was cut off";
+  }
 }
 
 TEST(Ranks, SoftenAsOneProcessDoes) {

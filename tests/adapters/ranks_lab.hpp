@@ -31,8 +31,11 @@ inline std::string why_missing(const std::string& prefix = "") {
   }                                                                                                              \
   static_assert(true, "a semicolon follows")
 
-inline Outcome run_on(int count, Prepared p) {
+constexpr double few_bodies = 1000.0;  ///< of which every rank moves all; the engine's own number
+
+inline Outcome run_on(int count, Prepared p, double owners_above = few_bodies) {
   p.job.settings["ranks"] = static_cast<double>(count);
+  p.job.settings["owners_above"] = owners_above;
   return test::run(over_ranks, p);
 }
 
@@ -92,12 +95,12 @@ inline void expect_equal(const Outcome& one, const Outcome& many, double toleran
 inline constexpr double alone = 1e-12,
                         shared = 1e-10;  ///< rounding, in another order of sums; of several ranks after some hundred steps
 
-inline void expect_equal_on_ranks(const Prepared& p) {
+inline void expect_equal_on_ranks(const Prepared& p, double owners_above = few_bodies) {
   const Outcome one = test::run(one_process, p);
   ASSERT_EQ(one.exit_code, 0) << one.result.message;
   for (const int count : {1, 2, 4}) {
     SCOPED_TRACE(std::to_string(count) + " ranks");
-    const Outcome many = run_on(count, p);
+    const Outcome many = run_on(count, p, owners_above);
     expect_equal(one, many, count == 1 ? alone : shared);
     EXPECT_EQ(many.result.extra.at("ranks"), count);
     EXPECT_EQ(many.result.extra.at("bytes_a_step_from_rank_0") > 0.0, count > 1)

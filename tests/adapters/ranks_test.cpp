@@ -101,7 +101,37 @@ TEST(Ranks, CarryFreeAndDrivenBodiesAsOneProcessDoes) {
   Body lid = test::rigid("lid", test::box({0.02, 0.0, 0.06}, {0.06, 0.05, 0.08}), {{0.3, 0, 0}, {}}, Motion::prescribed);
   s.bodies.push_back(block);
   s.bodies.push_back(lid);
-  expect_equal_on_ranks(test::prepare(s, 0.02, 2));
+  for (const double owners_above : {few_bodies, 0.0}) {
+    SCOPED_TRACE("owners above " + std::to_string(owners_above));
+    expect_equal_on_ranks(test::prepare(s, 0.02, 2), owners_above);
+  }
+}
+
+/// More blocks than every rank moves, by the engine's own number; each falls onto the one below, at another speed.
+TEST(Ranks, MoveMoreThanAThousandBodiesAsOneProcessDoes) {
+  NEEDS_RANKS();
+  Scene s;
+  s.spacing = 0.01;
+  s.gravity = {0, 0, -9.81};
+  Material stone = test::material(2000.0);
+  stone.stiffness = 100.0;
+  s.materials = {stone};
+  constexpr int a_side = 11;
+  for (int n = 0; n < a_side * a_side * a_side; ++n) {
+    const double x = 0.04 * (n % a_side), y = 0.04 * (n / a_side % a_side), z = 0.025 * (n / a_side / a_side);
+    s.bodies.push_back(test::rigid("block " + std::to_string(n), test::box({x, y, z}, {x + 0.02, y + 0.02, z + 0.02}),
+                                   {{0.1 * (n % 7), 0, -0.2 * (n % 5)}, {1.0 * (n % 3), 0, 2.0}}));
+  }
+  const Prepared p = test::prepare(s, 0.02, 1);
+  const Outcome one = test::run(one_process, p);
+  ASSERT_EQ(one.exit_code, 0) << one.result.message;
+  for (const int count : {2, 4}) {
+    SCOPED_TRACE(std::to_string(count) + " ranks");
+    const Outcome many = run_on(count, p), all_move_all = run_on(count, p, 1e4);
+    expect_equal(one, many, shared);
+    ASSERT_EQ(all_move_all.exit_code, 0) << all_move_all.result.message;
+    EXPECT_GT(many.result.extra.at("collectives"), all_move_all.result.extra.at("collectives")) << "bodies have owners";
+  }
 }
 
 /// A bar that is thrown along x, turning and vibrating, with a rigid head; from an end to the other it crosses what borders of
@@ -318,8 +348,8 @@ TEST(Ranks, TellWhichParticleDiverged) {
 }
 
 /// Exit code and message of a run that is refused.
-void expect_refused(Prepared p, const std::string& word) {
-  const Outcome out = run_on(2, p);
+void expect_refused(const Prepared& p, const std::string& word, double owners_above = few_bodies) {
+  const Outcome out = run_on(2, p, owners_above);
   EXPECT_EQ(out.exit_code, 4) << word;
   EXPECT_EQ(out.result.status, Status::refused);
   EXPECT_NE(out.result.message.find(word), std::string::npos) << out.result.message;
@@ -335,6 +365,7 @@ TEST(Ranks, RefuseByNameWhatTheyDoNotShare) {
   Prepared setting = p;
   setting.job.settings["rank"] = 2.0;
   expect_refused(setting, "no setting is named rank");
+  expect_refused(p, "owners_above", -1.0);
 }
 
 TEST(Ranks, TakeAWholeNumberOfThem) {

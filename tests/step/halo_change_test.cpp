@@ -8,27 +8,8 @@
 namespace tripoint {
 namespace {
 
-using lab::far, lab::greatest_difference, lab::Seen, lab::seen_shared, lab::seen_whole;
+using lab::expect_same, lab::far, lab::Seen, lab::seen_shared, lab::seen_whole;
 using test::brittle_bar, test::eventful, test::merging_and_splitting;
-
-constexpr double rounding = 1e-10;  ///< of sums of the ledger, in another order; of 1 in the scenes' own units
-
-void expect_same(const Seen& whole, const Seen& shared) {
-  ASSERT_EQ(whole.position.size(), shared.position.size());
-  EXPECT_EQ(greatest_difference(whole.position, shared.position), 0.0) << "every sum that moves something has its order";
-  EXPECT_EQ(greatest_difference(whole.velocity, shared.velocity), 0.0);
-  EXPECT_EQ(whole.phase, shared.phase);
-  EXPECT_EQ(whole.body, shared.body);
-  EXPECT_EQ(whole.names, shared.names);
-  EXPECT_EQ(whole.alive, shared.alive);
-  EXPECT_EQ(whole.objects, shared.objects);
-  double size = 0.0;
-  for (const auto& [entry, joule] : whole.ledger.energy) size = std::max(size, std::abs(joule));
-  for (const auto& [entry, joule] : whole.ledger.energy)
-    EXPECT_NEAR(joule, shared.ledger.energy.at(entry), rounding * size) << entry;
-  EXPECT_NEAR(norm(whole.ledger.momentum - shared.ledger.momentum), 0.0, rounding);
-  EXPECT_NEAR(norm(whole.ledger.angular_momentum - shared.ledger.angular_momentum), 0.0, rounding);
-}
 
 /// Over one slab, two and four. @return of two
 Seen expect_same_shared(const test::Prepared& p, const Seen& whole, double border) {

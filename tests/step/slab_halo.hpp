@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <barrier>
 #include <cmath>
@@ -137,7 +139,25 @@ class SlabHalo : public Halo {
     for (const auto& of : meeting_.exchange(rank_, own)) all.insert(all.end(), of.begin(), of.end());
     return all;
   }
+  [[nodiscard]] std::vector<std::vector<double>> exchange(const std::vector<std::vector<double>>& to) override {
+    std::vector<double> sent;  // for each rank how many numbers, and these
+    for (const std::vector<double>& one : to) {
+      sent.push_back(static_cast<double>(one.size()));
+      sent.insert(sent.end(), one.begin(), one.end());
+    }
+    std::vector<std::vector<double>> here;
+    for (const std::vector<double>& from : meeting_.exchange(rank_, sent)) {
+      const double* next = from.data();
+      for (std::size_t before = 0; before < rank_; ++before) next += 1 + static_cast<std::size_t>(*next);
+      here.emplace_back(next + 1, next + 1 + static_cast<std::size_t>(*next));
+    }
+    return here;
+  }
+  [[nodiscard]] std::size_t processes() const override { return planes_.size() - 1; }
+  [[nodiscard]] std::size_t process() const override { return rank_; }
+  [[nodiscard]] std::size_t owners_above() const override { return bodies_of_all; }
   [[nodiscard]] bool is_first() const override { return rank_ == 0; }
+  std::size_t bodies_of_all = 1000;
   long migrations = 0, gatherings = 0;
 
  private:
@@ -199,8 +219,10 @@ class SlabHalo : public Halo {
 struct Seen {
   std::vector<Vec3> position, velocity;
   std::vector<int> body, phase;
-  std::vector<std::string> names;  ///< of bodies
-  std::vector<int> alive;          ///< likewise
+  std::vector<std::string> names;        ///< of bodies
+  std::vector<int> alive;                ///< likewise
+  std::vector<Vec3> centre, spin;        ///< likewise, as the first process has them [m], [rad/s]
+  std::vector<std::size_t> kept_bodies;  ///< how many each process keeps, where bodies have owners; in no order
   std::size_t objects = 0;
   Ledger ledger;
   Checkpoint kept;  ///< at half time, where one was asked for
@@ -225,6 +247,9 @@ inline void see_bodies(Seen& seen, const World& world) {
   if (world.bodies.size() == 0) return;
   const auto alive = world.bodies[field::body_alive];
   seen.alive.assign(alive.begin(), alive.end());
+  const auto centre = world.bodies[field::body_centre], spin = world.bodies[field::body_angular_velocity];
+  seen.centre.assign(centre.begin(), centre.end());
+  seen.spin.assign(spin.begin(), spin.end());
 }
 
 /// @param from a checkpoint to go on from; null: none
@@ -244,9 +269,9 @@ inline Seen seen_whole(const test::Prepared& p, const Checkpoint* from = nullptr
   return seen;
 }
 
-/// @param forgets,from as of SlabHalo and seen_whole()
+/// @param forgets,from,owners_above as of SlabHalo, seen_whole() and Halo
 inline Seen seen_shared(const test::Prepared& p, const std::vector<double>& planes, const std::string& forgets = "",
-                        const Checkpoint* from = nullptr) {
+                        const Checkpoint* from = nullptr, std::size_t owners_above = 1000) {
   const std::size_t count = planes.size() - 1;
   Meeting meeting(count);
   Seen seen;
@@ -255,6 +280,7 @@ inline Seen seen_shared(const test::Prepared& p, const std::vector<double>& plan
   for (std::size_t rank = 0; rank < count; ++rank) {
     threads.emplace_back([&, rank] {
       SlabHalo halo(meeting, rank, planes, 1.1 * (1.0 + 1e-9) * p.job.scene.support_ratio * p.job.scene.spacing, forgets);
+      halo.bodies_of_all = owners_above;
       SimulationOptions options;
       options.halo = &halo;
       Simulation part = from ? Simulation(p.job.scene, p.initial, options, *from) : Simulation(p.job.scene, p.initial, options);
@@ -262,8 +288,10 @@ inline Seen seen_shared(const test::Prepared& p, const std::vector<double>& plan
       const Checkpoint kept = part.checkpoint();
       part.advance_to(p.job.scene.end_time);
       const Ledger ledger = part.ledger();
+      part.complete_bodies();
       const std::size_t objects = count_objects(part.world());
       const std::lock_guard lock(alone);
+      if (part.world().body_owners.any()) seen.kept_bodies.push_back(part.world().body_owners.kept().size());
       if (rank == 0) {
         seen.ledger = ledger;
         seen.objects = objects;
@@ -284,6 +312,28 @@ inline double greatest_difference(const std::vector<Vec3>& a, const std::vector<
   double most = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, norm(a[i] - b[i]));
   return most;
+}
+
+inline constexpr double rounding = 1e-10;  ///< of sums of the ledger, in another order; of 1 in the scenes' own units
+
+inline void expect_same(const Seen& whole, const Seen& shared) {
+  ASSERT_EQ(whole.position.size(), shared.position.size());
+  ASSERT_EQ(whole.centre.size(), shared.centre.size());
+  EXPECT_EQ(greatest_difference(whole.position, shared.position), 0.0) << "every sum that moves something has its order";
+  EXPECT_EQ(greatest_difference(whole.velocity, shared.velocity), 0.0);
+  EXPECT_EQ(whole.phase, shared.phase);
+  EXPECT_EQ(whole.body, shared.body);
+  EXPECT_EQ(whole.names, shared.names);
+  EXPECT_EQ(whole.alive, shared.alive);
+  EXPECT_EQ(greatest_difference(whole.centre, shared.centre), 0.0) << "the first process knows all bodies";
+  EXPECT_EQ(greatest_difference(whole.spin, shared.spin), 0.0);
+  EXPECT_EQ(whole.objects, shared.objects);
+  double size = 0.0;
+  for (const auto& [entry, joule] : whole.ledger.energy) size = std::max(size, std::abs(joule));
+  for (const auto& [entry, joule] : whole.ledger.energy)
+    EXPECT_NEAR(joule, shared.ledger.energy.at(entry), rounding * size) << entry;
+  EXPECT_NEAR(norm(whole.ledger.momentum - shared.ledger.momentum), 0.0, rounding);
+  EXPECT_NEAR(norm(whole.ledger.angular_momentum - shared.ledger.angular_momentum), 0.0, rounding);
 }
 
 inline constexpr double far = 1e9;

@@ -125,7 +125,7 @@ void push(World& world, std::size_t b, const BodyForces& f, const Vec3& g, doubl
   update_spin(world, b);
   t[field::body_acceleration][b] = (1.0 / dt) * (v - v_before);
   t[field::body_angular_acceleration][b] = (1.0 / dt) * (t[field::body_angular_velocity][b] - omega_before);
-  if (!world.tells_of_bodies()) return;
+  if (!world.tells_of(b)) return;
   const Vec3 mean = 0.5 * (v_before + v), spin = 0.5 * (omega_before + t[field::body_angular_velocity][b]);
   for (std::size_t k = 0; k < world.forces.size(); ++k)
     if (world.forces[k].feels == Feels::all)
@@ -136,7 +136,7 @@ void push(World& world, std::size_t b, const BodyForces& f, const Vec3& g, doubl
 /// The work of forces on a driven body goes to its driver. Half a kick works along the drift beside it. At a keyframe the half
 /// kick before goes with the old velocity, and the one after with the new.
 void book_wall_work(World& world, std::size_t b, const std::vector<BodyForces>& forces, double dt) {
-  if (forces.empty() || !world.tells_of_bodies()) return;
+  if (forces.empty() || !world.tells_of(b)) return;
   const bool ends_step = world.time == world.next_time;
   const PrescribedState s = driven_state(world, b, ends_step ? world.time - dt : world.time + dt);
   const Vec3 omega = s.angular_velocity, v = s.velocity + cross(omega, rotate(s.rotation, world.bodies[field::body_offset][b]));
@@ -147,17 +147,18 @@ void book_wall_work(World& world, std::size_t b, const std::vector<BodyForces>& 
 }
 
 void RigidBodies::load(World& world, const InitialState& initial) {
+  const std::vector<std::vector<std::size_t>> rows = members_of_all(world);
   for (std::size_t b = 0; b < world.bodies.size(); ++b) {
     if (!is_rigid(world, b)) continue;
     Columns& t = world.bodies;
     const Body& body = world.scene.bodies[static_cast<std::size_t>(t[field::body_source][b])];
-    measure(world, b);
+    measure(world, b, rows[b]);
     t[field::body_offset][b] = {};
     t[field::body_start_centre][b] = t[field::body_centre][b];
     t[field::body_start_spin][b] = body.angular_velocity;
     if (body.motion == Motion::fixed) continue;
     Vec3 P, L;
-    for (const std::size_t i : members(world, b)) {
+    for (const std::size_t i : rows[b]) {
       const auto id = static_cast<std::size_t>(world.particles[field::id][i]);
       P += initial.mass[id] * initial.velocity[id];
       L += initial.mass[id] * cross(initial.position[id] - t[field::body_centre][b], initial.velocity[id]);
@@ -177,37 +178,37 @@ void RigidBodies::kick(World& world, double dt) {
   forces_on_moving_bodies(world, forces_);
   static const BodyForces none;
   bool any = false;
-  for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-    if (!is_alive(world, b) || !is_rigid(world, b) || motion_now(world, b) == Motion::fixed) continue;
+  each_kept_body(world, [&](std::size_t b) {
+    if (!is_alive(world, b) || !is_rigid(world, b) || motion_now(world, b) == Motion::fixed) return;
     any = true;
     motion_now(world, b) == Motion::free ? push(world, b, forces_.empty() ? none : forces_[b], g, dt)
                                          : book_wall_work(world, b, forces_, dt);
-  }
+  });
   if (any) give_velocities(world);
 }
 
 void RigidBodies::drift(World& world, double dt) {
   Columns& t = world.bodies;
-  bool any = false;
-  for (std::size_t b = 0; b < t.size(); ++b) {
-    if (!is_alive(world, b) || !is_rigid(world, b) || motion_now(world, b) == Motion::fixed) continue;
+  bool any = world.body_owners.any();  // this process does not know whether another has one that moves
+  each_kept_body(world, [&](std::size_t b) {
+    if (!is_alive(world, b) || !is_rigid(world, b) || motion_now(world, b) == Motion::fixed) return;
     if (motion_now(world, b) == Motion::free) {
-      if (at_rest(world, b)) continue;
+      if (at_rest(world, b)) return;
       t[field::body_centre][b] += dt * t[field::body_velocity][b];
       const double before = kinetic_energy(world, b);
       turn(world, b, dt, turns_as_printed_);
-      if (world.tells_of_bodies()) world.booked[account::rotation_drift] += kinetic_energy(world, b) - before;
+      if (world.tells_of(b)) world.booked[account::rotation_drift] += kinetic_energy(world, b) - before;
     } else {
       const double kinetic = kinetic_energy(world, b), potential = potential_energy(world, b);
       drive(world, b, world.next_time);
       const double raised = potential_energy(world, b) - potential;
-      if (world.tells_of_bodies()) {
+      if (world.tells_of(b)) {
         world.booked[account::driven_potential] += raised;
         world.booked[account::walls] -= kinetic_energy(world, b) - kinetic + raised;
       }
     }
     any = true;
-  }
+  });
   if (!any) return;
   place_members(world);
   world.moved = true;
@@ -302,19 +303,19 @@ void RigidBodies::happen(World& world, const Happening& now) {
 TimeStepBound RigidBodies::max_dt(const World& world) const {
   TimeStepBound bound;
   const double g = norm(world.scene.gravity);
-  for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-    if (!is_free(world, b)) continue;
+  each_kept_body(world, [&](std::size_t b) {
+    if (!is_free(world, b)) return;
     const double spin = norm(world.bodies[field::body_angular_velocity][b]);
     if (spin > 0.0) tighten(bound, most_turn / spin, "rotation");
     if (g > 0.0) tighten(bound, acceleration_step(world.support(), g), "acceleration");
-  }
+  });
   return bound;
 }
 
 void RigidBodies::add_to(const World& world, Ledger& ledger) const {
   for (std::size_t b = 0; b < world.bodies.size(); ++b) {
     if (!is_alive(world, b) || !is_rigid(world, b)) continue;
-    if (!world.tells_of_bodies()) {  // the same entries all the same
+    if (!world.tells_of(b)) {  // the same entries all the same
       for (const char* entry : {ledger_entry::kinetic, ledger_entry::potential}) ledger.energy.try_emplace(entry, 0.0);
       continue;
     }
@@ -324,7 +325,7 @@ void RigidBodies::add_to(const World& world, Ledger& ledger) const {
     ledger.energy[ledger_entry::kinetic] += kinetic_energy(world, b);
     ledger.energy[ledger_entry::potential] += potential_energy(world, b);
   }
-  if (world.tells_of_bodies()) ledger.angular_momentum += world.booked.undelivered_spin;
+  if (world.is_first()) ledger.angular_momentum += world.booked.undelivered_spin;
 }
 
 }  // namespace
