@@ -150,7 +150,7 @@ EngineInfo RanksEngine::info() const {
   info.available = info.reason.empty();
   info.capabilities = {"gravity", "prescribed", "periodic",  "heat",  "heat-held",          "paper", "corrected", "elastic",
                        "liquid",  "contact",    "viscosity", "walls", "transport-velocity", "merge", "split",     "release",
-                       "hold",    "phase",      "restart",   "ranks"};
+                       "hold",    "phase",      "restart",   "ranks", "surface-temperature"};
   info.presets = presets();
   info.settings = {
       {"ranks",
@@ -208,7 +208,6 @@ void RanksEngine::start(const Job& job, const InitialState& initial, const Check
     simulation_ = std::make_unique<Simulation>(scene, initial, options, *kept);
   else
     simulation_ = std::make_unique<Simulation>(scene, initial, options);
-  if (!halo_->ranks()) throw InputError("no particle of this scene meets another: there is nothing to share among ranks");
   write_words();
 }
 

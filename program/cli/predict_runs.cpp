@@ -13,6 +13,7 @@
 #include "assembly/scene_passes.hpp"
 #include "core/errors.hpp"
 #include "program/cli/common.hpp"
+#include "scene/effect_rule.hpp"
 #include "scene/sample.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/case/read_case.hpp"
@@ -86,6 +87,9 @@ Prepared PredictRuns::prepare(const std::string& label, const std::vector<std::s
   selection.engines = {predicted_engine};
   p.plan = plan_runs(p.value, engines_, selection).front();
   p.scene = scene_of(p.value, p.plan.runs.front());
+  if (!calls_for(p.scene, &EffectRule::has_pairs))
+    throw EngineError(p.value.id +
+                      ": no particle meets another, so that there is no cost of pairs to fit and nothing to predict");
   p.initial = sample(p.scene);
   p.cloud = cloud_of(p.scene, p.initial);
   constexpr double handed_over = 2 * sizeof(Vec3) + 2 * sizeof(double) + 4 * sizeof(int);  // InitialState

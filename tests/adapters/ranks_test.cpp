@@ -45,6 +45,13 @@ TEST(Ranks, ConductHeatAsPrinted) {
   expect_equal_on_ranks(hot_bar(Mode::paper));
 }
 
+/// Nothing meets anything: forces come from outside alone, and lists from nowhere.
+TEST(Ranks, MoveBodiesThatMeetNothingAsOneProcessDoes) {
+  NEEDS_RANKS();
+  Prepared p = test::block({{1.0, 0, 0}, {2.0, 3.0, 4.0}}, {0, 0, -9.81}, 0.1, 2, 0.01);
+  expect_equal_on_ranks(p);
+}
+
 /// A column of water that falls over in a tank of fixed walls, periodic along y. All is jittered: on a lattice the patches of
 /// copied walls are whole by chance.
 Prepared dam(double end, int frames) {
@@ -70,6 +77,33 @@ Prepared dam(double end, int frames) {
   tank.of = {test::box({-0.03, 0, -0.03}, {0.33, 0.05, 0.2}), test::box({0, 0, 0}, {0.3, 0.05, 0.3})};
   s.bodies = {column, test::rigid("tank", tank, {}, Motion::fixed)};
   return test::prepare(s, end, frames);
+}
+
+/// Warm water runs over a block whose surface is held, and cuts between ranks follow it.
+TEST(Ranks, HoldASurfaceAsOneProcessDoes) {
+  NEEDS_RANKS();
+  Scene s = dam(0.05, 2).job.scene;
+  Material iron = test::material(3000.0);
+  iron.name = "iron";
+  s.materials.push_back(iron);
+  for (Material& m : s.materials) {
+    m.conductivity = 50.0;
+    m.heat_capacity = 1000.0;
+  }
+  s.materials.back().values["surface_temperature"] = 400.0;
+  Body block = test::rigid("block", test::box({0.12, 0.0, 0.0}, {0.2, 0.05, 0.03}), {}, Motion::fixed);
+  block.material = "iron";
+  s.bodies.push_back(block);
+  TemperatureField even;
+  even.value = 300.0;
+  for (Body& b : s.bodies) b.temperature = even;
+  const Prepared p = test::prepare(s, 0.05, 2);
+  expect_equal_on_ranks(p);
+  const Outcome one = test::run(one_process, p), two = run_on(2, p);
+  const double given = one.trajectory.frames.back().heat_given.at("block");
+  EXPECT_GT(given, 1.0) << "through its surface [J]";
+  EXPECT_NEAR(two.trajectory.frames.back().heat_given.at("block"), given, shared * given);
+  EXPECT_GT(two.result.extra.at("cuts_moved"), 0.0);
 }
 
 TEST(Ranks, FlowBetweenWallsAsOneProcessDoes) {
@@ -358,7 +392,6 @@ void expect_refused(const Prepared& p, const std::string& word, double owners_ab
 TEST(Ranks, RefuseByNameWhatTheyDoNotShare) {
   NEEDS_RANKS();
   const Prepared p = dam(0.01, 1);
-  expect_refused(test::block({}, {}, 0.1, 1, 0.01), "no particle meets another");
   Prepared recovers = p;
   recovers.job.scene.recovers = true;
   expect_refused(recovers, "recovery, which goes back to a kept state");

@@ -7,6 +7,7 @@ namespace tripoint::field {
 
 inline constexpr Field<double> temperature_rate{"temperature_rate", "K/s"};
 inline constexpr Field<double> heat_rate{"heat_rate", "W"}, heat_rate_before{"heat_rate.before", "W"};
+inline constexpr Field<double> surface_flow_before{"surface_flow.before", "W"};
 inline constexpr Field<double> conductivity{"conductivity", "W/m/K"}, diffusivity{"diffusivity", "m2/s"};
 inline constexpr Field<double> rest_volume{"rest_volume", "m3"};
 /// sum_j G_ij, the conductance of i to its neighbours: bounds the time step.

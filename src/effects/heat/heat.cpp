@@ -67,6 +67,7 @@ EffectSpec spec(const Scene& scene) {
     return idle;
   }
   EffectSpec s = spec_of_form(scene);
+  if (has_held_surfaces(scene)) s.owns.emplace_back(field::surface_flow_before);
   s.guarded_entries = guarded_entries;
   s.guards = {{field::temperature, "temperature", Written::drift, "K, below absolute zero"}};
   s.positive = {field::heat_capacity};

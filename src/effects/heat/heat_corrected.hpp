@@ -19,6 +19,7 @@ class CorrectedHeat : public Effect {
   [[nodiscard]] TimeStepBound max_dt(const World&) const override;
   void add_to(const World&, Ledger&) const override;
   void adopt(World&) override;
+  void renumber(World& world) override { surfaces_.renumber(world); }
   [[nodiscard]] PairWork pair_work(const Scene&) const override;
 
  private:

@@ -177,6 +177,7 @@ void refuse_held_surfaces(const Scene& scene) {
 }
 
 void HeldSurfaces::load(World& world, const InitialState& initial) {
+  all_.clear();
   near_.clear();
   const Scene& scene = world.scene;
   if (!has_held_surfaces(scene)) return;
@@ -212,10 +213,22 @@ void HeldSurfaces::load(World& world, const InitialState& initial) {
         near.exchange[c] += own * volume * K * rr[c] / (r * r * b.within);
       }
     }
-    near_.push_back(near);
+    all_.push_back(near);
   }
-  std::ranges::sort(near_, {}, &Near::id);
-  flows_before_.assign(near_.size(), 0.0);
+  std::ranges::sort(all_, {}, &Near::id);
+  near_ = all_;
+}
+
+void HeldSurfaces::renumber(const World& world) {
+  if (all_.empty()) return;
+  near_.clear();
+  for (std::uint32_t id = 0; id < world.particles.size(); ++id) {
+    const std::uint32_t number = world.halo ? static_cast<std::uint32_t>(world.halo->numbers()[id]) : id;
+    const auto one = std::ranges::lower_bound(all_, number, {}, &Near::id);
+    if (one == all_.end() || one->id != number) continue;
+    near_.push_back(*one);
+    near_.back().id = id;
+  }
 }
 
 double HeldSurfaces::conductance(const Particles& p, std::size_t row, const Near& near) {
@@ -241,16 +254,18 @@ void HeldSurfaces::start_sums(World& world, PassName pass) const {
   }
 }
 
-void HeldSurfaces::book(World& world, Stage stage, double dt) {
-  const Particles& p = world.particles;
+void HeldSurfaces::book(World& world, Stage stage, double dt) const {
+  if (near_.empty()) return;
+  Particles& p = world.particles;
+  const auto before = p[field::surface_flow_before];
   const bool by_body = world.bodies.has(field::body_heat.name);
   double sum = 0.0;
-  for (std::size_t n = 0; n < near_.size(); ++n) {
-    const std::size_t i = p.row(near_[n].id);
-    if (p[field::held][i]) continue;
-    const double now = flow(p, i, near_[n]);
-    const double given = stage == Stage::first ? dt * now : 0.5 * dt * (now - flows_before_[n]);
-    if (stage == Stage::first) flows_before_[n] = now;
+  for (const Near& near : near_) {
+    const std::size_t i = p.row(near.id);
+    if (!world.owns(i) || p[field::held][i]) continue;
+    const double now = flow(p, i, near);
+    const double given = stage == Stage::first ? dt * now : 0.5 * dt * (now - before[i]);
+    if (stage == Stage::first) before[i] = now;
     sum += given;
     if (const int b = p[field::body][i]; by_body && b >= 0) world.bodies[field::body_heat][static_cast<std::size_t>(b)] += given;
   }

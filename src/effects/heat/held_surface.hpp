@@ -28,12 +28,14 @@ class HeldSurfaces {
  public:
   /// Finds the places beyond. Where scene.surface_exchange is 0 the outermost particles are held at the surface's temperature.
   void load(World&, const InitialState&);
+  /// Finds the particles that this process has by their new ids (Effect::renumber).
+  void renumber(const World&);
   /// Sums of a pass start with the share of the places beyond, not with 0. In the pass of densities this is M_i, in others the
   /// flow of heat [W] and the conductance [W/K].
   void start_sums(World&, PassName) const;
   /// Books the heat that a stage takes from held surfaces, on the account `walls` and by body. Call it before the stage.
   /// @param dt length of the step [s]
-  void book(World&, Stage, double dt);
+  void book(World&, Stage, double dt) const;
 
  private:
   /// A particle with places beyond a held surface in its support.
@@ -47,8 +49,8 @@ class HeldSurfaces {
   [[nodiscard]] static double conductance(const Particles&, std::size_t row, const Near&);
   [[nodiscard]] static double flow(const Particles&, std::size_t row, const Near&);
 
-  std::vector<Near> near_;            ///< by id, ascending
-  std::vector<double> flows_before_;  ///< of the first stage of the step that is being taken [W]
+  std::vector<Near> all_;   ///< of the whole scene, by number, ascending
+  std::vector<Near> near_;  ///< of these the ones that this process has, copies too, by id, ascending
 };
 
 }  // namespace tripoint::heat
