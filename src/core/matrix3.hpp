@@ -17,7 +17,7 @@ struct Symmetric {
   constexpr bool operator==(const Symmetric&) const noexcept = default;
 };
 
-constexpr Vec3 operator*(const Matrix3& a, const Vec3& b) noexcept {
+[[gnu::always_inline]] constexpr Vec3 operator*(const Matrix3& a, const Vec3& b) noexcept {
   return {a.xx * b.x + a.xy * b.y + a.xz * b.z, a.yx * b.x + a.yy * b.y + a.yz * b.z, a.zx * b.x + a.zy * b.y + a.zz * b.z};
 }
 constexpr Vec3 operator*(const Symmetric& a, const Vec3& b) noexcept {
