@@ -130,10 +130,23 @@ void write_all(const std::string& path, const Checkpoint& kept) {
   file.close(path);
 }
 
-/// Calls visit(name below the group) for every dataset, e.g. "particles/mass" of /real.
-void for_each_dataset(hid_t file, const std::string& group, const std::function<void(const std::string&)>& visit) {
-  for (const std::string& part : h5::members(file, "/" + group))
-    for (const std::string& name : h5::members(file, "/" + group + "/" + part)) visit(part + "/" + name);
+bool is_group(hid_t file, const std::string& path) {
+  const h5::Handle object(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose, path);
+  return H5Iget_type(object.get()) == H5I_GROUP;
+}
+
+constexpr int most_groups = 4;  ///< one within the other: the states that a run can go back to are four deep
+
+/// Calls visit(name below the group) for every dataset, e.g. "particles/mass" of /real. @param path of a group in it, ended by a
+/// stroke; empty: the whole   @param depth of that group
+void for_each_dataset(hid_t file, const std::string& group, const std::function<void(const std::string&)>& visit,
+                      const std::string& path = "", int depth = 1) {
+  for (const std::string& name : h5::members(file, "/" + group + "/" + path)) {
+    if (depth < most_groups && is_group(file, "/" + group + "/" + path + name))
+      for_each_dataset(file, group, visit, path + name + "/", depth + 1);
+    else
+      visit(path + name);
+  }
 }
 
 template <class T>

@@ -32,6 +32,7 @@ Checkpoint example_checkpoint(std::size_t rows = 200, double scale = 1.0) {
   for (std::size_t i = 0; i < rows; ++i) c.real["particles/position.x"].push_back(scale * std::sqrt(static_cast<double>(i)));
   c.real["step/time"] = {0.1, -0.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 5e-324};
   c.real["step/none"] = {};
+  c.real["good/older/particles/mass"] = {1.0, 2.0};  // a state within the state
   c.whole["particles/id"] = {0, -1, std::numeric_limits<std::int64_t>::max()};
   c.text["bodies/name"] = {"a", "", "größer / than"};
   return c;
