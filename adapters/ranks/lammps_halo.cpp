@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <numeric>
 #include <type_traits>
 
@@ -84,6 +85,13 @@ void LammpsHalo::share_out(Particles& particles, Bonds& bonds, OwnPairs& own, co
     balance(allowed_at_start);
   }
   hand_over(particles, bonds, own);
+}
+
+/// All atoms are then made anew, with their lists.
+void LammpsHalo::begin_anew() {
+  constexpr auto never = std::numeric_limits<std::uint64_t>::max();
+  atoms_ = 0;
+  known_changes_ = {never, never};
 }
 
 void LammpsHalo::migrate(Particles& particles, Bonds& bonds, OwnPairs& own, const PeriodicBox& box,

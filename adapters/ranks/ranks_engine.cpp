@@ -217,23 +217,15 @@ void RanksEngine::advance_to(double time) {
 
 bool RanksEngine::advance_to(double time, const std::function<bool(double, long)>& go_on) {
   constexpr double between_words = 0.2;  // [s]
-  try {
-    if (step_times_) step_times_->begin();
-    const bool reached = simulation_->advance_to(time, [&] {
-      if (step_times_) step_times_->end_step();
-      if (wall_seconds() - words_at_ > between_words) write_words();
-      is_due_ = checkpoints_->due(simulation_->world().time);
-      return go_on(simulation_->world().time, simulation_->steps());
-    });
-    write_words();
-    return reached;
-  } catch (const Diverged& e) {
-    const bool is_part = simulation_->world().halo;  // else ids are numbers
-    const long number = e.particle < 0 || !is_part ? e.particle : halo_->numbers()[static_cast<std::size_t>(e.particle)];
-    throw Diverged(number, e.body, e.field, e.stage, e.time,
-                   fmt::format("{} [particle {} of this rank is particle {} of the scene]", e.what(), e.particle, number),
-                   e.guard);
-  }
+  if (step_times_) step_times_->begin();
+  const bool reached = simulation_->advance_to(time, [&] {
+    if (step_times_) step_times_->end_step();
+    if (wall_seconds() - words_at_ > between_words) write_words();
+    is_due_ = checkpoints_->due(simulation_->world().time);
+    return go_on(simulation_->world().time, simulation_->steps());
+  });
+  write_words();
+  return reached;
 }
 
 void RanksEngine::save(Checkpoint& kept) const { kept = simulation_->checkpoint(); }
@@ -275,6 +267,7 @@ void RanksEngine::account(Result& result) const {
   if (std::isfinite(simulation_->bound().dt)) result.extra["time_step_bound"] = simulation_->bound().dt;
   result.extra["ranks"] = halo_->ranks()->size();
   result.pairs = simulation_->pairs();
+  tell_recoveries(simulation_->recovery(), result);
   result.extra["migrations"] = static_cast<double>(halo_->migrations());
   result.extra["cuts_moved"] = static_cast<double>(halo_->ranks()->cuts_moved());
   result.extra["gatherings"] = static_cast<double>(halo_->gatherings());

@@ -11,7 +11,6 @@ namespace {
 
 /// Part of the scene that cannot run over ranks; empty where all can.
 std::string refused_part(const Scene& scene) {
-  if (scene.recovers) return "recovery, which goes back to a kept state";
   for (const CalledEffect& needed : needed_effects(scene)) {
     const auto rule = std::ranges::find(effect_rules(), needed.name, &EffectRule::name);
     if (!rule->over_processes) return "the effect " + needed.name;

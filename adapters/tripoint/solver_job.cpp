@@ -53,4 +53,12 @@ Readback readback_of(const World& world, const TimeStepBound& bound) {
   return held;
 }
 
+void tell_recoveries(const Recovery& recovery, Result& result) {
+  if (recovery.count() == 0) return;
+  result.extra["recoveries"] = static_cast<double>(recovery.count());
+  if (result.message.empty())
+    result.message = "recovered " + std::to_string(recovery.count()) + (recovery.count() == 1 ? " time" : " times") +
+                     ", last when " + recovery.last();
+}
+
 }  // namespace tripoint

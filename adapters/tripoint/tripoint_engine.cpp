@@ -126,12 +126,7 @@ void TripointEngine::account(Result& result) const {
   result.time_step_bound = simulation_->time_step_set_by();
   result.extra["time_step"] = simulation_->time_step();
   if (std::isfinite(simulation_->bound().dt)) result.extra["time_step_bound"] = simulation_->bound().dt;
-  if (const Recovery& recovery = simulation_->recovery(); recovery.count() > 0) {
-    result.extra["recoveries"] = static_cast<double>(recovery.count());
-    if (result.message.empty())
-      result.message = "recovered " + std::to_string(recovery.count()) + (recovery.count() == 1 ? " time" : " times") +
-                       ", last when " + recovery.last();
-  }
+  tell_recoveries(simulation_->recovery(), result);
   if (const auto& lists = simulation_->world().neighbours)
     result.extra["neighbour_rebuilds"] = static_cast<double>(lists->rebuilds());
 }

@@ -38,6 +38,9 @@ class Halo {
   /// cost. Empty: the parts of space stay
   virtual void share_out(Particles&, Bonds&, OwnPairs&, const PeriodicBox&, std::span<const Vec3> places,
                          std::span<const double> cost) = 0;
+  /// The scene that is shared out next is another state: where its particles are, and what they hang on, has nothing to do with
+  /// the last.
+  virtual void begin_anew() {}
   /// The whole scene, for each process, as share_out() takes it again. Parts stay as they are.
   [[nodiscard]] virtual WholeScene gather(const Particles&, const Bonds&, const OwnPairs&) = 0;
   /// Particles go to the process that owns their part of space, and each process gets copies of particles within reach of its

@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "world/failure.hpp"
+
 namespace tripoint {
 namespace {
 
@@ -91,6 +93,38 @@ Whole whole_of(const World& world, std::span<const Vec3> places, std::size_t par
   return whole;
 }
 
+/// A failure as numbers, which go between processes: each word is its length and its letters.
+std::vector<double> as_numbers(const Diverged& e) {
+  std::vector<double> numbers{static_cast<double>(e.particle), static_cast<double>(e.body), e.time};
+  for (const std::string& word : {e.field, e.stage, e.guard, std::string(e.what())}) {
+    numbers.push_back(static_cast<double>(word.size()));
+    for (const char letter : word) numbers.push_back(letter);
+  }
+  return numbers;
+}
+
+/// @param from the first of its numbers; then the first behind them
+Diverged failure_at(const double*& from) {
+  const auto particle = static_cast<long>(from[0]), body = static_cast<long>(from[1]);
+  const double time = from[2];
+  from += 3;
+  std::array<std::string, 4> words;
+  for (std::string& word : words) {
+    word.resize(static_cast<std::size_t>(*from++));
+    for (char& letter : word) letter = static_cast<char>(*from++);
+  }
+  return {particle, body, words[0], words[1], time, words[3], words[2]};
+}
+
+/// LAMMPS has no place for a particle that is nowhere. @throws Diverged
+void refuse_lost(const World& world) {
+  constexpr double farthest = 1e100;  // [m], whose square is a number
+  const auto x = positions(world.particles);
+  for (std::size_t id = 0; id < world.halo->owned(); ++id)
+    if (const std::size_t row = world.particles.row(id); !(norm(x.at(row)) <= farthest))
+      fail(world, GuardName::finite, row, "position", "drift", "has no finite position");
+}
+
 std::vector<Vec3> places_now(const Particles& p) {
   const auto x = positions(p);
   std::vector<Vec3> places(p.size());
@@ -107,6 +141,21 @@ bool Sharing::any(bool here) const {
   std::string unused;
   halo_->take_least(least, unused);
   return least < 0.0;
+}
+
+std::optional<Diverged> Sharing::first_failure(const std::optional<Diverged>& here) const {
+  if (!any(here.has_value())) return {};
+  const std::vector<double> all = halo_->all_of(here ? as_numbers(*here) : std::vector<double>{});
+  std::optional<Diverged> first;
+  for (const double* from = all.data(); from != all.data() + all.size();)
+    if (const Diverged one = failure_at(from); !first || one.particle < first->particle) first.emplace(one);
+  return first;
+}
+
+void Sharing::begin_anew() {
+  booked_.reset();
+  count_ = 0;
+  if (halo_) halo_->begin_anew();
 }
 
 /// Where there are no neighbour lists, as if there were.
@@ -196,6 +245,7 @@ void Sharing::follow(World& world, const std::vector<Active>& effects, const Pas
   } else {
     ++steps_;
     if (!any(outdated(world))) return;
+    look_together(world, [&] { refuse_lost(world); });
     steps_a_list_ = 0.5 * (steps_a_list_ + static_cast<double>(std::exchange(steps_, 0)));
     world.halo->migrate(world.particles, world.bonds, world.own, world.box, by_id(world, passes.cost(world, steps_a_list_)));
     if (world.neighbours && is_part(world))

@@ -5,6 +5,7 @@
 
 #include "assembly/all_effects.hpp"
 #include "assembly/scene_passes.hpp"
+#include "core/errors.hpp"
 #include "particles/rank_grid.hpp"
 
 namespace tripoint {
@@ -18,6 +19,15 @@ class Sharing {
   Sharing(double skin, Halo* halo) : skin_(skin), halo_(halo) {}
   /// Whether this process holds a part of the scene and others the rest.
   [[nodiscard]] bool is_part(const World&) const;
+  /// The next whole is shared out as at the start.
+  void begin_anew();
+  /// Where the scene recovers, a failure that one process meets in `look` is thrown by all. Else, or where this process holds the
+  /// whole, it is thrown where it is met. All call it. @throws Diverged
+  template <class Look>
+  void look_together(const World&, Look look) const;
+  /// The failure of the lowest particle, of those that processes have met. @param here met by this process; none: nothing. All
+  /// call it. @pre the scene is shared out
+  [[nodiscard]] std::optional<Diverged> first_failure(const std::optional<Diverged>& here) const;
   /// Whether one of the processes says so. All call it. @pre the scene is shared out
   [[nodiscard]] bool any(bool here) const;
   /// Each process holds the whole scene, with the lists that a single process has. All then make the same changes and stay equal.
@@ -49,6 +59,19 @@ class Sharing {
   double steps_a_list_ = ParticleCost::guess_of_steps;  ///< how often they do, of late
   std::vector<Vec3> shared_at_;  ///< by row: where particles were when last shared out [m]; of scenes without neighbour lists
 };
+
+template <class Look>
+void Sharing::look_together(const World& world, Look look) const {
+  if (!world.halo || !world.scene.recovers) return look();
+  std::optional<Diverged> failure;
+  try {
+    look();
+  } catch (const Diverged& e) {
+    failure = e;
+  }
+  failure = first_failure(failure);
+  if (failure) throw Diverged(*failure);
+}
 
 /// Tells of each row whether it is a copy of another process's particle.
 void mark_copies(World&);

@@ -81,6 +81,7 @@ class Simulation {
   void find_neighbours();
   void correct();
   void check();
+  void check_particles();
   template <class Visit>
   void each_effect(Stage, Visit);
   void kick(double dt);

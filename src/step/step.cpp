@@ -157,15 +157,20 @@ void Simulation::correct() {
 
 /// Guards, none of which changes anything; energy is summed over all particles and bonds, so only now and then.
 void Simulation::check() {
-  constexpr long steps_between_ledgers = 128, steps_between_looks = 32;
+  constexpr long steps_between_ledgers = 128;
   const StageTimer timer(options_.stage_seconds, Stage::check);
-  check_finite(world_);
-  if (enclosure_.given || steps_ % steps_between_looks == 0) check_escape(world_, enclosure_);
-  for_each_effect(world_, effects_, [&](const Effect& effect) { effect.check(world_); });
+  sharing_.look_together(world_, [this] { check_particles(); });
   if (steps_ % steps_between_ledgers != 0) return;
   double start_potential = world_.booked[account::start_potential];
   if (world_.halo) world_.halo->add({&start_potential, 1});
   check_energy(world_, ledger(), start_potential, dt_, guards_);
+}
+
+void Simulation::check_particles() {
+  constexpr long steps_between_looks = 32;
+  check_finite(world_);
+  if (enclosure_.given || steps_ % steps_between_looks == 0) check_escape(world_, enclosure_);
+  for_each_effect(world_, effects_, [&](const Effect& effect) { effect.check(world_); });
 }
 
 /// The paper's leapfrog starts a run so.
@@ -184,7 +189,7 @@ void Simulation::happen_until_now() {
   world_.moved = true;
   passes_.drop_clusters();
   form_rates();
-  check_finite(world_);
+  sharing_.look_together(world_, [this] { check_finite(world_); });
 }
 
 }  // namespace tripoint

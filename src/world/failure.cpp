@@ -10,7 +10,8 @@ namespace tripoint {
 Diverged failure_of(const World& world, GuardName guard, std::size_t row, std::string_view field, std::string_view stage,
                     const std::string& what) {
   const Particles& p = world.particles;
-  const int body = p[field::body][row], id = p[field::id][row];
+  const int body = p[field::body][row], here = p[field::id][row];
+  const int id = world.halo ? world.halo->numbers()[static_cast<std::size_t>(here)] : here;
   const std::string whose =
       body < 0 ? " (liquid)" : fmt::format(" of body \"{}\"", world.body_names[static_cast<std::size_t>(body)]);
   return {id,

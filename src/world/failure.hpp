@@ -11,7 +11,7 @@
 /// How guards name what went wrong.
 namespace tripoint {
 
-/// "particle 7 of body "beam" is ...": who it is, and at which time.
+/// "particle 7 of body "beam" is ...": who it is in the whole scene, and at which time.
 [[nodiscard]] Diverged failure_of(const World&, GuardName guard, std::size_t row, std::string_view field, std::string_view stage,
                                   const std::string& what);
 

@@ -39,6 +39,33 @@ inline Prepared brittle_bar(bool flows, Mode mode) {
   return p;
 }
 
+/// A bar that flies along x, and rings at one end at a step beyond its bound, which is forced: guards send it back, early and
+/// past the middle.
+inline Prepared ringing_bar() {
+  Scene s;
+  s.spacing = 1.0;
+  s.time_step = 0.04;
+  s.recovers = true;
+  s.min = Vec3{-10.0, -10.0, -10.0};
+  s.max = Vec3{60.0, 14.0, 14.0};
+  Material rubber = material(1.0);
+  rubber.solid = SolidKind::elastic;
+  rubber.young_modulus = 1000.0;
+  rubber.poisson_ratio = 0.3;
+  s.materials = {rubber};
+  Body bar = rigid("bar", box({0.0, 0.0, 0.0}, {12.0, 4.0, 4.0}));
+  bar.phase = Phase::elastic;
+  s.bodies = {bar};
+  Prepared p = prepare(s, 8.0, 2);
+  for (std::size_t i = 0; i < p.initial.size(); ++i) {
+    const Vec3 r = p.initial.position[i] - Vec3{9.0, 2.0, 2.0};
+    const double rings = r.x > 0.0 ? 1.0 : 0.0;
+    p.initial.velocity[i] = {5.0 + rings * (0.4 * r.x + 0.1 * r.y), rings * (0.1 * r.z - 0.3 * r.y), -0.1 * rings * r.z};
+  }
+  p.job.settings["force_time_step"] = true;
+  return p;
+}
+
 inline Material wax(double latent_heat) {
   Material m = material(1000.0);
   m.solid = SolidKind::rigid;

@@ -80,6 +80,14 @@ TEST(Ranks, TellOfALayerThatHasJustFlowedIn) {
   expect_equal(test::run(one_process, p), run_on(1, p), alone);
 }
 
+/// A guard trips on one rank, and all go back to the same state.
+TEST(Ranks, GoBackTogetherWhereAGuardTrips) {
+  NEEDS_RANKS();
+  const Outcome two = expect_changes_equal(test::ringing_bar());
+  EXPECT_GE(two.result.extra.at("recoveries"), 2.0);
+  EXPECT_NE(two.result.message.find("recovered"), std::string::npos) << two.result.message;
+}
+
 /// Goes on from the only checkpoint of another run, on that many ranks; 0: in one process of the engine tripoint.
 Outcome go_on(const test::Folder& from, Prepared p, int count) {
   namespace fs = std::filesystem;
@@ -103,7 +111,8 @@ Outcome go_on(const test::Folder& from, Prepared p, int count) {
 
 TEST(Ranks, GoOnFromACheckpointOnAnyNumberOfThem) {
   NEEDS_RANKS();
-  for (Prepared p : {test::brittle_bar(true, Mode::corrected), test::merging_and_splitting(SolidKind::rigid)}) {
+  for (Prepared p :
+       {test::brittle_bar(true, Mode::corrected), test::merging_and_splitting(SolidKind::rigid), test::ringing_bar()}) {
     const Outcome unbroken = run_on(2, p);
     ASSERT_EQ(unbroken.exit_code, 0) << unbroken.result.message;
     p.job.settings["checkpoint_interval"] = 0.55 * p.job.scene.end_time;

@@ -379,6 +379,25 @@ TEST(Ranks, TellWhichParticleDiverged) {
   EXPECT_EQ(two.result.divergence->guard, one.result.divergence->guard);
   EXPECT_EQ(two.result.divergence->particle, one.result.divergence->particle);
   EXPECT_NEAR(two.result.divergence->time, one.result.divergence->time, 1e-12);
+  EXPECT_EQ(two.result.message.substr(0, two.result.message.find(';')),
+            one.result.message.substr(0, one.result.message.find(';')));
+}
+
+/// A particle that a step carries beyond all bounds is not handed to LAMMPS, which has no place for it.
+TEST(Ranks, TellWhichParticleIsLost) {
+  NEEDS_RANKS();
+  Prepared p = dam(0.1, 1);
+  const auto wet = static_cast<std::size_t>(std::ranges::find(p.initial.body, -1) - p.initial.body.begin());
+  p.initial.velocity[wet + 40] = {0, 0, 1e120};
+  p.job.scene.materials[0].viscosity = 0.0;  // it would hand the velocity on
+  p.job.scene.time_step = 1e-4;
+  p.job.settings["force_time_step"] = true;
+  const Outcome one = test::run(one_process, p), two = run_on(2, p);
+  ASSERT_EQ(one.exit_code, 7) << one.result.message;
+  EXPECT_EQ(two.exit_code, 7) << two.result.message;
+  ASSERT_TRUE(two.result.divergence.has_value());
+  EXPECT_EQ(two.result.divergence->field, one.result.divergence->field);
+  EXPECT_EQ(two.result.divergence->particle, one.result.divergence->particle);
 }
 
 /// Exit code and message of a run that is refused.
@@ -392,9 +411,6 @@ void expect_refused(const Prepared& p, const std::string& word, double owners_ab
 TEST(Ranks, RefuseByNameWhatTheyDoNotShare) {
   NEEDS_RANKS();
   const Prepared p = dam(0.01, 1);
-  Prepared recovers = p;
-  recovers.job.scene.recovers = true;
-  expect_refused(recovers, "recovery, which goes back to a kept state");
   Prepared setting = p;
   setting.job.settings["rank"] = 2.0;
   expect_refused(setting, "no setting is named rank");
