@@ -87,6 +87,15 @@ void LammpsHalo::share_out(Particles& particles, Bonds& bonds, OwnPairs& own, co
   hand_over(particles, bonds, own);
 }
 
+void LammpsHalo::share_lists(Bonds& bonds, OwnPairs& own) {
+  const std::size_t lists = most_list_numbers(bonds, own);
+  has_lists_ = lists > 0;
+  ranks_->make_room(lists);
+  for (std::size_t id = 0; id < numbers_.size() && has_lists_; ++id)
+    ranks_->lists(atoms_here_[id]) = lists_as_numbers(bonds, own, static_cast<std::size_t>(numbers_[id]));
+  unpack_lists(bonds, own);
+}
+
 /// All atoms are then made anew, with their lists.
 void LammpsHalo::begin_anew() {
   constexpr auto never = std::numeric_limits<std::uint64_t>::max();
@@ -159,36 +168,45 @@ void LammpsHalo::expect_known(const Bonds& bonds, const OwnPairs& own) const {
     throw EngineError("bonds or own pairs of a scene that is shared out have changed");
 }
 
+/// Each rank sends how many particles it has, their numbers, then column by column, then the lengths of lists, and the lists.
 WholeScene LammpsHalo::gather(const Particles& particles, const Bonds& bonds, const OwnPairs& own) {
   expect_known(bonds, own);
   ++gatherings_;
-  std::vector<double> numbers;
-  for (std::size_t id = 0; id < owned(); ++id) {
-    numbers.push_back(numbers_[id]);
-    const std::size_t row = particles.row(id);
-    each_column(particles, [&](auto values, int) { numbers.push_back(static_cast<double>(values[row])); });
-    const std::vector<double>& lists = ranks_->lists(id);
-    numbers.push_back(static_cast<double>(lists.size()));
-    numbers.insert(numbers.end(), lists.begin(), lists.end());
-  }
+  const std::size_t count = owned();
+  std::size_t in_lists = 0;
+  for (std::size_t id = 0; id < count; ++id) in_lists += ranks_->lists(id).size();
+  std::vector<double> numbers{static_cast<double>(count)};
+  numbers.reserve(1 + count * (2 + static_cast<std::size_t>(count_columns(particles))) + in_lists);
+  numbers.insert(numbers.end(), numbers_.begin(), numbers_.begin() + static_cast<std::ptrdiff_t>(count));
+  each_column(particles, [&](auto values, int) {
+    for (std::size_t id = 0; id < count; ++id) numbers.push_back(static_cast<double>(values[particles.row(id)]));
+  });
+  for (std::size_t id = 0; id < count; ++id) numbers.push_back(static_cast<double>(ranks_->lists(id).size()));
+  for (std::size_t id = 0; id < count; ++id) numbers.insert(numbers.end(), ranks_->lists(id).begin(), ranks_->lists(id).end());
   const std::vector<double> all = all_of(numbers);
+
   WholeScene whole{Particles(atoms_, particles.fields()), {}, {}};
-  Share share{atoms_, {}, {}};
   std::vector<std::span<const double>> lists(atoms_);
   for (const double* from = all.data(); from != all.data() + all.size();) {
-    const auto number = static_cast<std::size_t>(*from++);
+    const auto there = static_cast<std::size_t>(*from++);
+    const std::vector<std::size_t> number(from, from + there);
+    from += there;
     each_column(whole.particles, [&](auto values, int) {
       using T = typename decltype(values)::value_type;
-      values[number] = static_cast<T>(*from++);
+      for (const std::size_t n : number) values[n] = static_cast<T>(*from++);
     });
-    whole.particles[field::id][number] = static_cast<int>(number);
-    const auto count = static_cast<std::size_t>(*from++);
-    lists[number] = {from, count};
-    from += count;
+    const double* list = from + there;
+    for (const std::size_t n : number) {
+      lists[n] = {list, static_cast<std::size_t>(*from++)};
+      list += lists[n].size();
+    }
+    from = list;
   }
-  share.lists = [&](std::size_t id) { return lists[id]; };
-  for (std::size_t n = 0; n < atoms_; ++n) share.number.push_back(static_cast<int>(n));
-  if (has_lists_) take_lists(share, whole.bonds, whole.own);
+  const auto ids = whole.particles[field::id];
+  std::iota(ids.begin(), ids.end(), 0);
+  if (!has_lists_) return whole;
+  Share share{atoms_, std::vector<int>(ids.begin(), ids.end()), [&](std::size_t id) { return lists[id]; }};
+  take_lists(share, whole.bonds, whole.own);
   return whole;
 }
 

@@ -25,6 +25,7 @@ class LammpsHalo : public Halo {
       : splits_(splits), reach_(reach), atoms_(atoms), is_first_(is_first), owners_above_(owners_above), host_(std::move(host)) {}
   void share_out(Particles&, Bonds&, OwnPairs&, const PeriodicBox&, std::span<const Vec3> places,
                  std::span<const double> cost) override;
+  void share_lists(Bonds&, OwnPairs&) override;
   void begin_anew() override;
   /// @throws EngineError where bonds or own pairs are not as the last call left them
   [[nodiscard]] WholeScene gather(const Particles&, const Bonds&, const OwnPairs&) override;

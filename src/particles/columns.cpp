@@ -75,6 +75,18 @@ void Columns::rearrange(std::span<const std::uint32_t> from, std::span<const std
   }
 }
 
+void Columns::copy(const Columns& from, std::span<const std::uint32_t> rows) {
+  assert(rows.size() == rows_ && from.columns_.size() == columns_.size());
+  for (std::size_t n = 0; n < columns_.size(); ++n) {
+    std::visit(
+        [&]<class T>(AlignedVector<T>& values) {
+          const auto& others = std::get<AlignedVector<T>>(from.columns_[n].values);
+          for (std::size_t k = 0; k < rows.size(); ++k) values[k] = others[rows[k]];
+        },
+        columns_[n].values);
+  }
+}
+
 /// Rows that stay in their places are not touched: of a share of many ranks these are nearly all.
 void Columns::gather(std::span<const std::uint32_t> from) {
   std::vector<std::uint32_t> of, to;  // of the rows that do not stay in their places

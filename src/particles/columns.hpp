@@ -72,6 +72,8 @@ class Columns {
       std::visit([&](const auto& values) { visit(c.info, std::span(values.data(), rows_)); }, c.values);
   }
 
+  /// Row n takes the values of row rows[n] of columns of the same fields, in every column.
+  void copy(const Columns& from, std::span<const std::uint32_t> rows);
   /// Row n takes the values of the old row order[n], in every column; spans taken before are no longer valid. @param order a
   /// permutation of 0..size()-1
   void permute(std::span<const std::uint32_t> order, int threads = 1);

@@ -38,6 +38,9 @@ class Halo {
   /// cost. Empty: the parts of space stay
   virtual void share_out(Particles&, Bonds&, OwnPairs&, const PeriodicBox&, std::span<const Vec3> places,
                          std::span<const double> cost) = 0;
+  /// Gives each process the lists of the particles that it has, own ones and copies. On entry they are those of the whole, by
+  /// number.
+  virtual void share_lists(Bonds&, OwnPairs&) = 0;
   /// The scene that is shared out next is another state: where its particles are, and what they hang on, has nothing to do with
   /// the last.
   virtual void begin_anew() {}

@@ -2,6 +2,7 @@
 #include "particles/moving_lists.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <span>
 #include <string>
@@ -19,8 +20,12 @@ class Ids {
   using Pair = std::pair<int, std::uint32_t>;
 
  public:
-  explicit Ids(const std::vector<int>& number) {
-    for (std::uint32_t id = 0; id < number.size(); ++id) ids_.emplace_back(number[id], id);
+  explicit Ids(const std::vector<int>& number) : first_(std::bit_ceil(2 * number.size() + 1), {none_here, none}) {
+    for (std::uint32_t id = 0; id < number.size(); ++id) {
+      Pair& place = first_[place_of(number[id])];
+      if (place.first == none_here) place = {number[id], id};
+      ids_.emplace_back(number[id], id);
+    }
     std::ranges::sort(ids_);
   }
   [[nodiscard]] std::span<const Pair> of(int number) const {
@@ -28,43 +33,54 @@ class Ids {
     return {from, std::ranges::upper_bound(from, ids_.end(), number, {}, &Pair::first)};
   }
   /// The one that has the bonds: places are told apart by the nearest image, so that any image will do. none where it is not here
-  [[nodiscard]] std::uint32_t first(int number) const {
-    const auto found = of(number);
-    return found.empty() ? none : found.front().second;
-  }
+  [[nodiscard]] std::uint32_t first(int number) const { return first_[place_of(number)].second; }
   static constexpr std::uint32_t none = ~std::uint32_t{0};
 
  private:
+  static constexpr int none_here = -1;
+  /// Where a number stands in the table, or would: the first such place or free one from a place that its bits choose.
+  [[nodiscard]] std::size_t place_of(int number) const {
+    const std::size_t last = first_.size() - 1;
+    std::size_t at = (static_cast<std::uint32_t>(number) * std::size_t{2654435761U} >> 7) & last;
+    while (first_[at].first != number && first_[at].first != none_here) at = (at + 1) & last;
+    return at;
+  }
+  std::vector<Pair> first_;  ///< a table of twice as many places, by number
   std::vector<Pair> ids_;
 };
+
+constexpr double of_twin = 2147483648.0;  ///< 2^31: a partner and the place in its list are one number
 
 Bond bond_from(const double* n, std::uint32_t other) {
   Bond b;
   b.other = other;
+  b.twin = static_cast<std::uint32_t>(n[0] / of_twin);
   b.x = {n[1], n[2], n[3]};
   b.gradient = {n[4], n[5], n[6]};
   b.weight = n[7];
   return b;
 }
 
+int partner_in(const double* n) { return static_cast<int>(n[0] - of_twin * std::floor(n[0] / of_twin)); }
+
 [[noreturn]] void refuse_lost(int number, int partner) {
   throw InputError("particle " + std::to_string(number) + " of the scene has a bond with particle " + std::to_string(partner) +
                    ", which is not among the copies of its process: their bond is longer than copies reach");
 }
 
-std::vector<Bond> bonds_of(const Share& share, const Ids& ids, std::size_t id) {
+/// @param bonds becomes the list of that id. Twins are those of whole lists, which particles of its own have
+void take_bonds(const Share& share, const Ids& ids, std::size_t id, std::vector<Bond>& bonds) {
   const std::span<const double> numbers = share.lists(id);
-  std::vector<Bond> bonds;
-  if (numbers.empty()) return bonds;
+  bonds.clear();
+  if (numbers.empty()) return;
   const auto count = static_cast<std::size_t>(numbers[0]);
   for (std::size_t k = 0; k < count; ++k) {
     const double* const one = numbers.data() + of_counts + k * of_bond;
-    const std::uint32_t other = ids.first(static_cast<int>(one[0]));
+    const std::uint32_t other = ids.first(partner_in(one));
     if (id >= share.owned && other >= share.owned) continue;
-    if (other == Ids::none) refuse_lost(share.number[id], static_cast<int>(one[0]));
+    if (other == Ids::none) refuse_lost(share.number[id], partner_in(one));
     bonds.push_back(bond_from(one, other));
   }
-  return bonds;
 }
 
 std::vector<OwnPair> own_of(const Share& share, const Ids& ids, std::size_t id) {
@@ -80,12 +96,16 @@ std::vector<OwnPair> own_of(const Share& share, const Ids& ids, std::size_t id) 
   return own;
 }
 
-void set_twins(Bonds& bonds, std::size_t count) {
-  for (std::size_t id = 0; id < count; ++id) {
+/// The list of a copy is cut short, and has other places.
+void set_twins_of_copies(Bonds& bonds, std::size_t owned) {
+  for (std::size_t id = 0; id < owned; ++id) {
+    const auto list = std::as_const(bonds).of(id);
+    if (std::ranges::none_of(list, [&](const Bond& b) { return b.other >= owned; })) continue;
     for (Bond& b : bonds.edit(id)) {
-      const auto list = std::as_const(bonds).of(b.other);
-      b.twin = static_cast<std::uint32_t>(std::ranges::find(list, id, &Bond::other) - list.begin());
-      if (b.twin == list.size())
+      if (b.other < owned) continue;
+      const auto of_copy = std::as_const(bonds).of(b.other);
+      b.twin = static_cast<std::uint32_t>(std::ranges::find(of_copy, id, &Bond::other) - of_copy.begin());
+      if (b.twin == of_copy.size())
         throw InputError("a bond that went to another process is in the list of one of its particles alone");
     }
   }
@@ -99,7 +119,7 @@ std::vector<double> lists_as_numbers(const Bonds& bonds, const OwnPairs& own, st
   std::vector<double> numbers{static_cast<double>(b.size()), static_cast<double>(o.size())};
   numbers.reserve(of_counts + b.size() * of_bond + o.size() * of_own);
   for (const Bond& one : b)
-    numbers.insert(numbers.end(), {static_cast<double>(one.other), one.x.x, one.x.y, one.x.z, one.gradient.x, one.gradient.y,
+    numbers.insert(numbers.end(), {one.other + of_twin * one.twin, one.x.x, one.x.y, one.x.z, one.gradient.x, one.gradient.y,
                                    one.gradient.z, one.weight});
   for (const OwnPair& one : o) numbers.insert(numbers.end(), {static_cast<double>(one.other), one.weight});
   return numbers;
@@ -120,15 +140,15 @@ void take_lists(const Share& share, Bonds& bonds, OwnPairs& own) {
   own = {};
   bonds.grow(count);
   own.grow(count);
+  std::vector<Bond> list;
   for (std::size_t id = 0; id < count; ++id) {
     if (ids.first(share.number[id]) != id) continue;  // another image has its lists
-    if (const std::vector<Bond> list = bonds_of(share, ids, id); !list.empty()) bonds.replace(id, list);
+    take_bonds(share, ids, id, list);
+    if (!list.empty()) bonds.lay(id, list);
     if (id >= share.owned) continue;
-    if (const std::vector<OwnPair> list = own_of(share, ids, id); !list.empty()) own.replace(id, list);
+    if (const std::vector<OwnPair> pairs = own_of(share, ids, id); !pairs.empty()) own.lay(id, pairs);
   }
-  set_twins(bonds, count);
-  bonds.compact();
-  own.compact();
+  set_twins_of_copies(bonds, share.owned);
 }
 
 double longest_bond(const Particles& particles, const Bonds& bonds, std::size_t owned, const PeriodicBox& box) {

@@ -14,8 +14,8 @@
 namespace tripoint {
 
 /// The lists of one particle of a scene that is not shared out yet, where ids are numbers. First the number of bonds and the
-/// number of own pairs. Then for each bond the partner, x [m], gradient [1/m4] and weight [1/m3]. Then for each own pair the
-/// partner and its weight [1/m3].
+/// number of own pairs. Then for each bond the partner, with 2^31 times the place in its list, x [m], gradient [1/m4] and weight
+/// [1/m3]. Then for each own pair the partner and its weight [1/m3].
 [[nodiscard]] std::vector<double> lists_as_numbers(const Bonds&, const OwnPairs&, std::size_t id);
 /// Greatest length of lists_as_numbers() over all particles; 0 where there are no lists at all.
 [[nodiscard]] std::size_t most_list_numbers(const Bonds&, const OwnPairs&);

@@ -158,6 +158,7 @@ void Neighbours::sort_and_list(Particles& particles, const Resting& resting) {
   are_made_ = true;
   moving_ = particles.moving();
   form_clusters(particles, grid);
+  if (asked_) return keep_to_ask(particles, std::move(grid));
   const auto sorted = positions(particles);
   const Places places{sorted.x.data(), sorted.y.data(), sorted.z.data()};
   pairs_ = list(places, grid, clusters_.listed, listed_by_[0]);
@@ -311,52 +312,61 @@ bool become_rows(const std::vector<std::uint32_t>& row_of, std::vector<Candidate
 
 }  // namespace
 
+/// Scans what may be near to a cluster.
+Scanned Neighbours::scan_cluster(const Places& places, const Grid& grid, std::size_t cluster, Found& found) const {
+  const std::uint32_t first = clusters_.first[cluster], past = clusters_.first[cluster + 1];
+  const auto at = [&](std::size_t row) { return Vec3{places.x[row], places.y[row], places.z[row]}; };
+  const double reach = support_ + skin_;
+  Vec3 low = at(first), high = low;
+  for (std::size_t i = first + 1; i < past; ++i) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      low[a] = std::min(low[a], at(i)[a]);
+      high[a] = std::max(high[a], at(i)[a]);
+    }
+  }
+  grid.candidates(low, high, reach, box_, found.ranges);
+  std::size_t candidates = 0;
+  for (const CandidateRange& r : found.ranges) candidates += r.to - r.from;
+  if (found.entries.size() < candidates) {
+    found.entries.resize(candidates);
+    found.near.resize(candidates);
+  }
+  const bool by_rows = !own_first_.empty() && become_rows(own_first_, found.ranges);
+  const unsigned members = (1u << (past - first)) - 1u;
+  const Scan task{places.x,
+                  places.y,
+                  places.z,
+                  first,
+                  members,
+                  found.ranges.data(),
+                  found.ranges.size(),
+                  shift_.data(),
+                  reach * reach,
+                  by_rows || rows_of_places().empty() ? nullptr : rows_of_places().data(),
+                  moving_};
+  return scan_(task, found.entries.data(), found.near.data());
+}
+
 /// @param rooms first entry of each thread's room, and one past the last   @return directed pairs; none where a thread has more
 /// entries than room: they are counted all the same
 std::optional<std::size_t> Neighbours::list_into(const Places& places, const Grid& grid, std::span<const std::uint32_t> clusters,
                                                  std::span<const std::size_t> rooms, std::vector<std::size_t>& listed_by) {
   Clusters& c = clusters_;
-  const auto at = [&](std::size_t row) { return Vec3{places.x[row], places.y[row], places.z[row]}; };
-  const double reach = support_ + skin_;
   const std::size_t parts = listed_by.size();
   const auto past = [&](std::size_t part) { return clusters.size() * part / parts; };
   std::size_t pairs = 0;
   bool fits = true;
 #pragma omp parallel for schedule(static, 1) num_threads(threads_) reduction(+ : pairs) reduction(&& : fits)
   for (std::size_t part = 0; part < parts; ++part) {
-    std::vector<std::uint32_t> entries;  // of one cluster
-    std::vector<std::uint8_t> near;
-    std::vector<CandidateRange> ranges;
+    Found of_one;
     std::size_t size = 0;
     for (std::size_t n = past(part); n < past(part + 1); ++n) {
       const std::size_t k = clusters[n];
-      Vec3 low = at(c.first[k]), high = low;
-      for (std::size_t i = c.first[k] + 1; i < c.first[k + 1]; ++i) {
-        for (std::size_t a = 0; a < 3; ++a) {
-          low[a] = std::min(low[a], at(i)[a]);
-          high[a] = std::max(high[a], at(i)[a]);
-        }
-      }
-      grid.candidates(low, high, reach, box_, ranges);
-      std::size_t candidates = 0;
-      for (const CandidateRange& r : ranges) candidates += r.to - r.from;
-      if (entries.size() < candidates) {
-        entries.resize(candidates);
-        near.resize(candidates);
-      }
-      const bool by_rows = !own_first_.empty() && become_rows(own_first_, ranges);
-      const unsigned members = (1u << (c.first[k + 1] - c.first[k])) - 1u;
-      const Scan task{places.x,      places.y,
-                      places.z,      c.first[k],
-                      members,       ranges.data(),
-                      ranges.size(), shift_.data(),
-                      reach * reach, by_rows || rows_of_places().empty() ? nullptr : rows_of_places().data(),
-                      moving_};
-      const Scanned found = scan_(task, entries.data(), near.data());
+      const Scanned found = scan_cluster(places, grid, k, of_one);
       if (rooms[part] + size + found.entries <= rooms[part + 1]) {
         const auto to = static_cast<std::ptrdiff_t>(rooms[part] + size);
-        std::copy_n(entries.begin(), found.entries, c.entries.begin() + to);
-        std::copy_n(near.begin(), found.entries, c.near.begin() + to);
+        std::copy_n(of_one.entries.begin(), found.entries, c.entries.begin() + to);
+        std::copy_n(of_one.near.begin(), found.entries, c.near.begin() + to);
       }
       c.start[k + 1] = found.entries;
       size += found.entries;
@@ -372,8 +382,31 @@ void Neighbours::make_room_within() {
   if (clusters_.size() > 0) clusters_.within.resize(within_start(clusters_.start.back(), clusters_.size()));
 }
 
+namespace {
+
+/// Marks the own pairs of one cluster, among its entries. @param id of each row
+void mark_cluster(Clusters& c, std::size_t k, std::span<const int> id, const OwnPairs& own) {
+  for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i) {
+    if (own.of(static_cast<std::size_t>(id[i])).empty()) continue;
+    const unsigned lane = i - c.first[k];
+    for (std::size_t e = c.start[k]; e < c.start[k + 1]; ++e) {
+      if ((c.near[e] >> lane & 1u) == 0) continue;
+      const std::size_t j = Entry{c.entries[e]}.row();
+      if (are_own(own, static_cast<std::uint32_t>(id[i]), static_cast<std::uint32_t>(id[j])))
+        c.own[e] = static_cast<std::uint8_t>(c.own[e] | 1u << lane);
+    }
+  }
+}
+
+}  // namespace
+
 void Neighbours::mark_own(const Particles& particles, const OwnPairs& own) {
   marked_ = true;
+  if (asked_) {
+    asked_->own = own;
+    asked_->lists.clear();
+    return;
+  }
   Clusters& c = clusters_;
   const auto id = particles[field::id];
   const auto has_own = [&](std::size_t row) { return !own.of(static_cast<std::size_t>(id[row])).empty(); };
@@ -383,18 +416,43 @@ void Neighbours::mark_own(const Particles& particles, const OwnPairs& own) {
   c.own.assign(any ? c.start.back() : 0, 0);
   if (!any) return;
 #pragma omp parallel for schedule(static) num_threads(threads_)
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i) {
-      if (!has_own(i)) continue;
-      const unsigned lane = i - c.first[k];
-      for (std::size_t e = c.start[k]; e < c.start[k + 1]; ++e) {
-        if ((c.near[e] >> lane & 1u) == 0) continue;
-        const std::size_t j = Entry{c.entries[e]}.row();
-        if (are_own(own, static_cast<std::uint32_t>(id[i]), static_cast<std::uint32_t>(id[j])))
-          c.own[e] = static_cast<std::uint8_t>(c.own[e] | 1u << lane);
-      }
-    }
-  }
+  for (std::size_t k = 0; k < c.size(); ++k) mark_cluster(c, k, id, own);
+}
+
+void Neighbours::keep_to_ask(const Particles& particles, Grid&& grid) {
+  Asked& a = *asked_;
+  const auto x = positions(particles);
+  const auto copy = [&](std::span<const double> from, AlignedVector<double>& to) {
+    to.assign(from.begin(), from.end());
+    to.resize(from.size() + vector_bytes);  // readable a whole vector past the last
+  };
+  copy(x.x, a.x);
+  copy(x.y, a.y);
+  copy(x.z, a.z);
+  const auto id = particles[field::id];
+  a.id.assign(id.begin(), id.end());
+  a.own = {};
+  a.lists.clear();
+  pairs_ = 0;
+  grid_ = std::make_shared<const Grid>(std::move(grid));
+}
+
+const Clusters& Neighbours::asked_list(std::size_t row) const {
+  const Asked& a = *asked_;
+  const std::size_t k = clusters_.of(row);
+  const auto [at, is_new] = a.lists.try_emplace(k);
+  Clusters& one = at->second;
+  if (!is_new) return one;
+  Found found;
+  const Scanned size = scan_cluster({a.x.data(), a.y.data(), a.z.data()}, *grid_, k, found);
+  one.first = {clusters_.first[k], clusters_.first[k + 1]};
+  one.start = {0, size.entries};
+  one.entries.assign(found.entries.begin(), found.entries.begin() + static_cast<std::ptrdiff_t>(size.entries));
+  one.near.assign(found.near.begin(), found.near.begin() + static_cast<std::ptrdiff_t>(size.entries));
+  if (a.own.empty()) return one;
+  one.own.assign(size.entries, 0);
+  mark_cluster(one, 0, a.id, a.own);
+  return one;
 }
 
 }  // namespace tripoint

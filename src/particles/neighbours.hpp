@@ -5,11 +5,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "core/aligned.hpp"
 #include "core/vec3.hpp"
 #include "particles/entry.hpp"
 #include "particles/pair_lists.hpp"
@@ -138,6 +140,13 @@ class Neighbours {
 
   /// Lists like these of another set of particles in another box: none are made yet, and rebuilds are counted on.
   [[nodiscard]] Neighbours anew(const PeriodicBox&) const;
+  /// From the next rebuild on a row has its list, with the same entries, where somebody asks for it by of(). Passes have none.
+  void list_when_asked() { asked_.emplace(); }
+  /// The same lists of the same rows, which count as made anew: what was found of lists of that number until now is outdated.
+  void renew(long rebuilds) {
+    rebuilds_ = rebuilds;
+    marked_ = false;
+  }
 
   /// Whether a particle has moved by more than skin/2 since the last lists, or there are none.
   [[nodiscard]] bool outdated(const Particles&) const;
@@ -167,7 +176,7 @@ class Neighbours {
   /// Makes room for Clusters::within, to be filled by a pass.
   void make_room_within();
 
-  [[nodiscard]] RowEntries of(std::size_t i) const { return {clusters_, i}; }
+  [[nodiscard]] RowEntries of(std::size_t i) const { return {asked_ ? asked_list(i) : clusters_, i}; }
   [[nodiscard]] const Clusters& clusters() const noexcept { return clusters_; }
   [[nodiscard]] Clusters& clusters() noexcept { return clusters_; }
   /// r_j - r_i of an entry is (x_j - x_i) + shift: in this order it is exactly antisymmetric in i and j.
@@ -223,6 +232,15 @@ class Neighbours {
   /// The row of each place in order of (cell, id); empty: rows are in that order.
   [[nodiscard]] const std::vector<std::uint32_t>& rows_of_places() const { return order_.empty() ? own_first_ : order_; }
   std::size_t list(const Places&, const Grid&, std::span<const std::uint32_t> clusters, std::vector<std::size_t>& listed_by);
+  /// What a scan of one cluster finds, with room for all that it looks at.
+  struct Found {
+    std::vector<std::uint32_t> entries;
+    std::vector<std::uint8_t> near;
+    std::vector<CandidateRange> ranges;
+  };
+  Scanned scan_cluster(const Places&, const Grid&, std::size_t cluster, Found&) const;
+  void keep_to_ask(const Particles&, Grid&&);
+  [[nodiscard]] const Clusters& asked_list(std::size_t row) const;
   std::optional<std::size_t> list_into(const Places&, const Grid&, std::span<const std::uint32_t> clusters,
                                        std::span<const std::size_t> rooms, std::vector<std::size_t>& listed_by);
 
@@ -252,6 +270,14 @@ class Neighbours {
                  (static_cast<std::size_t>(s[1]) + static_cast<std::size_t>(count[1]) * static_cast<std::size_t>(s[2]));
     }
   } still_;
+  /// Lists that are made where somebody asks for them.
+  struct Asked {
+    AlignedVector<double> x, y, z;                  ///< places to list from, by row [m]
+    std::vector<int> id;                            ///< of each row
+    OwnPairs own;                                   ///< to mark
+    mutable std::map<std::size_t, Clusters> lists;  ///< one cluster each, by its number
+  };
+  std::optional<Asked> asked_;
   /// Rows that lists name, in order of (cell, id); empty: all rows are in that order.
   std::vector<std::uint32_t> order_;
   std::vector<std::uint32_t> own_first_;     ///< the row of each place, where there are copies; else empty

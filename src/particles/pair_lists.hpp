@@ -57,6 +57,14 @@ class PairLists {
     list.count = pairs.size();
     if (wasted_ > pool_.size() / 2) compact();
   }
+  /// The same of a list that is empty, without room to grow: lists that are laid in order of id are compact.
+  void lay(std::size_t id, std::span<const Pair> pairs) {
+    assert(of(id).empty());
+    grow(id + 1);
+    lists_[id] = {pool_.size(), pairs.size(), pairs.size(), ++changes_};
+    pool_.insert(pool_.end(), pairs.begin(), pairs.end());
+    pairs_ += pairs.size();
+  }
   void add(std::size_t id, const Pair& pair) {
     grow(id + 1);
     if (lists_[id].count < lists_[id].room) {

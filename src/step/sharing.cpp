@@ -154,6 +154,7 @@ std::optional<Diverged> Sharing::first_failure(const std::optional<Diverged>& he
 
 void Sharing::begin_anew() {
   booked_.reset();
+  part_.reset();
   count_ = 0;
   if (halo_) halo_->begin_anew();
 }
@@ -173,33 +174,41 @@ bool Sharing::outdated(const World& world) const {
 void Sharing::gather(World& world, const std::vector<Active>& effects) {
   if (!is_part(world)) return;
   booked_ = {world.booked, body_sums(world)};
-  hold_whole(world);
+  part_ = hold_whole(world);
+  gathered_ = {world.bonds.changes(), world.own.changes()};
   for (const Active& a : effects) a.effect->renumber(world);
 }
 
-void Sharing::hold_whole(World& world) const {
+/// Of the whole only the rows that change are asked for their lists.
+Sharing::Part Sharing::hold_whole(World& world) const {
   world.body_owners.complete(world);
   world.body_owners = {};
   const std::vector<Vec3> built = world.neighbours ? gather_built(world) : std::vector<Vec3>{};
   WholeScene whole = world.halo->gather(world.particles, world.bonds, world.own);
-  world.particles = std::move(whole.particles);
-  world.bonds = std::move(whole.bonds);
-  world.own = std::move(whole.own);
+  Part part{std::exchange(world.particles, std::move(whole.particles)),
+            std::exchange(world.bonds, std::move(whole.bonds)),
+            std::exchange(world.own, std::move(whole.own)),
+            {}};
   world.halo = nullptr;
   world.copies.clear();
-  if (!world.neighbours) return;
+  if (!world.neighbours) return part;
   const long rebuilds = world.neighbours->rebuilds();
-  world.neighbours = world.neighbours->anew(world.box);
-  if (built.size() == world.particles.size())
+  Neighbours lists = world.neighbours->anew(world.box);
+  lists.list_when_asked();
+  std::swap(lists, *world.neighbours);
+  if (built.size() == world.particles.size()) {
+    part.neighbours = std::move(lists);
     world.neighbours->rebuild_from(world.particles, built, world.time, rebuilds + 1);
-  else
+  } else {
     world.neighbours->update(world.particles, world.time);
+  }
   world.neighbours->mark_own(world.particles, world.own);
+  return part;
 }
 
 World Sharing::whole(const World& part) const {
   World world = part;
-  hold_whole(world);
+  static_cast<void>(hold_whole(world));
   halo_->add(world.booked.values());
   for (const Field<double>& f : world.body_sums) halo_->add(world.bodies[f]);
   std::string unused;
@@ -218,7 +227,35 @@ void Sharing::share_out(World& world, const Passes& passes) {
       world.booked.clear();
   }
   booked_.reset();
-  share_particles(world, passes);
+  if (can_take_back(world))
+    take_back(world);
+  else
+    share_particles(world, passes);
+  part_.reset();
+}
+
+/// Whether each process can go on with the part that it had, and with its lists. All find the same.
+bool Sharing::can_take_back(const World& world) const {
+  return part_ && part_->neighbours && world.particles.size() == count_ &&
+         world.neighbours->rebuilds() == part_->neighbours->rebuilds() + 1 && !world.neighbours->outdated(world.particles);
+}
+
+/// Every particle of the part takes what was decided of it.
+void Sharing::take_back(World& world) {
+  const Particles whole = std::exchange(world.particles, std::move(part_->particles));
+  const std::span<const int> number = halo_->numbers();
+  const auto ids = world.particles[field::id];
+  const std::vector<int> id(ids.begin(), ids.end());
+  std::vector<std::uint32_t> rows;
+  for (const int one : id) rows.push_back(static_cast<std::uint32_t>(whole.row(static_cast<std::size_t>(number[one]))));
+  world.particles.copy(whole, rows);
+  std::ranges::copy(id, world.particles[field::id].begin());
+  const long rebuilds = world.neighbours->rebuilds();
+  world.neighbours = std::move(part_->neighbours);
+  world.neighbours->renew(rebuilds + 1);
+  if (gathered_ != std::array{world.bonds.changes(), world.own.changes()}) return halo_->share_lists(world.bonds, world.own);
+  world.bonds = std::move(part_->bonds);
+  world.own = std::move(part_->own);
 }
 
 /// Lists that are not outdated stay. A part then has the lists that one process has of the whole.

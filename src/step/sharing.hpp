@@ -49,12 +49,23 @@ class Sharing {
   [[nodiscard]] bool outdated(const World&) const;
   void share_out(World&, const Passes&);
   void share_particles(World&, const Passes&);
-  void hold_whole(World&) const;
+  /// What this process held before it held the whole.
+  struct Part {
+    Particles particles;
+    Bonds bonds;
+    OwnPairs own;
+    std::optional<Neighbours> neighbours;  ///< none: they are not those of the whole
+  };
+  Part hold_whole(World&) const;
+  [[nodiscard]] bool can_take_back(const World&) const;
+  void take_back(World&);
 
   double skin_;
   Halo* halo_;
   std::size_t count_ = 0;                               ///< particles of the scene, as last shared out
   std::optional<Booked> booked_;                        ///< none: nothing yet
+  std::optional<Part> part_;                            ///< while this process holds the whole, after it held a part
+  std::array<std::uint64_t, 2> gathered_{};             ///< changes of the whole's bonds and own pairs, as it was gathered
   long steps_ = 0;                                      ///< since particles changed hands
   double steps_a_list_ = ParticleCost::guess_of_steps;  ///< how often they do, of late
   std::vector<Vec3> shared_at_;  ///< by row: where particles were when last shared out [m]; of scenes without neighbour lists

@@ -194,6 +194,35 @@ TEST(Neighbours, ContinueTheSameListFromTheirBuildPositions) {
   }
 }
 
+/// Lists of rows that are asked for, in no order, without own pairs and with.
+TEST(Neighbours, ThatAreMadeWhereSomebodyAsksAreTheSame) {
+  const PeriodicBox box{{true, false, false}, {}, {4.0, 3.0, 3.0}};
+  Particles p = cloud(600, {4.0, 3.0, 3.0}, true);
+  Neighbours all(0.7, 0.1, box, 1, 4);
+  all.update(p, 0.0);
+  OwnPairs own;
+  const auto id = p[field::id];
+  for (std::size_t row = 0; row < p.size(); row += 3)
+    for (const Entry e : all.of(row))
+      if (e.row() % 2 == 0) make_own(own, static_cast<std::uint32_t>(id[row]), static_cast<std::uint32_t>(id[e.row()]), 1.0);
+  Particles same = p;
+  Neighbours asked = all.anew(box);
+  asked.list_when_asked();
+  asked.rebuild_from(same, all.build_positions(), 0.0);
+  EXPECT_EQ(asked.entries(), 0u) << "none was asked for";
+  for (const OwnPairs& pairs : {OwnPairs{}, own}) {
+    all.mark_own(p, pairs);
+    asked.mark_own(same, pairs);
+    for (const std::size_t row : {7u, 599u, 0u, 6u, 7u, 301u, 2u, 100u, 101u, 102u, 103u}) {
+      SCOPED_TRACE("row " + std::to_string(row));
+      EXPECT_EQ(id[row], same[field::id][row]);
+      EXPECT_FALSE(entries_of(all, row).empty());
+      EXPECT_EQ(entries_of(asked, row), entries_of(all, row));
+    }
+  }
+  EXPECT_TRUE(std::ranges::any_of(entries_of(asked, 0), [](std::uint32_t bits) { return Entry{bits}.own(); }));
+}
+
 TEST(Neighbours, OfAParticleFarAwayDoNotAskForAMountainOfCells) {
   Particles p = cloud(100, {1.0, 1.0, 1.0}, false);
   p[field::position_x][9] = 1e9;

@@ -86,6 +86,7 @@ TEST(Halo, ListsOutliveWhatIsDecidedOfTheWhole) {
     EXPECT_EQ(greatest_difference(whole.position, shared.position), 0.0);
     EXPECT_EQ(greatest_difference(whole.velocity, shared.velocity), 0.0);
     EXPECT_GE(shared.gatherings, from ? 1 : 3) << "as it is held, let go and kept";
+    EXPECT_EQ(shared.shares, 1) << "that of the start: then each part goes on with what it had";
   }
 }
 

@@ -47,6 +47,7 @@ class SlabHalo : public Halo {
   void share_out(Particles& p, Bonds& bonds, OwnPairs& pairs, const PeriodicBox& box, std::span<const Vec3> places,
                  std::span<const double>) override {
     places_ = places;
+    ++shares;
     numbers_.clear();
     lists_.clear();
     for (int n = 0; n < static_cast<int>(p.size()); ++n) {
@@ -59,6 +60,15 @@ class SlabHalo : public Halo {
     places_ = {};
   }
   [[nodiscard]] std::span<const int> numbers() const override { return numbers_; }
+  void share_lists(Bonds& bonds, OwnPairs& pairs) override {
+    longest_list_ = most_list_numbers(bonds, pairs);
+    for (std::size_t id = 0; id < numbers_.size(); ++id)
+      lists_[id] = lists_as_numbers(bonds, pairs, static_cast<std::size_t>(numbers_[id]));
+    bonds = {};
+    pairs = {};
+    if (longest_list_ > 0)
+      take_lists({owned_, numbers_, [this](std::size_t id) { return std::span<const double>(lists_[id]); }}, bonds, pairs);
+  }
   WholeScene gather(const Particles& p, const Bonds&, const OwnPairs&) override {
     std::vector<Row> rows;
     for (const std::vector<double>& of : meeting_.exchange(rank_, own_rows(p)))
@@ -158,7 +168,7 @@ class SlabHalo : public Halo {
   [[nodiscard]] std::size_t owners_above() const override { return bodies_of_all; }
   [[nodiscard]] bool is_first() const override { return rank_ == 0; }
   std::size_t bodies_of_all = 1000;
-  long migrations = 0, gatherings = 0;
+  long migrations = 0, gatherings = 0, shares = 0;
 
  private:
   using Row = std::vector<double>;  ///< number and place along x, the columns, and lists behind them
@@ -226,7 +236,7 @@ struct Seen {
   std::size_t objects = 0;
   Ledger ledger;
   Checkpoint kept;  ///< at half time, where one was asked for
-  long migrations = 0, gatherings = 0;
+  long migrations = 0, gatherings = 0, shares = 0;
 };
 
 inline void see_particle(Seen& seen, std::size_t number, const World& world, std::size_t row) {
@@ -298,6 +308,7 @@ inline Seen seen_shared(const test::Prepared& p, const std::vector<double>& plan
         seen.kept = kept;
         seen.migrations = halo.migrations;
         seen.gatherings = halo.gatherings;
+        seen.shares = halo.shares;
         see_bodies(seen, part.world());
       }
       for (std::size_t id = 0; id < halo.owned(); ++id)
