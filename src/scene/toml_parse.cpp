@@ -18,8 +18,10 @@ namespace tripoint {
 #include <cerrno>
 #include <charconv>
 #include <fstream>
+#include <mutex>
 #include <new>
 #include <system_error>
+#include <unordered_set>
 #include <vector>
 
 #include "foreign/confined_copy.hpp"
@@ -90,13 +92,40 @@ TomlNode document_of(const std::string& text, const std::string& file) {
   return root;
 }
 
+/// Texts that a child survived, up to a bound: a case is read more than once, and many share a library.
+class Survived {
+ public:
+  [[nodiscard]] bool has(const std::string& text) const {
+    const std::lock_guard lock(one_);
+    return texts_.count(text) > 0;
+  }
+  void add(const std::string& text) {
+    constexpr std::size_t most_bytes = std::size_t{16} << 20;
+    const std::lock_guard lock(one_);
+    if (bytes_ + text.size() > most_bytes || !texts_.insert(text).second) return;
+    bytes_ += text.size();
+  }
+
+ private:
+  mutable std::mutex one_;
+  std::unordered_set<std::string> texts_;
+  std::size_t bytes_ = 0;
+};
+
+Survived& survived() {
+  static Survived texts;
+  return texts;
+}
+
+constexpr rlim_t room_of_child = rlim_t{2} << 30;  // [bytes]
+
 /// Whether a child process makes a document of the text, and frees it, without dying. That is a pure function of the text: where
 /// the child survives, the parent survives. (Upstream has an open report of unreachable points that are reached.)
 /// @throws std::system_error where there is no process to spare: no fault of the text, which is not read then
 /// @throws InputError where the child takes longer than the limit
 bool child_survives(const std::string& text, const std::string& file, double limit) {
-  constexpr rlim_t room = rlim_t{2} << 30;
-  const CopyBounds bounds{file, limit, room};
+  if (survived().has(text)) return true;
+  const CopyBounds bounds{file, limit, room_of_child};
   const auto read = [&] {
     static_cast<void>(document_of(text, file));
     return std::string();
@@ -106,6 +135,7 @@ bool child_survives(const std::string& text, const std::string& file, double lim
       throw InputError({file, 0, 0}, fmt::format("could not be read within {:g} s: simplify its brackets and keys", limit));
     case CopyEnd::How::read:
     case CopyEnd::How::refused:  // it is worded where it counts
+      survived().add(text);
       return true;
     default:
       return false;
@@ -210,7 +240,10 @@ TomlNode parse_toml(const std::string& text, const std::string& file, double lim
   }
 }
 
-TomlNode read_toml(const std::string& file) {
+namespace {
+
+/// @throws InputError where it is no file that a reader of TOML takes
+std::string text_of_file(const std::string& file) {
   struct stat info {};
   if (stat(file.c_str(), &info) != 0) throw InputError({file, 0, 0}, fmt::format("cannot be read: {}", std::strerror(errno)));
   if (!S_ISREG(info.st_mode)) throw InputError({file, 0, 0}, "is no regular file: give the path of a case file (*.toml)");
@@ -219,7 +252,42 @@ TomlNode read_toml(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   if (!in) throw InputError({file, 0, 0}, "cannot be read");
-  return parse_toml(text, file);
+  return text;
 }
+
+/// Those texts of the files that a parser may see.
+std::vector<std::string> fit_texts(const std::vector<std::string>& files) {
+  std::vector<std::string> texts;
+  for (const auto& file : files) {
+    try {
+      std::string text = text_of_file(file);
+      check_text(text, file);
+      texts.push_back(std::move(text));
+    } catch (const InputError&) {
+      continue;  // it is worded where the file is read
+    }
+  }
+  return texts;
+}
+
+}  // namespace
+
+void try_toml_files(const std::vector<std::string>& files, double limit) {
+  const auto texts = fit_texts(files);
+  const auto read = [&] {
+    for (const auto& text : texts) {
+      try {
+        static_cast<void>(document_of(text, ""));
+      } catch (const std::exception&) {
+        continue;
+      }
+    }
+    return std::string();
+  };
+  if (read_in_confined_copy(read, {"case files", limit, room_of_child}).how != CopyEnd::How::read) return;
+  for (const auto& text : texts) survived().add(text);
+}
+
+TomlNode read_toml(const std::string& file) { return parse_toml(text_of_file(file), file); }
 
 }  // namespace tripoint

@@ -229,11 +229,44 @@ TEST(Starts, ACaseFileIsNotReadWhereNoCopyCanTryIt) {
   EXPECT_NE(told.find(std::strerror(EAGAIN)), std::string::npos) << told;
 }
 
+TEST(Starts, CaseFilesThatOneCopyHasTriedNeedNoneOfTheirOwn) {
+  const TestFolder folder;
+  const auto one = folder / "one.toml", other = folder / "other.toml", wrong = folder / "wrong.toml";
+  write_text(one, "one = 1\n");
+  write_text(wrong, "wrong = 1 2\n");
+  write_text(other, "other = 2\n");
+  try_toml_files({one, folder / "absent.toml", wrong, other});
+  forks.plan(1, EAGAIN);
+  EXPECT_NE(read_toml(one).find("one"), nullptr);
+  EXPECT_NE(read_toml(other).find("other"), nullptr);
+  std::string told;
+  try {
+    static_cast<void>(read_toml(wrong));
+  } catch (const InputError& e) {
+    told = e.what();
+  }
+  forks.plan(0, 0);
+  EXPECT_NE(told.find("no valid TOML"), std::string::npos) << told;
+}
+
+TEST(Starts, CaseFilesWhoseCommonCopyHangsHaveEachItsOwn) {
+  const TestFolder folder;
+  const auto file = folder / "case.toml";
+  write_text(file, "hung = 1\n");
+  copies_hang = true;
+  try_toml_files({file}, 0.2);
+  copies_hang = false;
+  forks.plan(1, EAGAIN);
+  EXPECT_THROW(static_cast<void>(read_toml(file)), std::system_error);
+  forks.plan(0, 0);
+  EXPECT_NE(read_toml(file).find("hung"), nullptr);
+}
+
 TEST(Starts, ACaseFileWhoseCopyHangsIsRefusedAtTheLimit) {
   std::string told;
   copies_hang = true;
   try {
-    static_cast<void>(parse_toml("a = 1\n", "case.toml", 0.2));
+    static_cast<void>(parse_toml("b = 1\n", "case.toml", 0.2));
   } catch (const InputError& e) {
     told = e.what();
   }

@@ -9,6 +9,7 @@
 #include "core/errors.hpp"
 #include "scene/library.hpp"
 #include "scene/nearest.hpp"
+#include "scene/toml_node.hpp"
 #include "validation/case/read_case.hpp"
 #include "validation/harness/case_names.hpp"
 #include "validation/harness/suite.hpp"
@@ -58,6 +59,12 @@ std::vector<Found> all_files(const std::vector<std::string>& what) {
   return files;
 }
 
+void try_together(const std::vector<Found>& files) {
+  std::vector<std::string> paths;
+  for (const auto& file : files) paths.push_back(file.path);
+  if (paths.size() > 1) try_toml_files(paths);
+}
+
 bool matches(const CaseFilter& filter, const Case& value, bool by_name) {
   const auto has = [](const std::vector<std::string>& list, const std::string& word) {
     return std::find(list.begin(), list.end(), word) != list.end();
@@ -90,7 +97,9 @@ std::string shown_path(const std::string& path) {
 std::vector<Case> select_cases(const CaseFilter& filter) {
   std::map<std::string, Case> by_id;
   std::set<std::string> tags;
-  for (const auto& file : all_files(filter.what)) {
+  const auto files = all_files(filter.what);
+  try_together(files);
+  for (const auto& file : files) {
     auto value = read_case(shown_path(file.path)).value;
     tags.insert(value.tags.begin(), value.tags.end());
     if (!matches(filter, value, file.by_name)) continue;
