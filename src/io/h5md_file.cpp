@@ -103,6 +103,24 @@ void expect_class(hid_t dataset, H5T_class_t wanted, const std::string& what) {
     throw InputError(what + ": is of the wrong type, expected " + (wanted == H5T_FLOAT ? "floating point" : "integers"));
 }
 
+/// The attribute `unit` of a dataset; empty where it has none, or one that is no text.
+std::string unit_of(hid_t dataset, const std::string& what) {
+  if (H5Aexists(dataset, "unit") <= 0) return "";
+  const Handle attribute(H5Aopen(dataset, "unit", H5P_DEFAULT), H5Aclose, what);
+  const Handle type(H5Aget_type(attribute.get()), H5Tclose, what);
+  if (H5Tget_class(type.get()) != H5T_STRING) return "";
+  if (H5Tis_variable_str(type.get()) > 0) {
+    char* text = nullptr;
+    if (H5Aread(attribute.get(), type.get(), static_cast<void*>(&text)) < 0 || text == nullptr) return "";
+    const std::string unit = text;
+    H5free_memory(text);
+    return unit;
+  }
+  std::string text(std::min<std::size_t>(H5Tget_size(type.get()), 256), '\0');
+  if (text.size() != H5Tget_size(type.get()) || H5Aread(attribute.get(), type.get(), text.data()) < 0) return "";
+  return text.c_str();
+}
+
 /// errno of the system call that failed. The library writes it into the text of its last error, innermost first, and so does
 /// io/ordered_file.cpp. @return 0 where no such call failed
 int errno_of_last_error() {
@@ -230,6 +248,12 @@ bool has(hid_t file, const std::string& path) {
   }
 }
 
+bool is_linked_to_one(hid_t file, const std::string& a, const std::string& b) {
+  H5L_info_t one, other;
+  if (H5Lget_info(file, a.c_str(), &one, H5P_DEFAULT) < 0 || H5Lget_info(file, b.c_str(), &other, H5P_DEFAULT) < 0) return false;
+  return one.type == H5L_TYPE_HARD && other.type == H5L_TYPE_HARD && one.u.address == other.u.address;
+}
+
 std::vector<std::size_t> shape(hid_t file, const std::string& path, const std::string& name_of_file) {
   return shape_of(open_own_dataset(file, path, name_of_file).get(), name_of_file + ": " + path);
 }
@@ -240,6 +264,7 @@ Block read_real(hid_t file, const std::string& path, const std::string& name_of_
   expect_class(dataset.get(), H5T_FLOAT, what);
   Block block;
   block.shape = shape_of(dataset.get(), what);
+  block.unit = unit_of(dataset.get(), what);
   refuse_bombs(dataset.get(), block.shape, what);
   read_whole_frames(dataset.get(), H5T_NATIVE_DOUBLE, block.shape, block.real, what, may_be_none);
   return block;
@@ -254,23 +279,6 @@ Block read_whole(hid_t file, const std::string& path, const std::string& name_of
   refuse_bombs(dataset.get(), block.shape, what);
   read_whole_frames(dataset.get(), H5T_NATIVE_INT, block.shape, block.whole, what, may_be_none);
   return block;
-}
-
-std::string unit_of(hid_t file, const std::string& path) {
-  if (!has(file, path) || H5Aexists_by_name(file, path.c_str(), "unit", H5P_DEFAULT) <= 0) return "";
-  const Handle attribute(H5Aopen_by_name(file, path.c_str(), "unit", H5P_DEFAULT, H5P_DEFAULT), H5Aclose, path);
-  const Handle type(H5Aget_type(attribute.get()), H5Tclose, path);
-  if (H5Tget_class(type.get()) != H5T_STRING) return "";
-  if (H5Tis_variable_str(type.get()) > 0) {
-    char* text = nullptr;
-    if (H5Aread(attribute.get(), type.get(), static_cast<void*>(&text)) < 0 || text == nullptr) return "";
-    const std::string unit = text;
-    H5free_memory(text);
-    return unit;
-  }
-  std::string text(std::min<std::size_t>(H5Tget_size(type.get()), 256), '\0');
-  if (text.size() != H5Tget_size(type.get()) || H5Aread(attribute.get(), type.get(), text.data()) < 0) return "";
-  return text.c_str();
 }
 
 std::vector<std::string> members(hid_t file, const std::string& path) {

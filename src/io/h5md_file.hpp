@@ -70,15 +70,17 @@ struct Block {
   std::vector<std::size_t> shape;  ///< shape[0] counts whole frames: one that a killed writer left torn ends the block
   std::vector<double> real;
   std::vector<int> whole;
+  std::string unit;  ///< of real values, as the file says; "" where it says none
 };
 [[nodiscard]] bool has(hid_t file, const std::string& path);
+/// Whether two paths are hard links to one object: its values need not be read twice.
+[[nodiscard]] bool is_linked_to_one(hid_t file, const std::string& a, const std::string& b);
 /// Extents of a dataset. @throws InputError where it is none of this file
 [[nodiscard]] std::vector<std::size_t> shape(hid_t file, const std::string& path, const std::string& name_of_file);
 /// @throws InputError also when not even the first frame is whole
 /// @param may_be_none a first frame that cannot be read is no error: there is none, as where a writer was killed within it
 [[nodiscard]] Block read_real(hid_t file, const std::string& path, const std::string& name_of_file, bool may_be_none = false);
 [[nodiscard]] Block read_whole(hid_t file, const std::string& path, const std::string& name_of_file, bool may_be_none = false);
-[[nodiscard]] std::string unit_of(hid_t file, const std::string& path);
 /// Names of the members of a group, sorted; empty when the group is not there.
 [[nodiscard]] std::vector<std::string> members(hid_t file, const std::string& path);
 /// @throws InputError when it is no readable HDF5 file

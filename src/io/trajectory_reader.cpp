@@ -39,8 +39,7 @@ class Reader {
   h5::Block real(const std::string& element, std::size_t width, const std::string& unit) {
     const std::string value = "/" + element + "/value";
     h5::Block block = h5::read_real(file_.get(), value, path_, frames_ == 0);
-    const std::string given = h5::unit_of(file_.get(), value);
-    if (given != unit) throw InputError(path_ + ": " + value + " is in \"" + given + "\", expected \"" + unit + "\"");
+    if (block.unit != unit) throw InputError(path_ + ": " + value + " is in \"" + block.unit + "\", expected \"" + unit + "\"");
     expect(block, width, value);
     block.real.resize(total(block), not_a_number);
     widen(element, block, block.real, not_a_number);
@@ -99,7 +98,7 @@ class Reader {
   /// H5MD gives each element times of its own. An element without the times of the positions is not of these frames.
   void expect_own_times(const std::string& element) const {
     const std::string name = "/" + element + "/time";
-    if (!h5::has(file_.get(), name)) return;
+    if (!h5::has(file_.get(), name) || h5::is_linked_to_one(file_.get(), name, "/particles/all/position/time")) return;
     const std::vector<double> own = h5::read_real(file_.get(), name, path_, true).real;
     for (std::size_t f = 0; f < std::min(own.size(), frames_); ++f)
       if (own[f] != time_[f])
