@@ -197,7 +197,8 @@ int merge(const std::string& typed, const std::string& out, bool page, bool json
   const auto start = fs::current_path();
   go_to_its_folder(opened);
   auto results =
-      join(opened.dir, opened.queue, discover_engines(sort_engine_words(opened.queue.engine_words).paths), folder, on_case);
+      join(opened.dir, opened.queue,
+           discover_selected(opened.queue.selection, sort_engine_words(opened.queue.engine_words).paths), folder, on_case);
   fs::current_path(start);
   results.command = command_line();
   results.date = date_now();

@@ -203,19 +203,26 @@ std::string date_now() {
   return text.data();
 }
 
+std::vector<EngineEntry> discover_selected(const Selection& selection, const std::vector<std::string>& paths) {
+  if (selection.engines.empty()) return discover_engines(paths);
+  auto names = selection.engines;
+  names.insert(names.end(), selection.extra.begin(), selection.extra.end());
+  return discover_engines_wanted(names, paths);
+}
+
 std::vector<EngineEntry> engines_asked_for(const std::string& only, const std::vector<std::string>& joining,
                                            Selection& selection) {
   const auto words = sort_engine_words(joining);
   selection.engines = split(only);
   for (const auto& name : words.names) selection.extra.push_back(name);
-  auto engines = discover_engines(words.paths);
+  auto engines = discover_selected(selection, words.paths);
   for (const auto& path : words.paths) selection.extra.push_back(ask_engine(path).name);
   auto& asked = selection.asked;
   for (const auto* list : {&selection.engines, &selection.extra}) asked.insert(asked.end(), list->begin(), list->end());
   std::sort(asked.begin(), asked.end());
   asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
   for (const auto& name : asked)
-    if (!find_engine(engines, name)) say("tripoint: " + no_such_engine(name, engines));
+    if (!find_engine(engines, name)) say("tripoint: " + no_such_engine(name, discover_engines(words.paths)));
   return engines;
 }
 

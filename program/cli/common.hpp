@@ -46,6 +46,9 @@ struct EngineWords {
 };
 [[nodiscard]] EngineWords sort_engine_words(const std::vector<std::string>& words);
 
+/// The engines that a selection can need; `paths` join.
+[[nodiscard]] std::vector<EngineEntry> discover_selected(const Selection&, const std::vector<std::string>& paths);
+
 /// Finds the engines and fills the selection from --engines (`only`) and --engine (`joining`); says which of those asked for are
 /// not there.
 /// @throws EngineError when a path of `joining` is no executable file

@@ -75,6 +75,17 @@ TEST(NeverFailsStranger, Way33AnEngineThatTakesTheNameOfAnotherIsRefusedByName) 
   }
 }
 
+TEST(NeverFailsStranger, AnEngineOfAnotherFileNameIsAskedWhateverNamesAreWanted) {
+  const TestFolder folder;
+  const auto mine = fake_engine(folder, "nothing", "mine");
+  const auto other = folder / "engine-another-file";
+  std::filesystem::rename(mine, other);
+  const auto engines = discover_engines_wanted({"exact"}, {other});
+  ASSERT_EQ(engines.size(), 2U);
+  EXPECT_NE(find_engine(engines, "exact"), nullptr);
+  EXPECT_NE(find_engine(engines, "mine"), nullptr);
+}
+
 TEST(NeverFailsStranger, Way38AFolderOfThePathThatHoldsNoEngineIsRefused) {
   const TestFolder folder;
   const EnginePath path(folder / ".");

@@ -128,6 +128,14 @@ EngineEntry ask_engine(const std::string& executable) {
 
 std::vector<EngineEntry> discover_engines(const std::vector<std::string>& extra) { return ask_all(candidates(extra)); }
 
+std::vector<EngineEntry> discover_engines_wanted(const std::vector<std::string>& names, const std::vector<std::string>& extra) {
+  auto list = candidates(extra);
+  std::erase_if(list, [&](const Candidate& c) {  // what a stranger's engine calls itself only the engine knows
+    return !c.joins && std::find(names.begin(), names.end(), name_of_file(c.path)) == names.end();
+  });
+  return ask_all(list);
+}
+
 std::vector<EngineEntry> discover_engines_named(const std::vector<std::string>& names) {
   auto list = candidates({});
   std::erase_if(list,

@@ -32,6 +32,10 @@ struct EngineEntry {
 /// @throws EngineError when an extra path is no executable file, and when two executables call themselves by one name
 [[nodiscard]] std::vector<EngineEntry> discover_engines(const std::vector<std::string>& extra = {});
 
+/// As discover_engines, but of the engines beside this program those of these names alone are started.
+[[nodiscard]] std::vector<EngineEntry> discover_engines_wanted(const std::vector<std::string>& names,
+                                                               const std::vector<std::string>& extra);
+
 /// Engines of these names that stand beside this program or in TRIPOINT_ENGINE_PATH; no other is started.
 [[nodiscard]] std::vector<EngineEntry> discover_engines_named(const std::vector<std::string>& names);
 
