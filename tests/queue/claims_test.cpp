@@ -126,11 +126,11 @@ TEST(Publishing, PutsTheFirstResultAndRefusesTheSecond) {
     std::ofstream(folder / name / "result.json") << name;
   }
   EXPECT_EQ(published_id(folder.dir(), job), "");
-  EXPECT_THROW(static_cast<void>(published_row(folder.dir(), job)), InputError);
-  EXPECT_TRUE(publish(folder.dir(), job, row_of(0.1, 1.0), (folder / "a").string(), "one"));
-  EXPECT_FALSE(publish(folder.dir(), job, row_of(0.2, 1.0), (folder / "b").string(), "two"));
+  EXPECT_THROW(static_cast<void>(published_run(folder.dir(), job)), InputError);
+  EXPECT_TRUE(publish(folder.dir(), job, {row_of(0.1, 1.0), {}}, (folder / "a").string(), "one"));
+  EXPECT_FALSE(publish(folder.dir(), job, {row_of(0.2, 1.0), {}}, (folder / "b").string(), "two"));
   EXPECT_EQ(published_id(folder.dir(), job), job.id);
-  EXPECT_DOUBLE_EQ(published_row(folder.dir(), job).metrics.at("position").value, 0.1);
+  EXPECT_DOUBLE_EQ(published_run(folder.dir(), job).row.metrics.at("position").value, 0.1);
   EXPECT_TRUE(fs::exists(folder / run_folder(job) / "result.json"));
 }
 
@@ -141,9 +141,9 @@ TEST(Publishing, ClearsAwayWhatAnotherJobLeftInItsPlace) {
   older.id = "00000000000000ff";  // the same place in the report, of a case that has changed since
   fs::create_directories(folder / "a");
   fs::create_directories(folder / "b");
-  ASSERT_TRUE(publish(folder.dir(), older, row_of(0.1, 1.0), (folder / "a").string(), "one"));
-  EXPECT_TRUE(publish(folder.dir(), queue.jobs[0], row_of(0.2, 1.0), (folder / "b").string(), "two"));
-  EXPECT_DOUBLE_EQ(published_row(folder.dir(), queue.jobs[0]).metrics.at("position").value, 0.2);
+  ASSERT_TRUE(publish(folder.dir(), older, {row_of(0.1, 1.0), {}}, (folder / "a").string(), "one"));
+  EXPECT_TRUE(publish(folder.dir(), queue.jobs[0], {row_of(0.2, 1.0), {}}, (folder / "b").string(), "two"));
+  EXPECT_DOUBLE_EQ(published_run(folder.dir(), queue.jobs[0]).row.metrics.at("position").value, 0.2);
 }
 
 TEST(Publishing, TellsARunThatDiffersFromOneThatOnlyTookLonger) {

@@ -20,7 +20,7 @@ namespace {
 /// Samples each scene of a case once; runs of one sampling share state and file.
 class Sampler {
  public:
-  explicit Sampler(fs::path folder) : folder_(std::move(folder)) {}
+  Sampler(fs::path folder, const SuiteOptions& options) : folder_(std::move(folder)), options_(options) {}
   struct Sample {
     std::shared_ptr<const InitialState> state;
     std::string file;
@@ -34,15 +34,18 @@ class Sampler {
 
  private:
   Sample make(const Scene& scene, const std::string& key) {
-    auto state = std::make_shared<InitialState>(sample(scene));
+    const Sample made{std::make_shared<InitialState>(sample(scene)), (folder_ / (key + ".h5")).string(),
+                      std::make_shared<std::string>()};
+    if (options_.plans_alone || (options_.made && fs::exists(made.file))) return made;
     fs::create_directories(folder_);
-    const auto file = (folder_ / (key + ".h5")).string();
     const std::lock_guard lock(no_spawn_mutex());  // Debian's HDF5 is not thread-safe either
-    fs::remove(file);
-    write_particles(file, *state);
-    return {state, file, std::make_shared<std::string>(file_hash(file))};
+    fs::remove(made.file);
+    write_particles(made.file, *made.state);
+    *made.hash = file_hash(made.file);
+    return made;
   }
   fs::path folder_;
+  const SuiteOptions& options_;
   std::map<std::string, Sample> samples_;
 };
 
@@ -149,7 +152,7 @@ CaseRuns prepare_case(const Case& value, const std::vector<EngineEntry>& found, 
 void add_runs(CaseRuns& all, const SuiteOptions& options) {
   const Case& value = *all.value;
   const fs::path folder = fs::path(options.out) / "runs" / value.id;
-  Sampler sampler(folder / "particles");
+  Sampler sampler(folder / "particles", options);
   for (std::size_t e = 0; e < all.engines.size(); ++e) {
     const auto& engine = all.engines[e];
     if (!engine.entry) continue;
@@ -206,11 +209,18 @@ void describe_run(CaseRun& run, const Result& result, const SuiteOptions& option
   row.folder = fs::relative(run.folder, options.out).string();
 }
 
+/// Whether compare_engines() can come to look at the frames of the run: it compares two engines, and never the exact one.
+bool is_compared(const CaseRuns& all, const CaseRun& run) {
+  const auto counts = [&](const CaseRun& r) { return r.plan.base && !is_exact(all.engines[r.engine].name); };
+  return counts(run) && std::ranges::any_of(all.runs, [&](const CaseRun& r) { return counts(r) && r.engine != run.engine; });
+}
+
 /// A run that somebody else has made. Its frames are read where engines are compared by them.
-void take_row(const CaseRuns& all, CaseRun& run, RunRow row, const SuiteOptions& options) {
-  run.row = std::move(row);
+void take_made(const CaseRuns& all, CaseRun& run, MadeRun made, const SuiteOptions& options) {
+  run.row = std::move(made.row);
+  run.ledger = std::move(made.ledger);
   run.kept = true;
-  if (!run.plan.base || run.row.status != Status::ok) return;
+  if (run.row.status != Status::ok || !is_compared(all, run)) return;
   ProcessEnd end;
   end.how = ProcessEnd::How::exited;
   const auto outcome = read_back(request_of(all, run, options), end);
@@ -237,7 +247,7 @@ void give_up(CaseRun& run, Status status, const std::string& reason, const Suite
 }
 
 void make_run(const CaseRuns& all, CaseRun& run, const SuiteOptions& options) {
-  if (options.made) return take_row(all, run, options.made(all, run), options);
+  if (options.made) return take_made(all, run, options.made(all, run), options);
   auto outcome = run_one(request_of(all, run, options));
   if (run.changed && outcome.trajectory) outcome.trajectory = taken_back(run, *options.change, *outcome.trajectory);
   run.kept = outcome.kept;
@@ -250,7 +260,9 @@ void make_run(const CaseRuns& all, CaseRun& run, const SuiteOptions& options) {
   row.state_hash = outcome.result.state_hash;
   row.time_step_bound = outcome.result.time_step_bound;
   if (outcome.trajectory) row.metrics = evaluate_all(*all.value, run.job, *run.initial, *outcome.trajectory);
-  if (run.plan.base) run.trajectory = outcome.trajectory;
+  if (!run.plan.base || !outcome.trajectory) return;
+  run.trajectory = outcome.trajectory;
+  if (is_own_solver(all.engines[run.engine].name)) run.ledger = ledger_of(*run.trajectory);
 }
 
 CaseResult finish_case(const CaseRuns& all, const SuiteOptions& options) {
@@ -278,8 +290,7 @@ CaseResult finish_case(const CaseRuns& all, const SuiteOptions& options) {
   }
   result.equivalence = compare_engines(all);
   for (const auto& run : all.runs)
-    if (run.trajectory && run.plan.base && is_own_solver(all.engines[run.engine].name) && result.ledger.empty())
-      result.ledger = ledger_of(*run.trajectory);
+    if (result.ledger.empty()) result.ledger = run.ledger;
   judge(result, !options.selection.engines.empty());
   return result;
 }

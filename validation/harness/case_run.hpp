@@ -28,6 +28,7 @@ struct CaseRun {
   std::string folder, particles;
   std::shared_ptr<std::string> particles_hash;  ///< shared by the runs that start from one file
   RunRow row;
+  std::map<std::string, double> ledger;          ///< of the solver's base run
   bool kept = false;                             ///< taken from an earlier call, not made again
   std::shared_ptr<const Trajectory> trajectory;  ///< kept of base runs, for the comparison of engines
 };

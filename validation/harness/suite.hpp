@@ -35,6 +35,12 @@ struct CaseFilter {
 struct CaseRuns;
 struct CaseRun;
 
+/// What is kept of a run besides its files.
+struct MadeRun {
+  RunRow row;
+  std::map<std::string, double> ledger;  ///< of the solver's base run [J], by term
+};
+
 struct SuiteOptions {
   Selection selection;
   std::string out = "report";  ///< runs go below out/runs
@@ -48,9 +54,9 @@ struct SuiteOptions {
   const HarmlessChange* change = nullptr;  ///< every scene is run changed, and its frames are taken back before they are judged
   /// Which runs of the plan are made; empty = all.
   std::function<bool(const EnginePlan&, const RunPlan&)> wanted;
-  /// Row of a run that was made elsewhere, in the place of making it; its folder lies below `out` already. Empty = runs are made
-  /// here.
-  std::function<RunRow(const CaseRuns&, const CaseRun&)> made;
+  bool plans_alone = false;  ///< no run will be made: nothing is written
+  /// A run that was made elsewhere, in the place of making it; its folder lies below `out` already. Empty = runs are made here.
+  std::function<MadeRun(const CaseRuns&, const CaseRun&)> made;
   std::function<void(const std::string&)> say;     ///< progress, one line a call, from any thread
   std::function<void(const CaseResult&)> on_case;  ///< each case as soon as it and those before it are judged
 };

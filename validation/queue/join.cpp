@@ -75,7 +75,7 @@ Results join(const std::string& dir, const Queue& queue, const std::vector<Engin
           fmt::format("{} {} {}: is not the run that the suite was made of: the case, the engine or this program is another. "
                       "tripoint suite make again keeps every job that is still the same",
                       all.value->id, label_of(engine.name, engine.preset), run.plan.label));
-    return published_row(dir, *at->second);
+    return published_run(dir, *at->second);
   };
   auto results = run_suite(cases_of(queue), engines, options);
   results.profile = queue.filter.profile;

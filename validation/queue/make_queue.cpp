@@ -16,7 +16,7 @@ namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
 
-/// Jobs of one case. Its particles are sampled here, since they are part of a run's identity; their files are removed again.
+/// Jobs of one case. Its particles are sampled here, since they are part of a run's identity.
 void add_jobs(const Case& value, const std::vector<EngineEntry>& engines, const SuiteOptions& options,
               const std::map<std::string, double>& costs, QueueMade& made) {
   const auto all = prepare_case(value, engines, options);
@@ -33,7 +33,6 @@ void add_jobs(const Case& value, const std::vector<EngineEntry>& engines, const 
     job.cost = known == costs.end() ? predicted_cost(run.job, engine.name, run.initial->size()) : known->second;
     made.queue.jobs.push_back(std::move(job));
   }
-  fs::remove_all(options.out);
 }
 
 std::set<std::string> names_in(const fs::path& folder) {
@@ -79,7 +78,8 @@ QueueMade make_queue(const std::string& dir, Queue wanted, const std::vector<Cas
   for (const char* name : {state::todo, state::running, state::done, state::failed, state::lost, state::doubled, state::workers})
     fs::create_directories(fs::path(dir) / name);
   auto options = options_of(made.queue);
-  options.out = (fs::path(dir) / "planning").string();
+  options.out = dir;
+  options.plans_alone = true;
   for (const auto& value : cases) {
     made.queue.cases.push_back({value.id, value.file});
     add_jobs(value, engines, options, costs, made);

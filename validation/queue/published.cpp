@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/durable_file.hpp"
+#include "validation/harness/json_number.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;
@@ -32,21 +33,26 @@ std::string id_in(const Json& document) {
 
 std::string published_id(const std::string& dir, const QueuedJob& job) { return id_in(document_of(row_file(dir, job))); }
 
-RunRow published_row(const std::string& dir, const QueuedJob& job) {
+MadeRun published_run(const std::string& dir, const QueuedJob& job) {
   const auto file = row_file(dir, job);
   const auto document = document_of(file);
   if (id_in(document) != job.id || !document.contains("row"))
     throw InputError(fmt::format("{}: holds no result of job {} ({}): tripoint suite make, then work, makes it again",
                                  file.string(), job.id, name_of(job)));
-  return read_run_row(document["row"].dump(), file.string());
+  MadeRun made{read_run_row(document["row"].dump(), file.string()), {}};
+  if (document.contains("ledger"))
+    for (const auto& [term, energy] : document["ledger"].items())
+      made.ledger[term] = energy.is_number() ? energy.get<double>() : not_a_number;
+  return made;
 }
 
-bool publish(const std::string& dir, const QueuedJob& job, const RunRow& row, const std::string& folder,
+bool publish(const std::string& dir, const QueuedJob& job, const MadeRun& made, const std::string& folder,
              const std::string& worker) {
   const fs::path target = fs::path(dir) / run_folder(job);
   fs::create_directories(target.parent_path());
   fs::create_directories(folder);
-  const Json document{{"format", 1}, {"id", job.id}, {"worker", worker}, {"row", Json::parse(run_row_text(row))}};
+  Json document{{"format", 1}, {"id", job.id}, {"worker", worker}, {"row", Json::parse(run_row_text(made.row))}};
+  for (const auto& [term, energy] : made.ledger) document["ledger"][term] = number(energy);
   write_durably((fs::path(folder) / "row.json").string(), document.dump(1) + "\n");
   for (int n = 0; n < 100; ++n) {  // each turn takes one older folder out of the way
     if (std::rename(folder.c_str(), target.c_str()) == 0) return true;
@@ -58,6 +64,13 @@ bool publish(const std::string& dir, const QueuedJob& job, const RunRow& row, co
     fs::remove_all(aside, none);
   }
   throw EngineError(fmt::format("{}: the run cannot be moved there: {}", target.string(), std::strerror(errno)));
+}
+
+void publish_particles(const std::string& dir, const std::string& file, const std::string& workshop) {
+  const fs::path target = fs::path(dir) / fs::path(file).lexically_relative(workshop);
+  if (fs::exists(target)) return;
+  fs::create_directories(target.parent_path());
+  fs::rename(file, target);
 }
 
 void withdraw(const std::string& dir, const QueuedJob& job) { fs::remove(row_file(dir, job)); }

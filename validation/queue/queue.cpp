@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/errors.hpp"
+#include "scene/toml_node.hpp"
 #include "validation/case/engine_names.hpp"
 
 namespace tripoint {
@@ -105,7 +106,17 @@ Case case_of(const Queue& queue, const std::string& id) {
   return std::move(cases.front());
 }
 
+void try_cases(const Queue& queue, const std::set<std::string>& ids) {
+  std::vector<std::string> files;
+  for (const auto& c : queue.cases)
+    if (ids.count(c.id) > 0) files.push_back(c.file);
+  try_toml_files(files);
+}
+
 std::vector<Case> cases_of(const Queue& queue) {
+  std::set<std::string> ids;
+  for (const auto& c : queue.cases) ids.insert(c.id);
+  try_cases(queue, ids);
   std::vector<Case> cases;
   for (const auto& c : queue.cases) cases.push_back(case_of(queue, c.id));
   return cases;

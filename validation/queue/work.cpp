@@ -33,6 +33,9 @@ class Crew {
       : dir_(std::move(dir)), queue_(queue), engines_(engines), options_(options) {}
 
   WorkDone run() {
+    std::set<std::string> ids;
+    for (const auto row : options_.rows) ids.insert(queue_.jobs[row].case_id);
+    try_cases(queue_, ids);
     std::vector<std::thread> threads;
     for (int n = 0; n < options_.jobs; ++n)
       threads.emplace_back([this, n] {
@@ -123,7 +126,7 @@ class Crew {
 
   void make(const Worker& worker, const QueuedJob& job, int losses) {
     if (published_id(dir_, job) == job.id)
-      return note_end(worker, job, published_row(dir_, job));  // its worker was lost between the run and its note
+      return note_end(worker, job, published_run(dir_, job).row);  // its worker was lost between the run and its note
     auto options = options_of(queue_);
     options.out = worker.workshop();
     options.wanted = [&](const EnginePlan& engine, const RunPlan& run) {
@@ -136,8 +139,9 @@ class Crew {
     else
       make_run(all, run, options);
     if (interrupted()) return worker.release(job.id);
-    if (publish(dir_, job, run.row, run.folder, worker.name())) return note_end(worker, job, run.row);
-    const auto first = published_row(dir_, job);
+    if (run.row.status == Status::ok) publish_particles(dir_, run.particles, options.out);  // checked after the run
+    if (publish(dir_, job, {run.row, run.ledger}, run.folder, worker.name())) return note_end(worker, job, run.row);
+    const auto first = published_run(dir_, job).row;
     const bool same = same_outcome(first, run.row);
     worker.note_double(job.id, nlohmann::json{{"same", same}}.dump());
     say(fmt::format("doubled: {} ({}) had a result already; ours {}, and is dropped", name_of(job), job.id,
