@@ -84,7 +84,7 @@ std::string parallel(const Queue& queue, const EmitOptions& o) {
          fmt::format(
              R"(# JOBS=8 bash THIS: eight shards at a time (2 where nothing is said). Other machines: PARALLEL="--sshloginfile hosts" where the folder is shared.
 set -u
-{names}parallel --jobs "${{JOBS:-2}}" --quote --retries 3 --line-buffer "$TRIPOINT" suite work "$DIR" --shard "{{}}/{shards}" ::: {numbers}
+{names}parallel --jobs "${{JOBS:-2}}" --quote --retries 3 --ungroup "$TRIPOINT" suite work "$DIR" --shard "{{}}/{shards}" ::: {numbers}
 exec "$TRIPOINT" suite merge "$DIR"
 )",
              fmt::arg("names", names(o)), fmt::arg("shards", o.shards), fmt::arg("numbers", fmt::join(o.numbers, " ")));
