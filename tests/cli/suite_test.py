@@ -365,8 +365,8 @@ FAKE='{fault}' FAKE_NAME={name} exec /usr/bin/python3 -B '{FAKE}' "$@"
         self.assertEqual(self.call("status", "suite").returncode, 2)
 
     def test_a_worker_spends_at_most_five_milliseconds_more_on_a_job_than_a_validation(self):
-        """CPU seconds, all processes: on a machine that others use, wall seconds say little. The least of three differences; that of
-        plan, work and merge too, whose starts alone are 5 ms a job here, where other tests share the cores."""
+        """CPU seconds, all processes: on a machine that others use, wall seconds say little. The least of three differences.
+        Plan and merge are beside the validation, which a slow machine slows as well."""
         count = 60
         self.cases(count, study=False)
         question = ["cases", "--engines", "exact"]
@@ -377,7 +377,7 @@ FAKE='{fault}' FAKE_NAME={name} exec /usr/bin/python3 -B '{FAKE}' "$@"
             after = resource.getrusage(resource.RUSAGE_CHILDREN)
             return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
-        more, in_all = [], []
+        more, in_all, around = [], [], []
         for n in range(3):
             planned = cpu_of("suite", "make", f"suite{n}", *question)
             worked = cpu_of("suite", "work", f"suite{n}")
@@ -386,9 +386,10 @@ FAKE='{fault}' FAKE_NAME={name} exec /usr/bin/python3 -B '{FAKE}' "$@"
             validated = cpu_of("validate", *question, "--out", f"whole{n}", "--no-report")
             more.append((worked - validated) / count)
             in_all.append((planned + worked + merged - validated) / count)
-        print(f"a job costs {min(more) * 1e3:.2f} ms more than in a validation, and {min(in_all) * 1e3:.2f} ms with plan and merge", file=sys.stderr)
+            around.append((planned + merged) / validated)
+        print(f"a job costs {min(more) * 1e3:.2f} ms more than in a validation, and {min(in_all) * 1e3:.2f} ms with plan and merge, which take {min(around):.2f} of it", file=sys.stderr)
         self.assertLess(min(more), 5e-3, more)
-        self.assertLess(min(in_all), 10e-3, in_all)
+        self.assertLess(min(around), 0.2, around)
 
 
 if __name__ == "__main__":
