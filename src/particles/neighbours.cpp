@@ -14,6 +14,8 @@ namespace tripoint {
 namespace {
 
 const char* const axis_names[] = {"x", "y", "z"};
+constexpr std::size_t cells_a_strip = 6;                   ///< of 3 to 12, measured at 200,000 to 2,000,000 particles
+constexpr std::size_t clusters_that_have_strips = 10'000;  ///< what a layer of fewer reads stays in the cache as it is
 /// @param listed rows that the last lists knew: the fixed ones among them have not moved
 void refuse_not_finite(const Particles& particles, double time, std::size_t listed) {
   const auto x = positions(particles);
@@ -226,12 +228,14 @@ void Neighbours::form_clusters(const Particles& particles, const Grid& grid) {
   c.listed.clear();
   c.unlisted.clear();
   c.on_demand.clear();
+  strips_.clear();
   const std::size_t own = own_first_.empty() ? particles.moving() : whole_->own;
   add_clusters(grid, 0, own);
   add_clusters(grid, own, particles.moving());
   add_clusters(grid, particles.moving(), particles.awake());
   add_clusters(grid, particles.awake(), rows);
   c.first.push_back(static_cast<std::uint32_t>(rows));
+  order_visits();
   c.start.assign(c.size() + 1, 0);
   c.own.clear();
   c.within.clear();
@@ -248,16 +252,32 @@ void Neighbours::add_clusters(const Grid& grid, std::size_t from, std::size_t to
   const auto along = static_cast<std::size_t>(grid.count[0]);
   for (std::size_t cell = 0; cell < grid.cells(); cell += along) {
     const std::uint32_t end = grid.first[cell + along];
+    const auto strip = static_cast<std::uint32_t>(cell / along % static_cast<std::size_t>(grid.count[1]) / cells_a_strip);
     bool any = false;
     for (std::uint32_t place = grid.first[cell]; place < end; ++place) {
       const std::uint32_t row = rows_of_places().empty() ? place : rows_of_places()[place];
       if (row < from || row >= to) continue;
       const bool begins =
           !any || row - c.first.back() == static_cast<std::uint32_t>(c.lanes) || can_meet(row) != can_meet(row - 1);
-      if (begins) c.first.push_back(row);
+      if (begins) {
+        c.first.push_back(row);
+        strips_.push_back(strip);
+      }
       any = true;
     }
   }
+}
+
+/// Counting sort of clusters by strip.
+void Neighbours::order_visits() {
+  std::vector<std::uint32_t>& visits = clusters_.visits;
+  visits.clear();
+  if (strips_.size() < clusters_that_have_strips) return;
+  std::vector<std::uint32_t> next(*std::ranges::max_element(strips_) + 2u, 0);
+  for (const std::uint32_t strip : strips_) ++next[strip + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  visits.resize(strips_.size());
+  for (std::uint32_t k = 0; k < strips_.size(); ++k) visits[next[strips_[k]]++] = k;
 }
 
 /// Lists some clusters, ascending, after the entries that there are. Each thread lists a run of clusters into its own buffer, as

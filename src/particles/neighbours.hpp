@@ -45,10 +45,18 @@ struct Clusters {
   std::vector<std::uint32_t> listed,  ///< clusters with a list, ascending
       unlisted,                       ///< without, since all they meet is fixed as they are
       on_demand;  ///< of sleeping rows in reach of moving ones, after all others: see Neighbours::list_sleeping()
+  /// All clusters in the order in which passes visit them: strip by strip along y, so that what one layer of cells has read is
+  /// still in the cache for the next. Empty where there are few: as they are numbered. No sum depends on it.
+  std::vector<std::uint32_t> visits;
   [[nodiscard]] std::size_t size() const noexcept { return first.empty() ? 0 : first.size() - 1; }
   /// The cluster that a row is a member of.
   [[nodiscard]] std::uint32_t of(std::size_t row) const {
     return static_cast<std::uint32_t>(std::ranges::upper_bound(first, row) - first.begin() - 1);
+  }
+  /// Calls visit(k) for each cluster, in the order of visits.
+  template <class Visit>
+  void each(Visit visit) const {
+    for (std::uint32_t n = 0; n < size(); ++n) visit(visits.empty() ? n : visits[n]);
   }
 };
 
@@ -228,6 +236,7 @@ class Neighbours {
   void form_clusters(const Particles&, const Grid&);
   void list_fixed(const Particles&, const Places&, const Grid&);
   void add_clusters(const Grid&, std::size_t from, std::size_t to);
+  void order_visits();
   void bring_own_first(const Particles&, std::vector<std::uint32_t>& order);
   /// The row of each place in order of (cell, id); empty: rows are in that order.
   [[nodiscard]] const std::vector<std::uint32_t>& rows_of_places() const { return order_.empty() ? own_first_ : order_; }
@@ -285,7 +294,8 @@ class Neighbours {
   std::shared_ptr<const Grid> grid_;         ///< of the last lists, by places in order_; null where that is empty
   std::vector<std::uint32_t> moving_first_;  ///< first moving row of each cell, and one past the last; empty as above
   std::vector<std::uint32_t> row_blocks_;
-  std::size_t moving_ = 0;  ///< rows of the last lists, as Particles::moving()
+  std::vector<std::uint32_t> strips_;  ///< of each cluster
+  std::size_t moving_ = 0;             ///< rows of the last lists, as Particles::moving()
   bool listed_sleeping_ = false;
   long whole_lists_ = 0;
   bool listed_all_ = false;

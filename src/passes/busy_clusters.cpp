@@ -90,8 +90,9 @@ void BusyClusters::find_own(const World& world) {
   if (world.copies.empty()) return;
   own_.emplace();
   const Clusters& c = world.neighbours->clusters();
-  for (std::uint32_t k = 0; k < c.size(); ++k)
+  c.each([&](std::uint32_t k) {
     if (owns_any(world, c.first[k], c.first[k + 1])) own_->clusters.push_back(k);
+  });
 }
 
 void BusyClusters::sum_own(const PassFunction& pass, World& world, const PairKernels& kernels) {
@@ -113,12 +114,13 @@ void BusyClusters::find(World& world, bool leaves_own) {
   in_density_ = {};
   in_rates_ = {};
   still_.clear();
-  for (std::uint32_t k = 0; k < c.size() && c.first[k] < world.particles.awake(); ++k) {
+  c.each([&](std::uint32_t k) {
+    if (c.first[k] >= world.particles.awake()) return;
     if ((work[k] & density) != 0) in_density_.clusters.push_back(k);
     if ((work[k] & rates) != 0 && c.first[k] < world.particles.moving()) in_rates_.clusters.push_back(k);
-    if ((work[k] & density_is_still) == 0) continue;
+    if ((work[k] & density_is_still) == 0) return;
     for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i) still_.push_back(i);
-  }
+  });
   known_ = true;
 }
 

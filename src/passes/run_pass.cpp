@@ -41,6 +41,7 @@ void run_pass(const PassFunction& function, Particles& particles, Neighbours& ne
   PassTask task = task_of(particles, neighbours, kernels, threads);
   const std::vector<double*> columns = columns_of(function, particles);
   task.columns = columns.data();
+  if (const auto& visits = neighbours.clusters().visits; !visits.empty()) task.chosen = visits.data();
   function.run(task);
 }
 

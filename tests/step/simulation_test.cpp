@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <random>
 
+#include "core/machine.hpp"
 #include "effects/lab.hpp"
 
 namespace tripoint {
@@ -64,6 +65,34 @@ TEST(Simulation, GivesTheSameBitsOnAnyNumberOfThreads) {
     EXPECT_GT(one.steps(), 20);
     EXPECT_GT(one.world().neighbours->rebuilds(), 3) << "the lists must have been built anew for this to prove anything";
     for (const int threads : {2, 3, 7}) EXPECT_EQ(hash_of(lab.run(0.5, threads)), hash_of(one)) << threads << " threads";
+  }
+}
+
+/// With one particle a cluster there are enough of them for strips (Clusters::visits), with four there are not.
+TEST(Simulation, GivesTheSameBitsWhereClustersAreVisitedInAnotherOrder) {
+  if (!machine_has_avx2()) GTEST_SKIP() << "no clusters of four";
+  for (const bool conducts : {false, true}) {
+    lab::Lab lab(1e-3);
+    lab.scene.gravity = {0.0, 0.0, -10.0};
+    lab.scene.materials[0].stiffness = 4.0;
+    lab::Block water{.name = "water", .count = {24, 24, 18}, .phase = Phase::liquid, .velocity = {0.3, 0.2, 0.0}};
+    if (conducts) water.temperature = [](const Vec3& r) { return 300.0 + 1e4 * r.x; };
+    lab.add(water);
+    lab.add({.name = "floor",
+             .corner = {0.0, 0.0, -3e-3},
+             .count = {24, 24, 3},
+             .motion = Motion::fixed,
+             .temperature = water.temperature});
+    const auto run = [&](int lanes) {
+      Simulation s(lab.scene, lab.initial, {.threads = 2, .lanes = lanes});
+      s.advance_to(4e-3);
+      return s;
+    };
+    const Simulation one = run(1), four = run(4);
+    EXPECT_FALSE(one.world().neighbours->clusters().visits.empty());
+    EXPECT_TRUE(four.world().neighbours->clusters().visits.empty());
+    EXPECT_GT(one.world().neighbours->rebuilds(), 3);
+    EXPECT_EQ(hash_of(one), hash_of(four));
   }
 }
 
