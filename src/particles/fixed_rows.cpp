@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <numeric>
+#include <ranges>
 #include <span>
 
 #include "core/aligned.hpp"
@@ -17,24 +18,33 @@ namespace {
 
 constexpr std::size_t rows_a_block = 1024;
 
-/// Counting sort of rows by cell, and by id within each. Sets grid.first. @return at each place, which of `rows` stands there
-std::vector<std::uint32_t> sort_by_cell(const std::vector<std::uint32_t>& rows, const auto& x, std::span<const int> id,
-                                        auto& grid, int threads) {
+struct Sorted {
+  std::vector<std::uint32_t> place;    ///< at each place, which of the rows stands there
+  std::vector<std::uint32_t> cell_of;  ///< of each of the rows
+};
+
+/// Counting sort of rows by cell, and by id within each. Sets grid.first.
+Sorted sort_by_cell(const std::vector<std::uint32_t>& rows, const auto& x, std::span<const int> id, auto& grid, int threads) {
   const std::size_t m = rows.size();
-  grid.first.assign(grid.cells() + 1, 0);
-  std::vector<std::uint32_t> cell_of(m), place(m);
+  grid.first.assign(grid.cells() + 2, 0);
+  constexpr std::uint32_t nobody = ~std::uint32_t{0};
+  Sorted sorted{std::vector<std::uint32_t>(m, nobody), std::vector<std::uint32_t>(m)};
+  auto& [place, cell_of] = sorted;
 #pragma omp parallel for schedule(static) num_threads(threads)
   for (std::size_t k = 0; k < m; ++k) cell_of[k] = static_cast<std::uint32_t>(grid.index(grid.place(x.at(rows[k]))));
-  for (const std::uint32_t c : cell_of) ++grid.first[c + 1];
-  for (std::size_t c = 0; c < grid.cells(); ++c) grid.first[c + 1] += grid.first[c];
-  std::vector<std::uint32_t> next(grid.first.begin(), grid.first.end() - 1);
+  for (const std::uint32_t c : cell_of) ++grid.first[c + 2];
+  for (std::size_t c = 1; c <= grid.cells(); ++c) grid.first[c + 1] += grid.first[c];
   for (std::uint32_t k = 0; k < m; ++k) {
     const std::uint32_t c = cell_of[k];
-    std::uint32_t at = next[c]++;
-    for (; at > grid.first[c] && id[rows[place[at - 1]]] > id[rows[k]]; --at) place[at] = place[at - 1];  // a cell holds few
+    std::uint32_t at = grid.first[c + 1]++;  // the next place of the cell, in the end the first of the one after it
+    const auto is_after = [&](std::uint32_t other) {
+      return other != nobody && cell_of[other] == c && id[rows[other]] > id[rows[k]];
+    };
+    for (; at > 0 && is_after(place[at - 1]); --at) place[at] = place[at - 1];  // a cell holds few
     place[at] = k;
   }
-  return place;
+  grid.first.pop_back();
+  return sorted;
 }
 
 /// A permutation of rows: the content of row from[k] goes to row to[k].
@@ -109,11 +119,12 @@ std::vector<char> Neighbours::within(std::vector<char> marks, double distance) c
         const auto spread = [&](bool forward) {
           int since = far + 1;
           const int turns = box_.periodic[a] ? 2 : 1;  // twice around, so that marks reach across the boundary
-          for (int at = 0; at < turns * n[a]; ++at) {
-            const int m = forward ? at % n[a] : n[a] - 1 - at % n[a];
-            since = marks[from + static_cast<std::size_t>(m) * step[a]] != 0 ? 0 : since + 1;
-            if (since <= far) line[static_cast<std::size_t>(m)] = 1;
-          }
+          for (int turn = 0; turn < turns; ++turn)
+            for (int at = 0; at < n[a]; ++at) {
+              const int m = forward ? at : n[a] - 1 - at;
+              since = marks[from + static_cast<std::size_t>(m) * step[a]] != 0 ? 0 : since + 1;
+              if (since <= far) line[static_cast<std::size_t>(m)] = 1;
+            }
         };
         std::ranges::fill(line, char{0});
         spread(true);
@@ -169,7 +180,7 @@ void Neighbours::sort_awake(Particles& particles, Grid& grid, const Resting& res
   const auto id = particles[field::id];
   still_.place.resize(n, ~std::uint32_t{0});  // particles that have flowed in move
   const auto [rows, part, can_meet] = awake_rows(particles, grid, resting);
-  const std::vector<std::uint32_t> place = sort_by_cell(rows, x, id, grid, threads_);
+  const auto [place, cell_of] = sort_by_cell(rows, x, id, grid, threads_);
   if (!grid_ || grid_->count != grid.count) {  // their order stays where there are more cells or fewer
     still_.in_cell.assign(grid.cells() + 1, 0);
     for (const std::uint32_t one : still_.id) ++still_.in_cell[grid.index(grid.place(x.at(particles.row(one)))) + 1];
@@ -185,16 +196,17 @@ void Neighbours::sort_awake(Particles& particles, Grid& grid, const Resting& res
   std::vector<std::uint32_t> was(rows.size());
   order_.resize(rows.size());
   meets_.resize(rows.size());
-  moving_first_.assign(grid.cells() + 1, 0);
-  for (std::size_t c = 0; c < grid.cells(); ++c) {
-    for (std::uint32_t at = grid.first[c]; at < grid.first[c + 1]; ++at) {
-      const std::uint32_t k = place[at], r = row[part[k]]++;
-      order_[at] = r;
-      was[r] = rows[k];
-      meets_[r] = can_meet[k];
-    }
-    moving_first_[c + 1] = row[moves];
+  moving_first_.resize(grid.cells() + 1);
+  std::size_t told = 0;  // cells whose first moving row is known: most of a tank's cells are empty
+  for (std::uint32_t at = 0; at < place.size(); ++at) {
+    const std::uint32_t k = place[at], cell = cell_of[k];
+    for (; told <= cell; ++told) moving_first_[told] = row[moves];
+    const std::uint32_t r = row[part[k]]++;
+    order_[at] = r;
+    was[r] = rows[k];
+    meets_[r] = can_meet[k];
   }
+  for (; told < moving_first_.size(); ++told) moving_first_[told] = row[moves];
   const auto& [from, to] = bring_to_front(was, n);
   particles.rearrange(from, to, first_read, first_asleep, threads_);
   const auto sorted = positions(particles);
@@ -207,20 +219,18 @@ void Neighbours::sort_awake(Particles& particles, Grid& grid, const Resting& res
 /// Blocks of all rows in order of (cell, id): how many moving rows come before each.
 void Neighbours::find_blocks(const Particles& particles, const Grid& grid) {
   const auto id = particles[field::id];
-  std::size_t next = 0;  // of all rows, the first of the next block
+  const auto rows_before = [&](std::size_t cell) { return std::size_t{moving_first_[cell]} + still_.in_cell[cell]; };
   row_blocks_.clear();
-  for (std::size_t c = 0; c < grid.cells(); ++c) {
-    const std::size_t start = std::size_t{moving_first_[c]} + still_.in_cell[c],
-                      end = std::size_t{moving_first_[c + 1]} + still_.in_cell[c + 1];
-    for (; next < end; next += rows_a_block) {
-      std::uint32_t moving = moving_first_[c], fixed = still_.in_cell[c];
-      for (std::size_t at = start; at < next; ++at) {
-        const bool is_fixed = moving == moving_first_[c + 1] ||
-                              (fixed < still_.in_cell[c + 1] && still_.id[fixed] < static_cast<std::uint32_t>(id[moving]));
-        ++(is_fixed ? fixed : moving);
-      }
-      row_blocks_.push_back(moving);
+  for (std::size_t first = 0; first < rows_before(grid.cells()); first += rows_a_block) {
+    const auto cells = std::views::iota(std::size_t{1}, grid.cells() + 1);
+    const std::size_t c = *std::ranges::upper_bound(cells, first, {}, rows_before) - 1;  // the cell that the block begins in
+    std::uint32_t moving = moving_first_[c], fixed = still_.in_cell[c];
+    for (std::size_t at = rows_before(c); at < first; ++at) {
+      const bool is_fixed = moving == moving_first_[c + 1] ||
+                            (fixed < still_.in_cell[c + 1] && still_.id[fixed] < static_cast<std::uint32_t>(id[moving]));
+      ++(is_fixed ? fixed : moving);
     }
+    row_blocks_.push_back(moving);
   }
   row_blocks_.push_back(moving_first_.back());
 }

@@ -52,18 +52,28 @@ Scanned scan_places(const Scan& s, std::uint32_t* rows, std::uint8_t* near) {
     const CandidateRange places = *range;
     const Vec3 shift = s.shift[places.image];
     const std::uint32_t image = Entry::of(0, places.image).bits;
-    const bool may_be_itself = places.image == Entry::box_itself;
-    for (std::uint32_t place = places.from; place < places.to; ++place) {
-      const std::uint32_t j = ordered ? order[place] : place;
-      const V dx = (x[j] - xi) + shift.x, dy = (y[j] - yi) + shift.y, dz = (z[j] - zi) + shift.z;
-      const V r2 = dx * dx + dy * dy + dz * dz;
-      unsigned bits = bits_of<L>(r2 < reach2) & members;
-      if (j - first < static_cast<std::uint32_t>(L) && may_be_itself) bits &= ~(1u << (j - first));  // itself
-      rows[n] = image | j;
-      near[n] = static_cast<std::uint8_t>(bits);
-      n += bits != 0;
-      pairs += static_cast<std::size_t>(std::popcount(bits)) << (ordered && j >= twice_from ? 1 : 0);
-    }
+    const auto look = [&]<bool box_itself> {
+      for (std::uint32_t place = places.from; place < places.to; ++place) {
+        const std::uint32_t j = ordered ? order[place] : place;
+        V dx = x[j] - xi, dy = y[j] - yi, dz = z[j] - zi;
+        if constexpr (!box_itself) {
+          dx += shift.x;
+          dy += shift.y;
+          dz += shift.z;
+        }
+        const V r2 = dx * dx + dy * dy + dz * dz;
+        unsigned bits = bits_of<L>(r2 < reach2) & members;
+        if (box_itself && j - first < static_cast<std::uint32_t>(L)) bits &= ~(1u << (j - first));  // a member itself
+        rows[n] = image | j;
+        near[n] = static_cast<std::uint8_t>(bits);
+        n += bits != 0;
+        pairs += static_cast<std::size_t>(std::popcount(bits)) << (ordered && j >= twice_from ? 1 : 0);
+      }
+    };
+    if (places.image == Entry::box_itself)
+      look.template operator()<true>();
+    else
+      look.template operator()<false>();
   }
   return {n, pairs};
 }

@@ -245,6 +245,26 @@ TEST(Neighbours, OfAParticleThatIsNowhereNameIt) {
   }
 }
 
+TEST(Neighbours, OfManyAreVisitedStripByStrip) {
+  constexpr double support = 0.05, skin = 0.005, wide = 4.0 * (support + skin);  // of a strip: 6 cells of 1/1.5 of the reach
+  Particles few = cloud(9'000, {1.0, 1.0, 1.0}, false), many = cloud(12'000, {1.0, 1.0, 1.0}, false);
+  Neighbours n(support, skin, {}, 1);
+  n.update(few, 0.0);
+  EXPECT_TRUE(n.clusters().visits.empty());
+  Neighbours m(support, skin, {}, 1);
+  m.update(many, 0.0);
+  const Clusters& c = m.clusters();
+  const auto y = many[field::position_y];
+  const double low = *std::ranges::min_element(y);
+  std::vector<std::pair<int, std::uint32_t>> visited;
+  c.each([&](std::uint32_t k) { visited.emplace_back(static_cast<int>((y[c.first[k]] - low) / wide), k); });
+  EXPECT_GT(visited.back().first, 3);
+  EXPECT_TRUE(std::ranges::is_sorted(visited));
+  std::vector<std::uint32_t> all(c.size());
+  std::iota(all.begin(), all.end(), 0u);
+  EXPECT_TRUE(std::ranges::is_permutation(c.visits, all));
+}
+
 /// A long fixed bar, body 0, and a few particles that move along above it.
 Particles bar_with_movers() {
   constexpr int along = 120, across = 5;
@@ -313,6 +333,36 @@ TEST(Neighbours, WhatSleepsChangesNoListNoCountAndNoOrder) {
     EXPECT_EQ(whole.whole_lists(), 8);
     EXPECT_EQ(sleepy.whole_lists(), 2);
   }
+}
+
+/// Rows are sorted anew from any order: those that move are thrown about a small place between two lists.
+TEST(Neighbours, OfACrowdThatIsThrownAboutKeepTheOrder) {
+  constexpr std::size_t crowd = 300;
+  const Particles bar = bar_with_movers();
+  Particles some(bar.size() + crowd, common_fields(false));
+  std::ranges::fill(some[field::body], -1);
+  std::ranges::copy(bar[field::body], some[field::body].begin());
+  for (std::size_t i = 0; i < bar.size(); ++i) positions(some).set(i, bar.position(i));
+  Particles all = some;
+  Neighbours sleepy(0.25, 0.05, {}, 1, 4), whole(0.25, 0.05, {}, 1, 4);
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> uniform(0.0, 0.5);
+  for (int round = 0; round < 5; ++round) {
+    for (std::size_t id = bar.size(); id < all.size(); ++id) {
+      const Vec3 r{0.5 * uniform(random), 0.5 * uniform(random), 0.45 + 0.5 * uniform(random)};
+      for (Particles* p : {&some, &all}) positions(*p).set(p->row(id), r);
+    }
+    ASSERT_TRUE(sleepy.update(some, 0.0, [] { return Resting{{1}}; }));
+    whole.update(all, 0.0);
+    const std::vector<std::uint32_t> order = sleepy.rows_in_order(some);
+    for (std::size_t n = 0; n < order.size(); ++n) {
+      ASSERT_EQ(some[field::id][order[n]], all[field::id][n]) << "round " << round;
+      if (order[n] < some.moving()) {
+        ASSERT_EQ(listed_ids(some, sleepy, order[n]), listed_ids(all, whole, n)) << "round " << round;
+      }
+    }
+  }
+  EXPECT_EQ(some.moving(), crowd + 12);
 }
 
 TEST(Neighbours, BlocksOfRowsAreThoseOfAllRows) {
