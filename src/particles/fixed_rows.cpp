@@ -6,8 +6,8 @@
 #include <bit>
 #include <cmath>
 #include <numeric>
-#include <ranges>
 #include <span>
+#include <utility>
 
 #include "core/aligned.hpp"
 #include "particles/grid.hpp"
@@ -28,8 +28,7 @@ Sorted sort_by_cell(const std::vector<std::uint32_t>& rows, const auto& x, std::
   const std::size_t m = rows.size();
   grid.first.assign(grid.cells() + 2, 0);
   constexpr std::uint32_t nobody = ~std::uint32_t{0};
-  Sorted sorted{std::vector<std::uint32_t>(m, nobody), std::vector<std::uint32_t>(m)};
-  auto& [place, cell_of] = sorted;
+  std::vector<std::uint32_t> place(m, nobody), cell_of(m);
 #pragma omp parallel for schedule(static) num_threads(threads)
   for (std::size_t k = 0; k < m; ++k) cell_of[k] = static_cast<std::uint32_t>(grid.index(grid.place(x.at(rows[k]))));
   for (const std::uint32_t c : cell_of) ++grid.first[c + 2];
@@ -44,7 +43,7 @@ Sorted sort_by_cell(const std::vector<std::uint32_t>& rows, const auto& x, std::
     place[at] = k;
   }
   grid.first.pop_back();
-  return sorted;
+  return {std::move(place), std::move(cell_of)};
 }
 
 /// A permutation of rows: the content of row from[k] goes to row to[k].
@@ -221,9 +220,12 @@ void Neighbours::find_blocks(const Particles& particles, const Grid& grid) {
   const auto id = particles[field::id];
   const auto rows_before = [&](std::size_t cell) { return std::size_t{moving_first_[cell]} + still_.in_cell[cell]; };
   row_blocks_.clear();
+  std::size_t c = 0;  // the cell that a block begins in
   for (std::size_t first = 0; first < rows_before(grid.cells()); first += rows_a_block) {
-    const auto cells = std::views::iota(std::size_t{1}, grid.cells() + 1);
-    const std::size_t c = *std::ranges::upper_bound(cells, first, {}, rows_before) - 1;  // the cell that the block begins in
+    for (std::size_t past = grid.cells(); past - c > 1;) {
+      const std::size_t middle = (c + past) / 2;
+      (rows_before(middle) <= first ? c : past) = middle;
+    }
     std::uint32_t moving = moving_first_[c], fixed = still_.in_cell[c];
     for (std::size_t at = rows_before(c); at < first; ++at) {
       const bool is_fixed = moving == moving_first_[c + 1] ||
