@@ -19,6 +19,7 @@ MEANS = {
     "hourglass": "energy against zero-energy modes (12)", "heat": "conduction with equal and opposite flows and a moment factor (21)", "phase": "latent heat and hysteresis (Fig. 5)", "rotation": "splitting of the free top (19)-(20)",
     "time": "kick-drift-kick, two-stage heat", "bulk_viscosity": "numerical bulk viscosity of liquids (8.4), which the paper does not have",
     "bending": "gradients at surfaces that are exact for curved displacements (8.7), which the paper does not have",
+    "contact_step": "steps that are short where solids touch alone (8.10), which the paper does not have",
     "contact_stiffness": "solids that are stiffer than liquids where they touch (8.3), which the paper does not have",
     "core_reach": "core that keeps pairs apart where the clamp leaves no pressure (8.3), which the paper does not have",
     "face_pressure": "pressure on elastic solids at their face and not at the middles of their outer particles (8.3), which the paper does not have",

@@ -42,6 +42,7 @@ surface_weight = 0.4
 isotropic_shear = 0.5
 core_reach = 0.6
 contact_stiffness = 3
+contact_step = 0.5
 face_pressure = 1
 interface_weight = 1
 mean_pressure = 1

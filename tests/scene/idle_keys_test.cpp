@@ -145,11 +145,26 @@ TEST(IdleKeys, FindLimitsOfTheFormThatDoesNotRun) {
 }
 
 TEST(IdleKeys, FindKeysOfTheSceneThatNoEffectReads) {
-  for (const char* key :
-       {"transport_velocity = true", "viscosity_form = 'laplacian'", "clamp = false", "contact_viscosity = 3",
-        "bulk_viscosity = 0.1", "surface_weight = 0.4", "isotropic_shear = 1", "core_reach = 0.6", "contact_stiffness = 3",
-        "face_pressure = 1", "interface_weight = 1", "mean_pressure = 1", "sound_damping = 0.2", "surface_exchange = 0",
-        "hourglass = 5", "bending = 1", "merge_distance = 1.2", "modes.heat = 'paper'", "modes.elastic = 'paper'"})
+  for (const char* key : {"transport_velocity = true",
+                          "viscosity_form = 'laplacian'",
+                          "clamp = false",
+                          "contact_viscosity = 3",
+                          "bulk_viscosity = 0.1",
+                          "surface_weight = 0.4",
+                          "isotropic_shear = 1",
+                          "core_reach = 0.6",
+                          "contact_stiffness = 3",
+                          "contact_step = 0.3",
+                          "face_pressure = 1",
+                          "interface_weight = 1",
+                          "mean_pressure = 1",
+                          "sound_damping = 0.2",
+                          "surface_exchange = 0",
+                          "hourglass = 5",
+                          "bending = 1",
+                          "merge_distance = 1.2",
+                          "modes.heat = 'paper'",
+                          "modes.elastic = 'paper'"})
     EXPECT_EQ(found(scene(key) + cube(), "changes nothing"), "warning") << key;
   const auto pool = ink + body("pool", "ink", "liquid", 0.0);
   for (const char* key : {"viscosity_form = 'laplacian'", "clamp = false", "modes.walls = 'paper'"})
@@ -170,6 +185,12 @@ TEST(IdleKeys, FindKeysOfTheSceneThatNoEffectReads) {
   EXPECT_EQ(found(scene("surface_weight = 0.4\ngravity = [0, 0, -9.81]\nclamp = false") + pool, "changes nothing"), "warning");
   EXPECT_EQ(found(scene("contact_stiffness = 3") + pool, "changes nothing"), "warning");
   EXPECT_EQ(found(scene("contact_stiffness = 3") + pool + brick + body("block", "brick", "rigid", 0.5), "changes nothing"), "");
+  const auto hit = pool + brick + body("block", "brick", "rigid", 0.5);
+  EXPECT_EQ(found(scene("contact_step = 0.3") + hit, "changes nothing"), "");
+  EXPECT_EQ(found(scene("contact_step = 0.3") + pool, "changes nothing"), "warning");
+  for (const char* key :
+       {"time_step = 1e-3", "clamp = false", "modes.density = 'paper'", "modes.pressure = 'paper'", "modes.state = 'paper'"})
+    EXPECT_EQ(found(scene(std::string("contact_step = 0.3\n") + key) + hit, "changes nothing"), "warning") << key;
   EXPECT_EQ(found(scene("core_reach = 0.6") + pool, "changes nothing"), "");
   EXPECT_EQ(found(scene("core_reach = 0.6\nmode = 'paper'") + pool, "changes nothing"), "warning");
   EXPECT_EQ(found(scene("isotropic_shear = 1") + pool, "changes nothing"), "");

@@ -89,5 +89,85 @@ TEST(AccelerationBound, WithinItTheErrorFallsWithTheSquareOfTheStep) {
   EXPECT_NEAR(heavy_fall(0.5).error / heavy_fall(0.25).error, 4.0, 1.5);
 }
 
+/// A plate of two layers that falls onto a floor from four spacings above it, nine times as stiff as sound says.
+lab::Lab plate_that_falls(double contact_step) {
+  lab::Lab lab = lab::liquid_lab(1.0, 1.0, 0.0, 1.0);
+  lab.scene.values["contact_stiffness"] = 8.0;
+  lab.scene.values["contact_step"] = contact_step;
+  lab.add({.name = "plate", .corner = {0.0, 0.0, 5.0}, .count = {4, 4, 2}, .velocity = {0.0, 0.0, -0.05}});
+  lab.add({.name = "floor", .corner = {0.0, 0.0, -3.0}, .count = {4, 4, 4}, .motion = Motion::fixed});
+  lab.make_periodic({true, true, false}, {0.0, 0.0, 0.0}, {4, 4, 16});
+  return lab;
+}
+
+constexpr double sound_step = 0.45 * 2.6;  // [spacings/c]
+
+TEST(ContactBound, HoldsInEveryStepWhereNothingSaysOtherwise) {
+  const lab::Lab lab = plate_that_falls(0.0);
+  Simulation s(lab.scene, lab.initial);
+  EXPECT_EQ(s.bound().name, "contact");
+  EXPECT_NEAR(s.bound().dt, sound_step / 3.05, 1e-12);
+  s.advance_to(40.0);
+  EXPECT_NEAR(s.bound().dt, sound_step / 3.05, 1e-12);
+}
+
+/// The first steps are short: nothing is known yet of how densities grow. It touches at 80 dx/c, and leaves at about 84.
+TEST(ContactBound, WithAContactStepHoldsNearATouchAloneAndAsShortAsTheKeySays) {
+  const lab::Lab lab = plate_that_falls(0.5);
+  Simulation s(lab.scene, lab.initial);
+  EXPECT_EQ(s.bound().name, "contact");
+  EXPECT_NEAR(s.bound().dt, 0.5 * sound_step / 3.05, 1e-12);
+  s.advance_to(40.0);
+  EXPECT_EQ(s.bound().name, "sound");
+  EXPECT_NEAR(s.bound().dt, sound_step / 1.05, 1e-12);
+  bool touched = false;
+  while (s.world().time < 120.0) {
+    s.advance_to(s.world().time + 0.1);
+    const bool pressed = s.ledger().energy.at("compression") > 1e-9;
+    touched = touched || pressed;
+    if (pressed) {
+      EXPECT_EQ(s.bound().name, "contact") << s.world().time;
+    }
+  }
+  EXPECT_TRUE(touched);
+  EXPECT_EQ(s.bound().name, "sound") << "it flies again";
+}
+
+TEST(ContactBound, AfterAnEventHoldsUntilItIsKnownHowDensitiesGrow) {
+  lab::Lab lab = plate_that_falls(0.5);
+  lab.add({.name = "other", .corner = {0.0, 0.0, 10.0}, .count = {4, 4, 1}});
+  Event hold;
+  hold.kind = Event::Kind::hold;
+  hold.time = 20.0;
+  hold.bodies = {"other"};
+  lab.scene.events = {hold};
+  Simulation s(lab.scene, lab.initial);
+  s.advance_to(19.0);
+  EXPECT_EQ(s.bound().name, "sound");
+  s.advance_to(20.1);
+  EXPECT_EQ(s.bound().name, "contact");
+  s.advance_to(21.0);
+  EXPECT_EQ(s.bound().name, "sound");
+}
+
+/// As deep as where every step is short, and as fast away.
+TEST(ContactBound, WithAContactStepAHitIsTheHitOfShortSteps) {
+  const auto deepest = [](double contact_step) {
+    const lab::Lab lab = plate_that_falls(contact_step);
+    Simulation s(lab.scene, lab.initial);
+    double least = 5.0;
+    s.advance_to(120.0, [&] {
+      least = std::min(least, s.world().bodies[field::body_centre][0].z);
+      return true;
+    });
+    return std::pair(least, s.world().bodies[field::body_velocity][0].z);
+  };
+  const auto [depth, away] = deepest(1.0);
+  const auto [depth_of_short, away_of_short] = deepest(0.0);
+  EXPECT_NEAR(depth, depth_of_short, 0.005);
+  EXPECT_NEAR(away, 0.05, 1e-3);
+  EXPECT_NEAR(away_of_short, 0.05, 1e-3);
+}
+
 }  // namespace
 }  // namespace tripoint

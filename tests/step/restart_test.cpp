@@ -199,6 +199,18 @@ Journey melting_of_unlike_phases() {
   return {lab, {20.0, 40.0, 60.0}};
 }
 
+/// Two cubes that meet, in steps that are short while they touch.
+Journey hit() {
+  lab::Lab lab(0.1);
+  lab.scene.materials[0].stiffness = 1000.0;
+  lab.scene.materials[0].conductivity.reset();
+  lab.scene.values["contact_stiffness"] = 24.0;
+  lab.scene.values["contact_step"] = 0.5;
+  lab.add({.name = "left", .count = {3, 3, 3}, .velocity = {1.5, 0.0, 0.0}, .angular_velocity = {0.0, 0.5, 0.0}});
+  lab.add({.name = "right", .corner = {0.8, 0.0, 0.03}, .count = {3, 3, 3}, .velocity = {-1.5, 0.0, 0.0}});
+  return {lab, {0.3, 0.5}};
+}
+
 /// 10 random cuts; every one continued on 1 and on 2 threads, whatever the unbroken run had.
 void expect_same_bits(const Journey& j, unsigned seed) {
   const Course whole = unbroken(j, 1);
@@ -249,6 +261,14 @@ TEST(Restart, OfALiquidThatTheTransportVelocityMovesIsTheUnbrokenRun) {
   j.lab.scene.values["mean_pressure"] = 1.0;
   j.lab.scene.values["sound_damping"] = 0.2;
   expect_same_bits(j, 2);
+}
+
+TEST(Restart, OfAHitInStepsThatAreShortAtATouchIsTheUnbrokenRun) {
+  const Journey j = hit();
+  Journey everywhere = j;
+  everywhere.lab.scene.values["contact_step"] = 0.0;
+  EXPECT_LT(unbroken(j, 1).steps, unbroken(everywhere, 1).steps / 2) << "steps must be long elsewhere for this to prove anything";
+  expect_same_bits(j, 9);
 }
 
 TEST(Restart, OfMeltingWithUnlikePhasesIsTheUnbrokenRun) {

@@ -16,6 +16,7 @@ inline constexpr Field<double> viscous_force_x{"viscous_force.x", "N"}, viscous_
     viscous_force_z{"viscous_force.z", "N"};
 inline constexpr Field<double> number_density_before{"number_density_before", "1/m3"},
     bulk_pressure{"bulk_pressure", "Pa"};  ///< at the last places; of the numerical bulk viscosity
+inline constexpr Field<double> solid_density_before{"solid_density_before", "1/m3"};  ///< of solids, at the last places
 /// Velocity that viscous pairs see: predicted to the full step for liquids, mirrored for walls.
 inline constexpr Field<double> viscous_velocity_x{"viscous_velocity.x", "m/s"}, viscous_velocity_y{"viscous_velocity.y", "m/s"},
     viscous_velocity_z{"viscous_velocity.z", "m/s"};
@@ -51,5 +52,7 @@ inline constexpr StepNumber half_step{"half_step", 0.0};  ///< length of the las
 /// Greatest stable step of viscosity, as last formed [s].
 inline constexpr StepNumber viscous_step{"viscous_step", std::numeric_limits<double>::infinity(), true};
 inline constexpr StepNumber viscous_age{"viscous_age", 0.0};  ///< rates since it was formed [1]
+/// Until a solid that can move is pressed; 0 where one is [s].
+inline constexpr StepNumber time_to_touch{"time_to_touch", 0.0, true};
 
 }  // namespace tripoint::fluid

@@ -6,6 +6,7 @@
 
 #include "core/machine.hpp"
 #include "effects/fluid/bulk_viscosity.hpp"
+#include "effects/fluid/contact_bound.hpp"
 #include "effects/fluid/face_pressure.hpp"
 #include "effects/fluid/fields.hpp"
 #include "effects/fluid/fluid_ledger.hpp"
@@ -86,6 +87,7 @@ class Fluid : public Effect {
   void bonds(World&) override;
   void form_fixed(World&) override;
   void happen(World& world, const Happening&) override {
+    if (numbers_.contact_step > 0.0) forget_time_to_touch(world);
     set_groups(world);
     clear_walls();
   }
@@ -182,6 +184,7 @@ void Fluid::adopt(World& world) {
   for (const std::uint32_t id : world.change.relisted) set_own_density(world, world.particles.row(id));
   const bool same_solids = world.change.regrouped.empty() && world.change.bodies.empty();
   set_groups(world);
+  if (numbers_.contact_step > 0.0) forget_time_to_touch(world);
   if (!same_solids) clear_walls();
 }
 
@@ -231,6 +234,7 @@ void Fluid::state(World& world) {
     if (faces_.acts()) faces_.add_densities(world, kernels_);
     set_density(world, numbers_);
     if (averages_) walls_.average_density(world, numbers_, kernels_);
+    if (numbers_.contact_step > 0.0) update_time_to_touch(world, numbers_);
   }
   if (solid_viscosity_.follows_temperature()) follow_temperature(world);
   set_pressure(world, numbers_);
@@ -266,9 +270,7 @@ TimeStepBound Fluid::max_dt(const World& world) const {
   for (std::size_t i = 0; i < world.particles.moving(); ++i) v2 = std::max(v2, dot(v.at(i), v.at(i)));
   const bool printed = world.scene.mode_of(term::pressure) == Mode::paper;
   const double courant = printed ? courant_printed : transports_ ? courant_transported : courant_corrected;
-  TimeStepBound bound;
-  tighten(bound, courant * world.support() / (numbers_.contact_speed + std::sqrt(v2)),
-          numbers_.solid_stiffness > 1.0 ? "contact" : "sound");
+  TimeStepBound bound = sound_bound(world, numbers_, courant * world.support(), std::sqrt(v2));
   if (damps_)
     tighten(bound, bulk_viscous_step(numbers_.bulk_viscosity) * world.support() / (numbers_.sound_speed + std::sqrt(v2)),
             "bulk viscosity");
@@ -332,6 +334,8 @@ EffectSpec spec(const Scene& scene) {
   if (scene.mode_of(term::pressure) == Mode::corrected) own({field::pressure_share});
   if (scene.mode_of(term::density) == Mode::corrected && can_have_deformable_bodies(scene)) own({field::own_density});
   if (damps) own({field::number_density_before, field::bulk_pressure});
+  const bool looks_ahead = acting_number(scene, "contact_step") > 0.0;
+  if (looks_ahead) own({field::solid_density_before});
   if (mirrors_velocities(scene))
     own({field::wall_weight, field::wall_velocity_x, field::wall_velocity_y, field::wall_velocity_z});
   if (uses_transport_velocity(scene))
@@ -342,6 +346,7 @@ EffectSpec spec(const Scene& scene) {
   s.forces = forces_of(scene);
   s.accounts = {compression_released};
   s.step_numbers = {half_step, viscous_step, viscous_age};
+  if (looks_ahead) s.step_numbers.push_back(time_to_touch);
   s.guards = {{field::density, "density", Written::density}};
   s.positive = {field::density};
   s.guarded_entries = {{"viscous", EntryRole::only_takes, "viscous forces, which may only take energy"}};

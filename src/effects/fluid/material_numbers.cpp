@@ -88,6 +88,7 @@ SceneNumbers numbers_of(const Scene& scene) {
   if (n.averages_walls) n.wall_stiffness = 2.0;
   if (const double stiffer = acting_number(scene, "contact_stiffness"); stiffer > 0.0)
     n.wall_stiffness = n.solid_stiffness = 1.0 + stiffer;
+  n.contact_step = acting_number(scene, "contact_step");
   n.contact_speed = std::sqrt(n.solid_stiffness) * n.sound_speed;
   return n;
 }

@@ -14,6 +14,8 @@ namespace {
 
 bool is_liquid(const Scene&, const Body& b, const Material&) { return b.phase == Phase::liquid; }
 
+bool is_free_solid(const Scene&, const Body& b, const Material&) { return b.phase != Phase::liquid && b.motion == Motion::free; }
+
 bool has_stiffness(const Material& m) { return m.stiffness.has_value(); }
 
 bool can_break(const Scene&, const Body& b, const Material& m) {
@@ -111,10 +113,16 @@ std::string no_core(const Scene& scene) {
 std::string no_contact_stiffness(const Scene& s) {
   if (s.mode_of(term::state) == Mode::paper) return "the equation of state is as printed";
   if (calls_for(s, "phase")) return "where matter melts or freezes, its stiffness would change at once";
-  const auto free_solid = [](const Scene&, const Body& b, const Material&) {
-    return b.phase != Phase::liquid && b.motion == Motion::free;
-  };
-  return any_body(s, free_solid) ? "" : "no solid is free to touch another";
+  return any_body(s, is_free_solid) ? "" : "no solid is free to touch another";
+}
+
+std::string no_contact_step(const Scene& s) {
+  if (s.time_step) return "the scene gives its time_step";
+  if (!s.clamps()) return "the scene does not clamp: solids pull at each other before they touch";
+  for (const Term& one : {term::density, term::pressure, term::state})
+    if (s.mode_of(one) != Mode::corrected) return fmt::format("{} is as printed", one.name);
+  if (calls_for(s, "phase")) return "where matter melts or freezes, densities change at once";
+  return any_body(s, is_free_solid) ? "" : "no solid is free to touch another";
 }
 
 std::string no_face_pressure(const Scene& s) {
@@ -182,6 +190,14 @@ std::vector<EffectKey> contact_keys() {
         "with the root of 1 + it. Only where the state is corrected, nothing freezes, and a solid is free"},
        {},
        no_contact_stiffness,
+       true},
+      {{"scene", "contact_step", number, "", fraction, "0", "the bound of contact holds in every step", "",
+        "share of 0 to 1 of the bound of contact that a step takes while a free solid is pressed or about to be; at other times "
+        "only the bound of sound holds (model 8.10). 0: the bound of contact holds in every step. Only where the scene clamps "
+        "and "
+        "gives no time_step, density, pressure and state are corrected, nothing freezes, and a solid is free"},
+       {},
+       no_contact_step,
        true},
       {{"scene", "face_pressure", number, "", fraction, "0", "bodies of many particles across need it little", "",
         "share of 0 to 1 with which pressure on an elastic solid acts at its face, and not at the middles of its outer particles "
