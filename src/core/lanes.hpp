@@ -106,7 +106,7 @@ requires(sizeof(Mask) > sizeof(long)) [[nodiscard, gnu::always_inline]] inline b
 template <class V>
 [[nodiscard, gnu::always_inline]] inline bool any_below(V v, double bound) noexcept {
 #ifdef __AVX512F__
-  if constexpr (sizeof(V) == 64) return _mm512_cmp_pd_mask(reinterpret_cast<__m512d>(v), _mm512_set1_pd(bound), _CMP_LT_OQ) != 0;
+  if constexpr (sizeof(V) == 64) return _mm512_cmp_pd_mask(reinterpret_cast<__m512d>(v), _mm512_set1_pd(bound), _CMP_LT_OS) != 0;
 #endif
   return any(v < bound);
 }

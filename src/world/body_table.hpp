@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -52,13 +53,36 @@ class RigidMembers {
  public:
   explicit RigidMembers(const World& world) : body_(world.particles[field::body]) {
     if (world.bodies.size() > 0) phase_ = world.bodies[field::body_phase];
+    any_ = std::ranges::find(phase_, static_cast<int>(Phase::rigid)) != phase_.end();
   }
   [[nodiscard]] bool operator()(std::size_t row) const {
     return body_[row] >= 0 && phase_[static_cast<std::size_t>(body_[row])] == static_cast<int>(Phase::rigid);
   }
+  /// Calls member(row) for each of the rows from..to-1 that is, and others(from, to) for each run of those that are not, in
+  /// order.
+  template <class Member, class Others>
+  void each_run(std::size_t from, std::size_t to, Member member, Others others) const {
+    if (!any_) return others(from, to);
+    while (from < to) {
+      if ((*this)(from)) {
+        member(from++);
+        continue;
+      }
+      std::size_t past = from + 1;
+      while (past < to && !(*this)(past)) ++past;
+      others(from, past);
+      from = past;
+    }
+  }
+  template <class Others>
+  void each_run_of_others(std::size_t from, std::size_t to, Others others) const {
+    each_run(
+        from, to, [](std::size_t) {}, others);
+  }
 
  private:
   std::span<const int> body_, phase_;
+  bool any_ = false;  ///< rigid bodies
 };
 
 /// Motion of a deformable body as a whole, from its members: L/I for its spin.

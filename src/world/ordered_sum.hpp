@@ -10,6 +10,15 @@
 namespace tripoint {
 namespace detail {
 
+/// Adds rows from..to-1: by add.rows(from, to, sums) where it has that, else one after the other.
+template <std::size_t n, class Add>
+[[gnu::always_inline]] inline void add_rows(const Add& add, std::size_t from, std::size_t to, std::array<double, n>& sums) {
+  if constexpr (requires { add.rows(from, to, sums); })
+    add.rows(from, to, sums);
+  else
+    for (std::size_t i = from; i < to; ++i) add(i, sums);
+}
+
 template <std::size_t n>
 std::array<double, n> total_of(const std::vector<std::array<double, n>>& blocks) {
   std::array<double, n> total{};
@@ -33,7 +42,7 @@ template <std::size_t n, class Add>
     const std::size_t end = std::min(count, (b + 1) * block);
     std::array<double, n> sum{};  // here and not in place, so that it can be kept in registers
     const Add add_row = add;      // likewise
-    for (std::size_t i = b * block; i < end; ++i) add_row(i, sum);
+    detail::add_rows(add_row, b * block, end, sum);
     blocks[b] = sum;
   }
   return detail::total_of(blocks);
@@ -57,10 +66,8 @@ template <std::size_t n, class Add>
       const bool owns = world.owns(i);
       std::size_t past = i + 1;
       while (past < end && world.owns(past) == owns) ++past;
-      if (owns)
-        for (; i < past; ++i) add_row(i, own);
-      else
-        for (; i < past; ++i) add_row(i, of_copies);
+      add_rows(add_row, i, past, owns ? own : of_copies);
+      i = past;
     }
     blocks[b] = own;
   }
@@ -81,7 +88,7 @@ template <std::size_t n, class Add>
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     std::array<double, n> sum{};
     const Add add_row = add;
-    for (std::size_t i = first[b]; i < first[b + 1]; ++i) add_row(i, sum);
+    detail::add_rows(add_row, first[b], first[b + 1], sum);
     blocks[b] = sum;
   }
   return detail::total_of(blocks);

@@ -25,6 +25,7 @@
 #include "sph/pass.hpp"
 #include "world/body_table.hpp"
 #include "world/fill.hpp"
+#include "world/free_rows.hpp"
 
 namespace tripoint::fluid {
 namespace {
@@ -265,9 +266,10 @@ void Fluid::form_fixed(World& world) {
 /// (model 8.10).
 TimeStepBound Fluid::max_dt(const World& world) const {
   const auto v = velocities(world.particles);
-  double v2 = 0.0;
-#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : v2)
-  for (std::size_t i = 0; i < world.particles.moving(); ++i) v2 = std::max(v2, dot(v.at(i), v.at(i)));
+  const FreeLoops loops = free_loops(world.forces.size());
+  const double v2 = greatest_of_blocks(world.particles.moving(), world.threads, [&](std::size_t from, std::size_t to) {
+    return loops.greatest_speed2({v.x.data(), v.y.data(), v.z.data()}, from, to);
+  });
   const bool printed = world.scene.mode_of(term::pressure) == Mode::paper;
   const double courant = printed ? courant_printed : transports_ ? courant_transported : courant_corrected;
   TimeStepBound bound = sound_bound(world, numbers_, courant * world.support(), std::sqrt(v2));

@@ -7,37 +7,34 @@
 #include "scene/ledger_entry.hpp"
 #include "scene/shared_terms.hpp"
 #include "world/body_table.hpp"
-#include "world/force_columns.hpp"
+#include "world/free_rows.hpp"
 #include "world/ordered_sum.hpp"
 
 namespace tripoint::motion {
 namespace {
 
-enum Work : std::size_t { by_gravity = most_forces, works_on_driven, works = works_on_driven + most_forces };
+enum Work : std::size_t { by_gravity = gravity_work, works_on_driven, works = works_on_driven + most_forces };
 
-/// Moves the velocity of one particle on and adds up the works on it. All that it reads is its own, so that a loop over particles
-/// keeps it in registers.
-template <std::size_t n>
+/// Moves the velocities of particles on and adds up the works on them.
 struct Kick {
-  ForceColumns<n> forces;
+  FreeRows free;
+  FreeLoops loops;
   Triple<double> v;
-  std::span<const double> m;
   RigidMembers is_member;
   std::span<const int> driven;  ///< empty: nobody guides a particle
-  Vec3 g;
   double dt;
 
-  [[gnu::always_inline]] void operator()(std::size_t i, std::array<double, works>& work) const {
-    if (is_member(i)) return;
-    if (!driven.empty() && driven[i] != 0) {  // its driver takes the work
-      for (std::size_t k = 0; k < n; ++k) work[works_on_driven + k] += dt * dot(forces[k].at(i), v.at(i));
-      return;
-    }
-    const Vec3 before = v.at(i), after = before + (dt / m[i]) * total_force(forces, i) + dt * g;
-    const Vec3 way = (0.5 * dt) * (before + after);
-    for (std::size_t k = 0; k < n; ++k) work[k] += dot(forces[k].at(i), way);
-    work[by_gravity] += m[i] * dot(g, way);
-    v.set(i, after);
+  void rows(std::size_t from, std::size_t to, std::array<double, works>& work) const {
+    is_member.each_run_of_others(from, to, [&](std::size_t first, std::size_t past) {
+      while (first < past) {
+        std::size_t guided = first;
+        while (guided < past && (driven.empty() || driven[guided] == 0)) ++guided;
+        loops.kick(free, {v.x.data(), v.y.data(), v.z.data()}, dt, first, guided, work.data());
+        for (first = guided; first < past && driven[first] != 0; ++first)  // its driver takes the work
+          for (std::size_t k = 0; k < free.forces; ++k)
+            work[works_on_driven + k] += dt * dot(free.force_on(first, k), v.at(first));
+      }
+    });
   }
 };
 
@@ -57,10 +54,9 @@ class FreeMotion : public Effect {
 void FreeMotion::kick(World& world, double dt) {
   Particles& p = world.particles;
   const auto driven = p.has(field::driven.name) ? std::as_const(p)[field::driven] : std::span<const int>{};
-  const auto sums = with_force_columns(world, [&]<std::size_t n>(const ForceColumns<n>& forces) {
-    const Kick<n> kick{forces, velocities(p), p[field::mass], RigidMembers(world), driven, world.scene.gravity, dt};
-    return ordered_sums(world, blocks_, kick);
-  });
+  const FreeRows free = free_rows(world);
+  const Kick kick{free, free_loops(free.forces), velocities(p), RigidMembers(world), driven, dt};
+  const auto sums = ordered_sums(world, blocks_, kick);
   for (std::size_t k = 0; k < world.forces.size(); ++k) {
     world.booked[world.forces[k].work] += sums[k];
     world.booked[work_on_driven(world.forces[k])] += sums[works_on_driven + k];
@@ -86,17 +82,16 @@ void FreeMotion::drift(World& world, double dt) {
 /// 0.25 sqrt(h/|a|max) (model 8.10).
 TimeStepBound FreeMotion::max_dt(const World& world) const {
   const Particles& p = world.particles;
-  const std::vector<Triple<const double>> forces = force_columns(world);
-  const auto m = p[field::mass];
-  const Vec3 g = world.scene.gravity;
+  const FreeRows rows = free_rows(world);
+  const FreeLoops loops = free_loops(rows.forces);
   const RigidMembers is_member(world);
-  double a2 = 0.0;
-#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : a2)
-  for (std::size_t i = 0; i < p.moving(); ++i) {
-    if (is_member(i)) continue;
-    const Vec3 a = g + total_force(forces, i) / m[i];
-    a2 = std::max(a2, dot(a, a));
-  }
+  const double a2 = greatest_of_blocks(p.moving(), world.threads, [&](std::size_t from, std::size_t to) {
+    double most = 0.0;
+    is_member.each_run_of_others(from, to, [&](std::size_t first, std::size_t past) {
+      most = std::max(most, loops.greatest_acceleration2(rows, first, past));
+    });
+    return most;
+  });
   TimeStepBound bound;
   if (a2 > 0.0) tighten(bound, acceleration_step(world.support(), std::sqrt(a2)), "acceleration");
   return bound;
