@@ -27,9 +27,9 @@ void time_part(int times, double& least, double& mean, double& mean_cpu, Part pa
   mean_cpu = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC / times;
 }
 
-std::vector<double> steps_of(const std::vector<LimitSeconds>& rounds, double rebuilds) {
+std::vector<double> steps_of(const std::vector<LimitSeconds>& rounds, std::span<const double> rebuilds) {
   std::vector<double> list;
-  for (const LimitSeconds& s : rounds) list.push_back(s.step(rebuilds));
+  for (std::size_t k = 0; k < rounds.size(); ++k) list.push_back(rounds[k].step(rebuilds[k]));
   return list;
 }
 
@@ -151,7 +151,11 @@ const Limit::Runner& Limit::fastest(double rebuilds) const {
 
 LimitSeconds Limit::best(double rebuilds) const { return fastest(rebuilds).least; }
 
-std::vector<double> Limit::steps(double rebuilds) const { return steps_of(fastest(rebuilds).rounds, rebuilds); }
-std::vector<double> Limit::steps_cpu(double rebuilds) const { return steps_of(fastest(rebuilds).rounds_cpu, rebuilds); }
+std::vector<double> Limit::steps(double rebuilds, std::span<const double> of_rounds) const {
+  return steps_of(fastest(rebuilds).rounds, of_rounds);
+}
+std::vector<double> Limit::steps_cpu(double rebuilds, std::span<const double> of_rounds) const {
+  return steps_of(fastest(rebuilds).rounds_cpu, of_rounds);
+}
 
 }  // namespace tripoint::bench

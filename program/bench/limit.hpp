@@ -29,9 +29,10 @@ class Limit {
   /// Least seconds of the parts, of the vector unit with the least step. @param rebuilds of lists a step
   [[nodiscard]] LimitSeconds best(double rebuilds) const;
   /// Seconds of a step of that unit in each round, in order. The mean of some steps of a solver is to be compared with them.
-  [[nodiscard]] std::vector<double> steps(double rebuilds) const;
+  /// @param rebuilds of lists a step, of the whole   @param of_rounds of each round: a round of few steps has more or less
+  [[nodiscard]] std::vector<double> steps(double rebuilds, std::span<const double> of_rounds) const;
   /// The same in CPU seconds of all threads, which other work on the machine does not lengthen.
-  [[nodiscard]] std::vector<double> steps_cpu(double rebuilds) const;
+  [[nodiscard]] std::vector<double> steps_cpu(double rebuilds, std::span<const double> of_rounds) const;
   /// Sums of the density loop of a vector unit, row by row as the search sorts them; for tests.
   [[nodiscard]] std::vector<double> density(std::size_t unit);
   /// The same of the rate loop, one sum after the other.

@@ -51,7 +51,8 @@ std::string hash_of(const Simulation& s) {
 Spread spread_of(std::vector<double> values) {
   if (values.empty()) return {};
   std::ranges::sort(values);
-  return {values[values.size() / 2], values.front(), values.back()};
+  const std::size_t above = values.size() / 2, below = (values.size() - 1) / 2;
+  return {0.5 * (values[below] + values[above]), values.front(), values.back()};
 }
 
 double Measured::search_share() const {
@@ -82,20 +83,21 @@ Measured measure(const Work& work, const MeasureOptions& options) {
   const double support = simulation.world().support();
   if (work.has_limit) limit.emplace(places(simulation), work.mode, support, how.skin * support, options.threads);
   const long each = std::max(1L, options.steps.value_or(work.steps) / options.rounds);
-  std::vector<double> seconds, cpu;
+  std::vector<double> seconds, cpu, rebuilds;
   stages = {};
-  const long rebuilds = rebuilds_of(simulation);
   for (int round = 0; round < options.rounds; ++round) {
     const auto from = Clock::now();
     const double cpu_from = cpu_now();
+    const long lists = rebuilds_of(simulation);
     run_steps(simulation, each);
     seconds.push_back(since(from) / static_cast<double>(each));
     cpu.push_back((cpu_now() - cpu_from) / static_cast<double>(each));
+    rebuilds.push_back(static_cast<double>(rebuilds_of(simulation) - lists) / static_cast<double>(each));
     m.steps += each;
     if (limit) limit->round();
   }
   const auto steps = static_cast<double>(m.steps);
-  m.rebuilds = static_cast<double>(rebuilds_of(simulation) - rebuilds) / steps;
+  m.rebuilds = std::accumulate(rebuilds.begin(), rebuilds.end(), 0.0) / static_cast<double>(rebuilds.size());
   m.step_seconds = spread_of(seconds);
   m.cpu_seconds = spread_of(cpu);
   for (std::size_t k = 0; k < stages.size(); ++k) m.stages[k] = stages[k] / steps;
@@ -108,7 +110,8 @@ Measured measure(const Work& work, const MeasureOptions& options) {
   if (limit) {
     m.limit = limit->best(m.rebuilds);
     m.pairs = limit->pairs();
-    const std::vector<double> of_limit = limit->steps(m.rebuilds), cpu_of_limit = limit->steps_cpu(m.rebuilds);
+    const std::vector<double> of_limit = limit->steps(m.rebuilds, rebuilds),
+                              cpu_of_limit = limit->steps_cpu(m.rebuilds, rebuilds);
     m.limit_cpu = spread_of(cpu_of_limit).median;
     for (std::size_t k = 0; k < seconds.size(); ++k) {
       seconds[k] /= of_limit[k];

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "program/bench/limit.hpp"
+#include "program/bench/measure.hpp"
 
 namespace tripoint::bench {
 namespace {
@@ -73,10 +74,23 @@ TEST(Limit, StepsCostLessTheLongerListsLast) {
 TEST(Limit, TellsOfEveryRoundAndOfTheLeastOfAll) {
   Limit limit(shaken_lattice(12), Mode::corrected, 2.2, 0.2, 1);
   for (int n = 0; n < 3; ++n) limit.round();
-  const std::vector<double> steps = limit.steps(0.5), cpu = limit.steps_cpu(0.5);
+  const std::vector<double> half(3, 0.5), steps = limit.steps(0.5, half), cpu = limit.steps_cpu(0.5, half);
   ASSERT_EQ(steps.size(), 3u);
   EXPECT_EQ(cpu.size(), 3u);
   for (const double s : steps) EXPECT_GE(s, limit.best(0.5).step(0.5));
+}
+
+TEST(Limit, CountsInEachRoundAsManySearchesAsTheSolverMadeListsInIt) {
+  Limit limit(shaken_lattice(12), Mode::paper, 2.2, 0.2, 1);
+  for (int n = 0; n < 2; ++n) limit.round();
+  const std::vector<double> none{0.0, 0.0}, second{0.0, 0.5};
+  EXPECT_EQ(limit.steps(0.5, second)[0], limit.steps(0.5, none)[0]);
+  EXPECT_GT(limit.steps(0.5, second)[1], limit.steps(0.5, none)[1]);
+}
+
+TEST(Spread, HasTheMeanOfTheTwoInTheMiddleAsMedian) {
+  EXPECT_EQ(spread_of({4.0, 1.0, 2.0, 9.0}).median, 3.0);
+  EXPECT_EQ(spread_of({4.0, 1.0, 9.0}).median, 4.0);
 }
 
 }  // namespace
