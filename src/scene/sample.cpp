@@ -152,7 +152,7 @@ InitialState laid(const Scene& s) {
       throw InputError(b.place,
                        fmt::format("more than {} particles by body \"{}\": coarsen scene.spacing", max_particles, b.name));
     refuse_lost_spin(s, b, centres);
-    if (s.jitter > 0.0) disturb(s, b, out.size(), centres);
+    if (s.jitter > 0.0 && b.jitters) disturb(s, b, out.size(), centres);
     const auto velocity = velocities(b, centres);
     std::optional<TemperatureAt> temperature;
     if (b.temperature) temperature.emplace(*b.temperature);

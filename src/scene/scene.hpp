@@ -112,6 +112,7 @@ struct Body {
   Motion motion = Motion::free;
   std::vector<Keyframe> keyframes;
   bool free_slip = false;
+  bool jitters = true;
   bool joins = false;
   std::vector<std::string> joined_to;
   SourcePlace place;

@@ -99,6 +99,9 @@ inline constexpr auto of_body = std::make_tuple(
          {"body", "slip", word, "", any, "\"no\"", "liquid sticks to solids", "no free",
           "no: liquid sticks to the body; free: liquid glides along it"},
          {.yes = "free"}),
+    kept(&Body::jitters, {"body", "jitters", flag, "", any, "true", "as scene.jitter says", "",
+                          "false: its particles stay on their lattice where scene.jitter shifts those of others; walls that stay "
+                          "smooth cost less"}),
     kept(&Body::joins, {"body", "joins", flag, "", any, "=", "true where the material melts", "",
                         "true: matter that freezes in contact with the body joins it"}),
     kept(&Body::joined_to, {"body", "joined_to", texts, "", any, "[]", "bonded to nothing", "",

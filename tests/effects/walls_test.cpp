@@ -53,6 +53,21 @@ TEST(Walls, PressByThatGradientWhereTheyAreFeltFromTheirLattice) {
   expect_gradient(pressed_column(ViscosityForm::laplacian, 0.1));
 }
 
+TEST(Walls, ThatDoNotJitterAreFeltWhereTheyAre) {
+  const auto forces = [](double scene_jitter, bool jitters) {
+    lab::Lab lab = pressed_column(ViscosityForm::laplacian, scene_jitter);
+    for (Body& b : lab.scene.bodies) b.jitters = jitters;
+    const Simulation s(lab.scene, lab.initial);
+    const Particles& p = s.world().particles;
+    std::vector<Vec3> of_id;
+    for (std::size_t id = 0; id < p.size(); ++id)
+      of_id.push_back(p.vector(p.row(id), field::force_x, field::force_y, field::force_z));
+    return of_id;
+  };
+  EXPECT_EQ(forces(0.1, false), forces(0.0, true));
+  EXPECT_NE(forces(0.1, true), forces(0.0, true));
+}
+
 /// No step forms what none reads: the force on what is fixed, and densities behind faces.
 TEST(Walls, AreShownTheForceAndDensityThatEveryStepWouldForm) {
   for (const double jitter : {0.0, 0.1}) {

@@ -102,6 +102,7 @@ keyframes = [{time = 0, position = [1, 1, 0.8]}, {time = 2, position = [1, 1, 1]
 temperature = {kind = "step", point = [1, 1, 0.8], normal = [1, 0, 0], behind = 300, ahead = 310}
 temperature_held = true
 slip = "free"
+jitters = false
 joins = true
 
 [[body]]

@@ -106,6 +106,12 @@ TEST(Sample, JitterLeavesABodyThatIsLedWhereItsKeyframesBegin) {
   EXPECT_LT(norm(mean - Vec3{0.2, 0.1, 0.3}), 1e-15);
 }
 
+TEST(Sample, ABodyThatDoesNotJitterStaysOnItsLattice) {
+  const std::string box = "shape={kind='box',min=[0,0,0],max=[2,2,2]}";
+  const auto laid = sample(scene_of(box)), smooth = sample(scene_of(box + "\njitters=false", "jitter=0.2"));
+  EXPECT_EQ(smooth.position, laid.position);
+}
+
 TEST(Sample, JitterIsBoundedHasNoDriftAndFollowsTheSeed) {
   const std::string box = "shape={kind='box',min=[0,0,0],max=[2,2,2]}";
   const auto a = sample(scene_of(box)), b = sample(scene_of(box, "jitter=0.2")), same = sample(scene_of(box, "jitter=0.2")),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -16,8 +17,13 @@ namespace tripoint::fluid {
 inline constexpr double laid_jitter_limit = 0.25;
 
 /// Whether the jitter of a scene leaves two particles of one lattice nearer to their own places of it than to others. Fixed walls
-/// then press from their lattice.
-[[nodiscard]] inline bool has_laid_walls(const Scene& scene) { return scene.jitter > 0.0 && scene.jitter < laid_jitter_limit; }
+/// then press from their lattice. Walls that do not jitter are there already.
+[[nodiscard]] inline bool has_laid_walls(const Scene& scene) {
+  const auto is_smooth = [](const Body& b) { return b.motion == Motion::fixed && !b.jitters; };
+  const auto is_rough = [](const Body& b) { return b.motion == Motion::fixed && b.jitters; };
+  const bool all_smooth = std::ranges::any_of(scene.bodies, is_smooth) && std::ranges::none_of(scene.bodies, is_rough);
+  return scene.jitter > 0.0 && scene.jitter < laid_jitter_limit && !all_smooth;
+}
 
 /// Difference of two places of one lattice, from that of two that are jittered. @param away, and the result [spacings]
 [[nodiscard]] inline Vec3 laid(const Vec3& away) { return {std::round(away.x), std::round(away.y), std::round(away.z)}; }
