@@ -46,7 +46,7 @@ struct Measured {
 
 struct MeasureOptions {
   int threads = 1;
-  int rounds = 6;
+  int rounds = 12;
   std::optional<long> steps;  ///< of the timed part; else the work's own
 };
 

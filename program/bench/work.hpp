@@ -18,7 +18,7 @@ struct Work {
   int copies = 1;                ///< of every body along each axis
   double pitch = 0.0;            ///< between copies [m]
   double closing = 0.0;          ///< rate at which copies fly towards the middle of all [1/s]
-  long warm = 20, steps = 60;    ///< steps before and within the timed part
+  long warm = 20, steps = 120;   ///< steps before and within the timed part
   bool has_limit = false;        ///< whether the hand-written loops do the same work
 };
 

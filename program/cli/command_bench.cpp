@@ -33,7 +33,7 @@ constexpr const char* bench_description =
 
 struct BenchOptions {
   std::vector<std::string> work;
-  int threads = 0, rounds = 6;
+  int threads = 0, rounds = 12;
   long steps = 0;
   bool list = false, growth = false, as_document = false;
   std::string particles;
@@ -177,7 +177,7 @@ void add_bench(CLI::App& app, int& exit_code) {
       ->take_all()
       ->allow_extra_args(false);
   command->add_option("--threads", o->threads, "default: all cores")->check(CLI::Range(1, 1024));
-  command->add_option("--steps", o->steps, "steps of the timed part, default: 60")->check(CLI::Range(1L, 1000000000L));
+  command->add_option("--steps", o->steps, "steps of the timed part, default: 120")->check(CLI::Range(1L, 1000000000L));
   command->add_option("--rounds", o->rounds, "parts that they are timed in, each followed by a round of the limit")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

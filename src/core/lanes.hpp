@@ -102,13 +102,28 @@ requires(sizeof(Mask) > sizeof(long)) [[nodiscard, gnu::always_inline]] inline b
   return bits_of<static_cast<int>(sizeof(Mask) / sizeof(long))>(mask) != 0;
 }
 
-/// Whether any lane is less than the bound.
+/// Bit l where lane l is less than the bound.
 template <class V>
-[[nodiscard, gnu::always_inline]] inline bool any_below(V v, double bound) noexcept {
+[[nodiscard, gnu::always_inline]] inline unsigned bits_below(V v, double bound) noexcept {
 #ifdef __AVX512F__
-  if constexpr (sizeof(V) == 64) return _mm512_cmp_pd_mask(reinterpret_cast<__m512d>(v), _mm512_set1_pd(bound), _CMP_LT_OS) != 0;
+  if constexpr (sizeof(V) == 64) return _mm512_cmp_pd_mask(reinterpret_cast<__m512d>(v), _mm512_set1_pd(bound), _CMP_LT_OS);
 #endif
-  return any(v < bound);
+  return bits_of<static_cast<int>(sizeof(V) / sizeof(double))>(v < bound);
+}
+
+/// Bit n where byte n of 64 is not 0.
+[[nodiscard, gnu::always_inline]] inline std::uint64_t bits_of_bytes(const std::uint8_t* bytes) noexcept {
+#ifdef __AVX2__
+  const auto zeros = [&](int half) {
+    const __m256i some = _mm256_load_si256(reinterpret_cast<const __m256i*>(bytes) + half);
+    return static_cast<std::uint32_t>(_mm256_movemask_epi8(_mm256_cmpeq_epi8(some, _mm256_setzero_si256())));
+  };
+  return ~(static_cast<std::uint64_t>(zeros(1)) << 32 | zeros(0));
+#else
+  std::uint64_t bits = 0;
+  for (unsigned n = 0; n < 64; ++n) bits |= static_cast<std::uint64_t>(bytes[n] != 0) << n;
+  return bits;
+#endif
 }
 
 /// v where the lane is set, else 0: nothing is multiplied.

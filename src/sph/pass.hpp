@@ -186,7 +186,7 @@ void add_to(double* target, typename Lanes<L>::Real sum, unsigned members) {
 inline constexpr double nowhere = 1e200;  ///< its square is more than any [m]
 
 /// Looks at the entries of a cluster that a pass has to look at, in list order.
-/// @param meet called as meet(e); 1 where entry e is within the support of a member. @tparam finds whether that is kept
+/// @param meet called as meet(e); not 0 where entry e is within the support of a member. @tparam finds whether that is kept
 template <bool finds, class Meet>
 void for_entries(const PassTask& t, std::size_t cluster, Meet meet) {
   const std::size_t start = t.start[cluster], end = t.start[cluster + 1];
@@ -198,11 +198,13 @@ void for_entries(const PassTask& t, std::size_t cluster, Meet meet) {
     if (!finds && within) left = *within++;
     if (only) left &= *only++;
     if (finds && !only) {  // all of them: a count costs less than a search for bits
-      for (std::size_t n = 0; n < count; ++n) found |= meet(from + n) << n;
+      alignas(64) std::uint8_t bits[within_bits];
+      for (std::size_t n = 0; n < count; ++n) bits[n] = static_cast<std::uint8_t>(meet(from + n));
+      found = bits_of_bytes(bits) & left;
     } else {
       for (; left != 0; left &= left - 1) {
         const auto n = static_cast<std::size_t>(std::countr_zero(left));
-        found |= meet(from + n) << n;
+        found |= std::uint64_t{meet(from + n) != 0} << n;
       }
     }
     if (finds && within) *within++ = found;
@@ -229,9 +231,9 @@ template <int L, class ForUnit, bool finds, class... Terms>
   const PairKernels& kernels = *t.kernels;
   const bool any_own = t.own != nullptr;
   const std::uint32_t members_bits = Entry::of(static_cast<std::uint32_t>(row), Entry::box_itself).bits;
-  // Adds the pairs with entry e to the sums. @return 1 where it is within the support of a member: no branch, which would often
-  // be guessed wrong; a member itself does no harm
-  const auto meet = [&](std::size_t e) -> std::uint64_t {
+  // Adds the pairs with entry e to the sums. @return bit l where it is within the support of member l: no branch, which would
+  // often be guessed wrong; a member itself does no harm
+  const auto meet = [&](std::size_t e) -> unsigned {
     const Entry entry{t.entries[e]};
     const std::size_t row_j = entry.row();
     V dx = t.x[row_j] - xi, dy = t.y[row_j] - yi, dz = t.z[row_j] - zi;
@@ -254,7 +256,7 @@ template <int L, class ForUnit, bool finds, class... Terms>
     const PairGeometry<V> g{
         dx, dy, dz, r2, r, 1.0 / (r2 + 1e-300), kernels.wendland.derivative_over_r_inside(r), within_support, apart, kernels};
     add_terms<Fields, V, 0, 0, Terms...>(g, i, j, sum.data());
-    return finds ? any_below(r2, t.support2) : 0;
+    return finds ? bits_below(r2, t.support2) : 0;
   };
   for_entries<finds>(t, cluster, meet);
   for (std::size_t k = 0; k < Fields::adds; ++k) add_to<L>(t.columns[Fields::reads + k] + row, sum[k], members);
