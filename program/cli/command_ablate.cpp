@@ -78,12 +78,15 @@ std::string number_text(const Json& run, const std::string& metric) {
   return v.is_number() ? fmt::format("{:.4g}", v.get<double>()) : run["status"].get<std::string>();
 }
 
+/// The scene as it runs: with what it takes by rule, as a stiffness where its bodies can meet.
+Scene as_it_runs(const Case& c) { return scene_for(c, {Mode::corrected, {}, {}, {}, {}, {}}); }
+
 /// Cases that run corrected, and in which something can be put back.
 std::vector<Case> cases_of(const AblateOptions& o) {
   std::vector<Case> cases;
   for (auto& c : select_cases(o.filter)) {
     const bool runs_so = std::find(c.modes.begin(), c.modes.end(), Mode::corrected) != c.modes.end();
-    if (runs_so && c.expect != Expect::diverges && !acting_terms(c.scene).empty()) cases.push_back(corrected(std::move(c)));
+    if (runs_so && c.expect != Expect::diverges && !acting_terms(as_it_runs(c)).empty()) cases.push_back(corrected(std::move(c)));
   }
   if (cases.empty()) throw InputError("ablate: no case runs corrected");
   return cases;
@@ -97,7 +100,7 @@ std::map<std::string, Json> runs_without_pieces(const std::vector<Case>& cases, 
     if (interrupted()) break;
     std::vector<Case> chosen;
     for (const auto& c : cases)
-      if (can_act(piece, c.scene)) chosen.push_back(without(piece, c));
+      if (can_act(piece, as_it_runs(c))) chosen.push_back(without(piece, c));
     for (auto& [id, run] : round(chosen, piece.name, o)) {
       const bool acts = base.count(id) && run["state_hash"] != base.at(id)["state_hash"];
       if (acts) found[id][piece.name] = run;

@@ -156,6 +156,16 @@ class Newcomer(unittest.TestCase):
         self.assertEqual(left_out["state_hash"], rows["without"]["corrected"]["state_hash"])
         self.assertNotIn("bulk_viscosity", rows["without"]["printed"])
 
+    # Nor are the pressure and the steps of a contact whose stiffness the scene chooses
+    def test_ablate_has_rows_of_a_contact_without_a_stiffness_in_the_case(self):
+        done = self.call("ablate", "coupling/twenty-bounces-short", "--out", "contact")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        case = json.loads((self.path / "contact" / "ablation.json").read_text())["cases"][0]
+        error = {name: run["metrics"]["after twenty"]["value"] for name, run in case["printed"].items()}
+        self.assertLess(case["corrected"]["metrics"]["after twenty"]["value"], 0.01)
+        self.assertGreater(error["contact_step"], 0.05)
+        self.assertIn("pressure", error)
+
     # Ctrl-C
     def test_ctrl_c_ends_with_the_report_of_the_cases_that_are_complete(self):
         self.cases("a", "b", "c")
