@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstring>
 #include <utility>
 
 #include "core/lanes.hpp"
@@ -44,17 +45,31 @@ struct FreeLoops {
 
 namespace detail {
 
-/// Component a of the sum of the forces on a particle [N].
-template <class ForUnit, std::size_t n>
-[[gnu::always_inline]] inline double total(const FreeRows& rows, std::size_t a, std::size_t i) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < n; ++k) sum += rows.force[3 * k + a][i];
+template <int L>
+[[gnu::always_inline]] inline void store_lanes(double* to, typename Lanes<L>::Real v) {
+  std::memcpy(to, &v, sizeof v);
+}
+
+/// Calls visit<L>(i) for as many rows side by side as there are, and visit<1>(i) for those that are left.
+template <int L, class ForUnit, class Visit>
+[[gnu::always_inline]] inline void side_by_side(std::size_t from, std::size_t to, Visit visit) {
+  std::size_t i = from;
+  for (; i + L <= to; i += L) visit.template operator()<L>(i);
+  for (; i < to; ++i) visit.template operator()<1>(i);
+}
+
+/// Component a of the sum of the forces on particles [N].
+template <int L, class ForUnit, std::size_t n>
+[[gnu::always_inline]] inline typename Lanes<L>::Real total(const FreeRows& rows, std::size_t a, std::size_t i) {
+  typename Lanes<L>::Real sum{};
+  for (std::size_t k = 0; k < n; ++k) sum += load_lanes<L>(rows.force[3 * k + a] + i);
   return sum;
 }
 
-/// The works are formed for some particles at once, and then added up in the order of rows.
-template <class ForUnit, std::size_t n>
-void kick(const FreeRows& rows, const std::array<double*, 3>& v, double dt, std::size_t from, std::size_t to, double* work) {
+/// The works are formed for some particles side by side, and then added up in the order of rows.
+template <int L, class ForUnit, std::size_t n>
+[[gnu::flatten]] void kick(const FreeRows& rows, const std::array<double*, 3>& v, double dt, std::size_t from, std::size_t to,
+                           double* work) {
   constexpr std::size_t chunk = 128;
   std::array<double, n + 1> sum;
   for (std::size_t k = 0; k < n; ++k) sum[k] = work[k];
@@ -62,60 +77,77 @@ void kick(const FreeRows& rows, const std::array<double*, 3>& v, double dt, std:
   double part[n + 1][chunk];
   const std::array<double, 3> g = rows.g;
   for (std::size_t start = from; start < to; start += chunk) {
-    const std::size_t count = std::min(chunk, to - start);
-#pragma omp simd
-    for (std::size_t c = 0; c < count; ++c) {
-      const std::size_t i = start + c;
-      const double m = rows.m[i], per_mass = dt / m;
-      double way[3];
+    const std::size_t past = std::min(to, start + chunk);
+    side_by_side<L, ForUnit>(start, past, [&]<int W>(std::size_t i) {
+      using V = typename Lanes<W>::Real;
+      const V m = load_lanes<W>(rows.m + i), per_mass = dt / m;
+      V way[3];
       for (std::size_t a = 0; a < 3; ++a) {
-        const double before = v[a][i], after = before + per_mass * total<ForUnit, n>(rows, a, i) + dt * g[a];
+        const V before = load_lanes<W>(v[a] + i), after = before + per_mass * total<W, ForUnit, n>(rows, a, i) + dt * g[a];
         way[a] = (0.5 * dt) * (before + after);
-        v[a][i] = after;
+        store_lanes<W>(v[a] + i, after);
       }
-      for (std::size_t k = 0; k < n; ++k)
-        part[k][c] = rows.force[3 * k][i] * way[0] + rows.force[3 * k + 1][i] * way[1] + rows.force[3 * k + 2][i] * way[2];
-      part[n][c] = m * (g[0] * way[0] + g[1] * way[1] + g[2] * way[2]);
-    }
-    for (std::size_t c = 0; c < count; ++c)
+      for (std::size_t k = n; k-- > 0;) {
+        const auto force = [&](std::size_t a) { return load_lanes<W>(rows.force[3 * k + a] + i); };
+        store_lanes<W>(part[k] + (i - start), force(0) * way[0] + force(1) * way[1] + force(2) * way[2]);
+      }
+      store_lanes<W>(part[n] + (i - start), m * (g[0] * way[0] + g[1] * way[1] + g[2] * way[2]));
+    });
+    for (std::size_t c = 0; c < past - start; ++c)
       for (std::size_t k = 0; k <= n; ++k) sum[k] += part[k][c];
   }
   for (std::size_t k = 0; k < n; ++k) work[k] = sum[k];
   work[gravity_work] = sum[n];
 }
 
-template <class ForUnit, std::size_t n>
-void predict(const FreeRows& rows, const std::array<const double*, 3>& v, const std::array<double*, 3>& seen, double ahead,
-             std::size_t from, std::size_t to) {
-#pragma omp simd
-  for (std::size_t i = from; i < to; ++i) {
-    const double m = rows.m[i];
-    for (std::size_t a = 0; a < 3; ++a) seen[a][i] = v[a][i] + ahead * (rows.g[a] + total<ForUnit, n>(rows, a, i) / m);
-  }
+template <int L, class ForUnit, std::size_t n>
+[[gnu::flatten]] void predict(const FreeRows& rows, const std::array<const double*, 3>& v, const std::array<double*, 3>& seen,
+                              double ahead, std::size_t from, std::size_t to) {
+  side_by_side<L, ForUnit>(from, to, [&]<int W>(std::size_t i) {
+    const auto m = load_lanes<W>(rows.m + i);
+    for (std::size_t a = 0; a < 3; ++a)
+      store_lanes<W>(seen[a] + i, load_lanes<W>(v[a] + i) + ahead * (rows.g[a] + total<W, ForUnit, n>(rows, a, i) / m));
+  });
 }
 
-template <class ForUnit, std::size_t n>
-double greatest_acceleration2(const FreeRows& rows, std::size_t from, std::size_t to) {
-  double most = 0.0;
-#pragma omp simd reduction(max : most)
-  for (std::size_t i = from; i < to; ++i) {
-    const double m = rows.m[i];
-    double a2[3];
+/// Greatest of square<W>(i), and at least 0.
+template <int L, class ForUnit, class Square>
+[[gnu::always_inline]] inline double greatest_of(std::size_t from, std::size_t to, Square square) {
+  typename Lanes<L>::Real most{};
+  double greatest = 0.0;
+  side_by_side<L, ForUnit>(from, to, [&]<int W>(std::size_t i) {
+    const auto next = square.template operator()<W>(i);
+    if constexpr (W == L)
+      most = next > most ? next : most;
+    else
+      greatest = next > greatest ? next : greatest;
+  });
+  double lane[L];
+  std::memcpy(lane, &most, sizeof lane);
+  for (const double of_lane : lane) greatest = of_lane > greatest ? of_lane : greatest;
+  return greatest;
+}
+
+template <int L, class ForUnit, std::size_t n>
+[[gnu::flatten]] double greatest_acceleration2(const FreeRows& rows, std::size_t from, std::size_t to) {
+  return greatest_of<L, ForUnit>(from, to, [&]<int W>(std::size_t i) {
+    using V = typename Lanes<W>::Real;
+    const V m = load_lanes<W>(rows.m + i);
+    V a2[3];
     for (std::size_t a = 0; a < 3; ++a) {
-      const double acceleration = rows.g[a] + total<ForUnit, n>(rows, a, i) / m;
+      const V acceleration = rows.g[a] + total<W, ForUnit, n>(rows, a, i) / m;
       a2[a] = acceleration * acceleration;
     }
-    most = std::max(most, a2[0] + a2[1] + a2[2]);
-  }
-  return most;
+    return a2[0] + a2[1] + a2[2];
+  });
 }
 
-template <class ForUnit>
-double greatest_speed2(const std::array<const double*, 3>& v, std::size_t from, std::size_t to) {
-  double most = 0.0;
-#pragma omp simd reduction(max : most)
-  for (std::size_t i = from; i < to; ++i) most = std::max(most, v[0][i] * v[0][i] + v[1][i] * v[1][i] + v[2][i] * v[2][i]);
-  return most;
+template <int L, class ForUnit>
+[[gnu::flatten]] double greatest_speed2(const std::array<const double*, 3>& v, std::size_t from, std::size_t to) {
+  return greatest_of<L, ForUnit>(from, to, [&]<int W>(std::size_t i) {
+    const auto x = load_lanes<W>(v[0] + i), y = load_lanes<W>(v[1] + i), z = load_lanes<W>(v[2] + i);
+    return x * x + y * y + z * z;
+  });
 }
 
 /// Rows that a thread takes at once.

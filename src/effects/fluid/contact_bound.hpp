@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "effects/effect.hpp"
 #include "effects/fluid/material_numbers.hpp"
 #include "world/world.hpp"
 

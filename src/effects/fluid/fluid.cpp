@@ -20,6 +20,7 @@
 #include "effects/fluid/viscous_bound.hpp"
 #include "effects/fluid/viscous_form.hpp"
 #include "effects/fluid/walls.hpp"
+#include "scene/effect_rule.hpp"
 #include "scene/shared_terms.hpp"
 #include "sph/density_term.hpp"
 #include "sph/pass.hpp"
