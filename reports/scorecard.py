@@ -23,7 +23,7 @@ def line(row):
     """One case of an engine as the table shows it."""
     order, drift, cost, share = (number(row.get(key)) for key in ("order", "drift", "cost", "share"))
     rank = row.get("rank") or 0
-    return {"case": text(row.get("case")), "title": text(row.get("title")), "verdict": text(row.get("verdict")), "tone": TONES.get(text(row.get("verdict")), "none"), "reason": text(row.get("reason")),
+    return {"case": text(row.get("case")), "title": text(row.get("title")), "verdict": text(row.get("verdict")), "tone": TONES.get(text(row.get("verdict")), "none"), "reason": text(row.get("reason")), "cause": text(row.get("cause")),
             "metric": text(row.get("metric")), "error": page.show(number(row.get("error"))), "unit": text(row.get("unit")), "allowed": text(row.get("allowed")), "share": share,
             "order": f"{order:.1f}" if order is not None else text(row.get("order_class")) or page.show(None), "order_metric": text(row.get("order_metric")),
             "drift": page.show(drift), "drift_metric": text(row.get("drift_metric")), "cpu": page.show(number(row.get("cpu_s"))), "cost": page.show(None) if cost is None else f"{cost:.2g}",

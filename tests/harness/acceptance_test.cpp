@@ -124,6 +124,7 @@ TEST(Scorecard, HoldsErrorLimitCostAndRank) {
   EXPECT_EQ(stone.cost, 2.0);
   EXPECT_EQ(stone.rank, 2);
   EXPECT_EQ(stone.of, 2);
+  EXPECT_EQ(stone.cause, "");
   EXPECT_EQ(of(card, "tripoint").rank, 1);
   EXPECT_TRUE(card.disagreements.empty());
 }
@@ -132,6 +133,103 @@ TEST(Scorecard, EqualErrorsShareAPlace) {
   const auto card = card_of(with(0.05 * (1.0 + 1e-9)));
   EXPECT_EQ(of(card, "stone").rank, 1);
   EXPECT_EQ(of(card, "tripoint").rank, 1);
+}
+
+/// A case whose truth is `angle`, and whose energy an engine keeps that turns nothing.
+Results spinning(double angle, double energy) {
+  auto r = green();
+  auto& c = r.cases[0];
+  c.metrics.resize(2);
+  c.metrics[0].name = "energy";
+  c.metrics[0].quantity = "ledger.kinetic";
+  c.metrics[0].norm = Norm::drift;
+  c.metrics[1].name = "angle";
+  c.metrics[1].quantity = "orientation";
+  c.metrics[1].norm = Norm::final;
+  c.gates = {limit("energy", 0.1), limit("angle", 0.1)};
+  engine(r).runs = {run_with({{"energy", value(0.01)}, {"angle", value(0.02)}})};
+  c.engines.push_back(row("stone", 0.0));
+  c.engines[1].runs = {run_with({{"energy", value(energy)}, {"angle", value(angle)}})};
+  return r;
+}
+
+TEST(Rank, IsByTheTruthThoughEnergyIsTheFirstLimit) {
+  const auto card = card_of(spinning(0.05, 0.0));
+  EXPECT_EQ(of(card, "stone").metric, "angle");
+  EXPECT_EQ(of(card, "stone").rank, 2);
+  EXPECT_EQ(of(card, "tripoint").rank, 1);
+}
+
+TEST(Rank, IsByMomentumWhereOnlyLawsAreKnown) {
+  auto r = spinning(0.05, 0.0);
+  r.cases[0].metrics[1].quantity = "angular_momentum";
+  EXPECT_EQ(of(card_of(r), "stone").metric, "angle");
+  EXPECT_EQ(of(card_of(r), "stone").rank, 2);
+}
+
+TEST(Rank, IsNoneOfWhoFailsAnyLimit) {
+  const auto card = card_of(spinning(0.3, 0.0));
+  EXPECT_EQ(of(card, "stone").verdict, Score::fail);
+  EXPECT_EQ(of(card, "stone").rank, 0);
+  EXPECT_EQ(of(card, "tripoint").rank, 1);
+  EXPECT_EQ(of(card, "tripoint").of, 1);
+}
+
+TEST(Rank, IsNoneOfWhoHoldsByAKnownDefectAlone) {
+  auto r = with(0.3);
+  r.cases[0].gates.push_back(declared("stone", 0.2, 0.4));
+  EXPECT_EQ(of(card_of(r), "stone").rank, 0);
+  r = spinning(0.001, 0.3);  // the defect is in another metric than the one that ranks
+  auto g = declared("stone", 0.2, 0.4);
+  g.metric = "energy";
+  r.cases[0].gates.push_back(g);
+  EXPECT_EQ(of(card_of(r), "stone").verdict, Score::known_defect);
+  EXPECT_EQ(of(card_of(r), "stone").rank, 0);
+  EXPECT_EQ(of(card_of(r), "tripoint").of, 1);
+}
+
+TEST(Drift, ShowsAConservedQuantityAndNoTurn) {
+  auto r = spinning(0.05, 0.004);
+  r.cases[0].metrics[1].norm = Norm::drift;  // of an orientation: a right run turns
+  const auto card = card_of(r);
+  EXPECT_EQ(of(card, "stone").drift_metric, "energy");
+  EXPECT_EQ(of(card, "stone").drift, 0.004);
+}
+
+TEST(Cause, IsTheKnownDefectOfAnotherEngineWhoseBandHoldsTheError) {
+  auto r = with(0.3);
+  r.cases[0].gates.push_back(declared("brick", 0.2, 0.4));
+  EXPECT_EQ(of(card_of(r), "stone").cause, "error 0.3: as of an engine without term (brick)");
+  EXPECT_NE(scorecard_markdown(card_of(r)).find("as of an engine without term (brick)"), std::string::npos);
+  r.cases[0].gates.back().band = {0.4, 0.6};
+  EXPECT_EQ(of(card_of(r), "stone").cause, "");
+  r.cases[0].gates.back().band = {0.01, 0.6};  // it would be like anything
+  EXPECT_EQ(of(card_of(r), "stone").cause, "");
+}
+
+TEST(Cause, IsTheNarrowestOfSeveral) {
+  auto r = with(0.3);
+  r.cases[0].gates.push_back(declared("brick", 0.2, 0.4));
+  r.cases[0].gates.push_back(declared("slate", 0.29, 0.31));
+  r.cases[0].gates.back().reason = "known defect soft-contact: it gives way";
+  EXPECT_EQ(of(card_of(r), "stone").cause, "error 0.3: as of an engine with soft contact (slate)");
+}
+
+TEST(Cause, IsTheSizeOfARegisteredDefectWhereItsSmallestIsKnown) {
+  auto r = with(0.3);
+  r.cases[0].gates.push_back(limit("error", 0.06));
+  r.cases[0].gates.back().engine = "tripoint";
+  Case known;
+  known.id = "test/one";
+  Defect inertia;
+  inertia.name = "rigid.inertia";
+  inertia.smallest = 0.004;
+  inertia.killed_by = {"error"};
+  known.defects = {inertia};
+  judge(r);
+  EXPECT_EQ(of(scorecard_of(r, {known}, {}), "stone").cause, "error 0.3: as of rigid.inertia off by about 0.02 of itself");
+  known.defects[0].killed_by = {"energy"};
+  EXPECT_EQ(of(scorecard_of(r, {known}, {}), "stone").cause, "");
 }
 
 TEST(Scorecard, TellsFailRefusedCrashedAndKnownDefectsApart) {

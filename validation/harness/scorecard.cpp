@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include "validation/case/engine_names.hpp"
 #include "validation/harness/apply_gate.hpp"
@@ -12,6 +14,7 @@
 #include "validation/harness/judge.hpp"
 #include "validation/harness/known_defect.hpp"
 #include "validation/harness/releases.hpp"
+#include "validation/harness/scorecard_cause.hpp"
 #include "validation/harness/slack.hpp"
 
 namespace tripoint {
@@ -27,9 +30,22 @@ const MetricChoice* metric_of(const CaseResult& c, const std::string& name) {
   return at == c.metrics.end() ? nullptr : &*at;
 }
 
+bool is_momentum(const MetricChoice& m) { return m.quantity == "momentum" || m.quantity == "angular_momentum"; }
+
+/// A law of conservation. The drift of an angle or of a height is none, as these may change in a right run.
 bool is_conserved(const MetricChoice& m) {
-  return m.norm == Norm::drift || m.quantity.starts_with("ledger.") || m.quantity == "momentum" ||
-         m.quantity == "angular_momentum" || m.quantity == "mass";
+  static constexpr std::array<std::string_view, 6> kept{"mass",           "ledger.residual", "ledger.time_integration",
+                                                        "ledger.kinetic", "ledger.thermal",  "energy"};
+  if (is_momentum(m) || m.quantity == "energy_gain") return true;
+  return m.norm == Norm::drift && std::ranges::find(kept, m.quantity) != kept.end();
+}
+
+/// How much an error in this metric says of the motion, 0 the most. A wrong motion may keep its energy exactly, and a missing
+/// torque still changes angular momentum.
+int weakness(const CaseResult& c, const Gate& g) {
+  const auto* m = metric_of(c, g.metric);
+  if (!m || !is_conserved(*m)) return 0;
+  return is_momentum(*m) ? 1 : 2;
 }
 
 /// The run at the case's own resolution; of our solver the corrected one.
@@ -52,42 +68,6 @@ double edge(const Gate& g) {
 }
 
 bool same_place(double a, double b) { return std::abs(a - b) <= same_error * std::max(a, b) || std::max(a, b) <= roundoff_limit; }
-
-void place(const CaseResult& c, const Gate* gate, const EngineRow& engine, ScoreRow& row) {
-  const double own = std::abs(row.error);
-  if (!std::isfinite(own)) return;
-  row.rank = 1;
-  for (const auto& e : c.engines) {
-    const double other = std::abs(error_of(e, gate));
-    if (is_exact(e.name) || !std::isfinite(other)) continue;
-    ++row.of;
-    if (&e != &engine && other < own && !same_place(other, own)) ++row.rank;
-  }
-}
-
-void conservation(const CaseResult& c, const RunRow& run, ScoreRow& row) {
-  for (const auto& m : c.metrics) {
-    const auto at = run.metrics.find(m.name);
-    if (!is_conserved(m) || at == run.metrics.end() || !std::isfinite(at->second.value)) continue;
-    if (std::isfinite(row.drift) && std::abs(at->second.value) <= std::abs(row.drift)) continue;
-    row.drift = at->second.value;
-    row.drift_metric = m.name;
-  }
-}
-
-/// The order of the metric that ranks, else of the first study that gave one.
-void observed(const EngineRow& e, ScoreRow& row) {
-  const OrderRow* chosen = nullptr;
-  for (const auto& o : e.order) {
-    if (o.mode == JudgedMode::paper) continue;
-    if (!chosen || (o.metric == row.metric && chosen->metric != row.metric)) chosen = &o;
-  }
-  if (chosen) {
-    row.order = chosen->order.value;
-    row.order_metric = chosen->metric;
-    row.order_class = chosen->order.fit_class;
-  }
-}
 
 std::string why(const GateRow& g) { return g.metric + ": " + (g.why.empty() ? std::string(to_string(g.verdict)) : g.why); }
 
@@ -128,6 +108,7 @@ void settle(const EngineRow& e, ScoreRow& row) {
     judged = judged || is_acceptance(g.gate);
     if (!known_defect(g.gate).empty() && !known) known = &g;
   }
+  if (known) row.defect = known_defect(known->gate);
   if (known)
     return set(Score::known_defect, fmt::format("{} ({}: {:.3g})", known_defect(known->gate), known->metric, known->value));
   if (e.status == Status::diverged) return set(Score::diverged, e.reason);
@@ -135,10 +116,67 @@ void settle(const EngineRow& e, ScoreRow& row) {
   set(Score::pass, "");
 }
 
-ScoreRow row_of(const CaseResult& c, const EngineRow& e) {
+ScoreRow settled(const EngineRow& e) {
+  ScoreRow row;
+  settle(e, row);
+  return row;
+}
+
+/// An engine that holds every limit of the case has a place among those that do; any other has none.
+void place(const CaseResult& c, const Gate* gate, const EngineRow& engine, ScoreRow& row) {
+  const double own = std::abs(row.error);
+  if (!std::isfinite(own) || row.verdict != Score::pass) return;
+  row.rank = 1;
+  for (const auto& e : c.engines) {
+    const double other = std::abs(error_of(e, gate));
+    if (is_exact(e.name) || !std::isfinite(other) || settled(e).verdict != Score::pass) continue;
+    ++row.of;
+    if (&e != &engine && other < own && !same_place(other, own)) ++row.rank;
+  }
+}
+
+void conservation(const CaseResult& c, const RunRow& run, ScoreRow& row) {
+  for (const auto& m : c.metrics) {
+    const auto at = run.metrics.find(m.name);
+    if (!is_conserved(m) || at == run.metrics.end() || !std::isfinite(at->second.value)) continue;
+    if (std::isfinite(row.drift) && std::abs(at->second.value) <= std::abs(row.drift)) continue;
+    row.drift = at->second.value;
+    row.drift_metric = m.name;
+  }
+}
+
+WorstLimit worst_of(const CaseResult& c, const EngineRow& e) {
+  WorstLimit worst;
+  for (const auto& g : c.gates) {
+    if (!is_acceptance(g) || is_order(g)) continue;
+    const double value = error_of(e, &g), share = std::abs(value) / edge(g);
+    if (!std::isfinite(share) || share <= worst.share) continue;
+    const auto* metric = metric_of(c, g.metric);
+    worst = {g.metric, metric ? metric->unit : "", describe(g), value, share};
+  }
+  return worst;
+}
+
+/// The order of the metric that ranks, else of the first study that gave one.
+void observed(const EngineRow& e, ScoreRow& row) {
+  const OrderRow* chosen = nullptr;
+  for (const auto& o : e.order) {
+    if (o.mode == JudgedMode::paper) continue;
+    if (!chosen || (o.metric == row.metric && chosen->metric != row.metric)) chosen = &o;
+  }
+  if (chosen) {
+    row.order = chosen->order.value;
+    row.order_metric = chosen->metric;
+    row.order_class = chosen->order.fit_class;
+  }
+}
+
+ScoreRow row_of(const CaseResult& c, const Case* value, const EngineRow& e) {
   ScoreRow row;
   row.case_id = c.id;
   row.title = c.title;
+  settle(e, row);
+  row.cause = likely_cause(c, value, e);
   const auto* gate = ranking_gate(c);
   if (gate) {
     const auto* metric = metric_of(c, gate->metric);
@@ -150,6 +188,7 @@ ScoreRow row_of(const CaseResult& c, const EngineRow& e) {
     place(c, gate, e, row);
   }
   observed(e, row);
+  row.worst = worst_of(c, e);
   if (const auto* run = own_run(e); run && run->status == Status::ok) {
     conservation(c, *run, row);
     row.cpu_s = run->cost.cpu_s;
@@ -158,7 +197,6 @@ ScoreRow row_of(const CaseResult& c, const EngineRow& e) {
           is_own_solver(ours.name) && base && base->status == Status::ok && base->cost.cpu_s > 0.0)
         row.cost = row.cpu_s / base->cost.cpu_s;
   }
-  settle(e, row);
   return row;
 }
 
@@ -201,11 +239,8 @@ std::optional<Disagreement> disagreement_of(const CaseResult& c, const Case* val
   if (!(d.difference > disagreement * edge(*gate))) return {};
   std::stable_sort(ran.begin(), ran.end(),
                    [&](const auto* a, const auto* b) { return std::abs(error_of(*a, gate)) < std::abs(error_of(*b, gate)); });
-  for (const auto* e : ran) {
-    ScoreRow row;
-    settle(*e, row);
-    d.witnesses.push_back({label_of(e->name, e->preset), row.verdict, error_of(*e, gate), words_on(*e, value, engines)});
-  }
+  for (const auto* e : ran)
+    d.witnesses.push_back({label_of(e->name, e->preset), settled(*e).verdict, error_of(*e, gate), words_on(*e, value, engines)});
   return d;
 }
 
@@ -229,8 +264,10 @@ bool is_acceptance(const Gate& g) {
 }
 
 const Gate* ranking_gate(const CaseResult& c) {
-  const auto at = std::find_if(c.gates.begin(), c.gates.end(), [](const Gate& g) { return is_acceptance(g) && !is_order(g); });
-  return at == c.gates.end() ? nullptr : &*at;
+  const Gate* best = nullptr;
+  for (const auto& g : c.gates)
+    if (is_acceptance(g) && !is_order(g) && (!best || weakness(c, g) < weakness(c, *best))) best = &g;
+  return best;
 }
 
 int EngineScore::count(Score verdict) const {
@@ -248,7 +285,7 @@ Scorecard scorecard_of(const Results& results, const std::vector<Case>& cases, c
     const auto at = std::find_if(cases.begin(), cases.end(), [&](const auto& value) { return value.id == c.id; });
     const Case* value = at == cases.end() ? nullptr : &*at;
     for (const auto& e : c.engines)
-      if (!is_exact(e.name)) score_of(card, e).rows.push_back(row_of(c, e));
+      if (!is_exact(e.name)) score_of(card, e).rows.push_back(row_of(c, value, e));
     if (auto d = disagreement_of(c, value, engines)) card.disagreements.push_back(std::move(*d));
   }
   std::erase_if(card.engines, [&](const auto& s) { return is_absent(s, results.asked); });

@@ -18,16 +18,25 @@ constexpr WordTable<9> word_table(Score) {
   return {"score", {"pass", "fail", "known defect", "inconclusive", "diverged", "crashed", "not judged", "refused", "missing"}};
 }
 
+/// The acceptance limit that an engine uses most of, excused or not. Empty where it has no value for any.
+struct WorstLimit {
+  std::string metric, unit, allowed;
+  double value = not_a_number, share = not_a_number;
+};
+
 /// One case of one engine and preset. Missing values are NaN, 0 or empty.
 struct ScoreRow {
   std::string case_id, title;
   Score verdict = Score::missing;
   std::string reason;           ///< of a verdict that is not pass: the failed gate, the reason of a refusal, or the name of a
                                 ///< known defect
-  std::string metric, unit;     ///< the metric by which engines are ranked: that of the first acceptance limit of the case
+  std::string defect;           ///< name of the known defect
+  std::string cause;            ///< of a failed limit: whose known defect, or which registered one, makes such an error
+  std::string metric, unit;     ///< the metric by which engines are ranked: that of ranking_gate
   double error = not_a_number;  ///< its value at the case's own resolution, scaled
   std::string allowed;          ///< "limit 0.05": the acceptance limit on it
   double share = not_a_number;  ///< of that limit that is used
+  WorstLimit worst;
   double order = not_a_number;  ///< observed, of a study of the case
   std::string order_metric;
   std::optional<FitClass> order_class;
@@ -35,7 +44,8 @@ struct ScoreRow {
   std::string drift_metric;
   double cpu_s = not_a_number;  ///< of the run at the case's own resolution [CPU s]
   double cost = not_a_number;   ///< cpu_s over that of tripoint in the same case
-  int rank = 0, of = 0;         ///< 1 = the smallest error of the `of` engines that ran; equal errors share a place
+  int rank = 0, of = 0;  ///< 1 = the smallest error of the `of` engines that hold every limit; equal errors share a place. 0 =
+                         ///< it holds not all, or some by a known defect only
 };
 
 /// An engine and preset over all cases.
@@ -77,7 +87,8 @@ struct Scorecard {
 
 /// Whether a gate is a limit that any engine must hold.
 [[nodiscard]] bool is_acceptance(const Gate&);
-/// The gate whose metric ranks the engines of a case: its first acceptance limit that is of no order; nullptr where it has none.
+/// The gate whose metric ranks the engines of a case: of its acceptance limits that are of no order the first on a value that has
+/// a truth, else on a momentum, else on an energy; nullptr where it has none.
 [[nodiscard]] const Gate* ranking_gate(const CaseResult&);
 
 /// For the terminal: each engine's totals, and the rows of the engines that were asked for.

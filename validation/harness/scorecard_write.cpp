@@ -84,6 +84,11 @@ std::vector<std::pair<std::string, std::vector<std::string>>> refusals(const Eng
   return list;
 }
 
+/// ": reason. cause", as far as there are any.
+std::string because(const ScoreRow& r) {
+  return (r.reason.empty() ? "" : ": " + r.reason) + (r.cause.empty() ? "" : (r.reason.empty() ? ": " : ". ") + r.cause);
+}
+
 std::string rows_text(const EngineScore& s) {
   std::string text =
       fmt::format("\nscorecard of {} {}: {}\n  {:13} {:26} {:>28} {:>10} {:>18} {:>8} {:>7} {:>8}\n", s.label(), s.version,
@@ -92,7 +97,8 @@ std::string rows_text(const EngineScore& s) {
     if (!ran(r)) continue;
     text += fmt::format("  {:13} {:26} {:>28} {:>10} {:>18} {:>8} {:>7} {:>8}\n", r.verdict, r.case_id, error_cell(r),
                         order_cell(r), drift_cell(r), figure(r.cpu_s, "{:.2f}"), figure(r.cost, "{:.2g}"), rank_cell(r));
-    if (!r.reason.empty()) text += "                " + r.reason + "\n";
+    for (const auto& line : {r.reason, r.cause})
+      if (!line.empty()) text += "                " + line + "\n";
   }
   for (const auto& [reason, ids] : refusals(s))
     text += fmt::format("  {} ({} case{})\n", reason, ids.size(), ids.size() == 1 ? "" : "s");
@@ -128,10 +134,9 @@ std::string rows_markdown(const EngineScore& s) {
     text += "\n| case | verdict | error | order | drift | CPU s | times ours | rank |\n|---|---|---|---|---|---|---|---|\n";
   for (const auto& r : s.rows)
     if (ran(r))
-      text += fmt::format("| {} | {}{} | {}{} | {} | {} | {} | {} | {} |\n", r.case_id, r.verdict,
-                          r.reason.empty() ? "" : ": " + cell(r.reason), error_cell(r),
-                          std::isfinite(r.error) && !r.unit.empty() ? " " + cell(r.unit) : "", order_cell(r), cell(drift_cell(r)),
-                          figure(r.cpu_s, "{:.2f}"), figure(r.cost, "{:.2g}"), rank_cell(r));
+      text += fmt::format("| {} | {}{} | {}{} | {} | {} | {} | {} | {} |\n", r.case_id, r.verdict, cell(because(r)),
+                          error_cell(r), std::isfinite(r.error) && !r.unit.empty() ? " " + cell(r.unit) : "", order_cell(r),
+                          cell(drift_cell(r)), figure(r.cpu_s, "{:.2f}"), figure(r.cost, "{:.2g}"), rank_cell(r));
   const auto list = refusals(s);
   if (!list.empty()) text += "\n";
   for (const auto& [reason, ids] : list) text += fmt::format("- {}: {}\n", cell(reason), fmt::join(ids, ", "));
@@ -148,16 +153,23 @@ std::string disagreement_markdown(const Disagreement& d) {
   return text;
 }
 
+Json json(const WorstLimit& w) {
+  return {{"metric", w.metric}, {"unit", w.unit}, {"allowed", w.allowed}, {"value", number(w.value)}, {"share", number(w.share)}};
+}
+
 Json json(const ScoreRow& r) {
   return {{"case", r.case_id},
           {"title", r.title},
           {"verdict", r.verdict},
           {"reason", r.reason},
+          {"defect", r.defect},
+          {"cause", r.cause},
           {"metric", r.metric},
           {"unit", r.unit},
           {"error", number(r.error)},
           {"allowed", r.allowed},
           {"share", number(r.share)},
+          {"worst", json(r.worst)},
           {"order", number(r.order)},
           {"order_metric", r.order_metric},
           {"order_class", r.order_class ? to_string(*r.order_class) : ""},
@@ -212,7 +224,9 @@ std::string scorecard_markdown(const Scorecard& card) {
       fmt::format("# Acceptance: engines by the limits that any engine must hold\n\nWritten by `{}`: {}, exit {}.\n\n",
                   card.command, card.verdict, card.exit_code);
   text +=
-      "`first` counts the cases in which an engine has the smallest error of several. `CPU s` is the sum over its own runs of "
+      "`first` counts the cases in which an engine has the smallest error of several. An engine that fails a case, or holds it "
+      "by "
+      "a known defect, has no rank there. `CPU s` is the sum over its own runs of "
       "the cases, studies left out.\n\n" +
       totals_markdown(card);
   for (const auto& s : card.engines) text += rows_markdown(s);
