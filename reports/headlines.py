@@ -7,13 +7,16 @@ metric's zero line, and every number is one of results.json.
 from __future__ import annotations
 
 import math
+import shlex
 from dataclasses import dataclass, field
+from pathlib import Path
 from types import SimpleNamespace
 
+import headline_pictures as pictures
+from headline_pictures import PRINTED, is_own
 from model import is_number, text
 
-STRANGERS = 10  # curves beside the exact one that a picture holds
-SAME = 1e-3     # share of the whole below which a sentence calls an error none
+SAME = 1e-3  # share of the whole below which a sentence calls an error none
 
 
 @dataclass
@@ -22,6 +25,7 @@ class Line:
     label: str
     cells: list
     tone: str = ""
+    own: bool = False  # of the engine that the user brought
 
 
 @dataclass
@@ -38,9 +42,6 @@ class Page:
 
 def case_of(results, case_id):
     return next((case for case in results.cases if case.id == case_id), None)
-
-
-PRINTED = " as printed"  # our own solver by the paper's equations
 
 
 def runs_of(case, printed=False):
@@ -81,6 +82,16 @@ def count(number, noun):
 def of_all(some, every):
     """"3 of 4 engines and presets"."""
     return f"{some} of {count(every, 'engine and preset') if every == 1 else f'{every} engines and presets'}"
+
+
+def own_engines(results):
+    """Names of the engines that the user brought: those of --engine in the command."""
+    try:
+        words = shlex.split(results.command)
+    except ValueError:
+        return []
+    given = [after for word, after in zip(words, words[1:]) if word == "--engine"] + [word.split("=", 1)[1] for word in words if word.startswith("--engine=")]
+    return [Path(path).name.removeprefix("engine-").split("@")[0] for path in given]
 
 
 def by_engine(labels):
@@ -125,23 +136,6 @@ def tip(trajectory):
     return trajectory.body_times, axis[:, 2], rate
 
 
-def height(trajectory):
-    """(times, height of the first body, no rate): frames of a fall are close, and a hit has no rate."""
-    return trajectory.body_times, trajectory.bodies["position"][:, 0, 2], None
-
-
-def smooth(times, values, rates, parts=12):
-    """Cubics through values and rates of the frames (Hermite), so that a curve between far frames is no broken line; as it is where there are no rates."""
-    import numpy as np
-    if rates is None or not np.isfinite(rates).all() or len(times) < 2:
-        return times, values
-    s = np.linspace(0.0, 1.0, parts, endpoint=False)
-    step = np.diff(times)[:, None]
-    start, end, leave, come = (part[:, None] for part in (values[:-1], values[1:], rates[:-1], rates[1:]))
-    curve = (1 + 2 * s) * (1 - s) ** 2 * start + s * (1 - s) ** 2 * step * leave + s * s * (3 - 2 * s) * end + s * s * (s - 1) * step * come
-    return np.append((times[:-1, None] + s * step).ravel(), times[-1]), np.append(curve.ravel(), values[-1])
-
-
 def spin(results, out):
     case = case_of(results, SPIN)
     if case is None:
@@ -159,7 +153,11 @@ def spin(results, out):
         far += ", " + join([f"{label} {angle:.2g}" for angle, label in reversed(wrong[:-1])])
     own = "".join(f"; {label} is {angle:.4g} rad off" for angle, label, _, _ in printed)
     answer = f"{'Yes for ' + join(list(by_engine(right))) if right else 'No'}: {end}{far}{own}."
-    picture = curves_picture(results, out, case, "spin", "Height of the long axis's tip over ten seconds", "z of the body's long axis [1]", tip, "orientation", "Dots are the frames that were written; between them, cubics by attitude and angular velocity.")
+    curves = [(label, tip(trajectory)) for label, trajectory in trajectories_of(results, case) if "orientation" in trajectory.bodies]
+    exact = next((curve for label, curve in curves if label == "exact"), None)
+    caption = f"Case {case.id}, at its own time step. The wide grey curve is exact. Dots are the frames that were written; between them, cubics by attitude and angular velocity."
+    picture = pictures.picture(out, "spin", "Height of the long axis's tip over ten seconds", "z of the body's long axis [1]", [entry for entry in curves if entry[0] != "exact"], ("exact", exact),
+                               caption, own_engines(results)) if exact is not None else None
     return Page("spin.html", "Does your engine spin a free body right?", answer, picture, ["engine", "time step", "angle error [rad]", "[degrees]", "along its spin", "energy error", "order"],
                 [Line(label, cells, "pass" if angle < 0.01 else "fail" if angle > 0.1 else "open") for angle, label, cells, _ in sorted(strangers + printed)], cases=[c for c in (case, case_of(results, "rigid/precession")) if c is not None],
                 notes=["Signs: within 0.01 rad, within 0.1 rad, farther off. One body at one step: other spins are in the case rigid/precession."] + [f'"{PRINTED.strip()}": our own solver by the equations as the paper prints them, the mode paper of the case.' for _ in printed[:1]])
@@ -196,8 +194,15 @@ def spins_of(case, sides, printed=False):
         angle = value(run, "angle")
         if engine.name != "exact" and angle is not None:
             order = next((o for o in engine.orders if o.metric == "angle" and (o.mode == "paper") == printed), None)
-            found.append((abs(angle), engine.label + (PRINTED if printed else ""), [step_of(run), f"{abs(angle):.4g}", f"{math.degrees(abs(angle)):.3g}", sides.get(engine.label + (PRINTED if printed else ""), "—"), signed_energy(run), f"{order.value:.1f}" if order and is_number(order.value) else "—"], step_of(run)))
+            found.append((abs(angle), engine.label + (PRINTED if printed else ""), [step_of(run), f"{abs(angle):.4g}", f"{math.degrees(abs(angle)):.3g}", sides.get(engine.label + (PRINTED if printed else ""), "—"), signed_energy(run), order_of(order)], step_of(run)))
     return sorted(found)
+
+
+def order_of(order):
+    """The order with its class: a number whose error ends on a floor is none."""
+    if order is None or not is_number(order.value):
+        return "—"
+    return f"{order.value:.1f}" + (f" ({order.fit_class})" if order.fit_class else "")
 
 
 def signed_energy(run):
@@ -238,8 +243,26 @@ def bounce(results, out):
     else:
         answer = f"No: none of {count(len(ordered), 'engine and preset') if len(ordered) == 1 else f'{len(ordered)} engines and presets'} makes more than {share(max(worst.values()))} of the energy of the fall."
     lines = [Line(label, [share(worst[label])] + ["—" if words not in gains[label] else share(gains[label][words]) for words in columns], "fail" if worst[label] > MAKES else "pass") for label in ordered]
-    return Page("bounce.html", "Does it make energy when it bounces?", answer, gains_picture(out, gains, ordered, columns, cases), ["engine", "greatest"] + [f"e = {words}" for words in columns], lines,
+    return Page("bounce.html", "Does it make energy when it bounces?", answer, energies_picture(out, cases, gains, own_engines(results)), ["engine", "greatest"] + [f"e = {words}" for words in columns], lines,
                 notes=["\"—\": the engine refuses this case, or the case does not ask for it."] if any(len(found) < len(columns) for found in gains.values()) else [], cases=[case for case, _ in cases])
+
+
+def energies_picture(out, cases, gains, own):
+    """Energy above that of the start, in time, in the case in which most is made."""
+    most = max(cases, key=lambda entry: max((found.get(entry[1], 0.0) for found in gains.values()), default=0.0))
+    curves = []
+    for engine, run in runs_of(most[0]):
+        metric = run.metrics.get("energy_gain")
+        if engine.name != "exact" and metric is not None and len(metric.times) == len(metric.series) > 1:
+            curves.append((engine.label, curve_of(metric, 100.0, metric.series[0])))
+    return pictures.picture(out, "bounce", f"Energy since the start, restitution {most[1]}", "energy above that of the start [% of the fall's]", curves, ("none made", None),
+                            f"Case {most[0].id}: the one of these in which most is made. A curve above the grey line has made energy; to lose some is right where the restitution is below 1.", own)
+
+
+def curve_of(metric, scale=1.0, start=0.0):
+    """(times, values, no rates) of a metric in time."""
+    import numpy as np
+    return np.array(metric.times, float), scale * (np.array(metric.series, float) - start), None
 
 
 # --- does it float? -----------------------------------------------------------------------------------------------------
@@ -268,133 +291,15 @@ def floats(results, out):
     answer = (f"Yes for {join(good)}: blocks of {join([f'{density:g}' for _, density in cases])} of the density of water float within {max(worst[label] for label in good):.2g} spacings of Archimedes' draught{'; ' + join(others) if others else ''}."
               if good else f"No: the best, {ordered[0]}, is {worst[ordered[0]]:.2g} spacings off Archimedes' draught.")
     lines = [Line(label, ["—" if density not in errors[label] else f"{errors[label][density]:+.2f}" for _, density in cases], "pass" if worst[label] <= FLOATS_WITHIN else "fail") for label in ordered]
-    return Page("float.html", "Does it float?", answer, draught_picture(out, depths, cases), ["engine"] + [f"density {density:g}" for _, density in cases], lines,
+    return Page("float.html", "Does it float?", answer, draught_picture(out, depths, cases, own_engines(results)), ["engine"] + [f"density {density:g}" for _, density in cases], lines,
                 notes=["The table is of the draught's error in particle spacings; the densities are relative to water."], cases=[case for case, _ in cases])
 
 
-# --- pictures -----------------------------------------------------------------------------------------------------------
-
-def finished(draw, out, name, title, alt, caption):
-    """Draws twice, for a page and for a telephone. @param draw (inches) -> figure"""
-    from figures import Picture, style
-    broad, slim = (style.inline(style.files(draw(width), out / "figures" / f"headline-{name}{suffix}"), f"headline-{name}{suffix}") for width, suffix in ((style.WIDTH, ""), (style.SLIM, "-narrow")))
-    return Picture(name, title, alt, caption, broad, f"figures/headline-{name}", False, slim)
-
-
-def hues(labels):
-    from figures import style
-    palette = (style.BLUE, style.ORANGE, style.GREEN, style.PINK, style.AMBER, style.SKY, style.RED)  # grey is the exact curve
-    return {label: {"color": palette[k % len(palette)], "linestyle": ("-", "--", ":", "-.")[k // len(palette) % 4]} for k, label in enumerate(labels)}
-
-
-def curves_picture(results, out, case, name, title, axis_label, curve, needs, how=""):
-    """Every engine's own curve over the exact one, which is wide and grey. @param curve trajectory -> (times, values, rates or None)"""
-    from figures import style
-    shown = [entry for entry in trajectories_of(results, case) if needs in entry[1].bodies]
-    if not shown:
-        return None
-    drawn = alike([(label, curve(trajectory)) for label, trajectory in shown])
-    printed = [label for label, _ in drawn if label.endswith(PRINTED)]
-    others = [label for label, _ in drawn if label != "exact" and label not in printed]
-    labels = others[:STRANGERS - len(printed)] + printed
-    if others[STRANGERS - len(printed):]:
-        how += f" Not drawn: {join(others[STRANGERS - len(printed):])}."
-    looks = hues(labels)
-
-    def draw(width):
-        figure, axis = canvas(width, 4.2)
-        for label, (times, values, rates) in drawn:
-            if label == "exact":
-                axis.plot(*smooth(times, values, rates), color=style.GREY, linewidth=5, alpha=0.55, label="exact", zorder=1)
-            elif label in looks:
-                axis.plot(*smooth(times, values, rates), linewidth=1.3, label=label, zorder=2, **looks[label])
-                if rates is not None:
-                    axis.plot(times, values, linestyle="none", marker="o", markersize=2.2, color=looks[label]["color"], zorder=3)
-        axis.set_xlabel("time [s]")
-        axis.set_ylabel(axis_label)
-        frame(figure, axis, len(labels) + 1)
-        return figure
-    return finished(draw, out, name, title, f"{title}, of {join(labels)} over the exact curve.", " ".join(filter(None, [f"Case {case.id}, at its own time step. The wide grey curve is exact.", how])))
-
-
-ALIKE = 0.01  # of the range of all curves: nearer ones lie on each other
-
-
-def alike(curves):
-    """[(names, curve)]: curves that lie on each other are one, with the names of all; `exact` and printed forms stay alone."""
-    import numpy as np
-    finite = np.concatenate([values[np.isfinite(values)] for _, (_, values, _) in curves])
-    range_ = float(finite.max() - finite.min()) if finite.size else 0.0
-    groups = []
-    for label, curve in curves:
-        alone = label == "exact" or label.endswith(PRINTED)
-        twin = None if alone else next((group for group in groups if group[2] and len(group[1][1]) == len(curve[1]) and np.abs(group[1][1] - curve[1]).max() < ALIKE * range_), None)
-        if twin:
-            twin[0].append(label)
-        else:
-            groups.append(([label], curve, not alone))
-    return [(", ".join(names), curve) for names, curve, _ in groups]
-
-
-def canvas(width, height):
-    """One axis on a figure of this size [inches]."""
-    from figures import style
-    figure, (axis,) = style.panels(1, 1)
-    figure.set_size_inches(width, height)
-    return figure, axis
-
-
-def frame(figure, axis, entries, left=0.75):
-    from figures import style
-    across = style.columns(axis.get_legend_handles_labels()[1], figure.get_figwidth())
-    width, height = figure.get_figwidth(), figure.get_figheight()
-    figure.subplots_adjust(left=left / width, right=1 - 0.15 / width, bottom=0.5 / height, top=1 - (0.2 + 0.2 * -(-entries // across)) / height)
-    style.legend(figure, [axis])
-
-
-def gains_picture(out, gains, ordered, columns, cases):
-    """The greatest energy above that of the start, of each engine in each case: dots in a row an engine. Exact is nothing; the line is at 1 %."""
-    from figures import style
-    least, looks = 1e-4, {words: (hue, marker) for words, hue, marker in zip(columns, (style.BLUE, style.SKY, style.GREEN, style.GREY, style.ORANGE, style.PINK, style.RED), "osD^vPX")}
-
-    def draw(width):
-        figure, axis = canvas(width, 1.3 + 0.24 * len(ordered) + (0.2 if width < style.WIDTH else 0.0))
-        axis.axvline(100 * MAKES, color=style.RED, linewidth=1, linestyle="--", zorder=1)
-        for words in columns:
-            points = [(100 * max(gains[label][words], least), row) for row, label in enumerate(ordered) if words in gains[label]]
-            if points:
-                axis.plot(*zip(*points), linestyle="none", color=looks[words][0], marker=looks[words][1], markersize=5.5, alpha=0.85, label=f"e = {words}", zorder=2)
-        axis.set_xscale("log")
-        axis.set_xlim(100 * least / 1.6, max(3.0, 160 * max(max(found.values()) for found in gains.values())))
-        axis.xaxis.set_major_formatter(lambda value, _: f"{value:g}" if value > 100 * least * 1.01 else f"< {value:g}")
-        axis.set_yticks(range(len(ordered)), ordered)
-        axis.set_ylim(len(ordered) - 0.4, -0.6)
-        axis.set_xlabel("energy made [%]")
-        frame(figure, axis, len(columns), left=0.3 + 0.072 * max(map(len, ordered)))
-        return figure
-    return finished(draw, out, "bounce", "Energy made in hits, by engine and restitution e", f"Greatest energy gain of {join(ordered)}.", f"Cases {join([case.id for case, _ in cases])}. The greatest energy above that of the start, at any time, in percent of the energy of the fall; exact is none. The dashed line is at 1 %. A logarithmic axis.")
-
-
-def draught_picture(out, depths, cases):
+def draught_picture(out, depths, cases, own):
     """Error of the draught in time; the zero line is Archimedes, the band what counts as floating right."""
-    from figures import style
-    curves = [(f"{label}, {density:g}", metric) for label, found in depths.items() for density, metric in found if len(metric.times) == len(metric.series) > 1]
-    looks = hues([label for label, _ in curves])
-
-    def draw(width):
-        figure, axis = canvas(width, 4.2)
-        axis.axhspan(-FLOATS_WITHIN, FLOATS_WITHIN, color=style.GREEN, alpha=0.08, zorder=0)
-        axis.axhline(0.0, color=style.GREY, linewidth=5, alpha=0.55, label="Archimedes", zorder=1)
-        for label, metric in curves:
-            axis.plot(metric.times, metric.series, linewidth=1.3, label=label, zorder=2, **looks[label])
-        low, high = axis.get_ylim()
-        axis.set_ylim(min(low, -1.2 * FLOATS_WITHIN), max(high, 1.2 * FLOATS_WITHIN))
-        axis.set_xlabel("time [s]")
-        axis.set_ylabel("draught less Archimedes' [spacings]")
-        frame(figure, axis, len(curves) + 1)
-        return figure
-    return finished(draw, out, "float", "Error of the draught of floating blocks in time", "Error of the draught of each engine and density against time.",
-                    f"Cases {join([case.id for case, _ in cases])}. Labels: engine and density relative to water. The green band is half a spacing to either side.")
+    curves = [(f"{label} · {density:g}", curve_of(metric)) for label, found in depths.items() for density, metric in found if len(metric.times) == len(metric.series) > 1]
+    return pictures.picture(out, "float", "Error of the draught of floating blocks in time", "draught less Archimedes' [spacings]", curves, ("Archimedes", None),
+                            f"Cases {join([case.id for case, _ in cases])}. Labels end with the density relative to water. The green band is half a spacing to either side.", own, FLOATS_WITHIN)
 
 
 # --- can I upgrade? -----------------------------------------------------------------------------------------------------
@@ -425,6 +330,14 @@ def upgrade_answer(document):
 QUESTIONS = (spin, bounce, floats)
 
 
+def own_first(page, own):
+    """The user's own engine heads the table."""
+    for line in page.lines:
+        line.own = is_own(line.label, own)
+    page.lines.sort(key=lambda line: not line.own)
+    return page
+
+
 def pages(results, out):
     """@return (pages, notes): those whose cases were run; a page that cannot be drawn costs a note, not the report"""
     found, notes = [], []
@@ -435,7 +348,7 @@ def pages(results, out):
             notes.append(f"the page of {make.__name__} could not be made: {type(error).__name__}: {error}")
             continue
         if page:
-            found.append(page)
+            found.append(own_first(page, own_engines(results)))
     if (results.folder / "releases.json").is_file():
         found.append(SimpleNamespace(file="upgrade.html", question="Can I upgrade?"))
     return found, notes

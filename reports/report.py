@@ -26,6 +26,7 @@ import page
 import plain
 import printed
 import releases
+import scorecard
 import side_by_side
 import signable
 import speed
@@ -57,6 +58,13 @@ def make_case(results, out, missing, case):
         write(out / "case" / f"{case.slug}.html", page.render_case(results, case, pictures, notes))
         made = [*made, f"case/{case.slug}.html"]
     return made
+
+
+def take_colour_for_own(results, missing):
+    """The user's own engine has its own colour in every figure."""
+    if not missing:
+        from figures import style
+        style.KNOWN.update(dict.fromkeys(headlines.own_engines(results), style.OWN))
 
 
 def make_cases(results, out, missing, jobs):
@@ -117,6 +125,7 @@ def other_pages(results, out):
     if (results.folder / "speed.json").is_file():
         speed.main([str(results.folder / "speed.json"), str(out / "speed.html")])
         beside.append(("speed.html", "Speed beside other codes"))
+    beside = chosen_pages(results, out) + beside
     found, told = headlines.pages(results, out)
     results.notes.extend(told)
     for headline in found:
@@ -125,6 +134,22 @@ def other_pages(results, out):
     if (results.folder / "releases.json").is_file():
         releases.main([str(results.folder / "releases.json"), str(out / "upgrade.html")])
     return found, beside
+
+
+def chosen_pages(results, out):
+    """Writes the scorecard, and the page of engines by use, where there is a scorecard.json. @return [(file, name)]"""
+    if absent():
+        return []
+    import which_engine  # it needs numpy
+    html, made = which_engine.render(results), []
+    if html:
+        write(out / "which-engine.html", html)
+        made.append(("which-engine.html", "Which engine for what?"))
+    else:
+        (out / "which-engine.html").unlink(missing_ok=True)
+    if (results.folder / "scorecard.json").is_file() and scorecard.main([str(results.folder / "scorecard.json"), str(out / "scorecard.html")]) == 0:
+        made.append(("scorecard.html", "Scorecard: engines by the limits that any engine must hold"))
+    return made
 
 
 def write(path, content):
@@ -151,6 +176,7 @@ def main(arguments=None):
     out = Path(options.out) if options.out else results.folder
     out.mkdir(parents=True, exist_ok=True)
     missing = absent()
+    take_colour_for_own(results, missing)
     made = make_cases(results, out, missing, options.jobs)
     sweep(out, made)
     if any("jinja2" in line for line in missing):

@@ -9,6 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
+from shapes import shapes_of
+
 MOST_FRAMES = 400    # of a body's path
 MOST_ROWS = 2_000_000  # bound on what a file may ask this program to read
 
@@ -31,6 +33,7 @@ class Trajectory:
     observables: dict = field(default_factory=dict)  # name -> (times, values)
     gravity: tuple = (0.0, 0.0, 0.0)  # as the job says
     domain: tuple | None = None  # (least, greatest) corner of the scene, where the job says both
+    shapes: list = field(default_factory=list)  # shapes.Shape of each body, where all are rigid boxes and balls
 
     @property
     def pulled(self):
@@ -63,7 +66,10 @@ def read(root, run):
         if (folder / name).is_file():
             try:
                 found = reader(folder / name)
-                found.gravity, found.domain = scene_of(folder / "job.json")
+                found.gravity, found.domain, found.shapes = scene_of(folder / "job.json")
+                if not found.strobe:
+                    found.strobe = corners_of(found)
+                    found.position = found.strobe[-1].position if found.strobe else None
                 return found
             except NoTrajectory:
                 raise
@@ -72,15 +78,25 @@ def read(root, run):
     raise NoTrajectory(f"{run.folder}/trajectory.h5 is missing")
 
 
+def corners_of(trajectory):
+    """A few frames of a run that wrote bodies alone: the corners of its boxes and the middles of its balls."""
+    bodies, times = trajectory.bodies, trajectory.body_times
+    if not trajectory.shapes or not {"position", "orientation"} <= bodies.keys():
+        return []
+    frames = np.unique(np.linspace(0, len(times) - 1, 5).astype(int))
+    return [Frame(float(times[f]), np.concatenate([s.points(bodies["position"][f, s.row], bodies["orientation"][f, s.row]) for s in trajectory.shapes])) for f in frames]
+
+
 def scene_of(job):
-    """(gravity, corners of the domain) as the job says; a job that is not there or is torn says nothing."""
+    """(gravity, corners of the domain, shapes of the bodies) as the job says; a job that is not there or is torn says nothing."""
     try:
         scene = json.loads(job.read_text(encoding="utf-8"))["scene"]
         gravity = tuple(float(g) for g in scene["gravity"])
         corners = [np.array([np.nan if v is None else float(v) for v in scene[key]]) for key in ("min", "max")] if scene.get("min") and scene.get("max") else None
     except (OSError, ValueError, KeyError, TypeError):
-        return (0.0, 0.0, 0.0), None
-    return gravity if len(gravity) == 3 else (0.0, 0.0, 0.0), tuple(corners) if corners and all(c.shape == (3,) for c in corners) else None
+        return (0.0, 0.0, 0.0), None, []
+    whole = tuple(corners) if corners and all(c.shape == (3,) for c in corners) else None
+    return gravity if len(gravity) == 3 else (0.0, 0.0, 0.0), whole, shapes_of(scene)
 
 
 def read_h5md(path):

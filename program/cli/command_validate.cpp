@@ -199,11 +199,11 @@ int validate(ValidateOptions o) {
   describe_call(results, o);
   judge(results);  // a shard is asked less than a whole suite
   if (o.keep_history) keep_history(results, o);
+  if (o.profile == "acceptance") show_scorecard(results, cases, engines, o);  // the report links it
   if (!o.page)
     write_results(results, o.suite.out);
   else if (const auto missing = write_report(results, o.suite.out); !missing.empty())
     say("tripoint: no page: " + missing);
-  if (o.profile == "acceptance") show_scorecard(results, cases, engines, o);
   if (!o.json) print(notes_text(results) + loose_limits(results, o.suite.out));
   print(o.json ? results_text(results) : last_line(results, o.suite.out) + "\n");
   return interrupted() ? exit_interrupted : results.exit_code;

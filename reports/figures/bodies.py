@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
+from headline_pictures import smooth
+
 from . import plot, style
 from .curve import Drawing
 
 MOST_BODIES = 4
 STORED = ("potential", "compression", "elastic", "hourglass")  # energies that motion is exchanged with and comes back from
+CENTRE = "of the centre [m]"
 TURN, ENERGY = "turn from the start [deg]", "energy change / kinetic"  # of panels
 
 
@@ -24,7 +27,7 @@ def draw(case, trajectories, notes):
         notes.append(f"curves show the first {MOST_BODIES} of {most} bodies")
     truth = next((curve for curve, _ in shown if curve.engine.name == "exact"), None)
     left = [residual(title, lines, truth) for title, lines in wanted]
-    order = who_leads(wanted[0][0], left[0]) if wanted[0][0].endswith("of the centre [m]") else ""
+    order = who_leads(wanted[0][0], left[0]) if wanted[0][0].endswith(CENTRE) else ""
     columns = min(len(wanted), 2)
     ordered = [panel for n in range(0, len(wanted), columns) for panel in (wanted[n:n + columns] + [None] * (columns - len(wanted[n:n + columns])) + (left[n:n + columns] + [None] * (columns - len(left[n:n + columns])) if any(left[n:n + columns]) else []))]
     figure, axes = plot.panels(len(ordered), len(shown), height=2.3, columns=columns)
@@ -37,19 +40,42 @@ def draw(case, trajectories, notes):
             look = style.look(curve)
             dashes = look["linestyle"] if nth == 0 else (0, (1 + nth, 1.5))
             width = 2.6 if curve.engine.name == "exact" else 1.3
-            axis.plot(time, values, color=look["color"], linestyle=dashes, linewidth=width, alpha=0.6 if width > 2 else 1.0, label=curve.label if nth == 0 else None,
-                      marker=look["marker"] if nth == 0 and width < 2 else None, markersize=3.2, markevery=(offset(curve, shown), max(1, len(time) // 8)))
+            fine = between(title, next((t for c, t in shown if c is curve), None), nth, time, values)
+            parts = max(1, (len(fine[0]) - 1) // max(1, len(time) - 1))  # of an interval between frames, on which the markers stand
+            axis.plot(*fine, color=look["color"], linestyle=dashes, linewidth=width, alpha=0.6 if width > 2 else 1.0, label=curve.label if nth == 0 else None,
+                      marker=look["marker"] if nth == 0 and width < 2 else None, markersize=3.2, markevery=(parts * offset(curve, shown), parts * max(1, len(time) // 8)))
         axis.set_xlabel("time [s]")
         axis.set_ylabel(title)
     title, what = ("Bodies in time", "Position, rotation and energy of the bodies") if len(wanted) > 1 or wanted[0][0] != ENERGY else ("Energy in time", "Energy")
     return Drawing("bodies", title, f"{what} against time for " + ", ".join(c.label for c, _ in shown) + ".", figure, caption(wanted, any(left)) + order)
 
 
+def between(title, trajectory, nth, time, values):
+    """The curve of a body between its frames, by the velocities that the engine wrote there; as it is where it wrote none."""
+    known = trajectory.bodies if trajectory is not None else {}
+    if title.endswith(CENTRE) and "velocity" in known:
+        return smooth(time, values, known["velocity"][:, nth, "xyz".index(title[0])])
+    if title == TURN and "angular_velocity" in known:
+        return turn_between(time, known["orientation"][:, nth], known["angular_velocity"][:, nth])
+    return time, values
+
+
+def turn_between(time, q, omega):
+    """Degrees of turn: the quaternion by cubics with its rate omega q/2, on the shorter way from frame to frame."""
+    turned = np.cumprod(np.where(np.sum(q[1:] * q[:-1], axis=1) < 0, -1.0, 1.0))
+    q = q * np.concatenate([[1.0], turned])[:, None]
+    w, v = q[:, :1], q[:, 1:]
+    rate = 0.5 * np.concatenate([-np.sum(omega * v, axis=1, keepdims=True), w * omega + np.cross(omega, v)], axis=1)
+    fine = [smooth(time, q[:, k], rate[:, k]) for k in range(4)]
+    parts = np.stack([values for _, values in fine], axis=1)
+    return fine[0][0], np.degrees(2 * np.arctan2(np.linalg.norm(parts[:, 1:], axis=1), np.abs(parts[:, 0])))
+
+
 def caption(wanted, residuals):
     """Sentences on what is drawn, and on nothing else."""
     said = "Each engine at the case's own resolution" + ("; below a curve, what is left between engine and exact." if residuals else ".")
     if any(title == TURN for title, _ in wanted):
-        said += " Turn from the start is the angle of the rotation that leads from the first attitude to the present one."
+        said += " Turn from the start is the angle of the rotation that leads from the first attitude to the present one; between frames by the angular velocities that the engine wrote."
     if any(title == ENERGY for title, _ in wanted):
         said += " Energy change: of the kinetic and the stored energy since the start, as a part of the run's greatest kinetic energy."
     if any(nth > 0 for _, lines in wanted for *_, nth in lines):
@@ -106,7 +132,7 @@ def component(shown, name):
 
 def position_panel(shown):
     chosen, lines = component(shown, "position")
-    return (f"{'xyz'[chosen]} of the centre [m]", lines) if lines else None
+    return (f"{'xyz'[chosen]} {CENTRE}", lines) if lines else None
 
 
 def spin_panel(shown):

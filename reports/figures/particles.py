@@ -17,7 +17,7 @@ from matplotlib.lines import Line2D
 from matplotlib.markers import MarkerStyle
 from matplotlib.transforms import Affine2D, Bbox, IdentityTransform, TransformedBbox
 
-from . import style
+from . import solids, style
 from .curve import Drawing
 
 MOST_LINES = 4
@@ -71,9 +71,12 @@ def draw(case, trajectories, notes):
     most = max(int(np.isfinite(t.position).all(axis=1).sum()) for _, t in shown)
     parts = [f"At the case's own resolution, {f'from 0 to {end:.4g} s in one picture, earlier times paler, ' if flight else '' if times > 1 else f'at t = {end:.4g} s, '}{how}{'; gravity points down' if first.pulled else ''}.",
              f"Up to {most} particles; of those behind one another the foremost is drawn" + (", and of what never moves not the part in front." if not flat and any(rest.any() for rest in resting) else ".")]
+    solid = warm is None and all(solids.usable(t) for _, t in shown)
+    if solid:
+        parts[1] = "Boxes and balls are drawn by their shapes."
     parts += ["Cut open through the middle of the solids, which liquid hides."] if np.isfinite(cut) else []
     parts += [f"{outside} particle{'s lie' if outside > 1 else ' lies'} outside of the picture."] if outside else []
-    return Drawing("particles", "Particles in time", f"Particles from the start to {end:.4g} s for {', '.join(c.label for c, _ in shown)}, {how}.", sheet.figure, " ".join(parts))
+    return Drawing("particles", "Bodies in space" if solid else "Particles in time", f"Particles from the start to {end:.4g} s for {', '.join(c.label for c, _ in shown)}, {how}.", sheet.figure, " ".join(parts))
 
 
 def finite(position):
@@ -269,6 +272,9 @@ def cut_through(trajectory, rest, view, cell):
 
 def panel(sheet, place, curve, trajectory, frame, rest, view, cut, warm, flat, pale, by_phase):
     """Draws one time of one engine. @param cut depth before which nothing is drawn   @param by_phase coloured by phase, whatever the temperatures   @return kinds that it shows"""
+    if warm is None and solids.usable(trajectory):
+        solids.draw(sheet, place, trajectory, frame, view, pale)
+        return set()
     seen = view(frame.position)
     here = np.isfinite(seen).all(axis=1) & (seen[:, :2] > sheet.low).all(axis=1) & (seen[:, :2] < sheet.high).all(axis=1) & (seen[:, 2] >= cut)
     if not flat and rest.any() and (here & ~rest).any():

