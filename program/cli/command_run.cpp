@@ -20,6 +20,7 @@
 #include "validation/case/engine_names.hpp"
 #include "validation/case/idle_keys.hpp"
 #include "validation/harness/case_names.hpp"
+#include "validation/harness/earlier_run.hpp"
 #include "validation/harness/finished_run.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/run_one.hpp"
@@ -207,7 +208,12 @@ void fill_in(RunOptions& o, const Case& value) {
   if (o.out.empty()) o.out = "runs/" + value.id + "/" + o.engine.substr(o.engine.rfind('/') + 1);
 }
 
-/// Runs the job in its folder, and shows how far it is.
+bool goes_on_in(const RunOptions& o) {
+  std::error_code none;
+  return !o.resume.empty() && fs::equivalent(fs::path(o.resume).parent_path(), o.out, none);
+}
+
+/// Runs the job in its folder, and shows how far it is. A run that does not begin leaves the one that was there.
 Outcome run_shown(const EnginePlan& plan, const Job& job, const InitialState& initial, const RunOptions& o) {
   RunRequest request;
   request.engine = plan.entry;
@@ -216,17 +222,24 @@ Outcome run_shown(const EnginePlan& plan, const Job& job, const InitialState& in
   request.wall_limit = o.wall_limit;
   request.folder = fs::absolute(o.out).string();
   request.particles = (fs::absolute(o.out) / "particles.h5").string();
-  fs::remove(request.particles);
+  EarlierRun earlier(o.out, goes_on_in(o));
+  const auto let_go_of_earlier = [&] {
+    if (earlier.is_replaced()) earlier.let_go();
+  };
   write_particles(request.particles, initial);
   if (!o.quiet)
     say(fmt::format("{} on {} {}: {} particles to t = {:g} s", job.case_id, plan.name, plan.entry->version, initial.size(),
                     job.scene.end_time));
   RunProgress progress(progress_form(o.progress, o.quiet, isatty(2) == 1));
-  request.progress = [&](double done) { progress.at(done); };
+  request.progress = [&](double done) {
+    let_go_of_earlier();
+    progress.at(done);
+  };
   request.status = [&](const std::string& status) { progress.at(status); };
   if (const auto seconds = progress.interval(); !seconds.empty()) request.environment["TRIPOINT_STATUS"] = seconds;
   auto outcome = run_one(request);
   progress.end();
+  if (outcome.status != Status::refused) let_go_of_earlier();
   return outcome;
 }
 

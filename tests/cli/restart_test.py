@@ -186,6 +186,43 @@ class Restart(unittest.TestCase):
         self.assertIn("trajectory.h5", refusal())
         self.assertEqual(self.run_case("other", "--resume", self.path / "nowhere").returncode, 2)
 
+    def test_a_run_that_does_not_begin_leaves_the_run_that_was_there(self):
+        out = self.path / "out"
+        self.assertEqual(self.run_case("out", "--checkpoint-interval", "0.2").returncode, 0)
+        self.assertEqual(self.run_case("foreign", "--set", "scene.spacing=0.05", "--checkpoint-interval", "0.2").returncode, 0)
+        (out / "picture.png").write_text("drawn by hand")
+        own, foreign = (sorted(folder.glob("checkpoint-*.h5"))[-1] for folder in (out, self.path / "foreign"))
+        torn = self.path / "torn.h5"
+        torn.write_bytes(own.read_bytes()[:-1])
+        silent, refuses = (self.path / f"engine-{name}" for name in ("silent", "refuses"))
+        info = '{"contract": 1, "name": "NAME", "version": "1", "capabilities": [], "presets": ["default"], "deterministic": true}'
+        for engine, check, run in ((silent, "exit 3", ""), (refuses, """echo '{"can": true, "reason": ""}'""", "echo '%s' >result.json; exit 4" % '{"contract": 1, "status": "refused", "message": "not today"}')):
+            engine.write_text(f"""#!/bin/sh
+case $1 in --info) echo '{info.replace("NAME", engine.name[7:])}';; --check) {check};; --run) cd "$(dirname "$2")"; echo x >gauges.csv; {run};; esac
+""")
+            engine.chmod(0o755)
+
+        def files():
+            return {file.relative_to(out).as_posix(): file.read_bytes() for file in out.rglob("*") if file.name != ".lock" and file.is_file()}
+        before = files()
+        self.assertTrue({"job.json", "particles.h5", "result.json", "trajectory.h5", own.name} <= before.keys(), before.keys())
+        for words, code in ((("--resume", torn), 2), (("--resume", foreign), 2), (("--resume", own, "--until", "0.3"), 2), (("--resume", own, "--set", "scene.gravity=[0.0, 0.0, -9.8]"), 2),
+                            (("--resume", self.path / "nowhere"), 2), (("--engine", silent), 4), (("--engine", refuses), 4), (("--set", "scene.spacing=-1"), 2), (("--engine", "no-such"), 4)):
+            done = self.run_case("out", *words)
+            self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+            self.assertEqual(files(), before, words)
+        # A call that was killed before its run had begun: the next one finds the files aside.
+        aside = out / ".earlier-run"
+        aside.mkdir()
+        for name in before.keys() - {"picture.png"}:
+            (out / name).rename(aside / name)
+        (out / "job.json").write_text("begun")
+        self.assertEqual(self.run_case("out", "--resume", torn).returncode, 2)
+        self.assertEqual(files(), before)
+        self.assertEqual(self.run_case("out", "--until", "0.4").returncode, 0)  # one that begins replaces all
+        self.assertFalse(aside.exists() or own.exists())
+        self.assertNotEqual((out / "trajectory.h5").read_bytes(), before["trajectory.h5"])
+
     def test_ctrl_c_leaves_a_checkpoint_and_says_how_to_go_on(self):
         slow = ["--set", "scene.time_step=5e-6", "--until", "0.25"]
         self.assertEqual(self.run_case("whole", *slow).returncode, 0)
