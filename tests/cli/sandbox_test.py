@@ -13,7 +13,7 @@ TRIPOINT = sys.argv[1]
 
 # What a hostile engine tries as it runs; each line of tried.txt is a deed that worked.
 DEEDS = '''
-import os, socket, subprocess
+import glob, os, socket, subprocess
 def tried(what, deed):
     try:
         deed()
@@ -28,11 +28,20 @@ def connect():
     socket.create_connection(("127.0.0.1", PORT), timeout=2.0).close()
 def token():
     os.environ["SOME_TOKEN"] if "SOME_TOKEN" in os.environ else os.stat("/no/such/file")
+def token_of_a_process():
+    for file in glob.glob("/proc/[0-9]*/environ") + glob.glob("/proc/[0-9]*/cmdline"):
+        try:
+            if b"SOME_TOKEN" in open(file, "rb").read():
+                return
+        except OSError:
+            pass
+    os.stat("/no/such/file")
 if sys.argv[1] == "--run":
     tried("write outside", lambda: write("OUTSIDE/written"))
     tried("read outside", lambda: open("OUTSIDE/secret").close())
     tried("network", connect)
     tried("token", token)
+    tried("token of a process", token_of_a_process)
     tried("password file", lambda: open("/etc/passwd").close())
     tried("other runs", lambda: os.stat("../../../ballistic/exact"))
     tried("another process", lambda: os.stat("/proc/PARENT"))
@@ -97,7 +106,7 @@ class Sandbox(unittest.TestCase):
     def test_a_hostile_one_reaches_nothing(self):
         self.make_hostile()
         self.errors(self.validate()[1])
-        self.assertEqual(len(self.deeds()), 7, self.deeds())  # the deeds are real: without a sandbox each of them works
+        self.assertEqual(len(self.deeds()), 8, self.deeds())  # the deeds are real: without a sandbox each of them works
         self.assertTrue((self.folder / "written").exists())
         (self.folder / "written").unlink()
         subprocess.run(["rm", "-r", self.folder / "out"], check=True)
@@ -269,4 +278,4 @@ if __name__ == "__main__":
     if not namespaces_are_allowed() or not one_folder_can_be_shown():
         print("skipped: no bubblewrap here, or it may make no namespaces, or there is no Landlock")
         sys.exit(77)
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]])

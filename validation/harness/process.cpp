@@ -133,9 +133,10 @@ class ProgressLines {
   std::string line_;
 };
 
-std::vector<std::string> environment_with(const std::map<std::string, std::string>& added) {
+/// Bubblewrap is given none of our variables: whoever it starts can read its environment, as that of process 1.
+std::vector<std::string> environment_with(const std::map<std::string, std::string>& added, bool in_sandbox) {
   std::vector<std::string> all;
-  for (char** e = environ; *e; ++e) {
+  for (char** e = environ; *e && !in_sandbox; ++e) {
     const std::string entry = *e;
     if (!added.count(entry.substr(0, entry.find('=')))) all.push_back(entry);
   }
@@ -169,9 +170,9 @@ int spawn(const ProcessSpec& spec, const std::string& mark, int out, int err, pi
   posix_spawnattr_setpgroup(&attributes, 0);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   auto argv = spec.argv;
-  auto added = spec.environment;
+  auto added = spec.in_sandbox ? std::map<std::string, std::string>{} : spec.environment;
   added[stray_mark] = mark;
-  auto environment = environment_with(added);
+  auto environment = environment_with(added, spec.in_sandbox);
   const std::lock_guard lock(no_spawn_mutex());
   const int error =
       posix_spawn(&pid, argv.front().c_str(), &actions, &attributes, pointers(argv).data(), pointers(environment).data());

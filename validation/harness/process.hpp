@@ -20,7 +20,8 @@ struct ProcessSpec {
   std::function<void(const std::string&)>
       status;                       ///< called with the rest of each line `status REST` of stderr, of 400 bytes at most
   bool outlives_interrupt = false;  ///< Ctrl-C does not end it: it shows the results that are complete by then
-  bool in_sandbox = false;          ///< argv is bubblewrap's, which leaves the process that it starts to us: that one is paid for
+  /// argv is bubblewrap's, which leaves the process that it starts to us: that one is paid for. It is given no variable of ours.
+  bool in_sandbox = false;
 };
 
 struct ProcessEnd {
