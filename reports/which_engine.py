@@ -72,7 +72,8 @@ class Cell:
 
     @property
     def cpu(self):
-        return sum(number(line.get("cpu_s")) or 0.0 for line in self.lines)
+        """CPU seconds a case."""
+        return sum(number(line.get("cpu_s")) or 0.0 for line in self.lines) / len(self.lines)
 
 
 def worst_share(line):
@@ -305,7 +306,7 @@ def costs(grids):
     parts = []
     for grid in grids:
         for use, cells in grid.lines:
-            right = sorted((cell.cpu / len(cell.lines), cell.engine) for cell in cells.values() if cell.tone == "right")
+            right = sorted((cell.cpu, cell.engine) for cell in cells.values() if cell.tone == "right")
             if right:
                 parts.append(f"{use.name.lower()} {spoken(right[0][1])} {right[0][0]:.2g} s")
     return f"The cheapest engine that is right, in CPU seconds a case: {join(parts)}." if parts else ""

@@ -48,7 +48,7 @@ class WhichEngine(Pages):
 
     def test_a_cell_has_the_verdict_in_words_the_error_in_limits_and_the_cost(self):
         html = self.page(*self.SCORES)
-        self.assertIn("stands 0.5 of the limit 1 CPU s right in 2 of 2 cases", self.cell(html, "ODE"))
+        self.assertIn("stands 0.5 of the limit 0.5 CPU s a case right in 2 of 2 cases", self.cell(html, "ODE"))
         self.assertIn("off: known defect soft contact 9 × the limit", self.cell(html, "MuJoCo"))
         self.assertIn("preset Euler", self.cell(html, "MuJoCo"))  # the better of two
         self.assertIn("wrong: fail in tower-1", self.cell(html, "mine"))
