@@ -6,9 +6,9 @@ is then; the metrics of a case are errors to its truth, or what a law says must 
 """
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 
+import foreign
 from model import is_number, number, rows, table, text
 
 WORSE, MOST = 1.1, 1e5  # factors that are worth a word, and that a page shows as a number
@@ -54,7 +54,7 @@ def read(folder):
     if not path.exists():
         return [], [], ["there is no ablation.json beside results.json: tripoint ablate --out DIR makes it"]
     try:
-        cases = rows(table(json.loads(path.read_text(encoding="utf-8"))).get("cases"))
+        cases = rows(table(foreign.read(path)).get("cases"))
     except (OSError, ValueError) as error:
         return [], [], [f"ablation.json cannot be read: {error}"]
     terms = [term for term in MEANS if any(term in table(case.get("printed")) for case in cases)]

@@ -5,10 +5,10 @@ A line that is torn, of another format or without a case is counted and left out
 """
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import foreign
 from model import number, rows, text
 
 MOST_BYTES = 200_000_000
@@ -34,7 +34,7 @@ def read(path):
         return found, [f"{path.name} is larger than {MOST_BYTES // 1_000_000} MB and was not read"]
     for line in path.read_text(encoding="utf-8", errors="replace").splitlines():
         try:
-            raw = json.loads(line)
+            raw = foreign.parsed(line)
         except (ValueError, RecursionError):
             raw = None
         if not isinstance(raw, dict) or raw.get("format") != 1 or not text(raw.get("case")):

@@ -6,10 +6,10 @@ wrong kind becomes a note on the page, never an exception.
 """
 from __future__ import annotations
 
-import json
 import re
 from pathlib import Path
 
+import foreign
 import history
 from model import Case, Engine, Gate, Metric, Order, Results, Run, combined, is_number, number, rows, table, text
 
@@ -25,7 +25,7 @@ def load(path):
     """Reads results.json. @raises Unreadable"""
     path = Path(path)
     try:
-        raw = json.loads(path.read_text(encoding="utf-8"))
+        raw = foreign.read(path)
     except OSError as error:
         raise Unreadable(f"{path}: {error.strerror or error}") from error
     except (ValueError, RecursionError) as error:

@@ -5,11 +5,11 @@
 """
 from __future__ import annotations
 
-import json
 import sys
 from pathlib import Path
 from types import SimpleNamespace
 
+import foreign
 import headlines
 import page
 from model import number, rows, text
@@ -102,7 +102,7 @@ def main(arguments):
     source = Path(arguments[0])
     target = Path(arguments[1]) if len(arguments) == 2 else source.parent / "index.html"
     try:
-        document = json.loads(source.read_text(encoding="utf-8"))
+        document = foreign.read(source)
     except (OSError, ValueError) as reason:
         print(f"releases: {source}: {reason}", file=sys.stderr)
         return 2

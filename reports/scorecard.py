@@ -5,11 +5,11 @@
 """
 from __future__ import annotations
 
-import json
 import sys
 from pathlib import Path
 from types import SimpleNamespace
 
+import foreign
 import page
 from model import number, rows, table, text
 
@@ -78,7 +78,7 @@ def main(arguments):
     source = Path(arguments[0])
     target = Path(arguments[1]) if len(arguments) == 2 else source.parent / "scorecard.html"
     try:
-        document = json.loads(source.read_text(encoding="utf-8"))
+        document = foreign.read(source)
     except (OSError, ValueError) as reason:
         print(f"scorecard: {source}: {reason}", file=sys.stderr)
         return 2

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import hashlib
-import json
 import shutil
 import subprocess
 
+import foreign
 import summary
 from model import number, rows, table, text
 
@@ -61,7 +61,7 @@ def selftest_document(folder):
     """selftest.json of the same place; empty where there is none."""
     for path in (folder / "selftest.json", folder / "selftest" / "selftest.json"):
         try:
-            raw = json.loads(path.read_text(encoding="utf-8"))
+            raw = foreign.read(path)
         except (OSError, ValueError, RecursionError):
             continue
         if isinstance(raw, dict):

@@ -5,10 +5,11 @@ This file needs numpy and h5py alone, and no other file of this room: the Python
 """
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 import numpy as np
+
+import foreign
 
 NEEDED = ("position", "velocity")  # of particles/all; what is not there cannot be drawn or handed on
 
@@ -81,7 +82,7 @@ class Run:
     def document(self, name):
         """job.json or result.json; {} where there is none. @raises NotARun where it is torn"""
         try:
-            return json.loads((self.folder / name).read_text(encoding="utf-8"))
+            return foreign.read(self.folder / name)
         except FileNotFoundError:
             return {}
         except (OSError, ValueError) as error:

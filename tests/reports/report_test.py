@@ -189,6 +189,29 @@ class Page(unittest.TestCase):
         self.assertNotIn("<script>alert", self.page)
         self.assertIn(html.escape(make_example.HOSTILE, quote=False).replace('"', "&#34;").replace("'", "&#39;"), self.page)
 
+    def test_no_control_character_of_a_stranger_reaches_a_page_or_a_table(self):
+        evil = "\x1b[31m \x07 \x85 \x9b \u202e \u200b \ud800 end"
+        data = json.loads(json.dumps(self.data))
+        case = data["cases"][0]
+        for key in ("title", "claims", "requirement", "repeat"):
+            case[key] = evil
+        case["tags"], case["problems"] = [evil], [evil]
+        for engine in case["engines"]:
+            engine["reason"] = engine["version"] = evil
+            for gate in engine["gates"]:
+                gate["reason"] = gate["why"] = evil
+        for metric in case["metrics"]:
+            metric["unit"] = evil
+        results = self.results.with_name("evil.json")
+        results.write_text(json.dumps(data))
+        for without in ((), ("jinja2", "matplotlib")):
+            done, page = write_report(results, self.root / "evil", without)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("?[31m ?", page)
+            for name, text in pages_of(self.root / "evil").items():
+                found = re.search("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u200b\u202e\ud800]", text)
+                self.assertIsNone(found, f"{name}: {text[max(0, found.start() - 60):found.end()] if found else ''}")
+
     def test_a_missing_trajectory_gives_a_note(self):
         self.assertRegex(self.section(self.data["cases"][-1]), r"tripoint \(paper\): no picture and no curves, \S+trajectory.h5 is missing")
 
