@@ -28,7 +28,7 @@ constexpr const char* summary_description =
 
 struct SummaryOptions {
   std::string results, against, again, baselines, data, shares, badge, sarif;
-  bool markdown = false;
+  bool markdown = false, require_baselines = false;
   CommentOptions comment;
 };
 
@@ -37,7 +37,7 @@ struct SummaryOptions {
 GateVerdict verdict_of(const Results& results, SummaryOptions& o) {
   const bool here =
       std::all_of(results.cases.begin(), results.cases.end(), [](const auto& c) { return std::filesystem::exists(c.file); });
-  if (here) return gate_verdict(results, o.baselines);
+  if (here) return gate_verdict(results, o.baselines, o.require_baselines);
   o.comment.note =
       "Judged by the stored values and limits: the case files are not here, so neither they nor baselines were compared.";
   GateVerdict verdict;
@@ -90,6 +90,7 @@ void add_summary(CLI::App& app, int& exit_code) {
   command->add_option("--again", o->again, "results of the base once more (A/A); what differs between the two counts as noise")
       ->type_name("BASE2.json");
   command->add_option("--baselines", o->baselines, "judge by the baselines in this folder")->type_name("DIR");
+  command->add_flag("--require-baselines", o->require_baselines, "as of `tripoint gate`");
   command->add_option("--head", o->comment.head, "name of what was judged, for people: a branch, a commit");
   command->add_option("--base", o->comment.base, "name of the base, for people");
   command

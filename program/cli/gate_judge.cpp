@@ -147,10 +147,12 @@ void add_judge_options(CLI::App& gate, JudgeOptions& o) {
                 "remarks as workflow commands of GitHub (also where GITHUB_ACTIONS is true): ten of a kind, the worst first");
   gate.add_option("--baselines", o.baselines,
                   "judge by the baselines in this folder, for example those of the branch that a change is to go into (default: "
-                  "beside the cases)")
+                  "beside the cases); one that is gone beside the cases is an error, exit 4")
       ->type_name("DIR");
-  gate.add_flag("--require-baselines", o.require_baselines,
-                "a case that has no baseline is an error, exit 4 (else one warning names them)");
+  gate.add_flag(
+      "--require-baselines", o.require_baselines,
+      "a case that has no baseline is an error, exit 4 (else one warning names them); with --baselines also a case that has "
+      "one there and is not among the results");
   gate.add_option(
       "--history", o.history,
       "append a line of JSON a case, with every value and count, to this file (validate has done so to OUT/history.jsonl)");

@@ -18,6 +18,7 @@ namespace tripoint {
 struct EngineChoice {
   std::string name;
   bool required = false;
+  bool adopted = false;              ///< `gate adopt` wrote it: no validation may leave the engine out by --engines
   std::vector<std::string> presets;  ///< one row of the results each; empty = "default"
   Settings settings;
 };

@@ -57,6 +57,8 @@ constexpr auto keys_behind = std::to_array<Key>({
      "true: the case fails where the engine is missing"},
     {"engines", "preset", text_or_texts, "", any, "[]", "the engine's default", "",
      "presets of the engine, one row of the results each"},
+    {"engines", "adopted", flag, "", any, "false", "it may be left out by --engines", "",
+     "`tripoint gate adopt` wrote its gates: a validation that leaves the engine out by --engines ends with 4"},
     {"engines", "refuses", text, "", any, "", "it may take the case or refuse it", "",
      "words of the refusal that is expected of the engine: it fails the case when it takes it, or refuses it for another reason"},
     {"engines", "settings", settings, "", any, "{}", "the preset's own", "", "settings of the engine, by its own keys"},

@@ -9,6 +9,7 @@
 #include "scene/geometry.hpp"
 #include "scene/phase_values.hpp"
 #include "scene/shared_terms.hpp"
+#include "validation/case/dates.hpp"
 #include "validation/case/overlap.hpp"
 #include "validation/case/preflight.hpp"
 
@@ -31,12 +32,22 @@ class Preflight {
     }
     outside();
     time_steps();
+    dates();
     return std::move(findings_);
   }
 
  private:
   void error(const SourcePlace& place, std::string what) { findings_.push_back({true, std::move(what), place}); }
   void warn(const SourcePlace& place, std::string what) { findings_.push_back({false, std::move(what), place}); }
+
+  /// A date silences a rule: that of a day to come would silence it now.
+  void dates() {
+    for (const auto& g : case_.gates)
+      if (!g.date.empty() && is_in_the_future(g.date))
+        error(g.place,
+              fmt::format("the gate on \"{}\" is dated {}, which is in the future: write the day on which its limit was accepted",
+                          printable(g.metric), g.date));
+  }
 
   void overlaps() {
     // Neighbours of one lattice come as near as 1 - 2 jitter by themselves.

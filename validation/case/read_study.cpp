@@ -7,6 +7,7 @@
 #include "scene/expression.hpp"
 #include "scene/nearest.hpp"
 #include "scene/readers.hpp"
+#include "validation/case/dates.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/case/judge_readers.hpp"
 
@@ -20,6 +21,7 @@ EngineChoice read_engine(const TomlNode& node, const std::string& name, Reading&
   e.name = name;
   const bool says = in.has("required");
   e.required = in.flag("required") || (is_own_solver(name) && !says);  // ours is required where a case says nothing else
+  e.adopted = in.flag("adopted");
   e.presets = in.texts("preset");
   e.settings = in.settings("settings");
   if (const auto refuses = in.maybe_text("refuses")) {
@@ -185,6 +187,7 @@ Gate read_gate(const TomlNode& node, std::size_t number, Reading& reading) {
     in.refuse("reason", "a limit needs a reason: say where the number comes from");
   g.by = in.text("by");
   g.date = in.text("date");
+  if (!g.date.empty() && !is_date(g.date)) in.refuse("date", "write a day that has been, as 2026-11-29, or no date");
   return g;
 }
 

@@ -191,6 +191,9 @@ Baseline read_baseline(const std::string& file) {
   b.cost = tables<AcceptedCost>(top, "cost", [](const TomlNode& n) {
     return AcceptedCost{text(n, "run"), number(n, "pairs"), number(n, "steps"), number(n, "instructions"), text(n, "counted_on")};
   });
+  b.engines = tables<AcceptedEngine>(top, "engines", [](const TomlNode& n) {
+    return AcceptedEngine{text(n, "name"), text(n, "version"), text(n, "executable")};
+  });
   b.scene = text(top, "scene");
   b.reference = text(top, "reference");
   b.profiles = texts(top, "profiles");
@@ -265,6 +268,14 @@ std::string row_of(const AcceptedCost& c) {
   return row.text();
 }
 
+std::string row_of(const AcceptedEngine& e) {
+  Row row;
+  row.say("name", e.name);
+  row.say("version", e.version);
+  row.say("executable", e.executable);
+  return row.text();
+}
+
 template <class T>
 std::string list_of(std::string_view key, const std::vector<T>& items) {
   if (items.empty()) return {};
@@ -282,7 +293,7 @@ std::string baseline_text(const Baseline& b) {
     out += fmt::format("scene = {}\nreference = {}\nprofiles = {}\nrequired = {}\n", quoted(b.scene), quoted(b.reference),
                        quoted(b.profiles), quoted(b.required));
   if (b.removed > 0) out += fmt::format("removed = {}\n", b.removed);
-  out += list_of("accepted", b.accepted) + list_of("gate", b.gates) + list_of("cost", b.cost);
+  out += list_of("accepted", b.accepted) + list_of("engines", b.engines) + list_of("gate", b.gates) + list_of("cost", b.cost);
   const auto after = out.find("\nseed = ") + 1;
   return out.substr(0, after) + fmt::format("seal = {}\n", quoted(text_hash(out))) + out.substr(after);
 }

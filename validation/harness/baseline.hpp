@@ -35,6 +35,11 @@ struct AcceptedCost {
   std::string counted_on;  ///< how and where the instructions were counted: they are compared only with the same
 };
 
+/// The engine whose figures were accepted. Its program is known where it is a stranger's.
+struct AcceptedEngine {
+  std::string name, version, executable;  ///< executable: hash of its program
+};
+
 struct Acceptance {
   std::string date, commit, reason;
 };
@@ -45,11 +50,12 @@ struct Baseline {
   std::vector<Acceptance> accepted;  ///< oldest first
   std::vector<AcceptedGate> gates;
   std::vector<AcceptedCost> cost;
-  std::string scene, reference;       ///< CaseHashes; empty = accepted by an older version
-  std::vector<std::string> profiles;  ///< that the case belonged to
-  std::vector<std::string> required;  ///< engines that it required
-  bool sealed = true;                 ///< the file is as `gate accept` wrote it; false = it was edited by hand
-  int removed = 0;                    ///< gates that were accepted once and that an acceptance has let go since
+  std::vector<AcceptedEngine> engines;  ///< that the gates judge; older versions kept none
+  std::string scene, reference;         ///< CaseHashes; empty = accepted by an older version
+  std::vector<std::string> profiles;    ///< that the case belonged to
+  std::vector<std::string> required;    ///< engines that it required
+  bool sealed = true;                   ///< the file is as `gate accept` wrote it; false = it was edited by hand
+  int removed = 0;                      ///< gates that were accepted once and that an acceptance has let go since
 };
 
 /// Where the baseline of a case file lies: below the folder `baselines` beside the nearest folder `cases` above it; else in
@@ -76,6 +82,9 @@ struct Baseline {
 /// Which edge of `now` lets pass what `old` did not: both ends of a band count, and an edge that is gone. Empty = none.
 [[nodiscard]] std::string looser_edge(const AcceptedGate& now, const AcceptedGate& old);
 
+/// A band of an error that has moved toward zero and become no wider: an engine that errs less, not a limit that allows more.
+[[nodiscard]] bool is_nearer_truth(const AcceptedGate& now, const AcceptedGate& old);
+
 /// The baseline that these results would be, after the one that was accepted before.
 [[nodiscard]] Baseline accepted_from(const CaseResult&, const Tool&, std::uint64_t seed, const Baseline* before,
                                      const Acceptance&, bool engines_were_chosen = false);
@@ -88,6 +97,15 @@ struct Baseline {
 /// another case file is a warning too. Cases of a suite that keeps baselines and that have none yet: one warning that names them;
 /// with `required` an error of each, exit 4.
 [[nodiscard]] std::vector<Remark> baseline_remarks(const Results&, bool required = false, const std::string& root = {});
+
+/// What a change may not do to the suite itself, judged by baselines of another place (`root`, as of the branch that it is to go
+/// into): a case or a folder that is a link, a baseline that is gone here and not there, a case that has a baseline and is not in
+/// the results. Error, exit 4. Links are named without a root too.
+[[nodiscard]] std::vector<Remark> suite_remarks(const Results&, bool required, const std::string& root = {});
+
+/// The engines themselves: a program that is not the one that made the results (error, exit 4), a version lower than the
+/// accepted one, and a flag `deterministic` that the accepted values of the same program belie (warnings).
+[[nodiscard]] std::vector<Remark> engine_remarks(const Results&, const std::string& root = {});
 
 /// Baselines whose case is gone, or has left a profile that it was accepted in: error, exit 4. All suites of the results are
 /// searched.

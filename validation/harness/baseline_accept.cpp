@@ -35,6 +35,7 @@ Baseline accepted_from(const CaseResult& c, const Tool& tool, std::uint64_t seed
   b.accepted.push_back(acceptance);
   b.gates = gates_of(c, hashes);
   b.cost = costs_of(c, tool);
+  b.engines = engines_of(c);
   const auto own = b.gates;
   for (std::size_t k = 0; k < own.size(); ++k) {
     auto& g = b.gates[k];

@@ -9,6 +9,7 @@
 #include "validation/case/engine_names.hpp"
 #include "validation/harness/baseline_propose.hpp"
 #include "validation/harness/baseline_rows.hpp"
+#include "validation/harness/foreign_text.hpp"
 #include "validation/harness/slack.hpp"
 #include "validation/harness/verdict.hpp"
 
@@ -36,9 +37,9 @@ std::string title_of(const CaseResult& c, const AcceptedGate& g) {
 
 /// Compares the limits and the metric of a gate with the accepted ones.
 void compare_limits(const CaseResult& c, const AcceptedGate& now, const SourcePlace& place, const AcceptedGate& old,
-                    std::vector<Remark>& list) {
+                    bool less_is_better, std::vector<Remark>& list) {
   const auto title = title_of(c, now);
-  if (const auto edge = looser_edge(now, old); !edge.empty())
+  if (const auto edge = looser_edge(now, old); !edge.empty() && !(less_is_better && is_nearer_truth(now, old)))
     list.push_back({true, exit_missing, place, title,
                     fmt::format("loosened: {} is looser than what was accepted, {} ({}){}", now.allows, old.allows, edge, decide),
                     old.room > 0.0 ? now.room / old.room : infinity, "LOOSENED"});
@@ -112,6 +113,8 @@ void compare_question(const CaseResult& c, const Baseline& b, const std::optiona
   const auto say = [&](const std::string& what) {
     list.push_back({true, exit_missing, {c.file, 1, 0}, c.id, what + decide, infinity, "CHANGED"});
   };
+  if (!b.id.empty() && b.id != c.id)
+    say(fmt::format("its id was {} when its figures were accepted: it was renamed in place", one_line(b.id)));
   if (!b.sealed) say("its baseline was edited by hand, and `tripoint gate accept` is its only writer");
   if (!b.accepted.empty() && b.accepted.back().reason == undecided_reason)
     say("its baseline was proposed, and nobody has accepted it");
@@ -130,20 +133,31 @@ void compare_question(const CaseResult& c, const Baseline& b, const std::optiona
   }
 }
 
+/// Whether less of a value is better: it is an error to a truth, or a limit on it was accepted too.
+bool less_is_better(const CaseResult& c, const Baseline& b, const AcceptedGate& g) {
+  if (std::any_of(b.gates.begin(), b.gates.end(), [&](const auto& other) {
+        return other.metric == g.metric && other.engine == g.engine && other.preset == g.preset && other.limit;
+      }))
+    return true;
+  const auto m = std::find_if(c.metrics.begin(), c.metrics.end(), [&](const auto& choice) { return choice.name == g.metric; });
+  if (m == c.metrics.end() || m->norm == Norm::drift) return false;
+  const auto kind = (m->reference ? *m->reference : c.reference).kind;
+  return kind == ReferenceKind::analytic || kind == ReferenceKind::mms || kind == ReferenceKind::experiment;
+}
+
 void compare_case(const Results& results, const CaseResult& c, const Baseline& b, std::vector<Remark>& list) {
   const auto hashes = case_hashes(c.file);
   compare_question(c, b, hashes, list);
-  const auto now = gates_of(c, hashes);
+  const auto all = all_gates_of(c, hashes);
   std::size_t k = 0;
   for (const auto& e : c.engines)
-    for (const auto& row : e.gates)
-      if (is_accepted(row)) {
-        if (const auto* old = counterpart(now, k, b.gates)) {
-          compare_limits(c, now[k], row.gate.place, *old, list);
-          compare_value(c, now[k], row.gate.place, *old, list);
-        }
-        ++k;
-      }
+    for (const auto& row : e.gates) {
+      const auto* old = counterpart(all, k, b.gates);
+      if (old && std::isfinite(row.value)) compare_limits(c, all[k], row.gate.place, *old, less_is_better(c, b, *old), list);
+      if (old && is_accepted(row)) compare_value(c, all[k], row.gate.place, *old, list);
+      ++k;
+    }
+  const auto now = gates_of(c, hashes);
   if (c.exit_code == exit_pass)  // a red gate is no gate that is gone
     for (const auto* g : gone(c, now, b, !results.only_engines.empty()))
       list.push_back({true,
@@ -173,7 +187,8 @@ std::vector<Remark> baseline_remarks(const Results& results, bool required, cons
   std::vector<const CaseResult*> without;
   for (const auto& c : results.cases) {
     if (!required && root.empty() && !keeps_baselines(c.file)) continue;
-    const auto file = baseline_file(c.file, root);
+    auto file = baseline_file(c.file, root);
+    if (!root.empty() && !fs::exists(file)) file = baseline_file(c.file);  // new here: judged by what it brings
     if (fs::exists(file))
       compare_case(results, c, read_baseline(file), list);
     else if (required)

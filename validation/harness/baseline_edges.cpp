@@ -55,6 +55,17 @@ std::string edge(const char* name, const std::optional<double>& now, const std::
 
 }  // namespace
 
+bool is_nearer_truth(const AcceptedGate& now, const AcceptedGate& old) {
+  const auto a = accepted_edges(now), b = accepted_edges(old);
+  if (!a.lowest || !a.highest || !b.lowest || !b.highest || !old.band) return false;
+  if (*a.highest - *a.lowest > *b.highest - *b.lowest) return false;
+  const double most = std::max(std::abs(*a.lowest), std::abs(*a.highest));
+  const double far = std::max(std::abs(*b.lowest), std::abs(*b.highest)),
+               near = std::min(std::abs(*b.lowest), std::abs(*b.highest));
+  const bool same_side = (*b.lowest > 0.0 && *a.lowest >= 0.0) || (*b.highest < 0.0 && *a.highest <= 0.0);
+  return *b.lowest * *b.highest > 0.0 && most <= (same_side ? far : near);
+}
+
 std::string looser_edge(const AcceptedGate& now, const AcceptedGate& old) {
   const auto a = accepted_edges(now), b = accepted_edges(old);
   const double precision = std::max(a.precision, b.precision);

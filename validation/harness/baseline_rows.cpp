@@ -10,6 +10,7 @@
 #include "job/job.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/harness/apply_gate.hpp"
+#include "validation/harness/foreign_text.hpp"
 
 namespace tripoint {
 namespace {
@@ -75,12 +76,29 @@ std::vector<AcceptedGate> gates_of(const CaseResult& c, const std::optional<Case
   return list;
 }
 
+std::vector<AcceptedGate> all_gates_of(const CaseResult& c, const std::optional<CaseHashes>& hashes) {
+  std::vector<AcceptedGate> list;
+  for (const auto& e : c.engines)
+    for (const auto& row : e.gates) list.push_back(gate_of(e, row, hashes));
+  return list;
+}
+
 std::vector<AcceptedCost> costs_of(const CaseResult& c, const Tool& tool) {
   std::vector<AcceptedCost> list;
   for (const auto& e : c.engines)
     for (const auto& r : e.runs)
       if (r.status == Status::ok && (r.cost.pairs > 0.0 || r.cost.steps > 0.0))
         list.push_back({run_name(e, r), r.cost.pairs, r.cost.steps, r.cost.instructions, counted_on(tool, r)});
+  return list;
+}
+
+std::vector<AcceptedEngine> engines_of(const CaseResult& c) {
+  std::vector<AcceptedEngine> list;
+  for (const auto& e : c.engines) {
+    const bool known = std::any_of(list.begin(), list.end(), [&](const auto& a) { return a.name == e.name; });
+    if (!known && std::any_of(e.gates.begin(), e.gates.end(), is_accepted))
+      list.push_back({e.name, one_line(e.version), e.executable_hash});
+  }
   return list;
 }
 

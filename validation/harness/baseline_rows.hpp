@@ -10,8 +10,12 @@ namespace tripoint {
 
 /// Green gates as they stand: two that judge the same row (a limit and a band) are told apart by their order.
 [[nodiscard]] std::vector<AcceptedGate> gates_of(const CaseResult&, const std::optional<CaseHashes>&);
+/// All gates, red ones too, so that each keeps its place among its like.
+[[nodiscard]] std::vector<AcceptedGate> all_gates_of(const CaseResult&, const std::optional<CaseHashes>&);
 [[nodiscard]] bool is_accepted(const GateRow&);
 [[nodiscard]] std::vector<AcceptedCost> costs_of(const CaseResult&, const Tool&);
+/// Engines that a gate judges, once each.
+[[nodiscard]] std::vector<AcceptedEngine> engines_of(const CaseResult&);
 /// Hash of the case file's text.
 [[nodiscard]] std::string hash_of_file(const CaseResult&);
 

@@ -11,6 +11,7 @@
 #include "validation/harness/expected_refusal.hpp"
 #include "validation/harness/finished_run.hpp"
 #include "validation/harness/judge.hpp"
+#include "validation/harness/sandbox.hpp"
 #include "validation/references/experiment.hpp"
 
 namespace tripoint {
@@ -74,6 +75,11 @@ EngineRow row_of(const EnginePlan& plan) {
     row.version = plan.entry->version;
     row.library_path = plan.entry->library_path;
     row.library_hash = plan.entry->library_hash;
+    row.deterministic = plan.entry->deterministic;
+    if (plan.entry->available && !belongs_to_us(plan.entry->executable)) {
+      row.executable = shown_path(plan.entry->executable);
+      row.executable_hash = program_hash(plan.entry->executable);
+    }
   }
   if (!plan.entry) {
     row.status = Status::missing;
@@ -280,6 +286,8 @@ CaseResult finish_case(const CaseRuns& all, const SuiteOptions& options) {
   result.metrics = value.metrics;
   result.studies = value.studies;
   result.gates = value.gates;
+  for (const auto& e : value.engines)
+    if (e.adopted) result.adopted.push_back(e.name);
   result.hashes = all.hashes;
   result.repeat = repeat_command(value, options);
   for (std::size_t e = 0; e < all.engines.size(); ++e) {

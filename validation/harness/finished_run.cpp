@@ -66,8 +66,7 @@ std::string file_hash(const std::string& file) {
   return text_hash(all);
 }
 
-/// Hash of an engine's program, read once a call: its behaviour may change though it states the same version.
-static std::string program_hash(const std::string& executable) {
+std::string program_hash(const std::string& executable) {
   static std::map<std::string, std::string> known;
   static std::mutex one;
   const std::lock_guard lock(one);

@@ -13,6 +13,9 @@ namespace tripoint {
 /// Hash of a file's bytes; empty where it cannot be read, or is a pipe or a device.
 [[nodiscard]] std::string file_hash(const std::string& file);
 
+/// Hash of an engine's program, read once a call: its behaviour may change though it states the same version.
+[[nodiscard]] std::string program_hash(const std::string& executable);
+
 /// Hash of the job's text, its particles, the engine's version, build and library, and the environment that it is started with.
 [[nodiscard]] std::string run_hash(const RunRequest&, const std::string& job_text);
 

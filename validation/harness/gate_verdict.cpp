@@ -30,7 +30,8 @@ GateVerdict gate_verdict(const Results& results, const std::string& baselines, b
   GateVerdict verdict;
   auto remarks = verdict_remarks(results);
   for (const auto& list : {recheck_remarks(results), slack_remarks(results),
-                           baseline_remarks(results, require_baselines, baselines), lost_case_remarks(results, baselines)})
+                           baseline_remarks(results, require_baselines, baselines), lost_case_remarks(results, baselines),
+                           suite_remarks(results, require_baselines, baselines), engine_remarks(results, baselines)})
     remarks.insert(remarks.end(), list.begin(), list.end());
   if (const auto commit = this_tool().commit; results.tool.commit != commit)
     remarks.push_back({false,

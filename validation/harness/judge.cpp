@@ -197,6 +197,9 @@ void judge(CaseResult& result, bool engines_were_chosen) {
   for (const auto& engine : result.engines)
     if (engine.required && is_unjudged(engine) && result.expect != Expect::diverges)
       findings.add(exit_missing, label_of(engine.name, engine.preset) + " is required, and no gate of the case judges it");
+  for (const auto& name : result.adopted)
+    if (std::none_of(result.engines.begin(), result.engines.end(), [&](const auto& e) { return e.name == name; }))
+      findings.add(exit_missing, fmt::format("{} was adopted by this case, and was left out by --engines: name it there", name));
   const bool refused = is_refused(result, engines_were_chosen);
   if (!refused) count_gates(result, findings);
   check_divergence(result, findings);

@@ -43,7 +43,7 @@ std::vector<EngineChoice> engines_of(const Case& value, const std::vector<Engine
   const auto add = [&](const std::string& name, bool required) {
     if (std::any_of(list.begin(), list.end(), [&](const auto& e) { return e.name == name; })) return;
     const auto at = listed(name);
-    auto choice = at == value.engines.end() ? EngineChoice{name, required, {}, {}} : *at;
+    auto choice = at == value.engines.end() ? EngineChoice{name, required, false, {}, {}} : *at;
     choice.required = choice.required || required;
     list.push_back(choice);
   };

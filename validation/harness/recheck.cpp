@@ -81,8 +81,7 @@ class Recheck {
 
   static bool same(const Gate& a, const Gate& b) {
     return a.metric == b.metric && a.engine == b.engine && a.mode == b.mode && a.preset == b.preset && a.limit == b.limit &&
-           a.at_least == b.at_least && a.band == b.band && a.level == b.level && a.drift == b.drift &&
-           a.date.empty() == b.date.empty();
+           a.at_least == b.at_least && a.band == b.band && a.level == b.level && a.drift == b.drift && a.date == b.date;
   }
 
   /// Each gate of the file must be in the results, once for each time that it is in the file.
@@ -110,6 +109,9 @@ class Recheck {
 
   /// Every engine of the case has its row, and every run that is planned for it.
   void engines() {
+    for (const auto& e : file_.engines)
+      if (e.adopted && std::find(stored_.adopted.begin(), stored_.adopted.end(), e.name) == stored_.adopted.end())
+        say({}, fmt::format("{} was adopted by the case, and they do not know it", e.name));
     Selection selection;
     selection.engines = results_.only_engines;
     if (results_.seed_given) selection.seed = results_.seed;

@@ -83,7 +83,9 @@ struct GateRow {
 /// One row of the matrix: an engine with a preset.
 struct EngineRow {
   std::string name, version, preset = default_preset;
-  std::string library_path, library_hash;  ///< of the engine's own library, as it told; empty = it told none
+  std::string library_path, library_hash;   ///< of the engine's own library, as it told; empty = it told none
+  std::string executable, executable_hash;  ///< of a stranger's engine: its program, and the hash of it when it ran
+  bool deterministic = false;               ///< as the engine says
   bool required = false;
   std::string refuses;  ///< words of the refusal that the case declares; empty = it declares none
   Status status = Status::ok;
@@ -119,6 +121,7 @@ struct CaseResult {
   std::vector<MetricChoice> metrics;  ///< as declared
   std::vector<Study> studies;         ///< as declared
   std::vector<Gate> gates;            ///< as declared: the judge starts from these
+  std::vector<std::string> adopted;   ///< engines that the case was adopted for: none may be left out by --engines
   std::vector<EngineRow> engines;
   std::vector<EquivalenceRow> equivalence;
   std::map<std::string, double> ledger;

@@ -216,6 +216,11 @@ void fields(V& v, RecordOf<EngineRow> auto& e) {
     library("path", e.library_path);
     library("hash", e.library_hash);
   });
+  v.part("executable", !e.executable.empty(), [&](auto& program) {
+    program("path", e.executable);
+    program("hash", e.executable_hash);
+  });
+  v("deterministic", e.deterministic);
   v("runs", e.runs);
   v.written("order", [&] { return known_orders(e); });
   v.written(
@@ -309,6 +314,7 @@ void fields(V& v, RecordOf<CaseResult> auto& c) {
   v("metrics", c.metrics);
   v("studies", c.studies);
   v("gates", c.gates);
+  v("adopted", IfAny{c.adopted});
   v("engines", c.engines);
   v("equivalence", c.equivalence);
   v("ledger", c.ledger);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "validation/case/dates.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/harness/apply_gate.hpp"
 #include "validation/harness/verdict.hpp"
@@ -44,9 +45,12 @@ bool some_engine_is_absent(const CaseResult& c, const Gate& g) {
                                          [](const auto& e) { return !is_exact(e.name) && e.status != Status::ok; });
 }
 
+/// A date in the future silences nothing.
+bool is_dated(const Gate& g) { return is_date(g.date) && !is_in_the_future(g.date); }
+
 Remark remark_on(const CaseResult& c, const GateRow& row, double slack, bool engines_were_chosen) {
   Remark r;
-  r.error = slack > slack_fails && row.gate.date.empty() && !some_engine_is_absent(c, row.gate) &&
+  r.error = slack > slack_fails && !is_dated(row.gate) && !some_engine_is_absent(c, row.gate) &&
             !(engines_were_chosen && row.gate.engine.empty());
   r.code = r.error ? exit_fail : exit_pass;
   r.place = row.gate.place;
@@ -54,9 +58,9 @@ Remark remark_on(const CaseResult& c, const GateRow& row, double slack, bool eng
   r.title = fmt::format("{}: the limit of {} is loose", c.id, row.metric);
   r.text = fmt::format("{} is asked, {:.3g} with standard uncertainty {:.2g} was measured: room by a factor of {:.3g}{}",
                        describe(row.gate), row.value, row.uncertainty, slack,
-                       r.error                 ? "; tighten it, or give the reason a date"
-                       : row.gate.date.empty() ? ""
-                                               : " (dated " + row.gate.date + ")");
+                       r.error               ? "; tighten it, or give the reason a date"
+                       : !is_dated(row.gate) ? ""
+                                             : " (dated " + row.gate.date + ")");
   return r;
 }
 
@@ -76,6 +80,23 @@ std::optional<double> slack_of(const CaseResult& c, const GateRow& row) {
   return slack;
 }
 
+namespace {
+
+bool is_tight(const CaseResult& c, const GateRow& row) {
+  if (row.verdict != Verdict::pass || row.expect) return false;
+  return ceiling(row.gate) <= roundoff_limit || slack_of(c, row).value_or(infinity) <= slack_warns;
+}
+
+/// A wide limit, such as one that holds for any engine, lets nothing pass where another gate holds the same value.
+bool is_held_by_another(const CaseResult& c, const EngineRow& e, const GateRow& row) {
+  return std::any_of(e.gates.begin(), e.gates.end(), [&](const GateRow& other) {
+    return &other != &row && other.metric == row.metric && other.mode == row.mode && other.level == row.level &&
+           is_tight(c, other);
+  });
+}
+
+}  // namespace
+
 std::vector<Remark> slack_remarks(const Results& results) {
   std::vector<Remark> list;
   for (const auto& c : results.cases) {
@@ -83,7 +104,8 @@ std::vector<Remark> slack_remarks(const Results& results) {
     for (const auto& e : c.engines)
       for (const auto& row : e.gates) {
         const auto slack = slack_of(c, row);
-        const double s = slack.value_or(0.0);  // a row whose limit is not too wide settles the gate
+        const double s =
+            is_held_by_another(c, e, row) ? 0.0 : slack.value_or(0.0);  // a row whose limit is not too wide settles the gate
         const auto [at, is_new] = tightest.try_emplace(key_of(c, row.gate), s, &row);
         if (!is_new && s < at->second.first) at->second = {s, &row};
       }
