@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
+#include <set>
 #include <sstream>
 
 #include "core/durable_file.hpp"
@@ -18,6 +20,7 @@
 #include "validation/harness/adopt.hpp"
 #include "validation/harness/apply_gate.hpp"
 #include "validation/harness/baseline.hpp"
+#include "validation/harness/foreign_text.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/process.hpp"
 #include "validation/harness/report_files.hpp"
@@ -35,16 +38,20 @@ constexpr const char* adopt_description =
     "gates into your repository for each case that it runs: what drifts from then on, to the worse or to the better, is red. "
     "Baselines are\n"
     "accepted beside them. Cases that the engine refuses are left out.\n"
+    "Not adopted, by name: what fails a limit that holds for any engine, an engine that says it is deterministic and is not, "
+    "and a noise\n"
+    "above the value, unless --despite says why; and a case with a metric that has no finite value.\n"
     "  tripoint gate adopt --engine ./my-engine --out cases\n"
     "  tripoint gate adopt --engine my-engine --margin 1.2 --out cases rigid/ballistic\n"
-    "Exit 0 when the written gates hold on a run of their own, 2 when a file is there already, 4 when the engine runs none of "
-    "the cases.";
+    "Exit 0 when the written gates hold on a run of their own, 1 when a case fails acceptance, 2 when a file is there already, 3 "
+    "when noise\n"
+    "hides a value, 4 when a metric has no value or the engine runs none of the cases. What is adoptable is written even so.";
 
 struct GateAdoptOptions {
   std::string engine, out = "cases";
   std::vector<std::string> what;
   AdoptOptions adopt;
-  bool overwrite = false, sandbox = false;
+  bool overwrite = false, sandbox = false, despite_given = false;
 };
 
 std::string today() {
@@ -54,20 +61,12 @@ std::string today() {
   return text;
 }
 
-std::string text_of(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-/// The case's own text; where it has a short form, the whole case below its first comment. An adopted case stands on its own, and
-/// its gates are tables that can be dropped one by one.
-std::string source_text(const std::string& file) {
-  const std::string text = text_of(file);
-  if (!has_short_forms(read_toml(file))) return text;
-  std::istringstream in(text);
+/// The first lines of a case, which say what it shows.
+std::string first_comment(const std::string& file) {
+  std::istringstream in(text_of_file(file));
   std::string comment;
   for (std::string line; std::getline(in, line) && line.starts_with("#");) comment += line + "\n";
-  return comment + resolved_case(read_case(file));
+  return comment;
 }
 
 fs::path file_of(const GateAdoptOptions& o, const std::string& id) { return fs::path(o.out) / (id + ".toml"); }
@@ -96,29 +95,89 @@ EngineEntry engine_of(const GateAdoptOptions& o, std::vector<EngineEntry>& engin
   return *found;
 }
 
-/// Writes the case files of the measured values. @return their paths
-std::vector<std::string> write_cases(const GateAdoptOptions& o, const std::vector<AdoptedCase>& measured,
-                                     const EngineEntry& engine) {
-  std::vector<std::string> files;
-  for (const auto& c : measured) {
-    if (!c.judged()) continue;
-    const auto file = file_of(o, c.id);
-    const auto text = adopted_text(source_text(c.source), c, engine);
+/// Files that this call wrote, with what was there before: where the new gates do not hold, that comes back.
+class WrittenFiles {
+ public:
+  void write(const fs::path& file, const std::string& text) {
+    std::optional<std::string> before;
+    if (fs::exists(file)) before = text_of_file(file.string());
     fs::create_directories(file.parent_path());
     write_durably(file.string(), text);
+    files_.emplace_back(file, before);
+  }
+  void take_back() const {
+    for (const auto& [file, before] : files_) {
+      if (before) {
+        write_durably(file.string(), *before);
+        continue;
+      }
+      std::error_code none;
+      fs::remove(file, none);
+      for (auto folder = file.parent_path(); fs::is_empty(folder, none) && !none; folder = folder.parent_path())
+        fs::remove(folder, none);
+    }
+  }
+
+ private:
+  std::vector<std::pair<fs::path, std::optional<std::string>>> files_;
+};
+
+/// Meshes and data of the source go beside the written case, as it names them. @throws InputError for one that lies elsewhere
+void copy_files(const TomlNode& document, const std::string& source, const fs::path& file, WrittenFiles& written) {
+  for (const auto& name : files_named_in(document)) {
+    const auto path = fs::path(name).lexically_normal();
+    if (path.is_absolute() || path.begin()->string() == "..")
+      throw InputError({source, 0, 0},
+                       "names the file " + printable(name) + ", which does not lie beside the case: it is not adopted");
+    written.write(file.parent_path() / path, text_of_file((fs::path(source).parent_path() / path).string()));
+  }
+}
+
+void say_findings(const AdoptedCase& c, bool refused) {
+  for (const auto& f : c.all_findings()) {
+    const std::string line = fmt::format("{}: {}: {}", c.id, refused ? "NOT ADOPTED" : "adopted despite this", f.text);
+    print_line(line);
+    if (refused) say("tripoint: " + line);
+  }
+}
+
+void print_gates(const AdoptedCase& c) {
+  for (const auto& row : c.rows)
+    for (const auto& g : row.gates)
+      print_line(fmt::format("  {:28} {:34} {}", g.metric + (is_default_preset(row.preset) ? "" : " (" + row.preset + ")"),
+                             describe(g), g.reason));
+}
+
+/// Writes the case files of what is adopted. @return their paths
+std::vector<std::string> write_cases(const GateAdoptOptions& o, const std::vector<AdoptedCase>& measured,
+                                     const EngineEntry& engine, WrittenFiles& written, std::set<int>& codes) {
+  std::vector<std::string> files;
+  for (const auto& c : measured) {
+    const auto refused = c.refused_by(o.adopt.despite);
+    codes.insert(refused.begin(), refused.end());
+    say_findings(c, !refused.empty());
+    if (!c.judged() || !refused.empty()) continue;
+    const auto file = file_of(o, c.id);
+    const auto document = read_case_document(c.source);
+    copy_files(document, c.source, file, written);
+    written.write(file, adopted_text(document, first_comment(c.source), c, engine, o.adopt.despite));
     files.push_back(file.string());
-    print(fmt::format("wrote {}\n", file.string()));
-    for (const auto& row : c.rows)
-      for (const auto& g : row.gates)
-        print(fmt::format("  {:28} {:34} {}\n", g.metric + (is_default_preset(row.preset) ? "" : " (" + row.preset + ")"),
-                          describe(g), g.reason));
+    print_line(fmt::format("wrote {}", file.string()));
+    print_gates(c);
   }
   return files;
 }
 
+std::string reason_of(const GateAdoptOptions& o, const EngineEntry& engine) {
+  auto reason =
+      fmt::format("adopted from {} {} by tripoint gate adopt --margin {:g}", engine.name, engine.version, o.adopt.margin);
+  if (!o.adopt.despite.empty()) reason += ", despite what fails: " + o.adopt.despite;
+  return one_line(reason);
+}
+
 /// The written gates judge a run of their own before anything is accepted.
 int accept_written(const GateAdoptOptions& o, const std::vector<std::string>& files, const std::vector<EngineEntry>& engines,
-                   const EngineEntry& engine) {
+                   const EngineEntry& engine, const WrittenFiles& written) {
   CaseFilter filter;
   filter.what = files;
   SuiteOptions suite;
@@ -132,34 +191,42 @@ int accept_written(const GateAdoptOptions& o, const std::vector<std::string>& fi
   write_results(results, suite.out);
   for (const auto& c : results.cases) print(case_line(c) + "\n");
   if (results.exit_code != exit_pass) {
-    say("tripoint: the gates that were just written do not hold on a second look, and no baseline was accepted: is the engine "
-        "deterministic?");
+    written.take_back();
+    say("tripoint: the gates that were just written do not hold on a second look; they are taken back, and no baseline was "
+        "accepted: is the engine deterministic?");
     return results.exit_code;
   }
   fs::create_directories(baseline_folder(files.front()));
-  print(accept(
-      results, {},
-      {results.date, results.tool.commit,
-       fmt::format("adopted from {} {} by tripoint gate adopt --margin {:g}", engine.name, engine.version, o.adopt.margin)}));
+  print(accept(results, {}, {results.date, results.tool.commit, reason_of(o, engine)}));
   return exit_pass;
 }
 
+void say_what_comes_next(const GateAdoptOptions& o, const std::vector<std::string>& files, std::size_t cases,
+                         const EngineEntry& engine) {
+  say(
+      fmt::format("{} of {} cases adopted. Commit {} and {}. From then on:\n  tripoint validate {} --engine {} --engines {}\n  "
+                  "tripoint gate report",
+                  files.size(), cases, o.out, baseline_folder(files.front()), o.out, o.engine, engine.name));
+}
+
 int adopt(GateAdoptOptions o) {
+  if (o.despite_given && o.adopt.despite.find_first_not_of(" \t\n") == std::string::npos)
+    throw InputError("gate adopt: --despite says who decided to adopt what fails, and why");
   catch_interrupts();
   std::vector<EngineEntry> engines;
   const auto engine = engine_of(o, engines);
   const auto cases = cases_of(o);
   o.adopt.date = today();
   const auto measured = measure_to_adopt(cases, engine, o.adopt, say);
-  const auto files = write_cases(o, measured, engine);
-  if (files.empty())
+  std::set<int> codes;
+  WrittenFiles written;
+  const auto files = write_cases(o, measured, engine, written, codes);
+  if (files.empty() && codes.empty())
     throw EngineError(fmt::format("{} ran none of {} cases: there is nothing to gate", engine.name, cases.size()));
-  const int code = accept_written(o, files, engines, engine);
-  say(
-      fmt::format("{} of {} cases adopted. Commit {} and {}. From then on:\n  tripoint validate {} --engine {} --engines {}\n  "
-                  "tripoint gate report",
-                  files.size(), cases.size(), o.out, baseline_folder(files.front()), o.out, o.engine, engine.name));
-  return code;
+  if (files.empty()) return first_of(codes);
+  codes.insert(accept_written(o, files, engines, engine, written));
+  say_what_comes_next(o, files, cases.size(), engine);
+  return first_of(codes);
 }
 
 }  // namespace
@@ -180,7 +247,12 @@ CLI::App* add_gate_adopt(CLI::App& gate, int& exit_code) {
   command->add_option("--jobs", o->adopt.jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
   command->add_option("--work", o->adopt.work, "folder of the runs")->capture_default_str();
   command->add_flag("--overwrite", o->overwrite, "write files that are there anew");
-  command->callback([o, &exit_code] { exit_code = guarded([&] { return adopt(*o); }); });
+  auto* despite = command->add_option("--despite", o->adopt.despite,
+                                      "adopt also what fails a limit of any engine, with this reason written into the case");
+  command->callback([o, despite, &exit_code] {
+    o->despite_given = despite->count() > 0;
+    exit_code = guarded([&] { return adopt(*o); });
+  });
   return command;
 }
 

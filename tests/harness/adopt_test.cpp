@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/errors.hpp"
 #include "validation/harness/apply_gate.hpp"
 
 namespace tripoint {
@@ -13,7 +12,7 @@ namespace {
 constexpr double round_off = 1e-11;
 
 TEST(Adopt, AnErrorGetsRoomToBothSides) {
-  const auto g = adopted_gate("angle", {0.04, 0.04}, 0.0, 1.5, round_off);
+  const auto g = adopted_gate("angle", {{0.04, 0.04}}, 1.5, round_off);
   ASSERT_TRUE(g.band);
   EXPECT_NEAR((*g.band)[0], 0.04 / 1.5, 1e-12);
   EXPECT_NEAR((*g.band)[1], 0.06, 1e-12);
@@ -23,28 +22,40 @@ TEST(Adopt, AnErrorGetsRoomToBothSides) {
 }
 
 TEST(Adopt, ANegativeValueKeepsItsSign) {
-  const auto g = adopted_gate("energy", {-0.06, -0.06}, 0.0, 2.0, round_off);
+  const auto g = adopted_gate("energy", {{-0.06, -0.06}}, 2.0, round_off);
   EXPECT_NEAR((*g.band)[0], -0.12, 1e-12);
   EXPECT_NEAR((*g.band)[1], -0.03, 1e-12);
 }
 
 TEST(Adopt, NoiseAndStatedUncertaintyWidenTheBand) {
-  const auto quiet = adopted_gate("angle", {0.04, 0.04, 0.04}, 0.0, 1.5, round_off);
-  const auto noisy = adopted_gate("angle", {0.04, 0.041, 0.039}, 0.0, 1.5, round_off);
-  const auto stated = adopted_gate("angle", {0.04, 0.04, 0.04}, 0.001, 1.5, round_off);
+  const auto quiet = adopted_gate("angle", {{0.04, 0.04, 0.04}}, 1.5, round_off);
+  const auto noisy = adopted_gate("angle", {{0.04, 0.041, 0.039}}, 1.5, round_off);
+  const auto stated = adopted_gate("angle", {{0.04, 0.04, 0.04}, 0.001}, 1.5, round_off);
   EXPECT_NEAR((*noisy.band)[1] - (*quiet.band)[1], 4.0 * 0.001, 1e-9);
   EXPECT_NEAR((*stated.band)[1] - (*quiet.band)[1], 2.0 * 0.001, 1e-12);
 }
 
 TEST(Adopt, RoundOffMayBecomeSmaller) {
-  const auto g = adopted_gate("position", {3e-15, 3e-15}, 0.0, 1.5, round_off);
+  const auto g = adopted_gate("position", {{3e-15, 3e-15}}, 1.5, round_off);
   EXPECT_FALSE(g.band);
   EXPECT_EQ(g.limit, 1e-10);
-  EXPECT_EQ(adopted_gate("position", {2e-6, 2e-6}, 0.0, 1.5, 1e-5).limit, 6e-6);  // single precision
+  EXPECT_EQ(adopted_gate("position", {{2e-6, 2e-6}}, 1.5, 1e-5).limit, 6e-6);  // single precision
 }
 
-const char* const source = R"(# A throw.
+TEST(Adopt, NoiseAboveTheValueIsSaidAndNotGivenAsRoom) {
+  EXPECT_EQ(noise_exceeds_value("angle", {{0.04, 0.041, 0.039}}, round_off), "");
+  EXPECT_NE(noise_exceeds_value("angle", {{0.04, 0.09, 0.0}}, round_off).find("noise of angle exceeds its value"),
+            std::string::npos);
+  EXPECT_NE(noise_exceeds_value("angle", {{0.04, 0.04}, 0.03}, round_off), "");  // stated by the run itself
+  EXPECT_NE(noise_exceeds_value("angle", {{-0.04, 0.04}}, round_off), "");       // a mean of zero has no size
+  EXPECT_EQ(noise_exceeds_value("angle", {{1e-14, 3e-14}}, round_off), "");      // round-off
+}
+
+const char* const source = R"(# A throw onto a floor.
 format = 1
+engines.all.settings = { friction = 0.3, restitution = 0.5 }
+engines.stone = { preset = ["default", "fine"], settings = { iterations = 40.0 }, refuses = "nothing" }
+engines.tripoint.required = true
 
 [case]
 title = "A throw"
@@ -56,15 +67,11 @@ modes = ["corrected", "paper"]
 [scene]
 end_time = 1.0
 
-# Of ours.
-[engines.tripoint]
-required = true
-
 [[metric]]
 name = "position"
 quantity = "position"
 
-[[metric]]
+[["metric"]]
 name = "heat"
 quantity = "temperature"
 
@@ -73,11 +80,15 @@ axis = "time_step"
 levels = [0.02, 0.01]
 engine = "bullet"
 
-# Of all.
 [[study]]
 axis = "time_step"
 levels = [0.02, 0.01]
 mode = "not paper"
+
+[[study]]
+axis = "spacing"
+levels = [0.2, 0.1]
+engine = "stone"
 
 [[gate]]
 metric = "position"
@@ -90,35 +101,90 @@ size = 0.01
 )";
 
 AdoptedCase adopted() {
-  AdoptedCase c{"rigid/throw", "throw.toml", {AdoptedRow{"default", Status::ok, "", {}, {"heat"}, {}}}};
-  auto g = adopted_gate("position", {0.04, 0.04}, 0.0, 1.5, round_off);
+  AdoptedRow row{"default", Status::ok, "", {}, {}};
+  auto g = adopted_gate("position", {{0.04, 0.04}}, 1.5, round_off);
   g.engine = "stone";
   g.level = 0.01;
   g.date = "2026-11-22";
-  c.rows[0].gates = {g};
-  return c;
+  row.gates = {g};
+  auto fine = row;
+  fine.preset = "fine";
+  return {"rigid/throw", "throw.toml", {row, fine}, {}};
 }
 
 EngineEntry stone() {
   EngineEntry e;
   e.name = "stone";
   e.version = "2";
+  e.presets = {"default", "fine", "rough"};
   return e;
 }
 
-TEST(Adopt, TheWrittenCaseIsTheSourceWithoutOtherEngines) {
-  const auto text = adopted_text(source, adopted(), stone());
-  for (const char* kept : {"# A throw.", "id = \"rigid/throw\"", "[scene]", "end_time = 1.0", "name = \"position\"", "# Of all.",
-                           "[engines.\"stone\"]", "required = true", "level = 0.01", "band = [0.0266667, 0.06]"})
+std::string text_of(const AdoptedCase& c, const std::string& despite = {}) {
+  return adopted_text(parse_toml(source, "throw.toml"), "# A throw onto a floor.\n", c, stone(), despite);
+}
+
+TEST(Adopt, TheWrittenCaseKeepsTheSceneWhole) {
+  const auto text = text_of(adopted());
+  for (const char* kept : {"# A throw onto a floor.", "id = \"rigid/throw\"", "[scene]", "end_time = 1.0", "name = \"position\"",
+                           "name = \"heat\"", "[engines.all]", "friction = 0.3", "restitution = 0.5", "[engines.stone]",
+                           "iterations = 40.0", "required = true", "adopted = true", "preset = [\"default\", \"fine\"]",
+                           "axis = \"time_step\"", "axis = \"spacing\"", "level = 0.01", "band = [0.0266667, 0.06]"})
     EXPECT_NE(text.find(kept), std::string::npos) << kept << "\n" << text;
-  for (const char* gone : {"bullet", "modes", "ours is exact", "rigid.gravity", "of any", "# Of ours.", "name = \"heat\"",
-                           "not paper", "acceptance"})
+  for (const char* gone : {"bullet", "modes", "ours is exact", "rigid.gravity", "of any", "not paper", "acceptance", "refuses"})
     EXPECT_EQ(text.find(gone), std::string::npos) << gone << "\n" << text;
 }
 
-TEST(Adopt, ACaseThatLeansOnAFileBesideItIsRefused) {
-  auto text = std::string(source) + "\n[reference]\nkind = \"experiment\"\nfile = \"throw.ref.csv\"\n";
-  EXPECT_THROW(static_cast<void>(adopted_text(text, adopted(), stone())), InputError);
+TEST(Adopt, FindingsRefuseTheCaseUnlessAReasonExcusesThem) {
+  auto c = adopted();
+  EXPECT_TRUE(c.refused_by("").empty());
+  c.rows[0].findings.push_back({1, "position fails a limit", true});
+  EXPECT_EQ(c.refused_by(""), std::set<int>{1});
+  EXPECT_TRUE(c.refused_by("it is known").empty());
+  c.rows[1].findings.push_back({4, "heat has no finite value", false});
+  EXPECT_EQ(c.refused_by("it is known"), std::set<int>{4});
+  EXPECT_EQ(c.all_findings()[1].text, "preset fine: heat has no finite value");
+}
+
+TEST(Adopt, TheReasonToAdoptWhatFailsStandsInTheCase) {
+  auto c = adopted();
+  EXPECT_EQ(text_of(c, "nobody asks").find("nobody asks"), std::string::npos) << "nothing of it fails";
+  c.rows[0].findings.push_back({1, "position fails a limit", true});
+  const auto text = text_of(c, "the next release\x1b[2J has it");
+  EXPECT_NE(text.find("# Despite: position fails a limit"), std::string::npos) << text;
+  EXPECT_NE(text.find("adopted despite what it fails: the next release?[2J has it"), std::string::npos) << text;
+}
+
+TEST(Adopt, FilesThatTheCaseNamesGoWithIt) {
+  const auto document =
+      parse_toml("body = [{ shape = { kind = \"mesh\", file = \"a.obj\" } }]\nreference.file = \"b.ref.csv\"\n", "x.toml");
+  EXPECT_EQ(files_named_in(document), (std::set<std::string>{"a.obj", "b.ref.csv"}));
+}
+
+Case case_of_two_engines() {
+  Case value;
+  value.engines = {{"all", false, false, {}, {{"friction", 0.3}}},
+                   {"bullet", true, false, {}, {}},
+                   {"stone", false, false, {"fine"}, {{"steps", 2.0}}}};
+  Gate any, own, paper;
+  own.engine = "stone";
+  paper.mode = JudgedMode::paper;
+  value.gates = {any, own, paper};
+  return value;
+}
+
+TEST(Adopt, TheCaseIsMeasuredBySettingsPresetsAndLimitsOfTheSource) {
+  const auto value = case_to_adopt(case_of_two_engines(), stone());
+  ASSERT_EQ(value.engines.size(), 3u);
+  EXPECT_EQ(value.engines[0].name, "all");
+  EXPECT_EQ(value.engines[1].name, "stone");
+  EXPECT_EQ(value.engines[1].presets, std::vector<std::string>{"fine"});
+  EXPECT_EQ(value.engines[1].settings.count("steps"), 1u);
+  ASSERT_EQ(value.gates.size(), 1u) << "the limit that holds for any engine";
+  auto other = stone();
+  other.name = "rock";
+  EXPECT_EQ(case_to_adopt(case_of_two_engines(), other).engines[1].presets, other.presets)
+      << "a case that lists none is run in all";
 }
 
 }  // namespace

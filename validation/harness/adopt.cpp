@@ -19,23 +19,10 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double single_round_off = 1e-5, double_round_off = 1e-11;
-constexpr double least_limit = 1e-10;        // a limit of round-off, of which no slack is asked
-constexpr double round_off_room = 3.0;       // another machine rounds otherwise
-constexpr double noise_room = 4.0;           // standard deviations over repeats and seeds
-constexpr double order_room = 0.2;           // beyond the interval of a fitted order
 constexpr std::uint64_t seeds_apart = 1000;  // from the case's own, beyond those of its studies
 
-struct Spread {
-  double mean = 0.0, deviation = 0.0;
-};
-
-Spread spread_of(const std::vector<double>& values) {
-  Spread s;
-  const double n = static_cast<double>(values.size());
-  for (const double v : values) s.mean += v / n;
-  for (const double v : values) s.deviation += (v - s.mean) * (v - s.mean);
-  s.deviation = n > 1.0 ? std::sqrt(s.deviation / (n - 1.0)) : 0.0;
-  return s;
+double round_off_of(const EngineEntry& engine) {
+  return engine.build.find("single") == std::string::npos ? double_round_off : single_round_off;
 }
 
 /// One run of the whole case with one seed; the trajectories are not kept.
@@ -54,6 +41,12 @@ CaseResult run_once(const Case& value, const EngineEntry& engine, const AdoptOpt
   return results.cases.front();
 }
 
+const RunRow* run_of(const CaseResult& c, const std::string& preset) {
+  for (const auto& e : c.engines)
+    if (e.preset == preset) return base_run(e);
+  return nullptr;
+}
+
 bool has_chance(const Case& value, const EngineEntry& engine) {
   Selection selection;
   selection.engines = {engine.name};
@@ -63,50 +56,185 @@ bool has_chance(const Case& value, const EngineEntry& engine) {
   return false;
 }
 
-const RunRow* run_of(const CaseResult& c, const std::string& preset) {
-  for (const auto& e : c.engines)
-    if (e.preset == preset) return base_run(e);
-  return nullptr;
+/// What differs between a run and its repeat; empty = nothing does.
+std::string difference(const RunRow& a, const RunRow& b) {
+  if (a.status != b.status) return fmt::format("one run is {} and its repeat {}", a.status, b.status);
+  for (const auto& [name, value] : a.metrics) {
+    const auto again = b.metrics.find(name);
+    if (again == b.metrics.end() || !std::isfinite(value.value) || value.value == again->second.value) continue;
+    return fmt::format("{} is {:.9g} in one run and {:.9g} in its repeat", name, value.value, again->second.value);
+  }
+  if (!a.state_hash.empty() && a.state_hash != b.state_hash) return "the state of one run and that of its repeat differ";
+  return {};
+}
+
+bool repeats_itself(const CaseResult& first, const CaseResult& again) {
+  return std::all_of(first.engines.begin(), first.engines.end(), [&](const auto& e) {
+    const auto *a = base_run(e), *b = run_of(again, e.preset);
+    return !a || !b || difference(*a, *b).empty();
+  });
+}
+
+/// The first run, its repeat, and more where chance has a hand: by the seed, or by an engine that does not repeat itself.
+std::vector<CaseResult> run_all(const Case& value, const EngineEntry& engine, const AdoptOptions& o) {
+  std::vector<CaseResult> runs{run_once(value, engine, o, "first", {})};
+  const bool ran = std::any_of(runs[0].engines.begin(), runs[0].engines.end(),
+                               [](const auto& e) { return base_run(e) && base_run(e)->status == Status::ok; });
+  if (!ran) return runs;
+  runs.push_back(run_once(value, engine, o, "repeat", {}));
+  const int more = has_chance(value, engine) || !repeats_itself(runs[0], runs[1]) ? o.seeds : 0;
+  for (int k = 0; k < more; ++k)
+    runs.push_back(run_once(value, engine, o, "seed", value.scene.seed + seeds_apart + static_cast<std::uint64_t>(k)));
+  return runs;
+}
+
+/// Values of one metric over all runs: not finite where a run has none.
+Measured measured_in(const std::vector<CaseResult>& runs, const std::string& preset, const std::string& metric) {
+  Measured m;
+  for (const auto& c : runs) {
+    const auto* run = run_of(c, preset);
+    const auto value = run && run->status == Status::ok ? measured(*run, metric) : std::nullopt;
+    m.values.push_back(value ? value->value : not_a_number);
+    if (value) m.uncertainty = std::max(m.uncertainty, value->uncertainty.combined());
+  }
+  return m;
+}
+
+std::string note_of(const RunRow& run, const std::string& metric) {
+  const auto at = run.metrics.find(metric);
+  return at == run.metrics.end() || at->second.note.empty() ? std::string() : ": " + at->second.note;
+}
+
+void adopt_metric(AdoptedRow& row, const RunRow& base, const std::string& metric, const Measured& m, double margin,
+                  double round_off) {
+  if (!std::all_of(m.values.begin(), m.values.end(), [](double v) { return std::isfinite(v); })) {
+    row.findings.push_back({exit_missing, fmt::format("{} has no finite value{}", metric, note_of(base, metric)), false});
+    return;
+  }
+  if (const auto noisy = noise_exceeds_value(metric, m, round_off); !noisy.empty())
+    row.findings.push_back({exit_inconclusive, noisy, true});
+  auto gate = adopted_gate(metric, m, margin, round_off);
+  if (!base.levels.empty()) gate.level = base.levels.begin()->second;
+  row.gates.push_back(gate);
+}
+
+void adopt_orders(AdoptedRow& row, const EngineRow& first) {
+  for (const auto& order : first.order)
+    if (std::isfinite(order.order.low) && std::isfinite(order.order.high) && order.order.fit_class != FitClass::roundoff &&
+        order.order.fit_class != FitClass::noise_limited)
+      row.gates.push_back(adopted_order_gate(order));
+}
+
+int code_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::fail:
+      return exit_fail;
+    case Verdict::inconclusive:
+      return exit_inconclusive;
+    case Verdict::diverged:
+      return exit_diverged;
+    default:
+      return exit_missing;
+  }
+}
+
+AdoptFinding failure(const GateRow& row) {
+  const bool measured = row.verdict == Verdict::fail || row.verdict == Verdict::inconclusive;
+  return {code_of(row.verdict),
+          fmt::format("{}{} fails a limit that holds for any engine: {}", row.metric,
+                      row.level ? fmt::format(" at {:g}", *row.level) : "", row.why),
+          measured};
+}
+
+/// Limits that hold for any engine: those that it holds stay in the case, the others are findings.
+void adopt_acceptance(AdoptedRow& row, const EngineRow& first, const std::vector<Gate>& acceptance) {
+  for (const auto& g : first.gates)
+    if (g.verdict != Verdict::pass) row.findings.push_back(failure(g));
+  for (const auto& gate : acceptance) {
+    bool judged = false, held = true;
+    for (const auto& g : first.gates) {
+      if (g.expect || g.gate.place.line != gate.place.line || g.gate.place.file != gate.place.file) continue;
+      judged = true;
+      held = held && g.verdict == Verdict::pass;
+    }
+    if (!judged || !held) continue;
+    row.gates.push_back(gate);
+    row.gates.back().mode = JudgedMode::none;
+  }
+  if (first.gates.empty())
+    row.findings.push_back(
+        {exit_missing, "no limit of the case holds for any engine: nothing says that its values are right", true});
+}
+
+void adopt_ended(AdoptedRow& row, const EngineRow& first) {
+  row.status = first.status;
+  row.reason = first.reason;
+  if (row.status == Status::ok || row.status == Status::refused || row.status == Status::missing) return;
+  const int code = row.status == Status::diverged ? exit_diverged : exit_missing;
+  row.findings.push_back({code, fmt::format("a run ended as {}: {}", row.status, row.reason), false});
 }
 
 AdoptedRow row_of(const std::vector<CaseResult>& runs, const EngineRow& first, const EngineEntry& engine, const AdoptOptions& o) {
   AdoptedRow row;
   row.preset = first.preset;
-  row.status = first.status;
-  row.reason = first.reason;
+  adopt_ended(row, first);
   const auto* base = base_run(first);
-  if (!base || base->status != Status::ok || !base->comparable) return row;
-  const double round_off = engine.build.find("single") == std::string::npos ? double_round_off : single_round_off;
-  for (const auto& metric : runs.front().metrics) {
-    std::vector<double> values;
-    double uncertainty = 0.0;
-    for (const auto& c : runs) {
-      const auto* run = run_of(c, first.preset);
-      const auto value = run && run->status == Status::ok ? measured(*run, metric.name) : std::nullopt;
-      values.push_back(value ? value->value : not_a_number);
-      if (value) uncertainty = std::max(uncertainty, value->uncertainty.combined());
-    }
-    if (!std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); })) {
-      row.lost.push_back(metric.name);
-      continue;
-    }
-    if (engine.deterministic && values.size() > 1 && values[0] != values[1])
-      row.notes.push_back(fmt::format("{} says that it is deterministic, and {} is {:.9g} in one run and {:.9g} in its repeat",
-                                      engine.name, metric.name, values[0], values[1]));
-    auto gate = adopted_gate(metric.name, values, uncertainty, o.margin, round_off);
-    if (!base->levels.empty()) gate.level = base->levels.begin()->second;
-    row.gates.push_back(gate);
-  }
-  for (const auto& order : first.order)
-    if (std::isfinite(order.order.low) && std::isfinite(order.order.high) && order.order.fit_class != FitClass::roundoff &&
-        order.order.fit_class != FitClass::noise_limited)
-      row.gates.push_back(adopted_order_gate(order));
-  for (auto& gate : row.gates) {
-    gate.engine = engine.name;
-    gate.preset = preset_unless_default(row.preset);
-    gate.date = o.date;
-  }
+  if (!base || base->status != Status::ok || !base->comparable || runs.size() < 2) return row;
+  const auto* again = run_of(runs[1], row.preset);
+  if (const auto other = again ? difference(*base, *again) : std::string(); engine.deterministic && !other.empty())
+    row.findings.push_back(
+        {exit_fail, fmt::format("{} says that it is deterministic, and that is untrue: {}", engine.name, other), true});
+  for (const auto& metric : runs.front().metrics)
+    adopt_metric(row, *base, metric.name, measured_in(runs, row.preset, metric.name), o.margin, round_off_of(engine));
+  adopt_orders(row, first);
+  adopt_acceptance(row, first, runs.front().gates);
   return row;
+}
+
+/// A level of studies that are of other engines is that of the case's own run alone, and these studies are not written.
+bool has_level(const Case& value, const EngineEntry& engine, double level) {
+  const auto mode = is_own_solver(engine.name) ? JudgedMode::corrected : JudgedMode::none;
+  return std::any_of(value.studies.begin(), value.studies.end(), [&](const Study& s) {
+    return applies(s, engine.name, mode) &&
+           std::any_of(s.levels.begin(), s.levels.end(), [&](double l) { return same_level(l, level); });
+  });
+}
+
+void sign_gates(AdoptedCase& adopted, const Case& source, const EngineEntry& engine, const AdoptOptions& o) {
+  for (auto& row : adopted.rows)
+    for (auto& gate : row.gates) {
+      if (gate.level && !has_level(source, engine, *gate.level)) gate.level.reset();
+      gate.engine = engine.name;
+      gate.preset = adopted.rows.size() > 1 ? row.preset : preset_unless_default(row.preset);
+      gate.date = o.date;
+    }
+}
+
+void say_outcome(const AdoptedCase& c, const EngineEntry& engine, void (*say)(const std::string&)) {
+  for (const auto& row : c.rows)
+    say(fmt::format(
+        "{} {}: {}", c.id, label_of(engine.name, row.preset),
+        row.status == Status::ok ? fmt::format("{} gates", row.gates.size()) : fmt::format("{}, {}", row.status, row.reason)));
+}
+
+AdoptedCase measure_one(const Case& source, const EngineEntry& engine, const AdoptOptions& o) {
+  AdoptedCase adopted{source.id, source.file, {}, {}};
+  if (source.expect != Expect::pass) {
+    adopted.findings.push_back({exit_bad_input, "declares a defect or a divergence, and such a case is not adopted", false});
+    return adopted;
+  }
+  const auto runs = run_all(case_to_adopt(source, engine), engine, o);
+  for (const auto& e : runs[0].engines)
+    if (e.name == engine.name) adopted.rows.push_back(row_of(runs, e, engine, o));
+  sign_gates(adopted, source, engine, o);
+  return adopted;
+}
+
+/// Presets of an engine that the case does not list are all of them, as `validate` takes them.
+std::vector<std::string> presets_for(const Case& value, const EngineEntry& engine) {
+  const auto at = std::find_if(value.engines.begin(), value.engines.end(), [&](const auto& e) { return e.name == engine.name; });
+  if (at != value.engines.end()) return at->presets;
+  return suits_itself_to_the_scene(engine.name) ? std::vector<std::string>() : engine.presets;
 }
 
 }  // namespace
@@ -115,62 +243,39 @@ bool AdoptedCase::judged() const {
   return std::any_of(rows.begin(), rows.end(), [](const auto& r) { return !r.gates.empty(); });
 }
 
-Gate adopted_gate(const std::string& metric, const std::vector<double>& values, double uncertainty, double margin,
-                  double round_off) {
-  Gate gate;
-  gate.metric = metric;
-  const auto s = spread_of(values);
-  const double noise = noise_room * s.deviation + 2.0 * uncertainty, size = std::abs(s.mean);
-  const double apart = values.size() > 1 ? std::abs(values[1] - values[0]) : 0.0;
-  const std::string measured = fmt::format(
-      "adopted: {:.4g} measured, {:.2g} apart in a repeat{}", values.front(), apart,
-      values.size() > 2 ? fmt::format(", standard deviation {:.2g} over {} runs and seeds", s.deviation, values.size()) : "");
-  if (size <= round_off) {
-    gate.limit = std::max({least_limit, round_off_room * size, size + noise});
-    gate.reason = measured + "; an error of round-off may be anything smaller";
-    return gate;
-  }
-  const double low = size / margin - noise, high = size * margin + noise;
-  gate.band = s.mean > 0.0 ? std::array{low, high} : std::array{-high, -low};
-  gate.reason = fmt::format("{}; room by a factor of {:g} to either side{}", measured, margin,
-                            noise > 0.0 ? fmt::format(", and {:.2g} for the noise", noise) : "");
-  return gate;
+std::vector<AdoptFinding> AdoptedCase::all_findings() const {
+  auto all = findings;
+  for (const auto& row : rows)
+    for (auto f : row.findings) {
+      if (!is_default_preset(row.preset)) f.text = fmt::format("preset {}: {}", row.preset, f.text);
+      all.push_back(f);
+    }
+  return all;
 }
 
-Gate adopted_order_gate(const OrderRow& order) {
-  Gate gate;
-  const auto& o = order.order;
-  gate.metric = order.metric + ".order";
-  gate.band = std::array{o.low - order_room, o.high + order_room};
-  gate.reason = fmt::format("adopted: observed order {:.3g}, 95 % interval {:.3g} to {:.3g}; room of {:g} beyond it", o.value,
-                            o.low, o.high, order_room);
-  return gate;
+std::set<int> AdoptedCase::refused_by(const std::string& despite) const {
+  std::set<int> codes;
+  for (const auto& f : all_findings())
+    if (!f.excusable || despite.empty()) codes.insert(f.code);
+  return codes;
 }
 
 Case case_to_adopt(Case value, const EngineEntry& engine) {
-  EngineChoice choice;
+  EngineChoice choice, ours;
   choice.name = engine.name;
-  choice.required = true;
+  choice.presets = presets_for(value, engine);
   for (const auto& e : value.engines)
-    if (e.name == engine.name) {
-      choice.presets = e.presets;
-      choice.settings = e.settings;
-    }
-  EngineChoice ours;
+    if (e.name == engine.name) choice.settings = e.settings;
+  choice.settings.erase("refuses");
+  choice.required = true;
   ours.name = engine_name::solver;
-  value.engines = {choice};
+  std::erase_if(value.engines, [](const auto& e) { return e.name != "all"; });
+  value.engines.push_back(choice);
   if (!is_own_solver(engine.name)) value.engines.push_back(ours);
   value.modes = {Mode::corrected};
-  value.gates.clear();
+  std::erase_if(value.gates, [](const Gate& g) { return !g.engine.empty() || g.mode == JudgedMode::paper; });
   value.defects.clear();
   value.harmless.clear();
-  std::erase_if(value.studies, [](const Study& s) {
-    return !s.engine.empty() || (s.mode != JudgedMode::none && s.mode != JudgedMode::not_paper);
-  });
-  for (auto& s : value.studies) {
-    s.expect.reset();
-    s.mode = JudgedMode::none;
-  }
   return value;
 }
 
@@ -178,26 +283,8 @@ std::vector<AdoptedCase> measure_to_adopt(const std::vector<Case>& cases, const 
                                           void (*say)(const std::string&)) {
   std::vector<AdoptedCase> list;
   for (const auto& source : cases) {
-    const auto value = case_to_adopt(source, engine);
-    std::vector<CaseResult> runs{run_once(value, engine, o, "first", {})};
-    const bool ran = std::any_of(runs[0].engines.begin(), runs[0].engines.end(),
-                                 [](const auto& e) { return base_run(e) && base_run(e)->status == Status::ok; });
-    if (ran) {
-      runs.push_back(run_once(value, engine, o, "repeat", {}));
-      const int seeds = has_chance(value, engine) ? o.seeds : 0;
-      for (int k = 0; k < seeds; ++k)
-        runs.push_back(run_once(value, engine, o, "seed", value.scene.seed + seeds_apart + static_cast<std::uint64_t>(k)));
-    }
-    AdoptedCase adopted{value.id, source.file, {}};
-    for (const auto& e : runs[0].engines)
-      if (e.name == engine.name) adopted.rows.push_back(row_of(runs, e, engine, o));
-    for (const auto& row : adopted.rows) {
-      say(fmt::format(
-          "{} {}: {}", value.id, label_of(engine.name, row.preset),
-          row.status == Status::ok ? fmt::format("{} gates", row.gates.size()) : fmt::format("{}, {}", row.status, row.reason)));
-      for (const auto& note : row.notes) say("  " + note);
-    }
-    list.push_back(std::move(adopted));
+    list.push_back(measure_one(source, engine, o));
+    say_outcome(list.back(), engine, say);
   }
   return list;
 }
