@@ -14,7 +14,7 @@ from pathlib import Path
 
 TRIPOINT, SOURCE = (Path(argument).resolve() for argument in sys.argv[1:3])
 PAGE = SOURCE / "examples" / "gated-engine" / "README.md"
-MOST_SECONDS, MOST_COMMANDS = 15 * 60, 25
+MOST_SECONDS, MOST_COMMANDS = 15 * 60, 27
 AUTHOR = {f"GIT_{who}_{what}": f"nobody{'' if what == 'NAME' else '@localhost'}" for who in ("AUTHOR", "COMMITTER") for what in ("NAME", "EMAIL")}
 
 
@@ -29,7 +29,7 @@ def lines(page):
 
 class EmptyRepository(unittest.TestCase):
     def test_the_page_leads_to_a_red_merge_and_back(self):
-        environment = dict(os.environ, PATH=f"{TRIPOINT.parent}:{os.environ['PATH']}", NO_COLOR="1", HOME="/nonexistent", **AUTHOR)
+        environment = dict(os.environ, PATH=f"{TRIPOINT.parent}:{os.environ['PATH']}", NO_COLOR="1", HOME="/nonexistent", TRIPOINT=str(SOURCE), **AUTHOR)
         began, count, red = time.monotonic(), 0, 0
         with tempfile.TemporaryDirectory(prefix="tripoint-empty-") as folder:
             for number, command, expected in lines(PAGE):
@@ -38,11 +38,11 @@ class EmptyRepository(unittest.TestCase):
                 print(f"{time.monotonic() - at:6.1f} s  {command}")
                 self.assertEqual(done.returncode, expected, f"README.md:{number}: {command}\n{done.stdout[-3000:]}{done.stderr[-2000:]}")
                 count += 1
-                red += expected == 1
+                red += expected in (1, 4)
             self.assertTrue((Path(folder) / "baselines").is_dir())
         spent = time.monotonic() - began
         print(f"{count} commands, {spent:.0f} s")
-        self.assertGreaterEqual(red, 2)  # validate and gate of the worse merge
+        self.assertGreaterEqual(red, 4)  # restitution, friction, gyroscopic term, and a limit that was loosened
         self.assertLessEqual(count, MOST_COMMANDS)
         self.assertLess(spent, MOST_SECONDS)
 
