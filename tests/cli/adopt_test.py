@@ -156,6 +156,7 @@ class Refused(unittest.TestCase):
         changes = [("GYROSCOPIC = 1.0 ", "GYROSCOPIC = 0.0 ")]
         self.assert_refused(self.adopt(STONE, changes, "rigid/torque-free"), 1, "rigid/torque-free: NOT ADOPTED: angle at 0.01 fails a limit")
         self.assert_refused(self.adopt(STONE, changes, "rigid/flip-time"), 4, "rigid/flip-time: NOT ADOPTED: flip has no finite value: the body never flips")
+        self.assert_refused(self.adopt(STONE, changes, "rigid/precession", "rigid/long-spin"), 1, "rigid/precession: NOT ADOPTED: ", "rigid/long-spin: NOT ADOPTED: ")
 
     def test_what_is_sound_is_adopted_beside_what_is_refused(self):
         done = self.adopt(STONE, [("FRICTION = 1.0 ", "FRICTION = 0.0 ")], "contact/slope-slip", "contact/ball-restitution-050")
@@ -195,6 +196,14 @@ class Refused(unittest.TestCase):
         self.assertIn("the noise of position exceeds its value", done.stdout)
         self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
         self.assertFalse((self.path / "cases").exists())
+
+    def test_a_study_of_the_engine_stays_and_the_case_is_gated_at_its_own_step(self):
+        case = self.own('[engines.stone]\n[[study]]\naxis = "time_step"\nlevels = [0.008, 0.004, 0.002]\nengine = "stone"\n')
+        done = self.adopt(STONE, [], case)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        gates = self.case("own")["gate"]
+        self.assertEqual([g["level"] for g in gates if g["metric"] == "position"], [0.01, 0.01])  # what was measured, and the limit of any engine
+        self.assertIn("position.order", [g["metric"] for g in gates])
 
     def test_every_preset_is_taken(self):
         done = self.adopt(STONE, [('"presets": ["default"]', '"presets": ["default", "fine"]')], "contact/slope-slip")

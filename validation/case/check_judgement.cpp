@@ -73,6 +73,16 @@ class JudgementChecker : NameChecks {
                        fmt::format("`{}`: this case does not run mode \"{}\": add it to case.modes", key, mode));
   }
 
+  /// The case's own run stands in a study over one axis too, at the value that the scene has there.
+  [[nodiscard]] bool is_own_level(const StudyAxes& axes, double level) const {
+    const std::optional<double> own = !axes.alone()                      ? std::nullopt
+                                      : axes.axis == Axis::spacing       ? std::optional(scene_.spacing)
+                                      : axes.axis == Axis::support_ratio ? std::optional(scene_.support_ratio)
+                                      : axes.axis == Axis::time_step     ? scene_.time_step
+                                                                         : std::nullopt;
+    return own && std::abs(*own - level) <= 1e-9 * level;
+  }
+
   void gate(const Gate& g, const std::string& path) const {
     known_metric(g.metric, path + ".metric", g.place);
     known_engine(g.engine, path + ".engine", g.place);
@@ -83,7 +93,9 @@ class JudgementChecker : NameChecks {
                        fmt::format("`{}.metric`: \"{}\" needs a [[study]] to find an order with", path, printable(g.metric)));
     if (!g.level) return;
     for (const auto& s : case_.studies)
-      if (std::any_of(s.levels.begin(), s.levels.end(), [&](double l) { return std::abs(l - *g.level) <= 1e-9 * l; })) return;
+      if (is_own_level(s.axes, *g.level) ||
+          std::any_of(s.levels.begin(), s.levels.end(), [&](double l) { return std::abs(l - *g.level) <= 1e-9 * l; }))
+        return;
     throw InputError(
         place(path + ".level", g.place),
         fmt::format("`{}.level` = {}: no [[study]] has this level: write one of its levels, or remove it", path, *g.level));

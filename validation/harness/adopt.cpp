@@ -174,6 +174,19 @@ void adopt_ended(AdoptedRow& row, const EngineRow& first) {
   row.findings.push_back({code, fmt::format("a run ended as {}: {}", row.status, row.reason), false});
 }
 
+/// Studies of other engines are not written. A gate on a level of theirs means the case's own run, by its level in a study of
+/// this engine; where it has none, every run is the case's own.
+void settle_level(Gate& gate, const RunRow& base, const std::vector<Study>& studies, const std::string& engine) {
+  if (!gate.level) return;
+  std::optional<double> own;
+  for (const auto& s : studies) {
+    if (!applies(s, engine, base.knobs.mode)) continue;
+    if (std::any_of(s.levels.begin(), s.levels.end(), [&](double l) { return same_level(l, *gate.level); })) return;
+    if (const auto at = base.levels.find(s.axes); at != base.levels.end()) own = at->second;
+  }
+  gate.level = own;
+}
+
 AdoptedRow row_of(const std::vector<CaseResult>& runs, const EngineRow& first, const EngineEntry& engine, const AdoptOptions& o) {
   AdoptedRow row;
   row.preset = first.preset;
@@ -188,22 +201,13 @@ AdoptedRow row_of(const std::vector<CaseResult>& runs, const EngineRow& first, c
     adopt_metric(row, *base, metric.name, measured_in(runs, row.preset, metric.name), o.margin, round_off_of(engine));
   adopt_orders(row, first);
   adopt_acceptance(row, first, runs.front().gates);
+  for (auto& gate : row.gates) settle_level(gate, *base, runs.front().studies, engine.name);
   return row;
 }
 
-/// A level of studies that are of other engines is that of the case's own run alone, and these studies are not written.
-bool has_level(const Case& value, const EngineEntry& engine, double level) {
-  const auto mode = is_own_solver(engine.name) ? JudgedMode::corrected : JudgedMode::none;
-  return std::any_of(value.studies.begin(), value.studies.end(), [&](const Study& s) {
-    return applies(s, engine.name, mode) &&
-           std::any_of(s.levels.begin(), s.levels.end(), [&](double l) { return same_level(l, level); });
-  });
-}
-
-void sign_gates(AdoptedCase& adopted, const Case& source, const EngineEntry& engine, const AdoptOptions& o) {
+void sign_gates(AdoptedCase& adopted, const EngineEntry& engine, const AdoptOptions& o) {
   for (auto& row : adopted.rows)
     for (auto& gate : row.gates) {
-      if (gate.level && !has_level(source, engine, *gate.level)) gate.level.reset();
       gate.engine = engine.name;
       gate.preset = adopted.rows.size() > 1 ? row.preset : preset_unless_default(row.preset);
       gate.date = o.date;
@@ -226,7 +230,7 @@ AdoptedCase measure_one(const Case& source, const EngineEntry& engine, const Ado
   const auto runs = run_all(case_to_adopt(source, engine), engine, o);
   for (const auto& e : runs[0].engines)
     if (e.name == engine.name) adopted.rows.push_back(row_of(runs, e, engine, o));
-  sign_gates(adopted, source, engine, o);
+  sign_gates(adopted, engine, o);
   return adopted;
 }
 
