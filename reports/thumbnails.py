@@ -128,6 +128,15 @@ def thinned(count):
     return np.arange(0, count, max(1, -(-count // MOST_DOTS)))
 
 
+def apart(points, cell=1.2):
+    """Rows of points of the picture, one in each square of this side; of more than MOST_DOTS squares coarser ones."""
+    while True:
+        _, rows = np.unique(np.floor(points / cell), axis=0, return_index=True)
+        if len(rows) <= MOST_DOTS:
+            return np.sort(rows)
+        cell *= 1.1
+
+
 def dots(enlarged=1.0):
     """Particles at the end, seen along y where gravity is along z. @param enlarged displacements are drawn so many
     times larger
@@ -144,12 +153,12 @@ def dots(enlarged=1.0):
         )
         up = int(np.argmax(np.abs(trajectory.gravity))) if trajectory.pulled else 2
         here = (start + enlarged * (frame.position - start))[:, [0 if up else 1, up]]
-        rows = np.flatnonzero(np.isfinite(here).all(axis=1))
-        rows = rows[thinned(len(rows))]
-        place = Frame(here[rows], equal=True)
-        phase = frame.phase if frame.phase is not None else np.zeros(len(here))
+        sound = np.isfinite(here).all(axis=1)
+        phase = frame.phase[sound] if frame.phase is not None else np.zeros(int(sound.sum()))
+        seen = Frame(here[sound], equal=True)(here[sound])
+        rows = apart(seen)
         return "".join(
-            cloud(place(here[rows[phase[rows] == k]]), kind) for k, kind in ((0, "wet"), (1, "soft"), (2, "hard"))
+            cloud(seen[rows[phase[rows] == k]], kind) for k, kind in ((0, "wet"), (1, "soft"), (2, "hard"))
         )
 
     return draw

@@ -148,7 +148,8 @@ def read_bodies(file, result):
     if node is None or node.ndim != 3 or 0 in node.shape:
         return
     step = max(1, node.shape[0] // MOST_FRAMES)
-    result.body_times = file["particles/bodies/position/time"][::step]
+    times = file.get("particles/bodies/position/time")  # where bodies have none, the particles' own
+    result.body_times = (times if times is not None else result.times[:node.shape[0]])[::step]
     for name in ("position", "orientation", "velocity", "angular_velocity"):
         values = file.get(f"particles/bodies/{name}/value")
         if values is not None and values.ndim == 3:

@@ -38,7 +38,7 @@ RIGID = (
             "contact/conveyor",
             "contact/moving-board",
         ),
-        ("contact/slide-to-rest",),
+        ("contact/slide-to-rest", "contact/slope-frictionless"),
         thumbnails.over(thumbnails.way),
         "the way of a sliding box against time; grey: the engine that ranks first",
     ),
@@ -105,10 +105,6 @@ MATTER = (
 )
 
 
-def cases_of(use, ids):
-    """The ids of this use. An entry that ends with - or / stands for all that begin with it."""
-    return [
-        case
-        for case in ids
-        if any(case == entry or entry[-1] in "-/" and case.startswith(entry) for entry in use.cases)
-    ]
+def belongs(use, case):
+    """Whether a case is of this use. An entry that ends with - or / stands for all that begin with it."""
+    return any(case == entry or entry[-1] in "-/" and case.startswith(entry) for entry in use.cases)

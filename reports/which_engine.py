@@ -117,24 +117,24 @@ def of_limit(share):
     )
 
 
+def judged_in(score, use):
+    """(the rows of a preset in a use that were judged, those that it refused)."""
+    mine = [line for line in rows(score.get("rows")) if uses.belongs(use, text(line.get("case")))]
+    refused = [line for line in mine if line.get("verdict") == "refused"]
+    return [line for line in mine if line.get("verdict") in JUDGED], refused
+
+
 def best_preset(scores, use):
-    """(score, its judged rows, its refusals) of the preset that does best: the least share of cases that are not
-    right, then the most cases, then the smallest error.
+    """(score, its judged rows, its refusals) of the preset that is right in most cases, then wrong in fewest, then has
+    the smallest error.
     """
     found = []
     for score in scores:
-        mine = [
-            line
-            for line in rows(score.get("rows"))
-            if text(line.get("case")) in uses.cases_of(use, [text(line.get("case"))])
-        ]
-        judged = [line for line in mine if line.get("verdict") in JUDGED]
+        judged, refused = judged_in(score, use)
+        right = sum(line["verdict"] == "pass" for line in judged)
+        worst = max((worst_share(line) or 0.0 for line in judged), default=0.0)
         if judged:
-            bad = sum(line["verdict"] != "pass" for line in judged) / len(judged)
-            worst = max((worst_share(line) or 0.0 for line in judged), default=0.0)
-            found.append(
-                ((bad, -len(judged), worst), score, judged, [line for line in mine if line.get("verdict") == "refused"])
-            )
+            found.append(((-right, len(judged) - right, worst), score, judged, refused))
     return min(found, key=lambda entry: entry[0])[1:] if found else None
 
 
@@ -171,7 +171,7 @@ def truth_of(results, case_id, engines):
 def illustrate(results, use, cell, engines):
     """Draws the first case of the use that the engine ran, and counts boxes that fell."""
     judged = [line["case"] for line in cell.lines]
-    for case in [c for c in use.pictured if c in judged]:
+    for case in sorted(judged, key=lambda case: use.pictured.index(case) if case in use.pictured else len(use.pictured)):
         own = trajectory_of(results, case, cell.engine, cell.preset)
         body = use.draw(own, truth_of(results, case, engines)) if own is not None else None
         if body:

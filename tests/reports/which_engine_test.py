@@ -9,6 +9,8 @@ import unittest
 from pages_test import Pages, case  # it knows the folders of the others
 from report_test import Reader
 import report
+import thumbnails
+import uses
 import which_engine
 
 
@@ -53,6 +55,29 @@ class WhichEngine(Pages):
         self.assertIn("preset Euler", self.cell(html, "MuJoCo"))  # the better of two
         self.assertIn("wrong: fail in tower-1", self.cell(html, "mine"))
         self.assertIn("<svg", html)
+
+    def test_the_preset_that_is_right_in_most_cases_is_shown_though_another_ran_fewer(self):
+        few = score("ode", "quick", judged("contact/tower-1", "pass", 0.1))
+        most = score("ode", "exact", *(judged(f"contact/tower-{n}", "pass", 0.9) for n in (1, 10)), judged("contact/tower-100", "known defect", 2.0, defect="x"))
+        self.assertEqual(which_engine.best_preset([few, most], uses.RIGID[0])[0]["preset"], "exact")
+
+    def test_dots_of_a_picture_do_not_lie_on_each_other_and_are_few(self):
+        import numpy as np
+        points = np.random.default_rng(1).uniform(0.0, 60.0, (20000, 2))
+        rows = thumbnails.apart(points)
+        self.assertLessEqual(len(rows), thumbnails.MOST_DOTS)
+        self.assertGreater(len(rows), thumbnails.MOST_DOTS // 2)
+        self.assertEqual(len(thumbnails.apart(np.repeat(points[:50], 9, axis=0))), len(thumbnails.apart(points[:50])))
+
+    def test_bodies_without_times_of_their_own_have_those_of_the_particles(self):
+        import h5py
+        import numpy as np
+        from trajectories import read_h5md
+        with h5py.File(self.path / "trajectory.h5", "w") as file:
+            file["particles/all/position/value"] = np.zeros((3, 4, 3))
+            file["particles/all/position/time"] = [0.0, 0.5, 1.0]
+            file["particles/bodies/position/value"] = np.zeros((3, 1, 3))
+        self.assertEqual(list(read_h5md(self.path / "trajectory.h5").body_times), [0.0, 0.5, 1.0])
 
     def test_a_box_that_sank_by_more_than_half_of_its_height_fell(self):
         self.assertIn("falls: known defect soft contact", self.cell(self.page(*self.SCORES, drop=0.15), "MuJoCo"))
