@@ -125,8 +125,8 @@ def judged_in(score, use):
 
 
 def best_preset(scores, use):
-    """(score, its judged rows, its refusals) of the preset that is right in most cases, then wrong in fewest, then has
-    the smallest error.
+    """(score, its judged rows, its refusals) of the preset that is right in most cases, then ran most, then has the
+    smallest error.
     """
     found = []
     for score in scores:
@@ -134,7 +134,7 @@ def best_preset(scores, use):
         right = sum(line["verdict"] == "pass" for line in judged)
         worst = max((worst_share(line) or 0.0 for line in judged), default=0.0)
         if judged:
-            found.append(((-right, len(judged) - right, worst), score, judged, refused))
+            found.append(((-right, -len(judged), worst), score, judged, refused))
     return min(found, key=lambda entry: entry[0])[1:] if found else None
 
 
