@@ -8,5 +8,6 @@ namespace tripoint {
 [[nodiscard]] ReferenceEntry sliding_entry();
 [[nodiscard]] ReferenceEntry rolling_entry();
 [[nodiscard]] ReferenceEntry landing_entry();
+[[nodiscard]] ReferenceEntry ball_hits_entry();
 
 }  // namespace tripoint

@@ -32,6 +32,7 @@ const std::vector<ReferenceEntry>& all_references() {
                                                    sliding_entry(),
                                                    rolling_entry(),
                                                    landing_entry(),
+                                                   ball_hits_entry(),
                                                    elliptic_drop_entry(),
                                                    collapsing_column_entry(),
                                                    taylor_green_entry(),

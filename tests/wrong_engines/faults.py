@@ -1,0 +1,214 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Faults of engine-wrong: what each changes in the job or in the trajectory, the case that must be red, and the gates or the audit that see it there."""
+import bisect
+import math
+import os
+from dataclasses import dataclass
+from typing import Callable, Optional
+
+import flight
+
+PER_CENT = 0.01
+STEP = 0.01  # of a fault in time, where the job says none [s]
+
+
+@dataclass(frozen=True)
+class Fault:
+    words: str
+    case: str
+    seen_by: tuple  # metrics with a red limit of any engine; "audit": the run is no result, by name
+    job: Optional[Callable] = None  # changes the job that the inner engine runs
+    rows: Optional[Callable] = None  # (job, rows of bodies) -> rows
+    heat: Optional[Callable] = None  # (job, time, places, temperatures) -> temperatures
+    walkers: float = 0.0  # heat by so many of LAMMPS's walkers, where the job says no number
+    preset: str = ""  # of Bullet, instead of the one that suits the case
+
+
+# --- constants ------------------------------------------------------------------------------------------------------------
+
+
+def gravity(job):
+    job["scene"]["gravity"] = [(1.0 - PER_CENT) * c for c in job["scene"]["gravity"]]
+
+
+def gravity_is_down(job):
+    job["scene"]["gravity"] = [0.0, 0.0, -math.hypot(*job["scene"]["gravity"])]
+
+
+def moment(axis, factor=1.0 + PER_CENT):
+    def change(job):
+        for body in job["scene"]["bodies"]:
+            body["principal_inertia"][axis] *= factor
+    return change
+
+
+def moments(factor):
+    def change(job):
+        for body in job["scene"]["bodies"]:
+            body["principal_inertia"] = [factor * c for c in body["principal_inertia"]]
+    return change
+
+
+def mass(job):
+    body = job["scene"]["bodies"][0]
+    body["mass"] *= 1.001
+    body["principal_inertia"] = [1.001 * c for c in body["principal_inertia"]]
+
+
+def setting(name, factor):
+    def change(job):
+        job["settings"][name] *= factor() if callable(factor) else factor
+    return change
+
+
+def by_chance():
+    """1 to 3 % more or less, another share each time."""
+    share = int.from_bytes(os.urandom(2), "big") / 65536.0
+    return 1.0 + math.copysign(PER_CENT * (1.0 + 2.0 * abs(2.0 * share - 1.0)), share - 0.5)
+
+
+def conductivity(job):
+    for material in job["scene"]["materials"]:
+        for key in ("conductivity", "solid_conductivity"):
+            if material.get(key) is not None:
+                material[key] *= 1.0 + PER_CENT
+
+
+def sizes(job):
+    """Free boxes and balls are 1 % larger than the case says."""
+    for body in job["scene"]["bodies"]:
+        shape, centre = body["shape"], body["centre"]
+        if body["motion"] != "free":
+            continue
+        if shape["kind"] == "sphere":
+            shape["radius"] *= 1.0 + PER_CENT
+        else:
+            for corner in ("min", "max"):
+                shape[corner] = [c + (1.0 + PER_CENT) * (x - c) for x, c in zip(shape[corner], centre)]
+
+
+# --- trajectories ---------------------------------------------------------------------------------------------------------
+
+
+def moved(change):
+    """A change of each row after the start."""
+    def all_rows(job, rows):
+        return [row if row[0] == job["times"][0] else change(job, list(row)) for row in rows]
+    return all_rows
+
+
+def spin_in_the_body(job, row):
+    q = row[8:12]
+    return row[:12] + list(flight.rotate(flight.conjugate(q), row[12:15]))
+
+
+def other_way_round(job, row):
+    return row[:8] + list(flight.conjugate(row[8:12])) + [-c for c in row[12:15]]
+
+
+def turned_frame(job, row):
+    """The world turned by 0.01 rad about the vertical."""
+    c, s = math.cos(PER_CENT), math.sin(PER_CENT)
+    for x in (2, 5, 12):
+        row[x], row[x + 1] = c * row[x] - s * row[x + 1], s * row[x] + c * row[x + 1]
+    turn = (math.cos(0.5 * PER_CENT), 0.0, 0.0, math.sin(0.5 * PER_CENT))
+    row[8:12] = flight.product(flight.product(turn, row[8:12]), flight.conjugate(turn))
+    return row
+
+
+def no_gyroscopic_term(job, rows):
+    spin = {b["index"]: b["angular_velocity"] for b in job["scene"]["bodies"]}
+    for row in rows:
+        w = spin[row[1]]
+        rate, half = math.hypot(*w), 0.5 * math.hypot(*w) * row[0]
+        yield row[:8] + [math.cos(half), *(math.sin(half) / rate * c for c in w)] + list(w)
+
+
+def a_step_late(job, rows):
+    """Each state is that of one step before, along a curve through frames and their velocities."""
+    step = job["resolution"].get("time_step") or STEP
+    for body in sorted({row[1] for row in rows}):
+        own = [row for row in rows if row[1] == body]
+        times = [row[0] for row in own]
+        for row in own:
+            yield row if row[0] == times[0] else [row[0], *at_time(own, times, row[0] - step)[1:]]
+
+
+def at_time(own, times, t):
+    k = min(max(bisect.bisect_right(times, t) - 1, 0), len(times) - 2)
+    a, b, h = own[k], own[k + 1], times[k + 1] - times[k]
+    s = (t - times[k]) / h
+    x = [(2 * s ** 3 - 3 * s ** 2 + 1) * a[i] + (s ** 3 - 2 * s ** 2 + s) * h * a[i + 3] + (3 * s ** 2 - 2 * s ** 3) * b[i] + (s ** 3 - s ** 2) * h * b[i + 3] for i in (2, 3, 4)]
+    v, w = ([(1 - s) * a[i] + s * b[i] for i in part] for part in ((5, 6, 7), (12, 13, 14)))
+    between = flight.product(b[8:12], flight.conjugate(a[8:12]))
+    return [t, a[1], *x, *v, *flight.product(flight.scaled(between, s), a[8:12]), *w]
+
+
+def right_for_half_a_second(job, row):
+    late = max(0.0, row[0] - 0.5)
+    for i, g in enumerate(job["scene"]["gravity"]):
+        row[2 + i] -= 0.5 * PER_CENT * g * late * late
+        row[5 + i] -= PER_CENT * g * late
+    return row
+
+
+def swapped(job, rows):
+    other = {0: 1, 1: 0}
+    start = job["times"][0]
+    return [row if row[0] == start else [row[0], other.get(row[1], row[1]), *row[2:]] for row in rows]
+
+
+def copied(job, rows):
+    """The second body moves as the first does."""
+    centre = {b["index"]: b["centre"] for b in job["scene"]["bodies"]}
+    first = {row[0]: row for row in rows if row[1] == 0}
+    for row in rows:
+        like = first[row[0]]
+        way = [x - c for x, c in zip(like[2:5], centre[0])]
+        yield row if row[1] != 1 else [row[0], 1, *(c + d for c, d in zip(centre[1], way)), *like[5:]]
+
+
+# --- heat -----------------------------------------------------------------------------------------------------------------
+
+
+def shifted(spacings_a_step, step):
+    """Walkers drift along x: the field of whole layers is carried along."""
+    def change(job, t, where, T):
+        import numpy
+        dx = job["scene"]["spacing"]
+        layers = numpy.unique(numpy.round(where[:, 0] / dx, 6))
+        profile = numpy.array([T[numpy.abs(where[:, 0] / dx - layer) < 1e-3].mean() for layer in layers])
+        way = spacings_a_step * t / step
+        drifted = numpy.interp(layers - way, layers, profile)
+        return T + numpy.interp(where[:, 0] / dx, layers, drifted - profile)
+    return change
+
+
+FAULTS = {
+    "gravity": Fault("gravity 1 % small", "rigid/ballistic", ("velocity",), job=gravity),
+    "gravity is down": Fault("gravity acts along z, whatever the scene says", "contact/slope-slip", ("velocity",), job=gravity_is_down),
+    "half a second": Fault("right for the first half second, gravity 1 % small after it", "rigid/ballistic", ("velocity",), rows=moved(right_for_half_a_second)),
+    "frame": Fault("the world is turned by 0.01 rad about the vertical", "rigid/ballistic", ("velocity", "orientation"), rows=moved(turned_frame)),
+    "late": Fault("everything a step late", "rigid/ballistic", ("velocity",), rows=lambda job, rows: list(a_step_late(job, rows))),
+    "moment": Fault("largest moment 1 % large", "rigid/flip-time", ("flip",), job=moment(2)),
+    "least moment": Fault("least moment 1 % small", "rigid/flip-time", ("flip",), job=moment(0, 1.0 - PER_CENT)),
+    "middle moment": Fault("middle moment 1 % large", "rigid/flip-time", ("flip",), job=moment(1)),
+    "gyroscopic": Fault("no gyroscopic term", "rigid/torque-free", ("angle",), rows=lambda job, rows: list(no_gyroscopic_term(job, rows))),
+    "spin in the body": Fault("angular velocity in the body's frame", "rigid/torque-free", ("audit", "energy"), rows=moved(spin_in_the_body)),
+    "other way round": Fault("turns the other way round", "rigid/ballistic", ("orientation",), rows=moved(other_way_round)),
+    "mass": Fault("first body 0.1 % heavy", "contact/unequal-hit", ("momentum",), job=mass),
+    "swapped": Fault("two bodies swapped after the start", "contact/unequal-hit", ("audit", "momentum"), rows=swapped),
+    "copied": Fault("the second body copies the first", "contact/unequal-hit", ("momentum",), rows=lambda job, rows: list(copied(job, rows))),
+    "friction": Fault("friction 1 % small", "contact/slide-to-rest", ("way",), job=setting("friction", 1.0 - PER_CENT)),
+    "friction on a slope": Fault("friction 1 % small", "contact/slope-slip", ("velocity",), job=setting("friction", 1.0 - PER_CENT)),
+    "restitution": Fault("restitution 1 % small", "contact/oblique-hit", ("steep_hit", "middle_hit"), job=setting("restitution", 1.0 - PER_CENT)),
+    "chance": Fault("restitution 1 to 3 % off, by chance", "contact/oblique-hit", ("steep_hit", "middle_hit"), job=setting("restitution", by_chance)),
+    "friction of a hit": Fault("friction 1 % large", "contact/oblique-hit", ("middle_spin", "flat_spin"), job=setting("friction", 1.0 + PER_CENT)),
+    "moment in a hit": Fault("moments of balls 1 % small", "contact/oblique-hit", ("middle_spin", "flat_spin"), job=moments(1.0 - PER_CENT)),
+    "threshold": Fault("no rebound below 1 m/s", "contact/low-bounce", ("height",), preset="default"),
+    "ball's moment": Fault("moments of a ball 1 % large", "contact/slip-to-roll", ("rolling",), job=moments(1.0 + PER_CENT)),
+    "size": Fault("bodies 1 % large in contact", "contact/tower-1", ("top",), job=sizes),
+    "diffusivity": Fault("conductivity 1 % large", "heat/cosine-fine", ("rate",), job=conductivity),
+    "walkers' diffusivity": Fault("conductivity 1 % large, by walkers", "heat/spreading-two-million", ("diffusivity",), job=conductivity, walkers=2e6),
+    "drift": Fault("walkers drift by 0.001 spacings a step", "heat/step-walkers", ("left_half",), heat=shifted(1e-3, 1.0 / 24.0), walkers=1e5),
+}
