@@ -53,7 +53,15 @@ TEST(ImpactMetrics, KnowSpheresAndUnions) {
   both.of[1].radius = 0.3;
   f.s.job.scene.bodies[0].shape = both;
   EXPECT_NEAR(f.stated(metric("sunk", "max", "block"), floor_at_0), 0.1, 1e-15);
-  f.s.job.scene.bodies[0].shape.kind = Shape::Kind::cylinder;
+  Shape rod;  // lies along x, and its rim reaches below the floor
+  rod.kind = Shape::Kind::cylinder;
+  rod.base = {0.0, 0.2, 0.2};
+  rod.axis = {1, 0, 0};
+  rod.length = 0.4;
+  rod.radius = 0.25;
+  f.s.job.scene.bodies[0].shape = rod;
+  EXPECT_NEAR(f.stated(metric("sunk", "max", "block"), floor_at_0), 0.05, 1e-15);
+  f.s.job.scene.bodies[0].shape.kind = Shape::Kind::half_space;
   EXPECT_TRUE(std::isnan(f.stated(metric("sunk", "max", "block"), floor_at_0)));
 }
 
@@ -68,6 +76,41 @@ TEST(ImpactMetrics, SeeEnergyThatIsMadeAfterSomeWasLost) {
   for (std::size_t n = 0; n < 5; ++n) EXPECT_NEAR(gain.series[n] - gain.series[0], 2.0 * 10.0 * height[n], 1e-12) << n;
   for (std::size_t n = 0; n < 5; ++n) f.shift(f.run.frames[n], 1, {0, 0, -height[n]});
   EXPECT_NEAR(f.of(metric("energy_gain", "max"), "invariant").value, 6.0, 1e-12) << "a held body has no energy to lose";
+}
+
+/// Puts the block of `block_above_floor` to a height above its start, with a speed up.
+void put(Still& f, std::size_t n, double height, double speed) {
+  f.shift(f.run.frames[n], 0, {0, 0, height});
+  for (std::size_t i = 0; i < f.s.initial.size(); ++i)
+    if (f.s.initial.source[i] == 0) f.run.frames[n].velocity[i] = {0, 0, speed};
+}
+
+/// Frames every 0.25 s of a fall, a hit in which the block stands, and the way up.
+Still bounce(double speed_after) {
+  Still f = block_above_floor();
+  const double v = speed_after;
+  put(f, 1, -0.3125, -2.5);
+  put(f, 2, -1.25, -5.0);
+  put(f, 3, -1.3, 0.0);  // the contact holds all energy
+  put(f, 4, -1.25 + 0.25 * v - 0.3125, v - 2.5);
+  return f;
+}
+
+TEST(ImpactMetrics, CallAnElasticReboundNoGain) {
+  EXPECT_NEAR(bounce(5.0).of(metric("energy_gain", "max"), "invariant").value, 0.0, 1e-12);
+  EXPECT_NEAR(bounce(6.0).of(metric("energy_gain", "max"), "invariant").value, 11.0, 1e-12) << "m (6^2 - 5^2) / 2 is made";
+}
+
+TEST(ImpactMetrics, LetAnElasticBodyGiveBackWhatItStored) {
+  Still f = block_above_floor();
+  f.run.frames.front().velocity.assign(f.s.initial.size(), {0, 0, 2});  // every particle swings up and down
+  f.s.job.scene.gravity = {};
+  for (std::size_t i = 0; i < f.s.initial.size(); ++i)
+    if (f.s.initial.source[i] == 0) f.s.initial.phase[i] = static_cast<int>(Phase::elastic);
+  f.run.frames.back().velocity.assign(f.s.initial.size(), {0, 0, 2});
+  EXPECT_NEAR(f.of(metric("energy_gain", "max"), "invariant").value, 0.0, 1e-12);
+  f.run.frames.back().velocity.assign(f.s.initial.size(), {0, 0, 3});
+  EXPECT_NEAR(f.of(metric("energy_gain", "max"), "invariant").value, 5.0, 1e-12);
 }
 
 TEST(ImpactMetrics, CallAFallNoGain) {

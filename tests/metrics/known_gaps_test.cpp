@@ -129,7 +129,7 @@ TEST(KnownGaps, OfParticlesAndBodiesAreToldApart) {
          warm(r);
          warm(t);
        }},
-      {"energy_ratio", "", "the reference does not know the energy ratio", [](Snapshot&, Snapshot&) {}},
+      {"energy_ratio", "", "the reference does not know the energy ratio and states no value", [](Snapshot&, Snapshot&) {}},
       {"object_count", "", "the trajectory has no positions, phases and bodies of all particles",
        [](Snapshot& r, Snapshot&) { r.phase.clear(); }},
       {"object_count", "", "the reference does not know the object_count and states no value", [](Snapshot&, Snapshot&) {}},

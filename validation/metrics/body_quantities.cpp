@@ -35,6 +35,50 @@ FrameError over_bodies(const FramePair& f, F difference) {
   return out;
 }
 
+/// The body's row of a frame; nullptr where it is not there.
+const BodyState* row_of(const FramePair& f) {
+  const long row = body_row(f.in);
+  if (row < 0 || static_cast<std::size_t>(row) >= f.now.bodies.size()) return nullptr;
+  const auto& b = f.now.bodies[static_cast<std::size_t>(row)];
+  return whole(b) ? &b : nullptr;
+}
+
+/// A vector of the named body against a number that the case states: its component along the stated axis, else its length.
+FrameError stated_vector(const FramePair& f, Vec3 BodyState::*what, const char* name) {
+  const auto axis = f.in.reference.measuring().axis;
+  if (!truth_of(f.in, name, f.now.time))
+    return problem(std::string("the reference does not know the bodies: name one, and state its ") + name +
+                   ": reference = {function = \"stated\", args = {value = ...}}, with an axis for the component along it");
+  if (f.in.choice.body.empty()) return problem(std::string("a stated ") + name + " is that of one solid body: name it");
+  const auto* body = row_of(f);
+  if (!body) return problem("the trajectory does not have the body");
+  if (what == &BodyState::position && !axis)
+    return problem("a stated position needs its axis: args = {axis = \"x\", value = ...}");
+  return against_truth(f, name, axis ? (body->*what)[*axis] : norm(body->*what));
+}
+
+/// A vector of bodies against those of the reference, else against the number that the case states.
+Quantity vector_of_bodies(const char* name, const char* unit, const char* meaning, Vec3 BodyState::*what) {
+  return {
+      {name, unit, meaning}, [=](const FramePair& f) {
+        if (f.truth.bodies.empty()) return stated_vector(f, what, name);
+        return over_bodies(f, [&](const BodyState& a, const BodyState& b) {
+          return norm(what == &BodyState::position ? displacement(f.in.job.scene, a.position, b.position) : a.*what - b.*what);
+        });
+      }};
+}
+
+/// Against the orientation of the reference, else the angle turned since the start against the number that the case states.
+FrameError orientation(const FramePair& f) {
+  if (!f.truth.bodies.empty())
+    return over_bodies(f, [](const auto& a, const auto& b) { return angle_between(a.orientation, b.orientation); });
+  if (f.in.choice.body.empty() || !truth_of(f.in, "orientation", f.now.time))
+    return problem("the reference does not know the bodies");
+  const auto* body = row_of(f);
+  return body ? against_truth(f, "orientation", angle_between(body->orientation, {}))
+              : problem("the trajectory does not have the body");
+}
+
 double alive_count(const Snapshot& s) { return static_cast<double>(std::count_if(s.bodies.begin(), s.bodies.end(), alive)); }
 
 FrameError body_count(const FramePair& f) {
@@ -84,34 +128,28 @@ FrameError shape(const FramePair& f) {
   return out.error.empty() ? problem("there is no rigid body of two particles or more") : out;
 }
 
-double distance(const Scene& scene, const BodyState& a, const BodyState& b) {
-  return norm(displacement(scene, a.position, b.position));
-}
-
 }  // namespace
 
 const std::vector<Quantity>& body_quantities() {
   static const std::vector<Quantity> list{
-      {{"position", "m", ""},
-       [](const FramePair& f) {
-         return over_bodies(f, [&](const auto& a, const auto& b) { return distance(f.in.job.scene, a, b); });
-       }},
-      {{"velocity", "m/s", ""},
-       [](const FramePair& f) {
-         return over_bodies(f, [](const auto& a, const auto& b) { return norm(a.velocity - b.velocity); });
-       }},
-      {{"orientation", "rad", "angle between the orientations of bodies, 0..pi, blind to the quaternion's sign"},
-       [](const FramePair& f) {
-         return over_bodies(f, [](const auto& a, const auto& b) { return angle_between(a.orientation, b.orientation); });
-       }},
-      {{"angular_velocity", "rad/s", "difference of angular velocities of bodies, world frame"},
-       [](const FramePair& f) {
-         return over_bodies(f, [](const auto& a, const auto& b) { return norm(a.angular_velocity - b.angular_velocity); });
-       }},
-      {{"force", "N", "difference of the forces on bodies from all others"},
-       [](const FramePair& f) { return over_bodies(f, [](const auto& a, const auto& b) { return norm(a.force - b.force); }); }},
-      {{"torque", "N m", "difference of the torques on bodies from all others"},
-       [](const FramePair& f) { return over_bodies(f, [](const auto& a, const auto& b) { return norm(a.torque - b.torque); }); }},
+      vector_of_bodies("position", "m", "", &BodyState::position),
+      vector_of_bodies("velocity", "m/s", "", &BodyState::velocity),
+      {{"orientation", "rad",
+        "angle between the orientations of bodies, 0..pi, blind to the quaternion's sign; of a named body the angle turned since "
+        "the start minus the stated value"},
+       orientation},
+      vector_of_bodies(
+          "angular_velocity", "rad/s",
+          "difference of angular velocities of bodies, world frame; of a named body its size (or component along the "
+          "stated axis) minus the stated value",
+          &BodyState::angular_velocity),
+      vector_of_bodies(
+          "force", "N",
+          "difference of the forces on bodies from all others; of a named body its size (or component along the stated "
+          "axis) minus the stated value",
+          &BodyState::force),
+      vector_of_bodies("torque", "N m", "difference of the torques on bodies from all others; of a named body as for `force`",
+                       &BodyState::torque),
       {{"body_count", "1", "difference in the number of solid bodies alive, or from the stated value"}, body_count},
       {{"shape", "1",
         "largest relative change of distances inside a rigid body, or an elastic one that is named, since the start; needs no "

@@ -48,7 +48,7 @@ double deepest(const MetricInput& in, const Snapshot& s) {
     if (is_alive(s, i) && s.phase[i] != 0 && s.body[i] >= 0) solids.push_back(i);
   std::map<std::pair<std::size_t, int>, Facing> facing;
   for_near_pairs(in.job.scene, s.position, solids, 2.0 * dx, [&](std::size_t i, std::size_t j, const Vec3& d) {
-    if (s.body[i] == s.body[j] || (!takes(in, i) && !takes(in, j))) return;
+    if (s.body[i] == s.body[j] || (!takes(in, i) && !takes(in, j)) || (is_driven(in, i) && is_driven(in, j))) return;
     auto& other = facing[{i, s.body[j]}];
     other.place.push_back(d);
     if (norm(d) > 0.0) other.inward += (1.0 / norm(d)) * d;
@@ -114,7 +114,8 @@ FrameError object_count(const FramePair& f) {
 const std::vector<Quantity>& contact_quantities() {
   static const std::vector<Quantity> list{
       {{"overlap", "spacings",
-        "largest depth of a solid particle in another body: 1 - least distance / spacing before its outer layer, over 1 (at most "
+        "largest depth of a solid particle in another body (two walls beside each other do not count): 1 - least distance / "
+        "spacing before its outer layer, over 1 (at most "
         "3) past it"},
        overlap},
       {{"separation", "m",

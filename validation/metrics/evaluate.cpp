@@ -209,6 +209,14 @@ MetricValue l2_of_means(const MetricInput& in, const Quantity& quantity, const F
   return v;
 }
 
+/// A change since the start: a single number that is read off one frame alone, less the same number of the first frame.
+void subtract_start(FrameError& now, const Quantity& quantity, const MetricInput& in, const Snapshot& first) {
+  if (!now.problem.empty() || now.error.size() != 1 || now.row[0] >= 0) return;
+  const auto start = quantity.error({in, first, first, first});
+  now.problem = start.problem;
+  if (start.problem.empty()) now.error[0] -= start.error[0];
+}
+
 MetricValue of_frames(const MetricInput& in, const Quantity& quantity, const Frames& all, const Frames& chosen) {
   const Norm norm = in.choice.norm;
   if (norm == Norm::L2mean) return l2_of_means(in, quantity, all, chosen);
@@ -217,12 +225,15 @@ MetricValue of_frames(const MetricInput& in, const Quantity& quantity, const Fra
   for (const auto* now : chosen) {
     const bool no_state = norm == Norm::drift || norm == Norm::frequency || now->gauges_only();
     const Snapshot truth = no_state ? *all.front() : in.reference.truth_for(*now);
-    const auto error = quantity.error({in, *now, truth, *all.front()});
+    auto error = quantity.error({in, *now, truth, *all.front()});
+    if (norm == Norm::drift) subtract_start(error, quantity, in, *all.front());
+    if (!error.problem.empty() && norm == Norm::final && now != chosen.back()) continue;  // it needs the last frame alone
     if (!error.problem.empty()) return unformed(error.problem);
     if (norm == Norm::frequency && error.error.size() != 1)
       return unformed("the norm frequency is of a single number in time, and " + in.choice.quantity +
                       " is of many: choose a probe, a mean or a body");
     const auto value = spatial_norm(in_space, error);
+    if (!std::isfinite(value.value) && norm == Norm::final && now != chosen.back()) continue;
     if (!std::isfinite(value.value)) return unformed("no finite value at t = " + std::to_string(now->time) + " s");
     series.times.push_back(now->time);
     series.value.push_back(value.value);

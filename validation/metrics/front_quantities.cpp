@@ -3,7 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "validation/metrics/frame_error.hpp"
+#include "validation/metrics/frames.hpp"
+#include "validation/metrics/members.hpp"
 
 /// The front of a liquid that runs along an axis, against measured positions of it.
 namespace tripoint {
@@ -12,17 +13,17 @@ namespace {
 /// Two companions within 1.5 spacings: a drop that flies alone is not the front.
 bool belongs_to_the_liquid(const MetricInput& in, const Snapshot& s, std::size_t particle) {
   int companions = 0;
-  for (std::size_t j = 0; j < in.initial.size() && companions < 2; ++j)
-    companions += j != particle && takes(in, j) &&
+  for (std::size_t j = 0; j < s.position.size() && companions < 2; ++j)
+    companions += j != particle && takes_liquid(in, s, j) &&
                   norm(displacement(in.job.scene, s.position[j], s.position[particle])) < 1.5 * in.job.scene.spacing;
   return companions == 2;
 }
 
-/// Place of the foremost particle that is no lone drop, half a spacing added [m]; NaN where there is none.
+/// Place of the foremost particle of the liquid that is no lone drop, half a spacing added [m]; NaN where there is none.
 double front_of(const MetricInput& in, const Snapshot& s, std::size_t axis) {
   std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < in.initial.size(); ++i)
-    if (takes(in, i) && finite(s.position[i])) order.push_back(i);
+  for (std::size_t i = 0; i < s.position.size(); ++i)
+    if (takes_liquid(in, s, i) && finite(s.position[i])) order.push_back(i);
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return s.position[a][axis] > s.position[b][axis]; });
   for (const auto i : order)
     if (belongs_to_the_liquid(in, s, i)) return s.position[i][axis] + 0.5 * in.job.scene.spacing;
@@ -34,6 +35,16 @@ struct Fronts {
   std::vector<double> time, run, measured, uncertainty;
   std::string problem;
 };
+
+/// The front at a time, by a straight line between two frames; none beyond the first and the last.
+std::optional<double> front_at(const MetricInput& in, const std::vector<double>& t, const std::vector<double>& x, double time) {
+  const auto next = std::lower_bound(t.begin(), t.end(), time - time_tolerance(in.job));
+  if (next == t.end()) return {};
+  const auto k = static_cast<std::size_t>(next - t.begin());
+  if (std::abs(t[k] - time) <= time_tolerance(in.job)) return x[k];
+  if (k == 0) return {};
+  return x[k - 1] + (time - t[k - 1]) / (t[k] - t[k - 1]) * (x[k] - x[k - 1]);
+}
 
 /// Fronts at the measured times, by straight lines between output times; never beyond them.
 Fronts fronts(const MetricInput& in, const std::vector<const Snapshot*>& frames) {
@@ -47,21 +58,24 @@ Fronts fronts(const MetricInput& in, const std::vector<const Snapshot*>& frames)
   }
   Fronts f;
   for (std::size_t n = 0; n < curve->time.size(); ++n) {
-    const auto next = std::lower_bound(t.begin(), t.end(), curve->time[n]);
-    if (next == t.end() || next == t.begin())
+    const auto run = front_at(in, t, x, curve->time[n]);
+    if (!run)
       return {{},
               {},
               {},
               {},
               "a front was measured at t = " + std::to_string(curve->time[n]) + " s, which the run's frames do not enclose"};
-    const auto k = static_cast<std::size_t>(next - t.begin());
-    const double share = (curve->time[n] - t[k - 1]) / (t[k] - t[k - 1]);
     f.time.push_back(curve->time[n]);
-    f.run.push_back(x[k - 1] + share * (x[k] - x[k - 1]));
+    f.run.push_back(*run);
     f.measured.push_back(curve->value[n]);
     f.uncertainty.push_back(curve->uncertainty[n]);
     if (!std::isfinite(f.run.back()))
-      return {{}, {}, {}, {}, "the liquid has no front at t = " + std::to_string(f.time.back()) + " s"};
+      return {{},
+              {},
+              {},
+              {},
+              (in.choice.body.empty() ? std::string("no liquid") : "body `" + in.choice.body + "` has no liquid that") +
+                  " has a front at t = " + std::to_string(f.time.back()) + " s"};
   }
   return f;
 }
@@ -101,7 +115,8 @@ MetricValue front_speed(const MetricInput& in, const std::vector<const Snapshot*
 const std::vector<RunQuantity>& front_quantities() {
   static const std::vector<RunQuantity> list{
       {{"front_lead", "m",
-        "front of the liquid minus the measured one, where it is largest in size; its uncertainty is the data's"},
+        "front of the liquid (of the body, else of all that no wall holds) minus the measured one, where it is largest in size; "
+        "its uncertainty is the data's"},
        front_lead},
       {{"front_speed", "1", "mean speed of the front from the first measured place to the last over the measured one, minus 1"},
        front_speed}};

@@ -2,6 +2,7 @@
 // What a hit and a rest show of an engine: energy that is made, and surfaces that sink into the floor.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "scene/geometry.hpp"
 #include "scene/mesh.hpp"
@@ -18,32 +19,75 @@ namespace {
 double free_energy(const MetricInput& in, const Snapshot& s) {
   long double sum = 0;
   for (std::size_t i = 0; i < in.initial.size(); ++i) {
-    if (!takes(in, i) || !is_alive(s, i) ||
-        in.job.bodies.at(static_cast<std::size_t>(in.initial.source[i])).motion != Motion::free)
-      continue;
+    if (!takes(in, i) || !is_alive(s, i) || is_driven(in, i)) continue;
     const double m = particle_mass(in, s, i);
     sum += static_cast<long double>(m) * (0.5 * dot(s.velocity[i], s.velocity[i]) - dot(in.job.scene.gravity, s.position[i]));
   }
   return double(sum);
 }
 
-/// Gravity and hits can only take energy. An excess of a frame over all frames before it is made by the engine.
+/// Mean velocity of each free body that the metric takes, by its row in Job::bodies.
+std::map<int, Vec3> mean_velocities(const MetricInput& in, const Snapshot& s) {
+  std::map<int, Vec3> sum;
+  std::map<int, double> mass;
+  for (std::size_t i = 0; i < in.initial.size(); ++i) {
+    if (!takes(in, i) || is_driven(in, i) || !is_alive(s, i)) continue;
+    const double m = particle_mass(in, s, i);
+    sum[in.initial.source[i]] += m * s.velocity[i];
+    mass[in.initial.source[i]] += m;
+  }
+  for (auto& [body, v] : sum) v = (1.0 / mass[body]) * v;
+  return sum;
+}
+
+/// Whether nothing pushes harder than a floor with friction does between two frames. A hit pushes harder, and stores energy.
+bool is_quiet(const MetricInput& in, const Snapshot& before, const Snapshot& now) {
+  constexpr double floor_with_friction = 1.5;  // sqrt(1 + mu^2) with mu = 1, in units of the weight
+  const double dt = now.time - before.time;
+  const auto then = mean_velocities(in, before);
+  for (const auto& [body, v] : mean_velocities(in, now)) {
+    const auto old = then.find(body);
+    if (old == then.end()) continue;
+    const double push = norm(v - old->second - dt * in.job.scene.gravity), round_off = 1e-6 * norm(old->second);
+    if (push > floor_with_friction * dt * norm(in.job.scene.gravity) + round_off) return false;
+  }
+  return true;
+}
+
+/// Frames whose energy is a bound for all later ones. In a hit a contact stores energy, and gives it back; so does an elastic
+/// body at any time after the start.
+std::vector<bool> bounds_later(const MetricInput& in, const Frames& frames) {
+  std::vector<bool> bounds(frames.size(), true);
+  bool stores = false;
+  for (std::size_t i = 0; i < in.initial.size() && !stores; ++i)
+    stores = takes(in, i) && !is_driven(in, i) && in.initial.phase[i] == static_cast<int>(Phase::elastic);
+  for (std::size_t n = 1; n < frames.size(); ++n) {
+    const bool quiet = is_quiet(in, *frames[n - 1], *frames[n]);
+    bounds[n] = bounds[n] && quiet && !stores;
+    if (n > 1) bounds[n - 1] = bounds[n - 1] && quiet;
+  }
+  return bounds;
+}
+
+/// Gravity and hits can only take energy. An excess of a frame over all bounds before it is made by the engine.
 MetricValue energy_gain(const MetricInput& in, const Frames& frames) {
   if (frames.size() < 2) return not_formed("an energy gain needs two output times or more");
+  for (const auto* s : frames)
+    if (s->position.size() < in.initial.size() || s->velocity.size() < in.initial.size())
+      return not_formed("the trajectory has no positions and velocities");
+  const auto bounds = bounds_later(in, frames);
   MetricValue v;
   v.value = 0.0;
   double least = INFINITY;
-  for (const auto* s : frames) {
-    if (s->position.size() < in.initial.size() || s->velocity.size() < in.initial.size())
-      return not_formed("the trajectory has no positions and velocities");
-    const double now = free_energy(in, *s);
-    if (!std::isfinite(now)) return not_formed("the energy is not finite at t = " + std::to_string(s->time) + " s");
-    least = std::min(least, now);
+  for (std::size_t n = 0; n < frames.size(); ++n) {
+    const double now = free_energy(in, *frames[n]), time = frames[n]->time;
+    if (!std::isfinite(now)) return not_formed("the energy is not finite at t = " + std::to_string(time) + " s");
     if (now - least > v.value) {
       v.value = now - least;
-      v.note = "most at t = " + std::to_string(s->time) + " s";
+      v.note = "most at t = " + std::to_string(time) + " s";
     }
-    v.times.push_back(s->time);
+    if (bounds[n]) least = std::min(least, now);
+    v.times.push_back(time);
     v.series.push_back(now);
   }
   return v;
@@ -69,6 +113,11 @@ double lowest(const Shape& shape, const Vec3& centre, const BodyState& at, const
         least = std::min(least, height({k & 1 ? shape.max.x : shape.min.x, k & 2 ? shape.max.y : shape.min.y,
                                         k & 4 ? shape.max.z : shape.min.z}));
       return least;
+    case Shape::Kind::cylinder: {
+      const Vec3 axis = rotate(at.orientation, shape.axis);
+      const double rim = shape.radius * std::sqrt(std::max(0.0, 1.0 - dot(axis, up) * dot(axis, up)));
+      return std::min(height(shape.base), height(shape.base + shape.length * shape.axis)) - rim;
+    }
     default:
       return not_a_number;
   }
@@ -89,7 +138,8 @@ FrameError sunk(const FramePair& f) {
   const double floor = *level * up[*axis];
   const double depth = floor - lowest(f.in.job.scene.body(f.in.choice.body).shape, f.in.job.bodies[body].properties.centre,
                                       f.now.bodies[static_cast<std::size_t>(row)], up);
-  return std::isfinite(depth) ? single(std::max(0.0, depth)) : problem("sunk knows boxes, spheres, meshes and unions of them");
+  return std::isfinite(depth) ? single(std::max(0.0, depth))
+                              : problem("sunk knows boxes, spheres, cylinders, meshes and unions of them");
 }
 
 }  // namespace
@@ -105,7 +155,8 @@ const std::vector<Quantity>& impact_quantities() {
 const std::vector<RunQuantity>& impact_run_quantities() {
   static const std::vector<RunQuantity> list{{{"energy_gain", "J",
                                                "largest rise of the kinetic and potential energy of free bodies (or of the body) "
-                                               "over the least of all earlier frames; needs no reference"},
+                                               "over the least of all earlier frames, those within a hit left out; of elastic "
+                                               "bodies, which store energy, over the start; needs no reference"},
                                               energy_gain}};
   return list;
 }

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <optional>
 
-#include "validation/metrics/frame_error.hpp"
+#include "validation/metrics/members.hpp"
 
 namespace tripoint {
 namespace {
@@ -67,7 +67,7 @@ FrameError draught(const FramePair& f) {
 
 /// Torque on a body about the reference's axis minus the true one, with its sign.
 FrameError axial_torque(const FramePair& f) {
-  const auto truth = f.in.reference.number("torque");
+  const auto truth = number_or_value(f.in, "torque");
   const auto axis = f.in.reference.measuring().axis;
   if (!truth || !axis) return problem("the reference knows no torque");
   const long row = body_row(f.in);
@@ -78,13 +78,13 @@ FrameError axial_torque(const FramePair& f) {
 
 /// Half the extent of the liquid along the axis, half a spacing included at each end, minus the true half length.
 FrameError half_length(const FramePair& f) {
-  const auto truth = f.in.reference.number("half_length");
+  const auto truth = number_or_value(f.in, "half_length");
   const auto axis = f.in.reference.measuring().axis;
   if (!truth || !axis) return problem("the reference knows no half length");
   const std::size_t k = *axis;
   double low = 1e300, high = -1e300;
-  for (std::size_t i = 0; i < f.in.initial.size(); ++i) {
-    if (!takes(f.in, i)) continue;
+  for (std::size_t i = 0; i < f.now.position.size(); ++i) {
+    if (!(f.in.choice.body.empty() ? takes_liquid(f.in, f.now, i) : takes(f.in, i))) continue;
     const double x = f.now.position[i][k];
     low = std::min(low, x);
     high = std::max(high, x);
@@ -104,7 +104,8 @@ const std::vector<Quantity>& liquid_quantities() {
       {{"interface_density", "kg/m3", "mean error of density of the same particles"}, interface_density},
       {{"draught", "m", "depth of the floating body's keel below the level by volume, minus the true draught"}, draught},
       {{"axial_torque", "N m", "torque on the body about the reference's axis minus the true one"}, axial_torque},
-      {{"half_length", "m", "half the extent of the liquid along the reference's axis minus the true one"}, half_length}};
+      {{"half_length", "m", "half the extent of the liquid (or of the body) along the reference's axis minus the true one"},
+       half_length}};
   return list;
 }
 

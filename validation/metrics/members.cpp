@@ -4,9 +4,15 @@
 namespace tripoint {
 
 std::optional<double> truth_of(const MetricInput& in, const char* quantity, double time) {
-  if (in.choice.norm == Norm::frequency) return 0.0;  // how fast it swings does not depend on where from it is counted
+  const auto norm = in.choice.norm;  // a frequency and a change since the start do not depend on where from they are counted
+  if (norm == Norm::frequency || norm == Norm::drift) return 0.0;
   const auto named = in.reference.number_at(quantity, time);
   return named ? named : in.reference.number_at("value", time);
+}
+
+std::optional<double> number_or_value(const MetricInput& in, const char* quantity) {
+  const auto named = in.reference.number(quantity);
+  return named ? named : in.reference.number("value");
 }
 
 FrameError against_truth(const FramePair& f, const char* quantity, double measured) {
@@ -16,6 +22,19 @@ FrameError against_truth(const FramePair& f, const char* quantity, double measur
 }
 
 bool is_alive(const Snapshot& s, std::size_t i) { return i >= s.id.size() || s.id[i] != -1; }
+
+bool is_driven(const MetricInput& in, std::size_t i) {
+  if (i >= in.initial.size() || in.initial.source[i] < 0) return false;
+  const auto body = static_cast<std::size_t>(in.initial.source[i]);
+  return body < in.job.bodies.size() && in.job.bodies[body].motion != Motion::free;
+}
+
+bool takes_free(const MetricInput& in, std::size_t i) { return takes(in, i) && !(in.choice.body.empty() && is_driven(in, i)); }
+
+bool takes_liquid(const MetricInput& in, const Snapshot& s, std::size_t i) {
+  if (!takes_free(in, i) || !is_alive(s, i)) return false;
+  return i < s.phase.size() ? s.phase[i] == 0 : i >= in.initial.size() || in.initial.phase[i] == 0;
+}
 
 bool of_stated_phase(const MetricInput& in, const Snapshot& s, std::size_t i) {
   const auto phase = in.reference.measuring().phase;

@@ -13,10 +13,20 @@ namespace tripoint {
 /// The reference's number of this name at this time, else the `value` that the case states.
 [[nodiscard]] std::optional<double> truth_of(const MetricInput&, const char* quantity, double time);
 
+/// The same where it does not change in time.
+[[nodiscard]] std::optional<double> number_or_value(const MetricInput&, const char* quantity);
+
 /// measured - truth, or why there is no truth.
 [[nodiscard]] FrameError against_truth(const FramePair&, const char* quantity, double measured);
 
 [[nodiscard]] bool is_alive(const Snapshot&, std::size_t particle);
+/// Whether a particle was sampled for a body that is fixed or driven: a wall, a tank, a plate.
+[[nodiscard]] bool is_driven(const MetricInput&, std::size_t particle);
+/// Whether a quantity of motion takes a particle: of the metric's body, or of no wall where it names none.
+[[nodiscard]] bool takes_free(const MetricInput&, std::size_t particle);
+/// Whether a quantity of a liquid takes a particle: liquid in this frame, and of the metric's body; of no wall where it names
+/// none.
+[[nodiscard]] bool takes_liquid(const MetricInput&, const Snapshot&, std::size_t particle);
 /// Whether a particle is of the phase that the reference names (3 = any solid); all are where it names none.
 [[nodiscard]] bool of_stated_phase(const MetricInput&, const Snapshot&, std::size_t particle);
 /// Mass of a particle [kg]: of the frame, else as sampled.

@@ -5,6 +5,7 @@
 
 #include "validation/metrics/frame_error.hpp"
 #include "validation/metrics/frames.hpp"
+#include "validation/metrics/members.hpp"
 #include "validation/metrics/solid_motion.hpp"
 
 namespace tripoint {
@@ -55,7 +56,7 @@ std::string speeds(const MetricInput& in, const Frames& frames, std::vector<doub
 }
 
 MetricValue acceleration(const MetricInput& in, const Frames& frames) {
-  const auto truth = in.reference.number("acceleration"), up = in.reference.number("up");
+  const auto truth = number_or_value(in, "acceleration"), up = in.reference.number("up");
   if (!truth) return unformed("the reference does not know the acceleration");
   std::vector<double> t, v;
   if (auto why = speeds(in, frames, t, v); !why.empty()) return unformed(why);
@@ -97,7 +98,7 @@ double mode_amplitude(const MetricInput& in, const Snapshot& s, const Vec3& k, d
   const Vec3 direction = swing_direction(in, k);
   long double product = 0, square = 0;
   for (std::size_t i = 0; i < in.initial.size(); ++i) {
-    if (!takes(in, i)) continue;
+    if (!takes_free(in, i)) continue;
     const double shape = std::cos(dot(k, s.position[i]) + phase), w = rest_volume(in, i);
     product += static_cast<long double>(w) * shape * dot(s.velocity[i], direction);
     square += static_cast<long double>(w) * shape * shape;
@@ -140,7 +141,7 @@ double spin_of(const MetricInput& in, const Snapshot& s) {
   double mass = 0.0;
   Vec3 centre, momentum, L;
   for (std::size_t i = 0; i < in.initial.size(); ++i) {
-    if (!takes(in, i)) continue;
+    if (!takes_free(in, i)) continue;
     const double m = in.initial.mass[i];
     mass += m;
     centre += m * s.position[i];
@@ -151,7 +152,7 @@ double spin_of(const MetricInput& in, const Snapshot& s) {
 }
 
 MetricValue spin_rate(const MetricInput& in, const Frames& frames) {
-  const auto truth = in.reference.number("spin_rate");
+  const auto truth = number_or_value(in, "spin_rate");
   if (!truth) return unformed("the reference does not know how a spin decays");
   if (frames.size() < 2) return unformed("a rate needs two output times or more");
   std::vector<double> t, y;
@@ -196,7 +197,10 @@ MetricValue sway_frequency(const MetricInput& in, const Frames& frames) {
 
 const std::vector<RunQuantity>& motion_quantities() {
   static const std::vector<RunQuantity> list{
-      {{"acceleration", "m/s2", "acceleration of the body against gravity over the window, by least squares, minus the true one"},
+      {{"acceleration", "m/s2",
+        "acceleration of the body against gravity (along the stated axis, beside a stated value) over the window, by least "
+        "squares, "
+        "minus the true one"},
        acceleration},
       {{"touch_time", "s", "time at which the body's speed has made half of its change minus the true time of touch"},
        touch_time},

@@ -48,8 +48,11 @@ FrameError vector_error(const FramePair& f, std::vector<Vec3> Snapshot::*column,
   return out;
 }
 
+/// Against the reference's column, else against the one number that the case states for all.
 FrameError scalar_error(const FramePair& f, Columns column, const char* what) {
-  const auto &run = f.now.*column, &truth = f.truth.*column;
+  const auto& run = f.now.*column;
+  const auto stated = f.in.reference.number_at("value", f.now.time);
+  const auto truth = (f.truth.*column).empty() && stated ? std::vector<double>(run.size(), *stated) : f.truth.*column;
   if (auto why = unequal(run, truth, what); !why.empty()) return problem(why);
   FrameError out;
   for (std::size_t i = 0; i < run.size(); ++i) {
@@ -170,15 +173,22 @@ long body_row(const MetricInput& in) {
 
 const std::vector<Quantity>& particle_quantities() {
   static const std::vector<Quantity> list{
-      {{"position", "m", "distance of particles from their true places, by id; with `body` of its centre of mass"},
+      {{"position", "m",
+        "distance of particles from their true places, by id; with `body` of its centre of mass, also from a stated value along "
+        "the "
+        "stated axis"},
        [](const FramePair& f) { return vector_error(f, &Snapshot::position, "position", true); }},
-      {{"velocity", "m/s", "difference of velocities of particles; with `body` of its centre of mass"},
+      {{"velocity", "m/s",
+        "difference of velocities of particles; with `body` of its centre of mass, also its size (or component along the stated "
+        "axis) minus the stated value"},
        [](const FramePair& f) { return vector_error(f, &Snapshot::velocity, "velocity", false); }},
-      {{"temperature", "K", "difference of temperatures, weighted by rest volume"}, temperature_difference},
+      {{"temperature", "K",
+        "difference of temperatures (from the reference's field, else from the stated value), weighted by rest volume"},
+       temperature_difference},
       {{"temperature_error", "K", "the run's own standard error of temperature (walkers)"}, temperature_standard_error},
-      {{"pressure", "Pa", "difference of pressures, weighted by rest volume"},
+      {{"pressure", "Pa", "difference of pressures, likewise"},
        [](const FramePair& f) { return scalar_error(f, &Snapshot::pressure, "pressure"); }},
-      {{"density", "kg/m3", "difference of densities, weighted by rest volume"},
+      {{"density", "kg/m3", "difference of densities, likewise"},
        [](const FramePair& f) { return scalar_error(f, &Snapshot::density, "density"); }},
       {{"phase_count", "1",
         "largest difference in the number of liquid, elastic or rigid particles; of the stated phase, from the stated value"},

@@ -79,11 +79,15 @@ std::optional<double> crossing(const std::map<long, Layer>& list, double level, 
 
 FrameError front(const FramePair& f) {
   if (auto why = missing(f); !why.empty()) return problem(why);
-  const auto [low, high] = std::minmax_element(f.in.initial.temperature.begin(), f.in.initial.temperature.end());
-  if (f.in.initial.temperature.empty() || *low == *high)
-    return problem("the start has one temperature: there is no isotherm to follow");
+  double low = INFINITY, high = -INFINITY;  // of what the metric takes: another body may be hotter
+  for (std::size_t i = 0; i < f.in.initial.temperature.size(); ++i) {
+    if (!takes(f.in, i)) continue;
+    low = std::min(low, f.in.initial.temperature[i]);
+    high = std::max(high, f.in.initial.temperature[i]);
+  }
+  if (!(high > low)) return problem("the start has one temperature: there is no isotherm to follow");
   const auto list = layers(f, *axis_of_profile(f.in));
-  const double level = 0.5 * (*low + *high);
+  const double level = 0.5 * (low + high);
   const auto run = crossing(list, level, &Layer::run), truth = crossing(list, level, &Layer::truth);
   if (!truth) return problem("the reference has no place at the middle temperature");
   return run ? single(*run - *truth) : problem("no place of the run is at the middle temperature");

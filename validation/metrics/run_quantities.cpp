@@ -108,13 +108,17 @@ std::string find_flips(const MetricInput& in, const Frames& frames, std::size_t 
   for (const auto& b : in.job.bodies)
     if (b.index == static_cast<int>(row)) body = &b;
   if (!body) return "the reference's body is not in the job";
+  double sign = 0.0;  // of the last spin that was not zero: a spin that begins at zero has not flipped
   for (std::size_t n = 0; n < frames.size(); ++n) {
     if (row >= frames[n]->bodies.size()) return "the trajectory does not have the body";
     const auto now = middle_spin(frames[n]->bodies[row], body->properties);
     if (!std::isfinite(now.w)) return "the body's spin is not finite at t = " + std::to_string(frames[n]->time) + " s";
-    if (n == 0) continue;
-    const auto before = middle_spin(frames[n - 1]->bodies[row], body->properties);
-    if ((before.w < 0.0) != (now.w < 0.0)) times.push_back(hermite_root(before, now, frames[n - 1]->time, frames[n]->time));
+    if (now.w == 0.0) continue;
+    if (sign * now.w < 0.0) {
+      const auto before = middle_spin(frames[n - 1]->bodies[row], body->properties);
+      times.push_back(hermite_root(before, now, frames[n - 1]->time, frames[n]->time));
+    }
+    sign = now.w;
   }
   return {};
 }
@@ -124,11 +128,18 @@ std::size_t bodies_alive(const Snapshot& s) {
       std::count_if(s.bodies.begin(), s.bodies.end(), [](const BodyState& b) { return finite(b.position); }));
 }
 
+/// Bodies before the first frame: of the job where that frame is the start, in which an event at 0 s may have happened already.
+std::size_t bodies_before(const MetricInput& in, const Snapshot& first) {
+  if (first.time > in.job.times.front() + time_tolerance(in.job)) return bodies_alive(first);
+  return static_cast<std::size_t>(std::ranges::count_if(in.job.bodies, [](const JobBody& b) { return b.index >= 0; }));
+}
+
 /// A merge or split shows between two frames: the error is the distance of the true time from that interval.
-MetricValue count_change_time(const Frames& frames, double truth) {
-  for (std::size_t n = 1; n < frames.size(); ++n) {
-    if (bodies_alive(*frames[n]) == bodies_alive(*frames[0])) continue;
-    const double from = frames[n - 1]->time, to = frames[n]->time;
+MetricValue count_change_time(const MetricInput& in, const Frames& frames, double truth) {
+  const auto before = bodies_before(in, *frames.front());
+  for (std::size_t n = 0; n < frames.size(); ++n) {
+    if (bodies_alive(*frames[n]) == before) continue;
+    const double from = frames[n == 0 ? 0 : n - 1]->time, to = frames[n]->time;
     MetricValue v;
     v.value = from > truth ? from - truth : to < truth ? to - truth : 0.0;
     v.uncertainty.numerical = (to - from) / std::sqrt(12.0);
@@ -143,7 +154,7 @@ MetricValue event_time(const MetricInput& in, const Frames& frames) {
   const auto row = in.reference.measuring().flip_body;
   if (!truth) truth = in.reference.number("value");
   if (!truth) return unformed("the reference does not know the time of an event");
-  if (!row) return count_change_time(frames, *truth);
+  if (!row) return count_change_time(in, frames, *truth);
   std::vector<double> times;
   if (auto why = find_flips(in, frames, *row, times); !why.empty()) return unformed(why);
   if (times.empty()) return unformed("the body never flips");

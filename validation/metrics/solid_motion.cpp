@@ -102,6 +102,11 @@ Measured stretch(const MetricInput& in, const Snapshot& s, double gauge) {
 Measured reaction(const MetricInput& in, const Snapshot& s) {
   const long row = body_row(in);
   if (row < 0 || static_cast<std::size_t>(row) >= s.bodies.size()) return unknown("reaction: the metric must name the held body");
+  const auto measuring = in.reference.measuring();
+  if ((measuring.bar ? *measuring.bar : job_body(in)) == job_body(in))
+    return unknown(
+        "reaction: the metric must name the body that holds the bar, and the reference the bar: with a stated value that is "
+        "the quantity `force` along an axis");
   const auto e = extent_of(in);
   const double side = in.job.bodies[job_body(in)].properties.centre[e.axis] < 0.5 * (e.low + e.high) ? 1.0 : -1.0;
   const double force = s.bodies[static_cast<std::size_t>(row)].force[e.axis];

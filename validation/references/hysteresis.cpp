@@ -17,14 +17,16 @@ class Hysteresis : public Reference {
     refuse_other_heat();
   }
   [[nodiscard]] Snapshot at(double time) const override {
-    Snapshot out;
-    out.time = time;
-    for (std::size_t i = 0; i < initial_.size(); ++i) {
-      const auto phase = phase_of(i, time);
-      out.phase.push_back(phase);
-      out.liquid_fraction.push_back(phase == static_cast<int>(Phase::liquid) ? 1.0 : 0.0);
-    }
-    return out;
+    std::vector<int> phase;
+    for (std::size_t i = 0; i < initial_.size(); ++i) phase.push_back(phase_of(i, time - round_off()));
+    return state(time, std::move(phase));
+  }
+  /// A frame at the very time of an event may show the phase before or after it, at the start too.
+  [[nodiscard]] Snapshot truth_for(const Snapshot& now) const override {
+    auto phase = at(now.time).phase;
+    for (std::size_t i = 0; i < phase.size() && i < now.phase.size(); ++i)
+      if (const int after = phase_of(i, now.time + round_off()); now.phase[i] == after) phase[i] = after;
+    return state(now.time, std::move(phase));
   }
 
  private:
@@ -37,7 +39,15 @@ class Hysteresis : public Reference {
     if (!e.bodies.empty() && std::find(e.bodies.begin(), e.bodies.end(), name) == e.bodies.end()) return false;
     return !e.region || inside(*e.region, initial_.position[i]);
   }
-  /// An event counts after its time: a frame at that very time may show either phase.
+  [[nodiscard]] static Snapshot state(double time, std::vector<int> phase) {
+    Snapshot out;
+    out.time = time;
+    out.phase = std::move(phase);
+    for (const int p : out.phase) out.liquid_fraction.push_back(p == static_cast<int>(Phase::liquid) ? 1.0 : 0.0);
+    return out;
+  }
+  [[nodiscard]] double round_off() const { return 1e-9 * job_.scene.end_time; }  // to which output times are met
+  /// After all events before a time.
   [[nodiscard]] int phase_of(std::size_t i, double time) const {
     int phase = initial_.phase[i];
     const auto& m = material(i);
