@@ -47,6 +47,15 @@ Span along(const Scene& s, const Body& b, const Bounds& box, std::size_t a) {
   return cells_between(shared ? 0.0 : low, low, high, dx);
 }
 
+/// A mesh says no unit: one in millimetres is a thousand times too large.
+std::string scale_of_mesh(const Shape& shape, const Bounds& box) {
+  const Vec3 size = box.extent();
+  return shape.kind != Shape::Kind::mesh
+             ? ""
+             : fmt::format(", or give the mesh a shape.scale where it is not in metres: now it is {:.4g} x {:.4g} x {:.4g} m",
+                           size.x, size.y, size.z);
+}
+
 }  // namespace
 
 Lattice lattice_of(const Scene& s, const Body& b) {
@@ -65,8 +74,8 @@ Lattice lattice_of(const Scene& s, const Body& b) {
                                "xyz"[a]));
     cells *= std::max(0.0, (box.max[a] - box.min[a]) / s.spacing + 2.0);
     if (!(cells <= max_cells))
-      throw InputError(b.place, fmt::format("body \"{}\" spans more than {:.0e} cells of spacing {} m: coarsen scene.spacing",
-                                            b.name, max_cells, s.spacing));
+      throw InputError(b.place, fmt::format("body \"{}\" spans more than {:.0e} cells of spacing {} m: coarsen scene.spacing{}",
+                                            b.name, max_cells, s.spacing, scale_of_mesh(b.shape, box)));
     const Span span = along(s, b, box, a);
     if (!(std::abs(span.first) <= farthest))
       throw InputError(b.place, fmt::format("body \"{}\" lies {:.2g} spacings from {} = {} m, where a number cannot tell one "

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <Eigen/Dense>
 
+#include "scene/mesh.hpp"
 #include "scene/sample.hpp"
 
 namespace tripoint {
@@ -53,19 +54,10 @@ Eigen::Matrix3d axes_of_diagonal(const Eigen::Vector3d& moments, Eigen::Vector3d
   return axes;
 }
 
-}  // namespace
-
-MassProperties mass_properties(const std::vector<Vec3>& position, const std::vector<double>& mass) {
-  MassProperties p;
-  for (std::size_t i = 0; i < position.size(); ++i) {
-    p.mass += mass[i];
-    p.centre += mass[i] * position[i];
-  }
-  if (!(p.mass > 0.0)) return p;
-  p.centre = p.centre / p.mass;
-  const Eigen::Matrix3d I = inertia(position, mass, p.centre);
+/// Fills in the principal moments and axes of a tensor.
+void set_principal(MassProperties& p, const Eigen::Matrix3d& I) {
   const double scale = I.diagonal().maxCoeff();
-  if (!(scale > 0.0)) return p;  // one particle
+  if (!(scale > 0.0)) return;  // one particle
   Eigen::Vector3d moments;
   Eigen::Matrix3d axes;
   const double products = std::max({std::abs(I(0, 1)), std::abs(I(0, 2)), std::abs(I(1, 2))});
@@ -84,6 +76,46 @@ MassProperties mass_properties(const std::vector<Vec3>& position, const std::vec
   q.normalize();
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
   p.principal_axes = {q.w(), q.x(), q.y(), q.z()};
+}
+
+}  // namespace
+
+MassProperties mass_properties(const std::vector<Vec3>& position, const std::vector<double>& mass) {
+  MassProperties p;
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    p.mass += mass[i];
+    p.centre += mass[i] * position[i];
+  }
+  if (!(p.mass > 0.0)) return p;
+  p.centre = p.centre / p.mass;
+  set_principal(p, inertia(position, mass, p.centre));
+  return p;
+}
+
+/// By tetrahedra between one corner of the mesh and each triangle.
+MassProperties mass_properties(const Mesh& mesh, double density) {
+  const Vec3 origin = mesh.points.empty() ? Vec3{} : mesh.points.front();
+  const auto arm = [&](std::uint32_t corner) {
+    const Vec3 d = mesh.points[corner] - origin;
+    return Eigen::Vector3d(d.x, d.y, d.z);
+  };
+  double volume = 0.0;
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  for (const auto& t : mesh.triangles) {
+    const Eigen::Vector3d a = arm(t[0]), b = arm(t[1]), c = arm(t[2]), sum = a + b + c;
+    const double six = a.dot(b.cross(c));
+    volume += six / 6.0;
+    first += six / 24.0 * sum;
+    second += six / 120.0 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
+  }
+  MassProperties p;
+  p.mass = density * volume;
+  if (!(volume > 0.0)) return p;
+  const Eigen::Vector3d centre = first / volume;
+  p.centre = origin + Vec3{centre.x(), centre.y(), centre.z()};
+  second -= volume * centre * centre.transpose();
+  set_principal(p, density * (second.trace() * Eigen::Matrix3d::Identity() - second));
   return p;
 }
 

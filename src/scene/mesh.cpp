@@ -39,7 +39,17 @@ struct Exactly {
   }
 };
 
-/// STL repeats each corner for each triangle, OBJ may: equal places become one point, degenerate triangles go.
+/// The triangles over fewer points: `index` says which one stands for each. Degenerate triangles go.
+std::vector<std::array<std::uint32_t, 3>> renamed(const Mesh& from, const std::vector<std::uint32_t>& index) {
+  std::vector<std::array<std::uint32_t, 3>> to;
+  for (const auto& t : from.triangles) {
+    const std::array<std::uint32_t, 3> joint{index[t[0]], index[t[1]], index[t[2]]};
+    if (joint[0] != joint[1] && joint[1] != joint[2] && joint[2] != joint[0]) to.push_back(joint);
+  }
+  return to;
+}
+
+/// STL repeats each corner for each triangle, OBJ may: equal places become one point.
 Mesh joined(const Mesh& from, double scale) {
   Mesh to;
   std::unordered_map<Vec3, std::uint32_t, Exactly> known;
@@ -50,10 +60,53 @@ Mesh joined(const Mesh& from, double scale) {
     if (fresh) to.points.push_back(p);
     index[i] = at->second;
   }
-  for (const auto& t : from.triangles) {
-    const std::array<std::uint32_t, 3> joint{index[t[0]], index[t[1]], index[t[2]]};
-    if (joint[0] != joint[1] && joint[1] != joint[2] && joint[2] != joint[0]) to.triangles.push_back(joint);
+  to.triangles = renamed(from, index);
+  return to;
+}
+
+/// Points sorted into cells of twice the tolerance, so that most places look into one cell.
+class Nearby {
+ public:
+  explicit Nearby(double tolerance) : tolerance_(tolerance) {}
+  /// The first point within the tolerance, or this new one.
+  std::uint32_t point(const Vec3& p, Mesh& mesh) {
+    for (const double x : {p.x - tolerance_, p.x + tolerance_})
+      for (const double y : {p.y - tolerance_, p.y + tolerance_})
+        for (const double z : {p.z - tolerance_, p.z + tolerance_}) {
+          const auto [from, to] = cells_.equal_range(cell({x, y, z}));
+          for (auto it = from; it != to; ++it)
+            if (norm(mesh.points[it->second] - p) <= tolerance_) return it->second;
+        }
+    const auto fresh = static_cast<std::uint32_t>(mesh.points.size());
+    mesh.points.push_back(p);
+    cells_.emplace(cell(p), fresh);
+    return fresh;
   }
+
+ private:
+  [[nodiscard]] Vec3 cell(const Vec3& p) const {
+    const double side = 2.0 * tolerance_;
+    return Vec3{std::floor(p.x / side), std::floor(p.y / side), std::floor(p.z / side)} + Vec3{0.0, 0.0, 0.0};
+  }
+  double tolerance_;
+  std::unordered_multimap<Vec3, std::uint32_t, Exactly> cells_;
+};
+
+constexpr double round_off = 1e-6;  ///< of the mesh's extent: what single precision and a CAD program leave between equal corners
+
+/// Corners that differ by round-off become one.
+Mesh welded(const Mesh& from) {
+  Vec3 low = from.points.front(), high = low;
+  for (const auto& p : from.points)
+    for (std::size_t a = 0; a < 3; ++a) {
+      low[a] = std::min(low[a], p[a]);
+      high[a] = std::max(high[a], p[a]);
+    }
+  Mesh to;
+  Nearby nearby(round_off * norm(high - low));
+  std::vector<std::uint32_t> index;
+  for (const auto& p : from.points) index.push_back(nearby.point(p, to));
+  to.triangles = renamed(from, index);
   return to;
 }
 
@@ -73,26 +126,70 @@ void check_numbers(const Mesh& mesh, const std::string& file) {
 
 }  // namespace
 
-void check_closed(const Mesh& mesh, const std::string& file) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<int, 2>> uses;  // of each edge: forwards, backwards
+namespace {
+
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+using EdgeUses = std::map<Edge, std::array<int, 2>>;  // forwards, backwards
+
+EdgeUses edge_uses(const Mesh& mesh) {
+  EdgeUses uses;
   for (const auto& t : mesh.triangles)
     for (std::size_t i = 0; i < 3; ++i) {
       const auto a = t[i], b = t[(i + 1) % 3];
       ++uses[{std::min(a, b), std::max(a, b)}][a < b ? 0 : 1];
     }
-  std::size_t open = 0;
-  std::string first;
+  return uses;
+}
+
+bool is_closed(const Mesh& mesh) {
+  return std::ranges::all_of(edge_uses(mesh), [](const auto& edge) { return edge.second[0] == edge.second[1]; });
+}
+
+/// The first few edges of a kind, with their uses.
+std::string some_edges(const Mesh& mesh, const EdgeUses& uses, bool (*of_kind)(const std::array<int, 2>&)) {
+  std::string text;
+  int told = 0;
   for (const auto& [edge, use] : uses) {
-    if (use[0] == 1 && use[1] == 1) continue;
-    const auto& a = mesh.points[edge.first];
-    const auto& b = mesh.points[edge.second];
-    if (++open <= 3)
-      first += fmt::format("; ({}, {}, {}) to ({}, {}, {}) used {} and {} times", a.x, a.y, a.z, b.x, b.y, b.z, use[0], use[1]);
+    if (!of_kind(use) || ++told > 3) continue;
+    const auto &a = mesh.points[edge.first], &b = mesh.points[edge.second];
+    text += fmt::format("; ({}, {}, {}) to ({}, {}, {}) used {} and {} times", a.x, a.y, a.z, b.x, b.y, b.z, use[0], use[1]);
   }
-  if (open > 0)
-    throw InputError({file, 0, 0}, fmt::format("the mesh is not closed: {} open edge{} (each must be used once in each "
-                                               "direction){}; fill the holes and turn all faces outward",
-                                               open, open == 1 ? "" : "s", first));
+  return text;
+}
+
+/// An edge of a hole is used by an odd number of faces; one between faces that turn against each other by an even number.
+bool of_hole(const std::array<int, 2>& use) { return (use[0] + use[1]) % 2 == 1; }
+bool of_turned(const std::array<int, 2>& use) { return (use[0] + use[1]) % 2 == 0 && use[0] != use[1]; }
+
+/// A face that is written twice the same way round would count twice in the volume.
+void refuse_repeated_faces(const Mesh& mesh, const std::string& file) {
+  auto faces = mesh.triangles;
+  for (auto& t : faces) std::rotate(t.begin(), std::ranges::min_element(t), t.end());
+  std::ranges::sort(faces);
+  const auto same = std::ranges::adjacent_find(faces);
+  if (same == faces.end()) return;
+  const auto& p = mesh.points[(*same)[0]];
+  throw InputError({file, 0, 0}, fmt::format("a face at ({}, {}, {}) is written twice: remove the copies", p.x, p.y, p.z));
+}
+
+}  // namespace
+
+void check_closed(const Mesh& mesh, const std::string& file) {
+  const auto uses = edge_uses(mesh);
+  const auto count = [&](bool (*of_kind)(const std::array<int, 2>&)) {
+    return std::ranges::count_if(uses, [&](const auto& edge) { return of_kind(edge.second); });
+  };
+  const auto edges = [](long n) { return fmt::format("{} edge{}", n, n == 1 ? "" : "s"); };
+  if (const long open = count(of_hole); open > 0)
+    throw InputError({file, 0, 0},
+                     fmt::format("the mesh is not closed: {} open {} (each must be used as often in one direction as "
+                                 "in the other){}; fill the holes",
+                                 open, open == 1 ? "edge" : "edges", some_edges(mesh, uses, of_hole)));
+  if (const long turned = count(of_turned); turned > 0)
+    throw InputError({file, 0, 0},
+                     fmt::format("some of the mesh's faces turn inward and others outward: {} between them{}; turn all outward",
+                                 edges(turned), some_edges(mesh, uses, of_turned)));
+  refuse_repeated_faces(mesh, file);
 }
 
 double volume(const Mesh& mesh) {
@@ -156,6 +253,8 @@ Mesh read_mesh(const std::string& file, double scale) {
   Mesh mesh = parse(bytes, ending, file);
   check_numbers(mesh, file);
   mesh = joined(mesh, scale);
+  if (mesh.triangles.empty()) throw InputError({file, 0, 0}, "all of the mesh's triangles are lines or points");
+  if (!is_closed(mesh)) mesh = welded(mesh);
   check_closed(mesh, file);
   if (volume(mesh) < 0.0) throw InputError({file, 0, 0}, "the mesh's faces turn inward: flip them");
   return mesh;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/vec3.hpp"
+#include "scene/initial_state.hpp"
 
 namespace tripoint {
 
@@ -16,8 +17,9 @@ struct Mesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Reads .obj or .stl (ASCII or binary), joins equal corners, and checks that the surface is closed. Every edge must be used by
-/// exactly two triangles in opposite directions. A confined copy of this process reads the file.
+/// Reads .obj or .stl (ASCII or binary), joins equal corners, and checks that the surface is closed: every edge is used as often
+/// in one direction as in the other. Where it is not, corners that differ by round-off (1e-6 of the extent) are joined too. A
+/// confined copy of this process reads the file.
 /// @throws InputError naming the file, and for an open mesh the number of open edges and the first of them
 [[nodiscard]] Mesh read_mesh(const std::string& file, double scale);
 
@@ -27,6 +29,9 @@ void check_closed(const Mesh&, const std::string& file);
 /// Volume [m3] by the divergence theorem; negative when the triangles turn inward.
 [[nodiscard]] double volume(const Mesh&);
 
+/// Mass, centre and moments of the body that the mesh encloses, filled with one density.
+[[nodiscard]] MassProperties mass_properties(const Mesh&, double density);
+
 /// Inside test by a signed distance field (OpenVDB).
 class MeshInterior {
  public:
@@ -34,7 +39,8 @@ class MeshInterior {
   /// @throws InputError when the field has no inside at all, the sign of a mesh that leaks
   MeshInterior(const Mesh&, double voxel, const std::string& file);
   ~MeshInterior();
-  [[nodiscard]] bool holds(const Vec3&) const;
+  [[nodiscard]] bool holds(const Vec3& r) const { return distance(r) <= 0.0; }
+  [[nodiscard]] double distance(const Vec3&) const;  ///< below zero inside, of a size of at most three voxels [m]
 
  private:
   struct Grid;

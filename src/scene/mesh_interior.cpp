@@ -75,6 +75,6 @@ MeshInterior::MeshInterior(const Mesh& mesh, double voxel, const std::string& fi
 
 MeshInterior::~MeshInterior() = default;
 
-bool MeshInterior::holds(const Vec3& r) const { return module().at(grid_->field, r.x, r.y, r.z) <= 0.0; }
+double MeshInterior::distance(const Vec3& r) const { return module().at(grid_->field, r.x, r.y, r.z); }
 
 }  // namespace tripoint

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <sstream>
@@ -37,13 +39,25 @@ Mesh binary(const std::string& bytes, std::uint32_t count, const std::string& fi
   return mesh;
 }
 
+std::string in_lower_case(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/// Begins with the word solid, after blanks or a mark of the byte order, and has facets. A binary header may begin so too.
+bool is_text(const std::string& bytes) {
+  const auto first = bytes.find_first_not_of("\xEF\xBB\xBF \t\r\n");
+  return first != std::string::npos && in_lower_case(bytes.substr(first, 5)) == "solid" &&
+         in_lower_case(bytes.substr(0, 4096)).find("facet") != std::string::npos && bytes.find('\0') == std::string::npos;
+}
+
 Mesh ascii(const std::string& bytes, const std::string& file) {
   Mesh mesh;
   std::istringstream in(bytes);
   std::string line, word;
   for (int n = 1; std::getline(in, line); ++n) {
     std::istringstream words(line);
-    if (!(words >> word) || word != "vertex") continue;
+    if (!(words >> word) || in_lower_case(word) != "vertex") continue;
     Vec3 p;
     std::string rest;
     if (!(words >> p.x >> p.y >> p.z) || !finite(p) || words >> rest)
@@ -58,16 +72,19 @@ Mesh ascii(const std::string& bytes, const std::string& file) {
 }  // namespace
 
 Mesh parse_stl(const std::string& bytes, const std::string& file) {
+  if (is_text(bytes)) return ascii(bytes, file);
+  if (bytes.size() < 84)
+    throw InputError({file, 0, 0},
+                     "no STL: a text STL begins with the word solid and has facets, a binary one has 84 bytes or more");
   std::uint32_t count = 0;
-  if (bytes.size() >= 84) {
-    std::memcpy(&count, bytes.data() + 80, 4);
-    if (bytes.size() == 84 + std::size_t{50} * count) return binary(bytes, count, file);
-  }
-  if (bytes.rfind("solid", 0) == 0 && bytes.find("facet") != std::string::npos) return ascii(bytes, file);
-  throw InputError({file, 0, 0}, bytes.size() < 84
-                                     ? std::string("no STL: shorter than its header")
-                                     : fmt::format("no whole binary STL: {} triangles need {} bytes, the file has {}", count,
-                                                   84 + std::size_t{50} * count, bytes.size()));
+  std::memcpy(&count, bytes.data() + 80, 4);
+  const std::size_t needed = 84 + std::size_t{50} * count;
+  if (bytes.size() >= needed) return binary(bytes, count, file);  // some programs write more behind the triangles
+  throw InputError(
+      {file, 0, 0},
+      fmt::format("no whole binary STL, and no text STL either (that begins with the word solid and has facets): the "
+                  "count in bytes 81 to 84 is {} triangles, which need {} bytes; the file has {}",
+                  count, needed, bytes.size()));
 }
 
 }  // namespace tripoint

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <sstream>
 
 #include "case_file.hpp"
 #include "scene/mesh.hpp"
@@ -92,7 +95,9 @@ TEST(Mesh, ThatIsOpenIsRefusedWithItsOpenEdges) {
   EXPECT_NE(open.find("open.obj"), std::string::npos);
   EXPECT_NE(open.find("(0, 0, 0) to (1, 0, 0)"), std::string::npos) << open;
   const auto flipped = refused(folder, "flipped.obj", cube_obj("f 2 4 3 1\n" + faces.substr(faces.find('\n') + 1)));
-  EXPECT_NE(flipped.find("4 open edges"), std::string::npos) << "one face turned inward: " << flipped;
+  EXPECT_NE(flipped.find("some of the mesh's faces turn inward"), std::string::npos) << flipped;
+  EXPECT_NE(flipped.find("4 edges between them"), std::string::npos) << flipped;
+  EXPECT_EQ(flipped.find("hole"), std::string::npos) << "a false reason: " << flipped;
 }
 
 TEST(Mesh, ThatTurnsInwardIsRefused) {
@@ -135,6 +140,104 @@ TEST(Mesh, WithACornerThatIsNoNumberIsRefusedByItsLine) {
                     cube_obj("vt 0 0\nvn 0 0 1\nf 1/1 3/1 4/1 2/1\nf 5//1 6//1 8//1 7//1\nf 1/1/1 2/1/1 6/1/1 5/1/1\nf 3 7 8 "
                              "4\nf 1 5 7 3\nf 2 4 8 6\n")),
             "");
+}
+
+TEST(Mesh, WithCornersThatDifferByRoundOffIsClosed) {
+  const Folder folder;
+  const auto cube = read_mesh(folder.write("cube.obj", cube_obj()), 1.0);
+  for (const double noise : {1e-17, 1e-9, 3e-7}) {
+    std::string text = "solid s\n";
+    int n = 0;
+    for (const auto& t : cube.triangles) {
+      text += "facet normal 0 0 0\nouter loop\n";
+      for (const auto c : t) {
+        std::ostringstream line;
+        line.precision(17);
+        const double off = noise * (++n % 3 - 1);
+        line << "vertex " << cube.points[c].x + off << ' ' << cube.points[c].y - off << ' ' << cube.points[c].z << '\n';
+        text += line.str();
+      }
+      text += "endloop\nendfacet\n";
+    }
+    const auto mesh = read_mesh(folder.write("noisy.stl", text), 1.0);
+    EXPECT_EQ(mesh.points.size(), 8U) << noise;
+    EXPECT_NEAR(volume(mesh), 1.0, 3e-6) << noise;
+  }
+}
+
+TEST(Mesh, WhoseEdgesAreUsedTwiceEachWayIsClosed) {
+  const Folder folder;
+  std::string two = cube_obj();  // a second cube at (1, 1, 0): both share the edge at x = y = 1
+  for (int i = 0; i < 8; ++i)
+    two += "v " + std::to_string(1 + (i & 1)) + " " + std::to_string(1 + (i >> 1 & 1)) + " " + std::to_string(i >> 2 & 1) + "\n";
+  two += "f 9 11 12 10\nf 13 14 16 15\nf 9 10 14 13\nf 11 15 16 12\nf 9 13 15 11\nf 10 12 16 14\n";
+  EXPECT_DOUBLE_EQ(volume(read_mesh(folder.write("two.obj", two), 1.0)), 2.0);
+  const auto twice = refused(folder, "twice.obj", cube_obj(std::string(cube_faces) + cube_faces));
+  EXPECT_NE(twice.find("written twice"), std::string::npos) << "its volume would count twice: " << twice;
+}
+
+TEST(Mesh, AsObjMayBeWrittenInEveryValidWay) {
+  const Folder folder;
+  const auto volume_of = [&](const std::string& text) { return volume(read_mesh(folder.write("way.obj", text), 1.0)); };
+  const std::string rest = "f 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+  for (const char* first : {"f 1/ 3/ 4/ 2/\n", "f 1// 3// 4// 2//\n", "f 1 3 \\\n4 2\n", "f 1 3 \\\r\n4 \\\r\n2\r\n",
+                            "f -8 -6 -5 -7\n", "  f\t1 3 4 2 # base\n", "f 1/7/7 3/7/7 4/7/7 2/7/7\n",
+                            "g base\nusemtl x\ns off\nf 1 3 4 2\n", "f 1 3 4 2\nl 1 2\nf 1 1 2\n"})
+    EXPECT_DOUBLE_EQ(volume_of(cube_obj(first + rest)), 1.0) << first;
+  std::string mac = cube_obj();
+  std::ranges::replace(mac, '\n', '\r');
+  EXPECT_DOUBLE_EQ(volume_of(mac), 1.0);
+  EXPECT_DOUBLE_EQ(volume_of("\xEF\xBB\xBF" + cube_obj()), 1.0) << "with a mark of the byte order";
+  std::string tiny = cube_obj();
+  tiny.replace(tiny.find("v 0 0 0"), 7, "v -0 1e-400 +0");
+  EXPECT_DOUBLE_EQ(volume_of(tiny), 1.0) << "a number below the least is 0";
+}
+
+TEST(Mesh, IsRefusedForItsTrueReason) {
+  const Folder folder;
+  const std::string rest = "f 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+  const auto says = [&](const std::string& faces, const char* what) {
+    const auto why = refused(folder, "why.obj", cube_obj(faces));
+    EXPECT_NE(why.find(what), std::string::npos) << faces << why;
+  };
+  says("f 1 3 9 2\n" + rest, "why.obj:9: a face names corner 9, but there are 8");
+  says("f 1 3 -9 2\n" + rest, "why.obj:9: a face names corner -9 before the first of the 8 above it");
+  says("f 1 3 0 2\n" + rest, "counted from 1");
+  says("f 1 1 1\nf 2 2 3\n", "lines or points");
+  EXPECT_NE(refused(folder, "text.stl", std::string(200, 'a')).find("no text STL either"), std::string::npos);
+}
+
+TEST(Mesh, AsStlMayBeWrittenInEveryValidWay) {
+  const Folder folder;
+  const auto cube = read_mesh(folder.write("cube.obj", cube_obj()), 1.0);
+  const auto volume_of = [&](const std::string& bytes) { return volume(read_mesh(folder.write("way.stl", bytes), 1.0)); };
+  std::string zeros = as_stl(cube, true);
+  const float minus = -0.0F;
+  for (std::size_t t = 0; t < 12; t += 2)
+    for (std::size_t n = 0; n < 9; ++n) {
+      float x = 1.0F;
+      char* at = zeros.data() + 84 + 50 * t + 12 + 4 * n;
+      std::memcpy(&x, at, sizeof x);
+      if (x == 0.0F) std::memcpy(at, &minus, sizeof minus);
+    }
+  EXPECT_DOUBLE_EQ(volume_of(zeros), 1.0) << "binary with negative zeros";
+  EXPECT_DOUBLE_EQ(volume_of(as_stl(cube, true) + "more of some program"), 1.0);
+  std::string header = as_stl(cube, true);
+  header.replace(0, 11, "solid facet");
+  EXPECT_DOUBLE_EQ(volume_of(header), 1.0) << "binary whose header begins as a text";
+  std::string text = as_stl(cube, false);
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  EXPECT_DOUBLE_EQ(volume_of("\r\n " + text), 1.0) << "in capitals, after blanks";
+}
+
+TEST(Mesh, HasTheMassCentreAndMomentsOfItsBody) {
+  const Folder folder;
+  const auto p = mass_properties(read_mesh(folder.write("cube.obj", cube_obj()), 2.0), 500.0);
+  EXPECT_NEAR(p.mass, 4000.0, 1e-9);
+  EXPECT_NEAR(norm(p.centre - Vec3{1, 1, 1}), 0.0, 1e-12);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(p.principal_inertia[k], 4000.0 * 4.0 / 6.0, 1e-9);
+  const auto ball = mass_properties(read_mesh(folder.write("ball.obj", sphere_obj(48, 96)), 1.0), 1.0);
+  EXPECT_NEAR(ball.principal_inertia.x, 8.0 * pi / 15.0, 0.01) << "facets lie within the ball";
 }
 
 TEST(Mesh, WithAFaceOfVeryManyCornersIsRefused) {
