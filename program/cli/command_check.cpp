@@ -12,6 +12,7 @@
 #include "validation/case/idle_keys.hpp"
 #include "validation/case/preflight.hpp"
 #include "validation/case/read_case.hpp"
+#include "validation/case/shape_match.hpp"
 #include "validation/case/unjudged.hpp"
 #include "validation/harness/case_names.hpp"
 #include "validation/harness/suite.hpp"
@@ -41,6 +42,8 @@ int check(const std::string& file, const std::vector<std::string>& set) {
   for (auto& f : unjudged(reading.value)) findings.push_back(std::move(f));
   long errors = 0;
   for (const auto& f : library_values(reading)) say("note: " + with_place(f));
+  for (const auto& f : mesh_notes(scene, state)) say("note: " + with_place(f));
+  for (const auto& f : moment_notes(scene, state)) say("note: " + with_place(f));
   for (const auto& f : start_notes(scene, state)) say("note: " + with_place(f));
   for (const auto& f : findings) {
     errors += f.error ? 1 : 0;

@@ -15,8 +15,10 @@
 #include "program/cli/case_summary.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
+#include "scene/sample.hpp"
 #include "validation/case/case_document.hpp"
 #include "validation/case/read_case.hpp"
+#include "validation/case/shape_match.hpp"
 #include "validation/harness/case_names.hpp"
 #include "validation/harness/suite.hpp"
 
@@ -138,6 +140,22 @@ json as_json(const CaseReading& reading, const Plan& plan) {
           {"bytes_by_effect", bytes}};
 }
 
+bool has_mesh(const Shape& s) { return s.kind == Shape::Kind::mesh || std::ranges::any_of(s.of, has_mesh); }
+bool has_mesh(const Scene& s) {
+  return std::ranges::any_of(s.bodies, [](const Body& b) { return has_mesh(b.shape); });
+}
+
+json meshes_of(const Scene& s) {
+  json list = json::array();
+  for (const auto& m : mesh_bodies(s, sample(s)))
+    list.push_back({{"body", s.bodies[m.body].name},
+                    {"triangles", m.triangles},
+                    {"extent", {m.extent.x, m.extent.y, m.extent.z}},
+                    {"mass", m.shape.mass},
+                    {"mass_of_particles", m.particles}});
+  return list;
+}
+
 struct ExplainOptions {
   std::string file;
   std::vector<std::string> set;
@@ -159,6 +177,7 @@ int explain(const ExplainOptions& options) {
   };
   if (options.as_document) {
     json document = as_json(reading, planned);
+    if (has_mesh(scene)) document["meshes"] = meshes_of(scene);
     if (options.trial.value_or(0) > 0) document["trial"] = as_json(trial(*options.trial), options.threads);
     print(document.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
     return 0;
@@ -166,6 +185,8 @@ int explain(const ExplainOptions& options) {
   const long steps = options.trial.value_or(usual_trial);
   const auto timed = steps > 0 ? trial(steps) : bench::Trial{};
   print(case_summary(reading.value, scene, planned, timed));
+  if (has_mesh(scene))
+    for (const auto& f : mesh_notes(scene, sample(scene))) print_line(f.what);
   print_decisions(reading.decisions, reading.value.file);
   print_plan(planned);
   if (steps > 0) print_trial(timed, options.threads);

@@ -5,6 +5,7 @@
 #include "scene/effect_rule.hpp"
 #include "scene/sample.hpp"
 #include "validation/case/preflight.hpp"
+#include "validation/case/shape_match.hpp"
 
 namespace tripoint::test {
 namespace {
@@ -35,9 +36,76 @@ TEST(Preflight, FindsBodiesThatOverlap) {
   const auto a = steel_box("a", "[0,0,0]", "[0.5,0.5,0.5]");
   EXPECT_EQ(told(scene_with(a + steel_box("b", "[0.5,0,0]", "[1,0.5,0.5]")), "overlap"), "") << "they touch";
   EXPECT_EQ(told(scene_with(a + steel_box("b", "[0.4,0,0]", "[1,0.5,0.5]")), "overlap"), "error");
-  EXPECT_EQ(told(scene_with(a + steel_box("b", "[0.47,0.03,0.02]", "[1,0.5,0.5]")), "overlap"), "") << "0.6 spacings apart";
-  EXPECT_EQ(told(scene_with(a + steel_box("b", "[0.43,0.03,0.02]", "[1,0.5,0.5]")), "overlap"), "error")
-      << "0.3 spacings apart, on a lattice of its own";
+  EXPECT_EQ(told(scene_with(a + steel_box("b", "[0.47,0.03,0.02]", "[1,0.5,0.5]")), "share room"), "error");
+  EXPECT_EQ(told(scene_with(a + steel_box("b", "[0.45,0,0]", "[0.95,0.5,0.5]")), "share room up to 0.05 m"), "error")
+      << "half a lattice";
+  EXPECT_EQ(told(scene_with(a + steel_box("b", "[0.49999999999999994,0,0]", "[1,0.5,0.5]")), "overlap"), "") << "round-off";
+}
+
+std::string body(const std::string& name, const std::string& shape) {
+  return "[[body]]\nname='" + name + "'\nmaterial='steel'\nshape=" + shape + "\n";
+}
+
+/// Each pair of kinds twice: faces that touch, and the second shape 0.05 m farther in.
+TEST(Preflight, FindsTheOverlapOfEveryPairOfKinds) {
+  const Folder folder;
+  static_cast<void>(folder.write("cube.obj",
+                                 "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n"
+                                 "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n"));
+  // All end at z = 1 between 0 and 1, or begin at z = `low` there.
+  const std::string below[]{
+      "{kind='box',min=[0,0,0],max=[1,1,1]}",
+      "{kind='sphere',centre=[0.5,0.5,0.5],radius=0.5}",
+      "{kind='cylinder',base=[0.5,0.5,0],axis=[0,0,1],length=1,radius=0.5}",
+      "{kind='difference',from={kind='box',min=[0,0,0],max=[1,1,2]},minus={kind='half_space',point=[0,0,1],normal=[0,0,-1]}}",
+      "{kind='union',of=[{kind='box',min=[0,0,0],max=[1,1,0.5]},{kind='box',min=[0,0,0.5],max=[1,1,1]}]}",
+      "{kind='mesh',file='cube.obj'}"};
+  const auto above = [](int kind, double low) {
+    const auto z = [&](double height) { return std::to_string(low + height); };
+    const std::string shapes[]{"{kind='box',min=[0,0," + z(0) + "],max=[1,1," + z(1) + "]}",
+                               "{kind='sphere',centre=[0.5,0.5," + z(0.5) + "],radius=0.5}",
+                               "{kind='cylinder',base=[0,0.5," + z(0.5) + "],axis=[1,0,0],length=1,radius=0.5}",
+                               "{kind='difference',from={kind='box',min=[0,0,0],max=[1,1," + z(1) +
+                                   "]},minus={kind='box',min=[-1,-1,-1],max=[2,2," + z(0) + "]}}",
+                               "{kind='union',of=[{kind='box',min=[0,0," + z(0) + "],max=[1,1," + z(0.5) +
+                                   "]},{kind='sphere',centre=[0.5,0.5," + z(0.5) + "],radius=0.5}]}",
+                               "{kind='half_space',point=[0,0," + z(0) + "],normal=[0,0,-1]}"};
+    return shapes[kind];
+  };
+  const auto told_of = [&](const std::string& a, const std::string& b) {
+    const auto file =
+        folder.write("case.toml", scene_with(body("a", a) + body("b", b), "min=[-0.5,-0.5,-0.5]\nmax=[1.5,1.5,2.5]\n"));
+    const auto c = read_case(file).value;
+    const auto scene = scene_for(c, {});
+    std::string text;
+    for (const auto& f : preflight(c, scene, sample(scene)))
+      if (f.error) text += f.what + "\n";
+    return text;
+  };
+  for (const auto& a : below)
+    for (int kind = 0; kind < 6; ++kind) {
+      EXPECT_EQ(told_of(a, above(kind, 1.0)).find("share room"), std::string::npos) << a << " touches " << above(kind, 1.0);
+      EXPECT_NE(told_of(a, above(kind, 0.95)).find("share room"), std::string::npos) << a << " meets " << above(kind, 0.95);
+    }
+}
+
+/// A ball that is cut out of a pool shares no room with it; off the pool's lattice its particles stand too near, and a shift
+/// helps.
+TEST(Preflight, NamesTheShiftThatPutsACutOutBodyOnTheLattice) {
+  const auto scene = [](double z) {
+    const std::string ball = "{kind='sphere',centre=[0.6,0.6," + std::to_string(z) + "],radius=0.3}";
+    return scene_with(
+        "[[body]]\nname='pool'\nmaterial='water'\nshape={kind='difference',from={kind='box',min=[0,0,0],max=[1.2,1.2,"
+        "1]},minus=" +
+            ball + "}\n" + body("ball", ball),
+        "gravity=[0,0,-9.81]");
+  };
+  EXPECT_EQ(told(scene(0.65), "overlap"), "") << "half a spacing off: accepted";
+  EXPECT_EQ(told(scene(0.65), "cut out for it alike, by (0, 0, -0.05) m"), "warning");
+  EXPECT_EQ(told(scene(0.67), "do not overlap"), "error");
+  EXPECT_EQ(told(scene(0.67), "cut out for it alike, by (0, 0, 0.03) m"), "error");
+  EXPECT_EQ(told(scene(0.67), "share room"), "");
+  EXPECT_EQ(told(scene(0.70), "overlap"), "") << "moved as it says";
 }
 
 TEST(Preflight, FindsOverlapAcrossAPeriodicSide) {
@@ -89,8 +157,34 @@ TEST(Preflight, WarnsOfPiecesThatNothingKeepsApart) {
 TEST(Preflight, FindsBodiesTooCoarseOrOfWrongMass) {
   EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[0.5,0.5,0.2]")), "2 particles across along z"), "warning");
   EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[0.5,0.5,0.3]")), "across"), "");
-  EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[0.39,0.5,0.5]")), "its particles weigh"), "");
-  EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[0.34,0.34,0.34]")), "its particles weigh"), "warning");
+  EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[0.396,0.5,0.5]")), "its particles weigh"), "warning") << "1.01 %";
+  EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[0.397,0.5,0.5]")), "its particles weigh"), "") << "0.8 %";
+  EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[0.34,0.34,0.34]")), "(-31.3 %)"), "warning");
+}
+
+/// Mass, moments and centre of particles that fit the lattice are right but for the moments of so few.
+TEST(Preflight, FindsMomentsAndCentresThatAreNotThoseOfTheShape) {
+  EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[0.5,0.5,0.5]")), "moments"), "") << "it fills its shape";
+  const auto note = [](const std::string& text) -> std::string {
+    const auto scene = scene_for(read_text(text).value, {});
+    const auto notes = moment_notes(scene, sample(scene));
+    return notes.empty() ? "" : notes.front().what;
+  };
+  EXPECT_NE(note(scene_with(steel_box("a", "[0,0,0]", "[0.5,0.5,0.5]"))).find("-4.0 % off"), std::string::npos) << "(1/5)^2 low";
+  EXPECT_EQ(note(scene_with(steel_box("a", "[0,0,0]", "[1.2,1.2,1.2]"))), "") << "12 across";
+  EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[1.23,1.2,1.2]")), "centre of mass is 0.015 m off"), "warning");
+  EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[1.23,1.2,1.2]", "motion='fixed'")), "its particles weigh"), "")
+      << "a wall has no use for them";
+  const std::string tube =
+      "{kind='difference',from={kind='box',min=[0,0,0],max=[1.2,1.2,1.2]},minus={kind='box',min=[0.4,0.4,-1],max=[0.8,"
+      "0.8,2]}}";
+  EXPECT_EQ(told(scene_with(body("a", tube)), "weigh"), "");
+  EXPECT_EQ(
+      told(scene_with(body("a",
+                           "{kind='union',of=[{kind='box',min=[0,0,0],max=[1.2,0.6,1.2]},{kind='box',min=[0,0.6,0],max=[1.2,"
+                           "1.2,1.2]}]}")),
+           "weigh"),
+      "");
 }
 
 TEST(Preflight, FindsATimeStepAboveTheBoundOfHeat) {

@@ -81,10 +81,12 @@ std::vector<Overlap> find_overlaps(const Scene& s, const InitialState& state, do
       if (!(r < near)) return;
       auto& o =
           found
-              .try_emplace({state.source[i], state.source[j]}, Overlap{static_cast<std::size_t>(state.source[i]),
-                                                                       static_cast<std::size_t>(state.source[j]), 0, INFINITY})
+              .try_emplace(
+                  {state.source[i], state.source[j]},
+                  Overlap{static_cast<std::size_t>(state.source[i]), static_cast<std::size_t>(state.source[j]), 0, INFINITY, {}})
               .first->second;
       ++o.pairs;
+      if (r < o.nearest) o.difference = state.position[i] - state.position[j];
       o.nearest = std::min(o.nearest, r);
     });
   std::vector<Overlap> out;

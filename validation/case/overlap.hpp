@@ -11,6 +11,7 @@ struct Overlap {
   std::size_t a = 0, b = 0;
   long pairs = 0;
   double nearest = 0.0;  ///< [m]
+  Vec3 difference = {};  ///< of the nearest pair, from the particle of b to that of a [m]
 };
 [[nodiscard]] std::vector<Overlap> find_overlaps(const Scene&, const InitialState&, double near);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "scene/effect_rule.hpp"
 #include "scene/geometry.hpp"
@@ -12,6 +13,8 @@
 #include "validation/case/dates.hpp"
 #include "validation/case/overlap.hpp"
 #include "validation/case/preflight.hpp"
+#include "validation/case/shape_match.hpp"
+#include "validation/case/shape_overlap.hpp"
 
 /// Checks of a scene before anything runs.
 namespace tripoint {
@@ -27,9 +30,9 @@ class Preflight {
     pieces();
     for (std::size_t n = 0; n < scene_.bodies.size(); ++n) {
       resolution(n);
-      mass(n);
       keyframes(n);
     }
+    for (auto& f : unlike_their_shapes(scene_, state_)) findings_.push_back(std::move(f));
     outside();
     time_steps();
     dates();
@@ -50,24 +53,50 @@ class Preflight {
   }
 
   void overlaps() {
-    // Neighbours of one lattice come as near as 1 - 2 jitter by themselves.
-    const double near = std::min(0.5, 0.99 * (1.0 - 2.0 * scene_.jitter)) * scene_.spacing;
-    if (!(near > 0.0)) return;
-    for (const auto& o : find_overlaps(scene_, state_, near)) {
-      const auto& a = scene_.bodies[o.a];
-      const auto& b = scene_.bodies[o.b];
-      error(b.place, fmt::format("bodies \"{}\" and \"{}\" overlap: {} pairs of particles are nearer than {:.3g} m, the nearest "
-                                 "{:.3g} m; move them apart or cut one by a difference",
-                                 a.name, b.name, o.pairs, near, o.nearest));
+    for (const auto& o : shared_rooms(scene_, state_)) {
+      overlapping_.insert({o.a, o.b});
+      error(scene_.bodies[o.b].place,
+            fmt::format("bodies \"{}\" and \"{}\" overlap: their shapes share room up to {:.3g} m thick, at ({:.4g}, {:.4g}, "
+                        "{:.4g}) m; move them apart or cut one by a difference",
+                        scene_.bodies[o.a].name, scene_.bodies[o.b].name, o.thickness, o.place.x, o.place.y, o.place.z));
     }
+    const double near = least_distance(0.45) * scene_.spacing;
+    if (!(near > 0.0)) return;
+    for (const auto& o : find_overlaps(scene_, state_, near))
+      if (!overlapping_.contains({o.a, o.b})) stand_too_near(o, near);
+  }
+
+  /// A share of the spacing, or less: neighbours of one lattice come as near as 1 - 2 jitter by themselves.
+  [[nodiscard]] double least_distance(double share) const { return std::min(share, 0.99 * (1.0 - 2.0 * scene_.jitter)); }
+
+  /// Shapes that share no room, and particles that do: their lattices do not fit.
+  void stand_too_near(const Overlap& o, double near) {
+    const auto& a = scene_.bodies[o.a];
+    const auto& b = scene_.bodies[o.b];
+    error(b.place,
+          fmt::format("the shapes of bodies \"{}\" and \"{}\" do not overlap, but {} pairs of their particles are nearer "
+                      "than {:.3g} m, the nearest {:.3g} m: {}",
+                      a.name, b.name, o.pairs, near, o.nearest, shift_that_helps(a, b, o)));
+  }
+
+  /// How far the second body's lattice is from the first one's.
+  [[nodiscard]] std::string shift_that_helps(const Body& a, const Body& b, const Overlap& o) const {
+    Vec3 shift = o.difference;
+    for (std::size_t k = 0; k < 3; ++k) {
+      shift[k] -= scene_.spacing * std::round(shift[k] / scene_.spacing);
+      if (std::abs(shift[k]) < 1e-6 * scene_.spacing) shift[k] = 0.0;
+    }
+    if (shift == Vec3{}) return "move them apart";
+    return fmt::format(
+        "move \"{}\", and what is cut out for it alike, by ({:.4g}, {:.4g}, {:.4g}) m, so that it shares the lattice of \"{}\"",
+        b.name, shift.x, shift.y, shift.z, a.name);
   }
 
   [[nodiscard]] bool presses() const { return calls_for(scene_, &EffectRule::has_pressure); }
 
   /// Finds rows of two bodies that are nearer than rows of one body. Such matter is compressed from the start, and flies apart.
   void gaps() {
-    const double overlap = std::min(0.5, 0.99 * (1.0 - 2.0 * scene_.jitter)),
-                 near = std::min(0.8, 0.99 * (1.0 - 2.0 * scene_.jitter));
+    const double overlap = least_distance(0.45), near = least_distance(0.8);
     if (!(near > overlap) || !presses()) return;
     const auto joined = [](const Body& a, const Body& b) {
       return std::find(a.joined_to.begin(), a.joined_to.end(), b.name) != a.joined_to.end();
@@ -77,12 +106,15 @@ class Preflight {
       const auto& b = scene_.bodies[o.b];
       const bool both_driven =
           a.motion != Motion::free && b.motion != Motion::free && a.phase != Phase::liquid && b.phase != Phase::liquid;
-      if (o.nearest < overlap * scene_.spacing || both_driven || joined(a, b) || joined(b, a)) continue;
+      if (o.nearest < overlap * scene_.spacing || both_driven || joined(a, b) || joined(b, a) ||
+          overlapping_.contains({o.a, o.b}))
+        continue;
       warn(b.place, fmt::format("bodies \"{}\" and \"{}\": their nearest particles are {:.3g} m apart, {:.2g} of a spacing ({} "
                                 "pairs below {:.2g}): as if compressed, and they fly apart at the start; "
                                 "put the faces where they touch on multiples of scene.spacing = {:g} m (a wall's thickness too), "
-                                "so that rows are one spacing apart",
-                                a.name, b.name, o.nearest, o.nearest / scene_.spacing, o.pairs, near, scene_.spacing));
+                                "so that rows are one spacing apart; or {}",
+                                a.name, b.name, o.nearest, o.nearest / scene_.spacing, o.pairs, near, scene_.spacing,
+                                shift_that_helps(a, b, o)));
     }
   }
 
@@ -116,20 +148,6 @@ class Preflight {
         warn(b.place, fmt::format("body \"{}\" is {} particle{} across along {}: at least 3 resolve it; refine scene.spacing",
                                   b.name, across, across == 1 ? "" : "s", "xyz"[a]));
     }
-  }
-
-  void mass(std::size_t n) {
-    const Body& b = scene_.bodies[n];
-    const auto v = volume(b.shape);
-    if (!v) return;
-    double sampled = 0.0;
-    for (std::size_t i = 0; i < state_.size(); ++i)
-      if (state_.source[i] == static_cast<int>(n)) sampled += state_.mass[i];
-    const double exact = *v * scene_.material(b.material).density;
-    if (std::abs(sampled - exact) > 0.1 * exact)
-      warn(b.place, fmt::format("body \"{}\": its particles weigh {:.4g} kg, its shape {:.4g} kg ({:+.0f} %): refine "
-                                "scene.spacing, or make its sides multiples of it",
-                                b.name, sampled, exact, 100.0 * (sampled / exact - 1.0)));
   }
 
   void keyframes(std::size_t n) {
@@ -230,6 +248,7 @@ class Preflight {
   const Scene& scene_;
   const InitialState& state_;
   std::vector<Finding> findings_;
+  std::set<std::pair<std::size_t, std::size_t>> overlapping_;  ///< rows of bodies whose shapes share room
 };
 
 }  // namespace
