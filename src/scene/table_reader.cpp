@@ -54,6 +54,34 @@ TomlNode fallback_value(const Key& row) {
   return n;
 }
 
+struct Absent {
+  std::vector<std::string_view> words;  ///< of a key or table that people bring
+  std::string_view answer;
+};
+const std::vector<Absent> not_simulated{
+    {{"surface_tension", "cohesion", "contact_angle", "wetting"}, "surface tension is not simulated"},
+    {{"joint", "hinge", "slider", "constraint", "revolute", "prismatic", "ball_socket"},
+     "joints are not simulated; joined_to bonds bodies to each other, and motion = \"prescribed\" with keyframes or an "
+     "angular_velocity leads a body about an axis"},
+    {{"spring", "tendon", "muscle"},
+     "springs are not simulated; an elastic body between two others, bonded by joined_to, is one"},
+    {{"rope", "cable", "chain", "cloth", "shell"},
+     "ropes and sheets are not simulated as such; an elastic body of three particles or more across is the thinnest"},
+    {{"motor", "actuator", "controller"},
+     "motors are not simulated; motion = \"prescribed\" with keyframes leads a body, an event of kind \"grip\" moves those in a "
+     "region"},
+    {{"external_force", "body_force", "thrust", "applied_force", "force", "applied_load", "torque"},
+     "forces from outside are not simulated, but for scene.gravity, which acts on all that is free; motion = \"prescribed\" "
+     "leads a "
+     "body"},
+    {{"wind", "drag", "air_density", "atmosphere"},
+     "air is not simulated; a liquid body of its density and viscosity is the nearest to it"},
+    {{"turbulence", "k_epsilon", "smagorinsky"}, "no model of turbulence is there: what the particles resolve is simulated"},
+    {{"radiation", "emissivity", "convection", "heat_flux", "heat_source"},
+     "radiation and given heat flows are not simulated; temperature_held and events of kind \"heat\" hold a temperature"},
+    {{"thermal_expansion"}, "thermal expansion is not simulated: densities do not depend on temperature"},
+    {{"magnet", "electric", "charge"}, "electric and magnetic fields are not simulated"}};
+
 /// For words that other programs have: why this one has not, and what serves.
 std::string what_there_is_instead(std::string_view key) {
   const auto holds = [&](std::string_view word) { return key.find(word) != key.npos; };
@@ -67,7 +95,8 @@ std::string what_there_is_instead(std::string_view key) {
            "contact";
   if (holds("damping"))
     return "no term damps a motion; scene.contact_viscosity [Pa s] takes energy where solids touch, viscosity [Pa s] in a liquid";
-  if (holds("surface_tension")) return "surface tension is not simulated";
+  for (const auto& [words, answer] : not_simulated)
+    if (std::ranges::any_of(words, holds)) return std::string(answer);
   return {};
 }
 
