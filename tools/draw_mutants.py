@@ -4,10 +4,11 @@
 
     tools/draw_mutants.py --tree ../copy --seed 7 --count 20 --out mutants.json
 
-Draws file, line and change (another operator, another sign, a factor of 1.02, a statement left out) over all C++ files of src/effects and
-adapters. Each is applied to --tree, a copy of the project that is already built with tests (`git worktree add`, then `tools/build.sh --tests N`),
+Draws file, line and change (another operator, another sign, a factor of 1.02, a statement left out) over all C++ files of the solver (src/effects,
+src/sph, src/solids, src/step) and adapters, or of each --room. Each is applied to --tree, a copy of the project that is already built with tests (`git worktree add`, then `tools/build.sh --tests N`),
 which is rebuilt as far as the file reaches. Then the cases of the commit profile that touch the file are run, the quickest first, and the unit
 tests of its room between the quick ones and the others, until one is red. Where the change does not compile another is drawn; a mutant nothing sees is printed with its line.
+With --cases-only no unit test is asked: the share that is killed is that of the suite alone. At most --most cases are asked, those of other effects first.
 The seed gives the same mutants from the same sources. What was judged already in --out is not judged again.
 """
 import argparse
@@ -20,7 +21,7 @@ import sys
 import time
 import tomllib
 
-ROOMS = ("src/effects", "adapters")
+ROOMS = ("src/effects", "src/sph", "src/solids", "src/step", "adapters")
 FOLDERS = ("rigid", "fluid", "motion", "prescribed", "density", "elastic", "plastic", "fracture", "heat", "phase")
 # A line that carries no behaviour of the model: text for people, declarations.
 PASSED_OVER = re.compile(r'^\s*(//|#|\*|using |namespace |template|struct |class |enum |static_assert|assert|\[\[nodiscard\]\]|public:|private:|case )|"|throw |fmt::|static const|const_cast|operator|= default|= delete|make_unique|\bfor \(|\w&[,)]|std::vector<.*=|\w& \w+ = |nullptr|virtual |, \w+ = ')
@@ -50,17 +51,17 @@ def changes_of(line):
     return found
 
 
-def sources(tree):
+def sources(tree, rooms=ROOMS):
     files = []
-    for room in ROOMS:
+    for room in rooms:
         files += sorted(p for p in (tree / room).rglob("*") if p.suffix in (".cpp", ".hpp") and "templates" not in p.parts)
     return files
 
 
-def draw(rng, tree):
+def draw(rng, tree, rooms=ROOMS):
     """A file, each as likely; in it a line that can be changed; of that a change."""
     while True:
-        path = rng.choice(sources(tree))
+        path = rng.choice(sources(tree, rooms))
         lines = path.read_text().split("\n")
         candidates = [n for n in range(len(lines)) if changes_of(lines[n])]
         if not candidates:
@@ -76,6 +77,8 @@ def targets_of(file):
         part = file.split("/")[2]
         of = {"elastic": ["elastic"], "plastic": ["plastic"], "fracture": ["plastic"], "phase": ["phase"], "heat": ["phase"]}.get(part, ["elastic", "passes", "phase"])
         return ["engine-tripoint"], ["test-effects"] + [f"test-effects-{x}" for x in of] + ["test-step"], "tripoint"
+    if not file.startswith("adapters"):
+        return ["engine-tripoint"], [f"test-{file.split('/')[1]}" if not file.startswith("src/solids") else "test-effects", "test-step"], "tripoint"
     part = file.split("/")[1]
     tests = {"tripoint": ["test-step"], "bullet": ["test-bullet"], "lammps": ["test-engines"], "exact": ["test-exact"]}
     if part in tests:
@@ -111,9 +114,19 @@ class Cases:
         of = [c for c, about in self.cases.items() if (part not in FOLDERS or part in about["effects"]) and any(e.startswith(engine) for e in about["engines"])]
         return sorted(of, key=lambda c: self.cases[c]["cost"])
 
+    def varied(self, touched):
+        """The cheapest case of each set of effects first, so that the first few see as many terms as they can."""
+        seen, first = set(), []
+        for case in touched:
+            effects = frozenset(self.cases[case]["effects"])
+            if effects not in seen:
+                seen.add(effects)
+                first.append(case)
+        return first + [c for c in touched if c not in first]
+
     def passes(self, case, engine, out, tree=None):
         engines = sorted(e for e in self.cases[case]["engines"] if e.startswith(engine))
-        done = run(["build/bin/tripoint", "validate", case, "--engines", ",".join(engines), "--no-history", "--no-report", "--out", out], tree or self.tree, 900)
+        done = run(["build/bin/tripoint", "validate", case, "--jobs", "1", "--engines", ",".join(engines), "--no-history", "--no-report", "--out", out], tree or self.tree, 900)
         results = pathlib.Path(out) / "results.json"
         if done is None or not results.exists():
             return False, "timed out" if done is None else f"exit {done.returncode}"
@@ -182,6 +195,9 @@ def judge(mutant, cases, options):
                 return why
         return ""
 
+    if options.cases_only:
+        mutant["killed_by"] = red_case(cases.varied(touched)[: options.most])
+        return
     first = options.first if mutant["file"].startswith("src/effects") else 0  # an adapter's cases are slower than its tests
     mutant["killed_by"] = red_case(touched[:first]) or red_test(tests, mutant["file"], options) or red_oracle(mutant["file"], options) or red_case(touched[first:])
 
@@ -195,17 +211,21 @@ def main():
     p.add_argument("--jobs", default="2")
     p.add_argument("--first", type=int, default=15, help="quick cases that are asked before the unit tests")
     p.add_argument("--out", type=pathlib.Path, default=pathlib.Path("mutants.json"))
+    p.add_argument("--room", action="append", help=f"a folder to draw from; default {', '.join(ROOMS)}")
+    p.add_argument("--cases-only", action="store_true", help="ask no unit test")
+    p.add_argument("--most", type=int, default=60, help="cases that are asked of a mutant with --cases-only")
     p.add_argument("--list", action="store_true", help="only print what would be drawn")
     options = p.parse_args()
     options.tree, options.out = options.tree.resolve(), options.out.resolve()
     if options.tree == pathlib.Path(__file__).resolve().parent.parent:
         sys.exit("draw_mutants: --tree is the tree of this script: give a copy, its sources are changed")
     rng, done = random.Random(options.seed), json.loads(options.out.read_text()) if options.out.exists() else []
-    print(f"seed {options.seed}, {len(sources(options.tree))} files", flush=True)
+    rooms = options.room or ROOMS
+    print(f"seed {options.seed}, {len(sources(options.tree, rooms))} files", flush=True)
     cases = None if options.list else Cases(options.tree, options.sound.resolve())
     judged = 0
     while judged < options.count:
-        mutant, path, lines, n, text = draw(rng, options.tree)
+        mutant, path, lines, n, text = draw(rng, options.tree, rooms)
         place = f"{mutant['file']}:{mutant['line']} {mutant['kind']}: {mutant['old']}  ->  {mutant['new']}"
         if options.list:
             judged += 1
