@@ -198,6 +198,12 @@ class MergeWalk(unittest.TestCase):
         self.assertEqual(code, 0, words)
         self.assertIn("its version has fallen from 1.0, which was accepted, to 0.9.7", words)
 
+    def test_a_flag_that_is_untrue_is_named(self):
+        self.edit("engine-stone", "        now = t\n", "        x[0] += 1e-15 * os.urandom(1)[0] if t > 0 else 0.0\n        now = t\n")
+        code, words = self.merge()
+        self.assertEqual(code, 0, words)
+        self.assertRegex(words, r"warning: .* stone: says that it is deterministic, and that is untrue: \w+ is .* in one run and .* in its repeat")
+
     def test_a_limit_dated_tomorrow_is_no_case(self):
         self.edit(f"cases/{THROW}.toml", re.search(r'date = ".*"', (self.project / "cases" / f"{THROW}.toml").read_text())[0], 'date = "tomorrow"')
         self.assert_red(*self.merge(), r"date")

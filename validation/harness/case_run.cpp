@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "scene/sample.hpp"
@@ -221,6 +222,33 @@ bool is_compared(const CaseRuns& all, const CaseRun& run) {
   return counts(run) && std::ranges::any_of(all.runs, [&](const CaseRun& r) { return counts(r) && r.engine != run.engine; });
 }
 
+/// Whether the run is made twice: the case was adopted for this engine, which says that it is deterministic.
+bool is_repeated(const CaseRuns& all, const CaseRun& run) {
+  const auto& engine = all.engines[run.engine];
+  const bool adopted = std::ranges::any_of(all.value->engines, [&](const auto& e) { return e.adopted && e.name == engine.name; });
+  return adopted && run.plan.base && !run.kept && run.row.status == Status::ok && engine.entry->deterministic &&
+         !belongs_to_us(engine.entry->executable);
+}
+
+/// What a repeat of the run gives otherwise; empty = nothing.
+std::string difference_of_repeat(const CaseRuns& all, const CaseRun& run, const SuiteOptions& options) {
+  auto request = request_of(all, run, options);
+  request.folder += "-repeat";
+  request.keep_finished = false;
+  request.count_below = 0.0;
+  const auto again = run_one(request);
+  std::error_code none;
+  fs::remove_all(request.folder, none);
+  if (interrupted()) return {};
+  if (!again.trajectory) return fmt::format("its repeat is {}", again.status);
+  for (const auto& [name, value] : evaluate_all(*all.value, run.job, *run.initial, *again.trajectory)) {
+    const auto first = run.row.metrics.find(name);
+    if (first != run.row.metrics.end() && first->second.value != value.value && std::isfinite(value.value))
+      return fmt::format("{} is {:.9g} in one run and {:.9g} in its repeat", name, first->second.value, value.value);
+  }
+  return {};
+}
+
 /// A run that somebody else has made. Its frames are read where engines are compared by them.
 void take_made(const CaseRuns& all, CaseRun& run, MadeRun made, const SuiteOptions& options) {
   run.row = std::move(made.row);
@@ -266,6 +294,8 @@ void make_run(const CaseRuns& all, CaseRun& run, const SuiteOptions& options) {
   row.state_hash = outcome.result.state_hash;
   row.time_step_bound = outcome.result.time_step_bound;
   if (outcome.trajectory) row.metrics = evaluate_all(*all.value, run.job, *run.initial, *outcome.trajectory);
+  if (is_repeated(all, run))
+    if (const auto how = difference_of_repeat(all, run, options); !how.empty()) row.reason = untrue_flag + (": " + how);
   if (!run.plan.base || !outcome.trajectory) return;
   run.trajectory = outcome.trajectory;
   if (is_own_solver(all.engines[run.engine].name)) run.ledger = ledger_of(*run.trajectory);

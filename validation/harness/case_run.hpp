@@ -18,6 +18,9 @@ struct ChangedRun {
   std::shared_ptr<std::string> particles_hash;
 };
 
+/// How the reason of a run begins whose engine says that it is deterministic and whose repeat differs.
+inline const std::string untrue_flag = "says that it is deterministic, and that is untrue";
+
 /// One run of a case, ready to be made; and what came of it.
 struct CaseRun {
   std::size_t engine = 0;  ///< row in CaseRuns::engines

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "validation/harness/baseline_rows.hpp"
+#include "validation/harness/case_run.hpp"
 #include "validation/harness/finished_run.hpp"
 #include "validation/harness/foreign_text.hpp"
 #include "validation/harness/verdict.hpp"
@@ -58,6 +59,15 @@ void compare_programs(const Results& results, std::vector<Remark>& list) {
     }
 }
 
+/// An adopted engine's run is repeated; what differs is the reason of a run that is ok.
+void name_untrue_flags(const Results& results, std::vector<Remark>& list) {
+  for (const auto& c : results.cases)
+    for (const auto& e : c.engines)
+      for (const auto& run : e.runs)
+        if (run.status == Status::ok && run.reason.starts_with(untrue_flag))
+          list.push_back(warning(c, e.name, one_line(run.reason)));
+}
+
 const AcceptedEngine* accepted(const Baseline& b, const std::string& name) {
   const auto at = std::find_if(b.engines.begin(), b.engines.end(), [&](const auto& e) { return e.name == name; });
   return at == b.engines.end() ? nullptr : &*at;
@@ -97,6 +107,7 @@ void compare_engine(const Results& results, const CaseResult& c, const EngineRow
 std::vector<Remark> engine_remarks(const Results& results, const std::string& root) {
   std::vector<Remark> list;
   compare_programs(results, list);
+  name_untrue_flags(results, list);
   for (const auto& c : results.cases) {
     const auto file = baseline_file(c.file, root);
     if (!fs::exists(file)) continue;
