@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cmath>
+#include <limits>
 
 #include "core/vec3.hpp"
 
@@ -38,9 +39,11 @@ inline Quaternion from_rotation_vector(const Vec3& a) noexcept {
   return {std::cos(0.5 * angle), s * a.x, s * a.y, s * a.z};
 }
 
-/// Angle [rad] in 0..pi between two orientations, blind to the quaternion's sign: 2 atan2(|vec|, |scal|) of a* b.
+/// Angle [rad] in 0..pi between two orientations, blind to the quaternion's sign: 2 atan2(|vec|, |scal|) of a* b. NaN where one
+/// is zero, which is no orientation.
 inline double angle_between(const Quaternion& a, const Quaternion& b) noexcept {
   const Quaternion d = conjugate(a) * b;
+  if (!(norm(d) > 0.0)) return std::numeric_limits<double>::quiet_NaN();
   return 2.0 * std::atan2(norm(Vec3{d.x, d.y, d.z}), std::abs(d.w));
 }
 
