@@ -23,6 +23,7 @@ struct Still {
         if (b.index >= 0) {
           frame.bodies.emplace_back();
           frame.bodies.back().position = b.properties.centre;
+          frame.bodies.back().mass = b.properties.mass;
         }
       run.frames.push_back(frame);
     }
