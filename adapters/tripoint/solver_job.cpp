@@ -48,7 +48,7 @@ Readback readback_of(const World& world, const TimeStepBound& bound) {
       static_cast<std::size_t>(std::ranges::count_if(world.scene.bodies, [](const Body& b) { return b.phase != Phase::liquid; }));
   for (std::size_t b = 0; b < of_scene; ++b) {  // matter that is cold from the start has frozen to bodies of its own by now
     held.bodies.push_back({world.body_names[b], world.bodies[field::body_mass][b], world.bodies[field::body_centre][b],
-                           world.bodies[field::body_inertia][b], 0.0, 0.0, 0.0, 0.0});
+                           world.bodies[field::body_inertia][b], 0.0, 1.0, 0.0, 0.0});  // elastic by its energy, without friction
   }
   return held;
 }

@@ -24,6 +24,9 @@ std::string refuse_settings(const Job& job, const EngineInfo& info) {
       return "tripoint: contact in the particle model is elastic by its energy: restitution is no setting, and only 1 is what it "
              "does";
     }
+    if (name == "friction") {
+      if (const double* mu = std::get_if<double>(&value); mu && *mu == 0.0) continue;  // which is what its contact does
+    }
     if (name.find("friction") != std::string::npos)
       return "tripoint: the particle model meets by pressure and viscosity alone and has no law of Coulomb: " + name +
              " is no setting; scene.contact_viscosity brakes solids that slide on each other";

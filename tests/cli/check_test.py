@@ -66,6 +66,13 @@ def call(verb, text, folder, *more):
 
 
 class Check(unittest.TestCase):
+    def test_a_friction_of_0_is_what_contact_of_ours_does(self):
+        for friction, code in ((0.0, 0), (0.3, 4)):
+            with tempfile.TemporaryDirectory() as folder:
+                text = scene("end_time = 0.1") + STONE + CUBE + f"[engines.all]\nsettings = {{ friction = {friction} }}\n"
+                done = call("run", text, folder, "--out", Path(folder) / "out")
+                self.assertEqual(done.returncode, code, done.stderr)
+
     def test_it_finds_what_a_run_or_its_judgement_would_stop_at(self):
         for name, (text, words) in WRONG.items():
             with self.subTest(name), tempfile.TemporaryDirectory() as folder:

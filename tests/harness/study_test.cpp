@@ -63,6 +63,17 @@ EnginePlan our_plan(const Case& value) {
   return plan_runs(value, {ours}, only).at(0);
 }
 
+TEST(Engines, OurSolverIsNotRequiredWhereAllEnginesGetALawOfContactThatItDoesNotHave) {
+  const TestFolder folder;
+  const auto required = [&](const std::string& settings) {
+    return our_plan(read_flight_case(folder, "[engines.all]\nsettings = { " + settings + " }\n")).required;
+  };
+  EXPECT_FALSE(required("friction = 0.3"));
+  EXPECT_FALSE(required("restitution = 0.5"));
+  EXPECT_TRUE(required("friction = 0.0"));
+  EXPECT_TRUE(required("friction = 0.0, restitution = 1.0"));
+}
+
 TEST(Studies, ShareTheRunsThatAreTheSame) {
   const TestFolder folder;
   const auto value = read_flight_case(folder, R"(

@@ -35,6 +35,17 @@ Settings settings_of(const Case& value, const EngineChoice& engine) {
   return settings;
 }
 
+/// Whether [engines.all] asks for a law of contact that the solver does not have: it refuses friction, and restitution but for 1.
+bool asks_for_laws_of_contact(const Case& value) {
+  const auto other = [](const Settings& settings, const char* name, double own) {
+    const auto at = settings.find(name);
+    return at != settings.end() && at->second != Setting(own);
+  };
+  return std::ranges::any_of(value.engines, [&](const auto& e) {
+    return e.name == every_engine && (other(e.settings, "friction", 0.0) || other(e.settings, "restitution", 1.0));
+  });
+}
+
 std::vector<EngineChoice> engines_of(const Case& value, const std::vector<EngineEntry>& found, const Selection& selection) {
   std::vector<EngineChoice> list;
   const auto listed = [&](const std::string& name) {
@@ -47,7 +58,7 @@ std::vector<EngineChoice> engines_of(const Case& value, const std::vector<Engine
     choice.required = choice.required || required;
     list.push_back(choice);
   };
-  add(engine_name::solver, listed(engine_name::solver) == value.engines.end());
+  add(engine_name::solver, listed(engine_name::solver) == value.engines.end() && !asks_for_laws_of_contact(value));
   for (const auto& e : value.engines)
     if (e.name != every_engine) add(e.name, false);
   if (has_states(value.reference)) add(engine_name::exact, false);
