@@ -58,8 +58,11 @@ class DartWorld(World):
         np, dynamics = self.np, self.dart.dynamics
         if piece.kind == "box":
             shape = dynamics.BoxShape(np.array([2.0 * half for half in piece.size]))
-        else:
+        elif piece.kind == "sphere":
             shape = dynamics.SphereShape(piece.size[0])
+        else:
+            rod = dynamics.CylinderShape if piece.kind == "cylinder" else dynamics.CapsuleShape
+            shape = rod(piece.size[0], 2.0 * piece.size[2])
         held = node.createShapeNode(shape)
         held.setRelativeTransform(self.transform(piece.centre, piece.rotation))
         held.createCollisionAspect()

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Drake (BSD-3-Clause), the wheel: rigid bodies of its MultibodyPlant, contact by points or hydroelastic patches, without restitution.
 
-Presets: `discrete` is the plant's own discrete update with its contact solvers; the others are names of its `integration_scheme` with a
-fixed step. Optional solvers of other licences are not loaded."""
+Presets: `hydroelastic` and `discrete` are the plant's own discrete update, with contact over patches and by points; the others are names
+of its `integration_scheme` with a fixed step. Optional solvers of other licences are not loaded."""
 from __future__ import annotations
 
 import sys
@@ -15,6 +15,27 @@ from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World,
 from rotation import IDENTITY, Quaternion, Vector, add, product, quaternion, rotate, vector
 
 APPROXIMATIONS = ("tamsi", "sap", "similar", "lagged")  # discrete_contact_approximation, in Drake's words
+DISCRETE = ("hydroelastic", "discrete")  # presets of the discrete update: contact over patches, and Drake as it comes
+RESOLUTION = 0.02  # of the mesh of a cylinder, Drake's default [m]; boxes need none
+PLANT_SETTINGS = {  # members of MultibodyPlantConfig
+    "discrete_contact_approximation": "tamsi, sap, similar or lagged (Drake's default), of the presets hydroelastic and discrete",
+    "stiction_tolerance": "Drake's default 1e-4 [m/s]"}
+SURFACE_SETTINGS = {  # members of DefaultProximityProperties
+    "margin": "of hydroelastic contact, Drake's default 0 [m]",
+    "hunt_crossley_dissipation": "Drake's default 50 [s/m]", "relaxation_time": "of sap, Drake's default 0.1 [s]",
+    "point_stiffness": "of contact by points, Drake's default 1e6 [N/m]"}
+
+
+def shape_of(piece: Piece) -> Any:
+    from pydrake.geometry import Box, Capsule, Cylinder, HalfSpace, Sphere
+
+    if piece.kind == "plane":
+        return HalfSpace()
+    if piece.kind == "box":
+        return Box(*(2.0 * half for half in piece.size))
+    if piece.kind == "sphere":
+        return Sphere(piece.size[0])
+    return (Cylinder if piece.kind == "cylinder" else Capsule)(piece.size[0], 2.0 * piece.size[2])
 
 
 class DrakeWorld(World):
@@ -25,21 +46,24 @@ class DrakeWorld(World):
 
     def build(self, dt: float, states: dict[int, State]) -> None:
         """A plant of this step with the bodies in these states; Drake's discrete plants cannot change their step."""
+        from pydrake.geometry import SceneGraphConfig
         from pydrake.math import RigidTransform
         from pydrake.multibody.math import SpatialVelocity
-        from pydrake.multibody.plant import AddMultibodyPlantSceneGraph
+        from pydrake.multibody.plant import AddMultibodyPlant, MultibodyPlantConfig
         from pydrake.systems.analysis import ApplySimulatorConfig, Simulator, SimulatorConfig
         from pydrake.systems.framework import DiagramBuilder
 
         self.dt, self.ticks = dt, 0
         builder = DiagramBuilder()
-        discrete = self.job.preset == "discrete"
-        self.plant, _ = AddMultibodyPlantSceneGraph(builder, dt if discrete else 0.0)
-        if "discrete_contact_approximation" in self.job.settings:
-            from pydrake.multibody.plant import DiscreteContactApproximation
-
-            word = self.job.settings["discrete_contact_approximation"]
-            self.plant.set_discrete_contact_approximation(getattr(DiscreteContactApproximation, "k" + word.capitalize()))
+        discrete = self.job.preset in DISCRETE
+        chosen = self.job.settings
+        self.modulus = float(chosen.get("hydroelastic_modulus", 0.0))
+        plant, scene = MultibodyPlantConfig(time_step=dt if discrete else 0.0), SceneGraphConfig()
+        for part, keys in ((plant, PLANT_SETTINGS), (scene.default_proximity_properties, SURFACE_SETTINGS)):
+            for key in keys:
+                if key in chosen:
+                    setattr(part, key, chosen[key])
+        self.plant, _ = AddMultibodyPlant(plant, scene, builder)
         self.plant.mutable_gravity_field().set_gravity_vector(list(self.job.scene["gravity"]))
         self.rigid = {number: self.add(number) for number in self.free}
         for body in self.bodies:
@@ -75,15 +99,27 @@ class DrakeWorld(World):
         return rigid
 
     def surface(self, rigid: Any, piece: Piece, at: Vector, turn: Quaternion) -> None:
-        from pydrake.geometry import Box, HalfSpace, Sphere
+        from pydrake.geometry import AddContactMaterial, ProximityProperties
         from pydrake.math import RigidTransform
         from pydrake.multibody.plant import CoulombFriction
 
         place = self.pose(add(at, rotate(turn, piece.centre)), product(turn, piece.rotation), RigidTransform)
-        shape = HalfSpace() if piece.kind == "plane" else Box(*(2.0 * half for half in piece.size)) if piece.kind == "box" else Sphere(piece.size[0])
         mu = coulomb(self.job)
         self.count = getattr(self, "count", 0) + 1
-        self.plant.RegisterCollisionGeometry(rigid, place, shape, f"surface{self.count}", CoulombFriction(mu, mu))
+        properties = ProximityProperties()
+        AddContactMaterial(friction=CoulombFriction(mu, mu), properties=properties)
+        if self.modulus and piece.kind not in ("sphere", "capsule"):
+            self.compress(properties, fixed=rigid.index() == self.plant.world_body().index())
+        self.plant.RegisterCollisionGeometry(rigid, place, shape_of(piece), f"surface{self.count}", properties)
+
+    def compress(self, properties: Any, fixed: bool) -> None:
+        """Makes a surface hydroelastic. Balls and capsules are left to points: they meet a face in one, and roll as no mesh does."""
+        from pydrake.geometry import AddCompliantHydroelasticProperties, AddRigidHydroelasticProperties
+
+        if fixed:  # two rigid surfaces would meet in one point
+            AddRigidHydroelasticProperties(RESOLUTION, properties)
+        else:
+            AddCompliantHydroelasticProperties(RESOLUTION, self.modulus, properties)
 
     def step(self, dt: float, count: int) -> None:
         if abs(dt / self.dt - 1.0) > 1e-9:
@@ -109,8 +145,15 @@ class DrakeWorld(World):
 class Drake(RigidEngine):
     name, title = "drake", "Drake"
     capabilities = ("rigid-free-flight", "gravity", "fixed", "contact")
-    presets = ("discrete", "runge_kutta2", "runge_kutta3", "semi_explicit_euler")
-    settings = SHARED_SETTINGS | {"discrete_contact_approximation": "tamsi, sap, similar or lagged (Drake's default), of the preset discrete"}
+    presets = (*DISCRETE, "runge_kutta2", "runge_kutta3", "semi_explicit_euler")
+    preset_words = {
+        "hydroelastic": '"The contact force between two deformed bodies is distributed over a contact patch" '
+                        "(Drake, Hydroelastic Contact User Guide)",
+        "discrete": '"By default no geometry in drake::geometry::SceneGraph has a hydroelastic representation" '
+                    "(Drake, Hydroelastic Contact User Guide)"}
+    preset_settings = {"hydroelastic": {"hydroelastic_modulus": 1e9}}
+    settings = SHARED_SETTINGS | PLANT_SETTINGS | SURFACE_SETTINGS | {
+        "hydroelastic_modulus": "of free bodies [Pa], 1e9 in the preset hydroelastic, fixed ones being rigid; without it contact is by points"}
     default_step = 0.001  # of Drake's own MultibodyPlantConfig
 
     def version(self) -> str:
@@ -124,14 +167,14 @@ class Drake(RigidEngine):
         word = job.settings.get("discrete_contact_approximation", "lagged")
         if word not in APPROXIMATIONS:
             return f"drake: discrete_contact_approximation is one of {', '.join(APPROXIMATIONS)}"
-        grows = why_it_grows(job, self.default_step) if job.preset in ("discrete", "semi_explicit_euler") else ""
+        grows = why_it_grows(job, self.default_step) if job.preset in (*DISCRETE, "semi_explicit_euler") else ""
         if grows:
             return f"Drake's {job.preset} " + grows
         bounce = bounciness(job)
         if bounce > 0.0:
             return f"Drake's contact has no coefficient of restitution, and {bounce:g} is asked for"
-        if job.preset != "discrete" and len(job.bodies) > 1:
-            return "Drake's continuous contact is stiff, and its integrators run here with a fixed step: contact is handed to the preset discrete alone"
+        if job.preset not in DISCRETE and len(job.bodies) > 1:
+            return f"Drake's continuous contact is stiff, and its integrators run here with a fixed step: contact is handed to {' and '.join(DISCRETE)} alone"
         for body in job.bodies:
             moments = sorted(body["principal_inertia"])
             if body["motion"] == "free" and moments[0] + moments[1] < moments[2] * (1.0 - 1e-12):

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Jolt Physics (MIT), the npm package jolt-physics on node, in single precision: rigid bodies, contacts.
 
-The gyroscopic term is off by default in Jolt; the preset `mApplyGyroscopicForce` is its switch of that name."""
+The gyroscopic term is off by default in Jolt; the preset `mApplyGyroscopicForce` is its switch of that name. `many-iterations` has the term
+too, more iterations of its solver, and small tolerances of contact."""
 from __future__ import annotations
 
 import json
@@ -12,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from contract import Job, serve
-from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb
+from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb, upright
 from rotation import Vector, dot, quaternion, rotate, vector
 
 WORLD_SETTINGS = {  # members of PhysicsSettings, in Jolt's words
@@ -25,7 +26,7 @@ def piece_words(piece: Piece) -> dict[str, Any]:
     if piece.kind == "plane":
         normal = rotate(piece.rotation, (0.0, 0.0, 1.0))
         return {"kind": "plane", "normal": normal, "constant": -dot(normal, piece.centre)}
-    return piece._asdict()
+    return upright(piece)._asdict()
 
 
 def body_words(body: Body) -> dict[str, Any]:
@@ -39,8 +40,8 @@ class JoltWorld(World):
     def __init__(self, package: Path, job: Job, bodies: list[Body]) -> None:
         program = str(Path(__file__).resolve().parent / "jolt_world.mjs")
         self.node = subprocess.Popen(["node", program, str(package)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-        scene = {"gravity": job.scene["gravity"], "gyroscopic": job.preset == "mApplyGyroscopicForce", "friction": coulomb(job),
-                 "restitution": bounciness(job), "bodies": [body_words(body) for body in bodies],
+        scene = {"gravity": job.scene["gravity"], "gyroscopic": job.preset != "default", "friction": coulomb(job),
+                 "restitution": bounciness(job), "rounded": float(job.settings.get("mConvexRadius", 0.05)), "bodies": [body_words(body) for body in bodies],
                  "settings": {key: job.settings[key] for key in WORLD_SETTINGS if key in job.settings}}
         self.opened = self.ask({"open": scene})
         self.states = self.opened["states"]
@@ -84,11 +85,13 @@ class JoltWorld(World):
 class Jolt(RigidEngine):
     name, title = "jolt", "Jolt"
     capabilities = ("rigid-free-flight", "gravity", "fixed", "contact")
-    presets = ("default", "mApplyGyroscopicForce")
+    presets = ("many-iterations", "default", "mApplyGyroscopicForce")
+    preset_settings = {"many-iterations": {"mNumVelocitySteps": 50, "mNumPositionSteps": 10, "mPenetrationSlop": 0.001,
+                                           "mMinVelocityForRestitution": 0.01, "mConvexRadius": 0.0}}
     preset_words = {"default": '"mApplyGyroscopicForce = false" (Jolt, Physics/Body/BodyCreationSettings.h)',
                     "mApplyGyroscopicForce": '"Set to indicate that the gyroscopic force should be applied to this body (aka Dzhanibekov '
                                              'effect...)" (Jolt, Physics/Body/BodyCreationSettings.h)'}
-    settings = SHARED_SETTINGS | WORLD_SETTINGS
+    settings = SHARED_SETTINGS | WORLD_SETTINGS | {"mConvexRadius": "by which edges and corners of boxes are rounded, Jolt's default 0.05 [m]; at most half the thinnest"}
     precision = "single"
     default_step = 1.0 / 60.0  # of Jolt's own example
 

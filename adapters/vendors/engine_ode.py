@@ -97,7 +97,10 @@ class OdeWorld(World):
     def geom(self, piece: Piece) -> Any:
         if piece.kind == "box":
             return self.ode.dCreateBox(self.space, *(2.0 * half for half in piece.size))
-        return self.ode.dCreateSphere(self.space, piece.size[0])
+        if piece.kind == "sphere":
+            return self.ode.dCreateSphere(self.space, piece.size[0])
+        rod = self.ode.dCreateCylinder if piece.kind == "cylinder" else self.ode.dCreateCapsule
+        return rod(self.space, piece.size[0], 2.0 * piece.size[2])
 
     def meet(self, _: Any, first: Any, second: Any) -> None:
         """Makes a contact joint for each point where two surfaces touch; two fixed ones, or two of one body, do not."""

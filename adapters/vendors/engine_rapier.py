@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rapier (Apache-2.0), its Python wheel in single precision: rigid bodies, contacts. Presets are its friction models by name."""
+"""Rapier (Apache-2.0), its Python wheel in single precision: rigid bodies, contacts. Presets are its friction models by name,
+with contacts as they come, and `stiff-contact`: SIMPLIFIED with stiff contacts."""
 from __future__ import annotations
 
 import math
@@ -9,12 +10,18 @@ from pathlib import Path
 from typing import Any
 
 from contract import Job, file_of, serve
-from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb
+from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb, upright
 from rotation import Quaternion, Vector, norm, rotate, vector
 
 WORLD_SETTINGS = {  # attributes of IntegrationParameters, in Rapier's words, with what they are
-    "num_solver_iterations": "Rapier's default 4",
+    "num_solver_iterations": "substeps of a step, Rapier's default 4",
+    "num_internal_pgs_iterations": "Rapier's default 1",
     "num_internal_stabilization_iterations": "Rapier's default 1",
+    "contact_natural_frequency": "Rapier's default 30 [Hz]", "contact_damping_ratio": "Rapier's default 10",
+    "static_contact_natural_frequency": "of contact with fixed bodies, Rapier's default 60 [Hz]",
+    "static_contact_damping_ratio": "of contact with fixed bodies, Rapier's default 10",
+    "contact_recycling": "whether pairs that hardly moved keep their points, true (Rapier's default) or false",
+    "friction_in_bias_pass": "true, or false (Rapier's default): friction in the second pass of a substep alone",
     "normalized_allowed_linear_error": "Rapier's default 0.005 [m]",
     "normalized_prediction_distance": "Rapier's default 0.02 [m]",
     "normalized_max_corrective_velocity": "Rapier's default 3 [m/s]", "warmstart_coefficient": "Rapier's default 1"}
@@ -26,6 +33,24 @@ def xyz(v: Any) -> Vector:
     return float(v.x), float(v.y), float(v.z)
 
 
+SOFTNESS = {f"{pairs}_{word}": (f"{pairs}_softness", word)  # setting -> member of IntegrationParameters, and its own member
+            for pairs in ("contact", "static_contact") for word in ("natural_frequency", "damping_ratio")}
+
+
+def set_parameter(parameters: Any, key: str, value: Any) -> None:
+    if key not in SOFTNESS:
+        setattr(parameters, key, type(getattr(parameters, key))(value))
+        return
+    outer, inner = SOFTNESS[key]
+    spring = getattr(parameters, outer)  # the wheel hands out a copy
+    setattr(spring, inner, float(value))
+    setattr(parameters, outer, spring)
+
+
+def friction_model(job: Job) -> str:
+    return "COULOMB" if job.preset == "COULOMB" else "SIMPLIFIED"
+
+
 class RapierWorld(World):
     def __init__(self, rapier: Any, job: Job, bodies: list[Body], dt: float) -> None:
         self.rapier = rapier
@@ -33,10 +58,10 @@ class RapierWorld(World):
         # No set_num_threads: it would hand every step to a thread of its own, which on a busy machine waits for its turn each time.
         parameters = self.world.integration_parameters
         parameters.dt = dt
-        parameters.friction_model = getattr(rapier.FrictionModel, job.preset)
+        parameters.friction_model = getattr(rapier.FrictionModel, friction_model(job))
         for key in WORLD_SETTINGS:
             if key in job.settings:
-                setattr(parameters, key, type(getattr(parameters, key))(job.settings[key]))
+                set_parameter(parameters, key, job.settings[key])
         self.friction = coulomb(job)
         self.restitution = bounciness(job)
         self.gyroscopic = bool(job.settings.get("gyroscopic_forces", True))
@@ -59,14 +84,20 @@ class RapierWorld(World):
         return handle
 
     def collider(self, piece: Piece) -> Any:
-        collider = self.rapier.Collider
         if piece.kind == "plane":
-            shape = collider.halfspace(rotate(piece.rotation, (0.0, 0.0, 1.0)))
+            shape = self.rapier.Collider.halfspace(rotate(piece.rotation, (0.0, 0.0, 1.0)))
             shape = shape.position(self.isometry(piece.centre, (1.0, 0.0, 0.0, 0.0)))
         else:
-            shape = collider.cuboid(*piece.size) if piece.kind == "box" else collider.ball(piece.size[0])
-            shape = shape.position(self.isometry(piece.centre, piece.rotation))
+            shape = self.shape(piece).position(self.isometry(piece.centre, upright(piece).rotation))
         return shape.density(0.0).friction(self.friction).restitution(self.restitution)
+
+    def shape(self, piece: Piece) -> Any:
+        collider = self.rapier.Collider
+        if piece.kind == "box":
+            return collider.cuboid(*piece.size)
+        if piece.kind == "sphere":
+            return collider.ball(piece.size[0])
+        return (collider.cylinder if piece.kind == "cylinder" else collider.capsule_y)(piece.size[2], piece.size[0])
 
     def step(self, dt: float, count: int) -> None:
         self.world.integration_parameters.dt = dt
@@ -90,7 +121,12 @@ class RapierWorld(World):
 class Rapier(RigidEngine):
     name, title = "rapier", "Rapier"
     capabilities = ("rigid-free-flight", "gravity", "fixed", "contact")
-    presets = ("SIMPLIFIED", "COULOMB")
+    presets = ("stiff-contact", "SIMPLIFIED", "COULOMB")
+    preset_settings = {"stiff-contact": {"contact_natural_frequency": 1000.0, "static_contact_natural_frequency": 1000.0}}
+    preset_words = {"stiff-contact": '"Higher values make the constraint stiffer and resolve constraint violations more quickly" '
+                                     "(Rapier, dynamics/integration_parameters.rs)",
+                    "SIMPLIFIED": '"significantly faster to solve than Self::Coulomb but less accurate" (Rapier, dynamics/integration_parameters.rs)',
+                    "COULOMB": '"one Coulomb friction constraint per contact point" (Rapier, dynamics/integration_parameters.rs)'}
     settings = SHARED_SETTINGS | WORLD_SETTINGS | {"gyroscopic_forces": "true (Rapier's default) or false"}
     precision = "single"
     default_step = 1.0 / 60.0  # Rapier's own

@@ -12,14 +12,14 @@ from pathlib import Path
 from typing import Any
 
 from contract import Job, serve
-from engine_rapier import WORLD_SETTINGS, Rapier
-from rigid import Body, Held, State, World, bounciness, coulomb
+from engine_rapier import WORLD_SETTINGS, Rapier, friction_model
+from rigid import Body, Held, State, World, bounciness, coulomb, upright
 from rotation import Vector, quaternion, vector
 
 
 def body_words(body: Body) -> dict[str, Any]:
     return {"free": body.free, "mass": body.mass, "inertia": body.inertia, "centre": body.centre, "frame": body.frame,
-            "velocity": body.velocity, "spin": body.spin, "pieces": [piece._asdict() for piece in body.pieces]}
+            "velocity": body.velocity, "spin": body.spin, "pieces": [upright(piece)._asdict() for piece in body.pieces]}
 
 
 class DoubleWorld(World):
@@ -27,7 +27,7 @@ class DoubleWorld(World):
 
     def __init__(self, program: Path, job: Job, bodies: list[Body], dt: float) -> None:
         self.process = subprocess.Popen([str(program)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-        scene = {"gravity": job.scene["gravity"], "dt": dt, "preset": job.preset, "friction": coulomb(job), "restitution": bounciness(job),
+        scene = {"gravity": job.scene["gravity"], "dt": dt, "preset": friction_model(job), "friction": coulomb(job), "restitution": bounciness(job),
                  "gyroscopic": bool(job.settings.get("gyroscopic_forces", True)), "bodies": [body_words(body) for body in bodies],
                  "settings": {key: job.settings[key] for key in WORLD_SETTINGS if key in job.settings}}
         self.opened = self.ask({"open": scene})

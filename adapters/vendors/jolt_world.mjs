@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Jolt Physics on node: a world that engine_jolt.py drives. One JSON document a line on stdin, one answer a line on stdout.
-//   {"open": {gravity, gyroscopic, friction, restitution, settings, bodies}} -> {gravity, bodies: [{mass, inertia, ...}]}
+//   {"open": {gravity, gyroscopic, friction, restitution, rounded, settings, bodies}} -> {gravity, bodies: [{mass, inertia, ...}]}
 //   {"step": [dt, count]}                                                    -> [[x, y, z, vx, vy, vz, qw, qx, qy, qz, wx, wy, wz], ...]
 // SI units; bodies are in their principal frames. Only free bodies are answered for, in the order of `bodies`.
 import { createInterface } from 'node:readline';
@@ -35,11 +35,13 @@ function openWorld(settings) {
   return world;
 }
 
-function pieceSettings(piece) {
+function pieceSettings(piece, rounded) {
   if (piece.kind === 'sphere') return new J.SphereShapeSettings(piece.size[0]);
   if (piece.kind === 'plane') return new J.PlaneShapeSettings(new J.Plane(vec(piece.normal), piece.constant), null, 1000.0);
-  const rounded = Math.min(0.05, 0.5 * Math.min(...piece.size)); // Jolt's own radius of edges, less for thin boxes; flat sides stay where they are
-  return new J.BoxShapeSettings(vec(piece.size), rounded);
+  const [radius, , half] = piece.size;
+  if (piece.kind === 'capsule') return new J.CapsuleShapeSettings(half, radius);
+  if (piece.kind === 'cylinder') return new J.CylinderShapeSettings(half, radius, Math.min(rounded, 0.5 * half, 0.5 * radius));
+  return new J.BoxShapeSettings(vec(piece.size), Math.min(rounded, 0.5 * Math.min(...piece.size))); // flat sides stay where they are
 }
 
 function made(settings) {
@@ -49,15 +51,15 @@ function made(settings) {
 }
 
 /// A shape whose centre of mass is the body's, at the origin.
-function shapeOf(pieces) {
+function shapeOf(pieces, rounded) {
   if (pieces.length === 0) return made(new J.SphereShapeSettings(0.5)); // alone in its world: never touched
-  if (pieces[0].kind === 'plane') return made(pieceSettings(pieces[0]));
+  if (pieces[0].kind === 'plane') return made(pieceSettings(pieces[0], rounded));
   let settings;
   if (pieces.length === 1) {
-    settings = new J.RotatedTranslatedShapeSettings(vec(pieces[0].centre), quat(pieces[0].rotation), pieceSettings(pieces[0]));
+    settings = new J.RotatedTranslatedShapeSettings(vec(pieces[0].centre), quat(pieces[0].rotation), pieceSettings(pieces[0], rounded));
   } else {
     settings = new J.StaticCompoundShapeSettings();
-    for (const piece of pieces) settings.AddShapeShapeSettings(vec(piece.centre), quat(piece.rotation), pieceSettings(piece), 0);
+    for (const piece of pieces) settings.AddShapeShapeSettings(vec(piece.centre), quat(piece.rotation), pieceSettings(piece, rounded), 0);
   }
   const off = xyz(made(settings).GetCenterOfMass());
   if (Math.hypot(...off) === 0) return made(settings);
@@ -66,7 +68,7 @@ function shapeOf(pieces) {
 
 function addBody(interface_, given, scene) {
   const motion = given.free ? J.EMotionType_Dynamic : J.EMotionType_Static;
-  const c = new J.BodyCreationSettings(shapeOf(given.pieces), new J.RVec3(...given.centre), quat(given.frame), motion, given.free ? FREE : FIXED);
+  const c = new J.BodyCreationSettings(shapeOf(given.pieces, scene.rounded), new J.RVec3(...given.centre), quat(given.frame), motion, given.free ? FREE : FIXED);
   c.mLinearDamping = 0; // Jolt's default is 0.05, which no scene asks for
   c.mAngularDamping = 0;
   c.mAllowSleeping = false;

@@ -45,7 +45,8 @@ _FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {  # name -> result, argume
     "dBodySetAngularVel": (None, (_V, _D, _D, _D)), "dBodySetGyroscopicMode": (None, (_V, _I)), "dBodySetFiniteRotationMode": (None, (_V, _I)),
     "dBodyGetPosition": (_R, (_V,)), "dBodyGetQuaternion": (_R, (_V,)), "dBodyGetLinearVel": (_R, (_V,)), "dBodyGetAngularVel": (_R, (_V,)),
     "dBodyGetLinearDamping": (_D, (_V,)), "dBodyGetAngularDamping": (_D, (_V,)),
-    "dCreateBox": (_V, (_V, _D, _D, _D)), "dCreateSphere": (_V, (_V, _D)), "dCreatePlane": (_V, (_V, _D, _D, _D, _D)),
+    "dCreateBox": (_V, (_V, _D, _D, _D)), "dCreateSphere": (_V, (_V, _D)), "dCreateCylinder": (_V, (_V, _D, _D)),
+    "dCreateCapsule": (_V, (_V, _D, _D)), "dCreatePlane": (_V, (_V, _D, _D, _D, _D)),
     "dGeomSetBody": (None, (_V, _V)), "dGeomGetBody": (_V, (_V,)), "dGeomSetPosition": (None, (_V, _D, _D, _D)),
     "dGeomSetQuaternion": (None, (_V, _R)), "dGeomSetOffsetPosition": (None, (_V, _D, _D, _D)), "dGeomSetOffsetQuaternion": (None, (_V, _R)),
     "dCollide": (_I, (_V, _V, _I, _V, _I))}

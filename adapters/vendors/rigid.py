@@ -9,7 +9,7 @@ import math
 import time
 from abc import abstractmethod
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from contract import BODY_COLUMNS, Diverged, Engine, Job, Outcome, Row, write_trajectory
@@ -23,10 +23,16 @@ LARGEST = 1e30  # m, m/s or rad/s: what is beyond has diverged, though it still 
 class Piece(NamedTuple):
     """A part of a body's surface, in its principal frame."""
 
-    kind: str  # box | sphere | plane
+    kind: str  # box | sphere | plane | cylinder | capsule
     centre: Vector  # from the body's centre of mass [m]
-    rotation: Quaternion  # piece to principal frame; a plane's outward normal is its z axis
-    size: Vector  # half lengths of a box, radius of a sphere in x [m]
+    rotation: Quaternion  # piece to principal frame; a plane's outward normal and the axis of a cylinder or capsule are its z axis
+    size: Vector  # half lengths of a box; radius of a sphere in x; radius of a cylinder or capsule in x, half its straight part in z [m]
+
+
+def upright(piece: Piece) -> Piece:
+    """The piece with the axis of a cylinder or capsule along y, as some engines have it."""
+    y_to_z = between((0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    return piece._replace(rotation=product(piece.rotation, y_to_z)) if piece.kind in ("cylinder", "capsule") else piece
 
 
 @dataclass(frozen=True)
@@ -93,8 +99,22 @@ class World:
         """Called once, after the last state was read."""
 
 
+def _capsule(parts: list[dict[str, Any]]) -> dict[str, Any] | None:
+    """The cylinder of a union that is a capsule: balls of its radius lie at both ends of its axis."""
+    rods = [part for part in parts if part["kind"] == "cylinder"]
+    balls = [part for part in parts if part["kind"] == "sphere"]
+    if len(parts) != 3 or len(rods) != 1 or len(balls) != 2:
+        return None
+    rod = rods[0]
+    foot, size = vector(rod["base"]), 1e-9 * float(rod["radius"])
+    ends = (foot, add(foot, scaled(float(rod["length"]), vector(rod["axis"]))))
+    same = all(abs(float(ball["radius"]) - float(rod["radius"])) <= size for ball in balls)
+    met = all(any(norm(subtract(vector(ball["centre"]), end)) <= size for ball in balls) for end in ends)
+    return rod if same and met else None
+
+
 def pieces_of(shape: dict[str, Any], centre: Vector, frame: Quaternion) -> tuple[Piece, ...] | None:
-    """@return None for a shape of which boxes, spheres and planes cannot be made"""
+    """@return None for a shape that no pieces are made of: a difference or a mesh"""
     def local(x: Vector) -> Vector:
         return rotate_back(frame, subtract(x, centre))
 
@@ -107,7 +127,14 @@ def pieces_of(shape: dict[str, Any], centre: Vector, frame: Quaternion) -> tuple
     if kind == "half_space":
         turn = product(conjugate(frame), between((0.0, 0.0, 1.0), vector(shape["normal"])))
         return (Piece("plane", local(vector(shape["point"])), turn, (0.0, 0.0, 0.0)),)
+    if kind in ("cylinder", "capsule"):
+        axis, half = vector(shape["axis"]), 0.5 * float(shape["length"])
+        turn = product(conjugate(frame), between((0.0, 0.0, 1.0), axis))
+        return (Piece(kind, local(add(vector(shape["base"]), scaled(half, axis))), turn, (float(shape["radius"]),) * 2 + (half,)),)
     if kind == "union":
+        rod = _capsule(shape["of"])
+        if rod:
+            return pieces_of({**rod, "kind": "capsule"}, centre, frame)
         parts = [pieces_of(part, centre, frame) for part in shape["of"]]
         return None if None in parts else tuple(piece for part in parts for piece in part)  # type: ignore[union-attr]
     return None
@@ -138,7 +165,7 @@ def _refuse_body(body: dict[str, Any], engine: str, alone: bool) -> str:
     if body["motion"] == "free" and min(body["principal_inertia"]) <= 0.0:
         return f"{engine} needs three principal moments above 0, and {name} has {body['principal_inertia']} kg m2"
     if not alone and pieces_of(body["shape"], (0.0, 0.0, 0.0), IDENTITY) is None:
-        return f"{engine} is handed boxes, spheres, half spaces and unions of them, and {name} is a {body['shape']['kind']}"
+        return f"{engine} is handed boxes, spheres, cylinders, capsules, half spaces and unions of them, and {name} is a {body['shape']['kind']}"
     if body["motion"] == "free" and body["shape"]["kind"] == "half_space":
         return f"a half space cannot be free, and {name} is"
     return ""
@@ -169,6 +196,7 @@ class RigidEngine(Engine):
 
     title: str  # the vendor's own spelling
     moves_bodies = False  # whether bodies of constant velocity are handed over
+    preset_settings: dict[str, dict[str, Any]] = {}  # preset -> settings that it stands for; the job's own go before
     default_step: float  # [s], where neither the scene nor the settings say one
 
     @abstractmethod
@@ -198,6 +226,7 @@ class RigidEngine(Engine):
 
     def run(self, job: Job) -> Outcome:
         began = time.process_time()
+        job = replace(job, settings=self.preset_settings.get(job.preset, {}) | job.settings)
         bodies = bodies_of(job)
         limit = self.wanted_step(job)
         first = (job.times[1] - job.times[0]) / steps_in(job.times[1] - job.times[0], limit) if len(job.times) > 1 else limit

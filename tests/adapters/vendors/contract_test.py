@@ -16,14 +16,17 @@ ADAPTERS = Path(os.environ["TRIPOINT_VENDORS"])
 sys.path[:0] = [str(ADAPTERS), str(HERE)]
 
 import engine_calculix  # noqa: E402
+import engine_mujoco  # noqa: E402
 from contract import read_job  # noqa: E402
 from environments import catalogue  # noqa: E402
 from lattice import formula  # noqa: E402
-from engine_jolt import piece_words  # noqa: E402
+from engine_drake import Drake  # noqa: E402
+from engine_jolt import Jolt, piece_words  # noqa: E402
 from engine_mujoco import model_text  # noqa: E402
 from engine_ode import plane_of  # noqa: E402
+from engine_rapier import Rapier  # noqa: E402
 from ode_library import Contact, ContactGeom, Mass, Surface  # noqa: E402
-from rigid import body_of, moves, pieces_of, steps_in  # noqa: E402
+from rigid import body_of, moves, pieces_of, steps_in, upright  # noqa: E402
 from rotation import IDENTITY, between, product, rotate  # noqa: E402
 from scenes import body, check, floor, job, run  # noqa: E402
 
@@ -78,9 +81,19 @@ class Refusals(unittest.TestCase):
             self.assertIn(word, refusal([body()], **scene))
 
     def test_a_shape_without_a_surface_is_refused_only_where_it_can_be_touched(self):
-        pipe = body(shape={"kind": "cylinder", "base": [0, 0, 0], "axis": [0, 0, 1], "length": 1.0, "radius": 0.1})
+        pipe = body(shape={"kind": "difference", "of": []})
         self.assertEqual(refusal([pipe]), "")
-        self.assertIn("cylinder", refusal([pipe, floor()]))
+        self.assertIn("difference", refusal([pipe, floor()]))
+
+    def test_rods_are_handed_over(self):
+        rod = {"kind": "cylinder", "base": [0, 0, 0], "axis": [0, 1, 0], "length": 1.0, "radius": 0.1}
+        floor_box = floor(shape={"kind": "box", "min": [-1, -1, -1], "max": [1, 1, 0]})
+        for name, engine in catalogue()["engines"].items():
+            if "(RigidEngine)" not in (ADAPTERS / engine["adapter"]).read_text(encoding="utf-8"):
+                continue
+            command = ["/usr/bin/python3", "-B", str(ADAPTERS / engine["adapter"])]
+            with self.subTest(name):
+                self.assertTrue(check(command, job([body(shape=rod), floor_box], preset=engine["presets"][0]))["can"])
 
     def test_mujoco_has_no_restitution_but_contacts_that_are_springs(self):
         self.assertIn("no coefficient of restitution", refusal([body(), floor()], settings={"restitution": 0.5}))
@@ -241,6 +254,50 @@ class Surfaces(unittest.TestCase):
         box = body()["shape"]
         self.assertEqual(len(pieces_of({"kind": "union", "of": [box, box]}, (0, 0, 0), IDENTITY)), 2)
         self.assertIsNone(pieces_of({"kind": "union", "of": [box, {"kind": "difference"}]}, (0, 0, 0), IDENTITY))
+
+
+    def test_a_rod_lies_along_its_axis_and_upright_ones_along_y(self):
+        rod = {"kind": "cylinder", "base": [0.0, -0.2, 1.0], "axis": [0.0, 1.0, 0.0], "length": 0.4, "radius": 0.1}
+        frame = between((0.0, 0.0, 1.0), (1.0, 1.0, 0.0))
+        (piece,) = pieces_of(rod, (0.0, 0.0, 0.0), frame)
+        self.assertEqual((piece.kind, piece.size), ("cylinder", (0.1, 0.1, 0.2)))
+        for turn, along in ((piece.rotation, (0.0, 0.0, 1.0)), (upright(piece).rotation, (0.0, 1.0, 0.0))):
+            for found, wanted in zip(rotate(frame, rotate(turn, along)), (0.0, 1.0, 0.0)):
+                self.assertAlmostEqual(found, wanted, delta=1e-14)
+        for found, wanted in zip(rotate(frame, piece.centre), (0.0, 0.0, 1.0)):
+            self.assertAlmostEqual(found, wanted, delta=1e-14)
+
+    def test_a_cylinder_with_a_ball_at_each_end_is_a_capsule(self):
+        rod = {"kind": "cylinder", "base": [0.0, 0.0, 0.0], "axis": [0.0, 1.0, 0.0], "length": 0.4, "radius": 0.1}
+        balls = [{"kind": "sphere", "centre": [0.0, y, 0.0], "radius": 0.1} for y in (0.0, 0.4)]
+        found = {kind.kind for kind in pieces_of({"kind": "union", "of": [balls[0], rod, balls[1]]}, (0, 0, 0), IDENTITY)}
+        self.assertEqual(found, {"capsule"})
+        for other in ({**balls[1], "radius": 0.11}, {**balls[1], "centre": [0.0, 0.3, 0.0]}):
+            self.assertEqual(len(pieces_of({"kind": "union", "of": [balls[0], rod, other]}, (0, 0, 0), IDENTITY)), 3)
+
+
+class Presets(unittest.TestCase):
+    def test_a_preset_is_its_settings_and_the_jobs_own_go_before(self):
+        texts = {}
+        for words, settings in (("preset", {}), ("own", {"solimp": "0.9 0.9 0.001 0.5 2"})):
+            seen = []
+            engine = engine_mujoco.Mujoco()
+            engine.open = lambda given, bodies, dt: seen.append(model_text(given, bodies, dt))
+            path = Path(tempfile.mkdtemp()) / "job.json"
+            path.write_text(json.dumps(job([body(), floor()], preset="hard-contact", settings=settings)))
+            self.addCleanup(shutil.rmtree, path.parent)
+            with self.assertRaises(AttributeError):  # there is no world to go on with
+                engine.run(read_job(str(path)))
+            texts[words] = seen[0]
+        for words in ('integrator="implicitfast"', 'solref="0.02 1"', 'solimp="0.99 0.999 0.001 0.5 2"'):  # two steps of 10 ms
+            self.assertIn(words, texts["preset"])
+        self.assertIn('solimp="0.9 0.9 0.001 0.5 2"', texts["own"])
+
+    def test_presets_that_cost_settings_are_presets_of_the_engine(self):
+        for engine in (engine_mujoco.Mujoco, Jolt, Rapier, Drake):
+            self.assertLessEqual(set(engine.preset_settings), set(engine.presets))
+            for settings in engine.preset_settings.values():
+                self.assertLessEqual(set(settings), set(engine.settings), engine.name)
 
 
 class Steps(unittest.TestCase):

@@ -31,6 +31,8 @@ fn collider(piece: &Value, scene: &Value) -> Collider {
     let shape = match piece["kind"].as_str().expect("a kind") {
         "sphere" => SharedShape::ball(number(&size[0])),
         "plane" => SharedShape::halfspace(Vector::new(0.0, 0.0, 1.0)),
+        "cylinder" => SharedShape::cylinder(number(&size[2]), number(&size[0])),
+        "capsule" => SharedShape::capsule_y(number(&size[2]), number(&size[0])),
         _ => SharedShape::cuboid(number(&size[0]), number(&size[1]), number(&size[2])),
     };
     // No density: the mass is the job's alone.
@@ -58,8 +60,16 @@ fn rigid_body(body: &Value, scene: &Value) -> RigidBody {
         .build()
 }
 
-fn set(parameters: &mut IntegrationParameters, key: &str, value: f64) {
+fn set(parameters: &mut IntegrationParameters, key: &str, given: &Value) {
+    let value = given.as_f64().unwrap_or(0.0);
     match key {
+        "contact_recycling" => parameters.contact_recycling = given == true,
+        "friction_in_bias_pass" => parameters.friction_in_bias_pass = given == true,
+        "contact_natural_frequency" => parameters.contact_softness.natural_frequency = value,
+        "contact_damping_ratio" => parameters.contact_softness.damping_ratio = value,
+        "static_contact_natural_frequency" => parameters.static_contact_softness.natural_frequency = value,
+        "static_contact_damping_ratio" => parameters.static_contact_softness.damping_ratio = value,
+        "num_internal_pgs_iterations" => parameters.num_internal_pgs_iterations = value as usize,
         "num_solver_iterations" => parameters.num_solver_iterations = value as usize,
         "num_internal_stabilization_iterations" => parameters.num_internal_stabilization_iterations = value as usize,
         "normalized_allowed_linear_error" => parameters.normalized_allowed_linear_error = value,
@@ -79,7 +89,7 @@ impl World {
             physics.integration_parameters.friction_model = FrictionModel::Coulomb;
         }
         for (key, value) in scene["settings"].as_object().expect("settings") {
-            set(&mut physics.integration_parameters, key, number(value));
+            set(&mut physics.integration_parameters, key, value);
         }
         let mut free = Vec::new();
         for body in scene["bodies"].as_array().expect("bodies") {
