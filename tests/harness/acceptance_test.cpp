@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "judged.hpp"
+#include "validation/case/known_defect.hpp"
 #include "validation/harness/expected_refusal.hpp"
-#include "validation/harness/known_defect.hpp"
 #include "validation/harness/remarks.hpp"
 #include "validation/harness/scorecard.hpp"
 
@@ -97,6 +97,72 @@ TEST(AcceptanceOrder, OfRoundOffIsNoneAndHoldsForEveryEngineAlone) {
   EXPECT_EQ(exit_of(r), exit_pass);
   r.cases[0].gates[0].engine = "tripoint";  // who is named is asked for what is known of it
   EXPECT_EQ(exit_of(r), exit_fail);
+}
+
+/// An inertia that is 1 % off: the errors fall to a floor, and a power law through what is above it has the order 4.
+std::vector<double> floored() { return {0.0376231689, 0.0376231639, 0.0376231636, 0.0376231636}; }
+
+TEST(AcceptanceOrder, OfAnErrorThatEndsOnAFloorIsNone) {
+  for (const auto& errors :
+       {floored(), {0.108, 0.081, 0.074, 0.072}, {1.03, 0.53, 0.28, 0.155}, {0.52, 0.27, 0.2075, 0.191875}}) {
+    auto r = study_of(errors);
+    r.cases[0].gates[0].at_least = 0.8;
+    judge(r);
+    EXPECT_EQ(engine(r).gates.at(0).fit_class, FitClass::plateau) << errors[0];
+    EXPECT_EQ(r.exit_code, exit_fail) << errors[0];
+    EXPECT_NE(engine(r).gates[0].why.find("does not fall to the truth"), std::string::npos) << engine(r).gates[0].why;
+    EXPECT_TRUE(std::isnan(engine(r).gates[0].used));
+  }
+}
+
+TEST(AcceptanceOrder, OfAFloorThatIsDeclaredIsAsExpected) {
+  auto r = study_of(floored());
+  auto& gate = r.cases[0].gates[0];
+  gate.at_least.reset();
+  gate.expect = FitClass::plateau;
+  EXPECT_EQ(exit_of(r), exit_pass);
+  gate.band = {3.0, 5.0};  // the class and the number
+  EXPECT_EQ(exit_of(r), exit_pass);
+  gate.band = {5.0, 6.0};
+  EXPECT_EQ(exit_of(r), exit_fail);
+  auto falls = study_of({0.4, 0.1, 0.025, 0.00625});
+  falls.cases[0].gates[0] = gate;
+  falls.cases[0].gates[0].band.reset();
+  EXPECT_EQ(exit_of(falls), exit_fail);
+}
+
+/// A gate on where the ladder ends.
+Results ending(const std::vector<double>& errors, double most) {
+  auto r = study_of(errors);
+  auto& gate = r.cases[0].gates[0];
+  gate = limit("error.limit", most);
+  judge(r);
+  return r;
+}
+
+TEST(LimitOfTheLadder, IsHeldByASchemeAndBrokenByAConstant) {
+  EXPECT_EQ(ending({0.4, 0.2, 0.1, 0.05}, 0.01).exit_code, exit_pass);
+  EXPECT_EQ(ending({0.4, 0.1, 0.025, 0.00625}, 0.01).exit_code, exit_pass);
+  EXPECT_EQ(ending(floored(), 0.01).exit_code, exit_fail);
+  EXPECT_EQ(ending({0.43, 0.23, 0.13, 0.08}, 0.01).exit_code, exit_fail);         // 0.03 beneath a first order
+  EXPECT_EQ(ending({0.43, 0.13, 0.055, 0.03625}, 0.01).exit_code, exit_fail);     // beneath a second
+  EXPECT_EQ(ending({0.5, 0.31, 0.22, 0.05}, 0.01).exit_code, exit_inconclusive);  // it tells nothing
+}
+
+TEST(LimitOfTheLadder, StandsInTheRowWithItsUncertainty) {
+  const auto r = ending({0.43, 0.23, 0.13, 0.08}, 0.01);
+  const auto& row = r.cases[0].engines[0].gates.at(0);
+  EXPECT_NEAR(row.value, 0.03, 1e-9);
+  EXPECT_LT(row.uncertainty, 1e-9);
+  EXPECT_EQ(row.budget.numerical, row.uncertainty);
+  EXPECT_NEAR(row.used, 3.0, 1e-6);
+  EXPECT_NE(row.why.find("extrapolated to step 0"), std::string::npos);
+}
+
+TEST(LimitOfTheLadder, OfLevelsThatDidNotRunIsMissing) {
+  auto r = study_of({0.4, 0.2, 0.1, std::nan("")});
+  r.cases[0].gates[0] = limit("error.limit", 0.01);
+  EXPECT_EQ(exit_of(r), exit_missing);
 }
 
 TEST(AcceptanceOrder, BelowTheLeastIsRed) {

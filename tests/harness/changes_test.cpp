@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/judged.hpp"
+#include "validation/harness/apply_gate.hpp"
 #include "validation/harness/comment.hpp"
 
 namespace tripoint {
@@ -45,18 +46,65 @@ TEST(Changes, AreInUnitsOfTheLimitAndAboveZeroIsWorse) {
 TEST(Changes, WhatABandAndALeastValueUseRisesTowardsTheirEdges) {
   Gate g;
   g.band = {0.9, 1.3};
-  EXPECT_NEAR(used_of(g, 1.1), 0.0, 1e-12);
-  EXPECT_NEAR(used_of(g, 1.3), 1.0, 1e-12);
-  EXPECT_NEAR(used_of(g, 0.8), 1.5, 1e-12);
+  EXPECT_NEAR(share_of_limit(g, 1.1), 0.0, 1e-12);
+  EXPECT_NEAR(share_of_limit(g, 1.3), 1.0, 1e-12);
+  EXPECT_NEAR(share_of_limit(g, 0.8), 1.5, 1e-12);
   g = {};
   g.at_least = 2.0;
-  EXPECT_NEAR(used_of(g, 2.0), 1.0, 1e-12);
-  EXPECT_NEAR(used_of(g, 1.0), 1.5, 1e-12);
-  EXPECT_NEAR(used_of(g, 3.0), 0.5, 1e-12);
+  EXPECT_NEAR(share_of_limit(g, 2.0), 1.0, 1e-12);
+  EXPECT_NEAR(share_of_limit(g, 1.0), 1.5, 1e-12);
+  EXPECT_NEAR(share_of_limit(g, 4.0), 0.5, 1e-12);
   g = limit("error", 0.0);
-  EXPECT_NEAR(used_of(g, -2.0), 2.0, 1e-12);  // a limit of nothing has the metric's own unit
-  EXPECT_TRUE(std::isnan(used_of({}, 1.0)));
-  EXPECT_TRUE(std::isnan(used_of(g, std::nan(""))));
+  EXPECT_NEAR(share_of_limit(g, -2.0), 3.0, 1e-12);  // a limit of nothing leaves no room: beyond it the metric's own unit counts
+  EXPECT_TRUE(std::isnan(share_of_limit({}, 1.0)));
+  EXPECT_TRUE(std::isnan(share_of_limit(g, std::nan(""))));
+}
+
+TEST(Changes, ABandAroundZeroIsBestAtZeroWhereverItsMiddleLies) {
+  Gate g;
+  g.band = {-0.25, 0.05};  // the front of the dam break: its true place is 0
+  EXPECT_EQ(share_of_limit(g, 0.0), 0.0);
+  EXPECT_NEAR(share_of_limit(g, 0.05), 1.0, 1e-12);
+  EXPECT_NEAR(share_of_limit(g, -0.25), 1.0, 1e-12);
+  EXPECT_NEAR(share_of_limit(g, -0.1), 0.4, 1e-12);
+  auto before = measured_as({-0.1}), now = measured_as({0.0});
+  for (auto* r : {&before, &now}) {
+    r->cases[0].gates[0].limit.reset();
+    r->cases[0].gates[0].band = g.band;
+    judge(*r);
+  }
+  EXPECT_EQ(only(compare_results(before, now, "base")).trend, Trend::better);
+}
+
+TEST(Changes, ShareIsOneAtEachEdgeThatTheVerdictKnows) {
+  for (const auto& [low, high] : {std::pair{-0.2, 0.5}, std::pair{0.2, 0.5}, std::pair{-0.5, -0.2}, std::pair{0.0, 0.5}}) {
+    Gate g;
+    g.band = {low, high};
+    for (double v = -1.0; v <= 1.0; v += 0.001) {
+      const double used = share_of_limit(g, v);
+      if (std::abs(used - 1.0) > 1e-9)
+        EXPECT_EQ(used < 1.0, verdict_of(g, v, 0.0) == Verdict::pass) << low << " " << high << " " << v;
+    }
+  }
+}
+
+TEST(Changes, TheJudgedRunHasNoWordInItsOwnNoise) {
+  const auto with = [](double v, double stated) {
+    auto r = measured_as({v}, 0.01);
+    engine(r).runs[0].metrics.at("error").uncertainty.statistical = stated;
+    judge(r);
+    return r;
+  };
+  EXPECT_EQ(only(compare_results(with(0.0, 0.0), with(0.003, 0.0), "base")).trend, Trend::worse);
+  EXPECT_EQ(only(compare_results(with(0.0, 0.0), with(0.003, 0.003), "base")).trend, Trend::worse);
+  EXPECT_EQ(only(compare_results(with(0.0, 0.003), with(0.003, 0.0), "base")).trend, Trend::same);  // it was accepted with that
+  EXPECT_EQ(only(compare_results(with(0.0, 0.003), with(0.003, 0.0), "base")).noise_from, "stated by the base");
+}
+
+TEST(Changes, ManySeedsOfTheJudgedRunHideNothingEither) {
+  const auto c = only(compare_results(measured_as({0.02}), measured_as({0.01, 0.05, 0.09}), "base"));
+  EXPECT_EQ(c.trend, Trend::worse);
+  EXPECT_EQ(c.noise_from, "none known");
 }
 
 TEST(Changes, WithinTheScatterOfSeedsNothingHasChanged) {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "validation/case/known_defect.hpp"
 #include "validation/harness/apply_gate.hpp"
 #include "validation/harness/baseline.hpp"
-#include "validation/harness/known_defect.hpp"
 #include "validation/harness/slack.hpp"
 #include "validation/harness/verdict.hpp"
 #include "validation/metrics/order.hpp"
@@ -215,8 +215,8 @@ TEST(SlackEdges, IsTheLimitOverWhatIsUsedAndWhatIsUsedOverTheLeast) {
   EXPECT_DOUBLE_EQ(of(-0.25, 0.125, gate_of(2.0, {}, {})), 4.0);
   EXPECT_EQ(of(0.0, 0.0, gate_of(2.0, {}, {})), infinity);
   EXPECT_DOUBLE_EQ(of(3.0, 0.5, gate_of({}, 0.5, {})), 8.0);
-  EXPECT_DOUBLE_EQ(of(0.5, 0.0, gate_of({}, {}, std::array{-4.0, 1.0})), 8.0);  // the edge that is farther from zero
-  EXPECT_DOUBLE_EQ(of(0.5, 0.0, gate_of(2.0, {}, std::array{-4.0, 1.0})), 4.0);
+  EXPECT_DOUBLE_EQ(of(0.5, 0.0, gate_of({}, {}, std::array{-4.0, 1.0})), 2.0);  // the edge on the value's side
+  EXPECT_DOUBLE_EQ(of(-0.5, 0.0, gate_of(2.0, {}, std::array{-4.0, 1.0})), 4.0);
   EXPECT_DOUBLE_EQ(of(0.5, 0.0, gate_of({}, {}, std::array{0.25, 0.75})), 2.0);
   EXPECT_DOUBLE_EQ(of(2.0, 0.0, gate_of(3.0, 0.25, std::array{0.5, 2.5})), 4.0);
   EXPECT_EQ(of(1.0, 0.0, gate_of({}, 0.0, {})), -1.0);  // neither ceiling nor floor

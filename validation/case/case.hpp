@@ -48,7 +48,7 @@ struct Study {
 };
 
 struct Gate {
-  std::string metric;          ///< a metric's name, or NAME.order
+  std::string metric;          ///< a metric's name, or a part of it: gated_metric.hpp
   std::string engine, preset;  ///< empty = all
   JudgedMode mode = JudgedMode::none;
   std::optional<double> limit, at_least;
@@ -56,6 +56,7 @@ struct Gate {
   std::optional<double> level;  ///< of the study's axis; empty = every run
   std::optional<double>
       drift;  ///< share by which the value may move from its baseline before that turns red; empty = a tenth, and it warns
+  std::optional<FitClass> expect;  ///< class of convergence that an order must have; empty = any that falls to the truth
   std::string reason, by, date;
   SourcePlace place;
 };

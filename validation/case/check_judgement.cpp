@@ -6,7 +6,9 @@
 
 #include "scene/name_checks.hpp"
 #include "scene/nearest.hpp"
+#include "validation/case/gated_metric.hpp"
 #include "validation/case/judge_readers.hpp"
+#include "validation/case/known_defect.hpp"
 
 /// Rules between the tables that judge: names that refer to each other, and the effect of one key on another.
 namespace tripoint {
@@ -56,12 +58,7 @@ class JudgementChecker : NameChecks {
 
   void known_metric(const std::string& name, const std::string& key, const SourcePlace& table) const {
     const auto known = names_of(case_.metrics);
-    if (holds(known, name)) return;
-    std::string of = name;
-    for (const std::string_view what : {".order", ".statistical"}) {
-      if (of.ends_with(what)) of.resize(of.size() - what.size());
-      if (holds(known, of)) return;
-    }
+    if (holds(known, name) || holds(known, metric_of_gate(fitted_metric(name)))) return;
     throw InputError(place(key, table),
                      fmt::format("`{}`: no [[metric]] is named \"{}\"{}", key, printable(name), suggestion(name, known)));
   }
@@ -88,9 +85,9 @@ class JudgementChecker : NameChecks {
     known_engine(g.engine, path + ".engine", g.place);
     known_mode(g.mode, path + ".mode", g.place);
     known_defect(g, path);
-    if (g.metric.ends_with(".order") && case_.studies.empty() && !holds(names_of(case_.metrics), g.metric))
+    if (is_of_ladder(g.metric) && case_.studies.empty() && !holds(names_of(case_.metrics), g.metric))
       throw InputError(place(path + ".metric", g.place),
-                       fmt::format("`{}.metric`: \"{}\" needs a [[study]] to find an order with", path, printable(g.metric)));
+                       fmt::format("`{}.metric`: \"{}\" needs a [[study]] to find it with", path, printable(g.metric)));
     if (!g.level) return;
     for (const auto& s : case_.studies)
       if (is_own_level(s.axes, *g.level) ||
@@ -104,13 +101,11 @@ class JudgementChecker : NameChecks {
   /// "known defect NAME: ..." declares a defect of the engine. It is that of a named engine, is measured from below too, and
   /// excuses from a limit that is there.
   void known_defect(const Gate& g, const std::string& path) const {
-    static constexpr std::string_view head = "known defect ";
-    const auto end = g.reason.find_first_of(" :", head.size());
-    if (!g.reason.starts_with(head) || end == std::string::npos || g.reason[end] != ':') return;
+    if (tripoint::known_defect(g).empty()) return;
     const auto refuse = [&](const std::string& what) {
       throw InputError(place(path + ".reason", g.place), fmt::format("`{}.reason`: {}", path, what));
     };
-    if (g.engine.empty() || !(g.band || g.at_least))
+    if (g.engine.empty() || !(g.band || g.at_least || g.expect))
       refuse("a known defect is that of a named engine, and measured from below too: give engine, and band or at_least");
     if (std::none_of(case_.gates.begin(), case_.gates.end(),
                      [&](const Gate& a) { return a.engine.empty() && a.metric == g.metric; }))

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "validation/case/engine_names.hpp"
+#include "validation/case/gated_metric.hpp"
 #include "validation/case/idle_search.hpp"
 
 /// Parts of a case's judgement that no run of it can show.
@@ -13,7 +14,7 @@ namespace {
 
 /// A limit below 0 passes nothing; a floor of 0 under a value that is never negative passes anything.
 void can_fail(IdleSearch& in, const Gate& g) {
-  if (g.metric.ends_with(".order")) return;
+  if (is_order(g.metric)) return;
   if (g.limit && *g.limit < 0.0)
     in.error(g.place,
              fmt::format("the gate on \"{}\" has limit {}, which nothing can pass: a limit is of the magnitude, which is "

@@ -8,6 +8,7 @@
 #include "scene/table_reader.hpp"
 #include "validation/case/case_document.hpp"
 #include "validation/case/case_keys.hpp"
+#include "validation/case/gated_metric.hpp"
 
 /// How a case changes the one that it extends: its own values replace those of the base, and values that it removes go.
 namespace tripoint {
@@ -107,10 +108,7 @@ void merge_value(TomlNode& base, TomlNode own, const std::string& path) {
                                printable(part)));
 }
 
-bool judges(const TomlNode& gate, const std::string& metric) {
-  const auto name = word_at(gate, "metric");
-  return name == metric || name == metric + ".order" || name == metric + ".statistical";
-}
+bool judges(const TomlNode& gate, const std::string& metric) { return judges_metric(word_at(gate, "metric"), metric); }
 
 void remove_gates(TomlNode& document, const std::string& metric) {
   if (auto* gates = document.find("gate"); gates && gates->kind == Kind::array)

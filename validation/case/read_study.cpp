@@ -9,6 +9,7 @@
 #include "scene/readers.hpp"
 #include "validation/case/dates.hpp"
 #include "validation/case/engine_names.hpp"
+#include "validation/case/gated_metric.hpp"
 #include "validation/case/judge_readers.hpp"
 
 /// How a case is judged: engines, reference, metrics, studies, gates, defects.
@@ -176,10 +177,16 @@ Gate read_gate(const TomlNode& node, std::size_t number, Reading& reading) {
     if (band->size() != 2 || !((*band)[0] <= (*band)[1])) in.refuse("band", "write [low, high] with low <= high");
     g.band = std::array<double, 2>{(*band)[0], (*band)[1]};
   }
-  if (!g.limit && !g.at_least && !g.band)
+  if (const auto word = in.text("expect"); !word.empty()) g.expect = from_word<FitClass>(word);
+  if (g.expect && !is_order(g.metric))
+    in.refuse("expect", "a class of convergence is that of NAME.order: judge that, or remove the key");
+  if (!g.limit && !g.at_least && !g.band && !g.expect)
     in.refuse("", fmt::format("the gate on \"{}\" has no limit and would pass anything: give limit, at_least or band",
                               printable(g.metric)));
-  g.place = in.place(g.limit ? "limit" : g.at_least ? "at_least" : "band");  // the line that a red gate points at
+  g.place = in.place(g.limit      ? "limit"
+                     : g.at_least ? "at_least"
+                     : g.band     ? "band"
+                                  : "expect");  // the line that a red gate points at
   g.level = in.maybe_number("level");
   g.drift = in.maybe_number("drift");
   g.reason = in.text("reason");

@@ -8,6 +8,7 @@
 #include "scene/nearest.hpp"
 #include "validation/case/case_document.hpp"
 #include "validation/case/case_keys.hpp"
+#include "validation/case/gated_metric.hpp"
 
 /// The short forms of a case file, written out: gates within their metric, limits by level, invariants.
 namespace tripoint {
@@ -92,9 +93,8 @@ void name_metric(TomlNode& gate, const std::string& metric, const SourcePlace& p
     gate.members.insert(gate.members.begin(), {"metric", text_node(metric, place)});
     return;
   }
-  if (given->kind != Kind::text ||
-      (given->text != metric && given->text != metric + ".order" && given->text != metric + ".statistical"))
-    throw InputError(given->place, fmt::format("a gate within metric \"{0}\" judges \"{0}\", \"{0}.order\" or "
+  if (given->kind != Kind::text || !judges_metric(given->text, metric))
+    throw InputError(given->place, fmt::format("a gate within metric \"{0}\" judges \"{0}\", \"{0}.order\", \"{0}.limit\" or "
                                                "\"{0}.statistical\": write one of these, or remove the key",
                                                printable(metric)));
 }

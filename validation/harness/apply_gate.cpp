@@ -7,31 +7,11 @@
 #include <cmath>
 
 #include "validation/case/engine_names.hpp"
+#include "validation/case/gated_metric.hpp"
 #include "validation/harness/judge.hpp"
-#include "validation/harness/known_defect.hpp"
 
 namespace tripoint {
 namespace {
-
-Verdict worse(Verdict a, Verdict b) {
-  for (const auto v : {Verdict::fail, Verdict::missing, Verdict::inconclusive})
-    if (a == v || b == v) return v;
-  return Verdict::pass;
-}
-
-bool limits_something(const Gate& gate) { return gate.limit || gate.at_least || gate.band; }
-
-/// Verdict of an interval against [lowest, highest].
-Verdict interval_within(const Order& order, double lowest, double highest) {
-  if (!(order.low <= order.value && order.value <= order.high) || !std::isfinite(order.low) || !std::isfinite(order.high))
-    return Verdict::fail;
-  if (order.low >= lowest && order.high <= highest) return Verdict::pass;
-  return order.high < lowest || order.low > highest ? Verdict::fail : Verdict::inconclusive;
-}
-
-std::string name_of_order(const std::string& metric) {
-  return metric.ends_with(".order") ? metric.substr(0, metric.size() - 6) : std::string();
-}
 
 bool is_at_level(const RunRow& run, const std::optional<double>& level) {
   return !level || std::any_of(run.levels.begin(), run.levels.end(), [&](const auto& l) { return same_level(l.second, *level); });
@@ -66,6 +46,7 @@ GateRow new_row(const Gate& gate, JudgedMode mode) {
   row.mode = mode;
   row.level = gate.level;
   row.gate = gate;
+  if (!gate.limit && !gate.at_least && !gate.band) row.expect = gate.expect;  // it judges the class alone
   row.value = not_a_number;
   return row;
 }
@@ -147,76 +128,60 @@ bool level_is_due(const CaseResult& result, const Gate& gate, const EngineRow& e
   });
 }
 
-Applied judge_order(const CaseResult& result, const Gate& gate, EngineRow& engine) {
+/// An engine that is exact has no order to show: where any engine is asked for one at least, errors of round-off will do.
+bool needs_no_order(const Gate& gate, const Order& order) {
+  return gate.engine.empty() && gate.at_least && !gate.band && !gate.limit && order.fit_class == FitClass::roundoff;
+}
+
+void judge_order(GateRow& row, const Order& order) {
+  row.value = order.value;
+  row.low = order.low;
+  row.high = order.high;
+  row.fit_class = order.fit_class;
+  row.verdict = needs_no_order(row.gate, order) ? Verdict::pass : verdict_of(row.gate, order);
+  if (row.verdict == Verdict::pass) return;
+  row.why = fmt::format("order {:.3g}, 95 % interval {:.3g} to {:.3g}, {}, {}", row.value, *row.low, *row.high, *row.fit_class,
+                        describe(row.gate));
+  if (order.fit_class == FitClass::plateau && !row.gate.expect)
+    row.why += fmt::format("; the error does not fall to the truth: it ends at {:.3g}", order.floor);
+}
+
+/// The error that the ladder leaves at step 0: its size, and how well the levels know it.
+void judge_limit_of_ladder(GateRow& row, const LadderLimit& limit) {
+  MetricValue value;
+  value.value = std::abs(limit.value);
+  value.uncertainty.numerical = limit.uncertainty;
+  judge_value(row, value);
+  if (row.verdict != Verdict::pass) row.why = "extrapolated to step 0: " + row.why;
+}
+
+Applied judge_ladder(const CaseResult& result, const Gate& gate, EngineRow& engine) {
   bool judged = false;
-  for (const auto& order : engine.order) {
-    if (order.metric != name_of_order(gate.metric) || !fits_mode(gate, order.mode)) continue;
-    auto row = new_row(gate, order.mode);
-    row.value = order.order.value;
-    row.low = order.order.low;
-    row.high = order.order.high;
-    row.fit_class = order.order.fit_class;
-    // An engine that is exact has no order to show: where any engine is asked for one at least, errors of round-off will do.
-    const bool exact =
-        gate.engine.empty() && gate.at_least && !gate.band && !gate.limit && order.order.fit_class == FitClass::roundoff;
-    const auto verdict = exact ? Verdict::pass : verdict_of(gate, order.order);
-    row.verdict = verdict;
-    if (verdict != Verdict::pass)
-      row.why = fmt::format("order {:.3g}, 95 % interval {:.3g} to {:.3g}, {}, {}", row.value, *row.low, *row.high,
-                            *row.fit_class, describe(gate));
+  for (const auto& ladder : engine.order) {
+    if (ladder.metric != fitted_metric(gate.metric) || !fits_mode(gate, ladder.mode)) continue;
+    auto row = new_row(gate, ladder.mode);
+    if (is_order(gate.metric))
+      judge_order(row, ladder.order);
+    else
+      judge_limit_of_ladder(row, ladder.limit);
     engine.gates.push_back(row);
     judged = true;
   }
   if (judged) return Applied::judged;
   if (!level_is_due(result, gate, engine)) return Applied::not_applicable;
   if (declined(engine) && !engine.required) return Applied::absent;
-  engine.gates.push_back(missing_row(gate, "no order could be fitted: a level is missing or not finite"));
+  engine.gates.push_back(missing_row(gate, "nothing could be fitted: a level is missing or not finite"));
   return Applied::judged;
 }
 
 }  // namespace
 
-Verdict verdict_of(const Gate& gate, double value, double u) {
-  if (!limits_something(gate)) return Verdict::missing;
-  auto verdict = Verdict::pass;
-  if (gate.limit) verdict = worse(verdict, judge_limit(value, u, *gate.limit));
-  if (gate.at_least) verdict = worse(verdict, judge_at_least(value, u, *gate.at_least));
-  if (gate.band) verdict = worse(verdict, judge_band(value, u, (*gate.band)[0], (*gate.band)[1]));
-  return verdict;
-}
-
-Verdict verdict_of(const Gate& gate, const Order& order) {
-  constexpr double unbounded = std::numeric_limits<double>::infinity();
-  if (!limits_something(gate)) return Verdict::missing;
-  auto verdict = Verdict::pass;
-  if (gate.limit) verdict = worse(verdict, interval_within(order, -unbounded, *gate.limit));
-  if (gate.at_least) verdict = worse(verdict, interval_within(order, *gate.at_least, unbounded));
-  if (gate.band) verdict = worse(verdict, interval_within(order, (*gate.band)[0], (*gate.band)[1]));
-  return verdict;
-}
-
 bool fits_mode(const Gate& gate, JudgedMode mode) { return fits(gate.mode, mode); }
-
-std::string describe(const Gate& gate) {
-  std::string text;
-  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
-  if (gate.limit) add(fmt::format("limit {:g}", *gate.limit));
-  if (gate.at_least) add(fmt::format("at least {:g}", *gate.at_least));
-  if (gate.band) add(fmt::format("band {:g} to {:g}", (*gate.band)[0], (*gate.band)[1]));
-  return text.empty() ? "no limit" : text;
-}
-
-std::string known_defect(const Gate& gate) {
-  static constexpr std::string_view head = "known defect ";
-  const auto end = gate.reason.find_first_of(" :", head.size());
-  if (!gate.reason.starts_with(head) || end == std::string::npos || gate.reason[end] != ':') return {};
-  return gate.reason.substr(head.size(), end - head.size());
-}
 
 Applied apply_gate(const CaseResult& result, const Gate& gate, EngineRow& engine) {
   if (engine.runs.empty()) return Applied::absent;
   if (!has_mode(engine, gate)) return Applied::not_applicable;
-  if (!name_of_order(gate.metric).empty()) return judge_order(result, gate, engine);
+  if (is_of_ladder(gate.metric)) return judge_ladder(result, gate, engine);
   const auto groups = groups_for(gate, engine);
   if (groups.empty()) {
     if (!level_is_due(result, gate, engine)) return Applied::not_applicable;

@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "validation/case/engine_names.hpp"
+#include "validation/case/gated_metric.hpp"
+#include "validation/harness/apply_gate.hpp"
 #include "validation/harness/baseline_propose.hpp"
 #include "validation/harness/baseline_rows.hpp"
 #include "validation/harness/foreign_text.hpp"
@@ -55,36 +57,53 @@ void compare_limits(const CaseResult& c, const AcceptedGate& now, const SourcePl
         {false, 0, place, title, fmt::format("converges as {}, accepted was {}", class_word(now), class_word(old)), 1.0, {}});
 }
 
+/// Share of its limit that a value uses.
+double used_by(const AcceptedGate& g, double value) {
+  Gate gate;
+  gate.limit = g.limit;
+  gate.at_least = g.at_least;
+  gate.band = g.band;
+  return share_of_limit(gate, value);
+}
+
+/// Two standard uncertainties of a difference, by what was accepted: the judged run has no word in its own noise.
+double accepted_noise(const AcceptedGate& old) { return 2.0 * std::sqrt(2.0) * old.uncertainty + roundoff_limit; }
+
+void compare_drift(const CaseResult& c, const AcceptedGate& now, const SourcePlace& place, const AcceptedGate& old,
+                   std::vector<Remark>& list) {
+  if (std::abs(now.value - old.value) <= *now.drift * std::abs(old.value) + accepted_noise(old)) return;
+  list.push_back(
+      {true,
+       exit_fail,
+       place,
+       title_of(c, now),
+       fmt::format("{:.6g} has moved from the accepted value {:.6g} by more than the share of {:g} that the gate allows",
+                   now.value, old.value, *now.drift),
+       std::abs(now.value / old.value),
+       {}});
+}
+
+/// Worse is what uses more of the limit: by a tenth of what was used, or of half the width of a band that states a figure.
+bool is_worse(const AcceptedGate& now, double was, double noise) {
+  const bool figure = now.band && ((*now.band)[0] > 0.0 || (*now.band)[1] < 0.0);
+  const double before = used_by(now, was), grown = used_by(now, now.value) - before;
+  return grown > change_seen * (figure ? 1.0 : before) && std::abs(now.value - was) > noise;
+}
+
 void compare_value(const CaseResult& c, const AcceptedGate& now, const SourcePlace& place, const AcceptedGate& old,
                    std::vector<Remark>& list) {
-  if (now.metric.ends_with(".order") || now.fit_class) return;
-  const auto title = title_of(c, now);
-  const double noise = 2.0 * (now.uncertainty + old.uncertainty) + roundoff_limit;
-  if (now.drift) {
-    if (std::abs(now.value - old.value) > *now.drift * std::abs(old.value) + noise)
-      list.push_back(
-          {true,
-           exit_fail,
-           place,
-           title,
-           fmt::format("{:.6g} has moved from the accepted value {:.6g} by more than the share of {:g} that the gate allows",
-                       now.value, old.value, *now.drift),
-           std::abs(now.value / old.value),
-           {}});
-    return;
-  }
+  if (is_of_ladder(now.metric) || now.fit_class) return;
+  if (now.drift) return compare_drift(c, now, place, old, list);
   for (const auto& [word, was] : {std::pair{"accepted", old.value}, std::pair{"first", old.first_value}}) {
-    const bool one_sided = now.allows.starts_with("limit");
-    const double change = one_sided ? std::abs(now.value) - std::abs(was) : std::abs(now.value - was);
-    if (change <= change_seen * std::abs(was) + noise) continue;
-    list.push_back(
-        {false,
-         0,
-         place,
-         title,
-         fmt::format("{:.4g} {} the {} value {:.4g}", now.value, one_sided ? "is worse than" : "has moved from", word, was),
-         std::abs(now.value / was),
-         {}});
+    if (!is_worse(now, was, accepted_noise(old))) continue;
+    list.push_back({false,
+                    0,
+                    place,
+                    title_of(c, now),
+                    fmt::format("{:.4g} is worse than the {} value {:.4g}: it uses {:.3g} of the limit, then {:.3g}", now.value,
+                                word, was, used_by(now, now.value), used_by(now, was)),
+                    used_by(now, now.value),
+                    {}});
     return;
   }
 }

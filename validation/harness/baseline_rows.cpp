@@ -9,6 +9,7 @@
 
 #include "job/job.hpp"
 #include "validation/case/engine_names.hpp"
+#include "validation/case/gated_metric.hpp"
 #include "validation/harness/apply_gate.hpp"
 #include "validation/harness/foreign_text.hpp"
 
@@ -19,13 +20,6 @@ bool same_gate(const AcceptedGate& a, const AcceptedGate& b) {
   const bool same_place =
       a.level.has_value() == b.level.has_value() && (!a.level || std::abs(*a.level - *b.level) <= 1e-9 * std::abs(*b.level));
   return a.metric == b.metric && a.engine == b.engine && a.preset == b.preset && a.mode == b.mode && same_place;
-}
-
-/// NAME for each of NAME, NAME.order and NAME.statistical.
-std::string metric_of(const std::string& gated) {
-  for (const std::string_view end : {".order", ".statistical"})
-    if (gated.ends_with(end)) return gated.substr(0, gated.size() - end.size());
-  return gated;
 }
 
 AcceptedGate gate_of(const EngineRow& e, const GateRow& row, const std::optional<CaseHashes>& hashes) {
@@ -45,7 +39,8 @@ AcceptedGate gate_of(const EngineRow& e, const GateRow& row, const std::optional
   g.band = row.gate.band;
   g.drift = row.gate.drift;
   if (!hashes) return g;
-  if (const auto at = hashes->metrics.find(metric_of(row.metric)); at != hashes->metrics.end()) g.measures = at->second;
+  if (const auto at = hashes->metrics.find(metric_of_gate(fitted_metric(row.metric))); at != hashes->metrics.end())
+    g.measures = at->second;
   return g;
 }
 

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "validation/case/engine_names.hpp"
+#include "validation/case/gated_metric.hpp"
 #include "validation/harness/apply_gate.hpp"
 #include "validation/harness/baseline.hpp"
 #include "validation/harness/judge.hpp"
@@ -29,8 +30,9 @@ struct Row {
 };
 
 std::string unit_of(const CaseResult& c, const std::string& metric) {
-  if (metric.ends_with(".order")) return "";
-  const auto at = std::find_if(c.metrics.begin(), c.metrics.end(), [&](const auto& m) { return m.name == metric; });
+  if (is_order(metric)) return "";
+  const auto name = metric_of_gate(metric);
+  const auto at = std::find_if(c.metrics.begin(), c.metrics.end(), [&](const auto& m) { return m.name == name; });
   return at == c.metrics.end() ? "" : at->unit;
 }
 
@@ -70,7 +72,7 @@ Row row_of(const CaseResult& c, const EngineRow& e, const GateRow& g) {
   s.fit_class = g.fit_class;
   s.seeds = seeds_of(e, g);
   s.allows = g.expect ? fmt::format("class {}", *g.expect) : describe(g.gate);
-  s.used = g.expect ? not_a_number : used_of(g.gate, g.value);
+  s.used = g.used;
   s.noise =
       g.low && g.high ? 0.25 * (*g.high - *g.low) : g.budget.statistical;  // a 95 % interval is four standard deviations wide
   return row;
@@ -111,29 +113,27 @@ std::vector<Row> rows_of(const Results& r) {
   return rows;
 }
 
-/// The unit in which a change of this gate's value is stated: a limit, half a band, at_least.
-double unit_of(const Gate& g) {
-  if (g.limit) return *g.limit > 0.0 ? *g.limit : 1.0;
-  if (g.band) return 0.5 * ((*g.band)[1] - (*g.band)[0]);
-  return g.at_least ? std::abs(*g.at_least) : not_a_number;
-}
+/// Two standard uncertainties, by chance, of the difference between two runs that are as sure as the base.
+double chance_between(const MetricStanding& base) { return 2.0 * std::sqrt(2.0) * base.noise; }
 
 bool is_roundoff(const Gate& g) { return g.limit && *g.limit <= roundoff_limit; }
 
 /// Where the larger part of the noise is from.
-std::string source_of_noise(const MetricStanding& base, const MetricStanding& head, bool is_order, double again) {
-  const double chance = std::hypot(base.noise, head.noise);
-  if (again > 2.0 * chance) return "A/A";
-  if (!(chance > 0.0)) return "none known";
+std::string source_of_noise(const MetricStanding& base, bool is_order, double again) {
+  if (again > chance_between(base)) return "A/A";
+  if (!(base.noise > 0.0)) return "none known";
   if (is_order) return "interval of the fit";
-  const int seeds = std::max(base.seeds, head.seeds);
-  return seeds > 1 ? fmt::format("{} seeds", seeds) : "stated by the run";
+  return base.seeds > 1 ? fmt::format("{} seeds", base.seeds) : "stated by the base";
 }
 
-/// Noise of head less base, in the metric's unit. It is the larger of two standard uncertainties by chance and the difference
-/// seen between runs of the same code.
-double noise_between(const MetricStanding& base, const MetricStanding& head, double again) {
-  return std::max(2.0 * std::hypot(base.noise, head.noise), again);
+/// Noise of head less base, in the metric's unit. The base tells how much two runs of one code differ: by the chance that was
+/// accepted with it, or by what it differed from itself when it ran again. The judged run has no word in it.
+double noise_between(const MetricStanding& base, double again) { return std::max(chance_between(base), again); }
+
+/// The most that this noise moves the share of the limit that a value uses.
+double noise_of_share(const Gate& gate, double value, double noise) {
+  const double here = share_of_limit(gate, value);
+  return std::max(std::abs(share_of_limit(gate, value + noise) - here), std::abs(share_of_limit(gate, value - noise) - here));
 }
 
 void settle_class(MetricChange& c) {
@@ -146,8 +146,8 @@ void settle_class(MetricChange& c) {
 void settle_unlimited(MetricChange& c, double again) {
   const double size = std::abs(c.base->value), difference = std::abs(c.head->value - c.base->value);
   c.change = difference > 0.0 ? difference / (size > 0.0 ? size : 1.0) : 0.0;
-  c.noise = noise_between(*c.base, *c.head, again) / (size > 0.0 ? size : 1.0);
-  c.noise_from = source_of_noise(*c.base, *c.head, false, again);
+  c.noise = noise_between(*c.base, again) / (size > 0.0 ? size : 1.0);
+  c.noise_from = source_of_noise(*c.base, false, again);
 }
 
 /// @param again how far the same code was seen to differ from itself (A/A), in the metric's unit; 0 = not tried
@@ -158,16 +158,15 @@ void settle(MetricChange& c, const Gate& base_gate, const Gate& head_gate, doubl
   if (c.base->fit_class && std::isnan(c.base->used) && std::isnan(c.head->used)) return settle_class(c);
   const Gate& gate =
       c.base->allows.empty() ? head_gate : base_gate;  // a change that loosens a limit is measured by the limit that was there
-  const double unit = unit_of(gate);
-  if (std::isnan(unit)) return settle_unlimited(c, again);
-  const double before = used_of(gate, c.base->value), now = used_of(gate, c.head->value);
+  if (!gate.limit && !gate.band && !gate.at_least) return settle_unlimited(c, again);
+  const double before = share_of_limit(gate, c.base->value), now = share_of_limit(gate, c.head->value);
   if (!std::isfinite(before) || !std::isfinite(now)) {
     c.change = std::isfinite(before) ? infinity : std::isfinite(now) ? -infinity : 0.0;
     c.noise_from = "no value";
   } else {
     c.change = now - before;
-    c.noise = noise_between(*c.base, *c.head, again) / unit;
-    c.noise_from = source_of_noise(*c.base, *c.head, c.head->fit_class.has_value(), again);
+    c.noise = noise_of_share(gate, c.base->value, noise_between(*c.base, again));
+    c.noise_from = source_of_noise(*c.base, c.base->fit_class.has_value(), again);
     if (is_roundoff(gate) && c.noise < 1.0) {
       c.noise = 1.0;
       c.noise_from = "round-off";
@@ -202,18 +201,6 @@ std::vector<std::string> remarks_on(const Results& base, const Results& head) {
 }
 
 }  // namespace
-
-double used_of(const Gate& g, double value) {
-  if (!std::isfinite(value)) return not_a_number;
-  double used = -infinity;
-  if (g.limit) used = std::max(used, *g.limit > 0.0 ? std::abs(value) / *g.limit : std::abs(value));
-  if (g.band) {
-    const double half = 0.5 * ((*g.band)[1] - (*g.band)[0]);
-    if (half > 0.0) used = std::max(used, std::abs(value - 0.5 * ((*g.band)[0] + (*g.band)[1])) / half);
-  }
-  if (g.at_least && *g.at_least != 0.0) used = std::max(used, 1.0 + (*g.at_least - value) / std::abs(*g.at_least));
-  return std::isfinite(used) ? used : not_a_number;
-}
 
 int Comparison::count(Trend trend) const {
   return static_cast<int>(std::count_if(changes.begin(), changes.end(), [&](const auto& c) { return c.trend == trend; }));

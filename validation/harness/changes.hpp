@@ -19,7 +19,7 @@ enum class Trend { better, worse, same, appeared, gone };
 /// One metric in one of the two results.
 struct MetricStanding {
   double value = 0.0;  ///< in the metric's unit; NaN where there is none
-  double used = 0.0;   ///< in units of the limit, see used_of(); NaN where no gate judges the metric
+  double used = 0.0;   ///< in units of the limit, share_of_limit(); NaN where no gate judges the metric
   double noise = 0.0;  ///< standard uncertainty by chance, in the metric's unit
   int seeds = 1;       ///< runs that the value is the mean of
   std::string allows;  ///< "limit 0.01"; empty = no gate
@@ -36,8 +36,8 @@ struct MetricChange {
   std::optional<MetricStanding> base, head;
   double change =
       0.0;  ///< head less base in units of the limit, above 0 = worse; without a limit as a share of the base, of no sign
-  double noise = 0.0;      ///< two standard uncertainties of that difference, in the same unit
-  std::string noise_from;  ///< "5 seeds", "A/A", "stated by the run", "round-off", "interval of the fit", "none known"
+  double noise = 0.0;      ///< of that difference, in the same unit: of the base and of A/A, never by the word of the judged run
+  std::string noise_from;  ///< "5 seeds", "A/A", "stated by the base", "round-off", "interval of the fit", "none known"
   Trend trend = Trend::same;
   bool limit_changed = false, looser = false;
 };
@@ -49,11 +49,6 @@ struct Comparison {
       remarks;  ///< why the two may not be comparable: another profile, other seeds, another version of the program
   [[nodiscard]] int count(Trend) const;
 };
-
-/// Share of a gate's allowance that a value takes, 1 at the edge, less is better. It is |value| over the limit; distance from the
-/// middle of a band over half its width; 2 - value/at_least. With several edges the largest counts. A limit of 0 has the metric's
-/// own unit. NaN for no value, and for a gate without an edge.
-[[nodiscard]] double used_of(const Gate&, double value);
 
 /// @param repeat the base once more (A/A): the difference between the two is noise of its own, the larger one counts @pre both
 /// are judged

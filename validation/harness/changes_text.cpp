@@ -13,7 +13,8 @@ std::string number(double value) { return std::isfinite(value) ? fmt::format("{:
 std::string share(double value) { return std::isnan(value) ? std::string("-") : fmt::format("{:.3g}", value); }
 
 std::string value_of(const MetricStanding& s) {
-  return !s.fit_class || std::isfinite(s.used) ? number(s.value) : std::string(to_string(*s.fit_class));
+  if (!s.fit_class) return number(s.value);
+  return std::isfinite(s.value) ? fmt::format("{} {}", number(s.value), *s.fit_class) : std::string(to_string(*s.fit_class));
 }
 
 /// Base beside head; one alone where the other has none; one where both read the same.

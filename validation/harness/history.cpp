@@ -34,7 +34,7 @@ Json gates_of(const CaseResult& c) {
                       {"level", g.level ? Json(*g.level) : Json(nullptr)},
                       {"value", number(g.value)},
                       {"uncertainty", number(g.uncertainty)},
-                      {"used", number(share_used(g))},
+                      {"used", number(g.used)},
                       {"verdict", g.verdict}});
     }
   return list;

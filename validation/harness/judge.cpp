@@ -7,9 +7,10 @@
 #include <set>
 
 #include "validation/case/engine_names.hpp"
+#include "validation/case/known_defect.hpp"
 #include "validation/harness/apply_gate.hpp"
 #include "validation/harness/expected_refusal.hpp"
-#include "validation/harness/known_defect.hpp"
+#include "validation/harness/physics.hpp"
 #include "validation/harness/verdict.hpp"
 
 namespace tripoint {
@@ -77,6 +78,7 @@ Applied apply_excused(const CaseResult& result, const Gate& gate, const Gate& de
   for (auto& row : tried.gates) {
     if (!holds) continue;
     row.verdict = Verdict::fail;
+    row.excused = true;
     row.why = fmt::format("holds the limit, though {} declares the defect {}: take the declaration away",
                           to_string(declared.place), known_defect(declared));
     engine.gates.push_back(row);
@@ -200,6 +202,7 @@ void judge(CaseResult& result, bool engines_were_chosen) {
   for (const auto& name : result.adopted)
     if (std::none_of(result.engines.begin(), result.engines.end(), [&](const auto& e) { return e.name == name; }))
       findings.add(exit_missing, fmt::format("{} was adopted by this case, and was left out by --engines: name it there", name));
+  settle_physics(result);
   const bool refused = is_refused(result, engines_were_chosen);
   if (!refused) count_gates(result, findings);
   check_divergence(result, findings);

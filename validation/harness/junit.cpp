@@ -7,6 +7,7 @@
 #include "validation/harness/apply_gate.hpp"
 #include "validation/harness/foreign_text.hpp"
 #include "validation/harness/judge.hpp"
+#include "validation/harness/physics.hpp"
 #include "validation/harness/report_files.hpp"
 
 namespace tripoint {
@@ -30,8 +31,9 @@ TestCase test_of(const CaseResult& c, const EngineRow& e, const GateRow& g) {
   TestCase t{c.id, name_of(g, e), {}, g.verdict != Verdict::pass, false};
   t.body = fmt::format(
       "<properties><property name=\"value\" value=\"{:g}\"/><property name=\"uncertainty\" value=\"{:g}\"/><property "
-      "name=\"limit\" value=\"{}\"/></properties>",
-      g.value, g.uncertainty, xml(describe(g.gate)));
+      "name=\"limit\" value=\"{}\"/><property name=\"gate\" value=\"{}\"/><property name=\"physics\" value=\"{}\"/>"
+      "</properties>",
+      g.value, g.uncertainty, xml(describe(g.gate)), g.verdict, xml(physics_text(g)));
   if (t.failed)
     t.body += fmt::format("<failure type=\"{}\" message=\"{}\">{}\nlimit set at {} because: {}</failure>", g.verdict, xml(g.why),
                           xml(g.why), xml(to_string(g.gate.place)), xml(g.gate.reason));

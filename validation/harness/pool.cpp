@@ -4,12 +4,11 @@
 #include <cmath>
 
 #include "validation/case/engine_names.hpp"
+#include "validation/case/gated_metric.hpp"
 #include "validation/harness/judge.hpp"
 
 namespace tripoint {
 namespace {
-
-constexpr std::string_view statistical = ".statistical";
 
 /// Particles are jittered as the study says, or else as in the case's own run.
 bool has_jitter_of(const EngineRow& engine, const Study& study, const RunRow& run) {
@@ -45,9 +44,8 @@ std::vector<std::string> metrics_to_fit(const CaseResult& result, const Study& s
   for (const auto& m : result.metrics)
     if (study.metric.empty() || study.metric == m.name) names.push_back(m.name);
   for (const auto& gate : result.gates) {
-    const auto at = gate.metric.rfind(".order");
-    if (at == std::string::npos || at + 6 != gate.metric.size()) continue;
-    const auto name = gate.metric.substr(0, at);
+    if (!is_of_ladder(gate.metric)) continue;
+    const std::string name(fitted_metric(gate.metric));
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   return names;
@@ -64,8 +62,8 @@ bool applies(const Study& study, const std::string& engine, JudgedMode mode) {
 
 std::optional<MetricValue> measured(const RunRow& run, const std::string& metric) {
   if (const auto at = run.metrics.find(metric); at != run.metrics.end()) return at->second;
-  if (!metric.ends_with(statistical)) return {};
-  const auto at = run.metrics.find(metric.substr(0, metric.size() - statistical.size()));
+  if (!metric.ends_with(statistical_part)) return {};
+  const auto at = run.metrics.find(metric.substr(0, metric.size() - statistical_part.size()));
   if (at == run.metrics.end()) return {};
   const bool known =
       std::isfinite(at->second.value) && at->second.uncertainty.statistical > 0.0;  // an unknown scatter is no scatter of 0
@@ -121,7 +119,7 @@ std::vector<OrderRow> fit_orders(const CaseResult& result, const EngineRow& engi
   for (const JudgedMode mode : modes_of(engine)) {
     if (!applies(study, engine.name, mode)) continue;
     for (const auto& metric : metrics_to_fit(result, study)) {
-      OrderRow row{metric, study.axes, mode, {}, study.order.value_or(0.0), {}, {}, {}, {}};
+      OrderRow row{metric, study.axes, mode, {}, {}, study.order.value_or(0.0), {}, {}, {}, {}};
       for (const double level : study.levels) {
         const auto value = at_level(engine, study, mode, metric, level);
         row.step.push_back(step_of(study.axes.axis, level));
@@ -129,9 +127,10 @@ std::vector<OrderRow> fit_orders(const CaseResult& result, const EngineRow& engi
         row.uncertainty.push_back(value.uncertainty.combined());
       }
       if (!std::all_of(row.error.begin(), row.error.end(), [](double e) { return std::isfinite(e); })) continue;
-      if (row.formal > 0.0 && !metric.ends_with(statistical))
+      if (row.formal > 0.0 && !metric.ends_with(statistical_part))
         row.numerical = grid_convergence_uncertainties(row.step, row.error, row.formal);
       row.order = fit_order(row.step, row.error, row.uncertainty, row.formal);
+      row.limit = ladder_limit(row.step, row.error, row.uncertainty);
       rows.push_back(row);
     }
   }

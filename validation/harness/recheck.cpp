@@ -81,7 +81,8 @@ class Recheck {
 
   static bool same(const Gate& a, const Gate& b) {
     return a.metric == b.metric && a.engine == b.engine && a.mode == b.mode && a.preset == b.preset && a.limit == b.limit &&
-           a.at_least == b.at_least && a.band == b.band && a.level == b.level && a.drift == b.drift && a.date == b.date;
+           a.at_least == b.at_least && a.expect == b.expect && a.band == b.band && a.level == b.level && a.drift == b.drift &&
+           a.date == b.date;
   }
 
   /// Each gate of the file must be in the results, once for each time that it is in the file.

@@ -40,10 +40,15 @@ const RunRow* base_run(const EngineRow& e) {
   return at == e.runs.end() ? nullptr : &*at;
 }
 
-double observed_order(const EngineRow& e, const std::string& metric) {
+const OrderRow* ladder_in_time(const EngineRow& e, const std::string& metric) {
   const auto at = std::find_if(e.order.begin(), e.order.end(),
                                [&](const auto& o) { return o.metric == metric && o.axes == StudyAxes{Axis::time_step}; });
-  return at == e.order.end() ? not_a_number : at->order.value;
+  return at == e.order.end() ? nullptr : &*at;
+}
+
+double observed_order(const EngineRow& e, const std::string& metric) {
+  const auto* ladder = ladder_in_time(e, metric);
+  return ladder ? ladder->order.value : not_a_number;
 }
 
 std::vector<std::string> gates_turned_red(const Release& from, const Release& to) {

@@ -35,7 +35,9 @@ struct ReleaseChange {
 
 /// The run at the case's own resolution; nullptr where none was made.
 [[nodiscard]] const RunRow* base_run(const EngineRow&);
-/// Order of a metric over the time step; NaN where none was fitted.
+/// The fit of a metric over the time step; nullptr where there is none.
+[[nodiscard]] const OrderRow* ladder_in_time(const EngineRow&, const std::string& metric);
+/// Its order; NaN where none was fitted.
 [[nodiscard]] double observed_order(const EngineRow&, const std::string& metric);
 /// Gates that pass in the one and not in the other, described.
 [[nodiscard]] std::vector<std::string> gates_turned_red(const Release& from, const Release& to);

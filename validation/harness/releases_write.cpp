@@ -49,8 +49,11 @@ std::string cell(const Release& r, const std::string& preset, const std::string&
     if (e.preset != preset) continue;
     const auto* base = base_run(e);
     if (e.status != Status::ok || !base || !base->metrics.contains(metric)) return std::string(to_string(e.status));
-    const double order = observed_order(e, metric);
-    return fmt::format("{:.3g}", base->metrics.at(metric).value) + (std::isfinite(order) ? fmt::format(" ({:.1f})", order) : "");
+    const auto* ladder = ladder_in_time(e, metric);
+    return fmt::format("{:.3g}", base->metrics.at(metric).value) +
+           (ladder && std::isfinite(ladder->order.value)
+                ? fmt::format(" ({:.1f} {})", ladder->order.value, ladder->order.fit_class)
+                : "");
   }
   return "no such preset";
 }

@@ -22,7 +22,7 @@ Remark remark_on(const CaseResult& c, const EngineRow& e, const GateRow& row) {
   Remark remark;
   remark.code = code_of(row.verdict);
   remark.place = row.gate.place;
-  remark.excess = share_used(row);
+  remark.excess = std::isfinite(row.used) ? row.used : infinity;
   remark.title = fmt::format("{} {}{} {}{}", c.id, label_of(e.name, e.preset), after_blank(row.mode), row.metric,
                              row.level ? fmt::format(" at {:g}", *row.level) : "");
   remark.text = fmt::format("{}: {}; the limit is there because: {}", row.verdict, row.why, row.gate.reason);
@@ -41,17 +41,6 @@ std::string command(const Remark& r, std::size_t more) {
 }
 
 }  // namespace
-
-double share_used(const GateRow& row) {
-  const Gate& g = row.gate;
-  if (!std::isfinite(row.value)) return infinity;
-  if (g.limit) return *g.limit > 0.0 ? std::abs(row.value) / *g.limit : infinity;
-  if (g.band) {
-    const double half = 0.5 * ((*g.band)[1] - (*g.band)[0]);
-    return half > 0.0 ? std::abs(row.value - 0.5 * ((*g.band)[0] + (*g.band)[1])) / half : infinity;
-  }
-  return g.at_least && *g.at_least > 0.0 && row.value > 0.0 ? *g.at_least / row.value : infinity;
-}
 
 std::vector<Remark> verdict_remarks(const Results& results) {
   std::vector<Remark> list;

@@ -18,16 +18,12 @@ struct Remark {
   SourcePlace place;    ///< of the limit in the case file; line 0 = the file as a whole, no file = the suite
   std::string title;    ///< case and judged metric
   std::string text;     ///< one sentence
-  double excess = 0.0;  ///< how far beyond the limit, to put the worst first: |value|/limit; infinite where there is no value
+  double excess = 0.0;  ///< how far beyond the limit, to put the worst first: share_of_limit(); infinite where there is no value
   std::string word;     ///< the verdict where nothing else is wrong: LOOSENED, CHANGED, GONE; empty = that of the code
 };
 
 /// The word of the verdict: that of the remarks where all that give the code share one, else that of the code.
 [[nodiscard]] std::string verdict_word(int exit_code, const Results&, const std::vector<Remark>&);
-
-/// Share of its gate's allowance that a value takes. It is its size over the limit; distance from the middle of a band over half
-/// its width; at_least over it. Infinite where there is no value or nothing is allowed.
-[[nodiscard]] double share_used(const GateRow&);
 
 /// Every gate that is not green, and every problem of a case or the suite, worst first.
 [[nodiscard]] std::vector<Remark> verdict_remarks(const Results&);

@@ -10,6 +10,7 @@
 #include "validation/case/engine_names.hpp"
 #include "validation/harness/case_hash.hpp"
 #include "validation/harness/verdict.hpp"
+#include "validation/metrics/ladder_limit.hpp"
 #include "validation/metrics/metric.hpp"
 #include "validation/metrics/order.hpp"
 
@@ -59,11 +60,16 @@ struct OrderRow {
   StudyAxes axes;
   JudgedMode mode = JudgedMode::none;
   Order order;
+  LadderLimit limit;
   double formal = 0.0;
   std::vector<double> step, error, uncertainty;  ///< points that were fitted
   std::vector<double> numerical;  ///< standard uncertainty of each level by the grid convergence index, which knows no truth;
                                   ///< empty = no formal order is declared
 };
+
+/// Whether what was measured is right, beside the verdict of the gate, which says whether it is as expected: physics.hpp.
+enum class Physics { right, known_defect, wrong, unknown };
+constexpr WordTable<4> word_table(Physics) { return {"physics", {"right", "known defect", "wrong", "not known"}}; }
 
 /// One gate applied to one engine's run (or seeds of a run, pooled), or to a fitted order.
 struct GateRow {
@@ -78,6 +84,10 @@ struct GateRow {
   std::string why;                            ///< one sentence for a verdict that is not pass
   std::optional<FitClass> expect, fit_class;  ///< as a study declares it, and as fitted
   Gate gate;                                  ///< limit, band, reason, file and line
+  bool excused = false;        ///< an acceptance limit that holds, though a defect is declared that excuses from it
+  double used = not_a_number;  ///< share of its limit: share_of_limit()
+  Physics physics = Physics::unknown;
+  std::string defect;  ///< NAME of the defect that its gate declares; empty = none
 };
 
 /// One row of the matrix: an engine with a preset.
@@ -93,6 +103,8 @@ struct EngineRow {
   std::vector<RunRow> runs;
   std::vector<OrderRow> order;
   std::vector<GateRow> gates;
+  Physics physics = Physics::unknown;  ///< the worst of its rows
+  std::vector<std::string> defects;    ///< names of the known defects among them
 };
 
 struct EquivalenceRow {
@@ -115,6 +127,7 @@ struct CaseResult {
   CaseKind kind = CaseKind::verification;
   Expect expect = Expect::pass;
   CaseVerdict verdict = CaseVerdict::missing;
+  Physics physics = Physics::unknown;  ///< the worst of its engines
   int exit_code = 0;
   std::vector<std::string> tags;  ///< as declared
   ReferenceChoice reference;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "validation/case/unjudged.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/results.hpp"
 #include "validation/harness/timing.hpp"
@@ -149,6 +150,10 @@ void fields(V& v, RecordOf<OrderRow> auto& o) {
   v("formal", OrNull{o.formal});
   v("coefficient", NumberOrNull{o.order.coefficient});
   v("floor", NumberOrNull{o.order.floor});
+  v.part("limit", true, [&](auto& limit) {
+    limit("value", NumberOrNull{o.limit.value});
+    limit("uncertainty", NumberOrNull{o.limit.uncertainty});
+  });
   v("step", o.step);
   v("error", o.error);
   v("uncertainty", o.uncertainty);
@@ -175,6 +180,7 @@ void fields(V& v, RecordOf<Gate> auto& g) {
   v("mode", g.mode);
   v("preset", g.preset);
   v("level", g.level);
+  v("expect", g.expect);
   allowed(v, g);
 }
 
@@ -192,6 +198,9 @@ void fields(V& v, RecordOf<GateRow> auto& r) {
   v("class", IfAny{r.fit_class});
   v("expect", IfAny{r.expect});
   v("verdict", r.verdict);
+  v("physics", r.physics);
+  v("defect", IfAny{r.defect});
+  v("used", NumberOrNull{r.used});
   v("why", r.why);
 }
 
@@ -211,6 +220,8 @@ void fields(V& v, RecordOf<EngineRow> auto& e) {
   v("required", e.required);
   v.end(e.status, e.reason);
   v.written("judged", [&] { return !is_unjudged(e); });
+  v.written("physics", [&] { return e.physics; });
+  v.written("defects", [&] { return e.defects; });
   v("refuses", IfAny{e.refuses});
   v.part("library", !e.library_path.empty(), [&](auto& library) {
     library("path", e.library_path);
@@ -307,6 +318,7 @@ void fields(V& v, RecordOf<CaseResult> auto& c) {
   v("file", c.file);
   v("expect", c.expect);
   v.written("verdict", [&] { return c.verdict; });
+  v.written("physics", [&] { return c.physics; });
   v.written("exit_code", [&] { return c.exit_code; });
   v.written(
       "problems", [&]() -> auto& { return c.problems; });
@@ -317,6 +329,7 @@ void fields(V& v, RecordOf<CaseResult> auto& c) {
   v("adopted", IfAny{c.adopted});
   v("engines", c.engines);
   v("equivalence", c.equivalence);
+  v.written("unjudged", [&] { return unjudged_metrics(c.metrics, c.gates, c.studies); });
   v("ledger", c.ledger);
   v("repeat", c.repeat);
   v("hashes", c.hashes);

@@ -9,10 +9,11 @@
 #include <string_view>
 
 #include "validation/case/engine_names.hpp"
+#include "validation/case/gated_metric.hpp"
+#include "validation/case/known_defect.hpp"
 #include "validation/harness/apply_gate.hpp"
 #include "validation/harness/expected_refusal.hpp"
 #include "validation/harness/judge.hpp"
-#include "validation/harness/known_defect.hpp"
 #include "validation/harness/releases.hpp"
 #include "validation/harness/scorecard_cause.hpp"
 #include "validation/harness/slack.hpp"
@@ -23,7 +24,7 @@ namespace {
 constexpr double same_error = 1e-6;   // share by which two errors may differ and still share a place
 constexpr double disagreement = 0.5;  // of the acceptance limit
 
-bool is_order(const Gate& g) { return g.metric.ends_with(".order"); }
+bool is_order(const Gate& g) { return is_of_ladder(g.metric); }
 
 const MetricChoice* metric_of(const CaseResult& c, const std::string& name) {
   const auto at = std::find_if(c.metrics.begin(), c.metrics.end(), [&](const auto& m) { return m.name == name; });

@@ -9,7 +9,7 @@
 
 #include "validation/case/engine_names.hpp"
 #include "validation/harness/apply_gate.hpp"
-#include "validation/harness/known_defect.hpp"
+#include "validation/case/known_defect.hpp"
 #include "validation/harness/scorecard.hpp"
 
 namespace tripoint {

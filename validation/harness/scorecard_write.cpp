@@ -34,7 +34,8 @@ std::string error_cell(const ScoreRow& r) {
 }
 
 std::string order_cell(const ScoreRow& r) {
-  return std::isfinite(r.order) ? fmt::format("{:.1f}", r.order) : r.order_class ? std::string(to_string(*r.order_class)) : "-";
+  if (!r.order_class) return "-";
+  return std::isfinite(r.order) ? fmt::format("{:.1f} {}", r.order, *r.order_class) : std::string(to_string(*r.order_class));
 }
 
 std::string drift_cell(const ScoreRow& r) {

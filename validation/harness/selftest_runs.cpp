@@ -8,6 +8,7 @@
 
 #include "core/errors.hpp"
 #include "validation/case/engine_names.hpp"
+#include "validation/case/gated_metric.hpp"
 #include "validation/harness/apply_gate.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/suite.hpp"
@@ -24,7 +25,7 @@ bool is_needed(const Case& value, const std::string& engine, const std::vector<s
   for (const auto& metric : metrics)
     for (const auto& gate : value.gates) {
       if (!judges(gate, engine, metric) || !fits_mode(gate, run.mode)) continue;
-      if (metric.ends_with(".order") ? !run.levels.empty() : !gate.level && run.base) return true;
+      if (is_of_ladder(metric) ? !run.levels.empty() : !gate.level && run.base) return true;
       for (const auto& [axes, level] : run.levels)
         if (gate.level && same_level(level, *gate.level)) return true;
     }

@@ -10,6 +10,7 @@
 
 #include "validation/case/dates.hpp"
 #include "validation/case/engine_names.hpp"
+#include "validation/case/gated_metric.hpp"
 #include "validation/harness/apply_gate.hpp"
 #include "validation/harness/verdict.hpp"
 
@@ -30,8 +31,14 @@ double ceiling(const Gate& g) {
   return most;
 }
 
-/// The least positive value that it lets pass; 0 where it has no floor.
-double floor_of(const Gate& g) { return std::max({g.at_least.value_or(0.0), g.band ? (*g.band)[0] : 0.0, 0.0}); }
+bool states_a_figure(const Gate& g) { return g.band && ((*g.band)[0] > 0.0 || (*g.band)[1] < 0.0); }
+
+/// How many times wider a band around a figure is than what was measured: at its middle it uses none of its room.
+double slack_of_figure(const Gate& g, double value, double u) {
+  const double low = std::abs((*g.band)[0]), high = std::abs((*g.band)[1]), least = std::min(low, high);
+  const double size = std::abs(value);
+  return std::max(std::max(low, high) / (size + 2.0 * u), least > 0.0 ? (size + 2.0 * u) / least : 0.0);
+}
 
 /// The gate, wherever it is applied.
 std::string key_of(const CaseResult& c, const Gate& g) {
@@ -68,16 +75,13 @@ Remark remark_on(const CaseResult& c, const GateRow& row, double slack, bool eng
 
 std::optional<double> slack_of(const CaseResult& c, const GateRow& row) {
   const Gate& g = row.gate;
-  if (row.verdict != Verdict::pass || row.expect || row.metric.ends_with(".order") || !std::isfinite(row.value)) return {};
-  double used = std::abs(row.value) + 2.0 * row.uncertainty;
-  const double most = ceiling(g), least = floor_of(g);
-  if (most <= roundoff_limit) return {};
-  if (is_count(c, row.metric)) used = std::max(used, 0.5);
-  double slack = 0.0;
-  if (std::isfinite(most)) slack = used > 0.0 ? most / used : infinity;
-  if (least > 0.0) slack = std::max(slack, (row.value + 2.0 * row.uncertainty) / least);
-  if (slack == 0.0) return {};
-  return slack;
+  if (row.verdict != Verdict::pass || row.expect || is_of_ladder(row.metric) || !std::isfinite(row.value)) return {};
+  if (ceiling(g) <= roundoff_limit || (!g.limit && !g.band && g.at_least.value_or(0.0) <= 0.0)) return {};
+  if (states_a_figure(g)) return slack_of_figure(g, row.value, row.uncertainty);
+  double size = std::abs(row.value) + 2.0 * row.uncertainty;
+  if (is_count(c, row.metric)) size = std::max(size, 0.5);
+  const double used = share_of_limit(g, std::copysign(size, row.value));
+  return used > 0.0 ? 1.0 / used : infinity;
 }
 
 namespace {

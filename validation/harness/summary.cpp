@@ -4,6 +4,7 @@
 #include "validation/harness/apply_gate.hpp"
 #include "validation/harness/foreign_text.hpp"
 #include "validation/harness/judge.hpp"
+#include "validation/harness/physics.hpp"
 #include "validation/harness/report_files.hpp"
 
 namespace tripoint {
@@ -41,7 +42,8 @@ int green(const CaseResult& c, int& all) {
 std::string row_of(const CaseResult& c) {
   int all = 0;
   const int passed = green(c, all);
-  return fmt::format("| {} | {} | {} of {} | {} |\n", c.verdict, markdown(c.id), passed, all, markdown(engines_of(c)));
+  return fmt::format("| {} | {} | {} | {} of {} | {} |\n", c.verdict, markdown(physics_text(c)), markdown(c.id), passed, all,
+                     markdown(engines_of(c)));
 }
 
 std::string not_green(const CaseResult& c) {
@@ -68,7 +70,8 @@ std::string not_green(const CaseResult& c) {
 std::string case_line(const CaseResult& c) {
   int all = 0;
   const int passed = green(c, all);
-  std::string line = fmt::format("{:13} {:40} {}/{} gates; {}", c.verdict, one_line(c.id), passed, all, one_line(engines_of(c)));
+  std::string line = fmt::format("{:13} {:40} {}/{} gates; physics {}; {}", c.verdict, one_line(c.id), passed, all,
+                                 one_line(physics_text(c)), one_line(engines_of(c)));
   if (c.exit_code == 0) return line;
   for (const auto& p : c.problems) line += "\n              " + one_line(p);
   for (const auto& e : c.engines)
@@ -81,8 +84,8 @@ std::string case_line(const CaseResult& c) {
 
 std::string summary_text(const Results& r) {
   std::string text = fmt::format(
-      "# tripoint: {} (exit {})\n\n{} case{}, profile {}, commit {}, {}, {}\n\n| verdict | case | gates | engines "
-      "|\n|---|---|---|---|\n",
+      "# tripoint: {} (exit {})\n\n{} case{}, profile {}, commit {}, {}, {}\n\n| gate | physics | case | gates "
+      "held | engines |\n|---|---|---|---|---|\n",
       r.verdict, r.exit_code, r.cases.size(), r.cases.size() == 1 ? "" : "s", r.profile.empty() ? "any" : markdown(r.profile),
       markdown(r.tool.commit), markdown(r.tool.compiler), markdown(r.tool.cpu));
   for (const auto& c : r.cases) text += row_of(c);
