@@ -5,7 +5,7 @@ Nothing is judged here: verdicts, shares of limits and seconds are those of resu
 """
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import load
 import summary
@@ -49,7 +49,7 @@ def verdict_words(results):
         first = f"{'The one gate holds' if held == 1 else f'All {held} gates hold'}, in {count(len(results.cases), 'case')}."
     else:
         first = f"{held} of {count(len(gates), 'gate')} hold in {count(len(results.cases), 'case')}; " + ", ".join(f"{n} {word.lower()}" for word, n in bad.items()) + "."
-    words = summary.tally(word for case in results.cases for word in summary.headline(case) if word in (summary.DEFECT, summary.DIVERGENCE, summary.UNJUDGED))
+    words = summary.tally(word for case in results.cases for word in summary.headline(case) if word in (summary.DIVERGENCE, summary.UNJUDGED, summary.RIGHT, summary.WRONG) or summary.is_defect(word))
     return first, words
 
 
@@ -119,30 +119,27 @@ def compare(case, engine, gate, old):
     share, verdict, before, knobs = old
     if verdict != gate.verdict:
         return Change(case, where, verdict, gate.verdict, kind, 10.0)
-    relimited = before is not None and before.allowed != gate.allowed
-    then, now = (off(before, before.value), off(before, gate.value)) if before is not None else (share, gate.used)
-    if is_number(then) and is_number(now) and abs(now - then) > MOVED and max(then, now) > 0.2:
-        changed = settings_changed(knobs, knobs_of(engine, gate))
-        kind = "apart" if changed else "moved" if before is not None and states_a_figure(before) else "worse" if now > then else "better"
-        values = (f"{before.value:.4g}", f"{gate.value:.4g}") if before is not None else (f"{100 * then:.0f} %", f"{100 * now:.0f} % of the limit")
-        outside = ", outside of that" if now > 1.0 and relimited else ""
-        room = "" if before is None else f" (allowed {gate.allowed}; before, {before.allowed}{outside})" if relimited else f" (allowed {gate.allowed})"
-        return Change(case, f"{where}: {changed}" if changed else where, values[0], values[1] + room, kind, abs(now - then))
-    return Change(case, where, before.allowed, gate.allowed, "limit", 0.0) if relimited else None
+    if before is not None and before.allowed != gate.allowed:  # shares of two limits are not compared
+        return relimited(case, where, before, gate)
+    if not (is_number(share) and is_number(gate.used)) or abs(gate.used - share) <= MOVED or max(share, gate.used) <= 0.2:
+        return None
+    changed = settings_changed(knobs, knobs_of(engine, gate))
+    kind = "apart" if changed else "moved" if before is not None and states_a_figure(before) else "worse" if gate.used > share else "better"
+    values = (f"{before.value:.4g}", f"{gate.value:.4g} (allowed {gate.allowed})") if before is not None else (f"{100 * share:.0f} %", f"{100 * gate.used:.0f} % of the limit")
+    return Change(case, f"{where}: {changed}" if changed else where, *values, kind, abs(gate.used - share))
+
+
+def relimited(case, where, before, gate):
+    """Another limit is asked; where the value moved with it, nobody can say which way."""
+    moved = is_number(before.value) and is_number(gate.value) and abs(gate.value - before.value) > MOVED * max(abs(before.value), abs(gate.value))
+    if moved:
+        return Change(case, f"{where}: its limit changed", f"{before.value:.4g} (allowed {before.allowed})", f"{gate.value:.4g} (allowed {gate.allowed})", "apart", 1.0)
+    return Change(case, where, before.allowed, gate.allowed, "limit", 0.0)
 
 
 def states_a_figure(gate):
     """Whether the band holds a figure that is expected, as of a known defect, and not the error 0: nearer to its middle is not better then."""
     return bool(gate.band) and not gate.band[0] <= 0.0 <= gate.band[1]
-
-
-def off(gate, value):
-    """How far a value is off by the rule of a gate, in its units: of a band that holds 0 the error itself counts, not the way to the band's middle."""
-    if not is_number(value):
-        return None
-    if gate.band and not states_a_figure(gate):
-        return abs(value) / max(-gate.band[0], gate.band[1], 1e-300)
-    return replace(gate, value=value).used
 
 
 def knobs_of(engine, gate):
@@ -220,14 +217,16 @@ def square(entries):
     """(word, what to write) of one engine in one subject; None where no case of it names the engine."""
     words = [[word for engine in engines for _, word in summary.standings(case, engine)] for case, engines in entries]
     words = [found for found in words if found]
-    expected = ("PASS", summary.DEFECT, summary.DIVERGENCE)
-    bad = [word for found in words for word in found if word not in expected and summary.tone(word) in ("fail", "open", "none")]
-    green = sum(any(word in expected for word in found) for found in words)
+    def expected(word):
+        return word in ("PASS", summary.AS_EXPECTED, summary.DIVERGENCE) or summary.is_defect(word)
+    bad = [word for found in words for word in found if not expected(word) and summary.tone(word) in ("fail", "open", "none")]
+    green = sum(any(map(expected, found)) for found in words)
     if bad:
         return summary.worst(bad), f"{sum(any(word in bad for word in found) for found in words)} of {len(words)}"
     if green:
-        wrong = any(word == summary.DEFECT and not mode for case, engines in entries for engine in engines for mode, word in summary.standings(case, engine))  # and not by a printed form alone
-        return summary.DEFECT if wrong else "PASS", str(green)
+        said = [word for case, engines in entries for engine in engines for mode, word in summary.standings(case, engine) if mode != "paper"]  # and not by a printed form alone
+        wrong = next((word for word in (summary.DEFECT, summary.AS_EXPECTED) if any(found.startswith(word) for found in said)), "PASS")
+        return wrong, str(green)
     for word in (summary.UNJUDGED, "refused", "missing"):
         if any(word in found for found in words):
             return word, str(sum(word in found for found in words))

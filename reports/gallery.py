@@ -20,7 +20,7 @@ import load
 import page
 import table1
 import trajectories
-from summary import tone
+from summary import gate_word, tone
 
 
 SIZE = "400x300"  # of one frame [pixels]
@@ -88,7 +88,7 @@ def main(arguments=None):
         print(f"gallery: no case of {arguments[0]} is tagged paper: tripoint validate paper", file=sys.stderr)
         return 2
     index = results.folder / "index.html"
-    index.write_text(page.render_gallery(results, [(case, name, sheet, note, legend, end, tone(case.verdict), said_by_the_paper(case)) for case, name, sheet, note, legend, end in drawn]), encoding="utf-8")
+    index.write_text(page.render_gallery(results, [(case, name, sheet, note, legend, end, tone(gate_word(case.verdict, case.physics)), said_by_the_paper(case)) for case, name, sheet, note, legend, end in drawn]), encoding="utf-8")
     complaints = [note for _, _, _, note, _, _ in drawn if note]
     for note in complaints:
         print(f"gallery: {note}", file=sys.stderr)

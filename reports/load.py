@@ -66,12 +66,13 @@ def problems(raw):
 def read_case(raw, index):
     notes = [f"results.json has no {key} for this case" for key in ("title", "kind", "file", "verdict", "reference", "engines", "repeat")
              if key not in raw] + problems(raw)
+    notes += [f"no gate judges {name}: it is shown, not judged" for name in (raw.get("unjudged") if isinstance(raw.get("unjudged"), list) else []) if isinstance(name, str)]
     metrics = rows(raw.get("metrics"))
     units = {text(m.get("name")): text(m.get("unit")) for m in metrics}
     engines = [read_engine(row, notes) for row in rows(raw.get("engines"))]
     return Case(text(raw.get("id"), f"case {index + 1}"), text(raw.get("title")), text(raw.get("kind")), text(raw.get("requirement")),
                 text(raw.get("claims")), text(raw.get("file")), text(raw.get("verdict"), "no verdict").upper(), table(raw.get("reference")),
-                engines, rows(raw.get("equivalence")), read_ledgers(raw, engines), text(raw.get("repeat")), index, raw, metrics, units, notes)
+                engines, rows(raw.get("equivalence")), read_ledgers(raw, engines), text(raw.get("repeat")), index, raw, metrics, units, notes, physics=text(raw.get("physics")))
 
 
 def read_engine(raw, notes):
@@ -86,7 +87,7 @@ def read_engine(raw, notes):
     if status == "ok" and not runs:
         notes.append(f"{name}: status is ok but no run is listed")
     return Engine(name, text(raw.get("version")), text(raw.get("preset")), raw.get("required") is True, status, text(raw.get("reason")),
-                  runs, [read_order(row) for row in rows(raw.get("order"))], gates, raw)
+                  runs, [read_order(row) for row in rows(raw.get("order"))], gates, raw, text(raw.get("physics")))
 
 
 def read_metric(raw):
@@ -117,7 +118,8 @@ def read_gate(raw):
     return Gate(text(raw.get("metric")), text(raw.get("mode")), number(raw.get("value"), raw.get("finite")), combined(raw.get("uncertainty")),
                 number(raw.get("limit")), number(raw.get("at_least")), band if band and None not in band else None,
                 text(raw.get("verdict"), "no verdict").upper(), text(raw.get("reason")), text(raw.get("why")), text(raw.get("expect")),
-                text(raw.get("class")), number(raw.get("low")), number(raw.get("high")), number(raw.get("level")), text(raw.get("file")), text(raw.get("line")))
+                text(raw.get("class")), number(raw.get("low")), number(raw.get("high")), number(raw.get("level")), text(raw.get("file")), text(raw.get("line")),
+                number(raw.get("used")), text(raw.get("physics")), text(raw.get("defect")))
 
 
 def read_ledgers(raw, engines):

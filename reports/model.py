@@ -53,6 +53,13 @@ def combined(uncertainty):
     return number(uncertainty)
 
 
+def ordered(value, fit_class):
+    """An observed order with its class of convergence."""
+    if not is_number(value):
+        return fit_class or "—"
+    return f"{value:.1f}" + (f" ({fit_class})" if fit_class else "")
+
+
 @dataclass
 class Metric:
     value: float | None
@@ -109,6 +116,11 @@ class Order:
     floor: float | None
     points: list  # (step, error, standard uncertainty) that were fitted
 
+    @property
+    def words(self):
+        """"2.0 (asymptotic)": a number without its class may be that of a floor."""
+        return ordered(self.value, self.fit_class)
+
 
 @dataclass
 class Gate:
@@ -129,6 +141,9 @@ class Gate:
     level: float | None
     file: str
     line: str
+    used: float | None = None  # share of the limit: 1 at the edge, above it outside; None where that has no meaning
+    physics: str = ""          # right, known defect, wrong, not known; empty where an older version wrote the file
+    defect: str = ""           # NAME of the known defect
 
     @property
     def allowed(self):
@@ -139,18 +154,6 @@ class Gate:
         if self.limit is not None:
             return f"≤ {self.limit:.4g}"
         return f"class {self.expect}" if self.expect else "none"
-
-    @property
-    def used(self):
-        """Share of the limit that is used: 1 at the limit, above it outside; None where that has no meaning."""
-        if not is_number(self.value):
-            return None
-        if self.band:
-            half = 0.5 * (self.band[1] - self.band[0])
-            return abs(self.value - 0.5 * (self.band[0] + self.band[1])) / half if half > 0 else None
-        if self.at_least is not None:
-            return self.at_least / self.value if self.value > 0 and self.at_least > 0 else None
-        return abs(self.value) / self.limit if self.limit is not None and self.limit > 0 else None
 
 
 @dataclass
@@ -165,6 +168,7 @@ class Engine:
     orders: list
     gates: list
     raw: dict
+    physics: str = ""  # the worst of its gates
 
     @property
     def label(self):
@@ -197,6 +201,7 @@ class Case:
     notes: list = field(default_factory=list)
     history: list = field(default_factory=list)  # runs before, oldest first: history.Entry
     slug: str = ""  # its file name, without an ending
+    physics: str = ""  # the worst of its engines
 
     @property
     def subject(self):

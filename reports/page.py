@@ -64,11 +64,6 @@ def page_of(case, up=""):
     return f"{up}case/{case.slug}.html"
 
 
-def judged(gate):
-    """The word of a gate: one that holds a predicted or a known defect does not look like plain green."""
-    return summary.DEFECT if gate.verdict == "PASS" and gate.reason.startswith((summary.PREDICTED, summary.KNOWN)) else gate.verdict
-
-
 def of_one_value(gates):
     """[[gate]]: gates that judge the same value stand together, in the order in which values come first."""
     found = {}
@@ -119,7 +114,7 @@ def truth(row, case, side):
 def environment():
     import jinja2
     made = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    made.filters.update(show=show, times=digit_cost.times, size=size, percent=percent, tone=summary.tone, page=page_of, terms=terms, measure=measure, truth=truth, judged=judged, hash=script_hash, of_one_value=of_one_value, worded=worded,
+    made.filters.update(show=show, times=digit_cost.times, size=size, percent=percent, tone=summary.tone, page=page_of, terms=terms, measure=measure, truth=truth, gate_word=summary.gate_word, physics_word=summary.physics_word, hash=script_hash, of_one_value=of_one_value, worded=worded,
                         turn=lambda kind: front.WORDS.get(kind, kind), headline=summary.headline, standings=summary.standings, ran=summary.ran, share=front.worst_share)
     return made
 

@@ -12,7 +12,7 @@ from types import SimpleNamespace
 import foreign
 import headlines
 import page
-from model import number, rows, text
+from model import number, ordered, rows, text
 
 
 def presets_of(document):
@@ -30,12 +30,16 @@ def measured(release, preset, metric):
     return number(found.get("value")), number(found.get("order"))
 
 
+def class_of(release, preset, metric):
+    return text(((row_of(release, preset).get("metrics") or {}).get(metric) or {}).get("class"))
+
+
 def cell(release, preset, metric):
     row = row_of(release, preset)
     error, order = measured(release, preset, metric)
     if row.get("status") != "ok" or error is None:
         return {"text": text(row.get("status")) or "no such preset", "note": text(row.get("reason"))}
-    return {"text": page.show(error), "note": "" if order is None else f"order {order:.1f}"}
+    return {"text": page.show(error), "note": "" if order is None else f"order {ordered(order, class_of(release, preset, metric))}"}
 
 
 def label(release):

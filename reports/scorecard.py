@@ -11,7 +11,7 @@ from types import SimpleNamespace
 
 import foreign
 import page
-from model import number, rows, table, text
+from model import number, ordered, rows, table, text
 
 APART = ("refused", "missing")  # verdicts of a case that did not run: they stand below the table, by reason
 TONES = {"pass": "pass", "fail": "fail", "known defect": "open", "inconclusive": "open", "diverged": "fail", "crashed": "fail", "not judged": "none"}
@@ -25,7 +25,7 @@ def line(row):
     rank = row.get("rank") or 0
     return {"case": text(row.get("case")), "title": text(row.get("title")), "verdict": text(row.get("verdict")), "tone": TONES.get(text(row.get("verdict")), "none"), "reason": text(row.get("reason")), "cause": text(row.get("cause")),
             "metric": text(row.get("metric")), "error": page.show(number(row.get("error"))), "unit": text(row.get("unit")), "allowed": text(row.get("allowed")), "share": share,
-            "order": f"{order:.1f}" if order is not None else text(row.get("order_class")) or page.show(None), "order_metric": text(row.get("order_metric")),
+            "order": ordered(order, text(row.get("order_class"))), "order_metric": text(row.get("order_metric")),
             "drift": page.show(drift), "drift_metric": text(row.get("drift_metric")), "cpu": page.show(number(row.get("cpu_s"))), "cost": page.show(None) if cost is None else f"{cost:.2g}",
             "rank": f"{rank} of {row.get('of')}" if rank else page.show(None), "first": rank == 1}
 

@@ -16,6 +16,7 @@ class Cell:
     value: float | None = None
     uncertainty: float | None = None
     verdict: str = ""
+    physics: str = ""
     best: bool = False
     word: str = ""
 
@@ -65,5 +66,5 @@ def cell(engine, mode, run, name):
     if run is None or run.status != "ok":
         return Cell(word=(run.reason or run.status) if run is not None else engine.reason or engine.status)
     metric = run.metrics.get(name)
-    gates = [gate.verdict for gate in engine.gates if gate.metric == name and gate.mode in ("", mode)]
-    return Cell(metric.value if metric else None, metric.u if metric else None, summary.worst(gates) if gates else "")
+    gates = [gate for gate in engine.gates if gate.metric == name and gate.mode in ("", mode)]
+    return Cell(metric.value if metric else None, metric.u if metric else None, summary.worst(gate.verdict for gate in gates), summary.physics_of(gates))

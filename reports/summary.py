@@ -8,17 +8,38 @@ GRADES = ("DIVERGED", "FAIL", "MISSING", "INCONCLUSIVE", "NO VERDICT", "PASS")  
 KINDS = {"verification": "an exact solution", "validation": "an experiment", "comparison": "another engine"}
 
 
-PREDICTED = "predicted defect"  # begins the reason of a gate that holds what the printed equations were predicted to get wrong
-KNOWN = "known defect"  # the same of an engine's own
-DEFECT, DIVERGENCE, UNJUDGED = "expected defect", "expected divergence", "not judged"
+RIGHT, DEFECT, WRONG, UNKNOWN = "right", "known defect", "wrong", "not known"  # physics, as results.json says it
+AS_EXPECTED = "as expected"  # a gate that holds a value that is not right: PASS, which is green, stands beside right values alone
+DIVERGENCE, UNJUDGED = "expected divergence", "not judged"
 TONES = {"PASS": "pass", "OK": "pass", "EQUIVALENT": "pass", "FAIL": "fail", "DIVERGED": "fail", "KILLED": "fail", "ERROR": "fail", "TIMEOUT": "fail", "DIFFERENT": "fail",
-         "REFUSED": "refused", "MISSING": "missing", DEFECT.upper(): "defect", DIVERGENCE.upper(): "diverges", UNJUDGED.upper(): "unjudged", "INTERRUPTED": "open"}
+         "REFUSED": "refused", "MISSING": "missing", RIGHT.upper(): "pass", WRONG.upper(): "fail", UNKNOWN.upper(): "open", DIVERGENCE.upper(): "diverges", UNJUDGED.upper(): "unjudged", "INTERRUPTED": "open"}
 
 
 def tone(verdict):
     """The look of a word: each tone has its own sign and border, so that none is told by colour alone."""
     verdict = verdict.upper()
-    return TONES.get(verdict) or ("open" if verdict.startswith(("INCONCLUSIVE", "UNRESOLVED", "NEGLIGIBLE")) else "none")
+    return TONES.get(verdict) or ("defect" if is_defect(verdict.lower()) else "open" if verdict.startswith(("INCONCLUSIVE", "UNRESOLVED", "NEGLIGIBLE")) else "none")
+
+
+def is_defect(word):
+    return word.startswith(DEFECT)
+
+
+def gate_word(verdict, physics):
+    """What the gate says. @param physics: of the value that it judged"""
+    return AS_EXPECTED if verdict == "PASS" and physics != RIGHT else verdict
+
+
+def physics_word(physics, defects=()):
+    """"right", "wrong", "known defect soft-contact"."""
+    names = ", ".join(dict.fromkeys(name for name in defects if name))
+    return f"{DEFECT} {names}" if physics == DEFECT and names else physics
+
+
+def physics_of(gates):
+    """The word of several gates: the worst that one of them says."""
+    said = {gate.physics for gate in gates}
+    return next((physics_word(word, (gate.defect for gate in gates)) for word in (WRONG, DEFECT, UNKNOWN, RIGHT) if word in said), "")
 
 
 def worst(verdicts):
@@ -42,7 +63,8 @@ def standing(case, engine, mode=""):
     if declared_divergence(case, mode) and "diverged" in (runs or [engine.status]):
         return DIVERGENCE
     if verdict == "PASS":
-        return DEFECT if any(gate.reason.startswith((PREDICTED, KNOWN)) for gate in gates) and (mode or len(engine.modes) == 1) else verdict
+        physics = physics_of(gates)
+        return physics if is_defect(physics) else gate_word(verdict, physics)
     return UNJUDGED if engine.status == "ok" else engine.status
 
 
@@ -52,12 +74,13 @@ def standings(case, engine):
 
 
 def headline(case):
-    """The words of a case: its verdict, and what it expected beside."""
+    """The words of a case: its gate's, its physics', and what it expected beside."""
     words = [word for engine in case.engines for _, word in standings(case, engine)]
-    beside = [word for word in (DEFECT, DIVERGENCE) if word in words]
     if case.verdict == "PASS" and text(case.raw.get("expect")) == "diverges" and DIVERGENCE in words:
         return [DIVERGENCE]
-    return [case.verdict if case.verdict != "PASS" or any(engine.gates for engine in case.engines) or beside else UNJUDGED] + beside
+    judged = case.verdict != "PASS" or any(engine.gates for engine in case.engines) or DIVERGENCE in words
+    physics = physics_word(case.physics, (gate.defect for engine in case.engines for gate in engine.gates if gate.physics == DEFECT))
+    return [gate_word(case.verdict, case.physics) if judged else UNJUDGED] + [word for word in (physics, DIVERGENCE) if word and word != UNKNOWN and (word != DIVERGENCE or word in words)]
 
 
 def ran(case):

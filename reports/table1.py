@@ -12,7 +12,7 @@ from pathlib import Path
 
 import animation
 from model import Case, number, rows, text
-from summary import tone, worst
+from summary import AS_EXPECTED, gate_word, is_defect, physics_of, tone, worst
 
 ROWS = Path(__file__).resolve().parent / "table1.toml"
 COLUMNS = (("ours, corrected", "tripoint", "corrected"), ("ours, paper", "tripoint", "paper"), ("LAMMPS", "lammps", ""), ("Bullet", "bullet", ""))
@@ -72,10 +72,11 @@ def entry(case, engine, mode):
         made.lines = [engine.reason or "no reason stated"]
         return made
     if gates:
-        made.word = worst(gate.verdict for gate in gates)
-        made.tone = tone(made.word)
-        if made.word == "PASS" and any(gate.reason.startswith(PREDICTED) for gate in gates):
-            made.word, made.tone = PREDICTED, "open"
+        physics = physics_of(gates)
+        made.word = gate_word(worst(gate.verdict for gate in gates), physics)
+        if made.word == AS_EXPECTED and is_defect(physics):
+            made.word = PREDICTED if any(gate.reason.startswith(PREDICTED) for gate in gates) else physics
+        made.tone = "open" if made.word == PREDICTED else tone(made.word)
         made.lines = [(gate.metric, gate.value, gate.allowed, case.units.get(gate.metric, ""), gate.why or (gate.reason if gate.reason.startswith(PREDICTED) else "")) for gate in gates]
         return made
     run = next((run for run in engine.runs if run.base and (not mode or run.mode == mode)), None)

@@ -85,7 +85,7 @@ def fitted(axis, found, order, look):
     if is_number(order.low) and is_number(order.high):
         fan = [law(order, x, x0, edge) if is_number(order.coefficient) and is_number(order.floor) else y * (x / x0) ** (edge - order.value) for edge in (order.low, order.high)]
         axis.fill_between(x, np.minimum(*fan), np.maximum(*fan), color=look["color"], alpha=0.15, linewidth=0)
-        words += f" [{order.low:.2f}, {order.high:.2f}]" + (f" {order.fit_class}" if order.fit_class != "asymptotic" else "")
+        words += f" [{order.low:.2f}, {order.high:.2f}]" + f" {order.fit_class}"
     if order.fit_class == "plateau":  # the slope of its falling part is no order of the flat line that is seen
         words = "no order: the error no longer falls"
     return words, (x[-9], y[-9]), look["color"]

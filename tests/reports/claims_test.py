@@ -31,7 +31,7 @@ def run_of(mode, metrics, base=True, **levels):
 
 
 def gate_of(metric, mode, value, verdict="pass", reason="a limit", **more):
-    return {"metric": metric, "mode": mode, "value": value, "limit": 1.0, "verdict": verdict, "reason": reason, **more}
+    return {"metric": metric, "mode": mode, "value": value, "limit": 1.0, "verdict": verdict, "reason": reason, "physics": "known defect" if reason.startswith("predicted") else "right" if verdict == "pass" else "wrong", **more}
 
 
 def case_of(case_id, engines, **more):

@@ -70,7 +70,7 @@ def gate_of(case, metric, mode, value, u, limit=None, band=None, verdict=None, r
         inside = value is not None and (value + 2 * u <= limit if limit else band[0] <= value <= band[1])
         verdict = "PASS" if inside else "FAIL"
     return {"metric": metric, "mode": mode, "value": value, "uncertainty": u, "limit": limit, "band": band, "verdict": verdict,
-            "reason": reason, "why": "" if verdict == "PASS" else f"{value} is {verdict.lower()} against the limit", "file": f"cases/{case}.toml", "line": 31}
+            "physics": "right" if verdict == "PASS" else "wrong" if verdict == "FAIL" else "not known", "used": None if value is None or not limit else abs(value) / limit, "reason": reason, "why": "" if verdict == "PASS" else f"{value} is {verdict.lower()} against the limit", "file": f"cases/{case}.toml", "line": 31}
 
 
 def engine_of(name, runs=(), order=(), gates=(), status="ok", reason="", preset="default", required=False):
@@ -79,7 +79,7 @@ def engine_of(name, runs=(), order=(), gates=(), status="ok", reason="", preset=
 
 
 def case_of(case_id, title, kind, engines, claims, source, verdict="PASS", **more):
-    return {"id": case_id, "title": title, "kind": kind, "requirement": "R-EX-01", "claims": claims, "metrics": METRICS.get(case_id.split("/")[0], []), "problems": ["a metric is not finite: overshoot"] if verdict == "FAIL" else [], "file": f"cases/{case_id}.toml", "verdict": verdict,
+    return {"id": case_id, "title": title, "kind": kind, "requirement": "R-EX-01", "claims": claims, "metrics": METRICS.get(case_id.split("/")[0], []), "problems": ["a metric is not finite: overshoot"] if verdict == "FAIL" else [], "file": f"cases/{case_id}.toml", "verdict": verdict, "physics": "right" if verdict == "PASS" else "wrong",
             "reference": {"kind": "analytic", "source": source, "uncertainty": 0.0}, "engines": engines, "equivalence": [],
             "ledger": {"kinetic": 0.0, "thermal": -3.1e-13, "residual": -3.1e-13}, "repeat": f"tripoint validate cases/{case_id}.toml --profile commit", **more}
 

@@ -19,6 +19,7 @@ import front  # noqa: E402
 import headline_pictures  # noqa: E402
 import headlines  # noqa: E402
 import load  # noqa: E402
+import model  # noqa: E402
 import page  # noqa: E402
 import paper_figures  # noqa: E402
 import releases  # noqa: E402
@@ -120,8 +121,17 @@ class DigitCost(Pages):
         self.assertNotIn("heat/one", text[text.index("Cases without a study"):])
 
 
-def gated(value, step=1e-3, verdict="pass", state="a", limit=1.0, band=None):
-    gate = {"metric": "error", "mode": "corrected", "value": value, "verdict": verdict, "reason": "r", **({"band": band} if band else {"limit": limit})}
+def share(value, limit, band):
+    """What the judge writes beside such a gate."""
+    if not band:
+        return abs(value) / limit
+    low, high = band
+    return value / (high if value > 0 else low) if low <= 0 <= high else abs(value - (low + high) / 2) / (high - low) * 2
+
+
+def gated(value, step=1e-3, verdict="pass", state="a", limit=1.0, band=None, **more):
+    gate = {"metric": "error", "mode": "corrected", "value": value, "verdict": verdict, "reason": "r", "used": share(value, limit, band), "physics": "right" if verdict == "pass" else "wrong",
+            **({"band": band} if band else {"limit": limit}), **more}
     run = {"knobs": {"mode": "corrected", "time_step": step}, "base": True, "status": "ok", "metrics": {"error": {"value": value}}, "cost": {}, "state_hash": state, "folder": "runs/heat/one/tripoint"}
     return case([{"name": "tripoint", "status": "ok", "runs": [run], "gates": [gate]}])
 
@@ -149,7 +159,8 @@ class SinceTheLastRun(Pages):
 
     def test_a_limit_that_moves_along_does_not_hide_what_got_worse(self):
         text = self.front(gated(-0.0095, band=[-0.03, 0.03]), gated(-0.0301, band=[-0.045, 0.015]))
-        self.assertIn("worse heat/one tripoint, error: -0.0095 → -0.0301 (allowed -0.045 to 0.015; before, -0.03 to 0.03, outside of that)", text)
+        self.assertIn("not comparable heat/one tripoint, error: its limit changed: -0.0095 (allowed -0.03 to 0.03) → -0.0301 (allowed -0.045 to 0.015)", text)
+        self.assertNotIn("Nothing got worse.", text)
         self.assertIn("new limit heat/one tripoint, error: ≤ 1 → ≤ 2", self.front(gated(0.5), gated(0.5, limit=2.0)))
 
     def test_in_a_band_about_zero_the_error_counts_and_not_the_way_to_the_middle(self):
@@ -183,9 +194,59 @@ class SinceTheLastRun(Pages):
         self.assertIn("120 % fails", self.front(gated(1.2, verdict="fail"), gated(1.2, verdict="fail")))
 
     def test_a_gate_that_asks_for_all_and_has_all_is_not_near_its_limit(self):
-        gates = [{"metric": name, "mode": "corrected", "value": value, "at_least": 0.999, "verdict": "pass", "reason": "r"} for name, value in (("melted", 1.0), ("share", 0.9991))]
+        gates = [{"metric": name, "mode": "corrected", "value": value, "at_least": 0.999, "verdict": "pass", "reason": "r", "used": 0.999 / value} for name, value in (("melted", 1.0), ("share", 0.9991))]
         near = front.nearest(self.load(case([ladder(2.0, 5.0, gates=gates)])))
         self.assertEqual([gate.metric for _, _, _, gate in near], ["share"])
+
+
+class Physics(Pages):
+    """What is wrong is never green: physics gives word and colour, the gate stands beside it."""
+
+    def pages(self):
+        """Pyramids that fell in one engine, as its declared defect says, and stand in the other."""
+        def engine(name, value, physics, **more):
+            gate = {"metric": "error", "mode": "", "value": value, "verdict": "pass", "physics": physics, "used": 0.2, "limit": 1.0, "reason": "r", **more}
+            run = {"knobs": {}, "base": True, "status": "ok", "metrics": {"error": {"value": value}}, "cost": {"cpu_s": 1.0}}
+            return {"name": name, "status": "ok", "runs": [run], "gates": [gate], "physics": physics}
+        self.write(case([engine("bullet", 1e-4, "right"), engine("rapier", 0.66, "known defect", defect="soft-contact", reason="known defect soft-contact: it sinks", order=[])], physics="known defect"))
+
+    def tones(self, page, word):
+        """Classes of the badges that hold this word."""
+        html = (self.path / page).read_text(encoding="utf-8")
+        return {found.group(1) for found in re.finditer(r'<span class="badge ([^"]*)"[^>]*>([^<]*)</span>', html) if found.group(2).startswith(word)}
+
+    def test_a_known_defect_is_named_and_not_green_on_any_page(self):
+        self.pages()
+        for page in ("engines.html", "index.html", "case/heat-one.html"):
+            with self.subTest(page=page):
+                self.assertIn("known defect soft-contact", self.text(page))
+                self.assertEqual(self.tones(page, "known defect"), {"defect"})
+
+    def test_the_gate_says_as_expected_beside_it(self):
+        self.pages()
+        for page in ("engines.html", "case/heat-one.html"):
+            self.assertIn("known defect soft-contact gate: as expected", self.text(page))
+            self.assertIn("right gate: as expected", self.text(page))
+        self.assertIn("as expected known defect soft-contact", self.text("index.html"))
+
+    def test_pass_stands_beside_right_values_alone(self):
+        self.pages()
+        self.assertEqual(self.tones("engines.html", "PASS"), set())
+        self.assertEqual(self.tones("case/heat-one.html", "PASS"), {"pass"})  # of Bullet in the list of engines
+
+    def test_a_wrong_value_is_red_in_both(self):
+        self.write(gated(1.2, verdict="fail"))
+        text = self.text("case/heat-one.html")
+        self.assertIn("wrong gate: FAIL", text)
+        self.assertEqual(self.tones("case/heat-one.html", "wrong"), {"fail"})
+
+    def test_a_cured_defect_is_right_and_its_gate_red(self):
+        self.write(gated(0.5, verdict="fail", physics="right", why="take the declaration away"))
+        self.assertIn("right gate: FAIL", self.text("case/heat-one.html"))
+
+    def test_an_order_stands_with_its_class(self):
+        self.assertEqual(model.ordered(2.0, "plateau"), "2.0 (plateau)")
+        self.assertEqual(model.ordered(None, "roundoff"), "roundoff")
 
 
 class PaperFigures(Pages):

@@ -162,9 +162,10 @@ class Page(unittest.TestCase):
                 self.assertIn(engine["status"] if engine["status"] != "ok" else engine["name"], section)
                 self.assertIn(engine["reason"], section)
             for gate in (gate for engine in case["engines"] for gate in engine["gates"]):
-                for key in ("metric", "reason", "why", "verdict"):
+                for key in ("metric", "reason", "why", "physics"):
                     self.assertIn(gate[key], section)
-            rows = section[section.index("Gates engine"):section.index("Engines engine version")].count("PASS")
+                self.assertIn("gate: as expected" if gate["verdict"] == "PASS" else f"gate: {gate['verdict']}", section)
+            rows = section[section.index("Gates engine"):section.index("Engines engine version")].count("gate: as expected")
             self.assertEqual(rows, sum(gate["verdict"] == "PASS" for engine in case["engines"] for gate in engine["gates"]))
 
     def section(self, case):
@@ -321,8 +322,8 @@ class Trouble(unittest.TestCase):
             engine = {key: wrong for key in ("version", "preset", "required", "reason", "order")}
             engine.update(name="tripoint", status="ok", runs=[{"knobs": wrong, "metrics": {"m": wrong}, "cost": wrong, "series": wrong, "folder": wrong, "levels": wrong},
                           {"knobs": {"spacing": wrong}, "metrics": {"m": {"value": 1.0, "times": wrong, "series": wrong}}, "cost": {"cpu_s": 1.0}}, wrong],
-                          gates=[{"metric": "m", "band": wrong, "value": wrong, "limit": wrong, "uncertainty": wrong, "verdict": wrong}, {"metric": "m", "value": 2.0, "limit": 1.0, "verdict": "fail"}])
-            case = {key: wrong for key in ("title", "kind", "reference", "equivalence", "ledger", "claims", "metrics", "problems")}
+                          gates=[{"metric": "m", "band": wrong, "value": wrong, "limit": wrong, "uncertainty": wrong, "verdict": wrong}, {"metric": "m", "value": 2.0, "limit": 1.0, "used": 2.0, "verdict": "fail"}, {"metric": "m", "used": wrong, "physics": wrong, "defect": wrong}], physics=wrong)
+            case = {key: wrong for key in ("title", "kind", "reference", "equivalence", "ledger", "claims", "metrics", "problems", "physics", "unjudged")}
             document = {"format": wrong, "tool": wrong, "verdict": wrong, "engines": wrong, "not_validated": wrong, "problems": wrong,
                         "cases": [{**case, "id": "a/b", "engines": [engine]}, {"id": "a/b", "engines": wrong}, wrong]}
             done, page = self.write(document)

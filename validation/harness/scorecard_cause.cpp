@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "validation/case/engine_names.hpp"
-#include "validation/harness/apply_gate.hpp"
+#include "validation/case/gated_metric.hpp"
 #include "validation/case/known_defect.hpp"
+#include "validation/harness/apply_gate.hpp"
 #include "validation/harness/scorecard.hpp"
 
 namespace tripoint {
@@ -75,7 +76,7 @@ std::string joined(const std::string& a, const std::string& b) { return a.empty(
 std::string likely_cause(const CaseResult& c, const Case* value, const EngineRow& engine) {
   std::vector<std::string> found;
   for (const auto& row : engine.gates) {
-    if (!is_acceptance(row.gate) || row.verdict != Verdict::fail || row.metric.ends_with(".order")) continue;
+    if (!is_acceptance(row.gate) || row.verdict != Verdict::fail || is_of_ladder(row.metric)) continue;
     const auto like = joined(as_others(c, row, engine), as_registered(c, value, row));
     if (!like.empty()) found.push_back(fmt::format("{} {:.3g}: {}", row.metric, row.value, like));
   }
