@@ -12,6 +12,7 @@
 
 #include "validation/case/engine_names.hpp"
 #include "validation/harness/foreign_text.hpp"
+#include "validation/harness/physics.hpp"
 #include "validation/harness/verdict.hpp"
 
 namespace tripoint {
@@ -154,9 +155,10 @@ std::string verdict_text(const GateVerdict& verdict, const CommentOptions& o) {
 std::string comment_markdown(const Results& results, const GateVerdict& verdict, const Comparison* against,
                              const CommentOptions& o) {
   const auto gates = gates_of(results);
-  std::string text = fmt::format("{}\n## Accuracy: {}\n\n{} of {} gates pass in {} case{}; {}{}.\n", comment_mark,
-                                 verdict_text(verdict, o), gates.green, gates.all, results.cases.size(),
-                                 results.cases.size() == 1 ? "" : "s", markdown(engines_of(results)), markdown(names_of(o)));
+  std::string text =
+      fmt::format("{}\n## Accuracy: {}\n\n{} of {} gates pass in {} case{}; {}; {}{}.\n", comment_mark, verdict_text(verdict, o),
+                  gates.green, gates.all, results.cases.size(), results.cases.size() == 1 ? "" : "s", physics_counts(results),
+                  markdown(engines_of(results)), markdown(names_of(o)));
   if (!o.note.empty()) text += "\n" + markdown(o.note) + "\n";
   if (against) {
     text += fmt::format("\n**{}**\n\n", counts_text(*against)) + table_of(*against, o);
@@ -173,9 +175,10 @@ std::string comment_markdown(const Results& results, const GateVerdict& verdict,
 
 std::string comment_text(const Results& results, const GateVerdict& verdict, const Comparison* against, const CommentOptions& o) {
   const auto gates = gates_of(results);
-  std::string text = one_line(fmt::format("accuracy {}: {} of {} gates pass in {} cases; {}{}", verdict_text(verdict, o),
-                                          gates.green, gates.all, results.cases.size(), engines_of(results), names_of(o))) +
-                     "\n";
+  std::string text =
+      one_line(fmt::format("accuracy {}: {} of {} gates pass in {} cases; {}; {}{}", verdict_text(verdict, o), gates.green,
+                           gates.all, results.cases.size(), physics_counts(results), engines_of(results), names_of(o))) +
+      "\n";
   if (!o.note.empty()) text += one_line(o.note) + "\n";
   if (against) text += changes_table(*against);
   return text + remarks_text(verdict.remarks);

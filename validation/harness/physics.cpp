@@ -116,6 +116,16 @@ std::string physics_text(const CaseResult& result) {
   return text;
 }
 
+std::string physics_counts(const Results& results) {
+  const auto count = [&](Physics p) {
+    return std::count_if(results.cases.begin(), results.cases.end(), [&](const auto& c) { return c.physics == p; });
+  };
+  std::string text = fmt::format("physics: {} right", count(Physics::right));
+  if (const auto n = count(Physics::known_defect); n > 0) text += fmt::format(", {} with known defects", n);
+  if (const auto n = count(Physics::unknown); n > 0) text += fmt::format(", {} not known", n);
+  return text + fmt::format(", {} wrong", count(Physics::wrong));
+}
+
 std::string physics_text(const GateRow& row) { return physics_text(row.physics, {row.defect}); }
 
 }  // namespace tripoint

@@ -21,4 +21,7 @@ void settle_physics(CaseResult&);
 /// Of a case: "right", or by whom it is not: "known defect soft-contact (rapier, mujoco), wrong (stone)".
 [[nodiscard]] std::string physics_text(const CaseResult&);
 
+/// Of cases: "physics: 12 right, 2 with known defects, 1 wrong"; what counts none is left out, but for the wrong ones.
+[[nodiscard]] std::string physics_counts(const Results&);
+
 }  // namespace tripoint

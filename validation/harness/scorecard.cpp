@@ -24,7 +24,7 @@ namespace {
 constexpr double same_error = 1e-6;   // share by which two errors may differ and still share a place
 constexpr double disagreement = 0.5;  // of the acceptance limit
 
-bool is_order(const Gate& g) { return is_of_ladder(g.metric); }
+bool is_fitted(const Gate& g) { return is_of_ladder(g.metric); }
 
 const MetricChoice* metric_of(const CaseResult& c, const std::string& name) {
   const auto at = std::find_if(c.metrics.begin(), c.metrics.end(), [&](const auto& m) { return m.name == name; });
@@ -149,8 +149,8 @@ void conservation(const CaseResult& c, const RunRow& run, ScoreRow& row) {
 WorstLimit worst_of(const CaseResult& c, const EngineRow& e) {
   WorstLimit worst;
   for (const auto& g : c.gates) {
-    if (!is_acceptance(g) || is_order(g)) continue;
-    const double value = error_of(e, &g), share = std::abs(value) / edge(g);
+    if (!is_acceptance(g) || is_fitted(g)) continue;
+    const double value = error_of(e, &g), share = share_of_limit(g, value);
     if (!std::isfinite(share) || share <= worst.share) continue;
     const auto* metric = metric_of(c, g.metric);
     worst = {g.metric, metric ? metric->unit : "", describe(g), value, share};
@@ -185,7 +185,7 @@ ScoreRow row_of(const CaseResult& c, const Case* value, const EngineRow& e) {
     row.unit = metric ? metric->unit : "";
     row.allowed = describe(*gate);
     row.error = error_of(e, gate);
-    row.share = std::abs(row.error) / edge(*gate);
+    row.share = share_of_limit(*gate, row.error);
     place(c, gate, e, row);
   }
   observed(e, row);
@@ -267,7 +267,7 @@ bool is_acceptance(const Gate& g) {
 const Gate* ranking_gate(const CaseResult& c) {
   const Gate* best = nullptr;
   for (const auto& g : c.gates)
-    if (is_acceptance(g) && !is_order(g) && (!best || weakness(c, g) < weakness(c, *best))) best = &g;
+    if (is_acceptance(g) && !is_fitted(g) && (!best || weakness(c, g) < weakness(c, *best))) best = &g;
   return best;
 }
 

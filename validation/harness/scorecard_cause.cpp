@@ -24,7 +24,7 @@ std::string spoken(std::string name) {
   return name.starts_with("no ") ? "without " + name.substr(3) : "with " + name;
 }
 
-bool same_level(const Gate& a, const Gate& b) { return !a.level || !b.level || *a.level == *b.level; }
+bool at_same_level(const Gate& a, const Gate& b) { return !a.level || !b.level || *a.level == *b.level; }
 
 double width(const Gate& g) {
   const double low = std::min(std::abs((*g.band)[0]), std::abs((*g.band)[1]));
@@ -34,7 +34,7 @@ double width(const Gate& g) {
 
 bool is_like(const Gate& known, const GateRow& row, const EngineRow& engine) {
   return !known_defect(known).empty() && known.engine != engine.name && known.metric == row.metric && known.band &&
-         width(known) <= widest && same_level(known, row.gate) && verdict_of(known, row.value, 0.0) == Verdict::pass;
+         width(known) <= widest && at_same_level(known, row.gate) && verdict_of(known, row.value, 0.0) == Verdict::pass;
 }
 
 /// The known defect with the narrowest band that holds the error, and every engine that has it.
@@ -53,7 +53,7 @@ std::string as_others(const CaseResult& c, const GateRow& row, const EngineRow& 
 /// The limit of our own solver on this metric, which its smallest seen defect reaches.
 double own_limit(const CaseResult& c, const GateRow& row) {
   for (const auto& g : c.gates)
-    if (is_own_solver(g.engine) && g.mode != JudgedMode::paper && g.metric == row.metric && g.limit && same_level(g, row.gate))
+    if (is_own_solver(g.engine) && g.mode != JudgedMode::paper && g.metric == row.metric && g.limit && at_same_level(g, row.gate))
       return *g.limit;
   return not_a_number;
 }

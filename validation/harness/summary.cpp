@@ -84,10 +84,10 @@ std::string case_line(const CaseResult& c) {
 
 std::string summary_text(const Results& r) {
   std::string text = fmt::format(
-      "# tripoint: {} (exit {})\n\n{} case{}, profile {}, commit {}, {}, {}\n\n| gate | physics | case | gates "
+      "# tripoint: {} (exit {})\n\n{} case{}, {}, profile {}, commit {}, {}, {}\n\n| gate | physics | case | gates "
       "held | engines |\n|---|---|---|---|---|\n",
-      r.verdict, r.exit_code, r.cases.size(), r.cases.size() == 1 ? "" : "s", r.profile.empty() ? "any" : markdown(r.profile),
-      markdown(r.tool.commit), markdown(r.tool.compiler), markdown(r.tool.cpu));
+      r.verdict, r.exit_code, r.cases.size(), r.cases.size() == 1 ? "" : "s", physics_counts(r),
+      r.profile.empty() ? "any" : markdown(r.profile), markdown(r.tool.commit), markdown(r.tool.compiler), markdown(r.tool.cpu));
   for (const auto& c : r.cases) text += row_of(c);
   std::string rest;
   for (const auto& p : r.problems) rest += fmt::format("- {}\n", markdown(p));
