@@ -82,8 +82,8 @@ TEST(Changes, ShareIsOneAtEachEdgeThatTheVerdictKnows) {
     g.band = {low, high};
     for (double v = -1.0; v <= 1.0; v += 0.001) {
       const double used = share_of_limit(g, v);
-      if (std::abs(used - 1.0) > 1e-9)
-        EXPECT_EQ(used < 1.0, verdict_of(g, v, 0.0) == Verdict::pass) << low << " " << high << " " << v;
+      if (std::abs(used - 1.0) <= 1e-9) continue;
+      EXPECT_EQ(used < 1.0, verdict_of(g, v, 0.0) == Verdict::pass) << low << " " << high << " " << v;
     }
   }
 }
