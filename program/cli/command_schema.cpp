@@ -4,7 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
+#include "job/job_schema.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
 #include "validation/case/schema.hpp"
@@ -18,8 +21,10 @@ using json = nlohmann::ordered_json;
 
 constexpr const char* schema_description =
     "Prints the JSON Schema of the case file, for editors that complete and check while you type; with --page the reference\n"
-    "page of all keys, reference functions, quantities and norms in Markdown. Both come from the tables the program reads by.\n"
+    "page of all keys, reference functions, quantities and norms in Markdown. All come from the tables the program reads by.\n"
     "  tripoint schema > case.schema.json      # in the case file: #:schema ./case.schema.json\n"
+    "  tripoint schema --job                   # of what an engine is asked, JOB.json\n"
+    "  tripoint schema --result                # of what it answers, result.json\n"
     "  tripoint schema --page | less";
 
 json words_of(const std::vector<MetricWord>& words) {
@@ -64,15 +69,53 @@ std::string page() {
   return out + word_table("Quantities", metric_quantities()) + word_table("Norms", metric_norms());
 }
 
+/// The value of a key in words: "number", "list of 3 number", "[shape](#shape)", "corrected or paper".
+std::string value_words(const json& value) {
+  if (value.contains("anyOf")) return value_words(value["anyOf"][0]) + " or null";
+  if (value.contains("$ref")) return "`" + value["$ref"].get<std::string>().substr(8) + "`";
+  if (value.contains("enum")) return fmt::format("{}", fmt::join(value["enum"].get<std::vector<std::string>>(), ", "));
+  const auto type = value.value("type", "object");
+  if (type != "array") return type;
+  return (value.contains("minItems") ? fmt::format("{} of ", value["minItems"].get<int>()) : "list of ") +
+         value_words(value["items"]);
+}
+
+std::string key_table(const std::string& title, const json& table) {
+  std::string out = fmt::format("| {} | value | meaning |\n|---|---|---|\n", title);
+  for (const auto& [name, value] : table["properties"].items())
+    out += fmt::format("| `{}` | {} | {} |\n", name, value_words(value), value.value("description", ""));
+  return out + "\n";
+}
+
+/// The tables of a schema that an engine's author looks up. Scene, materials and shapes have the keys of the case file.
+std::string key_tables(const json& schema, const std::string& title) {
+  std::string out = key_table(title, schema);
+  for (const char* name : {"resolution", "body", "gauge", "counters", "seconds", "readback", "readback.body", "divergence"})
+    if (schema["$defs"].contains(name)) out += key_table(fmt::format("`{}`", name), schema["$defs"][name]);
+  return out;
+}
+
+struct Wanted {
+  bool page = false, job = false, result = false;
+};
+
+std::string wanted_text(const Wanted& wanted) {
+  if (!wanted.job && !wanted.result) return wanted.page ? page() : schema();
+  const json chosen = wanted.job ? job_schema() : result_schema();
+  return wanted.page ? key_tables(chosen, wanted.job ? "JOB.json" : "result.json") : chosen.dump(2) + "\n";
+}
+
 }  // namespace
 
 void add_schema(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("schema", schema_description);
-  auto as_page = std::make_shared<bool>(false);
-  command->add_flag("--page", *as_page, "print the reference page in Markdown");
+  auto wanted = std::make_shared<Wanted>();
+  command->add_flag("--page", wanted->page, "print the reference page in Markdown");
+  auto* job = command->add_flag("--job", wanted->job, "of JOB.json, what an engine is asked");
+  command->add_flag("--result", wanted->result, "of result.json, what an engine answers")->excludes(job);
   command->callback([=, &exit_code] {
     exit_code = guarded([&] {
-      print(*as_page ? page() : schema());
+      print(wanted_text(*wanted));
       return 0;
     });
   });

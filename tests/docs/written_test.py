@@ -12,6 +12,7 @@ from pathlib import Path
 TRIPOINT, SOURCE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 sys.path.insert(0, str(SOURCE / "tools"))
 
+from engine_tables import with_tables  # noqa: E402
 from field_dictionary import Wrong, columns_of_all, fields_from, table, with_table, words_from  # noqa: E402
 
 
@@ -27,6 +28,10 @@ class Pages(unittest.TestCase):
     def test_the_page_of_the_case_file_is_what_the_program_prints(self):
         printed = subprocess.run([TRIPOINT, "schema", "--page"], capture_output=True, text=True, check=True).stdout
         self.assertEqual((SOURCE / "docs/case-file.md").read_text(), printed, "docs/case-file.md is old: make pages")
+
+    def test_the_tables_of_an_engine_are_what_the_program_prints(self):
+        page = (SOURCE / "docs/engines.md").read_text()
+        self.assertEqual(page, with_tables(page, TRIPOINT), "docs/engines.md is old: make pages")
 
     def test_the_field_dictionary_is_what_the_tool_writes(self):
         rows = table(fields_from(columns_of_all(TRIPOINT, SOURCE / "cases")), words_from(SOURCE / "src"), SOURCE / "src")
