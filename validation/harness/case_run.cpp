@@ -36,15 +36,21 @@ class Sampler {
 
  private:
   Sample make(const Scene& scene, const std::string& key) {
-    const Sample made{std::make_shared<InitialState>(sample(scene)), (folder_ / (key + ".h5")).string(),
-                      std::make_shared<std::string>()};
-    if (options_.plans_alone || (options_.made && fs::exists(made.file))) return made;
+    const std::string file = (folder_ / (key + ".h5")).string();
+    const Sample made{state_of(scene, file), file, std::make_shared<std::string>()};
+    if (options_.plans_alone || (options_.made && options_.are_all_made && fs::exists(made.file))) return made;
     fs::create_directories(folder_);
     const std::lock_guard lock(no_spawn_mutex());  // Debian's HDF5 is not thread-safe either
     fs::remove(made.file);
     write_particles(made.file, *made.state);
     *made.hash = file_hash(made.file);
     return made;
+  }
+  std::shared_ptr<const InitialState> state_of(const Scene& scene, const std::string& file) const {
+    if (!options_.settled || !scene.settle) return std::make_shared<InitialState>(sample(scene));
+    auto& kept = (*options_.settled)[file];
+    if (!kept) kept = std::make_shared<InitialState>(sample(scene));
+    return kept;
   }
   fs::path folder_;
   const SuiteOptions& options_;
@@ -200,6 +206,7 @@ RunRequest request_of(const CaseRuns& all, const CaseRun& run, const SuiteOption
   request.particles_hash = run.changed ? run.changed->particles_hash : run.particles_hash;
   request.wall_limit = wall_limit(engine, options);
   request.environment = options.environment;
+  request.before_stranger = options.before_stranger;
   request.keep_finished = options.resume;
   request.count_below = options.count_below;
   return request;
@@ -253,7 +260,7 @@ std::string difference_of_repeat(const CaseRuns& all, const CaseRun& run, const 
 void take_made(const CaseRuns& all, CaseRun& run, MadeRun made, const SuiteOptions& options) {
   run.row = std::move(made.row);
   run.ledger = std::move(made.ledger);
-  run.kept = true;
+  run.kept = run.taken = true;
   if (run.row.status != Status::ok || !is_compared(all, run)) return;
   ProcessEnd end;
   end.how = ProcessEnd::How::exited;
@@ -281,7 +288,7 @@ void give_up(CaseRun& run, Status status, const std::string& reason, const Suite
 }
 
 void make_run(const CaseRuns& all, CaseRun& run, const SuiteOptions& options) {
-  if (options.made) return take_made(all, run, options.made(all, run), options);
+  if (auto made = options.made ? options.made(all, run) : std::nullopt) return take_made(all, run, std::move(*made), options);
   auto outcome = run_one(request_of(all, run, options));
   if (run.changed && outcome.trajectory) outcome.trajectory = taken_back(run, *options.change, *outcome.trajectory);
   run.kept = outcome.kept;

@@ -33,6 +33,7 @@ struct CaseRun {
   RunRow row;
   std::map<std::string, double> ledger;          ///< of the solver's base run
   bool kept = false;                             ///< taken from an earlier call, not made again
+  bool taken = false;                            ///< made elsewhere, or earlier in this call
   std::shared_ptr<const Trajectory> trajectory;  ///< kept of base runs, for the comparison of engines
 };
 

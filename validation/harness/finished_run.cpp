@@ -124,6 +124,22 @@ std::optional<Outcome> finished_run(const RunRequest& request, const std::string
 
 void forget_finished(const RunRequest& request) { fs::remove(record_file(request)); }
 
+/// Names of the files that tell where the bodies of a run went.
+static bool tells_motion(const std::string& name) {
+  return name.starts_with("trajectory.") || name == "gauges.csv" || (name.starts_with("checkpoint-") && name.ends_with(".h5"));
+}
+
+std::size_t remove_answers(const std::string& folder, const std::set<std::string>& kept_engines) {
+  std::vector<fs::path> found;
+  std::error_code none;
+  for (fs::recursive_directory_iterator at(folder, none), end; !none && at != end; at.increment(none)) {
+    const fs::path run = at->path().parent_path();
+    if (tells_motion(at->path().filename().string()) && !kept_engines.contains(run.parent_path().filename().string()))
+      found.push_back(at->path());
+  }
+  return static_cast<std::size_t>(std::ranges::count_if(found, [&](const fs::path& file) { return fs::remove(file, none); }));
+}
+
 std::vector<std::string> checkpoints_in(const std::string& folder) {
   std::vector<std::string> found;
   std::error_code ignored;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -31,5 +33,8 @@ void forget_finished(const RunRequest&);
 
 /// Paths of the checkpoints in a run's folder, oldest first.
 [[nodiscard]] std::vector<std::string> checkpoints_in(const std::string& folder);
+
+/// Removes frames, gauges and checkpoints of all runs below a folder, but for those of these engines. @return number of files
+std::size_t remove_answers(const std::string& folder, const std::set<std::string>& kept_engines);
 
 }  // namespace tripoint

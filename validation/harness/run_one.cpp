@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <sstream>
 
 #include "io/foreign_file.hpp"
 #include "io/trajectory.hpp"
@@ -50,20 +49,12 @@ bool particles_were_changed(const RunRequest& request) {
   return true;
 }
 
-/// The last lines of a log that say something, for a reason in one line.
-std::string last_words(const std::string& log) {
-  std::istringstream lines(log);
-  std::string last, line;
-  while (std::getline(lines, line))
-    if (!line.empty() && line.rfind("progress ", 0) != 0 && line.rfind("status ", 0) != 0) last = line;
-  return last.empty() ? "" : "; its last words: " + last.substr(0, 300);
-}
-
 /// Job as it is written into the folder.
 Job job_in_folder(const RunRequest& request) {
   Job job = *request.job;
   job.particles = fs::relative(request.particles, request.folder).string();
   job.output = ".";
+  if (!is_exact(request.engine->name)) job.reference = {};  // the truth is for those who only state it
   return job;
 }
 
@@ -92,7 +83,7 @@ Result result_of(const RunRequest& request) {
   return read_result(file);
 }
 
-/// Last words of an engine that was stopped by Ctrl-C.
+/// Last words of an engine that we stopped because we are.
 std::string words_of_the_interrupted(const RunRequest& request) {
   if (is_no_own_file((fs::path(request.folder) / "result.json").string())) return " without a result";
   try {
@@ -290,6 +281,7 @@ Outcome run_one(const RunRequest& request) {
   if (request.keep_finished) {
     if (auto kept = finished_run(request, hash)) return std::move(*kept);
   }
+  if (request.before_stranger && !belongs_to_us(request.engine->executable)) request.before_stranger();
   if (auto answer = ask(request); answer.status != Status::ok) return answer;
   auto spec = call(request, "--run", request.wall_limit);
   spec.log = (fs::path(request.folder) / "log.txt").string();

@@ -7,12 +7,17 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <filesystem>
+#include <map>
 #include <mutex>
+#include <set>
 #include <thread>
 
 #include "validation/harness/case_run.hpp"
+#include "validation/harness/finished_run.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/process.hpp"
+#include "validation/harness/sandbox.hpp"
 
 namespace tripoint {
 namespace {
@@ -115,8 +120,10 @@ class Suite {
 
   void make(const Work& next) {
     auto& slot = slots_[next.slot];
+    const CaseRun& run = slot.runs->runs[next.run];
     make_run(*slot.runs, slot.runs->runs[next.run], options_);
-    say_run(*slot.runs, slot.runs->runs[next.run]);
+    if (options_.on_run) options_.on_run(*slot.runs, run);
+    say_run(*slot.runs, run);
     std::unique_lock lock(mutex_);
     const bool last = --slot.left == 0;
     lock.unlock();
@@ -137,6 +144,7 @@ class Suite {
     const std::lock_guard lock(mutex_);
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     ++done_;
+    if (run.taken && !options_.are_all_made) return;  // it was told when it was made
     const double left = elapsed / static_cast<double>(done_) * static_cast<double>(all_runs_ - done_);
     options_.say(fmt::format("[{:3}/{}  {:.0f} s, about {:.0f} s left] {} {} {}: {}{}{} ({:.2f} CPU s)", done_, all_runs_,
                              elapsed, left, all.value->id, all.engines[run.engine].name, run.plan.label, run.kept ? "kept, " : "",
@@ -160,6 +168,89 @@ class Suite {
 
 }  // namespace
 
+namespace {
+
+/// Runs of strangers, which end before those begin whose results are the truth that they are judged by, or that they could copy.
+/// In a sandbox an engine sees neither.
+class StrangersFirst {
+ public:
+  StrangersFirst(const std::vector<Case>& cases, const std::vector<EngineEntry>& engines, const SuiteOptions& options)
+      : cases_(cases), engines_(engines), options_(options) {}
+
+  std::vector<CaseResult> run() {
+    const bool strangers = has_runs(true), others = has_runs(false);
+    SuiteOptions options = options_;
+    if (strangers) options.before_stranger = [this] { std::call_once(hidden_, [this] { hide_answers(); }); };
+    if (!strangers || !others) return Suite(cases_, engines_, options).run();
+    options.settled = std::make_shared<std::map<std::string, std::shared_ptr<const InitialState>>>();
+    make_those_of_strangers(options);
+    options.before_stranger = {};
+    options.are_all_made = false;
+    options.made = [this](const CaseRuns& all, const CaseRun& run) { return made_before(all, run); };
+    return Suite(cases_, engines_, options).run();
+  }
+
+ private:
+  /// Whether runs of strangers, or of others, are planned.
+  [[nodiscard]] bool has_runs(bool of_strangers) const {
+    SuiteOptions options = options_;
+    options.wanted = only(of_strangers);
+    return std::ranges::any_of(cases_, [&](const Case& c) {
+      CaseRuns all;
+      all.engines = plan_runs(c, engines_, options.selection);
+      return number_of_runs(all, options) > 0;
+    });
+  }
+
+  [[nodiscard]] std::function<bool(const EnginePlan&, const RunPlan&)> only(bool strangers) const {
+    return [this, strangers](const EnginePlan& engine, const RunPlan& plan) {
+      return belongs_to_us(engine.entry->executable) != strangers && (!options_.wanted || options_.wanted(engine, plan));
+    };
+  }
+
+  void make_those_of_strangers(SuiteOptions options) {
+    options.wanted = only(true);
+    options.on_case = {};
+    options.on_run = [this](const CaseRuns& all, const CaseRun& run) {
+      const std::lock_guard lock(mutex_);
+      made_[run_id(all, run, options_)] = {run.row, run.ledger};
+    };
+    static_cast<void>(Suite(cases_, engines_, options).run());
+  }
+
+  std::optional<MadeRun> made_before(const CaseRuns& all, const CaseRun& run) const {
+    const auto at = made_.find(run_id(all, run, options_));
+    return at == made_.end() ? std::optional<MadeRun>() : at->second;
+  }
+
+  /// Results of earlier calls that lie in the folder of this one, but for those of strangers, which --resume may keep.
+  void hide_answers() const {
+    std::set<std::string> strangers;
+    for (const EngineEntry& e : engines_)
+      if (!belongs_to_us(e.executable)) strangers.insert(e.name);
+    const auto removed = remove_answers((std::filesystem::path(options_.out) / "runs").string(), strangers);
+    if (removed > 0 && options_.say)
+      options_.say(
+          fmt::format("{} files of earlier runs were removed from {}/runs: an engine of somebody else runs without --sandbox",
+                      removed, options_.out));
+  }
+
+  const std::vector<Case>& cases_;
+  const std::vector<EngineEntry>& engines_;
+  const SuiteOptions& options_;
+  std::once_flag hidden_;
+  std::mutex mutex_;
+  std::map<std::string, MadeRun> made_;  ///< by run_id
+};
+
+std::vector<CaseResult> results_of(const std::vector<Case>& cases, const std::vector<EngineEntry>& engines,
+                                   const SuiteOptions& options) {
+  if (strangers_are_sandboxed() || options.made || options.plans_alone) return Suite(cases, engines, options).run();
+  return StrangersFirst(cases, engines, options).run();
+}
+
+}  // namespace
+
 Results run_suite(const std::vector<Case>& cases, const std::vector<EngineEntry>& engines, const SuiteOptions& options) {
   Results results;
   results.tool = this_tool();
@@ -168,7 +259,7 @@ Results run_suite(const std::vector<Case>& cases, const std::vector<EngineEntry>
   results.asked = options.selection.asked;
   results.seed_given = options.selection.seed.has_value();
   for (const auto& c : cases) results.planned.push_back(c.id);
-  results.cases = Suite(cases, engines, options).run();
+  results.cases = results_of(cases, engines, options);
   results.interrupted = interrupted() && results.cases.size() < cases.size();
   judge(results);
   return results;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <functional>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,8 +57,14 @@ struct SuiteOptions {
   /// Which runs of the plan are made; empty = all.
   std::function<bool(const EnginePlan&, const RunPlan&)> wanted;
   bool plans_alone = false;  ///< no run will be made: nothing is written
+  bool are_all_made = true;  ///< `made` knows every run of the plan
   /// A run that was made elsewhere, in the place of making it; its folder lies below `out` already. Empty = runs are made here.
-  std::function<MadeRun(const CaseRuns&, const CaseRun&)> made;
+  /// Nothing = that run is made here after all.
+  std::function<std::optional<MadeRun>(const CaseRuns&, const CaseRun&)> made;
+  std::function<void(const CaseRuns&, const CaseRun&)> on_run;  ///< each run as soon as it is made, from any thread
+  std::function<void()> before_stranger;  ///< called before an engine of somebody else runs, where no earlier outcome is kept
+  /// Starts that were let down into equilibrium, by file: that takes minutes. Unset = none is kept.
+  std::shared_ptr<std::map<std::string, std::shared_ptr<const InitialState>>> settled;
   std::function<void(const std::string&)> say;     ///< progress, one line a call, from any thread
   std::function<void(const CaseResult&)> on_case;  ///< each case as soon as it and those before it are judged
 };
