@@ -18,6 +18,7 @@
 #include "adapters/engine/engine.hpp"
 #include "adapters/engine/stops.hpp"
 #include "core/durable_file.hpp"
+#include "core/limits.hpp"
 
 namespace tripoint {
 namespace {
@@ -163,7 +164,7 @@ class Run {
       account();
       return finish(Status::diverged, Exit::diverged);
     } catch (const std::exception& e) {
-      result_.message = e.what();
+      result_.message = with_limit(e.what());
       const int code = finish(Status::error, Exit::failed);
       std::fflush(nullptr);
       ::_exit(code);  // HDF5's own clean-up crashes after a failed write
@@ -307,7 +308,7 @@ class Run {
     try {
       write_result(result_path_, result_);
     } catch (const std::exception& e) {
-      tell("error: {}\n", e.what());
+      tell("error: {}\n", with_limit(e.what()));
       return Exit::failed;
     }
     return code;
@@ -340,6 +341,11 @@ int usage(const char* program) {
 
 int serve(int argc, char** argv, MakeEngine make) {
   const std::string verb = argc > 1 ? argv[1] : "";
+  expect_file_limit();
+  if (const auto why = stack_trouble(argv); !why.empty()) {
+    tell("error: {}\n", why);
+    return bad_job;
+  }
   try {
     const std::unique_ptr<Engine> engine = make();
     if (verb == "--info" && argc == 2) return print_info(*engine);

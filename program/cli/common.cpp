@@ -15,6 +15,7 @@
 #include <sstream>
 
 #include "core/errors.hpp"
+#include "core/limits.hpp"
 #include "scene/nearest.hpp"
 #include "step/settle.hpp"
 #include "validation/harness/foreign_text.hpp"
@@ -86,7 +87,7 @@ int guarded(const std::function<int()>& command) {
     say(fmt::format("tripoint: {}: {}", e.path1().string(), e.code().message()));
     return exit_missing;
   } catch (const std::exception& e) {
-    say(std::string("tripoint: ") + e.what());
+    say("tripoint: " + with_limit(e.what()));
     return exit_missing;
   }
 }

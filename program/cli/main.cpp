@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <sstream>
 
+#include "core/limits.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
 #include "program/cli/gate_judge.hpp"
@@ -45,6 +46,11 @@ class FirstSentences : public CLI::Formatter {
 int main(int argc, char** argv) {
   using namespace tripoint;
   hold_standard_streams();
+  expect_file_limit();
+  if (const auto why = stack_trouble(argv); !why.empty()) {
+    say("tripoint: " + why);
+    return exit_bad_input;
+  }
   remember_command_line(argc, argv);
   set_settler(settled);
   stop_settling_when(interrupted);

@@ -130,5 +130,30 @@ TEST(Process, AFloodOnStdoutIsCut) {
   EXPECT_EQ(end.code, 0);
 }
 
+/// Of a sandbox that holds a shell and what it starts.
+ProcessEnd bounded(const SandboxSums& most, const std::string& folder, const std::string& deeds) {
+  ProcessSpec spec;
+  spec.argv = {"/bin/sh", "-c", deeds + "; sleep 30"};
+  spec.folder = folder;
+  spec.in_sandbox = true;
+  spec.most = most;
+  spec.wall_limit = 20.0;
+  return run_process(spec);
+}
+
+TEST(Process, WhatPassesASumOfTheSandboxIsKilledAndNamed) {
+  const TestFolder folder;
+  constexpr double mega = 1e6;
+  const auto expect = [&](const SandboxSums& most, const std::string& deeds, const std::string& words) {
+    const auto end = bounded(most, folder / ".", deeds);
+    EXPECT_EQ(end.how, ProcessEnd::How::signalled);
+    EXPECT_NE(describe(end).find(words), std::string::npos) << describe(end);
+  };
+  expect({0.0, 4, 0.0}, "for n in 1 2 3 4 5 6 7 8; do sleep 20 & done", "more than 4 processes");
+  expect({50.0 * mega, 0, 0.0}, "/usr/bin/python3 -c 'import time; x = bytearray(200 << 20); time.sleep(20)'", "MB of memory");
+  expect({0.0, 0, 2.0 * mega}, "/bin/dd if=/dev/zero of=big bs=1M count=8 2>/dev/null", "MB of files");
+  expect({0.0, 0, 2.0 * mega}, "exec 3>gone; rm gone big; /bin/dd if=/dev/zero bs=1M count=8 >&3 2>/dev/null", "MB of files");
+}
+
 }  // namespace
 }  // namespace tripoint

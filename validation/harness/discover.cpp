@@ -116,13 +116,14 @@ EngineEntry ask_engine(const std::string& executable) {
   spec.argv = {executable, "--info"};
   spec.wall_limit = info_limit;
   const auto end = run_process(sandboxed(spec));
-  if (end.how != ProcessEnd::How::exited || end.code != 0) return unavailable(entry, "--info " + describe(end));
+  if (end.how != ProcessEnd::How::exited || end.code != 0)
+    return unavailable(entry, "--info " + describe(end) + last_words(end.log_tail));
   try {
     if (!belongs_to_us(executable))
       try_of_stranger([&] { static_cast<void>(with_info(entry, end.output)); }, {"what --info printed"}, info_limit);
     return with_info(entry, end.output);
   } catch (const std::exception& e) {
-    return unavailable(entry, e.what());
+    return unavailable(entry, e.what() + last_words(end.log_tail));
   }
 }
 

@@ -13,7 +13,7 @@ namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char *aside_name = ".earlier-run", *frames_name = "trajectory.h5";
+constexpr const char* frames_name = "trajectory.h5";
 
 bool is_frames(const std::string& name) {
   constexpr std::array names{frames_name, "trajectory.csv", "gauges.csv"};
@@ -56,7 +56,7 @@ bool is_kept(const std::string& name) { return name == frames_name || is_checkpo
 
 }  // namespace
 
-EarlierRun::EarlierRun(const std::string& folder, bool keeps_frames) : folder_(folder), aside_(folder_ / aside_name) {
+EarlierRun::EarlierRun(const std::string& folder, bool keeps_frames) : folder_(folder), aside_(folder_ / earlier_run_folder) {
   if (fs::is_directory(fs::symlink_status(aside_)) && !is_replaced()) put_back();
   fs::remove_all(aside_);  // a link that somebody left there is removed, and not followed
   fs::create_directory(aside_);

@@ -5,6 +5,9 @@
 
 namespace tripoint {
 
+/// Folder within that of a run, where the run that was there before lies meanwhile.
+inline constexpr const char* earlier_run_folder = ".earlier-run";
+
 /// The run that a folder holds, kept until a new run has begun in its place. A run that does not begin, because its engine is
 /// missing, refuses it or fails at the start, leaves the folder as it was.
 class EarlierRun {

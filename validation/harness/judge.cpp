@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "validation/harness/judge.hpp"
 
+#include "validation/harness/process.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -166,8 +168,8 @@ void check_planned(const Results& results, std::vector<std::string>& problems, s
   for (const auto& c : results.cases)
     if (!seen.insert(c.id).second) say(c.id + ": two cases have this id");
   if (results.interrupted) {
-    problems.push_back(
-        fmt::format("stopped by Ctrl-C: {} of {} planned cases are complete", seen.size(), results.planned.size()));
+    problems.push_back(fmt::format("stopped by {}: {} of {} planned cases are complete", name_of_stop(stopped_by()), seen.size(),
+                                   results.planned.size()));
     codes.insert(exit_interrupted);
     return;
   }

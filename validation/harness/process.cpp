@@ -22,6 +22,7 @@
 #include <fstream>
 #include <mutex>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -41,8 +42,8 @@ using Clock = std::chrono::steady_clock;
 constexpr double grace = 10.0;  // [s] from SIGTERM to SIGKILL, for an engine that writes a checkpoint before it ends
 constexpr std::size_t kept_output = 4u << 20, kept_log = 1u << 20, kept_tail = 4096;
 
-std::atomic<bool> stop_wanted{false};
-extern "C" void on_interrupt(int) { stop_wanted.store(true); }
+std::atomic<int> stop_signal{0};
+extern "C" void on_interrupt(int signal) { stop_signal.store(signal); }
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -152,7 +153,7 @@ std::vector<char*> pointers(std::vector<std::string>& strings) {
 }
 
 /// Starts the program in a process group of its own, with this mark in its environment. @return 0 or the error number
-int spawn(const ProcessSpec& spec, const std::string& mark, int out, int err, pid_t& pid) {
+int spawn(const ProcessSpec& spec, std::vector<std::string> argv, const std::string& mark, int out, int err, pid_t& pid) {
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
   posix_spawn_file_actions_init(&actions);
@@ -169,7 +170,6 @@ int spawn(const ProcessSpec& spec, const std::string& mark, int out, int err, pi
   posix_spawnattr_setsigdefault(&attributes, &all);
   posix_spawnattr_setpgroup(&attributes, 0);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-  auto argv = spec.argv;
   auto added = spec.in_sandbox ? std::map<std::string, std::string>{} : spec.environment;
   added[stray_mark] = mark;
   auto environment = environment_with(added, spec.in_sandbox);
@@ -285,6 +285,7 @@ void follow(const ProcessSpec& spec, pid_t pid, int out, int err, BoundedLog& lo
     log.add(p, n);
     progress.add(p, n);
   };
+  SandboxWatch watch(spec.most, spec.most.bytes > 0.0 ? spec.folder : "");
   const Descriptor child(static_cast<int>(syscall(SYS_pidfd_open, pid, 0)));
   std::array<pollfd, 3> wait{pollfd{out, POLLIN, 0}, pollfd{err, POLLIN, 0}, pollfd{child.get(), POLLIN, 0}};
   bool reaped = false;
@@ -292,12 +293,18 @@ void follow(const ProcessSpec& spec, pid_t pid, int out, int err, BoundedLog& lo
   std::optional<Clock::time_point> asked;
   while (!reaped) {
     const double left = spec.wall_limit - seconds_since(start);
-    if (stop_wanted && !spec.outlives_interrupt && !asked) {
+    if (interrupted() && !spec.outlives_interrupt && !asked) {
       asked = Clock::now();
       ::kill(-pid, SIGTERM);
     }
     if (left <= 0.0 || (asked && seconds_since(*asked) > grace)) {
       end.how = ProcessEnd::How::timed_out;
+      break;
+    }
+    if (spec.in_sandbox) end.passed = watch.passed(pid);
+    if (!end.passed.empty()) {
+      end.how = ProcessEnd::How::signalled;
+      end.code = SIGKILL;
       break;
     }
     end.peak_bytes = std::max(end.peak_bytes, peak_of(pid));
@@ -320,7 +327,10 @@ void follow(const ProcessSpec& spec, pid_t pid, int out, int err, BoundedLog& lo
       end.code = WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status);
     }
   }
-  if (asked) end.how = ProcessEnd::How::interrupted;
+  if (asked) {
+    end.how = ProcessEnd::How::interrupted;
+    end.code = stopped_by();
+  }
   end_group(pid, end, reaped);
   add_cost_inside(inside, end);
   drain(out, take_output);
@@ -339,6 +349,8 @@ ProcessEnd run_process(const ProcessSpec& spec) {
   adopt_orphans();
   keep_ends_of_children();
   watch_for_our_end(our_stray_mark());
+  const LentFolder lent(spec.lent);
+  const ControlGroup group(spec.most);
   ProcessEnd end;
   int out[2], err[2];
   if (::pipe2(out, O_CLOEXEC | O_NONBLOCK) != 0) {
@@ -358,7 +370,7 @@ ProcessEnd run_process(const ProcessSpec& spec) {
   BoundedLog log(spec.log);  // before anybody can put something in its place
   const InstructionCounter counter;
   const std::string mark = new_stray_mark();
-  if (const int error = spawn(spec, mark, out[1], err[1], pid); error != 0) {
+  if (const int error = spawn(spec, group.begun_inside(spec.argv), mark, out[1], err[1], pid); error != 0) {
     end.log_tail = std::strerror(error);
     return end;
   }
@@ -372,16 +384,31 @@ ProcessEnd run_process(const ProcessSpec& spec) {
   return end;
 }
 
+std::string last_words(const std::string& log) {
+  std::istringstream lines(log);
+  std::string last, line;
+  while (std::getline(lines, line))
+    if (!line.empty() && line.rfind("progress ", 0) != 0 && line.rfind("status ", 0) != 0) last = line;
+  return last.empty() ? "" : "; its last words: " + last.substr(0, 300);
+}
+
+std::string name_of_stop(int signal) {
+  return signal == SIGTERM ? "SIGTERM" : signal == SIGHUP ? "SIGHUP (its terminal closed)" : "Ctrl-C";
+}
+
 std::string describe(const ProcessEnd& end) {
+  constexpr const char* file_limit = ": a file grew beyond the limit of its size (ulimit -f, and 16 GiB)";
   switch (end.how) {
     case ProcessEnd::How::exited:
-      return fmt::format("exited with code {}", end.code);
+      return fmt::format("exited with code {}{}", end.code, end.code == 128 + SIGXFSZ ? file_limit : "");
     case ProcessEnd::How::signalled:
+      if (!end.passed.empty()) return "was killed because the sandbox has " + end.passed;
+      if (end.code == SIGXFSZ) return fmt::format("was killed by signal {}{}", end.code, file_limit);
       return fmt::format("was killed by signal {} ({})", end.code, strsignal(end.code));
     case ProcessEnd::How::timed_out:
       return fmt::format("was stopped after {:.0f} s", end.wall_s);
     case ProcessEnd::How::interrupted:
-      return "was stopped by Ctrl-C";
+      return "was stopped by " + name_of_stop(end.code);
     case ProcessEnd::How::not_started:
       break;
   }
@@ -390,6 +417,8 @@ std::string describe(const ProcessEnd& end) {
 
 void catch_interrupts() { on_stop_signals(on_interrupt); }
 
-bool interrupted() noexcept { return stop_wanted.load(); }
+bool interrupted() noexcept { return stop_signal.load() != 0; }
+
+int stopped_by() noexcept { return stop_signal.load(); }
 
 }  // namespace tripoint

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "validation/harness/sandbox_sums.hpp"
+
 /// Engines are seen only as processes: started in a group of their own, bounded, and paid for by the group.
 namespace tripoint {
 
@@ -22,11 +24,14 @@ struct ProcessSpec {
   bool outlives_interrupt = false;  ///< Ctrl-C does not end it: it shows the results that are complete by then
   /// argv is bubblewrap's, which leaves the process that it starts to us: that one is paid for. It is given no variable of ours.
   bool in_sandbox = false;
+  SandboxSums most;  ///< what passes them is killed
+  std::string lent;  ///< folder that belongs to the sandbox's user while the program runs
 };
 
 struct ProcessEnd {
   enum class How { exited, signalled, timed_out, interrupted, not_started } how = How::not_started;
-  int code = 0;               ///< exit code, or the signal's number
+  int code = 0;               ///< exit code, or the number of the signal that ended it, or us
+  std::string passed;         ///< sum of a sandbox that was passed, in words
   std::string output;         ///< stdout, at most 4 MiB
   std::string log_tail;       ///< last lines of stderr, or why it could not start
   double wall_s = 0.0;        ///< [s]
@@ -46,9 +51,17 @@ struct ProcessEnd {
 /// "exited with code 3", "was killed by signal 9 (Killed)", "was stopped after 600 s", ...
 [[nodiscard]] std::string describe(const ProcessEnd&);
 
+/// The last line of a log that says something, for a reason in one line: "; its last words: ...", or nothing.
+[[nodiscard]] std::string last_words(const std::string& log);
+
+/// "Ctrl-C", "SIGTERM" or "SIGHUP (its terminal closed)".
+[[nodiscard]] std::string name_of_stop(int signal);
+
 /// From now on Ctrl-C, SIGTERM and SIGHUP (core/stop_signals.hpp) do not end this process. They ask the children to end, kill
 /// those that have not within 10 s, and set interrupted().
 void catch_interrupts();
 [[nodiscard]] bool interrupted() noexcept;
+/// The signal that did, 0 while none has.
+[[nodiscard]] int stopped_by() noexcept;
 
 }  // namespace tripoint

@@ -76,8 +76,13 @@ void set_aside_report(const std::string& folder) {
   const fs::path out(folder);
   std::error_code none;
   if (fs::exists(out / "results.json", none)) fs::rename(out / "results.json", out / "results.previous.json");
-  for (const char* made : {"junit.xml", "summary.md", "scorecard.json", "scorecard.md", "scorecard.html"})
-    fs::remove(out / made, none);
+  const fs::path previous = out / "previous";
+  fs::remove_all(previous, none);
+  fs::create_directory(previous, none);
+  for (const char* made : {"junit.xml", "summary.md", "scorecard.json", "scorecard.md", "scorecard.html", "index.html",
+                           "signable.html", "report.pdf", "case"})
+    if (!fs::is_symlink(out / made, none)) fs::rename(out / made, previous / made, none);
+  fs::remove(previous, none);  // where there was nothing to set aside
   remove_pages(out);
 }
 

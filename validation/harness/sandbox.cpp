@@ -16,45 +16,48 @@
 #include "foreign/confined_copy.hpp"
 #include "scene/library.hpp"
 #include "validation/harness/discover.hpp"
+#include "validation/harness/earlier_run.hpp"
+#include "validation/harness/sandbox_sums.hpp"
 
 namespace tripoint {
 namespace {
 
 namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+void add(Words& words, const Words& more) { words.insert(words.end(), more.begin(), more.end()); }
 
 constexpr const char* bubblewrap = "/usr/bin/bwrap";
 constexpr const char* limiter = "/usr/bin/prlimit";
-constexpr auto in_memory = "1073741824";  ///< bytes of a folder that lives in memory
-constexpr rlim_t most_processes = 512;    ///< of one engine; nobody counts those of root
+constexpr auto in_memory = "1073741824";          ///< bytes of a folder that lives in memory
+constexpr int most_processes = 512;               ///< of one engine
+constexpr double most_bytes = 16.0 * (1u << 30);  ///< of the files of one run
 std::atomic<bool> wanted{false};
 fs::path report;  ///< that no engine sees
 
+/// Who runs what a sandbox holds.
+enum class As {
+  caller,  ///< the user who called us, in a user namespace of its own
+  nobody   ///< a user of the system who owns nothing: as root an engine could write whatever root may write without its rights
+};
+
+As engines_run_as() { return ::geteuid() == 0 ? As::nobody : As::caller; }
+
 /// Namespaces of its own for all that Linux has; no right of root; ends with us. Only the system's programs and libraries are
-/// there.
-std::vector<std::string> bare() {
-  std::vector<std::string> words{bubblewrap,
-                                 "--unshare-all",
-                                 "--unshare-user",
-                                 "--die-with-parent",
-                                 "--new-session",
-                                 "--cap-drop",
-                                 "ALL",
-                                 "--clearenv",
-                                 "--ro-bind",
-                                 "/usr",
-                                 "/usr",
-                                 "--dev",
-                                 "/dev",
-                                 "--size",
-                                 in_memory,
-                                 "--tmpfs",
-                                 "/dev/shm",
-                                 "--proc",
-                                 "/proc",
-                                 "--size",
-                                 in_memory,
-                                 "--tmpfs",
-                                 "/tmp"};
+/// there, and settings of the kernel to read.
+std::vector<std::string> bare(As as) {
+  std::vector<std::string> words{bubblewrap,          "--unshare-ipc",
+                                 "--unshare-pid",     "--unshare-net",
+                                 "--unshare-uts",     "--unshare-cgroup-try",
+                                 "--die-with-parent", "--new-session",
+                                 "--cap-drop",        "ALL"};
+  if (as == As::caller)
+    words.emplace_back("--unshare-user");
+  else
+    words.insert(words.end(), {"--cap-add", "CAP_SETUID", "--cap-add", "CAP_SETGID"});
+  words.insert(words.end(), {"--clearenv", "--ro-bind", "/usr",    "/usr",     "--dev",   "/dev",    "--perms",   "1777",
+                             "--size",     in_memory,   "--tmpfs", "/dev/shm", "--proc",  "/proc",   "--ro-bind", "/proc/sys",
+                             "/proc/sys",  "--perms",   "1777",    "--size",   in_memory, "--tmpfs", "/tmp"});
   for (const char* link : {"bin", "lib", "lib64", "sbin"})
     words.insert(words.end(), {"--symlink", fmt::format("usr/{}", link), fmt::format("/{}", link)});
   for (const char* file : {"/etc/alternatives", "/etc/ld.so.cache", "/etc/localtime"})
@@ -70,6 +73,27 @@ bool is_within(const fs::path& path, const fs::path& folder) {
   return !relative.empty() && *relative.begin() != "..";
 }
 
+/// Binds a file or folder at its own place. Folders above it are made first, so that nobody may enter them.
+void show(Words& words, const char* how, const std::string& path) {
+  const fs::path place = fs::absolute(path).lexically_normal();
+  fs::path above;
+  for (const fs::path& part : place.parent_path()) {
+    above /= part;
+    if (above != above.root_path()) add(words, {"--dir", above.string()});
+  }
+  add(words, {how, place.string(), place.string()});
+}
+
+/// @throws EngineError where engines run as nobody, who may not read this one
+void expect_readable(const fs::path& folder, const fs::path& program) {
+  if (engines_run_as() == As::caller) return;
+  constexpr auto read = fs::perms::others_read, enter = fs::perms::others_exec;
+  for (const auto& [path, needed] : {std::pair(folder, enter), std::pair(program, read | enter)})
+    if ((fs::status(path).permissions() & needed) != needed)
+      throw EngineError(fmt::format("--sandbox: called by root, engines run as user {}, who may not read {}: chmod -R o+rX {}",
+                                    sandbox_user, path.string(), folder.string()));
+}
+
 /// The engine's folder as it may be read: an empty folder hides the report and the data of git.
 std::vector<std::string> bind_engine(const fs::path& folder) {
   const char* home = std::getenv("HOME");
@@ -82,7 +106,8 @@ std::vector<std::string> bind_engine(const fs::path& folder) {
         fmt::format("--sandbox: the engine's folder {} lies in the report's, {}: put it elsewhere, or choose another "
                     "--out",
                     folder.string(), report.string()));
-  std::vector<std::string> words{"--ro-bind", folder.string(), folder.string()};
+  Words words;
+  show(words, "--ro-bind", folder.string());
   const auto hide = [&](const fs::path& what) {
     std::error_code none;
     if (is_within(what, real) && fs::is_directory(what, none))
@@ -99,15 +124,26 @@ rlim_t at_most(__rlimit_resource what, rlim_t much) {
   return ::getrlimit(what, &ours) == 0 ? std::min(much, ours.rlim_max) : much;
 }
 
+rlim_t memory_of_the_machine() {
+  return static_cast<rlim_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+}
+
+/// What gives up root's name. Nothing for another user.
+std::vector<std::string> become(As as) {
+  if (as == As::caller) return {};
+  const std::string id = std::to_string(sandbox_user);
+  return {"/usr/bin/setpriv", "--reuid=" + id, "--regid=" + id, "--clear-groups", "--no-new-privs", "--inh-caps=-all", "--"};
+}
+
 /// Limits of the engine. They are set inside the sandbox before the engine begins, so that it cannot escape them.
 std::vector<std::string> limits(double wall_limit) {
-  const auto memory = static_cast<rlim_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+  const rlim_t memory = memory_of_the_machine();
   const double cpu = std::min(wall_limit * std::max(1u, std::thread::hardware_concurrency()) + 10.0, 1e9);
   return {limiter,
           "--core=0",
           fmt::format("--data={}", at_most(RLIMIT_DATA, memory)),
           fmt::format("--as={}", at_most(RLIMIT_AS, 4 * memory)),  // some reserve much more than they use
-          fmt::format("--fsize={}", at_most(RLIMIT_FSIZE, rlim_t{16} << 30)),
+          fmt::format("--fsize={}", at_most(RLIMIT_FSIZE, static_cast<rlim_t>(most_bytes))),
           fmt::format("--nproc={}", at_most(RLIMIT_NPROC, most_processes)),
           fmt::format("--cpu={}", at_most(RLIMIT_CPU, static_cast<rlim_t>(std::ceil(cpu)))),
           "--"};
@@ -125,19 +161,20 @@ bool belongs_to_us(const std::string& executable) {
 void sandbox_strangers(const std::string& out) {
   report = out.empty() ? fs::path() : place_of(out);
   ProcessSpec trial;
-  trial.argv = bare();
-  const auto limited = limits(10.0);
-  trial.argv.insert(trial.argv.end(), limited.begin(), limited.end());
+  trial.argv = bare(engines_run_as());
+  add(trial.argv, {"--"});
+  add(trial.argv, become(engines_run_as()));
+  add(trial.argv, limits(10.0));
   trial.argv.push_back("/bin/true");
   trial.wall_limit = 10.0;
   const ProcessEnd end = run_process(trial);
   if (end.how == ProcessEnd::How::not_started)
     throw EngineError("--sandbox needs bubblewrap: apt-get install bubblewrap; without --sandbox engines run as you do");
   if (end.how != ProcessEnd::How::exited || end.code != 0)
-    throw EngineError(
-        fmt::format("--sandbox: this machine lets bubblewrap make no namespaces ({}): allow unprivileged user namespaces; "
-                    "without --sandbox engines run as you do",
-                    end.log_tail));
+    throw EngineError(fmt::format(
+        "--sandbox: this machine lets bubblewrap make no namespaces ({}): {}; without --sandbox engines run as you do",
+        end.log_tail,
+        engines_run_as() == As::nobody ? "run tripoint as a user who is not root" : "allow unprivileged user namespaces"));
   CopyBounds reader{"what engines leave", 10.0};
   reader.folder = "/";
   reader.must_be_confined = true;
@@ -152,27 +189,21 @@ bool strangers_are_sandboxed() noexcept { return wanted; }
 
 namespace {
 
-using Words = std::vector<std::string>;
-
-void add(Words& words, const Words& more) { words.insert(words.end(), more.begin(), more.end()); }
-
-void show(Words& words, const char* how, const std::string& path) {
-  const std::string place = fs::absolute(path).lexically_normal().string();
-  add(words, {how, place, place});
-}
-
 /// The child in bubblewrap, where it sees the bound folders and no more.
-ProcessSpec behind_walls(ProcessSpec spec, const Words& bound) {
-  Words words = bare();
+ProcessSpec behind_walls(ProcessSpec spec, const Words& bound, As as) {
+  Words words = bare(as);
   add(words, bound);
   add(words, {"--chdir", spec.folder.empty() ? "/tmp" : fs::absolute(spec.folder).lexically_normal().string()});
   add(words, {"--setenv", "PATH", "/usr/local/bin:/usr/bin:/bin", "--setenv", "HOME", "/tmp", "--setenv", "LANG", "C.UTF-8"});
   for (const auto& [name, value] : spec.environment) add(words, {"--setenv", name, value});
   words.emplace_back("--");
+  add(words, become(as));
   add(words, limits(spec.wall_limit));
   add(words, spec.argv);
   spec.argv = std::move(words);
   spec.in_sandbox = true;
+  if (as == As::nobody) spec.lent = spec.folder;
+  spec.most = {0.75 * static_cast<double>(memory_of_the_machine()), most_processes, most_bytes};
   return spec;
 }
 
@@ -224,10 +255,17 @@ void show_report(Words& words, const fs::path& out) {
 
 ProcessSpec sandboxed(ProcessSpec spec, const std::vector<std::string>& readable) {
   if (!wanted || belongs_to_us(spec.argv.front())) return spec;
-  Words bound = bind_engine(fs::absolute(fs::path(spec.argv.front()).parent_path()).lexically_normal());
-  for (const std::string& path : readable) show(bound, "--ro-bind", path);
+  const fs::path folder = fs::absolute(fs::path(spec.argv.front()).parent_path()).lexically_normal();
+  expect_readable(folder, spec.argv.front());
+  Words bound = bind_engine(folder);
+  for (const std::string& path : readable) {
+    show(bound, "--ro-bind", path);
+    if (engines_run_as() == As::nobody) fs::permissions(path, fs::perms::others_read, fs::perm_options::add);
+  }
   if (!spec.folder.empty()) show(bound, "--bind", spec.folder);
-  return behind_walls(std::move(spec), bound);
+  if (const auto earlier = fs::path(spec.folder) / earlier_run_folder; !spec.folder.empty() && fs::is_directory(earlier))
+    add(bound, {"--tmpfs", fs::absolute(earlier).lexically_normal().string()});
+  return behind_walls(std::move(spec), bound, engines_run_as());
 }
 
 ProcessSpec sandboxed_report(ProcessSpec spec, const std::string& out, const std::string& history) {
@@ -240,7 +278,9 @@ ProcessSpec sandboxed_report(ProcessSpec spec, const std::string& out, const std
   show_report(bound, out);
   if (!history.empty()) show(bound, "--ro-bind-try", history);
   spec.folder = out;
-  return behind_walls(std::move(spec), bound);
+  spec = behind_walls(std::move(spec), bound, As::caller);
+  spec.most.bytes = 0.0;  // the folder holds all runs
+  return spec;
 }
 
 }  // namespace tripoint

@@ -153,7 +153,9 @@ class Samples {
     InitialState state;
     std::string file;
   };
-  const Sample& of(const Scene& scene) {
+  /// The particles as they are laid: liquids are not let down into equilibrium, for nothing is run here.
+  const Sample& of(Scene scene) {
+    scene.settle = false;
     const auto [at, fresh] = samples_.try_emplace(sampling_key(scene));
     if (!fresh) return at->second;
     at->second.state = sample(scene);

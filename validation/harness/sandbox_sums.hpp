@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <sys/types.h>
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tripoint {
+
+/// Greatest sums over all processes and files of a sandbox. No limit of one process bounds these.
+struct SandboxSums {
+  double memory = 0.0;  ///< [bytes], 0 = unbounded
+  int processes = 0;    ///< 0 = unbounded
+  double bytes = 0.0;   ///< of files in its folder, also of removed ones that are open, 0 = unbounded
+};
+
+/// User and group that engines of strangers run as where root calls us: it owns nothing.
+inline constexpr unsigned sandbox_user = 65534;
+
+/// Looks at all processes below one, and at a folder, a few times a second.
+class SandboxWatch {
+ public:
+  /// At most three quarters of the disk's free room are given away.
+  SandboxWatch(const SandboxSums& most, std::string folder);
+  /// @return the sum that is passed, in words; empty while none is, or where it is no time to look again
+  [[nodiscard]] std::string passed(pid_t outermost);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  [[nodiscard]] std::string look(pid_t outermost) const;
+  SandboxSums most_;
+  std::string folder_;
+  Clock::time_point next_{};
+};
+
+/// A folder that belongs to the sandbox's user for a while, and then to us again, with all that lies in it. "" = none.
+class LentFolder {
+ public:
+  explicit LentFolder(std::string folder);
+  ~LentFolder();
+  LentFolder(const LentFolder&) = delete;
+  LentFolder& operator=(const LentFolder&) = delete;
+
+ private:
+  std::string folder_;
+};
+
+/// A control group with the sums as its bounds, where this user may make one; the kernel keeps them then, without a moment's
+/// delay.
+class ControlGroup {
+ public:
+  explicit ControlGroup(const SandboxSums& most);
+  ~ControlGroup();
+  ControlGroup(const ControlGroup&) = delete;
+  ControlGroup& operator=(const ControlGroup&) = delete;
+  /// The command, begun inside of the group; the command itself where there is none.
+  [[nodiscard]] std::vector<std::string> begun_inside(const std::vector<std::string>& argv) const;
+
+ private:
+  std::vector<std::filesystem::path> folders_;  ///< one for each hierarchy
+};
+
+}  // namespace tripoint
