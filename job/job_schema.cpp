@@ -146,6 +146,10 @@ json kinds_of(const json& plain_value) {
     if (of.word == "union" || of.word == "difference")
       kind = {{"type", "object"}, {"properties", {{"of", list_of(table("shape"))}}}, {"required", {"of"}}};
     if (of.word == "constant") kind = {{"type", "object"}, {"properties", {{"value", plain_value}}}, {"required", {"value"}}};
+    if constexpr (std::is_same_v<Owner, Shape>) {
+      kind["properties"]["rotation"] = numbers(4);
+      kind["properties"]["rotation_centre"] = numbers(3);
+    }
     kind["properties"]["kind"] = {{"const", of.word}};
     kind["required"].push_back("kind");
     any.push_back(std::move(kind));
@@ -163,10 +167,10 @@ json named(const char* title, json whole) {
 json scene_schema() {
   json scene = object_of(record<Scene>);
   add_effect_keys<Scene>(scene, "scene");
-  for (const char* list : {"materials", "bodies", "events", "inflows"}) {
+  for (const char* list : {"materials", "bodies", "events", "inflows", "contacts", "forces"}) {
     const std::string one = std::string(list) == "bodies" ? "body" : std::string(list, std::char_traits<char>::length(list) - 1);
     scene["properties"][list] = list_of(table(one));
-    scene["required"].push_back(list);
+    if (std::string(list) != "contacts" && std::string(list) != "forces") scene["required"].push_back(list);
   }
   return scene;
 }
@@ -192,6 +196,8 @@ json job_schema() {
   tables["body"] = object_of(record<Body>, records::of_job_body, records::of_mass);
   tables["event"] = object_of(record<Event>);
   tables["inflow"] = object_of(record<Inflow>);
+  tables["contact"] = object_of(record<ContactLaw>);
+  tables["force"] = object_of(record<AppliedForce>);
   tables["keyframe"] = object_of(record<Keyframe>);
   tables["shape"] = kinds_of<Shape>({});
   tables["temperature"] = kinds_of<TemperatureField>(of_type("number"));

@@ -7,6 +7,7 @@
 
 #include "core/whole_number.hpp"
 #include "job/scene_json.hpp"
+#include "scene/geometry.hpp"
 #include "scene/record.hpp"
 
 /// A record goes into JSON and comes back by the list of its keys (scene/record.hpp).
@@ -97,7 +98,7 @@ void take(const JsonObject& o, const std::string& name, const Key& key, std::str
   } else if constexpr (std::is_same_v<T, Vec3>) {
     if (!later || o.has(name)) value = o.vector(name);
   } else if constexpr (std::is_same_v<T, Quaternion>) {
-    value = o.quaternion(name);
+    if (!later || o.has(name)) value = o.quaternion(name);
   } else if constexpr (std::is_same_v<T, Shape>) {
     if (o.has(name) || key.table != "body") value = from_kind_json<T>(o.object(name));
   } else if constexpr (std::is_same_v<T, TemperatureField> || std::is_same_v<T, VelocityField>) {
@@ -175,6 +176,10 @@ json kind_json(const auto& owner) {
   json out{{"kind", kind_words<Owner>().at(static_cast<std::size_t>(owner.kind))}};
   put_record(owner, out);
   if constexpr (std::is_same_v<Owner, Shape>) {
+    if (is_turned(owner))
+      out["rotation_centre"] = to_json(turning_centre(owner));
+    else
+      out.erase("rotation");
     if (owner.kind != Shape::Kind::unite && owner.kind != Shape::Kind::difference) return out;
     out["of"] = json::array();
     for (const Shape& part : owner.of) out["of"].push_back(kind_json(part));

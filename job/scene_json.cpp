@@ -109,11 +109,13 @@ json scene_to_json(const Scene& s, const std::vector<JobBody>& bodies) {
   out["modes"] = modes_json(s);
   out["clamp"] = s.clamps();
   put_effect_values(s, "scene", out);
-  out["materials"] = out["bodies"] = out["events"] = out["inflows"] = json::array();
+  for (const char* list : {"materials", "bodies", "events", "inflows", "contacts", "forces"}) out[list] = json::array();
   for (const Material& m : s.materials) out["materials"].push_back(material_json(m));
   for (std::size_t k = 0; k < s.bodies.size(); ++k) out["bodies"].push_back(body_json(s.bodies[k], bodies.at(k)));
   for (const Event& e : s.events) out["events"].push_back(event_json(e));
   for (const Inflow& f : s.inflows) put_record(f, out["inflows"].emplace_back(json::object()));
+  for (const ContactLaw& law : s.contact_laws) put_record(law, out["contacts"].emplace_back(json::object()));
+  for (const AppliedForce& f : s.forces) put_record(f, out["forces"].emplace_back(json::object()));
   return out;
 }
 
@@ -128,6 +130,8 @@ void scene_from_json(const json& value, Scene& s, std::vector<JobBody>& bodies) 
   for (const JsonObject& b : o.objects("bodies")) body_from(b, s, bodies);
   take_list(o, "events", s.events);
   take_list(o, "inflows", s.inflows);
+  if (o.has("contacts")) take_list(o, "contacts", s.contact_laws);  // came after the first jobs
+  if (o.has("forces")) take_list(o, "forces", s.forces);
 }
 
 }  // namespace tripoint

@@ -9,9 +9,32 @@
 #include "adapters/bullet/limits.hpp"
 #include "adapters/bullet/pieces.hpp"
 #include "adapters/bullet/presets.hpp"
+#include "scene/contact_law.hpp"
 #include "scene/motion.hpp"
 
 namespace tripoint::bullet {
+namespace {
+
+int material_row(const Scene& scene, const std::string& material) {
+  return static_cast<int>(&scene.material(material) - scene.materials.data());
+}
+
+/// What the scene does not say of a pair is the preset's.
+PairLaws pair_laws(const Job& job) {
+  const Preset preset = preset_for(job);
+  const auto& materials = job.scene.materials;
+  const std::vector<double> row(materials.size());
+  PairLaws laws{{materials.size(), row}, {materials.size(), row}};
+  for (std::size_t a = 0; a < materials.size(); ++a)
+    for (std::size_t b = 0; b < materials.size(); ++b) {
+      const ContactLaw* law = contact_law_of(job.scene, materials[a].name, materials[b].name);
+      laws.friction[a][b] = law ? law->friction.value_or(preset.friction) : preset.friction;
+      laws.restitution[a][b] = law ? law->restitution.value_or(preset.restitution) : preset.restitution;
+    }
+  return laws;
+}
+
+}  // namespace
 
 EngineInfo BulletEngine::info() const {
   EngineInfo info;
@@ -19,7 +42,8 @@ EngineInfo BulletEngine::info() const {
   info.version = World::version();
   info.build = "float64";
   info.library_path = World::library_path();
-  info.capabilities = {"rigid-free-flight", "gravity", "fixed", "prescribed", "merge", "split", "contact"};
+  info.capabilities = {"rigid-free-flight", "gravity",       "fixed", "prescribed", "merge", "split",
+                       "contact",           "contact-pairs", "force"};
   info.presets = preset_names();
   info.settings = setting_help();
   return info;
@@ -33,6 +57,7 @@ void BulletEngine::load(const Job& job, const InitialState& state) {
   dt_ = wanted_time_step(job);
   time_ = job.times.empty() ? 0.0 : job.times.front();
   world_ = std::make_unique<World>(preset_for(job), job.scene.gravity);
+  if (common_contact(job.scene).differs) world_->use(pair_laws(job));
   for (const JobBody& body : job.bodies) {
     rows_.push_back(start_row(body));
     rows_.back().pieces = start_pieces(rows_.back(), body);
@@ -46,6 +71,7 @@ BulletEngine::Row BulletEngine::start_row(const JobBody& body) const {
   Row row;
   row.name = body.name;
   row.motion = body.motion;
+  row.material = material_row(job_.scene, body.material);
   row.keyframes = body.keyframes;
   row.start_velocity = body.velocity;
   row.start_spin = body.angular_velocity;
@@ -94,7 +120,7 @@ void BulletEngine::enter(Row& row, const RigidMotion& motion) {
   const Drive drive = row.motion == Motion::fixed        ? Drive::fixed
                       : row.motion == Motion::prescribed ? Drive::kinematic
                                                          : Drive::dynamic;
-  row.handle = world_->add({row.properties.mass, row.properties.principal_inertia, motion, drive, row.pieces});
+  row.handle = world_->add({row.properties.mass, row.properties.principal_inertia, motion, drive, row.pieces, row.material});
 }
 
 void BulletEngine::advance_to(double time) {
@@ -131,6 +157,7 @@ void BulletEngine::integrate_to(double time) {
   last_dt_ = interval / static_cast<double>(n);
   for (long k = 1; k <= n; ++k) {
     drive_bodies(start + interval * static_cast<double>(k) / static_cast<double>(n));
+    push_bodies();
     world_->step(last_dt_);
     ++steps_;
   }
@@ -144,6 +171,16 @@ void BulletEngine::drive_bodies(double time) {
     const PrescribedState s = prescribed_state(r.keyframes, r.properties.centre, r.start_velocity, r.start_spin, time);
     world_->drive(r.handle, s.position, s.rotation * r.frame);
   }
+}
+
+/// Bullet forgets forces after each step.
+void BulletEngine::push_bodies() {
+  for (const AppliedForce& force : job_.scene.forces)
+    for (const Row& r : rows_) {
+      if (r.name != force.body || r.handle < 0) continue;
+      const Quaternion turned = world_->motion(r.handle).orientation * conjugate(r.frame);
+      world_->push(r.handle, force.value, force.point ? rotate(turned, *force.point - r.properties.centre) : Vec3{});
+    }
 }
 
 void BulletEngine::check_finite() const {

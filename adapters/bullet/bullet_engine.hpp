@@ -31,6 +31,7 @@ class BulletEngine final : public Engine {
     std::vector<int> members;         ///< particle ids, ascending
     std::vector<Vec3> arms;           ///< of the members, in the principal frame [m]
     std::vector<Piece> pieces;        ///< in the principal frame
+    int material = 0;                 ///< of the scene's
     int handle = -1;                  ///< in the world; -1 = dead
   };
 
@@ -43,6 +44,7 @@ class BulletEngine final : public Engine {
   void integrate_to(double time);
   [[nodiscard]] double first_step() const;
   void drive_bodies(double time);
+  void push_bodies();
   void check_finite() const;
 
   void apply(const Event&);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "scene/geometry.hpp"
 #include "scene/mesh.hpp"
 
 namespace tripoint::bullet {
@@ -37,9 +38,18 @@ std::vector<Piece> pieces_of_parts(const std::vector<Shape>& parts, const PlaceO
   return all;
 }
 
+/// The body's place and axes as they are before the shape is turned.
+PlaceOfShape before_turning(const Shape& shape, PlaceOfShape place) {
+  const Vec3 centre = turning_centre(shape);
+  place.centre = centre + rotate_back(shape.rotation, place.centre - centre);
+  place.axes = conjugate(shape.rotation) * place.axes;
+  return place;
+}
+
 }  // namespace
 
 std::vector<Piece> pieces_of(const Shape& shape, const PlaceOfShape& place) {
+  if (is_turned(shape)) return pieces_of(not_turned(shape), before_turning(shape, place));
   const auto local = [&](const Vec3& x) { return rotate_back(place.axes, x - place.centre); };
   switch (shape.kind) {
     case Shape::Kind::box:

@@ -50,8 +50,25 @@ double inverse_or_zero(double x) { return x > 0.0 ? 1.0 / x : 0.0; }
 
 }  // namespace
 
+namespace {
+
+/// Bullet asks free functions for the values of a pair. A process has one world.
+const PairLaws* laws_in_use = nullptr;
+
+double of_pair(const std::vector<std::vector<double>>& table, const btCollisionObject* a, const btCollisionObject* b) {
+  return table.at(static_cast<std::size_t>(a->getUserIndex())).at(static_cast<std::size_t>(b->getUserIndex()));
+}
+
+btScalar friction_of(const btCollisionObject* a, const btCollisionObject* b) { return of_pair(laws_in_use->friction, a, b); }
+btScalar restitution_of(const btCollisionObject* a, const btCollisionObject* b) {
+  return of_pair(laws_in_use->restitution, a, b);
+}
+
+}  // namespace
+
 struct World::Impl {
   Preset preset;
+  PairLaws laws;
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
@@ -154,6 +171,7 @@ int World::add(const RigidPart& part) {
   body.setActivationState(DISABLE_DEACTIVATION);
   body.setDamping(0.0, 0.0);
   body.setFriction(std::sqrt(impl_->preset.friction));  // a pair's value is the product of both
+  body.setUserIndex(part.material);
   body.setRollingFriction(0.0);
   body.setSpinningFriction(0.0);
   body.setRestitution(std::sqrt(impl_->preset.restitution));
@@ -172,6 +190,15 @@ void World::remove(int handle) {
 void World::drive(int handle, const Vec3& centre, const Quaternion& orientation) {
   impl_->at(handle).setWorldTransform(btTransform(bt(orientation), bt(centre)));
 }
+
+void World::use(PairLaws laws) {
+  impl_->laws = std::move(laws);
+  laws_in_use = &impl_->laws;
+  gCalculateCombinedFrictionCallback = friction_of;
+  gCalculateCombinedRestitutionCallback = restitution_of;
+}
+
+void World::push(int handle, const Vec3& force, const Vec3& arm) { impl_->at(handle).applyForce(bt(force), bt(arm)); }
 
 void World::step(double dt) {
   impl_->world.stepSimulation(dt, 0);  // 0 substeps: exactly one step of dt, no interpolation

@@ -39,6 +39,12 @@ struct RigidPart {
   RigidMotion motion;
   Drive drive = Drive::dynamic;
   std::vector<Piece> pieces;
+  int material = 0;  ///< row of the pair laws
+};
+
+/// Laws of contact by pairs of materials; a row and a column each.
+struct PairLaws {
+  std::vector<std::vector<double>> friction, restitution;
 };
 
 /// Values that Bullet itself holds of a body.
@@ -60,11 +66,15 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
+  /// From now on every pair of bodies has the friction and restitution of its materials.
+  void use(PairLaws);
   /// Adds a body and returns its handle. Call in the order of the bodies' rows: the order changes Bullet's bits.
   [[nodiscard]] int add(const RigidPart&);
   void remove(int handle);
   /// Where a kinematic body will be at the end of the next step.
   void drive(int handle, const Vec3& centre, const Quaternion& orientation);
+  /// A force [N] in the next step, on a point given from the centre of mass [m], in the world's axes.
+  void push(int handle, const Vec3& force, const Vec3& arm);
   /// Exactly one step of dt [s].
   void step(double dt);
   [[nodiscard]] RigidMotion motion(int handle) const;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/geometry.hpp"
 #include "scene/phase_values.hpp"
 
 namespace tripoint::lammps {
@@ -139,7 +140,7 @@ std::optional<CellBox> cell_box(const Scene& scene, std::string& why) {
   bool first = true;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Shape& shape = scene.bodies[i].shape;
-    if (shape.kind != Shape::Kind::box) {
+    if (!is_upright_box(shape)) {
       why = fmt::format("walkers need boxes, and {} is none", scene.bodies[i].name);
       return {};
     }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "adapters/lammps/body_fit.hpp"
+#include "scene/geometry.hpp"
 #include "scene/sample.hpp"
 
 namespace tripoint::lammps {
@@ -208,7 +209,7 @@ std::string why_it_lands(const Job& job) {
     for (std::size_t b = 0; b < job.bodies.size(); ++b) {
       const JobBody& flying = job.bodies[a];
       if (flying.motion != Motion::free || job.bodies[b].motion != Motion::fixed || !is_convex(job.scene.bodies[a]) ||
-          job.scene.bodies[b].shape.kind != Shape::Kind::box)
+          !is_upright_box(job.scene.bodies[b].shape))
         continue;
       for (const double t : job.times) {
         const Vec3 centre = flying.properties.centre + t * flying.velocity + (0.5 * t * t) * job.scene.gravity;

@@ -59,6 +59,7 @@ EngineInfo TripointEngine::info() const {
                        "restart",
                        "liquid",
                        "contact",
+                       "force",
                        "viscosity",
                        "walls",
                        "transport-velocity",

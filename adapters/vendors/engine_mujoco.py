@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from contract import Diverged, Job, file_of, serve
-from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb, why_it_grows
+from rigid import (SHARED_SETTINGS, Body, Held, PairLaws, Piece, RigidEngine, State, World, bounciness, coulomb, forces_on,
+                   why_it_grows)
 from rotation import Quaternion, Vector, add, product, quaternion, rotate, vector
 
 os.environ.setdefault("MUJOCO_GL", "disable")  # nothing is drawn here, so no window library is wanted
@@ -22,9 +23,9 @@ def words(values: tuple[float, ...]) -> str:
     return " ".join(map(repr, values))
 
 
-def geom_text(piece: Piece, at: Vector, turn: Quaternion, contact: str) -> str:
+def geom_text(name: str, piece: Piece, at: Vector, turn: Quaternion, contact: str) -> str:
     """One geom of the frame whose origin is `at` [m] and whose axes are turned by `turn`."""
-    place = f'pos="{words(add(at, rotate(turn, piece.centre)))}" quat="{words(product(turn, piece.rotation))}"'
+    place = f'name="{name}" pos="{words(add(at, rotate(turn, piece.centre)))}" quat="{words(product(turn, piece.rotation))}"'
     if piece.kind == "plane":
         return f'<geom type="plane" size="0 0 1" {place} {contact}/>'  # a size of 0 is infinite
     size = words({"box": piece.size, "sphere": piece.size[:1]}.get(piece.kind, piece.size[1:]))  # of a rod radius and half length
@@ -44,25 +45,40 @@ def contact_text(job: Job, dt: float) -> str:
     return f'friction="{mu!r} 0 0" condim="{3 if mu > 0.0 else 1}"{solref}{solimp}'
 
 
+def pairs_text(job: Job, bodies: list[Body]) -> str:
+    """A pair of geoms for each pair of pieces whose materials state a law; MuJoCo then asks neither geom for its own."""
+    laws = PairLaws(job)
+    text = []
+    for a, one in enumerate(bodies):
+        for b, other in enumerate(bodies[:a]):
+            if frozenset((one.material, other.material)) not in laws.stated or not (one.free or other.free):
+                continue
+            mu, _ = laws.of(one.material, other.material)
+            text += [f'<pair geom1="{a}.{i}" geom2="{b}.{k}" condim="{3 if mu > 0.0 else 1}" friction="{mu!r} {mu!r} 0 0 0"/>'
+                     for i in range(len(one.pieces)) for k in range(len(other.pieces))]
+    return f"<contact>{''.join(text)}</contact>" if text else ""
+
+
 def model_text(job: Job, bodies: list[Body], dt: float) -> str:
     """The scene in MJCF: free bodies with the job's own masses and principal moments, fixed ones as geoms of the world."""
     contact = contact_text(job, dt)
     gravity = words(vector(job.scene["gravity"]))
     text = [f'<mujoco><compiler boundmass="0" boundinertia="0" balanceinertia="false"/>'
             f'<option timestep="{dt!r}" integrator="{integrator_of(job)}" gravity="{gravity}" cone="elliptic"/><worldbody>']
-    for body in bodies:
+    for number, body in enumerate(bodies):
+        names = [(f"{number}.{k}", piece) for k, piece in enumerate(body.pieces)]
         if not body.free:
-            text += [geom_text(piece, body.centre, body.frame, contact) for piece in body.pieces]
+            text += [geom_text(name, piece, body.centre, body.frame, contact) for name, piece in names]
             continue
         text.append(f'<body pos="{words(body.centre)}" quat="{words(body.frame)}"><freejoint/>'
                     f'<inertial pos="0 0 0" mass="{body.mass!r}" diaginertia="{words(body.inertia)}"/>')
-        text += [geom_text(piece, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0), contact) for piece in body.pieces]
+        text += [geom_text(name, piece, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0), contact) for name, piece in names]
         text.append("</body>")
-    return "".join(text) + "</worldbody></mujoco>"
+    return "".join(text) + f"</worldbody>{pairs_text(job, bodies)}</mujoco>"
 
 
 class MujocoWorld(World):
-    def __init__(self, engine: Any, text: str, bodies: list[Body]) -> None:
+    def __init__(self, engine: Any, text: str, job: Job, bodies: list[Body]) -> None:
         self.engine = engine
         self.model = engine.MjModel.from_xml_string(text)
         self.data = engine.MjData(self.model)
@@ -74,6 +90,7 @@ class MujocoWorld(World):
             # MuJoCo's qvel holds a free joint's spin in the body frame.
             spin = rotate((body.frame[0], -body.frame[1], -body.frame[2], -body.frame[3]), body.spin)
             self.data.qvel[6 * free:6 * free + 6] = [*body.velocity, *spin]
+            self.data.xfrc_applied[free + 1][0:3] = forces_on(job, body)  # 0 is the world
         self.touched = 0.0
         self.time = 0.0  # MuJoCo's own starts again when it begins anew
 
@@ -113,7 +130,7 @@ class MujocoWorld(World):
 
 class Mujoco(RigidEngine):
     name, title = "mujoco", "MuJoCo"
-    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact")
+    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact", "contact-pairs", "force")
     presets = ("hard-contact", "Euler", "implicitfast", "implicit", "RK4")
     preset_settings = {"hard-contact": {"timeconst_steps": 2, "solimp": "0.99 0.999 0.001 0.5 2"}}
     preset_words = {"Euler": '"Use Euler for compatibility with older models" (MuJoCo, doc/computation/index.rst)',
@@ -142,7 +159,7 @@ class Mujoco(RigidEngine):
         grows = why_it_grows(job, self.default_step) if job.preset == "Euler" else ""
         if grows:
             return "MuJoCo's Euler " + grows
-        bounce = bounciness(job)
+        bounce = max([bounciness(job), *(law["restitution"] or 0.0 for law in job.scene["contacts"])])
         if bounce > 0.0 and len(job.bodies) > 1 and "solref" not in job.settings:
             return f"MuJoCo has no coefficient of restitution, and {bounce:g} is asked for; the setting solref makes contacts springs with a damping"
         return ""
@@ -150,7 +167,7 @@ class Mujoco(RigidEngine):
     def open(self, job: Job, bodies: list[Body], dt: float) -> World:
         import mujoco  # here, because --info and --check need no engine
 
-        return MujocoWorld(mujoco, model_text(job, bodies, dt), bodies)
+        return MujocoWorld(mujoco, model_text(job, bodies, dt), job, bodies)
 
 
 def _has(name: str) -> bool:

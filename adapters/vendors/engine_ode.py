@@ -12,7 +12,7 @@ from typing import Any
 
 from contract import Job, serve
 from ode_library import APPROX_1, BOUNCE, Contact, Mass, Near, load, reals
-from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb, moves
+from rigid import SHARED_SETTINGS, Body, Held, PairLaws, Piece, RigidEngine, State, World, bounciness, coulomb, forces_on, moves
 from rotation import Vector, add, dot, product, quaternion, rotate, vector
 
 MOST_CONTACTS = 8  # of a pair of surfaces
@@ -40,12 +40,15 @@ class OdeWorld(World):
         self.mu = coulomb(job)
         self.bounce = float(job.settings.get("bounce", bounciness(job)))
         self.bounce_vel = float(job.settings.get("bounce_vel", 0.0))
+        self.laws = PairLaws(job)
+        self.materials: dict[int, str] = {}  # geom -> material
         self.touched = 0
         self.found = (Contact * MOST_CONTACTS)()
         self.near = Near(self.meet)
         gyroscopic = int(job.settings.get("gyroscopic", True))
         self.finite = int(job.settings.get("finite_rotation", False))
         self.bodies = {number: self.add_free(body, gyroscopic) for number, body in enumerate(bodies) if body.free}
+        self.pushed = [(self.bodies[number], force) for number, body in enumerate(bodies) if body.free and any(force := forces_on(job, body))]
         self.surfaces = sum(len(body.pieces) for body in bodies)
         for body in bodies:
             if moves(body):
@@ -70,7 +73,7 @@ class OdeWorld(World):
         """Gives a body of ODE its surface."""
         ode = self.ode
         for piece in body.pieces:
-            geom = self.geom(piece)
+            geom = self.geom(piece, body)
             ode.dGeomSetBody(geom, handle)
             ode.dGeomSetOffsetPosition(geom, *piece.centre)
             ode.dGeomSetOffsetQuaternion(geom, reals(piece.rotation))
@@ -88,19 +91,22 @@ class OdeWorld(World):
         for piece in body.pieces:
             if piece.kind == "plane":
                 normal, offset = plane_of(body, piece)
-                self.ode.dCreatePlane(self.space, *normal, offset)
+                self.materials[self.ode.dCreatePlane(self.space, *normal, offset)] = body.material
                 continue
-            geom = self.geom(piece)
+            geom = self.geom(piece, body)
             self.ode.dGeomSetPosition(geom, *add(body.centre, rotate(body.frame, piece.centre)))
             self.ode.dGeomSetQuaternion(geom, reals(product(body.frame, piece.rotation)))
 
-    def geom(self, piece: Piece) -> Any:
+    def geom(self, piece: Piece, body: Body) -> Any:
         if piece.kind == "box":
-            return self.ode.dCreateBox(self.space, *(2.0 * half for half in piece.size))
-        if piece.kind == "sphere":
-            return self.ode.dCreateSphere(self.space, piece.size[0])
-        rod = self.ode.dCreateCylinder if piece.kind == "cylinder" else self.ode.dCreateCapsule
-        return rod(self.space, piece.size[0], 2.0 * piece.size[2])
+            made = self.ode.dCreateBox(self.space, *(2.0 * half for half in piece.size))
+        elif piece.kind == "sphere":
+            made = self.ode.dCreateSphere(self.space, piece.size[0])
+        else:
+            rod = self.ode.dCreateCylinder if piece.kind == "cylinder" else self.ode.dCreateCapsule
+            made = rod(self.space, piece.size[0], 2.0 * piece.size[2])
+        self.materials[made] = body.material
+        return made
 
     def meet(self, _: Any, first: Any, second: Any) -> None:
         """Makes a contact joint for each point where two surfaces touch; two fixed ones, or two of one body, do not."""
@@ -109,10 +115,13 @@ class OdeWorld(World):
         if one == other:
             return
         count = ode.dCollide(first, second, MOST_CONTACTS, byref(self.found[0].geom), sizeof(Contact))
+        mu, bounce = self.mu, self.bounce
+        if self.laws.stated:
+            mu, bounce = self.laws.of(self.materials[first], self.materials[second])
         for contact in self.found[:count]:
             surface = contact.surface
-            surface.mode = APPROX_1 | (BOUNCE if self.bounce > 0.0 else 0)
-            surface.mu, surface.bounce, surface.bounce_vel = self.mu, self.bounce, self.bounce_vel
+            surface.mode = APPROX_1 | (BOUNCE if bounce > 0.0 else 0)
+            surface.mu, surface.bounce, surface.bounce_vel = mu, bounce, self.bounce_vel
             joint = ode.dJointCreateContact(self.world, self.joints, byref(contact))
             ode.dJointAttach(joint, ode.dGeomGetBody(contact.geom.g1), ode.dGeomGetBody(contact.geom.g2))
         self.touched += count
@@ -121,6 +130,8 @@ class OdeWorld(World):
         for _ in range(count):
             if self.surfaces:
                 self.ode.dSpaceCollide(self.space, None, self.near)
+            for handle, force in self.pushed:  # ODE forgets forces after each step
+                self.ode.dBodyAddForce(handle, *force)
             self.advance(self.world, dt)
             self.ode.dJointGroupEmpty(self.joints)
 
@@ -146,7 +157,7 @@ class OdeWorld(World):
 
 class Ode(RigidEngine):
     name, title = "ode", "ODE"
-    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact")
+    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact", "contact-pairs", "force")
     presets = ("dWorldStep", "dWorldQuickStep")
     settings = SHARED_SETTINGS | {
         "gyroscopic": "gyroscopic term, true (ODE's default) or false",

@@ -74,8 +74,8 @@ def refuse_boxes(job: Job, engine: str) -> str:
     corner = job.bodies[0]["shape"].get("min")
     for body in job.bodies:
         shape = body["shape"]
-        if shape["kind"] != "box":
-            return f"{engine} is handed boxes, and {body['name']} is a {shape['kind']}"
+        if shape["kind"] != "box" or "rotation" in shape:
+            return f"{engine} is handed boxes along the axes, and {body['name']} is a {shape['kind']}{' that is turned' if 'rotation' in shape else ''}"
         if not all(whole((end - begin) / dx) and whole((begin - c) / dx) for begin, end, c in zip(shape["min"], shape["max"], corner)):
             return f"{engine}'s elements are cubes of one spacing, and {body['name']} is not made of whole ones"
     return ""

@@ -44,6 +44,7 @@ _FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {  # name -> result, argume
     "dBodySetPosition": (None, (_V, _D, _D, _D)), "dBodySetQuaternion": (None, (_V, _R)), "dBodySetLinearVel": (None, (_V, _D, _D, _D)),
     "dBodySetAngularVel": (None, (_V, _D, _D, _D)), "dBodySetGyroscopicMode": (None, (_V, _I)), "dBodySetFiniteRotationMode": (None, (_V, _I)),
     "dBodyGetPosition": (_R, (_V,)), "dBodyGetQuaternion": (_R, (_V,)), "dBodyGetLinearVel": (_R, (_V,)), "dBodyGetAngularVel": (_R, (_V,)),
+    "dBodyAddForce": (None, (_V, _D, _D, _D)),
     "dBodyGetLinearDamping": (_D, (_V,)), "dBodyGetAngularDamping": (_D, (_V,)),
     "dCreateBox": (_V, (_V, _D, _D, _D)), "dCreateSphere": (_V, (_V, _D)), "dCreateCylinder": (_V, (_V, _D, _D)),
     "dCreateCapsule": (_V, (_V, _D, _D)), "dCreatePlane": (_V, (_V, _D, _D, _D, _D)),

@@ -47,6 +47,7 @@ class Body:
     velocity: Vector  # [m/s]; of a moved body that of the plane, for ever
     spin: Vector  # angular velocity in the world frame [rad/s]
     pieces: tuple[Piece, ...]  # empty where nothing can be touched
+    material: str = ""
 
 
 def moves(body: Body) -> bool:
@@ -101,7 +102,7 @@ class World:
 
 def _capsule(parts: list[dict[str, Any]]) -> dict[str, Any] | None:
     """The cylinder of a union that is a capsule: balls of its radius lie at both ends of its axis."""
-    rods = [part for part in parts if part["kind"] == "cylinder"]
+    rods = [part for part in parts if part["kind"] == "cylinder" and "rotation" not in part]
     balls = [part for part in parts if part["kind"] == "sphere"]
     if len(parts) != 3 or len(rods) != 1 or len(balls) != 2:
         return None
@@ -115,6 +116,10 @@ def _capsule(parts: list[dict[str, Any]]) -> dict[str, Any] | None:
 
 def pieces_of(shape: dict[str, Any], centre: Vector, frame: Quaternion) -> tuple[Piece, ...] | None:
     """@return None for a shape that no pieces are made of: a difference or a mesh"""
+    if "rotation" in shape:  # the body's centre and axes as they are before the shape is turned
+        turn, middle = quaternion(shape["rotation"]), vector(shape["rotation_centre"])
+        centre, frame = add(middle, rotate_back(turn, subtract(centre, middle))), product(conjugate(turn), frame)
+
     def local(x: Vector) -> Vector:
         return rotate_back(frame, subtract(x, centre))
 
@@ -144,7 +149,8 @@ def body_of(body: dict[str, Any], touchable: bool) -> Body:
     centre, frame = vector(body["centre"]), quaternion(body["principal_axes"])
     pieces = pieces_of(body["shape"], centre, frame) if touchable else ()
     return Body(body["name"], int(body["index"]), body["motion"] == "free", float(body["mass"]), centre, frame,
-                vector(body["principal_inertia"]), vector(body["velocity"]), vector(body["angular_velocity"]), pieces or ())
+                vector(body["principal_inertia"]), vector(body["velocity"]), vector(body["angular_velocity"]), pieces or (),
+                body["material"])
 
 
 def bodies_of(job: Job) -> list[Body]:
@@ -182,6 +188,8 @@ def refuse_scene(job: Job, engine: str) -> str:
         return f"{engine} has no inflow"
     if scene["events"]:
         return f"events are not handed to {engine}"
+    if any(force["place"] is not None for force in scene["forces"]):
+        return f"forces are handed to {engine} at centres of mass only, and one has a place"
     reasons = (_refuse_body(body, engine, len(job.bodies) == 1) for body in job.bodies)
     return next((reason for reason in reasons if reason), "")
 
@@ -296,6 +304,29 @@ def coulomb(job: Job) -> float:
 def bounciness(job: Job) -> float:
     """Restitution of every pair [-], none where the settings say none."""
     return float(job.settings.get("restitution", 0.0))
+
+
+class PairLaws:
+    """Friction and restitution by pairs of materials, for engines with the capability contact-pairs."""
+
+    def __init__(self, job: Job) -> None:
+        self.common = coulomb(job), bounciness(job)
+        self.stated = {frozenset(law["materials"]): (law["friction"], law["restitution"]) for law in job.scene["contacts"]}
+
+    def of(self, material: str, other: str) -> tuple[float, float]:
+        """What no table states of a pair is the setting's."""
+        stated = self.stated.get(frozenset((material, other)), (None, None))
+        friction, restitution = (common if one is None else float(one) for one, common in zip(stated, self.common))
+        return friction, restitution
+
+
+def forces_on(job: Job, body: Body) -> Vector:
+    """Sum of the constant forces on a body [N]."""
+    total = (0.0, 0.0, 0.0)
+    for force in job.scene["forces"]:
+        if force["body"] == body.name:
+            total = add(total, vector(force["value"]))
+    return total
 
 
 SHARED_SETTINGS = {"time_step": "goes before the job's [s]; shortened so that output times are hit exactly",

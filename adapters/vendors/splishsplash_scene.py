@@ -37,6 +37,8 @@ def mirrored(shape: dict[str, Any], axis: int, middle: float, slack: float) -> b
         return abs(x - middle) < slack
 
     kind = shape["kind"]
+    if "rotation" in shape:
+        return False
     if kind == "box":
         return central(0.5 * (shape["min"][axis] + shape["max"][axis]))
     if kind == "sphere":

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/geometry.hpp"
 #include "scene/name_checks.hpp"
 #include "scene/nearest.hpp"
 #include "scene/phase_values.hpp"
@@ -24,6 +25,8 @@ class Checker : NameChecks {
     unique(scene_.bodies, "body");
     bodies();
     events();
+    contact_laws();
+    forces();
     kernel();
     printed_heat();
   }
@@ -83,7 +86,7 @@ class Checker : NameChecks {
   void turning(const Body& b) const {
     if (b.phase != Phase::rigid || b.angular_velocity == Vec3{}) return;
     for (std::size_t a = 0; a < 3; ++a) {
-      if (!scene_.periodic[a] || b.shape.kind != Shape::Kind::box) continue;
+      if (!scene_.periodic[a] || !is_upright_box(b.shape)) continue;
       const bool across = b.shape.max[a] - b.shape.min[a] >= 0.999 * ((*scene_.max)[a] - (*scene_.min)[a]);
       Vec3 other = b.angular_velocity;
       other[a] = 0.0;
@@ -139,6 +142,43 @@ class Checker : NameChecks {
         throw InputError(place(fmt::format("inflow.{}.material", n), {}),
                          fmt::format("no material is named \"{}\"{}", printable(f.material),
                                      suggestion(f.material, names_of(scene_.materials))));
+    }
+  }
+
+  void contact_laws() const {
+    std::vector<std::vector<std::string>> pairs;
+    for (std::size_t n = 0; n < scene_.contact_laws.size(); ++n) {
+      const ContactLaw& law = scene_.contact_laws[n];
+      const auto where = place(fmt::format("contact.{}.materials", n + 1), law.place);
+      for (const auto& name : law.materials)
+        if (!holds(names_of(scene_.materials), name))
+          throw InputError(
+              where, fmt::format("no material is named \"{}\"{}", printable(name), suggestion(name, names_of(scene_.materials))));
+      auto pair = law.materials;
+      std::ranges::sort(pair);
+      if (std::ranges::find(pairs, pair) != pairs.end())
+        throw InputError(where,
+                         fmt::format("\"{}\" and \"{}\" have a [[contact]] already: write one of a pair", pair[0], pair[1]));
+      pairs.push_back(std::move(pair));
+    }
+  }
+
+  void forces() const {
+    for (std::size_t n = 0; n < scene_.forces.size(); ++n) {
+      const AppliedForce& force = scene_.forces[n];
+      const auto path = fmt::format("force.{}.body", n + 1);
+      known_body(scene_, force.body, path, force.place);
+      const Body& b = scene_.body(force.body);
+      if (b.phase != Phase::rigid || b.motion != Motion::free)
+        throw InputError(place(path, force.place),
+                         fmt::format("\"{}\" is {}: a force acts on a free rigid body", b.name,
+                                     b.phase == Phase::rigid ? to_string(b.motion) : to_string(b.phase)));
+      if (scene_.material(b.material).t_melt || std::ranges::any_of(scene_.events, [](const Event& e) {
+            return e.kind == Event::Kind::merge || e.kind == Event::Kind::split;
+          }))
+        throw InputError(
+            place(path, force.place),
+            "a force acts on a body that stays one: remove the events of merge and split, or t_melt of its material");
     }
   }
 

@@ -48,14 +48,24 @@ bool has_wall_below(const Scene& s, const std::vector<Bounds>& boxes, const Boun
 }
 
 /// Where a body that forces move can be at the end, and where its flight turns.
-void include_flight(Bounds& all, const Scene& s, const Bounds& box, const Vec3& velocity, double spread, bool falls) {
-  const double end = s.end_time;
-  const Vec3 g = falls ? s.gravity : Vec3{};
+void include_flight(Bounds& all, double end, const Bounds& box, const Vec3& velocity, double spread, const Vec3& g) {
   include(all, box, end * velocity + 0.5 * end * end * g, spread * end);
   for (std::size_t a = 0; a < 3; ++a) {
     const double t = g[a] != 0.0 ? -velocity[a] / g[a] : 0.0;
     if (t > 0.0 && t < end) include(all, box, t * velocity + 0.5 * t * t * g, spread * t);
   }
+}
+
+/// That the forces on a body give it [m/s2].
+Vec3 applied_acceleration(const Scene& s, const InitialState& initial, std::size_t body) {
+  Vec3 force;
+  for (const AppliedForce& f : s.forces)
+    if (f.body == s.bodies[body].name) force += f.value;
+  if (force == Vec3{}) return force;
+  double mass = 0.0;
+  for (std::size_t i = 0; i < initial.size(); ++i)
+    if (static_cast<std::size_t>(initial.source[i]) == body) mass += initial.mass[i];
+  return force / mass;
 }
 
 void include_driven(Bounds& all, const Scene& s, const Body& b, const Bounds& box) {
@@ -81,11 +91,12 @@ Bounds escape_domain(const Scene& s, const InitialState& initial) {
     if (b.motion == Motion::fixed && s.events.empty()) continue;
     const bool uniform =
         b.velocity.kind == VelocityField::Kind::constant && (b.phase != Phase::liquid || b.angular_velocity == Vec3{});
-    include_flight(all, s, boxes[n], uniform ? b.velocity.value : Vec3{}, uniform ? 0.0 : greatest_speed(b),
-                   !has_wall_below(s, boxes, boxes[n]));
+    include_flight(all, s.end_time, boxes[n], uniform ? b.velocity.value : Vec3{}, uniform ? 0.0 : greatest_speed(b),
+                   (has_wall_below(s, boxes, boxes[n]) ? Vec3{} : s.gravity) + applied_acceleration(s, initial, n));
   }
   for (const Inflow& f : s.inflows)
-    include_flight(all, s, bounds(f.shape), f.velocity, 0.0, !has_wall_below(s, boxes, bounds(f.shape)));
+    include_flight(all, s.end_time, bounds(f.shape), f.velocity, 0.0,
+                   has_wall_below(s, boxes, bounds(f.shape)) ? Vec3{} : s.gravity);
   for (const Event& e : s.events)
     for (const Keyframe& k : e.keyframes) include(all, start, k.position - e.keyframes.front().position, 0.0);
   const Vec3 around{room, room, room};

@@ -84,9 +84,43 @@ bool in_box(const Shape& s, const Vec3& r) {
   return true;
 }
 
+Vec3 middle(const Bounds& box) { return 0.5 * (box.min + box.max); }
+
+/// Corners of the bounds of a shape that is not turned; those of a mesh itself, whose bounds they give exactly.
+std::vector<Vec3> corners_of(const Shape& s, const Bounds& box) {
+  if (s.kind == Kind::mesh) return read_mesh(s.file, s.scale).points;
+  std::vector<Vec3> corners;
+  for (int n = 0; n < 8; ++n)
+    corners.push_back({n & 1 ? box.max.x : box.min.x, n & 2 ? box.max.y : box.min.y, n & 4 ? box.max.z : box.min.z});
+  return corners;
+}
+
+Bounds bounds_of_turned(const Shape& s) {
+  const Bounds box = bounds(not_turned(s));
+  std::vector<Vec3> corners = corners_of(s, box);
+  std::ranges::transform(corners, corners.begin(), turning(s));
+  return of_points(corners);
+}
+
 }  // namespace
 
+bool has_turned_part(const Shape& s) {
+  return is_turned(s) || std::any_of(s.of.begin(), s.of.end(), [](const Shape& part) { return has_turned_part(part); });
+}
+
+Shape not_turned(Shape s) {
+  s.rotation = {};
+  return s;
+}
+
+Vec3 turning_centre(const Shape& s) { return middle(bounds(not_turned(s))); }
+
+std::function<Vec3(const Vec3&)> turning(const Shape& s) {
+  return [q = s.rotation, centre = turning_centre(s)](const Vec3& r) { return centre + rotate(q, r - centre); };
+}
+
 Bounds bounds(const Shape& s) {
+  if (is_turned(s)) return bounds_of_turned(s);
   switch (s.kind) {
     case Kind::box:
       return {s.min, s.max};
@@ -114,6 +148,10 @@ std::optional<Vec3> symmetry_centre(const Shape& s) {
 }
 
 std::function<bool(const Vec3&)> inside_of(const Shape& s, double spacing) {
+  if (is_turned(s))
+    return [inside = inside_of(not_turned(s), spacing), q = s.rotation, centre = turning_centre(s)](const Vec3& r) {
+      return inside(centre + rotate_back(q, r - centre));
+    };
   switch (s.kind) {
     case Kind::box:
       return [s](const Vec3& r) { return in_box(s, r); };

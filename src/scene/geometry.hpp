@@ -13,6 +13,24 @@ struct Bounds {
   [[nodiscard]] Vec3 extent() const { return max - min; }
 };
 
+/// Whether the shape itself is turned; parts of a union or difference may be turned besides.
+[[nodiscard]] inline bool is_turned(const Shape& s) { return s.rotation != Quaternion{}; }
+
+/// Whether the shape is a box along the axes: min and max are its corners.
+[[nodiscard]] inline bool is_upright_box(const Shape& s) { return s.kind == Shape::Kind::box && !is_turned(s); }
+
+/// Whether the shape or any part of it is turned.
+[[nodiscard]] bool has_turned_part(const Shape&);
+
+/// The shape without its own rotation.
+[[nodiscard]] Shape not_turned(Shape);
+
+/// Centre of the bounding box of the shape that is not turned: its rotation leaves it where it is [m].
+[[nodiscard]] Vec3 turning_centre(const Shape&);
+
+/// The map that turns points of the shape that is not turned [m].
+[[nodiscard]] std::function<Vec3(const Vec3&)> turning(const Shape&);
+
 /// Box that holds the shape (for a difference: that of the shape that is cut, shortened where a half space along an axis cuts
 /// it). @throws InputError for a mesh that cannot be read
 [[nodiscard]] Bounds bounds(const Shape&);

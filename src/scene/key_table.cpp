@@ -21,6 +21,9 @@ constexpr auto top_keys = std::to_array<Key>({
     {"", "body", tables, "", any, "!", "", "body", "bodies, in the order of their rows"},
     {"", "event", tables, "", any, "=", "nothing happens on the way", "event", "what happens at a time"},
     {"", "inflow", tables, "", any, "=", "nothing flows in", "inflow", "liquid that flows in"},
+    {"", "contact", tables, "", any, "=", "no friction; restitution as each engine's preset has it", "contact",
+     "friction and restitution by pairs of materials"},
+    {"", "force", tables, "", any, "=", "gravity alone", "force", "constant forces on rigid bodies"},
 });
 
 constexpr auto tables_of_scene = std::to_array<TableInfo>({
@@ -45,6 +48,8 @@ constexpr auto tables_of_scene = std::to_array<TableInfo>({
     {"velocity.expression", "velocity = {kind = \"expression\", ...}", "Formulas."},
     {"event", "[[event]]", "An event at a time."},
     {"inflow", "[[inflow]]", "Liquid that flows in."},
+    {"contact", "[[contact]]", "Friction and restitution of a pair of materials."},
+    {"force", "[[force]]", "A constant force on a rigid body."},
 });
 
 constexpr std::array type_texts{"number",
@@ -88,6 +93,8 @@ std::vector<Key> all_keys() {
   add_rows_of_kinds(list, kinds<VelocityField>);
   add_rows(list, record<Event>);
   add_rows(list, record<Inflow>);
+  add_rows(list, record<ContactLaw>);
+  add_rows(list, record<AppliedForce>);
   for (const EffectRule& rule : effect_rules()) {
     for (const EffectKey& key : rule.keys) {
       const auto last = std::find_if(list.rbegin(), list.rend(), [&](const Key& k) { return k.table == key.row.table; });

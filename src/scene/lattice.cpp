@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace tripoint {
@@ -88,7 +89,21 @@ Lattice lattice_of(const Scene& s, const Body& b) {
   return lattice;
 }
 
+namespace {
+
+/// A turned body takes its lattice along: it holds the same particles at every angle.
+std::vector<Vec3> fill_turned(const Scene& s, const Body& b) {
+  Body upright = b;
+  upright.shape = not_turned(b.shape);
+  auto centres = fill(s, upright);
+  std::ranges::transform(centres, centres.begin(), turning(b.shape));
+  return centres;
+}
+
+}  // namespace
+
 std::vector<Vec3> fill(const Scene& s, const Body& b) {
+  if (is_turned(b.shape)) return fill_turned(s, b);
   const Lattice lattice = lattice_of(s, b);
   const auto inside = inside_of(b.shape, s.spacing);
   std::vector<Vec3> centres;

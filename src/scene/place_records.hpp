@@ -9,9 +9,17 @@ namespace records {
 using enum ValueType;
 using enum Range;
 
+/// The key of each finite kind that turns the shape.
+constexpr Kept<Shape, Quaternion> turned(std::string_view kind) {
+  return kept(&Shape::rotation,
+              {kind, "rotation", numbers, "", any, "", "not turned", "",
+               "rotation (w, x, y, z) about the centre of the shape's bounding box"},
+              {.later = true});
+}
+
 inline constexpr auto of_shape = std::make_tuple(
     kind_record(Shape::Kind::box, "box", kept(&Shape::min, {"shape.box", "min", vector, "m", any, "!", "", "", "lower corner"}),
-                kept(&Shape::max, {"shape.box", "max", vector, "m", any, "!", "", "", "upper corner"})),
+                kept(&Shape::max, {"shape.box", "max", vector, "m", any, "!", "", "", "upper corner"}), turned("shape.box")),
     kind_record(Shape::Kind::sphere, "sphere",
                 kept(&Shape::centre, {"shape.sphere", "centre", vector, "m", any, "!", "", "", "centre"}),
                 kept(&Shape::radius, {"shape.sphere", "radius", number, "m", positive, "!", "", "", "radius"})),
@@ -20,21 +28,24 @@ inline constexpr auto of_shape = std::make_tuple(
                 kept(&Shape::axis, {"shape.cylinder", "axis", vector, "", any, "[0, 0, 1]", "upright", "",
                                     "direction of the axis, from the base on, of any length"}),
                 kept(&Shape::length, {"shape.cylinder", "length", number, "m", positive, "!", "", "", "length along the axis"}),
-                kept(&Shape::radius, {"shape.cylinder", "radius", number, "m", positive, "!", "", "", "radius"})),
+                kept(&Shape::radius, {"shape.cylinder", "radius", number, "m", positive, "!", "", "", "radius"}),
+                turned("shape.cylinder")),
     kind_record(Shape::Kind::half_space, "half_space",
                 kept(&Shape::point, {"shape.half_space", "point", vector, "m", any, "!", "", "", "a point of the plane"}),
                 kept(&Shape::normal,
                      {"shape.half_space", "normal", vector, "", any, "!", "", "", "outward normal of the plane, of any length"})),
     kind_record(Shape::Kind::unite, "union",
-                Key{"shape.union", "of", tables, "", any, "!", "", "shape", "shapes to unite, at least one"}),
-    kind_record(Shape::Kind::difference, "difference",
-                Key{"shape.difference", "from", shape, "", any, "!", "", "", "shape that is cut"},
-                Key{"shape.difference", "minus", shape, "", any, "!", "", "", "shape that is removed"}),
-    kind_record(Shape::Kind::mesh, "mesh",
-                kept(&Shape::file,
-                     {"shape.mesh", "file", text, "", any, "!", "", "", "closed triangle mesh, .obj or .stl, beside the case"}),
-                kept(&Shape::scale,
-                     {"shape.mesh", "scale", number, "", positive, "1", "the mesh is in metres", "", "factor to metres"})));
+                Key{"shape.union", "of", tables, "", any, "!", "", "shape", "shapes to unite, at least one"},
+                turned("shape.union")),
+    kind_record(
+        Shape::Kind::difference, "difference", Key{"shape.difference", "from", shape, "", any, "!", "", "", "shape that is cut"},
+        Key{"shape.difference", "minus", shape, "", any, "!", "", "", "shape that is removed"}, turned("shape.difference")),
+    kind_record(
+        Shape::Kind::mesh, "mesh",
+        kept(&Shape::file,
+             {"shape.mesh", "file", text, "", any, "!", "", "", "closed triangle mesh, .obj or .stl, beside the case"}),
+        kept(&Shape::scale, {"shape.mesh", "scale", number, "", positive, "1", "the mesh is in metres", "", "factor to metres"}),
+        turned("shape.mesh")));
 
 inline constexpr auto of_temperature = std::make_tuple(
     kind_record(TemperatureField::Kind::constant, "constant"),

@@ -26,6 +26,13 @@ std::pair<Phase, std::string> phase_rule(const Material& m, const std::optional<
   return {solid, fmt::format("its material is {} when solid", to_string(m.solid))};
 }
 
+/// The rotation of a body is that of its shape, about the same centre.
+void turn(const TableReader& in, Shape& shape, const Quaternion& rotation) {
+  if (shape.rotation != Quaternion{}) in.refuse("rotation", "its shape has a rotation too: write one of them");
+  if (shape.kind == Shape::Kind::half_space) in.refuse("rotation", "a half space has no centre to turn about: turn its normal");
+  shape.rotation = rotation;
+}
+
 }  // namespace
 
 void plain_name(TableReader& in, std::string_view key, const std::string& name) {
@@ -86,6 +93,7 @@ Body read_body(const TomlNode& node, const std::vector<Material>& materials, Rea
     in.refuse("material", fmt::format("no material is named \"{}\"{}", printable(b.material), suggestion(b.material, known)));
   }
   read("shape");
+  if (const auto q = in.maybe_numbers("rotation")) turn(in, b.shape, unit_quaternion(in, "rotation", *q));
   read("temperature");
   if (read("phase")) {
     const auto [found, why] = phase_rule(*material, b.temperature);
@@ -129,10 +137,6 @@ std::vector<Keyframe> read_keyframes(TableReader& owner, const Key& key, Reading
     TableReader in(*list[i], "keyframe", fmt::format("{}.{}.{}", owner.path(), key.name, i + 1), reading.decisions);
     Keyframe k;
     RecordReader(in, k, reading).all();
-    if (!(std::abs(norm(k.rotation) - 1.0) < 1e-3))
-      in.refuse("rotation",
-                fmt::format("the quaternion has length {}: write one of length 1 (w = cos(angle/2))", norm(k.rotation)));
-    k.rotation = normalised(k.rotation);
     if (!frames.empty() && !(k.time > frames.back().time))
       in.refuse("time",
                 fmt::format("{} s is not after the keyframe before it ({} s): times must rise", k.time, frames.back().time));
@@ -204,6 +208,27 @@ Inflow read_inflow(const TomlNode& node, std::size_t number, double end_time, Re
     in.refuse("velocity", "nothing flows in at rest: give a velocity, its direction serves where rate is given");
   if (!(f.stop > f.start)) in.refuse("stop", "it ends before it begins: stop must be greater than start");
   return f;
+}
+
+ContactLaw read_contact_law(const TomlNode& node, std::size_t number, Reading& reading) {
+  TableReader in(node, "contact", fmt::format("contact.{}", number), reading.decisions);
+  ContactLaw law;
+  law.place = node.place;
+  law.materials = in.texts("materials", Repeats::allowed);
+  if (law.materials.size() != 2)
+    in.refuse("materials", "write the two materials that meet, the same one twice for bodies of one");
+  law.friction = in.maybe_number("friction");
+  law.restitution = in.maybe_number("restitution");
+  if (!law.friction && !law.restitution) in.refuse("materials", "give the friction or the restitution of the pair, or both");
+  return law;
+}
+
+AppliedForce read_force(const TomlNode& node, std::size_t number, Reading& reading) {
+  TableReader in(node, "force", fmt::format("force.{}", number), reading.decisions);
+  AppliedForce force;
+  force.place = node.place;
+  RecordReader(in, force, reading).all();
+  return force;
 }
 
 }  // namespace tripoint

@@ -164,6 +164,10 @@ Scene read_scene(TableReader& top, Reading& reading) {
   for (const auto* node : top.tables("event")) s.events.push_back(read_event(*node, ++n, reading));
   n = 0;
   for (const auto* node : top.tables("inflow")) s.inflows.push_back(read_inflow(*node, ++n, s.end_time, reading));
+  n = 0;
+  for (const auto* node : top.tables("contact")) s.contact_laws.push_back(read_contact_law(*node, ++n, reading));
+  n = 0;
+  for (const auto* node : top.tables("force")) s.forces.push_back(read_force(*node, ++n, reading));
   const bool flows =
       !s.inflows.empty() || std::any_of(s.bodies.begin(), s.bodies.end(), [](const Body& b) { return b.phase == Phase::liquid; });
   if (!s.contact && flows)

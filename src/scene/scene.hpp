@@ -68,8 +68,9 @@ struct Shape {
   double radius = 0.0;          ///< sphere, cylinder [m]
   Vec3 point, normal{0, 0, 1};  ///< half_space: inside where (r - point).normal <= 0
   std::vector<Shape> of;
-  std::string file;    ///< mesh: absolute path after reading
-  double scale = 1.0;  ///< mesh
+  std::string file;     ///< mesh: absolute path after reading
+  double scale = 1.0;   ///< mesh
+  Quaternion rotation;  ///< about the centre of the bounding box of the shape that is not turned; not of a sphere or half space
 };
 
 /// Temperature as a function of place [K].
@@ -138,6 +139,21 @@ struct Inflow {
   std::optional<double> rate;  ///< [m3/s]
 };
 
+/// Laws of contact of a pair of materials, [[contact]]. A pair that no table names has neither.
+struct ContactLaw {
+  std::vector<std::string> materials;           ///< two; the same one twice for bodies of one material
+  std::optional<double> friction, restitution;  ///< Coulomb's coefficient, ratio of speeds after and before a hit [1]
+  SourcePlace place;
+};
+
+/// A constant force on a rigid body, [[force]].
+struct AppliedForce {
+  std::string body;
+  Vec3 value;                 ///< in the world frame [N]
+  std::optional<Vec3> point;  ///< of the body, where it is at the start; empty = the centre of mass [m]
+  SourcePlace place;
+};
+
 /// Support radius h/dx where a file says nothing. Where every term is as printed it is that of the paper, about 40 neighbours by
 /// volume. Else it is that of the Wendland kernel, about 74.
 inline constexpr double printed_support = 2.12, corrected_support = 2.6;
@@ -176,6 +192,8 @@ struct Scene {
   std::vector<Body> bodies;
   std::vector<Event> events;
   std::vector<Inflow> inflows;
+  std::vector<ContactLaw> contact_laws;
+  std::vector<AppliedForce> forces;
 
   /// A look-up: a loop over particles or bodies asks for its values before it begins. @throws UndeclaredTerm
   [[nodiscard]] Mode mode_of(const Term& t) const {

@@ -80,6 +80,8 @@ inline constexpr auto of_body = std::make_tuple(
     kept(&Body::phase, {"body", "phase", word, "", any, "=", "from the material and the temperature", "liquid elastic rigid",
                         "phase at the start"}),
     kept(&Body::shape, {"body", "shape", shape, "", any, "!", "", "", "region that the body fills"}),
+    Key{"body", "rotation", numbers, "", any, "", "not turned", "",
+        "turns shape and particles at the start: (w, x, y, z) about the centre of the shape's bounding box"},
     kept(&Body::velocity,
          {"body", "velocity", velocity, "m/s", any, "[0, 0, 0]", "at rest", "",
           "velocity at the start; of a prescribed body constant for ever"},
@@ -141,6 +143,20 @@ inline constexpr auto of_inflow = std::make_tuple(
     kept(&Inflow::rate, {"inflow", "rate", number, "m3/s", positive, "", "by the speed", "",
                          "volume per second; replaces the magnitude of velocity"}));
 
+inline constexpr auto of_contact_law = std::make_tuple(
+    kept(&ContactLaw::materials, {"contact", "materials", texts, "", any, "!", "", "", "the two materials that meet"}),
+    kept(&ContactLaw::friction,
+         {"contact", "friction", number, "", not_negative, "", "none", "", "Coulomb's coefficient of friction"}),
+    kept(&ContactLaw::restitution, {"contact", "restitution", number, "", fraction, "", "none", "",
+                                    "normal speed after a hit divided by the speed before it"}));
+
+inline constexpr auto of_force = std::make_tuple(
+    kept(&AppliedForce::body, {"force", "body", text, "", any, "!", "", "", "name of a free rigid body"}),
+    kept(&AppliedForce::value,
+         {"force", "value", vector, "N", any, "!", "", "", "constant force in the world frame, from the start to the end"}),
+    kept(&AppliedForce::point, {"force", "place", vector, "m", any, "", "the centre of mass", "",
+                                "point of the body that it acts on, where it is at the start; it moves with the body"}));
+
 }  // namespace records
 
 template <>
@@ -155,5 +171,9 @@ template <>
 inline constexpr auto record<Event> = records::of_event;
 template <>
 inline constexpr auto record<Inflow> = records::of_inflow;
+template <>
+inline constexpr auto record<ContactLaw> = records::of_contact_law;
+template <>
+inline constexpr auto record<AppliedForce> = records::of_force;
 
 }  // namespace tripoint

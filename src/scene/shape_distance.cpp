@@ -79,9 +79,17 @@ MassProperties by_cells(const Shape& s, double density, double spacing, const Bo
   return mass_properties(place, mass);
 }
 
+/// A function of the shape that is not turned, at the places of the turned one.
+PlaceFunction turned(const Shape& s, PlaceFunction upright) {
+  return [upright = std::move(upright), q = s.rotation, centre = turning_centre(s)](const Vec3& r) {
+    return upright(centre + rotate_back(q, r - centre));
+  };
+}
+
 }  // namespace
 
 PlaceFunction distance_of(const Shape& s, double spacing) {
+  if (is_turned(s)) return turned(s, distance_of(not_turned(s), spacing));
   switch (s.kind) {
     case Kind::box:
       return [s](const Vec3& r) { return to_box(s, r); };
@@ -108,6 +116,7 @@ PlaceFunction distance_of(const Shape& s, double spacing) {
 }
 
 PlaceFunction filled_share(const Shape& s, double side, double spacing) {
+  if (is_turned(s)) return turned(s, filled_share(not_turned(s), side, spacing));
   if (s.kind != Kind::unite && s.kind != Kind::difference)
     return [d = distance_of(s, spacing), side](const Vec3& r) { return std::clamp(0.5 - d(r) / side, 0.0, 1.0); };
   std::vector<PlaceFunction> parts;
@@ -121,6 +130,13 @@ PlaceFunction filled_share(const Shape& s, double side, double spacing) {
 }
 
 std::optional<MassProperties> mass_of_shape(const Shape& s, double density, double spacing) {
+  if (is_turned(s)) {
+    auto p = mass_of_shape(not_turned(s), density, spacing);
+    if (!p) return p;
+    p->centre = turning(s)(p->centre);
+    p->principal_axes = s.rotation * p->principal_axes;
+    return p;
+  }
   if (const auto exact = by_formula(s)) {
     MassProperties p;
     p.mass = density * exact->volume;

@@ -50,11 +50,18 @@ bool ValueReader::operator()(const Key& key, std::optional<Vec3>& value) {
   return !value;
 }
 
+Quaternion unit_quaternion(const TableReader& in, std::string_view key, const std::vector<double>& q) {
+  if (q.size() != 4) in.refuse(key, "write the quaternion [w, x, y, z]");
+  const Quaternion given{q[0], q[1], q[2], q[3]};
+  if (!(std::abs(norm(given) - 1.0) < 1e-3))
+    in.refuse(key, fmt::format("the quaternion has length {}: write one of length 1 (w = cos(angle/2))", norm(given)));
+  return normalised(given);
+}
+
 bool ValueReader::operator()(const Key& key, Quaternion& value) {
-  const auto q = in_.numbers(key.name);
-  if (q.size() != 4) in_.refuse(key.name, "write the quaternion [w, x, y, z]");
-  value = {q[0], q[1], q[2], q[3]};
-  return false;
+  const auto q = in_.maybe_numbers(key.name);
+  if (q) value = unit_quaternion(in_, key.name, *q);
+  return !q;
 }
 
 bool ValueReader::operator()(const Key& key, std::vector<std::string>& value) {

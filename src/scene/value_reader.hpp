@@ -15,6 +15,9 @@
 /// Reads the values of a record, each by the type of its member.
 namespace tripoint {
 
+/// A rotation (w, x, y, z), normalised. @throws InputError where it has not four numbers, or its length is not 1 within 1e-3
+[[nodiscard]] Quaternion unit_quaternion(const TableReader&, std::string_view key, const std::vector<double>& q);
+
 /// Reads a key of a table into what keeps it. A key that is not given, and whose fallback is a rule ("="), leaves the value as it
 /// is and no decision. @throws InputError as TableReader does, and where the value is none of its type
 /// @return whether there is no value: a rule is to say it, or nothing is

@@ -32,7 +32,8 @@ bool is_static(const Scene& scene, const InitialState& initial) {
   const bool all_fixed = std::ranges::all_of(scene.bodies, [](const Body& b) { return b.motion == Motion::fixed; });
   if (all_fixed) return scene.events.empty();
   const bool none_prescribed = std::ranges::none_of(scene.bodies, [](const Body& b) { return b.motion == Motion::prescribed; });
-  return none_prescribed && at_rest(scene.gravity) && std::ranges::all_of(initial.velocity, at_rest) && scene.events.empty();
+  return none_prescribed && at_rest(scene.gravity) && std::ranges::all_of(initial.velocity, at_rest) && scene.events.empty() &&
+         scene.forces.empty();
 }
 
 /// Whether the scene has only liquids and fixed bodies, laid at rest.

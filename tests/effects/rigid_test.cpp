@@ -5,6 +5,7 @@
 #include <random>
 
 #include "effects/lab.hpp"
+#include "scene/ledger_entry.hpp"
 
 namespace tripoint {
 namespace {
@@ -22,6 +23,46 @@ TEST(RigidBody, FliesOnTheExactParabolaWhileItSpins) {
   EXPECT_NEAR(norm(s.world().bodies[field::body_centre][0] - expected), 0.0,
               1e-13);  // kick-drift-kick is exact for constant forces
   EXPECT_NEAR(norm(s.world().bodies[field::body_velocity][0] - (Vec3{1.0, 0.0, 5.0} + g)), 0.0, 1e-13);
+}
+
+TEST(RigidBody, AConstantForceAtItsCentreAddsFOverMToGravity) {
+  lab::Lab lab(0.1);
+  lab.scene.gravity = g;
+  lab.scene.time_step = 0.01;
+  lab.add({.name = "pushed", .count = {4, 4, 4}, .velocity = {1.0, 0.0, 5.0}, .angular_velocity = {1.87, 3.74, 5.61}});
+  const Vec3 force{3.0, -200.0, 40.0};
+  lab.scene.forces.push_back({"pushed", force, {}, {}});
+  const Simulation s = lab.run(1.0);
+  const Vec3 a = g + force / s.world().bodies[field::body_mass][0];
+  EXPECT_NEAR(norm(s.world().bodies[field::body_centre][0] - (Vec3{1.15, 0.15, 5.15} + 0.5 * a)), 0.0, 1e-12);
+  EXPECT_NEAR(norm(s.world().bodies[field::body_angular_velocity][0]), norm(Vec3{1.87, 3.74, 5.61}), 1e-12);
+}
+
+/// A force at a point swings the body as a pendulum; its potential is -F . r_point.
+double energy_drift_under_a_force_at_a_corner(double dt) {
+  lab::Lab lab = lab::asymmetric_block({0.2, 0.1, 0.0});
+  lab.scene.time_step = dt;
+  lab.scene.bodies[0].name = "swung";
+  lab.scene.forces.push_back({"swung", {0.0, 0.3, -1.0}, Vec3{0.5, 0.3, 0.2}, {}});
+  Simulation s(lab.scene, lab.initial, {.threads = 1});
+  const auto energy = [&] {
+    const Ledger now = s.ledger();
+    return now.energy.at(ledger_entry::kinetic) + now.energy.at(ledger_entry::potential);
+  };
+  const double before = energy();
+  double most = 0.0;
+  for (int n = 1; n <= 20; ++n) {
+    s.advance_to(0.1 * n);
+    most = std::max(most, std::abs(energy() - before));
+  }
+  EXPECT_GT(norm(s.world().bodies[field::body_angular_velocity][0]), 1.0) << "it turns the body";
+  return most;
+}
+
+TEST(RigidBody, AForceOffTheCentreKeepsKineticAndPotentialEnergyToSecondOrder) {
+  const double coarse = energy_drift_under_a_force_at_a_corner(0.01), fine = energy_drift_under_a_force_at_a_corner(0.005);
+  EXPECT_LT(coarse, 1e-3);
+  EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.2);
 }
 
 TEST(RigidBody, StartedAsThePaperDoesLagsByHalfAStepOfGravity) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "scene/contact_law.hpp"
 #include "scene/sample.hpp"
 #include "validation/harness/expected_refusal.hpp"
 #include "validation/harness/plan_runs.hpp"
@@ -58,6 +59,14 @@ JobGauge gauge_of(const Case& value, const MetricChoice& metric) {
   return gauge;
 }
 
+/// A law that all pairs have in common is handed over as settings too. An engine's own setting goes before it.
+void add_contact_law(Job& job) {
+  const CommonContact common = common_contact(job.scene);
+  if (common.differs) return;
+  if (common.friction) job.settings.try_emplace("friction", *common.friction);
+  if (common.restitution) job.settings.try_emplace("restitution", *common.restitution);
+}
+
 }  // namespace
 
 std::vector<double> output_times(double interval, double end) {
@@ -91,6 +100,7 @@ Job make_job(const Case& value, const EnginePlan& engine, const RunPlan& run, co
   job.settings = engine.settings;
   for (const char* own : {"wall_limit", refuses_setting})
     job.settings.erase(own);  // the harness's own: an engine need not know them
+  add_contact_law(job);
   if (run.walkers) job.settings["walkers"] = *run.walkers;
   if (run.iterations) job.settings["iterations"] = *run.iterations;
   job.reference = value.reference;

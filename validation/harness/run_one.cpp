@@ -9,6 +9,7 @@
 
 #include "io/foreign_file.hpp"
 #include "io/trajectory.hpp"
+#include "scene/contact_law.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/harness/finished_run.hpp"
 #include "validation/harness/instructions.hpp"
@@ -252,7 +253,25 @@ Outcome read_back(const RunRequest& request, const ProcessEnd& end) {
   }
 }
 
+namespace {
+
+/// What the scene has and only an engine that names the capability takes; empty = nothing.
+std::string not_handed_over(const RunRequest& request) {
+  const Scene& scene = request.job->scene;
+  const auto lacks = [&](std::string_view capability) {
+    return std::ranges::find(request.engine->capabilities, capability) == request.engine->capabilities.end();
+  };
+  if (common_contact(scene).differs && lacks("contact-pairs"))
+    return "one friction and one restitution serve all pairs of it, and the [[contact]] tables of the scene differ (capability "
+           "contact-pairs)";
+  if (!scene.forces.empty() && lacks("force")) return "no [[force]] is handed to it (capability force)";
+  return {};
+}
+
+}  // namespace
+
 Outcome ask(const RunRequest& request) {
+  if (const auto why = not_handed_over(request); !why.empty()) return refused({}, Refusal{why});
   try {
     prepare_folder(request);
   } catch (const std::exception& e) {

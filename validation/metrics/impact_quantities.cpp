@@ -95,8 +95,18 @@ MetricValue energy_gain(const MetricInput& in, const Frames& frames) {
 
 // --- depth ----------------------------------------------------------------------------------------------------------------
 
+double lowest(const Shape& shape, const Vec3& centre, const BodyState& at, const Vec3& up);
+
+/// A turned shape is the shape that is not turned, of a body whose orientation begins with that turn.
+double lowest_of_turned(const Shape& shape, const Vec3& centre, BodyState at, const Vec3& up) {
+  const Vec3 middle = turning_centre(shape);
+  at.orientation = at.orientation * shape.rotation;
+  return lowest(not_turned(shape), middle + rotate_back(shape.rotation, centre - middle), at, up);
+}
+
 /// Least height of the shape's surface along a unit vector, the shape being turned about `centre` and put to `at`. [m]
 double lowest(const Shape& shape, const Vec3& centre, const BodyState& at, const Vec3& up) {
+  if (is_turned(shape)) return lowest_of_turned(shape, centre, at, up);
   const auto height = [&](const Vec3& x) { return dot(at.position + rotate(at.orientation, x - centre), up); };
   double least = INFINITY;
   switch (shape.kind) {

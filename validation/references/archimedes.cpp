@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
+#include "scene/geometry.hpp"
 #include "validation/references/liquid_scene.hpp"
 
 namespace tripoint {
@@ -32,7 +33,7 @@ std::unique_ptr<Reference> make_archimedes(const ReferenceInput& in) {
   const auto axis = axis_of(job.scene.gravity, "archimedes: gravity");
   const auto liquid = only_liquid(job, "archimedes"), block = solid_body(in, Motion::free, "archimedes");
   const auto& shape = job.scene.bodies.at(block).shape;
-  if (shape.kind != Shape::Kind::box) throw InputError("archimedes holds for a floating box");
+  if (!is_upright_box(shape)) throw InputError("archimedes holds for a floating box");
   const double up = job.scene.gravity[axis] > 0.0 ? -1.0 : 1.0;
   double pool = 1.0, area = 1.0;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -25,8 +25,8 @@ class SemiImplicitFlight : public RigidFlight {
   }
 
  protected:
-  [[nodiscard]] Vec3 fall(const Vec3& velocity, double t) const override {
-    return RigidFlight::fall(velocity, t) + (0.5 * sum_of_squares(t)) * job().scene.gravity;
+  [[nodiscard]] Vec3 fall(const Flight& flight, double t) const override {
+    return RigidFlight::fall(flight, t) + (0.5 * sum_of_squares(t)) * acceleration(flight);
   }
 
  private:
@@ -61,8 +61,9 @@ std::unique_ptr<Reference> make_semi_implicit(const ReferenceInput& in) {
 ReferenceEntry ballistic_entry() {
   return {{"ballistic",
            "analytic",
-           "Newton: r = r0 + v t + g t^2/2 for the centre of mass; free rotation as torque_free",
-           "free rigid bodies under gravity, turning freely; prescribed and fixed bodies beside them",
+           "Newton: r = r0 + v t + (g + F/m) t^2/2 for the centre of mass; free rotation as torque_free",
+           "free rigid bodies under gravity and constant forces at their centres, turning freely; prescribed and fixed bodies "
+           "beside them",
            {}},
           make_ballistic};
 }

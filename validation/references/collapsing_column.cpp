@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/geometry.hpp"
 #include "validation/references/collapse_mesh.hpp"
 #include "validation/references/liquid_scene.hpp"
 
@@ -72,7 +73,7 @@ std::unique_ptr<Reference> make_column(const ReferenceInput& in) {
   const auto& scene = in.job.scene;
   const auto& box = scene.bodies.at(only_liquid(in.job, "collapsing_column")).shape;
   const auto axis = in.args.axis("axis").value_or(0), down = downward_axis(scene);
-  if (box.kind != Shape::Kind::box || axis == down)
+  if (!is_upright_box(box) || axis == down)
     throw InputError("collapsing_column needs a box of liquid and an axis across gravity along which it runs");
   const double cells = in.args.number("cells").value_or(cells_unless_given);
   if (!(cells >= fewest_cells && cells <= most_cells) || cells != std::floor(cells))

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "scene/geometry.hpp"
 #include "validation/references/liquid_scene.hpp"
 
 namespace tripoint {
@@ -52,7 +53,7 @@ std::unique_ptr<Reference> make_drop(const ReferenceInput& in) {
   const auto& g = body.velocity.gradient;
   const bool drawn = body.velocity.kind == VelocityField::Kind::linear && g[0].x == -g[1].y && g[1].y > 0.0 && g[0].y == 0.0 &&
                      g[1].x == 0.0 && g[2] == Vec3{};
-  if (body.shape.kind != Shape::Kind::cylinder || !drawn)
+  if (body.shape.kind != Shape::Kind::cylinder || is_turned(body.shape) || !drawn)
     throw InputError("elliptic_drop needs a cylinder of liquid along z with the velocity (-A x, A y, 0), A > 0");
   return std::make_unique<EllipticDrop>(in, body.velocity.centre, g[1].y, body.shape.radius,
                                         material_of_body(in.job, liquid).density);

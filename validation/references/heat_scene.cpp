@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "validation/references/heat_scene.hpp"
+#include "scene/geometry.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +26,7 @@ const Material& material_of(const Job& job, std::size_t body) {
 
 BarAxis body_along(std::size_t axis, std::size_t body, const Job& job, const InitialState& initial) {
   BarAxis bar{axis, infinity, -infinity, false};
-  if (body < job.scene.bodies.size() && job.scene.bodies[body].shape.kind == Shape::Kind::box) {
+  if (body < job.scene.bodies.size() && is_upright_box(job.scene.bodies[body].shape)) {
     const auto& box = job.scene.bodies[body].shape;
     if (box.max[axis] > box.min[axis]) return {axis, box.min[axis], box.max[axis], false};
   }

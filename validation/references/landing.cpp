@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <optional>
 
+#include "scene/geometry.hpp"
 #include "validation/references/contact_entries.hpp"
 #include "validation/references/on_plane.hpp"
 #include "validation/references/resting.hpp"
@@ -135,7 +136,7 @@ std::unique_ptr<Reference> make_landing(const ReferenceInput& in) {
   const auto scene = box_on_floor(in, "landing");
   const auto& box = in.job.bodies[scene.block];
   const Shape& shape = in.job.scene.body(box.name).shape;
-  if (shape.kind != Shape::Kind::box) throw InputError("landing holds for a box");
+  if (!is_upright_box(shape)) throw InputError("landing holds for a box that is not turned at the start");
   if (law_of_contact(in.job, "friction").value_or(0.0) > 0.0)
     throw InputError("landing holds without friction: a corner that sticks and slips in one hit has no closed form");
   const double restitution = in.args.number("restitution").value_or(law_of_contact(in.job, "restitution").value_or(1.0));

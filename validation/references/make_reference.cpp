@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 
 #include "scene/nearest.hpp"
 #include "validation/references/contact_entries.hpp"
@@ -63,6 +64,18 @@ const std::vector<ReferenceFunction>& reference_functions() {
   return functions;
 }
 
+namespace {
+
+/// An exact solution that leaves a force out would be no truth. What a case states itself may hold with one.
+void refuse_forces(const std::string& function, const Scene& scene) {
+  static constexpr std::array knows{"ballistic", "ballistic_semi_implicit", "stated", "expression", "table", "experiment",
+                                    "invariant"};
+  if (scene.forces.empty() || std::ranges::find(knows, function) != knows.end()) return;
+  throw InputError(scene.forces.front().place, function + " does not know forces: use ballistic, or a reference that you state");
+}
+
+}  // namespace
+
 std::unique_ptr<Reference> make_reference(const ReferenceChoice& choice, const Job& job, const InitialState& initial) {
   const bool by_kind = choice.kind == ReferenceKind::invariant || choice.kind == ReferenceKind::experiment;
   const std::string kind(to_string(choice.kind)), name = choice.function.empty() && by_kind ? kind : choice.function;
@@ -74,6 +87,7 @@ std::unique_ptr<Reference> make_reference(const ReferenceChoice& choice, const J
     for (const auto& e : entries) known.push_back(e.function.name);
     throw InputError("unknown reference function `" + printable(name) + "`" + suggestion(name, known));
   }
+  refuse_forces(name, job.scene);
   const Arguments args(choice, found->function);
   return found->make({args, job, initial, choice.file});
 }

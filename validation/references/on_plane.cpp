@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "scene/geometry.hpp"
 namespace tripoint {
 namespace {
 
@@ -60,8 +61,8 @@ BodyOnPlane body_on_plane(const ReferenceInput& in, const char* function) {
   s.up = unit(axis, g[axis] > 0.0 ? -1.0 : 1.0);
   const Shape &shape = in.job.scene.body(body.name).shape, &ground = in.job.scene.body(plane.name).shape;
   s.shape = shape.kind;
-  if ((shape.kind != Shape::Kind::box && shape.kind != Shape::Kind::sphere) || ground.kind != Shape::Kind::box)
-    throw InputError(name + " holds for a box or a ball on a box");
+  if ((!is_upright_box(shape) && shape.kind != Shape::Kind::sphere) || !is_upright_box(ground))
+    throw InputError(name + " holds for a box or a ball on a box, none of them turned: turn gravity");
   s.height = half_along(shape, s.up);
   const double gap = dot(middle(shape) - middle(ground), s.up) - s.height - half_along(ground, s.up);
   if (std::abs(gap) > round_off * s.height) throw InputError(name + ": the body must touch the plane at the start");

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "scene/geometry.hpp"
 #include "validation/references/heat_scene.hpp"
 
 namespace tripoint {
@@ -50,6 +51,7 @@ BoxOnFloor box_on_floor(const ReferenceInput& in, const char* function) {
     throw InputError(name + " needs one free and one fixed body");
   const auto box = body_along(s.axis, s.block, in.job, in.initial), floor = body_along(s.axis, 1 - s.block, in.job, in.initial);
   const Shape& shape = in.job.scene.body(in.job.bodies[s.block].name).shape;
+  if (has_turned_part(shape)) throw InputError(name + " holds for a body that is not turned");
   const double half =
       shape.kind == Shape::Kind::sphere ? shape.radius : 0.5 * box.length();  // a ball's particles end below its surface
   s.rest = (s.up > 0.0 ? floor.high : floor.low) + s.up * half;

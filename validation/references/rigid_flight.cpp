@@ -32,6 +32,9 @@ void refuse_what_is_not_free(const Job& job) {
     if (event.kind != Event::Kind::merge && event.kind != Event::Kind::split)
       throw InputError(event.place, "free flight is exact with merge and split events only");
   if (!job.scene.inflows.empty()) throw InputError("a scene with an inflow has no exact free flight");
+  for (const auto& force : job.scene.forces)
+    if (force.point)
+      throw InputError(force.place, "free flight is exact with forces at the centre of mass only: leave `place` out");
 }
 
 }  // namespace
@@ -117,14 +120,23 @@ void RigidFlight::split(const Event& event) {
   row_birth_.push_back(event.time);
 }
 
-Vec3 RigidFlight::fall(const Vec3& velocity, double t) const { return t * velocity + (0.5 * t * t) * job_.scene.gravity; }
+Vec3 RigidFlight::acceleration(const Flight& flight) const {
+  Vec3 a = job_.scene.gravity;
+  for (const AppliedForce& force : job_.scene.forces)
+    if (force.body == row_names_.at(static_cast<std::size_t>(flight.row))) a += force.value / flight.body.mass;
+  return a;
+}
+
+Vec3 RigidFlight::fall(const Flight& flight, double t) const {
+  return t * flight.body.velocity + (0.5 * t * t) * acceleration(flight);
+}
 
 void RigidFlight::set_flight(const Flight& flight, double time, Snapshot& out) const {
   const double t = time - flight.birth;
   const Quaternion turn = flight.spin.rotation(t);
   BodyState state;
-  state.position = flight.body.centre + fall(flight.body.velocity, t);
-  state.velocity = flight.body.velocity + t * job_.scene.gravity;
+  state.position = flight.body.centre + fall(flight, t);
+  state.velocity = flight.body.velocity + t * acceleration(flight);
   state.angular_velocity = flight.spin.angular_velocity(t);
   state.orientation = normalised(turn * flight.orientation);
   state.mass = flight.body.mass;

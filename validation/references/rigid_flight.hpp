@@ -22,9 +22,6 @@ class RigidFlight : public Reference {
   [[nodiscard]] double kinetic_energy_at(double time) const;
 
  protected:
-  /// Displacement of a free body's centre of mass since its birth [m].
-  [[nodiscard]] virtual Vec3 fall(const Vec3& velocity, double since_birth) const;
-
   struct Flight {  ///< one body from birth (or a change of its members) to the next change
     RigidBody body;
     TorqueFree spin;
@@ -32,6 +29,10 @@ class RigidFlight : public Reference {
     int row = 0;
     double birth = 0.0, death = std::numeric_limits<double>::infinity();
   };
+  /// Displacement of a free body's centre of mass since its birth [m].
+  [[nodiscard]] virtual Vec3 fall(const Flight&, double since_birth) const;
+  /// Gravity and the constant forces on its centre of mass over its mass [m/s2].
+  [[nodiscard]] Vec3 acceleration(const Flight&) const;
   [[nodiscard]] const std::vector<Flight>& flights() const { return flights_; }
   [[nodiscard]] const Job& job() const { return job_; }
 

@@ -18,7 +18,7 @@ EffectRule rule() {
   return {.name = "motion",
           .needed_for = needed_for,
           .ledger_entries = {{ledger_entry::kinetic, "motion, of bodies with their spin"},
-                             {ledger_entry::potential, "height in gravity"}},
+                             {ledger_entry::potential, "height in gravity, and against constant forces"}},
           .over_processes = true};
 }
 

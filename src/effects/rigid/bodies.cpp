@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/errors.hpp"
+#include "effects/rigid/applied_force.hpp"
 #include "effects/rigid/fields.hpp"
 #include "effects/rigid/rotation.hpp"
 #include "scene/sample.hpp"
@@ -53,7 +54,8 @@ double kinetic_energy(const World& world, std::size_t b) {
 }
 
 double potential_energy(const World& world, std::size_t b) {
-  return -world.bodies[field::body_mass][b] * dot(world.scene.gravity, world.bodies[field::body_centre][b]);
+  const double height = -world.bodies[field::body_mass][b] * dot(world.scene.gravity, world.bodies[field::body_centre][b]);
+  return world.scene.forces.empty() ? height : height + potential_of_applied_forces(world, b);
 }
 
 void measure(World& world, std::size_t b) { measure(world, b, members(world, b)); }

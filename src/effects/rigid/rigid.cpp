@@ -6,6 +6,7 @@
 
 #include "core/errors.hpp"
 #include "effects/rigid/adopt.hpp"
+#include "effects/rigid/applied_force.hpp"
 #include "effects/rigid/bodies.hpp"
 #include "effects/rigid/fields.hpp"
 #include "effects/rigid/merge_split.hpp"
@@ -177,12 +178,14 @@ void RigidBodies::kick(World& world, double dt) {
   const Vec3 g = world.scene.gravity;
   forces_on_moving_bodies(world, forces_);
   static const BodyForces none;
+  const bool pushes = !world.scene.forces.empty();
   bool any = false;
   each_kept_body(world, [&](std::size_t b) {
     if (!is_alive(world, b) || !is_rigid(world, b) || motion_now(world, b) == Motion::fixed) return;
     any = true;
     motion_now(world, b) == Motion::free ? push(world, b, forces_.empty() ? none : forces_[b], g, dt)
                                          : book_wall_work(world, b, forces_, dt);
+    if (pushes && motion_now(world, b) == Motion::free) push_by_applied_forces(world, b, dt);
   });
   if (any) give_velocities(world);
 }
@@ -307,7 +310,8 @@ TimeStepBound RigidBodies::max_dt(const World& world) const {
     if (!is_free(world, b)) return;
     const double spin = norm(world.bodies[field::body_angular_velocity][b]);
     if (spin > 0.0) tighten(bound, most_turn / spin, "rotation");
-    if (g > 0.0) tighten(bound, acceleration_step(world.support(), g), "acceleration");
+    const double a = world.scene.forces.empty() ? g : g + applied_acceleration(world, b);
+    if (a > 0.0) tighten(bound, acceleration_step(world.support(), a), "acceleration");
   });
   return bound;
 }
