@@ -40,21 +40,21 @@ std::vector<PlaceFunction> parts_of(const Shape& s, double spacing) {
 }
 
 /// Moments of inertia about the centre along the shape's own axes, of unit density [m5].
-struct Body {
+struct Filled {
   double volume = 0.0;
   Vec3 centre, moments;
 };
 
-std::optional<Body> by_formula(const Shape& s) {
+std::optional<Filled> by_formula(const Shape& s) {
   const double V = volume(s).value_or(0.0);
   if (s.kind == Kind::box) {
     const Vec3 L = s.max - s.min;
-    return Body{V, 0.5 * (s.min + s.max), V / 12.0 * Vec3{L.y * L.y + L.z * L.z, L.z * L.z + L.x * L.x, L.x * L.x + L.y * L.y}};
+    return Filled{V, 0.5 * (s.min + s.max), V / 12.0 * Vec3{L.y * L.y + L.z * L.z, L.z * L.z + L.x * L.x, L.x * L.x + L.y * L.y}};
   }
-  if (s.kind == Kind::sphere) return Body{V, s.centre, 0.4 * V * s.radius * s.radius * Vec3{1, 1, 1}};
+  if (s.kind == Kind::sphere) return Filled{V, s.centre, 0.4 * V * s.radius * s.radius * Vec3{1, 1, 1}};
   if (s.kind != Kind::cylinder) return {};
   const double along = 0.5 * V * s.radius * s.radius, across = V * (3.0 * s.radius * s.radius + s.length * s.length) / 12.0;
-  return Body{V, s.base + 0.5 * s.length * s.axis, {along, across, across}};
+  return Filled{V, s.base + 0.5 * s.length * s.axis, {along, across, across}};
 }
 
 constexpr double cells_across = 64.0;  // of a sum over a shape's bounds; its error is of second order in their size
