@@ -40,7 +40,7 @@ Fit fit_model(const List& h, const Eigen::VectorXd& error, const List& powers) {
 
 Fit best_model(const List& h, const Eigen::VectorXd& error) {
   Fit best;
-  for (const List& powers : {List{1.0}, List{2.0}, List{1.0, 2.0}}) {
+  for (const List& powers : {List{1.0}, List{2.0}, List{4.0}, List{1.0, 2.0}}) {
     if (h.size() < powers.size() + 2) continue;
     if (auto fit = fit_model(h, error, powers); fit.deviation < best.deviation) best = std::move(fit);
   }
