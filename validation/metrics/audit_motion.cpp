@@ -73,11 +73,18 @@ struct Intervals {
   double hidden_speed = 0.0;      ///< that gravity gives and walls take again, in the longest of them [m/s]
 };
 
+/// What freezes or melts may change its velocity at once.
+bool is_heated(const Job& job, const Snapshot& a, const Snapshot& b) {
+  return std::any_of(job.scene.events.begin(), job.scene.events.end(), [&](const Event& e) {
+    return e.kind == Event::Kind::heat && e.time <= b.time && e.until.value_or(job.scene.end_time) >= a.time;
+  });
+}
+
 Intervals intervals_of(const Audited& run) {
   Intervals all;
   for (std::size_t n = 0; n + 1 < run.frames.size(); ++n) {
     const Snapshot &a = *run.frames[n], &b = *run.frames[n + 1];
-    all.interrupted.push_back(is_interrupted(run.job, a, b) ? 1 : 0);
+    all.interrupted.push_back(is_interrupted(run.job, a, b) || is_heated(run.job, a, b) ? 1 : 0);
     all.fastest.push_back(std::max(fastest(a), fastest(b)));
     all.hidden_speed = std::max(all.hidden_speed, 0.25 * norm(run.job.scene.gravity) * (b.time - a.time));
   }
