@@ -47,7 +47,7 @@ std::string body_starts_otherwise(const Audited& run, const Snapshot& first) {
       continue;
     const BodyState& now = first.bodies[static_cast<std::size_t>(b.index)];
     const std::string start = "the first frame is not the job's start: `" + b.name + "` has another ";
-    if (!is_there(now)) continue;
+    if (!is_there(now) || !finite(now.angular_velocity)) continue;  // its turning is not stated
     if (!(angle_between(now.orientation, {}) <= (run.is_single() ? 1e-3 : 1e-6))) return start + "orientation than (1, 0, 0, 0)";
     const double rounding = 1e-5 * (norm(b.angular_velocity) + norm(b.velocity) / run.job.scene.spacing);
     if (!(norm(now.angular_velocity - b.angular_velocity) <= rounding)) return start + "angular velocity";
