@@ -79,9 +79,9 @@ Job read_job(const std::string& path) {
   const JsonObject o(value, "job");
   if (!o.has("contract") || o.integer("contract") != 1) throw InputError(path + ": expected \"contract\": 1");
   Job job;
-  take_by(records::of_job, o, job);
   (void)o.object("scene");
   scene_from_json(value["scene"], job.scene, job.bodies);
+  take_by(records::of_job, o, job);
   take_by(records::of_resolution, o.object("resolution"), job.resolution);
   if (o.has("reference")) job.reference = reference_from(o.object("reference"));
   for (const JsonObject& g : o.objects("gauges")) take_by(records::of_gauge, g, job.gauges.emplace_back());

@@ -67,7 +67,7 @@ class Cell:
         sets = {
             "scene.end_time": seconds, "scene.output_interval": 0.25, "scene.spacing": dx,
             "scene.min": [round(-2 * wall, 9), 0.0, round(-2 * wall, 9)], "scene.max": [round(w + 2 * wall, 9), round(y, 9), round(d + 0.4, 9)],
-            "metric.moving.window": [0.0, seconds], "material.water.viscosity": self.viscosity, "body.tank.slip": f'"{self.slip}"',
+            "metric.moving.window": [0.0, seconds], "metric.pressure.window": [0.0, seconds], "material.water.viscosity": self.viscosity, "body.tank.slip": f'"{self.slip}"',
             "body.water.shape": box((0.0, 0.0, 0.0), (w, y, d)),
             "body.tank.shape": f'{{ kind = "difference", from = {outside}, minus = {box((0.0, -1.0, 0.0), (w, 1.0, d + 2.0))} }}'}
         return [word for key, value in (*sets.items(), *more) for word in ("--set", f"{key}={value}")]

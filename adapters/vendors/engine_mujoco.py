@@ -159,7 +159,7 @@ class Mujoco(RigidEngine):
         grows = why_it_grows(job, self.default_step) if job.preset == "Euler" else ""
         if grows:
             return "MuJoCo's Euler " + grows
-        bounce = max([bounciness(job), *(law["restitution"] or 0.0 for law in job.scene["contacts"])])
+        bounce = max([bounciness(job), *(law["restitution"] or 0.0 for law in job.scene.get("contacts", ()))])
         if bounce > 0.0 and len(job.bodies) > 1 and "solref" not in job.settings:
             return f"MuJoCo has no coefficient of restitution, and {bounce:g} is asked for; the setting solref makes contacts springs with a damping"
         return ""

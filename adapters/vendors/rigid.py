@@ -188,7 +188,7 @@ def refuse_scene(job: Job, engine: str) -> str:
         return f"{engine} has no inflow"
     if scene["events"]:
         return f"events are not handed to {engine}"
-    if any(force["place"] is not None for force in scene["forces"]):
+    if any(force["place"] is not None for force in scene.get("forces", ())):
         return f"forces are handed to {engine} at centres of mass only, and one has a place"
     reasons = (_refuse_body(body, engine, len(job.bodies) == 1) for body in job.bodies)
     return next((reason for reason in reasons if reason), "")
@@ -311,7 +311,7 @@ class PairLaws:
 
     def __init__(self, job: Job) -> None:
         self.common = coulomb(job), bounciness(job)
-        self.stated = {frozenset(law["materials"]): (law["friction"], law["restitution"]) for law in job.scene["contacts"]}
+        self.stated = {frozenset(law["materials"]): (law["friction"], law["restitution"]) for law in job.scene.get("contacts", ())}
 
     def of(self, material: str, other: str) -> tuple[float, float]:
         """What no table states of a pair is the setting's."""
@@ -323,7 +323,7 @@ class PairLaws:
 def forces_on(job: Job, body: Body) -> Vector:
     """Sum of the constant forces on a body [N]."""
     total = (0.0, 0.0, 0.0)
-    for force in job.scene["forces"]:
+    for force in job.scene.get("forces", ()):
         if force["body"] == body.name:
             total = add(total, vector(force["value"]))
     return total

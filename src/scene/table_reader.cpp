@@ -71,9 +71,8 @@ const std::vector<Absent> not_simulated{
      "motors are not simulated; motion = \"prescribed\" with keyframes leads a body, an event of kind \"grip\" moves those in a "
      "region"},
     {{"external_force", "body_force", "thrust", "applied_force", "force", "applied_load", "torque"},
-     "forces from outside are not simulated, but for scene.gravity, which acts on all that is free; motion = \"prescribed\" "
-     "leads a "
-     "body"},
+     "a [[force]] pushes a rigid body by a constant force, and scene.gravity acts on all that is free; other forces from "
+     "outside are not simulated; motion = \"prescribed\" leads a body"},
     {{"wind", "drag", "air_density", "atmosphere"},
      "air is not simulated; a liquid body of its density and viscosity is the nearest to it"},
     {{"turbulence", "k_epsilon", "smagorinsky"}, "no model of turbulence is there: what the particles resolve is simulated"},
@@ -86,11 +85,11 @@ const std::vector<Absent> not_simulated{
 std::string what_there_is_instead(std::string_view key) {
   const auto holds = [&](std::string_view word) { return key.find(word) != key.npos; };
   if (holds("friction"))
-    return "engines that have Coulomb's law take it from [engines.all] settings = { friction = ... }; in the particle solver "
+    return "engines that have Coulomb's law take it from [[contact]], by pairs of materials; in the particle solver "
            "solids meet by pressure and viscosity alone, there is no law of Coulomb; scene.contact_viscosity [Pa s] brakes "
            "solids that slide on each other, joined_to bonds them";
   if (holds("restitution"))
-    return "engines that have it take it from [engines.all] settings = { restitution = ... }; in the particle solver contact is "
+    return "engines that have it take it from [[contact]], by pairs of materials; in the particle solver contact is "
            "elastic by its energy, and nothing sets what a hit gives back; scene.contact_viscosity [Pa s] takes energy from a "
            "contact";
   if (holds("damping"))

@@ -17,11 +17,11 @@ CHANGED = SOURCE / "tests" / "cli" / "toy" / "engine-changed"
 
 # case, metric of the limit, engine that is changed, what is changed and by which factor; "defect NAME SIZE": one that our solver registers
 KILLS = (
-    ("rigid/ballistic", "position", "exact", "gravity 1.02"),
+    ("rigid/ballistic", "position", "bullet", "gravity 1.02"),
     ("rigid/torque-free", "angle", "bullet", "inertia 1.05"),
     ("rigid/torque-free", "energy", "toy", "inertia 1.05"),  # of first order: it gains 8.4 % as it stands
     ("rigid/torque-free", "angle.order", "bullet", "inertia 0.95"),
-    ("heat/cosine-mode", "rate", "exact", "conductivity 1.05"),
+    ("heat/cosine-mode", "rate", "tripoint", "conductivity 1.05"),
     ("heat/spreading-walkers", "diffusivity", "lammps", "conductivity 1.02"),  # by the walkers' own mean square way
     ("heat/step-insulated", "energy", "selftest/tripoint", "defect heat.one_sided 1e-3"),
     ("heat/two-conductivities", "energy", "selftest/tripoint", "defect heat.one_sided 1e-3"),

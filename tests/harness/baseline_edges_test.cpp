@@ -87,15 +87,20 @@ TEST(BaselineEdges, AValueMayMoveByATenthOrByItsDrift) {
     std::string says;
   };
   for (const Row& row :
-       {Row{0.055, 0.0, {}, 0.05, ""}, Row{0.0551, 0.0, {}, 0.05, "0.0551 is worse than the accepted value 0.05"},
-        Row{0.0551, 0.0001, {}, 0.05, ""}, Row{-0.0551, 0.0, {}, 0.05, "-0.0551 is worse than the accepted value 0.05"},
-        Row{0.04, 0.0, {}, 0.05, ""}, Row{0.052, 0.0, {}, 0.04, "0.052 is worse than the first value 0.04"},
+       {Row{0.055, 0.0, {}, 0.05, ""},
+        Row{0.0551, 0.0, {}, 0.05, "0.0551 is worse than the accepted value 0.05: it uses 0.551 of the limit, then 0.5"},
+        // The judged run has no word in its own noise.
+        Row{0.0551, 0.0001, {}, 0.05, "0.0551 is worse than the accepted value 0.05: it uses 0.551 of the limit, then 0.5"},
+        Row{-0.0551, 0.0, {}, 0.05, "-0.0551 is worse than the accepted value 0.05: it uses 0.551 of the limit, then 0.5"},
+        Row{0.04, 0.0, {}, 0.05, ""},
+        Row{0.052, 0.0, {}, 0.04, "0.052 is worse than the first value 0.04: it uses 0.52 of the limit, then 0.4"},
         Row{0.0509, 0.0, 0.02, 0.01, ""},
         Row{0.0511, 0.0, 0.02, 0.05,
             "0.0511 has moved from the accepted value 0.05 by more than the share of 0.02 that the gate allows"},
         Row{0.0489, 0.0, 0.02, 0.05,
             "0.0489 has moved from the accepted value 0.05 by more than the share of 0.02 that the gate allows"},
-        Row{0.0511, 0.0001, 0.02, 0.05, ""}}) {
+        Row{0.0511, 0.0001, 0.02, 0.05,
+            "0.0511 has moved from the accepted value 0.05 by more than the share of 0.02 that the gate allows"}}) {
     Kept k;
     k.b.gates[0].first_value = row.first;
     k.b.gates[0].drift = row.drift;
@@ -108,7 +113,7 @@ TEST(BaselineEdges, AValueMayMoveByATenthOrByItsDrift) {
     EXPECT_EQ(list[0].error, row.drift.has_value());
     EXPECT_EQ(list[0].code, row.drift ? exit_fail : 0);
     EXPECT_EQ(list[0].place.line, 7);
-    EXPECT_NEAR(list[0].excess, std::abs(row.now) / (row.says.find("first") == std::string::npos ? 0.05 : row.first), 1e-12);
+    EXPECT_NEAR(list[0].excess, row.drift ? std::abs(row.now) / 0.05 : std::abs(row.now) / 0.1, 1e-12);  // the limit is 0.1
   }
 }
 

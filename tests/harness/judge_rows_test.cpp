@@ -266,7 +266,7 @@ TEST(JudgeOrder, ThatCouldNotBeFittedIsMissingWhereAStudyOwesIt) {
     });
   };
   const auto due = without([](CaseResult&, EngineRow&, Gate&) {});
-  EXPECT_EQ(due.rows.at(0).why, "no order could be fitted: a level is missing or not finite");
+  EXPECT_EQ(due.rows.at(0).why, "nothing could be fitted: a level is missing or not finite");
   EXPECT_EQ(due.rows.at(0).verdict, Verdict::missing);
   EXPECT_EQ(without([](CaseResult& c, EngineRow&, Gate&) { c.studies.clear(); }).applied, Applied::not_applicable);
   EXPECT_EQ(without([](CaseResult&, EngineRow& e, Gate&) { e.name = "exact"; }).applied, Applied::not_applicable);

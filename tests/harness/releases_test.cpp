@@ -92,7 +92,7 @@ TEST(Releases, TheLastIsComparedWithTheFirst) {
 
 TEST(Releases, TheMarkdownShowsErrorAndOrderOfEachReleaseAndWhatChanged) {
   const auto text = releases_markdown(table({release("1", 2.2e-4, 2.0), release("2", 6.5e-9, 4.0, Verdict::fail)}));
-  for (const auto* wanted : {"| stone 1 | 0.00022 (2.0) |", "| stone 2 | 6.5e-09 (4.0) |",
+  for (const auto* wanted : {"| stone 1 | 0.00022 (2.0 too-few) |", "| stone 2 | 6.5e-09 (4.0 too-few) |",
                              "1 -> 2, RK4 angle: 0.00022 -> 6.5e-09, 3.38e+04 times better; order 2.0 -> 4.0",
                              "| stone 2 | 0 of 1 | RK4 angle: 0.2 is above limit 0.1 |"})
     EXPECT_NE(text.find(wanted), std::string::npos) << wanted << "\n" << text;

@@ -136,6 +136,8 @@ std::vector<Body> one_a_kind(T Body::*member) {
     Owner owner;
     owner.kind = kind.kind;
     change_all(owner);
+    if constexpr (std::is_same_v<Owner, Shape>)  // others turn about the centre of parts or of a file, which are not here
+      if (owner.kind != Shape::Kind::box && owner.kind != Shape::Kind::cylinder) owner.rotation = {};
     Body& b = bodies.emplace_back();
     b.name = kind.word;
     b.*member = owner;

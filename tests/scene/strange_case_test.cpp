@@ -47,13 +47,14 @@ TEST(StrangeCase, WithAWallLimitThatIsNoNumberIsRefused) {
 TEST(StrangeCase, AskingForFrictionLearnsWhatThereIs) {
   expect_refused(with("", "friction = 0.3\n"), {"unknown key `friction`", "no law of Coulomb", "scene.contact_viscosity"});
   expect_refused(with("restitution = 0.3"), {"unknown key `restitution`", "scene.contact_viscosity"});
-  for (const auto& [table, answer] : std::vector<std::pair<std::string, std::string>>{{"joint", "joints are not simulated"},
-                                                                                      {"hinge", "joints are not simulated"},
-                                                                                      {"spring", "springs are not simulated"},
-                                                                                      {"motor", "motors are not simulated"},
-                                                                                      {"force", "forces from outside are not"},
-                                                                                      {"cable", "ropes and sheets"},
-                                                                                      {"radiation", "radiation and given heat"}})
+  for (const auto& [table, answer] :
+       std::vector<std::pair<std::string, std::string>>{{"joint", "joints are not simulated"},
+                                                        {"hinge", "joints are not simulated"},
+                                                        {"spring", "springs are not simulated"},
+                                                        {"motor", "motors are not simulated"},
+                                                        {"thrust", "a [[force]] pushes a rigid body"},
+                                                        {"cable", "ropes and sheets"},
+                                                        {"radiation", "radiation and given heat"}})
     expect_refused(with("", "[[" + table + "]]\nname = 'x'\n"), {"unknown key `" + table + "`", answer});
   expect_refused(with("", "[[hose]]\nname = 'x'\n"), {"unknown key `hose`"});
 }

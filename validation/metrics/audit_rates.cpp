@@ -9,7 +9,7 @@ namespace {
 
 constexpr Vec3 no_value{not_a_number, not_a_number, not_a_number};
 /// A smooth rate asks for 1/12 of its second difference, a jump within the interval for 1/2 of it. Contact jumps several times.
-constexpr double rough_share = 0.75, rough_share_in_contact = 2.0;
+constexpr double rough_share = 0.75, rough_share_in_contact = 4.0;
 constexpr double five_digits = 1e-5;
 
 }  // namespace
