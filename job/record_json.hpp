@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <concepts>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>  // whoever uses it includes json.hpp first
 
 #include "core/whole_number.hpp"
 #include "job/scene_json.hpp"

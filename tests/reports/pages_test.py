@@ -24,7 +24,6 @@ import page  # noqa: E402
 import paper_figures  # noqa: E402
 import releases  # noqa: E402
 import report  # noqa: E402
-import scorecard  # noqa: E402
 import side_by_side  # noqa: E402
 from report_test import Reader  # noqa: E402
 
@@ -483,27 +482,6 @@ class CasePages(Pages):
         self.assertIn("corrected 0, equal", self.text("case/heat-one.html"))
         self.write(case([engine], metrics=[{"name": "error", "quantity": "position"}]))
         self.assertNotIn("equal", self.text("case/heat-one.html"))
-
-
-class Scorecards(unittest.TestCase):
-    CARD = {"verdict": "MISSING", "exit_code": 4, "command": "tripoint validate", "engines": [
-        {"label": "jolt", "totals": {"pass": 1, "crashed": 1}, "rows": [{"case": "contact/a", "verdict": "pass"}, {"case": "contact/b", "verdict": "crashed", "reason": "frozen"}]}]}
-
-    def test_says_why_it_is_not_green(self):
-        text = Reader(scorecard.render(self.CARD)).text
-        self.assertIn("exit 4: a required engine, reference or metric is missing", text)
-        self.assertIn("jolt: crashed in contact/b.", text)
-
-    def test_says_what_an_error_is_like(self):
-        card = {"engines": [{"label": "mine", "rows": [{"case": "rigid/a", "verdict": "fail", "reason": "angle: 1.9", "cause": "angle 1.9: as of an engine without gyroscopic term (jolt)"}]}]}
-        self.assertIn("Likely: angle 1.9: as of an engine without gyroscopic term (jolt).", Reader(scorecard.render(card)).text)
-
-    def test_has_no_column_of_what_never_happened(self):
-        html = scorecard.render(self.CARD)
-        self.assertIn('<th class="n">crashed</th>', html)
-        self.assertIn('<th class="n">refused</th>', html)
-        self.assertNotIn("known defect", html)
-        self.assertNotIn('<th class="n">diverged</th>', html)
 
 
 if __name__ == "__main__":

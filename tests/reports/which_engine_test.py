@@ -9,6 +9,7 @@ import unittest
 from pages_test import Pages, case  # it knows the folders of the others
 from report_test import Reader
 import report
+import scorecard
 import thumbnails
 import uses
 import which_engine
@@ -105,6 +106,27 @@ class WhichEngine(Pages):
         links = re.findall(r'href="([^"]+)"', (self.path / "index.html").read_text().split('class="questions"')[1].split("</p>")[0])
         self.assertEqual(links[:2], ["which-engine.html", "scorecard.html"])
         self.assertTrue((self.path / "which-engine.html").is_file())
+
+
+class Scorecards(unittest.TestCase):
+    CARD = {"verdict": "MISSING", "exit_code": 4, "command": "tripoint validate", "engines": [
+        {"label": "jolt", "totals": {"pass": 1, "crashed": 1}, "rows": [{"case": "contact/a", "verdict": "pass"}, {"case": "contact/b", "verdict": "crashed", "reason": "frozen"}]}]}
+
+    def test_says_why_it_is_not_green(self):
+        text = Reader(scorecard.render(self.CARD)).text
+        self.assertIn("exit 4: a required engine, reference or metric is missing", text)
+        self.assertIn("jolt: crashed in contact/b.", text)
+
+    def test_says_what_an_error_is_like(self):
+        card = {"engines": [{"label": "mine", "rows": [{"case": "rigid/a", "verdict": "fail", "reason": "angle: 1.9", "cause": "angle 1.9: as of an engine without gyroscopic term (jolt)"}]}]}
+        self.assertIn("Likely: angle 1.9: as of an engine without gyroscopic term (jolt).", Reader(scorecard.render(card)).text)
+
+    def test_has_no_column_of_what_never_happened(self):
+        html = scorecard.render(self.CARD)
+        self.assertIn('<th class="n">crashed</th>', html)
+        self.assertIn('<th class="n">refused</th>', html)
+        self.assertNotIn("known defect", html)
+        self.assertNotIn('<th class="n">diverged</th>', html)
 
 
 if __name__ == "__main__":
