@@ -90,7 +90,8 @@ class MujocoWorld(World):
             # MuJoCo's qvel holds a free joint's spin in the body frame.
             spin = rotate((body.frame[0], -body.frame[1], -body.frame[2], -body.frame[3]), body.spin)
             self.data.qvel[6 * free:6 * free + 6] = [*body.velocity, *spin]
-            self.data.xfrc_applied[free + 1][0:3] = forces_on(job, body)  # 0 is the world
+            if any(force := forces_on(job, body)):
+                self.data.xfrc_applied[free + 1][0:3] = force  # 0 is the world
         self.touched = 0.0
         self.time = 0.0  # MuJoCo's own starts again when it begins anew
 
