@@ -184,6 +184,14 @@ bool is_led_otherwise(const Audited& run, std::size_t row, std::size_t n) {
 /// An engine may push a body out of another by places alone, which no velocity shows: as a share of its speed before a hit.
 constexpr double pushed_out = 1e-3;
 
+/// A body may bounce between two frames, to and fro at the speed that it has about them.
+double speed_about(const Track& track, std::size_t n) {
+  double most = 0.0;
+  for (std::size_t k = n > 0 ? n - 1 : n; k < std::min(n + 3, track.velocity.size()); ++k)
+    if (finite(track.velocity[k])) most = std::max(most, norm(track.velocity[k]));
+  return most;
+}
+
 std::string bodies_contradict(const Audited& run) {
   for (std::size_t row = 0; row < run.frames.back()->bodies.size(); ++row) {
     const Track track = track_of_row(run, row);
@@ -193,7 +201,7 @@ std::string bodies_contradict(const Audited& run) {
       if (const auto free = way_difference(run, track, n, {}); free.found <= free.allowed) continue;
       const Contact contact = contact_of_row(run, row, n);
       auto d = way_difference(run, track, n, contact);
-      if (contact.touches) d.allowed += pushed_out * greatest_speed(track);
+      if (contact.touches) d.allowed += pushed_out * greatest_speed(track) + speed_about(track, n);
       if (d.found > d.allowed) return told(run, row_name(run, row), n, d);
     }
   }
