@@ -94,7 +94,7 @@ class Adopted(unittest.TestCase):
         self.assertFalse((self.path / "none").exists())
 
     def test_noise_widens_the_room(self):
-        self.engine(("NOISE = 0.0", "NOISE = 3e-4"))
+        self.engine(("NOISE = 0.0", "NOISE = 3e-4"), ("GRAVITY = 1.0", "GRAVITY = 0.9997"))  # an error that the noise does not exceed
         done = self.call("gate", "adopt", "--engine", "./engine-toy", "--out", "noisy/cases", "rigid/ballistic")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         gate = next(g for g in tomllib.loads((self.path / "noisy/cases/rigid/ballistic.toml").read_text())["gate"] if g["metric"] == "position")
