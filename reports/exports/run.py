@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A run as arrays: trajectory.h5 with the job and the result beside it. docs/trajectory.md says what each array holds.
 
-This file needs numpy and h5py alone, and no other file of this room: the Python package reads runs by it too.
+This file needs numpy and h5py alone, and of this room foreign.py alone, by its place: the Python package reads runs by it too.
 """
 from __future__ import annotations
 
+from importlib.machinery import SourceFileLoader
 from pathlib import Path
 
 import numpy as np
 
-import foreign
+foreign = SourceFileLoader("tripoint_foreign", str(Path(__file__).resolve().parent.parent / "foreign.py")).load_module()
 
 NEEDED = ("position", "velocity")  # of particles/all; what is not there cannot be drawn or handed on
 

@@ -47,6 +47,12 @@ bool has_row(const Audited& run, std::size_t particle) {
   return body && body->phase == Phase::rigid && body->index >= 0 && !run.frames.front()->bodies.empty() && keeps_bodies(run.job);
 }
 
+/// The transport velocity moves liquid otherwise than its velocity.
+bool is_carried(const Audited& run, std::size_t particle) {
+  const auto* body = body_of(run, particle);
+  return run.job.scene.transport_velocity && (!body || body->phase == Phase::liquid);
+}
+
 Track track_of_particle(const Audited& run, std::size_t i) {
   Track track;
   for (const auto* s : run.frames) {
@@ -139,7 +145,7 @@ std::string particles_contradict(const Audited& run) {
   const std::vector<double> none(run.frames.size() - 1);
   std::vector<Squares> sums(run.job.bodies.size() + 1, {none, none, 0.0});
   for (std::size_t i = 0; i < run.frames.back()->velocity.size(); ++i) {
-    if (has_row(run, i)) continue;
+    if (has_row(run, i) || is_carried(run, i)) continue;
     const auto* body = body_of(run, i);
     const auto row = body ? static_cast<std::size_t>(body - run.job.bodies.data()) : run.job.bodies.size();
     if (auto why = particle_contradicts(run, i, intervals, sums[row]); !why.empty()) return why;
