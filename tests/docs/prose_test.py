@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""README, CONTRIBUTING and docs are plain English, and the check of that sees what is not: prose_test.py SOURCE."""
+
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+SOURCE = Path(sys.argv.pop(1)).resolve()
+sys.path.insert(0, str(SOURCE / "tools"))
+import prose  # noqa: E402
+
+LONG = "The run " + "and the run " * 8 + "end."  # 27 words
+
+
+def check(*arguments: str) -> subprocess.CompletedProcess:
+    return subprocess.run([sys.executable, "-B", SOURCE / "tools/prose.py", *arguments], capture_output=True, text=True)
+
+
+class Checkout(unittest.TestCase):
+    def test_no_page_has_more_findings_than_its_allowance(self):
+        answer = check()
+        self.assertEqual(answer.returncode, 0, answer.stdout)
+
+
+class Planted(unittest.TestCase):
+    """A checkout of one page, which has one allowed finding."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name)
+        (self.root / "tools").mkdir()
+        (self.root / "README.md").write_text(f"# Title\n\nA sentence.\n{LONG}\n")
+        self.check("--write")
+
+    def check(self, *arguments: str) -> subprocess.CompletedProcess:
+        return check("--root", str(self.root), *arguments)
+
+    def plant(self, text: str) -> subprocess.CompletedProcess:
+        with (self.root / "README.md").open("a") as page:
+            page.write(f"\n{text}\n")
+        return self.check()
+
+    def test_an_allowed_finding_passes_and_one_more_fails_with_file_line_and_advice(self):
+        self.assertEqual(self.check().returncode, 0)
+        answer = self.plant(LONG)
+        self.assertEqual(answer.returncode, 1)
+        self.assertIn(f"README.md:6: {LONG}\n    27 words: split it", answer.stdout)
+
+    def test_each_banned_construction_fails_with_its_advice(self):
+        for text, advice in (
+            ("There is no key that names it nor a default.", "no ... nor"),
+            ("What no step reads.", "begin with the noun"),
+            ("The sum of what moves is kept.", "noun in place"),
+            ("So is an end that comes before.", "begin with the subject"),
+            ("It reads files of strangers.", "third party"),
+        ):
+            with self.subTest(text):
+                (self.root / "README.md").write_text("")
+                answer = self.plant(text)
+                answer = self.plant(text) if answer.returncode == 0 else answer  # the first one is allowed
+                self.assertEqual(answer.returncode, 1)
+                self.assertIn(advice, answer.stdout)
+
+    def test_a_long_cell_fails(self):
+        answer = self.plant("| a | b |\n|---|---|\n| " + "word. " * 31 + "| short |")
+        self.assertEqual(answer.returncode, 1)
+        self.assertIn("README.md:8: ", answer.stdout)
+        self.assertIn("31 words: a cell has at most 30", answer.stdout)
+
+    def test_an_allowance_falls_and_never_rises(self):
+        self.plant(LONG)
+        self.check("--write")
+        self.assertEqual(self.check().returncode, 1)
+        (self.root / "README.md").write_text("A sentence.\n")
+        self.check("--write")
+        self.assertEqual(self.plant(LONG).returncode, 1)
+
+
+class Sentences(unittest.TestCase):
+    """The reader's sentences: a false end would hide a long one, a missed end would make one."""
+
+    def lines(self, text: str) -> list[tuple[int, str]]:
+        return [row for block in prose.blocks(text) for row in prose.sentences(block)]
+
+    def test_abbreviations_and_numbers_do_not_end_a_sentence(self):
+        text = "See Fig. 5, e.g. The one by B. Solenthaler et al. 2007 at 0.5 m. Next."
+        self.assertEqual([row[1] for row in self.lines(text)], [text[:-6], "Next."])
+
+    def test_items_headings_and_cells_are_apart(self):
+        text = "# A title\nText goes\non. More.\n- an item\n1. another\n\n| a | `b|c` |\n"
+        expected = [(1, "A title"), (2, "Text goes on."), (3, "More."), (4, "an item"), (5, "another"), (7, "a")]
+        self.assertEqual(self.lines(text), [*expected, (7, "`code`")])
+
+    def test_code_and_comments_are_not_prose(self):
+        text = f"```\n{LONG}\n```\n<!-- {LONG}\n{LONG} -->\n\n    {LONG}\n"
+        self.assertEqual(prose.findings("page", text), [])
+
+    def test_code_is_one_word_and_a_link_is_its_text(self):
+        self.assertEqual(self.lines("Run `a b c` by [the page](to/it.md)."), [(1, "Run `code` by the page.")])
+
+
+if __name__ == "__main__":
+    unittest.main()
