@@ -5,6 +5,7 @@
     tools/accuracy.py keep RESULTS.json [RESULTS.json ...] --to docs/accuracy   keeps of each case of cases/accuracy its levels, orders and costs
     tools/accuracy.py draw docs/accuracy/*.json --to docs/accuracy             draws one picture a case
     tools/accuracy.py page docs/accuracy/*.json > docs/accuracy.md             writes the page
+    tools/accuracy.py tables docs/accuracy/*.json                              prints every level of every study
 
 Every number of page and pictures comes from results.json. Orders and extrapolated values are the harness's fits; nothing is fitted here.
 """
@@ -22,25 +23,26 @@ ORDER_OF_PAGE = ("melting", "contact", "elastic", "fig-09", "fig-10", "fig-12", 
 
 INTRODUCTION = """# Accuracy over particles and steps
 
-The paper leaves open "how the accuracy of the method relates to the number of particles discretizing a certain amount of volume as well as to the time step". This page answers it for
-three kinds of physics that have an exact solution, and for the paper's figures 9, 10, 12 and 13, which have none. `tools/accuracy.py` writes it from the results of
+The paper leaves open how accuracy depends on the number of particles and on the time step. Cases of three kinds of physics have an exact solution; the paper's figures 9, 10, 12 and 13 have none.
 
     tripoint validate accuracy --profile nightly --out accuracy-report   # 10 minutes
+    tools/accuracy.py keep accuracy-report/results.json --to docs/accuracy   # a few minutes, with draw and page: pictures and this page
+    tools/accuracy.py tables docs/accuracy/melting.json   # every order, and every level with its values and CPU seconds
 
-Each picture has a row a measured number. Left: with more particles, the step following the scene's own bound. Right: with shorter steps at one number of particles. A point
-is the mean of the runs of a level, its bar the least and the greatest of them: the figures' scenes run two or three times a level, from starts that differ by a thousandth of a spacing. A dashed
-line is the extrapolated value, where the fit finds one.
+**The answer in words.** The number of particles decides, and the step hardly matters. Within its bound the error of the step is of second order and below the error of the spacing. Where an exact
+solution exists, more particles come nearer to it, with an order between one and two. The printed elasticity converges to a wrong limit. Its bar swings 2 M times as fast as the true one, with M the
+lattice's gradient moment ([model.md](model.md), (12)). The figures show the same events at each level. How much melts and freezes, and where matter ends, changes by a few parts in a hundred
+from level to level, mostly without an order. Particles melt one by one, and flowing liquid is chaotic.
 
-**How to read the orders.** An order is the p of E + C h^p, fitted over the levels by the harness ([harness.md](harness.md)), with its 95 % interval. "No order" is written
-where the fit has none (its class is named), where its interval holds 0, where a number that has no truth to be compared with has no limit in the fit, and where the runs of one level scatter by as
-much as the two finest levels differ: a finer level then says nothing of a limit. CPU seconds are of one run,
-on the machine that the numbers were kept on; compare them within this page.
+**How to read the orders.** An order is the p of E + C h^p, fitted by the harness ([harness.md](harness.md)), with its 95 % interval. "No order" has one of four reasons:
 
-**The answer in words.** Particles decide, and the step hardly does: within its bound the step's error is of second order and lies below the error that the spacing leaves. In scenes that have an exact
-answer more particles come nearer to it, with an order between one and two. The printed elasticity comes to a limit too, but to a wrong one: its bar swings 2 M times as fast as the true one, M the
-lattice's gradient moment ([model.md](model.md), (12)), whatever the number of particles. The paper's figures are thick enough in particles to show *what* happens at each level. How much melts, how much
-freezes and where it comes to lie changes from level to level by a few parts in a hundred, and for most of these numbers no order is seen: particles melt and freeze one by one, and liquid
-that runs does not run twice alike.
+- the class of the fit has none;
+- the interval holds 0;
+- a number without a truth has no limit in the fit;
+- the runs of one level scatter by as much as the two finest levels differ.
+
+In the pictures a point is the mean of a level, its bar the least and greatest run, a dashed line the extrapolated value. Left: more particles, with the step at its bound. Right: shorter steps at one
+spacing. The figures' scenes run two or three times a level, from starts that differ by a thousandth of a spacing.
 """
 
 
@@ -130,7 +132,7 @@ def verdict(study, kind):
         return "the same at every level", None, None
     scatter, step = max(spread(good[-1]), spread(good[-2])), abs(mean(good[-1]) - mean(good[-2]))
     if scatter > 0.0 and scatter >= step:
-        return f"no order: runs of one level scatter by {short(scatter)}, the two finest levels differ by {short(step if step > 1e-12 else 0.0)}", None, None
+        return f"no order: scatter {short(scatter)}, difference {short(step if step > 1e-12 else 0.0)}", None, None
     if not fit or fit["class"] in UNFIT or not is_number(fit["value"]):
         return f"no order: {fit['class'] if fit else 'not fitted'}", None, None
     if not fit["low"] > 0.0:
@@ -171,9 +173,13 @@ def table(value, axis, metric):
     return lines
 
 
-def case_text(value):
+def picture(value):
     name = value["case"].split("/")[1]
-    lines = [f"## {value['title']}", "", f"Case `{value['case']}`.", "", f"![{value['title']}: each measured number with more particles, and with shorter steps](accuracy/{name}.png)", ""]
+    return [f"![{value['title']}](accuracy/{name}.png)", ""]
+
+
+def case_tables(value):
+    lines = [f"## {value['title']}", "", f"Case `{value['case']}`.", ""]
     for metric, unit in value["metrics"].items():
         for axis, words in AXES.items():
             if any((s["axis"], s["metric"]) == (axis, metric) for s in value["studies"]):
@@ -181,15 +187,25 @@ def case_text(value):
     return lines
 
 
-def summary(values):
-    lines = ["| case | number | with | corrected | as printed |", "|---|---|---|---|---|"]
+def numbers(values):
+    """(case, metric, axis, words of the verdict by mode, whether one of them is an order)"""
     for value in values:
         for metric in value["metrics"]:
-            for axis, words in AXES.items():
-                of = {s["mode"]: s for s in value["studies"] if (s["axis"], s["metric"]) == (axis, metric)}
-                if of:
-                    lines.append(f"| `{value['case']}` | {metric} | {words} | " + " | ".join(verdict(of[m], value["kind"])[0] if m in of else "-" for m in NAMES) + " |")
-    return lines
+            for axis in AXES:
+                said = {s["mode"]: verdict(s, value["kind"]) for s in value["studies"] if (s["axis"], s["metric"]) == (axis, metric)}
+                if said:
+                    yield value["case"], metric, axis, {mode: words for mode, (words, _, _) in said.items()}, any(order is not None for _, order, _ in said.values())
+
+
+def summary(values, all_rows=False):
+    lines = ["| case | number | with | corrected | as printed |", "|---|---|---|---|---|"]
+    left = []
+    for case, metric, axis, words, has_order in numbers(values):
+        if has_order or all_rows:
+            lines.append(f"| `{case}` | {metric} | {AXES[axis]} | " + " | ".join(words.get(mode, "-") for mode in NAMES) + " |")
+        else:
+            left.append(f"{case.split('/')[1]} {metric} ({AXES[axis]})")
+    return lines + (["", "No order is seen in:", "", *(f"- {name}" for name in left)] if left else [])
 
 
 def in_order(paths):
@@ -197,12 +213,18 @@ def in_order(paths):
     return sorted(values, key=lambda v: ORDER_OF_PAGE.index(v["case"].split("/")[1]))
 
 
+def say(lines):
+    sys.stdout.write("\n".join(lines).rstrip() + "\n")
+
+
 def page(args):
     values = in_order(args.kept)
-    lines = [INTRODUCTION, "## Orders found", "", *summary(values), ""]
-    for value in values:
-        lines += case_text(value)
-    sys.stdout.write("\n".join(lines).rstrip() + "\n")
+    say([INTRODUCTION, "## Orders found", "", *summary(values), "", "## Pictures", "", *(line for value in values for line in picture(value))])
+
+
+def tables(args):
+    values = in_order(args.kept)
+    say([*summary(values, all_rows=True), "", *(line for value in values for line in case_tables(value))])
 
 
 # --- pictures -----------------------------------------------------------------------------------------------------------
@@ -260,10 +282,10 @@ def draw(args):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(required=True)
-    for name, action, what in (("keep", keep, "results"), ("draw", draw, "kept"), ("page", page, "kept")):
+    for name, action, what in (("keep", keep, "results"), ("draw", draw, "kept"), ("page", page, "kept"), ("tables", tables, "kept")):
         command = commands.add_parser(name)
         command.add_argument(what, nargs="+")
-        if name != "page":
+        if name not in ("page", "tables"):
             command.add_argument("--to", required=True)
         command.set_defaults(action=action)
     args = parser.parse_args()

@@ -4,7 +4,8 @@
 
     tools/still_water.py run --out FOLDER [--budget SECONDS] [--only TEXT]     runs the cells that FOLDER lacks, the cheapest first
     tools/still_water.py keep --out FOLDER [FOLDER ...] --to docs/still-water  adds what FOLDER holds to docs/still-water/FOLDER.json: of each cell the longest run
-    tools/still_water.py page --out FILE [FILE ...] > docs/still-water.md      writes the table from kept files, or from folders
+    tools/still_water.py page --out docs/still-water/*.json > docs/still-water.md   writes the page from kept files, or from folders
+    tools/still_water.py table --out FILE [FILE ...]                           prints every cell of them
 
 Each cell is the case fluid/still-water with another spacing, tank, viscosity or slip, set on the command line of `tripoint run`, on one thread. The
 short side of the tank is 0.2 m. A cell runs for 60 s, or for 20, 5 or 1 s where its cost would be above the budget (CPU seconds, estimated from particles
@@ -165,14 +166,14 @@ def summary(rows):
     """Sentences that count; nothing is said that the rows do not hold."""
     every = [rows.get(c.name) or rows.get(c.same_as) for c in cells()]
     done = [r for r in every if r and "windows" in r]
-    lines = [f"{len(done)} of {len(cells())} cells were run, {sum(r['status'] == 'ok' and r['time'] >= 60.0 for r in done)} of them for 60 s; {sum(r['status'] != 'ok' for r in done)} did not reach their end."]
+    lines = [f"{len(done)} of {len(cells())} tanks were run, {sum(r['status'] == 'ok' and r['time'] >= 60.0 for r in done)} of them for 60 s. {sum(r['status'] != 'ok' for r in done)} did not reach their end.", ""]
     for n, (first, last) in enumerate(WINDOWS):
         seen = [(r["windows"][n][0], r["windows"][n][1], r["name"]) for r in done if r["windows"][n]]
         if seen:
             worst, fastest = max(seen), max(seen, key=lambda s: s[1])
-            lines.append(f"- {first:g} to {last:g} s: {sum(s[0] < GOAL for s in seen)} of {len(seen)} cells stay below {GOAL:g} sqrt(g H) rms; the worst has {worst[0]:.4f} (`{worst[2]}`), the fastest particle {fastest[1]:.3f} (`{fastest[2]}`).")
+            lines.append(f"- {first:g} to {last:g} s: {sum(s[0] < GOAL for s in seen)} of {len(seen)} stay below {GOAL:g} rms. The worst has {worst[0]:.4f} (`{worst[2]}`), the fastest particle {fastest[1]:.3f}.")
     if done:
-        lines.append(f"- Work of walls: {small(max(r['greatest_wall_work'] for r in done))} rho g H V at most. Made by finite steps: {small(max(abs(r['steps_most']) for r in done))} at most.")
+        lines.append(f"- Work of fixed walls: at most {small(max(r['greatest_wall_work'] for r in done))}. Energy made by finite steps: at most {small(max(abs(r['steps_most']) for r in done))}.")
     return "\n".join(lines)
 
 
@@ -194,16 +195,31 @@ def keep(args):
         file.write_text("[\n" + ",\n".join(json.dumps(kept[c.name]) for c in cells() if c.name in kept) + "\n]\n")
 
 
+INTRODUCTION = """# Still water
+
+Water at rest in an open tank must stay at rest. `tools/still_water.py` runs `fluid/still-water` in 72 other tanks. They have 5, 10 and 20 particles along the short side of 0.2 m, and
+depths of 1:4 to 8:1 of the width. Viscosities are 0, 0.001 and 1 Pa s, and walls have slip or not. Tanks whose cost was above the budget ran shorter, or not at all. Without viscosity both kinds of wall give the same bits.
+
+    tools/still_water.py table --out docs/still-water/laid-as-a-lattice.json docs/still-water/settled.json   # every tank: speeds by window, energies
+    tools/still_water.py run --out settled --set scene.settle=true --budget 60   # an hour: measures anew
+
+Speeds are over sqrt(g H), H being the depth. Energies are over rho g H V."""
+
+
+def title_of(place):
+    title = Path(place).stem.replace("-", " ")
+    return f"\n## {title[0].upper() + title[1:]}\n"
+
+
 def page(args):
-    print("# Still water\n\nWater at rest in an open tank must stay at rest. `tools/still_water.py` runs the case `fluid/still-water` in other tanks and with other water. The tank's short side is\n"
-          "0.2 m, the other follows from the ratio; \"across\" counts particles along the short side. The layer is 6 particles thick and periodic. Everything else is a default;\nsettled cells have `scene.settle = true` ([decision 13](decisions/013-a-settled-start.md)). Cells whose cost was above the budget ran shorter, or not at all.\n\n"
-          "Without viscosity no wall can hold water back, whatever its slip: such a pair of cells is one run (measured: every bit equal).\n\n"
-          "A cell of the columns by time holds the greatest rms speed of any frame of that window, and the greatest speed of any particle in it, both over sqrt(g H). Energies are over\n"
-          "rho g H V: the most that fixed walls did, and what finite steps had made at the end.")
-    for folder in args.out:
-        rows = rows_of(folder)
-        title = Path(folder).stem.replace("-", " ")
-        print(f"\n## {title[0].upper() + title[1:]}\n\n{summary(rows)}\n\n{table(rows)}")
+    print(INTRODUCTION)
+    for place in args.out:
+        print(f"{title_of(place)}\n{summary(rows_of(place))}")
+
+
+def print_table(args):
+    for place in args.out:
+        print(f"{title_of(place)}\n{table(rows_of(place))}")
 
 
 def main():
@@ -215,13 +231,13 @@ def main():
     runs.add_argument("--only", default="", help="cells with this text in their name")
     runs.add_argument("--set", action="append", default=[], help="a.b=VALUE, for every cell")
     runs.add_argument("--tripoint", default=str(ROOT / "build/bin/tripoint"))
-    pages = verbs.add_parser("page")
-    pages.add_argument("--out", nargs="+", required=True)
+    for verb in ("page", "table"):
+        verbs.add_parser(verb).add_argument("--out", nargs="+", required=True)
     keeps = verbs.add_parser("keep")
     keeps.add_argument("--out", nargs="+", required=True)
     keeps.add_argument("--to", required=True)
     args = parser.parse_args()
-    return {"run": run, "keep": keep, "page": page}[args.verb](args)
+    return {"run": run, "keep": keep, "page": page, "table": print_table}[args.verb](args)
 
 
 if __name__ == "__main__":

@@ -34,7 +34,7 @@ class Accuracy(unittest.TestCase):
     def test_no_order_where_the_starts_scatter_by_more_than_the_levels_differ(self):
         words, order, _ = accuracy.verdict(study([0.9, 0.91], [0.7, 0.71], [0.60, 0.66], [0.59, 0.65]), "analytic")
         self.assertIsNone(order)
-        self.assertIn("no order: runs of one level scatter by 0.06, the two finest levels differ by 0.01", words)
+        self.assertIn("no order: scatter 0.06, difference 0.01", words)
 
     def test_no_order_where_the_fit_has_none_or_levels_are_missing(self):
         self.assertEqual(accuracy.verdict(study([1.0], [0.5], [0.7], [0.4], fit=FIT | {"class": "oscillating"}), "analytic")[0], "no order: oscillating")
@@ -52,6 +52,17 @@ class Accuracy(unittest.TestCase):
         self.assertEqual([level["at"] for level in levels], [0.1, 0.05, 0.02])
         self.assertEqual((levels[0]["values"], levels[0]["cpu_s"], levels[0]["particles"]), ([1.0, 2.0], 3.0, 7))
         self.assertEqual((levels[2]["values"], levels[2]["failed"]), ([], "diverged"))
+
+    def test_the_tables_hold_every_level_of_every_study(self):
+        kept = sorted((DOCS / "accuracy").glob("*.json"))
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said):
+            accuracy.tables(types.SimpleNamespace(kept=kept))
+        levels = [(s["axis"], level) for path in kept for s in json.loads(path.read_text())["studies"] for level in s["levels"]]
+        self.assertGreater(len(levels), 100)
+        for axis, level in levels:
+            self.assertIn(f"| {1e3 * level['at']:.4g} | {level['particles']} |" if level["particles"] else f"| {1e3 * level['at']:.4g} |", said.getvalue(), axis)
+            self.assertIn(f"| {accuracy.cell(level)} |", said.getvalue())
 
     def test_the_page_is_what_the_kept_numbers_make_of_it(self):
         said = io.StringIO()

@@ -62,12 +62,19 @@ class StillWater(unittest.TestCase):
             said = io.StringIO()
             with contextlib.redirect_stdout(said):
                 still_water.page(types.SimpleNamespace(out=[str(folder)]))
+                still_water.print_table(types.SimpleNamespace(out=[str(folder)]))
         text = said.getvalue()
         self.assertIn("## Laid as a lattice", text)
-        self.assertIn("3 of 72 cells were run, 0 of them for 60 s", text)
+        self.assertIn("3 of 72 tanks were run, 0 of them for 60 s", text)
         self.assertIn("| 5 | 1 : 1 | 0 | no, the same run | 20 | 0.0300", text)
-        self.assertIn("5 to 20 s: 1 of 3 cells stay below 0.02", text)
+        self.assertIn("5 to 20 s: 1 of 3 stay below 0.02", text)
         self.assertIn("| 5 | 1 : 1 | 1 | no | 20 | 0.0100 / 0.100 | 0.0100 / 0.200 | - | 0 | 1.0e-4 |", text)
+
+    def test_the_page_in_docs_is_what_the_kept_numbers_make_of_it(self):
+        docs, said = still_water.ROOT / "docs", io.StringIO()
+        with contextlib.redirect_stdout(said):
+            still_water.page(types.SimpleNamespace(out=sorted((docs / "still-water").glob("*.json"))))
+        self.assertEqual(said.getvalue(), (docs / "still-water.md").read_text(encoding="utf-8"))
 
     def test_keeps_of_each_cell_the_longest_run(self):
         cell = still_water.Cell(5, 1.0, 1e-3, "no")
