@@ -2,7 +2,7 @@
 """JSON that others have a hand in: titles, reasons and names of cases and engines.
 
 No control character of theirs reaches a page, a table or a terminal, nor a mark that turns the direction of writing or is
-not seen. The program does the same with what it prints (validation/harness/foreign_text.cpp).
+not seen. The program does the same with what it prints (validation/results/escaped_text.cpp).
 """
 from __future__ import annotations
 

@@ -35,8 +35,9 @@ FAST = 2  # of the filters: the rest starts a process for each test
 TWINS = ("print-reference-values", ["tests/references/twins.py"])  # not GoogleTest: a script computes again what the program prints
 # A room: its files, and the tests that cover it.
 ROOMS = {
-    "gate": (["validation/metrics/verdict.cpp"] + [f"validation/harness/{name}.cpp" for name in ("apply_gate", "judge", "judge_asked", "verdict", "gate_verdict", "recheck", "slack", "results_read", "baseline",
-             "baseline_compare", "baseline_edges", "baseline_rows", "baseline_cases", "baseline_accept")], [HARNESS]),
+    "gate": (["validation/metrics/verdict.cpp"] + [f"validation/{path}.cpp" for path in ("judge/apply_gate", "judge/judge", "judge/judge_asked", "judge/headroom", "results/verdict", "results/rows",
+             "results/results_read", "campaign/recheck", "baseline/gate_verdict", "baseline/baseline", "baseline/baseline_compare", "baseline/baseline_edges", "baseline/baseline_rows", "baseline/baseline_cases",
+             "baseline/baseline_accept")], [HARNESS]),
     "metrics": (["validation/metrics/*.cpp"], [METRICS, HARNESS]),
     "references": (["validation/references/*.cpp"], [REFERENCES, TWINS, METRICS, HARNESS]),
 }

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "validation/case/engine_names.hpp"
-#include "validation/harness/foreign_text.hpp"
+#include "validation/results/escaped_text.hpp"
 
 namespace tripoint {
 namespace {

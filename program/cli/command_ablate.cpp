@@ -13,13 +13,12 @@
 #include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
+#include "validation/campaign/suite.hpp"
 #include "validation/case/ablation.hpp"
 #include "validation/case/engine_names.hpp"
-#include "validation/harness/foreign_text.hpp"
-#include "validation/harness/process.hpp"
-#include "validation/harness/report_files.hpp"
-#include "validation/harness/suite.hpp"
-#include "validation/harness/verdict.hpp"
+#include "validation/results/escaped_text.hpp"
+#include "validation/results/interrupt.hpp"
+#include "validation/results/verdict.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;

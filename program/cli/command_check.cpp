@@ -9,15 +9,15 @@
 #include "program/cli/common.hpp"
 #include "program/cli/start_notes.hpp"
 #include "scene/sample.hpp"
+#include "validation/campaign/case_names.hpp"
+#include "validation/campaign/suite.hpp"
 #include "validation/case/idle_keys.hpp"
 #include "validation/case/preflight.hpp"
 #include "validation/case/read_case.hpp"
 #include "validation/case/shape_match.hpp"
 #include "validation/case/unjudged.hpp"
-#include "validation/harness/case_names.hpp"
-#include "validation/harness/suite.hpp"
-#include "validation/harness/trial.hpp"
 #include "validation/references/experiment.hpp"
+#include "validation/run/trial.hpp"
 
 namespace tripoint {
 namespace {

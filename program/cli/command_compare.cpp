@@ -8,12 +8,12 @@
 #include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
+#include "validation/campaign/suite.hpp"
 #include "validation/case/engine_names.hpp"
-#include "validation/harness/process.hpp"
-#include "validation/harness/report_files.hpp"
-#include "validation/harness/sandbox.hpp"
-#include "validation/harness/suite.hpp"
-#include "validation/harness/verdict.hpp"
+#include "validation/publish/report_files.hpp"
+#include "validation/results/interrupt.hpp"
+#include "validation/results/verdict.hpp"
+#include "validation/run/sandbox.hpp"
 
 namespace tripoint {
 namespace {

@@ -14,9 +14,9 @@
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
 #include "scene/library.hpp"
-#include "validation/harness/discover.hpp"
-#include "validation/harness/engine_check.hpp"
-#include "validation/harness/sandbox.hpp"
+#include "validation/run/discover.hpp"
+#include "validation/run/engine_check.hpp"
+#include "validation/run/sandbox.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;

@@ -16,11 +16,11 @@
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
 #include "scene/sample.hpp"
+#include "validation/campaign/case_names.hpp"
+#include "validation/campaign/suite.hpp"
 #include "validation/case/case_document.hpp"
 #include "validation/case/read_case.hpp"
 #include "validation/case/shape_match.hpp"
-#include "validation/harness/case_names.hpp"
-#include "validation/harness/suite.hpp"
 
 namespace tripoint {
 namespace {

@@ -11,14 +11,14 @@
 #include "program/cli/common.hpp"
 #include "program/cli/gate_adopt.hpp"
 #include "program/cli/gate_judge.hpp"
-#include "validation/harness/baseline.hpp"
-#include "validation/harness/history.hpp"
-#include "validation/harness/process.hpp"
-#include "validation/harness/recheck.hpp"
-#include "validation/harness/seeds.hpp"
-#include "validation/harness/selftest.hpp"
-#include "validation/harness/suite.hpp"
-#include "validation/harness/verdict.hpp"
+#include "validation/baseline/baseline.hpp"
+#include "validation/baseline/history.hpp"
+#include "validation/campaign/recheck.hpp"
+#include "validation/campaign/suite.hpp"
+#include "validation/mutation/seeds.hpp"
+#include "validation/mutation/selftest.hpp"
+#include "validation/results/interrupt.hpp"
+#include "validation/results/verdict.hpp"
 
 namespace tripoint {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
-#include "validation/harness/suite.hpp"
+#include "validation/campaign/suite.hpp"
 
 namespace tripoint {
 namespace {

@@ -14,11 +14,11 @@
 #include "program/cli/predict_text.hpp"
 #include "program/cli/predict_turns.hpp"
 #include "program/predict/kit.hpp"
-#include "validation/harness/case_names.hpp"
-#include "validation/harness/process.hpp"
-#include "validation/harness/results.hpp"
-#include "validation/harness/suite.hpp"
-#include "validation/harness/verdict.hpp"
+#include "validation/campaign/case_names.hpp"
+#include "validation/campaign/suite.hpp"
+#include "validation/results/interrupt.hpp"
+#include "validation/results/results.hpp"
+#include "validation/results/verdict.hpp"
 
 namespace tripoint {
 namespace {

@@ -9,13 +9,13 @@
 #include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
+#include "validation/campaign/accuracy_cost.hpp"
+#include "validation/campaign/suite.hpp"
 #include "validation/case/engine_names.hpp"
-#include "validation/harness/front.hpp"
-#include "validation/harness/judge.hpp"
-#include "validation/harness/process.hpp"
-#include "validation/harness/sandbox.hpp"
-#include "validation/harness/suite.hpp"
-#include "validation/harness/verdict.hpp"
+#include "validation/results/interrupt.hpp"
+#include "validation/results/rows.hpp"
+#include "validation/results/verdict.hpp"
+#include "validation/run/sandbox.hpp"
 
 namespace tripoint {
 namespace {

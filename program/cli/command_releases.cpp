@@ -11,11 +11,12 @@
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
 #include "scene/library.hpp"
+#include "validation/campaign/suite.hpp"
 #include "validation/case/read_case.hpp"
-#include "validation/harness/process.hpp"
-#include "validation/harness/releases.hpp"
-#include "validation/harness/suite.hpp"
-#include "validation/harness/verdict.hpp"
+#include "validation/publish/releases.hpp"
+#include "validation/results/interrupt.hpp"
+#include "validation/results/verdict.hpp"
+#include "validation/run/process.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;

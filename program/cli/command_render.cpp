@@ -15,8 +15,9 @@
 #include "program/cli/common.hpp"
 #include "program/cli/shown_frame.hpp"
 #include "surface/surface_mesh.hpp"
-#include "validation/harness/process.hpp"
-#include "validation/harness/verdict.hpp"
+#include "validation/results/interrupt.hpp"
+#include "validation/results/verdict.hpp"
+#include "validation/run/process.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;

@@ -7,11 +7,12 @@
 
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
-#include "validation/harness/history.hpp"
-#include "validation/harness/judge.hpp"
-#include "validation/harness/report_files.hpp"
-#include "validation/harness/sandbox.hpp"
-#include "validation/harness/verdict.hpp"
+#include "validation/baseline/history.hpp"
+#include "validation/campaign/merge.hpp"
+#include "validation/judge/judge.hpp"
+#include "validation/publish/report_files.hpp"
+#include "validation/results/verdict.hpp"
+#include "validation/run/sandbox.hpp"
 
 namespace tripoint {
 namespace {

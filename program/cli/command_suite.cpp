@@ -13,12 +13,9 @@
 #include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
-#include "validation/harness/history.hpp"
-#include "validation/harness/judge.hpp"
-#include "validation/harness/process.hpp"
-#include "validation/harness/report_files.hpp"
-#include "validation/harness/sandbox.hpp"
-#include "validation/harness/verdict.hpp"
+#include "validation/baseline/history.hpp"
+#include "validation/judge/judge.hpp"
+#include "validation/publish/report_files.hpp"
 #include "validation/queue/cost.hpp"
 #include "validation/queue/emit.hpp"
 #include "validation/queue/join.hpp"
@@ -26,6 +23,9 @@
 #include "validation/queue/shards.hpp"
 #include "validation/queue/status.hpp"
 #include "validation/queue/work.hpp"
+#include "validation/results/interrupt.hpp"
+#include "validation/results/verdict.hpp"
+#include "validation/run/sandbox.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;

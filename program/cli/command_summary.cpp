@@ -12,8 +12,8 @@
 #include "core/errors.hpp"
 #include "program/cli/common.hpp"
 #include "program/cli/gate_judge.hpp"
-#include "validation/harness/comment.hpp"
-#include "validation/harness/verdict.hpp"
+#include "validation/publish/comment.hpp"
+#include "validation/results/verdict.hpp"
 
 namespace tripoint {
 namespace {

@@ -18,8 +18,8 @@
 #include "core/limits.hpp"
 #include "scene/nearest.hpp"
 #include "step/settle.hpp"
-#include "validation/harness/foreign_text.hpp"
-#include "validation/harness/verdict.hpp"
+#include "validation/results/escaped_text.hpp"
+#include "validation/results/verdict.hpp"
 
 namespace tripoint {
 namespace {

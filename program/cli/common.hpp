@@ -6,9 +6,9 @@
 
 #include "assembly/plan.hpp"
 #include "validation/case/read_case.hpp"
-#include "validation/harness/discover.hpp"
-#include "validation/harness/folder_lock.hpp"
-#include "validation/harness/plan_runs.hpp"
+#include "validation/run/discover.hpp"
+#include "validation/run/folder_lock.hpp"
+#include "validation/run/plan_runs.hpp"
 
 /// Parts that the commands share: how errors become exit codes, and how lists and progress look.
 namespace CLI {

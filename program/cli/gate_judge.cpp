@@ -12,14 +12,14 @@
 #include "core/durable_file.hpp"
 #include "core/errors.hpp"
 #include "program/cli/common.hpp"
-#include "validation/harness/baseline_propose.hpp"
-#include "validation/harness/changes.hpp"
-#include "validation/harness/gate_verdict.hpp"
-#include "validation/harness/history.hpp"
-#include "validation/harness/judge.hpp"
-#include "validation/harness/recheck.hpp"
-#include "validation/harness/report_files.hpp"
-#include "validation/harness/verdict.hpp"
+#include "validation/baseline/baseline_propose.hpp"
+#include "validation/baseline/changes.hpp"
+#include "validation/baseline/gate_verdict.hpp"
+#include "validation/baseline/history.hpp"
+#include "validation/campaign/recheck.hpp"
+#include "validation/judge/judge.hpp"
+#include "validation/publish/report_files.hpp"
+#include "validation/results/verdict.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/harness/results.hpp"
+#include "validation/results/results.hpp"
 
 namespace CLI {
 class App;

@@ -10,7 +10,7 @@
 
 #include "core/errors.hpp"
 #include "scene/library.hpp"
-#include "validation/harness/report_files.hpp"
+#include "validation/publish/report_files.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;

@@ -9,8 +9,8 @@
 #include "program/cli/gate_judge.hpp"
 #include "scene/sample.hpp"
 #include "step/settle.hpp"
-#include "validation/harness/process.hpp"
-#include "validation/harness/verdict.hpp"
+#include "validation/results/interrupt.hpp"
+#include "validation/results/verdict.hpp"
 
 namespace {
 

@@ -17,7 +17,7 @@
 #include "scene/sample.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/case/read_case.hpp"
-#include "validation/harness/process.hpp"
+#include "validation/run/process.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;

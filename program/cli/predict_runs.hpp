@@ -8,8 +8,8 @@
 
 #include "program/predict/cost.hpp"
 #include "program/predict/part_times.hpp"
-#include "validation/harness/plan_runs.hpp"
-#include "validation/harness/run_one.hpp"
+#include "validation/run/plan_runs.hpp"
+#include "validation/run/run_one.hpp"
 
 /// The runs that `tripoint predict` makes of a case on the engine tripoint-mpi.
 namespace tripoint {

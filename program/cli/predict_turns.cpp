@@ -11,7 +11,7 @@
 
 #include "program/bench/core_pace.hpp"
 #include "program/cli/common.hpp"
-#include "validation/harness/process.hpp"
+#include "validation/results/interrupt.hpp"
 
 namespace tripoint {
 namespace {

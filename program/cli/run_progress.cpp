@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/errors.hpp"
-#include "validation/harness/foreign_text.hpp"
+#include "validation/results/escaped_text.hpp"
 
 namespace tripoint {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A baseline: what is read is written as a text that reads as the same, sealed.
-#include "validation/harness/baseline.hpp"
+#include "validation/baseline/baseline.hpp"
 #include "core/errors.hpp"
 #include "fuzz/input.hpp"
 

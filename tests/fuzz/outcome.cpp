@@ -7,7 +7,7 @@
 
 #include "fuzz/input.hpp"
 #include "job/job.hpp"
-#include "validation/harness/finished_run.hpp"
+#include "validation/run/finished_run.hpp"
 
 using namespace tripoint;
 

@@ -6,7 +6,7 @@
 #include "core/errors.hpp"
 #include "fuzz/input.hpp"
 #include "job/job.hpp"
-#include "validation/harness/replies.hpp"
+#include "validation/run/replies.hpp"
 
 using namespace tripoint;
 

@@ -4,9 +4,9 @@
 
 #include "core/errors.hpp"
 #include "fuzz/input.hpp"
-#include "validation/harness/judge.hpp"
-#include "validation/harness/remarks.hpp"
-#include "validation/harness/slack.hpp"
+#include "validation/judge/headroom.hpp"
+#include "validation/judge/judge.hpp"
+#include "validation/judge/remarks.hpp"
 
 using namespace tripoint;
 

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "fuzz/input.hpp"
-#include "validation/harness/apply_gate.hpp"
-#include "validation/harness/judge.hpp"
+#include "validation/judge/apply_gate.hpp"
+#include "validation/judge/judge.hpp"
 
 using namespace tripoint;
 

@@ -4,9 +4,10 @@
 
 #include "judged.hpp"
 #include "validation/case/known_defect.hpp"
-#include "validation/harness/expected_refusal.hpp"
-#include "validation/harness/remarks.hpp"
-#include "validation/harness/scorecard.hpp"
+#include "validation/judge/remarks.hpp"
+#include "validation/publish/scorecard.hpp"
+#include "validation/results/expected_refusal.hpp"
+#include "validation/results/rows.hpp"
 
 namespace tripoint {
 namespace {

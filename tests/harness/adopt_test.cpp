@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Gates that adopting an engine writes, from values made by hand.
-#include "validation/harness/adopt.hpp"
+#include "validation/publish/adopt.hpp"
 
 #include <gtest/gtest.h>
 
-#include "validation/harness/apply_gate.hpp"
+#include "validation/judge/apply_gate.hpp"
 
 namespace tripoint {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "fakes.hpp"
 #include "judged.hpp"
-#include "validation/harness/baseline.hpp"
-#include "validation/harness/remarks.hpp"
+#include "validation/baseline/baseline.hpp"
+#include "validation/judge/remarks.hpp"
 
 namespace tripoint {
 namespace {

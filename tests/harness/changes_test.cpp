@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "validation/harness/changes.hpp"
+#include "validation/baseline/changes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/judged.hpp"
-#include "validation/harness/apply_gate.hpp"
-#include "validation/harness/comment.hpp"
+#include "validation/judge/apply_gate.hpp"
+#include "validation/publish/comment.hpp"
 
 namespace tripoint {
 namespace {

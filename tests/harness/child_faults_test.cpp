@@ -23,9 +23,9 @@
 #include "core/errors.hpp"
 #include "harness/fakes.hpp"
 #include "scene/toml_node.hpp"
-#include "validation/harness/process.hpp"
-#include "validation/harness/stranger_reader.hpp"
-#include "validation/harness/verdict.hpp"
+#include "validation/results/verdict.hpp"
+#include "validation/run/process.hpp"
+#include "validation/run/third_party_reader.hpp"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <string>
 
-#include "validation/harness/discover.hpp"
-#include "validation/harness/suite.hpp"
+#include "validation/campaign/suite.hpp"
+#include "validation/run/discover.hpp"
 
 namespace tripoint {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "validation/harness/folder_lock.hpp"
+#include "validation/run/folder_lock.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "validation/harness/foreign_text.hpp"
+#include "validation/results/escaped_text.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include "harness/judged.hpp"
-#include "validation/harness/baseline.hpp"
-#include "validation/harness/remarks.hpp"
-#include "validation/harness/report_files.hpp"
+#include "validation/baseline/baseline.hpp"
+#include "validation/judge/remarks.hpp"
+#include "validation/publish/report_files.hpp"
 
 namespace tripoint {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "fakes.hpp"
 #include "judged.hpp"
-#include "validation/harness/front.hpp"
+#include "validation/campaign/accuracy_cost.hpp"
 
 namespace tripoint {
 namespace {

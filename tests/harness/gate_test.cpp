@@ -7,12 +7,12 @@
 #include "core/errors.hpp"
 #include "fakes.hpp"
 #include "judged.hpp"
-#include "validation/harness/baseline.hpp"
-#include "validation/harness/baseline_propose.hpp"
-#include "validation/harness/gate_verdict.hpp"
-#include "validation/harness/recheck.hpp"
-#include "validation/harness/remarks.hpp"
-#include "validation/harness/slack.hpp"
+#include "validation/baseline/baseline.hpp"
+#include "validation/baseline/baseline_propose.hpp"
+#include "validation/baseline/gate_verdict.hpp"
+#include "validation/campaign/recheck.hpp"
+#include "validation/judge/headroom.hpp"
+#include "validation/judge/remarks.hpp"
 
 namespace tripoint {
 namespace {

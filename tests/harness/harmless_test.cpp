@@ -8,8 +8,8 @@
 #include "core/errors.hpp"
 #include "harness/fakes.hpp"
 #include "harness/judged.hpp"
-#include "validation/harness/case_run.hpp"
-#include "validation/harness/selftest.hpp"
+#include "validation/campaign/case_run.hpp"
+#include "validation/mutation/selftest.hpp"
 
 namespace tripoint {
 namespace {

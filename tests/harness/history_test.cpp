@@ -6,7 +6,7 @@
 
 #include "harness/fakes.hpp"
 #include "harness/judged.hpp"
-#include "validation/harness/history.hpp"
+#include "validation/baseline/history.hpp"
 
 namespace tripoint {
 namespace {

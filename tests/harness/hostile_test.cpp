@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "harness/fakes.hpp"
-#include "validation/harness/verdict.hpp"
+#include "validation/results/verdict.hpp"
 
 namespace tripoint {
 namespace {

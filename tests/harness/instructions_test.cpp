@@ -3,7 +3,7 @@
 
 #include "harness/fakes.hpp"
 #include "harness/judged.hpp"
-#include "validation/harness/instructions.hpp"
+#include "validation/run/instructions.hpp"
 
 namespace tripoint {
 namespace {

@@ -6,9 +6,10 @@
 
 #include "fakes.hpp"
 #include "judged.hpp"
-#include "validation/harness/apply_gate.hpp"
-#include "validation/harness/remarks.hpp"
-#include "validation/harness/slack.hpp"
+#include "validation/judge/apply_gate.hpp"
+#include "validation/judge/headroom.hpp"
+#include "validation/judge/remarks.hpp"
+#include "validation/results/rows.hpp"
 
 namespace tripoint {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "validation/harness/judge.hpp"
-#include "validation/harness/verdict.hpp"
+#include "validation/judge/judge.hpp"
+#include "validation/results/verdict.hpp"
 
 namespace tripoint {
 

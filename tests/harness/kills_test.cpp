@@ -7,7 +7,7 @@
 #include "harness/fakes.hpp"
 #include "io/trajectory.hpp"
 #include "scene/sample.hpp"
-#include "validation/harness/run_one.hpp"
+#include "validation/run/run_one.hpp"
 
 namespace tripoint {
 namespace {

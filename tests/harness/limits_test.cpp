@@ -4,12 +4,12 @@
 
 #include <cmath>
 
+#include "validation/baseline/baseline.hpp"
 #include "validation/case/known_defect.hpp"
-#include "validation/harness/apply_gate.hpp"
-#include "validation/harness/baseline.hpp"
-#include "validation/harness/slack.hpp"
-#include "validation/harness/verdict.hpp"
+#include "validation/judge/apply_gate.hpp"
+#include "validation/judge/headroom.hpp"
 #include "validation/metrics/order.hpp"
+#include "validation/results/verdict.hpp"
 
 namespace tripoint {
 namespace {

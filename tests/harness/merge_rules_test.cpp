@@ -5,11 +5,11 @@
 
 #include "fakes.hpp"
 #include "judged.hpp"
+#include "validation/baseline/baseline.hpp"
 #include "validation/case/dates.hpp"
-#include "validation/harness/baseline.hpp"
-#include "validation/harness/finished_run.hpp"
-#include "validation/harness/remarks.hpp"
-#include "validation/harness/slack.hpp"
+#include "validation/judge/headroom.hpp"
+#include "validation/judge/remarks.hpp"
+#include "validation/run/finished_run.hpp"
 
 namespace tripoint {
 namespace {

@@ -10,9 +10,9 @@
 #include "core/errors.hpp"
 #include "harness/fakes.hpp"
 #include "harness/judged.hpp"
-#include "validation/harness/judge.hpp"
-#include "validation/harness/plain_tree.hpp"
-#include "validation/harness/report_files.hpp"
+#include "validation/campaign/merge.hpp"
+#include "validation/judge/judge.hpp"
+#include "validation/run/plain_tree.hpp"
 
 namespace tripoint {
 namespace {

@@ -7,10 +7,10 @@
 #include "core/errors.hpp"
 #include "harness/fakes.hpp"
 #include "harness/judged.hpp"
-#include "validation/harness/baseline.hpp"
-#include "validation/harness/recheck.hpp"
-#include "validation/harness/report_files.hpp"
-#include "validation/harness/selftest_runs.hpp"
+#include "validation/baseline/baseline.hpp"
+#include "validation/campaign/recheck.hpp"
+#include "validation/mutation/selftest_runs.hpp"
+#include "validation/publish/report_files.hpp"
 
 namespace tripoint {
 namespace {

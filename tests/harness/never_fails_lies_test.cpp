@@ -7,7 +7,7 @@
 #include "core/errors.hpp"
 #include "harness/fakes.hpp"
 #include "harness/judged.hpp"
-#include "validation/harness/run_one.hpp"
+#include "validation/run/run_one.hpp"
 
 namespace tripoint {
 namespace {

@@ -6,7 +6,7 @@
 #include "core/errors.hpp"
 #include "harness/fakes.hpp"
 #include "harness/judged.hpp"
-#include "validation/harness/report_files.hpp"
+#include "validation/publish/report_files.hpp"
 
 namespace tripoint {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The second verdict, right or wrong, beside that of the gate, which says as expected or not.
-#include "validation/harness/physics.hpp"
+#include "validation/judge/physics.hpp"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include "judged.hpp"
-#include "validation/harness/report_files.hpp"
+#include "validation/publish/report_files.hpp"
 
 namespace tripoint {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "harness/fakes.hpp"
-#include "validation/harness/process.hpp"
+#include "validation/run/process.hpp"
 
 namespace tripoint {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "validation/harness/baseline_propose.hpp"
+#include "validation/baseline/baseline_propose.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "core/errors.hpp"
 #include "harness/fakes.hpp"
 #include "harness/judged.hpp"
-#include "validation/harness/process.hpp"
+#include "validation/run/process.hpp"
 
 namespace tripoint {
 namespace {

@@ -7,10 +7,10 @@
 #include "core/errors.hpp"
 #include "fakes.hpp"
 #include "judged.hpp"
-#include "validation/harness/gate_verdict.hpp"
-#include "validation/harness/plan_runs.hpp"
-#include "validation/harness/recheck.hpp"
+#include "validation/baseline/gate_verdict.hpp"
+#include "validation/campaign/recheck.hpp"
 #include "validation/references/experiment.hpp"
+#include "validation/run/plan_runs.hpp"
 
 namespace tripoint {
 namespace {

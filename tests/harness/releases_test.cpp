@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Accuracy by release, on results made by hand.
-#include "validation/harness/releases.hpp"
+#include "validation/publish/releases.hpp"
 
 #include <gtest/gtest.h>
 

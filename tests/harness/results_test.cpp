@@ -6,7 +6,9 @@
 #include "core/durable_file.hpp"
 #include "harness/fakes.hpp"
 #include "harness/judged.hpp"
-#include "validation/harness/report_files.hpp"
+#include "validation/campaign/merge.hpp"
+#include "validation/publish/report_files.hpp"
+#include "validation/results/rows.hpp"
 
 namespace tripoint {
 namespace {

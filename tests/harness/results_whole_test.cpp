@@ -9,7 +9,6 @@
 #include "core/durable_file.hpp"
 #include "harness/fakes.hpp"
 #include "harness/judged.hpp"
-#include "validation/harness/report_files.hpp"
 
 namespace tripoint {
 namespace {

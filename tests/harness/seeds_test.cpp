@@ -5,7 +5,7 @@
 #include "harness/fakes.hpp"
 #include "harness/judged.hpp"
 #include "scene/sample.hpp"
-#include "validation/harness/seeds.hpp"
+#include "validation/mutation/seeds.hpp"
 
 namespace tripoint {
 namespace {

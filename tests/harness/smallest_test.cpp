@@ -3,8 +3,8 @@
 
 #include <limits>
 
-#include "validation/harness/selftest.hpp"
-#include "validation/harness/smallest.hpp"
+#include "validation/mutation/selftest.hpp"
+#include "validation/mutation/smallest.hpp"
 
 namespace tripoint {
 namespace {

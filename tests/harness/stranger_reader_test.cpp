@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/errors.hpp"
-#include "validation/harness/stranger_reader.hpp"
+#include "validation/run/third_party_reader.hpp"
 
 namespace tripoint {
 namespace {

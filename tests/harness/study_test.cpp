@@ -6,7 +6,7 @@
 #include "core/errors.hpp"
 #include "harness/fakes.hpp"
 #include "harness/judged.hpp"
-#include "validation/harness/plan_runs.hpp"
+#include "validation/run/plan_runs.hpp"
 
 namespace tripoint {
 namespace {

@@ -5,7 +5,8 @@
 
 #include "harness/fakes.hpp"
 #include "harness/judged.hpp"
-#include "validation/harness/timing.hpp"
+#include "validation/campaign/timing.hpp"
+#include "validation/results/timing_pairs.hpp"
 
 namespace tripoint {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "job/job.hpp"
-#include "validation/harness/results.hpp"
+#include "validation/results/results.hpp"
 
 /// Cost of a run before it is made: good enough to share work out, never shown as a measurement.
 namespace tripoint {

@@ -8,11 +8,10 @@
 #include <tuple>
 
 #include "core/errors.hpp"
-#include "validation/harness/case_run.hpp"
-#include "validation/harness/judge.hpp"
-#include "validation/harness/plain_tree.hpp"
+#include "validation/campaign/case_run.hpp"
 #include "validation/queue/published.hpp"
 #include "validation/queue/standing.hpp"
+#include "validation/run/plain_tree.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;

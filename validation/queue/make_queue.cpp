@@ -8,7 +8,7 @@
 #include <set>
 
 #include "core/durable_file.hpp"
-#include "validation/harness/case_run.hpp"
+#include "validation/campaign/case_run.hpp"
 #include "validation/queue/cost.hpp"
 #include "validation/queue/published.hpp"
 

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/durable_file.hpp"
-#include "validation/harness/json_number.hpp"
+#include "validation/results/json_number.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;

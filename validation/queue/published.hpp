@@ -2,8 +2,8 @@
 #pragma once
 #include <string>
 
-#include "validation/harness/results.hpp"
 #include "validation/queue/queue.hpp"
+#include "validation/results/results.hpp"
 
 /// A run that has ended is published by one rename of its folder: it is there with all its files, or not at all.
 namespace tripoint {

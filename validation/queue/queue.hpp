@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "validation/campaign/suite.hpp"
 #include "validation/case/engine_names.hpp"
-#include "validation/harness/suite.hpp"
 
 /// A suite as a folder of jobs that any number of workers share. A job is one run of one engine, as `tripoint validate` makes it.
 ///

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "validation/harness/foreign_text.hpp"
+#include "validation/results/escaped_text.hpp"
 
 namespace tripoint {
 namespace {

@@ -14,10 +14,11 @@
 #include <thread>
 
 #include "core/errors.hpp"
-#include "validation/harness/case_run.hpp"
-#include "validation/harness/judge.hpp"
+#include "validation/campaign/case_run.hpp"
 #include "validation/queue/published.hpp"
 #include "validation/queue/standing.hpp"
+#include "validation/results/interrupt.hpp"
+#include "validation/results/rows.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <tuple>
+
+#include "core/durable_file.hpp"
+#include "scene/library.hpp"
+#include "validation/baseline/baseline_propose.hpp"
+#include "validation/baseline/baseline_rows.hpp"
+#include "validation/judge/headroom.hpp"
+#include "validation/results/escaped_text.hpp"
+#include "validation/results/verdict.hpp"
+
+namespace tripoint {
+namespace fs = std::filesystem;
+
+Baseline accepted_from(const CaseResult& c, const Tool& tool, std::uint64_t seed, const Baseline* before,
+                       const Acceptance& acceptance, bool engines_were_chosen) {
+  Baseline b;
+  b.id = c.id;
+  b.case_hash = hash_of_file(c);
+  b.seed = seed;
+  const auto hashes = case_hashes(c.file);
+  if (hashes) {
+    b.scene = hashes->scene;
+    b.reference = hashes->reference;
+    b.profiles = hashes->profiles;
+    for (const auto& [name, required] : hashes->required)
+      if (required) b.required.push_back(name);
+  }
+  if (before) b.accepted = before->accepted;
+  b.accepted.push_back(acceptance);
+  b.gates = gates_of(c, hashes);
+  b.cost = costs_of(c, tool);
+  b.engines = engines_of(c);
+  const auto own = b.gates;
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    auto& g = b.gates[k];
+    const auto* old = before ? counterpart(own, k, before->gates) : nullptr;
+    g.first_room = old ? old->first_room : g.room;
+    g.first_value = old ? old->first_value : g.value;
+    if (old) g.loosened = old->loosened + (g.room > old->room && old->room > 0.0 ? std::log(g.room / old->room) : 0.0);
+  }
+  if (!before) return b;
+  b.removed = before->removed + static_cast<int>(gone(c, own, *before, engines_were_chosen).size());
+  for (const auto& g : before->gates)  // an engine that is not on this machine keeps its gates accepted elsewhere
+    if (is_absent(c, g, engines_were_chosen)) b.gates.push_back(g);
+  return b;
+}
+
+namespace {
+
+/// Runs that count more than 1 % more or fewer pairs or steps: a gate would compare them with the new figures.
+std::string changes_of_cost(const Baseline& before, const Baseline& after) {
+  constexpr double seen = 0.01;
+  std::string text;
+  for (const auto& now : after.cost) {
+    const auto old = std::find_if(before.cost.begin(), before.cost.end(), [&](const auto& o) { return o.run == now.run; });
+    if (old == before.cost.end()) continue;
+    for (const auto& [what, is, was] : {std::tuple{"pairs", now.pairs, old->pairs}, std::tuple{"steps", now.steps, old->steps}})
+      if (std::abs(is - was) > seen * was)
+        text += one_line(fmt::format("{} {}: {} {:.6g} -> {:.6g}", after.id, now.run, what, was, is)) + "\n";
+  }
+  return text;
+}
+
+/// Changes of one case by acceptance: each gate whose edges, metric or value have changed.
+std::string changes(const Baseline* before, const Baseline& after) {
+  if (!before) return fmt::format("{}: first baseline, {} gates\n", one_line(after.id), after.gates.size());
+  std::string text;
+  if (!before->scene.empty() && before->scene != after.scene) text += one_line(after.id) + ": another scene, study or setting\n";
+  if (!before->reference.empty() && before->reference != after.reference) text += one_line(after.id) + ": another reference\n";
+  for (std::size_t k = 0; k < after.gates.size(); ++k) {
+    const auto& now = after.gates[k];
+    const auto* old = counterpart(after.gates, k, before->gates);
+    const std::string name = one_line(fmt::format("{} {}{} {}{}", after.id, now.engine, after_blank(now.mode), now.metric,
+                                                  now.level ? fmt::format(" at {:g}", *now.level) : ""));
+    if (!old) {
+      text += fmt::format("{}: new, {}\n", name, now.allows);
+      continue;
+    }
+    if (!old->measures.empty() && old->measures != now.measures) text += name + ": another metric\n";
+    const auto edge = looser_edge(now, *old);
+    if (std::abs(now.room / old->room - 1.0) > 1e-9)
+      text += fmt::format("{}: {} -> {}, {} by a factor {:.3g}\n", name, old->allows, now.allows,
+                          now.room > old->room ? "LOOSER" : "tighter", std::max(now.room / old->room, old->room / now.room));
+    else if (!edge.empty())
+      text += fmt::format("{}: {} -> {}, LOOSER: {}\n", name, old->allows, now.allows, edge);
+    else if (std::abs(now.value - old->value) > 1e-3 * std::abs(old->value) + roundoff_limit)
+      text += fmt::format("{}: value {:.4g} -> {:.4g}\n", name, old->value, now.value);
+  }
+  return text + changes_of_cost(*before, after);
+}
+
+double loosenings(const Baseline& b, int& count) {
+  double sum = 0.0;
+  for (const auto& g : b.gates) {
+    sum += g.loosened;
+    count += g.loosened > 0.0;
+  }
+  return sum;
+}
+
+void check_reason(const Acceptance& acceptance) {
+  if (acceptance.reason.find_first_not_of(" \t\n") == std::string::npos)
+    throw InputError("gate accept: --reason says who decided what, and why");
+}
+
+/// A line of warning where the sources of the program that measured are in no commit; else nothing.
+std::string unreproducible(const std::string& commit) {
+  if (!commit.ends_with("-dirty")) return "";
+  return one_line(
+             fmt::format("note: measured by a tripoint of changed sources ({}), which nobody can build again: commit, build and "
+                         "validate before you accept what others rely on",
+                         commit)) +
+         "\n";
+}
+
+void check_acceptable(const CaseResult& c) {
+  if (c.exit_code != exit_pass)
+    throw InputError(fmt::format("{}: is {} and cannot be accepted; what is measured must be green first", c.id, c.verdict));
+}
+
+}  // namespace
+
+std::vector<Proposal> proposals(const Results& results, const std::vector<std::string>& ids, const Acceptance& acceptance) {
+  check_reason(acceptance);
+  const bool engines_were_chosen = !results.only_engines.empty();
+  std::vector<const CaseResult*> chosen;
+  for (const auto& c : results.cases)
+    if (ids.empty() || std::find(ids.begin(), ids.end(), c.id) != ids.end()) chosen.push_back(&c);
+  for (const auto& id : ids)
+    if (std::none_of(chosen.begin(), chosen.end(), [&](const auto* c) { return c->id == id; }))
+      throw InputError(id + ": the results hold no case of this id");
+  for (const auto* c : chosen) check_acceptable(*c);
+  std::vector<Proposal> list;
+  for (const auto* c : chosen) {
+    Proposal p;
+    p.id = c->id;
+    p.file = baseline_file(c->file);
+    std::optional<Baseline> before;
+    if (fs::exists(p.file)) {
+      before = read_baseline(p.file);
+      p.before = text_of_file(p.file);
+    }
+    const auto after =
+        accepted_from(*c, results.tool, results.seed, before ? &*before : nullptr, acceptance, engines_were_chosen);
+    p.after = baseline_text(after);
+    p.changes = changes(before ? &*before : nullptr, after);
+    if (before)
+      for (const auto* g : gone(*c, gates_of(*c, {}), *before, engines_were_chosen))
+        p.removed +=
+            one_line(fmt::format("{} {} {} {}: REMOVED, it was {}", c->id, g->engine, g->mode, g->metric, g->allows)) + "\n";
+    p.loosened = loosenings(after, p.limits_loosened);
+    p.limits_removed = after.removed;
+    list.push_back(std::move(p));
+  }
+  return list;
+}
+
+std::string accept(const Results& results, const std::vector<std::string>& ids, const Acceptance& acceptance) {
+  const auto list = proposals(results, ids, acceptance);
+  std::string text;
+  double sum = 0.0;
+  int count = 0, removed = 0;
+  for (const auto& p : list) {
+    fs::create_directories(fs::path(p.file).parent_path());
+    write_durably(p.file, p.after);
+    text += p.changes + p.removed;
+    sum += p.loosened;
+    count += p.limits_loosened;
+    removed += p.limits_removed;
+  }
+  text += unreproducible(acceptance.commit);
+  return text + fmt::format(
+                    "{} cases accepted; since the first baseline {} limits were loosened, in all by a factor {:.4g} (sum of ln "
+                    "new/old {:.3g}), and {} were removed\n",
+                    list.size(), count, std::exp(sum), sum, removed);
+}
+
+std::string accept_removal(const std::vector<std::string>& ids, const Acceptance& acceptance) {
+  check_reason(acceptance);
+  const auto suite = fs::weakly_canonical(fs::path(share_folder()) / "cases");
+  std::string text;
+  for (const auto& id : ids) {
+    const auto of = id.ends_with(".toml") ? id : (suite / (id + ".toml")).string();
+    const auto file = baseline_file(of);
+    if (!fs::exists(file)) throw InputError(file + ": there is no such baseline to remove");
+    if (fs::exists(of)) throw InputError(of + ": the case is still there, and its baseline stays");
+    const auto b = read_baseline(file);
+    fs::remove(file);
+    text += one_line(fmt::format("{}: REMOVED with {} gates: {}", b.id, b.gates.size(), acceptance.reason)) + "\n";
+  }
+  return text;
+}
+
+}  // namespace tripoint

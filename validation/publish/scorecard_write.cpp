@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/durable_file.hpp"
+#include "scene/library.hpp"
+#include "validation/publish/report_files.hpp"
+#include "validation/publish/scorecard.hpp"
+#include "validation/results/json_number.hpp"
+#include "validation/run/process.hpp"
+
+namespace tripoint {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double page_limit = 120.0;     // [s]
+constexpr std::size_t most_in_full = 4;  // engines whose rows the terminal shows; of more it shows the totals
+
+bool ran(const ScoreRow& r) { return r.verdict != Score::refused && r.verdict != Score::missing; }
+
+std::string figure(double value, const char* form = "{:.3g}") {
+  return std::isfinite(value) ? fmt::format(fmt::runtime(form), value) : "-";
+}
+
+std::string error_cell(const ScoreRow& r) {
+  return std::isfinite(r.error) ? fmt::format("{:.3g} ({})", r.error, r.allowed) : "-";
+}
+
+std::string order_cell(const ScoreRow& r) {
+  if (!r.order_class) return "-";
+  return std::isfinite(r.order) ? fmt::format("{:.1f} {}", r.order, *r.order_class) : std::string(to_string(*r.order_class));
+}
+
+std::string drift_cell(const ScoreRow& r) {
+  return std::isfinite(r.drift) ? fmt::format("{} {:.2g}", r.drift_metric, r.drift) : "-";
+}
+
+std::string rank_cell(const ScoreRow& r) { return r.rank > 0 ? fmt::format("{} of {}", r.rank, r.of) : "-"; }
+
+std::string cell(std::string text) {
+  std::replace(text.begin(), text.end(), '|', '/');
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+/// "12 pass, 1 fail, 14 refused": counts of 0 are left out, except pass and fail.
+std::string tally(const EngineScore& s) {
+  std::string text;
+  for (const auto v : all_of<Score>())
+    if (const int n = s.count(v); n > 0 || v == Score::pass || v == Score::fail)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, v);
+  return text;
+}
+
+double cpu_of(const EngineScore& s) {
+  double sum = 0.0;
+  for (const auto& r : s.rows)
+    if (std::isfinite(r.cpu_s)) sum += r.cpu_s;
+  return sum;
+}
+
+int firsts(const EngineScore& s) {
+  return static_cast<int>(std::count_if(s.rows.begin(), s.rows.end(), [](const auto& r) { return r.rank == 1 && r.of > 1; }));
+}
+
+/// Refusals with one reason stand together.
+std::vector<std::pair<std::string, std::vector<std::string>>> refusals(const EngineScore& s) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> list;
+  for (const auto& r : s.rows) {
+    if (ran(r)) continue;
+    const auto words = fmt::format("{}{}{}", r.verdict, r.reason.starts_with("as expected: ") ? ", " : ": ", r.reason);
+    const auto at = std::find_if(list.begin(), list.end(), [&](const auto& l) { return l.first == words; });
+    if (at == list.end())
+      list.push_back({words, {r.case_id}});
+    else
+      at->second.push_back(r.case_id);
+  }
+  return list;
+}
+
+/// ": reason. cause", as far as there are any.
+std::string because(const ScoreRow& r) {
+  return (r.reason.empty() ? "" : ": " + r.reason) + (r.cause.empty() ? "" : (r.reason.empty() ? ": " : ". ") + r.cause);
+}
+
+std::string rows_text(const EngineScore& s) {
+  std::string text =
+      fmt::format("\nscorecard of {} {}: {}\n  {:13} {:26} {:>28} {:>10} {:>18} {:>8} {:>7} {:>8}\n", s.label(), s.version,
+                  tally(s), "verdict", "case", "error (limit)", "order", "drift", "CPU s", "x ours", "rank");
+  for (const auto& r : s.rows) {
+    if (!ran(r)) continue;
+    text += fmt::format("  {:13} {:26} {:>28} {:>10} {:>18} {:>8} {:>7} {:>8}\n", r.verdict, r.case_id, error_cell(r),
+                        order_cell(r), drift_cell(r), figure(r.cpu_s, "{:.2f}"), figure(r.cost, "{:.2g}"), rank_cell(r));
+    for (const auto& line : {r.reason, r.cause})
+      if (!line.empty()) text += "                " + line + "\n";
+  }
+  for (const auto& [reason, ids] : refusals(s))
+    text += fmt::format("  {} ({} case{})\n", reason, ids.size(), ids.size() == 1 ? "" : "s");
+  return text;
+}
+
+std::string totals_text(const Scorecard& card) {
+  std::string text = fmt::format("\n{:34} {:>5} {:>5} {:>6} {:>8} {:>8} {:>8} {:>6} {:>9}\n", "engine", "pass", "fail", "known",
+                                 "refused", "missing", "crashed", "first", "CPU s");
+  for (const auto& s : card.engines)
+    text += fmt::format("{:34} {:5} {:5} {:6} {:8} {:8} {:8} {:6} {:9.2f}\n", s.label(), s.count(Score::pass),
+                        s.count(Score::fail) + s.count(Score::inconclusive) + s.count(Score::not_judged),
+                        s.count(Score::known_defect), s.count(Score::refused), s.count(Score::missing),
+                        s.count(Score::crashed) + s.count(Score::diverged), firsts(s), cpu_of(s));
+  return text;
+}
+
+std::string totals_markdown(const Scorecard& card) {
+  std::string text =
+      "| engine | pass | fail | known defect | refused | missing | crashed | first | CPU s "
+      "|\n|---|---|---|---|---|---|---|---|---|\n";
+  for (const auto& s : card.engines)
+    text += fmt::format("| {} {} | {} | {} | {} | {} | {} | {} | {} | {:.1f} |\n", s.label(), s.version, s.count(Score::pass),
+                        s.count(Score::fail) + s.count(Score::inconclusive) + s.count(Score::not_judged),
+                        s.count(Score::known_defect), s.count(Score::refused), s.count(Score::missing),
+                        s.count(Score::crashed) + s.count(Score::diverged), firsts(s), cpu_of(s));
+  return text;
+}
+
+std::string rows_markdown(const EngineScore& s) {
+  std::string text = fmt::format("\n## {} {}\n\n{}.\n", s.label(), s.version, tally(s));
+  if (std::any_of(s.rows.begin(), s.rows.end(), ran))
+    text += "\n| case | verdict | error | order | drift | CPU s | times ours | rank |\n|---|---|---|---|---|---|---|---|\n";
+  for (const auto& r : s.rows)
+    if (ran(r))
+      text += fmt::format("| {} | {}{} | {}{} | {} | {} | {} | {} | {} |\n", r.case_id, r.verdict, cell(because(r)),
+                          error_cell(r), std::isfinite(r.error) && !r.unit.empty() ? " " + cell(r.unit) : "", order_cell(r),
+                          cell(drift_cell(r)), figure(r.cpu_s, "{:.2f}"), figure(r.cost, "{:.2g}"), rank_cell(r));
+  const auto list = refusals(s);
+  if (!list.empty()) text += "\n";
+  for (const auto& [reason, ids] : list) text += fmt::format("- {}: {}\n", cell(reason), fmt::join(ids, ", "));
+  return text;
+}
+
+std::string disagreement_markdown(const Disagreement& d) {
+  std::string text = fmt::format(
+      "\n### {}\n\n{} and {} are {:.3g} {} apart in `{}` ({}).\n\n| engine | off the truth | verdict | the setting, in the "
+      "vendor's words |\n|---|---|---|---|\n",
+      d.case_id, d.a, d.b, d.difference, cell(d.unit), d.metric, d.allowed);
+  for (const auto& w : d.witnesses)
+    text += fmt::format("| {} | {:.3g} | {} | {} |\n", w.label, w.error, w.verdict, cell(w.words));
+  return text;
+}
+
+Json json(const WorstLimit& w) {
+  return {{"metric", w.metric}, {"unit", w.unit}, {"allowed", w.allowed}, {"value", number(w.value)}, {"share", number(w.share)}};
+}
+
+Json json(const ScoreRow& r) {
+  return {{"case", r.case_id},
+          {"title", r.title},
+          {"verdict", r.verdict},
+          {"reason", r.reason},
+          {"defect", r.defect},
+          {"cause", r.cause},
+          {"metric", r.metric},
+          {"unit", r.unit},
+          {"error", number(r.error)},
+          {"allowed", r.allowed},
+          {"share", number(r.share)},
+          {"worst", json(r.worst)},
+          {"order", number(r.order)},
+          {"order_metric", r.order_metric},
+          {"order_class", r.order_class ? to_string(*r.order_class) : ""},
+          {"drift", number(r.drift)},
+          {"drift_metric", r.drift_metric},
+          {"cpu_s", number(r.cpu_s)},
+          {"cost", number(r.cost)},
+          {"rank", r.rank},
+          {"of", r.of}};
+}
+
+Json json(const EngineScore& s) {
+  Json rows = Json::array(), totals = Json::object();
+  for (const auto& r : s.rows) rows.push_back(json(r));
+  for (const auto v : all_of<Score>()) totals[std::string(to_string(v))] = s.count(v);
+  return {{"engine", s.engine}, {"preset", s.preset}, {"label", s.label()}, {"version", s.version},
+          {"totals", totals},   {"first", firsts(s)}, {"cpu_s", cpu_of(s)}, {"rows", rows}};
+}
+
+Json json(const Disagreement& d) {
+  Json witnesses = Json::array();
+  for (const auto& w : d.witnesses)
+    witnesses.push_back({{"engine", w.label}, {"verdict", w.verdict}, {"error", number(w.error)}, {"words", w.words}});
+  return {{"case", d.case_id},
+          {"metric", d.metric},
+          {"unit", d.unit},
+          {"allowed", d.allowed},
+          {"a", d.a},
+          {"b", d.b},
+          {"difference", number(d.difference)},
+          {"engines", witnesses}};
+}
+
+}  // namespace
+
+std::string scorecard_text(const Scorecard& card, const std::vector<std::string>& asked) {
+  std::vector<const EngineScore*> shown;
+  for (const auto& s : card.engines)
+    if (std::find(asked.begin(), asked.end(), s.engine) != asked.end()) shown.push_back(&s);
+  std::string text;
+  if (shown.size() <= most_in_full)
+    for (const auto* s : shown) text += rows_text(*s);
+  return text + totals_text(card) +
+         (card.disagreements.empty()
+              ? ""
+              : fmt::format("in {} cases two engines differ by more than half of the limit: the page says which is how far off\n",
+                            card.disagreements.size()));
+}
+
+std::string scorecard_markdown(const Scorecard& card) {
+  std::string text =
+      fmt::format("# Acceptance: engines by the limits that any engine must hold\n\nWritten by `{}`: {}, exit {}.\n\n",
+                  card.command, card.verdict, card.exit_code);
+  text +=
+      "`first` counts the cases in which an engine has the smallest error of several. An engine that fails a case, or holds it "
+      "by "
+      "a known defect, has no rank there. `CPU s` is the sum over its own runs of "
+      "the cases, studies left out.\n\n" +
+      totals_markdown(card);
+  for (const auto& s : card.engines) text += rows_markdown(s);
+  if (!card.disagreements.empty())
+    text +=
+        "\n## Where engines disagree\n\nTwo engines differ by more than half of the limit. The error of each is against the "
+        "exact solution.\n";
+  for (const auto& d : card.disagreements) text += disagreement_markdown(d);
+  return text;
+}
+
+std::string scorecard_json(const Scorecard& card) {
+  Json engines = Json::array(), disagreements = Json::array();
+  for (const auto& s : card.engines) engines.push_back(json(s));
+  for (const auto& d : card.disagreements) disagreements.push_back(json(d));
+  return Json{{"format", 1},       {"command", card.command}, {"verdict", card.verdict}, {"exit_code", card.exit_code},
+              {"date", card.date}, {"commit", card.commit},   {"engines", engines},      {"disagreements", disagreements}}
+             .dump(1, ' ', false, Json::error_handler_t::replace) +
+         "\n";
+}
+
+std::string write_scorecard(const Scorecard& card, const std::string& folder) {
+  const fs::path out = fs::absolute(folder);
+  fs::create_directories(out);
+  fs::remove(out / "scorecard.html");  // an old page must not stand for new results
+  write_durably((out / "scorecard.json").string(), scorecard_json(card));
+  write_durably((out / "scorecard.md").string(), scorecard_markdown(card));
+  ProcessSpec spec;
+  spec.argv = {python_program(), (fs::path(share_folder()) / "reports" / "scorecard.py").string(),
+               (out / "scorecard.json").string()};
+  spec.wall_limit = page_limit;
+  spec.outlives_interrupt = true;
+  spec.log = (out / "scorecard.log").string();
+  const auto end = run_process(spec);
+  if (end.how == ProcessEnd::How::exited && end.code == 0 && fs::exists(out / "scorecard.html")) return {};
+  return fmt::format("the page of the scorecard {}: {}", describe(end), end.log_tail);
+}
+
+}  // namespace tripoint

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/results/case_hash.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+
+#include "job/job.hpp"
+#include "validation/case/read_case.hpp"
+
+namespace tripoint {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::uintmax_t most_read = std::uintmax_t{256} << 20;  // size of the greatest mesh; no other file may be as large
+
+/// Content of a file. For a file that every reader refuses for its size it is the size: a stranger's case may name one that fits
+/// in no memory.
+std::string text_of(const fs::path& file) {
+  std::error_code none;
+  const std::uintmax_t size = fs::file_size(file, none);
+  if (!none && size > most_read) return "more than is read: " + std::to_string(size);
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// One key with its value, and with the contents of the file that it names.
+std::string line_of(const Decision& d, const fs::path& folder) {
+  std::string line = d.key + "=" + d.value + "\n";
+  if (d.key.ends_with(".file") && d.value.size() > 2)
+    line += text_hash(text_of(folder / d.value.substr(1, d.value.size() - 2))) + "\n";
+  return line;
+}
+
+bool is_of_the_scene(const std::string& key) {
+  static constexpr std::array<std::string_view, 7> rooms{"scene.", "material.", "body.", "event.", "inflow.", "study.", "input."};
+  if (key == "case.modes" || key == "case.expect") return true;
+  if (key.starts_with("engines."))
+    return !key.ends_with(".required") && !key.ends_with(".refuses");  // part of the judgement, not of the question
+  return !key.ends_with(".source") && std::any_of(rooms.begin(), rooms.end(), [&](auto room) { return key.starts_with(room); });
+}
+
+std::string hash_of(std::vector<std::string> lines) {
+  std::sort(lines.begin(), lines.end());
+  std::string all;
+  for (const auto& line : lines) all += line;
+  return text_hash(all);
+}
+
+}  // namespace
+
+std::optional<CaseHashes> case_hashes(const std::string& file) {
+  CaseReading reading;
+  try {
+    reading = read_case(file);
+  } catch (const std::exception&) {
+    return {};
+  }
+  const fs::path folder = fs::path(file).parent_path();
+  const auto hash = [&](const auto& wanted) {
+    std::vector<std::string> lines;
+    for (const auto& d : reading.decisions)
+      if ((d.given || d.reason.starts_with("library, ")) && wanted(d.key)) lines.push_back(line_of(d, folder));
+    return hash_of(std::move(lines));
+  };
+  CaseHashes hashes;
+  hashes.scene = hash(is_of_the_scene);
+  hashes.reference = hash([](const std::string& key) { return key.starts_with("reference.") && !key.ends_with(".source"); });
+  for (const auto& m : reading.value.metrics)
+    hashes.metrics[m.name] =
+        hash([&](const std::string& key) { return key.starts_with("metric." + m.name + ".") && !key.ends_with(".source"); });
+  for (const auto& e : reading.value.engines) hashes.required[e.name] = e.required;
+  hashes.profiles = reading.value.profiles;
+  return hashes;
+}
+
+}  // namespace tripoint

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string_view>
+#include <thread>
+
+#include "validation/run/sandbox_sums.hpp"
+
+namespace tripoint {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path root = "/sys/fs/cgroup";
+
+struct Bound {
+  const char *controller, *file, *file_v1;
+  double value;
+};
+
+bool wrote(const fs::path& file, const std::string& text) {
+  std::ofstream out(file);
+  return static_cast<bool>(out << text << std::flush);
+}
+
+std::string new_name() {
+  static std::atomic<unsigned> next{0};
+  return fmt::format("tripoint-{}-{}", ::getpid(), next++);
+}
+
+/// Our group in the hierarchy of a controller, "" in version 2; empty where there is none.
+fs::path own_group(std::string_view controller) {
+  std::ifstream in("/proc/self/cgroup");
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream fields(line);
+    std::string number, name, path;
+    if (std::getline(fields, number, ':') && std::getline(fields, name, ':') && std::getline(fields, path) && name == controller)
+      return root / name / fs::path(path).relative_path();
+  }
+  return {};
+}
+
+/// A group of this name as near below ours as may be, with each bound; empty where none can be made.
+fs::path group_below(const fs::path& ours, const fs::path& top, const std::vector<std::pair<std::string, double>>& bounds) {
+  const std::string name = new_name();
+  std::error_code none;
+  for (fs::path at = ours; !at.empty(); at = at.parent_path()) {
+    const fs::path made = at / name;
+    if (fs::create_directory(made, none)) {
+      bool bounded = true;
+      for (const auto& [file, value] : bounds) bounded = bounded && wrote(made / file, fmt::format("{:.0f}", value));
+      if (bounded && ::access((made / "cgroup.procs").c_str(), W_OK) == 0) return made;
+      fs::remove(made, none);
+    }
+    if (at == top || at == at.root_path()) break;
+  }
+  return {};
+}
+
+}  // namespace
+
+ControlGroup::ControlGroup(const SandboxSums& most) {
+  if (!(most.memory > 0.0) || most.processes <= 0) return;
+  constexpr double ours = 2.0;  // bubblewrap, and its first process inside
+  const double processes = most.processes + ours;
+  if (fs::exists(root / "cgroup.controllers")) {
+    if (auto made = group_below(own_group(""), root, {{"memory.max", most.memory}, {"pids.max", processes}}); !made.empty())
+      folders_.push_back(std::move(made));
+    return;
+  }
+  for (const auto& [controller, file, value] :
+       {std::tuple("memory", "memory.limit_in_bytes", most.memory), std::tuple("pids", "pids.max", processes)})
+    if (auto made = group_below(own_group(controller), root / controller, {{file, value}}); !made.empty())
+      folders_.push_back(std::move(made));
+}
+
+ControlGroup::~ControlGroup() {
+  using namespace std::chrono_literals;
+  for (const fs::path& folder : folders_) {
+    std::error_code failed;
+    for (int n = 0; n < 50 && !fs::remove(folder, failed) && failed; ++n) std::this_thread::sleep_for(2ms);
+  }
+}
+
+std::vector<std::string> ControlGroup::begun_inside(const std::vector<std::string>& argv) const {
+  if (folders_.empty()) return argv;
+  std::vector<std::string> words{"/bin/sh", "-c",
+                                 R"(n=$1; shift; while [ "$n" -gt 0 ]; do echo $$ >"$1"; shift; n=$((n - 1)); done; exec "$@")",
+                                 "sh", std::to_string(folders_.size())};
+  for (const fs::path& folder : folders_) words.push_back((folder / "cgroup.procs").string());
+  words.insert(words.end(), argv.begin(), argv.end());
+  return words;
+}
+
+}  // namespace tripoint
