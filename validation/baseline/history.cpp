@@ -32,9 +32,9 @@ Json gates_of(const CaseResult& c) {
                       {"mode", g.mode},
                       {"metric", g.metric},
                       {"level", g.level ? Json(*g.level) : Json(nullptr)},
-                      {"value", number(g.value)},
-                      {"uncertainty", number(g.uncertainty)},
-                      {"used", number(g.used)},
+                      {"value", json_number(g.value)},
+                      {"uncertainty", json_number(g.uncertainty)},
+                      {"used", json_number(g.used)},
                       {"verdict", g.verdict}});
     }
   return list;

@@ -70,7 +70,7 @@ std::string selftest_json(const SelftestOutcome& outcome) {
     harmless.push_back({{"change", h.change},
                         {"case", h.case_id},
                         {"borne", h.borne},
-                        {"greatest", number(h.greatest)},
+                        {"greatest", json_number(h.greatest)},
                         {"tolerance", h.tolerance},
                         {"found", h.found}});
   for (const auto& s : outcome.smallest)
@@ -78,8 +78,8 @@ std::string selftest_json(const SelftestOutcome& outcome) {
                         {"what", s.what},
                         {"case", s.case_id},
                         {"metric", s.metric},
-                        {"size", number(s.size)},
-                        {"hidden", number(s.hidden)},
+                        {"size", json_number(s.size)},
+                        {"hidden", json_number(s.hidden)},
                         {"stored", s.stored},
                         {"verdict", s.verdict},
                         {"holds", s.holds()},

@@ -19,13 +19,16 @@ Json json(const EngineRow& e) {
   const auto* base = base_run(e);
   if (base)
     for (const auto& [name, value] : base->metrics)
-      metrics[name] = {{"value", number(value.value)}, {"order", number(observed_order(e, name))}};
+      metrics[name] = {{"value", json_number(value.value)}, {"order", json_number(observed_order(e, name))}};
   for (const auto& o : e.order)
     if (metrics.contains(o.metric))
-      metrics[o.metric].update({{"step", numbers(o.step)}, {"error", numbers(o.error)}, {"class", o.order.fit_class}});
+      metrics[o.metric].update({{"step", json_numbers(o.step)}, {"error", json_numbers(o.error)}, {"class", o.order.fit_class}});
   for (const auto& g : e.gates)
-    gates.push_back(
-        {{"metric", g.metric}, {"level", number(g.level)}, {"value", number(g.value)}, {"verdict", g.verdict}, {"why", g.why}});
+    gates.push_back({{"metric", g.metric},
+                     {"level", json_number(g.level)},
+                     {"value", json_number(g.value)},
+                     {"verdict", g.verdict},
+                     {"why", g.why}});
   return {{"preset", e.preset}, {"status", e.status}, {"reason", e.reason},
           {"metrics", metrics}, {"gates", gates},     {"cpu_s", base ? Json(base->cost.cpu_s) : Json(nullptr)}};
 }
@@ -35,11 +38,11 @@ Json json(const ReleaseChange& c) {
           {"metric", c.metric},
           {"from", c.from},
           {"to", c.to},
-          {"before", number(c.before)},
-          {"after", number(c.after)},
-          {"order_before", number(c.order_before)},
-          {"order_after", number(c.order_after)},
-          {"ratio", number(c.ratio)},
+          {"before", json_number(c.before)},
+          {"after", json_number(c.after)},
+          {"order_before", json_number(c.order_before)},
+          {"order_after", json_number(c.order_after)},
+          {"ratio", json_number(c.ratio)},
           {"round_off", c.round_off},
           {"worse", c.worse}};
 }

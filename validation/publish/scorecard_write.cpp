@@ -155,7 +155,11 @@ std::string disagreement_markdown(const Disagreement& d) {
 }
 
 Json json(const WorstLimit& w) {
-  return {{"metric", w.metric}, {"unit", w.unit}, {"allowed", w.allowed}, {"value", number(w.value)}, {"share", number(w.share)}};
+  return {{"metric", w.metric},
+          {"unit", w.unit},
+          {"allowed", w.allowed},
+          {"value", json_number(w.value)},
+          {"share", json_number(w.share)}};
 }
 
 Json json(const ScoreRow& r) {
@@ -167,17 +171,17 @@ Json json(const ScoreRow& r) {
           {"cause", r.cause},
           {"metric", r.metric},
           {"unit", r.unit},
-          {"error", number(r.error)},
+          {"error", json_number(r.error)},
           {"allowed", r.allowed},
-          {"share", number(r.share)},
+          {"share", json_number(r.share)},
           {"worst", json(r.worst)},
-          {"order", number(r.order)},
+          {"order", json_number(r.order)},
           {"order_metric", r.order_metric},
           {"order_class", r.order_class ? to_string(*r.order_class) : ""},
-          {"drift", number(r.drift)},
+          {"drift", json_number(r.drift)},
           {"drift_metric", r.drift_metric},
-          {"cpu_s", number(r.cpu_s)},
-          {"cost", number(r.cost)},
+          {"cpu_s", json_number(r.cpu_s)},
+          {"cost", json_number(r.cost)},
           {"rank", r.rank},
           {"of", r.of}};
 }
@@ -193,14 +197,14 @@ Json json(const EngineScore& s) {
 Json json(const Disagreement& d) {
   Json witnesses = Json::array();
   for (const auto& w : d.witnesses)
-    witnesses.push_back({{"engine", w.label}, {"verdict", w.verdict}, {"error", number(w.error)}, {"words", w.words}});
+    witnesses.push_back({{"engine", w.label}, {"verdict", w.verdict}, {"error", json_number(w.error)}, {"words", w.words}});
   return {{"case", d.case_id},
           {"metric", d.metric},
           {"unit", d.unit},
           {"allowed", d.allowed},
           {"a", d.a},
           {"b", d.b},
-          {"difference", number(d.difference)},
+          {"difference", json_number(d.difference)},
           {"engines", witnesses}};
 }
 

@@ -7,7 +7,7 @@
 namespace tripoint {
 
 /// A number as JSON has it: null where it is not finite, or not there.
-[[nodiscard]] nlohmann::ordered_json number(const std::optional<double>& value);
-[[nodiscard]] nlohmann::ordered_json numbers(const std::vector<double>& values);
+[[nodiscard]] nlohmann::ordered_json json_number(const std::optional<double>& value);
+[[nodiscard]] nlohmann::ordered_json json_numbers(const std::vector<double>& values);
 
 }  // namespace tripoint

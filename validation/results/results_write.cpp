@@ -24,15 +24,15 @@ class Writer {
   }
   template <class T>
   void operator()(const char* key, NumberOrNull<T> m) {
-    to_[key] = number(m.value);
+    to_[key] = json_number(m.value);
   }
   template <class T>
   void operator()(const char* key, Stated<T> s) {
-    to_[key] = number(s.value);
+    to_[key] = json_number(s.value);
   }
   template <class T>
   void operator()(const char* key, Judged<T> j) {
-    to_[key] = number(j.value);
+    to_[key] = json_number(j.value);
     if (!std::isfinite(j.value)) to_["finite"] = false;
   }
   void operator()(const char* key, OrNull<const double> x) { to_[key] = x.value > 0.0 ? Json(x.value) : Json(nullptr); }
@@ -80,8 +80,8 @@ class Writer {
       return Json(value);
     }
   }
-  static Json json(const std::optional<double>& value) { return number(value); }
-  static Json json(const std::vector<double>& values) { return numbers(values); }
+  static Json json(const std::optional<double>& value) { return json_number(value); }
+  static Json json(const std::vector<double>& values) { return json_numbers(values); }
   static Json json(const std::optional<std::array<double, 2>>& pair) { return pair ? Json(*pair) : Json(nullptr); }
   template <HasWords E>
   static Json json(const std::optional<E>& word) {
