@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Hostile engines and hostile case files against the whole program: none passes, none harms the host, each stays in bounds of time and memory.
 
-    hostile_test.py TRIPOINT PAGE           compares with the tables on docs/hostile.md; seconds and memory are held to bounds alone
+    hostile_test.py TRIPOINT PAGE           compares with the tables on tests/cli/hostile/tables.md; seconds and memory are held to bounds alone
     hostile_test.py TRIPOINT PAGE --write   writes those tables anew
 
 Time is the processor's of all that ran, memory that of the largest process. We take in every orphan (as a child subreaper): what an engine leaves alive would be ours."""
