@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tables of docs/surface.md: surface-measure [ball|torus|slab|times]; the plot of (25) in docs/gallery.md: surface-measure
+// The figures of docs/surface.md: surface-measure [ball|torus|slab|times]; the plot of (25) in docs/gallery.md: surface-measure
 // factor
 #include <cmath>
 #include <cstdio>
