@@ -6,7 +6,7 @@
     tools/prose.py FILE...     prints every finding of these files, without an allowance
     tools/prose.py --write     lowers the allowances to today's counts; none is ever raised
 
-Rules: a sentence has at most 25 words, a table cell at most 30, and no banned construction.
+Rules: a sentence has at most 25 words, a table cell at most 30, a decision at most 200, and no banned construction.
 """
 
 import argparse
@@ -15,7 +15,7 @@ import sys
 from pathlib import Path
 from typing import Iterator, NamedTuple
 
-SENTENCE, CELL = 25, 30  # words at most
+SENTENCE, CELL, DECISION = 25, 30, 200  # words at most
 ALLOWANCE = "tools/prose-allowance.txt"
 
 # A construction that needs a second reading, and the advice that goes with it.
@@ -119,6 +119,9 @@ def count(text: str) -> int:
 
 def findings(path: str, text: str) -> list[Finding]:
     found = []
+    if "decisions/" in path and len(text.split()) > DECISION:
+        advice = f"{len(text.split())} words: a decision has at most {DECISION}; measurements go to the case"
+        found.append(Finding(path, 1, text.splitlines()[0], advice))
     for block in blocks(text):
         if block.cell and count(block.text) > CELL:
             advice = f"{count(block.text)} words: a cell has at most {CELL}; move the rest below the table"

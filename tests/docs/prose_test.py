@@ -70,6 +70,14 @@ class Planted(unittest.TestCase):
         self.assertIn("README.md:8: ", answer.stdout)
         self.assertIn("31 words: a cell has at most 30", answer.stdout)
 
+    def test_a_long_decision_fails(self):
+        (self.root / "docs/decisions").mkdir(parents=True)
+        for words, code in ((198, 0), (199, 1)):
+            (self.root / "docs/decisions/001-a.md").write_text("# Title\n\n" + "Word. " * words)
+            answer = self.check()
+            self.assertEqual(answer.returncode, code, answer.stdout)
+        self.assertIn("docs/decisions/001-a.md:1: # Title\n    201 words: a decision has at most 200", answer.stdout)
+
     def test_an_allowance_falls_and_never_rises(self):
         self.plant(LONG)
         self.check("--write")
