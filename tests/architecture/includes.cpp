@@ -59,7 +59,7 @@ const std::map<std::string, std::vector<std::string>, std::less<>> allowed{
       "validation/baseline", "validation/mutation"}},
     {"validation/queue",
      {"core", "scene", "job", "validation/case", "validation/results", "validation/run", "validation/campaign"}},
-    {"validation/exact", {"core", "scene", "io", "job", "adapters/engine", "validation/references"}},
+    {"adapters/exact", {"core", "scene", "io", "job", "adapters/engine", "validation/references"}},
     {"program/bench", {"core", "scene", "particles", "sph", "world", "passes", "assembly", "step", "validation/case"}},
     {"program/predict", {"core", "scene", "particles"}},
 };

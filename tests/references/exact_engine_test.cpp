@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "validation/exact/exact_engine.hpp"
+#include "adapters/exact/exact_engine.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "validation/exact/exact_engine.hpp"
+#include "adapters/exact/exact_engine.hpp"
 
 int main(int argc, char** argv) {
   return tripoint::serve(argc, argv, [] { return std::unique_ptr<tripoint::Engine>(new tripoint::ExactEngine); });
