@@ -19,7 +19,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build-coverage"
-ROOMS = ("src", "job", "adapters", "validation", "program")
+ROOMS = ("src", "adapters", "validation", "program")
 
 
 def run(*words, **more):

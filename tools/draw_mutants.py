@@ -83,7 +83,7 @@ def targets_of(file):
     tests = {"tripoint": ["test-step"], "bullet": ["test-bullet"], "lammps": ["test-engines"], "exact": ["test-exact"]}
     if part in tests:
         return [f"engine-{part}"], tests[part], part
-    return ["engine-tripoint", "engine-bullet", "engine-exact", "engine-lammps", "bin/tripoint"], ["test-io", "test-exact"], "tripoint"
+    return ["engine-tripoint", "engine-bullet", "engine-exact", "engine-lammps", "bin/tripoint"], ["test-files", "test-exact"], "tripoint"
 
 
 def run(command, tree, seconds):

@@ -11,7 +11,7 @@ if ! command -v "$formatter" >/dev/null; then
   echo "format: $formatter is not installed; make test installs it" >&2
   exit 77
 fi
-mapfile -d '' -t files < <(find src job adapters validation program tests \( -name '*.cpp' -o -name '*.hpp' \) -print0)
+mapfile -d '' -t files < <(find src adapters validation program tests \( -name '*.cpp' -o -name '*.hpp' \) -print0)
 if [[ ${1:-} != --check ]]; then exec "$formatter" -i "${files[@]}"; fi
 found=$(mktemp)
 trap 'rm -f "$found"' EXIT

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "job/job.hpp"
+#include "files/job.hpp"
 
 namespace tripoint::bullet {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "job/job.hpp"
+#include "files/job.hpp"
 
 /// Bullet's numbers that change results: three presets, and the settings of a case over them.
 namespace tripoint::bullet {

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "core/durable_file.hpp"
-#include "io/checkpoint_file.hpp"
+#include "files/checkpoint_file.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;

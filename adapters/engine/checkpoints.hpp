@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/checkpoint.hpp"
-#include "io/trajectory.hpp"
-#include "job/job.hpp"
+#include "files/job.hpp"
+#include "files/trajectory.hpp"
 
 /// Checkpoints of a job: data of the run beside the engine's own state, when they are due, and where they lie.
 namespace tripoint {

@@ -7,8 +7,8 @@
 
 #include "core/checkpoint.hpp"
 #include "core/defect.hpp"
-#include "io/trajectory.hpp"
-#include "job/job.hpp"
+#include "files/job.hpp"
+#include "files/trajectory.hpp"
 
 /// An engine adapter is five functions, SI in and out, one executable each (contracts: engine protocol).
 namespace tripoint {

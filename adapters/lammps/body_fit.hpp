@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "io/trajectory.hpp"
+#include "files/trajectory.hpp"
 #include "scene/initial_state.hpp"
 
 namespace tripoint::lammps {

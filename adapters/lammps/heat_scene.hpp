@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "io/trajectory.hpp"
-#include "job/job.hpp"
+#include "files/job.hpp"
+#include "files/trajectory.hpp"
 
 /// Parts that walkers and sph/heatconduction share: heat in bodies at rest.
 namespace tripoint::lammps {

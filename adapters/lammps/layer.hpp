@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "io/trajectory.hpp"
-#include "job/job.hpp"
+#include "files/job.hpp"
+#include "files/trajectory.hpp"
 
 namespace tripoint::lammps {
 

@@ -2,8 +2,8 @@
 #pragma once
 #include <vector>
 
-#include "io/trajectory.hpp"
-#include "job/job.hpp"
+#include "files/job.hpp"
+#include "files/trajectory.hpp"
 
 namespace tripoint::lammps {
 

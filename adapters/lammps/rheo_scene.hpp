@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 #pragma once
 #include "adapters/lammps/particle_model.hpp"
-#include "job/job.hpp"
+#include "files/job.hpp"
 
 /// A scene's matter in RHEO's terms.
 namespace tripoint::lammps {

@@ -11,7 +11,7 @@
 #include <fstream>
 
 #include "core/children.hpp"
-#include "job/job.hpp"
+#include "files/job.hpp"
 
 namespace tripoint::lammps {
 namespace {

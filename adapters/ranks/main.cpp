@@ -14,7 +14,7 @@
 #include "adapters/ranks/mpiexec.hpp"
 #include "adapters/ranks/probe.hpp"
 #include "adapters/ranks/ranks_engine.hpp"
-#include "io/checkpoint_file.hpp"
+#include "files/checkpoint_file.hpp"
 
 namespace tripoint::ranks {
 namespace {

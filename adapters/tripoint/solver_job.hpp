@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "core/errors.hpp"
-#include "job/job.hpp"
+#include "files/job.hpp"
 #include "step/simulation.hpp"
 
 /// A job as the solver takes it, for every engine that is the solver.

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "adapters/engine/engine.hpp"
-#include "io/point_cloud.hpp"
+#include "files/point_cloud.hpp"
 #include "step/simulation.hpp"
 
 namespace tripoint {

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "core/errors.hpp"
-#include "io/trajectory.hpp"
+#include "files/trajectory.hpp"
 #include "program/bench/measure.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"

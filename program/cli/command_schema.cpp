@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "job/job_schema.hpp"
+#include "files/job_schema.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
 #include "validation/case/schema.hpp"

@@ -11,7 +11,7 @@
 #include <tuple>
 
 #include "core/errors.hpp"
-#include "job/job.hpp"
+#include "files/job.hpp"
 #include "validation/case/engine_names.hpp"
 
 namespace tripoint {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "io/trajectory.hpp"
+#include "files/trajectory.hpp"
 #include "render/camera.hpp"
 #include "surface/point_cells.hpp"
 

@@ -11,8 +11,8 @@
 #include <map>
 #include <unordered_map>
 
+#include "core/confined_copy.hpp"
 #include "core/errors.hpp"
-#include "foreign/confined_copy.hpp"
 #include "scene/mesh_files.hpp"
 
 namespace tripoint {

@@ -24,7 +24,7 @@ namespace tripoint {
 #include <unordered_set>
 #include <vector>
 
-#include "foreign/confined_copy.hpp"
+#include "core/confined_copy.hpp"
 #include "scene/nearest.hpp"
 #include "scene/toml_node.hpp"
 

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "adapters/wheel.hpp"
-#include "io/gauge_error.hpp"
+#include "files/gauge_error.hpp"
 #include "validation/references/torque_free.hpp"
 
 namespace tripoint {

@@ -11,8 +11,8 @@
 #include <string>
 
 #include "adapters/scenes.hpp"
-#include "io/trajectory.hpp"
-#include "job/job.hpp"
+#include "files/job.hpp"
+#include "files/trajectory.hpp"
 
 /// Engines as the harness runs them: a process, a folder, an exit code.
 namespace tripoint::test {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "job/job.hpp"
+#include "files/job.hpp"
 #include "scene/sample.hpp"
 
 /// Jobs as the harness makes them: the scene's own sampler, mass properties from the particles.

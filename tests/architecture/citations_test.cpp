@@ -68,7 +68,7 @@ TEST(MarkdownLinks, AreReadWithTheirAnchors) {
 
 std::vector<Source> sources() {
   std::vector<Source> list;
-  for (const auto* folder : {"src", "job", "adapters", "validation", "program", "tests", "reports", "tools"}) {
+  for (const auto* folder : {"src", "adapters", "validation", "program", "tests", "reports", "tools"}) {
     for (const auto& entry : fs::recursive_directory_iterator(root() / folder)) {
       const auto ending = entry.path().extension();
       if (ending != ".cpp" && ending != ".hpp" && ending != ".py") continue;

@@ -16,11 +16,10 @@ namespace {
 /// A room that is not here may be included by nobody it is not listed for.
 const std::map<std::string, std::vector<std::string>, std::less<>> allowed{
     {"core", {}},
-    {"foreign", {"core"}},
-    {"scene", {"core", "foreign"}},
+    {"scene", {"core"}},
     {"surface", {"core", "scene"}},
     {"render", {"core", "surface"}},
-    {"io", {"core", "scene"}},
+    {"files", {"core", "scene"}},
     {"particles", {"core", "scene"}},
     {"sph", {"core", "particles"}},
     {"world", {"core", "scene", "particles"}},
@@ -30,27 +29,25 @@ const std::map<std::string, std::vector<std::string>, std::less<>> allowed{
     {"effects/*", {"core", "scene", "particles", "sph", "world", "solids", "passes", "effects"}},
     {"assembly", {"core", "scene", "particles", "sph", "world", "passes", "effects", "effects/*"}},
     {"step", {"core", "scene", "particles", "world", "solids", "effects", "assembly"}},
-    {"job", {"core", "scene", "io"}},
-    {"adapters/engine", {"core", "io", "job"}},
+    {"adapters/engine", {"core", "files"}},
     {"adapters/tripoint",
-     {"core", "scene", "io", "particles", "sph", "world", "solids", "assembly", "step", "job", "adapters/engine"}},
-    {"adapters/bullet", {"core", "scene", "io", "job", "adapters/engine"}},
-    {"adapters/lammps", {"core", "scene", "io", "job", "adapters/engine"}},
+     {"core", "scene", "files", "particles", "sph", "world", "solids", "assembly", "step", "adapters/engine"}},
+    {"adapters/bullet", {"core", "scene", "files", "adapters/engine"}},
+    {"adapters/lammps", {"core", "scene", "files", "adapters/engine"}},
     {"adapters/ranks",
-     {"core", "scene", "io", "particles", "world", "assembly", "step", "job", "adapters/engine", "adapters/tripoint"}},
-    {"validation/case", {"core", "scene", "job"}},
-    {"validation/references", {"core", "scene", "io", "job", "validation/case"}},
-    {"validation/metrics", {"core", "scene", "io", "job", "validation/case", "validation/references"}},
-    {"validation/results", {"core", "scene", "io", "job", "validation/case", "validation/references", "validation/metrics"}},
+     {"core", "scene", "files", "particles", "world", "assembly", "step", "adapters/engine", "adapters/tripoint"}},
+    {"validation/case", {"core", "scene", "files"}},
+    {"validation/references", {"core", "scene", "files", "validation/case"}},
+    {"validation/metrics", {"core", "scene", "files", "validation/case", "validation/references"}},
+    {"validation/results", {"core", "scene", "files", "validation/case", "validation/references", "validation/metrics"}},
     {"validation/judge", {"core", "scene", "validation/case", "validation/metrics", "validation/results"}},
     {"validation/run",
-     {"core", "foreign", "scene", "io", "job", "validation/case", "validation/references", "validation/metrics",
-      "validation/results"}},
+     {"core", "scene", "files", "validation/case", "validation/references", "validation/metrics", "validation/results"}},
     {"validation/campaign",
-     {"core", "scene", "io", "job", "validation/case", "validation/references", "validation/metrics", "validation/results",
+     {"core", "scene", "files", "validation/case", "validation/references", "validation/metrics", "validation/results",
       "validation/judge", "validation/run"}},
     {"validation/baseline",
-     {"core", "scene", "job", "validation/case", "validation/results", "validation/judge", "validation/run",
+     {"core", "scene", "files", "validation/case", "validation/results", "validation/judge", "validation/run",
       "validation/campaign"}},
     {"validation/mutation",
      {"core", "scene", "validation/case", "validation/results", "validation/judge", "validation/run", "validation/campaign"}},
@@ -58,8 +55,8 @@ const std::map<std::string, std::vector<std::string>, std::less<>> allowed{
      {"core", "scene", "validation/case", "validation/results", "validation/judge", "validation/run", "validation/campaign",
       "validation/baseline", "validation/mutation"}},
     {"validation/queue",
-     {"core", "scene", "job", "validation/case", "validation/results", "validation/run", "validation/campaign"}},
-    {"adapters/exact", {"core", "scene", "io", "job", "adapters/engine", "validation/references"}},
+     {"core", "scene", "files", "validation/case", "validation/results", "validation/run", "validation/campaign"}},
+    {"adapters/exact", {"core", "scene", "files", "adapters/engine", "validation/references"}},
     {"program/bench", {"core", "scene", "particles", "sph", "world", "passes", "assembly", "step", "validation/case"}},
     {"program/predict", {"core", "scene", "particles"}},
 };
@@ -77,9 +74,9 @@ constexpr std::array homes{
     Home{"LinearMath/", "adapters/bullet"},
     Home{"lammps/", "adapters/lammps"},
     Home{"lammps/", "adapters/ranks"},
-    Home{"hdf5", "io"},
-    Home{"H5", "io"},
-    Home{"seccomp.h", "foreign"},
+    Home{"hdf5", "files"},
+    Home{"H5", "files"},
+    Home{"seccomp.h", "core"},
     Home{"toml++/", "scene"},
     Home{"openvdb/", "scene"},
     Home{"openvdb/", "surface"},
@@ -123,7 +120,7 @@ std::vector<Include> includes_of(const Source& source) {
 /// The path from the project's root that a quoted include means; a bare name is a neighbour.
 std::string path_of(std::string_view target, std::string_view includer) {
   if (target.find('/') == std::string_view::npos) return std::string(includer.substr(0, includer.rfind('/') + 1)).append(target);
-  const bool outside_src = target.starts_with("adapters/") || target.starts_with("job/") || target.starts_with("validation/") ||
+  const bool outside_src = target.starts_with("adapters/") || target.starts_with("validation/") ||
                            target.starts_with("program/") || target.starts_with("tests/") || target.starts_with("src/");
   return outside_src ? std::string(target) : std::string("src/").append(target);
 }
@@ -149,7 +146,7 @@ std::string room_of(std::string_view path) {
   if (parts.size() < 2) return "";
   parts.pop_back();  // the file's name
   const bool in_src = parts.front() == "src";
-  constexpr std::array<std::string_view, 4> outside{"job", "adapters", "validation", "program"};
+  constexpr std::array<std::string_view, 3> outside{"adapters", "validation", "program"};
   if (!in_src && std::ranges::find(outside, parts.front()) == outside.end()) return "";
   if (in_src) parts.erase(parts.begin());
   if (parts.empty()) return "";

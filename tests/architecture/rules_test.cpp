@@ -15,16 +15,16 @@ TEST(Rooms, AreReadFromPaths) {
   EXPECT_EQ(room_of("src/core/vec3.hpp"), "core");
   EXPECT_EQ(room_of("src/effects/effect.hpp"), "effects");
   EXPECT_EQ(room_of("src/effects/heat/heat.cpp"), "effects/heat");
-  EXPECT_EQ(room_of("job/job.hpp"), "job");
+  EXPECT_EQ(room_of("src/files/job.hpp"), "files");
   EXPECT_EQ(room_of("adapters/bullet/world.cpp"), "adapters/bullet");
   EXPECT_EQ(room_of("validation/metrics/order.hpp"), "validation/metrics");
   EXPECT_EQ(room_of("program/cli/main.cpp"), "program/cli");
   EXPECT_EQ(room_of("tests/core/vec3_test.cpp"), "");
 }
 
-/// 0 for a room of src, and one more for each folder that stands above: job, validation, adapters, program.
+/// 0 for a room of src, and one more for each folder that stands above: validation, adapters, program.
 std::size_t height_of(const std::string& room) {
-  const std::vector<std::string> above_src{"job", "validation", "adapters", "program"};
+  const std::vector<std::string> above_src{"validation", "adapters", "program"};
   const auto at = std::ranges::find(above_src, room.substr(0, room.find('/')));
   return at == above_src.end() ? 0U : 1U + static_cast<std::size_t>(at - above_src.begin());
 }
@@ -67,8 +67,7 @@ TEST(Includes, DownTheChainAreAllowed) {
   EXPECT_TRUE(forbidden_includes(file("src/step/step.cpp",
                                       "#include \"step/step.hpp\"\n#include \"assembly/plan.hpp\"\n#include \"core/vec3.hpp\"\n"))
                   .empty());
-  EXPECT_TRUE(
-      forbidden_includes(file("adapters/exact/exact.cpp", "#include \"validation/references/reference.hpp\"\n")).empty());
+  EXPECT_TRUE(forbidden_includes(file("adapters/exact/exact.cpp", "#include \"validation/references/reference.hpp\"\n")).empty());
   EXPECT_TRUE(forbidden_includes(
                   file("program/cli/validate.cpp", "#include \"validation/campaign/suite.hpp\"\n#include \"step/step.hpp\"\n"))
                   .empty());
@@ -108,7 +107,7 @@ TEST(Includes, FromARoomThatTheMapDoesNotKnowAreRefused) {
 TEST(Libraries, StayInTheirRooms) {
   const std::vector<std::pair<std::string, std::string>> rooms{{"btBulletDynamicsCommon.h", "adapters/bullet"},
                                                                {"lammps/library.h", "adapters/lammps"},
-                                                               {"hdf5.h", "src/io"},
+                                                               {"hdf5.h", "src/files"},
                                                                {"toml++/toml.h", "src/scene"},
                                                                {"CLI/CLI.hpp", "program/cli"}};
   for (const auto& [header, room] : rooms) {
@@ -120,9 +119,9 @@ TEST(Libraries, StayInTheirRooms) {
 }
 
 TEST(Libraries, ThatAreDearStayOutOfHeaders) {
-  EXPECT_EQ(strayed_libraries(file("job/scene_json.hpp", "#include <nlohmann/json.hpp>\n")).size(), 1U);
-  EXPECT_TRUE(strayed_libraries(file("job/scene_json.hpp", "#include <nlohmann/json_fwd.hpp>\n")).empty());
-  EXPECT_TRUE(strayed_libraries(file("job/scene_json.cpp", "#include <nlohmann/json.hpp>\n")).empty());
+  EXPECT_EQ(strayed_libraries(file("src/files/scene_json.hpp", "#include <nlohmann/json.hpp>\n")).size(), 1U);
+  EXPECT_TRUE(strayed_libraries(file("src/files/scene_json.hpp", "#include <nlohmann/json_fwd.hpp>\n")).empty());
+  EXPECT_TRUE(strayed_libraries(file("src/files/scene_json.cpp", "#include <nlohmann/json.hpp>\n")).empty());
 }
 
 TEST(Licence, IsNamedAtTheTopAndIsTheGplForLammps) {

@@ -8,7 +8,7 @@ import re
 import sys
 from pathlib import Path
 
-ROOMS = ("src", "job", "adapters", "validation", "program", "tests")
+ROOMS = ("src", "adapters", "validation", "program", "tests")
 # What holds no statement: comments, texts, lines of the preprocessor.
 BLANK = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'|^[ \t]*#(?:[^\n]|\\\n)*', re.S | re.M)
 # Innermost brackets without a statement in them; the semicolons in the head of a loop or a condition end none.

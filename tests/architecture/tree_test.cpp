@@ -23,7 +23,7 @@ bool is_source(const fs::path& path) {
 std::vector<Source> read_tree() {
   const fs::path root = TRIPOINT_SOURCE_DIR;
   std::vector<Source> sources;
-  for (const auto* folder : {"src", "job", "adapters", "validation", "program", "tests", "reports", "cmake", "tools", "python"}) {
+  for (const auto* folder : {"src", "adapters", "validation", "program", "tests", "reports", "cmake", "tools", "python"}) {
     if (!fs::exists(root / folder)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
       if (!entry.is_regular_file() || !is_source(entry.path())) continue;

@@ -2,7 +2,7 @@
 // same_trajectory A.h5 B.h5: exit 0 when both show the same frames, bit for bit, else 1 with the first frame that differs.
 #include <cstdio>
 
-#include "io/trajectory.hpp"
+#include "files/trajectory.hpp"
 
 int main(int argc, char** argv) {
   using namespace tripoint;

@@ -25,7 +25,7 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 SCENES = {"heat/inflow": "0.0002 s", "phase/over-ranks": "0.0002 s", "coupling/over-ranks": "0.01 s"}
-FIRST_BLOCK = 512  # name and seal of a checkpoint: src/io/checkpoint_file.cpp
+FIRST_BLOCK = 512  # name and seal of a checkpoint: src/files/checkpoint_file.cpp
 REALS = (np.nan, np.inf, -1e308, 1e308, 0.0, -1.0, 5e-324, 1e18, 1e-9)
 WHOLES = (-1, 0, 1, 2, 7, 65535, 10**6, 2**31 - 1, 2**31, 2**32 + 1, 2**62, -(2**31), -(2**63))
 INDICES = (2**32, 2**32 - 1, 2**40, 999_999, 65_536, 2**63 + 5)  # as bits: lists of partners hold whole numbers in arrays of reals

@@ -4,8 +4,8 @@
 #include <iterator>
 
 #include "core/errors.hpp"
+#include "files/checkpoint_file.hpp"
 #include "fuzz/input.hpp"
-#include "io/checkpoint_file.hpp"
 
 using namespace tripoint;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // trajectory.csv and, where the first byte is odd, gauges.csv of a small engine.
 #include "core/errors.hpp"
+#include "files/trajectory.hpp"
 #include "fuzz/input.hpp"
-#include "io/trajectory.hpp"
 
 using namespace tripoint;
 

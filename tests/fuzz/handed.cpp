@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a confined copy hands back in place of a trajectory, where somebody else steers it.
 #include "core/errors.hpp"
+#include "files/trajectory.hpp"
 #include "fuzz/input.hpp"
-#include "io/trajectory.hpp"
 
 using namespace tripoint;
 

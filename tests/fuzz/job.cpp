@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // JOB.json: what is read is written as a text that reads as the same job.
-#include "job/job.hpp"
+#include "files/job.hpp"
 #include "core/errors.hpp"
 #include "fuzz/input.hpp"
 

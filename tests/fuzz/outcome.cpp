@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "files/job.hpp"
 #include "fuzz/input.hpp"
-#include "job/job.hpp"
 #include "validation/run/finished_run.hpp"
 
 using namespace tripoint;

@@ -4,8 +4,8 @@
 #include <cctype>
 
 #include "core/errors.hpp"
+#include "files/job.hpp"
 #include "fuzz/input.hpp"
-#include "job/job.hpp"
 #include "validation/run/replies.hpp"
 
 using namespace tripoint;

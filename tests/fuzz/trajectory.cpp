@@ -6,8 +6,8 @@
 #include <array>
 
 #include "core/errors.hpp"
+#include "files/trajectory.hpp"
 #include "fuzz/input.hpp"
-#include "io/trajectory.hpp"
 
 using namespace tripoint;
 

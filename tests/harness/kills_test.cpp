@@ -4,8 +4,8 @@
 
 #include <sstream>
 
+#include "files/trajectory.hpp"
 #include "harness/fakes.hpp"
-#include "io/trajectory.hpp"
 #include "scene/sample.hpp"
 #include "validation/run/run_one.hpp"
 

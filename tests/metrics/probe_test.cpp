@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/gauge_error.hpp"
+#include "files/gauge_error.hpp"
 #include "metrics/frames.hpp"
 #include "validation/metrics/dominant_frequency.hpp"
 

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "job/scene_json.hpp"
+#include "files/scene_json.hpp"
 #include "passes/pair_passes.hpp"
 #include "scene/sample.hpp"
 #include "step/simulation.hpp"

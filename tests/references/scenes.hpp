@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "job/job.hpp"
+#include "files/job.hpp"
 #include "validation/references/reference.hpp"
 #include "validation/references/rigid_body.hpp"
 

@@ -13,7 +13,7 @@
 #include <random>
 
 #include "effects/lab.hpp"
-#include "io/checkpoint_file.hpp"
+#include "files/checkpoint_file.hpp"
 #include "scene/shared_terms.hpp"
 
 namespace tripoint {

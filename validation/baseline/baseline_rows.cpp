@@ -7,7 +7,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "job/job.hpp"
+#include "files/job.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/case/gated_metric.hpp"
 #include "validation/judge/apply_gate.hpp"

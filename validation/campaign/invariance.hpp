@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/trajectory.hpp"
+#include "files/trajectory.hpp"
 #include "scene/scene.hpp"
 
 /// Changes of a scene that physics does not feel: symmetries, and changes below the last digit. The run of the changed scene,

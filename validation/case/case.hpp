@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/errors.hpp"
-#include "job/reference_choice.hpp"
+#include "files/reference_choice.hpp"
 #include "scene/scene.hpp"
 #include "scene/settings.hpp"
 #include "validation/case/case_words.hpp"

@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "job/reference_choice.hpp"
+#include "files/reference_choice.hpp"
 #include "validation/case/case_document.hpp"
 #include "validation/case/case_words.hpp"
 

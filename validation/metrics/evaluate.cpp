@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "io/gauge_error.hpp"
+#include "files/gauge_error.hpp"
 #include "scene/nearest.hpp"
 #include "scene/units.hpp"
 #include "validation/metrics/dominant_frequency.hpp"

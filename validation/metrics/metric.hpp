@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "io/trajectory.hpp"
-#include "job/job.hpp"
+#include "files/job.hpp"
+#include "files/trajectory.hpp"
 #include "validation/case/case.hpp"
 #include "validation/references/reference.hpp"
 

@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "job/job.hpp"
+#include "files/job.hpp"
 #include "validation/results/results.hpp"
 
 /// Cost of a run before it is made: good enough to share work out, never shown as a measurement.

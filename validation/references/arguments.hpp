@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/vec3.hpp"
-#include "job/reference_choice.hpp"
+#include "files/reference_choice.hpp"
 #include "scene/scene.hpp"
 #include "validation/references/reference.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "io/trajectory.hpp"
-#include "job/job.hpp"
+#include "files/job.hpp"
+#include "files/trajectory.hpp"
 
 namespace tripoint {
 

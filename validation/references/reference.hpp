@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "io/trajectory.hpp"
-#include "job/job.hpp"
+#include "files/job.hpp"
+#include "files/trajectory.hpp"
 #include "scene/words.hpp"
 
 namespace tripoint {

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "job/job.hpp"
+#include "files/job.hpp"
 #include "validation/case/read_case.hpp"
 
 namespace tripoint {

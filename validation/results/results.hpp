@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "job/status.hpp"
+#include "files/status.hpp"
 #include "validation/case/case.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/metrics/ladder_limit.hpp"

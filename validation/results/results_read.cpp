@@ -5,7 +5,7 @@
 
 #include "core/foreign_json.hpp"
 #include "core/whole_number.hpp"
-#include "io/foreign_file.hpp"
+#include "files/foreign_file.hpp"
 #include "validation/results/results_fields.hpp"
 
 namespace tripoint {

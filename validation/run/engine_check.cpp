@@ -12,8 +12,8 @@
 
 #include "core/errors.hpp"
 #include "core/foreign_json.hpp"
-#include "io/foreign_file.hpp"
-#include "io/trajectory.hpp"
+#include "files/foreign_file.hpp"
+#include "files/trajectory.hpp"
 #include "scene/sample.hpp"
 #include "validation/run/run_one.hpp"
 #include "validation/run/sandbox.hpp"

@@ -14,8 +14,8 @@
 
 #include "core/durable_file.hpp"
 #include "core/whole_number.hpp"
-#include "io/foreign_file.hpp"
-#include "io/trajectory.hpp"
+#include "files/foreign_file.hpp"
+#include "files/trajectory.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;

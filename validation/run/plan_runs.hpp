@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "job/job.hpp"
+#include "files/job.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/case/read_case.hpp"
 #include "validation/run/discover.hpp"

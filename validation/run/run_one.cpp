@@ -7,8 +7,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "io/foreign_file.hpp"
-#include "io/trajectory.hpp"
+#include "files/foreign_file.hpp"
+#include "files/trajectory.hpp"
 #include "scene/contact_law.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/run/finished_run.hpp"

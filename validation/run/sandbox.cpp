@@ -12,8 +12,8 @@
 #include <filesystem>
 #include <thread>
 
+#include "core/confined_copy.hpp"
 #include "core/errors.hpp"
-#include "foreign/confined_copy.hpp"
 #include "scene/library.hpp"
 #include "validation/run/discover.hpp"
 #include "validation/run/earlier_run.hpp"

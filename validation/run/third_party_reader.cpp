@@ -3,7 +3,7 @@
 
 #include <system_error>
 
-#include "foreign/confined_copy.hpp"
+#include "core/confined_copy.hpp"
 #include "validation/run/sandbox.hpp"
 
 namespace tripoint {

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "job/job.hpp"
+#include "files/job.hpp"
 #include "validation/case/preflight.hpp"
 #include "validation/case/read_case.hpp"
 

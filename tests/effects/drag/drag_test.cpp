@@ -14,7 +14,7 @@
 #include "assembly/plan.hpp"
 #include "core/defect.hpp"
 #include "effects/drag/terms.hpp"
-#include "job/scene_json.hpp"
+#include "files/scene_json.hpp"
 #include "scene/case_file.hpp"
 #include "scene/expression.hpp"
 #include "scene/sample.hpp"
