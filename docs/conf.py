@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The guide: `make docs` writes build/docs/index.html from these pages with Sphinx and MyST (tools/requirements-docs.txt).
+# The guide: `make docs` writes build/docs/index.html from these pages with Sphinx and MyST
+# (tools/requirements-docs.txt).
 from pygments.lexers.special import TextLexer
 from sphinx.highlighting import lexers
 
@@ -15,4 +16,8 @@ html_theme = "furo"
 html_title = "tripoint"
 html_copy_source = False
 html_show_sphinx = False
-suppress_warnings = ["myst.xref_missing", "misc.highlighting_failure", "toc.not_included"]  # tests/docs/links_test.py looks at every link, also at those that leave this folder
+suppress_warnings = [
+    "myst.xref_missing",
+    "misc.highlighting_failure",
+    "toc.not_included",
+]  # tests/docs/links_test.py looks at every link, also at those that leave this folder

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Builds the wheel: the Python package, and inside it what `cmake --install` installs of a build folder, with its libraries.
+"""Builds the wheel: the Python package, and inside it what `cmake --install` installs of a build folder, with its
+libraries.
 
-The build folder is ../build, or TRIPOINT_BUILD. The libraries that Debian's packages bring go into program/lib, and programs find them there by a relative
-path; those of the C library stay out. LAMMPS stays out too: its MPI looks for its parts at fixed places. Its rows say "missing".
-"""
+The build folder is ../build, or TRIPOINT_BUILD. The libraries that Debian's packages bring go into program/lib, and
+programs find them there by a relative path; those of the C library stay out. LAMMPS stays out too: its MPI looks for
+its parts at fixed places. Its rows say "missing"."""
+
 import base64
 import hashlib
 import os
@@ -44,12 +46,18 @@ def platform_tag():
 
 
 def pack_program(build, target):
-    subprocess.run(["cmake", "--install", str(build), "--prefix", str(target), "--strip"], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(
+        ["cmake", "--install", str(build), "--prefix", str(target), "--strip"], check=True, stdout=subprocess.DEVNULL
+    )
     for name in LEFT_OUT:
         (target / "libexec" / "tripoint" / name).unlink(missing_ok=True)
     shutil.rmtree(next(target.glob("lib*/cmake"), target / "none"), ignore_errors=True)
     shutil.rmtree(next(target.glob("lib/*/cmake"), target / "none"), ignore_errors=True)
-    binaries = [path for path in target.rglob("*") if path.is_file() and not path.is_symlink() and path.read_bytes()[:4] == b"\x7fELF"]
+    binaries = [
+        path
+        for path in target.rglob("*")
+        if path.is_file() and not path.is_symlink() and path.read_bytes()[:4] == b"\x7fELF"
+    ]
     libraries = {}
     for binary in binaries:
         libraries.update(needed_by(binary))
@@ -59,7 +67,9 @@ def pack_program(build, target):
         shutil.copy(Path(path).resolve(), store / soname)
         (store / soname).chmod(0o755)
     for binary in [*binaries, *(store / soname for soname in libraries)]:
-        subprocess.run(["patchelf", "--set-rpath", f"$ORIGIN/{os.path.relpath(store, binary.parent)}", str(binary)], check=True)
+        subprocess.run(
+            ["patchelf", "--set-rpath", f"$ORIGIN/{os.path.relpath(store, binary.parent)}", str(binary)], check=True
+        )
 
 
 def needed_by(binary):
@@ -76,11 +86,22 @@ def needed_by(binary):
 
 def write_metadata(folder, project, version):
     folder.mkdir()
-    lines = ["Metadata-Version: 2.1", f"Name: {project['name']}", f"Version: {version}", f"Summary: {project['description']}", f"Requires-Python: {project['requires-python']}",
-             f"License: {project['license']['text']}", *(f"Requires-Dist: {word}" for word in project["dependencies"])]
+    lines = [
+        "Metadata-Version: 2.1",
+        f"Name: {project['name']}",
+        f"Version: {version}",
+        f"Summary: {project['description']}",
+        f"Requires-Python: {project['requires-python']}",
+        f"License: {project['license']['text']}",
+        *(f"Requires-Dist: {word}" for word in project["dependencies"]),
+    ]
     (folder / "METADATA").write_text("\n".join(lines) + "\n")
-    (folder / "WHEEL").write_text(f"Wheel-Version: 1.0\nGenerator: tripoint\nRoot-Is-Purelib: false\nTag: py3-none-{platform_tag()}\n")
-    (folder / "entry_points.txt").write_text("[console_scripts]\n" + "".join(f"{name} = {where}\n" for name, where in project["scripts"].items()))
+    (folder / "WHEEL").write_text(
+        f"Wheel-Version: 1.0\nGenerator: tripoint\nRoot-Is-Purelib: false\nTag: py3-none-{platform_tag()}\n"
+    )
+    (folder / "entry_points.txt").write_text(
+        "[console_scripts]\n" + "".join(f"{name} = {where}\n" for name, where in project["scripts"].items())
+    )
     shutil.copy(HERE.parent / "LICENSE", folder / "LICENSE")
 
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The page "what each correction buys": ablation.json beside results.json, written by `tripoint ablate`.
 
-Each term of the model is put back to its printed form, all others corrected. A cell is how many times larger the size of a metric
-is then; the metrics of a case are errors to its truth, or what a law says must not change.
-"""
+Each term of the model is put back to its printed form, all others corrected. A cell is how many times larger the size
+of a metric is then; the metrics of a case are errors to its truth, or what a law says must not change."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -14,27 +14,41 @@ from model import is_number, number, rows, table, text
 WORSE, MOST = 1.1, 1e5  # factors that are worth a word, and that a page shows as a number
 ROUNDOFF = 1e-12  # of a scaled error: below it two values are the same
 MEANS = {
-    "kernel": "kernel that fits its use, in the place of the printed two", "pressure": "pressure force as the gradient of an energy (7)", "density": "number density at walls and between liquids (4)",
-    "state": "equation of state, not clamped where it must pull (9)", "viscosity": "viscosity that keeps angular momentum (8)", "walls": "walls that press by the mean density of their face, and mirror the velocity", "elastic": "strain in the turned frame (11)",
-    "hourglass": "energy against zero-energy modes (12)", "heat": "conduction with equal and opposite flows and a moment factor (21)", "phase": "latent heat and hysteresis (Fig. 5)", "rotation": "splitting of the free top (19)-(20)",
-    "time": "kick-drift-kick, two-stage heat", "bulk_viscosity": "numerical bulk viscosity of liquids (8.4), which the paper does not have",
+    "kernel": "kernel that fits its use, in the place of the printed two",
+    "pressure": "pressure force as the gradient of an energy (7)",
+    "density": "number density at walls and between liquids (4)",
+    "state": "equation of state, not clamped where it must pull (9)",
+    "viscosity": "viscosity that keeps angular momentum (8)",
+    "walls": "walls that press by the mean density of their face, and mirror the velocity",
+    "elastic": "strain in the turned frame (11)",
+    "hourglass": "energy against zero-energy modes (12)",
+    "heat": "conduction with equal and opposite flows and a moment factor (21)",
+    "phase": "latent heat and hysteresis (Fig. 5)",
+    "rotation": "splitting of the free top (19)-(20)",
+    "time": "kick-drift-kick, two-stage heat",
+    "bulk_viscosity": "numerical bulk viscosity of liquids (8.4), which the paper does not have",
     "bending": "gradients at surfaces that are exact for curved displacements (8.7), which the paper does not have",
     "contact_step": "steps that are short where solids touch alone (8.10), which the paper does not have",
     "contact_stiffness": "solids that are stiffer than liquids where they touch (8.3), which the paper does not have",
     "core_reach": "core that keeps pairs apart where the clamp leaves no pressure (8.3), which the paper does not have",
-    "face_pressure": "pressure on elastic solids at their face and not at the middles of their outer particles (8.3), which the paper does not have",
-    "interface_weight": "pressure that is right on both sides of a level interface (8.3), which the paper does not have",
-    "isotropic_shear": "central viscosity that resists shear alike in all directions of the lattice (8.5), which the paper does not have",
-    "mean_pressure": "pressure of transported liquid as the mean over its neighbours (8.3), which the paper does not have",
+    "face_pressure": "pressure on elastic solids at their face and not at the middles of their outer particles (8.3), "
+    "which the paper does not have",
+    "interface_weight": "pressure that is right on both sides of a level interface (8.3), which the paper does not "
+    "have",
+    "isotropic_shear": "central viscosity that resists shear alike in all directions of the lattice (8.5), which the "
+    "paper does not have",
+    "mean_pressure": "pressure of transported liquid as the mean over its neighbours (8.3), which the paper does not "
+    "have",
     "sound_damping": "numerical bulk viscosity of liquid that nothing clamps (8.3), which the paper does not have",
-    "surface_weight": "pressure of half a layer's weight at a free surface (8.3), which the paper does not have"}
+    "surface_weight": "pressure of half a layer's weight at a free surface (8.3), which the paper does not have",
+}
 
 
 @dataclass
 class Cell:
     factor: float | None = None
     value: float | None = None
-    word: str = ""   # where there is no number
+    word: str = ""  # where there is no number
     tone: str = "none"
 
 
@@ -63,12 +77,20 @@ def read(folder):
         base = table(table(case.get("corrected")).get("metrics"))
         for metric in rows(case.get("metrics")):
             name = text(metric.get("name"))
-            if name.endswith(("_printed", "_predicted")):  # distance to what the printed form must do: there it is meant to be near
+            if name.endswith(
+                ("_printed", "_predicted")
+            ):  # distance to what the printed form must do: there it is meant to be near
                 continue
             value = number(table(base.get(name)).get("value"))
-            cells = {term: cell(table(table(case.get("printed")).get(term)), name, value) for term in terms if term in table(case.get("printed"))}
+            cells = {
+                term: cell(table(table(case.get("printed")).get(term)), name, value)
+                for term in terms
+                if term in table(case.get("printed"))
+            }
             if any(c.tone != "same" for c in cells.values()):
-                found.append(Row(text(case.get("id")), text(case.get("title")), name, text(metric.get("unit")), value, cells))
+                found.append(
+                    Row(text(case.get("id")), text(case.get("title")), name, text(metric.get("unit")), value, cells)
+                )
     return terms, found, []
 
 
@@ -86,11 +108,15 @@ def cell(run, metric, corrected):
 
 
 def best(found, terms):
-    """For each term the metric that it changes most, of those that the corrected model does not keep to round-off where there are any:
-    how many times larger than nothing says little. (term, row, cell, cases)"""
+    """For each term the metric that it changes most, of those that the corrected model does not keep to round-off where
+    there are any: how many times larger than nothing says little. (term, row, cell, cases)"""
     picked = []
     for term in terms:
-        here = [(row, row.cells[term]) for row in found if term in row.cells and row.cells[term].factor and row.cells[term].tone not in ("same",)]
+        here = [
+            (row, row.cells[term])
+            for row in found
+            if term in row.cells and row.cells[term].factor and row.cells[term].tone not in ("same",)
+        ]
         if here:
             row, cell_ = max(here, key=lambda pair: (WORSE < pair[1].factor < MOST, pair[1].factor))
             picked.append((term, row, cell_, len({r.case_id for r, c in here if c.tone in ("fail", "open")})))

@@ -2,9 +2,9 @@
 """The page "what one more digit costs": along every ladder of levels, CPU seconds and pairs for a tenth of the error.
 
 Error is |value| + 2 u of a run, as a limit sees it. The slope is that between two levels in log-log: the finest and the
-nearest one that is at least 1.5 times as coarse. Coarser ones are dear by the start of the program, not by their work; between closer ones
-the scatter of the error is as large as its fall. Nothing is said outside what was measured.
-"""
+nearest one that is at least 1.5 times as coarse. Coarser ones are dear by the start of the program, not by their work;
+between closer ones the scatter of the error is as large as its fall. Nothing is said outside what was measured."""
+
 from __future__ import annotations
 
 import math
@@ -14,7 +14,7 @@ from model import is_number, number, rows, table, text
 
 EXACT = "exact"
 APART = 1.5  # least ratio of the two levels between which a slope is taken, where the ladder has such a pair
-GAIN = 0.8   # of the error left after a step of two in the level: where more is left, finer levels buy no accuracy
+GAIN = 0.8  # of the error left after a step of two in the level: where more is left, finer levels buy no accuracy
 
 
 @dataclass
@@ -26,10 +26,10 @@ class Ladder:
     metric: str
     points: list  # (level, error, cpu_s, pairs), coarse to fine
     failed: list = field(default_factory=list)  # what a level that gave no error says
-    slope: float | None = None     # of CPU seconds over 1/error
-    pairs: float | None = None     # of pairs over 1/error
+    slope: float | None = None  # of CPU seconds over 1/error
+    pairs: float | None = None  # of pairs over 1/error
     theory: float | None = None
-    why: str = ""                  # no slope can be given
+    why: str = ""  # no slope can be given
 
     @property
     def label(self):
@@ -37,24 +37,29 @@ class Ladder:
 
     @property
     def factor(self):
-        return 10.0 ** self.slope if self.slope is not None else None
+        return 10.0**self.slope if self.slope is not None else None
 
     @property
     def time(self):
-        """"2.7 s become 6 days", of the finest level; empty without a factor."""
-        return f"{spoken(self.points[-1][2])} become {spoken(self.factor * self.points[-1][2])}" if self.factor is not None and self.points else ""
+        """ "2.7 s become 6 days", of the finest level; empty without a factor."""
+        return (
+            f"{spoken(self.points[-1][2])} become {spoken(self.factor * self.points[-1][2])}"
+            if self.factor is not None and self.points
+            else ""
+        )
 
     @property
     def factor_pairs(self):
-        return 10.0 ** self.pairs if self.pairs is not None else None
+        return 10.0**self.pairs if self.pairs is not None else None
 
     @property
     def factor_theory(self):
-        return 10.0 ** self.theory if self.theory is not None else None
+        return 10.0**self.theory if self.theory is not None else None
 
 
 def plain(factor):
-    """Three digits of a factor, and no power of ten up to a thousand million: a slope through two levels holds no more."""
+    """Three digits of a factor, and no power of ten up to a thousand million: a slope through two levels holds no
+    more."""
     return f"{float(f'{factor:.3g}'):,.0f}" if 100.0 <= factor < 1e9 else f"{factor:.3g}"
 
 
@@ -64,7 +69,7 @@ def times(factor):
 
 
 def spoken(seconds):
-    """"0.3 s", "12 min", "6 days", "3e+04 years"."""
+    """ "0.3 s", "12 min", "6 days", "3e+04 years"."""
     for size, unit in ((31557600.0, "years"), (86400.0, "days"), (3600.0, "h"), (60.0, "min")):
         if seconds >= 2.0 * size:
             return f"{seconds / size:.2g} {unit}"
@@ -88,7 +93,9 @@ def read(results):
                     continue
                 for mode in engine.modes:
                     if text(study.get("mode")) in ("", mode):
-                        ladder = ladder_of(case, engine, mode, axis, wanted or first_metric(case), number(study.get("order")))
+                        ladder = ladder_of(
+                            case, engine, mode, axis, wanted or first_metric(case), number(study.get("order"))
+                        )
                         if ladder and not any(same(ladder, other) for other in found):
                             found.append(ladder)
     return sorted(found, key=lambda ladder: (ladder.slope is None, -(ladder.slope or 0.0)))
@@ -100,7 +107,13 @@ def without_study(results):
 
 
 def same(a, b):
-    return (a.case.id, a.engine.label, a.mode, a.axis, a.metric) == (b.case.id, b.engine.label, b.mode, b.axis, b.metric)
+    return (a.case.id, a.engine.label, a.mode, a.axis, a.metric) == (
+        b.case.id,
+        b.engine.label,
+        b.mode,
+        b.axis,
+        b.metric,
+    )
 
 
 def first_metric(case):
@@ -118,11 +131,21 @@ def ladder_of(case, engine, mode, axis, metric, formal):
         if run.status != "ok" or value is None or not is_number(value.value):
             failed.append(f"{level:.4g}: {run.reason or run.status}")
         elif is_number(cost) and cost > 0:
-            levels.setdefault(level, []).append((abs(value.value) + 2.0 * (value.u or 0.0), cost, number(run.cost.get("pairs")) or 0.0, run.knob("time_step") or 0.0))
+            levels.setdefault(level, []).append(
+                (
+                    abs(value.value) + 2.0 * (value.u or 0.0),
+                    cost,
+                    number(run.cost.get("pairs")) or 0.0,
+                    run.knob("time_step") or 0.0,
+                )
+            )
     if len(levels) + len(failed) < 2:
         return None
     upward = axis in ("walkers", "iterations", "support_ratio")
-    points = [(level, *[sum(column) / len(group) for column in zip(*group)]) for level, group in sorted(levels.items(), reverse=not upward)]
+    points = [
+        (level, *[sum(column) / len(group) for column in zip(*group)])
+        for level, group in sorted(levels.items(), reverse=not upward)
+    ]
     ladder = Ladder(case, engine, mode, axis, metric, [point[:4] for point in points], failed)
     settle(ladder, points, formal)
     return ladder
@@ -131,7 +154,11 @@ def ladder_of(case, engine, mode, axis, metric, formal):
 def settle(ladder, points, formal):
     """Slopes, or why there are none."""
     points = [point for point in points if point[1] > 0]
-    orders = [order for order in ladder.engine.orders if (order.metric, order.axis, order.mode) == (ladder.metric, ladder.axis, ladder.mode)]
+    orders = [
+        order
+        for order in ladder.engine.orders
+        if (order.metric, order.axis, order.mode) == (ladder.metric, ladder.axis, ladder.mode)
+    ]
     if len(points) < 2:
         ladder.why = "fewer than two levels gave an error above 0"
         return
@@ -139,11 +166,15 @@ def settle(ladder, points, formal):
     coarse, fine = apart(points)
     left = GAIN ** min(1.0, math.log2(ratio(coarse, fine)))
     if fine[1] > left * coarse[1] or any(order.fit_class == "plateau" for order in orders):
-        ladder.why = "finer levels buy no accuracy here" + (": the error has a floor" if orders and orders[0].fit_class == "plateau" else "")
+        ladder.why = "finer levels buy no accuracy here" + (
+            ": the error has a floor" if orders and orders[0].fit_class == "plateau" else ""
+        )
     elif fine[2] < 1.2 * coarse[2]:
         ladder.why = "cost is that of starting the program: too short to say"
     elif floor_of(ladder.case) and fine[2] <= floor_of(ladder.case) * coarse[2]:
-        ladder.why = f"not resolved: the two levels cost the same within the noise floor, a factor {floor_of(ladder.case):.3g}"
+        ladder.why = (
+            f"not resolved: the two levels cost the same within the noise floor, a factor {floor_of(ladder.case):.3g}"
+        )
     else:
         ladder.slope = slope(coarse, fine, 2)
         if coarse[3] > 0 and fine[3] > 0:
@@ -156,8 +187,11 @@ def ratio(a, b):
 
 
 def apart(points):
-    """@return (coarse, fine): the finest level and the nearest that is APART from it, or the coarsest of a ladder so short that none is"""
-    return next((point for point in reversed(points[:-1]) if ratio(point, points[-1]) > APART * (1.0 - 1e-9)), points[0]), points[-1]
+    """@return (coarse, fine): the finest level and the nearest that is APART from it, or the coarsest of a ladder so
+    short that none is"""
+    return next(
+        (point for point in reversed(points[:-1]) if ratio(point, points[-1]) > APART * (1.0 - 1e-9)), points[0]
+    ), points[-1]
 
 
 def slope(coarse, fine, cost):
@@ -166,7 +200,8 @@ def slope(coarse, fine, cost):
 
 
 def theory(axis, points, formal):
-    """Work over accuracy of an explicit scheme of the declared order: particles grow with the third power of 1/spacing, and steps as the time step that was used."""
+    """Work over accuracy of an explicit scheme of the declared order: particles grow with the third power of 1/spacing,
+    and steps as the time step that was used."""
     if axis == "walkers":
         return 2.0  # the error falls with the root of their number
     if not formal or formal <= 0 or len(points) < 2:
@@ -183,6 +218,7 @@ def draw(ladders, out):
     """A bar for each ladder: the factor that a tenth of the error costs. @return picture for the page, or None"""
     from figures import finish, style
     from figures.curve import Drawing
+
     shown = [ladder for ladder in ladders if ladder.factor is not None]
     if not shown:
         return None
@@ -193,18 +229,45 @@ def draw(ladders, out):
     axis = figure.add_axes((0.42, 0.55 / height, 0.55, 1 - 0.8 / height))
     for k, ladder in enumerate(shown):
         hue = style.colour(ladder.engine.name, names)
-        axis.barh(k, ladder.factor - 1.0, left=1.0, height=0.62, color=hue, alpha=0.55 if ladder.mode == "paper" else 1.0)
+        axis.barh(
+            k, ladder.factor - 1.0, left=1.0, height=0.62, color=hue, alpha=0.55 if ladder.mode == "paper" else 1.0
+        )
         if ladder.factor_theory:
             axis.plot([ladder.factor_theory] * 2, [k - 0.42, k + 0.42], color=style.INK, linewidth=1.6)
         mark = ladder.factor_theory or 0.0
         beside = mark if ladder.factor <= mark < 3.0 * ladder.factor else ladder.factor  # not under the black line
-        axis.annotate(plain(ladder.factor), (beside, k), xytext=(4, 0), textcoords="offset points", va="center", fontsize=8, color=style.INK)
-    axis.set_yticks(range(len(shown)), [f"{ladder.case.id} · {ladder.label} · {ladder.axis.replace('_', ' ')}" for ladder in shown], fontsize=8)
+        axis.annotate(
+            plain(ladder.factor),
+            (beside, k),
+            xytext=(4, 0),
+            textcoords="offset points",
+            va="center",
+            fontsize=8,
+            color=style.INK,
+        )
+    axis.set_yticks(
+        range(len(shown)),
+        [f"{ladder.case.id} · {ladder.label} · {ladder.axis.replace('_', ' ')}" for ladder in shown],
+        fontsize=8,
+    )
     axis.set_xscale("log")
     axis.set_xlim(1.0, 3.0 * max(max(ladder.factor, ladder.factor_theory or 1.0) for ladder in shown))
     axis.xaxis.set_major_formatter(style.ticker.FuncFormatter(style.power))
     axis.set_xlabel("times the CPU seconds, for a tenth of the error (black: theory's slope)")
     axis.invert_yaxis()
     axis.grid(axis="y", visible=False)
-    caption = "Shorter is better. Pale bars: the printed equations. The black line is what an explicit scheme of the declared order pays: the third power of 1/spacing in particles, and the steps that were taken."
-    return finish(Drawing("digit", "A tenth of the error, in CPU seconds", "Bars of the factor in CPU seconds for a tenth of the error, one for each case, engine and mode.", figure, caption), out, "00-suite")
+    caption = (
+        "Shorter is better. Pale bars: the printed equations. The black line is what an explicit scheme of the "
+        "declared order pays: the third power of 1/spacing in particles, and the steps that were taken."
+    )
+    return finish(
+        Drawing(
+            "digit",
+            "A tenth of the error, in CPU seconds",
+            "Bars of the factor in CPU seconds for a tenth of the error, one for each case, engine and mode.",
+            figure,
+            caption,
+        ),
+        out,
+        "00-suite",
+    )

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Writes files for other programs: python3 export.py RUN|RESULTS --to FORMAT... [--out DIR] [--frames LIST]
 
-It is what `tripoint export` calls; docs/trajectory.md says which program reads which file. Nothing is computed: numbers are copied.
-Exit: 0 written; 2 bad input; 4 a dataset, a library or room on the disk is missing; 130 Ctrl-C.
-"""
+It is what `tripoint export` calls; docs/trajectory.md says which program reads which file. Nothing is computed: numbers
+are copied. Exit: 0 written; 2 bad input; 4 a dataset, a library or room on the disk is missing; 130 Ctrl-C."""
+
 from __future__ import annotations
 
 import argparse
@@ -17,8 +17,18 @@ from pathlib import Path
 
 import no_plugins  # noqa: F401  before h5py
 
-OF_RUNS = {"vtp": "vtk_files.write", "pvd": "vtk_files.write", "xdmf": "xdmf.write", "h5md": "h5md.write", "lammps": "lammps_dump.write", "xyz": "extended_xyz.write", "ply": "point_files.write_ply", "obj": "point_files.write_obj",
-           "csv": "tables.write", "paraview": "paraview.write"}
+OF_RUNS = {
+    "vtp": "vtk_files.write",
+    "pvd": "vtk_files.write",
+    "xdmf": "xdmf.write",
+    "h5md": "h5md.write",
+    "lammps": "lammps_dump.write",
+    "xyz": "extended_xyz.write",
+    "ply": "point_files.write_ply",
+    "obj": "point_files.write_obj",
+    "csv": "tables.write",
+    "paraview": "paraview.write",
+}
 OF_RESULTS = {"csv": "write_csv", "latex": "write_latex", "pdf": "write_pdf"}
 DONE, BAD_INPUT, MISSING, INTERRUPTED = 0, 2, 4, 130
 
@@ -37,8 +47,16 @@ def main(arguments):
             if name not in known:
                 other = "a run's folder" if name in OF_RUNS else "a results.json"
                 raise BadInput(f"{name} is exported from {other}; {source} gives {', '.join(known)}")
-        out = Path(asked.out) if asked.out else (results.parent if results else source if source.is_dir() else source.parent) / "export"
-        made = export_results(results, formats, make_folder(out)) if results else export_run(source, formats, lambda: make_folder(out), asked)
+        out = (
+            Path(asked.out)
+            if asked.out
+            else (results.parent if results else source if source.is_dir() else source.parent) / "export"
+        )
+        made = (
+            export_results(results, formats, make_folder(out))
+            if results
+            else export_run(source, formats, lambda: make_folder(out), asked)
+        )
         tell(made, asked.json)
         return DONE
     except BadInput as error:
@@ -47,7 +65,12 @@ def main(arguments):
         return end("interrupted; files that were complete stay, none is left half written", INTERRUPTED)
     except OSError as error:
         full = error.errno == errno.ENOSPC or "No space left" in str(error)
-        return end(f"{error.filename or 'a file'} could not be written: the disk is full" if full else f"{error.filename or 'a file'}: {error.strerror or error}", MISSING)
+        return end(
+            f"{error.filename or 'a file'} could not be written: the disk is full"
+            if full
+            else f"{error.filename or 'a file'}: {error.strerror or error}",
+            MISSING,
+        )
 
 
 def read_arguments(arguments):
@@ -66,9 +89,13 @@ def formats_of(asked):
     for name in names:
         if name not in known:
             near = difflib.get_close_matches(name, known, 1)
-            raise BadInput(f"no format is named {name}" + (f" (did you mean {near[0]}?)" if near else f": {', '.join(known)}"))
+            raise BadInput(
+                f"no format is named {name}" + (f" (did you mean {near[0]}?)" if near else f": {', '.join(known)}")
+            )
     if not names:
-        raise BadInput(f"name a format with --to: {', '.join(OF_RUNS)} of a run; {', '.join(OF_RESULTS)} of a results.json")
+        raise BadInput(
+            f"name a format with --to: {', '.join(OF_RUNS)} of a run; {', '.join(OF_RESULTS)} of a results.json"
+        )
     return list(dict.fromkeys(names))
 
 
@@ -92,7 +119,7 @@ def make_folder(out):
 
 
 def frames_of(words, count):
-    """"all", "last", "7" or "0:100:10" as numbers of frames. @raises BadInput"""
+    """ "all", "last", "7" or "0:100:10" as numbers of frames. @raises BadInput"""
     if words == "all":
         return None
     if words == "last":
@@ -103,7 +130,9 @@ def frames_of(words, count):
     except (ValueError, IndexError):
         numbers = []
     if not numbers:
-        raise BadInput(f"--frames {words}: the run has frames 0 to {count - 1}; write all, last, a number, or FROM:TO:STEP")
+        raise BadInput(
+            f"--frames {words}: the run has frames 0 to {count - 1}; write all, last, a number, or FROM:TO:STEP"
+        )
     return numbers
 
 
@@ -113,6 +142,7 @@ def export_run(source, formats, folder, asked):
 
     from exports.files import Unwritable
     from exports.run import MissingDataset, NotARun, Run
+
     try:
         with Run(source) as run:
             if len(run) == 0:
@@ -134,20 +164,28 @@ def export_run(source, formats, folder, asked):
 
 def export_results(path, formats, out):
     import load
+
     try:
         results = load.load(path)
     except load.Unreadable as error:
         raise BadInput(str(error)) from None
     from exports import of_results
+
     try:
         return [file for name in formats for file in getattr(of_results, OF_RESULTS[name])(results, out)]
     except ImportError as error:
-        raise SystemExit(end(f"Python's {error.name} is missing: install the Debian package python3-{error.name}", MISSING)) from None
+        raise SystemExit(
+            end(f"Python's {error.name} is missing: install the Debian package python3-{error.name}", MISSING)
+        ) from None
 
 
 def tell(made, as_json):
     if as_json:
-        print(json.dumps({"files": [str(path) for path in made], "bytes": sum(path.stat().st_size for path in made)}, indent=1))
+        print(
+            json.dumps(
+                {"files": [str(path) for path in made], "bytes": sum(path.stat().st_size for path in made)}, indent=1
+            )
+        )
         return
     groups = {}
     for path in made:

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What stands on the first screen: the verdict in words, what changed since the run before, the gates nearest to their limits, engines by subject, cost.
+"""What stands on the first screen: the verdict in words, what changed since the run before, the gates nearest to their
+limits, engines by subject, cost.
 
-Nothing is judged here: verdicts, shares of limits and seconds are those of results.json, of results.previous.json and of the history.
-"""
+Nothing is judged here: verdicts, shares of limits and seconds are those of results.json, of results.previous.json and
+of the history."""
+
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -13,20 +15,29 @@ from model import is_number
 
 NEAREST = 10
 MOVED = 0.05  # a change of a share of a limit below this is not listed: most of it is noise of the machine's seeds
-STEP = 0.01   # a relative change of a knob below this is none: a solver's own step follows the last digits of the run
+STEP = 0.01  # a relative change of a knob below this is none: a solver's own step follows the last digits of the run
 ORDER = ("worse", "better", "moved", "apart", "limit", "new")
 WORDS = {"apart": "not comparable", "limit": "new limit"}
-KNOBS = {"time_step": ("step", 1e3, " ms"), "spacing": ("spacing", 1e3, " mm"), "support_ratio": ("support ratio", 1, ""), "walkers": ("number of walkers", 1, ""),
-         "iterations": ("number of iterations", 1, ""), "jitter": ("jitter", 1, ""), "seed": ("seed", 1, "")}
+KNOBS = {
+    "time_step": ("step", 1e3, " ms"),
+    "spacing": ("spacing", 1e3, " mm"),
+    "support_ratio": ("support ratio", 1, ""),
+    "walkers": ("number of walkers", 1, ""),
+    "iterations": ("number of iterations", 1, ""),
+    "jitter": ("jitter", 1, ""),
+    "seed": ("seed", 1, ""),
+}
 
 
 @dataclass
 class Change:
-    case: object   # None where the case is gone
-    where: str     # engine, metric, mode
+    case: object  # None where the case is gone
+    where: str  # engine, metric, mode
     before: str
     after: str
-    kind: str      # worse, better, moved (within a band that holds a stated figure, not 0), apart (made at another step or setting), limit (another one is asked) or new
+    # worse, better, moved (within a band that holds a stated figure, not 0), apart (made at another step or setting),
+    # limit (another one is asked) or new
+    kind: str
     weight: float  # the largest first
 
     @property
@@ -46,10 +57,22 @@ def verdict_words(results):
     if not gates:
         first = "No gate: nothing here was judged."
     elif not bad:
-        first = f"{'The one gate holds' if held == 1 else f'All {held} gates hold'}, in {count(len(results.cases), 'case')}."
+        first = (
+            f"{'The one gate holds' if held == 1 else f'All {held} gates hold'}, in "
+            f"{count(len(results.cases), 'case')}."
+        )
     else:
-        first = f"{held} of {count(len(gates), 'gate')} hold in {count(len(results.cases), 'case')}; " + ", ".join(f"{n} {word.lower()}" for word, n in bad.items()) + "."
-    words = summary.tally(word for case in results.cases for word in summary.headline(case) if word in (summary.DIVERGENCE, summary.UNJUDGED, summary.RIGHT, summary.WRONG) or summary.is_defect(word))
+        first = (
+            f"{held} of {count(len(gates), 'gate')} hold in {count(len(results.cases), 'case')}; "
+            + ", ".join(f"{n} {word.lower()}" for word, n in bad.items())
+            + "."
+        )
+    words = summary.tally(
+        word
+        for case in results.cases
+        for word in summary.headline(case)
+        if word in (summary.DIVERGENCE, summary.UNJUDGED, summary.RIGHT, summary.WRONG) or summary.is_defect(word)
+    )
     return first, words
 
 
@@ -65,36 +88,59 @@ def keyed(case):
 
 
 def baseline(results):
-    """({gate: (share, verdict, that gate or None, knobs)}, {case id: verdict}, date, the results before or None): of the run before, else of the history."""
+    """({gate: (share, verdict, that gate or None, knobs)}, {case id: verdict}, date, the results before or None): of
+    the run before, else of the history."""
     path = results.folder / "results.previous.json"
     try:
         before = load.load(path) if path.is_file() else None
     except load.Unreadable:
         before = None
-    used = {key: (gate.used, gate.verdict, gate, knobs_of(engine, gate)) for case in before.cases for key, engine, gate in keyed(case)} if before else {}
+    used = (
+        {
+            key: (gate.used, gate.verdict, gate, knobs_of(engine, gate))
+            for case in before.cases
+            for key, engine, gate in keyed(case)
+        }
+        if before
+        else {}
+    )
     verdicts = {case.id: case.verdict for case in before.cases} if before else {}
     date, now = str(before.raw.get("date") or "") if before else "", str(results.raw.get("date") or "")
     for case in results.cases:
-        last = next((entry for entry in reversed(case.history) if not entry.accepted and (not now or entry.date < now)), None)
+        last = next(
+            (entry for entry in reversed(case.history) if not entry.accepted and (not now or entry.date < now)), None
+        )
         if case.id in verdicts or last is None:
             continue
         verdicts[case.id], date = last.verdict.upper(), max(date, last.date)
         several = {key[:-1] for key, _, _ in keyed(case) if key[-1] > 0}
         for (engine, mode, metric, level), (share, _, verdict) in last.used.items():
             key = (case.id, engine.replace(" (", " · ").rstrip(")"), mode, metric, level)
-            used.update({(*key, 0): (share, verdict.upper(), None, {})} if key not in several else {})  # the history does not say which of several gates it means
+            used.update(
+                {(*key, 0): (share, verdict.upper(), None, {})} if key not in several else {}
+            )  # the history does not say which of several gates it means
     return used, verdicts, date, before
 
 
 def changes(results):
-    """@return {"since", "list": [Change], "worse", "apart": whether one is so, "cases": {case number: one of ORDER}, "gone", "same"}; None where there is no run before"""
+    """@return {"since", "list": [Change], "worse", "apart": whether one is so, "cases": {case number: one of ORDER},
+    "gone", "same"}; None where there is no run before"""
     used, verdicts, date, before = baseline(results)
     if not verdicts:
         return None
     found, marks = [], {}
     for case in results.cases:
         if case.id not in verdicts:
-            found.append(Change(case, "", "not run", case.verdict, "worse" if case.verdict != "PASS" else "new", 1.0 if case.verdict != "PASS" else 0.0))
+            found.append(
+                Change(
+                    case,
+                    "",
+                    "not run",
+                    case.verdict,
+                    "worse" if case.verdict != "PASS" else "new",
+                    1.0 if case.verdict != "PASS" else 0.0,
+                )
+            )
             marks[case.number] = "new"
             continue
         for key, engine, gate in keyed(case):
@@ -103,16 +149,37 @@ def changes(results):
                 found.append(change)
                 marks[case.number] = min(change.kind, marks.get(case.number, change.kind), key=ORDER.index)
         if verdicts[case.id] and case.verdict != verdicts[case.id] and case.number not in marks:
-            worse = summary.GRADES.index(case.verdict) < summary.GRADES.index(verdicts[case.id]) if {case.verdict, verdicts[case.id]} <= set(summary.GRADES) else True
+            worse = (
+                summary.GRADES.index(case.verdict) < summary.GRADES.index(verdicts[case.id])
+                if {case.verdict, verdicts[case.id]} <= set(summary.GRADES)
+                else True
+            )
             marks[case.number] = "worse" if worse else "better"
             found.append(Change(case, "verdict", verdicts[case.id], case.verdict, marks[case.number], 10.0))
     found.sort(key=lambda change: (ORDER.index(change.kind), -change.weight))
-    gone = sorted(set(case.id for case in before.cases) - set(case.id for case in results.cases)) if before and before.raw.get("what") == results.raw.get("what") else []
-    return {"since": date, "list": found, "worse": any(change.kind == "worse" for change in found), "apart": any(change.kind == "apart" for change in found), "cases": marks, "gone": gone, "bits": bits(results, before), "cpu": seconds(results, before)}
+    gone = (
+        sorted(set(case.id for case in before.cases) - set(case.id for case in results.cases))
+        if before and before.raw.get("what") == results.raw.get("what")
+        else []
+    )
+    return {
+        "since": date,
+        "list": found,
+        "worse": any(change.kind == "worse" for change in found),
+        "apart": any(change.kind == "apart" for change in found),
+        "cases": marks,
+        "gone": gone,
+        "bits": bits(results, before),
+        "cpu": seconds(results, before),
+    }
 
 
 def compare(case, engine, gate, old):
-    where = f"{engine.label}, {gate.metric.replace('_', ' ')}" + (f" at {gate.level:.4g}" if is_number(gate.level) else "") + (", as printed" if gate.mode == "paper" else "")
+    where = (
+        f"{engine.label}, {gate.metric.replace('_', ' ')}"
+        + (f" at {gate.level:.4g}" if is_number(gate.level) else "")
+        + (", as printed" if gate.mode == "paper" else "")
+    )
     kind = "worse" if gate.verdict != "PASS" else "better"
     if old is None:
         return Change(case, where, "no gate", gate.verdict, kind, 5.0) if kind == "worse" else None
@@ -121,36 +188,66 @@ def compare(case, engine, gate, old):
         return Change(case, where, verdict, gate.verdict, kind, 10.0)
     if before is not None and before.allowed != gate.allowed:  # shares of two limits are not compared
         return relimited(case, where, before, gate)
-    if not (is_number(share) and is_number(gate.used)) or abs(gate.used - share) <= MOVED or max(share, gate.used) <= 0.2:
+    if (
+        not (is_number(share) and is_number(gate.used))
+        or abs(gate.used - share) <= MOVED
+        or max(share, gate.used) <= 0.2
+    ):
         return None
     changed = settings_changed(knobs, knobs_of(engine, gate))
-    kind = "apart" if changed else "moved" if before is not None and states_a_figure(before) else "worse" if gate.used > share else "better"
-    values = (f"{before.value:.4g}", f"{gate.value:.4g} (allowed {gate.allowed})") if before is not None else (f"{100 * share:.0f} %", f"{100 * gate.used:.0f} % of the limit")
+    kind = (
+        "apart"
+        if changed
+        else "moved"
+        if before is not None and states_a_figure(before)
+        else "worse"
+        if gate.used > share
+        else "better"
+    )
+    values = (
+        (f"{before.value:.4g}", f"{gate.value:.4g} (allowed {gate.allowed})")
+        if before is not None
+        else (f"{100 * share:.0f} %", f"{100 * gate.used:.0f} % of the limit")
+    )
     return Change(case, f"{where}: {changed}" if changed else where, *values, kind, abs(gate.used - share))
 
 
 def relimited(case, where, before, gate):
     """Another limit is asked; where the value moved with it, nobody can say which way."""
-    moved = is_number(before.value) and is_number(gate.value) and abs(gate.value - before.value) > MOVED * max(abs(before.value), abs(gate.value))
+    moved = (
+        is_number(before.value)
+        and is_number(gate.value)
+        and abs(gate.value - before.value) > MOVED * max(abs(before.value), abs(gate.value))
+    )
     if moved:
-        return Change(case, f"{where}: its limit changed", f"{before.value:.4g} (allowed {before.allowed})", f"{gate.value:.4g} (allowed {gate.allowed})", "apart", 1.0)
+        return Change(
+            case,
+            f"{where}: its limit changed",
+            f"{before.value:.4g} (allowed {before.allowed})",
+            f"{gate.value:.4g} (allowed {gate.allowed})",
+            "apart",
+            1.0,
+        )
     return Change(case, where, before.allowed, gate.allowed, "limit", 0.0)
 
 
 def states_a_figure(gate):
-    """Whether the band holds a figure that is expected, as of a known defect, and not the error 0: nearer to its middle is not better then."""
+    """Whether the band holds a figure that is expected, as of a known defect, and not the error 0: nearer to its middle
+    is not better then."""
     return bool(gate.band) and not gate.band[0] <= 0.0 <= gate.band[1]
 
 
 def knobs_of(engine, gate):
     """What the run was made with that a gate judged; {} where no run is that of the gate."""
     of_mode = [run for run in engine.runs if gate.mode in ("", run.mode)]
-    run = next((run for run in of_mode if (run.base if gate.level is None else gate.level in run.levels.values())), None)
+    run = next(
+        (run for run in of_mode if (run.base if gate.level is None else gate.level in run.levels.values())), None
+    )
     return {name: run.knob(name) for name in KNOBS} if run is not None else {}
 
 
 def settings_changed(before, after):
-    """"its step changed, 0.742 to 0.437 ms"; empty where both were made with the same, or nobody knows."""
+    """ "its step changed, 0.742 to 0.437 ms"; empty where both were made with the same, or nobody knows."""
     found = []
     for name, (word, scale, unit) in KNOBS.items():
         old, new = before.get(name), after.get(name)
@@ -160,21 +257,38 @@ def settings_changed(before, after):
 
 
 def seconds(results, before):
-    """(CPU seconds now, CPU seconds before) of the runs that both have: a new case is no slower program; None without such runs."""
+    """(CPU seconds now, CPU seconds before) of the runs that both have: a new case is no slower program; None without
+    such runs."""
     if before is None:
         return None
 
     def spent(of):
-        return {(case.id, run.folder): run.cost["cpu_s"] for case in of.cases for engine in case.engines for run in engine.runs if run.folder and is_number(run.cost.get("cpu_s"))}
+        return {
+            (case.id, run.folder): run.cost["cpu_s"]
+            for case in of.cases
+            for engine in case.engines
+            for run in engine.runs
+            if run.folder and is_number(run.cost.get("cpu_s"))
+        }
+
     now, then = spent(results), spent(before)
     both = now.keys() & then.keys()
     return (sum(now[key] for key in both), sum(then[key] for key in both)) if both else None
 
 
 def bits(results, before):
-    """(runs with the same bits as before, runs that both have, [(case, run's folder)] of the others); None without a run before."""
+    """(runs with the same bits as before, runs that both have, [(case, run's folder)] of the others); None without a
+    run before."""
+
     def hashes(of):
-        return {(case.id, engine.label, run.folder): run.state_hash for case in of.cases for engine in case.engines for run in engine.runs if run.state_hash}
+        return {
+            (case.id, engine.label, run.folder): run.state_hash
+            for case in of.cases
+            for engine in case.engines
+            for run in engine.runs
+            if run.state_hash
+        }
+
     if before is None:
         return None
     now, then = hashes(results), hashes(before)
@@ -185,13 +299,25 @@ def bits(results, before):
 
 
 def is_whole(gate):
-    """Whether it asks for all of something, up to a rounding, and has all: such a gate uses its limit to the last thousandth and is in no danger."""
-    return gate.at_least is not None and 0.99 <= gate.at_least <= 1.0 and is_number(gate.value) and abs(gate.value - 1.0) < 1e-9
+    """Whether it asks for all of something, up to a rounding, and has all: such a gate uses its limit to the last
+    thousandth and is in no danger."""
+    return (
+        gate.at_least is not None
+        and 0.99 <= gate.at_least <= 1.0
+        and is_number(gate.value)
+        and abs(gate.value - 1.0) < 1e-9
+    )
 
 
 def nearest(results):
     """[(share, case, engine, gate)]: the ten gates that use most of their limits, broken ones first."""
-    found = [(gate.used, case, engine, gate) for case in results.cases for engine in case.engines for gate in engine.gates if is_number(gate.used) and not is_whole(gate)]
+    found = [
+        (gate.used, case, engine, gate)
+        for case in results.cases
+        for engine in case.engines
+        for gate in engine.gates
+        if is_number(gate.used) and not is_whole(gate)
+    ]
     return sorted(found, key=lambda entry: (entry[3].verdict == "PASS", -entry[0]))[:NEAREST]
 
 
@@ -201,7 +327,8 @@ def worst_share(case):
 
 
 def subjects(results):
-    """(names of subjects, [(engine, {subject: (word, text)})], engines that ran nowhere): presets of one engine count together."""
+    """(names of subjects, [(engine, {subject: (word, text)})], engines that ran nowhere): presets of one engine count
+    together."""
     names = list(dict.fromkeys(case.subject for case in results.cases))
     rows, nowhere = {}, []
     for name in dict.fromkeys(engine.name for case in results.cases for engine in case.engines):
@@ -209,7 +336,10 @@ def subjects(results):
         if all(engine.status == "missing" for _, engines in here for engine in engines):
             nowhere.append(name)
             continue
-        rows[name] = {subject: square([(case, engines) for case, engines in here if case.subject == subject and engines]) for subject in names}
+        rows[name] = {
+            subject: square([(case, engines) for case, engines in here if case.subject == subject and engines])
+            for subject in names
+        }
     return names, list(rows.items()), nowhere
 
 
@@ -217,15 +347,31 @@ def square(entries):
     """(word, what to write) of one engine in one subject; None where no case of it names the engine."""
     words = [[word for engine in engines for _, word in summary.standings(case, engine)] for case, engines in entries]
     words = [found for found in words if found]
+
     def expected(word):
         return word in ("PASS", summary.AS_EXPECTED, summary.DIVERGENCE) or summary.is_defect(word)
-    bad = [word for found in words for word in found if not expected(word) and summary.tone(word) in ("fail", "open", "none")]
+
+    bad = [
+        word
+        for found in words
+        for word in found
+        if not expected(word) and summary.tone(word) in ("fail", "open", "none")
+    ]
     green = sum(any(map(expected, found)) for found in words)
     if bad:
         return summary.worst(bad), f"{sum(any(word in bad for word in found) for found in words)} of {len(words)}"
     if green:
-        said = [word for case, engines in entries for engine in engines for mode, word in summary.standings(case, engine) if mode != "paper"]  # and not by a printed form alone
-        wrong = next((word for word in (summary.DEFECT, summary.AS_EXPECTED) if any(found.startswith(word) for found in said)), "PASS")
+        said = [
+            word
+            for case, engines in entries
+            for engine in engines
+            for mode, word in summary.standings(case, engine)
+            if mode != "paper"
+        ]  # and not by a printed form alone
+        wrong = next(
+            (word for word in (summary.DEFECT, summary.AS_EXPECTED) if any(found.startswith(word) for found in said)),
+            "PASS",
+        )
         return wrong, str(green)
     for word in (summary.UNJUDGED, "refused", "missing"):
         if any(word in found for found in words):
@@ -244,4 +390,10 @@ def cost(results):
 
     def dearest(of):
         return sorted(((key, s) for key, s in of.items() if s > 0), key=lambda entry: -entry[1])
-    return sum(engines.values()), dearest(engines), {number: s for number, s in cases.items()}, [(results.cases[number], s) for number, s in dearest(cases)[:3]]
+
+    return (
+        sum(engines.values()),
+        dearest(engines),
+        {number: s for number, s in cases.items()},
+        [(results.cases[number], s) for number, s in dearest(cases)[:3]],
+    )

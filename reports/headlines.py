@@ -1,111 +1,40 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The headline pages: one question that engines are chosen by, one picture of engines over the exact curve, one sentence of answer, one table.
+"""The headline pages: one question that engines are chosen by, one picture of engines over the exact curve, one
+sentence of answer, one table.
 
-Each page is written where its case was run. The curves are the runs' own trajectories, the truth is that of the engine `exact` or of the
-metric's zero line, and every number is one of results.json.
-"""
+Each page is written where its case was run. The curves are the runs' own trajectories, the truth is that of the engine
+`exact` or of the metric's zero line, and every number is one of results.json."""
+
 from __future__ import annotations
 
 import math
-import shlex
-from dataclasses import dataclass, field
-from pathlib import Path
 from types import SimpleNamespace
 
 import headline_pictures as pictures
+from headline_parts import (
+    Line,
+    Page,
+    by_engine,
+    case_of,
+    count,
+    join,
+    of_all,
+    own_engines,
+    runs_of,
+    share,
+    step_of,
+    value,
+)
 from headline_pictures import PRINTED, is_own
 from model import is_number, text
 
 SAME = 1e-3  # share of the whole below which a sentence calls an error none
 
 
-@dataclass
-class Line:
-    """One engine in the table."""
-    label: str
-    cells: list
-    tone: str = ""
-    own: bool = False  # of the engine that the user brought
-
-
-@dataclass
-class Page:
-    file: str
-    question: str
-    answer: str
-    picture: object
-    columns: list
-    lines: list
-    notes: list = field(default_factory=list)
-    cases: list = field(default_factory=list)  # whose numbers these are
-
-
-def case_of(results, case_id):
-    return next((case for case in results.cases if case.id == case_id), None)
-
-
-def runs_of(case, printed=False):
-    """(engine, run) of each engine and preset at the case's own resolution; of ours the corrected form, or the printed one alone."""
-    found = []
-    for engine in case.engines:
-        run = next((run for run in engine.runs if run.base and run.status == "ok" and (run.mode == "paper") == printed), None)
-        if run is not None:
-            found.append((engine, run))
-    return found
-
-
-def step_of(run):
-    """The run's time step as text, in milliseconds."""
-    step = run.knob("time_step")
-    return f"{1e3 * step:.4g} ms" if is_number(step) else "—"
-
-
-def value(run, metric):
-    found = run.metrics.get(metric)
-    return found.value if found is not None and is_number(found.value) else None
-
-
-def join(words):
-    return ", ".join(words[:-1]) + " and " + words[-1] if len(words) > 1 else "".join(words)
-
-
-def share(number):
-    """A share as percent with two digits."""
-    size = 100 * abs(number)
-    return f"{size:.0f} %" if size >= 9.95 else f"{size:.2g} %" if size >= 0.0995 else "< 0.1 %"
-
-
-def count(number, noun):
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
-
-
-def of_all(some, every):
-    """"3 of 4 engines and presets"."""
-    return f"{some} of {count(every, 'engine and preset') if every == 1 else f'{every} engines and presets'}"
-
-
-def own_engines(results):
-    """Names of the engines that the user brought: those of --engine in the command."""
-    try:
-        words = shlex.split(results.command)
-    except ValueError:
-        return []
-    given = [after for word, after in zip(words, words[1:]) if word == "--engine"] + [word.split("=", 1)[1] for word in words if word.startswith("--engine=")]
-    return [Path(path).name.removeprefix("engine-").split("@")[0] for path in given]
-
-
-def by_engine(labels):
-    """Presets of one engine in one word: ["a · x", "a · y", "b"] -> {"a (x, y)": labels, "b": labels}, in the order in which engines come first."""
-    found = {}
-    for label in labels:
-        found.setdefault(label.split(" · ")[0], []).append(label)
-    return {name if members == [name] else f"{name} ({', '.join(label.partition(' · ')[2] or 'default' for label in members)})" if len(members) > 1 else members[0]: members
-            for name, members in found.items()}
-
-
 def trajectories_of(results, case):
     """[(label, trajectory)], `exact` first and printed forms last; what cannot be read is left out."""
     from trajectories import NoTrajectory, read
+
     found = []
     for printed in (False, True):
         for engine, run in runs_of(case, printed):
@@ -116,7 +45,7 @@ def trajectories_of(results, case):
     return sorted(found, key=lambda entry: entry[0] != "exact")
 
 
-# --- does your engine spin a free body right? ---------------------------------------------------------------------------
+# --- does your engine spin a free body right? -------------------------------------------------------------------------
 
 SPIN = "rigid/torque-free"
 
@@ -124,12 +53,14 @@ SPIN = "rigid/torque-free"
 def long_axis(quaternions):
     """The first body's x axis in the world, (frames, 3): the first column of its rotation."""
     import numpy as np
+
     w, x, y, z = (quaternions[:, 0, k] for k in range(4))
     return np.stack([1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)], axis=1)
 
 
 def tip(trajectory):
-    """(times, z of the long axis, its rate): da/dt = omega x a, whose z is omega_x a_y - omega_y a_x. Rate None where the run wrote no angular velocity."""
+    """(times, z of the long axis, its rate): da/dt = omega x a, whose z is omega_x a_y - omega_y a_x. Rate None where
+    the run wrote no angular velocity."""
     axis = long_axis(trajectory.bodies["orientation"])
     spins = trajectory.bodies.get("angular_velocity")
     rate = None if spins is None else spins[:, 0, 0] * axis[:, 1] - spins[:, 0, 1] * axis[:, 0]
@@ -146,35 +77,80 @@ def spin(results, out):
         return None
     right = [label for angle, label, _, _ in strangers if angle < 0.01]
     steps = sorted({step for _, _, _, step in strangers + printed})
-    end = f"after 10 s of tumbling at {'a step' if len(steps) == 1 else 'steps'} of {join(steps)}, {of_all(len(right), len(strangers))} {'(without our printed form) ' if printed else ''}point within 0.01 rad of the truth"
+    end = (
+        f"after 10 s of tumbling at {'a step' if len(steps) == 1 else 'steps'} of {join(steps)}, "
+        f"{of_all(len(right), len(strangers))} {'(without our printed form) ' if printed else ''}point within 0.01 "
+        "rad of the truth"
+    )
     wrong = [(angle, label) for angle, label, _, _ in strangers if angle > 0.1]
     far = f"; {strangers[-1][1]} is {strangers[-1][0]:.4g} rad off" if strangers[-1][0] >= 0.01 else ""
     if wrong[:-1]:
         far += ", " + join([f"{label} {angle:.2g}" for angle, label in reversed(wrong[:-1])])
     own = "".join(f"; {label} is {angle:.4g} rad off" for angle, label, _, _ in printed)
     answer = f"{'Yes for ' + join(list(by_engine(right))) if right else 'No'}: {end}{far}{own}."
-    curves = [(label, tip(trajectory)) for label, trajectory in trajectories_of(results, case) if "orientation" in trajectory.bodies]
+    curves = [
+        (label, tip(trajectory))
+        for label, trajectory in trajectories_of(results, case)
+        if "orientation" in trajectory.bodies
+    ]
     exact = next((curve for label, curve in curves if label == "exact"), None)
-    caption = f"Case {case.id}, at its own time step. The wide grey curve is exact. Dots are the frames that were written; between them, cubics by attitude and angular velocity."
-    picture = pictures.picture(out, "spin", "Height of the long axis's tip over ten seconds", "z of the body's long axis [1]", [entry for entry in curves if entry[0] != "exact"], ("exact", exact),
-                               caption, own_engines(results)) if exact is not None else None
-    return Page("spin.html", "Does your engine spin a free body right?", answer, picture, ["engine", "time step", "angle error [rad]", "[degrees]", "along its spin", "energy error", "order"],
-                [Line(label, cells, "pass" if angle < 0.01 else "fail" if angle > 0.1 else "open") for angle, label, cells, _ in sorted(strangers + printed)], cases=[c for c in (case, case_of(results, "rigid/precession")) if c is not None],
-                notes=["Signs: within 0.01 rad, within 0.1 rad, farther off. One body at one step: other spins are in the case rigid/precession."] + [f'"{PRINTED.strip()}": our own solver by the equations as the paper prints them, the mode paper of the case.' for _ in printed[:1]])
+    caption = (
+        f"Case {case.id}, at its own time step. The wide grey curve is exact. Dots are the frames that were "
+        "written; between them, cubics by attitude and angular velocity."
+    )
+    picture = (
+        pictures.picture(
+            out,
+            "spin",
+            "Height of the long axis's tip over ten seconds",
+            "z of the body's long axis [1]",
+            [entry for entry in curves if entry[0] != "exact"],
+            ("exact", exact),
+            caption,
+            own_engines(results),
+        )
+        if exact is not None
+        else None
+    )
+    return Page(
+        "spin.html",
+        "Does your engine spin a free body right?",
+        answer,
+        picture,
+        ["engine", "time step", "angle error [rad]", "[degrees]", "along its spin", "energy error", "order"],
+        [
+            Line(label, cells, "pass" if angle < 0.01 else "fail" if angle > 0.1 else "open")
+            for angle, label, cells, _ in sorted(strangers + printed)
+        ],
+        cases=[c for c in (case, case_of(results, "rigid/precession")) if c is not None],
+        notes=[
+            "Signs: within 0.01 rad, within 0.1 rad, farther off. One body at one step: other spins are in the case "
+            "rigid/precession."
+        ]
+        + [
+            f'"{PRINTED.strip()}": our own solver by the equations as the paper prints them, the mode paper of the '
+            "case."
+            for _ in printed[:1]
+        ],
+    )
 
 
 AHEAD = 0.5  # cosine between the angle error and the spin, above which it is called one along the spin
 
 
 def turned_against_exact(results, case):
-    """{label: "behind", "ahead" or "aside"}: whether the body has turned less or more than the exact one at the last frame, about the axis that it spins about."""
+    """{label: "behind", "ahead" or "aside"}: whether the body has turned less or more than the exact one at the last
+    frame, about the axis that it spins about."""
     import numpy as np
+
     found = dict(trajectories_of(results, case))
     exact = found.get("exact")
     if exact is None or not {"orientation", "angular_velocity"} <= exact.bodies.keys():
         return {}
     spin, (w, x, y, z) = exact.bodies["angular_velocity"][-1, 0], exact.bodies["orientation"][-1, 0]
-    back = np.array([[w, -x, -y, -z], [x, w, z, -y], [y, -z, w, x], [z, y, -x, w]])  # the error in the world is (attitude of the engine) @ back
+    back = np.array(
+        [[w, -x, -y, -z], [x, w, z, -y], [y, -z, w, x], [z, y, -x, w]]
+    )  # the error in the world is (attitude of the engine) @ back
     words = {}
     for label, trajectory in found.items():
         if label == "exact" or "orientation" not in trajectory.bodies:
@@ -194,7 +170,21 @@ def spins_of(case, sides, printed=False):
         angle = value(run, "angle")
         if engine.name != "exact" and angle is not None:
             order = next((o for o in engine.orders if o.metric == "angle" and (o.mode == "paper") == printed), None)
-            found.append((abs(angle), engine.label + (PRINTED if printed else ""), [step_of(run), f"{abs(angle):.4g}", f"{math.degrees(abs(angle)):.3g}", sides.get(engine.label + (PRINTED if printed else ""), "—"), signed_energy(run), order_of(order)], step_of(run)))
+            found.append(
+                (
+                    abs(angle),
+                    engine.label + (PRINTED if printed else ""),
+                    [
+                        step_of(run),
+                        f"{abs(angle):.4g}",
+                        f"{math.degrees(abs(angle)):.3g}",
+                        sides.get(engine.label + (PRINTED if printed else ""), "—"),
+                        signed_energy(run),
+                        order_of(order),
+                    ],
+                    step_of(run),
+                )
+            )
     return sorted(found)
 
 
@@ -210,11 +200,17 @@ def signed_energy(run):
     return "—" if energy is None else f"{energy:.2g}"
 
 
-# --- does it make energy when it bounces? -------------------------------------------------------------------------------
+# --- does it make energy when it bounces? -----------------------------------------------------------------------------
 
-BOUNCES = (("contact/ball-restitution-100", "1"), ("contact/ball-restitution-090", "0.9"), ("contact/ball-restitution-050", "0.5"), ("contact/ball-restitution-000", "0"),
-           ("contact/box-restitution-100", "1, box"), ("contact/tumble-elastic", "1, tumbling box"),
-           ("contact/tumble-elastic-default", "1, tumbling box"))
+BOUNCES = (
+    ("contact/ball-restitution-100", "1"),
+    ("contact/ball-restitution-090", "0.9"),
+    ("contact/ball-restitution-050", "0.5"),
+    ("contact/ball-restitution-000", "0"),
+    ("contact/box-restitution-100", "1, box"),
+    ("contact/tumble-elastic", "1, tumbling box"),
+    ("contact/tumble-elastic-default", "1, tumbling box"),
+)
 
 
 MAKES = 0.01  # share of the energy of the fall above which the page says that an engine makes energy
@@ -239,12 +235,36 @@ def bounce(results, out):
     makers = by_engine([label for label in reversed(ordered) if worst[label] > MAKES])
     if makers:
         rest = sum(worst[label] <= MAKES for label in ordered)
-        answer = f"{'Some do' if rest else 'Yes'}: {join([f'{name} makes up to {share(max(worst[label] for label in members))}' for name, members in makers.items()])} of the energy of the fall in its hits; {of_all(rest, len(ordered))} stay below 1 %."
+        made = [f"{name} makes up to {share(max(worst[one] for one in members))}" for name, members in makers.items()]
+        answer = (
+            f"{'Some do' if rest else 'Yes'}: {join(made)} of the energy of the fall in its hits; "
+            f"{of_all(rest, len(ordered))} stay below 1 %."
+        )
     else:
-        answer = f"No: none of {count(len(ordered), 'engine and preset') if len(ordered) == 1 else f'{len(ordered)} engines and presets'} makes more than {share(max(worst.values()))} of the energy of the fall."
-    lines = [Line(label, [share(worst[label])] + ["—" if words not in gains[label] else share(gains[label][words]) for words in columns], "fail" if worst[label] > MAKES else "pass") for label in ordered]
-    return Page("bounce.html", "Does it make energy when it bounces?", answer, energies_picture(out, cases, gains, own_engines(results)), ["engine", "greatest"] + [f"e = {words}" for words in columns], lines,
-                notes=["\"—\": the engine refuses this case, or the case does not ask for it."] if any(len(found) < len(columns) for found in gains.values()) else [], cases=[case for case, _ in cases])
+        one = len(ordered) == 1
+        number = count(1, "engine and preset") if one else f"{len(ordered)} engines and presets"
+        answer = f"No: none of {number} makes more than {share(max(worst.values()))} of the energy of the fall."
+    lines = [
+        Line(
+            label,
+            [share(worst[label])]
+            + ["—" if words not in gains[label] else share(gains[label][words]) for words in columns],
+            "fail" if worst[label] > MAKES else "pass",
+        )
+        for label in ordered
+    ]
+    return Page(
+        "bounce.html",
+        "Does it make energy when it bounces?",
+        answer,
+        energies_picture(out, cases, gains, own_engines(results)),
+        ["engine", "greatest"] + [f"e = {words}" for words in columns],
+        lines,
+        notes=['"—": the engine refuses this case, or the case does not ask for it.']
+        if any(len(found) < len(columns) for found in gains.values())
+        else [],
+        cases=[case for case, _ in cases],
+    )
 
 
 def energies_picture(out, cases, gains, own):
@@ -255,19 +275,33 @@ def energies_picture(out, cases, gains, own):
         metric = run.metrics.get("energy_gain")
         if engine.name != "exact" and metric is not None and len(metric.times) == len(metric.series) > 1:
             curves.append((engine.label, curve_of(metric, 100.0, metric.series[0])))
-    return pictures.picture(out, "bounce", f"Energy since the start, restitution {most[1]}", "energy above that of the start [% of the fall's]", curves, ("none made", None),
-                            f"Case {most[0].id}: the one of these in which most is made. A curve above the grey line has made energy; to lose some is right where the restitution is below 1.", own)
+    return pictures.picture(
+        out,
+        "bounce",
+        f"Energy since the start, restitution {most[1]}",
+        "energy above that of the start [% of the fall's]",
+        curves,
+        ("none made", None),
+        f"Case {most[0].id}: the one of these in which most is made. A curve above the grey line has made energy; to "
+        "lose some is right where the restitution is below 1.",
+        own,
+    )
 
 
 def curve_of(metric, scale=1.0, start=0.0):
     """(times, values, no rates) of a metric in time."""
     import numpy as np
+
     return np.array(metric.times, float), scale * (np.array(metric.series, float) - start), None
 
 
-# --- does it float? -----------------------------------------------------------------------------------------------------
+# --- does it float? ---------------------------------------------------------------------------------------------------
 
-FLOATS = (("coupling/floating-block-025", 0.25), ("coupling/floating-block-050", 0.5), ("coupling/floating-block-080", 0.8))
+FLOATS = (
+    ("coupling/floating-block-025", 0.25),
+    ("coupling/floating-block-050", 0.5),
+    ("coupling/floating-block-080", 0.8),
+)
 
 FLOATS_WITHIN = 0.5  # spacings of draught: below what the particles resolve
 
@@ -288,44 +322,90 @@ def floats(results, out):
     ordered = sorted(errors, key=worst.get)
     good = [label for label in ordered if worst[label] <= FLOATS_WITHIN]
     others = [f"{label} is {worst[label]:.2g} off" for label in ordered if label not in good]
-    answer = (f"Yes for {join(good)}: blocks of {join([f'{density:g}' for _, density in cases])} of the density of water float within {max(worst[label] for label in good):.2g} spacings of Archimedes' draught{'; ' + join(others) if others else ''}."
-              if good else f"No: the best, {ordered[0]}, is {worst[ordered[0]]:.2g} spacings off Archimedes' draught.")
-    lines = [Line(label, ["—" if density not in errors[label] else f"{errors[label][density]:+.2f}" for _, density in cases], "pass" if worst[label] <= FLOATS_WITHIN else "fail") for label in ordered]
-    return Page("float.html", "Does it float?", answer, draught_picture(out, depths, cases, own_engines(results)), ["engine"] + [f"density {density:g}" for _, density in cases], lines,
-                notes=["The table is of the draught's error in particle spacings; the densities are relative to water."], cases=[case for case, _ in cases])
+    answer = (
+        f"Yes for {join(good)}: blocks of {join([f'{density:g}' for _, density in cases])} of the density of water "
+        f"float within {max(worst[label] for label in good):.2g} spacings of Archimedes' "
+        f"draught{'; ' + join(others) if others else ''}."
+        if good
+        else f"No: the best, {ordered[0]}, is {worst[ordered[0]]:.2g} spacings off Archimedes' draught."
+    )
+    lines = [
+        Line(
+            label,
+            ["—" if density not in errors[label] else f"{errors[label][density]:+.2f}" for _, density in cases],
+            "pass" if worst[label] <= FLOATS_WITHIN else "fail",
+        )
+        for label in ordered
+    ]
+    return Page(
+        "float.html",
+        "Does it float?",
+        answer,
+        draught_picture(out, depths, cases, own_engines(results)),
+        ["engine"] + [f"density {density:g}" for _, density in cases],
+        lines,
+        notes=["The table is of the draught's error in particle spacings; the densities are relative to water."],
+        cases=[case for case, _ in cases],
+    )
 
 
 def draught_picture(out, depths, cases, own):
     """Error of the draught in time; the zero line is Archimedes, the band what counts as floating right."""
-    curves = [(f"{label} · {density:g}", curve_of(metric)) for label, found in depths.items() for density, metric in found if len(metric.times) == len(metric.series) > 1]
-    return pictures.picture(out, "float", "Error of the draught of floating blocks in time", "draught less Archimedes' [spacings]", curves, ("Archimedes", None),
-                            f"Cases {join([case.id for case, _ in cases])}. Labels end with the density relative to water. The green band is half a spacing to either side.", own, FLOATS_WITHIN)
+    curves = [
+        (f"{label} · {density:g}", curve_of(metric))
+        for label, found in depths.items()
+        for density, metric in found
+        if len(metric.times) == len(metric.series) > 1
+    ]
+    return pictures.picture(
+        out,
+        "float",
+        "Error of the draught of floating blocks in time",
+        "draught less Archimedes' [spacings]",
+        curves,
+        ("Archimedes", None),
+        f"Cases {join([case.id for case, _ in cases])}. Labels end with the density relative to water. The green band "
+        "is half a spacing to either side.",
+        own,
+        FLOATS_WITHIN,
+    )
 
 
-# --- can I upgrade? -----------------------------------------------------------------------------------------------------
+# --- can I upgrade? ---------------------------------------------------------------------------------------------------
+
 
 def times(ratio):
-    """"3.4 times", "1300 times": two digits, without an exponent where it can be read so."""
+    """ "3.4 times", "1300 times": two digits, without an exponent where it can be read so."""
     return f"{float(f'{ratio:.2g}'):g} times" if ratio < 1e6 else f"{ratio:.1e} times"
 
 
 def upgrade_answer(document):
-    """One sentence from a table of releases: the greatest change for the worse, else that there is none. @return "" where nothing can be said"""
+    """One sentence from a table of releases: the greatest change for the worse, else that there is none. @return ""
+    where nothing can be said"""
     changes = [c for c in document.get("changes") or [] if isinstance(c, dict) and not c.get("round_off")]
-    sized = [(after / before, c) for c in changes if is_number(before := c.get("before")) and is_number(after := c.get("after")) and before and after]
+    sized = [
+        (after / before, c)
+        for c in changes
+        if is_number(before := c.get("before")) and is_number(after := c.get("after")) and before and after
+    ]
     sized = [(abs(ratio), c) for ratio, c in sized]
     releases = [row for row in document.get("releases") or [] if isinstance(row, dict)]
     if not releases:
         return ""
     worse = max(sized, key=lambda entry: entry[0], default=(0, None))
-    names = f"{text(releases[0].get('engine'))} {text(releases[0].get('version'))} to {text(releases[-1].get('version'))}"
+    names = (
+        f"{text(releases[0].get('engine'))} {text(releases[0].get('version'))} to {text(releases[-1].get('version'))}"
+    )
     if worse[0] > 1 and worse[1].get("worse"):
         c = worse[1]
-        return f"Not blindly: over {names}, {text(c.get('preset'))}'s {text(c.get('metric'))} error grows {times(worse[0])} from {text(c.get('from'))} to {text(c.get('to'))}."
+        return (
+            f"Not blindly: over {names}, {text(c.get('preset'))}'s {text(c.get('metric'))} error grows "
+            f"{times(worse[0])} from {text(c.get('from'))} to {text(c.get('to'))}."
+        )
     return f"Yes: over {names} no error of this case grows by more than {document.get('margin', 1)} times."
 
 
-# --- all ----------------------------------------------------------------------------------------------------------------
+# --- all --------------------------------------------------------------------------------------------------------------
 
 QUESTIONS = (spin, bounce, floats)
 

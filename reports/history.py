@@ -3,6 +3,7 @@
 
 A line that is torn, of another format or without a case is counted and left out: a history outlives versions.
 """
+
 from __future__ import annotations
 
 from dataclasses import dataclass, field
@@ -19,7 +20,7 @@ class Entry:
     date: str
     commit: str
     verdict: str
-    accepted: str = ""                        # the reason, where the line marks an acceptance
+    accepted: str = ""  # the reason, where the line marks an acceptance
     used: dict = field(default_factory=dict)  # (engine, mode, metric, level) -> (share of the limit, value, verdict)
     machine: str = ""
 
@@ -58,5 +59,16 @@ def read_entry(raw):
         level = number(gate.get("level"))
         preset = text(gate.get("preset"))
         engine = text(gate.get("engine")) + (f" ({preset})" if preset not in ("", "default") else "")
-        used[(engine, text(gate.get("mode")), text(gate.get("metric")), level)] = (number(gate.get("used")), number(gate.get("value")), text(gate.get("verdict")))
-    return Entry(text(raw.get("date")), text(raw.get("commit")), text(raw.get("verdict")), text(raw.get("accepted")), used, text(raw.get("cpu")))
+        used[(engine, text(gate.get("mode")), text(gate.get("metric")), level)] = (
+            number(gate.get("used")),
+            number(gate.get("value")),
+            text(gate.get("verdict")),
+        )
+    return Entry(
+        text(raw.get("date")),
+        text(raw.get("commit")),
+        text(raw.get("verdict")),
+        text(raw.get("accepted")),
+        used,
+        text(raw.get("cpu")),
+    )

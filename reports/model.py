@@ -4,6 +4,7 @@
 A number is a float, NaN where the file says that it was not finite, and None where there is none; the three look
 different on the page.
 """
+
 from __future__ import annotations
 
 import math
@@ -11,7 +12,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 
-COUNTED = ("body_count", "bonded_objects", "object_count", "phase_count", "event_count")  # quantities that count; their metric is the distance to the number that the case states
+COUNTED = (
+    "body_count",
+    "bonded_objects",
+    "object_count",
+    "phase_count",
+    "event_count",
+)  # quantities that count; their metric is the distance to the number that the case states
 
 
 def number(value, finite=True):
@@ -84,7 +91,7 @@ class Run:
     folder: str
     series: dict
     levels: dict  # study axis -> the level that this run is
-    base: bool    # the case's own resolution
+    base: bool  # the case's own resolution
     number: int = 0
 
     @property
@@ -97,9 +104,19 @@ class Run:
     @property
     def size(self):
         """The knobs that set the resolution, as text."""
-        words = {"spacing": "dx {:.4g} m", "time_step": "dt {:.4g} s", "support_ratio": "h/dx {:.4g}", "walkers": "{:.0f} walkers", "iterations": "{:.0f} iterations", "jitter": "jitter {:.3g}", "seed": "seed {:.0f}"}
+        words = {
+            "spacing": "dx {:.4g} m",
+            "time_step": "dt {:.4g} s",
+            "support_ratio": "h/dx {:.4g}",
+            "walkers": "{:.0f} walkers",
+            "iterations": "{:.0f} iterations",
+            "jitter": "jitter {:.3g}",
+            "seed": "seed {:.0f}",
+        }
         parts = [(form, self.knob(key)) for key, form in words.items()]
-        return ", ".join(form.format(value) for form, value in parts if is_number(value) and (value or "jitter" not in form))
+        return ", ".join(
+            form.format(value) for form, value in parts if is_number(value) and (value or "jitter" not in form)
+        )
 
 
 @dataclass
@@ -118,7 +135,7 @@ class Order:
 
     @property
     def words(self):
-        """"2.0 (asymptotic)": a number without its class may be that of a floor."""
+        """ "2.0 (asymptotic)": a number without its class may be that of a floor."""
         return ordered(self.value, self.fit_class)
 
 
@@ -133,7 +150,7 @@ class Gate:
     band: tuple | None
     verdict: str
     reason: str  # of the limit
-    why: str     # of a verdict that is not pass
+    why: str  # of a verdict that is not pass
     expect: str  # class of convergence that a study declares
     fit_class: str
     low: float | None  # an order's 95 % interval
@@ -142,8 +159,8 @@ class Gate:
     file: str
     line: str
     used: float | None = None  # share of the limit: 1 at the edge, above it outside; None where that has no meaning
-    physics: str = ""          # right, known defect, wrong, not known; empty where an older version wrote the file
-    defect: str = ""           # NAME of the known defect
+    physics: str = ""  # right, known defect, wrong, not known; empty where an older version wrote the file
+    defect: str = ""  # NAME of the known defect
 
     @property
     def allowed(self):
@@ -197,7 +214,7 @@ class Case:
     number: int
     raw: dict
     metrics: list  # as declared
-    units: dict    # metric -> unit
+    units: dict  # metric -> unit
     notes: list = field(default_factory=list)
     history: list = field(default_factory=list)  # runs before, oldest first: history.Entry
     slug: str = ""  # its file name, without an ending

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Fills the templates: HTML files that need nothing else."""
+
 from __future__ import annotations
 
 import base64
@@ -24,8 +25,17 @@ from model import COUNTED, is_number, number
 
 TEMPLATES = Path(__file__).resolve().parent / "templates"
 VENDOR = Path(__file__).resolve().parent / "vendor"  # Tabulator as npm has it; tests/reports holds its hash
-EXITS = {"0": "pass", "1": "accuracy, order or an invariant fails", "2": "bad input", "3": "inconclusive", "4": "a required engine, reference or metric is missing", "5": "the gate's self-test failed",
-         "6": "cost regression only", "7": "a run diverged", "130": "interrupted"}
+EXITS = {
+    "0": "pass",
+    "1": "accuracy, order or an invariant fails",
+    "2": "bad input",
+    "3": "inconclusive",
+    "4": "a required engine, reference or metric is missing",
+    "5": "the gate's self-test failed",
+    "6": "cost regression only",
+    "7": "a run diverged",
+    "130": "interrupted",
+}
 
 
 def show(value):
@@ -73,7 +83,8 @@ def of_one_value(gates):
 
 
 def worded(value, metric):
-    """A metric's value; 0 of a count or of a difference of counts is said in a word, so that nobody takes it for nothing."""
+    """A metric's value; 0 of a count or of a difference of counts is said in a word, so that nobody takes it for
+    nothing."""
     return "0, equal" if value == 0 and metric and metric.get("quantity") in COUNTED else show(value)
 
 
@@ -113,19 +124,51 @@ def truth(row, case, side):
 @functools.lru_cache
 def environment():
     import jinja2
-    made = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    made.filters.update(show=show, times=digit_cost.times, size=size, percent=percent, tone=summary.tone, page=page_of, terms=terms, measure=measure, truth=truth, gate_word=summary.gate_word, physics_word=summary.physics_word, hash=script_hash, of_one_value=of_one_value, worded=worded,
-                        turn=lambda kind: front.WORDS.get(kind, kind), headline=summary.headline, standings=summary.standings, ran=summary.ran, share=front.worst_share)
+
+    made = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True
+    )
+    made.filters.update(
+        show=show,
+        times=digit_cost.times,
+        size=size,
+        percent=percent,
+        tone=summary.tone,
+        page=page_of,
+        terms=terms,
+        measure=measure,
+        truth=truth,
+        gate_word=summary.gate_word,
+        physics_word=summary.physics_word,
+        hash=script_hash,
+        of_one_value=of_one_value,
+        worded=worded,
+        turn=lambda kind: front.WORDS.get(kind, kind),
+        headline=summary.headline,
+        standings=summary.standings,
+        ran=summary.ran,
+        share=front.worst_share,
+    )
     return made
 
 
 def fill(template, results, **more):
-    return environment().get_template(template).render(results=results, written=time.strftime("%Y-%m-%d %H:%M UTC", time.gmtime()), **{"up": "", "scripts": [], "notes": [], **more})
+    return (
+        environment()
+        .get_template(template)
+        .render(
+            results=results,
+            written=time.strftime("%Y-%m-%d %H:%M UTC", time.gmtime()),
+            **{"up": "", "scripts": [], "notes": [], **more},
+        )
+    )
 
 
 def vendor(name):
     """A library's file without the line that names its source map, which is not shipped."""
-    return "\n".join(line for line in (VENDOR / name).read_text(encoding="utf-8").splitlines() if "sourceMappingURL" not in line)
+    return "\n".join(
+        line for line in (VENDOR / name).read_text(encoding="utf-8").splitlines() if "sourceMappingURL" not in line
+    )
 
 
 def render_printed(results):
@@ -137,25 +180,56 @@ def render_printed(results):
 def render_table1(results):
     """@return HTML of the paper's table of features beside what was measured"""
     features, systems, films, notes = table1.read(results)
-    return fill("table1.html.j2", results, features=features, systems=systems, films=films, notes=notes, columns=table1.COLUMNS, predicted=table1.PREDICTED)
+    return fill(
+        "table1.html.j2",
+        results,
+        features=features,
+        systems=systems,
+        films=films,
+        notes=notes,
+        columns=table1.COLUMNS,
+        predicted=table1.PREDICTED,
+    )
 
 
 def render_stability(results, out):
     """@return HTML of the map of stable steps and of the hard cases"""
     frontiers, drawing, listed, notes = stability.read(results, out)
     hits, contact, peers, engines, more = stability_peers.drawings(out)
-    return fill("stability.html.j2", results, frontiers=frontiers, drawing=drawing, listed=listed, notes=notes + more, columns=stability.COLUMNS, hits=hits, contact=contact, peers=peers, peer_drawing=engines)
+    return fill(
+        "stability.html.j2",
+        results,
+        frontiers=frontiers,
+        drawing=drawing,
+        listed=listed,
+        notes=notes + more,
+        columns=stability.COLUMNS,
+        hits=hits,
+        contact=contact,
+        peers=peers,
+        peer_drawing=engines,
+    )
 
 
 def render_figures(results, out=None):
-    """@param out: the report's folder, which holds the cases' pictures   @return HTML of the paper's figures: pictures, claims met, and the time of a frame"""
+    """@param out: the report's folder, which holds the cases' pictures   @return HTML of the paper's figures: pictures,
+    claims met, and the time of a frame"""
     rows = paper_figures.read(results)
     full = any("full-size" in table1.tags(row.case) for row in rows)
-    return fill("paper_figures.html.j2", results, rows=rows, full=full, notes=[], pictures=paper_figures.pictures(results, out), papers_frame=paper_figures.PAPERS_FRAME)
+    return fill(
+        "paper_figures.html.j2",
+        results,
+        rows=rows,
+        full=full,
+        notes=[],
+        pictures=paper_figures.pictures(results, out),
+        papers_frame=paper_figures.PAPERS_FRAME,
+    )
 
 
 def render_gallery(results, films):
-    """@param films: case, names of film and sheet, why one is missing, colours of the sheet, end [s], tone of the verdict, what the paper says   @return HTML of the paper's figures in motion"""
+    """@param films: case, names of film and sheet, why one is missing, colours of the sheet, end [s], tone of the
+    verdict, what the paper says   @return HTML of the paper's figures in motion"""
     return fill("gallery.html.j2", results, films=films, notes=[])
 
 
@@ -166,13 +240,30 @@ def render_digit_cost(results, out):
         picture = digit_cost.draw(ladders, out)
     except Exception as error:  # no library, or odd data: the table stands without its figure
         picture, notes = None, [f"the figure could not be drawn: {error}"]
-    return fill("digit_cost.html.j2", results, ladders=ladders, bare=digit_cost.without_study(results), picture=picture, notes=notes)
+    return fill(
+        "digit_cost.html.j2",
+        results,
+        ladders=ladders,
+        bare=digit_cost.without_study(results),
+        picture=picture,
+        notes=notes,
+    )
 
 
 def render_ablation(results):
     """@return HTML of what each correction buys"""
     terms, rows, notes = ablation.read(results.folder)
-    return fill("ablation.html.j2", results, terms=terms, rows=rows, notes=notes, means=ablation.MEANS, picked=ablation.best(rows, terms), worse=ablation.WORSE, most=ablation.MOST)
+    return fill(
+        "ablation.html.j2",
+        results,
+        terms=terms,
+        rows=rows,
+        notes=notes,
+        means=ablation.MEANS,
+        picked=ablation.best(rows, terms),
+        worse=ablation.WORSE,
+        most=ablation.MOST,
+    )
 
 
 def render_side_by_side(results):
@@ -192,14 +283,43 @@ def render_signable(results):
 
 def render_case(results, case, pictures, notes):
     """@param pictures, notes: what figures.draw_case gave   @return HTML of one case"""
-    before, after = (results.cases[n] if 0 <= n < len(results.cases) else None for n in (case.number - 1, case.number + 1))
-    return fill("case.html.j2", results, case=case, declared={metric.get("name"): metric for metric in case.metrics}, drawings=pictures, told=notes, before=before, after=after, up="../")
+    before, after = (
+        results.cases[n] if 0 <= n < len(results.cases) else None for n in (case.number - 1, case.number + 1)
+    )
+    return fill(
+        "case.html.j2",
+        results,
+        case=case,
+        declared={metric.get("name"): metric for metric in case.metrics},
+        drawings=pictures,
+        told=notes,
+        before=before,
+        after=after,
+        up="../",
+    )
 
 
 def render(results, missing_libraries, headlines=(), beside=()):
-    """@param headlines: pages of questions   @param beside: (file, name) of the other pages that were written   @return HTML of the front page"""
+    """@param headlines: pages of questions   @param beside: (file, name) of the other pages that were written   @return
+    HTML of the front page"""
     names, matrix, nowhere = front.subjects(results)
     return fill(
-        "report.html.j2", results, words=front.verdict_words(results), changed=front.changes(results), near=front.nearest(results), spent=front.cost(results), names=names, matrix=matrix, nowhere=nowhere,
-        engines=summary.engine_table(results), gaps=summary.not_validated(results), missing=missing_libraries, headlines=headlines, beside=beside, proof=signable.selftest_document(results.folder),
-        meaning=EXITS.get(results.exit_code, "not one of the codes of the contracts"), table_style=vendor("tabulator.min.css"), scripts=[vendor("tabulator.min.js"), (TEMPLATES / "front.js").read_text(encoding="utf-8")])
+        "report.html.j2",
+        results,
+        words=front.verdict_words(results),
+        changed=front.changes(results),
+        near=front.nearest(results),
+        spent=front.cost(results),
+        names=names,
+        matrix=matrix,
+        nowhere=nowhere,
+        engines=summary.engine_table(results),
+        gaps=summary.not_validated(results),
+        missing=missing_libraries,
+        headlines=headlines,
+        beside=beside,
+        proof=signable.selftest_document(results.folder),
+        meaning=EXITS.get(results.exit_code, "not one of the codes of the contracts"),
+        table_style=vendor("tabulator.min.css"),
+        scripts=[vendor("tabulator.min.js"), (TEMPLATES / "front.js").read_text(encoding="utf-8")],
+    )

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The page "the paper's figures": each figure that was run, how long a step and a film's frame took, and what it claims.
+"""The page "the paper's figures": each figure that was run, how long a step and a film's frame took, and what it
+claims.
 
 A case belongs to it by its tag `paper`. The paper says of its figures: 0.5 s a frame at worst.
 """
+
 from __future__ import annotations
 
 import math
@@ -21,23 +23,32 @@ PAPERS_FRAME = 0.5  # s at worst, on a 2 GHz machine of 2007, with about 40 neig
 @dataclass
 class Row:
     """One figure in one mode."""
+
     case: Case
     mode: str
     particles: float | None = None
     neighbours: float | None = None  # particles within the support, in bulk
-    simulated: float | None = None   # s
+    simulated: float | None = None  # s
     steps: float | None = None
-    wall: float | None = None        # s, with the writing of its frames
+    wall: float | None = None  # s, with the writing of its frames
     threads: float | None = None
-    step: float | None = None        # ms
-    frame: float | None = None       # s
+    step: float | None = None  # ms
+    frame: float | None = None  # s
     entry: table1.Entry | None = None
     why: str = ""
 
 
 def read(results):
     """@return rows, the scenes with the most particles first"""
-    found = [row(case, engine, run) for case in results.cases if TAG in table1.tags(case) for engine in case.engines if engine.name == ENGINE for run in engine.runs if run.base]
+    found = [
+        row(case, engine, run)
+        for case in results.cases
+        if TAG in table1.tags(case)
+        for engine in case.engines
+        if engine.name == ENGINE
+        for run in engine.runs
+        if run.base
+    ]
     return sorted(found, key=lambda r: (-(r.particles or 0) // 10000, natural(r.case.title), r.mode))
 
 
@@ -48,7 +59,11 @@ def natural(title):
 
 def pictures(results, out):
     """[(case, file without its ending, what it shows)] of the figures that were drawn, in the order of the ids."""
-    found = [(case, f"figures/{case.slug}-particles", f"Particles of {case.title or case.id} in time") for case in sorted(results.cases, key=lambda case: case.id) if TAG in table1.tags(case)]
+    found = [
+        (case, f"figures/{case.slug}-particles", f"Particles of {case.title or case.id} in time")
+        for case in sorted(results.cases, key=lambda case: case.id)
+        if TAG in table1.tags(case)
+    ]
     return [entry for entry in found if out is not None and (out / f"{entry[1]}.svg").is_file()]
 
 
@@ -58,7 +73,9 @@ def row(case, engine, run):
         made.why = run.reason or run.status
         return made
     cost, ratio = run.cost, run.knob("support_ratio")
-    made.particles, made.simulated, made.steps, made.wall = (positive(cost.get(key)) for key in ("particles", "simulated_s", "steps", "wall_s"))
+    made.particles, made.simulated, made.steps, made.wall = (
+        positive(cost.get(key)) for key in ("particles", "simulated_s", "steps", "wall_s")
+    )
     made.threads = run.knob("threads")
     made.neighbours = 4.0 / 3.0 * math.pi * ratio**3 if is_number(ratio) else None
     stepping = made.wall - (positive(cost.get("setup_cpu_s")) or 0.0) if made.wall else None

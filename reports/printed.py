@@ -4,6 +4,7 @@
 printed_equations.toml says what is predicted and where it is measured; every measured figure and every verdict is taken
 from results.json. A case that was not run is said to be so.
 """
+
 from __future__ import annotations
 
 import tomllib
@@ -14,13 +15,19 @@ from model import Case, is_number, number, rows, table, text
 
 ROWS = Path(__file__).resolve().parent / "printed_equations.toml"
 ENGINE = "tripoint"
-WORDS = {"PASS": ("predicted defect seen", "open"), "FAIL": ("not as predicted", "fail"), "INCONCLUSIVE": ("inconclusive", "none"),
-         "MISSING": ("not measured", "none"), "DIVERGED": ("diverged", "fail")}
+WORDS = {
+    "PASS": ("predicted defect seen", "open"),
+    "FAIL": ("not as predicted", "fail"),
+    "INCONCLUSIVE": ("inconclusive", "none"),
+    "MISSING": ("not measured", "none"),
+    "DIVERGED": ("diverged", "fail"),
+}
 
 
 @dataclass
 class Figure:
     """One measured number in the row's unit, or why there is none."""
+
     value: float | None = None
     uncertainty: float | None = None
     resolution: list = field(default_factory=list)
@@ -54,15 +61,28 @@ def read(results, path=ROWS):
 
 
 def fill(raw, case):
-    row = Row(text(raw.get("equation")), text(raw.get("defect")), text(raw.get("predicted")), text(raw.get("source")), text(raw.get("shown")), text(raw.get("case")), case)
+    row = Row(
+        text(raw.get("equation")),
+        text(raw.get("defect")),
+        text(raw.get("predicted")),
+        text(raw.get("source")),
+        text(raw.get("shown")),
+        text(raw.get("case")),
+        case,
+    )
     if case is None:
         row.verdict, row.why = "not run", "the results hold no case of this id"
         return row
     engine = next((e for e in case.engines if e.name == ENGINE), None)
     if engine is None or not engine.runs:
-        row.verdict, row.why = "not run", (engine.reason or engine.status) if engine else f"the case does not list {ENGINE}"
+        row.verdict, row.why = (
+            "not run",
+            (engine.reason or engine.status) if engine else f"the case does not list {ENGINE}",
+        )
         return row
-    row.paper, row.corrected = (figure(table(raw.get(mode)), mode, engine, number(raw.get("level"))) for mode in ("paper", "corrected"))
+    row.paper, row.corrected = (
+        figure(table(raw.get(mode)), mode, engine, number(raw.get("level"))) for mode in ("paper", "corrected")
+    )
     judge(row, text(raw.get("gate")), engine)
     return row
 
@@ -71,15 +91,26 @@ def figure(wanted, mode, engine, level):
     """The metric of the run of this mode at the level, else at the case's own resolution."""
     name = text(wanted.get("metric"))
     runs = [run for run in engine.runs if run.mode == mode]
-    at_level = [run for run in runs if level is not None and any(is_number(number(v)) and abs(number(v) - level) <= 1e-9 * level for v in run.levels.values())]
+    at_level = [
+        run
+        for run in runs
+        if level is not None
+        and any(is_number(number(v)) and abs(number(v) - level) <= 1e-9 * level for v in run.levels.values())
+    ]
     run = next(iter(at_level + [run for run in runs if run.base] + runs), None)
     if run is None:
         return Figure(why="this mode was not run")
     if run.status != "ok" or name not in run.metrics:
-        return Figure(resolution=steps(run), why=run.reason or (run.status if run.status != "ok" else f"no metric {name}"))
+        return Figure(
+            resolution=steps(run), why=run.reason or (run.status if run.status != "ok" else f"no metric {name}")
+        )
     add, times = number(wanted.get("add")) or 0.0, number(wanted.get("times")) or 1.0
     metric = run.metrics[name]
-    return Figure(None if metric.value is None else add + times * metric.value, abs(times) * metric.u if metric.u else None, steps(run))
+    return Figure(
+        None if metric.value is None else add + times * metric.value,
+        abs(times) * metric.u if metric.u else None,
+        steps(run),
+    )
 
 
 def steps(run):

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Writes the report of a validation run: python3 report.py RESULTS.json [--out DIR] [--jobs N]
 
-results.json is the one source; trajectories beside it are read to draw them. DIR/index.html is the front page, DIR/case/NAME.html has one case; each is
-one file that loads nothing. Pages that compare cases stand beside index.html, each only where these results hold a case for it. DIR/figures holds every figure
-as SVG, and what it was drawn from: a figure whose inputs are the same is not drawn again. No physics is computed here, and no verdict is formed.
-Exit: 0 the pages are written, whatever they say; 2 there is nothing to report on.
-"""
+results.json is the one source; trajectories beside it are read to draw them. DIR/index.html is the front page,
+DIR/case/NAME.html has one case; each is one file that loads nothing. Pages that compare cases stand beside index.html,
+each only where these results hold a case for it. DIR/figures holds every figure as SVG, and what it was drawn from: a
+figure whose inputs are the same is not drawn again. No physics is computed here, and no verdict is formed. Exit: 0 the
+pages are written, whatever they say; 2 there is nothing to report on."""
+
 from __future__ import annotations
 
 import argparse
@@ -30,10 +31,14 @@ import scorecard
 import side_by_side
 import signable
 import speed
-import stability
 import table1
 
-PACKAGES = {"numpy": "python3-numpy", "matplotlib": "python3-matplotlib", "h5py": "python3-h5py", "jinja2": "python3-jinja2"}
+PACKAGES = {
+    "numpy": "python3-numpy",
+    "matplotlib": "python3-matplotlib",
+    "h5py": "python3-h5py",
+    "jinja2": "python3-jinja2",
+}
 
 
 def absent():
@@ -43,7 +48,9 @@ def absent():
         try:
             __import__(name)
         except Exception as error:  # a broken library raises more than ImportError
-            lines.append(f"Python's {name} is not usable ({type(error).__name__}): install the Debian package {package}")
+            lines.append(
+                f"Python's {name} is not usable ({type(error).__name__}): install the Debian package {package}"
+            )
     return lines
 
 
@@ -51,6 +58,7 @@ def make_case(results, out, missing, case):
     """Draws one case and writes its page. @return files that it made"""
     try:
         import figures
+
         pictures, notes, made = figures.draw_case(results.folder, out, case)
     except ImportError as error:
         pictures, notes, made = [], missing or [f"no figures: {error}"], []
@@ -64,6 +72,7 @@ def take_colour_for_own(results, missing):
     """The user's own engine has its own colour in every figure."""
     if not missing:
         from figures import style
+
         style.KNOWN.update(dict.fromkeys(headlines.own_engines(results), style.OWN))
 
 
@@ -83,7 +92,8 @@ def make_cases(results, out, missing, jobs):
 
 
 def make_nth(number):
-    """Memory is swept once a case: while matplotlib makes its thousands of small objects, sweeps took a fifth of the time."""
+    """Memory is swept once a case: while matplotlib makes its thousands of small objects, sweeps took a fifth of the
+    time."""
     gc.disable()
     try:
         return make_case(*WORK, WORK[0].cases[number])
@@ -99,23 +109,55 @@ def sweep(out, made):
         old = json.loads(listing.read_text(encoding="utf-8"))
     except (OSError, ValueError):
         old = []
-    for name in set(name for name in old if isinstance(name, str) and name.startswith(("case/", "figures/")) and ".." not in name) - set(made) if isinstance(old, list) else ():
+    for name in (
+        set(
+            name
+            for name in old
+            if isinstance(name, str) and name.startswith(("case/", "figures/")) and ".." not in name
+        )
+        - set(made)
+        if isinstance(old, list)
+        else ()
+    ):
         (out / name).unlink(missing_ok=True)
     write(listing, json.dumps(sorted(made)))
 
 
 def other_pages(results, out):
-    """Writes those pages beside index.html for which these results hold a case, and removes those for which they do not. @return (pages of questions, [(file, name)])"""
+    """Writes those pages beside index.html for which these results hold a case, and removes those for which they do
+    not. @return (pages of questions, [(file, name)])"""
     tagged = {tag for case in results.cases for tag in table1.tags(case) if isinstance(tag, str)}
     cases = {case.id for case in results.cases}
-    pages = (("engines.html", "Engines side by side", page.render_side_by_side, side_by_side.read(results)),
-             ("table-1.html", "Table 1: nine features", page.render_table1, any(tag.startswith("feature-") for tag in tagged)),
-             ("paper-figures.html", "The paper's figures", lambda of: page.render_figures(of, out), "paper" in tagged),
-             ("printed-equations.html", "What the printed equations do", page.render_printed, any(row.case_id in cases for row in printed.read(results)[0])),
-             ("digit-cost.html", "Cost of one more digit", lambda of: page.render_digit_cost(of, out), digit_cost.read(results)),
-             ("corrections.html", "What each correction buys", page.render_ablation, (results.folder / "ablation.json").is_file()),
-             ("stability.html", "Stable steps, hard cases", lambda of: page.render_stability(of, out), "hard" in tagged),
-             ("signable.html", "The report to sign", page.render_signable, True))
+    pages = (
+        ("engines.html", "Engines side by side", page.render_side_by_side, side_by_side.read(results)),
+        (
+            "table-1.html",
+            "Table 1: nine features",
+            page.render_table1,
+            any(tag.startswith("feature-") for tag in tagged),
+        ),
+        ("paper-figures.html", "The paper's figures", lambda of: page.render_figures(of, out), "paper" in tagged),
+        (
+            "printed-equations.html",
+            "What the printed equations do",
+            page.render_printed,
+            any(row.case_id in cases for row in printed.read(results)[0]),
+        ),
+        (
+            "digit-cost.html",
+            "Cost of one more digit",
+            lambda of: page.render_digit_cost(of, out),
+            digit_cost.read(results),
+        ),
+        (
+            "corrections.html",
+            "What each correction buys",
+            page.render_ablation,
+            (results.folder / "ablation.json").is_file(),
+        ),
+        ("stability.html", "Stable steps, hard cases", lambda of: page.render_stability(of, out), "hard" in tagged),
+        ("signable.html", "The report to sign", page.render_signable, True),
+    )
     beside = []
     for file, name, render, wanted in pages:
         (out / file).unlink(missing_ok=True)
@@ -141,13 +183,16 @@ def chosen_pages(results, out):
     if absent():
         return []
     import which_engine  # it needs numpy
+
     html, made = which_engine.render(results), []
     if html:
         write(out / "which-engine.html", html)
         made.append(("which-engine.html", "Which engine for what?"))
     else:
         (out / "which-engine.html").unlink(missing_ok=True)
-    if (results.folder / "scorecard.json").is_file() and scorecard.main([str(results.folder / "scorecard.json"), str(out / "scorecard.html")]) == 0:
+    if (results.folder / "scorecard.json").is_file() and scorecard.main(
+        [str(results.folder / "scorecard.json"), str(out / "scorecard.html")]
+    ) == 0:
         made.append(("scorecard.html", "Scorecard: engines by the limits that any engine must hold"))
     return made
 
@@ -165,8 +210,12 @@ def main(arguments=None):
     parser = argparse.ArgumentParser(description="Writes the HTML report of a validation run.")
     parser.add_argument("results", metavar="RESULTS.json")
     parser.add_argument("--out", metavar="DIR", help="folder of index.html and figures/ (default: beside RESULTS.json)")
-    parser.add_argument("--jobs", type=int, default=min(2, os.cpu_count() or 1), help="processes that draw (default: %(default)s)")
-    parser.add_argument("--pdf", action="store_true", help="also write DIR/report.pdf, the report to sign, by weasyprint")
+    parser.add_argument(
+        "--jobs", type=int, default=min(2, os.cpu_count() or 1), help="processes that draw (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--pdf", action="store_true", help="also write DIR/report.pdf, the report to sign, by weasyprint"
+    )
     options = parser.parse_args(arguments)
     try:
         results = load.load(options.results)

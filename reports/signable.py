@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The report that an engineer signs: every requirement with its case, metric and verdict, from results.json alone. HTML first, PDF by weasyprint."""
+"""The report that an engineer signs: every requirement with its case, metric and verdict, from results.json alone. HTML
+first, PDF by weasyprint."""
+
 from __future__ import annotations
 
 import hashlib
@@ -13,12 +15,20 @@ from model import number, rows, table, text
 
 def requirements(results):
     """(requirement, case, [(engine, gate)]) in the order of their names; a case without one stands last."""
-    listed = [(case.requirement or "(none stated)", case, [(engine, gate) for engine in case.engines for gate in engine.gates]) for case in results.cases]
+    listed = [
+        (
+            case.requirement or "(none stated)",
+            case,
+            [(engine, gate) for engine in case.engines for gate in engine.gates],
+        )
+        for case in results.cases
+    ]
     return sorted(listed, key=lambda entry: (entry[0] == "(none stated)", entry[0], entry[1].id))
 
 
 def orders(results):
-    """Code verification: every fitted order that has a formal one, with the uncertainty estimated from the grids alone and the true error."""
+    """Code verification: every fitted order that has a formal one, with the uncertainty estimated from the grids alone
+    and the true error."""
     found = []
     for case in results.cases:
         for engine in case.engines:
@@ -43,14 +53,25 @@ def budgets(results):
 
 
 def waivers(results):
-    """Gates whose limit stands by a dated reason, and cases whose pass is a defect or a divergence that was declared."""
-    dated = [(case, text(raw.get("metric")), text(raw.get("date")), text(raw.get("reason"))) for case in results.cases for raw in rows(case.raw.get("gates")) if text(raw.get("date"))]
-    declared = [(case, "the case itself", "", f"expects {text(case.raw.get('expect'))}") for case in results.cases if text(case.raw.get("expect"), "pass") != "pass"]
+    """Gates whose limit stands by a dated reason, and cases whose pass is a defect or a divergence that was
+    declared."""
+    dated = [
+        (case, text(raw.get("metric")), text(raw.get("date")), text(raw.get("reason")))
+        for case in results.cases
+        for raw in rows(case.raw.get("gates"))
+        if text(raw.get("date"))
+    ]
+    declared = [
+        (case, "the case itself", "", f"expects {text(case.raw.get('expect'))}")
+        for case in results.cases
+        if text(case.raw.get("expect"), "pass") != "pass"
+    ]
     return declared + dated
 
 
 def selftest(folder):
-    """What `tripoint gate selftest --out` has left beside the results, line by line; empty where it was not run there."""
+    """What `tripoint gate selftest --out` has left beside the results, line by line; empty where it was not run
+    there."""
     for path in (folder / "selftest.txt", folder / "selftest" / "selftest.txt"):
         if path.exists():
             return path.read_text(encoding="utf-8", errors="replace").splitlines()
@@ -65,7 +86,13 @@ def selftest_document(folder):
         except (OSError, ValueError, RecursionError):
             continue
         if isinstance(raw, dict):
-            return {"defects": rows(raw.get("defects")), "harmless": rows(raw.get("harmless")), "smallest": rows(raw.get("smallest")), "growth": number(raw.get("smallest_growth")), "exit_code": raw.get("exit_code")}
+            return {
+                "defects": rows(raw.get("defects")),
+                "harmless": rows(raw.get("harmless")),
+                "smallest": rows(raw.get("smallest")),
+                "growth": number(raw.get("smallest_growth")),
+                "exit_code": raw.get("exit_code"),
+            }
     return {}
 
 
@@ -74,8 +101,20 @@ def raw_hash(path):
 
 
 def context(results):
-    return {"requirements": requirements(results), "orders": orders(results), "budgets": budgets(results), "waivers": waivers(results), "gaps": summary.not_validated(results), "counts": summary.counts(results),
-            "engines": summary.engine_table(results), "selftest": selftest(results.folder), "proof": selftest_document(results.folder), "hash": raw_hash(results.folder / "results.json") if (results.folder / "results.json").exists() else "not known"}
+    return {
+        "requirements": requirements(results),
+        "orders": orders(results),
+        "budgets": budgets(results),
+        "waivers": waivers(results),
+        "gaps": summary.not_validated(results),
+        "counts": summary.counts(results),
+        "engines": summary.engine_table(results),
+        "selftest": selftest(results.folder),
+        "proof": selftest_document(results.folder),
+        "hash": raw_hash(results.folder / "results.json")
+        if (results.folder / "results.json").exists()
+        else "not known",
+    }
 
 
 def to_pdf(html, pdf):

@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The page "Stable steps and hard cases": the stored frontiers of the time step beside what linear modes predict, how exact a contact
-is, where other engines hold, and every case tagged `hard`, corrected and printed side by side.
+"""The page "Stable steps and hard cases": the stored frontiers of the time step beside what linear modes predict, how
+exact a contact is, where other engines hold, and every case tagged `hard`, corrected and printed side by side.
 
-validation/stability/frontiers.csv is the stored map, which a test of the solver holds against what it measures; here it is drawn.
-"""
+validation/stability/frontiers.csv is the stored map, which a test of the solver holds against what it measures; here it
+is drawn."""
+
 from __future__ import annotations
 
 import csv
 from dataclasses import dataclass
 from pathlib import Path
 
-import stability_peers
 import table1
 
 MAP = Path(__file__).resolve().parent.parent / "validation" / "stability" / "frontiers.csv"
@@ -20,6 +20,7 @@ COLUMNS = (("corrected", "tripoint", "corrected"), ("as printed", "tripoint", "p
 @dataclass
 class Frontier:
     """One point of a map; times in seconds."""
+
     map: str
     mode: str
     parameter: str
@@ -33,7 +34,15 @@ def read_map(path=MAP):
     """@return (frontiers, notes)"""
     try:
         with open(path, newline="", encoding="utf-8") as file:
-            return [Frontier(r["map"], r["mode"], r["parameter"], *(float(r[k]) for k in ("value", "frontier [s]", "predicted [s]", "own step [s]"))) for r in csv.DictReader(file)], []
+            return [
+                Frontier(
+                    r["map"],
+                    r["mode"],
+                    r["parameter"],
+                    *(float(r[k]) for k in ("value", "frontier [s]", "predicted [s]", "own step [s]")),
+                )
+                for r in csv.DictReader(file)
+            ], []
     except (OSError, ValueError, KeyError, TypeError) as error:
         return [], [f"the stored map of stable steps cannot be read: {error}"]
 
@@ -63,9 +72,30 @@ def draw(frontiers, out):
             if not shown:
                 continue
             x = [p.value for p in shown]
-            axis.plot(x, [p.predicted for p in shown], color=style.SOFT, linestyle="-" if mode == "corrected" else "--", label="predicted" + words[mode])
-            axis.plot(x, [p.measured for p in shown], color=hue, linestyle="", marker="o", label="longest stable" + words[mode])
-            axis.plot(x, [p.own for p in shown], color=hue, linestyle="", marker="_", markersize=9, label="solver's own" + words[mode])
+            axis.plot(
+                x,
+                [p.predicted for p in shown],
+                color=style.SOFT,
+                linestyle="-" if mode == "corrected" else "--",
+                label="predicted" + words[mode],
+            )
+            axis.plot(
+                x,
+                [p.measured for p in shown],
+                color=hue,
+                linestyle="",
+                marker="o",
+                label="longest stable" + words[mode],
+            )
+            axis.plot(
+                x,
+                [p.own for p in shown],
+                color=hue,
+                linestyle="",
+                marker="_",
+                markersize=9,
+                label="solver's own" + words[mode],
+            )
         values = [p.value for p in points]
         style.logarithmic(axis, "xy" if min(values) > 0.0 and max(values) > 20.0 * min(values) else "y")
         axis.set_title(f"{name}, over {parameter}")
@@ -83,5 +113,17 @@ def read(results, out):
     for case in results.cases:
         if "hard" not in table1.tags(case):
             continue
-        listed.append((case, [[table1.entry(case, engine, mode) for engine in case.engines if engine.name == name and mode in engine.modes] for _, name, mode in COLUMNS]))
+        listed.append(
+            (
+                case,
+                [
+                    [
+                        table1.entry(case, engine, mode)
+                        for engine in case.engines
+                        if engine.name == name and mode in engine.modes
+                    ]
+                    for _, name, mode in COLUMNS
+                ],
+            )
+        )
     return frontiers, svg, listed, notes + more

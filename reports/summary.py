@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tables of the page that are put together from several places of results.json: the matrix, counts, engines, what is not validated."""
+"""Tables of the page that are put together from several places of results.json: the matrix, counts, engines, what is
+not validated."""
+
 from __future__ import annotations
 
 from model import is_number, text
@@ -9,16 +11,41 @@ KINDS = {"verification": "an exact solution", "validation": "an experiment", "co
 
 
 RIGHT, DEFECT, WRONG, UNKNOWN = "right", "known defect", "wrong", "not known"  # physics, as results.json says it
-AS_EXPECTED = "as expected"  # a gate that holds a value that is not right: PASS, which is green, stands beside right values alone
+AS_EXPECTED = (
+    "as expected"  # a gate that holds a value that is not right: PASS, which is green, stands beside right values alone
+)
 DIVERGENCE, UNJUDGED = "expected divergence", "not judged"
-TONES = {"PASS": "pass", "OK": "pass", "EQUIVALENT": "pass", "FAIL": "fail", "DIVERGED": "fail", "KILLED": "fail", "ERROR": "fail", "TIMEOUT": "fail", "DIFFERENT": "fail",
-         "REFUSED": "refused", "MISSING": "missing", RIGHT.upper(): "pass", WRONG.upper(): "fail", UNKNOWN.upper(): "open", DIVERGENCE.upper(): "diverges", UNJUDGED.upper(): "unjudged", "INTERRUPTED": "open"}
+TONES = {
+    "PASS": "pass",
+    "OK": "pass",
+    "EQUIVALENT": "pass",
+    "FAIL": "fail",
+    "DIVERGED": "fail",
+    "KILLED": "fail",
+    "ERROR": "fail",
+    "TIMEOUT": "fail",
+    "DIFFERENT": "fail",
+    "REFUSED": "refused",
+    "MISSING": "missing",
+    RIGHT.upper(): "pass",
+    WRONG.upper(): "fail",
+    UNKNOWN.upper(): "open",
+    DIVERGENCE.upper(): "diverges",
+    UNJUDGED.upper(): "unjudged",
+    "INTERRUPTED": "open",
+}
 
 
 def tone(verdict):
     """The look of a word: each tone has its own sign and border, so that none is told by colour alone."""
     verdict = verdict.upper()
-    return TONES.get(verdict) or ("defect" if is_defect(verdict.lower()) else "open" if verdict.startswith(("INCONCLUSIVE", "UNRESOLVED", "NEGLIGIBLE")) else "none")
+    return TONES.get(verdict) or (
+        "defect"
+        if is_defect(verdict.lower())
+        else "open"
+        if verdict.startswith(("INCONCLUSIVE", "UNRESOLVED", "NEGLIGIBLE"))
+        else "none"
+    )
 
 
 def is_defect(word):
@@ -31,7 +58,7 @@ def gate_word(verdict, physics):
 
 
 def physics_word(physics, defects=()):
-    """"right", "wrong", "known defect soft-contact"."""
+    """ "right", "wrong", "known defect soft-contact"."""
     names = ", ".join(dict.fromkeys(name for name in defects if name))
     return f"{DEFECT} {names}" if physics == DEFECT and names else physics
 
@@ -39,7 +66,14 @@ def physics_word(physics, defects=()):
 def physics_of(gates):
     """The word of several gates: the worst that one of them says."""
     said = {gate.physics for gate in gates}
-    return next((physics_word(word, (gate.defect for gate in gates)) for word in (WRONG, DEFECT, UNKNOWN, RIGHT) if word in said), "")
+    return next(
+        (
+            physics_word(word, (gate.defect for gate in gates))
+            for word in (WRONG, DEFECT, UNKNOWN, RIGHT)
+            if word in said
+        ),
+        "",
+    )
 
 
 def worst(verdicts):
@@ -50,11 +84,16 @@ def worst(verdicts):
 
 def declared_divergence(case, mode):
     """Whether the case passes because it diverges in this mode, as it says that it will."""
-    return case.verdict == "PASS" and (text(case.raw.get("expect")) == "diverges" or text(case.raw.get("expect")) == "paper-diverges" and mode in ("paper", ""))
+    return case.verdict == "PASS" and (
+        text(case.raw.get("expect")) == "diverges"
+        or text(case.raw.get("expect")) == "paper-diverges"
+        and mode in ("paper", "")
+    )
 
 
 def standing(case, engine, mode=""):
-    """One word for an engine in a case (in one mode): the worst of its gates, what was expected of it, or why there is no gate."""
+    """One word for an engine in a case (in one mode): the worst of its gates, what was expected of it, or why there is
+    no gate."""
     gates = [gate for gate in engine.gates if not mode or gate.mode in (mode, "")]
     runs = [run.status for run in engine.runs if not mode or run.mode in (mode, "")]
     verdict = worst(gate.verdict for gate in gates)
@@ -79,8 +118,12 @@ def headline(case):
     if case.verdict == "PASS" and text(case.raw.get("expect")) == "diverges" and DIVERGENCE in words:
         return [DIVERGENCE]
     judged = case.verdict != "PASS" or any(engine.gates for engine in case.engines) or DIVERGENCE in words
-    physics = physics_word(case.physics, (gate.defect for engine in case.engines for gate in engine.gates if gate.physics == DEFECT))
-    return [gate_word(case.verdict, case.physics) if judged else UNJUDGED] + [word for word in (physics, DIVERGENCE) if word and word != UNKNOWN and (word != DIVERGENCE or word in words)]
+    physics = physics_word(
+        case.physics, (gate.defect for engine in case.engines for gate in engine.gates if gate.physics == DEFECT)
+    )
+    return [gate_word(case.verdict, case.physics) if judged else UNJUDGED] + [
+        word for word in (physics, DIVERGENCE) if word and word != UNKNOWN and (word != DIVERGENCE or word in words)
+    ]
 
 
 def ran(case):
@@ -90,16 +133,22 @@ def ran(case):
 def counts(results):
     gates = [gate for case in results.cases for engine in case.engines for gate in engine.gates]
     runs = [run for case in results.cases for engine in case.engines for run in engine.runs]
-    return {"cases": tally(case.verdict for case in results.cases), "gates": tally(gate.verdict for gate in gates),
-            "engines": tally(engine.status for case in results.cases for engine in case.engines), "runs": tally(run.status for run in runs),
-            "cpu": sum(run.cost["cpu_s"] for run in runs if is_number(run.cost.get("cpu_s")))}
+    return {
+        "cases": tally(case.verdict for case in results.cases),
+        "gates": tally(gate.verdict for gate in gates),
+        "engines": tally(engine.status for case in results.cases for engine in case.engines),
+        "runs": tally(run.status for run in runs),
+        "cpu": sum(run.cost["cpu_s"] for run in runs if is_number(run.cost.get("cpu_s"))),
+    }
 
 
 def tally(words):
     found = {}
     for word in words:
         found[word] = found.get(word, 0) + 1
-    return dict(sorted(found.items(), key=lambda entry: (GRADES.index(entry[0]) if entry[0] in GRADES else 99, entry[0])))
+    return dict(
+        sorted(found.items(), key=lambda entry: (GRADES.index(entry[0]) if entry[0] in GRADES else 99, entry[0]))
+    )
 
 
 def engine_table(results):
@@ -110,7 +159,18 @@ def engine_table(results):
     table = {}
     for case in results.cases:
         for engine in case.engines:
-            row = table.setdefault(engine.name, {"name": engine.name, "versions": [], "presets": [], "library": {}, "cases": 0, "ok": 0, "info": told.get(engine.name, {})})
+            row = table.setdefault(
+                engine.name,
+                {
+                    "name": engine.name,
+                    "versions": [],
+                    "presets": [],
+                    "library": {},
+                    "cases": 0,
+                    "ok": 0,
+                    "info": told.get(engine.name, {}),
+                },
+            )
             for key, value in (("versions", engine.version), ("presets", engine.preset)):
                 if value and value not in row[key]:
                     row[key].append(value)
@@ -121,31 +181,53 @@ def engine_table(results):
                 row["library"] = library
     for name, info in told.items():
         if name not in table and isinstance(name, str):
-            table[name] = {"name": name, "versions": [str(info.get("version", ""))], "presets": [], "library": info.get("library") if isinstance(info.get("library"), dict) else {},
-                           "cases": 0, "ok": 0, "info": info}
+            table[name] = {
+                "name": name,
+                "versions": [str(info.get("version", ""))],
+                "presets": [],
+                "library": info.get("library") if isinstance(info.get("library"), dict) else {},
+                "cases": 0,
+                "ok": 0,
+                "info": info,
+            }
     return list(table.values())
 
 
 def not_validated(results):
     """What a reader must not take from this page, found in the results themselves."""
-    lines = [str(line) for line in results.raw.get("not_validated", []) or [] if isinstance(line, str)] if isinstance(results.raw.get("not_validated"), list) else []
+    lines = (
+        [str(line) for line in results.raw.get("not_validated", []) or [] if isinstance(line, str)]
+        if isinstance(results.raw.get("not_validated"), list)
+        else []
+    )
     kinds = {case.kind for case in results.cases}
-    lines += [f"No case of kind {kind}: nothing here was compared with {against}." for kind, against in KINDS.items() if kind not in kinds]
+    lines += [
+        f"No case of kind {kind}: nothing here was compared with {against}."
+        for kind, against in KINDS.items()
+        if kind not in kinds
+    ]
     for name in dict.fromkeys(engine.name for case in results.cases for engine in case.engines):
         here = [(case, engine) for case in results.cases for engine in case.engines if engine.name == name]
         absent = [(case, engine) for case, engine in here if engine.status != "ok"]
         if len(absent) == len(here):
             lines.append(f"{name}: ran no case ({absent[0][1].status}: {absent[0][1].reason or 'no reason stated'}).")
         elif absent:
-            lines.append(f"{name}: no result for " + ", ".join(f"{case.id} ({engine.status})" for case, engine in absent) + ".")
+            lines.append(
+                f"{name}: no result for " + ", ".join(f"{case.id} ({engine.status})" for case, engine in absent) + "."
+            )
         ungated = [case.id for case, engine in here if standing(case, engine) == UNJUDGED]
         if ungated and name != "exact":
-            lines.append(f"{name}: ran without any gate in {', '.join(dict.fromkeys(ungated))}; its numbers are shown, not judged.")
+            lines.append(
+                f"{name}: ran without any gate in {', '.join(dict.fromkeys(ungated))}; its numbers are shown, not "
+                "judged."
+            )
     open_cases = [case.id for case in results.cases if case.verdict not in ("PASS", "FAIL")]
     if open_cases:
         lines.append("Without a clear verdict: " + ", ".join(open_cases) + ".")
     unsure = [case.id for case in results.cases if case.reference.get("uncertainty") is None]
     if unsure:
         lines.append("Reference states no uncertainty: " + ", ".join(unsure) + ".")
-    lines.append("Verdicts hold for the scenes, resolutions, engines and versions listed here, and say nothing of others.")
+    lines.append(
+        "Verdicts hold for the scenes, resolutions, engines and versions listed here, and say nothing of others."
+    )
     return lines

@@ -4,6 +4,7 @@
 table1.toml holds what the paper's text kept of its table. A cell lists the runs of the cases that carry the feature's
 tag with their numbers, or the engine's own words why there are none.
 """
+
 from __future__ import annotations
 
 import tomllib
@@ -15,13 +16,19 @@ from model import Case, number, rows, text
 from summary import AS_EXPECTED, gate_word, is_defect, physics_of, tone, worst
 
 ROWS = Path(__file__).resolve().parent / "table1.toml"
-COLUMNS = (("ours, corrected", "tripoint", "corrected"), ("ours, paper", "tripoint", "paper"), ("LAMMPS", "lammps", ""), ("Bullet", "bullet", ""))
+COLUMNS = (
+    ("ours, corrected", "tripoint", "corrected"),
+    ("ours, paper", "tripoint", "paper"),
+    ("LAMMPS", "lammps", ""),
+    ("Bullet", "bullet", ""),
+)
 PREDICTED = "predicted defect"
 
 
 @dataclass
 class Entry:
     """One case by one engine in one cell."""
+
     case: Case
     engine: str
     word: str
@@ -35,7 +42,9 @@ class Feature:
     meaning: str
     marks: str
     tag: str
-    cells: list = field(default_factory=list)  # one list of entries a column; an empty list with a reason where there is none
+    cells: list = field(
+        default_factory=list
+    )  # one list of entries a column; an empty list with a reason where there is none
     reasons: list = field(default_factory=list)
 
 
@@ -46,17 +55,40 @@ def read(results, path=ROWS):
     except (OSError, ValueError) as error:
         return [], [], [], [f"{Path(path).name} cannot be read: {error}"]
     systems = [text(name) for name in document.get("systems", [])]
-    return [feature(raw, results, len(systems)) for raw in rows(document.get("feature"))], systems, animation.films(results, rows(document.get("animation"))), []
+    return (
+        [feature(raw, results, len(systems)) for raw in rows(document.get("feature"))],
+        systems,
+        animation.films(results, rows(document.get("animation"))),
+        [],
+    )
 
 
 def feature(raw, results, systems):
     marks, beside = number(raw.get("marks")), number(raw.get("not_applicable"))
-    made = Feature(text(raw.get("name")), text(raw.get("meaning")), f"{marks:.0f} of {systems}" + (f", {beside:.0f} not applicable" if beside else ""), text(raw.get("tag")))
+    made = Feature(
+        text(raw.get("name")),
+        text(raw.get("meaning")),
+        f"{marks:.0f} of {systems}" + (f", {beside:.0f} not applicable" if beside else ""),
+        text(raw.get("tag")),
+    )
     cases = [case for case in results.cases if made.tag in tags(case)]
     for _, name, mode in COLUMNS:
-        found = [entry(case, engine, mode) for case in cases for engine in case.engines if engine.name.split("-")[0] == name and (not mode or mode in engine.modes or not engine.runs)]
+        found = [
+            entry(case, engine, mode)
+            for case in cases
+            for engine in case.engines
+            if engine.name.split("-")[0] == name and (not mode or mode in engine.modes or not engine.runs)
+        ]
         made.cells.append(found)
-        made.reasons.append("" if found else f"no case of these results carries the tag {made.tag}" if not cases else "its cases do not run this mode" if mode else "its cases do not ask this engine")
+        made.reasons.append(
+            ""
+            if found
+            else f"no case of these results carries the tag {made.tag}"
+            if not cases
+            else "its cases do not run this mode"
+            if mode
+            else "its cases do not ask this engine"
+        )
     return made
 
 
@@ -67,7 +99,10 @@ def tags(case):
 
 def entry(case, engine, mode):
     made = Entry(case, engine.label, engine.status, tone(engine.status))
-    gates = sorted((gate for gate in engine.gates if not mode or gate.mode in (mode, "")), key=lambda gate: (gate.verdict == "PASS", not gate.reason.startswith(PREDICTED)))  # what is not as claimed first
+    gates = sorted(
+        (gate for gate in engine.gates if not mode or gate.mode in (mode, "")),
+        key=lambda gate: (gate.verdict == "PASS", not gate.reason.startswith(PREDICTED)),
+    )  # what is not as claimed first
     if engine.status != "ok" and not gates:
         made.lines = [engine.reason or "no reason stated"]
         return made
@@ -77,9 +112,22 @@ def entry(case, engine, mode):
         if made.word == AS_EXPECTED and is_defect(physics):
             made.word = PREDICTED if any(gate.reason.startswith(PREDICTED) for gate in gates) else physics
         made.tone = "open" if made.word == PREDICTED else tone(made.word)
-        made.lines = [(gate.metric, gate.value, gate.allowed, case.units.get(gate.metric, ""), gate.why or (gate.reason if gate.reason.startswith(PREDICTED) else "")) for gate in gates]
+        made.lines = [
+            (
+                gate.metric,
+                gate.value,
+                gate.allowed,
+                case.units.get(gate.metric, ""),
+                gate.why or (gate.reason if gate.reason.startswith(PREDICTED) else ""),
+            )
+            for gate in gates
+        ]
         return made
     run = next((run for run in engine.runs if run.base and (not mode or run.mode == mode)), None)
     made.word, made.tone = "measured, not judged", "none"
-    made.lines = [(name, metric.value, "", case.units.get(name, ""), metric.note) for name, metric in run.metrics.items()] if run else ["no run at the case's own resolution"]
+    made.lines = (
+        [(name, metric.value, "", case.units.get(name, ""), metric.note) for name, metric in run.metrics.items()]
+        if run
+        else ["no run at the case's own resolution"]
+    )
     return made

@@ -157,9 +157,7 @@ def dots(enlarged=1.0):
         phase = frame.phase[sound] if frame.phase is not None else np.zeros(int(sound.sum()))
         seen = Frame(here[sound], equal=True)(here[sound])
         rows = apart(seen)
-        return "".join(
-            cloud(seen[rows[phase[rows] == k]], kind) for k, kind in ((0, "wet"), (1, "soft"), (2, "hard"))
-        )
+        return "".join(cloud(seen[rows[phase[rows] == k]], kind) for k, kind in ((0, "wet"), (1, "soft"), (2, "hard")))
 
     return draw
 

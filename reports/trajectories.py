@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reads what a run wrote (trajectory.h5 by H5MD, or trajectory.csv of a small engine) as far as pictures need it."""
+
 from __future__ import annotations
 
 import csv
@@ -11,7 +12,7 @@ import numpy as np
 
 from shapes import shapes_of
 
-MOST_FRAMES = 400    # of a body's path
+MOST_FRAMES = 400  # of a body's path
 MOST_ROWS = 2_000_000  # bound on what a file may ask this program to read
 
 
@@ -22,6 +23,7 @@ class NoTrajectory(Exception):
 @dataclass
 class Trajectory:
     """Rows are particles (or bodies), SI; `strobe` are a few frames from first to last."""
+
     times: np.ndarray
     position: np.ndarray | None = None
     temperature: np.ndarray | None = None
@@ -45,7 +47,7 @@ class Frame:
     time: float
     position: np.ndarray
     temperature: np.ndarray | None = None
-    phase: np.ndarray | None = None     # 0 liquid, 1 elastic, 2 rigid
+    phase: np.ndarray | None = None  # 0 liquid, 1 elastic, 2 rigid
     material: np.ndarray | None = None
 
 
@@ -73,7 +75,9 @@ def read(root, run):
                 return found
             except NoTrajectory:
                 raise
-            except Exception as error:  # h5py and csv raise what they like on torn files: the page must say it and go on
+            except (
+                Exception
+            ) as error:  # h5py and csv raise what they like on torn files: the page must say it and go on
                 raise NoTrajectory(f"{run.folder}/{name} cannot be read: {error}") from error
     raise NoTrajectory(f"{run.folder}/trajectory.h5 is missing")
 
@@ -84,15 +88,28 @@ def corners_of(trajectory):
     if not trajectory.shapes or not {"position", "orientation"} <= bodies.keys():
         return []
     frames = np.unique(np.linspace(0, len(times) - 1, 5).astype(int))
-    return [Frame(float(times[f]), np.concatenate([s.points(bodies["position"][f, s.row], bodies["orientation"][f, s.row]) for s in trajectory.shapes])) for f in frames]
+    return [
+        Frame(
+            float(times[f]),
+            np.concatenate(
+                [s.points(bodies["position"][f, s.row], bodies["orientation"][f, s.row]) for s in trajectory.shapes]
+            ),
+        )
+        for f in frames
+    ]
 
 
 def scene_of(job):
-    """(gravity, corners of the domain, shapes of the bodies) as the job says; a job that is not there or is torn says nothing."""
+    """(gravity, corners of the domain, shapes of the bodies) as the job says; a job that is not there or is torn says
+    nothing."""
     try:
         scene = json.loads(job.read_text(encoding="utf-8"))["scene"]
         gravity = tuple(float(g) for g in scene["gravity"])
-        corners = [np.array([np.nan if v is None else float(v) for v in scene[key]]) for key in ("min", "max")] if scene.get("min") and scene.get("max") else None
+        corners = (
+            [np.array([np.nan if v is None else float(v) for v in scene[key]]) for key in ("min", "max")]
+            if scene.get("min") and scene.get("max")
+            else None
+        )
     except (OSError, ValueError, KeyError, TypeError):
         return (0.0, 0.0, 0.0), None, []
     whole = tuple(corners) if corners and all(c.shape == (3,) for c in corners) else None
@@ -111,11 +128,18 @@ def read_h5md(path):
         result = Trajectory(times=np.empty(0))
         position = particles.get("position/value")
         if position is not None and position.shape[0] > 0:
-            result.times = np.asarray(particles["position/time"])[:position.shape[0]]
+            result.times = np.asarray(particles["position/time"])[: position.shape[0]]
             if position.shape[1] > MOST_ROWS:
                 raise NoTrajectory(f"{path.name} has {position.shape[1]} rows, more than a picture reads")
             frames = np.unique(np.linspace(0, position.shape[0] - 1, 5).astype(int))
-            result.strobe = [Frame(float(result.times[f]), position[f], *(at(particles, name, f, position.shape) for name in ("temperature", "phase", "material"))) for f in frames]
+            result.strobe = [
+                Frame(
+                    float(result.times[f]),
+                    position[f],
+                    *(at(particles, name, f, position.shape) for name in ("temperature", "phase", "material")),
+                )
+                for f in frames
+            ]
             result.position = result.strobe[-1].position
             result.temperature = last(particles, "temperature", position.shape)
             result.temperature_error = last(particles, "temperature_error", position.shape)
@@ -126,7 +150,7 @@ def read_h5md(path):
             node = observables[name]
             if name.startswith("energy_") and "value" in node and node["value"].ndim == 1:
                 step = max(1, node["value"].shape[0] // MOST_FRAMES)
-                result.observables[name[len("energy_"):]] = (node["time"][::step], node["value"][::step])
+                result.observables[name[len("energy_") :]] = (node["time"][::step], node["value"][::step])
     return result
 
 
@@ -149,11 +173,11 @@ def read_bodies(file, result):
         return
     step = max(1, node.shape[0] // MOST_FRAMES)
     times = file.get("particles/bodies/position/time")  # where bodies have none, the particles' own
-    result.body_times = (times if times is not None else result.times[:node.shape[0]])[::step]
+    result.body_times = (times if times is not None else result.times[: node.shape[0]])[::step]
     for name in ("position", "orientation", "velocity", "angular_velocity"):
         values = file.get(f"particles/bodies/{name}/value")
         if values is not None and values.ndim == 3:
-            result.bodies[name] = values[::step][:len(result.body_times)]
+            result.bodies[name] = values[::step][: len(result.body_times)]
 
 
 def read_csv(path):
@@ -182,7 +206,12 @@ def read_csv(path):
 
     result = Trajectory(times=times)
     if key == "body":
-        groups = {"position": ("x", "y", "z"), "velocity": ("vx", "vy", "vz"), "orientation": ("qw", "qx", "qy", "qz"), "angular_velocity": ("wx", "wy", "wz")}
+        groups = {
+            "position": ("x", "y", "z"),
+            "velocity": ("vx", "vy", "vz"),
+            "orientation": ("qw", "qx", "qy", "qz"),
+            "angular_velocity": ("wx", "wy", "wz"),
+        }
         result.bodies = {name: gather(names) for name, names in groups.items() if all(n in columns for n in names)}
         result.body_times = times
     else:

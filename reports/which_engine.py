@@ -171,7 +171,9 @@ def truth_of(results, case_id, engines):
 def illustrate(results, use, cell, engines):
     """Draws the first case of the use that the engine ran, and counts boxes that fell."""
     judged = [line["case"] for line in cell.lines]
-    for case in sorted(judged, key=lambda case: use.pictured.index(case) if case in use.pictured else len(use.pictured)):
+    for case in sorted(
+        judged, key=lambda case: use.pictured.index(case) if case in use.pictured else len(use.pictured)
+    ):
         own = trajectory_of(results, case, cell.engine, cell.preset)
         body = use.draw(own, truth_of(results, case, engines)) if own is not None else None
         if body:

@@ -2,13 +2,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Accuracy over particles and steps: what the studies of cases/accuracy found, as kept numbers, pictures and a page.
 
-    tools/accuracy.py keep RESULTS.json [RESULTS.json ...] --to docs/accuracy   keeps of each case of cases/accuracy its levels, orders and costs
+    tools/accuracy.py keep RESULTS.json [RESULTS.json ...] --to docs/accuracy   keeps of each case of cases/accuracy its
+    levels, orders and costs
     tools/accuracy.py draw docs/accuracy/*.json --to docs/accuracy             draws one picture a case
     tools/accuracy.py page docs/accuracy/*.json > docs/accuracy.md             writes the page
     tools/accuracy.py tables docs/accuracy/*.json                              prints every level of every study
 
-Every number of page and pictures comes from results.json. Orders and extrapolated values are the harness's fits; nothing is fitted here.
-"""
+Every number of page and pictures comes from results.json. Orders and extrapolated values are the harness's fits;
+nothing is fitted here."""
+
 import argparse
 import json
 import math
@@ -23,25 +25,32 @@ ORDER_OF_PAGE = ("melting", "contact", "elastic", "fig-09", "fig-10", "fig-12", 
 
 INTRODUCTION = """# Accuracy over particles and steps
 
-The paper leaves open how accuracy depends on the number of particles and on the time step. Cases of three kinds of physics have an exact solution; the paper's figures 9, 10, 12 and 13 have none.
+The paper leaves open how accuracy depends on the number of particles and on the time step. Cases of three kinds of \
+physics have an exact solution; the paper's figures 9, 10, 12 and 13 have none.
 
     tripoint validate accuracy --profile nightly --out accuracy-report   # 10 minutes
-    tools/accuracy.py keep accuracy-report/results.json --to docs/accuracy   # a few minutes, with draw and page: pictures and this page
+    tools/accuracy.py keep accuracy-report/results.json --to docs/accuracy   # a few minutes, with draw and page: \
+pictures and this page
     tools/accuracy.py tables docs/accuracy/melting.json   # every order, and every level with its values and CPU seconds
 
-**The answer in words.** The number of particles decides, and the step hardly matters. Within its bound the error of the step is of second order and below the error of the spacing. Where an exact
-solution exists, more particles come nearer to it, with an order between one and two. The printed elasticity converges to a wrong limit. Its bar swings 2 M times as fast as the true one, with M the
-lattice's gradient moment ([model.md](model.md), (12)). The figures show the same events at each level. How much melts and freezes, and where matter ends, changes by a few parts in a hundred
+**The answer in words.** The number of particles decides, and the step hardly matters. Within its bound the error of \
+the step is of second order and below the error of the spacing. Where an exact
+solution exists, more particles come nearer to it, with an order between one and two. The printed elasticity converges \
+to a wrong limit. Its bar swings 2 M times as fast as the true one, with M the
+lattice's gradient moment ([model.md](model.md), (12)). The figures show the same events at each level. How much melts \
+and freezes, and where matter ends, changes by a few parts in a hundred
 from level to level, mostly without an order. Particles melt one by one, and flowing liquid is chaotic.
 
-**How to read the orders.** An order is the p of E + C h^p, fitted by the harness ([harness.md](harness.md)), with its 95 % interval. "No order" has one of four reasons:
+**How to read the orders.** An order is the p of E + C h^p, fitted by the harness ([harness.md](harness.md)), with its \
+95 % interval. "No order" has one of four reasons:
 
 - the class of the fit has none;
 - the interval holds 0;
 - a number without a truth has no limit in the fit;
 - the runs of one level scatter by as much as the two finest levels differ.
 
-In the pictures a point is the mean of a level, its bar the least and greatest run, a dashed line the extrapolated value. Left: more particles, with the step at its bound. Right: shorter steps at one
+In the pictures a point is the mean of a level, its bar the least and greatest run, a dashed line the extrapolated \
+value. Left: more particles, with the step at its bound. Right: shorter steps at one
 spacing. The figures' scenes run two or three times a level, from starts that differ by a thousandth of a spacing.
 """
 
@@ -58,7 +67,8 @@ def is_number(value):
     return isinstance(value, (int, float)) and math.isfinite(value)
 
 
-# --- keep ---------------------------------------------------------------------------------------------------------------
+# --- keep
+# ---------------------------------------------------------------------------------------------------------------
 
 
 def levels_of(runs, axis, metric, mode):
@@ -88,14 +98,27 @@ def study_of(engine, axis, metric, mode):
     fit = {key: order.get(key) for key in ("value", "low", "high", "class", "floor", "coefficient")} if order else None
     levels = levels_of(engine["runs"], axis, metric, mode)
     fitted = order["step"] if order else []  # the case's own run may be no level of the study
-    return {"axis": axis, "metric": metric, "mode": mode, "fit": fit, "levels": [level for level in levels if level["failed"] or any(math.isclose(level["at"], step) for step in fitted)]}
+    return {
+        "axis": axis,
+        "metric": metric,
+        "mode": mode,
+        "fit": fit,
+        "levels": [
+            level for level in levels if level["failed"] or any(math.isclose(level["at"], step) for step in fitted)
+        ],
+    }
 
 
 def kept(case, metrics):
     engine = next(e for e in case["engines"] if e["name"] == "tripoint")
     pairs = dict.fromkeys((o["axis"], o["metric"], o["mode"]) for o in engine["order"])
-    return {"case": case["id"], "title": case["title"], "kind": case["reference"]["kind"], "metrics": metrics,
-            "studies": [study_of(engine, *pair) for pair in pairs if pair[0] in AXES]}
+    return {
+        "case": case["id"],
+        "title": case["title"],
+        "kind": case["reference"]["kind"],
+        "metrics": metrics,
+        "studies": [study_of(engine, *pair) for pair in pairs if pair[0] in AXES],
+    }
 
 
 def units_of(path):
@@ -116,11 +139,13 @@ def keep(args):
             to.write_text(json.dumps(value, indent=1) + "\n", encoding="utf-8")
 
 
-# --- what the page says of a study --------------------------------------------------------------------------------------
+# --- what the page says of a study
+# --------------------------------------------------------------------------------------
 
 
 def verdict(study, kind):
-    """(words, order, extrapolated value): "no order" and why, or the order with its interval. What is no error of a truth tends to a limit, which the fit has to find."""
+    """(words, order, extrapolated value): "no order" and why, or the order with its interval. What is no error of a
+    truth tends to a limit, which the fit has to find."""
     good = [level for level in study["levels"] if level["values"] and not level["failed"]]
     failed = [level for level in study["levels"] if level["failed"]]
     if failed and not good:
@@ -158,7 +183,10 @@ def cell(level):
 def table(value, axis, metric):
     studies = [s for s in value["studies"] if (s["axis"], s["metric"]) == (axis, metric)]
     head = "spacing [mm]" if axis == "spacing" else "step [ms]"
-    lines = [f"| {head} | particles | " + " | ".join(f"{NAMES[s['mode']]} | CPU s" for s in studies) + " |", "|---|---|" + "---|---|" * len(studies)]
+    lines = [
+        f"| {head} | particles | " + " | ".join(f"{NAMES[s['mode']]} | CPU s" for s in studies) + " |",
+        "|---|---|" + "---|---|" * len(studies),
+    ]
     for n, level in enumerate(studies[0]["levels"]):
         of_mode = [s["levels"][n] for s in studies]
         particles = max(l["particles"] for l in of_mode)
@@ -192,9 +220,19 @@ def numbers(values):
     for value in values:
         for metric in value["metrics"]:
             for axis in AXES:
-                said = {s["mode"]: verdict(s, value["kind"]) for s in value["studies"] if (s["axis"], s["metric"]) == (axis, metric)}
+                said = {
+                    s["mode"]: verdict(s, value["kind"])
+                    for s in value["studies"]
+                    if (s["axis"], s["metric"]) == (axis, metric)
+                }
                 if said:
-                    yield value["case"], metric, axis, {mode: words for mode, (words, _, _) in said.items()}, any(order is not None for _, order, _ in said.values())
+                    yield (
+                        value["case"],
+                        metric,
+                        axis,
+                        {mode: words for mode, (words, _, _) in said.items()},
+                        any(order is not None for _, order, _ in said.values()),
+                    )
 
 
 def summary(values, all_rows=False):
@@ -202,7 +240,9 @@ def summary(values, all_rows=False):
     left = []
     for case, metric, axis, words, has_order in numbers(values):
         if has_order or all_rows:
-            lines.append(f"| `{case}` | {metric} | {AXES[axis]} | " + " | ".join(words.get(mode, "-") for mode in NAMES) + " |")
+            lines.append(
+                f"| `{case}` | {metric} | {AXES[axis]} | " + " | ".join(words.get(mode, "-") for mode in NAMES) + " |"
+            )
         else:
             left.append(f"{case.split('/')[1]} {metric} ({AXES[axis]})")
     return lines + (["", "No order is seen in:", "", *(f"- {name}" for name in left)] if left else [])
@@ -219,7 +259,18 @@ def say(lines):
 
 def page(args):
     values = in_order(args.kept)
-    say([INTRODUCTION, "## Orders found", "", *summary(values), "", "## Pictures", "", *(line for value in values for line in picture(value))])
+    say(
+        [
+            INTRODUCTION,
+            "## Orders found",
+            "",
+            *summary(values),
+            "",
+            "## Pictures",
+            "",
+            *(line for value in values for line in picture(value)),
+        ]
+    )
 
 
 def tables(args):
@@ -227,7 +278,8 @@ def tables(args):
     say([*summary(values, all_rows=True), "", *(line for value in values for line in case_tables(value))])
 
 
-# --- pictures -----------------------------------------------------------------------------------------------------------
+# --- pictures
+# -----------------------------------------------------------------------------------------------------------
 
 
 def curve(axis, value, study, above):
@@ -238,18 +290,33 @@ def curve(axis, value, study, above):
     size = abs if value["kind"] == "analytic" else float  # an error is drawn by its size
     x = [level["particles"] if study["axis"] == "spacing" else level["at"] for level in good]
     y = [size(mean(level)) for level in good]
-    bars = [[max(0.0, m - min(map(size, l["values"]))) for m, l in zip(y, good)], [max(0.0, max(map(size, l["values"])) - m) for m, l in zip(y, good)]]
+    bars = [
+        [max(0.0, m - min(map(size, l["values"]))) for m, l in zip(y, good)],
+        [max(0.0, max(map(size, l["values"])) - m) for m, l in zip(y, good)],
+    ]
     dashes, marker = ("-", "o") if study["mode"] == "corrected" else ("--", "s")
     axis.errorbar(x, y, yerr=bars, capsize=3, elinewidth=0.9, label=name, color=hue, linestyle=dashes, marker=marker)
     if floor is not None:
         axis.axhline(size(floor), color=hue, linewidth=0.8, linestyle=(0, (2, 3)))
     for place, level in zip(zip(x, y), good):
-        axis.annotate(f"{level['cpu_s']:.2g} s", place, textcoords="offset points", xytext=(0, 7 if above else -13), fontsize=6.5, ha="center", color=hue)
+        axis.annotate(
+            f"{level['cpu_s']:.2g} s",
+            place,
+            textcoords="offset points",
+            xytext=(0, 7 if above else -13),
+            fontsize=6.5,
+            ha="center",
+            color=hue,
+        )
     return f"{name}: order {words}" if order is not None else f"{name}: {words.split(':')[0]}", x
 
 
 def panel(style, axis, value, metric, knob):
-    studies = [s for s in value["studies"] if (s["axis"], s["metric"]) == (knob, metric) and any(level["values"] for level in s["levels"])]
+    studies = [
+        s
+        for s in value["studies"]
+        if (s["axis"], s["metric"]) == (knob, metric) and any(level["values"] for level in s["levels"])
+    ]
     height = {s["mode"]: max(abs(mean(level)) for level in s["levels"] if level["values"]) for s in studies}
     drawn = [curve(axis, value, s, height[s["mode"]] == max(height.values())) for s in studies]
     places = sorted({x for _, at in drawn for x in at})
@@ -260,7 +327,10 @@ def panel(style, axis, value, metric, knob):
         axis.invert_xaxis()
     axis.set_xlabel("particles in all" if knob == "spacing" else "time step [s], shorter to the right")
     axis.set_ylabel(metric)
-    axis.set_title("\n".join([*textwrap.wrap(f"{metric}, {value['metrics'][metric]}", 66), *(words for words, _ in drawn)]), fontsize=7.5)
+    axis.set_title(
+        "\n".join([*textwrap.wrap(f"{metric}, {value['metrics'][metric]}", 66), *(words for words, _ in drawn)]),
+        fontsize=7.5,
+    )
 
 
 def draw(args):
@@ -275,14 +345,21 @@ def draw(args):
             panel(style, axis, value, *pair)
         style.legend(figure, axes)
         total = figure.get_figheight()
-        figure.subplots_adjust(left=0.08, right=0.98, bottom=0.55 / total, top=1 - 0.95 / total, wspace=0.24, hspace=0.62)
+        figure.subplots_adjust(
+            left=0.08, right=0.98, bottom=0.55 / total, top=1 - 0.95 / total, wspace=0.24, hspace=0.62
+        )
         figure.savefig(Path(args.to) / f"{value['case'].split('/')[1]}.png", dpi=110, metadata={"Software": None})
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(required=True)
-    for name, action, what in (("keep", keep, "results"), ("draw", draw, "kept"), ("page", page, "kept"), ("tables", tables, "kept")):
+    for name, action, what in (
+        ("keep", keep, "results"),
+        ("draw", draw, "kept"),
+        ("page", page, "kept"),
+        ("tables", tables, "kept"),
+    ):
         command = commands.add_parser(name)
         command.add_argument(what, nargs="+")
         if name not in ("page", "tables"):

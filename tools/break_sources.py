@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Writes the sources of the self-test: copies of the solver's files, with the registered defects in them.
 
-    tools/break_sources.py --list ROOT...                 the files that defects change, a line each, relative to their ROOT
+    tools/break_sources.py --list ROOT...                 the files that defects change, a line each, relative to their
+    ROOT
     tools/break_sources.py --write FILE --to OUT ROOT     one of them, with all its changes
     tools/break_sources.py --register OUT ROOT...         C++ source of registered_defects(): the names of all
 
@@ -16,10 +17,12 @@ A folder of ROOT may hold a `defects.toml`: what can be broken there, and how. F
     [[change]]
     file = "heat_corrected.cpp"                           # beside this file
     text = "return *m.conductivity;"                      # stands once in it; how its lines are broken does not matter
-    broken = 'return *m.conductivity * (1.0 + defect<"heat.conductivity">());'   # the same where no defect is set: its size is 0
+    broken = 'return *m.conductivity * (1.0 + defect<"heat.conductivity">());'   # the same where no defect is set: its
+    size is 0
 
-Errors name the file, and what to write: a text that is not there any more, or twice; a defect that no change uses; one that is not registered.
-"""
+Errors name the file, and what to write: a text that is not there any more, or twice; a defect that no change uses; one
+that is not registered."""
+
 import argparse
 import json
 import re
@@ -43,14 +46,16 @@ def load(root):
             own = [(d["name"], d["what"], d["case"]) for d in data.pop("defect", [])]
             here = [(c["file"], c["text"], c["broken"]) for c in data.pop("change", [])]
         except (tomllib.TOMLDecodeError, KeyError) as why:
-            raise Wrong(f"{path}: {why}: a [[defect]] has name, what and case, a [[change]] has file, text and broken") from None
+            raise Wrong(
+                f"{path}: {why}: a [[defect]] has name, what and case, a [[change]] has file, text and broken"
+            ) from None
         if data:
             raise Wrong(f"{path}: unknown {', '.join(data)}: only [[defect]] and [[change]] stand here")
         names, used = {name for name, _, _ in own}, {name for _, _, broken in here for name in USED.findall(broken)}
         for name in sorted(used - names):
-            raise Wrong(f"{path}: defect<\"{name}\">() is used, and no [[defect]] has that name")
+            raise Wrong(f'{path}: defect<"{name}">() is used, and no [[defect]] has that name')
         for name in sorted(names - used):
-            raise Wrong(f"{path}: no [[change]] uses defect<\"{name}\">()")
+            raise Wrong(f'{path}: no [[change]] uses defect<"{name}">()')
         defects += own
         for file, text, broken in here:
             place = (path.parent / file).relative_to(root).as_posix()
@@ -62,7 +67,8 @@ def load(root):
 
 
 def broken_text(root, file, changes):
-    """The file with all its changes. A change is looked for in the file as it stands, so that no change depends on another."""
+    """The file with all its changes. A change is looked for in the file as it stands, so that no change depends on
+    another."""
     source = (root / file).read_text()
     spans = []
     for path, text, broken in changes:
@@ -82,8 +88,10 @@ def broken_text(root, file, changes):
 
 def register(defects):
     rows = "".join(f"      {{{', '.join(json.dumps(word) for word in one)}}},\n" for one in defects)
-    return ('// Written by tools/break_sources.py.\n#include "core/defect.hpp"\n\nnamespace tripoint {\n\n'
-            f"std::vector<DefectEntry> registered_defects() {{\n  return {{\n{rows}  }};\n}}\n\n}}  // namespace tripoint\n")
+    return (
+        '// Written by tools/break_sources.py.\n#include "core/defect.hpp"\n\nnamespace tripoint {\n\n'
+        f"std::vector<DefectEntry> registered_defects() {{\n  return {{\n{rows}  }};\n}}\n\n}}  // namespace tripoint\n"
+    )
 
 
 def main():

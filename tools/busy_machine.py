@@ -2,11 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Threads, load and how threads wait: milliseconds of wall time a step, as a table.
 
-    tools/busy_machine.py CASE.toml [--program build/bin/tripoint] [--threads 2] [--loads 0,4,8] [--steps 100] [--rounds 3]
+    tools/busy_machine.py CASE.toml [--program build/bin/tripoint] [--threads 2] [--loads 0,4,8] [--steps 100] [--rounds
+    3]
 
-Each load is so many processes that do nothing but work. Rows of forced threads are `tripoint explain --trial`, which keeps the threads that it is given; the last is `tripoint run`, which waits and
-gives way as users have it. All rows of a load are measured in turn, the median of the rounds is shown. Other work on the machine comes on top: the load that the system tells at the end is in the heading.
-"""
+Each load is so many processes that do nothing but work. Rows of forced threads are `tripoint explain --trial`, which
+keeps the threads that it is given; the last is `tripoint run`, which waits and gives way as users have it. All rows of
+a load are measured in turn, the median of the rounds is shown. Other work on the machine comes on top: the load that
+the system tells at the end is in the heading."""
+
 import argparse
 import json
 import os
@@ -20,11 +23,19 @@ ENDLESS = "30000000000"
 
 
 def environment(**waits):
-    return {name: value for name, value in os.environ.items() if name not in ("GOMP_SPINCOUNT", "OMP_WAIT_POLICY")} | waits
+    return {
+        name: value for name, value in os.environ.items() if name not in ("GOMP_SPINCOUNT", "OMP_WAIT_POLICY")
+    } | waits
 
 
 def trial(program, case, steps, threads, **waits):
-    done = subprocess.run([program, "explain", case, "--trial", str(steps), "--threads", str(threads), "--json"], capture_output=True, text=True, check=True, env=environment(**waits))
+    done = subprocess.run(
+        [program, "explain", case, "--trial", str(steps), "--threads", str(threads), "--json"],
+        capture_output=True,
+        text=True,
+        check=True,
+        env=environment(**waits),
+    )
     return json.loads(done.stdout)["trial"]
 
 
@@ -37,18 +48,47 @@ def as_shipped(program, case, steps, threads, time_step):
     """A step of a run [ms]."""
     with tempfile.TemporaryDirectory() as folder:
         end = str(steps * time_step)
-        subprocess.run([program, "run", case, "--threads", str(threads), "--until", end, "--set", f"scene.output_interval={end}", "--out", folder, "--quiet"], capture_output=True, text=True, check=True, env=environment())
+        subprocess.run(
+            [
+                program,
+                "run",
+                case,
+                "--threads",
+                str(threads),
+                "--until",
+                end,
+                "--set",
+                f"scene.output_interval={end}",
+                "--out",
+                folder,
+                "--quiet",
+            ],
+            capture_output=True,
+            text=True,
+            check=True,
+            env=environment(),
+        )
         result = json.loads(next(Path(folder).rglob("result.json")).read_text(encoding="utf-8"))
     return 1e3 * result["seconds"]["stepping_wall"] / result["steps"]
 
 
 def measured(args, load, time_step):
     """Median milliseconds of each row, with so many busy processes beside them."""
-    rows = {"1 thread": lambda: forced(args.program, args.case, args.steps, 1),
-            f"{args.threads} threads, spinning": lambda: forced(args.program, args.case, args.steps, args.threads, GOMP_SPINCOUNT=ENDLESS),
-            f"{args.threads} threads, spinning briefly": lambda: forced(args.program, args.case, args.steps, args.threads, GOMP_SPINCOUNT="1000"),
-            f"{args.threads} threads, sleeping": lambda: forced(args.program, args.case, args.steps, args.threads, OMP_WAIT_POLICY="passive"),
-            f"as shipped, {args.threads} threads": lambda: as_shipped(args.program, args.case, args.steps, args.threads, time_step)}
+    rows = {
+        "1 thread": lambda: forced(args.program, args.case, args.steps, 1),
+        f"{args.threads} threads, spinning": lambda: forced(
+            args.program, args.case, args.steps, args.threads, GOMP_SPINCOUNT=ENDLESS
+        ),
+        f"{args.threads} threads, spinning briefly": lambda: forced(
+            args.program, args.case, args.steps, args.threads, GOMP_SPINCOUNT="1000"
+        ),
+        f"{args.threads} threads, sleeping": lambda: forced(
+            args.program, args.case, args.steps, args.threads, OMP_WAIT_POLICY="passive"
+        ),
+        f"as shipped, {args.threads} threads": lambda: as_shipped(
+            args.program, args.case, args.steps, args.threads, time_step
+        ),
+    }
     taken = {name: [] for name in rows}
     busy = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(load)]
     try:

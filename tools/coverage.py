@@ -4,9 +4,10 @@
 
     tools/coverage.py [TEST...]        e.g. tools/coverage.py metrics references; without names every test program
 
-Builds test-TEST in build-coverage (preset `coverage`), runs it, and prints for each room the lines that were run, of those that hold code and were built.
-`--missed ROOM` lists the lines of a room that no test ran. A whole build takes an hour of the processor.
-"""
+Builds test-TEST in build-coverage (preset `coverage`), runs it, and prints for each room the lines that were run, of
+those that hold code and were built. `--missed ROOM` lists the lines of a room that no test ran. A whole build takes an
+hour of the processor."""
+
 import argparse
 import collections
 import gzip
@@ -38,7 +39,9 @@ def run_tests(names):
     for counts in BUILD.rglob("*.gcda"):
         counts.unlink()
     programs = [BUILD / "tests" / f"test-{name}" for name in names] or sorted((BUILD / "tests").glob("test-*"))
-    failed = [p.name for p in programs if subprocess.run([p, "--gtest_brief=1"], stdout=sys.stderr, cwd=BUILD).returncode != 0]
+    failed = [
+        p.name for p in programs if subprocess.run([p, "--gtest_brief=1"], stdout=sys.stderr, cwd=BUILD).returncode != 0
+    ]
     if failed:
         print("failed:", ", ".join(failed), file=sys.stderr)
     return not failed
@@ -50,7 +53,15 @@ def lines_run():
     objects = sorted(BUILD.rglob("*.gcda"))
     with tempfile.TemporaryDirectory() as folder:
         for start in range(0, len(objects), 100):
-            run("gcov", "--json-format", "--hash-filenames", *objects[start:start + 100], cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            run(
+                "gcov",
+                "--json-format",
+                "--hash-filenames",
+                *objects[start : start + 100],
+                cwd=folder,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+            )
         for report in Path(folder).glob("*.gcov.json.gz"):
             data = json.loads(gzip.decompress(report.read_bytes()))
             for file in data["files"]:
@@ -64,7 +75,9 @@ def lines_run():
 
 def room_of(path):
     parts = path.split("/")
-    return "/".join(parts[:3] if parts[1] == "effects" and len(parts) > 3 else parts[:2] if len(parts) > 2 else parts[:1])
+    return "/".join(
+        parts[:3] if parts[1] == "effects" and len(parts) > 3 else parts[:2] if len(parts) > 2 else parts[:1]
+    )
 
 
 def main():

@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Writes a closed mesh (OBJ): a simple polygon in x and z, which may be concave, drawn out along y.
 
-    tools/extruded_mesh.py --half-width 0.02 -0.03,0.045 0.03,0.045 0.03,0.125 ... > body.obj     corners x,z [m], counterclockwise
+    tools/extruded_mesh.py --half-width 0.02 -0.03,0.045 0.03,0.045 0.03,0.125 ... > body.obj     corners x,z [m],
+    counterclockwise
 
-Each side of the polygon makes two triangles and both ends the same triangulation, so that every edge has two triangles: the mesh is closed.
-"""
+Each side of the polygon makes two triangles and both ends the same triangulation, so that every edge has two triangles:
+the mesh is closed."""
+
 import argparse
 import sys
 
@@ -26,7 +28,9 @@ def triangles(corners):
         for n, b in enumerate(left):
             a, c = left[n - 1], left[(n + 1) % len(left)]
             others = (corners[k] for k in left if k not in (a, b, c))
-            if cross(corners[a], corners[b], corners[c]) > 0 and not any(inside(p, corners[a], corners[b], corners[c]) for p in others):
+            if cross(corners[a], corners[b], corners[c]) > 0 and not any(
+                inside(p, corners[a], corners[b], corners[c]) for p in others
+            ):
                 found.append((a, b, c))
                 left.remove(b)
                 break

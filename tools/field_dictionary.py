@@ -5,14 +5,16 @@
     tools/field_dictionary.py TRIPOINT                         prints the table
     tools/field_dictionary.py TRIPOINT --write docs/model.md   puts it into the page (make pages)
 
-A folder of src that declares fields has a `fields.toml` with the symbol, if there is one, and the meaning of each. Components of a vector have one line:
+A folder of src that declares fields has a `fields.toml` with the symbol, if there is one, and the meaning of each.
+Components of a vector have one line:
 
     temperature = { symbol = "T", meaning = "temperature" }
     drag_force = { symbol = "F", meaning = "force of drag, -c m v" }     # drag_force.x, .y and .z
 
-Unit, owner, carrier and components come from the program: `tripoint explain --json` of every case, in each of its modes. Errors name the file, and
-what to write: a field without a meaning, a line of no field, or an effect's line of a field that the effect does not own.
-"""
+Unit, owner, carrier and components come from the program: `tripoint explain --json` of every case, in each of its
+modes. Errors name the file, and what to write: a field without a meaning, a line of no field, or an effect's line of a
+field that the effect does not own."""
+
 import argparse
 import json
 import os
@@ -45,7 +47,9 @@ def columns_of(tripoint, case):
     first = explained(tripoint, case)
     value = {d["key"]: json.loads(d["value"]) for d in first["decisions"] if d["key"] in ("case.modes", "scene.mode")}
     others = [mode for mode in value["case.modes"] if mode != value["scene.mode"]]
-    return first["fields"] + [f for mode in others for f in explained(tripoint, case, "--set", f'scene.mode="{mode}"')["fields"]]
+    return first["fields"] + [
+        f for mode in others for f in explained(tripoint, case, "--set", f'scene.mode="{mode}"')["fields"]
+    ]
 
 
 def columns_of_all(tripoint, cases):
@@ -60,7 +64,9 @@ def fields_from(columns):
     for column in columns:
         parts = COMPONENT.fullmatch(column["name"])
         name, component = parts.groups() if parts else (column["name"], TYPES[column["bytes"]])
-        field = fields.setdefault(name, {"components": [], "per": column["per"], "unit": column["unit"], "owners": set()})
+        field = fields.setdefault(
+            name, {"components": [], "per": column["per"], "unit": column["unit"], "owners": set()}
+        )
         if component not in field["components"]:
             field["components"].append(component)
         field["owners"].add(column["owner"])
@@ -80,7 +86,9 @@ def words_from(root):
             raise Wrong(f"{shown}: {why}") from None
         for name, said in lines.items():
             if not isinstance(said, dict) or not said.get("meaning") or said.keys() - {"symbol", "meaning"}:
-                raise Wrong(f'{shown}: {name}: write {name} = {{ symbol = "...", meaning = "..." }}; the symbol may be left out')
+                raise Wrong(
+                    f'{shown}: {name}: write {name} = {{ symbol = "...", meaning = "..." }}; the symbol may be left out'
+                )
             if any(name == other for _, other, _, _ in words):
                 raise Wrong(f"{shown}: {name} has two lines: delete one")
             cells = said.get("symbol", "-"), said["meaning"]
@@ -100,10 +108,16 @@ def table(fields, words, root):
         field = fields[name]
         if folder.parent.name == "effects" and folder.name not in field["owners"]:
             raise Wrong(f"{shown}: {name} is a field of {', '.join(sorted(field['owners']))}: move the line")
-        rows.append(f"| `{name}` | {' '.join(field['components'])} | {field['per']} | {symbol} | {field['unit']} | {', '.join(sorted(field['owners']))} | {meaning} |")
+        rows.append(
+            f"| `{name}` | {' '.join(field['components'])} | {field['per']} | {symbol} | {field['unit']} | "
+            f"{', '.join(sorted(field['owners']))} | {meaning} |"
+        )
     for name in sorted(fields.keys() - {name for _, name, _, _ in words}):
         owner = min(fields[name]["owners"])
-        raise Wrong(f'the field {name} of {owner} has no meaning: write {name} = {{ symbol = "...", meaning = "..." }} in the fields.toml beside its declaration')
+        raise Wrong(
+            f'the field {name} of {owner} has no meaning: write {name} = {{ symbol = "...", meaning = "..." }} in the '
+            "fields.toml beside its declaration"
+        )
     return "\n".join(rows) + "\n"
 
 
@@ -111,7 +125,7 @@ def with_table(page, rows):
     """The page with these rows between its marks. @raises Wrong"""
     if page.count(BEGIN) != 1 or page.count(END) != 1 or page.index(BEGIN) > page.index(END):
         raise Wrong(f"the page needs the marks {BEGIN} and {END}, once each")
-    return page[:page.index(BEGIN)] + f"{BEGIN}\n{rows}" + page[page.index(END):]
+    return page[: page.index(BEGIN)] + f"{BEGIN}\n{rows}" + page[page.index(END) :]
 
 
 def main():

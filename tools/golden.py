@@ -1,16 +1,20 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whether results have the same bits: as they were stored, at every vector width, on any number of threads, and by two compilers at four optimisation levels.
+"""Whether results have the same bits: as they were stored, at every vector width, on any number of threads, and by two
+compilers at four optimisation levels.
 
-    tools/golden.py --program build/tests/state-hashes                  # against tests/golden/hashes.toml, a test of every build (10 s)
-    tools/golden.py --program build/tests/state-hashes --store REASON   # stores them anew: the results of a state were changed on purpose, and REASON says why
-    tools/golden.py --builds FOLDER                                     # compiles what is missing there (half an hour on two cores), runs, compares with the same file
+    tools/golden.py --program build/tests/state-hashes                  # against tests/golden/hashes.toml, a test of
+    every build (10 s)
+    tools/golden.py --program build/tests/state-hashes --store REASON   # stores them anew: the results of a state were
+    changed on purpose, and REASON says why
+    tools/golden.py --builds FOLDER                                     # compiles what is missing there (half an hour
+    on two cores), runs, compares with the same file
 
-Runs `state-hashes` on twelve cases of the commit profile, in each mode that they have: a hash of all columns, bonds, bookings and the order of
-rows after some steps. Exit 0: all equal; 1: some differ, and each is named; 2: nothing was compared.
-77: the stored hashes are not for this machine. The last digit of a sine is another in another C library, and in the functions that this one has for processors without fused
-multiply-add (the last row of --builds shows it).
-"""
+Runs `state-hashes` on twelve cases of the commit profile, in each mode that they have: a hash of all columns, bonds,
+bookings and the order of rows after some steps. Exit 0: all equal; 1: some differ, and each is named; 2: nothing was
+compared. 77: the stored hashes are not for this machine. The last digit of a sine is another in another C library, and
+in the functions that this one has for processors without fused multiply-add (the last row of --builds shows it)."""
+
 import argparse
 import json
 import os
@@ -22,9 +26,22 @@ import sys
 import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-CASES = ("fluid/dam-break-small", "fluid/rotating-bucket", "coupling/floating-block-050", "coupling/gum-ball", "solid/cantilever", "solid/plastic-sheet",
-         "solid/tear-limit", "phase/melt-rigid", "phase/freeze-merge", "phase/split-by-melting", "heat/inflow", "rigid/merge-in-flight")
-# name: compiler, CMake's build type, level. A Debug build has vector units at -O1 (cmake/tripoint.cmake says why), the others at -O3.
+CASES = (
+    "fluid/dam-break-small",
+    "fluid/rotating-bucket",
+    "coupling/floating-block-050",
+    "coupling/gum-ball",
+    "solid/cantilever",
+    "solid/plastic-sheet",
+    "solid/tear-limit",
+    "phase/melt-rigid",
+    "phase/freeze-merge",
+    "phase/split-by-melting",
+    "heat/inflow",
+    "rigid/merge-in-flight",
+)
+# name: compiler, CMake's build type, level. A Debug build has vector units at -O1 (cmake/tripoint.cmake says why), the
+# others at -O3.
 BUILDS = {
     "gcc-O0": ("g++", "Debug", "-O0"),
     "gcc-O2": ("g++", "Release", "-O2"),
@@ -40,11 +57,19 @@ WITHOUT_FMA = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4"}
 
 def compiler(name):
     """The newest installed program of that compiler, or nothing."""
-    return next((found for version in ("-16", "-15", "-14", "") if (found := shutil.which(name + (version if name == "clang++" else "")))), None)
+    return next(
+        (
+            found
+            for version in ("-16", "-15", "-14", "")
+            if (found := shutil.which(name + (version if name == "clang++" else "")))
+        ),
+        None,
+    )
 
 
 def build(name, folder, jobs):
-    """The program state-hashes of that build; nothing where the compiler is missing. @throws subprocess.CalledProcessError where it does not compile"""
+    """The program state-hashes of that build; nothing where the compiler is missing. @throws
+    subprocess.CalledProcessError where it does not compile"""
     what, kind, level = BUILDS[name]
     path = compiler(what)
     if not path:
@@ -53,8 +78,23 @@ def build(name, folder, jobs):
     if not (tree / "build.ninja").exists():
         flags = f"-DCMAKE_CXX_FLAGS_{kind.upper()}={level}"
         launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
-        subprocess.run(["cmake", "-S", ROOT, "-B", tree, "-G", "Ninja", f"-DCMAKE_CXX_COMPILER={path}", f"-DCMAKE_BUILD_TYPE={kind}", flags, *launcher],
-                       check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(
+            [
+                "cmake",
+                "-S",
+                ROOT,
+                "-B",
+                tree,
+                "-G",
+                "Ninja",
+                f"-DCMAKE_CXX_COMPILER={path}",
+                f"-DCMAKE_BUILD_TYPE={kind}",
+                flags,
+                *launcher,
+            ],
+            check=True,
+            stdout=subprocess.DEVNULL,
+        )
     subprocess.run(["ninja", "-C", tree, "-j", str(jobs), "state-hashes"], check=True, stdout=sys.stderr)
     return tree / "tests" / "state-hashes"
 
@@ -92,9 +132,13 @@ def why_not_here(stored):
 
 def hashes(program, steps, lanes, threads, environment=None):
     """{case and mode: steps that were made, and the hash}."""
-    command = [program, "--steps", steps, "--lanes", lanes, "--threads", threads] + [ROOT / "cases" / f"{case}.toml" for case in CASES]
+    command = [program, "--steps", steps, "--lanes", lanes, "--threads", threads] + [
+        ROOT / "cases" / f"{case}.toml" for case in CASES
+    ]
     own = {name: value for name, value in os.environ.items() if name != "GLIBC_TUNABLES"}
-    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=True, env=own | (environment or {}))
+    done = subprocess.run(
+        [str(word) for word in command], capture_output=True, text=True, check=True, env=own | (environment or {})
+    )
     rows = [line.split(" ", 2) for line in done.stdout.strip().split("\n")]
     return {f"{case} {mode}": told for case, mode, told in rows}
 
@@ -102,7 +146,11 @@ def hashes(program, steps, lanes, threads, environment=None):
 def differences(found, truth):
     """One line a state that is not as it should be, by name."""
     missing = "not there"
-    return [f"{state}: {found.get(state, missing)}, should be {truth.get(state, missing)}" for state in dict.fromkeys([*truth, *found]) if found.get(state) != truth.get(state)]
+    return [
+        f"{state}: {found.get(state, missing)}, should be {truth.get(state, missing)}"
+        for state in dict.fromkeys([*truth, *found])
+        if found.get(state) != truth.get(state)
+    ]
 
 
 class Comparison:
@@ -119,22 +167,38 @@ class Comparison:
         self.compared += 1
         if not note:
             self.different |= {line.split(":", 1)[0] for line in others}
-        print(f"{name:10}  {lanes:5}  {threads:7}  {len(self.truth) - len(others)} of {len(self.truth)}{note}", flush=True)
+        print(
+            f"{name:10}  {lanes:5}  {threads:7}  {len(self.truth) - len(others)} of {len(self.truth)}{note}", flush=True
+        )
         for line in others:
             print(f"            differs: {line}")
 
     def told(self):
         """The exit code, and what is to do."""
         if self.different:
-            print(f"{len(self.different)} states have other bits: {', '.join(sorted(self.different))}. If that is meant, store them anew and say why: "
-                  "tools/golden.py --program build/tests/state-hashes --store REASON")
+            print(
+                f"{len(self.different)} states have other bits: {', '.join(sorted(self.different))}. If that is "
+                "meant, store them anew and say why: "
+                "tools/golden.py --program build/tests/state-hashes --store REASON"
+            )
         return 2 if self.compared == 0 else 1 if self.different else 0
 
 
 def write(path, steps, truth, reason):
-    lines = ["# SPDX-License-Identifier: BSD-3-Clause", "# A hash of each state after these steps, or fewer where the run ends before. Written by tools/golden.py --store; the test `golden` compares.",
-             f"steps = {steps}", f"library = {json.dumps(library())}", f"reason = {json.dumps(reason, ensure_ascii=False)}", "", "[hashes]"]
-    path.write_text("\n".join(lines + [f"{json.dumps(state)} = {json.dumps(told)}" for state, told in truth.items()]) + "\n", encoding="utf-8")
+    lines = [
+        "# SPDX-License-Identifier: BSD-3-Clause",
+        "# A hash of each state after these steps, or fewer where the run ends before. Written by tools/golden.py "
+        "--store; the test `golden` compares.",
+        f"steps = {steps}",
+        f"library = {json.dumps(library())}",
+        f"reason = {json.dumps(reason, ensure_ascii=False)}",
+        "",
+        "[hashes]",
+    ]
+    path.write_text(
+        "\n".join(lines + [f"{json.dumps(state)} = {json.dumps(told)}" for state, told in truth.items()]) + "\n",
+        encoding="utf-8",
+    )
 
 
 def compare_program(program, path, steps, reason):
@@ -158,7 +222,9 @@ def compare_builds(names, folder, path, steps, jobs):
     """Every build with what is stored; where that is not for this machine, with the first of them."""
     stored = tomllib.loads(path.read_text(encoding="utf-8")) if path.exists() else None
     if stored and (stored["steps"] != steps or why_not_here(stored)):
-        print(f"compared with one another: {why_not_here(stored) or 'the stored hashes are of another number of steps'}")
+        print(
+            f"compared with one another: {why_not_here(stored) or 'the stored hashes are of another number of steps'}"
+        )
         stored = None
     comparison = Comparison(stored and stored["hashes"], steps)
     program = None

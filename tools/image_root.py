@@ -1,12 +1,16 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Carries out the instructions of the Dockerfile in bare Debian roots by mmdebstrap and chroot, and runs a gate in the last one.
+"""Carries out the instructions of the Dockerfile in bare Debian roots by mmdebstrap and chroot, and runs a gate in the
+last one.
 
-    image_root.py [--keep DIR] [--profile NAME]     as root; --keep leaves the image's root in DIR, --profile runs the suite's profile in it too
+    image_root.py [--keep DIR] [--profile NAME]     as root; --keep leaves the image's root in DIR, --profile runs the
+    suite's profile in it too
 
-It knows ARG, FROM, RUN (with a cache mount), COPY (with --from), WORKDIR, ENV and CMD in the forms that the file uses, and refuses any other. What a root lacks to
-reach this machine's registries (hosts, certificates, proxies, pip settings) is given to it as tools/test-fresh.sh does, and counts as the machine's, not the image's; so does CI, with which warnings are errors.
-"""
+It knows ARG, FROM, RUN (with a cache mount), COPY (with --from), WORKDIR, ENV and CMD in the forms that the file uses,
+and refuses any other. What a root lacks to reach this machine's registries (hosts, certificates, proxies, pip settings)
+is given to it as tools/test-fresh.sh does, and counts as the machine's, not the image's; so does CI, with which
+warnings are errors."""
+
 import argparse
 import os
 import re
@@ -45,7 +49,11 @@ class Root:
         self.folder, self.workdir, self.extra, self.command = folder, "/", {}, []
         self.environment = {"PATH": "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"}
         options = [f"--aptopt={line}" for line in self.apt_settings()]
-        subprocess.run(["mmdebstrap", "--quiet", "--variant=minbase", *options, RELEASES[image], str(folder), *self.sources()], check=True, stdout=sys.stderr)
+        subprocess.run(
+            ["mmdebstrap", "--quiet", "--variant=minbase", *options, RELEASES[image], str(folder), *self.sources()],
+            check=True,
+            stdout=sys.stderr,
+        )
         self.furnish()
 
     @staticmethod
@@ -59,7 +67,13 @@ class Root:
         if "VERSION_CODENAME=bookworm" not in Path("/etc/os-release").read_text():
             return []
         files = [Path("/etc/apt/sources.list"), *Path("/etc/apt/sources.list.d").glob("*")]
-        return [str(f) for f in files if f.is_file() and "bookworm" in f.read_text() and re.search(r"debian-archive-keyring|^deb .*/debian", f.read_text(), re.M)]
+        return [
+            str(f)
+            for f in files
+            if f.is_file()
+            and "bookworm" in f.read_text()
+            and re.search(r"debian-archive-keyring|^deb .*/debian", f.read_text(), re.M)
+        ]
 
     def furnish(self):
         (self.folder / "etc/hosts").write_text("127.0.0.1 localhost\n::1 localhost\n")
@@ -77,8 +91,26 @@ class Root:
     def run(self, words, network=True):
         """A process in the root, with the image's environment. @return seconds"""
         machine = {name: value for name, value in os.environ.items() if re.fullmatch(r"(?i)(https?|no)_proxy|CI", name)}
-        environment = {"HOME": "/root", "LANG": "C.UTF-8", "DEBIAN_FRONTEND": "noninteractive", **(machine if network else {}), **self.environment, **self.extra}
-        words = ["chroot", str(self.folder), "/usr/bin/env", "-i", *(f"{k}={v}" for k, v in environment.items()), "sh", "-c", f"cd {shlex.quote(self.workdir)} && exec \"$@\"", "_", *words]
+        environment = {
+            "HOME": "/root",
+            "LANG": "C.UTF-8",
+            "DEBIAN_FRONTEND": "noninteractive",
+            **(machine if network else {}),
+            **self.environment,
+            **self.extra,
+        }
+        words = [
+            "chroot",
+            str(self.folder),
+            "/usr/bin/env",
+            "-i",
+            *(f"{k}={v}" for k, v in environment.items()),
+            "sh",
+            "-c",
+            f'cd {shlex.quote(self.workdir)} && exec "$@"',
+            "_",
+            *words,
+        ]
         begin = time.monotonic()
         subprocess.run(words if network else ["unshare", "--net", *words], check=True, stdin=subprocess.DEVNULL)
         return time.monotonic() - begin
@@ -124,7 +156,10 @@ class Image:
         mounts = re.findall(r"--mount=type=cache,target=(\S+)", rest)
         for target in mounts:
             self.root.bind(self.cache, target)
-            self.root.extra = {"CCACHE_BASEDIR": self.root.workdir, "CCACHE_NOHASHDIR": "1"}  # hits of a checkout in another folder
+            self.root.extra = {
+                "CCACHE_BASEDIR": self.root.workdir,
+                "CCACHE_NOHASHDIR": "1",
+            }  # hits of a checkout in another folder
         self.root.run(["sh", "-c", re.sub(r"--mount=\S+\s+", "", rest)])
         for target in mounts:
             self.root.release(target)
@@ -132,7 +167,7 @@ class Image:
 
     def do_copy(self, rest):
         stage = re.match(r"--from=(\S+)\s+", rest)
-        sources, target = (words := rest[stage.end():].split() if stage else rest.split())[:-1], words[-1]
+        sources, target = (words := rest[stage.end() :].split() if stage else rest.split())[:-1], words[-1]
         to = self.root.folder / target.lstrip("/")
         if target.endswith("/"):
             to.mkdir(parents=True, exist_ok=True)
@@ -173,23 +208,34 @@ class Image:
 
 def compiler_cache():
     """This machine's: what has been compiled here once is not compiled again, which only shortens the build."""
-    told = subprocess.run(["ccache", "--get-config", "cache_dir"], capture_output=True, text=True).stdout if shutil.which("ccache") else ""
+    told = (
+        subprocess.run(["ccache", "--get-config", "cache_dir"], capture_output=True, text=True).stdout
+        if shutil.which("ccache")
+        else ""
+    )
     return Path(told.strip() or tempfile.gettempdir() + "/tripoint-image-ccache")
 
 
 def size_of(folder):
     """Megabytes of the files in the root, without what is mounted there."""
-    told = subprocess.run(["du", "--summarize", "--one-file-system", "--block-size=1000000", str(folder)], capture_output=True, text=True).stdout
+    told = subprocess.run(
+        ["du", "--summarize", "--one-file-system", "--block-size=1000000", str(folder)], capture_output=True, text=True
+    ).stdout
     return int(told.split()[0])
 
 
 def gate_in(root):
-    """What a project's job does in the image: its cases on its engine, without network; then with a defect, which must be red."""
+    """What a project's job does in the image: its cases on its engine, without network; then with a defect, which must
+    be red."""
     project = root.folder / "project"
     shutil.copytree(SOURCE / "examples" / "gated-engine", project)
     root.workdir = "/project"
     validate = ["tripoint", "validate", "cases", "--engine", "./engine-verlet", "--engines", "verlet"]
-    seconds = root.run(validate, network=False) + root.run(["tripoint", "gate", "report"], network=False) + root.run(["tripoint", "summary", "report", "--markdown"], network=False)
+    seconds = (
+        root.run(validate, network=False)
+        + root.run(["tripoint", "gate", "report"], network=False)
+        + root.run(["tripoint", "summary", "report", "--markdown"], network=False)
+    )
     if not (project / "report/index.html").is_file():
         raise SystemExit("image: the report's page is missing")
     engine = project / "engine-verlet"
@@ -211,8 +257,14 @@ def main():
         raise SystemExit("image: needs root: sudo make test-image")
     if not shutil.which("mmdebstrap"):
         raise SystemExit("image: needs mmdebstrap: apt-get install --no-install-recommends mmdebstrap")
-    if "TRIPOINT_IMAGE" not in os.environ:  # in namespaces of its own nothing stays mounted or running, however this ends
-        os.execvpe("unshare", ["unshare", "--mount", "--pid", "--fork", "--kill-child", sys.executable, *sys.argv], {**os.environ, "TRIPOINT_IMAGE": "1"})
+    if (
+        "TRIPOINT_IMAGE" not in os.environ
+    ):  # in namespaces of its own nothing stays mounted or running, however this ends
+        os.execvpe(
+            "unshare",
+            ["unshare", "--mount", "--pid", "--fork", "--kill-child", sys.executable, *sys.argv],
+            {**os.environ, "TRIPOINT_IMAGE": "1"},
+        )
     cache = compiler_cache()
     cache.mkdir(parents=True, exist_ok=True)
     folder = Path(tempfile.mkdtemp(prefix="tripoint-image-"))
@@ -224,7 +276,9 @@ def main():
         root.run(root.command)
         say(f"PASS: a gate in it took {gate_in(root):.1f} s")
         if options.profile:
-            seconds = root.run(["tripoint", "validate", "--profile", options.profile, "--jobs", "2", "--out", "suite"], network=False)
+            seconds = root.run(
+                ["tripoint", "validate", "--profile", options.profile, "--jobs", "2", "--out", "suite"], network=False
+            )
             say(f"PASS: its profile {options.profile} took {seconds:.0f} s")
         for place in ("proc", "sys", "dev"):
             subprocess.run(["umount", "--recursive", str(root.folder / place)], check=True)

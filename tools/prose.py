@@ -35,7 +35,9 @@ BANNED = [
 BANNED = [(re.compile(pattern), advice) for pattern, advice in BANNED]
 
 # A full stop after these does not end a sentence.
-ABBREVIATIONS = r"(?<!\be\.g)(?<!\bi\.e)(?<!\bal)(?<!\bFig)(?<!\bEq)(?<!\bNo)(?<!\bvs)(?<!\bcf)(?<!\bca)(?<!\bSec)(?<!\b[A-Z])"
+ABBREVIATIONS = (
+    r"(?<!\be\.g)(?<!\bi\.e)(?<!\bal)(?<!\bFig)(?<!\bEq)(?<!\bNo)(?<!\bvs)(?<!\bcf)(?<!\bca)(?<!\bSec)(?<!\b[A-Z])"
+)
 END = re.compile(ABBREVIATIONS + r"[.!?][)\"*_]*\s+(?=[\"'(*_\[]*[A-Z0-9`])")
 
 

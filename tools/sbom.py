@@ -4,10 +4,11 @@
 
     tools/sbom.py [BUILD] [--out FILE]      default: build, BUILD/tripoint.spdx.json
 
-Five kinds of packages: tripoint itself; what is in the repository and not ours (reports/vendor); what the built programs load, and what they are compiled
-with, as the Debian packages that are installed here, with their versions; and what set-up or `tripoint engine install` fetches, with the pinned hash of every file or crate. Two calls on one
-build write the same bytes.
-"""
+Five kinds of packages: tripoint itself; what is in the repository and not ours (reports/vendor); what the built
+programs load, and what they are compiled with, as the Debian packages that are installed here, with their versions; and
+what set-up or `tripoint engine install` fetches, with the pinned hash of every file or crate. Two calls on one build
+write the same bytes."""
+
 import argparse
 import hashlib
 import json
@@ -19,23 +20,41 @@ import tomllib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-VENDORED = {"tabulator-tables": ("MIT", ("tabulator.min.js", "tabulator.min.css"), r"Tabulator v([0-9.]+)"),
-            "three": ("MIT", ("three.module.min.js",), r'const t="([0-9]+)"')}
+VENDORED = {
+    "tabulator-tables": ("MIT", ("tabulator.min.js", "tabulator.min.css"), r"Tabulator v([0-9.]+)"),
+    "three": ("MIT", ("three.module.min.js",), r'const t="([0-9]+)"'),
+}
 RELEASE = {"three": "0.{}.0"}  # how npm spells what the file says
 
 
 def said_by(*words):
-    return subprocess.run(words, capture_output=True, text=True, check=True, env=dict(os.environ, TZ="UTC", LC_ALL="C.UTF-8")).stdout
+    return subprocess.run(
+        words, capture_output=True, text=True, check=True, env=dict(os.environ, TZ="UTC", LC_ALL="C.UTF-8")
+    ).stdout
 
 
 def package(kind, name, version, **more):
     """One package of the document. @param kind prefix of its identifier, and its purl type"""
     identifier = re.sub(r"[^A-Za-z0-9.-]", "-", f"SPDXRef-{kind}-{name}-{version}")
-    row = {"SPDXID": identifier, "name": name, "versionInfo": version, "downloadLocation": "NOASSERTION", "filesAnalyzed": False,
-           "licenseConcluded": "NOASSERTION", "licenseDeclared": "NOASSERTION", "copyrightText": "NOASSERTION"}
+    row = {
+        "SPDXID": identifier,
+        "name": name,
+        "versionInfo": version,
+        "downloadLocation": "NOASSERTION",
+        "filesAnalyzed": False,
+        "licenseConcluded": "NOASSERTION",
+        "licenseDeclared": "NOASSERTION",
+        "copyrightText": "NOASSERTION",
+    }
     if kind != "tripoint":
         spoken = f"deb/debian/{name}" if kind == "deb" else f"{kind}/{name}"
-        row["externalRefs"] = [{"referenceCategory": "PACKAGE-MANAGER", "referenceType": "purl", "referenceLocator": f"pkg:{spoken}@{version}"}]
+        row["externalRefs"] = [
+            {
+                "referenceCategory": "PACKAGE-MANAGER",
+                "referenceType": "purl",
+                "referenceLocator": f"pkg:{spoken}@{version}",
+            }
+        ]
     return row | more
 
 
@@ -75,8 +94,18 @@ def loaded(build):
     for path in programs(build):
         files.update(re.findall(r"=> (/\S+)", said_by("ldd", path)))
     foreign = sorted(file for file in files if str(ROOT) not in file and str(build) not in file)
-    places = {file: {file, str(Path(file).resolve()), file.removeprefix("/usr"), str(Path(file).resolve()).removeprefix("/usr")} for file in foreign}
-    told = subprocess.run(["dpkg", "-S", *sorted(set().union(*places.values()))], capture_output=True, text=True, check=False).stdout
+    places = {
+        file: {
+            file,
+            str(Path(file).resolve()),
+            file.removeprefix("/usr"),
+            str(Path(file).resolve()).removeprefix("/usr"),
+        }
+        for file in foreign
+    }
+    told = subprocess.run(
+        ["dpkg", "-S", *sorted(set().union(*places.values()))], capture_output=True, text=True, check=False
+    ).stdout
     owners = {line.rpartition(": ")[2]: line.partition(": ")[0].split(",")[0] for line in told.splitlines()}
     names = set()
     for file in foreign:
@@ -90,9 +119,14 @@ def loaded(build):
 
 
 def built_with():
-    """The packages that set-up installs to compile: libraries of headers alone are in the programs, and no loader names them."""
-    core = re.search(r"^core=\((.*?)\)", (ROOT / "tools" / "setup.sh").read_text(encoding="utf-8"), re.S | re.M).group(1)
-    for line in said_by("dpkg-query", "-W", "-f", "${db:Status-Status} ${Package} ${Version}\n", *core.split()).splitlines():
+    """The packages that set-up installs to compile: libraries of headers alone are in the programs, and no loader names
+    them."""
+    core = re.search(r"^core=\((.*?)\)", (ROOT / "tools" / "setup.sh").read_text(encoding="utf-8"), re.S | re.M).group(
+        1
+    )
+    for line in said_by(
+        "dpkg-query", "-W", "-f", "${db:Status-Status} ${Package} ${Version}\n", *core.split()
+    ).splitlines():
         status, name, version = line.split()
         if status == "installed":
             yield package("deb", name, version)
@@ -106,20 +140,29 @@ def crates(lock):
 
 
 def fetched():
-    """What is fetched by pin and hash: wheels of the requirement files, and the files of engines that can be installed."""
+    """What is fetched by pin and hash: wheels of the requirement files, and the files of engines that can be
+    installed."""
     for pins in sorted((ROOT / "tools").glob("requirements-*.txt")):
         text = re.sub(r"\\\n\s*", " ", pins.read_text(encoding="utf-8"))
         for line in text.splitlines():
             found = re.match(r"([A-Za-z0-9_.-]+)(?:\[[^\]]*\])?==(\S+)\s+(.*)", line)
             if found:
                 hashes = re.findall(r"--hash=sha256:([0-9a-f]{64})", found.group(3))
-                yield package("pypi", found.group(1).lower(), found.group(2), checksums=[c for h in hashes for c in checksum(h)])
+                yield package(
+                    "pypi", found.group(1).lower(), found.group(2), checksums=[c for h in hashes for c in checksum(h)]
+                )
     vendors = ROOT / "adapters" / "vendors"
     for spelled, file in json.loads((vendors / "catalogue.json").read_text(encoding="utf-8"))["files"].items():
         if spelled.endswith("/Cargo.lock"):
             yield from crates(vendors / spelled)
             continue
-        name, at, version = spelled.partition("==") if "==" in spelled else spelled.rpartition("@") if "@" in spelled else spelled.partition("=")
+        name, at, version = (
+            spelled.partition("==")
+            if "==" in spelled
+            else spelled.rpartition("@")
+            if "@" in spelled
+            else spelled.partition("=")
+        )
         kind = {"==": "pypi", "@": "npm", "=": "deb"}[at]
         yield package(kind, name.lower(), version, checksums=checksum(file["sha256"]))
 
@@ -136,7 +179,12 @@ def date_of_commit():
 def document(build):
     us = ourselves(build)
     rows, relations = {us["SPDXID"]: us}, [("SPDXRef-DOCUMENT", "DESCRIBES", us["SPDXID"])]
-    for how, found in (("CONTAINS", vendored()), ("DYNAMIC_LINK", loaded(build)), ("BUILD_DEPENDENCY_OF", built_with()), ("OPTIONAL_DEPENDENCY_OF", fetched())):
+    for how, found in (
+        ("CONTAINS", vendored()),
+        ("DYNAMIC_LINK", loaded(build)),
+        ("BUILD_DEPENDENCY_OF", built_with()),
+        ("OPTIONAL_DEPENDENCY_OF", fetched()),
+    ):
         for row in found:
             if row["SPDXID"] in rows:  # fetched for two reasons
                 continue
@@ -145,11 +193,18 @@ def document(build):
             relations.append((row["SPDXID"], how, us["SPDXID"]) if turned else (us["SPDXID"], how, row["SPDXID"]))
     packages = list(rows.values())
     digest = hashlib.sha256(json.dumps(packages, sort_keys=True).encode()).hexdigest()
-    return {"spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT", "name": f"tripoint-{us['versionInfo']}",
-            "documentNamespace": f"urn:sha256:{digest}",
-            "creationInfo": {"created": date_of_commit(), "creators": ["Tool: tripoint-sbom"]},
-            "packages": packages,
-            "relationships": [{"spdxElementId": a, "relationshipType": how, "relatedSpdxElement": b} for a, how, b in relations]}
+    return {
+        "spdxVersion": "SPDX-2.3",
+        "dataLicense": "CC0-1.0",
+        "SPDXID": "SPDXRef-DOCUMENT",
+        "name": f"tripoint-{us['versionInfo']}",
+        "documentNamespace": f"urn:sha256:{digest}",
+        "creationInfo": {"created": date_of_commit(), "creators": ["Tool: tripoint-sbom"]},
+        "packages": packages,
+        "relationships": [
+            {"spdxElementId": a, "relationshipType": how, "relatedSpdxElement": b} for a, how, b in relations
+        ],
+    }
 
 
 def main():

@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The twenty checks of OpenSSF Scorecard, as far as a checkout alone can answer them: no network, no token.
 
-    tools/scorecard.py [--root FOLDER]     a line a check: pass, FAIL, borne, or "not here" with why; exit 1 where one fails
+    tools/scorecard.py [--root FOLDER]     a line a check: pass, FAIL, borne, or "not here" with why; exit 1 where one
+    fails
 
-What only the server knows (protected branches, webhooks, who reviewed) is "not here": a checkout does not hold it. "Borne" is what Scorecard would fault and we want so: BORNE says why.
-"""
+What only the server knows (protected branches, webhooks, who reviewed) is "not here": a checkout does not hold it.
+"Borne" is what Scorecard would fault and we want so: BORNE says why."""
+
 import argparse
 import json
 import re
@@ -17,17 +19,40 @@ from pathlib import Path
 import yaml
 
 HASH = re.compile(r"--hash=sha256:[0-9a-f]{64}")
-BINARY = (b"\x7fELF", b"MZ", b"\xca\xfe\xba\xbe", b"\xfe\xed\xfa", b"\xcf\xfa\xed\xfe", b"!<arch>", b"PK\x03\x04", b"\x1f\x8b", b"\0asm")
+BINARY = (
+    b"\x7fELF",
+    b"MZ",
+    b"\xca\xfe\xba\xbe",
+    b"\xfe\xed\xfa",
+    b"\xcf\xfa\xed\xfe",
+    b"!<arch>",
+    b"PK\x03\x04",
+    b"\x1f\x8b",
+    b"\0asm",
+)
 # Texts of others that a workflow must not paste into a script: whoever opens a pull request writes them.
-FOREIGN = re.compile(r"\$\{\{[^}]*github\.(event\.(issue|pull_request|comment|review|head_commit|commits|workflow_run)|head_ref)[^}]*\}\}")
+FOREIGN = re.compile(
+    r"\$\{\{[^}]*github\.(event\.(issue|pull_request|comment|review|head_commit|commits|workflow_run)|head_ref)[^}]*\}\}"
+)
 
 
 class Checkout:
     def __init__(self, root):
         self.root = root
-        told = subprocess.run(["git", "-C", root, "ls-files", "-z", "--cached", "--others", "--exclude-standard"], capture_output=True, text=True, check=False)
-        inside = told.stdout.split("\0") if told.returncode == 0 else [str(p.relative_to(root)) for p in root.rglob("*") if p.is_file()]
-        self.files = sorted(name for name in inside if name and (root / name).is_file() and not name.startswith("build"))
+        told = subprocess.run(
+            ["git", "-C", root, "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        inside = (
+            told.stdout.split("\0")
+            if told.returncode == 0
+            else [str(p.relative_to(root)) for p in root.rglob("*") if p.is_file()]
+        )
+        self.files = sorted(
+            name for name in inside if name and (root / name).is_file() and not name.startswith("build")
+        )
 
     def text(self, name):
         path = self.root / name
@@ -35,10 +60,18 @@ class Checkout:
 
     def workflows(self):
         """(name, document) of every workflow, the ones of examples too."""
-        return [(name, yaml.safe_load(self.text(name))) for name in self.files if re.search(r"(^|/)\.github/workflows/[^/]+\.ya?ml$", name)]
+        return [
+            (name, yaml.safe_load(self.text(name)))
+            for name in self.files
+            if re.search(r"(^|/)\.github/workflows/[^/]+\.ya?ml$", name)
+        ]
 
     def actions(self):
-        return [(name, yaml.safe_load(self.text(name))) for name in self.files if re.search(r"(^|/)\.github/actions/.*action\.ya?ml$", name)]
+        return [
+            (name, yaml.safe_load(self.text(name)))
+            for name in self.files
+            if re.search(r"(^|/)\.github/actions/.*action\.ya?ml$", name)
+        ]
 
     def steps(self):
         """(name of the file, step) of all workflows and actions."""
@@ -66,7 +99,13 @@ def binary_artifacts(c):
 
 
 def ci_tests(c):
-    runs = [step.get("run", "") for name, document in c.workflows() if "pull_request" in triggers(document) for job in document["jobs"].values() for step in job["steps"]]
+    runs = [
+        step.get("run", "")
+        for name, document in c.workflows()
+        if "pull_request" in triggers(document)
+        for job in document["jobs"].values()
+        for step in job["steps"]
+    ]
     if not any(".ci/run" in run or "make test" in run for run in runs):
         yield "no workflow runs the tests on a pull request"
     if "make test" not in c.text(".ci/run"):
@@ -78,7 +117,9 @@ def dangerous_workflow(c):
     for name, document in c.workflows():
         if "pull_request_target" in triggers(document):
             yield f"{name} runs on pull_request_target"
-        if "workflow_run" in triggers(document) and re.search(r"uses:\s*actions/checkout|git fetch|git checkout", c.text(name)):
+        if "workflow_run" in triggers(document) and re.search(
+            r"uses:\s*actions/checkout|git fetch|git checkout", c.text(name)
+        ):
             yield f"{name} runs on workflow_run and checks out code"
     for name, step in c.steps():
         if FOREIGN.search(str(step.get("run", ""))):
@@ -87,7 +128,13 @@ def dangerous_workflow(c):
 
 
 def fuzzing(c):
-    targets = [name for name in c.files if re.fullmatch(r"tests/fuzz/\w+\.cpp", name) and "LLVMFuzzerTestOneInput" in c.text(name) and not name.endswith("replay.cpp")]
+    targets = [
+        name
+        for name in c.files
+        if re.fullmatch(r"tests/fuzz/\w+\.cpp", name)
+        and "LLVMFuzzerTestOneInput" in c.text(name)
+        and not name.endswith("replay.cpp")
+    ]
     for name in targets:
         if not any(other.startswith(f"tests/fuzz/corpus/{Path(name).stem}/") for other in c.files):
             yield f"{name} has no corpus"
@@ -111,7 +158,9 @@ def packaging(c):
 def unpinned_uses(c):
     for name, step in c.steps():
         uses = step.get("uses")
-        if uses and not uses.startswith("./") and not re.fullmatch(r"[\w./-]+@([0-9a-f]{40}|COMMIT)", uses):  # COMMIT: an example's place to fill in
+        if (
+            uses and not uses.startswith("./") and not re.fullmatch(r"[\w./-]+@([0-9a-f]{40}|COMMIT)", uses)
+        ):  # COMMIT: an example's place to fill in
             yield f"{name}: {uses} is pinned by no commit"
 
 
@@ -128,7 +177,11 @@ def unpinned_downloads(c):
                 yield f"{name}: pip without --require-hashes: {code[:80]}"
             if re.search(r"\b(curl|wget)\b.*\|\s*(ba|z)?sh\b", code):
                 yield f"{name}: a download is piped into a shell: {code[:80]}"
-            if re.search(r"\bnpm (install|i)\b", code) or re.search(r"\bcargo (build|install|run)\b", code) and "--locked" not in code:
+            if (
+                re.search(r"\bnpm (install|i)\b", code)
+                or re.search(r"\bcargo (build|install|run)\b", code)
+                and "--locked" not in code
+            ):
                 yield f"{name}: packages without a lock: {code[:80]}"
 
 
@@ -175,18 +228,29 @@ def pinned_dependencies(c):
     yield from unpinned_files(c)
     wheels = sum(len(HASH.findall(c.text(name))) for name in c.files if name.startswith("tools/requirements-"))
     uses = sum("uses" in step for _, step in c.steps())
-    return f"{uses} actions by commit, {wheels} hashes of wheels, crates by Cargo.lock, engines' packages by catalogue.json"
+    return (
+        f"{uses} actions by commit, {wheels} hashes of wheels, crates by Cargo.lock, engines' packages by "
+        "catalogue.json"
+    )
 
 
 def sast(c):
-    jobs = [job for _, document in c.workflows() for job in document["jobs"].values() if any("tools/checks.sh" in str(step.get("run", "")) for step in job["steps"])]
+    jobs = [
+        job
+        for _, document in c.workflows()
+        for job in document["jobs"].values()
+        if any("tools/checks.sh" in str(step.get("run", "")) for step in job["steps"])
+    ]
     checks = {check for job in jobs for check in job["strategy"]["matrix"]["check"]}
     for what in ("tidy", "clang", "asan-ubsan", "tsan"):
         if what not in checks:
             yield f"no workflow runs tools/checks.sh {what}"
         if not re.search(rf"^  {what}\)", c.text("tools/checks.sh"), re.M):
             yield f"tools/checks.sh knows no {what}"
-    return "ci.yml builds with warnings as errors, runs clang-tidy and tests under the address, undefined-behaviour and thread sanitizers"
+    return (
+        "ci.yml builds with warnings as errors, runs clang-tidy and tests under the address, undefined-behaviour "
+        "and thread sanitizers"
+    )
 
 
 def sbom(c):
@@ -197,7 +261,11 @@ def sbom(c):
 
 def security_policy(c):
     policy = c.text("SECURITY.md")
-    for what, pattern in (("a way to report", r"[Rr]eport it privately"), ("days until an answer", r"\d+ days"), ("disclosure", r"public")):
+    for what, pattern in (
+        ("a way to report", r"[Rr]eport it privately"),
+        ("days until an answer", r"\d+ days"),
+        ("disclosure", r"public"),
+    ):
         if not re.search(pattern, policy):
             yield f"SECURITY.md has no {what}"
     return "SECURITY.md: what may be hostile, how to report, 5, 14 and 90 days"
@@ -229,17 +297,37 @@ def base_images(c):
     return "every image by its digest"
 
 
-BORNE = {"debian:12 has no digest": "the newest debian:12 brings the fixes of its packages; a published image keeps the digest in its label, and the Dockerfile takes one",
-         "OWNER/": "an example's place to fill in"}
+BORNE = {
+    "debian:12 has no digest": "the newest debian:12 brings the fixes of its packages; a published image keeps the "
+    "digest in its label, and the Dockerfile takes one",
+    "OWNER/": "an example's place to fill in",
+}
 SERVER = "the server's setting: not in a checkout"
 CHECKS = (
-    ("Binary-Artifacts", binary_artifacts), ("Branch-Protection", SERVER), ("CI-Tests", ci_tests), ("CII-Best-Practices", "a registration elsewhere: not in a checkout"),
-    ("Code-Review", "who approved a change is the server's record: not in a checkout"), ("Contributors", "companies of the authors' accounts: the server's record"),
+    ("Binary-Artifacts", binary_artifacts),
+    ("Branch-Protection", SERVER),
+    ("CI-Tests", ci_tests),
+    ("CII-Best-Practices", "a registration elsewhere: not in a checkout"),
+    ("Code-Review", "who approved a change is the server's record: not in a checkout"),
+    ("Contributors", "companies of the authors' accounts: the server's record"),
     ("Dangerous-Workflow", dangerous_workflow),
-    ("Dependency-Update-Tool", "pins are changed by hand, with their figures beside them (docs/releases.md): no robot is wanted"), ("Fuzzing", fuzzing), ("License", licence),
-    ("Maintained", "activity of the last 90 days: the server's record"), ("Packaging", packaging), ("Pinned-Dependencies", pinned_dependencies),
-    ("Pinned-Dependencies: images", base_images), ("SAST", sast), ("SBOM", sbom), ("Security-Policy", security_policy), ("Signed-Releases", signed_releases),
-    ("Token-Permissions", token_permissions), ("Vulnerabilities", "a data base of vulnerabilities: not offline; `make sbom` is what such a scan reads"), ("Webhooks", SERVER),
+    (
+        "Dependency-Update-Tool",
+        "pins are changed by hand, with their figures beside them (docs/releases.md): no robot is wanted",
+    ),
+    ("Fuzzing", fuzzing),
+    ("License", licence),
+    ("Maintained", "activity of the last 90 days: the server's record"),
+    ("Packaging", packaging),
+    ("Pinned-Dependencies", pinned_dependencies),
+    ("Pinned-Dependencies: images", base_images),
+    ("SAST", sast),
+    ("SBOM", sbom),
+    ("Security-Policy", security_policy),
+    ("Signed-Releases", signed_releases),
+    ("Token-Permissions", token_permissions),
+    ("Vulnerabilities", "a data base of vulnerabilities: not offline; `make sbom` is what such a scan reads"),
+    ("Webhooks", SERVER),
 )
 
 
@@ -255,7 +343,9 @@ def verdict(check, checkout):
             if not wrong:
                 return "pass", [end.value]
             borne = [next((f"{line}: {why}" for words, why in BORNE.items() if words in line), None) for line in wrong]
-            return ("borne", borne) if all(borne) else ("FAIL", [line for line, known in zip(wrong, borne) if not known])
+            return (
+                ("borne", borne) if all(borne) else ("FAIL", [line for line, known in zip(wrong, borne) if not known])
+            )
 
 
 def main():
@@ -268,7 +358,10 @@ def main():
         counts[how] += 1
         for line in dict.fromkeys(why):
             print(f"{how:8}  {name:27}  {line}")
-    print(f"{counts['pass']} pass, {counts['borne']} borne, {counts['FAIL']} fail, {counts['not here']} cannot be seen in a checkout")
+    print(
+        f"{counts['pass']} pass, {counts['borne']} borne, {counts['FAIL']} fail, {counts['not here']} cannot be seen "
+        "in a checkout"
+    )
     return 1 if counts["FAIL"] else 0
 
 

@@ -77,45 +77,18 @@ install_wheels() {
   fi
 }
 
-# What reads our exported files in tests, into .venv-readers: it is large, and the test says that it is skipped where it is not there.
-install_readers() {
-  local pins=tools/requirements-readers.txt stamp=.venv-readers/readers.sha256 want
+# install_pins NAME "SIZE" "WITHOUT IT": the pinned wheels of tools/requirements-NAME.txt into .venv-NAME. Without PyPI it says what is lost.
+install_pins() {
+  local pins=tools/requirements-$1.txt home=.venv-$1 want
   want=$(sha256sum <"$pins")
-  [[ -f $stamp && $(<"$stamp") == "$want" ]] && return 0
-  say "foreign readers' wheels into .venv-readers: 237 MB to fetch, 1.1 GB on the disk"
-  if { [[ -x .venv-readers/bin/pip ]] || /usr/bin/python3 -m venv .venv-readers; } >&2 &&
-    timeout 900 .venv-readers/bin/pip install --quiet --require-hashes --only-binary :all: --retries 1 --timeout 15 --requirement "$pins" >&2; then
-    printf '%s\n' "$want" >"$stamp"
+  [[ -f $home/$1.sha256 && $(<"$home/$1.sha256") == "$want" ]] && return 0
+  say "$1 into $home: $2"
+  if { [[ -x $home/bin/pip ]] || /usr/bin/python3 -m venv "$home"; } >&2 &&
+    timeout 900 "$home/bin/pip" install --quiet --require-hashes --only-binary :all: --retries 1 --timeout 15 \
+      --requirement "$pins" >&2; then
+    printf '%s\n' "$want" >"$home/$1.sha256"
   else
-    say "no foreign readers: PyPI or python3-venv failed; the test of exported files is skipped"
-  fi
-}
-
-# Snakemake, which runs a suite in a test; it is skipped where it is not there.
-install_schedulers() {
-  local pins=tools/requirements-schedulers.txt stamp=.venv-schedulers/schedulers.sha256 want
-  want=$(sha256sum <"$pins")
-  [[ -f $stamp && $(<"$stamp") == "$want" ]] && return 0
-  say "Snakemake into .venv-schedulers: 20 MB to fetch, 135 MB on the disk"
-  if { [[ -x .venv-schedulers/bin/pip ]] || /usr/bin/python3 -m venv .venv-schedulers; } >&2 &&
-    timeout 600 .venv-schedulers/bin/pip install --quiet --require-hashes --only-binary :all: --no-binary connection_pool --retries 1 --timeout 15 --requirement "$pins" >&2; then
-    printf '%s\n' "$want" >"$stamp"
-  else
-    say "no Snakemake: PyPI or python3-venv failed; its test is skipped"
-  fi
-}
-
-# SPlisHSPlasH into .venv-peers: no engine, so apart from those.
-install_peers() {
-  local pins=tools/requirements-peers.txt stamp=.venv-peers/peers.sha256 want
-  want=$(sha256sum <"$pins")
-  [[ -f $stamp && $(<"$stamp") == "$want" ]] && return 0
-  say "peers' wheels into .venv-peers: 22 MB to fetch, 115 MB on the disk"
-  if { [[ -x .venv-peers/bin/pip ]] || /usr/bin/python3 -m venv .venv-peers; } >&2 &&
-    timeout 600 .venv-peers/bin/pip install --quiet --require-hashes --only-binary :all: --retries 1 --timeout 15 --requirement "$pins" >&2; then
-    printf '%s\n' "$want" >"$stamp"
-  else
-    say "no peers' wheels: PyPI or python3-venv failed; their rows will say so"
+    say "no $1: PyPI or python3-venv failed; $3"
   fi
 }
 
@@ -126,9 +99,12 @@ case ${1:-validate} in
   peers) install_packages "${core[@]}" "${report[@]}" "${wheel[@]}" "${peers[@]}" ;;
   fuzz) install_packages "${core[@]}" "${fuzzer[@]}" && exit ;;
   checks) install_packages "${core[@]}" "${report[@]}" "${tests[@]}" "${fuzzer[@]}" clang-tidy-14 && exit ;;
-  readers) install_packages "${wheel[@]}" && install_readers && exit ;;
-  schedulers) install_packages "${wheel[@]}" "${schedulers[@]}" && install_schedulers && exit ;;
+  readers) install_packages "${wheel[@]}" && install_pins readers "237 MB to fetch, 1.1 GB on the disk" "the test of exported files is skipped" && exit ;;
+  schedulers) install_packages "${wheel[@]}" "${schedulers[@]}" && install_pins schedulers "20 MB to fetch, 135 MB on the disk" "the test of Snakemake is skipped" && exit ;;
   *) say "usage: tools/setup.sh [build|validate|test|peers|readers|schedulers|fuzz|checks]"; exit 2 ;;
 esac
 install_wheels
-[[ ${1:-validate} != peers ]] || install_peers
+case ${1:-validate} in
+  peers) install_pins peers "22 MB to fetch, 115 MB on the disk" "their rows will say so" ;;
+  test) install_pins lint "11 MB to fetch, 30 MB on the disk" "the test of Python's form is skipped" ;;
+esac

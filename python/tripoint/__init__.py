@@ -9,6 +9,7 @@
 
 The work is done by the program `tripoint`; every option here is one of its options. SI units everywhere.
 """
+
 from ._program import ProgramError, program
 from ._results import Results, compare, read_results, validate
 from ._run import Run, read_run, run

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Where the program is, and how it is called."""
+
 from __future__ import annotations
 
 import os
@@ -10,7 +11,8 @@ from pathlib import Path
 
 
 class ProgramError(RuntimeError):
-    """The program ended with an error. `code` is its exit code (2 bad input, 4 missing, 7 diverged, 130 Ctrl-C); the message is what it said."""
+    """The program ended with an error. `code` is its exit code (2 bad input, 4 missing, 7 diverged, 130 Ctrl-C); the
+    message is what it said."""
 
     def __init__(self, code, message):
         super().__init__(message or f"tripoint ended with exit code {code}")
@@ -18,12 +20,18 @@ class ProgramError(RuntimeError):
 
 
 def program():
-    """The program's path: TRIPOINT_PROGRAM, then the one inside this package, then the one on PATH. @raises FileNotFoundError"""
+    """The program's path: TRIPOINT_PROGRAM, then the one inside this package, then the one on PATH. @raises
+    FileNotFoundError"""
     inside = Path(__file__).resolve().parent / "program" / "bin" / "tripoint"
     named = os.environ.get("TRIPOINT_PROGRAM")
     found = named or (str(inside) if inside.is_file() else shutil.which("tripoint"))
     if not found or not Path(found).is_file():
-        raise FileNotFoundError(f"no program {named}" if named else "no program tripoint: install a wheel that has it inside, put it on PATH, or name it by TRIPOINT_PROGRAM")
+        raise FileNotFoundError(
+            f"no program {named}"
+            if named
+            else "no program tripoint: install a wheel that has it inside, put it on PATH, or name it by "
+            "TRIPOINT_PROGRAM"
+        )
     return Path(found)
 
 
@@ -43,7 +51,14 @@ def environment():
 
 def call(words, quiet=True, good=(0,)):
     """Runs the program. @return its result (stdout). @raises ProgramError for an exit code that is not good"""
-    done = subprocess.run([str(program()), *map(str, words)], env=environment(), stdout=subprocess.PIPE, stderr=subprocess.PIPE if quiet else None, text=True, check=False)
+    done = subprocess.run(
+        [str(program()), *map(str, words)],
+        env=environment(),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE if quiet else None,
+        text=True,
+        check=False,
+    )
     if done.returncode not in good:
         raise ProgramError(done.returncode, (done.stderr or "").strip())
     return done.stdout

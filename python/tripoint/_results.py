@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a validation measured, as tables."""
+
 from __future__ import annotations
 
 import csv
@@ -10,7 +11,25 @@ from pathlib import Path
 from ._program import call, words_of
 from ._run import Run
 
-TEXTS = ("case", "engine", "preset", "mode", "status", "metric", "unit", "state_hash", "reason", "verdict", "title", "kind", "requirement", "reference", "source", "axis", "class")
+TEXTS = (
+    "case",
+    "engine",
+    "preset",
+    "mode",
+    "status",
+    "metric",
+    "unit",
+    "state_hash",
+    "reason",
+    "verdict",
+    "title",
+    "kind",
+    "requirement",
+    "reference",
+    "source",
+    "axis",
+    "class",
+)
 VERDICTS = (0, 1, 3, 4, 6, 7)  # exit codes of a validation that has results
 
 
@@ -28,7 +47,9 @@ class Results:
         self.verdict, self.exit_code = self.raw["verdict"], self.raw["exit_code"]
         with tempfile.TemporaryDirectory() as folder:
             call(["export", self.path, "--csv", "--out", folder])
-            self.cases, self.gates, self.metrics, self.orders = (read_table(Path(folder) / f"{name}.csv") for name in ("cases", "gates", "metrics", "orders"))
+            self.cases, self.gates, self.metrics, self.orders = (
+                read_table(Path(folder) / f"{name}.csv") for name in ("cases", "gates", "metrics", "orders")
+            )
 
     def __repr__(self):
         return f"<Results {self.path}: {self.verdict}, {len(self.cases)} cases, {len(self.gates)} gates>"
@@ -36,6 +57,7 @@ class Results:
     def frame(self, table):
         """@raises ImportError where there is no pandas"""
         import pandas
+
         return pandas.DataFrame(getattr(self, table))
 
     def run(self, case, engine="tripoint", preset=None):
@@ -51,7 +73,9 @@ class Results:
     def plots(self, out=None):
         """The report's figures as PDF at print size. @return {name: path}"""
         folder = out or self.path.parent / "export"
-        made = [Path(name) for name in json.loads(call(["export", self.path, "--pdf", "--json", "--out", folder]))["files"]]
+        made = [
+            Path(name) for name in json.loads(call(["export", self.path, "--pdf", "--json", "--out", folder]))["files"]
+        ]
         return {path.stem: path for path in made}
 
     def report(self):
@@ -62,7 +86,10 @@ class Results:
 
 def read_table(path):
     with open(path, encoding="utf-8", newline="") as file:
-        return [{key: (cell or None) if key in TEXTS else value_of(cell) for key, cell in row.items()} for row in csv.DictReader(file)]
+        return [
+            {key: (cell or None) if key in TEXTS else value_of(cell) for key, cell in row.items()}
+            for row in csv.DictReader(file)
+        ]
 
 
 def value_of(cell):
@@ -78,7 +105,8 @@ def value_of(cell):
 
 
 def validate(*cases, out=None, quiet=True, report=False, **options):
-    """Runs and judges cases. Options are those of `tripoint validate`: engines=["bullet"], profile, tag, jobs, seed, engine, ...
+    """Runs and judges cases. Options are those of `tripoint validate`: engines=["bullet"], profile, tag, jobs, seed,
+    engine, ...
 
     A failed gate is a verdict, not an error: see Results.verdict. @raises ProgramError for bad input
     """

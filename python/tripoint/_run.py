@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """One run: its end, its metrics, and its fields as arrays."""
+
 from __future__ import annotations
 
 import importlib.util
@@ -52,7 +53,10 @@ class Run:
 
     def __repr__(self):
         rows = self._file.dataset("particles/all/position/value").shape[1]
-        return f"<Run {self.folder}: {self.status}, {len(self)} frames to {self.times[-1]:g} s, {rows} particles, fields {', '.join(self.fields)}>"
+        return (
+            f"<Run {self.folder}: {self.status}, {len(self)} frames to {self.times[-1]:g} s, {rows} particles, "
+            f"fields {', '.join(self.fields)}>"
+        )
 
     def field(self, name, frame=None):
         return self._file.field(name, frame)
@@ -74,16 +78,23 @@ class Run:
 
     def export(self, *formats, out=None, frames="all"):
         """Files for other programs. @return their paths"""
-        return [Path(name) for name in json.loads(call(["export", self.folder, "--json", *words_of({"to": list(formats), "out": out, "frames": frames})]))["files"]]
+        return [
+            Path(name)
+            for name in json.loads(
+                call(["export", self.folder, "--json", *words_of({"to": list(formats), "out": out, "frames": frames})])
+            )["files"]
+        ]
 
     def view(self, out=None, limit=None):
-        """A page with the particles in three dimensions, for any browser. @param limit its greatest size [MB]   @return its path"""
+        """A page with the particles in three dimensions, for any browser. @param limit its greatest size [MB]   @return
+        its path"""
         call(["view", self.folder, *words_of({"out": out, "limit": limit})])
         return Path(out) if out else Path(self.folder, "view.html")
 
     def plot(self, name="kinetic", axis=None):
         """A term of the energy, or any other observable, in time. @return matplotlib's axes"""
         import matplotlib.pyplot as plt
+
         key = name if name in self.observables else f"energy_{name}"
         axis = axis or plt.subplots()[1]
         axis.plot(self.times, self.observable(key), label=name)
@@ -96,10 +107,11 @@ class Run:
 
 
 def run(case, out=None, quiet=True, **options):
-    """Runs a case: an id, or a case file. Options are those of `tripoint run`: engine, threads, until, set={"scene.spacing": "1 mm"}, resume, ...
+    """Runs a case: an id, or a case file. Options are those of `tripoint run`: engine, threads, until,
+    set={"scene.spacing": "1 mm"}, resume, ...
 
-    Without `out` the run lies in a folder for temporary files. @return Run. @raises ProgramError with the program's own sentence
-    """
+    Without `out` the run lies in a folder for temporary files. @return Run. @raises ProgramError with the program's own
+    sentence"""
     folder = Path(out) if out else Path(tempfile.mkdtemp(prefix="tripoint-run-"))
     said = call(["run", case, "--json", "--out", folder, *words_of(options)], quiet)
     return Run(folder, json.loads(said))

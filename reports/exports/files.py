@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Writing whole files: under a temporary name, renamed when complete, removed when anything stops the writing."""
+
 from __future__ import annotations
 
 import contextlib
@@ -28,17 +29,24 @@ def whole(path, mode="w"):
 
 @contextlib.contextmanager
 def whole_hdf5(path):
-    """The same for an HDF5 file. @raises Unwritable, after which the program must end at once: HDF5 would go on to complain of each block that it still holds"""
+    """The same for an HDF5 file. @raises Unwritable, after which the program must end at once: HDF5 would go on to
+    complain of each block that it still holds"""
     import h5py
+
     path = Path(path)
     part = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
-        file = h5py.File(part, "w", driver="core", block_size=1 << 20)  # in memory until it is closed: HDF5 ignores a write that fails in between
+        file = h5py.File(
+            part, "w", driver="core", block_size=1 << 20
+        )  # in memory until it is closed: HDF5 ignores a write that fails in between
         yield file
         file.close()
         part.replace(path)
     except (OSError, RuntimeError) as error:
-        raise Unwritable(f"{path} could not be written ({'the disk is full' if 'No space left' in str(error) else 'no space left, or too large?'})") from error
+        raise Unwritable(
+            f"{path} could not be written "
+            f"({'the disk is full' if 'No space left' in str(error) else 'no space left, or too large?'})"
+        ) from error
     finally:
         part.unlink(missing_ok=True)
 

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """H5MD 1.1 for readers that ask for a box and for particles only: MDAnalysis, VMD's plug-in, pyh5md.
 
-trajectory.h5 is H5MD itself. This copy adds a box in every frame, and leaves out /particles/bodies, which some readers take for a second system.
-MDAnalysis knows no metre and refuses a file that names it, so that lengths have the attribute `si_unit` instead of `unit`: open it with convert_units=False.
-"""
+trajectory.h5 is H5MD itself. This copy adds a box in every frame, and leaves out /particles/bodies, which some readers
+take for a second system. MDAnalysis knows no metre and refuses a file that names it, so that lengths have the attribute
+`si_unit` instead of `unit`: open it with convert_units=False."""
+
 from __future__ import annotations
 
 import h5py
@@ -36,7 +37,13 @@ def write(run, out, frames):
         for name, unit in run.fields.items():
             node = group.create_group(name)
             source = run.dataset(f"particles/all/{name}/value")
-            value = node.create_dataset("value", shape=(len(numbers), *source.shape[1:]), dtype=source.dtype, fletcher32=True, chunks=(1, *(max(1, n) for n in source.shape[1:])))
+            value = node.create_dataset(
+                "value",
+                shape=(len(numbers), *source.shape[1:]),
+                dtype=source.dtype,
+                fletcher32=True,
+                chunks=(1, *(max(1, n) for n in source.shape[1:])),
+            )
             for at, number in enumerate(numbers):
                 value[at] = run.field(name, number)
             if unit:

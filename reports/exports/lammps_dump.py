@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """LAMMPS' text dump: OVITO, ASE and LAMMPS' own read_dump read it. SI units, `units si`."""
+
 from __future__ import annotations
 
 import numpy as np
@@ -10,7 +11,8 @@ VECTORS = {"position": ("x", "y", "z"), "velocity": ("vx", "vy", "vz")}
 
 
 def columns(frame):
-    """{column: values}, those that LAMMPS names first. `type` is 1 + material, since LAMMPS counts types from 1; `id` is 1 + the row."""
+    """{column: values}, those that LAMMPS names first. `type` is 1 + material, since LAMMPS counts types from 1; `id`
+    is 1 + the row."""
     count = len(frame)
     found = {"id": frame.row + 1, "type": frame.fields.get("material", np.zeros(count, dtype=int)) + 1}
     for field, names in VECTORS.items():

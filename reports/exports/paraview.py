@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A script that opens the frames in ParaView: `pvpython view.py picture.png`, or Tools, Python Shell, Run Script."""
+
 from __future__ import annotations
 
 import numpy as np
@@ -7,12 +8,14 @@ import numpy as np
 from . import vtk_files
 from .files import whole
 
-SCRIPT = '''# Opens frames.pvd beside this file, coloured by {colour}; with a file's name as argument it saves the last frame as a picture.
+SCRIPT = """# Opens frames.pvd beside this file, coloured by {colour}; with a file's name as argument it saves the \
+last frame as a picture.
 #   pvpython view.py picture.png
 import os
 import sys
 
-from paraview.simple import (ColorBy, GetActiveViewOrCreate, GetAnimationScene, GetColorTransferFunction, PVDReader, Render,
+from paraview.simple import (ColorBy, GetActiveViewOrCreate, GetAnimationScene, GetColorTransferFunction, PVDReader, \
+Render,
                              ResetCamera, SaveScreenshot, Show)
 
 folder = os.path.dirname(os.path.abspath(__file__))
@@ -35,7 +38,7 @@ ResetCamera(view)
 Render(view)
 if len(sys.argv) > 1:
     SaveScreenshot(sys.argv[1], view, ImageResolution=[1600, 1000])
-'''
+"""
 
 
 def write(run, out, frames):
@@ -53,10 +56,21 @@ def write(run, out, frames):
     gravity = np.array(run.scene().get("gravity") or [0.0, 0.0, 0.0], dtype=float)
     if np.linalg.norm(gravity) > 0:
         up = -gravity / np.linalg.norm(gravity)
-    aside = np.eye(3)[int(np.argmin(np.where(np.abs(up) > 0.5, np.inf, high - low)))]  # along the thinnest direction that is not up
+    aside = np.eye(3)[
+        int(np.argmin(np.where(np.abs(up) > 0.5, np.inf, high - low)))
+    ]  # along the thinnest direction that is not up
     spacing = (run.job.get("resolution") or {}).get("spacing") or size / 50
     script = out / "view.py"
     with whole(script) as file:
-        file.write(SCRIPT.format(colour=colour, radius=float(spacing) / 2, low=least, high=greatest if greatest > least else least + 1.0,
-                                 eye=(centre - aside * 2 * size + up * 0.3 * size).tolist(), centre=centre.tolist(), up=up.tolist()))
+        file.write(
+            SCRIPT.format(
+                colour=colour,
+                radius=float(spacing) / 2,
+                low=least,
+                high=greatest if greatest > least else least + 1.0,
+                eye=(centre - aside * 2 * size + up * 0.3 * size).tolist(),
+                centre=centre.tolist(),
+                up=up.tolist(),
+            )
+        )
     return [script, *made]

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""PLY and OBJ: points for programs of pictures and scans, one file a frame. Blender, MeshLab and CloudCompare read them."""
+"""PLY and OBJ: points for programs of pictures and scans, one file a frame. Blender, MeshLab and CloudCompare read
+them."""
+
 from __future__ import annotations
 
 import numpy as np
@@ -17,14 +19,21 @@ def write_ply(run, out, frames):
         columns = [("row", frame.row.astype(np.int32))]
         for name, values in frame.fields.items():
             stem = {"position": "", "velocity": "v"}.get(name, f"{name}_")
-            columns += [(name, values)] if values.ndim == 1 else [(f"{stem}{'xyz'[axis]}", values[:, axis]) for axis in range(values.shape[1])]
+            columns += (
+                [(name, values)]
+                if values.ndim == 1
+                else [(f"{stem}{'xyz'[axis]}", values[:, axis]) for axis in range(values.shape[1])]
+            )
         columns.sort(key=lambda column: column[0] not in ("x", "y", "z"))  # places first, in their order
         table = np.empty(len(frame), dtype=[(name, KINDS[values.dtype.kind][1]) for name, values in columns])
         for name, values in columns:
             table[name] = values
         made.append(folder / f"{frame.number:05d}.ply")
         with whole(made[-1], "wb") as file:
-            head = f"ply\nformat binary_little_endian 1.0\ncomment time {digits(frame.time)} s, SI units\nelement vertex {len(frame)}\n"
+            head = (
+                f"ply\nformat binary_little_endian 1.0\ncomment time {digits(frame.time)} s, SI units\nelement "
+                f"vertex {len(frame)}\n"
+            )
             head += "".join(f"property {KINDS[values.dtype.kind][0]} {name}\n" for name, values in columns)
             file.write((head + "end_header\n").encode())
             file.write(table.tobytes())

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A run as arrays: trajectory.h5 with the job and the result beside it. docs/trajectory.md says what each array holds.
 
-This file needs numpy and h5py alone, and of this room foreign.py alone, by its place: the Python package reads runs by it too.
-"""
+This file needs numpy and h5py alone, and of this room foreign.py alone, by its place: the Python package reads runs by
+it too."""
+
 from __future__ import annotations
 
 from importlib.machinery import SourceFileLoader
@@ -45,15 +46,15 @@ class Frame:
 class Run:
     """One run's trajectory. Use it as a context, or close() it.
 
-    times [s], steps: one number a frame; fields, bodies, observables: {name: unit}; job, result: what job.json and result.json hold, or {}.
-    @raises NotARun, MissingDataset
-    """
+    times [s], steps: one number a frame; fields, bodies, observables: {name: unit}; job, result: what job.json and
+    result.json hold, or {}. @raises NotARun, MissingDataset"""
 
     def __init__(self, folder):
         self.path = trajectory_of(Path(folder))
         self.folder = self.path.parent
         try:
             import h5py
+
             self.file = h5py.File(self.path, "r")
         except ImportError:
             raise NotARun("Python has no h5py here: install the Debian package python3-h5py, or h5py by pip") from None
@@ -63,9 +64,16 @@ class Run:
             self.dataset(f"particles/all/{name}/value")
         self.times = self.dataset("particles/all/position/time")[()]
         self.steps = self.dataset("particles/all/position/step")[()]
-        frames = min([len(self.times), len(self.steps)] + [node.shape[0] for node in self.elements("particles/all").values()])
-        self.times, self.steps = self.times[:frames], self.steps[:frames]  # a run that was killed may have begun a frame
-        self.fields, self.bodies, self.observables = (self.units(group) for group in ("particles/all", "particles/bodies", "observables"))
+        frames = min(
+            [len(self.times), len(self.steps)] + [node.shape[0] for node in self.elements("particles/all").values()]
+        )
+        self.times, self.steps = (
+            self.times[:frames],
+            self.steps[:frames],
+        )  # a run that was killed may have begun a frame
+        self.fields, self.bodies, self.observables = (
+            self.units(group) for group in ("particles/all", "particles/bodies", "observables")
+        )
         self.job, self.result = (self.document(name) for name in ("job.json", "result.json"))
 
     def __enter__(self):
@@ -92,6 +100,7 @@ class Run:
     def dataset(self, path):
         """@raises MissingDataset"""
         import h5py
+
         node = self.file.get(path)
         if not isinstance(node, h5py.Dataset):
             raise MissingDataset(f"{self.path}: has no dataset /{path}")
@@ -100,6 +109,7 @@ class Run:
     def elements(self, group):
         """{name: dataset of its values} of the elements that have frames."""
         import h5py
+
         found = self.file.get(group)
         names = sorted(found) if found is not None else []
         nodes = {name: found[name].get("value") for name in names if isinstance(found[name], h5py.Group)}
@@ -109,15 +119,17 @@ class Run:
         return {name: text(node.attrs.get("unit", "")) for name, node in self.elements(group).items()}
 
     def read(self, path, frame):
-        """Values of one frame, or of all. A frame is a number or a slice. @raises MissingDataset, NotARun where the disk's copy is damaged"""
+        """Values of one frame, or of all. A frame is a number or a slice. @raises MissingDataset, NotARun where the
+        disk's copy is damaged"""
         node = self.dataset(path)
         try:
-            return node[:len(self)] if frame is None else node[frame]
+            return node[: len(self)] if frame is None else node[frame]
         except OSError as error:
             raise NotARun(f"{self.path}: /{path} is damaged ({error})") from None
 
     def field(self, name, frame=None):
-        """particles/all/NAME: (frames, rows[, 3]), or (rows[, 3]) of one frame. Rows that are not alive are NaN, or -1."""
+        """particles/all/NAME: (frames, rows[, 3]), or (rows[, 3]) of one frame. Rows that are not alive are NaN, or
+        -1."""
         return self.read(f"particles/all/{name}/value", frame)
 
     def body(self, name, frame=None):
@@ -154,7 +166,8 @@ class Run:
         return self.job.get("scene") or {}
 
     def box(self):
-        """(least corner, greatest corner, periodic directions) [m]: of the domain where the scene has one, else around all particles."""
+        """(least corner, greatest corner, periodic directions) [m]: of the domain where the scene has one, else around
+        all particles."""
         scene = self.scene()
         periodic = np.array([axis in (scene.get("periodic") or []) for axis in "xyz"])
         low, high = np.full(3, np.inf), np.full(3, -np.inf)
@@ -187,7 +200,9 @@ def trajectory_of(path):
     if (path / "trajectory.h5").is_file():
         return path / "trajectory.h5"
     if (path / "trajectory.csv").is_file():
-        raise NotARun(f"{path}: its engine wrote trajectory.csv, which is a table of text already; only trajectory.h5 is exported")
+        raise NotARun(
+            f"{path}: its engine wrote trajectory.csv, which is a table of text already; only trajectory.h5 is exported"
+        )
     if (path / "results.json").is_file():
         raise NotARun(f"{path}: is a report. Name the folder of one of its runs, below {path / 'runs'}")
     raise NotARun(f"{path}: has no trajectory.h5. `tripoint run CASE --out DIR` leaves one in DIR")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Poses of bodies and numbers of the whole scene, as CSV with a unit in each column's name."""
+
 from __future__ import annotations
 
 import csv
@@ -40,7 +41,15 @@ def write_bodies(run, path, numbers):
                 table.writerow(["time [s]", "step", "body", "name", *columns])
             alive = np.isfinite(run.body("position", number)).all(axis=-1)
             for row in np.flatnonzero(alive):
-                table.writerow([cell(run.times[number]), int(run.steps[number]), int(row), names[row], *(cell(values[row]) for values in columns.values())])
+                table.writerow(
+                    [
+                        cell(run.times[number]),
+                        int(run.steps[number]),
+                        int(row),
+                        names[row],
+                        *(cell(values[row]) for values in columns.values()),
+                    ]
+                )
 
 
 def split(name, unit, values):

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""All figures of a case, drawn anew only where what they are drawn from has changed. A figure that cannot be drawn becomes a note; the report is written anyway."""
+"""All figures of a case, drawn anew only where what they are drawn from has changed. A figure that cannot be drawn
+becomes a note; the report is written anyway."""
+
 from __future__ import annotations
 
 import functools
@@ -25,6 +27,7 @@ OF_TRAJECTORIES = (particles, profiles, bodies)  # the others draw what results.
 @dataclass
 class Picture:
     """What the page needs of a figure."""
+
     name: str
     title: str
     alt: str
@@ -45,9 +48,24 @@ def draw_case(root, out, case):
         kept = {}
     shown = [(curve, curve.shown) for curve in curves(case)]
     states = [state(root, curve, run) for curve, run in shown if run]
-    inputs = {particles: states, profiles: states, bodies: states, work_precision: numbers_of(case, True), history: runs_of(case.history)}
-    keys = {module: key(module.__name__, case.slug, inputs.get(module) or numbers_of(case, False)) for module in OF_A_CASE}
-    trajectories, told = None, [f"{curve.label}: no sound run, nothing to draw" for curve, run in shown if run is None and curve.engine.status == "ok"]
+    inputs = {
+        particles: states,
+        profiles: states,
+        bodies: states,
+        work_precision: numbers_of(case, True),
+        history: runs_of(case.history),
+    }
+    keys = {
+        module: key(module.__name__, case.slug, inputs.get(module) or numbers_of(case, False)) for module in OF_A_CASE
+    }
+    trajectories, told = (
+        None,
+        [
+            f"{curve.label}: no sound run, nothing to draw"
+            for curve, run in shown
+            if run is None and curve.engine.status == "ok"
+        ],
+    )
     drawn = {}
     for module, wanted in keys.items():
         name = module.__name__.rsplit(".", 1)[-1]
@@ -55,7 +73,10 @@ def draw_case(root, out, case):
         if not sound(entry, wanted, out):
             if module in OF_TRAJECTORIES and trajectories is None:
                 trajectories = read_all(root, shown)
-            entry = {"key": wanted, **drawing_of(module, case, trajectories or ([], []), out, module in OF_TRAJECTORIES)}
+            entry = {
+                "key": wanted,
+                **drawing_of(module, case, trajectories or ([], []), out, module in OF_TRAJECTORIES),
+            }
         drawn[name] = entry
     shelf.parent.mkdir(parents=True, exist_ok=True)
     if drawn != kept:
@@ -64,7 +85,11 @@ def draw_case(root, out, case):
         part.replace(shelf)
     pictures = [Picture(**entry["picture"]) for entry in drawn.values() if entry["picture"]]
     notes = told + [note for entry in drawn.values() for note in entry["notes"]]
-    return pictures, list(dict.fromkeys(notes)), [f"figures/{shelf.name}"] + [f"{picture.file}.svg" for picture in pictures]
+    return (
+        pictures,
+        list(dict.fromkeys(notes)),
+        [f"figures/{shelf.name}"] + [f"{picture.file}.svg" for picture in pictures],
+    )
 
 
 def drawing_of(module, case, trajectories, out, with_notes):
@@ -74,7 +99,14 @@ def drawing_of(module, case, trajectories, out, with_notes):
         drawing = module.draw(case, found, notes)
         return {"picture": asdict(finish(drawing, out, case.slug)) if drawing else None, "notes": notes}
     except Exception as error:  # odd data must cost one figure, not the report
-        return {"picture": None, "notes": notes + [f"the figure {module.__name__.rsplit('.', 1)[-1].replace('_', ' ')} could not be drawn: {type(error).__name__}: {error}"]}
+        return {
+            "picture": None,
+            "notes": notes
+            + [
+                f"the figure {module.__name__.rsplit('.', 1)[-1].replace('_', ' ')} could not be drawn: "
+                f"{type(error).__name__}: {error}"
+            ],
+        }
 
 
 def read_all(root, shown):
@@ -91,7 +123,8 @@ def read_all(root, shown):
 
 
 def state(root, curve, run):
-    """What a trajectory's picture depends on: the bits of the run's end, the frames that it wrote, and its names and knobs."""
+    """What a trajectory's picture depends on: the bits of the run's end, the frames that it wrote, and its names and
+    knobs."""
     files = []
     try:
         folder = folder_of(root, run)
@@ -106,12 +139,27 @@ def state(root, curve, run):
 
 def numbers_of(case, with_cost):
     """What the figures of numbers are drawn from; seconds differ from run to run, and only one figure has them."""
-    runs = [[{k: v for k, v in run.items() if k != "state_hash" and (with_cost or k != "cost")} for run in rows(engine.raw.get("runs"))] for engine in case.engines]
-    return [case.id, case.title, case.reference, case.metrics, runs, [[engine.label, engine.status, engine.raw.get("order"), engine.raw.get("gates")] for engine in case.engines]]
+    runs = [
+        [
+            {k: v for k, v in run.items() if k != "state_hash" and (with_cost or k != "cost")}
+            for run in rows(engine.raw.get("runs"))
+        ]
+        for engine in case.engines
+    ]
+    return [
+        case.id,
+        case.title,
+        case.reference,
+        case.metrics,
+        runs,
+        [[engine.label, engine.status, engine.raw.get("order"), engine.raw.get("gates")] for engine in case.engines],
+    ]
 
 
 def runs_of(history):
-    return [[entry.date, entry.commit, entry.accepted, sorted(map(repr, entry.used.items()))] for entry in history] or ["no run before"]
+    return [[entry.date, entry.commit, entry.accepted, sorted(map(repr, entry.used.items()))] for entry in history] or [
+        "no run before"
+    ]
 
 
 def key(*parts):
@@ -123,9 +171,12 @@ def code():
     """The bits of what draws, so that another version of this program draws anew."""
     import matplotlib
     import numpy
+
     room = Path(__file__).resolve().parent
     files = sorted([*room.glob("*.py"), *(room.parent / name for name in ("trajectories.py", "model.py", "load.py"))])
-    return hashlib.sha256(b"".join(path.read_bytes() for path in files) + matplotlib.__version__.encode() + numpy.__version__.encode()).hexdigest()
+    return hashlib.sha256(
+        b"".join(path.read_bytes() for path in files) + matplotlib.__version__.encode() + numpy.__version__.encode()
+    ).hexdigest()
 
 
 def sound(entry, wanted, out):
@@ -133,11 +184,23 @@ def sound(entry, wanted, out):
     if not isinstance(entry, dict) or entry.get("key") != wanted or not isinstance(entry.get("notes"), list):
         return False
     picture = entry.get("picture")
-    return picture is None or isinstance(picture, dict) and picture.keys() == Picture.__dataclass_fields__.keys() and (out / f"{picture['file']}.svg").is_file()
+    return (
+        picture is None
+        or isinstance(picture, dict)
+        and picture.keys() == Picture.__dataclass_fields__.keys()
+        and (out / f"{picture['file']}.svg").is_file()
+    )
 
 
 def finish(drawing, out, stem):
     name = f"{stem}-{drawing.name}"
     svg = style.files(drawing.figure, out / "figures" / name)
-    return Picture(drawing.name, drawing.title, drawing.alt, drawing.caption, style.inline(svg, re.sub(r"\W+", "-", name)), f"figures/{name}",
-                   bool(drawing.figure.get_figwidth() <= style.HALF))
+    return Picture(
+        drawing.name,
+        drawing.title,
+        drawing.alt,
+        drawing.caption,
+        style.inline(svg, re.sub(r"\W+", "-", name)),
+        f"figures/{name}",
+        bool(drawing.figure.get_figwidth() <= style.HALF),
+    )

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Paths, attitude and energies of solid bodies in time, engine over engine."""
+
 from __future__ import annotations
 
 import numpy as np
@@ -10,7 +11,12 @@ from . import plot, style
 from .curve import Drawing
 
 MOST_BODIES = 4
-STORED = ("potential", "compression", "elastic", "hourglass")  # energies that motion is exchanged with and comes back from
+STORED = (
+    "potential",
+    "compression",
+    "elastic",
+    "hourglass",
+)  # energies that motion is exchanged with and comes back from
 CENTRE = "of the centre [m]"
 TURN, ENERGY = "turn from the start [deg]", "energy change / kinetic"  # of panels
 
@@ -19,17 +25,37 @@ def draw(case, trajectories, notes):
     shown = [(curve, t) for curve, t in trajectories if t.bodies]
     if not shown:
         return None
-    wanted = [panel for panel in (position_panel(shown), turn_panel(shown), spin_panel(shown), energy_panel(trajectories, notes)) if panel]
+    wanted = [
+        panel
+        for panel in (position_panel(shown), turn_panel(shown), spin_panel(shown), energy_panel(trajectories, notes))
+        if panel
+    ]
     if not wanted:
         return None
-    most = max(t.bodies["position"].shape[1] for _, t in shown if "position" in t.bodies) if any("position" in t.bodies for _, t in shown) else 1
+    most = (
+        max(t.bodies["position"].shape[1] for _, t in shown if "position" in t.bodies)
+        if any("position" in t.bodies for _, t in shown)
+        else 1
+    )
     if most > MOST_BODIES:
         notes.append(f"curves show the first {MOST_BODIES} of {most} bodies")
     truth = next((curve for curve, _ in shown if curve.engine.name == "exact"), None)
     left = [residual(title, lines, truth) for title, lines in wanted]
     order = who_leads(wanted[0][0], left[0]) if wanted[0][0].endswith(CENTRE) else ""
     columns = min(len(wanted), 2)
-    ordered = [panel for n in range(0, len(wanted), columns) for panel in (wanted[n:n + columns] + [None] * (columns - len(wanted[n:n + columns])) + (left[n:n + columns] + [None] * (columns - len(left[n:n + columns])) if any(left[n:n + columns]) else []))]
+    ordered = [
+        panel
+        for n in range(0, len(wanted), columns)
+        for panel in (
+            wanted[n : n + columns]
+            + [None] * (columns - len(wanted[n : n + columns]))
+            + (
+                left[n : n + columns] + [None] * (columns - len(left[n : n + columns]))
+                if any(left[n : n + columns])
+                else []
+            )
+        )
+    ]
     figure, axes = plot.panels(len(ordered), len(shown), height=2.3, columns=columns)
     for axis, panel in zip(axes, ordered):
         if panel is None:
@@ -41,17 +67,39 @@ def draw(case, trajectories, notes):
             dashes = look["linestyle"] if nth == 0 else (0, (1 + nth, 1.5))
             width = 2.6 if curve.engine.name == "exact" else 1.3
             fine = between(title, next((t for c, t in shown if c is curve), None), nth, time, values)
-            parts = max(1, (len(fine[0]) - 1) // max(1, len(time) - 1))  # of an interval between frames, on which the markers stand
-            axis.plot(*fine, color=look["color"], linestyle=dashes, linewidth=width, alpha=0.6 if width > 2 else 1.0, label=curve.label if nth == 0 else None,
-                      marker=look["marker"] if nth == 0 and width < 2 else None, markersize=3.2, markevery=(parts * offset(curve, shown), parts * max(1, len(time) // 8)))
+            parts = max(
+                1, (len(fine[0]) - 1) // max(1, len(time) - 1)
+            )  # of an interval between frames, on which the markers stand
+            axis.plot(
+                *fine,
+                color=look["color"],
+                linestyle=dashes,
+                linewidth=width,
+                alpha=0.6 if width > 2 else 1.0,
+                label=curve.label if nth == 0 else None,
+                marker=look["marker"] if nth == 0 and width < 2 else None,
+                markersize=3.2,
+                markevery=(parts * offset(curve, shown), parts * max(1, len(time) // 8)),
+            )
         axis.set_xlabel("time [s]")
         axis.set_ylabel(title)
-    title, what = ("Bodies in time", "Position, rotation and energy of the bodies") if len(wanted) > 1 or wanted[0][0] != ENERGY else ("Energy in time", "Energy")
-    return Drawing("bodies", title, f"{what} against time for " + ", ".join(c.label for c, _ in shown) + ".", figure, caption(wanted, any(left)) + order)
+    title, what = (
+        ("Bodies in time", "Position, rotation and energy of the bodies")
+        if len(wanted) > 1 or wanted[0][0] != ENERGY
+        else ("Energy in time", "Energy")
+    )
+    return Drawing(
+        "bodies",
+        title,
+        f"{what} against time for " + ", ".join(c.label for c, _ in shown) + ".",
+        figure,
+        caption(wanted, any(left)) + order,
+    )
 
 
 def between(title, trajectory, nth, time, values):
-    """The curve of a body between its frames, by the velocities that the engine wrote there; as it is where it wrote none."""
+    """The curve of a body between its frames, by the velocities that the engine wrote there; as it is where it wrote
+    none."""
     known = trajectory.bodies if trajectory is not None else {}
     if title.endswith(CENTRE) and "velocity" in known:
         return smooth(time, values, known["velocity"][:, nth, "xyz".index(title[0])])
@@ -73,35 +121,76 @@ def turn_between(time, q, omega):
 
 def caption(wanted, residuals):
     """Sentences on what is drawn, and on nothing else."""
-    said = "Each engine at the case's own resolution" + ("; below a curve, what is left between engine and exact." if residuals else ".")
+    said = "Each engine at the case's own resolution" + (
+        "; below a curve, what is left between engine and exact." if residuals else "."
+    )
     if any(title == TURN for title, _ in wanted):
-        said += " Turn from the start is the angle of the rotation that leads from the first attitude to the present one; between frames by the angular velocities that the engine wrote."
+        said += (
+            " Turn from the start is the angle of the rotation that leads from the first attitude to the present "
+            "one; between frames by the angular velocities that the engine wrote."
+        )
     if any(title == ENERGY for title, _ in wanted):
-        said += " Energy change: of the kinetic and the stored energy since the start, as a part of the run's greatest kinetic energy."
+        said += (
+            " Energy change: of the kinetic and the stored energy since the start, as a part of the run's "
+            "greatest kinetic energy."
+        )
     if any(nth > 0 for _, lines in wanted for *_, nth in lines):
         said += " Solid: the first body; dashes: further ones."
     return said
 
 
 def who_leads(title, left):
-    """A sentence: by how much each engine's first body lags or leads the exact one at the end, in the direction of the panel's axis."""
-    ends = {curve.label: values[-1] for curve, _, values, nth in left[1] if nth == 0 and len(values) and np.isfinite(values[-1])} if left else {}
+    """A sentence: by how much each engine's first body lags or leads the exact one at the end, in the direction of the
+    panel's axis."""
+    ends = (
+        {
+            curve.label: values[-1]
+            for curve, _, values, nth in left[1]
+            if nth == 0 and len(values) and np.isfinite(values[-1])
+        }
+        if left
+        else {}
+    )
     if not ends:
         return ""
     biggest = max(map(abs, ends.values()))
     none = 1e-3 * biggest
-    parts = [f"{label} {'lags' if value < 0 else 'leads'} by {abs(value):.4g} m" for label, value in sorted(ends.items(), key=lambda entry: entry[1]) if abs(value) > none]
+    parts = [
+        f"{label} {'lags' if value < 0 else 'leads'} by {abs(value):.4g} m"
+        for label, value in sorted(ends.items(), key=lambda entry: entry[1])
+        if abs(value) > none
+    ]
     level = [label for label, value in ends.items() if abs(value) <= none]
-    rest = f"; within {float(f'{max(abs(ends[label]) for label in level):.1g}') or 0:g} m of exact: {', '.join(level)}" if level and parts else ""
-    return f" At the end, in {title[0]} against exact: {', '.join(parts)}{rest}. To lag is to have less of {title[0]} than exact, to lead more." if parts else ""
+    rest = (
+        f"; within {float(f'{max(abs(ends[label]) for label in level):.1g}') or 0:g} m of exact: {', '.join(level)}"
+        if level and parts
+        else ""
+    )
+    return (
+        f" At the end, in {title[0]} against exact: {', '.join(parts)}{rest}. To lag is to have less of {title[0]} "
+        "than exact, to lead more."
+        if parts
+        else ""
+    )
 
 
 def residual(title, lines, truth):
-    """What is left between each engine and the exact one, body by body, at the times that both wrote; None where there is no exact curve."""
+    """What is left between each engine and the exact one, body by body, at the times that both wrote; None where there
+    is no exact curve."""
     exact = {nth: (time, values) for curve, time, values, nth in lines if curve is truth}
-    found = [(curve, time, values - exact[nth][1], nth) for curve, time, values, nth in lines
-             if curve is not truth and nth in exact and len(time) == len(exact[nth][0]) and np.allclose(time, exact[nth][0], rtol=0.0, atol=1e-9 * max(float(np.max(np.abs(time))), 1e-300))]
-    return (f"engine minus exact [{title.rsplit('[', 1)[1]}" if "[" in title else "engine minus exact", found) if truth is not None and found else None
+    found = [
+        (curve, time, values - exact[nth][1], nth)
+        for curve, time, values, nth in lines
+        if curve is not truth
+        and nth in exact
+        and len(time) == len(exact[nth][0])
+        and np.allclose(time, exact[nth][0], rtol=0.0, atol=1e-9 * max(float(np.max(np.abs(time))), 1e-300))
+    ]
+    return (
+        (f"engine minus exact [{title.rsplit('[', 1)[1]}" if "[" in title else "engine minus exact", found)
+        if truth is not None and found
+        else None
+    )
 
 
 def offset(curve, shown):
@@ -110,12 +199,21 @@ def offset(curve, shown):
 
 
 def busiest(shown, name):
-    """The component in which engines differ most at the end, else the one that changes most; None where nothing changes."""
-    ends = [t.bodies[name][-1] for _, t in shown if name in t.bodies and t.bodies[name].shape[1:] == shown[0][1].bodies.get(name, t.bodies[name]).shape[1:]]
+    """The component in which engines differ most at the end, else the one that changes most; None where nothing
+    changes."""
+    ends = [
+        t.bodies[name][-1]
+        for _, t in shown
+        if name in t.bodies and t.bodies[name].shape[1:] == shown[0][1].bodies.get(name, t.bodies[name]).shape[1:]
+    ]
     apart = np.ptp(ends, axis=0) if len(ends) > 1 else np.zeros((1, 3))
     if np.isfinite(apart).any() and np.nanmax(apart) > 1e-9 * max(1.0, np.nanmax(np.abs(ends))):
         return int(np.nanargmax(np.nanmax(apart, axis=0)))
-    spans = [np.nanmax(np.nanmax(v, axis=0) - np.nanmin(v, axis=0), axis=0) for _, t in shown if (v := t.bodies.get(name)) is not None and np.isfinite(v).any()]
+    spans = [
+        np.nanmax(np.nanmax(v, axis=0) - np.nanmin(v, axis=0), axis=0)
+        for _, t in shown
+        if (v := t.bodies.get(name)) is not None and np.isfinite(v).any()
+    ]
     if not spans:
         return None
     span = np.nanmax(spans, axis=0)
@@ -126,8 +224,12 @@ def component(shown, name):
     chosen = busiest(shown, name)
     if chosen is None:
         return None, []
-    return chosen, [(curve, t.body_times, t.bodies[name][:, b, chosen], b)
-                    for curve, t in shown if name in t.bodies for b in range(min(MOST_BODIES, t.bodies[name].shape[1]))]
+    return chosen, [
+        (curve, t.body_times, t.bodies[name][:, b, chosen], b)
+        for curve, t in shown
+        if name in t.bodies
+        for b in range(min(MOST_BODIES, t.bodies[name].shape[1]))
+    ]
 
 
 def position_panel(shown):
@@ -152,14 +254,19 @@ def turn_panel(shown):
 
 
 def energy_panel(trajectories, notes):
-    """Change of mechanical energy since the first frame. A run that does not state every term that takes part has no curve: its sum would only seem to change."""
+    """Change of mechanical energy since the first frame. A run that does not state every term that takes part has no
+    curve: its sum would only seem to change."""
     lines = []
     stating = [(curve, t) for curve, t in trajectories if "kinetic" in t.observables]
     needed = ["kinetic"] + [name for name in STORED if any(takes_part(t, name) for _, t in stating)]
     for curve, t in stating:
-        lacking = [name for name in needed if len(t.observables.get(name, ((), ()))[1]) != len(t.observables["kinetic"][1])]
+        lacking = [
+            name for name in needed if len(t.observables.get(name, ((), ()))[1]) != len(t.observables["kinetic"][1])
+        ]
         if lacking:
-            notes.append(f"{curve.label}: no curve of its energy, as it does not state its {' and '.join(lacking)} energy")
+            notes.append(
+                f"{curve.label}: no curve of its energy, as it does not state its {' and '.join(lacking)} energy"
+            )
             continue
         times, kinetic = t.observables["kinetic"]
         total = sum(t.observables[name][1] for name in needed)
@@ -170,8 +277,11 @@ def energy_panel(trajectories, notes):
 
 
 def takes_part(trajectory, name):
-    """Whether this energy changes by more than round-off in the run; potential energy does wherever gravity pulls, stated or not."""
+    """Whether this energy changes by more than round-off in the run; potential energy does wherever gravity pulls,
+    stated or not."""
     if name == "potential" and trajectory.pulled:
         return True
     kinetic, values = trajectory.observables["kinetic"][1], trajectory.observables.get(name, (None, np.zeros(1)))[1]
-    return np.isfinite(values).any() and np.nanmax(values) - np.nanmin(values) > 1e-12 * np.nanmax(np.abs(kinetic), initial=0.0)
+    return np.isfinite(values).any() and np.nanmax(values) - np.nanmin(values) > 1e-12 * np.nanmax(
+        np.abs(kinetic), initial=0.0
+    )

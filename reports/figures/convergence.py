@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Error against the refined quantity, log-log: measured points, the fitted order with its 95 % interval, the formal slope."""
+"""Error against the refined quantity, log-log: measured points, the fitted order with its 95 % interval, the formal
+slope."""
+
 from __future__ import annotations
 
 import math
@@ -11,8 +13,18 @@ from model import is_number
 from . import plot, style
 from .curve import Drawing, judged, label_metric
 
-UNITS = {"spacing": "particle spacing [m]", "time_step": "time step [s]", "support_ratio": "1 / support ratio", "walkers": "1 / walkers", "iterations": "1 / iterations"}
-INVERSE = ("support_ratio", "walkers", "iterations")  # the more the finer: drawn against 1/level, so that finer is always left
+UNITS = {
+    "spacing": "particle spacing [m]",
+    "time_step": "time step [s]",
+    "support_ratio": "1 / support ratio",
+    "walkers": "1 / walkers",
+    "iterations": "1 / iterations",
+}
+INVERSE = (
+    "support_ratio",
+    "walkers",
+    "iterations",
+)  # the more the finer: drawn against 1/level, so that finer is always left
 MOST_PANELS = 4
 
 
@@ -22,21 +34,34 @@ def draw(case, trajectories, notes):
     if not wanted:
         return None
     if len(wanted) > MOST_PANELS:
-        notes.append(f"convergence is drawn for the first {MOST_PANELS} studies; in the table of orders alone: " + ", ".join(f"{m} by {a}" for m, a in wanted[MOST_PANELS:]))
+        notes.append(
+            f"convergence is drawn for the first {MOST_PANELS} studies; in the table of orders alone: "
+            + ", ".join(f"{m} by {a}" for m, a in wanted[MOST_PANELS:])
+        )
         wanted = wanted[:MOST_PANELS]
     figure, axes = plot.panels(len(wanted), len(judged(case)))
     for axis, (metric, knob) in zip(axes, wanted):
         panel(case, axis, metric, knob)
-    return Drawing("convergence", "Convergence", f"Log-log plot of {', '.join(m for m, _ in wanted)} against {', '.join(UNITS.get(k, k) for _, k in wanted)} for each engine and mode.", figure,
-                   "Finer is to the left. Points: error with two standard uncertainties. Line: fitted order, shaded over its 95 % interval, which is written beside it. Dots: formal slope.")
+    return Drawing(
+        "convergence",
+        "Convergence",
+        f"Log-log plot of {', '.join(m for m, _ in wanted)} against {', '.join(UNITS.get(k, k) for _, k in wanted)} "
+        "for each engine and mode.",
+        figure,
+        "Finer is to the left. Points: error with two standard uncertainties. Line: fitted order, shaded over its 95 "
+        "% interval, which is written beside it. Dots: formal slope.",
+    )
 
 
 def order_of(curve, metric, knob):
-    return next((o for o in curve.engine.orders if (o.metric, o.axis) == (metric, knob) and o.mode in (curve.mode, "")), None)
+    return next(
+        (o for o in curve.engine.orders if (o.metric, o.axis) == (metric, knob) and o.mode in (curve.mode, "")), None
+    )
 
 
 def points(curve, metric, knob):
-    """[(step, error, uncertainty)], fine to coarse: as fitted; without a fit, the study's runs; without a study, runs that differ in this knob alone."""
+    """[(step, error, uncertainty)], fine to coarse: as fitted; without a fit, the study's runs; without a study, runs
+    that differ in this knob alone."""
     order = order_of(curve, metric, knob)
     if order and order.points:
         return order.points
@@ -44,7 +69,11 @@ def points(curve, metric, knob):
     for run in curve.runs:
         level, m = run.levels.get(knob, None if run.levels else run.knobs.get(knob)), run.metrics.get(metric)
         if run.status == "ok" and is_number(level) and level > 0 and m and is_number(m.value) and m.value != 0:
-            others = () if run.levels else tuple(run.knob(k) for k in ("spacing", "support_ratio", "walkers", "iterations") if k != knob)
+            others = (
+                ()
+                if run.levels
+                else tuple(run.knob(k) for k in ("spacing", "support_ratio", "walkers", "iterations") if k != knob)
+            )
             groups.setdefault(others, []).append((1.0 / level if knob in INVERSE else level, abs(m.value), m.u or 0.0))
     return sorted(max(groups.values(), key=len, default=[]))
 
@@ -57,7 +86,17 @@ def panel(case, axis, metric, knob):
             continue
         look = style.look(curve)
         x, y, u = zip(*found)
-        axis.errorbar(x, y, yerr=[[min(2 * s, 0.95 * e) for e, s in zip(y, u)], [2 * s for s in u]], color=look["color"], marker=look["marker"], linestyle="none", capsize=2, elinewidth=0.9, label=curve.label)
+        axis.errorbar(
+            x,
+            y,
+            yerr=[[min(2 * s, 0.95 * e) for e, s in zip(y, u)], [2 * s for s in u]],
+            color=look["color"],
+            marker=look["marker"],
+            linestyle="none",
+            capsize=2,
+            elinewidth=0.9,
+            label=curve.label,
+        )
         order = order_of(curve, metric, knob)
         if order and is_number(order.value) and len(found) > 1:
             labels.append(fitted(axis, found, order, look))
@@ -83,7 +122,12 @@ def fitted(axis, found, order, look):
     axis.plot(x, y, color=look["color"], linestyle=look["linestyle"], linewidth=1.3)
     words = f"{order.value:.2f}"
     if is_number(order.low) and is_number(order.high):
-        fan = [law(order, x, x0, edge) if is_number(order.coefficient) and is_number(order.floor) else y * (x / x0) ** (edge - order.value) for edge in (order.low, order.high)]
+        fan = [
+            law(order, x, x0, edge)
+            if is_number(order.coefficient) and is_number(order.floor)
+            else y * (x / x0) ** (edge - order.value)
+            for edge in (order.low, order.high)
+        ]
         axis.fill_between(x, np.minimum(*fan), np.maximum(*fan), color=look["color"], alpha=0.15, linewidth=0)
         words += f" [{order.low:.2f}, {order.high:.2f}]" + f" {order.fit_class}"
     if order.fit_class == "plateau":  # the slope of its falling part is no order of the flat line that is seen
@@ -93,7 +137,7 @@ def fitted(axis, found, order, look):
 
 def law(order, x, x0, slope):
     """|floor + C x^p| as fitted; at another slope the term keeps its value at x0. Floor and C are signed."""
-    return np.abs(order.floor + order.coefficient * x0 ** order.value * (x / x0) ** slope)
+    return np.abs(order.floor + order.coefficient * x0**order.value * (x / x0) ** slope)
 
 
 def guide(axis, slope, found):

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The strip of a case's history: how much of its limits each run used, one place a run, a line where its figures were accepted."""
+"""The strip of a case's history: how much of its limits each run used, one place a run, a line where its figures were
+accepted."""
+
 from __future__ import annotations
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -20,7 +22,10 @@ def draw(case, trajectories, notes):
     if len(runs) < 2:
         return None  # one run is no history
     if not any(moved([entry.used[key] for entry in runs if key in entry.used]) for key in worst_first(runs)):
-        notes.append(f"history: over {len(runs)} runs no gate's use of its limit has moved by more than {100 * MOVED:.0f} %, and no verdict has changed")
+        notes.append(
+            f"history: over {len(runs)} runs no gate's use of its limit has moved by more than {100 * MOVED:.0f} %, "
+            "and no verdict has changed"
+        )
         return None
     keys = worst_first(runs)
     if len(keys) > MOST_LINES:
@@ -33,11 +38,24 @@ def draw(case, trajectories, notes):
     axis = figure.add_axes((0.1, 0.2, 0.58, 0.72))
     names = [engine_label(engine) for engine, _, _, _ in keys]
     for k, key in enumerate(keys):
-        places = [(n, max(entry.used[key][0], FLOOR), entry.used[key][2]) for n, entry in enumerate(runs) if key in entry.used and is_number(entry.used[key][0])]
+        places = [
+            (n, max(entry.used[key][0], FLOOR), entry.used[key][2])
+            for n, entry in enumerate(runs)
+            if key in entry.used and is_number(entry.used[key][0])
+        ]
         engine, mode, metric, level = key
         label = " ".join(part for part in (engine, mode, metric, f"at {level:g}" if level is not None else "") if part)
         hue = style.colour(engine_label(engine), names)
-        axis.plot([p[0] for p in places], [p[1] for p in places], color=hue, marker=style.MARKERS[k % len(style.MARKERS)], markersize=3.5, linewidth=1, label=label, alpha=0.9)
+        axis.plot(
+            [p[0] for p in places],
+            [p[1] for p in places],
+            color=hue,
+            marker=style.MARKERS[k % len(style.MARKERS)],
+            markersize=3.5,
+            linewidth=1,
+            label=label,
+            alpha=0.9,
+        )
         red = [p for p in places if p[2] != "pass"]
         axis.plot([p[0] for p in red], [p[1] for p in red], "x", color=style.RED, markersize=7, markeredgewidth=2)
     axis.axhline(1.0, color=style.RED, linewidth=1.2)
@@ -51,8 +69,14 @@ def draw(case, trajectories, notes):
     axis.set_xticks(ticks, [f"{runs[n].date[:10]}\n{runs[n].commit[:8]}" for n in ticks], fontsize=8)
     axis.set_ylabel("share of the limit")
     figure.legend(*axis.get_legend_handles_labels(), loc="center left", bbox_to_anchor=(0.69, 0.55), fontsize=8)
-    return Drawing("history", "History: share of each limit over runs", f"{len(runs)} runs, oldest left; the limit is at 1.", figure,
-                   "Oldest left. Red line: the limit. Crosses: not green. Dashed: figures were accepted there (tripoint gate accept).")
+    return Drawing(
+        "history",
+        "History: share of each limit over runs",
+        f"{len(runs)} runs, oldest left; the limit is at 1.",
+        figure,
+        "Oldest left. Red line: the limit. Crosses: not green. Dashed: figures were accepted there (tripoint gate "
+        "accept).",
+    )
 
 
 def engine_label(engine):

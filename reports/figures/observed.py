@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What an experiment saw, with its uncertainty, the engines over it, and what is left between them.
 
-The points are those of the file of the case's reference; a metric that has a reference of its own is not drawn. An engine's value at a point is the point plus the judged difference of results.json, so nothing is formed anew.
-"""
+The points are those of the file of the case's reference; a metric that has a reference of its own is not drawn. An
+engine's value at a point is the point plus the judged difference of results.json, so nothing is formed anew."""
+
 from __future__ import annotations
 
 import csv
@@ -11,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from model import is_number, number, table, text
+from model import is_number, number, text
 
 from . import plot, style
 from .curve import Drawing, curves
@@ -23,7 +24,12 @@ QUANTITY = {"front_lead": "front"}  # quantity of a metric -> column of the refe
 def draw(case, trajectories, notes):
     if text(case.reference.get("kind")) != "experiment":
         return None
-    found = [(metric, column) for metric in case.metrics for column in [QUANTITY.get(text(metric.get("quantity")))] if column and not metric.get("reference")]
+    found = [
+        (metric, column)
+        for metric in case.metrics
+        for column in [QUANTITY.get(text(metric.get("quantity")))]
+        if column and not metric.get("reference")
+    ]
     if not found:
         return None
     truth = read(Path(text(case.reference.get("file"))), {column for _, column in found})
@@ -31,14 +37,31 @@ def draw(case, trajectories, notes):
         notes.append("the measured points are not drawn: the reference's file is not there or cannot be read")
         return None
     shown = [(curve, curve.shown) for curve in curves(case) if curve.shown]
-    parts = [(curve, metric, column, points) for curve, run in shown for metric, column in found[:1] for points in [differences(run, metric)] if points is not None]
+    parts = [
+        (curve, metric, column, points)
+        for curve, run in shown
+        for metric, column in found[:1]
+        for points in [differences(run, metric)]
+        if points is not None
+    ]
     if not parts:
         return None
     figure, axes = plot.panels(2, len(parts) + 1)
     scale = number(found[0][0].get("scale")) or 1.0
     unit = text(found[0][0].get("unit")) or "m"
     time, value, u = truth[found[0][1]]
-    axes[0].errorbar(time, value / scale, yerr=2 * u / scale, color=style.INK, marker="o", markersize=6, markerfacecolor="none", linestyle="none", capsize=3, label="measured")
+    axes[0].errorbar(
+        time,
+        value / scale,
+        yerr=2 * u / scale,
+        color=style.INK,
+        marker="o",
+        markersize=6,
+        markerfacecolor="none",
+        linestyle="none",
+        capsize=3,
+        label="measured",
+    )
     axes[1].axhline(0.0, color=style.INK, linewidth=1.2, alpha=0.75)
     axes[1].errorbar(time, 0 * time, yerr=2 * u / scale, color=style.INK, linestyle="none", capsize=3, alpha=0.75)
     for curve, _, _, (t, lead) in parts:
@@ -49,33 +72,53 @@ def draw(case, trajectories, notes):
         axis.set_xlabel("time [s]")
     axes[0].set_ylabel(f"{found[0][1]} ({unit})", fontsize=8.5)
     axes[1].set_ylabel("engine minus measured", fontsize=8.5)
-    return Drawing("observed", f"Measured {found[0][1]}, and the engines", f"Measured {found[0][1]} against time with {', '.join(c.label for c, *_ in parts)} over it, and the differences.", figure,
-                   f"Circles: {text(case.reference.get('source'))}; bars: two standard uncertainties. Right: what is left between engine and measurement.")
+    return Drawing(
+        "observed",
+        f"Measured {found[0][1]}, and the engines",
+        f"Measured {found[0][1]} against time with {', '.join(c.label for c, *_ in parts)} over it, and the "
+        "differences.",
+        figure,
+        f"Circles: {text(case.reference.get('source'))}; bars: two standard uncertainties. Right: what is left "
+        "between engine and measurement.",
+    )
 
 
 def differences(run, metric):
     """(times, judged differences in the metric's unit) of a run; None where it has none."""
     m = run.metrics.get(text(metric.get("name")))
-    if m is None or not m.times or len(m.times) != len(m.series) or not all(is_number(number(v)) for v in [*m.times, *m.series]):
+    if (
+        m is None
+        or not m.times
+        or len(m.times) != len(m.series)
+        or not all(is_number(number(v)) for v in [*m.times, *m.series])
+    ):
         return None
     return np.array(m.times, float), np.array(m.series, float)
 
 
 def read(path, columns):
-    """{column: (times [s], values, standard uncertainties)} in SI of a reference's file; None where it cannot be read."""
+    """{column: (times [s], values, standard uncertainties)} in SI of a reference's file; None where it cannot be
+    read."""
     try:
         if path.stat().st_size > MOST_BYTES:
             return None
         lines = path.read_text(encoding="utf-8").splitlines()
         units, shares = ({}, {})
         for line in lines:
-            unit, share = re.match(r"# unit (\w+): ([\d.eE+-]+)", line), re.match(r"# uncertainty (\w+): ([\d.eE+-]+) %", line)
+            unit, share = (
+                re.match(r"# unit (\w+): ([\d.eE+-]+)", line),
+                re.match(r"# uncertainty (\w+): ([\d.eE+-]+) %", line),
+            )
             units.update({unit[1]: float(unit[2])} if unit else {})
             shares.update({share[1]: float(share[2]) / 100} if share else {})
         rows = list(csv.DictReader(line for line in lines if line and not line.startswith("#")))
         found = {}
         for column in columns:
-            points = [(float(row["time"]) * units.get("time", 1.0), float(row[column]) * units.get(column, 1.0)) for row in rows if row.get(column)]
+            points = [
+                (float(row["time"]) * units.get("time", 1.0), float(row[column]) * units.get(column, 1.0))
+                for row in rows
+                if row.get(column)
+            ]
             time, value = (np.array([p[k] for p in points]) for k in (0, 1))
             found[column] = time, value, shares.get(column, 0.0) * np.abs(value)
         return found

@@ -1,82 +1,41 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Panels of lines, written as SVG without matplotlib's artists, which cost ten times as much; its tick locators, formatters and text widths are used.
+"""Panels of lines, written as SVG without matplotlib's artists, which cost ten times as much; its tick locators,
+formatters and text widths are used.
 
-A panel keeps the calls that were made of it. They are those of matplotlib's Axes, as far as the figures of a case need them, so that `matplotlib()` gives the same
-figure there, for a PDF.
-"""
+A panel keeps the calls that were made of it. They are those of matplotlib's Axes, as far as the figures of a case need
+them, so that `matplotlib()` gives the same figure there, for a PDF."""
+
 from __future__ import annotations
 
-import functools
-import html
 import math
 
 import numpy as np
 from matplotlib import ticker
-from matplotlib.font_manager import FontProperties
-from matplotlib.textpath import TextToPath
 from matplotlib.transforms import nonsingular
 
 from . import style
+from .marks import extent, markers, number, stroke, through, write
 
 PIXEL = 0.72  # points: of a hundredth of an inch
 TICK, PAD, APART = 3.5, 3.5, 4.0  # points: length of a tick, to its words, on to the label of the axis
 DASHES = {"-": None, "--": (3.7, 1.6), ":": (1.0, 1.65)}  # in widths of the line
 LEGEND = 8.5  # points: size of its words
-SHAPES = {"s": ((-1, -1), (1, -1), (1, 1), (-1, 1)), "D": ((0, -math.sqrt(2)), (math.sqrt(2), 0), (0, math.sqrt(2)), (-math.sqrt(2), 0)), "^": ((0, -1), (-1, 1), (1, 1)), "v": ((0, 1), (1, -1), (-1, -1)),
-          "P": tuple((x / 3, y / 3) for x, y in ((-1, -3), (1, -3), (1, -1), (3, -1), (3, 1), (1, 1), (1, 3), (-1, 3), (-1, 1), (-3, 1), (-3, -1), (-1, -1)))}  # about a centre, y down, in halves of the marker's size
-
-
-@functools.lru_cache(10000)
-def extent(words, size):
-    """(width, height, descent) [points]"""
-    return TextToPath().get_text_width_height_descent(words, FontProperties(size=size), False) if words else (0.0, 0.0, 0.0)
-
-
-def number(value):
-    return f"{value:.2f}".rstrip("0").rstrip(".")
-
-
-def write(words, x, y, size, hue, anchor="start", turned=False):
-    turn = f' transform="rotate(-90 {number(x)} {number(y)})"' if turned else ""
-    return f'<text x="{number(x)}" y="{number(y)}"{turn} style="fill: {hue}; font-size: {size:g}px; text-anchor: {anchor}">{html.escape(words, quote=False)}</text>\n'
-
-
-def stroke(hue, width, alpha=None, dashes=None, more=""):
-    dashes = "; stroke-dasharray: " + ",".join(number(part * width) for part in dashes) if dashes else ""
-    return f'style="fill: none; stroke: {hue}; stroke-width: {width:g}{dashes}{f"; stroke-opacity: {alpha:g}" if alpha not in (None, 1.0) else ""}{more}"'
-
-
-def through(points):
-    """The path of a line: it is broken where a point is not finite, and a point in the same place as the one before is left out."""
-    parts, pen, last = [], "M", None
-    for x, y in np.clip(points, -2e4, 2e4).tolist():
-        if x != x or y != y:
-            pen, last = "M", None
-            continue
-        place = f"{x:.2f} {y:.2f}"
-        if place != last:
-            parts.append(pen + place)
-        pen, last = "L", place
-    return "".join(parts)
-
-
-def markers(points, shape, size, hue, face, edge=1.0, alpha=None):
-    points, half = points[np.isfinite(points).all(axis=1)], 0.5 * size
-    if shape == "o":
-        path = "".join(f"M{x - half:.2f} {y:.2f}a{half:g} {half:g} 0 1 0 {size:g} 0a{half:g} {half:g} 0 1 0 {-size:g} 0z" for x, y in points.tolist())
-    elif shape == "x":
-        path = "".join(f"M{x - half:.2f} {y - half:.2f}l{size:g} {size:g}M{x - half:.2f} {y + half:.2f}l{size:g} {-size:g}" for x, y in points.tolist())
-    else:
-        path = "".join("M" + "L".join(f"{x + half * a:.2f} {y + half * b:.2f}" for a, b in SHAPES[shape]) + "z" for x, y in points.tolist())
-    fill = "none" if shape == "x" or face == "none" else face or hue
-    return f'<path d="{path}" style="fill: {fill}; stroke: {hue}; stroke-width: {edge:g}{"" if shape == "o" else "; stroke-linejoin: miter"}{f"; opacity: {alpha:g}" if alpha not in (None, 1.0) else ""}"/>\n' if path else ""
 
 
 class Side:
     """One direction of a panel: limits, scale and ticks."""
 
     def __init__(self, powers):
-        self.low, self.high, self.margin, self.log, self.powers, self.seen, self.fixed, self.few = None, None, 0.05, False, powers, [], False, False
+        self.low, self.high, self.margin, self.log, self.powers, self.seen, self.fixed, self.few = (
+            None,
+            None,
+            0.05,
+            False,
+            powers,
+            [],
+            False,
+            False,
+        )
 
     def limits(self):
         """Those that were set, else those of the data with a margin."""
@@ -120,14 +79,22 @@ class Side:
             formatter.axis.set_view_interval(low, high)
             formatter.set_powerlimits(self.powers)
             words, power = formatter.format_ticks(places), formatter.get_offset()
-        return [(share, word) for share, word in zip(self.share(places).tolist(), words) if -1e-10 <= share <= 1 + 1e-10], power
+        return [
+            (share, word) for share, word in zip(self.share(places).tolist(), words) if -1e-10 <= share <= 1 + 1e-10
+        ], power
 
 
 class Panel:
     """Takes the calls of an Axes. They are drawn by `svg`, or made again of an Axes by `again`."""
 
     def __init__(self):
-        self.x, self.y, self.calls, self.visible, self.words = Side((-5, 6)), Side((-3, 4)), [], True, {"x": "", "y": ""}
+        self.x, self.y, self.calls, self.visible, self.words = (
+            Side((-5, 6)),
+            Side((-3, 4)),
+            [],
+            True,
+            {"x": "", "y": ""},
+        )
         self.titles = {}
 
     def keep(self, name, *given, **more):
@@ -214,7 +181,12 @@ class Panel:
 
     def entries(self):
         """[(label, name of the call, look)] for the legend: lines first, then those with bars."""
-        return [(more["label"], name, more) for wanted in ("plot", "errorbar") for name, _, more in self.calls if name == wanted and more.get("label")]
+        return [
+            (more["label"], name, more)
+            for wanted in ("plot", "errorbar")
+            for name, _, more in self.calls
+            if name == wanted and more.get("label")
+        ]
 
     def svg(self, box, clip):
         """@param box: x, y of the upper left corner, width, height [points]"""
@@ -222,7 +194,10 @@ class Panel:
         across, up = self.x.limits(), self.y.limits()
 
         def at(x, y):
-            return np.stack(np.broadcast_arrays(left + self.x.share(x) * wide, top + (1.0 - self.y.share(y)) * tall), axis=-1)
+            return np.stack(
+                np.broadcast_arrays(left + self.x.share(x) * wide, top + (1.0 - self.y.share(y)) * tall), axis=-1
+            )
+
         below, above, beside = [], [], []  # under the grid, over it, and outside of the clip
         for name, given, look in self.calls:
             if name in ("plot", "errorbar"):
@@ -233,19 +208,41 @@ class Panel:
                 for part in np.ma.clump_unmasked(np.ma.masked_invalid(x + low + high)):
                     edge = np.concatenate([at(x[part], low[part]), at(x[part], high[part])[::-1]])
                     edge[~np.isfinite(edge[:, 1]), 1] = top + tall  # what a log axis has not lies below
-                    below.append((1, f'<path d="{through(edge)}z" style="fill: {look["color"]}; fill-opacity: {look.get("alpha", 1):g}"/>\n'))
+                    below.append(
+                        (
+                            1,
+                            f'<path d="{through(edge)}z" style="fill: {look["color"]}; fill-opacity: '
+                            f'{look.get("alpha", 1):g}"/>\n',
+                        )
+                    )
             elif name == "axhline":
                 y = number(float(at(across[0], given[0])[1]))
-                above.append((2, f'<path d="M{number(left)} {y}L{number(left + wide)} {y}" {stroke(look["color"], look.get("linewidth", 1.5), look.get("alpha"), DASHES[look.get("linestyle", "-")])}/>\n'))
+                dashes = DASHES[look.get("linestyle", "-")]
+                above.append(
+                    (
+                        2,
+                        f'<path d="M{number(left)} {y}L{number(left + wide)} {y}" '
+                        f"{stroke(look['color'], look.get('linewidth', 1.5), look.get('alpha'), dashes)}/>\n",
+                    )
+                )
             elif name == "labels":
                 beside += self.placed(at, box, *given)
             elif name == "cross":
                 x, height, words, hue = given
                 place = np.array([float(at(x, up[0])[0]), top + (1.0 - height) * tall])
-                beside += [markers(place[None], "x", 7, hue, None, 2), write(words, place[0] + 7, place[1] + 3, 7.5, style.SOFT)]
+                beside += [
+                    markers(place[None], "x", 7, hue, None, 2),
+                    write(words, place[0] + 7, place[1] + 3, 7.5, style.SOFT),
+                ]
         ink = lambda layer: "".join(piece for _, piece in sorted(layer, key=lambda entry: entry[0]))
-        frame = f'<path d="M{number(left)} {number(top)}V{number(top + tall)}H{number(left + wide)}" {stroke(style.SOFT, 0.8, more="; stroke-linecap: square")}/>\n'
-        return f'<g clip-path="url(#{clip})">\n{ink(below)}</g>\n{self.axes(box, clip)}<g clip-path="url(#{clip})">\n{ink(above)}</g>\n{frame}{"".join(beside)}'
+        frame = (
+            f'<path d="M{number(left)} {number(top)}V{number(top + tall)}H{number(left + wide)}" '
+            f"{stroke(style.SOFT, 0.8, more='; stroke-linecap: square')}/>\n"
+        )
+        return (
+            f'<g clip-path="url(#{clip})">\n{ink(below)}</g>\n{self.axes(box, clip)}<g '
+            f'clip-path="url(#{clip})">\n{ink(above)}</g>\n{frame}{"".join(beside)}'
+        )
 
     def curve(self, at, name, given, look):
         x, y = given
@@ -256,11 +253,20 @@ class Panel:
             drawn += self.bars(at, x, y, look)
         if dashes not in ("none", "") and len(points):
             dashes = dashes[1] if isinstance(dashes, tuple) else DASHES[dashes]
-            drawn += f'<path d="{through(points)}" {stroke(hue, width, alpha, dashes, ("" if dashes else "; stroke-linecap: square") + ("; stroke-linejoin: miter" if look.get("solid_joinstyle") == "miter" else ""))}/>\n'
+            more = "" if dashes else "; stroke-linecap: square"
+            more += "; stroke-linejoin: miter" if look.get("solid_joinstyle") == "miter" else ""
+            drawn += f'<path d="{through(points)}" {stroke(hue, width, alpha, dashes, more)}/>\n'
         if look.get("marker") and len(points):
             every = look.get("markevery", 1)
             first, every = every if isinstance(every, tuple) else (0, every)
-            drawn += markers(points[first::every], look["marker"], look.get("markersize", 4.5), hue, look.get("markerfacecolor"), alpha=alpha)
+            drawn += markers(
+                points[first::every],
+                look["marker"],
+                look.get("markersize", 4.5),
+                hue,
+                look.get("markerfacecolor"),
+                alpha=alpha,
+            )
         return drawn
 
     def bars(self, at, x, y, look):
@@ -269,7 +275,11 @@ class Panel:
         sound = np.isfinite(low).all(axis=1) & np.isfinite(high).all(axis=1)
         pairs = list(zip(low[sound].tolist(), high[sound].tolist()))
         path = "".join(f"M{a:.2f} {b:.2f}V{d:.2f}" for (a, b), (_, d) in pairs)
-        drawn = f'<path d="{path}" {stroke(look["color"], look.get("elinewidth", 1.5), look.get("alpha"))}/>\n' if path else ""
+        drawn = (
+            f'<path d="{path}" {stroke(look["color"], look.get("elinewidth", 1.5), look.get("alpha"))}/>\n'
+            if path
+            else ""
+        )
         caps = "".join(f"M{a - cap:.2f} {y:.2f}h{2 * cap:g}" for (a, b), (_, d) in pairs for y in (b, d)) if cap else ""
         return drawn + (f'<path d="{caps}" {stroke(look["color"], 1, look.get("alpha"))}/>\n' if caps else "")
 
@@ -282,7 +292,11 @@ class Panel:
             while any(abs(x - a) < 5.2 * max(len(words), n) and abs(y - b) < 11 for a, b, n, *_ in found):
                 y += on
             found.append((x, y, len(words), words, hue))
-        return [write(words, box[0] + x * PIXEL, box[1] + box[3] - y * PIXEL, 7.5, hue) for x, y, _, words, hue in found if words]
+        return [
+            write(words, box[0] + x * PIXEL, box[1] + box[3] - y * PIXEL, 7.5, hue)
+            for x, y, _, words, hue in found
+            if words
+        ]
 
     def axes(self, box, clip):
         """Grid, ticks, their words and the labels."""
@@ -290,12 +304,23 @@ class Panel:
         (across, power_x), (up, power_y) = self.x.ticks(), self.y.ticks()
         xs, ys = [left + share * wide for share, _ in across], [top + (1 - share) * tall for share, _ in up]
         _, height, descent = extent("lp", 9)
-        grid = "".join(f"M{x:.2f} {top:.2f}v{tall:.2f}" for x in xs) + "".join(f"M{left:.2f} {y:.2f}h{wide:.2f}" for y in ys)
-        ticks = "".join(f"M{x:.2f} {top + tall:.2f}v{TICK}" for x in xs) + "".join(f"M{left:.2f} {y:.2f}h-{TICK}" for y in ys)
-        drawn = f'<path d="{grid}" clip-path="url(#{clip})" {stroke(style.GRID, 0.6)}/>\n<path d="{ticks}" {stroke(style.SOFT, 0.8)}/>\n'
+        grid = "".join(f"M{x:.2f} {top:.2f}v{tall:.2f}" for x in xs) + "".join(
+            f"M{left:.2f} {y:.2f}h{wide:.2f}" for y in ys
+        )
+        ticks = "".join(f"M{x:.2f} {top + tall:.2f}v{TICK}" for x in xs) + "".join(
+            f"M{left:.2f} {y:.2f}h-{TICK}" for y in ys
+        )
+        drawn = (
+            f'<path d="{grid}" clip-path="url(#{clip})" {stroke(style.GRID, 0.6)}/>\n<path d="{ticks}" '
+            f"{stroke(style.SOFT, 0.8)}/>\n"
+        )
         foot, edge = top + tall + TICK + PAD, left - TICK - PAD
-        drawn += "".join(write(words, x, foot + height - descent, 9, style.INK, "middle") for x, (_, words) in zip(xs, across))
-        drawn += "".join(write(words, edge, y + 0.5 * (height - descent), 9, style.INK, "end") for y, (_, words) in zip(ys, up))
+        drawn += "".join(
+            write(words, x, foot + height - descent, 9, style.INK, "middle") for x, (_, words) in zip(xs, across)
+        )
+        drawn += "".join(
+            write(words, edge, y + 0.5 * (height - descent), 9, style.INK, "end") for y, (_, words) in zip(ys, up)
+        )
         foot, edge = foot + height, edge - max((extent(words, 9)[0] for _, words in up), default=0.0)
         if self.words["x"]:
             words, size = self.words["x"]
@@ -303,12 +328,23 @@ class Panel:
             drawn += write(words, left + 0.5 * wide, foot + APART + high - low, size, style.INK, "middle")
         if self.words["y"]:
             words, size = self.words["y"]
-            drawn += write(words, edge - APART - extent("lp", size)[2], top + 0.5 * tall, size, style.INK, "middle", True)
+            drawn += write(
+                words, edge - APART - extent("lp", size)[2], top + 0.5 * tall, size, style.INK, "middle", True
+            )
         drawn += write(power_x, left + wide, foot + 3 + height - descent, 9, style.SOFT, "end") if power_x else ""
         drawn += write(power_y, left, top - 3, 9, style.SOFT) if power_y else ""
         for where, (words, size, hue) in self.titles.items():
-            over = 9.84 if power_y and (where == "left" or extent(words, size)[0] + extent(power_y, 9)[0] > wide) else 0  # above the power of ten
-            drawn += write(words, left + wide if where == "right" else left, top - 6 - over, size, hue, "end" if where == "right" else "start")
+            over = (
+                9.84 if power_y and (where == "left" or extent(words, size)[0] + extent(power_y, 9)[0] > wide) else 0
+            )  # above the power of ten
+            drawn += write(
+                words,
+                left + wide if where == "right" else left,
+                top - 6 - over,
+                size,
+                hue,
+                "end" if where == "right" else "start",
+            )
         return drawn
 
 
@@ -341,14 +377,39 @@ class Figure:
         total += top - above
         left, right, bottom = 0.72, width - 0.15, 0.5
         aside, apart = 0.24 if columns < 3 else 0.4, 0.36
-        wide, tall = (right - left) / (columns + aside * (columns - 1)), (total - top - bottom) / (lines + apart * (lines - 1))
-        boxes = [tuple(72 * part for part in (left + (k % columns) * (1 + aside) * wide, top + k // columns * (1 + apart) * tall, wide, tall)) for k in range(len(self.axes))]
+        wide, tall = (
+            (right - left) / (columns + aside * (columns - 1)),
+            (total - top - bottom) / (lines + apart * (lines - 1)),
+        )
+        boxes = [
+            tuple(
+                72 * part
+                for part in (
+                    left + (k % columns) * (1 + aside) * wide,
+                    top + k // columns * (1 + apart) * tall,
+                    wide,
+                    tall,
+                )
+            )
+            for k in range(len(self.axes))
+        ]
         shown = [(panel, box, f"clip{k}") for k, (panel, box) in enumerate(zip(self.axes, boxes)) if panel.visible]
-        clips = "".join('<clipPath id="{}"><rect x="{}" y="{}" width="{}" height="{}"/></clipPath>\n'.format(clip, *map(number, box)) for _, box, clip in shown)
+        clips = "".join(
+            '<clipPath id="{}"><rect x="{}" y="{}" width="{}" height="{}"/></clipPath>\n'.format(
+                clip, *map(number, box)
+            )
+            for _, box, clip in shown
+        )
         w, h = number(72 * width), number(72 * total)
-        return (f'<?xml version="1.0" encoding="utf-8" standalone="no"?>\n<svg xmlns:xlink="http://www.w3.org/1999/xlink" width="{w}pt" height="{h}pt" viewBox="0 0 {w} {h}" xmlns="http://www.w3.org/2000/svg" version="1.1">\n'
-                f'<defs>\n{clips}</defs>\n<g style="stroke-linejoin: round; font-family: \'DejaVu Sans\', Verdana, Arial, Helvetica, sans-serif">\n<path d="M0 0H{w}V{h}H0z" style="fill: {style.PAPER}"/>\n'
-                + "".join(panel.svg(box, clip) for panel, box, clip in shown) + legend(entries, across, width) + "</g>\n</svg>\n")
+        return (
+            '<?xml version="1.0" encoding="utf-8" standalone="no"?>\n<svg xmlns:xlink="http://www.w3.org/1999/xlink" '
+            f'width="{w}pt" height="{h}pt" viewBox="0 0 {w} {h}" xmlns="http://www.w3.org/2000/svg" version="1.1">\n'
+            f"<defs>\n{clips}</defs>\n<g style=\"stroke-linejoin: round; font-family: 'DejaVu Sans', Verdana, Arial, "
+            f'Helvetica, sans-serif">\n<path d="M0 0H{w}V{h}H0z" style="fill: {style.PAPER}"/>\n'
+            + "".join(panel.svg(box, clip) for panel, box, clip in shown)
+            + legend(entries, across, width)
+            + "</g>\n</svg>\n"
+        )
 
 
 def legend(entries, across, width):
@@ -357,12 +418,14 @@ def legend(entries, across, width):
     _, least, below = extent("lp", LEGEND)
     entries = list(entries.items())
     while across > 0 and entries:
-        here, entries = entries[:-(-len(entries) // across)], entries[-(-len(entries) // across):]
+        here, entries = entries[: -(-len(entries) // across)], entries[-(-len(entries) // across) :]
         y = 0.65 * LEGEND
         for label, (name, look) in here:
             _, height, descent = extent(label, LEGEND)
             foot = y + max(height, least) - max(descent, below)
-            drawn += sample(name, look, x, foot - 0.35 * LEGEND) + write(label, x + (2.4 + 0.8) * LEGEND, foot, LEGEND, style.INK)
+            drawn += sample(name, look, x, foot - 0.35 * LEGEND) + write(
+                label, x + (2.4 + 0.8) * LEGEND, foot, LEGEND, style.INK
+            )
             y += max(height, least) + 0.5 * LEGEND
         x += (2.4 + 0.8 + 1.4) * LEGEND + max(extent(label, LEGEND)[0] for label, _ in here)
         across -= 1
@@ -371,11 +434,17 @@ def legend(entries, across, width):
 
 def sample(name, look, x, y):
     panel = Panel()
-    bar = {"yerr": [[0.5 * LEGEND], [0.5 * LEGEND]], "errorevery": 1} if name == "errorbar" and look["yerr"] is not None else {"yerr": None}
+    bar = (
+        {"yerr": [[0.5 * LEGEND], [0.5 * LEGEND]], "errorevery": 1}
+        if name == "errorbar" and look["yerr"] is not None
+        else {"yerr": None}
+    )
     at = lambda a, b: np.stack(np.broadcast_arrays(np.asarray(a, float), np.asarray(b, float)), axis=-1)
     line = {key: value for key, value in look.items() if key not in ("markevery", "marker")}
     dot = {**look, **bar, "linestyle": "none", "markevery": 1}
-    return panel.curve(at, "plot", ([x, x + 2.4 * LEGEND], [y, y]), line) + panel.curve(at, name, ([x + 1.2 * LEGEND], [y]), dot)
+    return panel.curve(at, "plot", ([x, x + 2.4 * LEGEND], [y, y]), line) + panel.curve(
+        at, name, ([x + 1.2 * LEGEND], [y]), dot
+    )
 
 
 def panels(count, labels, height=2.9, columns=None):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Temperature along the longest axis at the end, engine against exact solution, and what is left between them."""
+
 from __future__ import annotations
 
 import numpy as np
@@ -29,30 +30,53 @@ def draw(case, trajectories, notes):
             axes[0].plot(x, value, color=style.INK, linewidth=2.2, alpha=0.75, label=curve.label, zorder=1)
             continue
         scattered |= wavers(value)
-        lines = {"label": curve.label, "color": look["color"], "linestyle": "none" if wavers(value) else look["linestyle"], "linewidth": 1.0, "marker": look["marker"], "markersize": 3, "markevery": 1 if wavers(value) else max(1, len(x) // 40), "markerfacecolor": "none" if look["linestyle"] == "--" else look["color"]}
+        lines = {
+            "label": curve.label,
+            "color": look["color"],
+            "linestyle": "none" if wavers(value) else look["linestyle"],
+            "linewidth": 1.0,
+            "marker": look["marker"],
+            "markersize": 3,
+            "markevery": 1 if wavers(value) else max(1, len(x) // 40),
+            "markerfacecolor": "none" if look["linestyle"] == "--" else look["color"],
+        }
         axes[0].errorbar(x, value, yerr=bars(error), elinewidth=0.7, errorevery=max(1, len(x) // 40), **lines)
         if truth is not None and not same_places(x, truth[0]):
-            notes.append(f"{curve.label}: its particles are not those of the exact run, so no difference of profiles is drawn")
+            notes.append(
+                f"{curve.label}: its particles are not those of the exact run, so no difference of profiles is drawn"
+            )
         elif truth is not None:
-            axes[-1].errorbar(x, value - truth[1], yerr=bars(error), elinewidth=0.7, errorevery=max(1, len(x) // 40), **lines)
+            axes[-1].errorbar(
+                x, value - truth[1], yerr=bars(error), elinewidth=0.7, errorevery=max(1, len(x) // 40), **lines
+            )
     for axis in axes:
         axis.set_xlabel(f"{'xyz'[along]} [m]")
     axes[0].set_ylabel("temperature [K]")
     if len(axes) > 1:
         axes[1].axhline(0.0, color=style.INK, linewidth=1.2, alpha=0.75)
         axes[1].set_ylabel("engine minus exact [K]")
-    return Drawing("profile", "Temperature profile", f"Temperature along {'xyz'[along]} for {', '.join(c.label for c, _ in shown)}" + (", and difference from the exact profile." if exact else "."), figure,
-                   "Mean over the particles at each place along the axis at the final time, at the case's own resolution. Bars: two standard errors where the engine states them." + (" Points without a line: temperature is no function of this place alone." if scattered else ""))
+    return Drawing(
+        "profile",
+        "Temperature profile",
+        f"Temperature along {'xyz'[along]} for {', '.join(c.label for c, _ in shown)}"
+        + (", and difference from the exact profile." if exact else "."),
+        figure,
+        "Mean over the particles at each place along the axis at the final time, at the case's own resolution. Bars: "
+        "two standard errors where the engine states them."
+        + (" Points without a line: temperature is no function of this place alone." if scattered else ""),
+    )
 
 
 def flat(shown, along):
-    """Whether the means along the axis hold next to nothing of what the temperatures differ by: then the picture shows round-off."""
+    """Whether the means along the axis hold next to nothing of what the temperatures differ by: then the picture shows
+    round-off."""
     whole = max(np.ptp(t.temperature[np.isfinite(t.temperature)]) for _, t in shown)
     return max(np.ptp(binned(t, along)[1]) for _, t in shown) < NOTHING * whole
 
 
 def wavers(values):
-    """Whether a line through the points would go up and down with almost every one of them: what lies beside one another is then of different bodies."""
+    """Whether a line through the points would go up and down with almost every one of them: what lies beside one
+    another is then of different bodies."""
     steps = np.diff(values)
     steps = steps[np.abs(steps) > 0.02 * np.ptp(values)]
     return len(steps) > 3 and np.count_nonzero(steps[1:] * steps[:-1] < 0) >= 0.3 * len(steps)
@@ -68,7 +92,8 @@ def bars(error):
 
 
 def binned(trajectory, along):
-    """(place, mean temperature, standard error of that mean | None): one point for each layer of particles along the axis."""
+    """(place, mean temperature, standard error of that mean | None): one point for each layer of particles along the
+    axis."""
     x, T = trajectory.position[:, along], trajectory.temperature
     sound = np.isfinite(x) & np.isfinite(T)
     x, T = x[sound], T[sound]
@@ -82,6 +107,7 @@ def binned(trajectory, along):
 
     def mean(values):
         return np.bincount(where, values, count)[filled] / number[filled]
+
     error = None
     if trajectory.temperature_error is not None:
         e = trajectory.temperature_error[sound]

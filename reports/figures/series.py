@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The error of each metric in time, of every engine and mode at the case's own resolution, with its band of two standard uncertainties."""
+"""The error of each metric in time, of every engine and mode at the case's own resolution, with its band of two
+standard uncertainties."""
+
 from __future__ import annotations
 
 import numpy as np
@@ -24,16 +26,28 @@ def draw(case, trajectories, notes):
     figure, axes = plot.panels(len(drawn), len(shown_runs), height=2.5)
     for axis, name in zip(axes, drawn):
         panel(case, axis, name, shown_runs)
-    return Drawing("error-in-time", "Metrics in time", f"{', '.join(drawn)} against time for each engine and mode.", figure, "Each engine at the case's own resolution; shaded: two standard uncertainties where the run states them.")
+    return Drawing(
+        "error-in-time",
+        "Metrics in time",
+        f"{', '.join(drawn)} against time for each engine and mode.",
+        figure,
+        "Each engine at the case's own resolution; shaded: two standard uncertainties where the run states them.",
+    )
 
 
 def numbers(run, name):
     """(time, value, uncertainty|None) as arrays of equal length, None where the series is not sound."""
     entry = table(run.series.get(name))
     if name in run.metrics and run.metrics[name].times:
-        entry = {"time": run.metrics[name].times, "value": run.metrics[name].series, **{k: v for k, v in entry.items() if k in ("uncertainty", "error")}}
+        entry = {
+            "time": run.metrics[name].times,
+            "value": run.metrics[name].series,
+            **{k: v for k, v in entry.items() if k in ("uncertainty", "error")},
+        }
     try:
-        time, value = (np.array([np.nan if v is None else float(v) for v in entry.get(key, ())]) for key in ("time", "value"))
+        time, value = (
+            np.array([np.nan if v is None else float(v) for v in entry.get(key, ())]) for key in ("time", "value")
+        )
         u = entry.get("uncertainty", entry.get("error"))
         u = np.array([np.nan if v is None else float(v) for v in u]) if isinstance(u, list) else None
     except (TypeError, ValueError):
@@ -46,7 +60,13 @@ def numbers(run, name):
 def panel(case, axis, name, shown_runs):
     found = [(curve, numbers(run, name)) for curve, run in shown_runs]
     found = [(curve, entry) for curve, entry in found if entry is not None]
-    everything = np.concatenate([value[np.isfinite(value) & (value != 0)] for curve, (_, value, _) in found if curve.engine.name != "exact" or len(found) == 1])
+    everything = np.concatenate(
+        [
+            value[np.isfinite(value) & (value != 0)]
+            for curve, (_, value, _) in found
+            if curve.engine.name != "exact" or len(found) == 1
+        ]
+    )
     log = everything.size > 0 and everything.min() > 0 and everything.max() / everything.min() > 50
     for curve, (time, value, u) in found:
         look = style.look(curve)
@@ -54,7 +74,16 @@ def panel(case, axis, name, shown_runs):
             axis.plot([], [], color=look["color"], linestyle=look["linestyle"], label=f"{curve.label}: 0 throughout")
             continue
         value = np.where(value > 0, value, np.nan) if log else value
-        axis.plot(time, value, label=curve.label, color=look["color"], linestyle=look["linestyle"], marker=look["marker"], markevery=max(1, len(time) // 6), markersize=3.5)
+        axis.plot(
+            time,
+            value,
+            label=curve.label,
+            color=look["color"],
+            linestyle=look["linestyle"],
+            marker=look["marker"],
+            markevery=max(1, len(time) // 6),
+            markersize=3.5,
+        )
         if u is not None:
             axis.fill_between(time, value - 2 * u, value + 2 * u, color=look["color"], alpha=0.15, linewidth=0)
     if log:

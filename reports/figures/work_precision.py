@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Error against CPU seconds, log-log, one curve an engine and mode; failed runs stand at the edge, none is dropped."""
+
 from __future__ import annotations
 
 from model import is_number
@@ -10,18 +11,34 @@ from .curve import Drawing, judged, label_metric, metrics
 KNOBS = (("walkers", "N"), ("spacing", "dx"), ("time_step", "dt"), ("iterations", "it"), ("support_ratio", "h/dx"))
 SHORT = {"N": "walkers", "dx": "spacing [m]", "dt": "time step [s]", "it": "iterations", "h/dx": "support ratio"}
 
+
 def draw(case, trajectories, notes):
     names, rest = metrics(case, 2)
-    several = len({curve.engine.label for curve in judged(case) if curve.runs}) > 1 or any(engine.orders for engine in case.engines)
+    several = len({curve.engine.label for curve in judged(case) if curve.runs}) > 1 or any(
+        engine.orders for engine in case.engines
+    )
     if not names or not several or sum(len(curve.runs) for curve in judged(case)) < 2:
         return None  # the two forms of one engine at one resolution are no trade of work for precision
     figure, axes = plot.panels(len(names), len(judged(case)) + 1, height=3.1)
     drawn = [panel(case, axis, metric) for axis, metric in zip(axes, names)]
     meant = list(dict.fromkeys(words.rpartition(" ")[0] for written, _ in drawn for words in written))
     what = f" Labels: {', '.join(f'{word} = {SHORT[word]}' for word in meant)}." if meant else ""
-    lineless = " Points without a line: several runs of one level, or seconds that do not follow what was refined." if any(loose for _, loose in drawn) else ""
-    return Drawing("work-precision", "Work and precision", f"Log-log plot of {', '.join(names)} against CPU seconds for each engine and mode, with the Pareto front.", figure,
-                   "Lower left is better; the engine exact, which evaluates the reference, is left out." + what + lineless + " Wide grey line: Pareto front, where no other run is both faster and more accurate. Crosses at the edge: runs that failed or gave no number." + (f" In the table of runs alone: {', '.join(rest)}." if rest else ""))
+    lineless = (
+        " Points without a line: several runs of one level, or seconds that do not follow what was refined."
+        if any(loose for _, loose in drawn)
+        else ""
+    )
+    return Drawing(
+        "work-precision",
+        "Work and precision",
+        f"Log-log plot of {', '.join(names)} against CPU seconds for each engine and mode, with the Pareto front.",
+        figure,
+        "Lower left is better; the engine exact, which evaluates the reference, is left out."
+        + what
+        + lineless
+        + " Wide grey line: Pareto front, where no other run is both faster and more accurate. Crosses at the edge: "
+        "runs that failed or gave no number." + (f" In the table of runs alone: {', '.join(rest)}." if rest else ""),
+    )
 
 
 def panel(case, axis, metric):
@@ -41,7 +58,15 @@ def panel(case, axis, metric):
                 look["linestyle"], loose = "none", True
             own.sort()
             x, y, u, words, _ = zip(*own)
-            axis.errorbar(x, y, yerr=[[min(2 * s, 0.95 * e) for e, s in zip(y, u)], [2 * s for s in u]], capsize=2, elinewidth=0.8, label=curve.label, **look)
+            axis.errorbar(
+                x,
+                y,
+                yerr=[[min(2 * s, 0.95 * e) for e, s in zip(y, u)], [2 * s for s in u]],
+                capsize=2,
+                elinewidth=0.8,
+                label=curve.label,
+                **look,
+            )
             for k in sorted({0, len(own) - 1}):
                 labels.append((words[k], (x[k], y[k]), look["color"]))
             good += list(zip(x, y))
@@ -59,7 +84,8 @@ def panel(case, axis, metric):
 
 
 def label(curve, run):
-    """The knob in which this curve's runs differ, with its value, as text; and the value. ("", None) where they differ in none."""
+    """The knob in which this curve's runs differ, with its value, as text; and the value. ("", None) where they differ
+    in none."""
     for name, short in KNOBS:
         values = {r.knob(name) for r in curve.runs}
         if len(values) > 1 and is_number(run.knob(name)):
@@ -68,7 +94,8 @@ def label(curve, run):
 
 
 def is_ladder(own):
-    """Whether runs, by what was refined in them, cost more and more or less and less: a line through them then goes one way."""
+    """Whether runs, by what was refined in them, cost more and more or less and less: a line through them then goes one
+    way."""
     levels = [level for *_, level in own]
     if None in levels or len(set(levels)) < len(levels):
         return False
@@ -89,7 +116,16 @@ def front(axis, good):
         for x, y in steps:
             xs += [x, x]
             ys += [ys[-1], y]
-        axis.plot(xs + [max(high, low * 1.01)], ys + [ys[-1]], color=style.GREY, linewidth=5, alpha=0.28, zorder=0, solid_joinstyle="miter", label="Pareto front")
+        axis.plot(
+            xs + [max(high, low * 1.01)],
+            ys + [ys[-1]],
+            color=style.GREY,
+            linewidth=5,
+            alpha=0.28,
+            zorder=0,
+            solid_joinstyle="miter",
+            label="Pareto front",
+        )
 
 
 def failed(axis, bad, good):
@@ -98,6 +134,11 @@ def failed(axis, bad, good):
     for k, (cost, why, hue) in enumerate(bad[:6]):
         known = is_number(cost) and cost > 0
         height = 1.03 - 0.07 * k if why != "0" else 0.03
-        axis.cross(cost if known else middle, height, ("error exactly 0" if why == "0" else why) + ("" if known else " (cost unknown)"), hue)
+        axis.cross(
+            cost if known else middle,
+            height,
+            ("error exactly 0" if why == "0" else why) + ("" if known else " (cost unknown)"),
+            hue,
+        )
     if len(bad) > 6:
         axis.set_title(f"and {len(bad) - 6} more failed runs: see the table", fontsize=8, color=style.RED)

@@ -2,17 +2,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """One statement a line: names each place in C++ where a comma joins two statements. No formatter parts them.
 
-    tests/architecture/statements_test.py ROOT        exit 1 where there is one
+tests/architecture/statements_test.py ROOT        exit 1 where there is one
 """
+
 import re
 import sys
 from pathlib import Path
 
 ROOMS = ("src", "adapters", "validation", "program", "tests")
 # What holds no statement: comments, texts, lines of the preprocessor.
-BLANK = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'|^[ \t]*#(?:[^\n]|\\\n)*', re.S | re.M)
+BLANK = re.compile(
+    r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'|^[ \t]*#(?:[^\n]|\\\n)*', re.S | re.M
+)
 # Innermost brackets without a statement in them; the semicolons in the head of a loop or a condition end none.
-BRACKETS = re.compile(r"(?:(?<=for )|(?<=if )|(?<=while ))\([^(){}]*\)|\([^(){};]*\)|\[[^\[\]{};]*\]|\{[^(){};]*\}|<[\w:,\s*&#.]*>")
+BRACKETS = re.compile(
+    r"(?:(?<=for )|(?<=if )|(?<=while ))\([^(){}]*\)|\([^(){};]*\)|\[[^\[\]{};]*\]|\{[^(){};]*\}|<[\w:,\s*&#.]*>"
+)
 # The brace of a list of values, as against that of a block.
 LISTS = re.compile(r"([\w>#({]|[,=(]\s+|\breturn )\{")
 BEFORE = r"\s*(?:(?:if|for|while|else|do|constexpr)\b[\s#]*|(?:case\b[^;{}]*?|default):\s+)*(?:return\s+)?"
@@ -44,7 +49,10 @@ def main():
     files = [f for room in ROOMS for f in sorted((root / room).rglob("*.[ch]pp"))]
     places = [f"{f.relative_to(root)}:{line}" for f in files for line in joined(f.read_text())]
     print("\n".join(places))
-    print(f"{len(files)} files read, {len(places)} places in which a comma joins two statements: give each a line of its own")
+    print(
+        f"{len(files)} files read, {len(places)} places in which a comma joins two statements: give each a line of "
+        "its own"
+    )
     return 1 if places or not files else 0
 
 

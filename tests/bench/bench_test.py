@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """tripoint bench: what its JSON document holds, and how it refuses.   bench_test.py TRIPOINT"""
+
 import json
 import subprocess
 import sys
@@ -16,7 +17,9 @@ def bench(*words):
 
 class Bench(unittest.TestCase):
     def test_the_stages_of_a_step_add_up_to_it(self):
-        document = json.loads(bench("--work", "rigid-1000", "--threads", "1", "--steps", "4", "--rounds", "2", "--json").stdout)
+        document = json.loads(
+            bench("--work", "rigid-1000", "--threads", "1", "--steps", "4", "--rounds", "2", "--json").stdout
+        )
         self.assertEqual((document["format"], document["threads"]), (1, 1))
         work = document["works"][0]
         self.assertEqual((work["name"], work["particles"], work["steps"]), ("rigid-1000", 27000, 4))
@@ -26,7 +29,12 @@ class Bench(unittest.TestCase):
         self.assertGreater(work["bytes_per_particle"], work["planned_bytes_per_particle"])
 
     def test_bits_do_not_depend_on_threads(self):
-        hashes = {json.loads(bench("--work", "rigid-1000", "--threads", n, "--steps", "2", "--rounds", "1", "--json").stdout)["works"][0]["state_hash"] for n in "123"}
+        hashes = {
+            json.loads(bench("--work", "rigid-1000", "--threads", n, "--steps", "2", "--rounds", "1", "--json").stdout)[
+                "works"
+            ][0]["state_hash"]
+            for n in "123"
+        }
         self.assertEqual(len(hashes), 1)
 
     def test_the_list_names_every_standard_work(self):

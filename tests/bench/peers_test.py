@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What `make bench-peers` does beside running other codes: their input, their logs, the ratios and the page."""
+
 import argparse
 import json
 import sys
@@ -28,12 +29,21 @@ Neighbor list builds = 10
 
 def start(particles):
     place = numpy.array([[0.01 * n, 0.02, 0.03] for n in range(particles)])
-    return {"position": place, "velocity": place * 10.0, "temperature": numpy.full(particles, 300.0), "spacing": 0.01, "support": 0.0225}
+    return {
+        "position": place,
+        "velocity": place * 10.0,
+        "temperature": numpy.full(particles, 300.0),
+        "spacing": 0.01,
+        "support": 0.0225,
+    }
 
 
 def code(name, costs, neighbours=None, parallel=2):
     made = bench_peers.Code(name, "liquid-heat-40k", parallel, "nothing", None)
-    made.rounds = [{"step_s": c, "cpu_s": c / 4, "particles": 100, "neighbours": neighbours, "rebuilds_per_step": 0.1} for c in costs]
+    made.rounds = [
+        {"step_s": c, "cpu_s": c / 4, "particles": 100, "neighbours": neighbours, "rebuilds_per_step": 0.1}
+        for c in costs
+    ]
     return made
 
 
@@ -44,7 +54,7 @@ class LammpsInput(unittest.TestCase):
                 deck = lammps_work.write(folder, method, start(7), 5e-4, 5, 40).read_text()
                 data = (Path(folder) / f"{method}.data").read_text()
             self.assertIn("7 atoms", data)
-            atoms = data[data.index("Atoms"):data.index("Velocities")].split("\n")[2:9]
+            atoms = data[data.index("Atoms") : data.index("Velocities")].split("\n")[2:9]
             self.assertEqual([float(line.split()[-3]) for line in atoms], [float(n) for n in range(7)], method)
             self.assertAlmostEqual(float(data.strip().split("\n")[-1].split()[1]), 0.6 / lammps_work.SPEED)
             self.assertIn("timestep 0.5", deck)
@@ -58,15 +68,19 @@ class LammpsInput(unittest.TestCase):
 
     def test_a_log_without_a_second_run_names_the_error(self):
         with self.assertRaisesRegex(ValueError, "Lost atoms"):
-            lammps_work.read("Loop time of 9.0 on 2 procs for 5 steps with 100 atoms\nERROR: Lost atoms: original 100 current 3\n")
+            lammps_work.read(
+                "Loop time of 9.0 on 2 procs for 5 steps with 100 atoms\nERROR: Lost atoms: original 100 current 3\n"
+            )
 
 
 class Neighbours(unittest.TestCase):
     def test_a_cube_of_three_across_has_the_neighbours_that_counting_finds(self):
         place = numpy.array([[i, j, k] for i in range(3) for j in range(3) for k in range(3)])
         apart = ((place[:, None] - place[None]) ** 2).sum(axis=2)
-        counted = ((apart > 0) & (apart < 2.1 ** 2)).sum() / 27
-        self.assertAlmostEqual(bench_peers.lattice_neighbours({"spacing": 0.34 / 3, "support": 2.1 * 0.34 / 3}), counted)
+        counted = ((apart > 0) & (apart < 2.1**2)).sum() / 27
+        self.assertAlmostEqual(
+            bench_peers.lattice_neighbours({"spacing": 0.34 / 3, "support": 2.1 * 0.34 / 3}), counted
+        )
 
 
 class Ratios(unittest.TestCase):
@@ -78,16 +92,29 @@ class Ratios(unittest.TestCase):
         self.assertEqual(row["ratio_pair"], {"median": 6.0, "least": 6.0, "greatest": 8.0})
 
     def test_the_best_times_of_all_rounds_are_compared_too(self):
-        row = bench_peers.row_of(code("other", [8.0, 6.0, 9.0], 20.0), code("tripoint", [4.0, 4.0, 2.0], 40.0).rounds, 40.0)
+        row = bench_peers.row_of(
+            code("other", [8.0, 6.0, 9.0], 20.0), code("tripoint", [4.0, 4.0, 2.0], 40.0).rounds, 40.0
+        )
         self.assertEqual(row["ratio_best"], 3.0)
         self.assertEqual(row["ratio_particle_step"]["median"], 2.0)
 
     def test_a_code_that_never_ran_keeps_its_row_and_its_reason(self):
-        failed = bench_peers.Code("other", "liquid-heat-40k", 2, "all", lambda: (_ for _ in ()).throw(ValueError("no wheel")))
+        failed = bench_peers.Code(
+            "other", "liquid-heat-40k", 2, "all", lambda: (_ for _ in ()).throw(ValueError("no wheel"))
+        )
         bench_peers.run_rounds([failed], 3, lambda line: None)
         row = bench_peers.row_of(failed, code("tripoint", [1.0], 40.0).rounds, 40.0)
         self.assertEqual((row["error"], row["ratio_particle_step"]), ("no wheel", None))
-        page = speed.render({"rows": [row, bench_peers.row_of(code("tripoint", [1.0], 40.0), code("tripoint", [1.0], 40.0).rounds, 40.0)], "rounds": 3, "machine": {"cpu": "a <processor>", "cores": 2}})
+        page = speed.render(
+            {
+                "rows": [
+                    row,
+                    bench_peers.row_of(code("tripoint", [1.0], 40.0), code("tripoint", [1.0], 40.0).rounds, 40.0),
+                ],
+                "rounds": 3,
+                "machine": {"cpu": "a <processor>", "cores": 2},
+            }
+        )
         self.assertIn("no wheel", page)
         self.assertIn("1.00 (1.00 to 1.00)", page)
         self.assertIn("a &lt;processor&gt;", page)
@@ -104,10 +131,14 @@ class TwoBuilds(unittest.TestCase):
                 programs[name].chmod(0o755)
             bench = bench_peers.Bench(argparse.Namespace(tripoint=str(programs["now"]), beside=str(programs["before"])))
             self.addCleanup(bench.scratch.cleanup)
-            ours = [c for c in bench_peers.codes_of(bench, 2) if c.work == "elastic-40k" and c.name.startswith("tripoint")]
+            ours = [
+                c for c in bench_peers.codes_of(bench, 2) if c.work == "elastic-40k" and c.name.startswith("tripoint")
+            ]
             bench_peers.run_rounds(ours, 1, lambda line: None)
-        self.assertEqual([(c.name, c.parallel, c.rounds[0]["step_s"]) for c in ours],
-                         [("tripoint", 1, 2.0), ("tripoint", 2, 2.0), ("tripoint beside", 1, 3.0), ("tripoint beside", 2, 3.0)])
+        self.assertEqual(
+            [(c.name, c.parallel, c.rounds[0]["step_s"]) for c in ours],
+            [("tripoint", 1, 2.0), ("tripoint", 2, 2.0), ("tripoint beside", 1, 3.0), ("tripoint beside", 2, 3.0)],
+        )
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 
 CPU seconds of the child, the least of a few starts: other work on the machine lengthens wall seconds, not these.
 """
+
 import os
 import subprocess
 import sys

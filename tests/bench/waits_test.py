@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How threads of the engine wait: what the library of threads says that it was given.   waits_test.py ENGINE_TRIPOINT"""
+"""How threads of the engine wait: what the library of threads says that it was given.   waits_test.py
+ENGINE_TRIPOINT"""
+
 import os
 import re
 import subprocess
@@ -11,10 +13,19 @@ WAITS = ("GOMP_SPINCOUNT", "OMP_WAIT_POLICY")
 
 
 def told(**given):
-    """Settings of the threads of the process that answers: the last that the library printed, since the program begins twice."""
-    environment = {name: value for name, value in os.environ.items() if name not in WAITS} | {"OMP_DISPLAY_ENV": "verbose"} | given
-    said = subprocess.run([ENGINE, "--info"], capture_output=True, text=True, check=True, timeout=60, env=environment).stderr
-    return dict(re.findall(r"(GOMP_SPINCOUNT|OMP_WAIT_POLICY) = '(\w+)'", said)), said.count("OPENMP DISPLAY ENVIRONMENT BEGIN")
+    """Settings of the threads of the process that answers: the last that the library printed, since the program begins
+    twice."""
+    environment = (
+        {name: value for name, value in os.environ.items() if name not in WAITS}
+        | {"OMP_DISPLAY_ENV": "verbose"}
+        | given
+    )
+    said = subprocess.run(
+        [ENGINE, "--info"], capture_output=True, text=True, check=True, timeout=60, env=environment
+    ).stderr
+    return dict(re.findall(r"(GOMP_SPINCOUNT|OMP_WAIT_POLICY) = '(\w+)'", said)), said.count(
+        "OPENMP DISPLAY ENVIRONMENT BEGIN"
+    )
 
 
 class Waits(unittest.TestCase):

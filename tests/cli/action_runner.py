@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """As much of a runner as the composite action asks of one: it reads action.yml and runs its very steps in a shell."""
+
 import os
 import re
 import subprocess
@@ -9,12 +10,15 @@ import yaml
 
 
 class Runner:
-    """Inputs, outputs of steps, `if`, and the files that steps write to. `environment`: what the runner says of the event."""
+    """Inputs, outputs of steps, `if`, and the files that steps write to. `environment`: what the runner says of the
+    event."""
 
     def __init__(self, folder, workspace, inputs, environment=None):
         self.folder, self.workspace, self.environment = Path(folder), workspace, environment or {}
         self.action = yaml.safe_load((self.folder / "action.yml").read_text())
-        self.inputs = {name: inputs.get(name, about.get("default", "")) for name, about in self.action["inputs"].items()}
+        self.inputs = {
+            name: inputs.get(name, about.get("default", "")) for name, about in self.action["inputs"].items()
+        }
         for name, about in self.action["inputs"].items():
             assert not about.get("required") or inputs.get(name), name
         self.outputs, self.log, self.messages, self.failed, self.summary = {}, "", "", False, workspace / "summary"
@@ -45,11 +49,28 @@ class Runner:
                 continue
             output = self.workspace / "output"
             output.write_text("")
-            environment = dict(os.environ, GITHUB_ACTION_PATH=str(self.folder), GITHUB_OUTPUT=str(output), GITHUB_STEP_SUMMARY=str(self.summary), GITHUB_WORKSPACE=str(self.workspace),
-                               GITHUB_ACTIONS="true", **self.environment, **{name: self.fill(text) for name, text in step.get("env", {}).items()})
-            done = subprocess.run(["bash", "--noprofile", "--norc", "-eo", "pipefail", "-c", self.fill(step["run"])], cwd=self.workspace, env=environment, capture_output=True, text=True, timeout=300)
+            environment = dict(
+                os.environ,
+                GITHUB_ACTION_PATH=str(self.folder),
+                GITHUB_OUTPUT=str(output),
+                GITHUB_STEP_SUMMARY=str(self.summary),
+                GITHUB_WORKSPACE=str(self.workspace),
+                GITHUB_ACTIONS="true",
+                **self.environment,
+                **{name: self.fill(text) for name, text in step.get("env", {}).items()},
+            )
+            done = subprocess.run(
+                ["bash", "--noprofile", "--norc", "-eo", "pipefail", "-c", self.fill(step["run"])],
+                cwd=self.workspace,
+                env=environment,
+                capture_output=True,
+                text=True,
+                timeout=300,
+            )
             self.log += done.stdout
             self.messages += done.stderr
-            self.outputs[step.get("id", step["name"])] = dict(line.split("=", 1) for line in output.read_text().splitlines())
+            self.outputs[step.get("id", step["name"])] = dict(
+                line.split("=", 1) for line in output.read_text().splitlines()
+            )
             self.failed = self.failed or done.returncode != 0
         return self

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The composite action's own steps, run in a shell as a runner would, on the example of another project: action_test.py TRIPOINT SOURCE."""
+"""The composite action's own steps, run in a shell as a runner would, on the example of another project: action_test.py
+TRIPOINT SOURCE."""
+
 import os
 import re
 import shutil
@@ -28,7 +30,11 @@ class Action(unittest.TestCase):
         self.folder.cleanup()
 
     def gate(self, **inputs):
-        return Runner(ACTION, self.project, {"tripoint": TRIPOINT, "cases": "cases", "engine": "./engine-verlet", "engines": "verlet"} | inputs).run()
+        return Runner(
+            ACTION,
+            self.project,
+            {"tripoint": TRIPOINT, "cases": "cases", "engine": "./engine-verlet", "engines": "verlet"} | inputs,
+        ).run()
 
     def test_the_example_of_another_project_is_green(self):
         run = self.gate()
@@ -59,7 +65,9 @@ class Action(unittest.TestCase):
         if not os.path.exists(BWRAP) or subprocess.run(words, capture_output=True, check=False).returncode != 0:
             self.skipTest("no bubblewrap here, or it may make no namespaces")
         engine, reached = self.project / "engine-verlet", self.project / "output-of-a-step"
-        deed = f"    try:\n        open({str(reached)!r}, 'w').write('exit-code=0')\n    except OSError:\n        pass\n"
+        deed = (
+            f"    try:\n        open({str(reached)!r}, 'w').write('exit-code=0')\n    except OSError:\n        pass\n"
+        )
         main = 'def main(verb, path=""):\n'
         text = engine.read_text()
         self.assertIn(main, text)

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What `gate adopt` writes turns red where the engine drifts, to either side, and what it refuses: adopt_test.py TRIPOINT TOY_ENGINE STONE_ENGINE [unittest arguments]."""
+"""What `gate adopt` writes turns red where the engine drifts, to either side, and what it refuses: adopt_test.py
+TRIPOINT TOY_ENGINE STONE_ENGINE [unittest arguments]."""
+
 import json
 import subprocess
 import sys
@@ -27,7 +29,9 @@ class Adopted(unittest.TestCase):
         cls.folder.cleanup()
 
     def call(self, *words):
-        return subprocess.run([TRIPOINT, *map(str, words)], cwd=self.path, capture_output=True, text=True, timeout=300, check=False)
+        return subprocess.run(
+            [TRIPOINT, *map(str, words)], cwd=self.path, capture_output=True, text=True, timeout=300, check=False
+        )
 
     def engine(self, *changes):
         """The sound engine, or with some of its constants changed."""
@@ -42,9 +46,17 @@ class Adopted(unittest.TestCase):
     def judged(self, *changes):
         """@return (exit code of validate, [case and metric that is red], exit code of gate)"""
         self.engine(*changes)
-        code = self.call("validate", "cases", "--engine", "./engine-toy", "--engines", "toy", "--no-report", "--no-history").returncode
+        code = self.call(
+            "validate", "cases", "--engine", "./engine-toy", "--engines", "toy", "--no-report", "--no-history"
+        ).returncode
         results = json.loads((self.path / "report" / "results.json").read_text())
-        red = [f"{c['id']} {g['metric']}" for c in results["cases"] for e in c["engines"] for g in e["gates"] if g["verdict"] != "pass"]
+        red = [
+            f"{c['id']} {g['metric']}"
+            for c in results["cases"]
+            for e in c["engines"]
+            for g in e["gates"]
+            if g["verdict"] != "pass"
+        ]
         return code, red, self.call("gate", "report").returncode
 
     def gates(self, case):
@@ -56,7 +68,9 @@ class Adopted(unittest.TestCase):
             self.assertTrue((self.path / "baselines" / f"{case}.toml").is_file())
             for gate in self.gates(case):
                 self.assertEqual(gate["engine"], "toy")
-                self.assertRegex(gate["reason"], r"^adopted: (-?[\d.e+-]+ measured|observed order)|^acceptance of any engine")
+                self.assertRegex(
+                    gate["reason"], r"^adopted: (-?[\d.e+-]+ measured|observed order)|^acceptance of any engine"
+                )
         bands = [gate for case in CASES for gate in self.gates(case) if "band" in gate and gate["metric"] == "angle"]
         low, high = bands[0]["band"]
         self.assertAlmostEqual(high / low, 1.5**2, 3)  # the margin to either side
@@ -94,10 +108,16 @@ class Adopted(unittest.TestCase):
         self.assertFalse((self.path / "none").exists())
 
     def test_noise_widens_the_room(self):
-        self.engine(("NOISE = 0.0", "NOISE = 3e-4"), ("GRAVITY = 1.0", "GRAVITY = 0.9997"))  # an error that the noise does not exceed
+        self.engine(
+            ("NOISE = 0.0", "NOISE = 3e-4"), ("GRAVITY = 1.0", "GRAVITY = 0.9997")
+        )  # an error that the noise does not exceed
         done = self.call("gate", "adopt", "--engine", "./engine-toy", "--out", "noisy/cases", "rigid/ballistic")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        gate = next(g for g in tomllib.loads((self.path / "noisy/cases/rigid/ballistic.toml").read_text())["gate"] if g["metric"] == "position")
+        gate = next(
+            g
+            for g in tomllib.loads((self.path / "noisy/cases/rigid/ballistic.toml").read_text())["gate"]
+            if g["metric"] == "position"
+        )
         self.assertIn("for the noise", gate["reason"])
         self.assertGreater(gate["band"][1] / gate["band"][0], 1.5**2)
 
@@ -137,46 +157,95 @@ class Refused(unittest.TestCase):
     def test_the_scene_is_kept_whole(self):
         done = self.adopt(STONE, [], "contact/slope-slip", "contact/ball-restitution-050")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        self.assertEqual(self.case("contact/slope-slip")["engines"]["all"]["settings"], {"friction": 0.3, "restitution": 0.0})
-        self.assertEqual(self.case("contact/ball-restitution-050")["engines"]["all"]["settings"], {"friction": 0.3, "restitution": 0.5})
+        self.assertEqual(
+            self.case("contact/slope-slip")["engines"]["all"]["settings"], {"friction": 0.3, "restitution": 0.0}
+        )
+        self.assertEqual(
+            self.case("contact/ball-restitution-050")["engines"]["all"]["settings"],
+            {"friction": 0.3, "restitution": 0.5},
+        )
 
     def test_an_engine_without_friction_is_refused(self):
         done = self.adopt(STONE, [("FRICTION = 1.0 ", "FRICTION = 0.0 ")], "contact/slope-slip", "contact/slope-stick")
-        self.assert_refused(done, 1, "contact/slope-stick: NOT ADOPTED: creep fails a limit that holds for any engine", "contact/slope-slip: NOT ADOPTED: velocity fails")
+        self.assert_refused(
+            done,
+            1,
+            "contact/slope-stick: NOT ADOPTED: creep fails a limit that holds for any engine",
+            "contact/slope-slip: NOT ADOPTED: velocity fails",
+        )
 
     def test_an_engine_without_restitution_is_refused(self):
         done = self.adopt(STONE, [("RESTITUTION = 1.0 ", "RESTITUTION = 0.0 ")], "contact/ball-restitution-050")
         self.assert_refused(done, 1, "contact/ball-restitution-050: NOT ADOPTED: rebound fails")
 
     def test_an_engine_without_contact_is_refused(self):
-        done = self.adopt(STONE, [("ground = None if floor is None else", "ground = None if True else")], "contact/ball-restitution-000", "contact/slope-stick")
-        self.assert_refused(done, 1, "contact/ball-restitution-000: NOT ADOPTED: sunk fails", "contact/slope-stick: NOT ADOPTED: ")
+        done = self.adopt(
+            STONE,
+            [("ground = None if floor is None else", "ground = None if True else")],
+            "contact/ball-restitution-000",
+            "contact/slope-stick",
+        )
+        self.assert_refused(
+            done, 1, "contact/ball-restitution-000: NOT ADOPTED: sunk fails", "contact/slope-stick: NOT ADOPTED: "
+        )
 
     def test_an_engine_without_gyroscopic_term_is_refused(self):
         changes = [("GYROSCOPIC = 1.0 ", "GYROSCOPIC = 0.0 ")]
-        self.assert_refused(self.adopt(STONE, changes, "rigid/torque-free"), 1, "rigid/torque-free: NOT ADOPTED: angle at 0.01 fails a limit")
-        self.assert_refused(self.adopt(STONE, changes, "rigid/flip-time"), 4, "rigid/flip-time: NOT ADOPTED: flip has no finite value: the body never flips")
-        self.assert_refused(self.adopt(STONE, changes, "rigid/precession", "rigid/long-spin"), 1, "rigid/precession: NOT ADOPTED: ", "rigid/long-spin: NOT ADOPTED: ")
+        self.assert_refused(
+            self.adopt(STONE, changes, "rigid/torque-free"),
+            1,
+            "rigid/torque-free: NOT ADOPTED: angle at 0.01 fails a limit",
+        )
+        self.assert_refused(
+            self.adopt(STONE, changes, "rigid/flip-time"),
+            4,
+            "rigid/flip-time: NOT ADOPTED: flip has no finite value: the body never flips",
+        )
+        self.assert_refused(
+            self.adopt(STONE, changes, "rigid/precession", "rigid/long-spin"),
+            1,
+            "rigid/precession: NOT ADOPTED: ",
+            "rigid/long-spin: NOT ADOPTED: ",
+        )
 
     def test_what_is_sound_is_adopted_beside_what_is_refused(self):
-        done = self.adopt(STONE, [("FRICTION = 1.0 ", "FRICTION = 0.0 ")], "contact/slope-slip", "contact/ball-restitution-050")
+        done = self.adopt(
+            STONE, [("FRICTION = 1.0 ", "FRICTION = 0.0 ")], "contact/slope-slip", "contact/ball-restitution-050"
+        )
         self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
         self.assertFalse((self.path / "cases/contact/slope-slip.toml").exists())
         self.assertTrue((self.path / "baselines/contact/ball-restitution-050.toml").exists())
 
     def test_a_reason_adopts_what_fails_and_stands_in_the_case_and_its_baseline(self):
-        done = self.adopt(STONE, [("FRICTION = 1.0 ", "FRICTION = 0.0 ")], "contact/slope-slip", "--despite", "friction comes with 2.0")
+        done = self.adopt(
+            STONE,
+            [("FRICTION = 1.0 ", "FRICTION = 0.0 ")],
+            "contact/slope-slip",
+            "--despite",
+            "friction comes with 2.0",
+        )
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertIn("friction comes with 2.0", self.case("contact/slope-slip")["case"]["claims"])
-        self.assertIn("# Despite: velocity fails a limit that holds for any engine", (self.path / "cases/contact/slope-slip.toml").read_text())
+        self.assertIn(
+            "# Despite: velocity fails a limit that holds for any engine",
+            (self.path / "cases/contact/slope-slip.toml").read_text(),
+        )
         self.assertIn("friction comes with 2.0", (self.path / "baselines/contact/slope-slip.toml").read_text())
         done = self.adopt(STONE, [], "contact/slope-slip", "--overwrite", "--despite", " ")
         self.assertEqual(done.returncode, 2, "a reason says something")
 
     def test_an_untrue_flag_is_named(self):
-        chance = ("        yield [t, body", "        x = [c + 1e-7 * float.fromhex('0x' + os.urandom(4).hex()) / 2**32 for c in x] if t > 0 else x\n        yield [t, body")
+        chance = (
+            "        yield [t, body",
+            "        x = [c + 1e-7 * float.fromhex('0x' + os.urandom(4).hex()) / 2**32 for c in x] if t > 0 else x\n  "
+            "      yield [t, body",
+        )
         done = self.adopt(STONE, [chance], "rigid/ballistic")
-        self.assert_refused(done, 1, "rigid/ballistic: NOT ADOPTED: stone says that it is deterministic, and that is untrue: centre is 0.0")
+        self.assert_refused(
+            done,
+            1,
+            "rigid/ballistic: NOT ADOPTED: stone says that it is deterministic, and that is untrue: centre is 0.0",
+        )
         done = self.adopt(STONE, [chance, ('"deterministic": True', '"deterministic": False')], "rigid/ballistic")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertIn("over 6 runs and seeds", self.case("rigid/ballistic")["gate"][0]["reason"])
@@ -188,7 +257,9 @@ class Refused(unittest.TestCase):
 
     def test_a_metric_without_a_value_refuses_the_case_whatever_the_reason(self):
         case = self.own('[[metric]]\nname = "heat"\nquantity = "temperature"\n')
-        self.assert_refused(self.adopt(TOY, [], case, "--despite", "no heat here"), 4, "NOT ADOPTED: heat has no finite value")
+        self.assert_refused(
+            self.adopt(TOY, [], case, "--despite", "no heat here"), 4, "NOT ADOPTED: heat has no finite value"
+        )
 
     def test_chance_above_the_value_is_no_room(self):
         case = self.own('remove = ["gate"]\n[[gate]]\nmetric = "position"\nlimit = 0.5\nreason = "any"\n')
@@ -198,11 +269,15 @@ class Refused(unittest.TestCase):
         self.assertFalse((self.path / "cases").exists())
 
     def test_a_study_of_the_engine_stays_and_the_case_is_gated_at_its_own_step(self):
-        case = self.own('[engines.stone]\n[[study]]\naxis = "time_step"\nlevels = [0.008, 0.004, 0.002]\nengine = "stone"\n')
+        case = self.own(
+            '[engines.stone]\n[[study]]\naxis = "time_step"\nlevels = [0.008, 0.004, 0.002]\nengine = "stone"\n'
+        )
         done = self.adopt(STONE, [], case)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         gates = self.case("own")["gate"]
-        self.assertEqual([g["level"] for g in gates if g["metric"] == "position"], [0.01, 0.01])  # what was measured, and the limit of any engine
+        self.assertEqual(
+            [g["level"] for g in gates if g["metric"] == "position"], [0.01, 0.01]
+        )  # what was measured, and the limit of any engine
         self.assertIn("position.order", [g["metric"] for g in gates])
 
     def test_every_preset_is_taken(self):

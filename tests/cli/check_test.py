@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`tripoint check` finds before a run what the run would be refused or spoilt by, and scenes that once ran wrong in silence run right:
-check_test.py TRIPOINT [unittest arguments]."""
+"""`tripoint check` finds before a run what the run would be refused or spoilt by, and scenes that once ran wrong in
+silence run right: check_test.py TRIPOINT [unittest arguments]."""
+
 import json
 import subprocess
 import sys
@@ -14,7 +15,10 @@ STONE = '[[material]]\nname = "stone"\ndensity = 1000.0\n'
 WARM = STONE + "conductivity = 1.0\nheat_capacity = 1000.0\n"
 INVARIANT = '[reference]\nkind = "invariant"\n'
 LEDGER = '[[metric]]\nname = "ledger"\nquantity = "ledger.residual"\nnorm = "drift"\n'
-ICE = '[[material]]\nname = "frost"\ndensity = 1000.0\nconductivity = 2.0\nheat_capacity = 1000.0\nt_melt = 273.0\nlatent_heat = 1e5\nsolid = "rigid"\n'
+ICE = (
+    '[[material]]\nname = "frost"\ndensity = 1000.0\nconductivity = 2.0\nheat_capacity = 1000.0\nt_melt = '
+    '273.0\nlatent_heat = 1e5\nsolid = "rigid"\n'
+)
 
 
 def scene(keys):
@@ -22,7 +26,10 @@ def scene(keys):
 
 
 def body(name, material, low, high, more=""):
-    return f'[[body]]\nname = "{name}"\nmaterial = "{material}"\nshape = {{ kind = "box", min = {low}, max = {high} }}\n{more}\n'
+    return (
+        f'[[body]]\nname = "{name}"\nmaterial = "{material}"\nshape = {{ kind = "box", min = {low}, max = {high} '
+        f"}}\n{more}\n"
+    )
 
 
 def metric(quantity, norm="max", more=""):
@@ -32,28 +39,100 @@ def metric(quantity, norm="max", more=""):
 CUBE = body("cube", "stone", [0.0, 0.0, 0.0], [0.4, 0.4, 0.4], "velocity = [1.0, 0.0, 0.0]")
 FLIGHT = scene("end_time = 1.0") + STONE + CUBE + '[reference]\nfunction = "ballistic"\n' + metric("velocity")
 GATE = '[[gate]]\nmetric = "m"\nlimit = 1e-3\nreason = "for this test"\n'
-BAR = (ICE + body("bar", "frost", [0.0, 0.0, 0.0], [0.8, 0.4, 0.4], 'phase = "rigid"\nmotion = "fixed"\ntemperature = 272.0')
-       + body("plate", "frost", [-0.4, 0.0, 0.0], [0.0, 0.4, 0.4], 'phase = "rigid"\nmotion = "fixed"\ntemperature = 300.0\ntemperature_held = true'))
+BAR = (
+    ICE
+    + body("bar", "frost", [0.0, 0.0, 0.0], [0.8, 0.4, 0.4], 'phase = "rigid"\nmotion = "fixed"\ntemperature = 272.0')
+    + body(
+        "plate",
+        "frost",
+        [-0.4, 0.0, 0.0],
+        [0.0, 0.4, 0.4],
+        'phase = "rigid"\nmotion = "fixed"\ntemperature = 300.0\ntemperature_held = true',
+    )
+)
 # what is wrong -> (case, words of the error that check must give)
 WRONG = {
-    "a periodic width too small for bonds": (scene("end_time = 0.1\nmin = [0.0, 0.0, 0.0]\nmax = [0.4, 2.0, 2.0]\nperiodic = [\"x\"]") + BALL
-                                             + body("bar", "gum", [0.0, 0.0, 0.0], [0.4, 0.4, 0.4]), ["0.4", "wide", "bonds"]),
-    "a reference argument of the wrong type": (scene("end_time = 0.1") + STONE + CUBE + metric("overlap", more='reference = { kind = "bound", function = "stated", args = { value = "zero" } }'),
-                                               ["`value`", "must be a number"]),
-    "an unknown argument": (scene("end_time = 0.1") + STONE + CUBE + metric("overlap", more='reference = { kind = "bound", function = "stated", args = { valu = 0.0 } }'), ["no argument `valu`"]),
-    "a bar that is too short": (scene("end_time = 1e7") + BAR + '[reference]\nfunction = "stefan"\n' + metric("front_position"), ["the bar is 0.8", "it must be", "m or longer"]),
-    "a ratio at a start that is 0": (scene("end_time = 1.0") + BAR + '[reference]\nfunction = "stefan"\n' + metric("front_ratio"), ["the front has not started"]),
-    "a norm that is none": (scene("end_time = 0.1") + STONE + CUBE + metric("velocity", "larges"), ["is none of: L1", "larges"]),
-    "a quantity that is none": (scene("end_time = 0.1") + STONE + CUBE + metric("velocty"), ["no quantity", "`velocity`"]),
-    "a time that is no output time": (scene("end_time = 1.0\noutput_interval = 0.1") + STONE + CUBE + '[reference]\nfunction = "ballistic"\n' + metric("velocity", "Linf", 'at = "0.123"'), ["no output time"]),
-    "a window between output times": (scene("end_time = 1.0\noutput_interval = 0.5") + STONE + CUBE + LEDGER + metric("velocity", "max", "window = [0.1, 0.2]") + '[reference]\nfunction = "ballistic"\n', ["no output time lies"]),
-    "a reference that does not fit": (scene("end_time = 1.0") + STONE + CUBE + '[reference]\nfunction = "couette"\n' + metric("velocity"), ["liquid"]),
-    "a step above a bound": (scene("end_time = 10.0\ntime_step = 1.0\ngravity = [0.0, 0.0, -9.81]") + STONE.replace("1000.0", "1000.0\nviscosity = 1.0") + body("pool", "stone", [0.0, 0.0, 0.0], [0.4, 0.4, 0.4]),
-                             ["bound of", "[engines.tripoint] settings = { force_time_step = true }"]),
-    "a setting that nobody reads": (scene("end_time = 1.0") + STONE + CUBE + "[engines.tripoint]\nsettings = { force_time_stp = true }\n", ["no setting is named force_time_stp", "force_time_step"]),
-    "a step that needs a sound without end": (scene("end_time = 1.0") + STONE.replace("1000.0", "1000.0\nstiffness = 1e30\nviscosity = 1.0") + body("pool", "stone", [0.0, 0.0, 0.0], [0.4, 0.4, 0.4]), ["steps"]),
-    "a liquid that is joined": (scene("end_time = 1.0\ngravity = [0.0, 0.0, -9.81]") + BALL + '[[material]]\nname = "oil"\ndensity = 900.0\nviscosity = 1.0\n'
-                                + body("pool", "oil", [0.0, 0.0, 0.0], [0.4, 0.4, 0.4]) + body("bar", "gum", [0.4, 0.0, 0.0], [0.8, 0.4, 0.4], 'joined_to = ["pool"]'), ["pool", "liquid"]),
+    "a periodic width too small for bonds": (
+        scene('end_time = 0.1\nmin = [0.0, 0.0, 0.0]\nmax = [0.4, 2.0, 2.0]\nperiodic = ["x"]')
+        + BALL
+        + body("bar", "gum", [0.0, 0.0, 0.0], [0.4, 0.4, 0.4]),
+        ["0.4", "wide", "bonds"],
+    ),
+    "a reference argument of the wrong type": (
+        scene("end_time = 0.1")
+        + STONE
+        + CUBE
+        + metric("overlap", more='reference = { kind = "bound", function = "stated", args = { value = "zero" } }'),
+        ["`value`", "must be a number"],
+    ),
+    "an unknown argument": (
+        scene("end_time = 0.1")
+        + STONE
+        + CUBE
+        + metric("overlap", more='reference = { kind = "bound", function = "stated", args = { valu = 0.0 } }'),
+        ["no argument `valu`"],
+    ),
+    "a bar that is too short": (
+        scene("end_time = 1e7") + BAR + '[reference]\nfunction = "stefan"\n' + metric("front_position"),
+        ["the bar is 0.8", "it must be", "m or longer"],
+    ),
+    "a ratio at a start that is 0": (
+        scene("end_time = 1.0") + BAR + '[reference]\nfunction = "stefan"\n' + metric("front_ratio"),
+        ["the front has not started"],
+    ),
+    "a norm that is none": (
+        scene("end_time = 0.1") + STONE + CUBE + metric("velocity", "larges"),
+        ["is none of: L1", "larges"],
+    ),
+    "a quantity that is none": (
+        scene("end_time = 0.1") + STONE + CUBE + metric("velocty"),
+        ["no quantity", "`velocity`"],
+    ),
+    "a time that is no output time": (
+        scene("end_time = 1.0\noutput_interval = 0.1")
+        + STONE
+        + CUBE
+        + '[reference]\nfunction = "ballistic"\n'
+        + metric("velocity", "Linf", 'at = "0.123"'),
+        ["no output time"],
+    ),
+    "a window between output times": (
+        scene("end_time = 1.0\noutput_interval = 0.5")
+        + STONE
+        + CUBE
+        + LEDGER
+        + metric("velocity", "max", "window = [0.1, 0.2]")
+        + '[reference]\nfunction = "ballistic"\n',
+        ["no output time lies"],
+    ),
+    "a reference that does not fit": (
+        scene("end_time = 1.0") + STONE + CUBE + '[reference]\nfunction = "couette"\n' + metric("velocity"),
+        ["liquid"],
+    ),
+    "a step above a bound": (
+        scene("end_time = 10.0\ntime_step = 1.0\ngravity = [0.0, 0.0, -9.81]")
+        + STONE.replace("1000.0", "1000.0\nviscosity = 1.0")
+        + body("pool", "stone", [0.0, 0.0, 0.0], [0.4, 0.4, 0.4]),
+        ["bound of", "[engines.tripoint] settings = { force_time_step = true }"],
+    ),
+    "a setting that nobody reads": (
+        scene("end_time = 1.0") + STONE + CUBE + "[engines.tripoint]\nsettings = { force_time_stp = true }\n",
+        ["no setting is named force_time_stp", "force_time_step"],
+    ),
+    "a step that needs a sound without end": (
+        scene("end_time = 1.0")
+        + STONE.replace("1000.0", "1000.0\nstiffness = 1e30\nviscosity = 1.0")
+        + body("pool", "stone", [0.0, 0.0, 0.0], [0.4, 0.4, 0.4]),
+        ["steps"],
+    ),
+    "a liquid that is joined": (
+        scene("end_time = 1.0\ngravity = [0.0, 0.0, -9.81]")
+        + BALL
+        + '[[material]]\nname = "oil"\ndensity = 900.0\nviscosity = 1.0\n'
+        + body("pool", "oil", [0.0, 0.0, 0.0], [0.4, 0.4, 0.4])
+        + body("bar", "gum", [0.4, 0.0, 0.0], [0.8, 0.4, 0.4], 'joined_to = ["pool"]'),
+        ["pool", "liquid"],
+    ),
 }
 
 
@@ -67,7 +146,9 @@ class Check(unittest.TestCase):
     def test_a_friction_of_0_is_what_contact_of_ours_does(self):
         for friction, code in ((0.0, 0), (0.3, 4)):
             with tempfile.TemporaryDirectory() as folder:
-                text = scene("end_time = 0.1") + STONE + CUBE + f"[engines.all]\nsettings = {{ friction = {friction} }}\n"
+                text = (
+                    scene("end_time = 0.1") + STONE + CUBE + f"[engines.all]\nsettings = {{ friction = {friction} }}\n"
+                )
                 done = call("run", text, folder, "--out", Path(folder) / "out")
                 self.assertEqual(done.returncode, code, done.stderr)
 
@@ -89,8 +170,12 @@ class Check(unittest.TestCase):
     def test_it_says_that_nothing_judges_a_case(self):
         of_nothing = scene("end_time = 1.0") + STONE + CUBE
         # what is said where nothing judges it; a case that is judged without a gate of its own is told nothing
-        for name, text, words in (("a metric", FLIGHT, 'a [[gate]] with metric = "m"'), ("nothing", of_nothing, "a [[metric]], and a [[gate]]"),
-                                  ("it diverges", FLIGHT + '[case]\nexpect = "diverges"\n', None), ("a gate", FLIGHT + GATE, None)):
+        for name, text, words in (
+            ("a metric", FLIGHT, 'a [[gate]] with metric = "m"'),
+            ("nothing", of_nothing, "a [[metric]], and a [[gate]]"),
+            ("it diverges", FLIGHT + '[case]\nexpect = "diverges"\n', None),
+            ("a gate", FLIGHT + GATE, None),
+        ):
             with self.subTest(name), tempfile.TemporaryDirectory() as folder:
                 done = call("check", text, folder)
                 self.assertEqual(done.returncode, 0, done.stderr)
@@ -99,26 +184,48 @@ class Check(unittest.TestCase):
 
     def test_it_says_that_still_liquid_on_a_lattice_will_stir(self):
         tank = body("floor", "stone", [0.0, 0.0, -0.3], [0.6, 0.6, 0.0], 'motion = "fixed"')
-        domain = 'end_time = 0.1\nmin = [0.0, 0.0, -0.5]\nmax = [0.6, 0.6, 2.0]\nperiodic = ["x", "y"]\ngravity = [0.0, 0.0, -9.81]\n'
+        domain = (
+            'end_time = 0.1\nmin = [0.0, 0.0, -0.5]\nmax = [0.6, 0.6, 2.0]\nperiodic = ["x", "y"]\ngravity = '
+            "[0.0, 0.0, -9.81]\n"
+        )
         thin, thick = ('[[material]]\nname = "oil"\ndensity = 900.0\nviscosity = ' + mu for mu in ("1e-3\n", "50.0\n"))
-        pool, stream = (body("pool", "oil", [0.0, 0.0, 0.0], [0.6, 0.6, 0.6], how) for how in ("", "velocity = [1.0, 0.0, 0.0]"))
+        pool, stream = (
+            body("pool", "oil", [0.0, 0.0, 0.0], [0.6, 0.6, 0.6], how) for how in ("", "velocity = [1.0, 0.0, 0.0]")
+        )
         block = body("block", "stone", [0.0, 0.0, 1.0], [0.4, 0.4, 1.4])
-        told = {"still": (True, scene(domain) + thin + STONE + pool + tank), "settled": (False, scene(domain + "settle = true") + thin + STONE + pool + tank),
-                "held back": (False, scene(domain) + thick + STONE + pool + tank), "moves": (False, scene(domain) + thin + STONE + stream + tank),
-                "with a free block": (False, scene(domain) + thin + STONE + pool + tank + block), "weightless": (False, scene(domain.replace("-9.81", "0.0")) + thin + "stiffness = 200.0\n" + STONE + pool + tank),
-                "along a channel": (False, scene(domain.replace("[0.0, 0.0, -9.81]", "[9.81, 0.0, 0.0]")) + thin + STONE + pool + tank)}
+        told = {
+            "still": (True, scene(domain) + thin + STONE + pool + tank),
+            "settled": (False, scene(domain + "settle = true") + thin + STONE + pool + tank),
+            "held back": (False, scene(domain) + thick + STONE + pool + tank),
+            "moves": (False, scene(domain) + thin + STONE + stream + tank),
+            "with a free block": (False, scene(domain) + thin + STONE + pool + tank + block),
+            "weightless": (
+                False,
+                scene(domain.replace("-9.81", "0.0")) + thin + "stiffness = 200.0\n" + STONE + pool + tank,
+            ),
+            "along a channel": (
+                False,
+                scene(domain.replace("[0.0, 0.0, -9.81]", "[9.81, 0.0, 0.0]")) + thin + STONE + pool + tank,
+            ),
+        }
         for name, (wanted, text) in told.items():
             with self.subTest(name), tempfile.TemporaryDirectory() as folder:
                 done = call("check", text, folder)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-                self.assertEqual("some 0.07 m/s rms" in done.stderr and "scene.settle = true" in done.stderr, wanted, done.stderr)
+                self.assertEqual(
+                    "some 0.07 m/s rms" in done.stderr and "scene.settle = true" in done.stderr, wanted, done.stderr
+                )
                 self.assertEqual("lattice" in done.stderr, wanted, done.stderr)
 
     def test_it_knows_the_entries_of_the_ledger(self):
         known = ("bulk_viscous", "transport", "kinetic", "time_integration", "residual", "fracture")
         for entry, warned in [*((entry, False) for entry in known), ("frictoin", True)]:
             with self.subTest(entry), tempfile.TemporaryDirectory() as folder:
-                done = call("check", scene("end_time = 1.0") + STONE + CUBE + INVARIANT + metric(f"ledger.{entry}", "drift"), folder)
+                done = call(
+                    "check",
+                    scene("end_time = 1.0") + STONE + CUBE + INVARIANT + metric(f"ledger.{entry}", "drift"),
+                    folder,
+                )
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertEqual(f'the ledger has no term "{entry}"' in done.stderr, warned, done.stderr)
 
@@ -139,7 +246,14 @@ class Run(unittest.TestCase):
         wall = body("wall", "stone", [-0.36, 0.0, 0.0], [0.0, 0.4, 0.4], 'motion = "fixed"')
         oil = '[[material]]\nname = "oil"\ndensity = 900.0\nviscosity = 50.0\n'
         with tempfile.TemporaryDirectory() as folder:
-            done, _ = self.run_case(scene("end_time = 0.001\ngravity = [0.0, 0.0, -9.81]") + oil + STONE + body("pool", "oil", [0.0, 0.0, 0.0], [0.4, 0.4, 0.4]) + wall, folder)
+            done, _ = self.run_case(
+                scene("end_time = 0.001\ngravity = [0.0, 0.0, -9.81]")
+                + oil
+                + STONE
+                + body("pool", "oil", [0.0, 0.0, 0.0], [0.4, 0.4, 0.4])
+                + wall,
+                folder,
+            )
             self.assertEqual(done.returncode, 0)
             self.assertIn("0.6 of a spacing", done.stderr)
 
@@ -147,14 +261,30 @@ class Run(unittest.TestCase):
         slope = body("slope", "stone", [-0.4, -0.3, -0.3], [2.0, 0.7, 0.0], 'motion = "fixed"')
         stated = 'reference = { kind = "bound", function = "stated", args = { value = 0.0 } }'
         with tempfile.TemporaryDirectory() as folder:
-            _, told = self.run_case(scene("end_time = 0.6\ngravity = [3.3552, 0.0, -9.2184]") + STONE + body("block", "stone", [0.0, 0.0, 0.0], [0.4, 0.4, 0.2]) + slope + INVARIANT
-                                    + metric("overlap", more=stated) + LEDGER, folder)
+            _, told = self.run_case(
+                scene("end_time = 0.6\ngravity = [3.3552, 0.0, -9.2184]")
+                + STONE
+                + body("block", "stone", [0.0, 0.0, 0.0], [0.4, 0.4, 0.2])
+                + slope
+                + INVARIANT
+                + metric("overlap", more=stated)
+                + LEDGER,
+                folder,
+            )
             self.assertEqual(told["status"], "ok")
             self.assertLess(told["metrics"]["m"]["value"], 0.2)
 
     def test_a_failed_reference_spoils_no_metric_that_needs_none(self):
         with tempfile.TemporaryDirectory() as folder:
-            _, told = self.run_case(scene("end_time = 0.1") + STONE + CUBE + '[reference]\nfunction = "couette"\n' + metric("velocity") + LEDGER, folder)
+            _, told = self.run_case(
+                scene("end_time = 0.1")
+                + STONE
+                + CUBE
+                + '[reference]\nfunction = "couette"\n'
+                + metric("velocity")
+                + LEDGER,
+                folder,
+            )
             self.assertIsNone(told["metrics"]["m"]["value"])
             self.assertEqual(told["metrics"]["ledger"]["value"], 0.0)
 
@@ -162,23 +292,48 @@ class Run(unittest.TestCase):
         hot = body("hot", "stone", [0.0, 0.0, 1.0], [0.4, 0.4, 1.4], "temperature = 400.0")
         floor = body("floor", "stone", [-0.4, -0.4, -0.3], [0.8, 0.8, 0.0], 'motion = "fixed"\ntemperature = 300.0')
         with tempfile.TemporaryDirectory() as folder:
-            done, told = self.run_case(scene("end_time = 0.2\ngravity = [0.0, 0.0, -9.81]") + WARM + hot + floor + INVARIANT + LEDGER, folder)
+            done, told = self.run_case(
+                scene("end_time = 0.2\ngravity = [0.0, 0.0, -9.81]") + WARM + hot + floor + INVARIANT + LEDGER, folder
+            )
             self.assertEqual((done.returncode, told["status"]), (0, "ok"), told)
 
     def test_one_frame_a_turn_is_not_frozen(self):
         rod = body("rod", "stone", [-0.5, -0.1, -0.1], [0.5, 0.1, 0.1], "angular_velocity = [0.0, 0.0, 10.0]")
         with tempfile.TemporaryDirectory() as folder:
-            done, told = self.run_case(scene("end_time = 3.141592653589793\noutput_interval = 0.6283185307179586\ntime_step = 0.005") + STONE + rod + '[reference]\nfunction = "torque_free"\n' + metric("shape"), folder, "--engine", "exact")
+            done, told = self.run_case(
+                scene("end_time = 3.141592653589793\noutput_interval = 0.6283185307179586\ntime_step = 0.005")
+                + STONE
+                + rod
+                + '[reference]\nfunction = "torque_free"\n'
+                + metric("shape"),
+                folder,
+                "--engine",
+                "exact",
+            )
             self.assertEqual((done.returncode, told["status"]), (0, "ok"), told)
 
     def test_matter_that_leaks_from_its_scene_is_named(self):
-        drop = '[[material]]\nname = "oil"\ndensity = 900.0\nviscosity = 1.0\n' + body("pool", "oil", [0.0, 0.0, 0.0], [0.4, 0.4, 0.4])
-        wall = body("wall", "stone", [2.0, 0.0, -1.0], [2.4, 0.4, 1.0], 'motion = "fixed"')  # beside it and lower: nothing holds the liquid
+        drop = '[[material]]\nname = "oil"\ndensity = 900.0\nviscosity = 1.0\n' + body(
+            "pool", "oil", [0.0, 0.0, 0.0], [0.4, 0.4, 0.4]
+        )
+        wall = body(
+            "wall", "stone", [2.0, 0.0, -1.0], [2.4, 0.4, 1.0], 'motion = "fixed"'
+        )  # beside it and lower: nothing holds the liquid
         with tempfile.TemporaryDirectory() as folder:
-            done, told = self.run_case(scene("end_time = 3.0\ngravity = [0.0, 0.0, -9.81]") + STONE + drop + wall + INVARIANT + LEDGER, folder)
+            done, told = self.run_case(
+                scene("end_time = 3.0\ngravity = [0.0, 0.0, -9.81]") + STONE + drop + wall + INVARIANT + LEDGER, folder
+            )
             self.assertEqual(done.returncode, 7, told)
             self.assertIn("made from the scene: give scene.min", told["reason"])
-            done, told = self.run_case(scene('end_time = 3.0\ngravity = [0.0, 0.0, -9.81]\nunguarded = ["escape"]') + STONE + drop + wall + INVARIANT + LEDGER, folder)
+            done, told = self.run_case(
+                scene('end_time = 3.0\ngravity = [0.0, 0.0, -9.81]\nunguarded = ["escape"]')
+                + STONE
+                + drop
+                + wall
+                + INVARIANT
+                + LEDGER,
+                folder,
+            )
             self.assertEqual(done.returncode, 0, told)
 
 

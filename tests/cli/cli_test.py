@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The program as people and CI call it: cli_test.py TRIPOINT FAKE_ENGINE [unittest arguments]."""
+
 import copy
 import hashlib
 import json
@@ -17,8 +18,17 @@ import h5py
 import numpy as np
 
 TRIPOINT, FAKE = sys.argv[1], sys.argv[2]
-VERBS = "run validate merge suite status compare report render view converge recommend plan ablate gate check explain list new schema engines engine".split()
-FLIGHT = Path(FAKE).with_name("flight.toml").read_text().replace("[reference]", "[engines.fake]\nrequired = true\n[reference]").replace("limit = 1e-10", 'engine = "fake"\nlimit = 1e-10')
+VERBS = (
+    "run validate merge suite status compare report render view converge recommend plan ablate gate check "
+    "explain list new schema engines engine"
+).split()
+FLIGHT = (
+    Path(FAKE)
+    .with_name("flight.toml")
+    .read_text()
+    .replace("[reference]", "[engines.fake]\nrequired = true\n[reference]")
+    .replace("limit = 1e-10", 'engine = "fake"\nlimit = 1e-10')
+)
 
 
 def call(*words, **more):
@@ -46,7 +56,17 @@ class Cli(unittest.TestCase):
         return script
 
     def validate(self, fault="nothing", *more):
-        return call("validate", self.path / "cases", "--engines", "fake", "--engine", self.fake(fault), "--out", self.path / "out", *more)
+        return call(
+            "validate",
+            self.path / "cases",
+            "--engines",
+            "fake",
+            "--engine",
+            self.fake(fault),
+            "--out",
+            self.path / "out",
+            *more,
+        )
 
     def results(self):
         return json.loads((self.path / "out" / "results.json").read_text())
@@ -57,9 +77,15 @@ class Cli(unittest.TestCase):
                 done = call("run", "rigid/ballistic", "--engine", engine, "--out", self.path / engine, "--quiet")
                 self.assertEqual(done.returncode, 0, done.stderr)
                 with h5py.File(self.path / engine / "trajectory.h5") as file:
-                    mass, place, velocity = (file[f"particles/all/{name}/value"][()] for name in ("mass", "position", "velocity"))
+                    mass, place, velocity = (
+                        file[f"particles/all/{name}/value"][()] for name in ("mass", "position", "velocity")
+                    )
                     mass = np.broadcast_to(mass, place.shape[:2])[..., None]
-                    for name, sums in (("mass", mass.sum((1, 2))), ("momentum", (mass * velocity).sum(1)), ("angular_momentum", np.cross(place, mass * velocity).sum(1))):
+                    for name, sums in (
+                        ("mass", mass.sum((1, 2))),
+                        ("momentum", (mass * velocity).sum(1)),
+                        ("angular_momentum", np.cross(place, mass * velocity).sum(1)),
+                    ):
                         stated = file[f"observables/{name}/value"][()]
                         self.assertGreater(np.abs(sums).max(), 0.0, name)
                         np.testing.assert_allclose(stated, sums, rtol=0, atol=1e-9 * np.abs(sums).max(), err_msg=name)
@@ -80,8 +106,18 @@ class Cli(unittest.TestCase):
 
     def test_what_is_no_command_option_file_or_tag_ends_2(self):
         self.write_cases("flight")
-        for words in (["no-such-verb"], [], ["validate", "--no-such-option"], ["validate", "no/such-case"], ["validate", self.path / "cases", "--tag", "no-such-tag"],
-                      ["validate", "--profile", "daily"], ["gate"], ["gate", "absent.json"], ["validate", "--shard", "3/2"], ["compare", self.path / "cases/test/flight.toml", "--engines", "one"]):
+        for words in (
+            ["no-such-verb"],
+            [],
+            ["validate", "--no-such-option"],
+            ["validate", "no/such-case"],
+            ["validate", self.path / "cases", "--tag", "no-such-tag"],
+            ["validate", "--profile", "daily"],
+            ["gate"],
+            ["gate", "absent.json"],
+            ["validate", "--shard", "3/2"],
+            ["compare", self.path / "cases/test/flight.toml", "--engines", "one"],
+        ):
             self.assertEqual(call(*words).returncode, 2, words)
 
     def test_output_that_cannot_be_written_is_no_success(self):
@@ -106,7 +142,13 @@ class Cli(unittest.TestCase):
         done = self.validate()
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertEqual(done.stdout.splitlines()[-1], f"verdict PASS exit 0  {self.path}/out/index.html")
-        for name in ("results.json", "junit.xml", "summary.md", "index.html", "runs/test/flight/fake/base/trajectory.csv"):
+        for name in (
+            "results.json",
+            "junit.xml",
+            "summary.md",
+            "index.html",
+            "runs/test/flight/fake/base/trajectory.csv",
+        ):
             self.assertTrue((self.path / "out" / name).exists(), name)
 
     def test_with_json_stdout_is_one_document(self):
@@ -117,8 +159,18 @@ class Cli(unittest.TestCase):
 
     def test_each_fault_of_an_engine_has_the_exit_code_of_the_contract(self):
         self.write_cases("flight")
-        for fault, code in {"one per cent of gravity": 1, "leaves no result": 4, "is killed": 4, "ends with an error": 4, "refuses": 4, "not there": 4, "diverges": 7,
-                            "holds another gravity": 4, "stops early": 4, "not a number": 4}.items():
+        for fault, code in {
+            "one per cent of gravity": 1,
+            "leaves no result": 4,
+            "is killed": 4,
+            "ends with an error": 4,
+            "refuses": 4,
+            "not there": 4,
+            "diverges": 7,
+            "holds another gravity": 4,
+            "stops early": 4,
+            "not a number": 4,
+        }.items():
             with self.subTest(fault):
                 self.assertEqual(self.validate(fault).returncode, code)
                 self.assertEqual(self.results()["exit_code"], code)
@@ -149,10 +201,16 @@ class Cli(unittest.TestCase):
 
         self.assertEqual(spoilt(lambda bad, e: None), 0)
         metric = lambda e: e["runs"][0]["metrics"]["position"]
-        for name, change, code in (("an error that its series does not show", lambda b, e: metric(e).update(value=1e6), 4), ("null", lambda b, e: metric(e).update(value=None, finite=False), 1),
-                                   ("a metric removed", lambda b, e: e["runs"][0]["metrics"].clear(), 4), ("runs removed", lambda b, e: e.update(runs=[]), 4),
-                                   ("cases removed", lambda b, e: b.update(cases=[]), 4), ("diverged", lambda b, e: e["runs"][0].update(status="diverged"), 7),
-                                   ("the engine removed", lambda b, e: b["cases"][0].update(engines=[]), 4), ("gates removed", lambda b, e: b["cases"][0].update(gates=[]), 4)):
+        for name, change, code in (
+            ("an error that its series does not show", lambda b, e: metric(e).update(value=1e6), 4),
+            ("null", lambda b, e: metric(e).update(value=None, finite=False), 1),
+            ("a metric removed", lambda b, e: e["runs"][0]["metrics"].clear(), 4),
+            ("runs removed", lambda b, e: e.update(runs=[]), 4),
+            ("cases removed", lambda b, e: b.update(cases=[]), 4),
+            ("diverged", lambda b, e: e["runs"][0].update(status="diverged"), 7),
+            ("the engine removed", lambda b, e: b["cases"][0].update(engines=[]), 4),
+            ("gates removed", lambda b, e: b["cases"][0].update(gates=[]), 4),
+        ):
             with self.subTest(name):
                 self.assertEqual(spoilt(change), code)
 
@@ -165,11 +223,20 @@ class Cli(unittest.TestCase):
         merged = call("merge", *(self.path / f"s{k}" for k in (2, 4, 1, 3)), "--out", self.path / "merged")
         self.assertEqual(merged.returncode, 0)
         whole = call(*common, "--out", self.path / "whole")
-        self.assertEqual(merged.stdout.splitlines()[:-1], whole.stdout.splitlines()[:-1])  # the last line names the folder
+        self.assertEqual(
+            merged.stdout.splitlines()[:-1], whole.stdout.splitlines()[:-1]
+        )  # the last line names the folder
         merged, whole = (json.loads((self.path / d / "results.json").read_text()) for d in ("merged", "whole"))
 
         def numbers(results):
-            return [(c["id"], e["name"], r["metrics"], g["verdict"]) for c in results["cases"] for e in c["engines"] for r in e["runs"] for g in e["gates"]]
+            return [
+                (c["id"], e["name"], r["metrics"], g["verdict"])
+                for c in results["cases"]
+                for e in c["engines"]
+                for r in e["runs"]
+                for g in e["gates"]
+            ]
+
         self.assertEqual(numbers(merged), numbers(whole))
         self.assertEqual(len(whole["cases"]), 7)
         self.assertEqual(call("merge", self.path / "s1", "--out", self.path / "part").returncode, 2)
@@ -177,10 +244,26 @@ class Cli(unittest.TestCase):
     def test_ctrl_c_ends_130_kills_the_engines_and_leaves_what_was_done(self):
         self.write_cases("a", "b")
         script = self.path / "engine-fake"  # hangs on case b only
-        script.write_text(f"#!/bin/sh\ncase \"$2\" in */b/*) FAKE=hangs; export FAKE;; esac\nexec /usr/bin/python3 '{FAKE}' \"$@\"\n")
+        script.write_text(
+            f'#!/bin/sh\ncase "$2" in */b/*) FAKE=hangs; export FAKE;; esac\nexec /usr/bin/python3 \'{FAKE}\' "$@"\n'
+        )
         script.chmod(0o755)
-        process = subprocess.Popen([TRIPOINT, "validate", self.path / "cases", "--engines", "fake", "--engine", script, "--out", self.path / "out"],
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen(
+            [
+                TRIPOINT,
+                "validate",
+                self.path / "cases",
+                "--engines",
+                "fake",
+                "--engine",
+                script,
+                "--out",
+                self.path / "out",
+            ],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
         self.assertIn("test/a", process.stdout.readline())
         time.sleep(1.5)
         process.send_signal(signal.SIGINT)
@@ -188,20 +271,29 @@ class Cli(unittest.TestCase):
         self.assertEqual(process.returncode, 130)
         self.assertEqual([c["id"] for c in self.results()["cases"]], ["test/a"])
         self.assertNotEqual(self.results()["exit_code"], 0)
-        running = [p for p in Path("/proc").iterdir() if p.name.isdigit() and str(self.path).encode() in read_or_empty(p / "cmdline")]
+        running = [
+            p
+            for p in Path("/proc").iterdir()
+            if p.name.isdigit() and str(self.path).encode() in read_or_empty(p / "cmdline")
+        ]
         self.assertEqual(running, [])
 
     def gated_fake(self):
         """An engine that says that it runs, and goes on once the file `go` is there."""
         script, runs, go = self.path / "engine-fake", self.path / "runs", self.path / "go"
-        script.write_text(f"#!/bin/sh\nif [ \"$1\" = --run ]; then touch '{runs}'; while [ ! -e '{go}' ]; do sleep 0.05; done; fi\nexec /usr/bin/python3 '{FAKE}' \"$@\"\n")
+        script.write_text(
+            f"#!/bin/sh\nif [ \"$1\" = --run ]; then touch '{runs}'; while [ ! -e '{go}' ]; do sleep 0.05; done; "
+            f"fi\nexec /usr/bin/python3 '{FAKE}' \"$@\"\n"
+        )
         script.chmod(0o755)
         return script
 
     def start_and_wait_for_its_engine(self, *words):
         runs = self.path / "runs"
         runs.unlink(missing_ok=True)
-        process = subprocess.Popen([TRIPOINT, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen(
+            [TRIPOINT, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        )
         self.addCleanup(process.kill)
         end = time.monotonic() + 60
         while not runs.exists():
@@ -212,11 +304,27 @@ class Cli(unittest.TestCase):
     def test_a_second_call_in_the_folder_of_a_call_ends_2_names_its_process_and_harms_nothing(self):
         self.write_cases("flight")
         case, engine, out = self.path / "cases/test/flight.toml", self.gated_fake(), self.path / "out"
-        validate = ["validate", self.path / "cases", "--engines", "fake", "--engine", engine, "--out", out, "--no-report"]
+        validate = [
+            "validate",
+            self.path / "cases",
+            "--engines",
+            "fake",
+            "--engine",
+            engine,
+            "--out",
+            out,
+            "--no-report",
+        ]
         first = self.start_and_wait_for_its_engine(*validate)
         before = hashes(out)
-        for words in (validate, [*validate, "--resume"], ["validate", case, "--last-failed", "--out", out], ["run", case, "--engine", "exact", "--out", out], ["compare", case, "--engines", "exact,tripoint", "--out", out],
-                      ["converge", case, "--axis", "time_step", "--levels", "0.02,0.01", "--engine", "tripoint", "--out", out]):
+        for words in (
+            validate,
+            [*validate, "--resume"],
+            ["validate", case, "--last-failed", "--out", out],
+            ["run", case, "--engine", "exact", "--out", out],
+            ["compare", case, "--engines", "exact,tripoint", "--out", out],
+            ["converge", case, "--axis", "time_step", "--levels", "0.02,0.01", "--engine", "tripoint", "--out", out],
+        ):
             with self.subTest(words[0]):
                 second = call(*words)
                 self.assertEqual(second.returncode, 2, second.stdout + second.stderr)
@@ -237,11 +345,33 @@ class Cli(unittest.TestCase):
         shards = [self.path / "s1", self.path / "s2"]
         (self.path / "go").touch()
         for k, shard in enumerate(shards, 1):
-            self.assertEqual(call("validate", self.path / "cases", "--engines", "fake", "--engine", engine, "--shard", f"{k}/2", "--out", shard, "--no-report").returncode, 0)
-        self.assertEqual(call("suite", "make", self.path / "suite", self.path / "cases", "--engines", "fake", "--engine", engine).returncode, 0)
+            self.assertEqual(
+                call(
+                    "validate",
+                    self.path / "cases",
+                    "--engines",
+                    "fake",
+                    "--engine",
+                    engine,
+                    "--shard",
+                    f"{k}/2",
+                    "--out",
+                    shard,
+                    "--no-report",
+                ).returncode,
+                0,
+            )
+        self.assertEqual(
+            call(
+                "suite", "make", self.path / "suite", self.path / "cases", "--engines", "fake", "--engine", engine
+            ).returncode,
+            0,
+        )
         self.assertEqual(call("suite", "work", self.path / "suite").returncode, 0)
         (self.path / "go").unlink()
-        first = self.start_and_wait_for_its_engine("validate", self.path / "cases", "--engines", "fake", "--engine", engine, "--out", out, "--no-report")
+        first = self.start_and_wait_for_its_engine(
+            "validate", self.path / "cases", "--engines", "fake", "--engine", engine, "--out", out, "--no-report"
+        )
         for words in (["merge", *shards, "--out", out], ["suite", "merge", self.path / "suite", "--out", out]):
             second = call(*words)
             self.assertEqual(second.returncode, 2, second.stdout + second.stderr)
@@ -251,12 +381,30 @@ class Cli(unittest.TestCase):
         (self.path / "go").touch()
         for words in (["merge", *shards, "--out", out], ["suite", "merge", self.path / "suite", "--out", out]):
             second = call(*words)
-            self.assertEqual(second.returncode, 0, "a call that was killed holds nothing: " + second.stdout + second.stderr)
+            self.assertEqual(
+                second.returncode, 0, "a call that was killed holds nothing: " + second.stdout + second.stderr
+            )
 
     def test_shards_run_at_once_into_folders_of_their_own(self):
         self.write_cases("a", "b")
-        common = [TRIPOINT, "validate", self.path / "cases", "--engines", "fake", "--engine", self.fake(), "--no-report"]
-        shards = [subprocess.Popen([*common, "--shard", f"{k}/2", "--out", self.path / f"s{k}"], stdout=subprocess.PIPE, stderr=subprocess.PIPE) for k in (1, 2)]
+        common = [
+            TRIPOINT,
+            "validate",
+            self.path / "cases",
+            "--engines",
+            "fake",
+            "--engine",
+            self.fake(),
+            "--no-report",
+        ]
+        shards = [
+            subprocess.Popen(
+                [*common, "--shard", f"{k}/2", "--out", self.path / f"s{k}"],
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+            )
+            for k in (1, 2)
+        ]
         for shard in shards:
             said = shard.communicate(timeout=60)
             self.assertEqual(shard.returncode, 0, said)
@@ -265,7 +413,22 @@ class Cli(unittest.TestCase):
         self.write_cases("a", "b")
         shards = [self.path / "s1", self.path / "s2"]
         for k, shard in enumerate(shards, 1):
-            self.assertEqual(call("validate", self.path / "cases", "--engines", "fake", "--engine", self.fake(), "--shard", f"{k}/2", "--out", shard, "--no-report").returncode, 0)
+            self.assertEqual(
+                call(
+                    "validate",
+                    self.path / "cases",
+                    "--engines",
+                    "fake",
+                    "--engine",
+                    self.fake(),
+                    "--shard",
+                    f"{k}/2",
+                    "--out",
+                    shard,
+                    "--no-report",
+                ).returncode,
+                0,
+            )
         secret = self.path / "secret.txt"
         secret.write_text("precious")
         leak = shards[0] / "runs" / "leak"
@@ -294,14 +457,26 @@ class Cli(unittest.TestCase):
         self.assertIn("tripoint engines", done.stderr)
 
     def test_engines_that_break_the_contract_fail_the_compliance_test(self):
-        for fault in ("broken info", "leaves no result", "stops early", "millimetres", "not a number", "holds another mass", "frozen", "says ok and exits 3", "torn result"):
+        for fault in (
+            "broken info",
+            "leaves no result",
+            "stops early",
+            "millimetres",
+            "not a number",
+            "holds another mass",
+            "frozen",
+            "says ok and exits 3",
+            "torn result",
+        ):
             with self.subTest(fault):
                 self.assertEqual(call("engine", "check", self.fake(fault)).returncode, 1)
         self.assertEqual(call("engine", "check", self.fake()).returncode, 0)
 
 
 def hashes(folder):
-    return {str(file): hashlib.sha256(file.read_bytes()).hexdigest() for file in sorted(folder.rglob("*")) if file.is_file()}
+    return {
+        str(file): hashlib.sha256(file.read_bytes()).hexdigest() for file in sorted(folder.rglob("*")) if file.is_file()
+    }
 
 
 def read_or_empty(path):

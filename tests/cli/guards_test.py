@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Each guard is tripped by a scene made for it: guards_test.py TRIPOINT [unittest arguments]."""
+
 import base64
 import json
 import struct
@@ -39,35 +40,109 @@ def body(name, material, phase, low, high, more=""):
 FORCED = "[engines.tripoint]\nsettings = { force_time_step = true }\n"
 # guard -> (scene, particles that may be to blame, body, words of the message)
 TRIPS = {
-    "finite": (scene('end_time = 1e6\ntime_step = 10.0\nunguarded = ["inversion", "overlap", "escape", "ledger", "time_step"]') + FORCED + JELLY
-               + body("cube", "jelly", "elastic", [0.0, 0.0, 0.0], [2.0, 2.0, 2.0], "angular_velocity = [0.0, 0.0, 0.02]"), range(8), 0, "no finite"),
-    "temperature": (scene("end_time = 1e7\ntime_step = 1e6") + FORCED + WAX
-                    + body("bar", "wax", "rigid", [0.0, 0.0, 0.0], [8.0, 2.0, 2.0], 'motion = "fixed"\ntemperature = { kind = "step", point = [4.0, 0.0, 0.0], normal = [1.0, 0.0, 0.0], behind = 900.0, ahead = 1.0 }'),
-                    range(32), 0, "absolute zero"),
-    "inversion": (scene("end_time = 4.0") + JELLY
-                  + body("cube", "jelly", "elastic", [0.0, 0.0, 0.0], [5.0, 5.0, 5.0], 'velocity = { kind = "linear", centre = [2.5, 2.5, 2.5], gradient = [[-30.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]] }'), range(125), 0, "det F"),
-    "overlap": (scene("end_time = 2.0") + STEEL + body("left", "steel", "rigid", [-5.0, 0.0, 0.0], [-1.0, 4.0, 4.0], "velocity = [10.0, 0.0, 0.0]")
-                + body("right", "steel", "rigid", [1.0, 0.0, 0.0], [5.0, 4.0, 4.0]), range(128), None, "overlap by one spacing"),
-    "escape": (scene("end_time = 20.0\nmin = [0.0, 0.0, 0.0]\nmax = [10.0, 10.0, 10.0]") + STEEL + body("drop", "steel", "liquid", [7.0, 5.0, 5.0], [9.0, 6.0, 6.0], "velocity = [1.0, 0.0, 0.0]"), [1], -1, "left the domain: x"),
-    "ledger": (scene('end_time = 20.0\nmode = "paper"') + JELLY.replace("100.0", "1000.0") + body("four", "jelly", "elastic", [0.0, 0.0, 0.0], [2.0, 2.0, 1.0], "angular_velocity = [1.0, 2.0, 3.0]"), range(4), 0, "the scheme itself has"),
-    "time_step": (scene("end_time = 20.0\ngravity = [0.0, 0.0, -10.0]\ntime_step = 0.05") + STEEL + body("drop", "steel", "liquid", [0.0, 0.0, 0.0], [2.0, 2.0, 2.0]), range(8), -1, "bound of sound"),
+    "finite": (
+        scene('end_time = 1e6\ntime_step = 10.0\nunguarded = ["inversion", "overlap", "escape", "ledger", "time_step"]')
+        + FORCED
+        + JELLY
+        + body("cube", "jelly", "elastic", [0.0, 0.0, 0.0], [2.0, 2.0, 2.0], "angular_velocity = [0.0, 0.0, 0.02]"),
+        range(8),
+        0,
+        "no finite",
+    ),
+    "temperature": (
+        scene("end_time = 1e7\ntime_step = 1e6")
+        + FORCED
+        + WAX
+        + body(
+            "bar",
+            "wax",
+            "rigid",
+            [0.0, 0.0, 0.0],
+            [8.0, 2.0, 2.0],
+            'motion = "fixed"\ntemperature = { kind = "step", point = [4.0, 0.0, 0.0], normal = [1.0, 0.0, 0.0], '
+            "behind = 900.0, ahead = 1.0 }",
+        ),
+        range(32),
+        0,
+        "absolute zero",
+    ),
+    "inversion": (
+        scene("end_time = 4.0")
+        + JELLY
+        + body(
+            "cube",
+            "jelly",
+            "elastic",
+            [0.0, 0.0, 0.0],
+            [5.0, 5.0, 5.0],
+            'velocity = { kind = "linear", centre = [2.5, 2.5, 2.5], gradient = [[-30.0, 0.0, 0.0], [0.0, 0.0, 0.0], '
+            "[0.0, 0.0, 0.0]] }",
+        ),
+        range(125),
+        0,
+        "det F",
+    ),
+    "overlap": (
+        scene("end_time = 2.0")
+        + STEEL
+        + body("left", "steel", "rigid", [-5.0, 0.0, 0.0], [-1.0, 4.0, 4.0], "velocity = [10.0, 0.0, 0.0]")
+        + body("right", "steel", "rigid", [1.0, 0.0, 0.0], [5.0, 4.0, 4.0]),
+        range(128),
+        None,
+        "overlap by one spacing",
+    ),
+    "escape": (
+        scene("end_time = 20.0\nmin = [0.0, 0.0, 0.0]\nmax = [10.0, 10.0, 10.0]")
+        + STEEL
+        + body("drop", "steel", "liquid", [7.0, 5.0, 5.0], [9.0, 6.0, 6.0], "velocity = [1.0, 0.0, 0.0]"),
+        [1],
+        -1,
+        "left the domain: x",
+    ),
+    "ledger": (
+        scene('end_time = 20.0\nmode = "paper"')
+        + JELLY.replace("100.0", "1000.0")
+        + body("four", "jelly", "elastic", [0.0, 0.0, 0.0], [2.0, 2.0, 1.0], "angular_velocity = [1.0, 2.0, 3.0]"),
+        range(4),
+        0,
+        "the scheme itself has",
+    ),
+    "time_step": (
+        scene("end_time = 20.0\ngravity = [0.0, 0.0, -10.0]\ntime_step = 0.05")
+        + STEEL
+        + body("drop", "steel", "liquid", [0.0, 0.0, 0.0], [2.0, 2.0, 2.0]),
+        range(8),
+        -1,
+        "bound of sound",
+    ),
 }
 
 
 def run(text, folder, *more):
     (folder / "case.toml").write_text(HEAD + text)
-    return subprocess.run([TRIPOINT, "run", str(folder / "case.toml"), "--out", str(folder / "out"), "--quiet", *more], capture_output=True, text=True, timeout=120)
+    return subprocess.run(
+        [TRIPOINT, "run", str(folder / "case.toml"), "--out", str(folder / "out"), "--quiet", *more],
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
 
 
 def read_points(path):
     """(places, arrays) of a .vtp, by VTK's own reader where it is there, else as its format says."""
     try:
         from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
         reader = vtkXMLPolyDataReader()
         reader.SetFileName(str(path))
         reader.Update()
         data = reader.GetOutput()
-        arrays = {data.GetPointData().GetArrayName(k): [data.GetPointData().GetArray(k).GetTuple(i) for i in range(data.GetNumberOfPoints())] for k in range(data.GetPointData().GetNumberOfArrays())}
+        arrays = {
+            data.GetPointData().GetArrayName(k): [
+                data.GetPointData().GetArray(k).GetTuple(i) for i in range(data.GetNumberOfPoints())
+            ]
+            for k in range(data.GetPointData().GetNumberOfArrays())
+        }
         return [data.GetPoint(i) for i in range(data.GetNumberOfPoints())], arrays
     except ImportError:
         pass
@@ -76,8 +151,8 @@ def read_points(path):
     def values(array):
         raw = base64.b64decode(array.text)
         length, width = struct.unpack("<Q", raw[:8])[0], int(array.get("NumberOfComponents"))
-        flat = struct.unpack(f"<{length // 8}d", raw[8:8 + length])
-        return [flat[k:k + width] for k in range(0, len(flat), width)]
+        flat = struct.unpack(f"<{length // 8}d", raw[8 : 8 + length])
+        return [flat[k : k + width] for k in range(0, len(flat), width)]
 
     return values(piece.find("Points/DataArray")), {a.get("Name"): values(a) for a in piece.find("PointData")}
 
@@ -113,13 +188,21 @@ class Guards(unittest.TestCase):
             kept = json.loads((folder / "out/result.json").read_text())["divergence"]["checkpoint"]
             self.assertTrue((folder / "out" / kept).is_file(), kept)
             self.assertIn(kept, ended.stdout)
-            self.assertEqual(run(TRIPS["escape"][0], folder, "--resume", str(folder / "out" / kept), "--checkpoint-interval", "0.5").returncode, 7)
+            self.assertEqual(
+                run(
+                    TRIPS["escape"][0], folder, "--resume", str(folder / "out" / kept), "--checkpoint-interval", "0.5"
+                ).returncode,
+                7,
+            )
 
     def test_a_scene_that_recovers_reaches_its_end_and_says_how_often_it_went_back(self):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             text = TRIPS["time_step"][0].replace("end_time = 20.0", 'end_time = 4.0\non_failure = "recover"')
-            metric = '[[metric]]\nname = "recoveries"\nquantity = "recoveries"\nnorm = "final"\nreference = { kind = "bound", function = "stated", args = { value = 0.0 } }\n'
+            metric = (
+                '[[metric]]\nname = "recoveries"\nquantity = "recoveries"\nnorm = "final"\nreference = { kind = '
+                '"bound", function = "stated", args = { value = 0.0 } }\n'
+            )
             ended = run(text + metric, folder, "--json")
             self.assertEqual(ended.returncode, 0, ended.stdout + ended.stderr)
             told = json.loads(ended.stdout)

@@ -1,17 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Hostile engines and hostile case files against the whole program: none passes, none harms the host, each stays in bounds of time and memory.
+"""Hostile engines and hostile case files against the whole program: none passes, none harms the host, each stays in
+bounds of time and memory.
 
-    hostile_test.py TRIPOINT PAGE           compares with the tables on tests/cli/hostile/tables.md; seconds and memory are held to bounds alone
+    hostile_test.py TRIPOINT PAGE           compares with the tables on tests/cli/hostile/tables.md; seconds and memory
+    are held to bounds alone
     hostile_test.py TRIPOINT PAGE --write   writes those tables anew
 
-Time is the processor's of all that ran, memory that of the largest process. We take in every orphan (as a child subreaper): what an engine leaves alive would be ours."""
+Time is the processor's of all that ran, memory that of the largest process. We take in every orphan (as a child
+subreaper): what an engine leaves alive would be ours."""
+
 import ctypes
 import json
 import os
 import re
 import resource
-import shutil
-import signal
 import socket
 import subprocess
 import sys
@@ -41,13 +43,23 @@ class End:
 
 def run(words, folder, memory=None, limit=120.0):
     """A program to its end. @param memory bound of its address space [bytes]"""
+
     def bounds():
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
         if memory:
             resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
+
     start = time.monotonic()
     with (folder / "out.txt").open("w+b") as out, (folder / "err.txt").open("w+b") as err:
-        child = subprocess.Popen([str(w) for w in words], cwd=folder, stdin=subprocess.DEVNULL, stdout=out, stderr=err, preexec_fn=bounds, env={**os.environ, "SOME_TOKEN": "secret"})
+        child = subprocess.Popen(
+            [str(w) for w in words],
+            cwd=folder,
+            stdin=subprocess.DEVNULL,
+            stdout=out,
+            stderr=err,
+            preexec_fn=bounds,
+            env={**os.environ, "SOME_TOKEN": "secret"},
+        )
         while True:
             pid, status, use = os.wait4(child.pid, os.WNOHANG)
             if pid:
@@ -102,22 +114,44 @@ class Engine:
             engine = engines.make(place / "engine", hostile, place / "mine", door.getsockname()[1])
             case = place / "cases" / "flight.toml"
             case.write_text((engines.FAKE / "flight.toml").read_text() + "[engines.evil]\nrequired = true\n")
-            words = [TRIPOINT, "validate", case, "--engine", engine, "--engines", "evil,exact", "--out", place / "work/out", "--no-history", "--time-limit", TIME_LIMIT]
+            words = [
+                TRIPOINT,
+                "validate",
+                case,
+                "--engine",
+                engine,
+                "--engines",
+                "evil,exact",
+                "--out",
+                place / "work/out",
+                "--no-history",
+                "--time-limit",
+                TIME_LIMIT,
+            ]
             self.end = run(words + ["--sandbox"] * sandbox + ["--no-report"] * (not hostile.page), place / "work")
             self.said = self.suite_said(place / "work/out/results.json")
             self.faults += faults_of(self.end, 60.0)
             self.faults += ["it left processes alive"] if left_alive() else []
-            self.faults += [f"the host was harmed: {sorted(p.name for p in (place / 'mine').iterdir())}"] if self.harmed(place) else []
+            self.faults += (
+                [f"the host was harmed: {sorted(p.name for p in (place / 'mine').iterdir())}"]
+                if self.harmed(place)
+                else []
+            )
             self.faults += ["it called out"] if self.called(door) else []
             self.faults += [f"an engine took {self.end.peak:.0f} MB"] if self.end.peak > 2048 else []
-            pages = [path.read_text(errors="replace") for path in sorted((place / "work/out").glob("*.html")) + sorted((place / "work/out").glob("*.md"))]
+            pages = [
+                path.read_text(errors="replace")
+                for path in sorted((place / "work/out").glob("*.html")) + sorted((place / "work/out").glob("*.md"))
+            ]
             self.faults += ["its markup is in the report"] if any("<script>alert(1)" in text for text in pages) else []
             self.faults += ["no report was drawn"] if hostile.page and not pages else []
 
     @staticmethod
     def harmed(place):
         files = {path.name: path.read_text() for path in (place / "mine").iterdir()}
-        return files != {"secret": "precious", "victim": "precious"} or sorted(path.name for path in place.iterdir()) != ["cases", "engine", "mine", "work"]
+        return files != {"secret": "precious", "victim": "precious"} or sorted(
+            path.name for path in place.iterdir()
+        ) != ["cases", "engine", "mine", "work"]
 
     @staticmethod
     def called(door):
@@ -149,7 +183,21 @@ class CaseFile:
             self.check = run([TRIPOINT, "check", path], place, memory=4 << 30)
             self.faults = [f"check {fault}" for fault in faults_of(self.check, 10.0)]
             self.faults += [f"check exits {self.check.code}"] if self.check.code not in (0, 2) else []
-            judged = run([TRIPOINT, "validate", path, "--engines", "exact", "--out", place / "out", "--no-report", "--no-history"], place, memory=4 << 30)
+            judged = run(
+                [
+                    TRIPOINT,
+                    "validate",
+                    path,
+                    "--engines",
+                    "exact",
+                    "--out",
+                    place / "out",
+                    "--no-report",
+                    "--no-history",
+                ],
+                place,
+                memory=4 << 30,
+            )
             self.faults += [f"validate {fault}" for fault in faults_of(judged, 10.0)]
             self.faults += [f"validate exits {judged.code}: {judged.err}"] if judged.code != 2 else []
             self.faults += [f"took {self.check.peak:.0f} MB"] if max(self.check.peak, judged.peak) > 1024 else []
@@ -162,7 +210,12 @@ class CaseFile:
 def short(text, most=110):
     """On one line of a table."""
     text = re.sub(r"/proc/\d+", "/proc/self", text)
-    text = re.sub(r"/tmp/[\w/.-]*", "...", re.sub(r"[\s\x00-\x1f\x7f]+", " ", text)).replace("|", "/").replace("<", "&lt;").replace("`", "'")
+    text = (
+        re.sub(r"/tmp/[\w/.-]*", "...", re.sub(r"[\s\x00-\x1f\x7f]+", " ", text))
+        .replace("|", "/")
+        .replace("<", "&lt;")
+        .replace("`", "'")
+    )
     return text if len(text) <= most else text[: most - 3] + "..."
 
 
@@ -178,7 +231,10 @@ def engine_rows(sandbox_works):
         for where, one in (("inside", inside), ("outside", outside)):
             faults += [f"{hostile.name} ({where}): {fault}" for fault in one.faults] if one else []
         told = inside or outside
-        row = f"| {short(hostile.name)} | {inside.end.code if inside else '-'} | {cost(inside.end) if inside else '- | -'} | {outside.end.code if outside else '-'} |"
+        row = (
+            f"| {short(hostile.name)} | {inside.end.code if inside else '-'} | "
+            f"{cost(inside.end) if inside else '- | -'} | {outside.end.code if outside else '-'} |"
+        )
         yield row + f" {cost(outside.end) if outside else '- | -'} | {short(told.said) if told else ''} |", faults
         faults = []
 
@@ -186,7 +242,11 @@ def engine_rows(sandbox_works):
 def case_rows():
     for hostile in cases.HOSTILE:
         one = CaseFile(hostile)
-        yield f"| {short(hostile.name, 60)} | {one.check.code} | {one.check.cpu:.2f} | {max(1, round(one.check.peak))} | {short(one.said)} |", [f"{hostile.name}: {fault}" for fault in one.faults]
+        yield (
+            f"| {short(hostile.name, 60)} | {one.check.code} | {one.check.cpu:.2f} | {max(1, round(one.check.peak))} "
+            f"| {short(one.said)} |",
+            [f"{hostile.name}: {fault}" for fault in one.faults],
+        )
 
 
 def between(name, page):
@@ -204,7 +264,10 @@ def main():
     sandbox_works = os.path.exists(bare[0]) and subprocess.run(bare, capture_output=True, check=False).returncode == 0
     page = PAGE.read_text()
     faults = []
-    for name, rows, columns in (("engines", engine_rows(sandbox_works), (1, 2, 5) if sandbox_works else (1, 5)), ("cases", case_rows(), (1, 2))):
+    for name, rows, columns in (
+        ("engines", engine_rows(sandbox_works), (1, 2, 5) if sandbox_works else (1, 5)),
+        ("cases", case_rows(), (1, 2)),
+    ):
         made = []
         for row, wrong in rows:
             print(row, flush=True)
@@ -220,7 +283,10 @@ def main():
             faults.append(f"the page's table of {name} says otherwise: --write writes it anew")
     if "--write" in sys.argv:
         PAGE.write_text(page)
-    print(f"{len(engines.HOSTILE)} engines, {len(cases.HOSTILE)} case files, {len(faults)} faults" + ("" if sandbox_works else "; no sandbox here"))
+    print(
+        f"{len(engines.HOSTILE)} engines, {len(cases.HOSTILE)} case files, {len(faults)} faults"
+        + ("" if sandbox_works else "; no sandbox here")
+    )
     return 1 if faults else 0
 
 

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""tripoint is killed by SIGKILL while an engine runs: nothing of what it started is alive afterwards.   killed_test.py TRIPOINT
+"""tripoint is killed by SIGKILL while an engine runs: nothing of what it started is alive afterwards.   killed_test.py
+TRIPOINT
 
 We take in every orphan (as a child subreaper), so that "nothing" means no process at all, marked or not."""
+
 import ctypes
 import os
 import signal
@@ -17,13 +19,13 @@ PR_SET_CHILD_SUBREAPER = 36
 PATIENCE = 15.0  # [s]; it takes a fifth of a second on a quiet machine
 
 # An engine that hangs, with a child in a session of its own that ignores what it can ignore.
-HANGS = '''
+HANGS = """
 import subprocess, sys, time
 if sys.argv[1] == "--run":
     subprocess.Popen(["/bin/sh", "-c", "trap '' TERM HUP INT; sleep 300; sleep 300"], start_new_session=True)
     open("hangs", "w").close()
     time.sleep(300)
-'''
+"""
 
 
 def processes():
@@ -75,7 +77,9 @@ class Killed(unittest.TestCase):
         self.place = tempfile.TemporaryDirectory()
         self.addCleanup(self.place.cleanup)
         self.folder = Path(self.place.name).resolve()
-        subprocess.run([TRIPOINT, "engine", "new", "mine", "--lang", "python"], cwd=self.folder, check=True, capture_output=True)
+        subprocess.run(
+            [TRIPOINT, "engine", "new", "mine", "--lang", "python"], cwd=self.folder, check=True, capture_output=True
+        )
         self.engine = next((self.folder / "mine").glob("engine-*"))
 
     def make_it_hang(self):
@@ -84,8 +88,21 @@ class Killed(unittest.TestCase):
         self.engine.write_text("\n".join(lines[:at] + HANGS.split("\n") + lines[at:]))
 
     def start(self, n, engines="mine"):
-        words = ["validate", "rigid/ballistic", "--engine", self.engine, "--engines", engines, "--out", self.folder / f"out{n}", "--no-report", "--no-history"]
-        return subprocess.Popen([TRIPOINT, *words], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        words = [
+            "validate",
+            "rigid/ballistic",
+            "--engine",
+            self.engine,
+            "--engines",
+            engines,
+            "--out",
+            self.folder / f"out{n}",
+            "--no-report",
+            "--no-history",
+        ]
+        return subprocess.Popen(
+            [TRIPOINT, *words], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        )
 
     def wait_until_it_hangs(self, n):
         end = time.monotonic() + 60.0
@@ -104,7 +121,9 @@ class Killed(unittest.TestCase):
         first = self.start("first")
         self.wait_until_it_hangs("first")
         whole = time.monotonic() - before
-        while len(below(first.pid)) < 4:  # engine, shell, sleep, and who watches; the shell says that it hangs before it starts its sleep
+        while (
+            len(below(first.pid)) < 4
+        ):  # engine, shell, sleep, and who watches; the shell says that it hangs before it starts its sleep
             self.assertLess(time.monotonic() - before, 60.0, below(first.pid))
             time.sleep(0.01)
         self.kill(first)
@@ -134,8 +153,25 @@ class Killed(unittest.TestCase):
 
     def test_a_kill_of_the_whole_group_spares_the_watcher(self):
         self.make_it_hang()
-        harness = subprocess.Popen(["setsid", TRIPOINT, "validate", "rigid/ballistic", "--engine", self.engine, "--engines", "mine", "--out", self.folder / "out0", "--no-report", "--no-history"],
-                                   cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        harness = subprocess.Popen(
+            [
+                "setsid",
+                TRIPOINT,
+                "validate",
+                "rigid/ballistic",
+                "--engine",
+                self.engine,
+                "--engines",
+                "mine",
+                "--out",
+                self.folder / "out0",
+                "--no-report",
+                "--no-history",
+            ],
+            cwd=self.folder,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
         self.wait_until_it_hangs(0)
         os.killpg(harness.pid, signal.SIGKILL)
         os.waitpid(harness.pid, 0)

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Limits of the shell, signals and broken engines end with a sentence; schemas fit the files: limits_test.py TRIPOINT."""
+"""Limits of the shell, signals and broken engines end with a sentence; schemas fit the files: limits_test.py
+TRIPOINT."""
+
 import json
-import os
 import signal
 import subprocess
 import sys
@@ -22,7 +23,15 @@ def fits(schema, value, root, at="job"):
         return [] if [] in tried else min(tried, key=len)
     if "const" in schema or "enum" in schema:
         return [] if value in schema.get("enum", [schema.get("const")]) else [f"{at} = {value!r}"]
-    kinds = {"object": dict, "array": list, "string": str, "boolean": bool, "integer": int, "number": (int, float), "null": type(None)}
+    kinds = {
+        "object": dict,
+        "array": list,
+        "string": str,
+        "boolean": bool,
+        "integer": int,
+        "number": (int, float),
+        "null": type(None),
+    }
     if "type" in schema and not isinstance(value, kinds[schema["type"]]):
         return [f"{at} is no {schema['type']}: {value!r}"]
     wrong = []
@@ -67,11 +76,18 @@ class Limits(unittest.TestCase):
         for which, name in ((signal.SIGTERM, "SIGTERM"), (signal.SIGINT, "Ctrl-C")):
             engine = self.folder / "engine-slow"
             engine.write_text(f"""#!/bin/sh
-case $1 in --info) echo '{{"contract": 1, "name": "slow", "version": "1", "capabilities": [], "presets": ["default"], "deterministic": true}}';;
+case $1 in --info) echo '{{"contract": 1, "name": "slow", "version": "1", "capabilities": [], "presets": ["default"], \
+"deterministic": true}}';;
 --check) echo '{{"can": true, "reason": ""}}';; --run) touch "{self.folder}/begun"; exec sleep 30;; esac
 """)
             engine.chmod(0o755)
-            run = subprocess.Popen([TRIPOINT, "run", "rigid/ballistic", "--engine", engine, "--out", "run"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            run = subprocess.Popen(
+                [TRIPOINT, "run", "rigid/ballistic", "--engine", engine, "--out", "run"],
+                cwd=self.folder,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                text=True,
+            )
             while not (self.folder / "begun").exists():
                 time.sleep(0.02)
             (self.folder / "begun").unlink()
@@ -97,7 +113,12 @@ case $1 in --info) echo '{{"contract": 1, "name": "slow", "version": "1", "capab
         self.assertIn("exited with code 1; its last words: ModuleNotFoundError", done.stderr)
 
     def test_the_schemas_fit_what_is_written(self):
-        for case, more in (("rigid/ballistic", []), ("heat/cosine-mode", ["--until", "1"]), ("contact/slope-slip", ["--until", "0.01", "--engine", "bullet"]), ("phase/melt-rigid", ["--until", "0.01"])):
+        for case, more in (
+            ("rigid/ballistic", []),
+            ("heat/cosine-mode", ["--until", "1"]),
+            ("contact/slope-slip", ["--until", "0.01", "--engine", "bullet"]),
+            ("phase/melt-rigid", ["--until", "0.01"]),
+        ):
             self.call("run", case, "--out", self.folder / "run", *more)
             for name in ("job", "result"):
                 file = self.folder / "run" / f"{name}.json"

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A checkout that was copied or moved with its build finds its own cases, not those of the place where it was built."""
+
 import shutil
 import subprocess
 import sys
@@ -21,8 +22,16 @@ class MovedCheckout(unittest.TestCase):
                 shutil.copytree(BUILD / room, copy / BUILD.relative_to(ROOT) / room, symlinks=True)
             case = copy / "cases/rigid/ballistic.toml"
             lines = case.read_text().splitlines()
-            case.write_text("\n".join('title = "Of the copy"' if line.startswith("title") else line for line in lines) + "\n")
-            said = subprocess.run([copy / BUILD.relative_to(ROOT) / "bin/tripoint", "list", "rigid/ballistic"], capture_output=True, text=True, cwd=folder, check=False)
+            case.write_text(
+                "\n".join('title = "Of the copy"' if line.startswith("title") else line for line in lines) + "\n"
+            )
+            said = subprocess.run(
+                [copy / BUILD.relative_to(ROOT) / "bin/tripoint", "list", "rigid/ballistic"],
+                capture_output=True,
+                text=True,
+                cwd=folder,
+                check=False,
+            )
             self.assertIn("Of the copy", said.stdout, said.stderr)
 
     def test_no_launcher_names_the_place_of_its_build(self):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""200 mutated case files through the whole program: each is refused with file, line and remedy, or its change is seen in
+"""200 mutated case files through the whole program: each is refused with file, line and remedy, or its change is seen
+in
 `explain --json`. Never a crash, a hang, or a silent pass.   mutants_test.py TRIPOINT WRITE_MUTANTS"""
+
 import json
 import pathlib
 import re
@@ -14,7 +16,9 @@ tripoint, write_mutants = sys.argv[1:3]
 
 
 def explain(path):
-    return subprocess.run([tripoint, "explain", path, "--json"], capture_output=True, text=True, errors="replace", timeout=20)
+    return subprocess.run(
+        [tripoint, "explain", path, "--json"], capture_output=True, text=True, errors="replace", timeout=20
+    )
 
 
 def shown(path):
@@ -50,7 +54,7 @@ def fault_of(mutant, source):
 
 
 def main():
-    faults, refused, changed = [], 0, 0
+    faults = []
     with tempfile.TemporaryDirectory(prefix="tripoint mutants ü ") as name:
         folder = pathlib.Path(name)
         subprocess.run([write_mutants, name, str(COUNT), str(SEED)], check=True, capture_output=True)

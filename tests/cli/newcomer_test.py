@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What somebody new types, mistypes and interrupts: newcomer_test.py TRIPOINT FAKE_ENGINE SOURCE [unittest arguments]."""
+"""What somebody new types, mistypes and interrupts: newcomer_test.py TRIPOINT FAKE_ENGINE SOURCE [unittest
+arguments]."""
+
 import hashlib
 import json
 import os
@@ -20,7 +22,9 @@ FLIGHT = FAKE.with_name("flight.toml").read_text()
 
 
 def hashes(folder):
-    return {str(file): hashlib.sha256(file.read_bytes()).hexdigest() for file in sorted(folder.rglob("*")) if file.is_file()}
+    return {
+        str(file): hashlib.sha256(file.read_bytes()).hexdigest() for file in sorted(folder.rglob("*")) if file.is_file()
+    }
 
 
 class Newcomer(unittest.TestCase):
@@ -32,7 +36,11 @@ class Newcomer(unittest.TestCase):
         self.folder.cleanup()
 
     def call(self, *words, **more):
-        return subprocess.run([TRIPOINT, *map(str, words)], **({"cwd": self.path, "capture_output": True, "text": True, "timeout": 240} | more), check=False)
+        return subprocess.run(
+            [TRIPOINT, *map(str, words)],
+            **({"cwd": self.path, "capture_output": True, "text": True, "timeout": 240} | more),
+            check=False,
+        )
 
     def fake(self, shell="FAKE=nothing"):
         script = self.path / "engine-fake"
@@ -47,7 +55,9 @@ class Newcomer(unittest.TestCase):
             file.write_text(FLIGHT)
 
     def validate(self, *more, shell="FAKE=nothing", **how):
-        return self.call("validate", "cases", "--engines", "fake", "--engine", self.fake(shell), "--out", "out", *more, **how)
+        return self.call(
+            "validate", "cases", "--engines", "fake", "--engine", self.fake(shell), "--out", "out", *more, **how
+        )
 
     def judged(self, folder="out"):
         return [c["id"] for c in json.loads((self.path / folder / "results.json").read_text())["cases"]]
@@ -57,8 +67,13 @@ class Newcomer(unittest.TestCase):
         self.assertEqual(self.call("validate", CASE, "--engines", "bullet,exact", "--no-report").returncode, 0)
         before = hashes(self.path / "report")
         self.assertTrue(before)
-        for words in (["converge", CASE, "--axis", "time_step", "--engine", "bullet", "--levels", "0.04,0.02"], ["compare", CASE, "--engines", "bullet,exact"], ["plan", CASE, "--engines", "bullet", "--within", "0.02"],
-                      ["recommend", CASE, "--engines", "bullet", "--error", "0.03"], ["ablate", CASE]):
+        for words in (
+            ["converge", CASE, "--axis", "time_step", "--engine", "bullet", "--levels", "0.04,0.02"],
+            ["compare", CASE, "--engines", "bullet,exact"],
+            ["plan", CASE, "--engines", "bullet", "--within", "0.02"],
+            ["recommend", CASE, "--engines", "bullet", "--error", "0.03"],
+            ["ablate", CASE],
+        ):
             with self.subTest(words[0]):
                 done = self.call(*words)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
@@ -69,13 +84,28 @@ class Newcomer(unittest.TestCase):
         self.cases("a")
         done = self.call("validate", "--engine", self.fake(), "--engines", "fake", "cases/test/a.toml", "--no-report")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(self.call("converge", "--levels", "0.04,0.02", "--axis", "time_step", "--engine", "bullet", CASE).returncode, 0)
+        self.assertEqual(
+            self.call(
+                "converge", "--levels", "0.04,0.02", "--axis", "time_step", "--engine", "bullet", CASE
+            ).returncode,
+            0,
+        )
 
     # Mistyped words
     def test_mistyped_words_get_the_nearest_name(self):
-        for words, near in ((["valdate"], "`validate`"), (["run", CASE, "--engin", "bullet"], "`--engine`"), (["gate", "selftst"], "`gate selftest`"), (["gate", "accept", "--reson", "x"], "`--reason`"),
-                            (["engine", "chck", "x"], "`engine check`"), (["validate", "rigid/balistic"], "`rigid/ballistic`"), (["validate", "cases/rigid/ballistik.toml"], "`rigid/ballistic`"),
-                            (["run", "ballistic"], "`rigid/ballistic`"), (["explain", "haet/cosine-mode"], "`heat/cosine-mode`"), (["check", "heat/cosinemode"], "`heat/cosine-mode`"), (["validate", "haet"], "`heat`")):
+        for words, near in (
+            (["valdate"], "`validate`"),
+            (["run", CASE, "--engin", "bullet"], "`--engine`"),
+            (["gate", "selftst"], "`gate selftest`"),
+            (["gate", "accept", "--reson", "x"], "`--reason`"),
+            (["engine", "chck", "x"], "`engine check`"),
+            (["validate", "rigid/balistic"], "`rigid/ballistic`"),
+            (["validate", "cases/rigid/ballistik.toml"], "`rigid/ballistic`"),
+            (["run", "ballistic"], "`rigid/ballistic`"),
+            (["explain", "haet/cosine-mode"], "`heat/cosine-mode`"),
+            (["check", "heat/cosinemode"], "`heat/cosine-mode`"),
+            (["validate", "haet"], "`heat`"),
+        ):
             with self.subTest(" ".join(words)):
                 done = self.call(*words)
                 self.assertEqual(done.returncode, 2, done.stderr)
@@ -83,7 +113,12 @@ class Newcomer(unittest.TestCase):
                 self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
 
     def test_a_mistyped_engine_gets_the_nearest_name_and_is_missing(self):
-        for words in (["run", CASE, "--engine", "bulet"], ["compare", CASE, "--engines", "exact,bulet"], ["converge", CASE, "--engine", "bulet", "--axis", "time_step", "--levels", "0.02,0.01"], ["plan", CASE, "--engines", "bulet", "--within", "1%"]):
+        for words in (
+            ["run", CASE, "--engine", "bulet"],
+            ["compare", CASE, "--engines", "exact,bulet"],
+            ["converge", CASE, "--engine", "bulet", "--axis", "time_step", "--levels", "0.02,0.01"],
+            ["plan", CASE, "--engines", "bulet", "--within", "1%"],
+        ):
             with self.subTest(words[0]):
                 done = self.call(*words)
                 self.assertEqual(done.returncode, 4, done.stderr)
@@ -97,7 +132,13 @@ class Newcomer(unittest.TestCase):
 
     def test_a_case_of_ones_own_goes_by_its_name_and_a_report_by_its_folder(self):
         self.assertEqual(self.call("new", "my-case").returncode, 0)
-        for words in (["check", "my-case"], ["run", "my-case"], ["validate", "my-case", "--no-report"], ["gate", "report"], ["report", "report"]):
+        for words in (
+            ["check", "my-case"],
+            ["run", "my-case"],
+            ["validate", "my-case", "--no-report"],
+            ["gate", "report"],
+            ["report", "report"],
+        ):
             done = self.call(*words)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertTrue((self.path / "report" / "index.html").exists())
@@ -109,7 +150,9 @@ class Newcomer(unittest.TestCase):
         elsewhere.mkdir()
         done = self.call("gate", "../report", cwd=elsewhere)
         self.assertEqual(done.returncode, 4, done.stdout + done.stderr)
-        self.assertIn(f"my-case.toml is not in {elsewhere.resolve()}: call this command in {self.path.resolve()}", done.stderr)
+        self.assertIn(
+            f"my-case.toml is not in {elsewhere.resolve()}: call this command in {self.path.resolve()}", done.stderr
+        )
         missing = self.call("gate", "report", cwd=elsewhere)
         self.assertEqual(missing.returncode, 2)
         self.assertIn(f"report: there is no such file or folder in {elsewhere.resolve()}", missing.stderr)
@@ -123,7 +166,10 @@ class Newcomer(unittest.TestCase):
         done = self.call("validate", "my-case", "--no-report")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         said = done.stdout.splitlines()
-        self.assertEqual(said[-2], "loose: 1 limit is more than 10 times what was measured: tripoint gate report names it, and does not pass")
+        self.assertEqual(
+            said[-2],
+            "loose: 1 limit is more than 10 times what was measured: tripoint gate report names it, and does not pass",
+        )
         self.assertTrue(said[-1].startswith("verdict PASS exit 0"), said[-1])
         self.assertEqual(self.call("gate", "report").returncode, 1)
 
@@ -133,8 +179,15 @@ class Newcomer(unittest.TestCase):
     # Folders that cannot be
     def test_an_out_that_cannot_be_made_is_said_in_one_line_before_anything_runs(self):
         (self.path / "file").write_text("")
-        for words in (["validate", CASE], ["run", CASE], ["compare", CASE, "--engines", "bullet,exact"], ["converge", CASE, "--axis", "time_step", "--engine", "bullet", "--levels", "0.02,0.01"], ["plan", CASE, "--within", "1%"],
-                      ["recommend", CASE, "--error", "1%"], ["ablate", CASE]):
+        for words in (
+            ["validate", CASE],
+            ["run", CASE],
+            ["compare", CASE, "--engines", "bullet,exact"],
+            ["converge", CASE, "--axis", "time_step", "--engine", "bullet", "--levels", "0.02,0.01"],
+            ["plan", CASE, "--within", "1%"],
+            ["recommend", CASE, "--error", "1%"],
+            ["ablate", CASE],
+        ):
             with self.subTest(words[0]):
                 done = self.call(*words, "--out", "file/below")
                 self.assertEqual(done.returncode, 2, done.stderr)
@@ -146,7 +199,9 @@ class Newcomer(unittest.TestCase):
         rows = {}
         for name, zeta in (("with", "0.2"), ("without", "0")):
             text = (SOURCE / "cases/fluid/breathing-column.toml").read_text()
-            (self.path / "column.toml").write_text(text.replace("[scene]", f"[scene]\nbulk_viscosity = {zeta}").replace('"0.16 s"', '"8 ms"'))
+            (self.path / "column.toml").write_text(
+                text.replace("[scene]", f"[scene]\nbulk_viscosity = {zeta}").replace('"0.16 s"', '"8 ms"')
+            )
             done = self.call("ablate", "column.toml", "--out", name)
             self.assertEqual(done.returncode, 0, done.stderr)
             rows[name] = json.loads((self.path / name / "ablation.json").read_text())["cases"][0]
@@ -170,7 +225,13 @@ class Newcomer(unittest.TestCase):
     def test_ctrl_c_ends_with_the_report_of_the_cases_that_are_complete(self):
         self.cases("a", "b", "c")
         script = self.fake('case "$2" in */b/*) FAKE=hangs;; esac')
-        process = subprocess.Popen([TRIPOINT, "validate", "cases", "--engines", "fake", "--engine", script, "--out", "out"], cwd=self.path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen(
+            [TRIPOINT, "validate", "cases", "--engines", "fake", "--engine", script, "--out", "out"],
+            cwd=self.path,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
         first = process.stdout.readline()
         self.assertIn("test/a", first)
         time.sleep(1.0)
@@ -191,7 +252,10 @@ class Newcomer(unittest.TestCase):
         self.assertEqual(self.judged(), ["test/fall", "test/float", "test/fly"])
         self.assertEqual(self.validate("-k", "nothing-like-it", "--no-report").returncode, 2)
         self.assertEqual(self.validate("--last-failed", "--no-report").returncode, 2)  # all are green
-        self.assertEqual(self.validate("--no-report", shell='case "$2" in */fl*) FAKE="one per cent of gravity";; esac').returncode, 1)
+        self.assertEqual(
+            self.validate("--no-report", shell='case "$2" in */fl*) FAKE="one per cent of gravity";; esac').returncode,
+            1,
+        )
         self.assertEqual(self.validate("--last-failed", "--no-report").returncode, 0)
         self.assertEqual(self.judged(), ["test/float", "test/fly"])
 
@@ -210,7 +274,10 @@ class Newcomer(unittest.TestCase):
         commit = [c["id"] for c in json.loads(self.call("list", "--profile", "commit", "--json").stdout)["cases"]]
         self.assertEqual(commit, [c["id"] for c in json.loads(every)["cases"] if "commit" in c["profiles"]])
         carried = [id for id in heat if "cosine" in id]
-        self.assertIn(f"{len(carried)} case", self.call("validate", "heat", "-k", "cosine", "--engines", "exact", "--no-report").stderr)
+        self.assertIn(
+            f"{len(carried)} case",
+            self.call("validate", "heat", "-k", "cosine", "--engines", "exact", "--no-report").stderr,
+        )
 
     def test_a_folder_of_runs_with_the_name_of_a_subject_is_not_taken_for_it(self):
         (self.path / "heat" / "runs").mkdir(parents=True)
@@ -218,7 +285,13 @@ class Newcomer(unittest.TestCase):
 
     def on_a_terminal(self, *words, **environment):
         leader, follower = pty.openpty()
-        process = subprocess.Popen([TRIPOINT, *map(str, words)], cwd=self.path, stdout=follower, stderr=subprocess.DEVNULL, env=dict(os.environ, TERM="xterm") | environment)
+        process = subprocess.Popen(
+            [TRIPOINT, *map(str, words)],
+            cwd=self.path,
+            stdout=follower,
+            stderr=subprocess.DEVNULL,
+            env=dict(os.environ, TERM="xterm") | environment,
+        )
         os.close(follower)
         text = b""
         while True:
@@ -250,10 +323,20 @@ class Newcomer(unittest.TestCase):
 
     def test_explain_begins_with_a_summary(self):
         lines = self.call("explain", CASE).stdout.splitlines()
-        head = lines[:lines.index("")]
+        head = lines[: lines.index("")]
         self.assertTrue(9 <= len(head) <= 11, head)
         self.assertEqual(head[0], f"{CASE}: Ballistic flight with spin")
-        for name in ("claims", "simulates  64 particles", "bodies", "effects", "truth", "measures", "judged by", "engines", "costs"):
+        for name in (
+            "claims",
+            "simulates  64 particles",
+            "bodies",
+            "effects",
+            "truth",
+            "measures",
+            "judged by",
+            "engines",
+            "costs",
+        ):
             self.assertTrue(any(line.strip().startswith(name) for line in head), name)
         self.assertIn("100 steps of 0.01 s, bound by scene, each computed in ", head[-1])
 
@@ -271,23 +354,41 @@ class Newcomer(unittest.TestCase):
     def test_a_selftest_without_its_build_says_the_line_to_type(self):
         shutil.copy(TRIPOINT, self.path / "tripoint")  # beside no engine
         (self.path / "share").symlink_to(TRIPOINT.parent.parent / "share")
-        done = subprocess.run([self.path / "tripoint", "gate", "selftest", CASE], cwd=self.path, capture_output=True, text=True, timeout=60, check=False)
+        done = subprocess.run(
+            [self.path / "tripoint", "gate", "selftest", CASE],
+            cwd=self.path,
+            capture_output=True,
+            text=True,
+            timeout=60,
+            check=False,
+        )
         self.assertEqual(done.returncode, 4, done.stderr)
         line = re.search(r"type:  (\S+) (--selftest) \d", done.stderr)
         self.assertIn(line[2] + ")", (SOURCE / line[1]).read_text())
 
     def test_the_build_for_the_selftest_needs_no_library_of_the_tests(self):
         build = self.path / "build"
-        subprocess.run(["cmake", "-S", SOURCE, "-B", build, "-G", "Ninja", "-DTRIPOINT_TESTS=OFF", "-DTRIPOINT_SELFTEST=ON"], check=True, capture_output=True, timeout=240)
+        subprocess.run(
+            ["cmake", "-S", SOURCE, "-B", build, "-G", "Ninja", "-DTRIPOINT_TESTS=OFF", "-DTRIPOINT_SELFTEST=ON"],
+            check=True,
+            capture_output=True,
+            timeout=240,
+        )
         self.assertNotIn("GTest_DIR", (build / "CMakeCache.txt").read_text())
-        targets = subprocess.run(["ninja", "-C", build, "-t", "targets", "all"], check=True, capture_output=True, text=True, timeout=60).stdout
+        targets = subprocess.run(
+            ["ninja", "-C", build, "-t", "targets", "all"], check=True, capture_output=True, text=True, timeout=60
+        ).stdout
         self.assertIn("libexec/tripoint/selftest/engine-tripoint:", targets)
         self.assertNotIn("test-effects", targets)
 
     def test_a_plan_offers_no_level_far_beyond_what_was_measured(self):
-        self.call("converge", CASE, "--axis", "time_step", "--engine", "bullet", "--levels", "0.04,0.02,0.01", "--out", "c")
+        self.call(
+            "converge", CASE, "--axis", "time_step", "--engine", "bullet", "--levels", "0.04,0.02,0.01", "--out", "c"
+        )
         file = self.path / "c" / "results.json"
-        self.assertEqual(self.call("plan", CASE, "--from", file, "--within", "0.01", "--axis", "time_step").returncode, 0)  # four times finer
+        self.assertEqual(
+            self.call("plan", CASE, "--from", file, "--within", "0.01", "--axis", "time_step").returncode, 0
+        )  # four times finer
         far = self.call("plan", CASE, "--from", file, "--within", "1e-7", "--axis", "time_step")
         self.assertEqual(far.returncode, 3)
         self.assertIn("out of reach", far.stdout)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What `tripoint run` says while a run goes on: progress_test.py TRIPOINT [unittest arguments]."""
+
 import json
 import os
 import pty
@@ -21,7 +22,9 @@ class Progress(unittest.TestCase):
         self.out = Path(self.folder.name) / "run"
 
     def call(self, *words):
-        done = subprocess.run([TRIPOINT, "run", *RUN, "--out", self.out, *words], capture_output=True, text=True, timeout=300, check=False)
+        done = subprocess.run(
+            [TRIPOINT, "run", *RUN, "--out", self.out, *words], capture_output=True, text=True, timeout=300, check=False
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         return done
 
@@ -57,7 +60,9 @@ class Progress(unittest.TestCase):
 
     def test_a_terminal_has_one_line_that_is_cleared(self):
         leader, follower = pty.openpty()
-        run = subprocess.Popen([TRIPOINT, "run", *RUN, "--out", self.out], stdout=subprocess.PIPE, stderr=follower, text=True)
+        run = subprocess.Popen(
+            [TRIPOINT, "run", *RUN, "--out", self.out], stdout=subprocess.PIPE, stderr=follower, text=True
+        )
         os.close(follower)
         said = b""
         while True:
@@ -76,7 +81,9 @@ class Progress(unittest.TestCase):
         self.assertEqual(shown[-1].strip(), "")
 
     def test_a_wrong_word_is_refused(self):
-        done = subprocess.run([TRIPOINT, "run", *RUN, "--progress", "yaml"], capture_output=True, text=True, timeout=60, check=False)
+        done = subprocess.run(
+            [TRIPOINT, "run", *RUN, "--progress", "yaml"], capture_output=True, text=True, timeout=60, check=False
+        )
         self.assertEqual(done.returncode, 2)
 
 

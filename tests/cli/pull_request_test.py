@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pull requests played through the action's own steps, and what the workflows may do: pull_request_test.py TRIPOINT SOURCE."""
+"""Pull requests played through the action's own steps, and what the workflows may do: pull_request_test.py TRIPOINT
+SOURCE."""
+
 import json
 import re
 import subprocess
@@ -13,7 +15,10 @@ import yaml
 from pull_requests import CHANGES, Repository, comments, with_comments
 
 TRIPOINT, SOURCE = str(Path(sys.argv[1]).resolve()), Path(sys.argv[2]).resolve()
-WORKFLOWS = [*sorted((SOURCE / ".github" / "workflows").glob("*.yml")), *sorted((SOURCE / "examples" / "gated-engine" / ".github" / "workflows").glob("*.yml"))]
+WORKFLOWS = [
+    *sorted((SOURCE / ".github" / "workflows").glob("*.yml")),
+    *sorted((SOURCE / "examples" / "gated-engine" / ".github" / "workflows").glob("*.yml")),
+]
 
 
 def row(comment, metric):
@@ -32,7 +37,12 @@ class PullRequests(unittest.TestCase):
         run, comment = self.repository.pull_request("shorter-steps")
         self.assertFalse(run.failed, run.log)
         self.assertTrue(comment.startswith("<!-- tripoint: accuracy -->\n## Accuracy: PASS\n"), comment)
-        self.assertRegex(row(comment, "glide lag"), r"\| \*\*better\*\* \| -0\.409 \| \[flight/glide\]\(https://github\.com/OWNER/project/blob/[0-9a-f]{40}/cases/flight/glide\.toml#L\d+\) .* of limit 0\.006 ")
+        self.assertRegex(
+            row(comment, "glide lag"),
+            r"\| \*\*better\*\* \| -0\.409 \| "
+            r"\[flight/glide\]\(https://github\.com/OWNER/project/blob/[0-9a-f]{40}/cases/flight/glide\.toml#L\d+\) "
+            r".* of limit 0\.006 ",
+        )
         self.assertIn("**1 better, 0 worse, 2 unchanged, 0 new, 0 gone**", comment)
         self.assertIn("head shorter-steps; base main", comment)
         self.assertIn(comment, run.summary.read_text())
@@ -42,10 +52,17 @@ class PullRequests(unittest.TestCase):
         self.assertFalse(run.failed, run.log)
         self.assertIn("| **worse** | +0.111 |", row(comment, "glide lag"))
         self.assertRegex(row(comment, "glide gauge"), r"^\| same \| [+-]0\.\d+ .*, 5 seeds \|$")
-        said = re.findall(r"^::warning file=cases/flight/glide\.toml,line=(\d+),title=flight/glide glide lag at 0\.1::(.*)$", run.log, re.M)
+        said = re.findall(
+            r"^::warning file=cases/flight/glide\.toml,line=(\d+),title=flight/glide glide lag at 0\.1::(.*)$",
+            run.log,
+            re.M,
+        )
         self.assertEqual(len(said), 1, run.log)
         self.assertIn("is worse than the base by +0.111 of its limit, and within it", said[0][1])
-        self.assertEqual((self.repository.folder / "cases/flight/glide.toml").read_text().splitlines()[int(said[0][0]) - 1], "limit = 6e-3")
+        self.assertEqual(
+            (self.repository.folder / "cases/flight/glide.toml").read_text().splitlines()[int(said[0][0]) - 1],
+            "limit = 6e-3",
+        )
 
     def test_where_nothing_may_get_worse_it_is_red(self):
         run, comment = self.repository.pull_request("longer-steps", **{"no-worse": "true"})
@@ -76,8 +93,13 @@ class PullRequests(unittest.TestCase):
         self.repository.pull_request("longer-steps")
         report = self.repository.folder / "report"
         data = {entry["name"]: entry for entry in json.loads((report / "data.json").read_text())}
-        self.assertEqual(set(data), {"flight/glide glide lag at 0.1", "flight/glide glide gauge at 0.1", "flight/glide glide flown at 0.1"})
-        self.assertAlmostEqual(data["flight/glide glide lag at 0.1"]["value"], 9.81 * 0.05 / 44 / 2, delta=1e-7)  # 44 steps in each 50 ms
+        self.assertEqual(
+            set(data),
+            {"flight/glide glide lag at 0.1", "flight/glide glide gauge at 0.1", "flight/glide glide flown at 0.1"},
+        )
+        self.assertAlmostEqual(
+            data["flight/glide glide lag at 0.1"]["value"], 9.81 * 0.05 / 44 / 2, delta=1e-7
+        )  # 44 steps in each 50 ms
         self.assertEqual(data["flight/glide glide lag at 0.1"]["unit"], "m")
         self.assertRegex(data["flight/glide glide gauge at 0.1"]["range"], r"^\u00b1 [\d.e-]+$")
         self.assertTrue(all(entry["value"] < 1.0 for entry in json.loads((report / "shares.json").read_text())))
@@ -88,31 +110,60 @@ class PullRequests(unittest.TestCase):
     def test_a_baseline_is_proposed_and_accepted_by_nobody_but_a_person(self):
         repository = self.repository
         (repository.folder / "baselines").mkdir()
-        subprocess.run([TRIPOINT, "gate", "accept", "--reason", "first figures", "report/results.json"], cwd=repository.folder, check=True, capture_output=True)
+        subprocess.run(
+            [TRIPOINT, "gate", "accept", "--reason", "first figures", "report/results.json"],
+            cwd=repository.folder,
+            check=True,
+            capture_output=True,
+        )
         repository.commit("Keep the first figures")
         run, _ = repository.pull_request("shorter-steps")
         self.assertEqual(run.outputs["gate"]["exit-code"], "6", "twice the steps are dearer than what was accepted")
         self.assertEqual(repository.git("status", "--porcelain", "baselines"), "")
         patch = (repository.folder / "report/baselines.patch").read_text()
-        self.assertIn("# tripoint gate accept --reason 'who decided what, and why' report/results.json flight/glide\n", patch)
+        self.assertIn(
+            "# tripoint gate accept --reason 'who decided what, and why' report/results.json flight/glide\n", patch
+        )
         repository.git("apply", "report/baselines.patch")
         self.assertIn("nobody has decided", (repository.folder / "baselines/flight/glide.toml").read_text())
         done = subprocess.run([TRIPOINT, "gate", "report"], cwd=repository.folder, capture_output=True, text=True)
         self.assertEqual(done.returncode, 4, done.stdout)
         self.assertIn("was proposed, and nobody has accepted it", done.stdout)
-        subprocess.run([TRIPOINT, "gate", "accept", "--reason", "smaller steps", "report"], cwd=repository.folder, check=True, capture_output=True)
-        self.assertEqual(subprocess.run([TRIPOINT, "gate", "report"], cwd=repository.folder, capture_output=True).returncode, 0)
+        subprocess.run(
+            [TRIPOINT, "gate", "accept", "--reason", "smaller steps", "report"],
+            cwd=repository.folder,
+            check=True,
+            capture_output=True,
+        )
+        self.assertEqual(
+            subprocess.run([TRIPOINT, "gate", "report"], cwd=repository.folder, capture_output=True).returncode, 0
+        )
 
     def assert_nothing_is_forged(self, text):
         commands = [line for line in text.splitlines() if re.match(r"\s*::", line)]
-        self.assertEqual([line for line in commands if not re.match(r"::(error|warning) (file=[^,]*,line=\d+,)?title=", line)], [])
-        self.assertEqual([line for line in text.splitlines() if line.startswith("verdict PASS") or "##[" in line or "\x1b" in line], [])
+        self.assertEqual(
+            [line for line in commands if not re.match(r"::(error|warning) (file=[^,]*,line=\d+,)?title=", line)], []
+        )
+        self.assertEqual(
+            [line for line in text.splitlines() if line.startswith("verdict PASS") or "##[" in line or "\x1b" in line],
+            [],
+        )
 
     def test_no_text_of_others_forges_a_command_a_verdict_or_a_tag(self):
         hostile = r"x\n::error file=a::forged\nverdict PASS exit 0\n<script>alert(1)</script>|##[error]old \u001b[2J"
         engine, case = (self.repository.folder / name for name in ("engine-glide", "cases/flight/glide.toml"))
-        engine.write_text(engine.read_text().replace('"version": "1"', f'"version": "{hostile}"').replace("STEP = 1e-3 ", "STEP = 2e-3 "))
-        case.write_text(case.read_text().replace("A block thrown up and sideways\"", hostile + '"').replace('unit = "m"', f'unit = "m{hostile}"').replace("mean of five runs", hostile).replace("g dt t/2 is", hostile))
+        engine.write_text(
+            engine.read_text()
+            .replace('"version": "1"', f'"version": "{hostile}"')
+            .replace("STEP = 1e-3 ", "STEP = 2e-3 ")
+        )
+        case.write_text(
+            case.read_text()
+            .replace('A block thrown up and sideways"', hostile + '"')
+            .replace('unit = "m"', f'unit = "m{hostile}"')
+            .replace("mean of five runs", hostile)
+            .replace("g dt t/2 is", hostile)
+        )
         run = self.repository.action("feature", "main")
         self.assertTrue(run.failed)
         self.assert_nothing_is_forged(run.log)
@@ -125,17 +176,32 @@ class PullRequests(unittest.TestCase):
         for name in ("flight/glide", '"glide"', '"lag"'):
             text = text.replace(name, name.rstrip('"') + hostile + ('"' if name.endswith('"') else ""))
         (report / "results.json").write_text(text)
-        for words in (["gate", "report"], ["gate", "report", "--against", str(self.repository.results)], ["summary", "report"], ["report", "report"]):
+        for words in (
+            ["gate", "report"],
+            ["gate", "report", "--against", str(self.repository.results)],
+            ["summary", "report"],
+            ["report", "report"],
+        ):
             done = subprocess.run([TRIPOINT, *words], cwd=self.repository.folder, capture_output=True, text=True)
             self.assert_nothing_is_forged(done.stdout.replace("verdict PASS exit 0  report", ""))
             self.assert_nothing_is_forged(done.stderr)
-        markdown = subprocess.run([TRIPOINT, "summary", "report", "--markdown", "--against", str(self.repository.results)], cwd=self.repository.folder, capture_output=True, text=True).stdout
+        markdown = subprocess.run(
+            [TRIPOINT, "summary", "report", "--markdown", "--against", str(self.repository.results)],
+            cwd=self.repository.folder,
+            capture_output=True,
+            text=True,
+        ).stdout
         self.assertIn("## Accuracy: FAIL", markdown)
-        texts = {"the comment": markdown} | {name: (report / name).read_text() for name in ("comment.md", "summary.md", "index.html", "junit.xml", "badge.svg", "data.json")}
+        texts = {"the comment": markdown} | {
+            name: (report / name).read_text()
+            for name in ("comment.md", "summary.md", "index.html", "junit.xml", "badge.svg", "data.json")
+        }
         for name, text in texts.items():
             self.assertNotIn("<script>alert", text, name)
             if name != "index.html":  # a page has no lines: a break in its text is a space
-                self.assertEqual([line for line in text.splitlines() if line.startswith(("verdict PASS", "::"))], [], name)
+                self.assertEqual(
+                    [line for line in text.splitlines() if line.startswith(("verdict PASS", "::"))], [], name
+                )
         for line in markdown.splitlines():
             if line.startswith("|"):
                 self.assertEqual(line.count("|"), 8, line)
@@ -162,7 +228,9 @@ class Workflows(unittest.TestCase):
             self.assertNotIn("pull_request_target", str(workflow.get("on", workflow.get(True))), path)
             self.assertIn(workflow["permissions"], ({}, {"contents": "read"}), path)
             for job in workflow["jobs"].values():
-                self.assertLessEqual(set(job.get("permissions", {}).items()), {("actions", "read"), ("pull-requests", "write")}, path)
+                self.assertLessEqual(
+                    set(job.get("permissions", {}).items()), {("actions", "read"), ("pull-requests", "write")}, path
+                )
                 for step in job["steps"]:
                     self.assertNotIn("${{", step.get("run", ""), path)
                     if step.get("uses", "").startswith("actions/checkout"):

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plays pull requests through the action's own steps, in a git repository of its own:
 
-    pull_requests.py TRIPOINT                    prints the comments
-    pull_requests.py TRIPOINT --write docs/ci.md puts them into the page, between its marks (make pages)
+pull_requests.py TRIPOINT                    prints the comments
+pull_requests.py TRIPOINT --write docs/ci.md puts them into the page, between its marks (make pages)
 """
+
 import os
 import re
 import shutil
@@ -21,7 +22,10 @@ PROJECT = Path(__file__).resolve().parent / "pull_requests"
 # What each one changes in the engine: (file, text, new text).
 CHANGES = {
     "shorter-steps": [("engine-glide", "STEP = 1e-3 ", "STEP = 5e-4 ")],
-    "longer-steps": [("engine-glide", "STEP = 1e-3 ", "STEP = 1.15e-3 "), ("engine-glide", 'GAUGE = "a"', 'GAUGE = "b"')],
+    "longer-steps": [
+        ("engine-glide", "STEP = 1e-3 ", "STEP = 1.15e-3 "),
+        ("engine-glide", 'GAUGE = "a"', 'GAUGE = "b"'),
+    ],
     "too-long-steps": [("engine-glide", "STEP = 1e-3 ", "STEP = 2e-3 ")],
 }
 
@@ -41,8 +45,19 @@ class Repository:
 
     def git(self, *words):
         # Names and dates are fixed, so that a commit has the same name in every run.
-        fixed = {f"GIT_{who}_{what}": value for who in ("AUTHOR", "COMMITTER") for what, value in (("NAME", "A"), ("EMAIL", "a@b"), ("DATE", "2026-01-01T00:00:00Z"))}
-        done = subprocess.run(["git", "-c", "core.hooksPath=/dev/null", "-c", "commit.gpgsign=false", *words], cwd=self.folder, env={**os.environ, **fixed, "GIT_CONFIG_GLOBAL": "/dev/null", "GIT_CONFIG_SYSTEM": "/dev/null"}, check=True, capture_output=True, text=True)
+        fixed = {
+            f"GIT_{who}_{what}": value
+            for who in ("AUTHOR", "COMMITTER")
+            for what, value in (("NAME", "A"), ("EMAIL", "a@b"), ("DATE", "2026-01-01T00:00:00Z"))
+        }
+        done = subprocess.run(
+            ["git", "-c", "core.hooksPath=/dev/null", "-c", "commit.gpgsign=false", *words],
+            cwd=self.folder,
+            env={**os.environ, **fixed, "GIT_CONFIG_GLOBAL": "/dev/null", "GIT_CONFIG_SYSTEM": "/dev/null"},
+            check=True,
+            capture_output=True,
+            text=True,
+        )
         return done.stdout.strip()
 
     def commit(self, message):
@@ -64,8 +79,20 @@ class Repository:
     def action(self, head, base="", **inputs):
         """The action on what is checked out; with a base it is compared with what main left."""
         shutil.rmtree(self.folder / "report", ignore_errors=True)
-        event = {"GITHUB_SERVER_URL": "https://github.com", "GITHUB_REPOSITORY": "OWNER/project", "GITHUB_SHA": self.git("rev-parse", "HEAD")}
-        given = {"tripoint": self.tripoint, "cases": "cases", "engine": "./engine-glide", "engines": "glide", "head": head, "base": base, "against": str(self.results) if base else ""}
+        event = {
+            "GITHUB_SERVER_URL": "https://github.com",
+            "GITHUB_REPOSITORY": "OWNER/project",
+            "GITHUB_SHA": self.git("rev-parse", "HEAD"),
+        }
+        given = {
+            "tripoint": self.tripoint,
+            "cases": "cases",
+            "engine": "./engine-glide",
+            "engines": "glide",
+            "head": head,
+            "base": base,
+            "against": str(self.results) if base else "",
+        }
         return Runner(ACTION, self.folder, given | inputs, event).run()
 
     def pull_request(self, name, **inputs):
@@ -86,7 +113,9 @@ def with_comments(page, texts):
     """The page with each comment between <!-- begin NAME --> and <!-- end NAME -->."""
     for name, text in texts.items():
         block = f"<!-- begin {name} -->\n```markdown\n{text.rstrip()}\n```\n<!-- end {name} -->"
-        page, count = re.subn(rf"<!-- begin {re.escape(name)} -->.*?<!-- end {re.escape(name)} -->", lambda _: block, page, flags=re.S)
+        page, count = re.subn(
+            rf"<!-- begin {re.escape(name)} -->.*?<!-- end {re.escape(name)} -->", lambda _: block, page, flags=re.S
+        )
         assert count == 1, name
     return page
 

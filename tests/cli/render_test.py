@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures and meshes of a run: render_test.py TRIPOINT [unittest arguments]."""
+
 import os
 import shutil
 import struct
@@ -25,8 +26,8 @@ def pixels(file):
     """(height, width, 3) of an 8-bit RGB PNG without interlace."""
     data, at, body = Path(file).read_bytes(), 8, b""
     while at < len(data):
-        length, kind = struct.unpack(">I4s", data[at:at + 8])
-        chunk = data[at + 8:at + 8 + length]
+        length, kind = struct.unpack(">I4s", data[at : at + 8])
+        chunk = data[at + 8 : at + 8 + length]
         if kind == b"IHDR":
             width, height, depth, colour, _, _, interlace = struct.unpack(">IIBBBBB", chunk)
             assert (depth, colour, interlace) == (8, 2, 0)
@@ -39,7 +40,9 @@ def pixels(file):
         filtered, line = raw[y, 1:].astype(np.int64), out[y]
         for x in range(3 * width):
             left, up, corner = (line[x - 3] if x > 2 else 0), above[x], (above[x - 3] if x > 2 else 0)
-            near = min((abs(up - corner), 0, left), (abs(left - corner), 1, up), (abs(left + up - 2 * corner), 2, corner))[2]
+            near = min(
+                (abs(up - corner), 0, left), (abs(left - corner), 1, up), (abs(left + up - 2 * corner), 2, corner)
+            )[2]
             line[x] = (filtered[x] + (0, left, up, (left + up) // 2, near)[raw[y, 0]]) % 256
     return out.reshape(height, width, 3)
 
@@ -47,7 +50,10 @@ def pixels(file):
 def ply(file):
     """(corners, triangles)"""
     head, _, body = Path(file).read_bytes().partition(b"end_header\n")
-    corners, triangles = (int(next(line for line in head.decode().splitlines() if line.startswith(f"element {what}")).split()[-1]) for what in ("vertex", "face"))
+    corners, triangles = (
+        int(next(line for line in head.decode().splitlines() if line.startswith(f"element {what}")).split()[-1])
+        for what in ("vertex", "face")
+    )
     corner = np.dtype([("place", "<f8", 3), ("temperature", "<f4"), ("phase", "<i4"), ("body", "<i4"), ("part", "<i4")])
     face = np.dtype([("n", "u1"), ("corner", "<i4", 3)])
     return np.frombuffer(body, corner, corners), np.frombuffer(body, face, triangles, corners * corner.itemsize)
@@ -68,7 +74,16 @@ class Render(unittest.TestCase):
         cls.folder.cleanup()
 
     def draw(self, *words, run="paper/fig-08-elastic", code=0, out="out", **more):
-        done = call("render", run, "--out", self.path / out, *(() if "--size" in words else SMALL), *words, cwd=self.path, **more)
+        done = call(
+            "render",
+            run,
+            "--out",
+            self.path / out,
+            *(() if "--size" in words else SMALL),
+            *words,
+            cwd=self.path,
+            **more,
+        )
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done
 
@@ -79,14 +94,21 @@ class Render(unittest.TestCase):
         self.assertEqual(picture.shape, (60, 80, 3))
         saturated = (picture.max(2) - picture.min(2)) > 60
         self.assertGreater(saturated.sum(), 200)  # blocks
-        red, green = (picture[..., 0] > picture[..., 1] + 40) & saturated, (picture[..., 1] > picture[..., 0] + 40) & saturated
+        red, green = (
+            (picture[..., 0] > picture[..., 1] + 40) & saturated,
+            (picture[..., 1] > picture[..., 0] + 40) & saturated,
+        )
         self.assertGreater(min(red.sum(), green.sum()), 60)
-        self.assertLess(np.argwhere(green)[:, 0].mean(), np.argwhere(red)[:, 0].mean())  # the upper block is above: up is against gravity
+        self.assertLess(
+            np.argwhere(green)[:, 0].mean(), np.argwhere(red)[:, 0].mean()
+        )  # the upper block is above: up is against gravity
 
     def test_frames_make_a_sheet_and_say_their_times(self):
         done = self.draw("--frames", "0:-1:1", "--particles", out="frames")
         self.assertIn("t = 0.04 s", done.stdout)
-        self.assertEqual(pixels(self.path / "frames/sheet.png").shape, (60, 248, 3))  # three of 80 x 60 in a row, 4 pixels between
+        self.assertEqual(
+            pixels(self.path / "frames/sheet.png").shape, (60, 248, 3)
+        )  # three of 80 x 60 in a row, 4 pixels between
         self.assertTrue((self.path / "frames/frame-0002.png").is_file())
 
     def test_without_ffmpeg_it_says_so_and_with_it_makes_a_film(self):
@@ -96,7 +118,11 @@ class Render(unittest.TestCase):
         self.assertIn("ffmpeg is not installed", done.stderr)
         real = shutil.which("ffmpeg")
         script = tools / "ffmpeg"
-        script.write_text(f"#!/bin/sh\nexec {real} \"$@\"\n" if real else '#!/bin/sh\nfor last; do :; done\n[ -f film.txt ] && /bin/cp film.txt "$last"\n')
+        script.write_text(
+            f'#!/bin/sh\nexec {real} "$@"\n'
+            if real
+            else '#!/bin/sh\nfor last; do :; done\n[ -f film.txt ] && /bin/cp film.txt "$last"\n'
+        )
         script.chmod(0o755)
         done = self.draw("--frames", "0:1", "--particles", env=dict(os.environ, PATH=f"{tools}"))
         self.assertIn("film.mp4", done.stdout, done.stderr)
@@ -105,7 +131,21 @@ class Render(unittest.TestCase):
     def test_walls_that_hide_the_rest_are_cut_away(self):
         blue = {}
         for walls in ("cut", "show", "hide"):
-            picture = pixels(self.draw("--frame", 0, "--colour", "phase", "--walls", walls, "--azimuth", 35, "--elevation", 10, run="paper/fig-12").stdout.split("  t =")[0])
+            picture = pixels(
+                self.draw(
+                    "--frame",
+                    0,
+                    "--colour",
+                    "phase",
+                    "--walls",
+                    walls,
+                    "--azimuth",
+                    35,
+                    "--elevation",
+                    10,
+                    run="paper/fig-12",
+                ).stdout.split("  t =")[0]
+            )
             blue[walls] = int(((picture[..., 2] > picture[..., 0] + 60) & (picture.max(2) > 60)).sum())
         self.assertGreater(blue["cut"], 3 * blue["show"] + 100)  # the tank hides most of the cream
         self.assertGreater(blue["hide"], blue["cut"])  # and takes room in the picture
@@ -113,7 +153,19 @@ class Render(unittest.TestCase):
     def test_threads_change_no_bit(self):
         files = []
         for threads in (1, 2):
-            call("render", "paper/fig-08-elastic", "--frame", 1, "--out", self.path / f"t{threads}", "--size", "80x60", "--threads", threads, cwd=self.path)
+            call(
+                "render",
+                "paper/fig-08-elastic",
+                "--frame",
+                1,
+                "--out",
+                self.path / f"t{threads}",
+                "--size",
+                "80x60",
+                "--threads",
+                threads,
+                cwd=self.path,
+            )
             files.append((self.path / f"t{threads}/frame-0001.png").read_bytes())
         self.assertEqual(*files)
 
@@ -128,7 +180,9 @@ class Render(unittest.TestCase):
             a, b, c = (corners["place"][of[:, n]] for n in range(3))
             volume = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
             share = volume / exact
-            self.assertTrue(0.8 < share < 0.92, share)  # edges are rounded: 0.896 of a slab of 8 x 8 x 3 spacings, 0.828 of a cube of 4
+            self.assertTrue(
+                0.8 < share < 0.92, share
+            )  # edges are rounded: 0.896 of a slab of 8 x 8 x 3 spacings, 0.828 of a cube of 4
             edges = np.sort(of[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
             self.assertTrue((np.unique(edges, axis=0, return_counts=True)[1] == 2).all())
 
@@ -145,7 +199,7 @@ class Render(unittest.TestCase):
 
     def test_obj_is_a_mesh_that_a_case_may_use(self):
         self.draw("--frame", 0, "--mesh", self.path / "blocks.obj")
-        case = (Path(self.path) / "mesh.toml")
+        case = Path(self.path) / "mesh.toml"
         case.write_text(f"""format = 1
 [case]
 title = "A mesh of a run"
@@ -186,9 +240,19 @@ reason = "it is read"
         self.draw("--frame", 0, run=bare, out="bare-pictures")
 
     def test_mistakes_are_told_what_to_write(self):
-        for words, said in ((("--frame", 99), "frames 0 to 2"), (("--frames", "1"), "FIRST:LAST"), (("--frames", "2:1:1"), "behind the last"), (("--frames", "a:b"), "FIRST:LAST"),
-                            (("--frames", "0:1", "--frame", 0), "give one"), (("--size", "640"), "WIDTHxHEIGHT"), (("--size", "9x9"), "16x16"), (("--mesh", "a.stl"), ".ply"),
-                            (("--colour", "temperature"), "no temperatures"), (("--range", "5"), "COLD:HOT"), (("--particles", "--surface"), "give one")):
+        for words, said in (
+            (("--frame", 99), "frames 0 to 2"),
+            (("--frames", "1"), "FIRST:LAST"),
+            (("--frames", "2:1:1"), "behind the last"),
+            (("--frames", "a:b"), "FIRST:LAST"),
+            (("--frames", "0:1", "--frame", 0), "give one"),
+            (("--size", "640"), "WIDTHxHEIGHT"),
+            (("--size", "9x9"), "16x16"),
+            (("--mesh", "a.stl"), ".ply"),
+            (("--colour", "temperature"), "no temperatures"),
+            (("--range", "5"), "COLD:HOT"),
+            (("--particles", "--surface"), "give one"),
+        ):
             with self.subTest(" ".join(map(str, words))):
                 done = self.draw(*words, code=2)
                 self.assertIn(said, done.stderr)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs that are cut and continued, as people do it: restart_test.py TRIPOINT SAME_TRAJECTORY [unittest arguments]."""
+
 import json
 import os
 import pty
@@ -129,7 +130,11 @@ class Restart(unittest.TestCase):
         return call("run", self.case, "--out", self.path / out, "--quiet", *more)
 
     def expect_same(self, one, other):
-        same = subprocess.run([SAME, self.path / one / "trajectory.h5", self.path / other / "trajectory.h5"], capture_output=True, text=True)
+        same = subprocess.run(
+            [SAME, self.path / one / "trajectory.h5", self.path / other / "trajectory.h5"],
+            capture_output=True,
+            text=True,
+        )
         self.assertEqual(same.returncode, 0, same.stdout + same.stderr)
         one, other = (json.loads((self.path / d / "result.json").read_text()) for d in (one, other))
         for key in ("state_hash", "steps", "time_reached", "counters", "time_step_bound", "readback"):
@@ -145,14 +150,27 @@ class Restart(unittest.TestCase):
                 done = self.run_case("again", "--resume", checkpoint, "--threads", 2)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
                 self.expect_same("whole", "again")
-            done = call("run", self.case, "--quiet", "--resume", self.path / "cut")  # in the same folder, from the last one
+            done = call(
+                "run", self.case, "--quiet", "--resume", self.path / "cut"
+            )  # in the same folder, from the last one
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             self.expect_same("whole", "cut")
 
     def test_a_restart_of_a_restart_is_the_unbroken_run(self):
         self.assertEqual(self.run_case("whole").returncode, 0)
         self.assertEqual(self.run_case("one", "--until", "0.25", "--checkpoint-interval", "0.06").returncode, 0)
-        self.assertEqual(self.run_case("two", "--until", "0.4", "--resume", sorted((self.path / "one").glob("checkpoint-*.h5"))[0], "--checkpoint-interval", "0.11").returncode, 0)
+        self.assertEqual(
+            self.run_case(
+                "two",
+                "--until",
+                "0.4",
+                "--resume",
+                sorted((self.path / "one").glob("checkpoint-*.h5"))[0],
+                "--checkpoint-interval",
+                "0.11",
+            ).returncode,
+            0,
+        )
         self.assertEqual(self.run_case("three", "--resume", self.path / "two").returncode, 0)
         self.expect_same("whole", "three")
 
@@ -174,6 +192,7 @@ class Restart(unittest.TestCase):
             done = self.run_case("other", "--resume", checkpoint, *more)
             self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
             return done.stdout + done.stderr
+
         self.assertIn("another scene", refusal("--set", "scene.gravity=[0.0, 0.0, -9.8]"))
         self.assertIn("no output time", refusal("--until", "0.3"))
         whole = checkpoint.read_bytes()
@@ -189,25 +208,54 @@ class Restart(unittest.TestCase):
     def test_a_run_that_does_not_begin_leaves_the_run_that_was_there(self):
         out = self.path / "out"
         self.assertEqual(self.run_case("out", "--checkpoint-interval", "0.2").returncode, 0)
-        self.assertEqual(self.run_case("foreign", "--set", "scene.spacing=0.05", "--checkpoint-interval", "0.2").returncode, 0)
+        self.assertEqual(
+            self.run_case("foreign", "--set", "scene.spacing=0.05", "--checkpoint-interval", "0.2").returncode, 0
+        )
         (out / "picture.png").write_text("drawn by hand")
         own, foreign = (sorted(folder.glob("checkpoint-*.h5"))[-1] for folder in (out, self.path / "foreign"))
         torn = self.path / "torn.h5"
         torn.write_bytes(own.read_bytes()[:-1])
         silent, refuses = (self.path / f"engine-{name}" for name in ("silent", "refuses"))
-        info = '{"contract": 1, "name": "NAME", "version": "1", "capabilities": [], "presets": ["default"], "deterministic": true}'
-        for engine, check, run in ((silent, "exit 3", ""), (refuses, """echo '{"can": true, "reason": ""}'""", "echo '%s' >result.json; exit 4" % '{"contract": 1, "status": "refused", "message": "not today"}')):
+        info = (
+            '{"contract": 1, "name": "NAME", "version": "1", "capabilities": [], "presets": ["default"], '
+            '"deterministic": true}'
+        )
+        for engine, check, run in (
+            (silent, "exit 3", ""),
+            (
+                refuses,
+                """echo '{"can": true, "reason": ""}'""",
+                "echo '%s' >result.json; exit 4" % '{"contract": 1, "status": "refused", "message": "not today"}',
+            ),
+        ):
             engine.write_text(f"""#!/bin/sh
-case $1 in --info) echo '{info.replace("NAME", engine.name[7:])}';; --check) {check};; --run) cd "$(dirname "$2")"; echo x >gauges.csv; {run};; esac
+case $1 in --info) echo '{info.replace("NAME", engine.name[7:])}';; --check) {check};; --run) cd "$(dirname "$2")"; \
+echo x >gauges.csv; {run};; esac
 """)
             engine.chmod(0o755)
 
         def files():
-            return {file.relative_to(out).as_posix(): file.read_bytes() for file in out.rglob("*") if file.name != ".lock" and file.is_file()}
+            return {
+                file.relative_to(out).as_posix(): file.read_bytes()
+                for file in out.rglob("*")
+                if file.name != ".lock" and file.is_file()
+            }
+
         before = files()
-        self.assertTrue({"job.json", "particles.h5", "result.json", "trajectory.h5", own.name} <= before.keys(), before.keys())
-        for words, code in ((("--resume", torn), 2), (("--resume", foreign), 2), (("--resume", own, "--until", "0.3"), 2), (("--resume", own, "--set", "scene.gravity=[0.0, 0.0, -9.8]"), 2),
-                            (("--resume", self.path / "nowhere"), 2), (("--engine", silent), 4), (("--engine", refuses), 4), (("--set", "scene.spacing=-1"), 2), (("--engine", "no-such"), 4)):
+        self.assertTrue(
+            {"job.json", "particles.h5", "result.json", "trajectory.h5", own.name} <= before.keys(), before.keys()
+        )
+        for words, code in (
+            (("--resume", torn), 2),
+            (("--resume", foreign), 2),
+            (("--resume", own, "--until", "0.3"), 2),
+            (("--resume", own, "--set", "scene.gravity=[0.0, 0.0, -9.8]"), 2),
+            (("--resume", self.path / "nowhere"), 2),
+            (("--engine", silent), 4),
+            (("--engine", refuses), 4),
+            (("--set", "scene.spacing=-1"), 2),
+            (("--engine", "no-such"), 4),
+        ):
             done = self.run_case("out", *words)
             self.assertEqual(done.returncode, code, done.stdout + done.stderr)
             self.assertEqual(files(), before, words)
@@ -226,7 +274,12 @@ case $1 in --info) echo '{info.replace("NAME", engine.name[7:])}';; --check) {ch
     def test_ctrl_c_leaves_a_checkpoint_and_says_how_to_go_on(self):
         slow = ["--set", "scene.time_step=5e-6", "--until", "0.25"]
         self.assertEqual(self.run_case("whole", *slow).returncode, 0)
-        process = subprocess.Popen([TRIPOINT, "run", self.case, "--out", self.path / "cut", *slow], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen(
+            [TRIPOINT, "run", self.case, "--out", self.path / "cut", *slow],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
         while not (self.path / "cut" / "trajectory.h5").exists():
             time.sleep(0.01)
         time.sleep(0.1)
@@ -235,7 +288,7 @@ case $1 in --info) echo '{info.replace("NAME", engine.name[7:])}';; --check) {ch
         self.assertEqual(process.returncode, 130, said)
         self.assertIn("--resume", said)
         self.assertEqual(json.loads((self.path / "cut" / "result.json").read_text())["status"], "error")
-        command = said[said.index("go on with: tripoint ") + len("go on with: tripoint "):].splitlines()[0]
+        command = said[said.index("go on with: tripoint ") + len("go on with: tripoint ") :].splitlines()[0]
         done = subprocess.run(["/bin/sh", "-c", f"'{TRIPOINT}' {command}"], capture_output=True, text=True, timeout=300)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.expect_same("whole", "cut")
@@ -258,7 +311,11 @@ case $1 in --info) echo '{info.replace("NAME", engine.name[7:])}';; --check) {ch
     def leave_a_job(self, out, *more):
         """A folder with the job of a slow run, of which nothing is done."""
         folder = self.path / out
-        process = subprocess.Popen([TRIPOINT, "run", self.case, "--out", folder, "--quiet", *self.SLOW, *more], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        process = subprocess.Popen(
+            [TRIPOINT, "run", self.case, "--out", folder, "--quiet", *self.SLOW, *more],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
         self.wait_for_its_first_frame(folder)
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(timeout=60), 130)
@@ -267,7 +324,14 @@ case $1 in --info) echo '{info.replace("NAME", engine.name[7:])}';; --check) {ch
         return folder
 
     def start_engine(self, folder, **more):
-        return subprocess.Popen([ENGINE, "--run", folder / "job.json"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **more)
+        return subprocess.Popen(
+            [ENGINE, "--run", folder / "job.json"],
+            cwd=folder,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            **more,
+        )
 
     def test_a_hangup_leaves_a_checkpoint_as_ctrl_c_does(self):
         self.assertEqual(self.run_case("whole", *self.SLOW).returncode, 0)
@@ -314,7 +378,9 @@ case $1 in --info) echo '{info.replace("NAME", engine.name[7:])}';; --check) {ch
             time.sleep(0.01)
 
     def test_a_run_whose_terminal_closes_leaves_a_checkpoint(self):
-        code = self.close_the_terminal_of([TRIPOINT, "run", self.case, "--out", self.path / "cut", *self.SLOW], self.path / "cut")
+        code = self.close_the_terminal_of(
+            [TRIPOINT, "run", self.case, "--out", self.path / "cut", *self.SLOW], self.path / "cut"
+        )
         self.assertEqual(code, 130)
         self.expect_left_a_checkpoint(self.path / "cut")
         self.assertEqual(self.run_case("cut", *self.SLOW, "--resume", self.path / "cut").returncode, 0)
@@ -329,6 +395,7 @@ case $1 in --info) echo '{info.replace("NAME", engine.name[7:])}';; --check) {ch
             done = call("validate", self.path / "cases", "--engines", "tripoint", "--out", self.path / "out", *more)
             result = self.path / "out" / "runs" / "test" / "flight" / "tripoint" / "corrected" / "result.json"
             return done, result.stat().st_mtime_ns
+
         first, made = validate()
         again, kept = validate("--resume")
         self.assertEqual((first.returncode, made), (again.returncode, kept))

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A stranger's engine under --sandbox: it answers as it does outside, and reaches neither the network, nor the user's files, nor a token, nor another run."""
+"""A stranger's engine under --sandbox: it answers as it does outside, and reaches neither the network, nor the user's
+files, nor a token, nor another run."""
+
 import ctypes
 import json
 import os
@@ -12,7 +14,7 @@ from pathlib import Path
 TRIPOINT = sys.argv[1]
 
 # What a hostile engine tries as it runs; each line of tried.txt is a deed that worked.
-DEEDS = '''
+DEEDS = """
 import glob, os, socket, subprocess
 def tried(what, deed):
     try:
@@ -46,16 +48,31 @@ if sys.argv[1] == "--run":
     tried("other runs", lambda: os.stat("../../../ballistic/exact"))
     tried("another process", lambda: os.stat("/proc/PARENT"))
     subprocess.Popen(["/bin/sleep", "300"], start_new_session=True)
-'''
+"""
 
 
 def namespaces_are_allowed():
-    words = ["/usr/bin/bwrap", "--unshare-all", "--unshare-user", "--ro-bind", "/usr", "/usr", "--symlink", "usr/lib", "/lib", "--symlink", "usr/lib64", "/lib64", "/usr/bin/true"]
+    words = [
+        "/usr/bin/bwrap",
+        "--unshare-all",
+        "--unshare-user",
+        "--ro-bind",
+        "/usr",
+        "/usr",
+        "--symlink",
+        "usr/lib",
+        "/lib",
+        "--symlink",
+        "usr/lib64",
+        "/lib64",
+        "/usr/bin/true",
+    ]
     return os.path.exists(words[0]) and subprocess.run(words, capture_output=True, check=False).returncode == 0
 
 
 def one_folder_can_be_shown():
-    """Landlock, without which nothing of a stranger is read under --sandbox. 444: landlock_create_ruleset, asked for its version."""
+    """Landlock, without which nothing of a stranger is read under --sandbox. 444: landlock_create_ruleset, asked for
+    its version."""
     return ctypes.CDLL(None, use_errno=True).syscall(444, None, ctypes.c_size_t(0), ctypes.c_uint(1)) > 0
 
 
@@ -64,16 +81,39 @@ class Sandbox(unittest.TestCase):
         self.place = tempfile.TemporaryDirectory()
         self.folder = Path(self.place.name).resolve()
         (self.folder / "secret").write_text("mine")
-        subprocess.run([TRIPOINT, "engine", "new", "mine", "--lang", "python"], cwd=self.folder, check=True, capture_output=True)
+        subprocess.run(
+            [TRIPOINT, "engine", "new", "mine", "--lang", "python"], cwd=self.folder, check=True, capture_output=True
+        )
         self.engine = next((self.folder / "mine").glob("engine-*"))
 
     def tearDown(self):
         self.place.cleanup()
 
     def validate(self, *words):
-        done = subprocess.run([TRIPOINT, "validate", "rigid/ballistic", "--engine", self.engine, "--engines", "mine,exact", "--out", self.folder / "out", "--no-report", "--no-history", *words],
-                              cwd=self.folder, capture_output=True, text=True, check=False, env={**os.environ, "SOME_TOKEN": "secret"})
-        return done, json.loads((self.folder / "out/results.json").read_text()) if (self.folder / "out/results.json").exists() else None
+        done = subprocess.run(
+            [
+                TRIPOINT,
+                "validate",
+                "rigid/ballistic",
+                "--engine",
+                self.engine,
+                "--engines",
+                "mine,exact",
+                "--out",
+                self.folder / "out",
+                "--no-report",
+                "--no-history",
+                *words,
+            ],
+            cwd=self.folder,
+            capture_output=True,
+            text=True,
+            check=False,
+            env={**os.environ, "SOME_TOKEN": "secret"},
+        )
+        return done, json.loads((self.folder / "out/results.json").read_text()) if (
+            self.folder / "out/results.json"
+        ).exists() else None
 
     def errors(self, results):
         runs = [run for engine in results["cases"][0]["engines"] if engine["name"] == "mine" for run in engine["runs"]]
@@ -88,15 +128,22 @@ class Sandbox(unittest.TestCase):
 
     def make_hostile(self):
         import socket
+
         self.door = socket.socket()
         self.door.bind(("127.0.0.1", 0))
         self.door.listen(8)
         self.addCleanup(self.door.close)
-        deeds = DEEDS.replace("PORT", str(self.door.getsockname()[1])).replace("OUTSIDE", str(self.folder)).replace("PARENT", str(os.getpid()))
+        deeds = (
+            DEEDS.replace("PORT", str(self.door.getsockname()[1]))
+            .replace("OUTSIDE", str(self.folder))
+            .replace("PARENT", str(os.getpid()))
+        )
         self.insert(deeds)
 
     def deeds(self):
-        return sorted(set("\n".join(file.read_text() for file in (self.folder / "out").rglob("tried.txt")).split("\n")) - {""})
+        return sorted(
+            set("\n".join(file.read_text() for file in (self.folder / "out").rglob("tried.txt")).split("\n")) - {""}
+        )
 
     def test_an_honest_engine_answers_as_it_does_outside(self):
         outside = self.errors(self.validate()[1])
@@ -106,7 +153,9 @@ class Sandbox(unittest.TestCase):
     def test_a_hostile_one_reaches_nothing(self):
         self.make_hostile()
         self.errors(self.validate()[1])
-        self.assertEqual(len(self.deeds()), 7, self.deeds())  # the deeds are real: without a sandbox each works, but for other runs, which come later
+        self.assertEqual(
+            len(self.deeds()), 7, self.deeds()
+        )  # the deeds are real: without a sandbox each works, but for other runs, which come later
         self.assertTrue((self.folder / "written").exists())
         (self.folder / "written").unlink()
         subprocess.run(["rm", "-r", self.folder / "out"], check=True)
@@ -120,7 +169,8 @@ class Sandbox(unittest.TestCase):
 import os, sys
 if sys.argv[1] == "--run":
     told = []
-    for path in ("/proc/sys/kernel/core_pattern", "/proc/sys/vm/drop_caches", "/proc/sys/kernel/hostname", "/proc/sysrq-trigger", "/sys/power/state", "/sys/kernel/mm/ksm/run", "/dev/mem"):
+    for path in ("/proc/sys/kernel/core_pattern", "/proc/sys/vm/drop_caches", "/proc/sys/kernel/hostname", \
+"/proc/sysrq-trigger", "/sys/power/state", "/sys/kernel/mm/ksm/run", "/dev/mem"):
         try:
             os.close(os.open(path, os.O_WRONLY))
             told.append(path)
@@ -143,11 +193,18 @@ if sys.argv[1] == "--run":
         os.waitpid(child, 0)
     open("told.txt", "w").write(repr((os.getuid() == 0, told, len(children) < 512)))
 """)
-        for user in ([0, 1000] if os.geteuid() == 0 else [os.geteuid()]):
+        for user in [0, 1000] if os.geteuid() == 0 else [os.geteuid()]:
             with tempfile.TemporaryDirectory() as out:
                 os.chown(out, user, -1)
                 os.chmod(self.folder, 0o755)
-                done = subprocess.run([TRIPOINT, "run", "rigid/ballistic", "--engine", self.engine, "--sandbox", "--out", out + "/run"], cwd="/", capture_output=True, text=True, check=False, user=user)
+                done = subprocess.run(
+                    [TRIPOINT, "run", "rigid/ballistic", "--engine", self.engine, "--sandbox", "--out", out + "/run"],
+                    cwd="/",
+                    capture_output=True,
+                    text=True,
+                    check=False,
+                    user=user,
+                )
                 self.assertEqual(done.returncode, 0, done.stderr)
                 told = Path(out, "run/told.txt")
                 self.assertEqual(told.read_text(), "(False, [], True)", user)
@@ -178,8 +235,26 @@ if sys.argv[1] == "--run":
     open("seen.txt", "w").write(str(len(seen)))
 """)
         for words, seen in (([], "2"), (["--sandbox"], "0")):
-            done = subprocess.run([TRIPOINT, "validate", "rigid/ballistic", "--engine", self.engine, "--engines", "mine", "--out", out, "--no-report", "--no-history", *words],
-                                  cwd=project, capture_output=True, text=True, check=False)
+            done = subprocess.run(
+                [
+                    TRIPOINT,
+                    "validate",
+                    "rigid/ballistic",
+                    "--engine",
+                    self.engine,
+                    "--engines",
+                    "mine",
+                    "--out",
+                    out,
+                    "--no-report",
+                    "--no-history",
+                    *words,
+                ],
+                cwd=project,
+                capture_output=True,
+                text=True,
+                check=False,
+            )
             self.assertEqual({file.read_text() for file in out.rglob("seen.txt")}, {seen}, done.stderr)
 
     def test_who_draws_the_page_changes_no_result_and_sees_no_other_file(self):
@@ -200,18 +275,37 @@ echo x 2>/dev/null >>"{out}/kept.txt" && try "wrote into another file of the fol
 exec /usr/bin/python3 "$@"
 """)
         python.chmod(0o755)
-        words = [TRIPOINT, "validate", "rigid/ballistic", "--engine", self.engine, "--engines", "mine,exact", "--out", out, "--no-history"]
+        words = [
+            TRIPOINT,
+            "validate",
+            "rigid/ballistic",
+            "--engine",
+            self.engine,
+            "--engines",
+            "mine,exact",
+            "--out",
+            out,
+            "--no-history",
+        ]
         for more, deeds in (([], 7), (["--sandbox"], 0)):
             subprocess.run(["rm", "-rf", out, self.folder / "written"], check=True)
             out.mkdir()
             (out / "kept.txt").write_text("mine")
-            done = subprocess.run([*words, *more], cwd=self.folder, capture_output=True, text=True, check=False,
-                                  env={**os.environ, "SOME_TOKEN": "secret", "TRIPOINT_PYTHON": str(python)})
+            done = subprocess.run(
+                [*words, *more],
+                cwd=self.folder,
+                capture_output=True,
+                text=True,
+                check=False,
+                env={**os.environ, "SOME_TOKEN": "secret", "TRIPOINT_PYTHON": str(python)},
+            )
             told = (out / "deeds.txt").read_text().splitlines() if (out / "deeds.txt").exists() else []
             self.assertEqual(len(told), deeds, told)
             self.assertEqual((self.folder / "written").exists(), not more)
             if more:
-                self.assertTrue((out / "index.html").exists(), done.stdout + done.stderr + (out / "report.log").read_text())
+                self.assertTrue(
+                    (out / "index.html").exists(), done.stdout + done.stderr + (out / "report.log").read_text()
+                )
                 self.assertTrue((out / "case/rigid+ballistic.html").exists() or list((out / "case").glob("*.html")))
                 self.assertTrue(json.loads((out / "results.json").read_text())["cases"])
 
@@ -223,7 +317,13 @@ exec /usr/bin/python3 "$@"
             (mine / "page.html").write_text("mine")
             out.mkdir()
             (out / planted).symlink_to(mine if planted == "case" else mine / "made")
-            done = subprocess.run([TRIPOINT, "validate", "rigid/ballistic", "--engines", "exact", "--out", out, "--no-report"], cwd=self.folder, capture_output=True, text=True, check=False)
+            done = subprocess.run(
+                [TRIPOINT, "validate", "rigid/ballistic", "--engines", "exact", "--out", out, "--no-report"],
+                cwd=self.folder,
+                capture_output=True,
+                text=True,
+                check=False,
+            )
             self.assertEqual(sorted(file.name for file in mine.iterdir()), ["page.html"], planted)
             results = json.loads((out / "results.json").read_text())
             if planted == "history.jsonl":  # the numbers are kept, and nobody believes that all went well
@@ -239,13 +339,46 @@ exec /usr/bin/python3 "$@"
         environment.mkdir(parents=True)
         (environment / "python").symlink_to(versions / "3.11/bin/python3.11")
         for python in (environment / "python", Path("environment/bin/python")):
-            done = subprocess.run([TRIPOINT, "validate", "rigid/ballistic", "--engine", self.engine, "--engines", "mine", "--out", "out", "--sandbox"], cwd=self.folder, capture_output=True, text=True,
-                                  check=False, env={**os.environ, "TRIPOINT_PYTHON": str(python)})
+            done = subprocess.run(
+                [
+                    TRIPOINT,
+                    "validate",
+                    "rigid/ballistic",
+                    "--engine",
+                    self.engine,
+                    "--engines",
+                    "mine",
+                    "--out",
+                    "out",
+                    "--sandbox",
+                ],
+                cwd=self.folder,
+                capture_output=True,
+                text=True,
+                check=False,
+                env={**os.environ, "TRIPOINT_PYTHON": str(python)},
+            )
             self.assertTrue((self.folder / "out/index.html").exists(), done.stdout + done.stderr)
 
     def test_a_home_is_no_folder_of_an_engine(self):
-        done = subprocess.run([TRIPOINT, "validate", "rigid/ballistic", "--engine", self.engine, "--sandbox", "--out", self.folder / "out", "--no-report"],
-                              cwd=self.folder, capture_output=True, text=True, check=False, env={**os.environ, "HOME": str(self.engine.parent)})
+        done = subprocess.run(
+            [
+                TRIPOINT,
+                "validate",
+                "rigid/ballistic",
+                "--engine",
+                self.engine,
+                "--sandbox",
+                "--out",
+                self.folder / "out",
+                "--no-report",
+            ],
+            cwd=self.folder,
+            capture_output=True,
+            text=True,
+            check=False,
+            env={**os.environ, "HOME": str(self.engine.parent)},
+        )
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("holds your home", done.stdout + done.stderr)
 
@@ -270,13 +403,22 @@ if sys.argv[1] == "--run":
         for again in ([], ["--resume"]):
             done, results = self.validate("--sandbox", "--time-limit", "2", *again)
             self.assertEqual(done.returncode, 4, done.stdout)
-            self.assertEqual({run["status"] for engine in results["cases"][0]["engines"] if engine["name"] == "mine" for run in engine["runs"]}, {"timeout"})
+            self.assertEqual(
+                {
+                    run["status"]
+                    for engine in results["cases"][0]["engines"]
+                    if engine["name"] == "mine"
+                    for run in engine["runs"]
+                },
+                {"timeout"},
+            )
 
     def test_its_limits_are_set_before_it_begins(self):
         self.insert("""
 import os, resource
 if sys.argv[1] == "--run":
-    told = [resource.getrlimit(what)[1] for what in (resource.RLIMIT_DATA, resource.RLIMIT_AS, resource.RLIMIT_FSIZE, resource.RLIMIT_NPROC, resource.RLIMIT_CPU)]
+    told = [resource.getrlimit(what)[1] for what in (resource.RLIMIT_DATA, resource.RLIMIT_AS, resource.RLIMIT_FSIZE, \
+resource.RLIMIT_NPROC, resource.RLIMIT_CPU)]
     for folder in ("/tmp", "/dev/shm"):
         room = os.statvfs(folder)
         told.append(room.f_blocks * room.f_frsize)
@@ -291,8 +433,24 @@ if sys.argv[1] == "--run":
             self.assertEqual(told[5:], [1 << 30, 1 << 30])
 
     def test_it_starts_where_the_caller_has_lower_limits(self):
-        words = ["sh", "-c", 'ulimit -f 2000000 && ulimit -v 8000000 && exec "$@"', "sh", TRIPOINT, "validate", "rigid/ballistic", "--engine", self.engine, "--engines", "mine",
-                 "--out", self.folder / "out", "--no-report", "--no-history", "--sandbox"]
+        words = [
+            "sh",
+            "-c",
+            'ulimit -f 2000000 && ulimit -v 8000000 && exec "$@"',
+            "sh",
+            TRIPOINT,
+            "validate",
+            "rigid/ballistic",
+            "--engine",
+            self.engine,
+            "--engines",
+            "mine",
+            "--out",
+            self.folder / "out",
+            "--no-report",
+            "--no-history",
+            "--sandbox",
+        ]
         done = subprocess.run(words, cwd=self.folder, capture_output=True, text=True, check=False)
         self.errors(json.loads((self.folder / "out/results.json").read_text()))
         self.assertIn("verdict", done.stdout)
@@ -307,14 +465,23 @@ if sys.argv[1] == "--run":
 """)
         results = self.validate("--sandbox")[1]
         self.errors(results)
-        for run in (run for engine in results["cases"][0]["engines"] if engine["name"] == "mine" for run in engine["runs"]):
+        for run in (
+            run for engine in results["cases"][0]["engines"] if engine["name"] == "mine" for run in engine["runs"]
+        ):
             self.assertGreater(run["cost"]["cpu_s"], 0.5)
             self.assertGreater(run["cost"]["peak_bytes"], 200 << 20)
 
     def test_where_no_namespace_can_be_made_nothing_is_run(self):
         if os.geteuid() != 0:
             self.skipTest("only root can hide a program")
-        words = ["unshare", "--mount", "sh", "-c", f"mount --bind /bin/false /usr/bin/bwrap && exec {TRIPOINT} validate rigid/ballistic --engine {self.engine} --sandbox --out {self.folder}/none"]
+        words = [
+            "unshare",
+            "--mount",
+            "sh",
+            "-c",
+            f"mount --bind /bin/false /usr/bin/bwrap && exec {TRIPOINT} validate rigid/ballistic --engine "
+            f"{self.engine} --sandbox --out {self.folder}/none",
+        ]
         done = subprocess.run(words, capture_output=True, text=True, check=False)
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("--sandbox: this machine lets bubblewrap make no namespaces", done.stderr)

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A suite by Snakemake, GNU parallel and Slurm, two at a time, one worker killed in the middle: schedulers_test.py TRIPOINT SOURCE [JOBS [unittest arguments]].
+"""A suite by Snakemake, GNU parallel and Slurm, two at a time, one worker killed in the middle: schedulers_test.py
+TRIPOINT SOURCE [JOBS [unittest arguments]].
 
-The merged results are those of an undisturbed validation, times aside. All are optional: tools/setup.sh schedulers, tools/one-node-slurm.sh start."""
+The merged results are those of an undisturbed validation, times aside. All are optional: tools/setup.sh schedulers,
+tools/one-node-slurm.sh start."""
+
 import json
 import os
 import shutil
@@ -16,9 +19,13 @@ from pathlib import Path
 TRIPOINT, SOURCE = str(Path(sys.argv[1]).resolve()), Path(sys.argv[2]).resolve()
 CASES = int(sys.argv[3]) if len(sys.argv) > 3 else 20  # two jobs each
 FLIGHT = (SOURCE / "tests/harness/fake/flight.toml").read_text()
-SNAKEMAKE = next((str(p) for p in (SOURCE / ".venv-schedulers/bin/snakemake",) if p.exists()), shutil.which("snakemake"))
+SNAKEMAKE = next(
+    (str(p) for p in (SOURCE / ".venv-schedulers/bin/snakemake",) if p.exists()), shutil.which("snakemake")
+)
 PARALLEL = shutil.which("parallel")
-SLURM = shutil.which("sinfo") and subprocess.run(["sinfo"], capture_output=True, timeout=60, check=False).returncode == 0
+SLURM = (
+    shutil.which("sinfo") and subprocess.run(["sinfo"], capture_output=True, timeout=60, check=False).returncode == 0
+)
 PAID = {"cpu_s", "wall_s", "setup_cpu_s", "peak_bytes", "instructions", "counted_by", "timed"}
 
 
@@ -49,7 +56,9 @@ class Schedulers(unittest.TestCase):
 
     @classmethod
     def call(cls, *words):
-        return subprocess.run([TRIPOINT, *map(str, words)], capture_output=True, text=True, timeout=600, cwd=cls.path, check=True).stdout
+        return subprocess.run(
+            [TRIPOINT, *map(str, words)], capture_output=True, text=True, timeout=600, cwd=cls.path, check=True
+        ).stdout
 
     def suite(self, name, scheduler):
         self.call("suite", "make", name, "cases", "--engines", "tripoint,exact")
@@ -61,8 +70,8 @@ class Schedulers(unittest.TestCase):
         return json.loads(self.call("status", name, "--json"))
 
     def kill_one(self, name):
-        """Kills the first worker that has a job while some are done and many wait; the job that it held. The worker is halted before,
-        because it may have gone on to another job since the status was read."""
+        """Kills the first worker that has a job while some are done and many wait; the job that it held. The worker is
+        halted before, because it may have gone on to another job since the status was read."""
         end = time.monotonic() + 120
         while time.monotonic() < end:
             status = self.status(name)
@@ -92,7 +101,14 @@ class Schedulers(unittest.TestCase):
     def test_gnu_parallel(self):
         script = self.suite("by-parallel", "parallel")
         start = time.monotonic()
-        process = subprocess.Popen(["bash", str(script)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=self.path, env=dict(os.environ, JOBS="2"))
+        process = subprocess.Popen(
+            ["bash", str(script)],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            cwd=self.path,
+            env=dict(os.environ, JOBS="2"),
+        )
         self.addCleanup(process.kill)
         killed = self.kill_one("by-parallel")
         text = process.communicate(timeout=600)[0]
@@ -119,12 +135,20 @@ class Schedulers(unittest.TestCase):
     def test_slurm(self):
         script = self.suite("by-slurm", "slurm")
         start = time.monotonic()
-        process = subprocess.Popen(["sbatch", "--wait", str(script)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=self.path)
+        process = subprocess.Popen(
+            ["sbatch", "--wait", str(script)],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            cwd=self.path,
+        )
         self.addCleanup(process.kill)
         killed = self.kill_one("by-slurm")
         text = process.communicate(timeout=600)[0]
         self.assertNotEqual(process.returncode, 0, "a killed task is a failed one")
-        again = subprocess.run(["sbatch", "--wait", str(script)], capture_output=True, text=True, cwd=self.path, timeout=600, check=False)
+        again = subprocess.run(
+            ["sbatch", "--wait", str(script)], capture_output=True, text=True, cwd=self.path, timeout=600, check=False
+        )
         self.assertEqual(again.returncode, 0, text + again.stdout + again.stderr)
         self.call("suite", "merge", "by-slurm")
         self.check("by-slurm", killed, time.monotonic() - start, "the same line once more made the rest")
@@ -132,6 +156,9 @@ class Schedulers(unittest.TestCase):
 
 if __name__ == "__main__":
     if not SNAKEMAKE and not PARALLEL and not SLURM:
-        print("neither Snakemake, GNU parallel nor Slurm is here: tools/setup.sh schedulers, tools/one-node-slurm.sh start")
+        print(
+            "neither Snakemake, GNU parallel nor Slurm is here: tools/setup.sh schedulers, tools/one-node-slurm.sh "
+            "start"
+        )
         sys.exit(77)
     unittest.main(argv=[sys.argv[0], *sys.argv[4:]])

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A suite as a folder of jobs: suite_test.py TRIPOINT FAKE_ENGINE [unittest arguments].
 
-What is compared with an undisturbed `tripoint validate` is the whole results.json but times, memory, dates and the command line."""
+What is compared with an undisturbed `tripoint validate` is the whole results.json but times, memory, dates and the
+command line."""
+
 import contextlib
 import json
 import os
@@ -18,7 +20,10 @@ import yaml
 
 TRIPOINT, FAKE = str(Path(sys.argv[1]).resolve()), str(Path(sys.argv[2]).resolve())
 FLIGHT = Path(FAKE).with_name("flight.toml").read_text()
-STUDY = FLIGHT + '[[study]]\naxis = "time_step"\nlevels = [0.02, 0.01, 0.005]\nseeds = 2\njitter = 0.1\nengine = "tripoint"\nexpect = "roundoff"\n'
+STUDY = (
+    FLIGHT + '[[study]]\naxis = "time_step"\nlevels = [0.02, 0.01, 0.005]\nseeds = 2\njitter = 0.1\nengine = '
+    '"tripoint"\nexpect = "roundoff"\n'
+)
 PAID = {"cpu_s", "wall_s", "setup_cpu_s", "peak_bytes", "instructions", "counted_by", "timed"}
 
 
@@ -64,7 +69,9 @@ class Suite(unittest.TestCase):
         self.folder.cleanup()
 
     def call(self, *words, **more):
-        return subprocess.run([TRIPOINT, *map(str, words)], capture_output=True, text=True, timeout=300, cwd=self.path, **more)
+        return subprocess.run(
+            [TRIPOINT, *map(str, words)], capture_output=True, text=True, timeout=300, cwd=self.path, **more
+        )
 
     def done(self, *words):
         end = self.call(*words)
@@ -72,7 +79,9 @@ class Suite(unittest.TestCase):
         return end
 
     def start(self, *words):
-        process = subprocess.Popen([TRIPOINT, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=self.path)
+        process = subprocess.Popen(
+            [TRIPOINT, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=self.path
+        )
         self.started.append(process)
         return process
 
@@ -83,7 +92,8 @@ class Suite(unittest.TestCase):
             (folder / f"flight{n}.toml").write_text(STUDY if study and n == 0 else FLIGHT)
 
     def engine(self, name="fake", fault="nothing"):
-        """The fake engine. Where the folder `hold` exists, the next run that starts takes the word `taken` and stays until it is killed."""
+        """The fake engine. Where the folder `hold` exists, the next run that starts takes the word `taken` and stays
+        until it is killed."""
         script = self.path / f"engine-{name}"
         hold = self.path / "hold"
         script.write_text(f"""#!/bin/sh
@@ -97,7 +107,11 @@ FAKE='{fault}' FAKE_NAME={name} exec /usr/bin/python3 -B '{FAKE}' "$@"
         return script
 
     def question(self, *engines):
-        words = ["cases", "--engines", ",".join(["tripoint", "exact", *(e.name.removeprefix("engine-") for e in engines)])]
+        words = [
+            "cases",
+            "--engines",
+            ",".join(["tripoint", "exact", *(e.name.removeprefix("engine-") for e in engines)]),
+        ]
         for engine in engines:
             words += ["--engine", engine]
         return words
@@ -145,7 +159,10 @@ FAKE='{fault}' FAKE_NAME={name} exec /usr/bin/python3 -B '{FAKE}' "$@"
         self.assertEqual(status["done"] + status["failed"], len(self.jobs()))
         self.assertEqual(list((self.suite / "workers").iterdir()), [], "they leave nothing behind")
         self.assertEqual(self.merged(code=4), whole)
-        self.assertEqual((self.suite / "summary.md").read_text().split("CPU")[0], (self.path / "whole" / "summary.md").read_text().split("CPU")[0])
+        self.assertEqual(
+            (self.suite / "summary.md").read_text().split("CPU")[0],
+            (self.path / "whole" / "summary.md").read_text().split("CPU")[0],
+        )
         self.assertEqual(self.files_of_runs(self.suite), self.files_of_runs(self.path / "whole"))
 
     def files_of_runs(self, folder):
@@ -261,7 +278,9 @@ FAKE='{fault}' FAKE_NAME={name} exec /usr/bin/python3 -B '{FAKE}' "$@"
         first.send_signal(signal.SIGSTOP)  # it gives no sign any more
         sign = next((self.suite / "workers").glob("*.json"))
         told = json.loads(sign.read_text())
-        sign.write_text(json.dumps(dict(told, machine="another")))  # as if it were elsewhere, and had been silent for minutes
+        sign.write_text(
+            json.dumps(dict(told, machine="another"))
+        )  # as if it were elsewhere, and had been silent for minutes
         os.utime(sign, (time.time() - 600,) * 2)
         self.assertEqual(self.status()["lost"], 1)
         self.done("suite", "work", "suite")
@@ -333,18 +352,36 @@ FAKE='{fault}' FAKE_NAME={name} exec /usr/bin/python3 -B '{FAKE}' "$@"
             self.assertEqual(subprocess.run(["bash", "-n"], input=script, text=True).returncode, 0, name)
         flow = yaml.safe_load(self.done("suite", "emit", "suite", "--for", "github", "--shards", "3").stdout)
         self.assertEqual(flow["jobs"]["shard"]["strategy"]["matrix"]["k"], [1, 2, 3])
-        self.assertTrue(any("suite work 'suite' --shard ${{ matrix.k }}/3" in step.get("run", "") for step in flow["jobs"]["shard"]["steps"]))
+        self.assertTrue(
+            any(
+                "suite work 'suite' --shard ${{ matrix.k }}/3" in step.get("run", "")
+                for step in flow["jobs"]["shard"]["steps"]
+            )
+        )
         make = next(step["run"] for step in flow["jobs"]["merge"]["steps"] if "suite make" in step.get("run", ""))
         ids = [job["id"] for job in self.jobs()]
-        subprocess.run(make.replace("'suite'", "again", 1), shell=True, check=True, cwd=self.path, env=dict(os.environ, PATH=f"{Path(TRIPOINT).parent}:{os.environ['PATH']}"), stdout=subprocess.DEVNULL)
-        self.assertEqual([job["id"] for job in json.loads((self.path / "again/suite.json").read_text())["jobs"]], ids, "another machine plans the same jobs")
+        subprocess.run(
+            make.replace("'suite'", "again", 1),
+            shell=True,
+            check=True,
+            cwd=self.path,
+            env=dict(os.environ, PATH=f"{Path(TRIPOINT).parent}:{os.environ['PATH']}"),
+            stdout=subprocess.DEVNULL,
+        )
+        self.assertEqual(
+            [job["id"] for job in json.loads((self.path / "again/suite.json").read_text())["jobs"]],
+            ids,
+            "another machine plans the same jobs",
+        )
         self.assertEqual(self.call("suite", "emit", "suite", "--for", "cron").returncode, 2)
 
     def test_only_the_shards_that_are_left_are_sent_again(self):
         self.cases(3, study=False)
         self.make(self.engine())
         self.done("suite", "work", "suite", "--shard", "2/3")
-        self.assertIn("--array=1,3\n", self.done("suite", "emit", "suite", "--for", "slurm", "--shards", "3", "--left").stdout)
+        self.assertIn(
+            "--array=1,3\n", self.done("suite", "emit", "suite", "--for", "slurm", "--shards", "3", "--left").stdout
+        )
 
     def test_a_job_whose_file_was_taken_away_is_put_back(self):
         self.cases(1, study=False)
@@ -358,15 +395,23 @@ FAKE='{fault}' FAKE_NAME={name} exec /usr/bin/python3 -B '{FAKE}' "$@"
     def test_words_that_are_wrong_end_2(self):
         self.cases(1, study=False)
         self.make(self.engine())
-        for words in (["status", "nowhere"], ["suite", "work", "suite", "--shard", "4/3"], ["suite", "work", "nowhere"], ["suite", "merge", "suite"], ["suite", "retry", "suite", "abc"], ["suite"],
-                      ["suite", "make", "suite", "no/such-case"], ["suite", "wrok", "suite"]):
+        for words in (
+            ["status", "nowhere"],
+            ["suite", "work", "suite", "--shard", "4/3"],
+            ["suite", "work", "nowhere"],
+            ["suite", "merge", "suite"],
+            ["suite", "retry", "suite", "abc"],
+            ["suite"],
+            ["suite", "make", "suite", "no/such-case"],
+            ["suite", "wrok", "suite"],
+        ):
             self.assertEqual(self.call(*words).returncode, 2, words)
         (self.suite / "suite.json").write_text("{")
         self.assertEqual(self.call("status", "suite").returncode, 2)
 
     def test_a_worker_spends_at_most_five_milliseconds_more_on_a_job_than_a_validation(self):
-        """CPU seconds, all processes: on a machine that others use, wall seconds say little. The least of three differences.
-        Plan and merge are beside the validation, which a slow machine slows as well."""
+        """CPU seconds, all processes: on a machine that others use, wall seconds say little. The least of three
+        differences. Plan and merge are beside the validation, which a slow machine slows as well."""
         count = 60
         self.cases(count, study=False)
         question = ["cases", "--engines", "exact"]
@@ -387,7 +432,11 @@ FAKE='{fault}' FAKE_NAME={name} exec /usr/bin/python3 -B '{FAKE}' "$@"
             more.append((worked - validated) / count)
             in_all.append((planned + worked + merged - validated) / count)
             around.append((planned + merged) / validated)
-        print(f"a job costs {min(more) * 1e3:.2f} ms more than in a validation, and {min(in_all) * 1e3:.2f} ms with plan and merge, which take {min(around):.2f} of it", file=sys.stderr)
+        print(
+            f"a job costs {min(more) * 1e3:.2f} ms more than in a validation, and {min(in_all) * 1e3:.2f} ms with "
+            f"plan and merge, which take {min(around):.2f} of it",
+            file=sys.stderr,
+        )
         self.assertLess(min(more), 5e-3, more)
         self.assertLess(min(around), 0.2, around)
 

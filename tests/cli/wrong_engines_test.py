@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Wrong engines, each a right one whose answer is spoilt in one way, are refused by name: wrong_engines_test.py TRIPOINT [unittest arguments]."""
+"""Wrong engines, each a right one whose answer is spoilt in one way, are refused by name: wrong_engines_test.py
+TRIPOINT [unittest arguments]."""
+
 import json
 import os
 import subprocess
@@ -11,7 +13,11 @@ from pathlib import Path
 TRIPOINT = Path(sys.argv[1]).resolve()
 ENGINES = TRIPOINT.parent.parent / "libexec" / "tripoint"
 WRONG = Path(__file__).resolve().parent / "wrong" / "engine-wrong"
-VALUE, MOVES, TURNS = "no unit quaternion", "moves otherwise than its velocity says", "turns otherwise than its angular velocity says"
+VALUE, MOVES, TURNS = (
+    "no unit quaternion",
+    "moves otherwise than its velocity says",
+    "turns otherwise than its angular velocity says",
+)
 
 # case, engine that is right, what is spoilt, words of the refusal
 SPOILT = (
@@ -40,8 +46,22 @@ class WrongEngines(unittest.TestCase):
         """Exit code of a validation, and what it says of the spoilt engine."""
         environment = os.environ | {"WRONG_ENGINE": str(ENGINES / f"engine-{engine}"), "WRONG": way}
         with tempfile.TemporaryDirectory() as folder:
-            words = [TRIPOINT, "validate", case, "--engine", WRONG, "--engines", "wrong", "--no-report", "--no-history", "--out", f"{folder}/out"]
-            done = subprocess.run([str(w) for w in words], capture_output=True, text=True, timeout=300, check=False, env=environment)
+            words = [
+                TRIPOINT,
+                "validate",
+                case,
+                "--engine",
+                WRONG,
+                "--engines",
+                "wrong",
+                "--no-report",
+                "--no-history",
+                "--out",
+                f"{folder}/out",
+            ]
+            done = subprocess.run(
+                [str(w) for w in words], capture_output=True, text=True, timeout=300, check=False, env=environment
+            )
             results = json.loads(Path(folder, "out", "results.json").read_text(encoding="utf-8"))
         return done.returncode, [e["reason"] for e in results["cases"][0]["engines"] if e["name"] == "wrong"]
 

@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Types what README and docs say, block by block: commands_test.py TRIPOINT SOURCE [unittest arguments].
 
-A folder with the checkout's files and the built tree stands in for a fresh clone after `make validate`; the blocks of a page are typed
-in it in their order, each line by the shell. A line must end 0, or as its comment says ("exit 1"). Not typed, but held to name only
-commands, options, cases and targets that exist, are:
-  - lines whose comment says on the page that they take minutes or download ("# 12 minutes"), and those with SUBJECT, NAME or FILE in them
+A folder with the checkout's files and the built tree stands in for a fresh clone after `make validate`; the blocks of a
+page are typed in it in their order, each line by the shell. A line must end 0, or as its comment says ("exit 1"). Not
+typed, but held to name only commands, options, cases and targets that exist, are:
+  - lines whose comment says on the page that they take minutes or download ("# 12 minutes"), and those with SUBJECT,
+  NAME or FILE in them
   - builds and installs by make, cmake and ctest; `tripoint ...` in running text and in every --help
-A block whose first line is "# file: NAME" is written as that file where the lines before it were typed, and a fence "python" is run as a script. Case files are checked by `tripoint check`, parts of them by the TOML reader; every other block must be listed here by its first line.
-"""
+A block whose first line is "# file: NAME" is written as that file where the lines before it were typed, and a fence
+"python" is run as a script. Case files are checked by `tripoint check`, parts of them by the TOML reader; every other
+block must be listed here by its first line."""
+
 import os
 import re
 import shlex
@@ -23,23 +26,77 @@ from pathlib import Path
 
 TRIPOINT, SOURCE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 COPIED = ("baselines", "cases", "examples")  # a line must not change the checkout
-LINKED = ("adapters", "cmake", "docs", "program", "reports", "src", "tests", "tools", "validation", "CMakeLists.txt", "CMakePresets.json", "Makefile")
-PAGES = [SOURCE / "README.md", SOURCE / "CONTRIBUTING.md", *sorted((SOURCE / "docs").glob("*.md")), SOURCE / "examples" / "gated-engine" / "README.md"]
-HELD_ELSEWHERE = ("add-an-effect.md",)  # its blocks are the files of an effect that the program does not have: test-effects-added holds them
-PROGRAMS = ("tripoint", "build/bin/tripoint", "make", "cmake", "ctest", "ninja", "sed", "git", "echo", "cp", "printf", "python3", "pip", ".ci/run")
+LINKED = (
+    "adapters",
+    "cmake",
+    "docs",
+    "program",
+    "reports",
+    "src",
+    "tests",
+    "tools",
+    "validation",
+    "CMakeLists.txt",
+    "CMakePresets.json",
+    "Makefile",
+)
+PAGES = [
+    SOURCE / "README.md",
+    SOURCE / "CONTRIBUTING.md",
+    *sorted((SOURCE / "docs").glob("*.md")),
+    SOURCE / "examples" / "gated-engine" / "README.md",
+]
+HELD_ELSEWHERE = (
+    "add-an-effect.md",
+)  # its blocks are the files of an effect that the program does not have: test-effects-added holds them
+PROGRAMS = (
+    "tripoint",
+    "build/bin/tripoint",
+    "make",
+    "cmake",
+    "ctest",
+    "ninja",
+    "sed",
+    "git",
+    "echo",
+    "cp",
+    "printf",
+    "python3",
+    "pip",
+    ".ci/run",
+)
 TYPED = ("tripoint", "build/bin/tripoint", "sed", "git", "echo", "python3")
 FILE = "# file: "  # then the name under which the block is written
-LISTINGS = ("case file -> runs ->", "report/index.html ")  # blocks that are no commands: a diagram, the files of a report
+LISTINGS = (
+    "case file -> runs ->",
+    "report/index.html ",
+)  # blocks that are no commands: a diagram, the files of a report
 PYTHON = ("python",)  # fences of this word are run as a script, in the folder in which the lines before them were typed
-PICTURES = ("math", "mermaid", "markdown", "cmake", "cpp", "{toctree}")  # fences with these words are drawn, or hold a text that another test makes
-SPARED = re.compile(r"\b(\d+|an?|a few) (minutes?|hours?)\b|\bdownload")  # what the page itself says of a line that is not typed
-PLACEHOLDER = re.compile(r"\b[A-Z]{4,}\b|[a-z]/n\b|\.\.\.")  # CASE, RESULTS.json, i/n: stands for what the reader fills in
-AUTHOR = {f"GIT_{who}_{what}": f"nobody{'' if what == 'NAME' else '@localhost'}" for who in ("AUTHOR", "COMMITTER") for what in ("NAME", "EMAIL")}
+PICTURES = (
+    "math",
+    "mermaid",
+    "markdown",
+    "cmake",
+    "cpp",
+    "{toctree}",
+)  # fences with these words are drawn, or hold a text that another test makes
+SPARED = re.compile(
+    r"\b(\d+|an?|a few) (minutes?|hours?)\b|\bdownload"
+)  # what the page itself says of a line that is not typed
+PLACEHOLDER = re.compile(
+    r"\b[A-Z]{4,}\b|[a-z]/n\b|\.\.\."
+)  # CASE, RESULTS.json, i/n: stands for what the reader fills in
+AUTHOR = {
+    f"GIT_{who}_{what}": f"nobody{'' if what == 'NAME' else '@localhost'}"
+    for who in ("AUTHOR", "COMMITTER")
+    for what in ("NAME", "EMAIL")
+}
 STAND_IN = "rigid/ballistic"  # instead of the whole suite in report/
 
 
 def blocks(page, words=None):
-    """(line number, lines) of each block that is indented by four spaces or fenced; none of a page that another test holds. With words: of such fences alone."""
+    """(line number, lines) of each block that is indented by four spaces or fenced; none of a page that another test
+    holds. With words: of such fences alone."""
     if page.name in HELD_ELSEWHERE:
         return []
     found, block, fence, blank = [], None, False, True
@@ -89,7 +146,10 @@ def is_typed(command, comment):
 
 
 def is_commands(lines):
-    return any(program(command) in PROGRAMS or program(command).startswith(("tests/", "build/tests/", "tools/")) for command, _ in commands(lines))
+    return any(
+        program(command) in PROGRAMS or program(command).startswith(("tests/", "build/tests/", "tools/"))
+        for command, _ in commands(lines)
+    )
 
 
 def is_case(lines):
@@ -125,19 +185,36 @@ def wrong_in(command):
     except ValueError as error:
         return str(error)
     words = words[1:] if words[:1] == ["sudo"] else words
-    words = words[:next((n for n, word in enumerate(words) if word in ("|", "&&", ";", ">")), len(words))]
+    words = words[: next((n for n, word in enumerate(words) if word in ("|", "&&", ";", ">")), len(words))]
     if words[0] == "make":
         return " ".join(f"no target {word}" for word in words[1:] if word not in targets())
     if not words[0].endswith("tripoint"):
-        return "" if words[0] in PROGRAMS or (SOURCE / words[0]).exists() or shutil.which(words[0]) or words[0].startswith("build/") else f"no program {words[0]}"
-    verb = max((words[1:1 + n] for n in range(3) if tuple(words[1:1 + n]) in helps()), key=len)
+        return (
+            ""
+            if words[0] in PROGRAMS
+            or (SOURCE / words[0]).exists()
+            or shutil.which(words[0])
+            or words[0].startswith("build/")
+            else f"no program {words[0]}"
+        )
+    verb = max((words[1 : 1 + n] for n in range(3) if tuple(words[1 : 1 + n]) in helps()), key=len)
     text = helps()[tuple(verb)]
     if not verb and len(words) > 1 and not words[1].startswith("-") and not PLACEHOLDER.search(words[1]):
         return f"no command {words[1]}"
-    for word in words[1 + len(verb):]:
-        if word.startswith("-") and word != "-" and not re.search(rf"(^|[\s,]){re.escape(word.split('=')[0])}\b", text, re.MULTILINE):
+    for word in words[1 + len(verb) :]:
+        if (
+            word.startswith("-")
+            and word != "-"
+            and not re.search(rf"(^|[\s,]){re.escape(word.split('=')[0])}\b", text, re.MULTILINE)
+        ):
             return f"{' '.join(verb)} has no option {word}"
-        if "/" in word and not PLACEHOLDER.search(word) and word.split("/")[0] in subjects() and not (SOURCE / "cases" / word).exists() and not (SOURCE / "cases" / f"{word}.toml").exists():
+        if (
+            "/" in word
+            and not PLACEHOLDER.search(word)
+            and word.split("/")[0] in subjects()
+            and not (SOURCE / "cases" / word).exists()
+            and not (SOURCE / "cases" / f"{word}.toml").exists()
+        ):
             return f"no case {word}"
     return ""
 
@@ -159,7 +236,14 @@ class Commands(unittest.TestCase):
             shutil.copytree(SOURCE / name, cls.root / name)
         for name in LINKED:
             (cls.root / name).symlink_to(SOURCE / name)
-        done = subprocess.run([TRIPOINT, "validate", STAND_IN, "--out", "report", "--no-report"], cwd=cls.root, capture_output=True, text=True, timeout=300, check=False)
+        done = subprocess.run(
+            [TRIPOINT, "validate", STAND_IN, "--out", "report", "--no-report"],
+            cwd=cls.root,
+            capture_output=True,
+            text=True,
+            timeout=300,
+            check=False,
+        )
         assert done.returncode == 0, done.stdout + done.stderr
 
     @classmethod
@@ -173,23 +257,50 @@ class Commands(unittest.TestCase):
         environment = dict(os.environ, PATH=f"{TRIPOINT.parent}:{os.environ['PATH']}", NO_COLOR="1", **AUTHOR)
         expected = int(found[1]) if (found := re.search(r"\bexit (\d+)\b", comment)) else 0
         began = time.monotonic()
-        done = subprocess.run(["bash", "-c", command.replace("/tmp/", f"{self.root}/tmp/")], cwd=folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=240, check=False)
+        done = subprocess.run(
+            ["bash", "-c", command.replace("/tmp/", f"{self.root}/tmp/")],
+            cwd=folder,
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            timeout=240,
+            check=False,
+        )
         self.spent.append((time.monotonic() - began, f"{where}: {command}"))
         self.assertEqual(done.returncode, expected, f"{where}: {command}\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
 
     def run_script(self, lines, folder, where):
         """Where it imports our package, from the checkout's `python` folder and with this build's program."""
-        environment = dict(os.environ, PYTHONPATH=str(SOURCE / "python"), TRIPOINT_PROGRAM=str(TRIPOINT), PYTHONDONTWRITEBYTECODE="1", MPLBACKEND="Agg")
+        environment = dict(
+            os.environ,
+            PYTHONPATH=str(SOURCE / "python"),
+            TRIPOINT_PROGRAM=str(TRIPOINT),
+            PYTHONDONTWRITEBYTECODE="1",
+            MPLBACKEND="Agg",
+        )
         began = time.monotonic()
-        done = subprocess.run(["/usr/bin/python3", "-c", "\n".join(lines)], cwd=folder, env=environment, capture_output=True, text=True, timeout=240, check=False)
+        done = subprocess.run(
+            ["/usr/bin/python3", "-c", "\n".join(lines)],
+            cwd=folder,
+            env=environment,
+            capture_output=True,
+            text=True,
+            timeout=240,
+            check=False,
+        )
         self.spent.append((time.monotonic() - began, f"{where}: a script"))
-        self.assertEqual(done.returncode, 0, f"{where}: the script ends with\n{done.stdout[-1000:]}{done.stderr[-2000:]}")
+        self.assertEqual(
+            done.returncode, 0, f"{where}: the script ends with\n{done.stdout[-1000:]}{done.stderr[-2000:]}"
+        )
 
     def test_every_line_of_every_page_does_what_it_says(self):
         for page in PAGES:
             name = str(page.relative_to(SOURCE))
             folder = self.root
-            elsewhere = page.parent.name == "gated-engine"  # another project, which begins with an empty folder: empty_repository_test.py types it
+            elsewhere = (
+                page.parent.name == "gated-engine"
+            )  # another project, which begins with an empty folder: empty_repository_test.py types it
             scripts = [block for block in blocks(page, PYTHON) if not is_file(block[1])]
             for number, lines in sorted(blocks(page) + blocks(page, PYTHON)):
                 if is_file(lines):
@@ -239,7 +350,11 @@ class Commands(unittest.TestCase):
         for page in PAGES:
             for number, lines in blocks(page):
                 if not is_commands(lines) and not is_case(lines) and not is_file(lines):
-                    self.assertTrue(lines[0].startswith(LISTINGS), f"{page.relative_to(SOURCE)}:{number} is no command, no case file and no known listing: {lines[0]}")
+                    self.assertTrue(
+                        lines[0].startswith(LISTINGS),
+                        f"{page.relative_to(SOURCE)}:{number} is no command, no case file and no known listing: "
+                        f"{lines[0]}",
+                    )
 
     def test_commands_in_running_text_exist(self):
         for page in PAGES:
@@ -250,7 +365,9 @@ class Commands(unittest.TestCase):
     def test_every_help_has_examples_and_they_exist(self):
         examples = 0
         for words, text in helps().items():
-            self.assertRegex(text, rf"(?m)^ *tripoint {' '.join(words)}", f"tripoint {' '.join(words)} --help has no example")
+            self.assertRegex(
+                text, rf"(?m)^ *tripoint {' '.join(words)}", f"tripoint {' '.join(words)} --help has no example"
+            )
             for line in re.findall(r"^ +(tripoint .*)$", text, re.MULTILINE):
                 for command in re.split(r"\s{2,}(?=tripoint )|; (?=tripoint )", line):
                     command = re.split(r"\s{2,}|  #", command)[0]

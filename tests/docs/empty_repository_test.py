@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From an empty repository to a red merge, by examples/gated-engine/README.md alone: empty_repository_test.py TRIPOINT SOURCE.
+"""From an empty repository to a red merge, by examples/gated-engine/README.md alone: empty_repository_test.py TRIPOINT
+SOURCE.
 
-Every line of every block is typed by the shell in an empty folder, block by block. A line must end 0, or as its comment says ("exit 1").
-Commands are counted and timed: a newcomer has fifteen minutes."""
+Every line of every block is typed by the shell in an empty folder, block by block. A line must end 0, or as its comment
+says ("exit 1"). Commands are counted and timed: a newcomer has fifteen minutes."""
+
 import os
 import re
 import subprocess
@@ -15,7 +17,11 @@ from pathlib import Path
 TRIPOINT, SOURCE = (Path(argument).resolve() for argument in sys.argv[1:3])
 PAGE = SOURCE / "examples" / "gated-engine" / "README.md"
 MOST_SECONDS, MOST_COMMANDS = 15 * 60, 27
-AUTHOR = {f"GIT_{who}_{what}": f"nobody{'' if what == 'NAME' else '@localhost'}" for who in ("AUTHOR", "COMMITTER") for what in ("NAME", "EMAIL")}
+AUTHOR = {
+    f"GIT_{who}_{what}": f"nobody{'' if what == 'NAME' else '@localhost'}"
+    for who in ("AUTHOR", "COMMITTER")
+    for what in ("NAME", "EMAIL")
+}
 
 
 def lines(page):
@@ -29,14 +35,34 @@ def lines(page):
 
 class EmptyRepository(unittest.TestCase):
     def test_the_page_leads_to_a_red_merge_and_back(self):
-        environment = dict(os.environ, PATH=f"{TRIPOINT.parent}:{os.environ['PATH']}", NO_COLOR="1", HOME="/nonexistent", TRIPOINT=str(SOURCE), **AUTHOR)
+        environment = dict(
+            os.environ,
+            PATH=f"{TRIPOINT.parent}:{os.environ['PATH']}",
+            NO_COLOR="1",
+            HOME="/nonexistent",
+            TRIPOINT=str(SOURCE),
+            **AUTHOR,
+        )
         began, count, red = time.monotonic(), 0, 0
         with tempfile.TemporaryDirectory(prefix="tripoint-empty-") as folder:
             for number, command, expected in lines(PAGE):
                 at = time.monotonic()
-                done = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=MOST_SECONDS, check=False)
+                done = subprocess.run(
+                    ["bash", "-c", command],
+                    cwd=folder,
+                    env=environment,
+                    stdin=subprocess.DEVNULL,
+                    capture_output=True,
+                    text=True,
+                    timeout=MOST_SECONDS,
+                    check=False,
+                )
                 print(f"{time.monotonic() - at:6.1f} s  {command}")
-                self.assertEqual(done.returncode, expected, f"README.md:{number}: {command}\n{done.stdout[-3000:]}{done.stderr[-2000:]}")
+                self.assertEqual(
+                    done.returncode,
+                    expected,
+                    f"README.md:{number}: {command}\n{done.stdout[-3000:]}{done.stderr[-2000:]}",
+                )
                 count += 1
                 red += expected in (1, 4)
             self.assertTrue((Path(folder) / "baselines").is_dir())

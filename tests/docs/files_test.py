@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""docs/trajectory.md and docs/results.md against files of real runs, both ways: files_test.py TRIPOINT SOURCE [unittest arguments].
+"""docs/trajectory.md and docs/results.md against files of real runs, both ways: files_test.py TRIPOINT SOURCE [unittest
+arguments].
 
-What a run writes must be on the page with its type, unit and attributes; what the page says must be in a run. Where a thing is rare (an engine that is not
-installed, an event that seldom happens) the program's own writer must name it."""
+What a run writes must be on the page with its type, unit and attributes; what the page says must be in a run. Where a
+thing is rare (an engine that is not installed, an event that seldom happens) the program's own writer must name it."""
+
 import json
 import re
 import subprocess
@@ -22,7 +24,15 @@ FAMILIES = {"energy_": "TERM", "heat_": "BODY", "count_": "WHAT"}
 RUNS = {  # between them they write every element
     "melt": ["phase/melt-rigid", "--until", "0.06"],
     "split": ["phase/split-by-melting"],
-    "liquid": ["fluid/taylor-green", "--until", "0.004", "--set", "scene.output_interval=0.001", "--set", "scene.on_failure=recover"],
+    "liquid": [
+        "fluid/taylor-green",
+        "--until",
+        "0.004",
+        "--set",
+        "scene.output_interval=0.001",
+        "--set",
+        "scene.on_failure=recover",
+    ],
     "throw": ["rigid/ballistic"],
 }
 WRITTEN_ELSEWHERE = {"/particles/all/temperature_error": "LAMMPS walkers"}
@@ -53,12 +63,25 @@ class Trajectory(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory(prefix="tripoint-files-")
         cls.path = Path(cls.folder.name)
-        cls.documented = {names(row[0])[0]: row[1:] for heading in ("Particles", "Bodies", "Observables") for row in rows(PAGE, heading) if row[0].startswith("`/")}
+        cls.documented = {
+            names(row[0])[0]: row[1:]
+            for heading in ("Particles", "Bodies", "Observables")
+            for row in rows(PAGE, heading)
+            if row[0].startswith("`/")
+        }
         cls.files = []
         for name, words in RUNS.items():
-            done = subprocess.run([TRIPOINT, "run", *words, "--quiet", "--out", cls.path / name], capture_output=True, text=True, timeout=300, check=False)
+            done = subprocess.run(
+                [TRIPOINT, "run", *words, "--quiet", "--out", cls.path / name],
+                capture_output=True,
+                text=True,
+                timeout=300,
+                check=False,
+            )
             assert done.returncode == 0, f"{words}: {done.stdout}{done.stderr}"
-            cls.files += [h5py.File(cls.path / name / file, "r", locking=False) for file in ("trajectory.h5", "particles.h5")]
+            cls.files += [
+                h5py.File(cls.path / name / file, "r", locking=False) for file in ("trajectory.h5", "particles.h5")
+            ]
 
     @classmethod
     def tearDownClass(cls):
@@ -70,7 +93,11 @@ class Trajectory(unittest.TestCase):
         """(file, path, group) of each group that has values."""
         for file in self.files:
             found = []
-            file.visititems(lambda path, node: found.append("/" + path) if isinstance(node, h5py.Group) and "value" in node else None)
+            file.visititems(
+                lambda path, node: (
+                    found.append("/" + path) if isinstance(node, h5py.Group) and "value" in node else None
+                )
+            )
             yield from ((file, path, file[path]) for path in found)
 
     def test_each_element_of_a_run_is_on_the_page(self):
@@ -107,7 +134,13 @@ class Trajectory(unittest.TestCase):
             documented.setdefault(names(row[0])[0], {}).update({name: row[2] for name in names(row[1])})
         for file in self.files:
             groups = {}
-            file.visititems(lambda path, node: groups.update({"/" + path: set(node.attrs)}) if isinstance(node, h5py.Group) and "value" not in node else None)
+            file.visititems(
+                lambda path, node: (
+                    groups.update({"/" + path: set(node.attrs)})
+                    if isinstance(node, h5py.Group) and "value" not in node
+                    else None
+                )
+            )
             self.assertEqual({path: set(words) for path, words in documented.items()}, groups, file.filename)
             self.assertEqual(list(file["h5md"].attrs["version"]), [1, 1])
             self.assertEqual(list(file["h5md/modules/units"].attrs["version"]), [1, 0])
@@ -123,7 +156,10 @@ class Trajectory(unittest.TestCase):
     def test_edges_are_those_of_the_periodic_domain(self):
         file = h5py.File(self.path / "liquid" / "trajectory.h5", "r", locking=False)
         scene = json.loads((self.path / "liquid" / "job.json").read_text())["scene"]
-        self.assertEqual([word == "periodic" for word in file["particles/all/box"].attrs["boundary"]], [axis in scene["periodic"] for axis in "xyz"])
+        self.assertEqual(
+            [word == "periodic" for word in file["particles/all/box"].attrs["boundary"]],
+            [axis in scene["periodic"] for axis in "xyz"],
+        )
         edges = file["particles/all/box/edges/value"][:]
         for axis, name in enumerate("xyz"):
             if name in scene["periodic"]:
@@ -135,7 +171,9 @@ class Trajectory(unittest.TestCase):
         for file in self.files:
             particles = file["particles/all"]
             alive = particles["id/value"][:] >= 0
-            np.testing.assert_array_equal(particles["id/value"][:][alive], np.broadcast_to(np.arange(alive.shape[1]), alive.shape)[alive])
+            np.testing.assert_array_equal(
+                particles["id/value"][:][alive], np.broadcast_to(np.arange(alive.shape[1]), alive.shape)[alive]
+            )
             for name in particles:
                 values = particles[name].get("value") if name not in ("box", "source") else None
                 if values is None:
@@ -153,7 +191,9 @@ class Trajectory(unittest.TestCase):
                 self.assertTrue((bodies[alive & (phases != 0)] >= 0).all())
                 turned = file["particles/bodies/orientation/value"][0]
                 sound = np.isfinite(turned).all(axis=1)
-                np.testing.assert_allclose(np.abs(turned[sound]), np.broadcast_to([1.0, 0.0, 0.0, 0.0], turned[sound].shape), atol=1e-15)
+                np.testing.assert_allclose(
+                    np.abs(turned[sound]), np.broadcast_to([1.0, 0.0, 0.0, 0.0], turned[sound].shape), atol=1e-15
+                )
         self.assertLessEqual({0, 2}, seen)
 
     def test_terms_of_the_ledger_are_those_of_the_program(self):
@@ -165,7 +205,6 @@ class Trajectory(unittest.TestCase):
         written = {path.rpartition("energy_")[2] for _, path, _ in self.elements() if "/energy_" in path}
         self.assertLessEqual(written, told)
         self.assertGreater(len(written), 8)
-
 
     def test_counts_are_those_of_the_program(self):
         code = "".join(file.read_text() for file in (SOURCE / "adapters").rglob("*.cpp"))
@@ -182,14 +221,35 @@ class ResultsPage(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.documented = set()
-        for heading, prefix in (("The whole", ""), ("A case: `cases[]`", "cases[]."), ("An engine: `cases[].engines[]`", "cases[].engines[]."), ("A run: `cases[].engines[].runs[]`", "cases[].engines[].runs[].")):
+        for heading, prefix in (
+            ("The whole", ""),
+            ("A case: `cases[]`", "cases[]."),
+            ("An engine: `cases[].engines[]`", "cases[].engines[]."),
+            ("A run: `cases[].engines[].runs[]`", "cases[].engines[].runs[]."),
+        ):
             for row in rows(RESULTS, heading):
                 cls.documented |= {prefix + name for name in names(row[0])}
-        cls.optional = {prefix + name for heading, prefix in (("A case: `cases[]`", "cases[]."), ("An engine: `cases[].engines[]`", "cases[].engines[]."), ("A run: `cases[].engines[].runs[]`", "cases[].engines[].runs[].")) for row in rows(RESULTS, heading) if row[1].endswith(", opt") for name in names(row[0])}
+        cls.optional = {
+            prefix + name
+            for heading, prefix in (
+                ("A case: `cases[]`", "cases[]."),
+                ("An engine: `cases[].engines[]`", "cases[].engines[]."),
+                ("A run: `cases[].engines[].runs[]`", "cases[].engines[].runs[]."),
+            )
+            for row in rows(RESULTS, heading)
+            if row[1].endswith(", opt")
+            for name in names(row[0])
+        }
         cls.found = set()
         with tempfile.TemporaryDirectory(prefix="tripoint-results-") as folder:
             words = ["rigid/ballistic", "--engines", "tripoint,bullet,exact", "--timing", "2"]
-            done = subprocess.run([TRIPOINT, "validate", *words, "--no-report", "--out", folder], capture_output=True, text=True, timeout=400, check=False)
+            done = subprocess.run(
+                [TRIPOINT, "validate", *words, "--no-report", "--out", folder],
+                capture_output=True,
+                text=True,
+                timeout=400,
+                check=False,
+            )
             assert done.returncode == 0, done.stdout + done.stderr
             cls.document = json.loads((Path(folder) / "results.json").read_text())
         walk(cls.document, "", cls.found)
@@ -197,7 +257,10 @@ class ResultsPage(unittest.TestCase):
     @staticmethod
     def writer():
         """The fields of each record, and the code that writes them."""
-        text = "".join((SOURCE / "validation" / "harness" / name).read_text() for name in ("results_fields.hpp", "results_write.cpp"))
+        text = "".join(
+            (SOURCE / "validation" / "harness" / name).read_text()
+            for name in ("results_fields.hpp", "results_write.cpp")
+        )
         return re.sub(r"//.*", "", text)
 
     def test_each_key_of_real_results_is_on_the_page(self):

@@ -1,13 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every link of README and docs that stays in the checkout leads to a file, and to a heading or an anchor of it; every picture is there; every page of the guide is in its
-list: links_test.py SOURCE [unittest arguments]"""
+"""Every link of README and docs that stays in the checkout leads to a file, and to a heading or an anchor of it; every
+picture is there; every page of the guide is in its list: links_test.py SOURCE [unittest arguments]"""
+
 import re
 import sys
 import unittest
 from pathlib import Path
 
 SOURCE = Path(sys.argv[1]).resolve()
-PAGES = [SOURCE / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "REFERENCES.md")] + sorted((SOURCE / "docs").rglob("*.md")) + sorted((SOURCE / "examples").rglob("*.md"))
+PAGES = (
+    [SOURCE / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "REFERENCES.md")]
+    + sorted((SOURCE / "docs").rglob("*.md"))
+    + sorted((SOURCE / "examples").rglob("*.md"))
+)
 LINK = re.compile(r"!?\[(?:[^\[\]]|\[[^\]]*\])*\]\(([^()\s]+(?:\([^()]*\))?)\)")
 
 
@@ -53,8 +58,16 @@ class Links(unittest.TestCase):
         for block in re.findall(r"```\{toctree\}\n(.*?)```", (SOURCE / "docs" / "index.md").read_text(), re.DOTALL):
             for line in block.splitlines():
                 if line and not line.startswith(":"):
-                    listed |= {str(path.relative_to(SOURCE / "docs")) for path in (SOURCE / "docs").glob(f"{line}.md" if "*" not in line else line) if path.suffix == ".md"}
-        pages = {str(path.relative_to(SOURCE / "docs")) for path in (SOURCE / "docs").rglob("*.md") if path.name != "index.md" and "still-water/" not in str(path)}
+                    listed |= {
+                        str(path.relative_to(SOURCE / "docs"))
+                        for path in (SOURCE / "docs").glob(f"{line}.md" if "*" not in line else line)
+                        if path.suffix == ".md"
+                    }
+        pages = {
+            str(path.relative_to(SOURCE / "docs"))
+            for path in (SOURCE / "docs").rglob("*.md")
+            if path.name != "index.md" and "still-water/" not in str(path)
+        }
         self.assertEqual(listed, pages)
 
 

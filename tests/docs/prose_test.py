@@ -9,7 +9,7 @@ from pathlib import Path
 
 SOURCE = Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(SOURCE / "tools"))
-import prose  # noqa: E402
+import prose
 
 LONG = "The run " + "and the run " * 8 + "end."  # 27 words
 

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""README is one screen that a newcomer can read, and leads to a page that is whole and of the engines that are pinned: readme_test.py SOURCE [unittest arguments].
+"""README is one screen that a newcomer can read, and leads to a page that is whole and of the engines that are pinned:
+readme_test.py SOURCE [unittest arguments].
 
 Its commands are typed by commands_test.py, and its links are followed by links_test.py."""
+
 import json
 import re
 import sys
@@ -42,7 +44,7 @@ class Readme(unittest.TestCase):
             self.assertLessEqual(len(sentence.split()), WORDS, sentence)
 
     def test_a_picture_of_the_page_stands_above_the_first_command(self):
-        top = README[:README.index("\n    ")]
+        top = README[: README.index("\n    ")]
         self.assertIn("](docs/which-engine.png)](docs/which-engine.html)", top)
         self.assertLess(PICTURE.stat().st_size, 300_000)
 
@@ -67,8 +69,15 @@ class Page(unittest.TestCase):
         self.assertFalse(re.findall(r"<(?:img|script|link|iframe)\b|\bsrc=|url\(", self.html))
 
     def test_it_has_the_pinned_release_of_every_engine(self):
-        for name, entry in json.loads((SOURCE / "adapters" / "vendors" / "catalogue.json").read_text())["engines"].items():
-            self.assertRegex(self.html, rf"(?i){re.escape(entry['title'].split(' in ')[0].split(' Physics')[0])}[^<]*? {re.escape(entry['default'])}", name)
+        for name, entry in json.loads((SOURCE / "adapters" / "vendors" / "catalogue.json").read_text())[
+            "engines"
+        ].items():
+            self.assertRegex(
+                self.html,
+                rf"(?i){re.escape(entry['title'].split(' in ')[0].split(' Physics')[0])}[^<]*? "
+                rf"{re.escape(entry['default'])}",
+                name,
+            )
 
     def test_its_cases_are_there_and_are_acceptance_cases(self):
         found = set(re.findall(r"\b((?:contact|rigid|coupling|fluid|solid|heat|phase)/[a-z0-9-]+)", self.html))

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What pages hold of the program is what make pages writes: docs/case-file.md, and the field dictionary of docs/model.md.
+"""What pages hold of the program is what make pages writes: docs/case-file.md, and the field dictionary of
+docs/model.md.
 
-    written_test.py TRIPOINT SOURCE [unittest arguments]
+written_test.py TRIPOINT SOURCE [unittest arguments]
 """
+
 import subprocess
 import sys
 import tempfile
@@ -12,8 +14,8 @@ from pathlib import Path
 TRIPOINT, SOURCE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 sys.path.insert(0, str(SOURCE / "tools"))
 
-from engine_tables import with_tables  # noqa: E402
-from field_dictionary import Wrong, columns_of_all, fields_from, table, with_table, words_from  # noqa: E402
+from engine_tables import with_tables
+from field_dictionary import Wrong, columns_of_all, fields_from, table, with_table, words_from
 
 
 def column(name, owner, unit="1", size=8, per="particle"):
@@ -34,7 +36,9 @@ class Pages(unittest.TestCase):
         self.assertEqual(page, with_tables(page, TRIPOINT), "docs/engines.md is old: make pages")
 
     def test_the_field_dictionary_is_what_the_tool_writes(self):
-        rows = table(fields_from(columns_of_all(TRIPOINT, SOURCE / "cases")), words_from(SOURCE / "src"), SOURCE / "src")
+        rows = table(
+            fields_from(columns_of_all(TRIPOINT, SOURCE / "cases")), words_from(SOURCE / "src"), SOURCE / "src"
+        )
         page = (SOURCE / "docs/model.md").read_text()
         self.assertEqual(page, with_table(page, rows), "docs/model.md is old: make pages")
 
@@ -63,19 +67,47 @@ class Dictionary(unittest.TestCase):
         self.assertEqual(rows[2:], ["| `drag_force` | x y z | particle | F | N | drag | force of drag, -c m v |"])
 
     def test_types_owners_and_a_missing_symbol_are_shown(self):
-        columns = [column("a.b", "drag", "m", 24, "body"), column("a.b", "drag", "m", 24, "body"), column("n", "wind"), column("n", "drag"), column("q", "drag", "1", 32)]
-        rows = table(fields_from(columns), self.words('"a.b" = { meaning = "place" }', 'n = { symbol = "n", meaning = "number" }', 'q = { meaning = "turn" }'), self.root)
-        self.assertEqual(rows.splitlines()[2:], ["| `a.b` | Vec3 | body | - | m | drag | place |", "| `n` | 1 | particle | n | 1 | drag, wind | number |", "| `q` | Quaternion | particle | - | 1 | drag | turn |"])
+        columns = [
+            column("a.b", "drag", "m", 24, "body"),
+            column("a.b", "drag", "m", 24, "body"),
+            column("n", "wind"),
+            column("n", "drag"),
+            column("q", "drag", "1", 32),
+        ]
+        rows = table(
+            fields_from(columns),
+            self.words(
+                '"a.b" = { meaning = "place" }', 'n = { symbol = "n", meaning = "number" }', 'q = { meaning = "turn" }'
+            ),
+            self.root,
+        )
+        self.assertEqual(
+            rows.splitlines()[2:],
+            [
+                "| `a.b` | Vec3 | body | - | m | drag | place |",
+                "| `n` | 1 | particle | n | 1 | drag, wind | number |",
+                "| `q` | Quaternion | particle | - | 1 | drag | turn |",
+            ],
+        )
 
     def test_a_field_without_a_meaning_is_named(self):
         self.assertIn("the field drag_force of drag has no meaning", self.refusal(of_drag()))
 
     def test_a_line_of_no_field_or_of_another_effect_is_named_with_its_file(self):
-        self.assertIn("src/effects/drag/fields.toml: no effect of any case owns a field lift", self.refusal([], 'lift = { meaning = "force" }'))
-        self.assertIn("drag_force is a field of wind", self.refusal(of_drag("wind"), 'drag_force = { meaning = "force" }'))
+        self.assertIn(
+            "src/effects/drag/fields.toml: no effect of any case owns a field lift",
+            self.refusal([], 'lift = { meaning = "force" }'),
+        )
+        self.assertIn(
+            "drag_force is a field of wind", self.refusal(of_drag("wind"), 'drag_force = { meaning = "force" }')
+        )
 
     def test_a_line_that_is_not_understood_is_refused(self):
-        for line in ('drag_force = "force"', 'drag_force = { symbol = "F" }', 'drag_force = { meaning = "force", unit = "N" }'):
+        for line in (
+            'drag_force = "force"',
+            'drag_force = { symbol = "F" }',
+            'drag_force = { meaning = "force", unit = "N" }',
+        ):
             self.assertIn("write drag_force = {", self.refusal(of_drag(), line), line)
         self.assertIn("a cell of a table", self.refusal(of_drag(), 'drag_force = { meaning = "a | b" }'))
         self.assertIn("fields.toml", self.refusal(of_drag(), "drag_force ="))
@@ -87,8 +119,15 @@ class Dictionary(unittest.TestCase):
         self.assertIn("differ in unit", self.refusal([*of_drag(), column("drag_force.x", "drag", "kg")]))
 
     def test_a_page_without_its_marks_is_refused(self):
-        self.assertEqual(with_table("a\n<!-- begin fields -->\nold\n<!-- end fields -->\nb\n", "new\n"), "a\n<!-- begin fields -->\nnew\n<!-- end fields -->\nb\n")
-        for page in ("", "<!-- end fields --> <!-- begin fields -->", "<!-- begin fields --> <!-- begin fields --> <!-- end fields -->"):
+        self.assertEqual(
+            with_table("a\n<!-- begin fields -->\nold\n<!-- end fields -->\nb\n", "new\n"),
+            "a\n<!-- begin fields -->\nnew\n<!-- end fields -->\nb\n",
+        )
+        for page in (
+            "",
+            "<!-- end fields --> <!-- begin fields -->",
+            "<!-- begin fields --> <!-- begin fields --> <!-- end fields -->",
+        ):
             with self.assertRaises(Wrong):
                 with_table(page, "")
 

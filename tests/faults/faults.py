@@ -1,22 +1,28 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Faults at every call that changes a file or a name, reads, asks for memory, or is about a child: what an engine or the program promises must hold afterwards.
+"""Faults at every call that changes a file or a name, reads, asks for memory, or is about a child: what an engine or
+the program promises must hold afterwards.
 
-    faults.py BUILD [--what engine|suite] [--kinds before,read-eio,...] [--every N] [--each-call] [--seeded COUNT --seed S] [--jobs N] [--out TABLE.json]
+    faults.py BUILD [--what engine|suite] [--kinds before,read-eio,...] [--every N] [--each-call] [--seeded COUNT --seed
+    S] [--jobs N] [--out TABLE.json]
 
-seam.cpp lets the n-th call fail, in each kind, for every n (or every N-th of them), or for COUNT points drawn at random by a printed seed. Of calls for memory those with the same
-callers are one: the first and the last of them fail; --each-call takes every one. What was announced as written stands in the program's stderr, which this script keeps apart from the
-files. Then it looks:
+seam.cpp lets the n-th call fail, in each kind, for every n (or every N-th of them), or for COUNT points drawn at random
+by a printed seed. Of calls for memory those with the same callers are one: the first and the last of them fail;
+--each-call takes every one. What was announced as written stands in the program's stderr, which this script keeps apart
+from the files. Then it looks:
 
 - exit 0 means that every frame and the result are there, to the last bit of an undisturbed run;
 - another exit has a code of the contracts and words on stderr, and no result says ok;
 - frames that were announced are in the file with their bits (a loss of power may take them);
 - a run goes on from the last announced checkpoint, and ends with the bits of the undisturbed one;
-- nothing hangs, no process is left behind, and nothing ends by a signal but the one that we sent (a process without memory may: the libraries below it do).
+- nothing hangs, no process is left behind, and nothing ends by a signal but the one that we sent (a process without
+memory may: the libraries below it do).
 
---what suite is `tripoint validate` of one case, and then that of two engines, one of them a stranger's, where calls about children fail.
+--what suite is `tripoint validate` of one case, and then that of two engines, one of them a stranger's, where calls
+about children fail.
 Exit: 0 all of it held, 1 something did not, with the command that shows it again.
 """
+
 import argparse
 import concurrent.futures
 import hashlib
@@ -41,13 +47,19 @@ DEATHS = ("before", "half", "after", "lost")
 HARMLESS = ("short", "eintr", "clock")  # a call that is cut short is made again; a date that jumps is nobody's concern
 ALWAYS_HARMLESS = ("pidfd", "kill", "limit")  # sets of calls: there is another way, or nothing was left to be done
 KINDS = [*DEATHS, *HARMLESS, "eio", "enospc", "erofs", "edquot", "eio" + STICKY, "enospc" + STICKY, "erofs" + STICKY]
-NAMES = ["name-before", "name-after", "name-lost", "name-eio", "name-enospc", "name-erofs", "name-eacces", "name-eio" + STICKY, "name-erofs" + STICKY]
+NAMES = """
+name-before name-after name-lost name-eio name-enospc name-erofs name-eacces name-eio+sticky
+name-erofs+sticky
+""".split()
 READS = ["read-short", "read-eintr", "read-eio", "read-eio" + STICKY]
 MEMORY = ["memory", "memory" + STICKY]
-CHILDREN = ["fork-after", "fork-eagain", "fork-eagain" + STICKY, "spawn-before", "spawn-after", "spawn-eagain", "spawn-enomem" + STICKY, "pipe-emfile", "pipe-emfile" + STICKY,
-            "poll-before", "poll-eintr", "poll-enomem", "poll-enomem" + STICKY, "pidfd-emfile", "pidfd-enosys" + STICKY, "wait-before", "wait-eintr", "wait-echild",
-            "wait-echild" + STICKY, "kill-eperm", "kill-eperm" + STICKY, "limit-eperm", "limit-eperm" + STICKY,
-            "stream-short", "stream-eintr", "stream-eio", "stream-eio" + STICKY]
+CHILDREN = """
+fork-after fork-eagain fork-eagain+sticky spawn-before spawn-after spawn-eagain spawn-enomem+sticky
+pipe-emfile pipe-emfile+sticky poll-before poll-eintr poll-enomem poll-enomem+sticky pidfd-emfile
+pidfd-enosys+sticky wait-before wait-eintr wait-echild wait-echild+sticky kill-eperm
+kill-eperm+sticky limit-eperm limit-eperm+sticky stream-short stream-eintr stream-eio
+stream-eio+sticky
+""".split()
 PATIENCE = 60.0  # [s] for a run of 0.05 s
 CODES = {"engine-tripoint": (0, 1, 2, 4, 7, 130), "tripoint": (0, 1, 2, 3, 4, 5, 6, 7, 130)}  # that the contracts know
 GOOD = ("whole", "died", "refused")
@@ -82,17 +94,20 @@ def frames_of(path, count=None):
 
 
 def same_bits(there, wanted):
-    """Whether all of `wanted` is there. Bodies that are born later make a column wider: they are missing from a file that ends before."""
+    """Whether all of `wanted` is there. Bodies that are born later make a column wider: they are missing from a file
+    that ends before."""
+
     def same(a, b):
         if a.ndim < 2 or a.shape[0] != b.shape[0]:
             return a.tobytes() == b.tobytes()
-        return a.tobytes() == b[:, : a.shape[1]].tobytes() and bool(np.isnan(b[:, a.shape[1]:]).all())
+        return a.tobytes() == b[:, : a.shape[1]].tobytes() and bool(np.isnan(b[:, a.shape[1] :]).all())
 
     return there.keys() == wanted.keys() and all(same(there[name], wanted[name]) for name in wanted)
 
 
 class Engine:
     """One run of engine-tripoint: acknowledged are its frames and checkpoints."""
+
     name = "engine"
     process = "engine-tripoint"
     kinds = KINDS + NAMES + READS + MEMORY
@@ -103,7 +118,11 @@ class Engine:
         self.program = build / "libexec/tripoint/engine-tripoint"
         self.start = scratch / "start"
         made = scratch / "made"
-        subprocess.run([build / "bin/tripoint", "run", HERE / "halved.toml", "--quiet", "--out", made], check=True, capture_output=True)
+        subprocess.run(
+            [build / "bin/tripoint", "run", HERE / "halved.toml", "--quiet", "--out", made],
+            check=True,
+            capture_output=True,
+        )
         self.start.mkdir()
         shutil.copy(made / "particles.h5", self.start)
         self.job = json.loads((made / "job.json").read_text())
@@ -117,8 +136,18 @@ class Engine:
     def run(self, folder, environment, **more):
         if not folder.exists():
             shutil.copytree(self.start, folder)
-        (folder / "job.json").write_text(json.dumps(self.job | {"output": str(folder), "particles": str(folder / "particles.h5")} | more))
-        return subprocess.run([self.program, "--run", folder / "job.json"], capture_output=True, text=True, errors="replace", timeout=PATIENCE, env=os.environ | environment, check=False)
+        (folder / "job.json").write_text(
+            json.dumps(self.job | {"output": str(folder), "particles": str(folder / "particles.h5")} | more)
+        )
+        return subprocess.run(
+            [self.program, "--run", folder / "job.json"],
+            capture_output=True,
+            text=True,
+            errors="replace",
+            timeout=PATIENCE,
+            env=os.environ | environment,
+            check=False,
+        )
 
     def status(self, folder):
         result = folder / "result.json"
@@ -157,7 +186,10 @@ class Engine:
         if checkpoints:
             again = self.run(folder, {}, resume=checkpoints[-1])
             if again.returncode != 0:
-                return f"LOST: the announced {Path(checkpoints[-1]).name} is refused: {again.stderr.strip().splitlines()[-1:]}"
+                return (
+                    f"LOST: the announced {Path(checkpoints[-1]).name} is refused: "
+                    f"{again.stderr.strip().splitlines()[-1:]}"
+                )
             if not self.is_whole(folder):
                 return f"WRONG: from {Path(checkpoints[-1]).name} on, the run has other bits"
         return ""
@@ -165,6 +197,7 @@ class Engine:
 
 class Suite:
     """`tripoint validate` of one case: its verdict is what must not be wrong."""
+
     name = "suite"
     process = "tripoint"
     kinds = KINDS + NAMES + MEMORY
@@ -189,12 +222,34 @@ class Suite:
         folder.mkdir()
         case = folder / self.case.name
         case.write_text(self.case.read_text() + self.more)
-        command = [self.program, "validate", case, "--engines", self.engines, "--no-report", "--no-history", "--out", folder / "out"]
-        return subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=PATIENCE, env=os.environ | self.environment | environment, check=False)
+        command = [
+            self.program,
+            "validate",
+            case,
+            "--engines",
+            self.engines,
+            "--no-report",
+            "--no-history",
+            "--out",
+            folder / "out",
+        ]
+        return subprocess.run(
+            command,
+            capture_output=True,
+            text=True,
+            errors="replace",
+            timeout=PATIENCE,
+            env=os.environ | self.environment | environment,
+            check=False,
+        )
 
     def of(self, folder):
         results = json.loads((folder / "out/results.json").read_text())
-        return results["verdict"], results["exit_code"], [run["metrics"] for case in results["cases"] for engine in case["engines"] for run in engine["runs"]]
+        return (
+            results["verdict"],
+            results["exit_code"],
+            [run["metrics"] for case in results["cases"] for engine in case["engines"] for run in engine["runs"]],
+        )
 
     def status(self, folder):
         try:
@@ -206,11 +261,17 @@ class Suite:
         return self.of(folder) == self.values
 
     def broken_promise(self, folder, end, kind):
-        return "WRONG: prints that it passed" if re.search(r"^verdict PASS exit 0", end.stdout, re.M) and end.returncode > 0 else ""
+        return (
+            "WRONG: prints that it passed"
+            if re.search(r"^verdict PASS exit 0", end.stdout, re.M) and end.returncode > 0
+            else ""
+        )
 
 
 class Children(Suite):
-    """`tripoint validate` of one case on two engines that must not be missing, one of them a stranger's: what it wrote is read by a copy first."""
+    """`tripoint validate` of one case on two engines that must not be missing, one of them a stranger's: what it wrote
+    is read by a copy first."""
+
     name = "children"
     kinds = CHILDREN + READS
     case, engines = HERE.parent / "harness/fake/flight.toml", "tripoint,fake"
@@ -271,8 +332,16 @@ def judged(target, folder, end, kind):
 
 def seam(target, folder, kind, at, seed, log):
     """Variables for one run. Numbers have one width, so that all runs ask for memory alike."""
-    return {"LD_PRELOAD": str(target.seam), "FAULT_PROCESS": target.process, "FAULT_FOLDER": str(folder), "FAULT_AT": f"{at:06}", "FAULT_SEED": f"{seed:06}",
-            "FAULT_KIND": kind, "FAULT_LOG": str(log), "FAULT_STACKS": str(target.callers)}
+    return {
+        "LD_PRELOAD": str(target.seam),
+        "FAULT_PROCESS": target.process,
+        "FAULT_FOLDER": str(folder),
+        "FAULT_AT": f"{at:06}",
+        "FAULT_SEED": f"{seed:06}",
+        "FAULT_KIND": kind,
+        "FAULT_LOG": str(log),
+        "FAULT_STACKS": str(target.callers),
+    }
 
 
 def folder_of(scratch, kind, at, seed):
@@ -309,7 +378,9 @@ def lines_of_calls(target, scratch, kind):
 
 
 def calls_of(lines):
-    return max([int(line[0]) for line in lines if "memory" in line or len(line) != 3 or not line[1].isdigit()], default=0)
+    return max(
+        [int(line[0]) for line in lines if "memory" in line or len(line) != 3 or not line[1].isdigit()], default=0
+    )
 
 
 def stacks_of(lines):
@@ -322,7 +393,8 @@ def stacks_of(lines):
 
 
 def drawn(options, calls, stacks):
-    """(kind, n-th call, seed) of all points. @param calls of each kind   @param stacks of each kind that is about memory"""
+    """(kind, n-th call, seed) of all points. @param calls of each kind   @param stacks of each kind that is about
+    memory"""
     if options.seeded:
         dice = random.Random(options.seed)
         kinds = [dice.choice([kind for kind in calls if calls[kind]]) for _ in range(options.seeded)]
@@ -330,7 +402,7 @@ def drawn(options, calls, stacks):
     points = []
     for kind, count in calls.items():
         numbers = sorted(stacks[kind]) if stacks.get(kind) and not options.each_call else range(1, count + 1)
-        points += [(kind, at, at) for at in numbers[options.seed % options.every::options.every]]
+        points += [(kind, at, at) for at in numbers[options.seed % options.every :: options.every]]
     return points
 
 
@@ -341,10 +413,16 @@ def campaign(target, scratch, options, kinds):
     stacks = {kind: stacks_of(lines[kind]) for kind in kinds if set_of(kind) == "memory"}
     points = drawn(options, calls, stacks)
     sets = {set_of(kind): calls[kind] for kind in kinds}
-    print(f"{target.name}: calls {', '.join(f'{name} {count}' for name, count in sets.items())}; {len(points)} points, seed {options.seed}", flush=True)
+    print(
+        f"{target.name}: calls {', '.join(f'{name} {count}' for name, count in sets.items())}; {len(points)} points, "
+        f"seed {options.seed}",
+        flush=True,
+    )
     table, bad, met = {}, [], {kind: set() for kind in stacks}
     with concurrent.futures.ProcessPoolExecutor(options.jobs) as pool:
-        for kind, at, seed, found, where in pool.map(try_point, *zip(*[(target, scratch, *point) for point in points]), chunksize=8):
+        for kind, at, seed, found, where in pool.map(
+            try_point, *zip(*[(target, scratch, *point) for point in points]), chunksize=8
+        ):
             row = table.setdefault(kind, {})
             row[found.split(":")[0]] = row.get(found.split(":")[0], 0) + 1
             if kind in met and where:
@@ -356,7 +434,10 @@ def campaign(target, scratch, options, kinds):
         print(f"{kind:20} " + ", ".join(f"{n} {word}" for word, n in sorted(row.items())))
     for kind, names in stacks.items():
         wanted = set(names.values())
-        print(f"{kind:20} {len(wanted)} different callers of {calls[kind]} calls, {len(wanted & met[kind])} of them met, and {len(met[kind] - wanted)} others")
+        print(
+            f"{kind:20} {len(wanted)} different callers of {calls[kind]} calls, {len(wanted & met[kind])} of them "
+            f"met, and {len(met[kind] - wanted)} others"
+        )
     print(f"{target.name}: {len(points)} points, {len(bad)} broke a promise", flush=True)
     return {"calls": calls, "points": len(points), "table": table, "bad": bad}
 

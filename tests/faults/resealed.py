@@ -1,13 +1,16 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checkpoints whose arrays were altered and whose seal is right: the run that goes on from one ends in a sentence, or in a result.
+"""Checkpoints whose arrays were altered and whose seal is right: the run that goes on from one ends in a sentence, or
+in a result.
 
     resealed.py BUILD [--count N] [--seed S] [--jobs N]
 
-A checkpoint of another program, or of a broken memory, has a seal that holds. So three short runs leave checkpoints, one to three arrays of one are given other values, another length, or
-are taken away, and the file is sealed anew. The engine goes on from it within bounds of memory and time. What a number means is not looked at: one that nothing contradicts is another state, which
-a run may go on from. Exit: 0 no run ended by a signal or hung, 1 one did, with what was altered and the seed that shows it again.
-"""
+A checkpoint of another program, or of a broken memory, has a seal that holds. So three short runs leave checkpoints,
+one to three arrays of one are given other values, another length, or are taken away, and the file is sealed anew. The
+engine goes on from it within bounds of memory and time. What a number means is not looked at: one that nothing
+contradicts is another state, which a run may go on from. Exit: 0 no run ended by a signal or hung, 1 one did, with what
+was altered and the seed that shows it again."""
+
 import argparse
 import collections
 import concurrent.futures
@@ -28,7 +31,14 @@ SCENES = {"heat/inflow": "0.0002 s", "phase/over-ranks": "0.0002 s", "coupling/o
 FIRST_BLOCK = 512  # name and seal of a checkpoint: src/files/checkpoint_file.cpp
 REALS = (np.nan, np.inf, -1e308, 1e308, 0.0, -1.0, 5e-324, 1e18, 1e-9)
 WHOLES = (-1, 0, 1, 2, 7, 65535, 10**6, 2**31 - 1, 2**31, 2**32 + 1, 2**62, -(2**31), -(2**63))
-INDICES = (2**32, 2**32 - 1, 2**40, 999_999, 65_536, 2**63 + 5)  # as bits: lists of partners hold whole numbers in arrays of reals
+INDICES = (
+    2**32,
+    2**32 - 1,
+    2**40,
+    999_999,
+    65_536,
+    2**63 + 5,
+)  # as bits: lists of partners hold whole numbers in arrays of reals
 PATIENCE = 60.0  # [s] for runs of a second
 MEMORY = 4 << 30  # bytes of address space
 BAD = ("killed", "hung")
@@ -78,7 +88,11 @@ def alter(draw, path):
             del file[name]
             done.append(f"{name}: {way}")
             if way != "gone":
-                file[name] = np.resize(values, max(1, len(values) - draw.choice((1, 3)))) if way == "fewer" else np.resize(values, len(values) + draw.choice((1, 3, 100)))
+                file[name] = (
+                    np.resize(values, max(1, len(values) - draw.choice((1, 3))))
+                    if way == "fewer"
+                    else np.resize(values, len(values) + draw.choice((1, 3, 100)))
+                )
     return "; ".join(done)
 
 
@@ -87,7 +101,12 @@ def prepare(build, folder):
     kept = {}
     for scene, interval in SCENES.items():
         out = folder / scene.replace("/", "-")
-        subprocess.run([build / "bin" / "tripoint", "run", scene, "--out", out, "--checkpoint-interval", interval], cwd=ROOT, check=True, capture_output=True)
+        subprocess.run(
+            [build / "bin" / "tripoint", "run", scene, "--out", out, "--checkpoint-interval", interval],
+            cwd=ROOT,
+            check=True,
+            capture_output=True,
+        )
         kept[scene] = (out, sorted(out.rglob("checkpoint-*.h5"))[0])
     return kept
 
@@ -108,14 +127,26 @@ def go_on(build, source, checkpoint, seed):
         shutil.copy(checkpoint, path)
         done = alter(draw, path)
         seal(path)
-        job = json.loads((source / "job.json").read_text(encoding="utf-8")) | {"resume": str(path), "particles": str(folder / "particles.h5"), "output": str(folder)}
+        job = json.loads((source / "job.json").read_text(encoding="utf-8")) | {
+            "resume": str(path),
+            "particles": str(folder / "particles.h5"),
+            "output": str(folder),
+        }
         (folder / "job.json").write_text(json.dumps(job), encoding="utf-8")
         try:
-            end = subprocess.run([build / "libexec" / "tripoint" / "engine-tripoint", "--run", folder / "job.json"], cwd=folder, capture_output=True, timeout=PATIENCE, preexec_fn=bound)
+            end = subprocess.run(
+                [build / "libexec" / "tripoint" / "engine-tripoint", "--run", folder / "job.json"],
+                cwd=folder,
+                capture_output=True,
+                timeout=PATIENCE,
+                preexec_fn=bound,
+            )
         except subprocess.TimeoutExpired:
             return "hung", done, ""
         words = end.stderr.decode(errors="replace").strip().split("\n")[-1]
-        how = {0: "went on", 2: "refused", 4: "refused", 7: "diverged"}.get(end.returncode, "killed" if end.returncode < 0 else f"exit {end.returncode}")
+        how = {0: "went on", 2: "refused", 4: "refused", 7: "diverged"}.get(
+            end.returncode, "killed" if end.returncode < 0 else f"exit {end.returncode}"
+        )
         return how, done, words
 
 
@@ -128,7 +159,10 @@ def main():
     o = p.parse_args()
     build = o.build.resolve()
     ends = collections.Counter()
-    with tempfile.TemporaryDirectory(prefix="resealed-runs-") as name, concurrent.futures.ThreadPoolExecutor(o.jobs) as pool:
+    with (
+        tempfile.TemporaryDirectory(prefix="resealed-runs-") as name,
+        concurrent.futures.ThreadPoolExecutor(o.jobs) as pool,
+    ):
         kept = prepare(build, Path(name))
         scenes = list(kept)
         waiting = {}

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""tools/golden.py names each state that has other bits, says how to store anew, and stores nothing that is not the same at every width.   golden_test.py SOURCE"""
+"""tools/golden.py names each state that has other bits, says how to store anew, and stores nothing that is not the same
+at every width.   golden_test.py SOURCE"""
+
 import subprocess
 import sys
 import tempfile
@@ -8,7 +10,8 @@ import unittest
 from pathlib import Path
 
 SOURCE = Path(sys.argv[1])
-# In place of state-hashes: two states, the second of which has other bits where the folder holds a file `changed`, or on more than one thread where it holds `threads`.
+# In place of state-hashes: two states, the second of which has other bits where the folder holds a file `changed`, or
+# on more than one thread where it holds `threads`.
 PROGRAM = """#!/bin/sh
 here=$(dirname "$0")
 echo "rigid/ball corrected 200 steps 0123456789abcdef"
@@ -29,7 +32,12 @@ class Golden(unittest.TestCase):
         self.program.chmod(0o755)
 
     def golden(self, *words):
-        done = subprocess.run([SOURCE / "tools/golden.py", "--program", self.program, "--hashes", self.stored, *words], capture_output=True, text=True, check=False)
+        done = subprocess.run(
+            [SOURCE / "tools/golden.py", "--program", self.program, "--hashes", self.stored, *words],
+            capture_output=True,
+            text=True,
+            check=False,
+        )
         return done.returncode, done.stdout + done.stderr
 
     def store(self):
@@ -40,7 +48,10 @@ class Golden(unittest.TestCase):
         self.store()
         stored = tomllib.loads(self.stored.read_text())
         self.assertEqual(stored["reason"], 'a "test" of ours')
-        self.assertEqual(stored["hashes"], {"rigid/ball corrected": "200 steps 0123456789abcdef", "fluid/tank paper": "70 steps 1111111111111111"})
+        self.assertEqual(
+            stored["hashes"],
+            {"rigid/ball corrected": "200 steps 0123456789abcdef", "fluid/tank paper": "70 steps 1111111111111111"},
+        )
         code, said = self.golden()
         self.assertIn(code, (0, 77), said)
 
@@ -88,6 +99,7 @@ class Golden(unittest.TestCase):
     def test_what_is_stored_names_every_case(self):
         sys.path.insert(0, str(SOURCE / "tools"))
         import golden
+
         stored = tomllib.loads(golden.STORED.read_text())
         self.assertEqual({state.split(" ")[0] for state in stored["hashes"]}, set(golden.CASES))
         self.assertTrue(stored["reason"])

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The broken copies of the self-test: each defect reaches its copy, every true source is free of them, and a table that is wrong is refused by name.
-break_sources_test.py SCRIPT ENGINE"""
+"""The broken copies of the self-test: each defect reaches its copy, every true source is free of them, and a table that
+is wrong is refused by name. break_sources_test.py SCRIPT ENGINE"""
+
 import json
 import re
 import subprocess
@@ -41,11 +42,20 @@ class BreakSources(unittest.TestCase):
         root = self.folder(TABLE)
         self.assertEqual(call("--list", root).stdout, "f.cpp\n")
         self.assertEqual(call("--write", "f.cpp", "--to", root / "out.cpp", root).returncode, 0)
-        self.assertEqual((root / "out.cpp").read_text(), '#include "core/defect.hpp"\n#include <cmath>\nint f() {\n  return 1 + defect<"a.b">();\n}\n')
+        self.assertEqual(
+            (root / "out.cpp").read_text(),
+            '#include "core/defect.hpp"\n#include <cmath>\nint f() {\n  return 1 + defect<"a.b">();\n}\n',
+        )
 
     def test_refuses_a_wrong_table_by_name(self):
-        for change, word in (((TABLE.replace("return 1;", "return 2;")), "stands 0 times"), (TABLE.replace('<"a.b">', '<"a.c">'), "a.c"), (TABLE.replace("what", "wat"), "what"),
-                             (TABLE + TABLE[TABLE.index("[[change]]"):], "overlap"), (TABLE[:TABLE.index("[[change]]")], "no [[change]]"), (TABLE + "[more]\n", "more")):
+        for change, word in (
+            ((TABLE.replace("return 1;", "return 2;")), "stands 0 times"),
+            (TABLE.replace('<"a.b">', '<"a.c">'), "a.c"),
+            (TABLE.replace("what", "wat"), "what"),
+            (TABLE + TABLE[TABLE.index("[[change]]") :], "overlap"),
+            (TABLE[: TABLE.index("[[change]]")], "no [[change]]"),
+            (TABLE + "[more]\n", "more"),
+        ):
             root = self.folder(change)
             done = call("--write", "f.cpp", "--to", root / "out.cpp", root)
             self.assertEqual(done.returncode, 2, change)
@@ -63,7 +73,9 @@ class BreakSources(unittest.TestCase):
                     self.assertEqual(done.returncode, 0, done.stderr)
                     text += Path(out, file).read_text()
             self.assertEqual(call("--register", f"{out}/all.cpp", *SOLVER).returncode, 0)
-            rows = [json.loads(f"[{row}]") for row in re.findall(r"^ {6}\{(.*)\},$", Path(out, "all.cpp").read_text(), re.M)]
+            rows = [
+                json.loads(f"[{row}]") for row in re.findall(r"^ {6}\{(.*)\},$", Path(out, "all.cpp").read_text(), re.M)
+            ]
             self.assertGreater(len(rows), 80)
             for name, what, case in rows:
                 self.assertIn(f'defect<"{name}">', text)
@@ -75,12 +87,19 @@ class BreakSources(unittest.TestCase):
             for path in [*root.rglob("*.cpp"), *root.rglob("*.hpp")]:
                 if path.name != "defect.hpp":
                     self.assertNotRegex(path.read_text(), r'defect(_size)?\(|defect<"', path)
-        names = [d["name"] for root in SOLVER for table in root.rglob("defects.toml") for d in __import__("tomllib").loads(table.read_text()).get("defect", [])]
+        names = [
+            d["name"]
+            for root in SOLVER
+            for table in root.rglob("defects.toml")
+            for d in __import__("tomllib").loads(table.read_text()).get("defect", [])
+        ]
         program = ENGINE.read_bytes()
         self.assertGreater(len(names), 80)
         self.assertEqual([name for name in names if name.encode() + b"\0" in program], [])
         self.assertNotIn(b"TRIPOINT_DEFECT", program)
-        symbols = subprocess.run(["nm", "-C", "--defined-only", ENGINE], capture_output=True, text=True, check=True).stdout
+        symbols = subprocess.run(
+            ["nm", "-C", "--defined-only", ENGINE], capture_output=True, text=True, check=True
+        ).stdout
         self.assertIn("tripoint::Simulation::step", symbols)
         self.assertEqual([s for s in symbols.split("\n") if re.search(r"\bdefect(_size)?\b|registered_defects", s)], [])
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The hook on messages of commits: in a repository of its own, where git calls it.
 commit_message_test.py SCRIPT"""
+
 import os
 import subprocess
 import sys
@@ -10,7 +11,16 @@ import unittest
 from pathlib import Path
 
 SCRIPT = Path(sys.argv.pop(1)).resolve()
-ENV = {**{name: value for name, value in os.environ.items() if not name.startswith("GIT_")}, "GIT_CONFIG_GLOBAL": "/dev/null", "GIT_CONFIG_SYSTEM": "/dev/null", **{f"GIT_{who}_{what}": value for who in ("AUTHOR", "COMMITTER") for what, value in (("NAME", "A"), ("EMAIL", "a@b"))}}
+ENV = {
+    **{name: value for name, value in os.environ.items() if not name.startswith("GIT_")},
+    "GIT_CONFIG_GLOBAL": "/dev/null",
+    "GIT_CONFIG_SYSTEM": "/dev/null",
+    **{
+        f"GIT_{who}_{what}": value
+        for who in ("AUTHOR", "COMMITTER")
+        for what, value in (("NAME", "A"), ("EMAIL", "a@b"))
+    },
+}
 
 
 class CommitMessage(unittest.TestCase):
@@ -22,7 +32,9 @@ class CommitMessage(unittest.TestCase):
         (self.folder / ".git/hooks/commit-msg").symlink_to(SCRIPT)
 
     def git(self, *words):
-        return subprocess.run(["git", "-c", "commit.gpgsign=false", *words], cwd=self.folder, env=ENV, capture_output=True, text=True)
+        return subprocess.run(
+            ["git", "-c", "commit.gpgsign=false", *words], cwd=self.folder, env=ENV, capture_output=True, text=True
+        )
 
     def commit(self, message, *words):
         """Whether the commit was made, and what was said."""
@@ -36,11 +48,21 @@ class CommitMessage(unittest.TestCase):
         self.assertIn("write one subject line, an empty line, and a body", said)
 
     def test_a_subject_and_a_body_pass(self):
-        for message in ("Subject\n\nWhy.", "Subject\n\nWhy.\n\nSigned-off-by: A <a@b>", "Subject\n\n- a point", "Subject\n\nNote: a body may begin so."):
+        for message in (
+            "Subject\n\nWhy.",
+            "Subject\n\nWhy.\n\nSigned-off-by: A <a@b>",
+            "Subject\n\n- a point",
+            "Subject\n\nNote: a body may begin so.",
+        ):
             self.assertEqual(self.commit(message), (True, ""), message)
 
     def test_a_message_without_a_body_is_refused(self):
-        for message in ("Subject", "Subject\n\n", "Subject\n\nSigned-off-by: A <a@b>\nCo-authored-by: B <b@b>", "Subject\n\nFixes: #7"):
+        for message in (
+            "Subject",
+            "Subject\n\n",
+            "Subject\n\nSigned-off-by: A <a@b>\nCo-authored-by: B <b@b>",
+            "Subject\n\nFixes: #7",
+        ):
             self.assert_refused(message, '"Subject" has no body')
         self.assert_refused("Merge two loops", '"Merge two loops" has no body')
 
@@ -49,9 +71,14 @@ class CommitMessage(unittest.TestCase):
 
     def test_comments_and_the_diff_below_the_scissors_are_no_body(self):
         file = self.folder / "message"
-        for text in ("Subject\n\n# On branch main\n", "Subject\n\n# ------------------------ >8 ------------------------\ndiff --git a b\n"):
+        for text in (
+            "Subject\n\n# On branch main\n",
+            "Subject\n\n# ------------------------ >8 ------------------------\ndiff --git a b\n",
+        ):
             file.write_text(text)
-            self.assertEqual(subprocess.run([SCRIPT, file], cwd=self.folder, env=ENV, capture_output=True).returncode, 1, text)
+            self.assertEqual(
+                subprocess.run([SCRIPT, file], cwd=self.folder, env=ENV, capture_output=True).returncode, 1, text
+            )
 
     def test_what_ends_in_another_commit_passes(self):
         for message in ("fixup! Subject", "squash! Subject", "amend! Subject"):

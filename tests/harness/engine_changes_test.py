@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Which limit sees which wrong constant of an engine: each row of engine_changes.toml, against Bullet with that constant bent.
+"""Which limit sees which wrong constant of an engine: each row of engine_changes.toml, against Bullet with that
+constant bent.
 
-A row with `engine` is of one that is installed on demand: it is bent under its own name, and left out where it is not here."""
+A row with `engine` is of one that is installed on demand: it is bent under its own name, and left out where it is not
+here."""
+
 import json
 import os
 import subprocess
@@ -29,7 +32,14 @@ def own_gates(name, case, bent, changed_settings=""):
         home = Path(out) / "engines" / name
         home.mkdir(parents=True)
         (home / f"engine-{name}").symlink_to(HERE / "bent/engine-bent")
-        environment = {**os.environ, "TRIPOINT_ENGINES": str(home.parent), "BENT_ENGINE": str(installed(name)), "BENT": bent, "BENT_SET": changed_settings, "BENT_KEEPS_NAME": "1"}
+        environment = {
+            **os.environ,
+            "TRIPOINT_ENGINES": str(home.parent),
+            "BENT_ENGINE": str(installed(name)),
+            "BENT": bent,
+            "BENT_SET": changed_settings,
+            "BENT_KEEPS_NAME": "1",
+        }
         command = [PROGRAM, "validate", case, "--engines", name, "--no-report", "--out", out + "/report"]
         end = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=600, check=False)
         results = json.loads((Path(out) / "report/results.json").read_text(encoding="utf-8"))
@@ -49,8 +59,26 @@ def worst(rows):
 def gates(case, preset, bent, changed_settings=""):
     """@return {metric: worst verdict} of the case's gates on an engine that no gate names"""
     with tempfile.TemporaryDirectory() as out:
-        environment = {**os.environ, "BENT_ENGINE": BULLET, "BENT_PRESET": preset, "BENT": bent, "BENT_SET": changed_settings, "OMP_NUM_THREADS": "1"}
-        command = [PROGRAM, "validate", case, "--engines", "bent", "--engine", str(HERE / "bent/engine-bent"), "--no-report", "--out", out]
+        environment = {
+            **os.environ,
+            "BENT_ENGINE": BULLET,
+            "BENT_PRESET": preset,
+            "BENT": bent,
+            "BENT_SET": changed_settings,
+            "OMP_NUM_THREADS": "1",
+        }
+        command = [
+            PROGRAM,
+            "validate",
+            case,
+            "--engines",
+            "bent",
+            "--engine",
+            str(HERE / "bent/engine-bent"),
+            "--no-report",
+            "--out",
+            out,
+        ]
         end = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=300, check=False)
         results = json.loads((Path(out) / "results.json").read_text(encoding="utf-8"))
         (engine,) = [e for e in results["cases"][0]["engines"] if e["name"] == "bent"]
@@ -93,7 +121,11 @@ class Changes(unittest.TestCase):
 
     def test_every_case_of_contact_has_one(self):
         folder = HERE.parents[1] / "cases/contact"
-        self.assertEqual({f"contact/{f.stem}" for f in folder.glob("*.toml")} - {change["case"] for change in CHANGES if "engine" not in change}, {"contact/tumble-elastic-default"})  # it judges Bullet alone
+        self.assertEqual(
+            {f"contact/{f.stem}" for f in folder.glob("*.toml")}
+            - {change["case"] for change in CHANGES if "engine" not in change},
+            {"contact/tumble-elastic-default"},
+        )  # it judges Bullet alone
 
 
 if __name__ == "__main__":

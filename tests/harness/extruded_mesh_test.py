@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Meshes of tools/extruded_mesh.py are closed and as large as they should be: extruded_mesh_test.py TOOL"""
+
 import importlib.util
 import sys
 import unittest
@@ -9,7 +10,16 @@ TOOL = Path(sys.argv.pop(1)).resolve()
 SPEC = importlib.util.spec_from_file_location("extruded_mesh", TOOL)
 extruded_mesh = importlib.util.module_from_spec(SPEC)
 SPEC.loader.exec_module(extruded_mesh)
-EARED = [(-0.03, 0.045), (0.03, 0.045), (0.03, 0.125), (0.01, 0.125), (0.01, 0.095), (-0.01, 0.095), (-0.01, 0.125), (-0.03, 0.125)]
+EARED = [
+    (-0.03, 0.045),
+    (0.03, 0.045),
+    (0.03, 0.125),
+    (0.01, 0.125),
+    (0.01, 0.095),
+    (-0.01, 0.095),
+    (-0.01, 0.125),
+    (-0.03, 0.125),
+]
 
 
 def volume(vertices, faces):
@@ -33,7 +43,11 @@ class ExtrudedMesh(unittest.TestCase):
 
     def test_the_file_of_figure_11_is_what_the_tool_makes(self):
         vertices, faces = extruded_mesh.mesh(EARED, 0.02)
-        rows = [line.split() for line in (TOOL.parent.parent / "cases/paper/two-ears.obj").read_text().splitlines() if line[:1] in "vf"]
+        rows = [
+            line.split()
+            for line in (TOOL.parent.parent / "cases/paper/two-ears.obj").read_text().splitlines()
+            if line[:1] in "vf"
+        ]
         self.assertEqual([tuple(map(float, r[1:])) for r in rows if r[0] == "v"], vertices)
         self.assertEqual([tuple(int(n) - 1 for n in r[1:]) for r in rows if r[0] == "f"], faces)
 

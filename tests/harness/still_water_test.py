@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What tools/still_water.py makes of a cell and of its trajectory: still_water_test.py TOOL TRIPOINT"""
+
 import contextlib
 import importlib.util
 import io
@@ -20,14 +21,17 @@ SPEC.loader.exec_module(still_water)
 
 
 def write(folder, times, speeds):
-    """Two particles of water and a wall; the first moves along x with the speed of its time, the wall faster than all."""
+    """Two particles of water and a wall; the first moves along x with the speed of its time, the wall faster than
+    all."""
     with h5py.File(folder / "trajectory.h5", "w") as file:
         velocity = numpy.zeros((len(times), 3, 3))
         velocity[:, 0, 0], velocity[:, 2, 0] = speeds, 100.0
         file["particles/all/velocity/value"], file["particles/all/velocity/time"] = velocity, times
         file["particles/all/body/value"] = numpy.tile([-1, -1, 0], (len(times), 1))
         for name in ("walls", "time_integration", "bulk_viscous", "viscous"):
-            file[f"observables/energy_{name}/value"] = numpy.linspace(1.0, 2.0, len(times)) if name == "walls" else numpy.zeros(len(times))
+            file[f"observables/energy_{name}/value"] = (
+                numpy.linspace(1.0, 2.0, len(times)) if name == "walls" else numpy.zeros(len(times))
+            )
 
 
 class StillWater(unittest.TestCase):
@@ -39,7 +43,7 @@ class StillWater(unittest.TestCase):
         unit = (9.81 * 0.8) ** 0.5
         self.assertEqual(seen["liquid"], 2)
         self.assertAlmostEqual(seen["windows"][0][1], 1.0 / unit)
-        self.assertAlmostEqual(seen["windows"][1][0], 3.0 / unit / 2 ** 0.5)
+        self.assertAlmostEqual(seen["windows"][1][0], 3.0 / unit / 2**0.5)
         self.assertIsNone(seen["windows"][2])
         self.assertAlmostEqual(seen["greatest_wall_work"], 1.0 / (1000.0 * 9.81 * 0.8 * 0.8 * 0.2 * 6 * 0.04))
 
@@ -57,7 +61,15 @@ class StillWater(unittest.TestCase):
             folder.mkdir()
             for viscosity, rms, slip in ((0.0, 0.03, "free"), (1.0, 0.01, "no")):
                 cell = still_water.Cell(5, 1.0, viscosity, slip)
-                row = {"name": cell.name, "status": "ok", "time": 20.0, "windows": [[rms, 0.1], [rms, 0.2], None], "greatest_wall_work": 0.0, "steps": 1e-4, "steps_most": 1e-4}
+                row = {
+                    "name": cell.name,
+                    "status": "ok",
+                    "time": 20.0,
+                    "windows": [[rms, 0.1], [rms, 0.2], None],
+                    "greatest_wall_work": 0.0,
+                    "steps": 1e-4,
+                    "steps_most": 1e-4,
+                }
                 (folder / f"{cell.name}.json").write_text(json.dumps(row))
             said = io.StringIO()
             with contextlib.redirect_stdout(said):
@@ -83,7 +95,9 @@ class StillWater(unittest.TestCase):
             folder.mkdir()
             args = types.SimpleNamespace(out=[str(folder)], to=str(to))
             for asked, steps in ((20.0, 2e-4), (5.0, 5e-4), (60.0, 6e-4)):
-                (folder / f"{cell.name}.json").write_text(json.dumps({"name": cell.name, "asked": asked, "steps": steps}))
+                (folder / f"{cell.name}.json").write_text(
+                    json.dumps({"name": cell.name, "asked": asked, "steps": steps})
+                )
                 still_water.keep(args)
                 self.assertEqual(still_water.rows_of(to / "settled.json")[cell.name]["asked"], max(asked, 20.0))
             other = still_water.Cell(5, 4.0, 1e-3, "no")

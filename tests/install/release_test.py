@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""tools/release.sh signs only what is whole, by a key that the checkout names; tools/debian_snapshot.sh turns a Debian image's sources to its date.   release_test.py SOURCE"""
+"""tools/release.sh signs only what is whole, by a key that the checkout names; tools/debian_snapshot.sh turns a Debian
+image's sources to its date.   release_test.py SOURCE"""
+
 import os
 import shutil
 import subprocess
@@ -40,7 +42,9 @@ class Release(unittest.TestCase):
         self.keys = {}
         for name in ("ours", "stranger"):
             self.keys[name] = Path(place.name) / name
-            subprocess.run(["ssh-keygen", "-q", "-t", "ed25519", "-N", "", "-C", name, "-f", self.keys[name]], check=True)
+            subprocess.run(
+                ["ssh-keygen", "-q", "-t", "ed25519", "-N", "", "-C", name, "-f", self.keys[name]], check=True
+            )
         self.write(".github/allowed_signers", "maintainer@example.org " + Path(f"{self.keys['ours']}.pub").read_text())
         self.git("init", "--quiet", "--initial-branch", "main")
         self.commit()
@@ -49,16 +53,30 @@ class Release(unittest.TestCase):
         (self.folder / name).write_text(text)
 
     def git(self, *words):
-        return subprocess.run(["git", "-C", self.folder, "-c", "user.name=t", "-c", "user.email=t@example.org", *words], capture_output=True, text=True, check=True).stdout
+        return subprocess.run(
+            ["git", "-C", self.folder, "-c", "user.name=t", "-c", "user.email=t@example.org", *words],
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
 
     def commit(self):
         self.git("add", "--all")
         self.git("commit", "--quiet", "--message", "all")
 
     def release(self, key="ours", version="0.2.0"):
-        environment = {**os.environ, "GIT_CONFIG_GLOBAL": "/dev/null", "GIT_COMMITTER_NAME": "t", "GIT_COMMITTER_EMAIL": "t@example.org", "GIT_CONFIG_COUNT": "1",
-                       "GIT_CONFIG_KEY_0": "user.signingkey", "GIT_CONFIG_VALUE_0": str(self.keys[key])}
-        return subprocess.run([self.folder / "tools/release.sh", version], capture_output=True, text=True, check=False, env=environment)
+        environment = {
+            **os.environ,
+            "GIT_CONFIG_GLOBAL": "/dev/null",
+            "GIT_COMMITTER_NAME": "t",
+            "GIT_COMMITTER_EMAIL": "t@example.org",
+            "GIT_CONFIG_COUNT": "1",
+            "GIT_CONFIG_KEY_0": "user.signingkey",
+            "GIT_CONFIG_VALUE_0": str(self.keys[key]),
+        }
+        return subprocess.run(
+            [self.folder / "tools/release.sh", version], capture_output=True, text=True, check=False, env=environment
+        )
 
     def refused(self, done, words):
         self.assertNotEqual(done.returncode, 0, done.stderr)
@@ -68,7 +86,14 @@ class Release(unittest.TestCase):
     def test_what_is_whole_is_signed_and_anybody_can_verify_it(self):
         done = self.release()
         self.assertEqual(done.returncode, 0, done.stderr)
-        verify = ["-c", "gpg.format=ssh", "-c", "gpg.ssh.allowedSignersFile=.github/allowed_signers", "verify-tag", "v0.2.0"]
+        verify = [
+            "-c",
+            "gpg.format=ssh",
+            "-c",
+            "gpg.ssh.allowedSignersFile=.github/allowed_signers",
+            "verify-tag",
+            "v0.2.0",
+        ]
         self.git(*verify)
         self.git("tag", "--force", "--annotate", "--message", "forged", "v0.2.0")
         with self.assertRaises(subprocess.CalledProcessError):
@@ -100,15 +125,22 @@ class Snapshot(unittest.TestCase):
         with tempfile.NamedTemporaryFile("w+", suffix=".sources") as file:
             file.write(text)
             file.flush()
-            done = subprocess.run([SOURCE / "tools/debian_snapshot.sh", file.name], capture_output=True, text=True, check=False)
+            done = subprocess.run(
+                [SOURCE / "tools/debian_snapshot.sh", file.name], capture_output=True, text=True, check=False
+            )
             return done, Path(file.name).read_text()
 
     def test_every_place_becomes_that_of_the_date(self):
         done, text = self.turned(SOURCES)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertNotIn("new.example", text)
-        self.assertEqual([line for line in text.splitlines() if line.startswith("URIs")],
-                         ["URIs: http://old.example/archive/debian/20250520T000000Z", "URIs: http://old.example/archive/debian-security/20250520T000000Z"])
+        self.assertEqual(
+            [line for line in text.splitlines() if line.startswith("URIs")],
+            [
+                "URIs: http://old.example/archive/debian/20250520T000000Z",
+                "URIs: http://old.example/archive/debian-security/20250520T000000Z",
+            ],
+        )
         self.assertEqual(text.count("Check-Valid-Until: no"), 2)
         self.assertEqual(text.count("Suites:"), 2)
 

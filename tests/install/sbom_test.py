@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The bill of materials names all that a build holds, loads and fetches: sbom_test.py BUILD SOURCE"""
+
 import json
 import re
 import shutil
@@ -17,7 +18,9 @@ class Materials(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory(prefix="tripoint-sbom-")
         out = Path(cls.folder.name) / "bill.json"
-        subprocess.run([SOURCE / "tools" / "sbom.py", BUILD, "--out", out], check=True, stdout=subprocess.DEVNULL)  # why it failed is shown
+        subprocess.run(
+            [SOURCE / "tools" / "sbom.py", BUILD, "--out", out], check=True, stdout=subprocess.DEVNULL
+        )  # why it failed is shown
         cls.bill = json.loads(out.read_text(encoding="utf-8"))
         cls.named = {(row["name"], row["versionInfo"]) for row in cls.bill["packages"]}
 
@@ -38,7 +41,9 @@ class Materials(unittest.TestCase):
         sums = {row["name"]: {c["checksumValue"] for c in row.get("checksums", [])} for row in self.bill["packages"]}
         pins = 0
         for file in (SOURCE / "tools").glob("requirements-*.txt"):
-            for name, version in re.findall(r"^([A-Za-z0-9_.-]+)(?:\[[^\]]*\])?==(\S+)", file.read_text(encoding="utf-8"), re.M):
+            for name, version in re.findall(
+                r"^([A-Za-z0-9_.-]+)(?:\[[^\]]*\])?==(\S+)", file.read_text(encoding="utf-8"), re.M
+            ):
                 self.assertIn((name.lower(), version), self.named)
                 self.assertTrue(sums[name.lower()], name)
                 pins += 1
@@ -46,14 +51,31 @@ class Materials(unittest.TestCase):
 
     def test_what_the_programs_load_and_what_they_hold_is_there(self):
         names = {name for name, _ in self.named}
-        self.assertLessEqual({"libc6", "libhdf5-103-1", "libgomp1", "libeigen3-dev", "tabulator-tables", "three", "mujoco", "rapier3d-f64"}, names)
+        self.assertLessEqual(
+            {
+                "libc6",
+                "libhdf5-103-1",
+                "libgomp1",
+                "libeigen3-dev",
+                "tabulator-tables",
+                "three",
+                "mujoco",
+                "rapier3d-f64",
+            },
+            names,
+        )
 
     def test_a_vendored_file_that_nobody_names_is_an_error(self):
         copy = Path(self.folder.name) / "copy"
         for part in ("tools", "reports/vendor", "adapters/vendors"):
             shutil.copytree(SOURCE / part, copy / part)
         (copy / "reports" / "vendor" / "stranger.js").write_text("//\n")
-        said = subprocess.run([copy / "tools" / "sbom.py", BUILD, "--out", copy / "bill.json"], capture_output=True, text=True, check=False)
+        said = subprocess.run(
+            [copy / "tools" / "sbom.py", BUILD, "--out", copy / "bill.json"],
+            capture_output=True,
+            text=True,
+            check=False,
+        )
         self.assertNotEqual(said.returncode, 0)
         self.assertIn("stranger.js", said.stderr)
 

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""tools/scorecard.py passes on this checkout, and each of its checks fails where what it asks for is gone.   scorecard_test.py SOURCE"""
+"""tools/scorecard.py passes on this checkout, and each of its checks fails where what it asks for is gone.
+scorecard_test.py SOURCE"""
+
 import shutil
 import subprocess
 import sys
@@ -8,7 +10,18 @@ import unittest
 from pathlib import Path
 
 SOURCE = Path(sys.argv[1])
-READ = (".github", ".ci", "tools", "examples", "tests/fuzz", "adapters/vendors", "Makefile", "Dockerfile", "LICENSE", "SECURITY.md")
+READ = (
+    ".github",
+    ".ci",
+    "tools",
+    "examples",
+    "tests/fuzz",
+    "adapters/vendors",
+    "Makefile",
+    "Dockerfile",
+    "LICENSE",
+    "SECURITY.md",
+)
 
 
 def replaced(name, old, new):
@@ -16,6 +29,7 @@ def replaced(name, old, new):
         text = (root / name).read_text()
         assert old in text, f"{name} no longer says {old!r}"
         (root / name).write_text(text.replace(old, new, 1))
+
     return change
 
 
@@ -23,6 +37,7 @@ def added(name, content):
     def change(root):
         (root / name).parent.mkdir(parents=True, exist_ok=True)
         (root / name).write_bytes(content)
+
     return change
 
 
@@ -30,23 +45,51 @@ def gone(name):
     return lambda root: shutil.rmtree(root / name) if (root / name).is_dir() else (root / name).unlink()
 
 
-CI, IMAGE, EXAMPLE = ".github/workflows/ci.yml", ".github/workflows/image.yml", "examples/gated-engine/.github/workflows/accuracy.yml"
+CI, IMAGE, EXAMPLE = (
+    ".github/workflows/ci.yml",
+    ".github/workflows/image.yml",
+    "examples/gated-engine/.github/workflows/accuracy.yml",
+)
 CHANGES = (
     ("Binary-Artifacts", added("tools/helper", b"\x7fELF\x02\x01\x01\0"), "tools/helper is a program"),
     ("CI-Tests", replaced(CI, ".ci/run", "true"), "no workflow runs the tests"),
     ("CI-Tests", replaced(".ci/run", "make test", "make build"), "runs no tests"),
-    ("Dangerous-Workflow", replaced(CI, "  pull_request:\n", "  pull_request_target:\n"), "runs on pull_request_target"),
-    ("Dangerous-Workflow", replaced(CI, "cd tripoint && .ci/run", "echo ${{ github.event.pull_request.title }}; .ci/run"), "a script is given the text of others"),
-    ("Dangerous-Workflow", replaced("examples/gated-engine/.github/workflows/accuracy-comment.yml", "run: |\n", "run: |\n          git checkout \"$COMMIT\"\n"), "checks out code"),
+    (
+        "Dangerous-Workflow",
+        replaced(CI, "  pull_request:\n", "  pull_request_target:\n"),
+        "runs on pull_request_target",
+    ),
+    (
+        "Dangerous-Workflow",
+        replaced(CI, "cd tripoint && .ci/run", "echo ${{ github.event.pull_request.title }}; .ci/run"),
+        "a script is given the text of others",
+    ),
+    (
+        "Dangerous-Workflow",
+        replaced(
+            "examples/gated-engine/.github/workflows/accuracy-comment.yml",
+            "run: |\n",
+            'run: |\n          git checkout "$COMMIT"\n',
+        ),
+        "checks out code",
+    ),
     ("Fuzzing", gone("tests/fuzz/corpus/mesh"), "mesh.cpp has no corpus"),
     ("License", gone("LICENSE"), "LICENSE is not there"),
     ("Packaging", replaced(IMAGE, "docker push", "true"), "no workflow publishes"),
-    ("Pinned-Dependencies", replaced(EXAMPLE, "@bbbca2ddaa5d8feaa63e36b76fdaad77386f024f", "@v7"), "is pinned by no commit"),
+    (
+        "Pinned-Dependencies",
+        replaced(EXAMPLE, "@bbbca2ddaa5d8feaa63e36b76fdaad77386f024f", "@v7"),
+        "is pinned by no commit",
+    ),
     ("Pinned-Dependencies", replaced("tools/docs.sh", "--require-hashes", ""), "pip without --require-hashes"),
     ("Pinned-Dependencies", added("tools/more.sh", b"curl -s https://example.org/x | sh\n"), "piped into a shell"),
     ("Pinned-Dependencies", added("tools/requirements-more.txt", b"numpy==2.4.6\n"), "without hash"),
     ("Pinned-Dependencies", gone("adapters/vendors/rapier_f64/Cargo.lock"), "has no Cargo.lock"),
-    ("Pinned-Dependencies: images", replaced("Dockerfile", "ARG DEBIAN=debian:12", "ARG DEBIAN=ubuntu:24.04"), "ubuntu:24.04 has no digest"),
+    (
+        "Pinned-Dependencies: images",
+        replaced("Dockerfile", "ARG DEBIAN=debian:12", "ARG DEBIAN=ubuntu:24.04"),
+        "ubuntu:24.04 has no digest",
+    ),
     ("SAST", replaced(CI, "asan-ubsan, ", ""), "no workflow runs tools/checks.sh asan-ubsan"),
     ("SAST", replaced("tools/checks.sh", "  tsan)", "  threads)"), "knows no tsan"),
     ("SBOM", gone("tools/sbom.py"), "no tool writes an SPDX document"),
@@ -54,7 +97,13 @@ CHANGES = (
     ("Signed-Releases", gone("tools/release.sh"), "no script signs a tag"),
     ("Signed-Releases", replaced(IMAGE, "verify-tag", "show"), "does not ask for its signature"),
     ("Token-Permissions", replaced(CI, "contents: read", "contents: write"), "permissions of the whole workflow"),
-    ("Token-Permissions", replaced(IMAGE, "    timeout-minutes: 60\n", "    timeout-minutes: 60\n    permissions:\n      packages: write\n"), "may write packages"),
+    (
+        "Token-Permissions",
+        replaced(
+            IMAGE, "    timeout-minutes: 60\n", "    timeout-minutes: 60\n    permissions:\n      packages: write\n"
+        ),
+        "may write packages",
+    ),
 )
 
 

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whether the oracle sees a term that is broken: each defect of a pair term or bond term, by a part in a million, must turn its term red.
+"""Whether the oracle sees a term that is broken: each defect of a pair term or bond term, by a part in a million, must
+turn its term red.
 
-  broken_terms.py WRITE_STATES_SELFTEST [DEFECT...]
+broken_terms.py WRITE_STATES_SELFTEST [DEFECT...]
 """
+
 import os
 import sys
 
@@ -31,8 +33,22 @@ BROKEN = [
     ("walls.velocity=1e-6", "basin", "corrected", 2, [], "mirrored velocity 8.4"),
     ("fluid.bulk_viscosity=1e-6", "basin", "corrected", 2, [], "bulk pressure 8.4"),
     ("fluid.viscosity.central=1e-6", "basin", "corrected", 2, [], "viscous force central 8.5"),
-    ("fluid.viscosity.isotropic=1e-6", "basin", "corrected", 2, ["scene.isotropic_shear=0.7"], "viscous force central 8.5"),
-    ("fluid.viscosity.laplacian=1e-6", "basin", "corrected", 2, ["scene.viscosity_form='laplacian'"], "viscous force laplacian 8.5"),
+    (
+        "fluid.viscosity.isotropic=1e-6",
+        "basin",
+        "corrected",
+        2,
+        ["scene.isotropic_shear=0.7"],
+        "viscous force central 8.5",
+    ),
+    (
+        "fluid.viscosity.laplacian=1e-6",
+        "basin",
+        "corrected",
+        2,
+        ["scene.viscosity_form='laplacian'"],
+        "viscous force laplacian 8.5",
+    ),
     ("fluid.viscosity.mean=1e-6", "basin", "corrected", 2, [], "viscous force central 8.5"),
     ("fluid.viscosity.contact=1e-6", "mixture", "corrected", 2, [], "viscous force central 8.5"),
     ("fluid.viscosity.lag=1e-6", "basin", "corrected", 2, [], "predicted velocity 9"),
@@ -74,7 +90,11 @@ def main():
         os.environ["TRIPOINT_DEFECT"] = defect
         greatest, _ = oracle.compare_all(sys.argv[1], [(scene, mode, steps, changes)])
         red = {t: worst for t, (worst, _, _) in greatest.items() if not worst <= oracle.LIMIT}
-        print(f"{defect:34} {term:40} {red.get(term, 0.0):9.2e}" + (f"  also {', '.join(sorted(set(red) - {term}))}" if set(red) - {term} else ""), flush=True)
+        print(
+            f"{defect:34} {term:40} {red.get(term, 0.0):9.2e}"
+            + (f"  also {', '.join(sorted(set(red) - {term}))}" if set(red) - {term} else ""),
+            flush=True,
+        )
         if term not in red:
             blind.append(defect)
     print("every broken term is red" if not blind else "NOT SEEN: " + ", ".join(blind))

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Kernels of docs/model.md and their sums on the cubic lattice. Each is 0 beyond its support h."""
+
 import itertools
 
 import numpy as np
@@ -45,25 +46,31 @@ def elasticity_slope(r, h):
 
 
 def isotropic_shear(ratio):
-    """c and s of 8.5 in spacings: c + s r^2 makes both shear moduli of the lattice 1; c is 0 where it would be negative."""
+    """c and s of 8.5 in spacings: c + s r^2 makes both shear moduli of the lattice 1; c is 0 where it would be
+    negative."""
     reach = np.arange(-int(np.ceil(ratio)), int(np.ceil(ratio)) + 1.0)
     x, y, z = (a.ravel() for a in np.meshgrid(reach, reach, reach))
     r = np.sqrt(x * x + y * y + z * z)
     x, y, r = (a[(r > 0) & (r < ratio)] for a in (x, y, r))
     pair = -5 * wendland_slope(r, ratio) / r**3 / lattice_numbers(ratio)[1]
-    moduli = np.array([[(pair * form * weight).sum() for weight in (1, r * r)] for form in (x * x * y * y, (x * x - y * y) ** 2 / 4)])
+    moduli = np.array(
+        [[(pair * form * weight).sum() for weight in (1, r * r)] for form in (x * x * y * y, (x * x - y * y) ** 2 / 4)]
+    )
     c, s = np.linalg.solve(moduli, [1.0, 1.0])
     return (c, s) if c > 0 else (0.0, 1 / ([0.6, 0.4] @ moduli)[1])
 
 
 def interface_kernel(ratio):
-    """c and s of 8.3 in spacings: with the energy of K = (c + s r^2) W both layers beside a level interface bear their weight."""
+    """c and s of 8.3 in spacings: with the energy of K = (c + s r^2) W both layers beside a level interface bear their
+    weight."""
     reach = np.arange(-int(np.ceil(ratio)), int(np.ceil(ratio)) + 1.0)
     x, y, z = (a.ravel() for a in np.meshgrid(reach, reach, reach))
     r = np.sqrt(x * x + y * y + z * z)
     z, r = (a[(r > 0) & (r < ratio)] for a in (z, r))
     W, slope = wendland(r, ratio), wendland_slope(r, ratio) / r
-    given = [[-(z * z * k + K)[z > a].sum() for K, k in ((W, slope), (r * r * W, r * r * slope + 2 * W))] for a in (0.5, 1.5)]
+    given = [
+        [-(z * z * k + K)[z > a].sum() for K, k in ((W, slope), (r * r * W, r * r * slope + 2 * W))] for a in (0.5, 1.5)
+    ]
     missing = [-(2 * (z - a) * z * slope)[z > a].sum() for a in (0.5, 1.5)]
     return np.linalg.solve(given, missing)
 

@@ -1,17 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The terms of docs/model.md as plain sums over all pairs, for a state that write-states has written.
 
-Nothing here is shared with the solver but the page. Each function names its section. `d[i, j]` is r_i - r_j of the nearest images; sums are over
-all j but i itself. A function returns the sum and the sum of the magnitudes of what it added, which round-off is measured by.
-"""
+Nothing here is shared with the solver but the page. Each function names its section. `d[i, j]` is r_i - r_j of the
+nearest images; sums are over all j but i itself. A function returns the sum and the sum of the magnitudes of what it
+added, which round-off is measured by."""
+
 import numpy as np
 
-from kernels import interface_kernel, isotropic_shear, lattice_numbers, poly6, spiky_slope, viscosity_laplacian, wendland, wendland_slope
+from kernels import interface_kernel, isotropic_shear, lattice_numbers, poly6, spiky_slope, wendland, wendland_slope
 
 LIQUID, DEFORMABLE, WALL = -1.0, -2.0, 0.0  # groups; 1 + body for free rigid bodies
 
 
-# --- a state ----------------------------------------------------------------------------------------------------------------
+# --- a state ----------------------------------------------------------------------------------------------------------
 
 
 class State:
@@ -73,7 +74,10 @@ class State:
 
     def material(self, key, default=None):
         """A number of each particle's material."""
-        return np.array([default if self.materials[k].get(key) is None else self.materials[k][key] for k in self["material"]], dtype=float)
+        return np.array(
+            [default if self.materials[k].get(key) is None else self.materials[k][key] for k in self["material"]],
+            dtype=float,
+        )
 
     def moves_as_one(self, body):
         return self.raw["bodies"]["body.phase"][body] == 2
@@ -81,7 +85,9 @@ class State:
     def _groups(self):
         """Who exerts nothing on whom: chapter 13, `group`."""
         motion = self.raw["bodies"].get("body.motion", [])
-        of = [DEFORMABLE if not self.moves_as_one(b) else 1.0 + b if motion[b] == 0 else WALL for b in range(len(motion))]
+        of = [
+            DEFORMABLE if not self.moves_as_one(b) else 1.0 + b if motion[b] == 0 else WALL for b in range(len(motion))
+        ]
         return np.array([LIQUID if b < 0 else of[b] for b in self.body])
 
     @property
@@ -117,7 +123,8 @@ class State:
         return max(m["stiffness"] or 0.0 for m in self.materials)
 
     def stiffnesses(self):
-        """k of each particle: twice that of the scene in a patch of a wall, 8.4; that of solids where one is free and none freezes, 8.3."""
+        """k of each particle: twice that of the scene in a patch of a wall, 8.4; that of solids where one is free and
+        none freezes, 8.3."""
         k = np.full(self.n, self.stiffness)
         if self.averages_walls():
             return np.where(self.group == WALL, 2 * k, k)
@@ -143,20 +150,27 @@ class State:
         corrected = self.clamps and not any(self.printed(t) for t in ("density", "pressure", "state"))
         free = any(b["phase"] != "liquid" and b["motion"] == "free" for b in self.scene["bodies"])
         on = corrected and not free and not self.has("liquid_fraction")
-        weight = self.scene["surface_weight"] * np.linalg.norm(np.delete(self.scene["gravity"], self.periodic)) * self.dx
-        return np.where(self.group == LIQUID, weight * self.material("density"), 0.0) * on, 0.5 * (1 + self.layer / self.S0)
+        weight = (
+            self.scene["surface_weight"] * np.linalg.norm(np.delete(self.scene["gravity"], self.periodic)) * self.dx
+        )
+        return np.where(self.group == LIQUID, weight * self.material("density"), 0.0) * on, 0.5 * (
+            1 + self.layer / self.S0
+        )
 
 
 def faces(s):
-    """Pairs with an elastic particle whose pressure acts at its face (8.3), r_i - r_j measured there (d*) and its length, and F^-1 of each particle:
-    the identity of what is not elastic. None where the scene does not ask for it."""
+    """Pairs with an elastic particle whose pressure acts at its face (8.3), r_i - r_j measured there (d*) and its
+    length, and F^-1 of each particle: the identity of what is not elastic. None where the scene does not ask for it."""
     share = s.scene["face_pressure"]
     if share == 0 or not s.has("shape_rank") or any(s.printed(t) for t in ("density", "pressure", "state", "elastic")):
         return None
     elastic = (s.group == DEFORMABLE) & (s["shape_rank"] == 3)
     inverse, A = np.tile(np.eye(3), (s.n, 1, 1)), s.symmetric("shape_inverse")
     for i in np.flatnonzero(elastic):
-        sum_of = sum(np.outer(s.nearest(s.r[j] - s.r[i]) + x, s["solid_volume"][j] * gradient) for j, x, gradient, _ in s.bonds[i])
+        sum_of = sum(
+            np.outer(s.nearest(s.r[j] - s.r[i]) + x, s["solid_volume"][j] * gradient)
+            for j, x, gradient, _ in s.bonds[i]
+        )
         inverse[i] = np.linalg.inv(np.eye(3) + sum_of @ A[i])
     D = 0.5 * share * (np.einsum("iba,ibc->iac", inverse, inverse) - np.eye(3))
     at_face = s.d + np.einsum("iab,ijb->ija", D, s.d) + np.einsum("jab,ijb->ija", D, s.d)
@@ -210,7 +224,7 @@ def summed(s, pairs):
     return pairs.sum(axis=1), (s.condition * np.linalg.norm(pairs, axis=2)).sum(axis=1)
 
 
-# --- density and pressure ---------------------------------------------------------------------------------------------------
+# --- density and pressure ---------------------------------------------------------------------------------------------
 
 
 def density_printed(s):
@@ -226,7 +240,9 @@ def number_density(s):
         total = total + s["own_density"]
     if s.averages_walls():
         laid, d = from_lattice(s)
-        total = total + np.where(laid, wendland(np.linalg.norm(d, axis=2), s.h) - wendland(s.distance, s.h), 0.0).sum(axis=1)
+        total = total + np.where(laid, wendland(np.linalg.norm(d, axis=2), s.h) - wendland(s.distance, s.h), 0.0).sum(
+            axis=1
+        )
     if (found := faces(s)) is not None:
         pairs, _, distance, _, _ = found
         total = total + np.where(pairs, wendland(distance, s.h) - wendland(s.distance, s.h), 0.0).sum(axis=1)
@@ -277,7 +293,12 @@ def from_lattice(s):
 
 def jitter_of_walls(s):
     """What jitter adds to the part of a fixed wall particle's density that is wall, over the rest density: 8.4."""
-    of_one_lattice = laid_walls(s)[:, None] & laid_walls(s)[None, :] & (s["source"][:, None] == s["source"][None, :]) & (s.distance < s.h)
+    of_one_lattice = (
+        laid_walls(s)[:, None]
+        & laid_walls(s)[None, :]
+        & (s["source"][:, None] == s["source"][None, :])
+        & (s.distance < s.h)
+    )
     laid = wendland(np.linalg.norm(np.round(s.d / s.dx), axis=2) * s.dx, s.h)
     added = np.where(of_one_lattice, wendland(s.distance, s.h) - laid, 0.0).sum(axis=1) * s.dx**3 / s.S0
     return np.round(added * 2.0**20) / 2.0**20
@@ -317,7 +338,9 @@ def bulk_pressure(s, before):
     rate = (s["number_density"] / before["number_density"] - 1) / dt
     zeta = s.scene["bulk_viscosity"]
     q = np.where(s.group == LIQUID, zeta * rho0 * c * s.h * rate, 0.0)
-    return np.where((s["pressure"] > 0) & (s["density"] > s.material("density")), np.maximum(q, -s["pressure"]), 0.0), zeta * rho0 * c * s.h / dt
+    return np.where(
+        (s["pressure"] > 0) & (s["density"] > s.material("density")), np.maximum(q, -s["pressure"]), 0.0
+    ), zeta * rho0 * c * s.h / dt
 
 
 def pressure_share(s):
@@ -350,11 +373,19 @@ def pressure_force(s):
         laid, d = from_lattice(s)
         distance = np.linalg.norm(d, axis=2)
         there = -(share[:, None] + share[None, :]) * wendland_slope(distance, s.h)
-        total = total + np.where(laid[..., None], there[..., None] * d / np.where(laid, distance, 1.0)[..., None] - size[..., None] * away, 0.0).sum(axis=1)
+        total = total + np.where(
+            laid[..., None],
+            there[..., None] * d / np.where(laid, distance, 1.0)[..., None] - size[..., None] * away,
+            0.0,
+        ).sum(axis=1)
     a, g, along, K, K_slope = interfaces(s)
     total = total + (a * K).sum(axis=1)[:, None] * g - ((a * along * K_slope)[..., None] * s.d).sum(axis=1)
     at_faces, scale = face_forces(s)
-    scale = scale + (s.condition * np.abs(a) * (np.abs(K) * np.linalg.norm(g) + np.abs(along * K_slope) * np.where(np.isfinite(s.distance), s.distance, 0.0))).sum(axis=1)
+    scale = scale + (
+        s.condition
+        * np.abs(a)
+        * (np.abs(K) * np.linalg.norm(g) + np.abs(along * K_slope) * np.where(np.isfinite(s.distance), s.distance, 0.0))
+    ).sum(axis=1)
     return total + at_faces, scale + (s.condition * np.where(s.acts, np.abs(size) + core, 0.0)).sum(axis=1)
 
 
@@ -366,126 +397,21 @@ def compression_energy(s):
     size = s.S0 / s.M * k * s.rest_densities()[0] / rho0 * s.m * (np.abs(np.log(ratio)) + 1e-3)
     if s.clamps:
         p_s, b = s.surface()
-        foot = np.maximum(0, np.where(ratio > b, 1 - ratio, ratio - 2 * b + 1))  # U is minus the area under a triangle, from here to the rest density
+        foot = np.maximum(
+            0, np.where(ratio > b, 1 - ratio, ratio - 2 * b + 1)
+        )  # U is minus the area under a triangle, from here to the rest density
         of_surface = np.where(ratio > b, foot**2, 2 * (1 - b) ** 2 - foot**2) / (2 * (1 - b))
         U = np.where(ratio > 1, U, -s.S0 / s.M * s.m / rho0 * p_s * of_surface)
     kappa, reach = 0.03 * s.stiffness * s.rest_densities()[0] * s.dx, s.scene["core_reach"] * s.dx
-    core = np.where(s.acts & (s.distance < reach), 0.25 * kappa * (reach - np.minimum(s.distance, reach)) ** 2, 0.0).sum()
+    core = np.where(
+        s.acts & (s.distance < reach), 0.25 * kappa * (reach - np.minimum(s.distance, reach)) ** 2, 0.0
+    ).sum()
     a, _, along, K, _ = interfaces(s)
     return U.sum() + core + 0.5 * (a * along * K).sum(), size.sum() + core + np.abs(a * along * K).sum()
 
 
-# --- viscosity --------------------------------------------------------------------------------------------------------------
-
-
-def seen_velocity_at_start(s):
-    """v of what moves by itself, V + omega x arm of members of rigid bodies; of walls that liquid is near the mirrored one, 8.4."""
-    v = s.vector("velocity").copy()
-    for i in range(s.n):
-        if s.body[i] >= 0 and s.moves_as_one(s.body[i]):
-            b = {k: np.array(values[s.body[i]]) for k, values in s.raw["bodies"].items()}
-            v[i] = b["body.velocity"] + np.cross(b["body.angular_velocity"], s.r[i] + s.box_widths(i) - b["body.centre"])
-    return v
-
-
-def mirrored(s):
-    """2 v_w - mean v_f of 8.4, and of which walls; the sums it is made of."""
-    mu = s.material("viscosity", 0.0)
-    slips = np.array([k < len(s.scene["bodies"]) and s.scene["bodies"][k]["slip"] == "free" for k in s["source"]])
-    sticks = ~slips | s.printed("viscosity")  # no other viscous pair would see it
-    pairs = ((s.group == WALL) & sticks)[:, None] & (s.group[None, :] == LIQUID)
-    weight = np.where(pairs, -mu[None, :] * s.slope_over_r * s.shear_weight, 0.0)
-    v_f = s.vector("viscous_velocity")
-    total, moved = weight.sum(axis=1), weight @ np.where((s.group == LIQUID)[:, None], v_f, 0.0)
-    wet = np.flatnonzero(total > 0)
-    rough = s.condition * weight
-    return wet, 2 * s.vector("velocity")[wet] - moved[wet] / total[wet, None], total, moved, rough.sum(axis=1), rough @ np.linalg.norm(v_f, axis=1)
-
-
-def pair_viscosity(s):
-    """mu_ij of 8.5; (8) prints the arithmetic mean."""
-    contact = s.scene["contact_viscosity"]
-    solid = s.group != LIQUID
-    mu = np.where(solid, contact, s.material("viscosity", 0.0))
-    if s.printed("viscosity"):
-        return 0.5 * (mu[:, None] + mu[None, :])
-    slips = np.array([k < len(s.scene["bodies"]) and s.scene["bodies"][k]["slip"] == "free" for k in s["source"]]) & solid
-    with np.errstate(invalid="ignore", divide="ignore"):
-        harmonic = np.where(mu[:, None] + mu[None, :] > 0, 2 * mu[:, None] * mu[None, :] / (mu[:, None] + mu[None, :]), 0.0)
-    of_liquid = np.where(solid[:, None], np.where(slips[:, None], 0.0, mu[None, :]), np.where(slips[None, :], 0.0, mu[:, None]))
-    both, none = solid[:, None] & solid[None, :], ~solid[:, None] & ~solid[None, :]
-    return np.where(both, contact, np.where(none, harmonic, of_liquid))
-
-
-def viscous_coefficient(s):
-    """G_ij [kg/s]: of `central` that of the velocity along the line of centres."""
-    V, mu = s["volume"], pair_viscosity(s)
-    if s.printed("viscosity"):
-        G = V[:, None] * V[None, :] * mu * viscosity_laplacian(s.distance, s.h)
-    elif s.scene["viscosity_form"] == "central":
-        G = 10 / s.M * mu * V[:, None] * V[None, :] * -s.slope_over_r * s.shear_weight
-    else:
-        G = (V[:, None] ** 2 + V[None, :] ** 2) / s.M * mu * -s.slope_over_r
-    return np.where(s.acts, G, 0.0)
+# --- viscosity --------------------------------------------------------------------------------------------------------
 
 
 def is_central(s):
     return not s.printed("viscosity") and s.scene["viscosity_form"] == "central"
-
-
-def viscous_force(s):
-    """(8) as printed, or `central` or `laplacian` of 8.5."""
-    v = s.vector("viscous_velocity")
-    dv = v[None, :] - v[:, None]
-    speed = np.linalg.norm(v, axis=1)
-    G = viscous_coefficient(s)
-    scale = (s.condition * np.abs(G) * (speed[:, None] + speed[None, :])).sum(axis=1)
-    if is_central(s):
-        dv = (np.einsum("ijk,ijk->ij", dv, s.d) / s.r2)[..., None] * s.d
-    return summed(s, G[..., None] * dv)[0], scale
-
-
-def viscous_bound(s):
-    """8.10 [s], of all but walls."""
-    G, free = viscous_coefficient(s), s.group != WALL
-    if is_central(s):
-        tensor = np.einsum("ij,ijk,ijl->ikl", G / s.r2, s.d, s.d)
-        rate = np.linalg.eigvalsh(tensor)[:, 2]
-    else:
-        rate = G.sum(axis=1)
-    greatest = (rate / s.m)[free].max()
-    return (0.3 if is_central(s) else 0.5) / greatest
-
-
-# --- heat -------------------------------------------------------------------------------------------------------------------
-
-
-def heat_printed(s):
-    """(21): dT_i/dt and the sum of its coefficients."""
-    c = s.material("conductivity") / (s.material("density") * s.material("heat_capacity"))
-    a = c[:, None] * s["volume"][None, :] * viscosity_laplacian(s.distance, s.h)
-    T = s["temperature"]
-    return (a * (T[None, :] - T[:, None])).sum(axis=1), (s.condition * a * (np.abs(T)[None, :] + np.abs(T)[:, None])).sum(axis=1), a.sum(axis=1)
-
-
-def heat_moment(s):
-    """M_i = 1/2 sum_j V_j K r r^T of 8.6."""
-    V = s.m / s.material("density")
-    return np.einsum("ij,ijk,ijl->ikl", V[None, :] * -s.slope_over_r, s.d, s.d)
-
-
-def pseudo_inverse(M, cut):
-    """Of a symmetric matrix; eigenvalues below `cut` times the largest count as zero. Also how many do not."""
-    values, vectors = np.linalg.eigh(M)
-    keep = (values >= cut * values[-1]) & (values[-1] > 0)
-    inverse = (vectors[:, keep] / values[keep]) @ vectors[:, keep].T
-    return inverse, int(keep.sum())
-
-
-def heat_corrected(s):
-    """dH_i/dt of 8.6, what its magnitudes sum to, and the sum of G_ij."""
-    V, k, T, A = s.m / s.material("density"), s["conductivity"], s["temperature"], s.symmetric("moment_inverse")
-    e = s.d / s.distance[..., None]
-    along = 0.5 * (np.einsum("ijk,ikl,ijl->ij", e, A, e) + np.einsum("ijk,jkl,ijl->ij", e, A, e))
-    G = V[:, None] * V[None, :] * 2 * k[:, None] * k[None, :] / (k[:, None] + k[None, :]) * along * -2 * s.slope_over_r
-    return (G * (T[None, :] - T[:, None])).sum(axis=1), (np.abs(G) * (np.abs(T)[None, :] + np.abs(T)[:, None])).sum(axis=1), G.sum(axis=1)

@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every pair term and bond term of the solver beside plain sums written from docs/model.md (kernels.py, model.py, solids.py).
+"""Every pair term and bond term of the solver beside plain sums written from docs/model.md (kernels.py, model.py,
+flows.py, solids.py).
 
   oracle.py WRITE_STATES [SCENE...]
 
-The solver writes the states of the scenes beside this file: two liquids, walls, free and soft bodies, jittered, periodic. Each term is computed
-again from the columns that it reads, and compared particle by particle. The difference is divided by the sum of the magnitudes of what the term adds
-up there, each over 1 - r/h where a kernel's slope has that factor: so nothing hides in the forces of others, and round-off is all that is forgiven. Prints each term with its greatest difference; fails where one is above LIMIT, or was never compared.
-Each pair term that is compiled must name the rows that compare it (PAIR_TERMS).
-"""
+The solver writes the states of the scenes beside this file: two liquids, walls, free and soft bodies, jittered,
+periodic. Each term is computed again from the columns that it reads, and compared particle by particle. The difference
+is divided by the sum of the magnitudes of what the term adds up there, each over 1 - r/h where a kernel's slope has
+that factor: so nothing hides in the forces of others, and round-off is all that is forgiven. Prints each term with its
+greatest difference; fails where one is above LIMIT, or was never compared. Each pair term that is compiled must name
+the rows that compare it (PAIR_TERMS)."""
+
 import json
 import pathlib
 import subprocess
@@ -16,6 +19,7 @@ import sys
 import numpy as np
 
 import kernels
+import flows
 import model
 import solids
 import transport
@@ -25,14 +29,22 @@ LIMIT = 1e-13
 HERE = pathlib.Path(__file__).parent
 
 # What must have been compared when all scenes have run.
-TERMS = """density (4) | number density 8.2 | own pairs 8.2 | own density 8.2 | density of walls 8.4 | volume | pressure (9) | pressure 8.3 |
-bulk pressure 8.4 | pressure share 8.3 | pressure share of walls 8.4 | pressure force (7) | pressure force 8.3 | compression energy 8.3 |
-predicted velocity 9 | seen velocity of bodies 8.4 | wall weight 8.4 | wall velocity 8.4 | mirrored velocity 8.4 | viscous force (8) |
-viscous force central 8.5 | viscous force laplacian 8.5 | viscous bound (8) | viscous bound central 8.10 | viscous bound laplacian 8.10 |
-background force 8.3 | damping of sound 8.3 | stress of the shift 8.3 | shift 8.3 | heat (21) | exchange (21) | moment 8.6 | heat flow 8.6 | conductance 8.6 |
-bonds 11 | kernel of bonds (17) | body volume (11) | body volume 8.7 | stiffness of joints 8.7 | shape inverse 8.7 | rank 8.7 | gradients at surfaces 8.7 | strain (14) | strain 8.7 |
-strain of sheets and chains 8.7 | bond force (12) | bond force 8.7 | bond force of sheets and chains 8.7 | elastic energy (10) | elastic energy 8.7 |
-hourglass energy 8.7 | plastic strain 8.8 | plastic strain of sheets and chains 8.8 | broken bonds (12) | broken bonds 8.8"""
+TERMS = """density (4) | number density 8.2 | own pairs 8.2 | own density 8.2 | density of walls 8.4 | volume | \
+pressure (9) | pressure 8.3 |
+bulk pressure 8.4 | pressure share 8.3 | pressure share of walls 8.4 | pressure force (7) | pressure force 8.3 | \
+compression energy 8.3 |
+predicted velocity 9 | seen velocity of bodies 8.4 | wall weight 8.4 | wall velocity 8.4 | mirrored velocity 8.4 | \
+viscous force (8) |
+viscous force central 8.5 | viscous force laplacian 8.5 | viscous bound (8) | viscous bound central 8.10 | viscous \
+bound laplacian 8.10 |
+background force 8.3 | damping of sound 8.3 | stress of the shift 8.3 | shift 8.3 | heat (21) | exchange (21) | moment \
+8.6 | heat flow 8.6 | conductance 8.6 |
+bonds 11 | kernel of bonds (17) | body volume (11) | body volume 8.7 | stiffness of joints 8.7 | shape inverse 8.7 | \
+rank 8.7 | gradients at surfaces 8.7 | strain (14) | strain 8.7 |
+strain of sheets and chains 8.7 | bond force (12) | bond force 8.7 | bond force of sheets and chains 8.7 | elastic \
+energy (10) | elastic energy 8.7 |
+hourglass energy 8.7 | plastic strain 8.8 | plastic strain of sheets and chains 8.8 | broken bonds (12) | broken bonds \
+8.8"""
 TERMS = [t.strip() for t in TERMS.replace("\n", " ").split("|")]
 
 # Each pair term that the passes have compiled (its pair_slots.hpp brings it), and the rows above that show its sums.
@@ -52,7 +64,12 @@ PAIR_TERMS = {
     "WallExtrapolationOf<false>": ["wall weight 8.4", "wall velocity 8.4"],
     "WallExtrapolationOf<true>": ["wall weight 8.4", "wall velocity 8.4"],
     "TransportForces": ["background force 8.3", "stress of the shift 8.3"],
-    "TransportForcesAndMeans": ["background force 8.3", "stress of the shift 8.3", "damping of sound 8.3", "pressure 8.3"],
+    "TransportForcesAndMeans": [
+        "background force 8.3",
+        "stress of the shift 8.3",
+        "damping of sound 8.3",
+        "pressure 8.3",
+    ],
     "HeatMoment": ["moment 8.6"],
     "HeatFlowPaper": ["heat (21)", "exchange (21)"],
     "HeatFlowCorrected": ["heat flow 8.6", "conductance 8.6"],
@@ -86,7 +103,8 @@ class Differences:
         self.greatest = {}
 
     def compare(self, term, solver, twin, scale):
-        """Greatest |solver - twin|/scale; components of one thing share its scale, which is a number or one a row. Equal zeros differ by 0."""
+        """Greatest |solver - twin|/scale; components of one thing share its scale, which is a number or one a row.
+        Equal zeros differ by 0."""
         solver, twin = np.asarray(solver, dtype=float), np.asarray(twin, dtype=float)
         if solver.shape != twin.shape:
             raise ValueError(f"{term}: {solver.shape} beside {twin.shape}")
@@ -104,7 +122,11 @@ class Differences:
 
     def same(self, term, solver, twin):
         """Of whole numbers and sets: 0 or infinity."""
-        equal = len(solver) == len(twin) and bool(np.all(np.asarray(solver) == np.asarray(twin))) if len(solver) else len(twin) == 0
+        equal = (
+            len(solver) == len(twin) and bool(np.all(np.asarray(solver) == np.asarray(twin)))
+            if len(solver)
+            else len(twin) == 0
+        )
         self.compare(term, np.array([0.0 if equal else 1.0]), np.array([0.0]), 0.0)
 
 
@@ -127,7 +149,9 @@ def compare_pressure(out, s, before):
     p, scale = model.pressure(s)
     out.compare("pressure (9)" if s.printed("state") else "pressure 8.3", s["pressure"], p, scale)
     if s.has("pressure_around"):
-        out.compare("damping of sound 8.3", s["bulk_pressure"], *transport.damping_of_sound(s, half_step_velocity(s, before)))
+        out.compare(
+            "damping of sound 8.3", s["bulk_pressure"], *transport.damping_of_sound(s, half_step_velocity(s, before))
+        )
     elif s.has("bulk_pressure") and before is not None:
         out.compare("bulk pressure 8.4", s["bulk_pressure"], *model.bulk_pressure(s, before))
     if s.has("pressure_share"):
@@ -136,7 +160,11 @@ def compare_pressure(out, s, before):
         out.compare("pressure share 8.3", s["pressure_share"][~walls], share[~walls], scale[~walls])
         if walls.any():
             out.compare("pressure share of walls 8.4", s["pressure_share"][walls], share[walls], scale[walls])
-    out.compare("pressure force (7)" if s.printed("pressure") else "pressure force 8.3", s.vector("force"), *model.pressure_force(s))
+    out.compare(
+        "pressure force (7)" if s.printed("pressure") else "pressure force 8.3",
+        s.vector("force"),
+        *model.pressure_force(s),
+    )
     if "compression" in s.raw["ledger"]:
         U, scale = model.compression_energy(s)
         out.compare("compression energy 8.3", [s.raw["ledger"]["compression"]], [U], scale)
@@ -147,7 +175,9 @@ def half_step_velocity(s, before):
     if before is None:
         return s.vector("velocity")
     forces = [before.vector(n) for n in ("force", "viscous_force", "transport_force")]
-    return before.vector("velocity") + s.raw["step_numbers"]["half_step"] * (sum(forces) / s.m[:, None] + np.array(s.scene["gravity"]))
+    return before.vector("velocity") + s.raw["step_numbers"]["half_step"] * (
+        sum(forces) / s.m[:, None] + np.array(s.scene["gravity"])
+    )
 
 
 def compare_viscosity(out, s, before):
@@ -155,29 +185,35 @@ def compare_viscosity(out, s, before):
     of_bodies = np.array([b >= 0 and s.moves_as_one(b) for b in s.body])
     wet = np.zeros(s.n, dtype=bool)
     if s.has("wall.weight"):
-        rows, mirrored, weight, moved, weight_scale, scale = model.mirrored(s)
+        rows, mirrored, weight, moved, weight_scale, scale = flows.mirrored(s)
         wet[rows] = True
         walls = s.group == WALL
         out.compare("wall weight 8.4", s["wall.weight"][walls], weight[walls], weight_scale[walls])
         out.compare("wall velocity 8.4", s.vector("wall.velocity")[walls], moved[walls], scale[walls])
-        out.compare("mirrored velocity 8.4", seen[rows], mirrored, np.linalg.norm(mirrored, axis=1) + scale[rows] / weight[rows])
+        out.compare(
+            "mirrored velocity 8.4", seen[rows], mirrored, np.linalg.norm(mirrored, axis=1) + scale[rows] / weight[rows]
+        )
     if before is None:
-        start = model.seen_velocity_at_start(s)
+        start = flows.seen_velocity_at_start(s)
         out.compare("seen velocity of bodies 8.4", seen[of_bodies & ~wet], start[of_bodies & ~wet], 1.0)
         out.compare("predicted velocity 9", seen[~of_bodies], start[~of_bodies], 1.0)
     else:
         names = [n for n in ("force", "viscous_force", "elastic_force", "transport_force") if s.has(n + ".x")]
-        gain = [s.raw["step_numbers"]["half_step"] * before.vector(n) / s.m[:, None] for n in names] + [np.broadcast_to(s.raw["step_numbers"]["half_step"] * np.array(s.scene["gravity"]), s.r.shape)]
+        gain = [s.raw["step_numbers"]["half_step"] * before.vector(n) / s.m[:, None] for n in names] + [
+            np.broadcast_to(s.raw["step_numbers"]["half_step"] * np.array(s.scene["gravity"]), s.r.shape)
+        ]
         v = before.vector("velocity")
         predicted = v + 2 * sum(gain)
         scale = np.linalg.norm(v, axis=1) + sum(2 * np.linalg.norm(g, axis=1) for g in gain)
         moving = ~of_bodies & (s["phase"] == before["phase"])
         out.compare("predicted velocity 9", seen[moving], predicted[moving], scale[moving])
     form = "(8)" if s.printed("viscosity") else f"{s.scene['viscosity_form']} 8.5"
-    out.compare(f"viscous force {form}", s.vector("viscous_force"), *model.viscous_force(s))
+    out.compare(f"viscous force {form}", s.vector("viscous_force"), *flows.viscous_force(s))
     if before is None:
-        bound = model.viscous_bound(s)
-        out.compare(f"viscous bound {form.replace('8.5', '8.10')}", [s.raw["step_numbers"]["viscous_step"]], [bound], bound)
+        bound = flows.viscous_bound(s)
+        out.compare(
+            f"viscous bound {form.replace('8.5', '8.10')}", [s.raw["step_numbers"]["viscous_step"]], [bound], bound
+        )
 
 
 def compare_transport(out, s, before):
@@ -191,13 +227,13 @@ def compare_transport(out, s, before):
 
 def compare_heat(out, s, before):
     if s.has("temperature_rate"):
-        rate, scale, exchange = model.heat_printed(s)
+        rate, scale, exchange = flows.heat_printed(s)
         out.compare("heat (21)", s["temperature_rate"], rate, scale)
         out.compare("exchange (21)", s["exchange"], exchange, exchange)
     if s.has("heat_rate"):
-        inverse = np.array([model.pseudo_inverse(M, 0.05)[0] for M in model.heat_moment(s)])
+        inverse = np.array([flows.pseudo_inverse(M, 0.05)[0] for M in flows.heat_moment(s)])
         out.compare("moment 8.6", s.symmetric("moment_inverse"), inverse, np.abs(inverse).max(axis=(1, 2)))
-        rate, scale, conductance = model.heat_corrected(s)
+        rate, scale, conductance = flows.heat_corrected(s)
         out.compare("heat flow 8.6", s["heat_rate"], rate, scale)
         out.compare("conductance 8.6", s["conductance"], conductance, conductance)
 
@@ -207,19 +243,30 @@ def compare_bonds_of_the_start(out, s):
     kernel = solids.REACH * s.dx
     pairs = sorted((i, j) for i in range(s.n) for j, *_ in s.bonds[i])
     out.same("bonds 11", pairs, [tuple(p) for p in np.argwhere(bonded)])
-    out.same("bonds 11", [i for i, *_ in s.raw["bonds"]], [b[-1] for b in s.raw["bonds"]])  # each bond's twin is of its own particle
+    out.same(
+        "bonds 11", [i for i, *_ in s.raw["bonds"]], [b[-1] for b in s.raw["bonds"]]
+    )  # each bond's twin is of its own particle
     for i, j in pairs:
         x, gradient, W = next(b[1:] for b in s.bonds[i] if b[0] == j)
         out.compare("bonds 11", [x], [s.d[i, j]], s.dx)
         if s.scene["bending"] == 0 or s.printed("elastic"):
             slope = kernels.elasticity_slope(s.distance[i, j], kernel) * s.d[i, j] / s.distance[i, j]
-            out.compare("kernel of bonds (17)", [gradient], [slope], np.abs(kernels.elasticity_slope(0.5 * kernel, kernel)))
-        out.compare("kernel of bonds (17)", [W], [kernels.elasticity(s.distance[i, j], kernel)], kernels.elasticity(0.5 * kernel, kernel))
+            out.compare(
+                "kernel of bonds (17)", [gradient], [slope], np.abs(kernels.elasticity_slope(0.5 * kernel, kernel))
+            )
+        out.compare(
+            "kernel of bonds (17)",
+            [W],
+            [kernels.elasticity(s.distance[i, j], kernel)],
+            kernels.elasticity(0.5 * kernel, kernel),
+        )
     if not s.has("force.x"):
         return
     printed = s.printed("density")
     expected = own & (s.distance < (kernel if printed else max(kernel, s.h)))
-    out.same("own pairs 8.2", sorted((i, j) for i, j, _ in s.raw["own_pairs"]), [tuple(p) for p in np.argwhere(expected)])
+    out.same(
+        "own pairs 8.2", sorted((i, j) for i, j, _ in s.raw["own_pairs"]), [tuple(p) for p in np.argwhere(expected)]
+    )
     for i, j, weight in s.raw["own_pairs"]:
         W = 0.0 if printed else kernels.wendland(s.distance[i, j], s.h)
         out.compare("own pairs 8.2", [weight], [W], kernels.wendland(0.5 * s.h, s.h))
@@ -245,7 +292,7 @@ def compare_solids(out, s, before):
     plastic = s.symmetric("plastic_strain") if s.has("plastic_strain.xx") else np.zeros((s.n, 3, 3))
     was_plastic = before.symmetric("plastic_strain") if before is not None and s.has("plastic_strain.xx") else None
     force, force_scale, elastic_energy, hourglass_energy = np.zeros((s.n, 3)), np.zeros(s.n), 0.0, 0.0
-    flat, energy_scale = np.zeros(s.n, dtype=bool), 0.0
+    flat = np.zeros(s.n, dtype=bool)
     form = "(14)" if s.printed("elastic") else "8.7"
     for i in np.flatnonzero(owns):
         m = s.materials[material[i]]
@@ -268,16 +315,38 @@ def compare_solids(out, s, before):
         U, H = d.energies(plastic[i])
         elastic_energy, hourglass_energy = elastic_energy + U, hourglass_energy + H
         own = s.materials[s["material"][i]]
-        if was_plastic is not None and deformable[i] and own["elastic_limit"] is not None and len(s.bonds[i]) == len(before.bonds[i]):
+        if (
+            was_plastic is not None
+            and deformable[i]
+            and own["elastic_limit"] is not None
+            and len(s.bonds[i]) == len(before.bonds[i])
+        ):
             limit = own["plastic_limit"] if own["plastic_limit"] is not None else np.inf
             after = solids.flowed(d, was_plastic[i], own["elastic_limit"], limit)
-            out.compare("plastic strain 8.8" if d.rank == 3 else "plastic strain of sheets and chains 8.8", [plastic[i]], [after], d.strain_scale)
+            out.compare(
+                "plastic strain 8.8" if d.rank == 3 else "plastic strain of sheets and chains 8.8",
+                [plastic[i]],
+                [after],
+                d.strain_scale,
+            )
     regular = ~flat
-    out.compare("bond force (12)" if s.printed("elastic") else "bond force 8.7", s.vector("elastic_force")[regular], force[regular], force_scale[regular])
+    out.compare(
+        "bond force (12)" if s.printed("elastic") else "bond force 8.7",
+        s.vector("elastic_force")[regular],
+        force[regular],
+        force_scale[regular],
+    )
     if flat.any():
-        out.compare("bond force of sheets and chains 8.7", s.vector("elastic_force")[flat], force[flat], force_scale[flat])
+        out.compare(
+            "bond force of sheets and chains 8.7", s.vector("elastic_force")[flat], force[flat], force_scale[flat]
+        )
     if elastic_energy > 0:
-        out.compare("elastic energy (10)" if s.printed("elastic") else "elastic energy 8.7", [s.raw["ledger"]["elastic"]], [elastic_energy], elastic_energy)
+        out.compare(
+            "elastic energy (10)" if s.printed("elastic") else "elastic energy 8.7",
+            [s.raw["ledger"]["elastic"]],
+            [elastic_energy],
+            elastic_energy,
+        )
     if hourglass_energy > 0:
         out.compare("hourglass energy 8.7", [s.raw["ledger"]["hourglass"]], [hourglass_energy], hourglass_energy)
 
@@ -312,7 +381,9 @@ def compare_state(out, s, before):
 
 
 def states_of(writer, scene, mode, steps, changes):
-    text = subprocess.run([writer, HERE / "scenes" / f"{scene}.toml", mode, str(steps), *changes], check=True, stdout=subprocess.PIPE).stdout
+    text = subprocess.run(
+        [writer, HERE / "scenes" / f"{scene}.toml", mode, str(steps), *changes], check=True, stdout=subprocess.PIPE
+    ).stdout
     read = json.loads(text)
     return [model.State(read["scene"], state) for state in read["states"]]
 
@@ -332,11 +403,19 @@ def compare_all(writer, runs=RUNS):
 
 
 def wrong_pair_terms(writer):
-    """Pair terms that are compiled and in no row here, entries here whose term is not compiled, and rows that there are none of."""
+    """Pair terms that are compiled and in no row here, entries here whose term is not compiled, and rows that there are
+    none of."""
     compiled = set(subprocess.run([writer, "--terms"], check=True, stdout=subprocess.PIPE, text=True).stdout.split())
-    wrong = [f"the pair term {name}, which no row compares (PAIR_TERMS)" for name in sorted(compiled - PAIR_TERMS.keys())]
+    wrong = [
+        f"the pair term {name}, which no row compares (PAIR_TERMS)" for name in sorted(compiled - PAIR_TERMS.keys())
+    ]
     wrong += [f"{name} in PAIR_TERMS, which is not compiled" for name in sorted(PAIR_TERMS.keys() - compiled)]
-    return wrong + [f"{name} in PAIR_TERMS names the row {row}, which TERMS has not" for name, rows in PAIR_TERMS.items() for row in rows or [""] if row not in TERMS]
+    return wrong + [
+        f"{name} in PAIR_TERMS names the row {row}, which TERMS has not"
+        for name, rows in PAIR_TERMS.items()
+        for row in rows or [""]
+        if row not in TERMS
+    ]
 
 
 def main():

@@ -1,18 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bonds, strain, stress, energies and flow of solids: chapters 2, 8.7, 8.8 and 11 of docs/model.md, for a State of model.py."""
+"""Bonds, strain, stress, energies and flow of solids: chapters 2, 8.7, 8.8 and 11 of docs/model.md, for a State of
+model.py."""
+
 import numpy as np
 
 from kernels import elasticity, elasticity_slope
-from model import pseudo_inverse
+from flows import pseudo_inverse
 
 IDENTITY = np.eye(3)
 REACH = 2.12  # of bonds and of (17), in spacings
 
 
 def first_bonds(s):
-    """Chapter 11: pairs of one deformable body, or of two that are joined, nearer than 2.12 spacings; within a rigid body pairs with a member
-    that is itself that near to a deformable body it is joined to; and, within a rigid body that can melt, pairs nearer than the merging distance.
-    @return which pairs are bonded, and which can be own pairs, by [i, j]"""
+    """Chapter 11: pairs of one deformable body, or of two that are joined, nearer than 2.12 spacings; within a rigid
+    body pairs with a member that is itself that near to a deformable body it is joined to; and, within a rigid body
+    that can melt, pairs nearer than the merging distance. @return which pairs are bonded, and which can be own pairs,
+    by [i, j]"""
     solid = [b for b in s.scene["bodies"] if b["phase"] != "liquid"]
     n = len(solid)
     joined = np.zeros((n, n), dtype=bool)
@@ -26,11 +29,20 @@ def first_bonds(s):
     near = s.distance < REACH * s.dx
     may = np.array([[a >= 0 and b >= 0 and joined[a, b] for b in s.body] for a in s.body])
     at_joint = ~deformable & (near & may & deformable[None, :]).any(axis=1)
-    mates = (s.body[:, None] == s.body[None, :]) & (s.body >= 0)[:, None] & ~deformable[:, None] & (at_joint[:, None] | at_joint[None, :])
+    mates = (
+        (s.body[:, None] == s.body[None, :])
+        & (s.body >= 0)[:, None]
+        & ~deformable[:, None]
+        & (at_joint[:, None] | at_joint[None, :])
+    )
     bonded = near & (may | mates)
     if s.has("liquid_fraction"):
         melts = ~np.isnan(s.material("t_melt", np.nan))
-        of_rigid = (s.body[:, None] == s.body[None, :]) & ((s.body >= 0) & ~deformable)[:, None] & (melts[:, None] | melts[None, :])
+        of_rigid = (
+            (s.body[:, None] == s.body[None, :])
+            & ((s.body >= 0) & ~deformable)[:, None]
+            & (melts[:, None] | melts[None, :])
+        )
         bonded = bonded | of_rigid & (s.distance < s.scene["merge_distance"] * s.dx)
     return bonded, may & ~mates
 
@@ -45,8 +57,9 @@ def solid_volume(s, owns):
 
 
 def bond_gradients(s, i, volume, share):
-    """8.7: grad W(x_ij) of the kernel (17) for the list of i; at a surface of a solid with the correction for bending, as the quotient
-    of least squares of second order, and of first order where less than a fifth is known of a curvature."""
+    """8.7: grad W(x_ij) of the kernel (17) for the list of i; at a surface of a solid with the correction for bending,
+    as the quotient of least squares of second order, and of first order where less than a fifth is known of a
+    curvature."""
     x = -np.array([b[1] for b in s.bonds[i]]).reshape(-1, 3)  # x_ji
     r = np.linalg.norm(x, axis=1)
     plain = np.array([elasticity_slope(d, REACH * s.dx) for d in r])[:, None] * -x / r[:, None]
@@ -71,7 +84,8 @@ def bond_gradients(s, i, volume, share):
 
 
 class Deformed:
-    """F, strain, stress, energy and forces of one particle that owns strain energy, by its list: (10) to (16) or 8.7."""
+    """F, strain, stress, energy and forces of one particle that owns strain energy, by its list: (10) to (16) or
+    8.7."""
 
     def __init__(self, s, i, constants, hourglass):
         E, nu, share = constants
@@ -92,10 +106,22 @@ class Deformed:
         u = self.r_ji + x  # (15)
         vj = v[self.j]
         moment = np.einsum("j,jk,jl->kl", vj, gradient, self.x_ji)
-        self.A, self.rank = (IDENTITY, 3) if self.printed else pseudo_inverse(0.5 * (moment + moment.T), 0.2) if self.j else (np.zeros((3, 3)), 0)
+        self.A, self.rank = (
+            (IDENTITY, 3)
+            if self.printed
+            else pseudo_inverse(0.5 * (moment + moment.T), 0.2)
+            if self.j
+            else (np.zeros((3, 3)), 0)
+        )
         self.D = vj[:, None] * (gradient @ self.A)  # (16)
         self.F = IDENTITY + np.einsum("jk,jl->kl", u, self.D)
-        self.P = IDENTITY if self.rank == 3 else self.A @ np.linalg.pinv(self.A, rcond=0.1) if self.rank else np.zeros((3, 3))
+        self.P = (
+            IDENTITY
+            if self.rank == 3
+            else self.A @ np.linalg.pinv(self.A, rcond=0.1)
+            if self.rank
+            else np.zeros((3, 3))
+        )
         green = self.F.T @ self.F - IDENTITY
         self.strain = self.P @ (green if self.printed else 0.5 * green) @ self.P
         self.strain_scale = max(1.0, np.abs(self.F).max() ** 2)
@@ -127,11 +153,17 @@ class Deformed:
         return U, (self.c * (e**2).sum(axis=1) / x2).sum() if self.rank == 3 else (self.c * e**2).sum()
 
     def forces(self, plastic):
-        """On each partner, and magnitudes of what they are made of. What acts on the particle itself is minus their sum."""
+        """On each partner, and magnitudes of what they are made of. What acts on the particle itself is minus their
+        sum."""
         S = self.stress(self.elastic_strain(plastic))
         factor = 2.0 if self.printed else 1.0
         out = -factor * self.v * self.D @ (self.F @ S).T  # (12)
-        scale = factor * self.v * np.linalg.norm(self.D, axis=1) * max(np.linalg.norm(self.F @ S), 1e-3 * self.young * np.linalg.norm(self.F))
+        scale = (
+            factor
+            * self.v
+            * np.linalg.norm(self.D, axis=1)
+            * max(np.linalg.norm(self.F @ S), 1e-3 * self.young * np.linalg.norm(self.F))
+        )
         if not self.c.any():
             return out, scale
         x2, e = (self.x_ji**2).sum(axis=1), self.residuals()

@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """NumPy twins of the exact solutions of solids and phase change.
 
-beam     energies of a Timoshenko beam by linear elements, extrapolated (the program: closed forms and a transfer matrix)
-bar      strain and plastic strain as tensors, the sides' stress relaxed step by step (the program: a play operator in one dimension)
-factors  gradient and volume of the printed form, summed over particles of a stretched block (the program: two lattice sums)
+beam     energies of a Timoshenko beam by linear elements, extrapolated (the program: closed forms and a transfer
+matrix)
+bar      strain and plastic strain as tensors, the sides' stress relaxed step by step (the program: a play operator in
+one dimension)
+factors  gradient and volume of the printed form, summed over particles of a stretched block (the program: two lattice
+sums)
 front    enthalpy by finite differences on a long bar (the program: a similarity solution)
 plane    plane strain elasticity by quadrilaterals of second order: the clamped plate as a body, not as a beam
 """
+
 import numpy as np
 
 
@@ -46,7 +50,8 @@ def check_beam(arguments, found):
 
 
 def plane_strain(L, H, nu, nx, ny):
-    """E = rho = g = 1, unit depth: mean sag of the free end and lowest frequency of a clamped plate, nine-node quadrilaterals."""
+    """E = rho = g = 1, unit depth: mean sag of the free end and lowest frequency of a clamped plate, nine-node
+    quadrilaterals."""
     C = np.array([[1 - nu, nu, 0], [nu, 1 - nu, 0], [0, 0, 0.5 - nu]]) / ((1 + nu) * (1 - 2 * nu))
     columns, rows = 2 * nx + 1, 2 * ny + 1
     n = 2 * columns * rows
@@ -80,7 +85,8 @@ def plane_strain(L, H, nu, nx, ny):
 def check_plane(arguments, found):
     L, H, nu = arguments
     sag, frequency = plane_strain(L, H, nu, 24, 2)
-    # The root of a body is stiffer than that of a beam, for its sides cannot draw in: at L/H = 10 by 0 / 0.5 / 1.2 % of the sag for nu = 0 / 0.3 / 0.3975.
+    # The root of a body is stiffer than that of a beam, for its sides cannot draw in: at L/H = 10 by 0 / 0.5 / 1.2 % of
+    # the sag for nu = 0 / 0.3 / 0.3975.
     return max(abs(sag / found[0] - 1), abs(frequency / found[1] - 1)), 2e-4 + 0.1 * nu**2
 
 
@@ -133,7 +139,8 @@ def check_bar(arguments, found):
     for n in range(1, count + 1):
         result = bar.step(start + (stretch - start) * n / count)
     scale = np.array([1e-2, 1e5, 1e3, 1e3])
-    # Where the plastic limit is reached within a step the flow's last part is at more than the yield stress: half a step, a dozen times in all.
+    # Where the plastic limit is reached within a step the flow's last part is at more than the yield stress: half a
+    # step, a dozen times in all.
     tolerance = np.array([1e-12, 1e-9, 1e-9, 1e-9 if key[1] > 0.1 else 2e-2])
     return (np.abs(result - found) / scale / tolerance).max(), 1.0
 
@@ -165,10 +172,14 @@ def check_front(arguments, found):
     steps = int(round(stop / dt))
     for _ in range(steps):
         T = np.where(flow * H < 0, H, flow * np.maximum(0.0, flow * H - latent))
-        Q = np.diff(np.concatenate([[surface + (surface - T[0])], T, [T[-1]]]))  # the surface lies on the first cell's face
+        Q = np.diff(
+            np.concatenate([[surface + (surface - T[0])], T, [T[-1]]])
+        )  # the surface lies on the first cell's face
         H += dt / dx**2 * np.diff(Q)
     front = np.clip(flow * H / latent, 0, 1).sum() * dx
-    return abs(front / (2 * np.sqrt(steps * dt)) / found[0] - 1), 0.01  # a cell of the front's 40 changes at once: half of it
+    return abs(
+        front / (2 * np.sqrt(steps * dt)) / found[0] - 1
+    ), 0.01  # a cell of the front's 40 changes at once: half of it
 
 
 CHECKS = {"front": check_front, "factors": check_factors, "bar": check_bar, "beam": check_beam, "plane": check_plane}

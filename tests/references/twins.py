@@ -3,11 +3,13 @@
 """NumPy twins of the exact solutions: the same values by other means, from the values that the program given prints.
 
 torque_free  rotation matrix by an eighth-order Gauss-Legendre integrator (the program: Jacobi's elliptic functions)
-lattice      conduction operator as a sparse sum over the particles of a periodic block (the program: a sum over one neighbourhood)
+lattice      conduction operator as a sparse sum over the particles of a periodic block (the program: a sum over one
+neighbourhood)
 step         cosine series summed to round-off (the program: images of error functions)
 layers       matrix exponential of a finite-volume operator (the program: eigenfunctions or error functions)
 Those of solids and phase change are in solid_twins.py.
 """
+
 import subprocess
 import sys
 
@@ -30,7 +32,8 @@ TOPS = {}
 
 
 def torque_free(values):
-    """Spin in the body and attitude at t, from one integration for each start; every t asked for is a whole number of steps."""
+    """Spin in the body and attitude at t, from one integration for each start; every t asked for is a whole number of
+    steps."""
     inertia, w0, t = values[:3], values[3:6], values[6]
     h, last = 0.02, 10.0
     if tuple(w0) not in TOPS:
@@ -54,9 +57,13 @@ def torque_free(values):
 
 def matrix(q):
     w, x, y, z = q
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
 
 
 def check_torque_free(arguments, found):
@@ -101,7 +108,9 @@ def check_step(arguments, found):
     series = 2 * np.sin(k * place) / (k * L) * np.cos(k * x)
     if periodic:
         series = series + 2 * (1 - np.cos(k * place)) / (k * L) * np.sin(k * x)
-    inside = cell == 0 or (x - cell / 2 > 0 and x + cell / 2 < L)  # beyond an insulated end the mirror image continues both forms
+    inside = cell == 0 or (
+        x - cell / 2 > 0 and x + cell / 2 < L
+    )  # beyond an insulated end the mirror image continues both forms
     return abs(place / L + (decay * series).sum() - found[0]) if inside else 0.0, 1e-12
 
 
@@ -115,18 +124,25 @@ def check_layers(arguments, found):
     if not LAYERS:
         centre = (np.arange(n) + 0.5) * dx
         low = centre < 0.007
-        conductivity, capacity = np.where(low, 2.0, 0.2), np.full(n, 1e6)
+        conductivity = np.where(low, 2.0, 0.2)
         G = 2 * conductivity[1:] * conductivity[:-1] / (conductivity[1:] + conductivity[:-1]) / dx**2 / 1e6
         A = np.diag(np.append(-G, 0) + np.append(0, -G)) + np.diag(G, 1) + np.diag(G, -1)
         LAYERS["values"], LAYERS["vectors"] = np.linalg.eigh(A)
         LAYERS["start"] = LAYERS["vectors"].T @ np.where(low, 310.0, 300.0)
         LAYERS["centre"] = centre
     T = LAYERS["vectors"] @ (np.exp(LAYERS["values"] * t) * LAYERS["start"])
-    # Ends are level and the interface lies on a face, so linear interpolation between centres never crosses the kink here.
+    # Ends are level and the interface lies on a face, so linear interpolation between centres never crosses the kink
+    # here.
     return abs(np.interp(x, LAYERS["centre"], T) - found[0]), 4e-4  # second order in dx: (dx/front)^2 of a step of 10 K
 
 
-CHECKS = {"torque_free": check_torque_free, "lattice": check_lattice, "step": check_step, "layers": check_layers, **solid_twins.CHECKS}
+CHECKS = {
+    "torque_free": check_torque_free,
+    "lattice": check_lattice,
+    "step": check_step,
+    "layers": check_layers,
+    **solid_twins.CHECKS,
+}
 
 
 def main():

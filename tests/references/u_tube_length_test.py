@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The true frequency that cases/fluid/u-tube.toml states, against Laplace's equation in its water: u_tube_length_test.py CASE
+"""The true frequency that cases/fluid/u-tube.toml states, against Laplace's equation in its water:
+u_tube_length_test.py CASE
 
-Small swings of an ideal liquid of equal bore have omega^2 = 2 g/L, where L is the drop of the velocity potential from one surface to the other over the mean
-speed in the bore. Cells of a square grid are nodes and their shared faces are conductors of unit conductance. The error falls as h^(4/3), the order of the
-potential at the inner edge of a bend.
-"""
+Small swings of an ideal liquid of equal bore have omega^2 = 2 g/L, where L is the drop of the velocity potential from
+one surface to the other over the mean speed in the bore. Cells of a square grid are nodes and their shared faces are
+conductors of unit conductance. The error falls as h^(4/3), the order of the potential at the inner edge of a bend."""
+
 import math
 import sys
 import tomllib
@@ -30,7 +31,7 @@ def length(bore, across):
     wide, tall = round(max(high[0] for _, high in boxes()) / h), round(top / h)
     wet = numpy.zeros((wide + 2, tall + 2), dtype=bool)  # a dry rim
     for low, high in boxes():
-        wet[1 + round(low[0] / h):1 + round(high[0] / h), 1 + round(low[1] / h):1 + round(high[1] / h)] = True
+        wet[1 + round(low[0] / h) : 1 + round(high[0] / h), 1 + round(low[1] / h) : 1 + round(high[1] / h)] = True
     # A surface is half a cell from the centres below it, and has potential 1 in the left leg, 0 in the right one.
     surface = numpy.zeros(wet.shape)
     surface[:, tall][wet[:, tall]] = 2.0
@@ -40,7 +41,11 @@ def length(bore, across):
     diagonal = sum(link.astype(float) for link in links) + surface
 
     def apply(phi):
-        return numpy.where(wet, diagonal * phi - sum(link * numpy.roll(phi, shift, axis) for link, (axis, shift) in zip(links, shifts)), 0.0)
+        return numpy.where(
+            wet,
+            diagonal * phi - sum(link * numpy.roll(phi, shift, axis) for link, (axis, shift) in zip(links, shifts)),
+            0.0,
+        )
 
     source = surface * left
     phi = numpy.where(wet, 0.5, 0.0)

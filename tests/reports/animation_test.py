@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the films of a page show: every frame, what never moves told apart, and what flows in later not there before."""
+
 import io
 import sys
 import unittest
@@ -9,20 +10,22 @@ import numpy as np
 from PIL import Image
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "reports"))
-import animation  # noqa: E402
+import animation
 
 
 class Films(unittest.TestCase):
     def setUp(self):
         position = np.zeros((3, 4, 3))
         position[:, :, 0] = [0.0, 1.0, 2.0, 3.0]
-        position[:, 0, 1] = 1.0                     # behind, and never moves
-        position[:, 1, 2] = [0.0, -1.0, -2.0]       # falls
-        position[:2, 2] = np.nan                    # flows in at the end
-        position[:, 3, 2] = 3.0                     # in front, and never moves
+        position[:, 0, 1] = 1.0  # behind, and never moves
+        position[:, 1, 2] = [0.0, -1.0, -2.0]  # falls
+        position[:2, 2] = np.nan  # flows in at the end
+        position[:, 3, 2] = 3.0  # in front, and never moves
         phase = np.array([[2, 0, 0, 1]] * 3)
-        phase[2, 1] = 2                             # freezes
-        self.places, self.kinds, self.height, self.diameter = animation.seen(position, phase, np.array([[0, 1, 2, 0]] * 3))
+        phase[2, 1] = 2  # freezes
+        self.places, self.kinds, self.height, self.diameter = animation.seen(
+            position, phase, np.array([[0, 1, 2, 0]] * 3)
+        )
 
     def test_the_half_in_front_of_what_never_moves_is_left_out(self):
         self.assertEqual(self.kinds.shape, (3, 3))
@@ -48,6 +51,7 @@ class Films(unittest.TestCase):
     def test_a_case_that_was_not_run_says_so(self):
         class Results:
             cases = ()
+
         self.assertIn("not among these results", animation.film(Results(), "paper/fig-12", "a film").note)
 
 

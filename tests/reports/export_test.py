@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""tripoint export, from real runs: export_test.py TRIPOINT SOURCE [unittest arguments]. Foreign readers are in .venv-readers of the checkout, or in TRIPOINT_READERS."""
+"""tripoint export, from real runs: export_test.py TRIPOINT SOURCE [unittest arguments]. Foreign readers are in
+.venv-readers of the checkout, or in TRIPOINT_READERS."""
+
 import csv
 import json
 import os
@@ -19,11 +21,17 @@ import numpy as np
 TRIPOINT, SOURCE = (Path(argument).resolve() for argument in sys.argv[1:3])
 READERS = Path(os.environ.get("TRIPOINT_READERS") or SOURCE / ".venv-readers") / "bin" / "python"
 OF_RUNS = "vtp,xdmf,h5md,lammps,xyz,ply,obj,csv,paraview"
-RUNS = {"melt": ["phase/melt-rigid", "--until", "0.06"], "liquid": ["fluid/taylor-green", "--until", "0.004", "--set", "scene.output_interval=0.001"], "split": ["phase/split-by-melting"]}
+RUNS = {
+    "melt": ["phase/melt-rigid", "--until", "0.06"],
+    "liquid": ["fluid/taylor-green", "--until", "0.004", "--set", "scene.output_interval=0.001"],
+    "split": ["phase/split-by-melting"],
+}
 
 
 def call(*words, **more):
-    return subprocess.run([TRIPOINT, *map(str, words)], **({"capture_output": True, "text": True, "timeout": 300} | more), check=False)
+    return subprocess.run(
+        [TRIPOINT, *map(str, words)], **({"capture_output": True, "text": True, "timeout": 300} | more), check=False
+    )
 
 
 class Export(unittest.TestCase):
@@ -34,7 +42,15 @@ class Export(unittest.TestCase):
         for name, words in RUNS.items():
             done = call("run", *words, "--quiet", "--out", cls.path / name)
             assert done.returncode == 0, done.stdout + done.stderr
-        done = call("validate", "rigid/ballistic", "--engines", "tripoint,bullet,exact", "--no-report", "--out", cls.path / "report")
+        done = call(
+            "validate",
+            "rigid/ballistic",
+            "--engines",
+            "tripoint,bullet,exact",
+            "--no-report",
+            "--out",
+            cls.path / "report",
+        )
         assert done.returncode == 0, done.stdout + done.stderr
 
     @classmethod
@@ -53,10 +69,24 @@ class Export(unittest.TestCase):
         folder = self.path / "filtered"
         shutil.copytree(self.path / "split", folder)
         within = os.environ | {"HDF5_PLUGIN_PATH": str(plugins)}
-        again = ("import sys, h5py; f = h5py.File(sys.argv[1], 'r+'); g = f['particles/all/position']; x = g['value'][()]; del g['value']; "
-                 "g.create_dataset('value', data=x, chunks=x.shape, compression=300, allow_unknown_filter=True)")
+        again = (
+            "import sys, h5py; f = h5py.File(sys.argv[1], 'r+'); g = f['particles/all/position']; x = g['value'][()]; "
+            "del g['value']; "
+            "g.create_dataset('value', data=x, chunks=x.shape, compression=300, allow_unknown_filter=True)"
+        )
         subprocess.run([sys.executable, "-c", again, folder / "trajectory.h5"], env=within, check=True)
-        read = subprocess.run([sys.executable, "-c", "import sys, h5py; h5py.File(sys.argv[1])['particles/all/position/value'][()]", folder / "trajectory.h5"], env=within, capture_output=True, text=True, check=False)
+        read = subprocess.run(
+            [
+                sys.executable,
+                "-c",
+                "import sys, h5py; h5py.File(sys.argv[1])['particles/all/position/value'][()]",
+                folder / "trajectory.h5",
+            ],
+            env=within,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
         self.assertEqual(read.returncode, 0, "the filter is there: " + read.stderr)
         done = call("export", folder, "--to", "vtp", env=within)
         self.assertNotEqual(done.returncode, 0, done.stdout)
@@ -70,7 +100,19 @@ class Export(unittest.TestCase):
             with self.subTest(name):
                 done = call("export", self.path / name, "--to", OF_RUNS)
                 self.assertEqual(done.returncode, 0, done.stderr)
-                read = subprocess.run([READERS, "-B", Path(__file__).with_name("foreign_readers.py"), self.path / name, self.path / name / "export"], capture_output=True, text=True, timeout=300, check=False)
+                read = subprocess.run(
+                    [
+                        READERS,
+                        "-B",
+                        Path(__file__).with_name("foreign_readers.py"),
+                        self.path / name,
+                        self.path / name / "export",
+                    ],
+                    capture_output=True,
+                    text=True,
+                    timeout=300,
+                    check=False,
+                )
                 self.assertEqual(read.returncode, 0, read.stderr[-3000:])
                 self.assertIn("numbers are equal", read.stdout)
                 print(name, read.stdout.strip())
@@ -99,7 +141,9 @@ class Export(unittest.TestCase):
         self.assertEqual(heads, [count, count - 1])
 
     def test_the_script_for_paraview_is_python_and_names_what_is_there(self):
-        self.assertEqual(call("export", self.path / "melt", "--to", "paraview", "--out", self.path / "pv").returncode, 0)
+        self.assertEqual(
+            call("export", self.path / "melt", "--to", "paraview", "--out", self.path / "pv").returncode, 0
+        )
         script = (self.path / "pv" / "view.py").read_text()
         compile(script, "view.py", "exec")
         self.assertIn("'temperature'", script)
@@ -112,17 +156,30 @@ class Export(unittest.TestCase):
         out = self.path / "paper"
         done = call("export", self.path / "report", "--csv", "--latex", "--pdf", "--out", out, "--json")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual({Path(name) for name in json.loads(done.stdout)["files"]}, {path for path in out.rglob("*") if path.is_file()})
+        self.assertEqual(
+            {Path(name) for name in json.loads(done.stdout)["files"]},
+            {path for path in out.rglob("*") if path.is_file()},
+        )
         results = json.loads((self.path / "report" / "results.json").read_text())
-        gates = [(case["id"], engine["name"], gate) for case in results["cases"] for engine in case["engines"] for gate in engine["gates"]]
+        gates = [
+            (case["id"], engine["name"], gate)
+            for case in results["cases"]
+            for engine in case["engines"]
+            for gate in engine["gates"]
+        ]
         with open(out / "gates.csv", encoding="utf-8") as file:
             table = list(csv.DictReader(file))
         self.assertEqual(len(table), len(gates))
         for row, (case, engine, gate) in zip(table, gates):
-            self.assertEqual((row["case"], row["engine"], row["metric"], row["verdict"]), (case, engine, gate["metric"], gate["verdict"]))
+            self.assertEqual(
+                (row["case"], row["engine"], row["metric"], row["verdict"]),
+                (case, engine, gate["metric"], gate["verdict"]),
+            )
             self.assertEqual(float(row["value"]), gate["value"])
             self.assertEqual(row["limit"], "" if gate["limit"] is None else repr(gate["limit"]))
-        metrics = sum(len(run["metrics"]) for case in results["cases"] for engine in case["engines"] for run in engine["runs"])
+        metrics = sum(
+            len(run["metrics"]) for case in results["cases"] for engine in case["engines"] for run in engine["runs"]
+        )
         with open(out / "metrics.csv", encoding="utf-8") as file:
             self.assertEqual(len(list(csv.DictReader(file))), metrics)
         latex = (out / "gates.tex").read_text()
@@ -165,16 +222,37 @@ class Export(unittest.TestCase):
         for name in OF_RUNS.split(","):
             with self.subTest(name):
                 out = self.path / f"full {name}"
-                limited = ["bash", "-c", 'ulimit -f 1; trap "" XFSZ; exec "$@"', "-", TRIPOINT, "export", self.path / "melt", "--to", name, "--out", out]
+                limited = [
+                    "bash",
+                    "-c",
+                    'ulimit -f 1; trap "" XFSZ; exec "$@"',
+                    "-",
+                    TRIPOINT,
+                    "export",
+                    self.path / "melt",
+                    "--to",
+                    name,
+                    "--out",
+                    out,
+                ]
                 done = subprocess.run(limited, capture_output=True, text=True, timeout=120, check=False)
                 self.assertEqual(done.returncode, 4, done.stdout + done.stderr)
                 self.assertNotIn("Traceback", done.stderr)
-                left = [path for path in out.rglob("*") if path.is_file() and path.stat().st_size >= 1024] if out.exists() else []
+                left = (
+                    [path for path in out.rglob("*") if path.is_file() and path.stat().st_size >= 1024]
+                    if out.exists()
+                    else []
+                )
                 self.assertEqual([path for path in left if path.name.endswith(".part")], [])
 
     def test_ctrl_c_ends_with_130(self):
         out = self.path / "stopped"
-        program = subprocess.Popen([TRIPOINT, "export", self.path / "liquid", "--to", OF_RUNS, "--out", out], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        program = subprocess.Popen(
+            [TRIPOINT, "export", self.path / "liquid", "--to", OF_RUNS, "--out", out],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
         until = time.monotonic() + 60
         while not (out / "frames" / "00000.vtp").exists() and time.monotonic() < until:  # the first of many files
             time.sleep(0.001)

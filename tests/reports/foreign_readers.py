@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads exported files by programs that are not ours and compares every number with trajectory.h5: foreign_readers.py RUN EXPORT
+"""Reads exported files by programs that are not ours and compares every number with trajectory.h5: foreign_readers.py
+RUN EXPORT
 
-For the Python of .venv-readers (tools/requirements-readers.txt). Equal means the same double, but where the reader itself keeps less (MDAnalysis: float32)."""
+For the Python of .venv-readers (tools/requirements-readers.txt). Equal means the same double, but where the reader
+itself keeps less (MDAnalysis: float32)."""
+
 import csv
 import sys
 import warnings
@@ -30,7 +33,11 @@ with h5py.File(RUN / "trajectory.h5") as file:
     fields = {name: group[name]["value"][:] for name in group if "value" in group[name]}
     times, steps = group["position/time"][:], group["position/step"][:]
     boundary = list(group["box"].attrs["boundary"])
-    bodies = {name: file["particles/bodies"][name]["value"][:] for name in file["particles/bodies"]} if "bodies" in file["particles"] else {}
+    bodies = (
+        {name: file["particles/bodies"][name]["value"][:] for name in file["particles/bodies"]}
+        if "bodies" in file["particles"]
+        else {}
+    )
     kinetic = file["observables/energy_kinetic/value"][:]
 frames = range(len(times))
 alive = fields["id"] >= 0
@@ -96,7 +103,7 @@ for f in frames:
     same("lammps: pbc", dumped[f].pbc, [word == "periodic" for word in boundary])
 lines = (EXPORT / "particles.dump").read_text().splitlines()  # the columns that ASE does not take
 head = next(line for line in lines if line.startswith("ITEM: ATOMS")).split()[2:]
-last = np.array([line.split() for line in lines[-int(alive[-1].sum()):]], dtype=float)
+last = np.array([line.split() for line in lines[-int(alive[-1].sum()) :]], dtype=float)
 same("lammps: vy", last[:, head.index("vy")], truth[-1]["velocity"][:, 1])
 with open(EXPORT / "particles.times.csv", encoding="utf-8") as file:
     same("lammps: times", [float(row["time"]) for row in csv.DictReader(file)], times)
@@ -111,7 +118,11 @@ for f in frames:
         reader = kind()
         reader.SetFileName(str(EXPORT / ending / f"{f:05d}.{ending}"))
         reader.Update()
-        same(f"{ending}: by VTK", vtk_to_numpy(reader.GetOutput().GetPoints().GetData()).astype(np.float32), truth[f]["position"].astype(np.float32))
+        same(
+            f"{ending}: by VTK",
+            vtk_to_numpy(reader.GetOutput().GetPoints().GetData()).astype(np.float32),
+            truth[f]["position"].astype(np.float32),
+        )
 
 # CSV
 with open(EXPORT / "observables.csv", encoding="utf-8") as file:

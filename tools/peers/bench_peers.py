@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The particle solver and its peers on the same particles, interleaved; writes speed.json and the page speed.html.
 
-Each round runs every code once, one after the other, so that a machine which drifts slows all alike; ratios are formed within a round. The ratio of the best
-times stands beside them: a core that is slow for a while slows some codes more than others. `--beside PROGRAM` adds a second build of the solver as one more code: what a
-change of the solver cost, against the peers of the same rounds.
-"""
+Each round runs every code once, one after the other, so that a machine which drifts slows all alike; ratios are formed
+within a round. The ratio of the best times stands beside them: a core that is slow for a while slows some codes more
+than others. `--beside PROGRAM` adds a second build of the solver as one more code: what a change of the solver cost,
+against the peers of the same rounds."""
+
 from __future__ import annotations
 
 import argparse
@@ -24,12 +25,17 @@ import lammps_work
 
 HERE = Path(__file__).resolve().parent
 WORKS = {  # name -> (steps timed of ours and of SPH in LAMMPS, of the slow codes)
-    "liquid-heat-40k": (40, 10), "liquid-heat-200k": (16, 6), "elastic-40k": (40, 6)}
+    "liquid-heat-40k": (40, 10),
+    "liquid-heat-200k": (16, 6),
+    "elastic-40k": (40, 6),
+}
 
 
 @dataclass
 class Code:
-    """One code at one work with some threads or ranks. @var run returns a dictionary with step_s, particles and, where known, cpu_s, neighbours, rebuilds_per_step"""
+    """One code at one work with some threads or ranks. @var run returns a dictionary with step_s, particles and, where
+    known, cpu_s, neighbours, rebuilds_per_step"""
+
     name: str
     work: str
     parallel: int
@@ -52,21 +58,37 @@ class Bench:
         self.tripoint("--work", work, "--particles", str(file))
         with h5py.File(file) as f:
             group = f["particles/all"]
-            start = {name: group[f"{name}/value"][0] for name in ("position", "velocity", "temperature") if name in group}
+            start = {
+                name: group[f"{name}/value"][0] for name in ("position", "velocity", "temperature") if name in group
+            }
         probe = self.measure(work, 1, 1)
         spacing = float(numpy.cbrt(1.0 / len(start["position"]))) * 0.34
-        start |= {"spacing": spacing, "support": probe["support"], "temperature": start.get("temperature", numpy.zeros(0))}
+        start |= {
+            "spacing": spacing,
+            "support": probe["support"],
+            "temperature": start.get("temperature", numpy.zeros(0)),
+        }
         self.start[work], self.time_step[work] = start, probe["time_step"]
         across = round(0.34 / spacing)
-        numpy.savez(self.folder / f"{work}.npz", position=start["position"], velocity=start["velocity"], across=numpy.array([across] * 3))
+        numpy.savez(
+            self.folder / f"{work}.npz",
+            position=start["position"],
+            velocity=start["velocity"],
+            across=numpy.array([across] * 3),
+        )
 
     def tripoint(self, *words, program=None):
-        return subprocess.run([program or self.o.tripoint, "bench", *words], check=True, capture_output=True, text=True, timeout=3600).stdout
+        return subprocess.run(
+            [program or self.o.tripoint, "bench", *words], check=True, capture_output=True, text=True, timeout=3600
+        ).stdout
 
     def measure(self, work, threads, steps, program=None):
         words = ["--work", work, "--threads", str(threads), "--steps", str(steps), "--rounds", "1", "--json"]
         row = json.loads(self.tripoint(*words, program=program))["works"][0]
-        return row | {"step_s": row["step_s"]["median"], "neighbours": row.get("neighbours") or row.get("bonds_per_particle")}
+        return row | {
+            "step_s": row["step_s"]["median"],
+            "neighbours": row.get("neighbours") or row.get("bonds_per_particle"),
+        }
 
     def lammps(self, work, method, ranks, steps):
         folder = self.folder / f"{work}-{method}-{ranks}"
@@ -79,7 +101,9 @@ class Bench:
             words = [str(Path(self.o.lammps) / "bin" / "mpiexec"), "-n", str(ranks), *words]
         done = subprocess.run(words, cwd=folder, capture_output=True, text=True, timeout=3600, check=False)
         log = (folder / "log").read_text(encoding="utf-8") if (folder / "log").exists() else done.stderr
-        near = {"neighbours": lattice_neighbours(self.start[work])} if method == "tlsph" else {}  # of its own reference shape, not of our bonds
+        near = (
+            {"neighbours": lattice_neighbours(self.start[work])} if method == "tlsph" else {}
+        )  # of its own reference shape, not of our bonds
         return lammps_work.read(log) | near
 
     def splishsplash(self, work, method, threads, steps):
@@ -87,12 +111,20 @@ class Bench:
         if self.o.preload:
             env["LD_PRELOAD"] = self.o.preload
         start = self.start[work]
-        words = [str(Path(self.o.splishsplash) / "bin" / "python"), str(HERE / "splishsplash.py"), str(self.folder / f"{work}.npz"), method,
-                 repr(start["spacing"]), repr(self.time_step[work]), "3", str(steps)]
+        words = [
+            str(Path(self.o.splishsplash) / "bin" / "python"),
+            str(HERE / "splishsplash.py"),
+            str(self.folder / f"{work}.npz"),
+            method,
+            repr(start["spacing"]),
+            repr(self.time_step[work]),
+            "3",
+            str(steps),
+        ]
         done = subprocess.run(words, capture_output=True, text=True, timeout=3600, env=env, check=False)
         for line in done.stdout.splitlines():
             if line.startswith("RESULT "):
-                return json.loads(line[len("RESULT "):])
+                return json.loads(line[len("RESULT ") :])
         raise ValueError((done.stderr or done.stdout).strip()[-300:] or f"ended with {done.returncode}")
 
 
@@ -100,31 +132,79 @@ def lattice_neighbours(start):
     """Neighbours within the support in a cube of a cubic lattice, in the mean."""
     across, reach = round(0.34 / start["spacing"]), start["support"] / start["spacing"]
     steps = range(-int(reach), int(reach) + 1)
-    there = [(across - abs(i)) * (across - abs(j)) * (across - abs(k)) for i in steps for j in steps for k in steps if 0 < i * i + j * j + k * k < reach * reach]
-    return sum(there) / across ** 3
+    there = [
+        (across - abs(i)) * (across - abs(j)) * (across - abs(k))
+        for i in steps
+        for j in steps
+        for k in steps
+        if 0 < i * i + j * j + k * k < reach * reach
+    ]
+    return sum(there) / across**3
 
 
 def codes_of(bench, threads):
     """Every code at every work; the solver's own rows come first in each."""
     list_ = []
     for work, (many, few) in WORKS.items():
+
         def add(name, parallel, leaves_out, run):
             list_.append(Code(name, work, parallel, leaves_out, run))
+
         for n in sorted({1, threads}):
-            add("tripoint", n, "nothing: double, search when a list is outworn", lambda work=work, n=n, many=many: bench.measure(work, n, many))
+            add(
+                "tripoint",
+                n,
+                "nothing: double, search when a list is outworn",
+                lambda work=work, n=n, many=many: bench.measure(work, n, many),
+            )
         for n in sorted({1, threads}) if bench.o.beside else []:
-            add("tripoint beside", n, "as tripoint: another build of it", lambda work=work, n=n, many=many: bench.measure(work, n, many, bench.o.beside))
+            add(
+                "tripoint beside",
+                n,
+                "as tripoint: another build of it",
+                lambda work=work, n=n, many=many: bench.measure(work, n, many, bench.o.beside),
+            )
         if work == "elastic-40k":
-            add("SPlisHSPlasH Becker 2009", threads, "float; contact through WCSPH; search each step", lambda work=work, few=few: bench.splishsplash(work, "becker", threads, few))
+            add(
+                "SPlisHSPlasH Becker 2009",
+                threads,
+                "float; contact through WCSPH; search each step",
+                lambda work=work, few=few: bench.splishsplash(work, "becker", threads, few),
+            )
             for n in sorted({1, threads}):
-                add("LAMMPS MACHDYN tlsph", n, "no contact; lists of the start for ever", lambda work=work, n=n, few=few: bench.lammps(work, "tlsph", n, few))
+                add(
+                    "LAMMPS MACHDYN tlsph",
+                    n,
+                    "no contact; lists of the start for ever",
+                    lambda work=work, n=n, few=few: bench.lammps(work, "tlsph", n, few),
+                )
             continue
         if work == "liquid-heat-40k":
-            add("tripoint corrected", threads, "nothing; corrected forms, heat in two stages", lambda n=threads, few=few: bench.measure("liquid-heat-40k-corrected", n, 2 * few))
-            add("LAMMPS RHEO", threads, "quintic kernel, no corrections of it", lambda work=work, few=few: bench.lammps(work, "rheo", threads, few))
-        add("SPlisHSPlasH WCSPH", threads, "heat; float; search each step", lambda work=work, few=few: bench.splishsplash(work, "wcsph", threads, few))
+            add(
+                "tripoint corrected",
+                threads,
+                "nothing; corrected forms, heat in two stages",
+                lambda n=threads, few=few: bench.measure("liquid-heat-40k-corrected", n, 2 * few),
+            )
+            add(
+                "LAMMPS RHEO",
+                threads,
+                "quintic kernel, no corrections of it",
+                lambda work=work, few=few: bench.lammps(work, "rheo", threads, few),
+            )
+        add(
+            "SPlisHSPlasH WCSPH",
+            threads,
+            "heat; float; search each step",
+            lambda work=work, few=few: bench.splishsplash(work, "wcsph", threads, few),
+        )
         for n in sorted({1, threads}):
-            add("LAMMPS taitwater + heat", n, "density sum (integrates continuity): one pass over half lists", lambda work=work, n=n, many=many: bench.lammps(work, "sph", n, many))
+            add(
+                "LAMMPS taitwater + heat",
+                n,
+                "density sum (integrates continuity): one pass over half lists",
+                lambda work=work, n=n, many=many: bench.lammps(work, "sph", n, many),
+            )
     return list_
 
 
@@ -135,7 +215,10 @@ def run_rounds(codes, rounds, say):
                 continue
             try:
                 code.rounds.append(code.run())
-                say(f"round {number + 1}: {code.work} {code.name} x{code.parallel}: {1e3 * code.rounds[-1]['step_s']:.1f} ms/step")
+                say(
+                    f"round {number + 1}: {code.work} {code.name} x{code.parallel}: "
+                    f"{1e3 * code.rounds[-1]['step_s']:.1f} ms/step"
+                )
             except (ValueError, OSError, KeyError, subprocess.SubprocessError) as problem:
                 code.error = str(problem)[:300]
                 say(f"{code.name}: {code.error}")
@@ -146,22 +229,36 @@ def spread(values):
 
 
 def row_of(code, ours, neighbours):
-    """@param ours the solver's own rounds at the same work on as many threads; ratios above 1 mean that ours is faster"""
+    """@param ours the solver's own rounds at the same work on as many threads; ratios above 1 mean that ours is
+    faster"""
     particles = code.rounds[0]["particles"] if code.rounds else 0
     near = code.rounds[0].get("neighbours") or neighbours if code.rounds else None
     cost = lambda run: run["step_s"] / run["particles"]
     pair = lambda run, n: cost(run) / n if n else None
     both = list(zip(code.rounds, ours))
     mine = neighbours
-    busy = [(a["cpu_s"] / a["particles"], b["cpu_s"] / b["particles"]) for a, b in both if a.get("cpu_s") and b.get("cpu_s")]
-    row = {"code": code.name, "work": code.work, "parallel": code.parallel, "leaves_out": code.leaves_out, "error": code.error, "particles": particles, "neighbours": near,
-           "rebuilds_per_step": statistics.median(r.get("rebuilds_per_step", 0.0) for r in code.rounds) if code.rounds else None,
-           "step_s": spread([r["step_s"] for r in code.rounds]), "cpu_s": spread([r["cpu_s"] for r in code.rounds if r.get("cpu_s")]),
-           "particle_steps_per_s": 1.0 / statistics.median(map(cost, code.rounds)) if code.rounds else None,
-           "ratio_particle_step": spread([cost(a) / cost(b) for a, b in both]),
-           "ratio_best": min(map(cost, code.rounds)) / min(map(cost, ours)) if code.rounds and ours else None,
-           "ratio_cpu": spread([a / b for a, b in busy]),
-           "ratio_pair": spread([pair(a, near) / pair(b, mine) for a, b in both]) if near and mine else None}
+    busy = [
+        (a["cpu_s"] / a["particles"], b["cpu_s"] / b["particles"]) for a, b in both if a.get("cpu_s") and b.get("cpu_s")
+    ]
+    row = {
+        "code": code.name,
+        "work": code.work,
+        "parallel": code.parallel,
+        "leaves_out": code.leaves_out,
+        "error": code.error,
+        "particles": particles,
+        "neighbours": near,
+        "rebuilds_per_step": statistics.median(r.get("rebuilds_per_step", 0.0) for r in code.rounds)
+        if code.rounds
+        else None,
+        "step_s": spread([r["step_s"] for r in code.rounds]),
+        "cpu_s": spread([r["cpu_s"] for r in code.rounds if r.get("cpu_s")]),
+        "particle_steps_per_s": 1.0 / statistics.median(map(cost, code.rounds)) if code.rounds else None,
+        "ratio_particle_step": spread([cost(a) / cost(b) for a, b in both]),
+        "ratio_best": min(map(cost, code.rounds)) / min(map(cost, ours)) if code.rounds and ours else None,
+        "ratio_cpu": spread([a / b for a, b in busy]),
+        "ratio_pair": spread([pair(a, near) / pair(b, mine) for a, b in both]) if near and mine else None,
+    }
     limits = [r["over_limit_cpu"]["median"] for r in code.rounds if r.get("limit")]
     return row | {"over_limit": spread(limits)}
 
@@ -194,20 +291,33 @@ def main():
         rows.append(row_of(code, own.rounds, own.rounds[0].get("neighbours") if own.rounds else None))
     out = Path(options.out)
     out.mkdir(parents=True, exist_ok=True)
-    document = {"format": 1, "threads": options.threads, "rounds": options.rounds, "machine": json.loads(bench.tripoint("--work", works[0], "--steps", "1", "--rounds", "1", "--json"))["machine"], "rows": rows}
+    document = {
+        "format": 1,
+        "threads": options.threads,
+        "rounds": options.rounds,
+        "machine": json.loads(bench.tripoint("--work", works[0], "--steps", "1", "--rounds", "1", "--json"))["machine"],
+        "rows": rows,
+    }
     (out / "speed.json").write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
     print_table(rows)
 
 
 def print_table(rows):
-    print(f"{'work':18} {'code':26} {'x':>2} {'ms/step':>9} {'M p-s/s':>8} {'neighb.':>7} {'rebuilds':>8} {'ratio a particle-step':>24} {'best':>6} {'of CPU seconds':>20} {'ratio a pair':>20}")
+    print(
+        f"{'work':18} {'code':26} {'x':>2} {'ms/step':>9} {'M p-s/s':>8} {'neighb.':>7} {'rebuilds':>8} "
+        f"{'ratio a particle-step':>24} {'best':>6} {'of CPU seconds':>20} {'ratio a pair':>20}"
+    )
     show = lambda s: f"{s['median']:.2f} ({s['least']:.2f}-{s['greatest']:.2f})" if s else "-"
     for row in rows:
         if row["error"]:
             print(f"{row['work']:18} {row['code']:26} {row['parallel']:>2} {row['error']}")
             continue
-        print(f"{row['work']:18} {row['code']:26} {row['parallel']:>2} {1e3 * row['step_s']['median']:9.2f} {1e-6 * row['particle_steps_per_s']:8.3f} {row['neighbours'] or 0:7.1f} "
-              f"{row['rebuilds_per_step']:8.2f} {show(row['ratio_particle_step']):>24} {row['ratio_best']:6.2f} {show(row['ratio_cpu']):>20} {show(row['ratio_pair']):>20}")
+        print(
+            f"{row['work']:18} {row['code']:26} {row['parallel']:>2} {1e3 * row['step_s']['median']:9.2f} "
+            f"{1e-6 * row['particle_steps_per_s']:8.3f} {row['neighbours'] or 0:7.1f} "
+            f"{row['rebuilds_per_step']:8.2f} {show(row['ratio_particle_step']):>24} {row['ratio_best']:6.2f} "
+            f"{show(row['ratio_cpu']):>20} {show(row['ratio_pair']):>20}"
+        )
 
 
 if __name__ == "__main__":

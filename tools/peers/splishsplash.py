@@ -3,9 +3,10 @@
 
     splishsplash.py START.npz METHOD SPACING TIME_STEP WARM STEPS
 
-METHOD: wcsph, or becker (WCSPH with the elasticity of Becker et al. 2009). Runs in the virtual environment that holds the wheel,
-which wants the system's libGLdispatch.so.0 in LD_PRELOAD where there is no display. Particles fly freely: no walls, no gravity.
-"""
+METHOD: wcsph, or becker (WCSPH with the elasticity of Becker et al. 2009). Runs in the virtual environment that holds
+the wheel, which wants the system's libGLdispatch.so.0 in LD_PRELOAD where there is no display. Particles fly freely: no
+walls, no gravity."""
+
 import json
 import os
 import sys
@@ -22,11 +23,22 @@ def scene(across, spacing, time_step, method):
     """A block of the wanted number of particles; its places and velocities are replaced before the first step."""
     material = {"id": "Fluid", "density0": 1000, "viscosityMethod": 1, "Standard viscosity": {"viscosity": 0.002}}
     if method == "becker":
-        material |= {"viscosityMethod": 0, "elasticityMethod": 1, "Becker et al. 2009": {"youngsModulus": 1e5, "poissonsRatio": 0.3, "alpha": 0.0}}
+        material |= {
+            "viscosityMethod": 0,
+            "elasticityMethod": 1,
+            "Becker et al. 2009": {"youngsModulus": 1e5, "poissonsRatio": 0.3, "alpha": 0.0},
+        }
     end = [spacing * (n + 1.3) for n in across]
     return {
-        "Configuration": {"particleRadius": spacing / 2, "numberOfStepsPerRenderUpdate": 1, "simulationMethod": WCSPH, "gravitation": [0, 0, 0],
-                          "cflMethod": 0, "timeStepSize": time_step, "WCSPH": {"stiffness": 14285.7, "exponent": 7}},  # c2 = 7 stiffness / density
+        "Configuration": {
+            "particleRadius": spacing / 2,
+            "numberOfStepsPerRenderUpdate": 1,
+            "simulationMethod": WCSPH,
+            "gravitation": [0, 0, 0],
+            "cflMethod": 0,
+            "timeStepSize": time_step,
+            "WCSPH": {"stiffness": 14285.7, "exponent": 7},
+        },  # c2 = 7 stiffness / density
         "Materials": [material],
         "FluidBlocks": [{"denseMode": 0, "start": [0.0, 0.0, 0.0], "end": end}],
     }
@@ -48,7 +60,9 @@ def main():
     count = fluid.numActiveParticles()
     if count != len(start["position"]):
         sys.exit(f"SPlisHSPlasH filled the block with {count} particles, not {len(start['position'])}")
-    for i, (position, velocity) in enumerate(zip(start["position"].astype(numpy.float32), start["velocity"].astype(numpy.float32))):
+    for i, (position, velocity) in enumerate(
+        zip(start["position"].astype(numpy.float32), start["velocity"].astype(numpy.float32))
+    ):
         if method == "wcsph":  # an elastic body keeps the places that its reference shape was made from
             fluid.setPosition(i, position)
         fluid.setVelocity(i, velocity)
@@ -59,10 +73,25 @@ def main():
         if progress["step"] == warm:
             progress.update(begin=time.perf_counter(), cpu=time.process_time())
         if progress["step"] == warm + steps:
-            seconds, cpu = (time.perf_counter() - progress["begin"]) / steps, (time.process_time() - progress["cpu"]) / steps
+            seconds, cpu = (
+                (time.perf_counter() - progress["begin"]) / steps,
+                (time.process_time() - progress["cpu"]) / steps,
+            )
             sample = range(0, count, 37)
             neighbours = sum(simulation.numberOfNeighbors(0, 0, i) for i in sample) / len(sample)
-            print("RESULT " + json.dumps({"particles": count, "step_s": seconds, "cpu_s": cpu, "neighbours": neighbours, "rebuilds_per_step": 1.0}), flush=True)
+            print(
+                "RESULT "
+                + json.dumps(
+                    {
+                        "particles": count,
+                        "step_s": seconds,
+                        "cpu_s": cpu,
+                        "neighbours": neighbours,
+                        "rebuilds_per_step": 1.0,
+                    }
+                ),
+                flush=True,
+            )
             os._exit(0)
 
     base.setTimeStepCB(after_step)

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the adapters of installed engines share: the calls, the refusals, surfaces and steps. MuJoCo's adapter runs on a stand-in."""
+"""What the adapters of installed engines share: the calls, the refusals, surfaces and steps. MuJoCo's adapter runs on a
+stand-in."""
+
 import json
 import math
 import os
@@ -15,7 +17,6 @@ HERE = Path(__file__).resolve().parent
 ADAPTERS = Path(os.environ["TRIPOINT_VENDORS"])
 sys.path[:0] = [str(ADAPTERS), str(HERE)]
 
-import engine_calculix  # noqa: E402
 import engine_mujoco  # noqa: E402
 from contract import read_job  # noqa: E402
 from environments import catalogue  # noqa: E402
@@ -69,15 +70,24 @@ class Calls(unittest.TestCase):
 
 class Refusals(unittest.TestCase):
     def test_each_names_the_body_and_the_reason(self):
-        for change, word in (({"temperature": {"kind": "constant", "value": 300.0}}, "heat"), ({"joined_to": ["b"]}, "bonds"),
-                             ({"motion": "prescribed"}, "prescribed"), ({"motion": "prescribed", "angular_velocity": [0.0, 0.0, 1.0]}, "prescribed"), ({"principal_inertia": [0.0, 1.0, 1.0]}, "moments")):
+        for change, word in (
+            ({"temperature": {"kind": "constant", "value": 300.0}}, "heat"),
+            ({"joined_to": ["b"]}, "bonds"),
+            ({"motion": "prescribed"}, "prescribed"),
+            ({"motion": "prescribed", "angular_velocity": [0.0, 0.0, 1.0]}, "prescribed"),
+            ({"principal_inertia": [0.0, 1.0, 1.0]}, "moments"),
+        ):
             reason = refusal([body(**change)])
             self.assertIn(word, reason)
             self.assertIn("cube", reason)
 
     def test_scenes_of_the_particle_solver_are_refused(self):
-        for scene, word in (({"mode": "paper"}, "paper"), ({"periodic": [True, False, False]}, "periodic"), ({"inflows": [{}]}, "inflow"),
-                            ({"events": [{}]}, "events")):
+        for scene, word in (
+            ({"mode": "paper"}, "paper"),
+            ({"periodic": [True, False, False]}, "periodic"),
+            ({"inflows": [{}]}, "inflow"),
+            ({"events": [{}]}, "events"),
+        ):
             self.assertIn(word, refusal([body()], **scene))
 
     def test_a_shape_without_a_surface_is_refused_only_where_it_can_be_touched(self):
@@ -115,113 +125,33 @@ class Refusals(unittest.TestCase):
             with self.subTest(name):
                 self.assertEqual(check(command, job([body()], preset=preset)), {"can": True, "reason": ""})
                 self.assertIn("elastic", check(command, job([body(phase="elastic")], preset=preset))["reason"])
-                self.assertIn("no setting", check(command, job([body()], preset=preset, settings={"no_such": 1.0}))["reason"])
+                self.assertIn(
+                    "no setting", check(command, job([body()], preset=preset, settings={"no_such": 1.0}))["reason"]
+                )
 
     def test_rapier_refuses_a_spin_that_it_would_slow_down(self):
         command = ["/usr/bin/python3", "-B", str(ADAPTERS / "engine_rapier.py")]
         for spin, word in ((70.0, ""), (90.0, "pi/4")):
-            self.assertIn(word, check(command, job([body(angular_velocity=[0.0, 0.0, spin])], preset="SIMPLIFIED"))["reason"])
+            self.assertIn(
+                word, check(command, job([body(angular_velocity=[0.0, 0.0, spin])], preset="SIMPLIFIED"))["reason"]
+            )
 
     def test_explicit_euler_refuses_tops_whose_energy_it_multiplies_beyond_bounds(self):
         top = body(angular_velocity=[1.0, 2.0, 3.0], principal_inertia=[0.0417, 0.095, 0.1117])
-        for file, preset, word in (("engine_dart.py", "default", "multiplies the energy"), ("engine_mujoco.py", "Euler", "multiplies the energy"), ("engine_mujoco.py", "RK4", "")):
+        for file, preset, word in (
+            ("engine_dart.py", "default", "multiplies the energy"),
+            ("engine_mujoco.py", "Euler", "multiplies the energy"),
+            ("engine_mujoco.py", "RK4", ""),
+        ):
             command = ["/usr/bin/python3", "-B", str(ADAPTERS / file)]
             self.assertEqual(check(command, job([top], preset=preset, times=[0.0, 1.0], time_step=0.01))["reason"], "")
-            self.assertIn(word, check(command, job([top], preset=preset, times=[0.0, 1000.0], time_step=0.01))["reason"])
+            self.assertIn(
+                word, check(command, job([top], preset=preset, times=[0.0, 1000.0], time_step=0.01))["reason"]
+            )
 
     def test_dart_refuses_half_spaces(self):
         command = ["/usr/bin/python3", "-B", str(ADAPTERS / "engine_dart.py")]
         self.assertIn("floor", check(command, job([body(), floor()]))["reason"])
-
-
-class Fields(unittest.TestCase):
-    COMMAND = ["/usr/bin/python3", "-B", str(ADAPTERS / "engine_scikit_fem.py")]
-    WARM = {"motion": "fixed", "temperature": {"kind": "constant", "value": 300.0}, "velocity": [0.0, 0.0, 0.0]}
-
-    def answer(self, changes, **scene):
-        return check(self.COMMAND, job([body(**{**self.WARM, **changes})], preset="ElementHex1", **scene))
-
-    def test_conduction_at_rest_is_taken(self):
-        self.assertEqual(self.answer({}), {"can": True, "reason": ""})
-        self.assertTrue(self.answer({"motion": "free"}, gravity=[0.0, 0.0, 0.0])["can"])
-
-    def test_what_moves_melts_or_has_no_temperature_is_refused(self):
-        for changes, scene, word in (({"temperature": None}, {}, "no temperature"), ({"phase": "liquid"}, {}, "may move"), ({"motion": "free"}, {}, "may move"),
-                                     ({}, {"materials": [{"name": "stuff", "t_melt": 273.0}]}, "may melt"), ({}, {"jitter": 0.1}, "lattice"), ({}, {"mode": "paper"}, "paper")):
-            self.assertIn(word, self.answer(changes, **scene)["reason"])
-
-
-class HeldSolids(unittest.TestCase):
-    """A bar between a clamp and nothing, as scikit-fem and CalculiX take it."""
-
-    BAR = {"phase": "elastic", "name": "bar", "velocity": [0.0, 0.0, 0.0], "joined_to": ["clamp"], "velocity_field": {"kind": "constant", "value": [0.0, 0.0, 0.0]},
-           "shape": {"kind": "box", "min": [0.0, 0.0, 0.0], "max": [0.4, 0.1, 0.1]}}
-    CLAMP = {**BAR, "name": "clamp", "index": 1, "phase": "rigid", "motion": "fixed", "joined_to": [],
-             "shape": {"kind": "box", "min": [-0.1, 0.0, 0.0], "max": [0.0, 0.1, 0.1]}}
-    STUFF = {"name": "stuff", "density": 1000.0, "young_modulus": 1e6, "poisson_ratio": 0.0, "t_melt": None, "elastic_limit": None, "fracture_stretch": None,
-             "fracture_distance": None}
-
-    def scene(self, bar=None, clamp=None, preset="C3D8", **scene):
-        return job([body(**{**self.BAR, **(bar or {})}), body(**{**self.CLAMP, **(clamp or {})})], preset=preset, **{"materials": [self.STUFF], **scene})
-
-    def answer(self, name, preset, **changes):
-        return check(["/usr/bin/python3", "-B", str(ADAPTERS / name)], self.scene(preset=preset, **changes))
-
-    def test_a_clamped_bar_is_taken(self):
-        for name, preset in (("engine_scikit_fem.py", "ElementHex2"), ("engine_calculix.py", "C3D20R")):
-            self.assertEqual(self.answer(name, preset), {"can": True, "reason": ""}, name)
-
-    def test_what_linear_elasticity_does_not_know_is_refused(self):
-        plastic = [{**self.STUFF, "elastic_limit": 0.01}]
-        for name, preset in (("engine_scikit_fem.py", "ElementHex1"), ("engine_calculix.py", "C3D8")):
-            for changes, word in (({"bar": {"joined_to": []}}, "free"), ({"bar": {"angular_velocity": [0, 0, 1]}}, "turns"), ({"materials": plastic}, "plastic"),
-                                  ({"clamp": {"motion": "prescribed"}}, "prescribed"), ({"mode": "paper"}, "paper"), ({"events": [{}]}, "events")):
-                self.assertIn(word, self.answer(name, preset, **changes)["reason"], (name, word))
-
-    def test_the_deck_of_calculix_holds_the_clamps_nodes_and_bears_the_weight(self):
-        path = Path(tempfile.mkdtemp()) / "job.json"
-        path.write_text(json.dumps(self.scene()))
-        self.addCleanup(shutil.rmtree, path.parent)
-        deck = engine_calculix.Deck(read_job(str(path)))
-        lines = list(deck.lines())
-        self.assertEqual((len(deck.mesh.elements), len(deck.mesh.node)), (4, 20))
-        held = lines[lines.index("*BOUNDARY") + 1:lines.index("*STEP, INC=" + str(deck.count() + 1))]
-        self.assertEqual(len(held), 4)
-        self.assertIn("EALL,GRAV,9.81,0.0,0.0,-1.0", lines)
-
-    def test_what_ccx_prints_becomes_rows_of_particles(self):
-        path = Path(tempfile.mkdtemp()) / "job.json"
-        path.write_text(json.dumps(self.scene()))
-        self.addCleanup(shutil.rmtree, path.parent)
-        deck = engine_calculix.Deck(read_job(str(path)))
-        text = ""
-        for at in (0.5, 1.0):
-            text += f"\n displacements (vx,vy,vz) for set ALL and time  {at:.7E}\n\n"
-            text += "".join(f"  {n}  {at * deck.place_of(n)[0]:.6E}  0.000000E+00  0.000000E+00\n" for n in deck.mesh.node.values())
-            text += f"\n velocities (vx,vy,vz) for set ALL and time  {at:.7E}\n\n"
-            text += "".join(f"  {n}  0.000000E+00  2.000000E+00  0.000000E+00\n" for n in deck.mesh.node.values())
-            text += f"\n total volume for set ALL and time  {at:.7E}\n\n        4.000000E-03\n"
-        frames, volume = deck.read(text)
-        self.assertEqual(volume, 4e-3)
-        places = [[-0.05, 0.05, 0.05], [0.05, 0.05, 0.05], [0.35, 0.05, 0.05]]  # of the clamp, and the ends of the bar
-        rows = list(deck.rows(frames, {"position": places, "velocity": [[0.0] * 3] * 3}))
-        self.assertEqual([row[:2] for row in rows], [(t, i) for t in (0.0, 0.5, 1.0) for i in range(3)])
-        self.assertEqual([round(row[2], 9) for row in rows[6:]], [-0.05, 0.10, 0.70])  # the clamp stays; u = x t
-        self.assertEqual([row[6] for row in rows[6:]], [0.0, 2.0, 2.0])
-
-
-    def test_calculix_answers_gauges_by_its_nodes(self):
-        asked = [{"metric": "tip", "quantity": "displacement", "body": "bar", "where": {"point": [0.4, 0.05, 0.05], "axis": "x"}},
-                 {"metric": "middle", "quantity": "centre", "body": "bar", "where": {"axis": "x"}},
-                 {"metric": "squeeze", "quantity": "pressure_at", "body": "", "where": {"point": [0.0, 0.0, 0.0]}},
-                 {"metric": "beyond", "quantity": "displacement", "body": "bar", "where": {"point": [1.0, 0.0, 0.0], "axis": "x"}}]
-        path = Path(tempfile.mkdtemp()) / "job.json"
-        path.write_text(json.dumps({**self.scene(), "gauges": asked}))
-        self.addCleanup(shutil.rmtree, path.parent)
-        deck = engine_calculix.Deck(read_job(str(path)))
-        stretched = {f"U{axis}": {n: (0.5 * deck.place_of(n)[0] if axis == 1 else 0.0) for n in deck.mesh.node.values()} for axis in (1, 2, 3)}
-        rows = [(at, number, round(value, 12)) for at, number, value in deck.gauge_rows([stretched, stretched])]
-        self.assertEqual(rows, [(t, g, v) for t, tip, middle in ((0.0, 0.0, 0.2), (0.5, 0.2, 0.3), (1.0, 0.2, 0.3)) for g, v in ((0, tip), (1, middle))])
 
 
 class Formulas(unittest.TestCase):
@@ -245,7 +175,9 @@ class Surfaces(unittest.TestCase):
 
     def test_a_plane_looks_along_its_normal(self):
         for normal in ((0.0, 0.0, 1.0), (0.0, 0.0, -1.0), (1.0, 2.0, -2.0)):
-            (piece,) = pieces_of({"kind": "half_space", "point": [0, 0, 0], "normal": normal}, (0.0, 0.0, 0.0), IDENTITY)
+            (piece,) = pieces_of(
+                {"kind": "half_space", "point": [0, 0, 0], "normal": normal}, (0.0, 0.0, 0.0), IDENTITY
+            )
             found = rotate(piece.rotation, (0.0, 0.0, 1.0))
             for a, b in zip(found, (c / math.dist((0, 0, 0), normal) for c in normal)):
                 self.assertAlmostEqual(a, b, delta=1e-15)
@@ -254,7 +186,6 @@ class Surfaces(unittest.TestCase):
         box = body()["shape"]
         self.assertEqual(len(pieces_of({"kind": "union", "of": [box, box]}, (0, 0, 0), IDENTITY)), 2)
         self.assertIsNone(pieces_of({"kind": "union", "of": [box, {"kind": "difference"}]}, (0, 0, 0), IDENTITY))
-
 
     def test_a_rod_lies_along_its_axis_and_upright_ones_along_y(self):
         rod = {"kind": "cylinder", "base": [0.0, -0.2, 1.0], "axis": [0.0, 1.0, 0.0], "length": 0.4, "radius": 0.1}
@@ -270,7 +201,9 @@ class Surfaces(unittest.TestCase):
     def test_a_cylinder_with_a_ball_at_each_end_is_a_capsule(self):
         rod = {"kind": "cylinder", "base": [0.0, 0.0, 0.0], "axis": [0.0, 1.0, 0.0], "length": 0.4, "radius": 0.1}
         balls = [{"kind": "sphere", "centre": [0.0, y, 0.0], "radius": 0.1} for y in (0.0, 0.4)]
-        found = {kind.kind for kind in pieces_of({"kind": "union", "of": [balls[0], rod, balls[1]]}, (0, 0, 0), IDENTITY)}
+        found = {
+            kind.kind for kind in pieces_of({"kind": "union", "of": [balls[0], rod, balls[1]]}, (0, 0, 0), IDENTITY)
+        }
         self.assertEqual(found, {"capsule"})
         for other in ({**balls[1], "radius": 0.11}, {**balls[1], "centre": [0.0, 0.3, 0.0]}):
             self.assertEqual(len(pieces_of({"kind": "union", "of": [balls[0], rod, other]}, (0, 0, 0), IDENTITY)), 3)
@@ -289,7 +222,11 @@ class Presets(unittest.TestCase):
             with self.assertRaises(AttributeError):  # there is no world to go on with
                 engine.run(read_job(str(path)))
             texts[words] = seen[0]
-        for words in ('integrator="implicitfast"', 'solref="0.02 1"', 'solimp="0.99 0.999 0.001 0.5 2"'):  # two steps of 10 ms
+        for words in (
+            'integrator="implicitfast"',
+            'solref="0.02 1"',
+            'solimp="0.99 0.999 0.001 0.5 2"',
+        ):  # two steps of 10 ms
             self.assertIn(words, texts["preset"])
         self.assertIn('solimp="0.9 0.9 0.001 0.5 2"', texts["own"])
 
@@ -316,7 +253,9 @@ class MujocoAdapter(unittest.TestCase):
         end = mujoco([body()])
         self.assertEqual(end.code, 0)
         last, dt = end.rows[-1], 0.01
-        self.assertAlmostEqual(last["z"], 1.0 + 3.0 - 9.81 / 2 - 9.81 * dt / 2, delta=1e-12)  # semi-implicit Euler lags by g dt t/2
+        self.assertAlmostEqual(
+            last["z"], 1.0 + 3.0 - 9.81 / 2 - 9.81 * dt / 2, delta=1e-12
+        )  # semi-implicit Euler lags by g dt t/2
         self.assertAlmostEqual(last["vx"], 1.0, delta=1e-15)
 
     def test_a_turned_principal_frame_starts_as_the_identity_and_the_spin_is_the_worlds(self):
@@ -329,23 +268,39 @@ class MujocoAdapter(unittest.TestCase):
     def test_masses_and_gravity_are_read_back_from_the_engine(self):
         held = mujoco([body(), floor()]).result["readback"]
         self.assertEqual((held["gravity"], held["precision"]), ([0.0, 0.0, -9.81], "double"))
-        self.assertEqual([(b["name"], b["mass"], b["principal_inertia"]) for b in held["bodies"]], [("cube", 8.0, [1.0, 2.0, 2.5])])
+        self.assertEqual(
+            [(b["name"], b["mass"], b["principal_inertia"]) for b in held["bodies"]], [("cube", 8.0, [1.0, 2.0, 2.5])]
+        )
 
     def test_a_fixed_body_stays(self):
         rows = [row for row in mujoco([body(), floor()]).rows if row["body"] == 1.0]
         self.assertEqual({(row["x"], row["z"], row["vz"], row["qw"]) for row in rows}, {(0.0, -0.5, 0.0, 1.0)})
 
     def test_the_model_says_the_presets_integrator_and_the_contacts_settings(self):
-        given = SimpleNamespace(scene=job([])["scene"], preset="RK4", settings={"friction": 0.5, "solref": "-1000 -10"}, bodies=[])
+        given = SimpleNamespace(
+            scene=job([])["scene"], preset="RK4", settings={"friction": 0.5, "solref": "-1000 -10"}, bodies=[]
+        )
         text = model_text(given, [body_of(body(), True), body_of(floor(), True)], 0.004)
-        for words in ('integrator="RK4"', 'timestep="0.004"', 'friction="0.5 0 0"', 'condim="3"', 'solref="-1000 -10"', 'type="plane"', 'diaginertia="1.0 2.0 2.5"'):
+        for words in (
+            'integrator="RK4"',
+            'timestep="0.004"',
+            'friction="0.5 0 0"',
+            'condim="3"',
+            'solref="-1000 -10"',
+            'type="plane"',
+            'diaginertia="1.0 2.0 2.5"',
+        ):
             self.assertIn(words, text)
 
 
 class Laws(unittest.TestCase):
     def test_the_model_gets_the_friction_of_all_engines(self):
-        given = SimpleNamespace(scene=job([])["scene"], preset="Euler", settings={"friction": 0.25}, bodies=[body(), floor()])
-        self.assertIn('friction="0.25 0 0" condim="3"', model_text(given, [body_of(body(), True), body_of(floor(), True)], 0.004))
+        given = SimpleNamespace(
+            scene=job([])["scene"], preset="Euler", settings={"friction": 0.25}, bodies=[body(), floor()]
+        )
+        self.assertIn(
+            'friction="0.25 0 0" condim="3"', model_text(given, [body_of(body(), True), body_of(floor(), True)], 0.004)
+        )
 
     def test_every_rigid_engine_takes_friction_and_restitution_0(self):
         for name, engine in catalogue()["engines"].items():
@@ -353,7 +308,13 @@ class Laws(unittest.TestCase):
                 continue
             command = ["/usr/bin/python3", "-B", str(ADAPTERS / engine["adapter"])]
             with self.subTest(name):
-                self.assertEqual(check(command, job([body()], preset=engine["presets"][0], settings={"friction": 0.3, "restitution": 0.0}))["reason"], "")
+                self.assertEqual(
+                    check(
+                        command,
+                        job([body()], preset=engine["presets"][0], settings={"friction": 0.3, "restitution": 0.0}),
+                    )["reason"],
+                    "",
+                )
 
     def test_the_read_back_says_what_friction_the_engine_holds(self):
         (held,) = mujoco([body(), floor()], settings={"friction": 0.25}).result["readback"]["bodies"]
@@ -364,7 +325,12 @@ class Laws(unittest.TestCase):
         self.assertTrue(moves(board))
         self.assertFalse(moves(body_of(floor(), True)) or moves(body_of(body(), True)))
         command = ["/usr/bin/python3", "-B", str(ADAPTERS / "engine_ode.py")]
-        self.assertTrue(check(command, job([body(), floor() | {"motion": "prescribed", "velocity": [0.5, 0.0, 0.0]}], preset="dWorldStep"))["can"])
+        self.assertTrue(
+            check(
+                command,
+                job([body(), floor() | {"motion": "prescribed", "velocity": [0.5, 0.0, 0.0]}], preset="dWorldStep"),
+            )["can"]
+        )
 
 
 class OdeAdapter(unittest.TestCase):

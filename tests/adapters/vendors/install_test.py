@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Installing an engine: what is said and asked, what is refused, what is fetched again. No registry is called here."""
+
 import json
 import os
 import subprocess
@@ -31,7 +32,9 @@ class Home(unittest.TestCase):
 
     def install(self, *words):
         command = [PROGRAM, "engine", "install", *words]
-        return subprocess.run(command, capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=60, check=False)
+        return subprocess.run(
+            command, capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=60, check=False
+        )
 
 
 class Catalogue(Home):
@@ -113,7 +116,9 @@ class Fetching(Home):
         before, os.environ["PATH"] = os.environ["PATH"], if_absent["PATH"]
         try:
             with self.assertRaises(InstallError) as caught:
-                install_npm(type("R", (), {"folder": self.folder, "files": (File("a@1", ABC, 3),)})(), self.folder / "downloads")
+                install_npm(
+                    type("R", (), {"folder": self.folder, "files": (File("a@1", ABC, 3),)})(), self.folder / "downloads"
+                )
         finally:
             os.environ["PATH"] = before
         self.assertIn("npm is not installed", str(caught.exception))

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`tripoint engine check` on each engine that is installed here; with none installed there is nothing to check, which is said."""
+"""`tripoint engine check` on each engine that is installed here; with none installed there is nothing to check, which
+is said."""
+
 import json
 import os
 import subprocess
@@ -15,13 +17,23 @@ from environments import catalogue  # noqa: E402
 
 class Installed(unittest.TestCase):
     def test_each_installed_engine_holds_the_contract(self):
-        listed = json.loads(subprocess.run([PROGRAM, "engines", "--json"], capture_output=True, text=True, timeout=120, check=True).stdout)
+        listed = json.loads(
+            subprocess.run(
+                [PROGRAM, "engines", "--json"], capture_output=True, text=True, timeout=120, check=True
+            ).stdout
+        )
         here = [e for e in listed["engines"] if e["available"] and e["name"] in catalogue()["engines"]]
         print("installed:", ", ".join(f"{e['name']} {e['version']}" for e in here) or "none")
         for engine in here:
             with self.subTest(engine["name"]):
                 self.assertTrue(Path(engine["library"]["path"]).is_file(), engine["library"])
-                end = subprocess.run([PROGRAM, "engine", "check", engine["executable"]], capture_output=True, text=True, timeout=300, check=False)
+                end = subprocess.run(
+                    [PROGRAM, "engine", "check", engine["executable"]],
+                    capture_output=True,
+                    text=True,
+                    timeout=300,
+                    check=False,
+                )
                 self.assertEqual(end.returncode, 0, end.stdout)
 
 

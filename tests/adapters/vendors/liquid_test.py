@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What SPlisHSPlasH is handed and what it refuses, and the files of its scene; the engine itself is not needed."""
+
 import json
 import math
 import os
@@ -22,10 +23,30 @@ COMMAND = ["/usr/bin/python3", "-B", str(ADAPTERS / "engine_splishsplash.py")]
 REST = {"kind": "constant", "value": [0.0, 0.0, 0.0]}
 WATER = {"name": "water", "density": 1000.0, "viscosity": 2.0, "stiffness": 100.0}
 WOOD = {"name": "wood", "density": 500.0, "viscosity": 0.0, "stiffness": 100.0}
-LIQUID = {"name": "pool", "index": -1, "material": "water", "phase": "liquid", "velocity": [0.0, 0.0, 0.0], "velocity_field": REST,
-          "shape": {"kind": "box", "min": [0.0, 0.0, 0.0], "max": [1.0, 0.6, 0.5]}}
-BLOCK = {"name": "block", "material": "wood", "velocity": [0.0, 0.0, 0.0], "velocity_field": REST, "shape": {"kind": "box", "min": [0.4, 0.2, 0.5], "max": [0.6, 0.4, 0.7]}}
-TANK = {**BLOCK, "name": "tank", "index": 1, "motion": "fixed", "slip": "free", "shape": {"kind": "box", "min": [-0.2, -0.2, -0.2], "max": [1.2, 0.8, 0.0]}}
+LIQUID = {
+    "name": "pool",
+    "index": -1,
+    "material": "water",
+    "phase": "liquid",
+    "velocity": [0.0, 0.0, 0.0],
+    "velocity_field": REST,
+    "shape": {"kind": "box", "min": [0.0, 0.0, 0.0], "max": [1.0, 0.6, 0.5]},
+}
+BLOCK = {
+    "name": "block",
+    "material": "wood",
+    "velocity": [0.0, 0.0, 0.0],
+    "velocity_field": REST,
+    "shape": {"kind": "box", "min": [0.4, 0.2, 0.5], "max": [0.6, 0.4, 0.7]},
+}
+TANK = {
+    **BLOCK,
+    "name": "tank",
+    "index": 1,
+    "motion": "fixed",
+    "slip": "free",
+    "shape": {"kind": "box", "min": [-0.2, -0.2, -0.2], "max": [1.2, 0.8, 0.0]},
+}
 
 
 def scene(liquid=None, tank=None, others=(), **words):
@@ -42,10 +63,17 @@ class Refusals(unittest.TestCase):
         self.assertEqual(check(COMMAND, scene()), {"can": True, "reason": ""})
 
     def test_what_it_has_no_law_for_is_refused_by_name(self):
-        for changes, word in (({"mode": "paper"}, "paper"), ({"events": [{}]}, "events"), ({"liquid": {"phase": "rigid"}}, "one liquid, and there are 0"),
-                              ({"liquid": {"temperature": {"kind": "constant", "value": 300.0}}}, "heat"), ({"tank": {"motion": "prescribed"}}, "prescribed"),
-                              ({"tank": {"phase": "elastic"}}, "elastic"), ({"preset": "PBD"}, "no preset"), ({"settings": {"gyro": 1.0}}, "no setting"),
-                              ({"settings": {"time_step": 0.0}}, "above zero")):
+        for changes, word in (
+            ({"mode": "paper"}, "paper"),
+            ({"events": [{}]}, "events"),
+            ({"liquid": {"phase": "rigid"}}, "one liquid, and there are 0"),
+            ({"liquid": {"temperature": {"kind": "constant", "value": 300.0}}}, "heat"),
+            ({"tank": {"motion": "prescribed"}}, "prescribed"),
+            ({"tank": {"phase": "elastic"}}, "elastic"),
+            ({"preset": "PBD"}, "no preset"),
+            ({"settings": {"gyro": 1.0}}, "no setting"),
+            ({"settings": {"time_step": 0.0}}, "above zero"),
+        ):
             self.assertIn(word, reason(**changes), changes)
 
     def test_one_body_floats_and_none_sinks_or_meets_another(self):
@@ -62,8 +90,14 @@ class Refusals(unittest.TestCase):
         wide = {"shape": {"kind": "box", "min": [-0.2, 0.0, -0.2], "max": [1.2, 0.6, 0.0]}}
         self.assertEqual(reason(tank=wide, **period), "")
         self.assertIn("gravity drives along it", reason(tank=wide, gravity=[0.0, 1.0, 0.0], **period))
-        self.assertIn("may flow across it", reason({"velocity_field": {"kind": "constant", "value": [0.0, 0.1, 0.0]}}, wide, **period))
-        self.assertIn("not its own mirror image", reason({"shape": {"kind": "box", "min": [0.0, 0.0, 0.0], "max": [1.0, 0.5, 0.5]}}, wide, **period))
+        self.assertIn(
+            "may flow across it",
+            reason({"velocity_field": {"kind": "constant", "value": [0.0, 0.1, 0.0]}}, wide, **period),
+        )
+        self.assertIn(
+            "not its own mirror image",
+            reason({"shape": {"kind": "box", "min": [0.0, 0.0, 0.0], "max": [1.0, 0.5, 0.5]}}, wide, **period),
+        )
 
     def test_walls_that_slip_beside_walls_that_do_not_need_a_choice(self):
         sticky = body(**{**TANK, "name": "sticky", "index": 2, "slip": "no"})
@@ -112,7 +146,10 @@ class Values(unittest.TestCase):
         with tempfile.TemporaryDirectory() as name:
             path = Path(name) / "x.bgeo"
             write_particles(path, np.array([[1.0, 2.0, 3.0]]))
-            self.assertEqual(path.read_bytes(), b"BgeoV" + struct.pack(">9i", 5, 1, 0, 0, 0, 0, 0, 0, 0) + struct.pack(">4f", 1.0, 2.0, 3.0, 1.0))
+            self.assertEqual(
+                path.read_bytes(),
+                b"BgeoV" + struct.pack(">9i", 5, 1, 0, 0, 0, 0, 0, 0, 0) + struct.pack(">4f", 1.0, 2.0, 3.0, 1.0),
+            )
 
 
 if __name__ == "__main__":

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Hostile case files: each must be refused with a sentence, in bounds of time and memory. make(folder) writes one and gives its path."""
+"""Hostile case files: each must be refused with a sentence, in bounds of time and memory. make(folder) writes one and
+gives its path."""
+
 import os
 import struct
 from dataclasses import dataclass
@@ -9,12 +11,27 @@ SCENE = '[scene]\nend_time = "1 s"\nspacing = "0.1 m"\n'
 BOX = '{kind="box",min=[0,0,0],max=[1,1,1]}'
 JUDGED = '[reference]\nfunction="ballistic"\n[[metric]]\nname="p"\nquantity="position"\n'
 CUBE = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))
-SIDES = ((1, 3, 2), (1, 4, 3), (5, 6, 7), (5, 7, 8), (1, 2, 6), (1, 6, 5), (2, 3, 7), (2, 7, 6), (3, 4, 8), (3, 8, 7), (4, 1, 5), (4, 5, 8))
+SIDES = (
+    (1, 3, 2),
+    (1, 4, 3),
+    (5, 6, 7),
+    (5, 7, 8),
+    (1, 2, 6),
+    (1, 6, 5),
+    (2, 3, 7),
+    (2, 7, 6),
+    (3, 4, 8),
+    (3, 8, 7),
+    (4, 1, 5),
+    (4, 5, 8),
+)
 
 
 def text(scene=SCENE, more="", material="", body="", shape=BOX, name="b", end="", head="format = 1\n"):
-    return (f'{head}{scene}{more}[[material]]\nname = "m"\ndensity = 1000\n{material}'
-            f'[[body]]\nname = "{name}"\nmaterial = "m"\nphase = "rigid"\nshape = {shape}\n{body}{end}')
+    return (
+        f'{head}{scene}{more}[[material]]\nname = "m"\ndensity = 1000\n{material}'
+        f'[[body]]\nname = "{name}"\nmaterial = "m"\nphase = "rigid"\nshape = {shape}\n{body}{end}'
+    )
 
 
 @dataclass(frozen=True)
@@ -33,11 +50,19 @@ class Hostile:
 
 
 def mesh(name, write, file="m.obj", more=""):
-    return Hostile(f"mesh: {name}", text(shape=f'{{kind="mesh",file="{file}"{more}}}'), lambda folder: write(folder / file.rpartition("/")[2]))
+    return Hostile(
+        f"mesh: {name}",
+        text(shape=f'{{kind="mesh",file="{file}"{more}}}'),
+        lambda folder: write(folder / file.rpartition("/")[2]),
+    )
 
 
 def obj(corners=CUBE, sides=SIDES, end=b""):
-    return "".join("v {} {} {}\n".format(*c) for c in corners).encode() + "".join("f {} {} {}\n".format(*s) for s in sides).encode() + end
+    return (
+        "".join("v {} {} {}\n".format(*c) for c in corners).encode()
+        + "".join("f {} {} {}\n".format(*s) for s in sides).encode()
+        + end
+    )
 
 
 def holds(content):
@@ -48,6 +73,7 @@ def sparse(size):
     def write(path):
         with path.open("wb") as file:
             file.truncate(size)
+
     return write
 
 
@@ -57,7 +83,8 @@ def leads_to(target):
 
 def measured(name, write):
     """A case whose reference is a file of measurements."""
-    end = '[reference]\nkind="experiment"\nfunction="experiment"\nfile="f.ref.csv"\n[[metric]]\nname="f"\nquantity="front_lead"\n'
+    end = '[reference]\nkind="experiment"\nfunction="experiment"\nfile="f.ref.csv"\n'
+    end += '[[metric]]\nname="f"\nquantity="front_lead"\n'
     return Hostile(f"reference: {name}", text(end=end), lambda folder: write(folder / "f.ref.csv"))
 
 
@@ -93,16 +120,40 @@ HOSTILE = (
     Hostile("an unknown key", text(more="colour = 1\n")),
     Hostile("another format", text(head="format = 999\n")),
     # numbers
-    *(Hostile(f"end_time = {value}", text(scene=f"[scene]\nend_time = {value}\nspacing = 0.1\n")) for value in ("nan", "inf", "-1", "1e400", '"1 kg"', "[]")),
-    *(Hostile(f"spacing = {value}", text(scene=f"[scene]\nend_time = 1\nspacing = {value}\n")) for value in ("nan", "1e-9", "5e-324", '"1 m*m*m"')),
-    *(keyed(line) for line in ("time_step = 1e-320", "output_interval = 1e-300", "support_ratio = 1e9", "seed = 99999999999999999999", "gravity = [0,0,1e400]", "gravity = [0,0,nan]")),
+    *(
+        Hostile(f"end_time = {value}", text(scene=f"[scene]\nend_time = {value}\nspacing = 0.1\n"))
+        for value in ("nan", "inf", "-1", "1e400", '"1 kg"', "[]")
+    ),
+    *(
+        Hostile(f"spacing = {value}", text(scene=f"[scene]\nend_time = 1\nspacing = {value}\n"))
+        for value in ("nan", "1e-9", "5e-324", '"1 m*m*m"')
+    ),
+    *(
+        keyed(line)
+        for line in (
+            "time_step = 1e-320",
+            "output_interval = 1e-300",
+            "support_ratio = 1e9",
+            "seed = 99999999999999999999",
+            "gravity = [0,0,1e400]",
+            "gravity = [0,0,nan]",
+        )
+    ),
     Hostile("a unit of 8,000 factors", text(scene='[scene]\nend_time = 1\nspacing = "1 {}m"\n'.format("m*" * 8000))),
     Hostile("density = 1e308", text().replace("density = 1000", "density = 1e308")),
     Hostile("poisson_ratio = 0.5", text(material="poisson_ratio = 0.5\n")),
     # formulas and names
-    Hostile("a formula of 400 brackets", text(body='velocity = {kind="expression",value=["%sx%s","0","0"]}\n' % ("(" * 400, ")" * 400))),
-    Hostile("a formula that overflows", text(body='velocity = {kind="expression",value=["exp(exp(exp(9)))","0","0"]}\n')),
-    Hostile("a formula that calls a shell", text(body='velocity = {kind="expression",value=["__import__(\'os\').system(\'id\')","0","0"]}\n')),
+    Hostile(
+        "a formula of 400 brackets",
+        text(body='velocity = {kind="expression",value=["%sx%s","0","0"]}\n' % ("(" * 400, ")" * 400)),
+    ),
+    Hostile(
+        "a formula that overflows", text(body='velocity = {kind="expression",value=["exp(exp(exp(9)))","0","0"]}\n')
+    ),
+    Hostile(
+        "a formula that calls a shell",
+        text(body='velocity = {kind="expression",value=["__import__(\'os\').system(\'id\')","0","0"]}\n'),
+    ),
     Hostile("a name with a line break and a forged error", text(name="b\\nfile.toml:1: error: forged")),
     Hostile("a name with escape codes", text(name="\\u001b[2J\\u001b]0;pwned\\u0007")),
     Hostile("case id ../../../outside/pwn", text(head='format = 1\n[case]\nid = "../../../outside/pwn"\n')),
@@ -115,10 +166,16 @@ HOSTILE = (
     shaped("a cylinder without direction", '{kind="cylinder",base=[0,0,0],axis=[1e-320,0,0],length=1,radius=1}'),
     shaped("half of all space", '{kind="half_space",point=[0,0,0],normal=[0,0,1]}'),
     shaped("a body less itself", f'{{kind="difference",from={BOX},minus={{kind="box",min=[-1,-1,-1],max=[2,2,2]}}}}'),
-    shaped("30 differences in each other", '{kind="difference",from=' * 30 + BOX + ',minus={kind="sphere",centre=[0,0,0],radius=0.1}}' * 30),
+    shaped(
+        "30 differences in each other",
+        '{kind="difference",from=' * 30 + BOX + ',minus={kind="sphere",centre=[0,0,0],radius=0.1}}' * 30,
+    ),
     Hostile("1e9 particles", text(scene="[scene]\nend_time = 1\nspacing = 0.001\n")),
     # meshes
-    mesh("one polygon of a million corners", holds(obj(sides=(), end=b"f " + b" ".join(b"%d" % (1 + i % 8) for i in range(1000000)) + b"\n"))),
+    mesh(
+        "one polygon of a million corners",
+        holds(obj(sides=(), end=b"f " + b" ".join(b"%d" % (1 + i % 8) for i in range(1000000)) + b"\n")),
+    ),
     mesh("a corner 2^63", holds(obj(sides=SIDES + ((9223372036854775808, 1, 2),)))),
     mesh("a place that is not a number", holds(obj(corners=(("nan", 0, 0),) + CUBE[1:]))),
     mesh("a hole", holds(obj(sides=SIDES[1:]))),

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """An engine that flies one body along the exact parabola, and does one thing wrong: the word in FAKE says which."""
+
 import json
 import math
 import os
@@ -18,8 +19,17 @@ def die():
 
 
 def info():
-    answer = {"contract": 1, "name": os.environ.get("FAKE_NAME", "fake"), "version": "1", "build": "python", "library": {"path": "", "hash": ""},
-              "capabilities": ["rigid-free-flight", "gravity"], "presets": ["default"], "settings": {}, "deterministic": True}
+    answer = {
+        "contract": 1,
+        "name": os.environ.get("FAKE_NAME", "fake"),
+        "version": "1",
+        "build": "python",
+        "library": {"path": "", "hash": ""},
+        "capabilities": ["rigid-free-flight", "gravity"],
+        "presets": ["default"],
+        "settings": {},
+        "deterministic": True,
+    }
     if WRONG == "slow info":
         time.sleep(60)
     if WRONG == "dies at info":
@@ -63,12 +73,19 @@ def flight(job, g, times):
     for t in times:
         for body in job["scene"]["bodies"]:
             x, v = body["centre"], body["velocity"]
-            rows.append([t, body["index"]] + [x[k] + v[k] * t + 0.5 * g[k] * t * t for k in range(3)] + [v[k] + g[k] * t for k in range(3)] + turned(body["angular_velocity"], t))
+            rows.append(
+                [t, body["index"]]
+                + [x[k] + v[k] * t + 0.5 * g[k] * t * t for k in range(3)]
+                + [v[k] + g[k] * t for k in range(3)]
+                + turned(body["angular_velocity"], t)
+            )
     return rows
 
 
 def write(folder, rows):
-    lines = ["time,body,x,y,z,vx,vy,vz,qw,qx,qy,qz,wx,wy,wz"] + [",".join(repr(float(c)) if k != 1 else str(c) for k, c in enumerate(row)) for row in rows]
+    lines = ["time,body,x,y,z,vx,vy,vz,qw,qx,qy,qz,wx,wy,wz"] + [
+        ",".join(repr(float(c)) if k != 1 else str(c) for k, c in enumerate(row)) for row in rows
+    ]
     (folder / "trajectory.csv").write_text("\n".join(lines) + "\n")
 
 
@@ -80,23 +97,41 @@ def write_h5md(folder, times, rows):
         file.create_group("h5md")
         for name, first, late in (("position", 2, 0.0), ("velocity", 5, 0.01)):
             group = file.create_group(f"particles/all/{name}")
-            group["value"] = [[row[first:first + 3]] for row in rows]
+            group["value"] = [[row[first : first + 3]] for row in rows]
             group["value"].attrs["unit"] = "m" if first == 2 else "m s-1"
             group["step"], group["time"] = range(len(times)), [t + late for t in times]
 
 
 def result(folder, job, **changes):
     scene = job["scene"]
-    bodies = [{"name": b["name"], "mass": b["mass"], "centre": b["centre"], "principal_inertia": b["principal_inertia"]} for b in scene["bodies"]]
-    answer = {"contract": 1, "status": "ok", "message": "", "time_reached": job["times"][-1], "steps": 1, "counters": {"pairs": 0, "iterations": 0},
-              "seconds": {"setup_wall": 0, "setup_cpu": 0, "stepping_wall": 0, "stepping_cpu": 0}, "state_hash": "",
-              "readback": {"gravity": scene["gravity"], "time_step": 0, "precision": "double", "bodies": bodies}, "divergence": None}
+    bodies = [
+        {"name": b["name"], "mass": b["mass"], "centre": b["centre"], "principal_inertia": b["principal_inertia"]}
+        for b in scene["bodies"]
+    ]
+    answer = {
+        "contract": 1,
+        "status": "ok",
+        "message": "",
+        "time_reached": job["times"][-1],
+        "steps": 1,
+        "counters": {"pairs": 0, "iterations": 0},
+        "seconds": {"setup_wall": 0, "setup_cpu": 0, "stepping_wall": 0, "stepping_cpu": 0},
+        "state_hash": "",
+        "readback": {"gravity": scene["gravity"], "time_step": 0, "precision": "double", "bodies": bodies},
+        "divergence": None,
+    }
     if WRONG == "holds another gravity":
         answer["readback"]["gravity"] = [1.01 * c for c in scene["gravity"]]
     if WRONG == "holds another mass":
         bodies[0]["mass"] *= 2.0
-    answer.update({"says OK": {"status": "OK"}, "speaks contract 2": {"contract": 2}, "ends at no time": {"time_reached": float("nan")},
-                   "says that it diverged": {"status": "diverged"}}.get(WRONG, {}))
+    answer.update(
+        {
+            "says OK": {"status": "OK"},
+            "speaks contract 2": {"contract": 2},
+            "ends at no time": {"time_reached": float("nan")},
+            "says that it diverged": {"status": "diverged"},
+        }.get(WRONG, {})
+    )
     answer.update(changes)
     (folder / "result.json").write_text("{" if WRONG == "torn result" else json.dumps(answer))
 
@@ -134,13 +169,15 @@ def spoil(rows, times):
     return rows
 
 
-def leave(folder):
-    """What a hostile engine puts in place of what it was asked for."""
-    trajectory, answer = folder / "trajectory.csv", folder / "result.json"
-    if WRONG in ("leaves a pipe as trajectory", "leaves a pipe as result"):
-        file = trajectory if WRONG.endswith("trajectory") else answer
-        file.unlink()
-        os.mkfifo(file)
+def pipe(file):
+    file.unlink()
+    os.mkfifo(file)
+
+
+def leave_trajectory(folder, trajectory):
+    """A hostile engine's trajectory in place of the one that it was asked for."""
+    if WRONG == "leaves a pipe as trajectory":
+        pipe(trajectory)
     if WRONG == "leaves an endless trajectory":
         trajectory.unlink()
         trajectory.symlink_to("/dev/zero")
@@ -149,8 +186,6 @@ def leave(folder):
     if WRONG == "leaves a trajectory that is broken within":
         trajectory.unlink()
         shutil.copy(Path(__file__).with_name("kills-hdf5.h5"), folder / "trajectory.h5")
-    if WRONG == "leaves a deep result":
-        answer.write_text(answer.read_text()[:-1] + ', "extra": ' + '{"a":' * 400000 + "1" + "}" * 400000 + "}")
     if WRONG == "names a column twice":
         trajectory.write_text(trajectory.read_text().replace(",wz", ",x"))
     if WRONG == "leaves half a line":
@@ -159,6 +194,23 @@ def leave(folder):
         os.truncate(folder / "trajectory.h5", (folder / "trajectory.h5").stat().st_size // 2)
     if WRONG == "numbers its particles past the last":
         trajectory.write_text("time,id,x,y,z,vx,vy,vz\n0,27,0,0,0,0,0,0\n")
+    if "link" in WRONG:
+        other = next(
+            path
+            for path in sorted(folder.parents[1].glob("*/*/trajectory.csv"))
+            if path.parent != folder.resolve() and "mine" not in path.parts
+        )
+        trajectory.unlink()
+        (os.link if WRONG.startswith("hard") else os.symlink)(other.resolve(), trajectory)
+
+
+def leave_result(folder, trajectory):
+    """A hostile engine's answer, and how it ends."""
+    answer = folder / "result.json"
+    if WRONG == "leaves a pipe as result":
+        pipe(answer)
+    if WRONG == "leaves a deep result":
+        answer.write_text(answer.read_text()[:-1] + ', "extra": ' + '{"a":' * 400000 + "1" + "}" * 400000 + "}")
     if WRONG == "leaves a folder as result":
         answer.unlink()
         answer.mkdir()
@@ -174,18 +226,8 @@ def leave(folder):
         shutil.rmtree(folder.parents[1])
 
 
-def run(path):
-    try:
-        job = json.loads(Path(path).read_text())
-        times, gravity = job["times"], job["scene"]["gravity"]
-    except (OSError, ValueError, KeyError):
-        sys.exit(2)
-    folder = Path(path).parent / job["output"]
-    if WRONG == "writes into the particles":
-        with (Path(path).parent / job["particles"]).open("ab") as particles:
-            particles.write(b"more")
-    if WRONG == "leaves no result":
-        return
+def misbehave(folder, job):
+    """What a hostile engine does in place of a run, or before it."""
     if WRONG == "dies at once":
         die()
     if WRONG == "hangs":
@@ -198,8 +240,6 @@ def run(path):
     if WRONG == "closes its streams":
         for stream in (0, 1, 2):
             os.close(stream)
-    if WRONG == "leaves a result alone":
-        return result(folder, job)
     if WRONG == "floods":
         for _ in range(2000):
             sys.stderr.write("an engine that will not be quiet\n" * 1000)
@@ -207,8 +247,26 @@ def run(path):
         sys.stderr.write("ERROR: Unrecognized fix style 'rigid' is part of the RIGID package (src/modify.cpp:899)\n")
         sys.exit(1)
     if WRONG == "diverges":
-        result(folder, job, status="diverged", message="blew up", time_reached=0.1, divergence={"particle": 3, "body": -1, "field": "velocity", "stage": "kick", "time": 0.1})
+        place = {"particle": 3, "body": -1, "field": "velocity", "stage": "kick", "time": 0.1}
+        result(folder, job, status="diverged", message="blew up", time_reached=0.1, divergence=place)
         sys.exit(7)
+
+
+def run(path):
+    try:
+        job = json.loads(Path(path).read_text())
+        times, gravity = job["times"], job["scene"]["gravity"]
+    except (OSError, ValueError, KeyError):
+        sys.exit(2)
+    folder = Path(path).parent / job["output"]
+    if WRONG == "writes into the particles":
+        with (Path(path).parent / job["particles"]).open("ab") as particles:
+            particles.write(b"more")
+    if WRONG == "leaves no result":
+        return
+    if WRONG == "leaves a result alone":
+        return result(folder, job)
+    misbehave(folder, job)
     g = [(1.01 if WRONG == "one per cent of gravity" else 1.0) * c for c in gravity]
     if WRONG == "knows which way is up":
         g[2] *= 1.01
@@ -219,12 +277,9 @@ def run(path):
     write(folder, spoil(rows, times))
     if WRONG in ("columns of other times", "leaves half of an H5MD file"):
         write_h5md(folder, times, rows)
-    if "link" in WRONG:
-        other = next(path for path in sorted(folder.parents[1].glob("*/*/trajectory.csv")) if path.parent != folder.resolve() and "mine" not in path.parts)
-        (folder / "trajectory.csv").unlink()
-        (os.link if WRONG.startswith("hard") else os.symlink)(other.resolve(), folder / "trajectory.csv")
     result(folder, job)
-    leave(folder)
+    leave_trajectory(folder, folder / "trajectory.csv")
+    leave_result(folder, folder / "trajectory.csv")
     if WRONG == "says ok and exits 3":
         sys.exit(3)
 

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Stands in for MuJoCo where it is not installed: free bodies without contact, by semi-implicit Euler, with a constant spin.
+"""Stands in for MuJoCo where it is not installed: free bodies without contact, by semi-implicit Euler, with a constant
+spin.
 
-It reads the same MJCF and has the same arrays, so that the adapter's own part is tested: what it says, and how it reads states back."""
+It reads the same MJCF and has the same arrays, so that the adapter's own part is tested: what it says, and how it reads
+states back."""
+
 import xml.etree.ElementTree as Xml
 from types import SimpleNamespace
 
@@ -17,7 +20,11 @@ class MjModel:
         option = root.find("option")
         bodies = root.findall("worldbody/body")
         model = MjModel()
-        model.opt = SimpleNamespace(timestep=float(option.get("timestep")), gravity=_numbers(option.get("gravity")), integrator=option.get("integrator"))
+        model.opt = SimpleNamespace(
+            timestep=float(option.get("timestep")),
+            gravity=_numbers(option.get("gravity")),
+            integrator=option.get("integrator"),
+        )
         model.body_mass = [0.0] + [float(b.find("inertial").get("mass")) for b in bodies]
         model.body_inertia = [[0.0, 0.0, 0.0]] + [_numbers(b.find("inertial").get("diaginertia")) for b in bodies]
         model.ngeom = len(root.findall(".//geom"))
@@ -43,8 +50,12 @@ class MjData:
 def _turn(q, w, dt):
     """q times exp(w dt / 2), to first order and normalised. w in the body frame."""
     a, (x, y, z) = q, [0.5 * dt * c for c in w]
-    q = [a[0] - a[1] * x - a[2] * y - a[3] * z, a[1] + a[0] * x + a[2] * z - a[3] * y,
-         a[2] + a[0] * y + a[3] * x - a[1] * z, a[3] + a[0] * z + a[1] * y - a[2] * x]
+    q = [
+        a[0] - a[1] * x - a[2] * y - a[3] * z,
+        a[1] + a[0] * x + a[2] * z - a[3] * y,
+        a[2] + a[0] * y + a[3] * x - a[1] * z,
+        a[3] + a[0] * z + a[1] * y - a[2] * x,
+    ]
     size = sum(c * c for c in q) ** 0.5
     return [c / size for c in q]
 
@@ -57,7 +68,7 @@ def mj_step(model, data, nstep=1):
             for axis in range(3):
                 data.qvel[v + axis] += dt * model.opt.gravity[axis]
                 data.qpos[x + axis] += dt * data.qvel[v + axis]
-            data.qpos[x + 3:x + 7] = _turn(data.qpos[x + 3:x + 7], data.qvel[v + 3:v + 6], dt)
+            data.qpos[x + 3 : x + 7] = _turn(data.qpos[x + 3 : x + 7], data.qvel[v + 3 : v + 6], dt)
         if max(map(abs, data.qvel)) > 1e10:  # MuJoCo, too, goes back to its reference state, at rest, and counts it
             data.qpos, data.qvel = list(model.start), [0.0] * len(data.qvel)
             data.warning[mjtWarning.mjWARN_BADQVEL].number += 1

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Python has the form and the limits of ruff.toml, and ruff sees what has not: ruff_test.py SOURCE."""
+
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+SOURCE = Path(sys.argv.pop(1)).resolve()
+RUFF = SOURCE / ".venv-lint/bin/ruff"
+
+BRANCHY = "def choose(x):\n" + "".join(f"    if x == {n}:\n        return {n}\n" for n in range(15)) + "    return x\n"
+PLANTED = {
+    "C901": BRANCHY,  # a complexity of 16
+    "E501": f"A = {'x' * 120!r}\n",
+    "F401": "import os\n",
+    "F841": "def f():\n    unused = 1\n",
+}
+
+
+def ruff(*words, text=None):
+    return subprocess.run([RUFF, *words], cwd=SOURCE, input=text, capture_output=True, text=True)
+
+
+class Tree(unittest.TestCase):
+    def test_every_file_has_its_form(self):
+        answer = ruff("format", "--check")
+        self.assertEqual(answer.returncode, 0, answer.stdout + ".venv-lint/bin/ruff format writes it\n")
+
+    def test_every_file_keeps_the_limits(self):
+        answer = ruff("check")
+        self.assertEqual(answer.returncode, 0, answer.stdout)
+
+
+class Planted(unittest.TestCase):
+    def test_each_fault_is_named(self):
+        for rule, text in PLANTED.items():
+            with self.subTest(rule):
+                answer = ruff("check", "--stdin-filename", "tools/planted.py", "-", text=text)
+                self.assertEqual(answer.returncode, 1)
+                self.assertIn(rule, answer.stdout)
+
+
+if __name__ == "__main__":
+    if not RUFF.exists():
+        print("no ruff: tools/setup.sh test installs it into .venv-lint")
+        sys.exit(77)
+    unittest.main()
