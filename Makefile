@@ -80,7 +80,6 @@ pages:  ## write what pages hold of the program: keys, metrics, fields, the comm
 	@build/bin/tripoint schema --page >build/case-file.md
 	@mv build/case-file.md docs/case-file.md
 	@/usr/bin/python3 -B tools/field_dictionary.py build/bin/tripoint --write docs/model.md
-	@/usr/bin/python3 -B tools/engine_tables.py build/bin/tripoint --write docs/engines.md
 	@/usr/bin/python3 -B tests/cli/pull_requests.py build/bin/tripoint --write docs/ci.md
 
 docs: pages  ## the same, then the guide: build/docs/index.html
