@@ -2,6 +2,7 @@
 #include "adapters/bullet/pieces.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "scene/geometry.hpp"
 #include "scene/mesh.hpp"
@@ -28,7 +29,32 @@ std::vector<Piece> mesh_pieces(const Shape& shape, const PlaceOfShape& place) {
   return {piece};
 }
 
+/// The cylinder, or the capsule around it; its own axis is z, of which either end is up.
+Piece rod(Piece::Kind kind, const Shape& shape, const PlaceOfShape& place) {
+  const Vec3 middle = shape.base + 0.5 * shape.length * shape.axis;
+  const Vec3 up = shape.axis.z < 0.0 ? -1.0 * shape.axis : shape.axis;
+  const Quaternion from_z = normalised({1.0 + up.z, -up.y, up.x, 0.0});
+  return {kind, rotate_back(place.axes, middle - place.centre), conjugate(place.axes) * from_z,
+          Vec3{shape.radius, shape.radius, 0.5 * shape.length}};
+}
+
+/// The cylinder of a union that is a capsule: balls of its radius lie at both ends of its axis.
+const Shape* capsule_in(const std::vector<Shape>& parts) {
+  const auto is_rod = [](const Shape& part) { return part.kind == Shape::Kind::cylinder && !is_turned(part); };
+  const auto found = std::ranges::find_if(parts, is_rod);
+  if (parts.size() != 3 || found == parts.end()) return nullptr;
+  const double size = 1e-9 * found->radius;
+  const Vec3 end = found->base + found->length * found->axis;
+  const auto has_ball = [&](const Vec3& at) {
+    return std::ranges::any_of(parts, [&](const Shape& ball) {
+      return ball.kind == Shape::Kind::sphere && std::abs(ball.radius - found->radius) <= size && norm(ball.centre - at) <= size;
+    });
+  };
+  return has_ball(found->base) && has_ball(end) ? &*found : nullptr;
+}
+
 std::vector<Piece> pieces_of_parts(const std::vector<Shape>& parts, const PlaceOfShape& place) {
+  if (const Shape* capsule = capsule_in(parts)) return {rod(Piece::Kind::capsule, *capsule, place)};
   std::vector<Piece> all;
   for (const Shape& part : parts) {
     const auto own = pieces_of(part, place);
@@ -56,6 +82,8 @@ std::vector<Piece> pieces_of(const Shape& shape, const PlaceOfShape& place) {
       return {{Piece::Kind::box, local(0.5 * (shape.min + shape.max)), conjugate(place.axes), 0.5 * (shape.max - shape.min)}};
     case Shape::Kind::sphere:
       return {{Piece::Kind::sphere, local(shape.centre), {}, Vec3{shape.radius, shape.radius, shape.radius}}};
+    case Shape::Kind::cylinder:
+      return {rod(Piece::Kind::cylinder, shape, place)};
     case Shape::Kind::unite:
       return pieces_of_parts(shape.of, place);
     case Shape::Kind::mesh:

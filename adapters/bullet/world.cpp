@@ -128,6 +128,12 @@ Solid build_shapes(const std::vector<Piece>& pieces) {
       case Piece::Kind::box:
         part = std::make_unique<btBoxShape>(bt(piece.half_extents));
         break;
+      case Piece::Kind::cylinder:
+        part = std::make_unique<btCylinderShapeZ>(bt(piece.half_extents));
+        break;
+      case Piece::Kind::capsule:
+        part = std::make_unique<btCapsuleShapeZ>(piece.half_extents.x, 2.0 * piece.half_extents.z);
+        break;
       case Piece::Kind::hull:
         part = hull_of(piece);
         break;

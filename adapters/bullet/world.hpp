@@ -15,11 +15,11 @@ namespace tripoint::bullet {
 
 /// One part of a body, in the body's principal frame.
 struct Piece {
-  enum class Kind { box, sphere, hull, surface } kind = Kind::box;
-  Vec3 centre;                                            ///< [m]
-  Quaternion rotation;                                    ///< of the part's axes
-  Vec3 half_extents;                                      ///< box [m]; a sphere's radius is half_extents.x
-  std::vector<Vec3> corners{};                            ///< hull, surface: about `centre`, in the part's axes [m]
+  enum class Kind { box, sphere, cylinder, capsule, hull, surface } kind = Kind::box;
+  Vec3 centre;                  ///< [m]
+  Quaternion rotation;          ///< of the part's axes
+  Vec3 half_extents;            ///< [m]; a radius is x; of a cylinder or capsule z is half its straight part, along its z axis
+  std::vector<Vec3> corners{};  ///< hull, surface: about `centre`, in the part's axes [m]
   std::vector<std::array<std::uint32_t, 3>> triangles{};  ///< surface: counter-clockwise seen from outside
 };
 

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""DART (BSD-2-Clause), its wheel in double precision: free joints with semi-implicit Euler, contacts by its default solver."""
+"""DART (BSD-2-Clause), its wheel in double precision: free joints with semi-implicit Euler, contacts by its default solver.
+
+Presets are its collision detectors: `default` is FCL, which makes a cylinder a coarse mesh and has no capsule; Bullet's has both."""
 from __future__ import annotations
 
 import math
@@ -9,7 +11,9 @@ from pathlib import Path
 from typing import Any
 
 from contract import Job, file_of, serve
-from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb, pieces_of, why_it_grows
+from pair_fit import by_least, stated_friction
+from rigid import (SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb, forces_on, pieces_of,
+                   why_it_grows)
 from rotation import IDENTITY, Quaternion, Vector, quaternion, rotate, vector
 
 
@@ -26,10 +30,15 @@ class DartWorld(World):
         self.dart, self.np = dart, np
         self.world = dart.simulation.World()
         self.world.setTimeStep(dt)
+        if job.preset != "default":
+            self.world.getConstraintSolver().setCollisionDetector(getattr(dart.collision, job.preset)())
         self.world.setGravity(np.array(job.scene["gravity"]))
         self.friction = coulomb(job)
         self.restitution = math.sqrt(bounciness(job))  # a pair's value is the product of both
+        self.mu = by_least(stated_friction(job, [body.material for body in bodies])) or {}
         self.nodes = {number: self.add(body) for number, body in enumerate(bodies)}
+        forces = [(self.nodes[number], forces_on(job, body)) for number, body in enumerate(bodies) if body.free]
+        self.pushed = [(node, np.array(force)) for node, force in forces if any(force)]
 
     def transform(self, at: Vector, turn: Quaternion) -> Any:
         whole = self.dart.math.Isometry3()
@@ -50,11 +59,11 @@ class DartWorld(World):
             joint, node = skeleton.createWeldJointAndBodyNodePair()
             joint.setTransformFromParentBodyNode(self.transform(body.centre, body.frame))
         for piece in body.pieces:
-            self.surface(node, piece)
+            self.surface(node, piece, body.material)
         self.world.addSkeleton(skeleton)
         return node
 
-    def surface(self, node: Any, piece: Piece) -> None:
+    def surface(self, node: Any, piece: Piece, material: str) -> None:
         np, dynamics = self.np, self.dart.dynamics
         if piece.kind == "box":
             shape = dynamics.BoxShape(np.array([2.0 * half for half in piece.size]))
@@ -68,12 +77,14 @@ class DartWorld(World):
         held.createCollisionAspect()
         held.createDynamicsAspect()
         aspect = held.getDynamicsAspect()
-        aspect.setFrictionCoeff(self.friction)
+        aspect.setFrictionCoeff(self.mu.get(material, self.friction))
         aspect.setRestitutionCoeff(self.restitution)
 
     def step(self, dt: float, count: int) -> None:
         self.world.setTimeStep(dt)
         for _ in range(count):
+            for node, force in self.pushed:  # DART forgets forces after each step
+                node.addExtForce(force, self.np.zeros(3), False, True)
             self.world.step()
 
     def state(self, number: int) -> State:
@@ -93,8 +104,8 @@ class DartWorld(World):
 
 class Dart(RigidEngine):
     name, title = "dart", "DART"
-    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact")
-    presets = ("default",)
+    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact", "contact-pairs", "force")
+    presets = ("BulletCollisionDetector", "default")
     settings = SHARED_SETTINGS
     default_step = 0.001  # DART's own
 
@@ -108,9 +119,18 @@ class Dart(RigidEngine):
         grows = why_it_grows(job, self.default_step)
         if grows:
             return "DART " + grows
+        if by_least(stated_friction(job, [body["material"] for body in job.bodies])) is None:
+            return "DART takes the smaller friction of two surfaces, and no numbers of the materials give what is stated of their pairs"
+        if len({bounciness(job)} | {law["restitution"] or 0.0 for law in job.scene.get("contacts", ())}) > 1:
+            return "one restitution is handed to all pairs of DART, and the scene states several"
         for body in job.bodies:
-            if any(piece.kind == "plane" for piece in pieces_of(body["shape"], (0.0, 0.0, 0.0), IDENTITY) or ()):
+            kinds = {piece.kind for piece in pieces_of(body["shape"], (0.0, 0.0, 0.0), IDENTITY) or () if len(job.bodies) > 1}
+            if "plane" in kinds:
                 return f"half spaces are not handed to DART, and {body['name']} has one"
+            if "hull" in kinds:
+                return f"DART's wheel has no shape that is made of corners, and {body['name']} is a mesh"
+            if job.preset == "default" and "capsule" in kinds:
+                return f"DART's default detector knows no capsule, and {body['name']} is one; its BulletCollisionDetector does"
         return ""
 
     def open(self, job: Job, bodies: list[Body], dt: float) -> World:

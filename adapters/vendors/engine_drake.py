@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from contract import Job, serve
-from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb, why_it_grows
+from pair_fit import by_harmonic_mean, stated_friction
+from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb, forces_on, why_it_grows
 from rotation import IDENTITY, Quaternion, Vector, add, product, quaternion, rotate, vector
 
 APPROXIMATIONS = ("tamsi", "sap", "similar", "lagged")  # discrete_contact_approximation, in Drake's words
@@ -27,7 +28,8 @@ SURFACE_SETTINGS = {  # members of DefaultProximityProperties
 
 
 def shape_of(piece: Piece) -> Any:
-    from pydrake.geometry import Box, Capsule, Cylinder, HalfSpace, Sphere
+    import numpy as np
+    from pydrake.geometry import Box, Capsule, Convex, Cylinder, HalfSpace, Sphere
 
     if piece.kind == "plane":
         return HalfSpace()
@@ -35,12 +37,15 @@ def shape_of(piece: Piece) -> Any:
         return Box(*(2.0 * half for half in piece.size))
     if piece.kind == "sphere":
         return Sphere(piece.size[0])
+    if piece.kind == "hull":
+        return Convex(np.array(piece.corners).T, "hull")
     return (Cylinder if piece.kind == "cylinder" else Capsule)(piece.size[0], 2.0 * piece.size[2])
 
 
 class DrakeWorld(World):
     def __init__(self, job: Job, bodies: list[Body], dt: float) -> None:
         self.job, self.bodies = job, bodies
+        self.mu = by_harmonic_mean(stated_friction(job, [body.material for body in bodies])) or {}
         self.free = [number for number, body in enumerate(bodies) if body.free]
         self.build(dt, {number: State(bodies[number].centre, bodies[number].velocity, bodies[number].frame, bodies[number].spin) for number in self.free})
 
@@ -68,18 +73,33 @@ class DrakeWorld(World):
         self.rigid = {number: self.add(number) for number in self.free}
         for body in self.bodies:
             for piece in () if body.free else body.pieces:
-                self.surface(self.plant.world_body(), piece, body.centre, body.frame)
+                self.surface(self.plant.world_body(), piece, body.centre, body.frame, body.material)
         self.plant.Finalize()
         self.simulator = Simulator(builder.Build())
         self.context = self.plant.GetMyMutableContextFromRoot(self.simulator.get_mutable_context())
         for number, state in states.items():
             self.plant.SetFreeBodyPose(self.context, self.rigid[number], self.pose(state.centre, state.orientation, RigidTransform))
             self.plant.SetFreeBodySpatialVelocity(self.context, self.rigid[number], SpatialVelocity(list(state.spin), list(state.velocity)))
+        self.push()
         if not discrete:
             config = SimulatorConfig()
             config.integration_scheme, config.max_step_size, config.use_error_control = self.job.preset, dt, False
             ApplySimulatorConfig(config, self.simulator)
         self.simulator.Initialize()
+
+    def push(self) -> None:
+        """Hands the plant its constant forces, at centres of mass."""
+        from pydrake.multibody.math import SpatialForce
+        from pydrake.multibody.plant import ExternallyAppliedSpatialForce
+
+        forces = []
+        for number in self.free:
+            if any(value := forces_on(self.job, self.bodies[number])):
+                force = ExternallyAppliedSpatialForce()
+                force.body_index, force.F_Bq_W = self.rigid[number].index(), SpatialForce([0.0, 0.0, 0.0], list(value))
+                forces.append(force)
+        if forces:
+            self.plant.get_applied_spatial_force_input_port().FixValue(self.context, forces)
 
     @staticmethod
     def pose(at: Vector, turn: Quaternion, transform: Any) -> Any:
@@ -95,16 +115,16 @@ class DrakeWorld(World):
         unit = [moment / body.mass for moment in body.inertia]
         rigid = self.plant.AddRigidBody(f"body{number}", SpatialInertia(body.mass, [0.0, 0.0, 0.0], UnitInertia(*unit)))
         for piece in body.pieces:
-            self.surface(rigid, piece, (0.0, 0.0, 0.0), IDENTITY)
+            self.surface(rigid, piece, (0.0, 0.0, 0.0), IDENTITY, body.material)
         return rigid
 
-    def surface(self, rigid: Any, piece: Piece, at: Vector, turn: Quaternion) -> None:
+    def surface(self, rigid: Any, piece: Piece, at: Vector, turn: Quaternion, material: str) -> None:
         from pydrake.geometry import AddContactMaterial, ProximityProperties
         from pydrake.math import RigidTransform
         from pydrake.multibody.plant import CoulombFriction
 
         place = self.pose(add(at, rotate(turn, piece.centre)), product(turn, piece.rotation), RigidTransform)
-        mu = coulomb(self.job)
+        mu = self.mu.get(material, coulomb(self.job))
         self.count = getattr(self, "count", 0) + 1
         properties = ProximityProperties()
         AddContactMaterial(friction=CoulombFriction(mu, mu), properties=properties)
@@ -144,7 +164,7 @@ class DrakeWorld(World):
 
 class Drake(RigidEngine):
     name, title = "drake", "Drake"
-    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact")
+    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact", "contact-pairs", "force")
     presets = (*DISCRETE, "runge_kutta2", "runge_kutta3", "semi_explicit_euler")
     preset_words = {
         "hydroelastic": '"The contact force between two deformed bodies is distributed over a contact patch" '
@@ -170,7 +190,9 @@ class Drake(RigidEngine):
         grows = why_it_grows(job, self.default_step) if job.preset in (*DISCRETE, "semi_explicit_euler") else ""
         if grows:
             return f"Drake's {job.preset} " + grows
-        bounce = bounciness(job)
+        if by_harmonic_mean(stated_friction(job, [body["material"] for body in job.bodies])) is None:
+            return "Drake combines the friction of two surfaces as 2ab/(a + b), and no numbers of the materials give what is stated of their pairs"
+        bounce = max([bounciness(job), *(law["restitution"] or 0.0 for law in job.scene.get("contacts", ()))])
         if bounce > 0.0:
             return f"Drake's contact has no coefficient of restitution, and {bounce:g} is asked for"
         if job.preset not in DISCRETE and len(job.bodies) > 1:

@@ -13,7 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from contract import Job, serve
-from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb, upright
+from rigid import (SHARED_SETTINGS, Body, Held, PairLaws, Piece, RigidEngine, State, World, bounciness, coulomb, forces_on, moves,
+                   upright)
 from rotation import Vector, dot, quaternion, rotate, vector
 
 WORLD_SETTINGS = {  # members of PhysicsSettings, in Jolt's words
@@ -29,8 +30,8 @@ def piece_words(piece: Piece) -> dict[str, Any]:
     return upright(piece)._asdict()
 
 
-def body_words(body: Body) -> dict[str, Any]:
-    return {"free": body.free, "mass": body.mass, "inertia": body.inertia, "centre": body.centre, "frame": body.frame,
+def body_words(job: Job, body: Body) -> dict[str, Any]:
+    return {"free": body.free, "moves": moves(body), "material": body.material, "force": forces_on(job, body), "mass": body.mass, "inertia": body.inertia, "centre": body.centre, "frame": body.frame,
             "velocity": body.velocity, "spin": body.spin, "pieces": [piece_words(piece) for piece in body.pieces]}
 
 
@@ -41,7 +42,8 @@ class JoltWorld(World):
         program = str(Path(__file__).resolve().parent / "jolt_world.mjs")
         self.node = subprocess.Popen(["node", program, str(package)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         scene = {"gravity": job.scene["gravity"], "gyroscopic": job.preset != "default", "friction": coulomb(job),
-                 "restitution": bounciness(job), "rounded": float(job.settings.get("mConvexRadius", 0.05)), "bodies": [body_words(body) for body in bodies],
+                 "restitution": bounciness(job), "rounded": float(job.settings.get("mConvexRadius", 0.05)), "bodies": [body_words(job, body) for body in bodies],
+                 "laws": PairLaws(job).pairs([body.material for body in bodies]),
                  "settings": {key: job.settings[key] for key in WORLD_SETTINGS if key in job.settings}}
         self.opened = self.ask({"open": scene})
         self.states = self.opened["states"]
@@ -84,7 +86,7 @@ class JoltWorld(World):
 
 class Jolt(RigidEngine):
     name, title = "jolt", "Jolt"
-    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact")
+    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact", "contact-pairs", "force")
     presets = ("many-iterations", "default", "mApplyGyroscopicForce")
     preset_settings = {"many-iterations": {"mNumVelocitySteps": 50, "mNumPositionSteps": 10, "mPenetrationSlop": 0.001,
                                            "mMinVelocityForRestitution": 0.01, "mConvexRadius": 0.0}}
@@ -93,6 +95,8 @@ class Jolt(RigidEngine):
                                              'effect...)" (Jolt, Physics/Body/BodyCreationSettings.h)'}
     settings = SHARED_SETTINGS | WORLD_SETTINGS | {"mConvexRadius": "by which edges and corners of boxes are rounded, Jolt's default 0.05 [m]; at most half the thinnest"}
     precision = "single"
+    moves_bodies = True
+    dented_meshes = ("fixed", "prescribed")
     default_step = 1.0 / 60.0  # of Jolt's own example
 
     def version(self) -> str:

@@ -28,8 +28,17 @@ def geom_text(name: str, piece: Piece, at: Vector, turn: Quaternion, contact: st
     place = f'name="{name}" pos="{words(add(at, rotate(turn, piece.centre)))}" quat="{words(product(turn, piece.rotation))}"'
     if piece.kind == "plane":
         return f'<geom type="plane" size="0 0 1" {place} {contact}/>'  # a size of 0 is infinite
+    if piece.kind == "hull":
+        return f'<geom type="mesh" mesh="{name}" {place} mass="0" {contact}/>'
     size = words({"box": piece.size, "sphere": piece.size[:1]}.get(piece.kind, piece.size[1:]))  # of a rod radius and half length
     return f'<geom type="{piece.kind}" size="{size}" {place} mass="0" {contact}/>'
+
+
+def meshes_text(bodies: list[Body]) -> str:
+    """MuJoCo makes the hull of the corners, and moves what it takes for the mesh's centre back when it places a geom."""
+    text = [f'<mesh name="{number}.{k}" vertex="{" ".join(map(words, piece.corners))}"/>'
+            for number, body in enumerate(bodies) for k, piece in enumerate(body.pieces) if piece.kind == "hull"]
+    return f"<asset>{''.join(text)}</asset>" if text else ""
 
 
 def integrator_of(job: Job) -> str:
@@ -64,7 +73,7 @@ def model_text(job: Job, bodies: list[Body], dt: float) -> str:
     contact = contact_text(job, dt)
     gravity = words(vector(job.scene["gravity"]))
     text = [f'<mujoco><compiler boundmass="0" boundinertia="0" balanceinertia="false"/>'
-            f'<option timestep="{dt!r}" integrator="{integrator_of(job)}" gravity="{gravity}" cone="elliptic"/><worldbody>']
+            f'<option timestep="{dt!r}" integrator="{integrator_of(job)}" gravity="{gravity}" cone="elliptic"/>{meshes_text(bodies)}<worldbody>']
     for number, body in enumerate(bodies):
         names = [(f"{number}.{k}", piece) for k, piece in enumerate(body.pieces)]
         if not body.free:

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import os
 import sys
-from ctypes import byref, sizeof
+from ctypes import byref, c_double, c_int, sizeof
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +15,7 @@ from ode_library import APPROX_1, BOUNCE, Contact, Mass, Near, load, reals
 from rigid import SHARED_SETTINGS, Body, Held, PairLaws, Piece, RigidEngine, State, World, bounciness, coulomb, forces_on, moves
 from rotation import Vector, add, dot, product, quaternion, rotate, vector
 
-MOST_CONTACTS = 8  # of a pair of surfaces
+MOST_CONTACTS = 64  # of a pair of surfaces; a box meets a box in 8 at most
 
 
 def plane_of(body: Body, piece: Piece) -> tuple[Vector, float]:
@@ -42,6 +42,7 @@ class OdeWorld(World):
         self.bounce_vel = float(job.settings.get("bounce_vel", 0.0))
         self.laws = PairLaws(job)
         self.materials: dict[int, str] = {}  # geom -> material
+        self.meshes: list[Any] = []  # corners and triangles that ODE reads, and does not copy
         self.touched = 0
         self.found = (Contact * MOST_CONTACTS)()
         self.near = Near(self.meet)
@@ -102,11 +103,21 @@ class OdeWorld(World):
             made = self.ode.dCreateBox(self.space, *(2.0 * half for half in piece.size))
         elif piece.kind == "sphere":
             made = self.ode.dCreateSphere(self.space, piece.size[0])
+        elif piece.kind in ("hull", "surface"):
+            made = self.mesh(piece)
         else:
             rod = self.ode.dCreateCylinder if piece.kind == "cylinder" else self.ode.dCreateCapsule
             made = rod(self.space, piece.size[0], 2.0 * piece.size[2])
         self.materials[made] = body.material
         return made
+
+    def mesh(self, piece: Piece) -> Any:
+        corners = (c_double * (3 * len(piece.corners)))(*(c for corner in piece.corners for c in corner))
+        faces = (c_int * (3 * len(piece.faces)))(*(k for face in piece.faces for k in face))
+        self.meshes += [corners, faces]
+        data = self.ode.dGeomTriMeshDataCreate()
+        self.ode.dGeomTriMeshDataBuildDouble(data, corners, 24, len(piece.corners), faces, len(faces), 12)
+        return self.ode.dCreateTriMesh(self.space, data, None, None, None)
 
     def meet(self, _: Any, first: Any, second: Any) -> None:
         """Makes a contact joint for each point where two surfaces touch; two fixed ones, or two of one body, do not."""
@@ -168,6 +179,7 @@ class Ode(RigidEngine):
         "cfm": "constraint force mixing, ODE's default 1e-10",
         "iterations": "of dWorldQuickStep, ODE's default 20"}
     moves_bodies = True
+    dented_meshes = ("fixed", "free", "prescribed")
     default_step = 1.0 / 240.0  # ours: ODE has none
 
     def version(self) -> str:

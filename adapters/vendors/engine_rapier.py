@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from contract import Job, file_of, serve
-from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb, upright
+from rigid import (SHARED_SETTINGS, Body, Held, PairLaws, Piece, RigidEngine, State, World, bounciness, coulomb, forces_on, moves,
+                   upright)
 from rotation import Quaternion, Vector, norm, rotate, vector
 
 WORLD_SETTINGS = {  # attributes of IntegrationParameters, in Rapier's words, with what they are
@@ -51,6 +52,17 @@ def friction_model(job: Job) -> str:
     return "COULOMB" if job.preset == "COULOMB" else "SIMPLIFIED"
 
 
+class MaterialHooks:
+    """Hands each contact the friction and restitution of its pair of materials."""
+
+    def __init__(self, laws: PairLaws, materials: dict[int, str]) -> None:
+        self.laws, self.materials = laws, materials  # user data of a collider -> material
+
+    def modify_solver_contacts(self, context: Any) -> None:
+        one, other = (self.materials[context.colliders[handle].user_data] for handle in (context.collider1, context.collider2))
+        context.friction, context.restitution = self.laws.of(one, other)
+
+
 class RapierWorld(World):
     def __init__(self, rapier: Any, job: Job, bodies: list[Body], dt: float) -> None:
         self.rapier = rapier
@@ -65,31 +77,42 @@ class RapierWorld(World):
         self.friction = coulomb(job)
         self.restitution = bounciness(job)
         self.gyroscopic = bool(job.settings.get("gyroscopic_forces", True))
-        self.handles = {number: self.add(body) for number, body in enumerate(bodies)}
+        laws = PairLaws(job)
+        self.hooked = bool(laws.stated)
+        if self.hooked:
+            self.world.physics_hooks = MaterialHooks(laws, {number: body.material for number, body in enumerate(bodies)})
+        self.job = job
+        self.handles = {number: self.add(number, body) for number, body in enumerate(bodies)}
 
     def isometry(self, at: Vector, turn: Quaternion) -> Any:
         return self.rapier.Isometry3(at, self.rapier.Rotation3.from_quaternion(*turn))
 
-    def add(self, body: Body) -> Any:
-        make = self.rapier.RigidBody.dynamic if body.free else self.rapier.RigidBody.fixed
+    def add(self, number: int, body: Body) -> Any:
+        kinds = self.rapier.RigidBody
+        make = kinds.dynamic if body.free else kinds.kinematic_velocity_based if moves(body) else kinds.fixed
         builder = make().position(self.isometry(body.centre, body.frame)).can_sleep(False)
         if body.free:
             # The colliders have no density: the mass is the job's alone.
             mass = self.rapier.MassProperties((0.0, 0.0, 0.0), body.mass, body.inertia)
             builder = builder.linvel(body.velocity).angvel(body.spin).additional_mass_properties(mass)
             builder = builder.gyroscopic_forces(self.gyroscopic)
-        handle = self.world.add_body(builder, [self.collider(piece) for piece in body.pieces])
+        if moves(body):
+            builder = builder.linvel(body.velocity)
+        handle = self.world.add_body(builder, [self.collider(piece, number) for piece in body.pieces])
         # Else the mass would be 0 until the first step, and could not be read back.
         self.world.rigid_bodies[handle].recompute_mass_properties_from_colliders(self.world.colliders)
+        if body.free and any(force := forces_on(self.job, body)):
+            self.world.rigid_bodies[handle].add_force(force)  # Rapier keeps it
         return handle
 
-    def collider(self, piece: Piece) -> Any:
+    def collider(self, piece: Piece, number: int) -> Any:
         if piece.kind == "plane":
             shape = self.rapier.Collider.halfspace(rotate(piece.rotation, (0.0, 0.0, 1.0)))
             shape = shape.position(self.isometry(piece.centre, (1.0, 0.0, 0.0, 0.0)))
         else:
             shape = self.shape(piece).position(self.isometry(piece.centre, upright(piece).rotation))
-        return shape.density(0.0).friction(self.friction).restitution(self.restitution)
+        shape = shape.density(0.0).friction(self.friction).restitution(self.restitution)
+        return shape.user_data(number).active_hooks(self.rapier.ActiveHooks.MODIFY_SOLVER_CONTACTS) if self.hooked else shape
 
     def shape(self, piece: Piece) -> Any:
         collider = self.rapier.Collider
@@ -97,6 +120,10 @@ class RapierWorld(World):
             return collider.cuboid(*piece.size)
         if piece.kind == "sphere":
             return collider.ball(piece.size[0])
+        if piece.kind == "hull":
+            return collider.convex_hull(piece.corners)
+        if piece.kind == "surface":
+            return collider.trimesh(piece.corners, piece.faces)
         return (collider.cylinder if piece.kind == "cylinder" else collider.capsule_y)(piece.size[2], piece.size[0])
 
     def step(self, dt: float, count: int) -> None:
@@ -120,7 +147,7 @@ class RapierWorld(World):
 
 class Rapier(RigidEngine):
     name, title = "rapier", "Rapier"
-    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact")
+    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact", "contact-pairs", "force")
     presets = ("stiff-contact", "SIMPLIFIED", "COULOMB")
     preset_settings = {"stiff-contact": {"contact_natural_frequency": 1000.0, "static_contact_natural_frequency": 1000.0}}
     preset_words = {"stiff-contact": '"Higher values make the constraint stiffer and resolve constraint violations more quickly" '
@@ -129,6 +156,8 @@ class Rapier(RigidEngine):
                     "COULOMB": '"one Coulomb friction constraint per contact point" (Rapier, dynamics/integration_parameters.rs)'}
     settings = SHARED_SETTINGS | WORLD_SETTINGS | {"gyroscopic_forces": "true (Rapier's default) or false"}
     precision = "single"
+    moves_bodies = True
+    dented_meshes = ("fixed", "prescribed")
     default_step = 1.0 / 60.0  # Rapier's own
 
     def version(self) -> str:

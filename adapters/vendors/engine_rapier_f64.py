@@ -13,12 +13,14 @@ from typing import Any
 
 from contract import Job, serve
 from engine_rapier import WORLD_SETTINGS, Rapier, friction_model
-from rigid import Body, Held, State, World, bounciness, coulomb, upright
+from rigid import Body, Held, PairLaws, State, World, bounciness, coulomb, forces_on, moves, upright
 from rotation import Vector, quaternion, vector
 
+PROTOCOL = 2  # of rapier_f64/src/main.rs
 
-def body_words(body: Body) -> dict[str, Any]:
-    return {"free": body.free, "mass": body.mass, "inertia": body.inertia, "centre": body.centre, "frame": body.frame,
+
+def body_words(job: Job, body: Body) -> dict[str, Any]:
+    return {"free": body.free, "moves": moves(body), "material": body.material, "force": forces_on(job, body), "mass": body.mass, "inertia": body.inertia, "centre": body.centre, "frame": body.frame,
             "velocity": body.velocity, "spin": body.spin, "pieces": [upright(piece)._asdict() for piece in body.pieces]}
 
 
@@ -28,9 +30,12 @@ class DoubleWorld(World):
     def __init__(self, program: Path, job: Job, bodies: list[Body], dt: float) -> None:
         self.process = subprocess.Popen([str(program)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         scene = {"gravity": job.scene["gravity"], "dt": dt, "preset": friction_model(job), "friction": coulomb(job), "restitution": bounciness(job),
-                 "gyroscopic": bool(job.settings.get("gyroscopic_forces", True)), "bodies": [body_words(body) for body in bodies],
+                 "gyroscopic": bool(job.settings.get("gyroscopic_forces", True)), "bodies": [body_words(job, body) for body in bodies],
+                 "laws": PairLaws(job).pairs([body.material for body in bodies]),
                  "settings": {key: job.settings[key] for key in WORLD_SETTINGS if key in job.settings}}
         self.opened = self.ask({"open": scene})
+        if self.opened.get("protocol") != PROTOCOL:
+            raise RuntimeError("rapier_world was built of other sources: run `tripoint engine install rapier-f64` again")
         self.states = self.opened["states"]
         free = [number for number, body in enumerate(bodies) if body.free]
         self.rows = {number: row for row, number in enumerate(free)}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Jolt Physics on node: a world that engine_jolt.py drives. One JSON document a line on stdin, one answer a line on stdout.
-//   {"open": {gravity, gyroscopic, friction, restitution, rounded, settings, bodies}} -> {gravity, bodies: [{mass, inertia, ...}]}
+//   {"open": {gravity, gyroscopic, friction, restitution, laws, rounded, settings, bodies}} -> {gravity, bodies: [{mass, inertia, ...}]}
 //   {"step": [dt, count]}                                                    -> [[x, y, z, vx, vy, vz, qw, qx, qy, qz, wx, wy, wz], ...]
 // SI units; bodies are in their principal frames. Only free bodies are answered for, in the order of `bodies`.
 import { createInterface } from 'node:readline';
@@ -35,9 +35,25 @@ function openWorld(settings) {
   return world;
 }
 
+function hullSettings(piece, rounded) {
+  const hull = new J.ConvexHullShapeSettings();
+  for (const corner of piece.corners) hull.mPoints.push_back(vec(corner));
+  hull.mMaxConvexRadius = rounded;
+  return hull;
+}
+
+function surfaceSettings(piece) {
+  const corners = new J.VertexList(), faces = new J.IndexedTriangleList();
+  for (const corner of piece.corners) corners.push_back(new J.Float3(...corner));
+  for (const face of piece.faces) faces.push_back(new J.IndexedTriangle(...face, 0));
+  return new J.MeshShapeSettings(corners, faces, new J.PhysicsMaterialList());
+}
+
 function pieceSettings(piece, rounded) {
   if (piece.kind === 'sphere') return new J.SphereShapeSettings(piece.size[0]);
   if (piece.kind === 'plane') return new J.PlaneShapeSettings(new J.Plane(vec(piece.normal), piece.constant), null, 1000.0);
+  if (piece.kind === 'hull') return hullSettings(piece, rounded);
+  if (piece.kind === 'surface') return surfaceSettings(piece);
   const [radius, , half] = piece.size;
   if (piece.kind === 'capsule') return new J.CapsuleShapeSettings(half, radius);
   if (piece.kind === 'cylinder') return new J.CylinderShapeSettings(half, radius, Math.min(rounded, 0.5 * half, 0.5 * radius));
@@ -67,7 +83,7 @@ function shapeOf(pieces, rounded) {
 }
 
 function addBody(interface_, given, scene) {
-  const motion = given.free ? J.EMotionType_Dynamic : J.EMotionType_Static;
+  const motion = given.free ? J.EMotionType_Dynamic : given.moves ? J.EMotionType_Kinematic : J.EMotionType_Static;
   const c = new J.BodyCreationSettings(shapeOf(given.pieces, scene.rounded), new J.RVec3(...given.centre), quat(given.frame), motion, given.free ? FREE : FIXED);
   c.mLinearDamping = 0; // Jolt's default is 0.05, which no scene asks for
   c.mAngularDamping = 0;
@@ -84,7 +100,7 @@ function addBody(interface_, given, scene) {
     held.SetInverseInertia(vec(given.inertia.map((i) => 1 / i)), quat([1, 0, 0, 0]));
   }
   interface_.AddBody(body.GetID(), J.EActivation_Activate);
-  if (given.free) {
+  if (given.free || given.moves) {
     interface_.SetLinearVelocity(body.GetID(), vec(given.velocity));
     interface_.SetAngularVelocity(body.GetID(), vec(given.spin));
   }
@@ -102,18 +118,43 @@ function stateOf(body) {
   return [...xyz(body.GetCenterOfMassPosition()), ...xyz(body.GetLinearVelocity()), q.GetW(), q.GetX(), q.GetY(), q.GetZ(), ...xyz(body.GetAngularVelocity())];
 }
 
-let world = null, free = [];
+/// Hands each contact the friction and restitution of its pair of materials; Jolt's own rule combines two values.
+function listen(system, laws, bodies, scene) {
+  if (laws.length === 0) return;
+  const materials = new Map(bodies.map((body, k) => [body.GetID().GetIndexAndSequenceNumber(), scene.bodies[k].material]));
+  const named = new Map(laws.flatMap(([a, b, friction, restitution]) => [[`${a}/${b}`, [friction, restitution]], [`${b}/${a}`, [friction, restitution]]]));
+  const meet = (one, other, _, settings) => {
+    const material = (pointer) => materials.get(J.wrapPointer(pointer, J.Body).GetID().GetIndexAndSequenceNumber());
+    const law = named.get(`${material(one)}/${material(other)}`);
+    if (!law) return;
+    const held = J.wrapPointer(settings, J.ContactSettings);
+    [held.mCombinedFriction, held.mCombinedRestitution] = law;
+  };
+  const listener = new J.ContactListenerJS();
+  listener.OnContactValidate = () => J.ValidateResult_AcceptAllContactsForThisBodyPair;
+  listener.OnContactAdded = meet;
+  listener.OnContactPersisted = meet;
+  listener.OnContactRemoved = () => {};
+  system.SetContactListener(listener);
+}
+
+let world = null, free = [], pushed = [];
 const calls = {
   open(scene) {
     world = openWorld(scene.settings);
     const system = world.GetPhysicsSystem();
     system.SetGravity(vec(scene.gravity));
     const bodies = scene.bodies.map((given) => addBody(system.GetBodyInterface(), given, scene));
+    listen(system, scene.laws, bodies, scene);
     free = bodies.filter((_, k) => scene.bodies[k].free);
+    pushed = bodies.map((body, k) => [body, scene.bodies[k].force]).filter(([, force]) => Math.hypot(...force) > 0).map(([body, force]) => [body, vec(force)]);
     return { gravity: xyz(system.GetGravity()), bodies: free.map(heldBy), states: free.map(stateOf) };
   },
   step([dt, count]) {
-    for (let k = 0; k < count; ++k) world.Step(dt, 1);
+    for (let k = 0; k < count; ++k) {
+      for (const [body, force] of pushed) body.AddForce(force); // Jolt forgets forces after each step
+      world.Step(dt, 1);
+    }
     return free.map(stateOf);
   },
 };

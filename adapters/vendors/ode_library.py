@@ -48,6 +48,7 @@ _FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {  # name -> result, argume
     "dBodyGetLinearDamping": (_D, (_V,)), "dBodyGetAngularDamping": (_D, (_V,)),
     "dCreateBox": (_V, (_V, _D, _D, _D)), "dCreateSphere": (_V, (_V, _D)), "dCreateCylinder": (_V, (_V, _D, _D)),
     "dCreateCapsule": (_V, (_V, _D, _D)), "dCreatePlane": (_V, (_V, _D, _D, _D, _D)),
+    "dGeomTriMeshDataCreate": (_V, ()), "dGeomTriMeshDataBuildDouble": (None, (_V, _V, _I, _I, _V, _I, _I)), "dCreateTriMesh": (_V, (_V,) * 5),
     "dGeomSetBody": (None, (_V, _V)), "dGeomGetBody": (_V, (_V,)), "dGeomSetPosition": (None, (_V, _D, _D, _D)),
     "dGeomSetQuaternion": (None, (_V, _R)), "dGeomSetOffsetPosition": (None, (_V, _D, _D, _D)), "dGeomSetOffsetQuaternion": (None, (_V, _R)),
     "dCollide": (_I, (_V, _V, _I, _V, _I))}

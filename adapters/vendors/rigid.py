@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from contract import BODY_COLUMNS, Diverged, Engine, Job, Outcome, Row, write_trajectory
+from mesh import Face, is_convex, read_mesh
 from rotation import (IDENTITY, Quaternion, Vector, add, between, conjugate, norm, normalised, product, quaternion, rotate_back, scaled,
                       subtract, vector)
 
@@ -23,10 +24,12 @@ LARGEST = 1e30  # m, m/s or rad/s: what is beyond has diverged, though it still 
 class Piece(NamedTuple):
     """A part of a body's surface, in its principal frame."""
 
-    kind: str  # box | sphere | plane | cylinder | capsule
+    kind: str  # box | sphere | plane | cylinder | capsule | hull: convex | surface: triangles of any shape
     centre: Vector  # from the body's centre of mass [m]
     rotation: Quaternion  # piece to principal frame; a plane's outward normal and the axis of a cylinder or capsule are its z axis
     size: Vector  # half lengths of a box; radius of a sphere in x; radius of a cylinder or capsule in x, half its straight part in z [m]
+    corners: tuple[Vector, ...] = ()  # of a hull or surface, from `centre` in the piece's axes [m]
+    faces: tuple[Face, ...] = ()  # their triangles, counter-clockwise seen from outside
 
 
 def upright(piece: Piece) -> Piece:
@@ -115,7 +118,7 @@ def _capsule(parts: list[dict[str, Any]]) -> dict[str, Any] | None:
 
 
 def pieces_of(shape: dict[str, Any], centre: Vector, frame: Quaternion) -> tuple[Piece, ...] | None:
-    """@return None for a shape that no pieces are made of: a difference or a mesh"""
+    """@return None for a shape that no pieces are made of, as a difference"""
     if "rotation" in shape:  # the body's centre and axes as they are before the shape is turned
         turn, middle = quaternion(shape["rotation"]), vector(shape["rotation_centre"])
         centre, frame = add(middle, rotate_back(turn, subtract(centre, middle))), product(conjugate(turn), frame)
@@ -136,6 +139,10 @@ def pieces_of(shape: dict[str, Any], centre: Vector, frame: Quaternion) -> tuple
         axis, half = vector(shape["axis"]), 0.5 * float(shape["length"])
         turn = product(conjugate(frame), between((0.0, 0.0, 1.0), axis))
         return (Piece(kind, local(add(vector(shape["base"]), scaled(half, axis))), turn, (float(shape["radius"]),) * 2 + (half,)),)
+    if kind == "mesh":
+        mesh = read_mesh(shape["file"], float(shape["scale"]))
+        corners = tuple(local(corner) for corner in mesh.corners)
+        return (Piece("hull" if is_convex(mesh) else "surface", (0.0, 0.0, 0.0), IDENTITY, (0.0, 0.0, 0.0), corners, mesh.faces),)
     if kind == "union":
         rod = _capsule(shape["of"])
         if rod:
@@ -171,7 +178,7 @@ def _refuse_body(body: dict[str, Any], engine: str, alone: bool) -> str:
     if body["motion"] == "free" and min(body["principal_inertia"]) <= 0.0:
         return f"{engine} needs three principal moments above 0, and {name} has {body['principal_inertia']} kg m2"
     if not alone and pieces_of(body["shape"], (0.0, 0.0, 0.0), IDENTITY) is None:
-        return f"{engine} is handed boxes, spheres, cylinders, capsules, half spaces and unions of them, and {name} is a {body['shape']['kind']}"
+        return f"{engine} is handed boxes, spheres, cylinders, capsules, meshes, half spaces and unions of them, and {name} is a {body['shape']['kind']}"
     if body["motion"] == "free" and body["shape"]["kind"] == "half_space":
         return f"a half space cannot be free, and {name} is"
     return ""
@@ -204,6 +211,7 @@ class RigidEngine(Engine):
 
     title: str  # the vendor's own spelling
     moves_bodies = False  # whether bodies of constant velocity are handed over
+    dented_meshes: tuple[str, ...] = ()  # motions of the bodies whose meshes need not be convex: fixed, free, prescribed
     preset_settings: dict[str, dict[str, Any]] = {}  # preset -> settings that it stands for; the job's own go before
     default_step: float  # [s], where neither the scene nor the settings say one
 
@@ -214,6 +222,14 @@ class RigidEngine(Engine):
     @abstractmethod
     def open(self, job: Job, bodies: list[Body], dt: float) -> World:
         """A world with these bodies. @param dt first step [s]"""
+
+    def refuse_meshes(self, job: Job) -> str:
+        for body in job.bodies if len(job.bodies) > 1 else ():
+            pieces = pieces_of(body["shape"], (0.0, 0.0, 0.0), IDENTITY) or ()
+            if body["motion"] not in self.dented_meshes and any(piece.kind == "surface" for piece in pieces):
+                held = f" or {self.dented_meshes[0]}" if self.dented_meshes else ""
+                return f"{self.title} is handed meshes that are convex{held}, and {body['name']} has a dent"
+        return ""
 
     def wanted_step(self, job: Job) -> float:
         """[s]: the setting's, else the scene's, else the engine's own."""
@@ -230,7 +246,7 @@ class RigidEngine(Engine):
         moved = [body["name"] for body in job.bodies if body["motion"] == "prescribed"]
         if moved and not self.moves_bodies:
             return f"prescribed motion is not handed to {self.title}, and {moved[0]} has one"
-        return refuse_scene(job, self.title) or self.refuse(job)
+        return refuse_scene(job, self.title) or self.refuse_meshes(job) or self.refuse(job)
 
     def run(self, job: Job) -> Outcome:
         began = time.process_time()
@@ -318,6 +334,12 @@ class PairLaws:
         stated = self.stated.get(frozenset((material, other)), (None, None))
         friction, restitution = (common if one is None else float(one) for one, common in zip(stated, self.common))
         return friction, restitution
+
+
+    def pairs(self, materials: list[str]) -> list[tuple[str, str, float, float]]:
+        """The stated laws of these materials: both, friction, restitution."""
+        names = list(dict.fromkeys(materials))
+        return [(a, b, *self.of(a, b)) for k, a in enumerate(names) for b in names[k:] if frozenset((a, b)) in self.stated]
 
 
 def forces_on(job: Job, body: Body) -> Vector:

@@ -36,6 +36,10 @@ def dot(a: Vector, b: Vector) -> float:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
+def cross(a: Vector, b: Vector) -> Vector:
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
 def norm(a: Vector) -> float:
     return math.sqrt(dot(a, a))
 
@@ -69,7 +73,6 @@ def between(a: Vector, b: Vector) -> Quaternion:
     cosine = dot(a, b)
     if cosine < -1.0 + 1e-12:  # opposite: half a turn about any normal
         other = (0.0, 1.0, 0.0) if abs(a[0]) > 0.9 else (1.0, 0.0, 0.0)
-        axis = (a[1] * other[2] - a[2] * other[1], a[2] * other[0] - a[0] * other[2], a[0] * other[1] - a[1] * other[0])
+        axis = cross(a, other)
         return (0.0, *scaled(1.0 / norm(axis), axis))
-    axis = (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-    return normalised((1.0 + cosine, *axis))
+    return normalised((1.0 + cosine, *cross(a, b)))
