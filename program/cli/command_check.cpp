@@ -44,6 +44,7 @@ int check(const std::string& file, const std::vector<std::string>& set) {
   for (auto& f : unjudged(reading.value)) findings.push_back(std::move(f));
   long errors = 0;
   for (const auto& f : library_values(reading)) say("note: " + with_place(f));
+  for (const auto& f : old_keys(reading)) say("note: " + with_place(f));
   for (const auto& f : mesh_notes(scene, state)) say("note: " + with_place(f));
   for (const auto& f : moment_notes(scene, state)) say("note: " + with_place(f));
   for (const auto& f : start_notes(scene, state)) say("note: " + with_place(f));

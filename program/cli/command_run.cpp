@@ -185,6 +185,7 @@ void print_json(const RunOptions& o, const Outcome& outcome, const std::map<std:
 /// Says the findings of `check` about particles and metrics: a run of its own is not refused for them, but not silent either.
 void say_findings(const CaseReading& reading, const Scene& scene, const InitialState& initial, const Job& job) {
   for (const auto& f : library_values(reading)) say("note: " + with_place(f));
+  for (const auto& f : old_keys(reading)) say("note: " + with_place(f));
   for (const auto& f : start_notes(scene, initial)) say("note: " + with_place(f));
   auto findings = preflight(reading.value, scene, initial);
   for (auto& f : idle_keys(reading, scene, initial)) findings.push_back(std::move(f));

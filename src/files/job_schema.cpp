@@ -6,6 +6,7 @@
 #include "files/job_records.hpp"
 #include "files/record_json.hpp"
 #include "scene/effect_keys.hpp"
+#include "scene/model.hpp"
 #include "scene/place_records.hpp"
 #include "scene/scene_records.hpp"
 
@@ -172,7 +173,15 @@ json scene_schema() {
     scene["properties"][list] = list_of(table(one));
     if (std::string(list) != "contacts" && std::string(list) != "forces") scene["required"].push_back(list);
   }
+  scene["properties"]["model"] = table("model");
   return scene;
+}
+
+json model_schema() {
+  json model = of_type("object");
+  for (const ModelTerm& t : model_terms())
+    for (const ModelForm& form : t.forms) model["properties"][std::string(t.name)]["enum"].push_back(form.word);
+  return model;
 }
 
 json modes_schema() {
@@ -191,6 +200,7 @@ json job_schema() {
   tables["gauge"] = object_of(records::of_gauge);
   tables["scene"] = scene_schema();
   tables["modes"] = modes_schema();
+  tables["model"] = model_schema();
   tables["material"] = object_of(record<Material>);
   add_effect_keys<Material>(tables["material"], "material");
   tables["body"] = object_of(record<Body>, records::of_job_body, records::of_mass);

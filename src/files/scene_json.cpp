@@ -8,6 +8,7 @@
 #include "files/job_records.hpp"
 #include "files/record_json.hpp"
 #include "scene/effect_keys.hpp"
+#include "scene/model.hpp"
 #include "scene/place_records.hpp"
 #include "scene/scene_records.hpp"
 
@@ -100,6 +101,23 @@ json modes_json(const Scene& s) {
   return modes;
 }
 
+json model_json(const Scene& s) {
+  json model = json::object();
+  for (const ModelTerm& t : model_terms())
+    if (const ModelForm* form = form_in(s, t)) model[std::string(t.name)] = form->word;
+  return model;
+}
+
+/// Forms that other effects bring; all others are in `modes` and in the values of keys.
+void take_forms(const JsonObject& o, Scene& s) {
+  if (!o.has("model")) return;  // came after the first jobs
+  const JsonObject model = o.object("model");
+  for (const EffectRule& rule : effect_rules())
+    for (const BroughtForm& f : rule.forms)
+      for (const ModelTerm& t : model_terms())
+        if (t.term == f.term && model.text_or(std::string(t.name), "") == f.form.word) s.forms[f.term] = f.form.word;
+}
+
 }  // namespace
 
 json scene_to_json(const Scene& s, const std::vector<JobBody>& bodies) {
@@ -107,6 +125,7 @@ json scene_to_json(const Scene& s, const std::vector<JobBody>& bodies) {
                              "min", "max", "periodic", "output_interval", "settle", "merge_distance", "contact", "clamp"});
   put_record(s, out);
   out["modes"] = modes_json(s);
+  out["model"] = model_json(s);
   out["clamp"] = s.clamps();
   put_effect_values(s, "scene", out);
   for (const char* list : {"materials", "bodies", "events", "inflows", "contacts", "forces"}) out[list] = json::array();
@@ -126,6 +145,7 @@ void scene_from_json(const json& value, Scene& s, std::vector<JobBody>& bodies) 
   for (const DeclaredTerm& one : declared_terms())
     s.modes[one.term] = mode_from(modes.text_or(std::string(one.term.name), std::string(to_string(s.mode))));
   take_effect_values(o, "scene", s);
+  take_forms(o, s);
   for (const JsonObject& m : o.objects("materials")) s.materials.push_back(material_from(m));
   for (const JsonObject& b : o.objects("bodies")) body_from(b, s, bodies);
   take_list(o, "events", s.events);

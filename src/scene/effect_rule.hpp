@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -49,9 +50,7 @@ struct EffectKey {
       kept_in{};
   /// Why a value in this scene changes nothing although the effect is on; "" = it acts. None: it acts wherever the effect is on.
   std::string (*idle)(const Scene&) = nullptr;
-  bool ablated = false;  ///< of [scene], without a member: 0 leaves out a correction that the paper does not have, which is a row
-                         ///< of `tripoint ablate`
-  bool limit = false;    ///< of [[material]]: matter beyond it yields or breaks; `tripoint check` tells where nothing ever can
+  bool limit = false;  ///< of [[material]]: matter beyond it yields or breaks; `tripoint check` tells where nothing ever can
 };
 
 /// A key of [scene] that stands with those of no effect (scene_records.hpp), and acts where its effect is on.
@@ -69,14 +68,36 @@ struct WrongKey {
 /// Kinds of terms with two forms, in the order in which jobs and pages list terms.
 enum class TermKind { kernel, law, time };
 
-/// A term of two forms, as its owner declares it.
+/// A form of a term: a word of the table [model] (model.hpp).
+struct ModelForm {
+  std::string_view word, meaning;
+  /// Keys of [scene] that it sets, each with its value: a flag's 0 or 1, the place of a word among those of its key.
+  std::vector<std::pair<std::string_view, double>> values{};
+};
+
+/// A term with a printed form, as its owner declares it. Its last form is always "paper".
 struct DeclaredTerm {
   Term term;
+  std::vector<ModelForm> forms;  ///< corrected ones, the default first
   TermKind kind = TermKind::law;
   bool has_equation = true;  ///< that the paper prints: else no default waits for its printed form
-  /// A law that the paper prints.
-  constexpr DeclaredTerm(const Term& t) noexcept : term(t) {}
-  constexpr DeclaredTerm(const Term& t, TermKind k, bool printed = true) noexcept : term(t), kind(k), has_equation(printed) {}
+  std::string_view name{};   ///< in [model], where the term's own is no noun
+  DeclaredTerm(const Term& t, std::vector<ModelForm> corrected = {{"corrected", "the corrected form"}}) noexcept
+      : term(t), forms(std::move(corrected)) {}
+  DeclaredTerm(const Term& t, std::vector<ModelForm> corrected, TermKind k, bool printed = true) noexcept
+      : term(t), forms(std::move(corrected)), kind(k), has_equation(printed) {}
+};
+
+/// A term that the paper does not have. Its last form leaves it out.
+struct ModelChoice {
+  std::string_view name;
+  std::vector<ModelForm> forms;
+};
+
+/// A form that an effect brings to a term of another effect.
+struct BroughtForm {
+  Term term;
+  ModelForm form;
 };
 
 /// An entry of the ledger of energy, and what it holds: a row of docs/case-file.md.
@@ -93,10 +114,12 @@ struct EffectRule {
   std::string (*left_out)(const Scene&) = nullptr;
   /// The need that effects called for, or needed before this one, have of it; "" = none. Asked where nobody calls for it.
   std::string (*needed_for)(const Scene&, const Called&) = nullptr;
-  /// Terms with two forms that act where the effect is on: a word of [modes] and a row of `tripoint ablate` each.
+  /// Terms with a printed form that act where the effect is on: a key of [model] and rows of `tripoint ablate` each.
   std::vector<DeclaredTerm> terms{};
-  std::vector<Term> terms_shared{};  ///< of others that its forms read too
-  std::vector<EffectKey> keys{};     ///< of [scene] and [[material]]
+  std::vector<Term> terms_shared{};    ///< of others that its forms read too
+  std::vector<ModelChoice> choices{};  ///< terms that the paper does not have: the same as `terms`
+  std::vector<BroughtForm> forms{};    ///< of terms of others
+  std::vector<EffectKey> keys{};       ///< of [scene] and [[material]]
   std::vector<SceneKey> scene_keys{};
   std::vector<std::string_view> scene_keys_shared{};  ///< scene_keys of others that it reads too
   /// Checks keys of a material against each other, once all are read: refuses impossible values, and sets those that a rule

@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "scene/effect_rule.hpp"
+#include "scene/model.hpp"
 #include "scene/place_records.hpp"
 #include "scene/scene_records.hpp"
 
@@ -17,6 +18,7 @@ using enum Range;
 
 constexpr auto top_keys = std::to_array<Key>({
     {"", "scene", table, "", any, "!", "", "scene", "what is simulated"},
+    {"", "model", table, "", any, "=", "the forms that scene.mode says", "model", "form of each term of the model"},
     {"", "material", tables, "", any, "=", "materials of the library serve by name", "material", "matter"},
     {"", "body", tables, "", any, "!", "", "body", "bodies, in the order of their rows"},
     {"", "event", tables, "", any, "=", "nothing happens on the way", "event", "what happens at a time"},
@@ -28,6 +30,9 @@ constexpr auto top_keys = std::to_array<Key>({
 
 constexpr auto tables_of_scene = std::to_array<TableInfo>({
     {"scene", "[scene]", "What is simulated."},
+    {"model", "[model]",
+     "The form of each term of the model, by a word that holds in every mode: `viscosity = \"morris\"`; paper: as the "
+     "paper prints it. `mode`, `modes`, `clamp` and numbers of [scene] fill what is not given here."},
     {"material", "[[material]]", "A material. Names of the library bring the library's values."},
     {"body", "[[body]]", "A body."},
     {"keyframe", "keyframes = [{time, position, rotation}]", "Position and rotation at a time."},
@@ -85,6 +90,7 @@ void add_rows_of_kinds(std::vector<Key>& list, const auto& kinds) {
 std::vector<Key> all_keys() {
   std::vector<Key> list(top_keys.begin(), top_keys.end());
   add_rows(list, record<Scene>);
+  for (const Key& row : model_keys()) list.push_back(row);
   add_rows(list, record<Material>);
   add_rows(list, record<Body>);
   add_rows(list, record<Keyframe>);

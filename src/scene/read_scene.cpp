@@ -8,6 +8,7 @@
 #include "scene/effect_keys.hpp"
 #include "scene/geometry.hpp"
 #include "scene/library.hpp"
+#include "scene/model.hpp"
 #include "scene/nearest.hpp"
 #include "scene/scene_records.hpp"
 #include "scene/shared_terms.hpp"
@@ -40,6 +41,36 @@ void read_clamp(TableReader& in, Scene& s) {
   if (!clamp) return;
   if (!s.modes_given.try_emplace(term::clamp, *clamp ? Mode::corrected : Mode::paper).second)
     in.refuse("clamp", "scene.modes.clamp says the same: remove one of them");
+}
+
+/// The decision on a key of [scene] becomes that of the form that sets it.
+void decide_by_form(Reading& reading, std::string_view key, double number, std::string_view name) {
+  for (Decision& d : reading.decisions) {
+    if (d.key != fmt::format("scene.{}", key)) continue;
+    d.value = shown(key_row("scene", key), number);
+    d.reason = fmt::format("as model.{} says", name);
+  }
+}
+
+/// [model]. @pre the keys of [scene] are read
+void read_model(TableReader& top, TableReader& in, Scene& s, Reading& reading) {
+  const auto* node = top.composite("model");
+  if (!node) return;
+  TableReader model(*node, "model", "model", reading.decisions);
+  for (const ModelTerm& t : model_terms()) {
+    const auto word = model.maybe_text(t.name);
+    if (!word) continue;
+    const ModelForm& form = *form_of_word(t, *word);
+    if (t.term && s.modes_given.contains(*t.term))
+      model.refuse(t.name,
+                   fmt::format("scene.{} gives the form too: remove one of them",
+                               *t.term == term::clamp && in.has("clamp") ? "clamp" : "modes." + std::string(t.term->name)));
+    choose(s, t, form);
+    for (const auto& [key, number] : form.values) {
+      if (in.has(key)) model.refuse(t.name, fmt::format("scene.{} gives the form too: remove one of them", key));
+      decide_by_form(reading, key, number, t.name);
+    }
+  }
 }
 
 void check_domain(const TableReader& in, const Scene& s) {
@@ -83,11 +114,16 @@ void read_scene_table(TableReader& in, Scene& s, RecordReader<Scene>& read, Read
   read.rest();
 }
 
+std::string show_form(const Scene& s, const ModelTerm& t) {
+  const ModelForm* form = form_in(s, t);
+  return form ? fmt::format("\"{}\"", form->word) : "by the keys of [scene]";
+}
+
 void resolve_modes(TableReader& in, Scene& s, RecordReader<Scene>& read) {
   s.resolve_modes();
-  for (const DeclaredTerm& one : declared_terms())
-    if (!s.modes_given.contains(one.term))
-      in.ruled(fmt::format("modes.{}", one.term.name), fmt::format("\"{}\"", to_string(s.mode)), "as scene.mode");
+  for (const ModelTerm& t : model_terms())
+    if (t.term && !s.modes_given.contains(*t.term))
+      in.decisions().push_back({fmt::format("model.{}", t.name), show_form(s, t), "as scene.mode", false, {}});
   if (!in.has("clamp")) in.ruled("clamp", s.clamps() ? "true" : "false", "as modes.clamp");
   const bool paper = s.all_printed();
   if (!read("support_ratio")) {
@@ -156,6 +192,7 @@ Scene read_scene(TableReader& top, Reading& reading) {
   TableReader in(*scene, "scene", "scene", reading.decisions);
   RecordReader read(in, s, reading);
   read_scene_table(in, s, read, reading);
+  read_model(top, in, s, reading);
   for (const auto* node : top.tables("body")) s.bodies.push_back(read_body(*node, s.materials, reading));
   if (s.bodies.empty()) top.refuse("body", "the scene has no body: add a [[body]]");
   resolve_spacing(in, s, read);

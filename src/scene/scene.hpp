@@ -171,6 +171,7 @@ struct Scene {
   Mode mode = Mode::corrected;
   TermModes modes;        ///< resolved for every term; a scene that no reader made is corrected where it has none
   TermModes modes_given;  ///< as the case file says, term by term
+  TermForms forms;        ///< of corrected terms whose form another effect brings (model.hpp), by its word
   bool support_ratio_given = false;
   std::optional<double> time_step;  ///< empty = auto [s]
   std::uint64_t seed = 1;
@@ -200,6 +201,10 @@ struct Scene {
     const auto at = modes.find(t);
     return at != modes.end() ? at->second : mode_of_unresolved(t);
   }
+  /// Whether another effect brings the form of a term: its own effect then leaves the term to that one.
+  [[nodiscard]] bool has_brought_form(const Term& t) const { return forms.contains(t) && mode_of(t) == Mode::corrected; }
+  /// Whether it is the form of that word.
+  [[nodiscard]] bool takes_form(const Term& t, std::string_view word) const { return has_brought_form(t) && forms.at(t) == word; }
   /// Whether pressure (9) below zero counts as zero. The paper prints no clamp: it is a correction.
   [[nodiscard]] bool clamps() const;
   /// Whether every term that has printed equations is as printed.

@@ -24,6 +24,7 @@ struct Term {
 
 /// The forms of terms.
 using TermModes = std::map<Term, Mode>;
+using TermForms = std::map<Term, std::string>;
 
 /// A term was asked for that no effect has declared: a fault of the program, so it says the term by name.
 class UndeclaredTerm : public std::logic_error {

@@ -11,7 +11,10 @@ namespace tripoint {
 namespace {
 
 /// Terms of no effect: each sum over neighbours has a kernel, and each step a scheme.
-constexpr std::array of_no_effect{DeclaredTerm{term::kernel, TermKind::kernel}, DeclaredTerm{term::time, TermKind::time}};
+std::vector<DeclaredTerm> terms_of_no_effect() {
+  return {{term::kernel, {{"wendland", "one kernel for all, with its lattice sums (8.1)"}}, TermKind::kernel},
+          {term::time, {{"kick-drift-kick", "kick, drift, kick"}}, TermKind::time}};
+}
 
 std::vector<DeclaredTerm> all_terms() {
   std::vector<DeclaredTerm> list;
@@ -21,7 +24,7 @@ std::vector<DeclaredTerm> all_terms() {
     list.push_back(one);
   };
   for (const EffectRule& rule : effect_rules()) std::ranges::for_each(rule.terms, add);
-  std::ranges::for_each(of_no_effect, add);
+  std::ranges::for_each(terms_of_no_effect(), add);
   std::ranges::stable_sort(list, {}, &DeclaredTerm::kind);
   return list;
 }

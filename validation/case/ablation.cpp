@@ -1,27 +1,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "validation/case/ablation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "scene/shared_terms.hpp"
 
 namespace tripoint {
 
+namespace {
+
+bool acts(const ModelTerm& t, const Scene& scene) {
+  if (!t.term) return t.rule && calls_for(scene, t.rule->name);
+  const std::vector<Term> acting = acting_terms(scene);
+  return std::ranges::find(acting, *t.term) != acting.end();
+}
+
+}  // namespace
+
 std::vector<Correction> corrections() {
   std::vector<Correction> list;
-  for (const DeclaredTerm& one : declared_terms()) list.push_back({std::string(one.term.name), one.term});
-  for (const EffectRule& rule : effect_rules())
-    for (const EffectKey& key : rule.keys)
-      if (key.ablated) list.push_back({std::string(key.row.name), {}, &rule, &key});
+  for (const ModelTerm& t : model_terms()) {
+    list.push_back({std::string(t.name), &t, &t.forms.back()});
+    const ModelForm* usual = form_in(Scene{}, t);
+    if (t.forms.size() > 2 && usual && usual != &t.forms.back())
+      list.push_back({fmt::format("{}={}", t.name, usual->word), &t, usual});
+  }
   return list;
 }
 
 bool can_act(const Correction& one, const Scene& scene) {
-  if (!one.term)
-    return kept_number(scene.values, one.key->row) != 0.0 && calls_for(scene, one.rule->name) &&
-           (!one.key->idle || one.key->idle(scene).empty());
-  const std::vector<Term> acting = acting_terms(scene);
-  return std::ranges::find(acting, *one.term) != acting.end();
+  const ModelTerm& t = *one.of;
+  if (!acts(t, scene) || form_in(scene, t) == one.form) return false;
+  const bool is_last = one.form == &t.forms.back();
+  if (t.term && is_last) return true;
+  if (t.term && scene.mode_of(*t.term) == Mode::paper) return false;
+  return why_idle(scene, t, *one.form).empty();
 }
 
 Case corrected(Case value) {
@@ -37,10 +52,7 @@ Case corrected(Case value) {
 }
 
 Case without(const Correction& one, Case value) {
-  if (one.term)
-    value.scene.modes_given[*one.term] = Mode::paper;
-  else
-    value.scene.values[std::string(one.key->row.name)] = 0.0;
+  choose(value.scene, *one.of, *one.form);
   return value;
 }
 

@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "scene/effect_rule.hpp"
+#include "scene/model.hpp"
 #include "validation/case/case.hpp"
 
 /// Corrections that a case can be run without: one after the other is taken back, all others stay.
 namespace tripoint {
 
-/// A row of `tripoint ablate`: a term of two forms, which is put back to its printed one, or a key. At 0 the key leaves out a
-/// term that the paper does not have.
+/// A row of `tripoint ablate`: a term that is put back to a form with less.
 struct Correction {
-  std::string name;                  ///< of the term, or of the key
-  std::optional<Term> term{};        ///< none: it is a key
-  const EffectRule* rule = nullptr;  ///< whose key it is
-  const EffectKey* key = nullptr;
+  std::string name;  ///< of the term: without its correction; "TERM=WORD": in its default form, where a scene has a better one
+  const ModelTerm* of;
+  const ModelForm* form;
 };
 
-/// All that effects declare: terms first, then keys.
+/// Of every term of [model], in its order.
 [[nodiscard]] std::vector<Correction> corrections();
 /// Whether it can act in the scene. A correction that acts nowhere has no row: its runs have the bits of the corrected ones.
 [[nodiscard]] bool can_act(const Correction&, const Scene&);

@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <variant>
 
-#include "scene/effect_rule.hpp"
+#include "scene/model.hpp"
 #include "validation/case/idle_search.hpp"
 
 /// Keys of materials and of the scene that no effect of it reads.
@@ -76,6 +76,20 @@ bool is_read(const IdleSearch& in, const SceneKey& key) {
   });
 }
 
+/// Words of [model] for what is in no run of the case.
+void model(IdleSearch& in) {
+  for (const ModelTerm& t : model_terms()) {
+    const auto place = in.given(fmt::format("model.{}", t.name));
+    const ModelForm* form = form_in(in.scenes.front(), t);
+    if (place.file.empty() || !t.rule || !form) continue;
+    const auto idle = [&](const Scene& run) { return why_idle(run, t, *form); };
+    const bool is_on = t.term ? acts(in, *t.term) : in.calls(t.rule->name);
+    if (is_on && in.any_mode([&](const Scene& run) { return idle(run).empty(); })) continue;
+    in.warn(place, fmt::format("model.{} changes nothing: {}; remove it", t.name,
+                               is_on ? idle(in.scenes.front()) : in.why_idle(t.rule->name)));
+  }
+}
+
 void scene_keys(IdleSearch& in) {
   const Scene& s = in.value.scene;
   for (const EffectRule& rule : effect_rules()) {
@@ -84,6 +98,7 @@ void scene_keys(IdleSearch& in) {
     for (const EffectKey& key : rule.keys)
       if (key.row.table == "scene" && asks(s, key)) effect_key(in, rule, key);
   }
+  model(in);
   for (const DeclaredTerm& one : declared_terms())
     if (const auto given = s.modes_given.find(one.term);
         given != s.modes_given.end() && given->second != s.mode && !acts(in, one.term))

@@ -22,4 +22,7 @@ struct Finding {
 /// One warning for each [[material]] of the case that bears the name of one of the library and takes values from it.
 [[nodiscard]] std::vector<Finding> library_values(const CaseReading&);
 
+/// One note for each number of [scene] that a word of [model] says.
+[[nodiscard]] std::vector<Finding> old_keys(const CaseReading&);
+
 }  // namespace tripoint

@@ -46,12 +46,19 @@ std::vector<EffectKey> keys() {
         "share of the correction for bending: at surfaces gradients are then exact for curved displacements too (model 8.7), and "
         "slender bars as stiff as they are; 0: none. Only where elasticity is corrected"},
        {},
-       no_bending,
-       true},
+       no_bending},
       {{"material", "young_modulus", number, "Pa", positive, "", "not elastic", "", "E of the solid"}, &Material::young_modulus},
       {{"material", "poisson_ratio", number, "", poisson, "", "not elastic", "", "of the solid, below 0.5"},
        &Material::poisson_ratio},
   };
+}
+
+std::vector<DeclaredTerm> terms() {
+  DeclaredTerm elasticity{term::elastic,
+                          {{"first-order", "gradients exact for linear displacements (8.7)", {{"bending", 0.0}}},
+                           {"second-order", "at surfaces exact for curved ones too", {{"bending", 1.0}}}}};
+  elasticity.name = "elasticity";
+  return {elasticity, {term::hourglass, {{"energy", "energy against modes without energy (8.7)"}}}};
 }
 
 void settle_material(TableReader& in, Material& m) {
@@ -66,7 +73,7 @@ EffectRule rule() {
   return {.name = "elastic",
           .called_for = called_for,
           .left_out = left_out,
-          .terms = {term::elastic, term::hourglass},
+          .terms = terms(),
           .keys = keys(),
           .settle_material = settle_material,
           .ledger_entries = {{"elastic", "strain of elastic matter"}, {"hourglass", "deformation that the strain does not see"}},

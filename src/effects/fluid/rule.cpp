@@ -147,8 +147,7 @@ std::vector<EffectKey> viscosity_keys() {
         "share of 0 to 1 of the weights with which the lattice resists shear alike along its axes and its diagonals (model 8.5). "
         "Only where viscosity is corrected and central"},
        {},
-       no_isotropic_shear,
-       true},
+       no_isotropic_shear},
   };
 }
 
@@ -165,14 +164,12 @@ std::vector<EffectKey> transport_keys() {
         "share of 0 to 1 with which the pressure of a liquid that the transport velocity moves is the mean over its neighbours "
         "(model 8.3). Only with transport_velocity, where density, pressure and state are corrected"},
        {},
-       no_transport,
-       true},
+       no_transport},
       {{"scene", "sound_damping", number, "", not_negative, "0", "a liquid that nothing clamps may be there for its sound", "",
         "numerical bulk viscosity over rho0 c h, h the support, of a liquid that the transport velocity moves (model 8.3). Only "
         "with transport_velocity, where density, pressure and state are corrected"},
        {},
-       no_transport,
-       true},
+       no_transport},
   };
 }
 
@@ -189,22 +186,19 @@ std::vector<EffectKey> contact_keys() {
         "by how much stiffer solids are than the scene's stiffness where they touch, over it (model 8.3): overlap and step fall "
         "with the root of 1 + it. Only where the state is corrected, nothing freezes, and a solid is free"},
        {},
-       no_contact_stiffness,
-       true},
+       no_contact_stiffness},
       {{"scene", "contact_step", number, "", fraction, "0", "the bound of contact holds in every step", "",
         "share of 0 to 1 of the bound of contact that a step takes while a free solid is pressed or about to be; at other times "
         "only the bound of sound holds (model 8.10). 0: the bound of contact holds in every step. Only where the scene clamps "
         "and "
         "gives no time_step, density, pressure and state are corrected, nothing freezes, and a solid is free"},
        {},
-       no_contact_step,
-       true},
+       no_contact_step},
       {{"scene", "face_pressure", number, "", fraction, "0", "bodies of many particles across need it little", "",
         "share of 0 to 1 with which pressure on an elastic solid acts at its face, and not at the middles of its outer particles "
         "(model 8.3). Only where density, pressure, state and elasticity are corrected, nothing freezes and no solid can break"},
        {},
-       no_face_pressure,
-       true},
+       no_face_pressure},
   };
 }
 
@@ -217,28 +211,24 @@ std::vector<EffectKey> pressure_keys() {
         "numerical bulk viscosity of liquids over rho0 c h, h the support (model 8.4); 0: none. Only where the scene clamps, "
         "density, pressure and state are corrected, and nothing freezes"},
        {},
-       no_bulk_viscosity,
-       true},
+       no_bulk_viscosity},
       {{"scene", "core_reach", number, "", fraction, "0.9",
         "pairs of a still liquid would close up where the clamp leaves no pressure", "",
         "distance in spacings below which pairs that exert pressure on each other repel (model 8.3); 0: none. Only where the "
         "pressure is corrected"},
        {},
-       no_core,
-       true},
+       no_core},
       {{"scene", "surface_weight", number, "", not_negative, "0.5", "half of its own weight lies above the middle of a layer", "",
         "what of its own weight the topmost layer of a liquid bears as pressure (model 8.3); 0: none. Only where the scene "
         "clamps, density, pressure and state are corrected, nothing freezes, and no body is free"},
        {},
-       no_surface_weight,
-       true},
+       no_surface_weight},
       {{"scene", "interface_weight", number, "", fraction, "0", "it is for layers that lie on each other, heavy below light", "",
         "share of 0 to 1 of the energy of pairs of unlike liquids that makes the pressure right on both sides of a level "
         "interface (model 8.3). Only where density, pressure and state are corrected, the scene clamps, nothing freezes, and "
         "liquids of two densities have a weight"},
        {},
-       no_interface_weight,
-       true},
+       no_interface_weight},
   };
 }
 
@@ -271,6 +261,51 @@ std::vector<EffectKey> keys() {
   return all;
 }
 
+/// The words of `viscosity_form`, by their places.
+constexpr double laplacian = 0.0, central = 1.0;
+
+std::vector<DeclaredTerm> terms() {
+  return {{term::pressure, {{"conservative", "the gradient of an energy of compression (8.3)"}}},
+          {term::density, {{"number", "number density over its lattice sum (8.2)"}}},
+          {term::state, {{"scaled", "all liquids equally hard to compress (8.3)"}}},
+          {term::clamp, {{"clamped", "no pressure below zero"}}, TermKind::law, false},
+          {term::viscosity,
+           {{"central", "along the line of centres (8.5)", {{"viscosity_form", central}, {"isotropic_shear", 0.0}}},
+            {"isotropic", "central, alike along axes and diagonals", {{"viscosity_form", central}, {"isotropic_shear", 1.0}}},
+            {"morris", "along the difference of velocities, for wall-bounded shear", {{"viscosity_form", laplacian}}}}},
+          {term::walls, {{"mirrored", "mirrored velocities, and pressure of patches of the face (8.4)"}}}};
+}
+
+std::vector<ModelChoice> choices() {
+  return {{"mean_pressure",
+           {{"neighbours",
+             "the pressure of a liquid that the transport velocity moves is the mean over neighbours (8.3)",
+             {{"mean_pressure", 1.0}}},
+            {"none", "", {{"mean_pressure", 0.0}}}}},
+          {"sound_damping",
+           {{"bulk", "numerical bulk viscosity where the transport velocity moves the liquid (8.3)", {{"sound_damping", 0.2}}},
+            {"none", "", {{"sound_damping", 0.0}}}}},
+          {"contact",
+           {{"stiff", "solids are 25 times as stiff where they touch (8.3)", {{"contact_stiffness", 24.0}}},
+            {"common", "as stiff as the scene's liquids", {{"contact_stiffness", 0.0}}}}},
+          {"contact_step",
+           {{"at-touch", "the bound of contact holds near a touch alone (8.10)", {{"contact_step", 1.0}}},
+            {"always", "it holds in every step", {{"contact_step", 0.0}}}}},
+          {"contact_face",
+           {{"face", "pressure acts at the faces of elastic solids (8.3)", {{"face_pressure", 1.0}}},
+            {"centres", "at the middles of their outer particles", {{"face_pressure", 0.0}}}}},
+          {"bulk_viscosity",
+           {{"numerical", "of liquids, 0.2 rho0 c h (8.4)", {{"bulk_viscosity", 0.2}}}, {"none", "", {{"bulk_viscosity", 0.0}}}}},
+          {"core",
+           {{"repulsive", "pairs repel below 0.9 spacings (8.3)", {{"core_reach", 0.9}}}, {"none", "", {{"core_reach", 0.0}}}}},
+          {"surface",
+           {{"weighted", "the topmost layer bears half of its weight (8.3)", {{"surface_weight", 0.5}}},
+            {"none", "", {{"surface_weight", 0.0}}}}},
+          {"interface",
+           {{"weighted", "pressure is right on both sides of a level interface (8.3)", {{"interface_weight", 1.0}}},
+            {"none", "", {{"interface_weight", 0.0}}}}}};
+}
+
 void settle_material(TableReader& in, Material& m) {
   const auto c = in.maybe_number("sound_speed");
   if (!c) return;
@@ -286,25 +321,25 @@ std::vector<std::string_view> always_told(const Scene& scene) {
 }  // namespace
 
 EffectRule rule() {
-  return {
-      .name = "fluid",
-      .called_for = called_for,
-      .left_out = left_out,
-      .terms = {term::pressure, term::density, term::state, {term::clamp, TermKind::law, false}, term::viscosity, term::walls},
-      .terms_shared = {term::kernel},
-      .keys = keys(),
-      .scene_keys = {{"clamp"}},
-      .settle_material = settle_material,
-      .ledger_entries = {{"compression", "liquid that is compressed, where its pressure has an energy"},
-                         {"pressure_work", "in place of `compression`: work that the printed form of pressure took"},
-                         {"phase_work"},
-                         {"viscous", "work that viscosity took"},
-                         {"bulk_viscous", "work that the numerical bulk viscosity took"},
-                         {"transport", "work of the transport velocity"}},
-      .always_told = always_told,
-      .over_processes = true,
-      .has_pairs = true,
-      .has_pressure = true};
+  return {.name = "fluid",
+          .called_for = called_for,
+          .left_out = left_out,
+          .terms = terms(),
+          .terms_shared = {term::kernel},
+          .choices = choices(),
+          .keys = keys(),
+          .scene_keys = {{"clamp"}},
+          .settle_material = settle_material,
+          .ledger_entries = {{"compression", "liquid that is compressed, where its pressure has an energy"},
+                             {"pressure_work", "in place of `compression`: work that the printed form of pressure took"},
+                             {"phase_work"},
+                             {"viscous", "work that viscosity took"},
+                             {"bulk_viscous", "work that the numerical bulk viscosity took"},
+                             {"transport", "work of the transport velocity"}},
+          .always_told = always_told,
+          .over_processes = true,
+          .has_pairs = true,
+          .has_pressure = true};
 }
 
 }  // namespace tripoint::fluid

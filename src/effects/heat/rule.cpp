@@ -59,8 +59,7 @@ std::vector<EffectKey> keys() {
       {{"scene", "surface_exchange", number, "", not_negative, "1", "surfaces exchange heat where they lie", "",
         "1: surface_temperature acts at the surface (model 8.6); 0: the outermost particles are held at that temperature"},
        {},
-       no_held_surface,
-       true},
+       no_held_surface},
       {{"material", "surface_temperature", number, "K", not_negative, "0", "nothing passes through surfaces", "",
         "temperature at which the surfaces of fixed bodies of the material are held, where they touch no other body and lie "
         "within the "
@@ -101,8 +100,11 @@ EffectRule rule() {
   return {.name = "heat",
           .called_for = called_for,
           .left_out = left_out,
-          .terms = {term::heat},
+          .terms = {{term::heat, {{"conservative", "equal and opposite in each pair, two stages (8.6)"}}}},
           .terms_shared = {term::kernel, term::pressure, term::density, term::state, term::clamp, term::viscosity, term::walls},
+          .choices = {{"heat_surface",
+                       {{"exchange", "a held surface exchanges heat where it lies (8.6)", {{"surface_exchange", 1.0}}},
+                        {"held", "its outermost particles are held", {{"surface_exchange", 0.0}}}}}},
           .keys = keys(),
           .settle_material = settle_material,
           .ledger_entries = {{"thermal", "heat"}, {"latent", "heat of fusion"}},

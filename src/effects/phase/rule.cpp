@@ -80,7 +80,7 @@ EffectRule rule() {
   return {.name = "phase",
           .called_for = called_for,
           .left_out = left_out,
-          .terms = {term::phase},
+          .terms = {{term::phase, {{"enthalpy", "by the heat content (8.9)"}}}},
           .keys = keys(),
           .scene_keys = {{"merge_distance", joins_bodies}},
           .settle_material = settle_material,

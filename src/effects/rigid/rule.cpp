@@ -34,7 +34,7 @@ EffectRule rule() {
           .called_for = called_for,
           .left_out = left_out,
           .needed_for = needed_for,
-          .terms = {{term::rotation, TermKind::time}},
+          .terms = {{term::rotation, {{"splitting", "of second order (20)"}}, TermKind::time}},
           .ledger_entries = {{ledger_entry::kinetic}, {ledger_entry::potential}},
           .over_processes = true};
 }

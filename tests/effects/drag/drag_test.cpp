@@ -155,7 +155,7 @@ TEST(AddedEffect, HasItsRowOfAblationWhereItActs) {
   const std::vector<Correction> all = corrections();
   const auto row = std::ranges::find(all, "drag", &Correction::name);
   ASSERT_NE(row, all.end());
-  ASSERT_TRUE(row->term);
+  ASSERT_TRUE(row->of->term);
   const Case value = corrected(slowed_ball());
   EXPECT_TRUE(can_act(*row, value.scene));
   EXPECT_FALSE(can_act(*row, slowed_ball({"material.ball.drag=0"}).scene));

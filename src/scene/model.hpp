@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "scene/effect_rule.hpp"
+
+/// The table [model]: every term of the model with its forms, each by a word. The reader, the schema, the page, jobs, `explain`
+/// and `ablate` go over this one list.
+namespace tripoint {
+
+struct ModelTerm {
+  std::string_view name;             ///< key of [model]
+  std::optional<Term> term;          ///< of those with a printed form, whose last form is "paper"
+  std::vector<ModelForm> forms;      ///< the last has no correction
+  const EffectRule* rule = nullptr;  ///< whose term it is; none of the kernel and of time
+};
+/// All that effects declare: those with a printed form first.
+[[nodiscard]] std::span<const ModelTerm> model_terms();
+
+/// The form that a scene has, none where a key of [scene] gives a coefficient that no form has.
+[[nodiscard]] const ModelForm* form_in(const Scene&, const ModelTerm&);
+/// The form of a word, none where the term has no such form.
+[[nodiscard]] const ModelForm* form_of_word(const ModelTerm&, std::string_view word);
+/// Gives a scene this form of a term, whatever its mode.
+void choose(Scene&, const ModelTerm&, const ModelForm&);
+/// Why a form changes nothing in a scene, as none of its keys acts there; "" where it acts.
+[[nodiscard]] std::string why_idle(const Scene&, const ModelTerm&, const ModelForm&);
+
+/// The value of a key that a form sets, as a case file has it.
+[[nodiscard]] std::string shown(const Key& row, double number);
+
+/// The rows of the table.
+[[nodiscard]] std::vector<Key> model_keys();
+
+}  // namespace tripoint
