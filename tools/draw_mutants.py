@@ -9,7 +9,8 @@ src/sph, src/solids, src/step) and adapters, or of each --room. Each is applied 
 which is rebuilt as far as the file reaches. Then the cases of the commit profile that touch the file are run, the quickest first, and the unit
 tests of its room between the quick ones and the others, until one is red. Where the change does not compile another is drawn; a mutant nothing sees is printed with its line.
 With --cases-only no unit test is asked: the share that is killed is that of the suite alone. At most --most cases are asked, those of other effects first.
-The seed gives the same mutants from the same sources. What was judged already in --out is not judged again.
+The seed gives the same mutants from the same sources: --from COMMIT draws from those of a commit, and finds each line in --tree by its text.
+What was judged already in --out is not judged again, but what lived is with --again. A change that computes the same is none: equivalent_mutants.toml gives its reason.
 """
 import argparse
 import json
@@ -18,10 +19,13 @@ import random
 import re
 import subprocess
 import sys
+import tempfile
 import time
 import tomllib
 
+OURS = ["engine-tripoint", "engine-tripoint-mpi", "tripoint-halo"]  # in one process, and over ranks
 ROOMS = ("src/effects", "src/sph", "src/solids", "src/step", "adapters")
+EQUIVALENT = tomllib.loads((pathlib.Path(__file__).resolve().parent / "equivalent_mutants.toml").read_text())["mutant"]
 FOLDERS = ("rigid", "fluid", "motion", "prescribed", "density", "elastic", "plastic", "fracture", "heat", "phase")
 # A line that carries no behaviour of the model: text for people, declarations.
 PASSED_OVER = re.compile(r'^\s*(//|#|\*|using |namespace |template|struct |class |enum |static_assert|assert|\[\[nodiscard\]\]|public:|private:|case )|"|throw |fmt::|static const|const_cast|operator|= default|= delete|make_unique|\bfor \(|\w&[,)]|std::vector<.*=|\w& \w+ = |nullptr|virtual |, \w+ = ')
@@ -68,7 +72,36 @@ def draw(rng, tree, rooms=ROOMS):
             continue
         n = rng.choice(candidates)
         kind, text = rng.choice(changes_of(lines[n]))
-        return {"file": str(path.relative_to(tree)), "line": n + 1, "kind": kind, "old": lines[n].strip(), "new": text.strip()}, path, lines, n, text
+        return {"file": str(path.relative_to(tree)), "line": n + 1, "kind": kind, "old": lines[n].strip(), "new": text.strip()}
+
+
+def sources_of(commit):
+    """A folder with the sources of a commit, to draw from."""
+    folder = tempfile.TemporaryDirectory(prefix="draw-mutants-")
+    packed = subprocess.run(["git", "archive", commit, "src", "adapters"], cwd=pathlib.Path(__file__).resolve().parent.parent, check=True, capture_output=True).stdout
+    subprocess.run(["tar", "-x", "-C", folder.name], input=packed, check=True)
+    return folder
+
+
+def place_in(tree, mutant, rooms):
+    """Where the line of a mutant stands in the tree: in its file, or in one file that the line has moved to; None where it is gone."""
+    def at(path):
+        lines = path.read_text().split("\n") if path.exists() else []
+        return lines, [n for n, line in enumerate(lines) if line.strip() == mutant["old"]]
+
+    for path in [tree / mutant["file"]] + sources(tree, rooms):
+        lines, found = at(path)
+        if found:
+            n = min(found, key=lambda k: abs(k + 1 - mutant["line"]))
+            return path, lines, n
+    return None
+
+
+def reason_equal(mutant):
+    """Why a mutant is no defect; empty where it may be one."""
+    if "-(0)" in mutant["new"] or re.search(r"\b(int|long|std::size_t) \w+ = 1\.02 \* \(\d\d?\);", mutant["new"]):
+        return "the number is the same"
+    return next((row["why"] for row in EQUIVALENT if row["old"] in mutant["old"] and row["new"] in mutant["new"]), "")
 
 
 def targets_of(file):
@@ -76,13 +109,13 @@ def targets_of(file):
     if file.startswith("src/effects"):
         part = file.split("/")[2]
         of = {"elastic": ["elastic"], "plastic": ["plastic"], "fracture": ["plastic"], "phase": ["phase"], "heat": ["phase"]}.get(part, ["elastic", "passes", "phase"])
-        return ["engine-tripoint"], ["test-effects"] + [f"test-effects-{x}" for x in of] + ["test-step"], "tripoint"
+        return OURS, ["test-effects"] + [f"test-effects-{x}" for x in of] + ["test-step"], "tripoint"
     if not file.startswith("adapters"):
-        return ["engine-tripoint"], [f"test-{file.split('/')[1]}" if not file.startswith("src/solids") else "test-effects", "test-step"], "tripoint"
+        return OURS, [f"test-{file.split('/')[1]}" if not file.startswith("src/solids") else "test-effects", "test-step"], "tripoint"
     part = file.split("/")[1]
     tests = {"tripoint": ["test-step"], "bullet": ["test-bullet"], "lammps": ["test-engines"], "exact": ["test-exact"]}
     if part in tests:
-        return [f"engine-{part}"], tests[part], part
+        return OURS if part == "tripoint" else [f"engine-{part}"], tests[part], part
     return ["engine-tripoint", "engine-bullet", "engine-exact", "engine-lammps", "bin/tripoint"], ["test-files", "test-exact"], "tripoint"
 
 
@@ -126,9 +159,12 @@ class Cases:
 
     def passes(self, case, engine, out, tree=None):
         engines = sorted(e for e in self.cases[case]["engines"] if e.startswith(engine))
-        done = run(["build/bin/tripoint", "validate", case, "--jobs", "1", "--engines", ",".join(engines), "--no-history", "--no-report", "--out", out], tree or self.tree, 900)
         results = pathlib.Path(out) / "results.json"
+        results.unlink(missing_ok=True)
+        done = run(["build/bin/tripoint", "validate", case, "--jobs", "1", "--engines", ",".join(engines), "--no-history", "--no-report", "--out", out], tree or self.tree, 900)
         if done is None or not results.exists():
+            if done is not None and done.returncode in (2, 130):  # the command was refused, or stopped: the mutant is not judged
+                sys.exit(f"draw_mutants: {case} was not run: {done.stderr.strip()[-300:]}")
             return False, "timed out" if done is None else f"exit {done.returncode}"
         verdict = json.loads(results.read_text())["cases"][0]["verdict"]
         return verdict == "PASS", next((x.strip() for x in (done.stdout + done.stderr).split("\n") if x.startswith("     ")), verdict)[:200]
@@ -202,6 +238,23 @@ def judge(mutant, cases, options):
     mutant["killed_by"] = red_case(touched[:first]) or red_test(tests, mutant["file"], options) or red_oracle(mutant["file"], options) or red_case(touched[first:])
 
 
+def apply(mutant, cases, options, rooms):
+    """The mutant with what came of it: whether it compiles, what killed it."""
+    mutant, begun = dict(mutant, compiles=False), time.time()
+    if not (place := place_in(options.tree, mutant, rooms)):
+        return mutant
+    path, lines, n = place
+    original, indent = path.read_text(), re.match(r"\s*", lines[n])[0]
+    path.write_text("\n".join(lines[:n] + [indent + mutant["new"]] + lines[n + 1:]))
+    try:
+        mutant["compiles"] = build(targets_of(mutant["file"])[0], options)
+        if mutant["compiles"]:
+            judge(mutant, cases, options)
+    finally:
+        path.write_text(original)
+    return dict(mutant, seconds=round(time.time() - begun))
+
+
 def main():
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     p.add_argument("--tree", type=pathlib.Path, required=True)
@@ -214,46 +267,48 @@ def main():
     p.add_argument("--room", action="append", help=f"a folder to draw from; default {', '.join(ROOMS)}")
     p.add_argument("--cases-only", action="store_true", help="ask no unit test")
     p.add_argument("--most", type=int, default=60, help="cases that are asked of a mutant with --cases-only")
+    p.add_argument("--from", dest="commit", help="draw from the sources of this commit; default those of --tree")
+    p.add_argument("--again", action="store_true", help="judge again what lived")
     p.add_argument("--list", action="store_true", help="only print what would be drawn")
     options = p.parse_args()
     options.tree, options.out = options.tree.resolve(), options.out.resolve()
+    if options.tree == options.sound.resolve():
+        sys.exit("draw_mutants: --sound is --tree: what a mutant fails there, it fails here too, and nothing is killed")
     if options.tree == pathlib.Path(__file__).resolve().parent.parent:
         sys.exit("draw_mutants: --tree is the tree of this script: give a copy, its sources are changed")
     rng, done = random.Random(options.seed), json.loads(options.out.read_text()) if options.out.exists() else []
     rooms = options.room or ROOMS
     print(f"seed {options.seed}, {len(sources(options.tree, rooms))} files", flush=True)
     cases = None if options.list else Cases(options.tree, options.sound.resolve())
-    judged = 0
-    while judged < options.count:
-        mutant, path, lines, n, text = draw(rng, options.tree, rooms)
-        place = f"{mutant['file']}:{mutant['line']} {mutant['kind']}: {mutant['old']}  ->  {mutant['new']}"
-        if options.list:
-            judged += 1
-            print(place)
+    drawn_from = sources_of(options.commit) if options.commit else None
+    base, seen = pathlib.Path(drawn_from.name) if drawn_from else options.tree, []
+    while len(seen) < options.count:
+        mutant = draw(rng, base, rooms)
+        if mutant in seen:
             continue
-        before = next((m for m in done if (m["file"], m["line"], m["new"]) == (mutant["file"], mutant["line"], mutant["new"])), None)
+        place = f"{mutant['file']}:{mutant['line']} {mutant['kind']}: {mutant['old']}  ->  {mutant['new']}"
+        before = next((m for m in done if all(m[k] == mutant[k] for k in ("file", "old", "new"))), None)
+        if before and options.again and before["compiles"] and not before["killed_by"]:
+            done.remove(before)
+            before = None
+        if options.list or reason_equal(mutant):
+            seen.append(mutant)
+            print(f"{len(seen):3}  {'no defect' if reason_equal(mutant) else ''}  {place}\n          {reason_equal(mutant)}", flush=True)
+            continue
         if not before:
-            original, begun = path.read_text(), time.time()
-            path.write_text("\n".join(lines[:n] + [text] + lines[n + 1:]))
-            try:
-                mutant["compiles"] = build(targets_of(mutant["file"])[0], options)
-                if mutant["compiles"]:
-                    judge(mutant, cases, options)
-            finally:
-                path.write_text(original)
-            mutant["seconds"] = round(time.time() - begun)
-            done.append(mutant)
+            before = apply(mutant, cases, options, rooms)
+            done.append(before)
             options.out.write_text(json.dumps(done, indent=1) + "\n")
-            before = mutant
         if not before["compiles"]:
             print(f"      no build  {place}", flush=True)
             continue
-        judged += 1
-        print(f"{judged:3}  {'killed  ' if before['killed_by'] else 'SURVIVES'}  {place}\n          {before['killed_by']}  ({before['asked']} cases, {before['seconds']} s)", flush=True)
+        seen.append(mutant)
+        print(f"{len(seen):3}  {'killed  ' if before['killed_by'] else 'SURVIVES'}  {place}\n          {before['killed_by']}  ({before['asked']} cases, {before['seconds']} s)", flush=True)
     if not options.list:
         build([], options)
-        killed = [m for m in done if m["compiles"] and m["killed_by"]]
-        print(f"{len(killed)} of {sum(m['compiles'] for m in done)} killed")
+        killed = [m for m in done if m["compiles"] and m["killed_by"] and any(m["old"] == s["old"] and m["new"] == s["new"] for s in seen)]
+        equal = sum(bool(reason_equal(m)) for m in seen)
+        print(f"{len(killed)} of {len(seen) - equal} killed; {equal} more of {len(seen)} are no defects")
 
 
 if __name__ == "__main__":
