@@ -76,6 +76,16 @@ def verdict_words(results):
     return first, words
 
 
+def hero(results):
+    """(heading, its tone): the gate's verdict; a PASS with the physics of the cases, where that is not right."""
+    found = summary.tally(case.physics for case in results.cases if case.physics not in ("", summary.RIGHT))
+    kinds = [word for word in (summary.WRONG, summary.DEFECT, summary.UNKNOWN) if word in found]
+    if results.verdict != "PASS" or not kinds:
+        return results.verdict, summary.tone(results.verdict)
+    said = ", ".join(f"{word} in {count(found[word], 'case')}" for word in kinds)
+    return f"gate {results.verdict}; physics {said}", summary.tone(kinds[0])
+
+
 def keyed(case):
     """[(key, engine, gate)]: several gates may hold one metric, so the key ends with which of them it is."""
     found, seen = [], {}

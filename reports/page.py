@@ -306,6 +306,7 @@ def render(results, missing_libraries, headlines=(), beside=()):
     return fill(
         "report.html.j2",
         results,
+        hero=front.hero(results),
         words=front.verdict_words(results),
         changed=front.changes(results),
         near=front.nearest(results),

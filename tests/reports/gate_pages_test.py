@@ -49,6 +49,15 @@ def gated(value, step=1e-3, verdict="pass", state="a", limit=1.0, band=None, **m
 
 
 class SinceTheLastRun(Pages):
+    def test_the_heading_says_gate_and_physics_where_a_known_defect_stands_beside_it(self):
+        sound, known = case([], physics="right"), case([], "heat/two", physics="known defect")
+        self.assertEqual(front.hero(self.load(sound)), ("PASS", "pass"))
+        self.assertEqual(front.hero(self.load(sound, known)), ("gate PASS; physics known defect in 1 case", "defect"))
+        wrong = case([], "heat/three", physics="wrong")
+        self.assertEqual(
+            front.hero(self.load(known, wrong)), ("gate PASS; physics wrong in 1 case, known defect in 1 case", "fail")
+        )
+
     def front(self, before, now):
         self.load(before)
         (self.path / "results.json").rename(self.path / "results.previous.json")
