@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/mesh.hpp"
 #include "scene/geometry.hpp"
-#include "scene/mesh.hpp"
 
 namespace tripoint::bullet {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "adapters/ranks/ranks_engine.hpp"
 #include "scene/effect_rule.hpp"
-#include "scene/nearest.hpp"
+#include "tables/nearest.hpp"
 
 namespace tripoint::ranks {
 namespace {

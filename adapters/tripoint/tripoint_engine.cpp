@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "adapters/tripoint/solver_job.hpp"
-#include "scene/nearest.hpp"
+#include "tables/nearest.hpp"
 
 namespace tripoint {
 namespace {

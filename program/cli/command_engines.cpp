@@ -13,7 +13,7 @@
 #include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
-#include "scene/library.hpp"
+#include "tables/library.hpp"
 #include "validation/run/discover.hpp"
 #include "validation/run/engine_check.hpp"
 #include "validation/run/sandbox.hpp"

@@ -12,7 +12,7 @@
 #include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
-#include "scene/nearest.hpp"
+#include "tables/nearest.hpp"
 #include "validation/case/schema.hpp"
 
 namespace tripoint {

@@ -10,7 +10,7 @@
 #include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
-#include "scene/library.hpp"
+#include "tables/library.hpp"
 #include "validation/campaign/suite.hpp"
 #include "validation/case/read_case.hpp"
 #include "validation/publish/releases.hpp"

@@ -16,7 +16,7 @@
 #include "program/cli/run_progress.hpp"
 #include "program/cli/start_notes.hpp"
 #include "scene/sample.hpp"
-#include "scene/units.hpp"
+#include "tables/units.hpp"
 #include "validation/campaign/case_names.hpp"
 #include "validation/campaign/suite.hpp"
 #include "validation/case/engine_names.hpp"

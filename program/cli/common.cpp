@@ -16,8 +16,8 @@
 
 #include "core/errors.hpp"
 #include "core/limits.hpp"
-#include "scene/nearest.hpp"
 #include "step/settle.hpp"
+#include "tables/nearest.hpp"
 #include "validation/results/escaped_text.hpp"
 #include "validation/results/verdict.hpp"
 

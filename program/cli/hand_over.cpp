@@ -9,7 +9,7 @@
 #include <filesystem>
 
 #include "core/errors.hpp"
-#include "scene/library.hpp"
+#include "tables/library.hpp"
 #include "validation/publish/report_files.hpp"
 
 namespace tripoint {

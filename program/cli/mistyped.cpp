@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "program/cli/common.hpp"
-#include "scene/nearest.hpp"
+#include "tables/nearest.hpp"
 
 namespace tripoint {
 namespace {

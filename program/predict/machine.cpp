@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/errors.hpp"
-#include "scene/nearest.hpp"
-#include "scene/toml_node.hpp"
+#include "tables/nearest.hpp"
+#include "tables/toml_node.hpp"
 
 namespace tripoint::predict {
 namespace {

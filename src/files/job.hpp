@@ -10,7 +10,7 @@
 #include "files/status.hpp"
 #include "scene/initial_state.hpp"
 #include "scene/scene.hpp"
-#include "scene/settings.hpp"
+#include "tables/settings.hpp"
 
 /// Input (JOB.json) and output (result.json) of an engine, contract 1.
 namespace tripoint {

@@ -8,9 +8,9 @@
 #include "core/whole_number.hpp"
 #include "files/scene_json.hpp"
 #include "scene/geometry.hpp"
-#include "scene/record.hpp"
+#include "tables/record.hpp"
 
-/// A record goes into JSON and comes back by the list of its keys (scene/record.hpp).
+/// A record goes into JSON and comes back by the list of its keys (tables/record.hpp).
 namespace tripoint::record_json {
 
 using json = nlohmann::ordered_json;

@@ -2,8 +2,8 @@
 #pragma once
 #include <string>
 
-#include "scene/settings.hpp"
-#include "scene/words.hpp"
+#include "tables/settings.hpp"
+#include "tables/words.hpp"
 
 namespace tripoint {
 

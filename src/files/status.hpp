@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "scene/words.hpp"
+#include "tables/words.hpp"
 
 namespace tripoint {
 

@@ -6,10 +6,10 @@
 
 #include "scene/geometry.hpp"
 #include "scene/name_checks.hpp"
-#include "scene/nearest.hpp"
 #include "scene/phase_values.hpp"
 #include "scene/readers.hpp"
 #include "scene/shared_terms.hpp"
+#include "tables/nearest.hpp"
 
 /// Rules between the tables of a scene: names that refer to each other, and the effect of one key on another.
 namespace tripoint {

@@ -9,6 +9,7 @@
 
 #include "scene/ledger_entry.hpp"
 #include "scene/phase_values.hpp"
+#include "scene/scene_keys.hpp"
 #include "scene/shared_terms.hpp"
 #include "scene/temperatures.hpp"
 

@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
-#include "scene/key_table.hpp"
 #include "scene/scene.hpp"
+#include "tables/key_table.hpp"
 
 /// Facts about an effect for code that reads scenes and runs nothing. Each effect's rule stands in its folder, in rule.cpp; a
 /// build without the effect has its rule all the same.

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "scene/mesh.hpp"
+#include "mesh/mesh.hpp"
 
 namespace tripoint {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <Eigen/Dense>
 
-#include "scene/mesh.hpp"
+#include "mesh/mesh.hpp"
 #include "scene/sample.hpp"
 
 namespace tripoint {

@@ -5,26 +5,26 @@
 #include <array>
 #include <cmath>
 
-#include "scene/expression.hpp"
 #include "scene/motion.hpp"
+#include "tables/expression.hpp"
 
 namespace tripoint {
 namespace {
 
 constexpr int slices = 64;  ///< of the run: within one all places that a body can have are one box
 
-struct Range {
+struct Extent {
   double low = 0.0, high = 0.0;
 };
-Range operator+(Range a, Range b) { return {a.low + b.low, a.high + b.high}; }
-Range operator-(Range a, Range b) { return {a.low - b.high, a.high - b.low}; }
-Range hull(Range a, Range b) { return {std::min(a.low, b.low), std::max(a.high, b.high)}; }
+Extent operator+(Extent a, Extent b) { return {a.low + b.low, a.high + b.high}; }
+Extent operator-(Extent a, Extent b) { return {a.low - b.high, a.high - b.low}; }
+Extent hull(Extent a, Extent b) { return {std::min(a.low, b.low), std::max(a.high, b.high)}; }
 /// factor >= 0
-Range scaled(Range a, double factor) { return {factor * a.low, factor * a.high}; }
-double size(Range a) { return std::max(std::abs(a.low), std::abs(a.high)); }
+Extent scaled(Extent a, double factor) { return {factor * a.low, factor * a.high}; }
+double size(Extent a) { return std::max(std::abs(a.low), std::abs(a.high)); }
 
-using Box = std::array<Range, 3>;
-Box point(const Vec3& v) { return {Range{v.x, v.x}, {v.y, v.y}, {v.z, v.z}}; }
+using Box = std::array<Extent, 3>;
+Box point(const Vec3& v) { return {Extent{v.x, v.x}, {v.y, v.y}, {v.z, v.z}}; }
 Box hull(const Box& a, const Box& b) { return {hull(a[0], b[0]), hull(a[1], b[1]), hull(a[2], b[2])}; }
 double size(const Box& a) { return norm(Vec3{size(a[0]), size(a[1]), size(a[2])}); }
 
@@ -163,9 +163,9 @@ void bend_by_joints(const Scene& s, std::vector<Path>& paths) {
 }
 
 /// Displacements between two times by constant velocity and acceleration.
-Range moved(Range v, Range a, double from, double to) {
+Extent moved(Extent v, Extent a, double from, double to) {
   const auto at = [&](double t) { return scaled(v, t) + scaled(a, 0.5 * t * t); };
-  Range r = hull(at(from), at(to));
+  Extent r = hull(at(from), at(to));
   for (const auto& [speed, pull] : {std::pair{v.low, a.low}, {v.high, a.high}}) {  // the turning points of both edges
     const double t = pull != 0.0 ? -speed / pull : -1.0;
     if (t > from && t < to) r = hull(r, {speed * t + 0.5 * pull * t * t, speed * t + 0.5 * pull * t * t});
@@ -183,7 +183,7 @@ Box led(const std::vector<Keyframe>& frames, double from, double to) {
 }
 
 /// Least distance between two boxes along an axis, the first moved by `by`, across the sides of a periodic direction too.
-bool near(const Scene& s, std::size_t axis, const Bounds& a, const Bounds& b, Range by, double reach) {
+bool near(const Scene& s, std::size_t axis, const Bounds& a, const Bounds& b, Extent by, double reach) {
   const double low = a.min[axis] + by.low - reach, high = a.max[axis] + by.high + reach;
   if (!s.periodic[axis]) return low <= b.max[axis] && high >= b.min[axis];
   const double width = (*s.max)[axis] - (*s.min)[axis];

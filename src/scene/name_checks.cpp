@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "scene/nearest.hpp"
+#include "tables/nearest.hpp"
 
 namespace tripoint {
 

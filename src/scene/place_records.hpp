@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "scene/record.hpp"
 #include "scene/scene.hpp"
+#include "tables/record.hpp"
 
 /// The keys of shapes, and of fields of temperature and velocity, each beside the member that keeps it.
 namespace tripoint {

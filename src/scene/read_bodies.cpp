@@ -5,10 +5,11 @@
 #include <cmath>
 
 #include "scene/effect_keys.hpp"
-#include "scene/library.hpp"
-#include "scene/nearest.hpp"
+#include "scene/scene_keys.hpp"
 #include "scene/scene_records.hpp"
 #include "scene/value_reader.hpp"
+#include "tables/library.hpp"
+#include "tables/nearest.hpp"
 
 namespace tripoint {
 namespace {
@@ -49,7 +50,7 @@ std::string entry_name(const TomlNode& node, std::size_t number) {
 }
 
 Material read_material(const TomlNode& node, Reading& reading) {
-  TableReader in(node, "material", "material." + entry_name(node, 1), reading.decisions);
+  TableReader in(node, "material", "material." + entry_name(node, 1), reading.decisions, scene_keys());
   Material m;
   RecordReader read(in, m, reading);
   read("name");
@@ -79,7 +80,7 @@ Material read_material(const TomlNode& node, Reading& reading) {
 }
 
 Body read_body(const TomlNode& node, const std::vector<Material>& materials, Reading& reading) {
-  TableReader in(node, "body", "body." + entry_name(node, 1), reading.decisions);
+  TableReader in(node, "body", "body." + entry_name(node, 1), reading.decisions, scene_keys());
   Body b;
   b.place = node.place;
   RecordReader read(in, b, reading);
@@ -134,7 +135,7 @@ std::vector<Keyframe> read_keyframes(TableReader& owner, const Key& key, Reading
   std::vector<Keyframe> frames;
   const auto list = owner.tables(key.name);
   for (std::size_t i = 0; i < list.size(); ++i) {
-    TableReader in(*list[i], "keyframe", fmt::format("{}.{}.{}", owner.path(), key.name, i + 1), reading.decisions);
+    TableReader in(*list[i], "keyframe", fmt::format("{}.{}.{}", owner.path(), key.name, i + 1), reading.decisions, scene_keys());
     Keyframe k;
     RecordReader(in, k, reading).all();
     if (!frames.empty() && !(k.time > frames.back().time))
@@ -162,7 +163,7 @@ static void refuse_keys_of_others(TableReader& in, const std::string& kind) {
 }
 
 Event read_event(const TomlNode& node, std::size_t number, Reading& reading) {
-  TableReader in(node, "event", fmt::format("event.{}", entry_name(node, number)), reading.decisions);
+  TableReader in(node, "event", fmt::format("event.{}", entry_name(node, number)), reading.decisions, scene_keys());
   Event e;
   e.place = node.place;
   RecordReader(in, e, reading).all();
@@ -196,7 +197,7 @@ Event read_event(const TomlNode& node, std::size_t number, Reading& reading) {
 }
 
 Inflow read_inflow(const TomlNode& node, std::size_t number, double end_time, Reading& reading) {
-  TableReader in(node, "inflow", fmt::format("inflow.{}", number), reading.decisions);
+  TableReader in(node, "inflow", fmt::format("inflow.{}", number), reading.decisions, scene_keys());
   Inflow f;
   RecordReader(in, f, reading).all([&](std::string_view key) {
     if (key == "stop") {
@@ -211,7 +212,7 @@ Inflow read_inflow(const TomlNode& node, std::size_t number, double end_time, Re
 }
 
 ContactLaw read_contact_law(const TomlNode& node, std::size_t number, Reading& reading) {
-  TableReader in(node, "contact", fmt::format("contact.{}", number), reading.decisions);
+  TableReader in(node, "contact", fmt::format("contact.{}", number), reading.decisions, scene_keys());
   ContactLaw law;
   law.place = node.place;
   law.materials = in.texts("materials", Repeats::allowed);
@@ -224,7 +225,7 @@ ContactLaw read_contact_law(const TomlNode& node, std::size_t number, Reading& r
 }
 
 AppliedForce read_force(const TomlNode& node, std::size_t number, Reading& reading) {
-  TableReader in(node, "force", fmt::format("force.{}", number), reading.decisions);
+  TableReader in(node, "force", fmt::format("force.{}", number), reading.decisions, scene_keys());
   AppliedForce force;
   force.place = node.place;
   RecordReader(in, force, reading).all();

@@ -7,12 +7,13 @@
 #include "scene/defaults.hpp"
 #include "scene/effect_keys.hpp"
 #include "scene/geometry.hpp"
-#include "scene/library.hpp"
 #include "scene/model.hpp"
-#include "scene/nearest.hpp"
+#include "scene/scene_keys.hpp"
 #include "scene/scene_records.hpp"
 #include "scene/shared_terms.hpp"
 #include "scene/value_reader.hpp"
+#include "tables/library.hpp"
+#include "tables/nearest.hpp"
 
 /// [scene], and everything else that is simulated.
 namespace tripoint {
@@ -56,7 +57,7 @@ void decide_by_form(Reading& reading, std::string_view key, double number, std::
 void read_model(TableReader& top, TableReader& in, Scene& s, Reading& reading) {
   const auto* node = top.composite("model");
   if (!node) return;
-  TableReader model(*node, "model", "model", reading.decisions);
+  TableReader model(*node, "model", "model", reading.decisions, scene_keys());
   for (const ModelTerm& t : model_terms()) {
     const auto word = model.maybe_text(t.name);
     if (!word) continue;
@@ -189,7 +190,7 @@ Scene read_scene(TableReader& top, Reading& reading) {
   // Materials come first: their faults are theirs, whatever else is missing.
   read_materials(top, s, reading);
   const auto* scene = top.composite("scene");
-  TableReader in(*scene, "scene", "scene", reading.decisions);
+  TableReader in(*scene, "scene", "scene", reading.decisions, scene_keys());
   RecordReader read(in, s, reading);
   read_scene_table(in, s, read, reading);
   read_model(top, in, s, reading);

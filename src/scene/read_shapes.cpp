@@ -5,11 +5,12 @@
 #include <cmath>
 #include <filesystem>
 
-#include "scene/expression.hpp"
-#include "scene/library.hpp"
-#include "scene/nearest.hpp"
 #include "scene/place_records.hpp"
+#include "scene/scene_keys.hpp"
 #include "scene/value_reader.hpp"
+#include "tables/expression.hpp"
+#include "tables/library.hpp"
+#include "tables/nearest.hpp"
 
 namespace tripoint {
 namespace {
@@ -54,7 +55,7 @@ class KindReader : public TableReader {
 
  private:
   KindReader(const TomlNode& node, const std::string& table, const std::string& path, Reading& reading)
-      : TableReader(node, table, path, reading.decisions, {"kind"}) {}
+      : TableReader(node, table, path, reading.decisions, scene_keys(), {"kind"}) {}
 };
 
 /// A direction of any length, with length 1.

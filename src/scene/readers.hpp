@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "scene/scene.hpp"
-#include "scene/table_reader.hpp"
+#include "tables/table_reader.hpp"
 
 /// The parts of the reader of scenes, one function a table. All throw InputError with the place and what to write instead.
 namespace tripoint {

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <optional>
 
-#include "scene/expression.hpp"
 #include "scene/lattice.hpp"
 #include "scene/motion.hpp"
 #include "scene/sample.hpp"
+#include "tables/expression.hpp"
 
 /// Particles of a scene at time 0: places on the lattice, mass rho0 dx^3, velocity and temperature by their fields.
 namespace tripoint {

@@ -7,6 +7,8 @@
 
 namespace tripoint {
 
+struct Mesh;
+
 /// Particles of the scene, row = id, bodies in order: on its lattice, and then let down into equilibrium where the scene says
 /// `settle`.
 /// @throws InputError (no particles, mesh not closed, nothing to settle with, ...)
@@ -22,5 +24,8 @@ void set_settler(Settler) noexcept;
 
 /// Mass, centre, principal moments (ascending) and axes of the given particles; moments at round-off become 0.
 [[nodiscard]] MassProperties mass_properties(const std::vector<Vec3>& position, const std::vector<double>& mass);
+
+/// Mass, centre and moments of the body that the mesh encloses, filled with one density.
+[[nodiscard]] MassProperties mass_properties(const Mesh&, double density);
 
 }  // namespace tripoint

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "scene/guard_name.hpp"
-#include "scene/record.hpp"
 #include "scene/scene.hpp"
+#include "tables/record.hpp"
 
 /// The keys of [scene], materials, bodies, events and inflows, each beside the member that keeps it. Effects bring more
 /// (effect_rule.hpp).

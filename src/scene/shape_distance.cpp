@@ -7,8 +7,8 @@
 #include <memory>
 #include <numbers>
 
+#include "mesh/mesh.hpp"
 #include "scene/geometry.hpp"
-#include "scene/mesh.hpp"
 #include "scene/sample.hpp"
 
 namespace tripoint {

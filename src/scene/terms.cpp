@@ -3,8 +3,8 @@
 #include <array>
 
 #include "scene/effect_rule.hpp"
-#include "scene/nearest.hpp"
 #include "scene/shared_terms.hpp"
+#include "tables/nearest.hpp"
 
 /// Every term of two forms, as those to whom they belong declare them.
 namespace tripoint {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "scene/readers.hpp"
-#include "scene/record.hpp"
+#include "tables/record.hpp"
 
 /// Reads the values of a record, each by the type of its member.
 namespace tripoint {

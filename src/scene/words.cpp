@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
-#include "scene/nearest.hpp"
 #include "scene/scene.hpp"
+#include "tables/nearest.hpp"
 
 /// Words of the case file for the enumerations of the scene, and look-up by name.
 namespace tripoint {

@@ -9,6 +9,7 @@
 
 #include "scene/effect_rule.hpp"
 #include "scene/phase_values.hpp"
+#include "scene/scene_keys.hpp"
 #include "scene/shared_terms.hpp"
 #include "sph/surface_gradient.hpp"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/mesh.hpp"
+#include "mesh/mesh.hpp"
 
 namespace tripoint {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// OpenVDB, whose headers take long to compile, in this file and scene/mesh_field.cpp alone.
+// OpenVDB, whose headers take long to compile, in this file and mesh/mesh_field.cpp alone.
 #include "surface/mesher.hpp"
 
 #include <openvdb/openvdb.h>

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Triangles where a field on a sparse grid changes its sign, by OpenVDB. A module of its own, as scene/mesh_field.hpp is: with
+/// Triangles where a field on a sparse grid changes its sign, by OpenVDB. A module of its own, as mesh/mesh_field.hpp is: with
 /// OpenVDB come 40 libraries, which every start of every program would wait for. C names, and no exception leaves it.
 extern "C" {
 inline constexpr int tripoint_mesher_block = 8;  ///< points of a block along each axis: a leaf of OpenVDB's tree

@@ -9,7 +9,7 @@
 #include <type_traits>
 
 #include "core/errors.hpp"
-#include "scene/library.hpp"
+#include "tables/library.hpp"
 
 namespace tripoint {
 namespace {

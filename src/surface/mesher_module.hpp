@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/mesh.hpp"
+#include "mesh/mesh.hpp"
 #include "surface/mesher.hpp"
 
 namespace tripoint {

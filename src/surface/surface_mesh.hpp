@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "scene/mesh.hpp"
+#include "mesh/mesh.hpp"
 #include "surface/implicit_surface.hpp"
 
 namespace tripoint {
@@ -26,7 +26,7 @@ namespace tripoint {
 [[nodiscard]] std::vector<int> label_at(const ImplicitSurface&, std::span<const Vec3> places, std::span<const int> labels,
                                         int threads);
 
-/// Measures of a mesh that can be compared with an exact body. Its volume is that of scene/mesh.hpp.
+/// Measures of a mesh that can be compared with an exact body. Its volume is that of mesh/mesh.hpp.
 struct MeshMeasures {
   double area = 0.0;           ///< [m2]
   long euler = 0;              ///< corners - edges + triangles: 2 for each ball, 0 for each torus

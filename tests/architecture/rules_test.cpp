@@ -108,7 +108,7 @@ TEST(Libraries, StayInTheirRooms) {
   const std::vector<std::pair<std::string, std::string>> rooms{{"btBulletDynamicsCommon.h", "adapters/bullet"},
                                                                {"lammps/library.h", "adapters/lammps"},
                                                                {"hdf5.h", "src/files"},
-                                                               {"toml++/toml.h", "src/scene"},
+                                                               {"toml++/toml.h", "src/tables"},
                                                                {"CLI/CLI.hpp", "program/cli"}};
   for (const auto& [header, room] : rooms) {
     const std::string line = "#include <" + header + ">\n";

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 #include <gtest/gtest.h>
 
@@ -54,6 +55,20 @@ TEST(Tree, KeepsEachLibraryInItsRoom) {
   for (const auto& source : tree()) {
     if (room_of(source.path).empty()) continue;  // a test may look at a file with the library itself
     for (const auto& offence : strayed_libraries(source)) ADD_FAILURE() << offence.message();
+  }
+}
+
+TEST(Tree, HasNoRoomOfMoreThanFiftyFiles) {
+  constexpr int most = 50;  // C++ files; a list of peers, such as the references, may be longer
+  std::map<std::string, int> files;
+  for (const auto& source : tree()) {
+    const auto room = room_of(source.path);
+    if (source.path.ends_with("pp") && !room.empty()) ++files[room];
+  }
+  ASSERT_GT(files.size(), 40U);
+  for (const auto& [room, count] : files) {
+    if (room == "validation/references") continue;
+    EXPECT_LE(count, most) << room << ": split it by subject";
   }
 }
 

@@ -4,7 +4,7 @@
 
 #include "core/errors.hpp"
 #include "fuzz/input.hpp"
-#include "scene/mesh_files.hpp"
+#include "mesh/mesh_files.hpp"
 
 using namespace tripoint;
 

@@ -5,8 +5,8 @@
 
 #include "core/errors.hpp"
 #include "fuzz/input.hpp"
-#include "scene/expression.hpp"
-#include "scene/units.hpp"
+#include "tables/expression.hpp"
+#include "tables/units.hpp"
 
 using namespace tripoint;
 

@@ -22,7 +22,7 @@
 
 #include "core/errors.hpp"
 #include "harness/fakes.hpp"
-#include "scene/toml_node.hpp"
+#include "tables/toml_node.hpp"
 #include "validation/results/verdict.hpp"
 #include "validation/run/process.hpp"
 #include "validation/run/third_party_reader.hpp"

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "fakes.hpp"
+#include "validation/audit/audit.hpp"
 
 namespace tripoint {
 namespace {

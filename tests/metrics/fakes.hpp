@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "references/scenes.hpp"
+#include "validation/audit/audit.hpp"
 #include "validation/metrics/metric.hpp"
 
 /// Runs made from a reference, to be broken by the tests.

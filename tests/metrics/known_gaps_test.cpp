@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "metrics/known.hpp"
+#include "validation/audit/audit.hpp"
 #include "validation/metrics/members.hpp"
 
 namespace tripoint {

@@ -6,6 +6,7 @@
 
 #include "files/gauge_error.hpp"
 #include "metrics/frames.hpp"
+#include "validation/audit/audit.hpp"
 #include "validation/metrics/dominant_frequency.hpp"
 
 namespace tripoint {

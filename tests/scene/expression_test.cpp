@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "core/errors.hpp"
-#include "scene/expression.hpp"
+#include "tables/expression.hpp"
 
 namespace tripoint {
 namespace {

@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "case_file.hpp"
-#include "scene/mesh.hpp"
+#include "mesh/mesh.hpp"
 #include "scene/sample.hpp"
 
 namespace tripoint::test {

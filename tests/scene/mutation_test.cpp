@@ -9,7 +9,7 @@
 #include "full_case.hpp"
 #include "mutator.hpp"
 #include "real_cases.hpp"
-#include "scene/toml_node.hpp"
+#include "tables/toml_node.hpp"
 #include "validation/case/schema.hpp"
 
 /// Files of strangers reach the reader: whatever is in them, it refuses with line and remedy, or shows what it understood.

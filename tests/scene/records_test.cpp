@@ -4,6 +4,7 @@
 
 #include "scene/effect_keys.hpp"
 #include "scene/place_records.hpp"
+#include "scene/scene_keys.hpp"
 #include "scene/scene_records.hpp"
 
 namespace tripoint {
@@ -18,7 +19,7 @@ T read_of_nothing(const Key& key, T value, Yes... yes) {
   TomlNode empty;
   empty.kind = TomlNode::Kind::table;
   Reading reading;
-  TableReader in(empty, key.table, "", reading.decisions, {"kind"});
+  TableReader in(empty, key.table, "", reading.decisions, scene_keys(), {"kind"});
   ValueReader(in, reading)(key, value, yes...);
   return value;
 }

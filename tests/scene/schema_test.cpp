@@ -5,8 +5,8 @@
 #include <set>
 
 #include "case_file.hpp"
-#include "scene/key_table.hpp"
 #include "scene/sample.hpp"
+#include "tables/key_table.hpp"
 #include "validation/case/case_keys.hpp"
 #include "validation/case/preflight.hpp"
 #include "validation/case/schema.hpp"

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "scene/units.hpp"
+#include "tables/units.hpp"
 
 namespace tripoint {
 namespace {

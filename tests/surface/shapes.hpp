@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/vec3.hpp"
-#include "scene/mesh.hpp"
+#include "mesh/mesh.hpp"
 #include "surface/implicit_surface.hpp"
 
 /// Bodies whose volume, area and distance are known exactly, as particles on a lattice, and what their surfaces are off by.

@@ -10,7 +10,7 @@
 #include "core/errors.hpp"
 #include "core/whole_number.hpp"
 #include "files/job.hpp"
-#include "scene/toml_node.hpp"
+#include "tables/toml_node.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/judge/apply_gate.hpp"
 

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "core/durable_file.hpp"
-#include "scene/library.hpp"
+#include "tables/library.hpp"
 #include "validation/baseline/baseline_propose.hpp"
 #include "validation/baseline/baseline_rows.hpp"
 #include "validation/judge/headroom.hpp"

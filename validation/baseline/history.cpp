@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/errors.hpp"
-#include "validation/results/json_number.hpp"
+#include "validation/results/json_text.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;
@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string line(const Json& document) { return document.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+std::string line(const Json& document) { return json_text(document, -1); }
 
 Json gates_of(const CaseResult& c) {
   Json list = Json::array();

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <set>
 
-#include "scene/library.hpp"
+#include "tables/library.hpp"
 #include "validation/baseline/baseline.hpp"
 #include "validation/results/verdict.hpp"
 

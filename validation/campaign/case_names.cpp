@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "core/errors.hpp"
-#include "scene/library.hpp"
-#include "scene/nearest.hpp"
+#include "tables/library.hpp"
+#include "tables/nearest.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;

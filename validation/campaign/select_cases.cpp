@@ -7,9 +7,9 @@
 #include <set>
 
 #include "core/errors.hpp"
-#include "scene/library.hpp"
-#include "scene/nearest.hpp"
-#include "scene/toml_node.hpp"
+#include "tables/library.hpp"
+#include "tables/nearest.hpp"
+#include "tables/toml_node.hpp"
 #include "validation/campaign/case_names.hpp"
 #include "validation/campaign/suite.hpp"
 #include "validation/case/read_case.hpp"

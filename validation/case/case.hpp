@@ -8,7 +8,7 @@
 #include "core/errors.hpp"
 #include "files/reference_choice.hpp"
 #include "scene/scene.hpp"
-#include "scene/settings.hpp"
+#include "tables/settings.hpp"
 #include "validation/case/case_words.hpp"
 #include "validation/case/study_axes.hpp"
 

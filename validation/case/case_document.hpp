@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/toml_node.hpp"
+#include "tables/toml_node.hpp"
 #include "validation/case/case_words.hpp"
 
 /// A case file as one plain document: its base is merged in, and its short forms are written out as [[metric]] and [[gate]]. The

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "files/reference_choice.hpp"
+#include "scene/scene_keys.hpp"
 #include "validation/case/case_document.hpp"
 #include "validation/case/case_words.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "scene/key_table.hpp"
+#include "tables/key_table.hpp"
 
 namespace tripoint {
 

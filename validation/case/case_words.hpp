@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "scene/words.hpp"
+#include "tables/words.hpp"
 
 /// The words of a case file for the choices of the judge.
 namespace tripoint {

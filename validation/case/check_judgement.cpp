@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "scene/name_checks.hpp"
-#include "scene/nearest.hpp"
+#include "tables/nearest.hpp"
 #include "validation/case/gated_metric.hpp"
 #include "validation/case/judge_readers.hpp"
 #include "validation/case/known_defect.hpp"

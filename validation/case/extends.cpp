@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "scene/library.hpp"
-#include "scene/nearest.hpp"
+#include "tables/library.hpp"
+#include "tables/nearest.hpp"
 #include "validation/case/case_document.hpp"
 #include "validation/case/case_keys.hpp"
 

@@ -5,7 +5,9 @@
 #include <type_traits>
 #include <variant>
 
+#include "scene/effect_rule.hpp"
 #include "scene/model.hpp"
+#include "scene/scene_keys.hpp"
 #include "validation/case/idle_search.hpp"
 
 /// Keys of materials and of the scene that no effect of it reads.

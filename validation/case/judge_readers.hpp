@@ -12,7 +12,7 @@ namespace tripoint {
 
 /// A table of the case file, be it the scene's or the judge's.
 [[nodiscard]] inline TableReader case_table(const TomlNode& node, std::string_view table, std::string path, Reading& reading) {
-  return {node, table, std::move(path), reading.decisions, {}, case_keys()};
+  return {node, table, std::move(path), reading.decisions, case_keys()};
 }
 
 [[nodiscard]] EngineChoice read_engine(const TomlNode&, const std::string& name, Reading&);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/library.hpp"
+#include "tables/library.hpp"
 #include "validation/case/preflight.hpp"
 
 namespace tripoint {

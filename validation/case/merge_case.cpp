@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 
-#include "scene/nearest.hpp"
-#include "scene/table_reader.hpp"
+#include "tables/nearest.hpp"
+#include "tables/table_reader.hpp"
 #include "validation/case/case_document.hpp"
 #include "validation/case/case_keys.hpp"
 #include "validation/case/gated_metric.hpp"

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "scene/model.hpp"
+#include "scene/scene_keys.hpp"
 #include "validation/case/preflight.hpp"
 
 namespace tripoint {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "scene/library.hpp"
-#include "scene/nearest.hpp"
+#include "tables/library.hpp"
+#include "tables/nearest.hpp"
 #include "validation/case/case_document.hpp"
 #include "validation/case/case_keys.hpp"
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "scene/library.hpp"
 #include "scene/readers.hpp"
+#include "tables/library.hpp"
 #include "validation/case/case_document.hpp"
 #include "validation/case/judge_readers.hpp"
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/decision.hpp"
 #include "scene/defaults.hpp"
+#include "tables/decision.hpp"
 #include "validation/case/case.hpp"
 
 namespace tripoint {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "scene/expression.hpp"
-#include "scene/nearest.hpp"
 #include "scene/readers.hpp"
+#include "tables/expression.hpp"
+#include "tables/nearest.hpp"
 #include "validation/case/dates.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/case/gated_metric.hpp"

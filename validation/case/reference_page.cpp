@@ -3,7 +3,7 @@
 
 #include "scene/effect_rule.hpp"
 #include "scene/scene.hpp"
-#include "scene/units.hpp"
+#include "tables/units.hpp"
 #include "validation/case/case_document.hpp"
 #include "validation/case/case_keys.hpp"
 #include "validation/case/schema.hpp"

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/mesh.hpp"
 #include "scene/geometry.hpp"
-#include "scene/mesh.hpp"
 #include "scene/sample.hpp"
 #include "scene/shape_distance.hpp"
 

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <optional>
 
-#include "scene/nearest.hpp"
+#include "tables/nearest.hpp"
 #include "validation/case/case_document.hpp"
 #include "validation/case/case_keys.hpp"
 #include "validation/case/gated_metric.hpp"

@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "files/gauge_error.hpp"
-#include "scene/nearest.hpp"
-#include "scene/units.hpp"
+#include "tables/nearest.hpp"
+#include "tables/units.hpp"
 #include "validation/metrics/dominant_frequency.hpp"
 #include "validation/metrics/frame_error.hpp"
 #include "validation/metrics/frames.hpp"

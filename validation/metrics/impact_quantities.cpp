@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "mesh/mesh.hpp"
 #include "scene/geometry.hpp"
-#include "scene/mesh.hpp"
 #include "validation/metrics/frames.hpp"
 #include "validation/metrics/impact_quantities.hpp"
 #include "validation/metrics/members.hpp"

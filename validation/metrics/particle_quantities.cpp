@@ -3,7 +3,7 @@
 #include <map>
 #include <tuple>
 
-#include "scene/nearest.hpp"
+#include "tables/nearest.hpp"
 #include "validation/metrics/members.hpp"
 
 namespace tripoint {

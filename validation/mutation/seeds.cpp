@@ -14,7 +14,7 @@
 #include "validation/case/engine_names.hpp"
 #include "validation/judge/apply_gate.hpp"
 #include "validation/results/escaped_text.hpp"
-#include "validation/results/json_number.hpp"
+#include "validation/results/json_text.hpp"
 #include "validation/results/rows.hpp"
 #include "validation/results/verdict.hpp"
 
@@ -173,10 +173,12 @@ std::string seeds_json(const SeedsOutcome& all) {
                      {"file", g.gate.place.file},
                      {"line", g.gate.place.line}});
   }
-  return Json{{"format", 1},        {"seeds", all.seeds}, {"exit_code", all.exit_code},
-              {"cases", all.cases}, {"gates", gates},     {"problems", all.problems}}
-             .dump(1, ' ', false, Json::error_handler_t::replace) +
-         "\n";
+  return json_text(Json{{"format", 1},
+                        {"seeds", all.seeds},
+                        {"exit_code", all.exit_code},
+                        {"cases", all.cases},
+                        {"gates", gates},
+                        {"problems", all.problems}});
 }
 
 }  // namespace tripoint

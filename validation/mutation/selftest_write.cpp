@@ -8,7 +8,7 @@
 #include "validation/mutation/selftest.hpp"
 #include "validation/mutation/smallest.hpp"
 #include "validation/results/escaped_text.hpp"
-#include "validation/results/json_number.hpp"
+#include "validation/results/json_text.hpp"
 
 namespace tripoint {
 namespace {
@@ -89,7 +89,7 @@ std::string selftest_json(const SelftestOutcome& outcome) {
   const Json document{
       {"format", 1},          {"exit_code", outcome.exit_code},     {"defects", defects},          {"harmless", harmless},
       {"smallest", smallest}, {"smallest_growth", smallest_growth}, {"problems", outcome.problems}};
-  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(document);
 }
 
 }  // namespace tripoint

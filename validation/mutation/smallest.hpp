@@ -3,7 +3,7 @@
 #include <functional>
 #include <optional>
 
-#include "scene/words.hpp"
+#include "tables/words.hpp"
 
 /// The least size of a defect that a gate sees, whichever its sign, by bisection.
 namespace tripoint {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/toml_node.hpp"
+#include "tables/toml_node.hpp"
 #include "validation/results/results.hpp"
 #include "validation/run/discover.hpp"
 #include "validation/run/plan_runs.hpp"

@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 
+#include "tables/text_table.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/judge/physics.hpp"
 #include "validation/results/escaped_text.hpp"
@@ -60,26 +61,32 @@ std::string limit_of(const MetricChange& c) {
   return first == second ? first : first + " -> " + second;
 }
 
-std::string row_of(const MetricChange& c, const CommentOptions& o) {
-  return fmt::format("| {} | {} | {} | {} | {} | {} of {} | {} |\n",
-                     c.trend == Trend::same ? "same" : fmt::format("**{}**", word_of(c.trend)), change_text(c),
-                     linked(c.case_id, c.place, o.links), markdown(name_of(c)), markdown(values_text(c)), used_text(c),
-                     markdown(limit_of(c)), markdown(noise_text(c)));
+/// "0.4 -> 0.5 of limit 0.01"
+std::string used_of_limit(const MetricChange& c) { return fmt::format("{} of {}", used_text(c), markdown(limit_of(c))); }
+
+TextTable::Cells row_of(const MetricChange& c, const CommentOptions& o) {
+  return {c.trend == Trend::same ? "same" : fmt::format("**{}**", word_of(c.trend)),
+          change_text(c),
+          linked(c.case_id, c.place, o.links),
+          markdown(name_of(c)),
+          markdown(values_text(c)),
+          used_of_limit(c),
+          markdown(noise_text(c))};
 }
 
 std::string table_of(const Comparison& all, const CommentOptions& o) {
-  std::string rows;
+  TextTable table({{""}, {"change", 0, true}, {"case"}, {"metric"}, {"base -> head"}, {"of the limit"}, {"noise"}});
   std::size_t count = 0;
   for (const auto& c : all.changes) {
     const bool moved =
         c.trend == Trend::better || c.trend == Trend::worse || (c.trend == Trend::same && std::abs(c.change) >= least_change);
     if (moved && count < o.most) {
       ++count;
-      rows += row_of(c, o);
+      table.add(row_of(c, o));
     }
   }
-  if (rows.empty()) return "No metric of the base has changed by a thousandth of its limit or more.\n";
-  return "| | change | case | metric | base -> head | of the limit | noise |\n|---|---:|---|---|---|---|---|\n" + rows +
+  if (table.empty()) return "No metric of the base has changed by a thousandth of its limit or more.\n";
+  return table.markdown() +
          "\nChanges and noise are in units of the limit; above 0 is worse, 1 is all that the limit allows. A change counts when "
          "it is larger than its noise.\n";
 }
@@ -90,8 +97,8 @@ std::string arrivals(const Comparison& all, Trend trend, const CommentOptions& o
   std::size_t count = 0;
   for (const auto& c : all.changes) {
     if (c.trend != trend || ++count > named) continue;
-    text += fmt::format("- {}: {} {}: {}, {} of {}\n", word_of(trend), linked(c.case_id, c.place, o.links), markdown(name_of(c)),
-                        markdown(values_text(c)), used_text(c), markdown(limit_of(c)));
+    text += fmt::format("- {}: {} {}: {}, {}\n", word_of(trend), linked(c.case_id, c.place, o.links), markdown(name_of(c)),
+                        markdown(values_text(c)), used_of_limit(c));
   }
   return count > named ? text + fmt::format("- and {} more\n", count - named) : text;
 }
@@ -118,14 +125,13 @@ std::string most_used(const Results& results, const CommentOptions& o) {
   std::erase_if(all.changes, [](const auto& c) { return !std::isfinite(c.head->used); });
   std::ranges::stable_sort(all.changes, std::greater{}, [](const auto& c) { return c.head ? c.head->used : 0.0; });
   if (all.changes.empty()) return "";
-  std::string text = "| case | metric | value | of the limit |\n|---|---|---|---|\n";
+  TextTable table({{"case"}, {"metric"}, {"value"}, {"of the limit"}});
   for (std::size_t k = 0; k < std::min(o.most, all.changes.size()); ++k) {
     auto c = all.changes[k];
     c.base.reset();
-    text += fmt::format("| {} | {} | {} | {} of {} |\n", linked(c.case_id, c.place, o.links), markdown(name_of(c)),
-                        markdown(values_text(c)), used_text(c), markdown(limit_of(c)));
+    table.add({linked(c.case_id, c.place, o.links), markdown(name_of(c)), markdown(values_text(c)), used_of_limit(c)});
   }
-  return text;
+  return table.markdown();
 }
 
 std::string names_of(const CommentOptions& o) {

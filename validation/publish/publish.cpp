@@ -8,6 +8,7 @@
 #include "validation/judge/apply_gate.hpp"
 #include "validation/publish/comment.hpp"
 #include "validation/results/escaped_text.hpp"
+#include "validation/results/json_text.hpp"
 #include "validation/results/verdict.hpp"
 
 namespace tripoint {
@@ -22,8 +23,6 @@ std::string harmless(const std::string& text) {
       out.begin(), out.end(), [](char c) { return c == '<' || c == '>' || c == '|' || c == '`' || c == '&' || c == '@'; }, '?');
   return out;
 }
-
-std::string dumped(const Json& document) { return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 struct Badge {
   std::string message, colour;
@@ -66,7 +65,7 @@ std::string badge_text(const Results& results, const GateVerdict& verdict, bool 
   answer["label"] = "accuracy";
   answer["message"] = badge.message;
   answer["color"] = badge.colour;
-  return dumped(answer);
+  return json_text(answer);
 }
 
 std::string dashboard_json(const Results& results, bool in_limits) {
@@ -83,7 +82,7 @@ std::string dashboard_json(const Results& results, bool in_limits) {
     entry["extra"] = harmless(fmt::format("{}: {} {}, {}", s.verdict, fmt::format("{:.6g}", s.value), c.unit, s.allows));
     list.push_back(entry);
   }
-  return dumped(list);
+  return json_text(list);
 }
 
 std::string sarif_text(const GateVerdict& verdict) {
@@ -109,7 +108,7 @@ std::string sarif_text(const GateVerdict& verdict) {
   document["version"] = "2.1.0";
   document["$schema"] = "https://json.schemastore.org/sarif-2.1.0.json";
   document["runs"].push_back(run);
-  return dumped(document);
+  return json_text(document);
 }
 
 }  // namespace tripoint

@@ -5,9 +5,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tables/text_table.hpp"
 #include "validation/publish/releases.hpp"
 #include "validation/results/escaped_text.hpp"
-#include "validation/results/json_number.hpp"
+#include "validation/results/json_text.hpp"
 
 namespace tripoint {
 namespace {
@@ -61,25 +62,24 @@ std::string cell(const Release& r, const std::string& preset, const std::string&
   return "no such preset";
 }
 
+std::string name_of(const Release& r) { return markdown(r.engine.name) + " " + markdown(r.engine.version); }
+
 std::string table_of(const ReleaseTable& t, const MetricChoice& metric) {
-  std::string text = fmt::format("\n**{}**{}: error at the case's own time step (observed order)\n\n| release |",
-                                 markdown(metric.name), metric.unit.empty() ? "" : " [" + markdown(metric.unit) + "]");
-  std::string rule = "|---|";
+  std::string text = fmt::format("\n**{}**{}: error at the case's own time step (observed order)\n\n", markdown(metric.name),
+                                 metric.unit.empty() ? "" : " [" + markdown(metric.unit) + "]");
   std::vector<std::string> presets;
   for (const auto& r : t.releases)
     for (const auto& e : r.result.engines)
       if (std::find(presets.begin(), presets.end(), e.preset) == presets.end()) presets.push_back(e.preset);
-  for (const auto& preset : presets) {
-    text += fmt::format(" {} |", markdown(preset));
-    rule += "---|";
-  }
-  text += "\n" + rule + "\n";
+  std::vector<Column> columns{{"release"}};
+  for (const auto& preset : presets) columns.push_back({markdown(preset)});
+  TextTable table(columns);
   for (const auto& r : t.releases) {
-    text += fmt::format("| {} {} |", markdown(r.engine.name), markdown(r.engine.version));
-    for (const auto& preset : presets) text += fmt::format(" {} |", markdown(cell(r, preset, metric.name)));
-    text += "\n";
+    TextTable::Cells cells{name_of(r)};
+    for (const auto& preset : presets) cells.push_back(markdown(cell(r, preset, metric.name)));
+    table.add(cells);
   }
-  return text;
+  return text + table.markdown();
 }
 
 std::string change_line(const ReleaseChange& c) {
@@ -98,7 +98,7 @@ std::string change_line(const ReleaseChange& c) {
 
 /// Results of each release by the case's own gates.
 std::string gates_of(const ReleaseTable& t) {
-  std::string text = "\n| release | gates of the case that pass | those that do not |\n|---|---|---|\n";
+  TextTable table({{"release"}, {"gates of the case that pass"}, {"those that do not"}});
   bool any = false;
   for (const auto& r : t.releases) {
     std::size_t all = 0, good = 0;
@@ -110,10 +110,9 @@ std::string gates_of(const ReleaseTable& t) {
         if (g.verdict != Verdict::pass) red += fmt::format("{}{} {}: {}", red.empty() ? "" : "; ", e.preset, g.metric, g.why);
       }
     any = any || all > 0;
-    text +=
-        fmt::format("| {} {} | {} of {} | {} |\n", markdown(r.engine.name), markdown(r.engine.version), good, all, markdown(red));
+    table.add({name_of(r), fmt::format("{} of {}", good, all), markdown(red)});
   }
-  return any ? text : "\nThe case has no gate for this engine.\n";
+  return any ? "\n" + table.markdown() : "\nThe case has no gate for this engine.\n";
 }
 
 }  // namespace
@@ -134,11 +133,17 @@ std::string releases_text(const ReleaseTable& t) {
   }
   if (!t.releases.empty())
     for (const auto& m : t.releases.front().result.metrics) metrics.push_back({{"name", m.name}, {"unit", m.unit}});
-  return Json{{"format", 1},          {"case", t.case_id},      {"title", t.title},     {"command", t.command},
-              {"margin", t.margin},   {"metrics", metrics},     {"releases", releases}, {"changes", changes},
-              {"worse", is_worse(t)}, {"line", upgrade_line(t)}}
-             .dump(2, ' ', false, Json::error_handler_t::replace) +
-         "\n";
+  return json_text(Json{{"format", 1},
+                        {"case", t.case_id},
+                        {"title", t.title},
+                        {"command", t.command},
+                        {"margin", t.margin},
+                        {"metrics", metrics},
+                        {"releases", releases},
+                        {"changes", changes},
+                        {"worse", is_worse(t)},
+                        {"line", upgrade_line(t)}},
+                   2);
 }
 
 std::string releases_markdown(const ReleaseTable& t) {

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "core/durable_file.hpp"
-#include "scene/library.hpp"
+#include "tables/library.hpp"
 #include "validation/baseline/history.hpp"
 #include "validation/results/escaped_text.hpp"
 #include "validation/results/rows.hpp"

@@ -8,10 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/durable_file.hpp"
-#include "scene/library.hpp"
+#include "tables/library.hpp"
+#include "tables/text_table.hpp"
 #include "validation/publish/report_files.hpp"
 #include "validation/publish/scorecard.hpp"
-#include "validation/results/json_number.hpp"
+#include "validation/results/json_text.hpp"
 #include "validation/run/process.hpp"
 
 namespace tripoint {
@@ -90,54 +91,68 @@ std::string because(const ScoreRow& r) {
   return (r.reason.empty() ? "" : ": " + r.reason) + (r.cause.empty() ? "" : (r.reason.empty() ? ": " : ". ") + r.cause);
 }
 
+TextTable::Cells row_of(const ScoreRow& r) {
+  return {std::string(to_string(r.verdict)), r.case_id,   error_cell(r), order_cell(r), drift_cell(r), figure(r.cpu_s, "{:.2f}"),
+          figure(r.cost, "{:.2g}"),          rank_cell(r)};
+}
+
 std::string rows_text(const EngineScore& s) {
-  std::string text =
-      fmt::format("\nscorecard of {} {}: {}\n  {:13} {:26} {:>28} {:>10} {:>18} {:>8} {:>7} {:>8}\n", s.label(), s.version,
-                  tally(s), "verdict", "case", "error (limit)", "order", "drift", "CPU s", "x ours", "rank");
+  TextTable table({{"verdict", 13},
+                   {"case", 26},
+                   {"error (limit)", -28},
+                   {"order", -10},
+                   {"drift", -18},
+                   {"CPU s", -8},
+                   {"x ours", -7},
+                   {"rank", -8}});
   for (const auto& r : s.rows) {
     if (!ran(r)) continue;
-    text += fmt::format("  {:13} {:26} {:>28} {:>10} {:>18} {:>8} {:>7} {:>8}\n", r.verdict, r.case_id, error_cell(r),
-                        order_cell(r), drift_cell(r), figure(r.cpu_s, "{:.2f}"), figure(r.cost, "{:.2g}"), rank_cell(r));
+    table.add(row_of(r));
     for (const auto& line : {r.reason, r.cause})
-      if (!line.empty()) text += "                " + line + "\n";
+      if (!line.empty()) table.note("                " + line);
   }
+  std::string text = fmt::format("\nscorecard of {} {}: {}\n", s.label(), s.version, tally(s)) + table.text("  ");
   for (const auto& [reason, ids] : refusals(s))
     text += fmt::format("  {} ({} case{})\n", reason, ids.size(), ids.size() == 1 ? "" : "s");
   return text;
 }
 
-std::string totals_text(const Scorecard& card) {
-  std::string text = fmt::format("\n{:34} {:>5} {:>5} {:>6} {:>8} {:>8} {:>8} {:>6} {:>9}\n", "engine", "pass", "fail", "known",
-                                 "refused", "missing", "crashed", "first", "CPU s");
-  for (const auto& s : card.engines)
-    text += fmt::format("{:34} {:5} {:5} {:6} {:8} {:8} {:8} {:6} {:9.2f}\n", s.label(), s.count(Score::pass),
-                        s.count(Score::fail) + s.count(Score::inconclusive) + s.count(Score::not_judged),
-                        s.count(Score::known_defect), s.count(Score::refused), s.count(Score::missing),
-                        s.count(Score::crashed) + s.count(Score::diverged), firsts(s), cpu_of(s));
-  return text;
-}
-
-std::string totals_markdown(const Scorecard& card) {
-  std::string text =
-      "| engine | pass | fail | known defect | refused | missing | crashed | first | CPU s "
-      "|\n|---|---|---|---|---|---|---|---|---|\n";
-  for (const auto& s : card.engines)
-    text += fmt::format("| {} {} | {} | {} | {} | {} | {} | {} | {} | {:.1f} |\n", s.label(), s.version, s.count(Score::pass),
-                        s.count(Score::fail) + s.count(Score::inconclusive) + s.count(Score::not_judged),
-                        s.count(Score::known_defect), s.count(Score::refused), s.count(Score::missing),
-                        s.count(Score::crashed) + s.count(Score::diverged), firsts(s), cpu_of(s));
-  return text;
+/// A row an engine. Markdown has room for its version.
+TextTable totals(const Scorecard& card, bool is_markdown) {
+  TextTable table({{"engine", 34},
+                   {"pass", -5},
+                   {"fail", -5},
+                   {is_markdown ? "known defect" : "known", -6},
+                   {"refused", -8},
+                   {"missing", -8},
+                   {"crashed", -8},
+                   {"first", -6},
+                   {"CPU s", -9}});
+  for (const auto& s : card.engines) {
+    const int fails = s.count(Score::fail) + s.count(Score::inconclusive) + s.count(Score::not_judged);
+    TextTable::Cells cells{is_markdown ? s.label() + " " + s.version : s.label()};
+    for (const int n : {s.count(Score::pass), fails, s.count(Score::known_defect), s.count(Score::refused),
+                        s.count(Score::missing), s.count(Score::crashed) + s.count(Score::diverged), firsts(s)})
+      cells.push_back(std::to_string(n));
+    cells.push_back(is_markdown ? fmt::format("{:.1f}", cpu_of(s)) : fmt::format("{:.2f}", cpu_of(s)));
+    table.add(cells);
+  }
+  return table;
 }
 
 std::string rows_markdown(const EngineScore& s) {
+  TextTable table({{"case"}, {"verdict"}, {"error"}, {"order"}, {"drift"}, {"CPU s"}, {"times ours"}, {"rank"}});
+  for (const auto& r : s.rows) {
+    if (!ran(r)) continue;
+    auto cells = row_of(r);
+    std::swap(cells[0], cells[1]);
+    cells[1] += cell(because(r));
+    if (std::isfinite(r.error) && !r.unit.empty()) cells[2] += " " + cell(r.unit);
+    cells[4] = cell(cells[4]);
+    table.add(cells);
+  }
   std::string text = fmt::format("\n## {} {}\n\n{}.\n", s.label(), s.version, tally(s));
-  if (std::any_of(s.rows.begin(), s.rows.end(), ran))
-    text += "\n| case | verdict | error | order | drift | CPU s | times ours | rank |\n|---|---|---|---|---|---|---|---|\n";
-  for (const auto& r : s.rows)
-    if (ran(r))
-      text += fmt::format("| {} | {}{} | {}{} | {} | {} | {} | {} | {} |\n", r.case_id, r.verdict, cell(because(r)),
-                          error_cell(r), std::isfinite(r.error) && !r.unit.empty() ? " " + cell(r.unit) : "", order_cell(r),
-                          cell(drift_cell(r)), figure(r.cpu_s, "{:.2f}"), figure(r.cost, "{:.2g}"), rank_cell(r));
+  if (!table.empty()) text += "\n" + table.markdown();
   const auto list = refusals(s);
   if (!list.empty()) text += "\n";
   for (const auto& [reason, ids] : list) text += fmt::format("- {}: {}\n", cell(reason), fmt::join(ids, ", "));
@@ -145,13 +160,12 @@ std::string rows_markdown(const EngineScore& s) {
 }
 
 std::string disagreement_markdown(const Disagreement& d) {
-  std::string text = fmt::format(
-      "\n### {}\n\n{} and {} are {:.3g} {} apart in `{}` ({}).\n\n| engine | off the truth | verdict | the setting, in the "
-      "vendor's words |\n|---|---|---|---|\n",
-      d.case_id, d.a, d.b, d.difference, cell(d.unit), d.metric, d.allowed);
+  std::string text = fmt::format("\n### {}\n\n{} and {} are {:.3g} {} apart in `{}` ({}).\n\n", d.case_id, d.a, d.b, d.difference,
+                                 cell(d.unit), d.metric, d.allowed);
+  TextTable table({{"engine"}, {"off the truth"}, {"verdict"}, {"the setting, in the vendor's words"}});
   for (const auto& w : d.witnesses)
-    text += fmt::format("| {} | {:.3g} | {} | {} |\n", w.label, w.error, w.verdict, cell(w.words));
-  return text;
+    table.add({w.label, fmt::format("{:.3g}", w.error), std::string(to_string(w.verdict)), cell(w.words)});
+  return text + table.markdown();
 }
 
 Json json(const WorstLimit& w) {
@@ -217,7 +231,7 @@ std::string scorecard_text(const Scorecard& card, const std::vector<std::string>
   std::string text;
   if (shown.size() <= most_in_full)
     for (const auto* s : shown) text += rows_text(*s);
-  return text + totals_text(card) +
+  return text + "\n" + totals(card, false).text() +
          (card.disagreements.empty()
               ? ""
               : fmt::format("in {} cases two engines differ by more than half of the limit: the page says which is how far off\n",
@@ -233,7 +247,7 @@ std::string scorecard_markdown(const Scorecard& card) {
       "by "
       "a known defect, has no rank there. `CPU s` is the sum over its own runs of "
       "the cases, studies left out.\n\n" +
-      totals_markdown(card);
+      totals(card, true).markdown();
   for (const auto& s : card.engines) text += rows_markdown(s);
   if (!card.disagreements.empty())
     text +=
@@ -247,10 +261,14 @@ std::string scorecard_json(const Scorecard& card) {
   Json engines = Json::array(), disagreements = Json::array();
   for (const auto& s : card.engines) engines.push_back(json(s));
   for (const auto& d : card.disagreements) disagreements.push_back(json(d));
-  return Json{{"format", 1},       {"command", card.command}, {"verdict", card.verdict}, {"exit_code", card.exit_code},
-              {"date", card.date}, {"commit", card.commit},   {"engines", engines},      {"disagreements", disagreements}}
-             .dump(1, ' ', false, Json::error_handler_t::replace) +
-         "\n";
+  return json_text(Json{{"format", 1},
+                        {"command", card.command},
+                        {"verdict", card.verdict},
+                        {"exit_code", card.exit_code},
+                        {"date", card.date},
+                        {"commit", card.commit},
+                        {"engines", engines},
+                        {"disagreements", disagreements}});
 }
 
 std::string write_scorecard(const Scorecard& card, const std::string& folder) {

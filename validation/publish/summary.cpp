@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include "tables/text_table.hpp"
 #include "validation/judge/apply_gate.hpp"
 #include "validation/judge/physics.hpp"
 #include "validation/publish/report_files.hpp"
@@ -39,11 +40,15 @@ int green(const CaseResult& c, int& all) {
   return passed;
 }
 
-std::string row_of(const CaseResult& c) {
-  int all = 0;
-  const int passed = green(c, all);
-  return fmt::format("| {} | {} | {} | {} of {} | {} |\n", c.verdict, markdown(physics_text(c)), markdown(c.id), passed, all,
-                     markdown(engines_of(c)));
+std::string table_of(const Results& r) {
+  TextTable table({{"gate"}, {"physics"}, {"case"}, {"gates held"}, {"engines"}});
+  for (const auto& c : r.cases) {
+    int all = 0;
+    const int passed = green(c, all);
+    table.add({std::string(to_string(c.verdict)), markdown(physics_text(c)), markdown(c.id), fmt::format("{} of {}", passed, all),
+               markdown(engines_of(c))});
+  }
+  return table.markdown();
 }
 
 std::string not_green(const CaseResult& c) {
@@ -83,12 +88,11 @@ std::string case_line(const CaseResult& c) {
 }
 
 std::string summary_text(const Results& r) {
-  std::string text = fmt::format(
-      "# tripoint: {} (exit {})\n\n{} case{}, {}, profile {}, commit {}, {}, {}\n\n| gate | physics | case | gates "
-      "held | engines |\n|---|---|---|---|---|\n",
-      r.verdict, r.exit_code, r.cases.size(), r.cases.size() == 1 ? "" : "s", physics_counts(r),
-      r.profile.empty() ? "any" : markdown(r.profile), markdown(r.tool.commit), markdown(r.tool.compiler), markdown(r.tool.cpu));
-  for (const auto& c : r.cases) text += row_of(c);
+  std::string text = fmt::format("# tripoint: {} (exit {})\n\n{} case{}, {}, profile {}, commit {}, {}, {}\n\n", r.verdict,
+                                 r.exit_code, r.cases.size(), r.cases.size() == 1 ? "" : "s", physics_counts(r),
+                                 r.profile.empty() ? "any" : markdown(r.profile), markdown(r.tool.commit),
+                                 markdown(r.tool.compiler), markdown(r.tool.cpu));
+  text += table_of(r);
   std::string rest;
   for (const auto& p : r.problems) rest += fmt::format("- {}\n", markdown(p));
   for (const auto& c : r.cases) rest += not_green(c);

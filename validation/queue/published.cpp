@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/durable_file.hpp"
-#include "validation/results/json_number.hpp"
+#include "validation/results/json_text.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;

@@ -10,8 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/errors.hpp"
-#include "scene/toml_node.hpp"
+#include "tables/toml_node.hpp"
 #include "validation/case/engine_names.hpp"
+#include "validation/results/json_text.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;
@@ -77,7 +78,7 @@ std::string queue_text(const Queue& q) {
                 {"cases", cases},
                 {"jobs", jobs}};
   if (q.selection.seed) document["seed"] = *q.selection.seed;
-  return document.dump(0, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(document, 0);
 }
 
 Queue read_queue(const std::string& dir) {

@@ -67,7 +67,7 @@ inline constexpr const char *todo = "todo", *running = "running", *done = "done"
 /// @throws InputError where DIR/suite.json is absent or is none
 [[nodiscard]] Queue read_queue(const std::string& dir);
 
-/// Tries the files of these cases together, before they are read one by one (scene/toml_node.hpp).
+/// Tries the files of these cases together, before they are read one by one (tables/toml_node.hpp).
 void try_cases(const Queue&, const std::set<std::string>& ids);
 
 /// The cases of the suite as they are now, and what every run of it is made with; `out` is left to the caller. @throws InputError

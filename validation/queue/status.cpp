@@ -12,6 +12,7 @@
 #include <set>
 
 #include "validation/results/escaped_text.hpp"
+#include "validation/results/json_text.hpp"
 
 namespace tripoint {
 namespace {
@@ -168,7 +169,7 @@ std::string status_json(const std::string& dir, const Queue& queue, const QueueS
                       {"failed_jobs", json(queue, all, Stand::failed,
                                            [&](std::size_t n, Json& row) { row["reason"] = reason_of(dir, queue.jobs[n]); })},
                       {"doubled_jobs", doubled}};
-  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(document);
 }
 
 }  // namespace tripoint

@@ -2,7 +2,7 @@
 #pragma once
 #include <limits>
 
-#include "scene/words.hpp"
+#include "tables/words.hpp"
 
 namespace tripoint {
 

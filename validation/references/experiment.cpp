@@ -11,7 +11,7 @@
 #include <iterator>
 #include <sstream>
 
-#include "scene/nearest.hpp"
+#include "tables/nearest.hpp"
 #include "validation/references/functions.hpp"
 
 namespace tripoint {

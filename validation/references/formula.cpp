@@ -2,7 +2,7 @@
 #include <cmath>
 #include <map>
 
-#include "scene/expression.hpp"
+#include "tables/expression.hpp"
 #include "validation/references/field_truth.hpp"
 #include "validation/references/measuring.hpp"
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <array>
 
-#include "scene/nearest.hpp"
+#include "tables/nearest.hpp"
 #include "validation/references/contact_entries.hpp"
 
 namespace tripoint {

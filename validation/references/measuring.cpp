@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "validation/references/measuring.hpp"
 
-#include "scene/nearest.hpp"
+#include "tables/nearest.hpp"
 
 namespace tripoint {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "files/job.hpp"
 #include "files/trajectory.hpp"
-#include "scene/words.hpp"
+#include "tables/words.hpp"
 
 namespace tripoint {
 

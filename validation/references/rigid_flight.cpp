@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "scene/nearest.hpp"
+#include "tables/nearest.hpp"
 #include "validation/references/prescribed.hpp"
 #include "validation/references/region.hpp"
 

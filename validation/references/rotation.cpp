@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/nearest.hpp"
+#include "tables/nearest.hpp"
 #include "validation/references/functions.hpp"
 #include "validation/references/rigid_flight.hpp"
 

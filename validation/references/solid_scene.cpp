@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "validation/references/solid_scene.hpp"
 
-#include "scene/nearest.hpp"
 #include "scene/shared_terms.hpp"
+#include "tables/nearest.hpp"
 #include "validation/references/heat_scene.hpp"
 
 namespace tripoint {

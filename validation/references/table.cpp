@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/nearest.hpp"
+#include "tables/nearest.hpp"
 #include "validation/references/experiment.hpp"
 #include "validation/references/field_truth.hpp"
 #include "validation/references/measuring.hpp"

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "validation/references/reference.hpp"
-#include "validation/results/json_number.hpp"
+#include "validation/results/json_text.hpp"
 #include "validation/results/results_fields.hpp"
 
 namespace tripoint {
@@ -115,7 +115,7 @@ class Writer {
 
 template <class Record>
 std::string text_of(const Record& record) {
-  return Writer::json(record).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(Writer::json(record));
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <set>
 #include <string>
 
-#include "scene/words.hpp"
+#include "tables/words.hpp"
 
 /// Exit codes of the contract and the words that go with them.
 namespace tripoint {

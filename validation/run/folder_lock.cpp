@@ -16,7 +16,7 @@
 #include <filesystem>
 
 #include "core/errors.hpp"
-#include "scene/nearest.hpp"
+#include "tables/nearest.hpp"
 
 namespace tripoint {
 namespace {

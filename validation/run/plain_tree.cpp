@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
-#include "scene/nearest.hpp"
+#include "tables/nearest.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;

@@ -10,6 +10,7 @@
 #include "files/foreign_file.hpp"
 #include "files/trajectory.hpp"
 #include "scene/contact_law.hpp"
+#include "validation/audit/audit.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/run/finished_run.hpp"
 #include "validation/run/instructions.hpp"

@@ -14,7 +14,7 @@
 
 #include "core/confined_copy.hpp"
 #include "core/errors.hpp"
-#include "scene/library.hpp"
+#include "tables/library.hpp"
 #include "validation/run/discover.hpp"
 #include "validation/run/earlier_run.hpp"
 #include "validation/run/sandbox_sums.hpp"

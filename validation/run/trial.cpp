@@ -13,8 +13,8 @@
 
 #include "core/errors.hpp"
 #include "scene/effect_rule.hpp"
-#include "scene/nearest.hpp"
 #include "scene/sample.hpp"
+#include "tables/nearest.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/results/expected_refusal.hpp"
 #include "validation/run/run_one.hpp"

@@ -3,7 +3,7 @@
 
 #include "scene/effect_rule.hpp"
 #include "scene/shared_terms.hpp"
-#include "scene/table_reader.hpp"
+#include "tables/table_reader.hpp"
 
 namespace tripoint::elastic {
 namespace {

@@ -7,7 +7,7 @@
 #include "effects/fluid/stored_compression.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/shared_terms.hpp"
-#include "scene/table_reader.hpp"
+#include "tables/table_reader.hpp"
 
 namespace tripoint::fluid {
 namespace {

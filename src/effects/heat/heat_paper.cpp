@@ -9,6 +9,7 @@
 #include "effects/heat/heat_terms.hpp"
 #include "effects/heat/thermal_particles.hpp"
 #include "scene/effect_rule.hpp"
+#include "scene/scene_keys.hpp"
 #include "solids/fusion.hpp"
 #include "world/fill.hpp"
 #include "world/ordered_sum.hpp"

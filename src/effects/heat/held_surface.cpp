@@ -11,6 +11,7 @@
 #include "effects/heat/fields.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/geometry.hpp"
+#include "scene/scene_keys.hpp"
 #include "scene/shared_terms.hpp"
 #include "sph/kernels.hpp"
 #include "world/ordered_sum.hpp"

@@ -4,8 +4,8 @@
 #include "scene/effect_rule.hpp"
 #include "scene/phase_values.hpp"
 #include "scene/shared_terms.hpp"
-#include "scene/table_reader.hpp"
 #include "scene/temperatures.hpp"
+#include "tables/table_reader.hpp"
 
 namespace tripoint::heat {
 namespace {

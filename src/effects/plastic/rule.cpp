@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/effect_rule.hpp"
-#include "scene/table_reader.hpp"
+#include "tables/table_reader.hpp"
 
 namespace tripoint::plastic {
 namespace {

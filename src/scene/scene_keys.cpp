@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/scene_keys.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "scene/effect_rule.hpp"
+#include "scene/model.hpp"
+#include "scene/place_records.hpp"
+#include "scene/scene_records.hpp"
+
+namespace tripoint {
+namespace {
+
+using enum ValueType;
+using enum Range;
+
+constexpr auto top_keys = std::to_array<Key>({
+    {"", "scene", table, "", any, "!", "", "scene", "what is simulated"},
+    {"", "model", table, "", any, "=", "the forms that scene.mode says", "model", "form of each term of the model"},
+    {"", "material", tables, "", any, "=", "materials of the library serve by name", "material", "matter"},
+    {"", "body", tables, "", any, "!", "", "body", "bodies, in the order of their rows"},
+    {"", "event", tables, "", any, "=", "nothing happens on the way", "event", "what happens at a time"},
+    {"", "inflow", tables, "", any, "=", "nothing flows in", "inflow", "liquid that flows in"},
+    {"", "contact", tables, "", any, "=", "no friction; restitution as each engine's preset has it", "contact",
+     "friction and restitution by pairs of materials"},
+    {"", "force", tables, "", any, "=", "gravity alone", "force", "constant forces on rigid bodies"},
+});
+
+constexpr auto tables_of_scene = std::to_array<TableInfo>({
+    {"scene", "[scene]", "What is simulated."},
+    {"model", "[model]",
+     "The form of each term of the model, by a word that holds in every mode: `viscosity = \"morris\"`; paper: as the "
+     "paper prints it. `mode`, `modes`, `clamp` and numbers of [scene] fill what is not given here."},
+    {"material", "[[material]]", "A material. Names of the library bring the library's values."},
+    {"body", "[[body]]", "A body."},
+    {"keyframe", "keyframes = [{time, position, rotation}]", "Position and rotation at a time."},
+    {"shape.box", "shape = {kind = \"box\", ...}", "A box along the axes."},
+    {"shape.sphere", "shape = {kind = \"sphere\", ...}", "A sphere."},
+    {"shape.cylinder", "shape = {kind = \"cylinder\", ...}", "A cylinder."},
+    {"shape.half_space", "shape = {kind = \"half_space\", ...}",
+     "All that lies behind a plane; for regions, or cut by a difference."},
+    {"shape.union", "shape = {kind = \"union\", ...}", "All of several shapes."},
+    {"shape.difference", "shape = {kind = \"difference\", ...}", "A shape less another."},
+    {"shape.mesh", "shape = {kind = \"mesh\", ...}", "The inside of a closed triangle mesh."},
+    {"temperature.cosine", "temperature = {kind = \"cosine\", ...}", "A wave. A plain number is constant."},
+    {"temperature.step", "temperature = {kind = \"step\", ...}", "Two values, on either side of a plane."},
+    {"temperature.expression", "temperature = {kind = \"expression\", ...}", "A formula."},
+    {"velocity.cosine", "velocity = {kind = \"cosine\", ...}", "A wave. A plain vector is constant."},
+    {"velocity.linear", "velocity = {kind = \"linear\", ...}", "gradient (r - centre)."},
+    {"velocity.taylor_green", "velocity = {kind = \"taylor_green\", ...}", "Vortices in x and y."},
+    {"velocity.expression", "velocity = {kind = \"expression\", ...}", "Formulas."},
+    {"event", "[[event]]", "An event at a time."},
+    {"inflow", "[[inflow]]", "Liquid that flows in."},
+    {"contact", "[[contact]]", "Friction and restitution of a pair of materials."},
+    {"force", "[[force]]", "A constant force on a rigid body."},
+});
+
+void add_rows(std::vector<Key>& list, const auto& record) {
+  std::apply([&](const auto&... entries) { (list.push_back(row_of(entries)), ...); }, record);
+}
+
+void add_rows_of_kinds(std::vector<Key>& list, const auto& kinds) {
+  std::apply([&](const auto&... all) { (add_rows(list, all.record), ...); }, kinds);
+}
+
+/// Keys that every scene reads; in each table behind them the keys that effects bring.
+std::vector<Key> all_keys() {
+  std::vector<Key> list(top_keys.begin(), top_keys.end());
+  add_rows(list, record<Scene>);
+  for (const Key& row : model_keys()) list.push_back(row);
+  add_rows(list, record<Material>);
+  add_rows(list, record<Body>);
+  add_rows(list, record<Keyframe>);
+  add_rows_of_kinds(list, kinds<Shape>);
+  add_rows_of_kinds(list, kinds<TemperatureField>);
+  add_rows_of_kinds(list, kinds<VelocityField>);
+  add_rows(list, record<Event>);
+  add_rows(list, record<Inflow>);
+  add_rows(list, record<ContactLaw>);
+  add_rows(list, record<AppliedForce>);
+  for (const EffectRule& rule : effect_rules()) {
+    for (const EffectKey& key : rule.keys) {
+      const auto last = std::find_if(list.rbegin(), list.rend(), [&](const Key& k) { return k.table == key.row.table; });
+      list.insert(last.base(), key.row);
+    }
+  }
+  return list;
+}
+
+}  // namespace
+
+const KeyTable& scene_keys() {
+  static const KeyTable keys(all_keys(), {tables_of_scene.begin(), tables_of_scene.end()});
+  return keys;
+}
+
+const Key& key_row(std::string_view table, std::string_view name) { return scene_keys().row(table, name); }
+
+}  // namespace tripoint

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <array>
+
+#include "validation/audit/audit_rates.hpp"
+
+namespace tripoint {
+namespace {
+
+void take(Box& box, const Vec3& x) {
+  if (box.empty) box.low = box.high = x;
+  box.empty = false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.low[k] = std::min(box.low[k], x[k]);
+    box.high[k] = std::max(box.high[k], x[k]);
+  }
+}
+
+Box united(Box box, const Box& other) {
+  if (other.empty) return box;
+  take(box, other.low);
+  take(box, other.high);
+  return box;
+}
+
+bool meet(const Box& a, const Box& b, double room) {
+  if (a.empty || b.empty) return false;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (a.low[k] - room > b.high[k] || b.low[k] - room > a.high[k]) return false;
+  return true;
+}
+
+bool meet(const Box& box, const Shape& half_space, double room) {
+  if (box.empty) return false;
+  const Vec3 n = (1.0 / norm(half_space.normal)) * half_space.normal;
+  Vec3 lowest = box.low;
+  for (std::size_t k = 0; k < 3; ++k) lowest[k] = n[k] > 0.0 ? box.low[k] : box.high[k];
+  return dot(lowest - half_space.point, n) < room;
+}
+
+/// Boxes of all bodies in one frame.
+std::vector<Box> boxes_in(const Audited& run, const Snapshot& s) {
+  std::vector<Box> boxes(run.job.bodies.size());
+  for (std::size_t i = 0; i < std::min(s.position.size(), run.initial.source.size()); ++i)
+    if (const auto source = static_cast<std::size_t>(run.initial.source[i]); source < boxes.size() && !dead(s, i))
+      take(boxes[source], s.position[i]);
+  return boxes;
+}
+
+Box swept(const Audited& run, std::size_t body, std::size_t interval) {
+  if (run.boxes.empty())
+    for (const auto* s : run.frames) run.boxes.push_back(boxes_in(run, *s));
+  return united(run.boxes[interval][body], run.boxes[interval + 1][body]);
+}
+
+const BodyState* row_of(const JobBody& body, const Snapshot& s) {
+  const bool has_row = body.index >= 0 && static_cast<std::size_t>(body.index) < s.bodies.size();
+  return has_row ? &s.bodies[static_cast<std::size_t>(body.index)] : nullptr;
+}
+
+/// Largest speed of a body's matter beside a velocity, at one time [m/s].
+double fastest_beside(const Audited& run, std::size_t other, const Snapshot& s, const Vec3& velocity) {
+  double most = 0.0;
+  if (const auto* row = row_of(run.job.bodies[other], s); row && run.job.bodies[other].phase == Phase::rigid) {
+    const Box& box = run.boxes.front()[other];
+    return norm(row->velocity - velocity) + norm(row->angular_velocity) * norm(box.high - box.low);
+  }
+  for (std::size_t i = 0; i < std::min(s.velocity.size(), run.initial.source.size()); ++i)
+    if (static_cast<std::size_t>(run.initial.source[i]) == other && !dead(s, i))
+      most = std::max(most, norm(s.velocity[i] - velocity));
+  return most;
+}
+
+/// Bodies whose swept boxes come within three spacings of that of one body.
+std::vector<std::size_t> near_bodies(const Audited& run, std::size_t body, std::size_t interval) {
+  const auto& scene = run.job.scene;
+  const bool unknown = scene.periodic[0] || scene.periodic[1] || scene.periodic[2] || !scene.inflows.empty();
+  const Box own = swept(run, body, interval);
+  const double room = 3.0 * scene.spacing;
+  std::vector<std::size_t> near;
+  for (std::size_t b = 0; b < run.job.bodies.size(); ++b) {
+    const bool is_plane = b < scene.bodies.size() && scene.bodies[b].shape.kind == Shape::Kind::half_space;
+    const bool meets = meet(own, swept(run, b, interval), room) || (is_plane && meet(own, scene.bodies[b].shape, room));
+    if (b != body && (unknown || meets)) near.push_back(b);
+  }
+  return near;
+}
+
+}  // namespace
+
+Contact contact_of(const Audited& run, std::size_t body, std::size_t interval) {
+  if (run.job.bodies.size() < 2) return {};
+  const auto near = near_bodies(run, body, interval);
+  if (near.empty()) return {};
+  const Snapshot &a = *run.frames[interval], &b = *run.frames[interval + 1];
+  const auto velocity = [&](const Snapshot& s) {
+    const auto* row = row_of(run.job.bodies[body], s);
+    return row ? row->velocity : Vec3{};
+  };
+  Contact contact{true, 0.4 * norm(run.job.scene.gravity) * (b.time - a.time)};
+  double pushed = 0.0;  // what stands still gives no speed
+  for (const std::size_t other : near)
+    for (const auto* s : {&a, &b})
+      if (run.job.bodies[other].motion != Motion::fixed) pushed = std::max(pushed, fastest_beside(run, other, *s, velocity(*s)));
+  contact.hidden_speed += pushed;
+  return contact;
+}
+
+}  // namespace tripoint
