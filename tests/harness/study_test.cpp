@@ -74,6 +74,23 @@ TEST(Engines, OurSolverIsNotRequiredWhereAllEnginesGetALawOfContactThatItDoesNot
   EXPECT_TRUE(required("friction = 0.0, restitution = 1.0"));
 }
 
+TEST(Studies, OfANumberThatAnEngineHasNotAreItsOwnRunAlone) {
+  const TestFolder folder;
+  const auto value = read_flight_case(folder, "[[study]]\naxis = \"walkers\"\nlevels = [10, 100]\n");
+  Selection only;
+  only.engines = {"other"};
+  const auto plan = [&](const std::string& setting) {
+    EngineEntry other;
+    other.name = "other";
+    other.settings = {{setting, "a number"}};
+    return plan_runs(value, {other}, only).at(0).runs;
+  };
+  EXPECT_EQ(plan("walkers").size(), 3u);
+  const auto runs = plan("time_step");
+  ASSERT_EQ(runs.size(), 1u);
+  EXPECT_EQ(runs[0].levels.at(value.studies[0].axes), 100.0);
+}
+
 TEST(Studies, ShareTheRunsThatAreTheSame) {
   const TestFolder folder;
   const auto value = read_flight_case(folder, R"(

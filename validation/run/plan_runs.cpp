@@ -89,6 +89,13 @@ std::optional<double> own_level(const Scene& scene, const RunPlan& run, Axis axi
   return run.iterations;
 }
 
+/// Whether an engine says in --info that it has settings, and has none of the study's number: its own run is then the finest
+/// level.
+bool lacks_number(const EngineEntry* entry, Axis axis) {
+  if (!entry || entry->settings.empty() || is_own_solver(entry->name)) return false;
+  return (axis == Axis::walkers || axis == Axis::iterations) && !entry->settings.contains(std::string(to_string(axis)));
+}
+
 void set_level(RunPlan& run, Axis axis, double level) {
   switch (axis) {
     case Axis::spacing:
@@ -232,17 +239,18 @@ class Budget {
   std::size_t asked_ = 0;
 };
 
-void count_runs(const Case& value, const EngineChoice& engine, std::size_t presets, Budget& budget) {
+void count_runs(const Case& value, const EngineChoice& engine, const EngineEntry* entry, std::size_t presets, Budget& budget) {
   for (const JudgedMode mode : modes_of(value, engine)) {
     budget.spend(presets, {value.file, 0, 0});
     for (const auto& input : value.inputs) budget.spend(2 * presets, input.place);
     for (const auto& study : value.studies)
-      if (applies(study, engine.name, mode))
+      if (applies(study, engine.name, mode) && !lacks_number(entry, study.axes.axis))
         budget.spend(presets * study.levels.size() * static_cast<std::size_t>(study.seeds), study.place);
   }
 }
 
-std::vector<RunPlan> runs_of(const Case& value, const EngineChoice& engine, const Selection& selection) {
+std::vector<RunPlan> runs_of(const Case& value, const EngineChoice& engine, const EngineEntry* entry,
+                             const Selection& selection) {
   RunList runs(value);
   const std::uint64_t seed = selection.seed.value_or(value.scene.seed);
   for (const JudgedMode mode : modes_of(value, engine)) {
@@ -259,11 +267,13 @@ std::vector<RunPlan> runs_of(const Case& value, const EngineChoice& engine, cons
          value.studies)  // a gate on this level means the case's own run too, whichever engine the study is of
       if (const auto level = own_level(scene, base, study.axes.axis); level && study.axes.alone())
         base.levels[study.axes] = *level;
+      else if (applies(study, engine.name, mode) && lacks_number(entry, study.axes.axis))
+        base.levels[study.axes] = study.levels.back();
     runs.append(base);
     base.levels.clear();
     if (!is_exact(engine.name)) add_inputs(value, base, runs);
     for (const auto& study : value.studies)
-      if (applies(study, engine.name, mode)) add_study(study, base, seed, runs);
+      if (applies(study, engine.name, mode) && !lacks_number(entry, study.axes.axis)) add_study(study, base, seed, runs);
   }
   return runs.take();
 }
@@ -287,8 +297,8 @@ std::vector<EnginePlan> plan_runs(const Case& value, const std::vector<EngineEnt
     plan.entry = find_engine(found, engine.name);
     const auto presets = presets_of(engine, plan.entry);
     if (!plan.entry || plan.entry->available) {
-      count_runs(value, engine, presets.size(), budget);
-      plan.runs = runs_of(value, engine, selection);
+      count_runs(value, engine, plan.entry, presets.size(), budget);
+      plan.runs = runs_of(value, engine, plan.entry, selection);
     }
     for (const auto& preset : presets) {
       plan.preset = preset;
