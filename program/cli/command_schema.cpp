@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -12,6 +14,7 @@
 #include "program/cli/common.hpp"
 #include "validation/case/schema.hpp"
 #include "validation/metrics/metric.hpp"
+#include "validation/references/measuring.hpp"
 #include "validation/references/reference.hpp"
 
 namespace tripoint {
@@ -52,21 +55,48 @@ std::string schema() {
   return document.dump(2) + "\n";
 }
 
-std::string word_table(const char* title, const std::vector<MetricWord>& words) {
-  std::string out = fmt::format("## {}\n\n| name | unit | meaning |\n|---|---|---|\n", title);
-  for (const auto& w : words) out += fmt::format("| `{}` | {} | {} |\n", w.name, w.unit, w.meaning);
+std::string word_list(const char* title, const std::vector<MetricWord>& words) {
+  std::string out = fmt::format("## {}\n\n", title);
+  for (const auto& w : words)
+    out += fmt::format("- `{}`{}: {}.\n", w.name, w.unit.empty() ? "" : fmt::format(" ({})", w.unit), w.meaning);
   return out + "\n";
+}
+
+/// A line for each argument; those of one meaning that follow each other have one line.
+std::string argument_list(const std::vector<ReferenceArgument>& args) {
+  std::string out;
+  for (std::size_t n = 0; n < args.size(); ++n) {
+    const std::string name = fmt::format("`{}`{}", args[n].name, args[n].unit.empty() ? "" : fmt::format(" ({})", args[n].unit));
+    out += n > 0 && args[n].meaning == args[n - 1].meaning ? ", " : "- ";
+    out += name;
+    if (n + 1 == args.size() || args[n + 1].meaning != args[n].meaning) out += fmt::format(": {}.\n", args[n].meaning);
+  }
+  return out.empty() ? "" : out + "\n";
+}
+
+bool is_measuring(const ReferenceArgument& one) {
+  static const std::vector<ReferenceArgument> known = measuring_arguments();
+  return std::ranges::find(known, one.name, &ReferenceArgument::name) != known.end();
+}
+
+/// A function whose reference is stated takes the measuring arguments, which the page lists once.
+std::string function_page(const ReferenceFunction& f) {
+  std::vector<ReferenceArgument> own, measuring;
+  for (const auto& a : f.args) (is_measuring(a) ? measuring : own).push_back(a);
+  const bool all = measuring.size() == measuring_arguments().size();
+  std::string meaning = f.meaning;
+  meaning[0] = static_cast<char>(std::toupper(meaning[0]));
+  std::string out = fmt::format("### `{}`\n\n{}. Source: {} ({}).\n\n", f.name, meaning, f.source, f.kind);
+  out += argument_list(all ? own : f.args);
+  if (all) out += "It also takes the [measuring arguments](#measuring-arguments).\n\n";
+  return out;
 }
 
 std::string page() {
   std::string out = case_reference_page() + "## Reference functions\n\n";
-  for (const auto& f : reference_functions()) {
-    out += fmt::format("### `{}`\n\n{}. Source: {} ({}).\n\n", f.name, f.meaning, f.source, f.kind);
-    if (!f.args.empty()) out += "| argument | unit | meaning and default |\n|---|---|---|\n";
-    for (const auto& a : f.args) out += fmt::format("| `{}` | {} | {} |\n", a.name, a.unit, a.meaning);
-    if (!f.args.empty()) out += "\n";
-  }
-  return out + word_table("Quantities", metric_quantities()) + word_table("Norms", metric_norms());
+  for (const auto& f : reference_functions()) out += function_page(f);
+  out += "### Measuring arguments\n\n" + argument_list(measuring_arguments());
+  return out + word_list("Quantities", metric_quantities()) + word_list("Norms", metric_norms());
 }
 
 /// The value of a key in words: "number", "list of 3 number", "[shape](#shape)", "corrected or paper".

@@ -67,9 +67,8 @@ inline constexpr auto of_temperature = std::make_tuple(
                 kept(&TemperatureField::ahead, {"temperature.step", "ahead", number, "K", positive, "!", "", "", "elsewhere"})),
     kind_record(TemperatureField::Kind::expression, "expression",
                 kept(&TemperatureField::expression, {"temperature.expression", "value", text, "", any, "!", "", "",
-                                                     "of x, y, z in m; + - * / ^ ( ) sin cos tan exp log sqrt abs erf erfc sinh "
-                                                     "cosh tanh min max pi, and sum(n, 1, 40, f) of f "
-                                                     "over n"})));
+                                                     "formula of x, y, z in m with `+ - * / ^ ( ) sin cos tan exp log sqrt abs "
+                                                     "erf erfc sinh cosh tanh min max pi` and `sum(n, 1, 40, f)`"})));
 
 inline constexpr auto of_velocity = std::make_tuple(
     kind_record(VelocityField::Kind::constant, "constant"),

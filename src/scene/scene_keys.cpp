@@ -16,7 +16,7 @@ using enum ValueType;
 using enum Range;
 
 constexpr auto top_keys = std::to_array<Key>({
-    {"", "scene", table, "", any, "!", "", "scene", "what is simulated"},
+    {"", "scene", table, "", any, "!", "", "scene", "the simulated scene"},
     {"", "model", table, "", any, "=", "the forms that scene.mode says", "model", "form of each term of the model"},
     {"", "material", tables, "", any, "=", "materials of the library serve by name", "material", "matter"},
     {"", "body", tables, "", any, "!", "", "body", "bodies, in the order of their rows"},
@@ -28,7 +28,7 @@ constexpr auto top_keys = std::to_array<Key>({
 });
 
 constexpr auto tables_of_scene = std::to_array<TableInfo>({
-    {"scene", "[scene]", "What is simulated."},
+    {"scene", "[scene]", "The simulated scene."},
     {"model", "[model]",
      "The form of each term of the model, by a word that holds in every mode: `viscosity = \"morris\"`; paper: as the "
      "paper prints it. `mode`, `modes`, `clamp` and numbers of [scene] fill what is not given here."},

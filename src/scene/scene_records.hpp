@@ -24,8 +24,7 @@ inline constexpr auto of_scene = std::make_tuple(
                         "form of every term of the model"}),
     Key{"scene", "modes", table, "", any, "=", "every term as `mode` says", "modes", "form of single terms of the model"},
     Key{"scene", "clamp", flag, "", any, "=",
-        "modes.clamp: true where it is corrected, since negative pressure would glue bodies together; the paper prints none", "",
-        "no negative pressure"},
+        "true where modes.clamp is corrected, as negative pressure would glue bodies together", "", "no negative pressure"},
     kept(&Scene::time_step, {"scene", "time_step", number_or_auto, "s", positive, "\"auto\"",
                              "the least bound of the effects that are on", "", "time step, or \"auto\""}),
     kept(&Scene::seed, {"scene", "seed", integer, "", not_negative, "1", "any number serves; kept so that runs repeat", "",
@@ -40,39 +39,34 @@ inline constexpr auto of_scene = std::make_tuple(
          {"scene", "periodic", words, "", any, "[]", "open in every direction", "x y z", "periodic directions of the domain"}),
     kept(&Scene::output_interval,
          {"scene", "output_interval", number, "s", positive, "=", "a twentieth of end_time", "", "time between frames"}),
-    kept(&Scene::settle,
-         {"scene", "settle", flag, "", any, "false",
-          "liquids start on a lattice, which falls by a tenth of a spacing and breaks up", "",
-          "let the liquids down into equilibrium under gravity before time 0, between solids that stand where they start"}),
+    kept(&Scene::settle, {"scene", "settle", flag, "", any, "false", "liquids start on a lattice", "",
+                          "liquids settle under gravity before time 0, between solids at rest"}),
     kept(&Scene::merge_distance,
-         {"scene", "merge_distance", number, "", positive, "=",
-          "1.5, nearest and diagonal neighbours of the lattice; where phase is paper 2.12, the reach of its bonds", "",
-          "how near a freezing particle joins, in spacings"},
+         {"scene", "merge_distance", number, "", positive, "=", "1.5; where phase is paper 2.12", "",
+          "distance within which a freezing particle joins, in spacings"},
          {.later = true}),
     kept(&Scene::contact,
          {"scene", "contact", word, "", any, "\"auto\"", "solids meet wherever their paths can cross", "auto none",
-          "none: solids pass through each other, and nothing is paid for it; not in a scene that flows"},
+          "none: solids pass through each other; not in a scene with liquid"},
          {.yes = "auto"}),
     kept(&Scene::recovers,
          {"scene", "on_failure", word, "", any, "\"stop\"", "a run that has gone wrong is no result", "stop recover",
-          "what a guard does that trips: stop with exit code 7; or go back to the last good state and on with half the step, "
-          "counted in the results"},
+          "action of a guard that trips. stop: exit code 7. recover: back to the last good state and on with half the step"},
          {.yes = "recover"}),
-    kept(&Scene::unguarded,
-         {"scene", "unguarded", words, "", any, "[]", "every guard is on", words_of_optional_guards,
-          "guards that are off: det F <= 0; a solid or liquid pressed to more than two coinciding layers; a particle leaving "
-          "min..max; energy made or lost by the scheme; a time step that collapses"}));
+    kept(&Scene::unguarded, {"scene", "unguarded", words, "", any, "[]", "every guard is on", words_of_optional_guards,
+                             "guards that are off: det F <= 0, more than two coinciding layers, a particle outside min..max, "
+                             "energy of the scheme, a collapsing time step"}));
 
-inline constexpr auto of_material = std::make_tuple(
-    kept(&Material::name, {"material", "name", text, "", any, "!", "", "",
-                           "its name; a name of the library brings the library's values, which keys here replace"}),
-    kept(&Material::density,
-         {"material", "density", number, "kg/m3", positive, "!", "", "", "rest density, one for both phases"}),
-    kept(&Material::solid,
-         {"material", "solid", word, "", any, "=", "elastic where young_modulus is given, else rigid", "elastic rigid",
-          "what it is when solid"},
-         {.later = true}),
-    Key{"material", "source", text, "", any, "", "the case's own values", "", "where the values come from"});
+inline constexpr auto of_material =
+    std::make_tuple(kept(&Material::name, {"material", "name", text, "", any, "!", "", "",
+                                           "its name; a name of the library brings values, which keys here replace"}),
+                    kept(&Material::density,
+                         {"material", "density", number, "kg/m3", positive, "!", "", "", "rest density, one for both phases"}),
+                    kept(&Material::solid,
+                         {"material", "solid", word, "", any, "=", "elastic where young_modulus is given, else rigid",
+                          "elastic rigid", "kind of the solid"},
+                         {.later = true}),
+                    Key{"material", "source", text, "", any, "", "the case's own values", "", "where the values come from"});
 
 inline constexpr auto of_body = std::make_tuple(
     kept(&Body::name, {"body", "name", text, "", any, "!", "", "", "name of the body"}),
@@ -102,8 +96,7 @@ inline constexpr auto of_body = std::make_tuple(
           "no: liquid sticks to the body; free: liquid glides along it"},
          {.yes = "free"}),
     kept(&Body::jitters, {"body", "jitters", flag, "", any, "true", "as scene.jitter says", "",
-                          "false: its particles stay on their lattice where scene.jitter shifts those of others; walls that stay "
-                          "smooth cost less"}),
+                          "false: scene.jitter does not shift its particles; smooth walls cost less"}),
     kept(&Body::joins, {"body", "joins", flag, "", any, "=", "true where the material melts", "",
                         "true: matter that freezes in contact with the body joins it"}),
     kept(&Body::joined_to, {"body", "joined_to", texts, "", any, "[]", "bonded to nothing", "",
@@ -119,11 +112,10 @@ inline constexpr auto of_keyframe = std::make_tuple(
 
 inline constexpr auto of_event = std::make_tuple(
     kept(&Event::time, {"event", "time", number, "s", not_negative, "!", "", "", "time at which the event begins"}),
-    kept(
-        &Event::kind,
-        {"event", "kind", word, "", any, "!", "", "merge split release heat hold grip",
-         "merge: bodies[0] absorbs the rest; split: members in region become body `name`; heat: holds `temperature` in region or "
-         "bodies until `until`; hold: pauses bodies; grip: moves solids in region by keyframes until release"}),
+    kept(&Event::kind,
+         {"event", "kind", word, "", any, "!", "", "merge split release heat hold grip",
+          "`merge`: bodies[0] absorbs the rest. `split`: members in region become body `name`. `heat`: holds `temperature` until "
+          "`until`. `hold`: pauses bodies. `grip`: moves solids in region by keyframes until release"}),
     kept(&Event::name, {"event", "name", text, "", any, "=", "none", "", "name of the new body, or of the grip"}),
     kept(&Event::bodies, {"event", "bodies", texts, "", any, "[]", "all in the region", "", "bodies that the event acts on"}),
     kept(&Event::region, {"event", "region", shape, "", any, "", "everywhere", "", "region that the event acts in"}),
@@ -134,9 +126,10 @@ inline constexpr auto of_event = std::make_tuple(
 inline constexpr auto of_inflow = std::make_tuple(
     kept(&Inflow::material, {"inflow", "material", text, "", any, "!", "", "", "name of the material that flows in"}),
     kept(&Inflow::shape, {"inflow", "shape", shape, "", any, "!", "", "", "region through which it enters"}),
-    kept(&Inflow::velocity, {"inflow", "velocity", vector, "m/s", any, "!", "", "", "velocity of what enters, along an axis"}),
-    kept(&Inflow::temperature,
-         {"inflow", "temperature", number, "K", positive, "", "its heat is not followed", "", "temperature of what enters"}),
+    kept(&Inflow::velocity,
+         {"inflow", "velocity", vector, "m/s", any, "!", "", "", "velocity of the liquid that enters, along an axis"}),
+    kept(&Inflow::temperature, {"inflow", "temperature", number, "K", positive, "", "its heat is not followed", "",
+                                "temperature of the liquid that enters"}),
     kept(&Inflow::start,
          {"inflow", "start", number, "s", not_negative, "0", "from the start", "", "time at which the inflow begins"}),
     kept(&Inflow::stop, {"inflow", "stop", number, "s", positive, "=", "end_time", "", "time at which the inflow ends"}),

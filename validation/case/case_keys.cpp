@@ -19,11 +19,10 @@ using enum Range;
 constexpr auto keys_before = std::to_array<Key>({
     {"", "format", integer, "", positive, "1", "the first version", "", "version of the case file"},
     {"", "extends", text, "", any, "", "the case stands on its own", "",
-     "case whose keys hold where this file says nothing: a file of this folder, \"other.toml\", or a case's name"},
+     "case that supplies the keys missing here: a file of this folder, \"other.toml\", or a case's name"},
     {"", "remove", texts, "", any, "", "all of it holds", "",
-     "what of the extended case does not hold: \"scene.jitter\", \"engines.lammps\", \"metric.overlap\" (and the gates on it), "
-     "\"study\""},
-    {"", "case", table, "", any, "=", "id from the file's place", "case", "what is shown, and how it is judged"},
+     "keys and tables of the extended case that are removed: \"scene.jitter\", \"metric.overlap\" (and its gates), \"study\""},
+    {"", "case", table, "", any, "=", "id from the file's place", "case", "claim and judgement"},
 });
 
 /// Behind the scene's keys.
@@ -50,7 +49,7 @@ constexpr auto keys_behind = std::to_array<Key>({
      "suites that the case belongs to; acceptance: it has a limit that any engine must hold"},
     {"case", "tags", texts, "", any, "[]", "none", "", "words to select cases by"},
     {"case", "expect", word, "", any, "\"pass\"", "a case is meant to pass", word_line<Expect>,
-     "what must be measured for the case to pass; paper-diverges: the printed form does, the corrected one does not"},
+     "outcome with which the case passes; paper-diverges: only the printed form diverges"},
     {"case", "modes", words, "", any, "=", "the scene's mode", "corrected paper",
      "forms of the model that are run, one set of runs each"},
     // [engines.NAME]
@@ -59,9 +58,9 @@ constexpr auto keys_behind = std::to_array<Key>({
     {"engines", "preset", text_or_texts, "", any, "[]", "the engine's default", "",
      "presets of the engine, one row of the results each"},
     {"engines", "adopted", flag, "", any, "false", "it may be left out by --engines", "",
-     "`tripoint gate adopt` wrote its gates: a validation that leaves the engine out by --engines ends with 4"},
+     "`tripoint gate adopt` wrote its gates; leaving the engine out by --engines is exit 4"},
     {"engines", "refuses", text, "", any, "", "it may take the case or refuse it", "",
-     "words of the refusal that is expected of the engine: it fails the case when it takes it, or refuses it for another reason"},
+     "words of the expected refusal; the case fails if the engine takes it or refuses for another reason"},
     {"engines", "settings", settings, "", any, "{}", "the preset's own", "", "settings of the engine, by its own keys"},
     // [reference]
     {"reference", "kind", word, "", any, "\"analytic\"", "an exact solution", word_line<ReferenceKind>, "kind of truth"},
@@ -101,7 +100,7 @@ constexpr auto keys_behind = std::to_array<Key>({
      "number of runs for each level, each with its own seed"},
     {"study", "engine", text, "", any, "\"\"", "all", "", "engine that is refined"},
     {"study", "mode", text, "", any, "\"\"", "all", "",
-     "form of our solver that is refined: corrected, paper; \"not paper\": every engine, and ours but in its printed form"},
+     "form that is refined: corrected, paper; \"not paper\": all runs except tripoint's paper-mode runs"},
     {"study", "expect", word, "", any, "\"\"", "not judged", word_line<FitClass>, "expected class of the convergence"},
     {"study", "order", number, "", any, "", "not judged", "", "formal order"},
     {"study", "metric", text, "", any, "\"\"", "every metric", "", "metric that is fitted"},
@@ -109,7 +108,7 @@ constexpr auto keys_behind = std::to_array<Key>({
     {"gate", "metric", text, "", any, "!", "", "", "a metric's name, NAME.order, NAME.limit or NAME.statistical"},
     {"gate", "engine", text, "", any, "\"\"", "all", "", "engine that the gate judges"},
     {"gate", "mode", text, "", any, "\"\"", "all", "",
-     "form of our solver that is judged: corrected, paper; \"not paper\": every engine's runs but those of our printed form"},
+     "form that is judged: corrected, paper; \"not paper\": all runs except tripoint's paper-mode runs"},
     {"gate", "preset", text, "", any, "\"\"", "all", "", "preset that the gate judges"},
     {"gate", "limit", number, "", any, "", "none", "", "greatest magnitude of the value"},
     {"gate", "at_least", number, "", any, "", "none", "", "least value"},
@@ -120,10 +119,10 @@ constexpr auto keys_behind = std::to_array<Key>({
     {"gate", "limits", settings, "", any, "", "none", "",
      "instead of level and limit, one gate for each: { LEVEL = LIMIT, ... }"},
     {"gate", "drift", number, "", positive, "", "a tenth, and it warns only", "",
-     "share by which the value may move from its accepted baseline; beyond it the gate is red"},
+     "share by which the value may move from its baseline before the gate is red"},
     {"gate", "reason", text, "", any, "!", "", "",
-     "reason of the limit; \"known defect NAME: ...\" of a named engine's band excuses it from the acceptance limit on the "
-     "metric, which it must then exceed"},
+     "reason of the limit. \"known defect NAME: ...\" in a band of a named engine excuses it from the acceptance limit, which it "
+     "must then exceed"},
     {"gate", "by", text, "", any, "\"\"", "unsigned", "", "name of who set the limit"},
     {"gate", "date", text, "", any, "\"\"", "undated", "", "date on which the limit was accepted"},
     // [[input]], [[defect]], [[harmless]]
@@ -133,36 +132,38 @@ constexpr auto keys_behind = std::to_array<Key>({
     {"defect", "name", text, "", any, "!", "", "", "name of a registered defect: heat.conductivity ..."},
     {"defect", "size", number, "", any, "!", "", "", "size of the defect"},
     {"defect", "smallest", number, "", positive, "", "it is not sought", "",
-     "least size that the gates catch: the self-test finds it by bisection and fails where it has grown by more than a quarter"},
+     "least size that the gates catch; the self-test finds it by bisection and fails if it grew by a quarter"},
     {"defect", "killed_by", text_or_texts, "", any, "[]", "any gate", "", "metrics whose gates must fail, all of them"},
     {"harmless", "name", word, "", any, "!", "", "threads order ulp boost mirror rotation units",
-     "threads: 2 instead of 1; order: of the particles; ulp: of each coordinate; boost: a velocity added to all of a closed "
-     "scene; mirror: in x; rotation: x to y to z to x; units: powers of 2"},
+     "`threads`: 2 instead of 1. `order`: of the particles. `ulp`: of each coordinate. `boost`: a velocity added to all. "
+     "`mirror`: in x. `rotation`: x to y to z to x. `units`: powers of 2"},
 });
 
 constexpr auto tables_before = std::to_array<TableInfo>({
     {"", "(top)", "The file. Numbers are SI, or texts with a unit: \"3 mm\", \"1.2 g/cm3\", \"20 degC\"."},
-    {"case", "[case]", "What the case shows, and how it is judged."},
+    {"case", "[case]", "The claim of the case, and its judgement."},
 });
 constexpr auto tables_behind = std::to_array<TableInfo>({
     {"engines", "[engines.NAME]",
-     "Each engine and preset is one row of the results. [engines.all] is no engine: its settings go to every engine, of which an "
-     "engine's own go before: `friction` (Coulomb's coefficient) and `restitution` of every pair of bodies."},
+     "Each engine and preset is one row of the results. Settings of [engines.all] go to every engine: `friction` (Coulomb's "
+     "coefficient) and `restitution` of every pair of bodies. An engine's own settings go before them."},
     {"reference", "[reference]", "The truth that metrics are compared with."},
     {"metric", "[[metric]]", "A number computed from each run."},
     {"gates", "[[metric]] gates = [{...}]",
-     "A gate within its metric: what [[gate]] has, less `metric`, which only says NAME.order, NAME.limit or NAME.statistical."},
+     "A gate within its metric, with the keys of [[gate]]. `metric` only says NAME.order, NAME.limit or NAME.statistical."},
     {"invariants", "[invariants]", "Quantities that a run must keep, each by its name: `ledger = 1e-9`, or a table."},
     {"invariant", "[invariants.NAME]",
-     "A quantity that a run must keep: keys of its metric, and those of its gate or `gates`. quantity and norm are the name's."},
+     "A quantity that a run must keep. It has the keys of [[metric]], without quantity and limits, and those of [[gate]]. reason "
+     "is required where the limit is not round-off."},
     {"study", "[[study]]", "Runs at several levels of one axis: a convergence study."},
     {"gate", "[[gate]]", "A limit that decides between pass and fail."},
     {"input", "[[input]]",
-     "An uncertain number. The case's own run is repeated with the number at both ends; half the difference of a metric is its "
-     "input uncertainty."},
+     "An uncertain number. The run is repeated with the number at both ends; half the difference of a metric is its input "
+     "uncertainty."},
     {"defect", "[[defect]]", "A fault that this case must catch."},
     {"harmless", "[[harmless]]",
-     "A change without physical effect. `tripoint gate selftest` runs the changed scene; no verdict and no metric may change."},
+     "An invariance test: a change without physical effect. `tripoint gate selftest` runs the changed scene; no verdict or "
+     "metric may change."},
 });
 
 /// A gate within its metric has the keys of a gate, an invariant those of a metric and of a gate.
@@ -180,7 +181,7 @@ void add_short_forms(std::vector<Key>& list) {
   for (const Invariant& one : invariants())
     more.push_back({"invariants", one.name, invariant, "", any, "", "it is not measured", "", one.meaning});
   more.push_back({"invariant", "value", number, "", any, "=", "0; required by body_count", "",
-                  "what the quantity is compared with; only of overlap, body_count and toggles"});
+                  "stated value of the quantity; only of overlap, body_count and toggles"});
   for (Key key : list) {
     const bool of_metric = key.table == "metric" && key.name != "quantity" && key.name != "limits",
                of_gate = key.table == "gate" && key.name != "metric";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "scene/effect_rule.hpp"
 #include "scene/scene.hpp"
@@ -18,39 +19,48 @@ std::string cell(std::string_view text) {
   return out;
 }
 
-std::string type_cell(const Key& k) {
+std::string type_words(const Key& k) {
   std::string text(k.type == ValueType::tables && k.words.empty() ? "three rows of three numbers" : type_text(k.type));
   if (!k.unit.empty()) text += fmt::format(", {}", k.unit);
   if (k.range != Range::any) text += fmt::format(", {}", range_text(k.range));
-  if (!k.words.empty() && (k.type == ValueType::word || k.type == ValueType::words)) {
-    text += ": ";
-    bool first = true;
-    for (const auto& w : split_words(k.words)) {
-      text += fmt::format("{}`{}`", first ? "" : " ", w);
-      first = false;
-    }
-  }
-  return cell(text);
+  if (k.required()) text += ", **required**";
+  if (k.words.empty() || (k.type != ValueType::word && k.type != ValueType::words)) return text;
+  return fmt::format("{}: `{}`", text, fmt::join(split_words(k.words), "` `"));
 }
 
-std::string default_cell(const Key& k) {
-  if (k.required()) return "**required**";
-  if (k.fallback.empty()) return cell(fmt::format("not set: {}", k.note));
-  if (k.fallback == "=") return cell(k.note);
-  return cell(fmt::format("`{}`: {}", k.fallback, k.note));
+std::string default_words(const Key& k) {
+  if (k.required()) return "";
+  if (k.fallback.empty()) return fmt::format(" Not set: {}.", k.note);
+  if (k.fallback == "=") return fmt::format(" Default: {}.", k.note);
+  return fmt::format(" Default `{}`: {}.", k.fallback, k.note);
+}
+
+/// As a sentence begins, but for a symbol or a word of the file.
+std::string begun(std::string_view meaning) {
+  std::string text(meaning);
+  const auto end = text.find_first_not_of("abcdefghijklmnopqrstuvwxyz");
+  if (end != std::string::npos && end > 1 && (text[end] == ' ' || text[end] == ','))
+    text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
+/// Keys that are not printed: tables of the file, which have a part of their own; names and keys that another part lists.
+bool is_elsewhere(const Key& k) {
+  if (k.table.empty()) return k.type == ValueType::table || k.type == ValueType::tables;
+  return k.table == "invariants" || k.table == "gates" || (k.table == "invariant" && k.name != "value");
 }
 
 std::string table_page(const TableInfo& t) {
-  std::string out =
-      fmt::format("## `{}`\n\n{}\n\n| key | value | default, and why | meaning |\n|---|---|---|---|\n", t.written, t.meaning);
+  std::string out = fmt::format("## `{}`\n\n{}\n\n", t.written, t.meaning), rows;
   for (const auto* k : case_keys().of(t.name))
-    out += fmt::format("| `{}` | {} | {} | {} |\n", k->name, type_cell(*k), default_cell(*k), cell(k->meaning));
-  return out + "\n";
+    if (!is_elsewhere(*k))
+      rows += fmt::format("- `{}`: {}. {}.{}\n", k->name, type_words(*k), begun(k->meaning), default_words(*k));
+  return out + (rows.empty() ? "" : rows + "\n");
 }
 
 constexpr std::string_view short_forms = R"(## A case that says less
 
-**`extends`.** A variant of a case names it at its top and says only what differs:
+**`extends`.** A variant of a case names the other case at its top and says only what differs:
 
 ```toml
 extends = "tower-10.toml"
@@ -63,14 +73,13 @@ title = "A tower of four"
 end_time = "2 s"
 ```
 
-- The name is that of a file in the same folder (`"tower-10.toml"`), a path that ends below the folder `cases` around the file (`"../heat/cosine-mode.toml"`), or the name of a case there or of a shipped one (`"heat/cosine-mode"`). No other file is read. The other case may extend a third; at most 8 files are in such a chain, and none is in it twice.
-- Tables are merged key by key: `[scene]`, `[case]`, `[reference]`, `[engines.NAME]`, `[invariants]`. A table that gives `kind` or `function` anew (a shape, a velocity, a reference) replaces the whole of the old one. `[case]` is merged all the same, and `id` is not handed on.
-- Tables of an array are merged key by key with the one that has the same name: `[[material]]`, `[[body]]`, `[[metric]]`, `[[defect]]` and `[[harmless]]` by `name`; `[[input]]` by `key`; `[[gate]]` by `metric`, `engine`, `mode`, `preset` and `level`; `[[study]]` by `axis`, `engine`, `mode` and `metric`. One that meets none comes after those of the other case. Bodies keep the other case's order.
-- `[[event]]`, `[[inflow]]` and every other array have no name to go by: the file's own replace all of the other case's.
-- A gate that gives `limit`, `at_least` or `band` replaces the bound of the gate that it meets, of whatever kind that was.
-- `remove` takes keys and tables out of the other case first: `"scene.jitter"`, `"engines.lammps"`, `"body.lid"`, `"body.lid.velocity"`, `"metric.overlap"` and the gates on it, `"gate.overlap"` (all gates on that metric), or all of a kind: `"study"`, `"gate"`, `"metric"` with all gates.
-- Data and meshes that the other case names are found beside that case. Errors and gates name the file and the line where the key stands.
-- What is added to the other case later, a gate too, holds in its variants: run them as well.
+- The name is a file of the same folder, a path below the folder `cases` (`"../heat/cosine-mode.toml"`), or the name of a case (`"heat/cosine-mode"`). A chain has at most 8 files.
+- Tables are merged key by key. A table that gives `kind` or `function` anew (a shape, a velocity, a reference) replaces the old one. `id` is not handed on.
+- Tables of an array are merged by `name`, or `[[input]]` by `key`. `[[gate]]` goes by `metric`, `engine`, `mode`, `preset` and `level`, `[[study]]` by `axis`, `engine`, `mode` and `metric`. Others are added at the end.
+- `[[event]]`, `[[inflow]]` and other arrays without names replace all of the other case's.
+- A gate that gives `limit`, `at_least` or `band` replaces any bound of the gate that it meets.
+- `remove` first takes out keys and tables: `"scene.jitter"`, `"engines.lammps"`, `"body.lid.velocity"`, `"metric.overlap"` with its gates, `"gate.overlap"`, or all of a kind: `"study"`, `"gate"`, `"metric"`.
+- Data and meshes of the other case are found beside that case. Errors and gates name the file and line where the key stands. A gate added to the other case later holds in its variants too.
 
 **Gates within their metric.** `gates` of a `[[metric]]` holds its gates, one a line, without the key `metric`; `limits` is one limit a level of a study. The last gate below judges the metric's order.
 
@@ -86,7 +95,7 @@ gates = [
 ]
 ```
 
-**Invariants.** `[invariants]` names what each run must keep; each line is a metric and its gate. A plain number is the limit of every engine.
+**Invariants.** `[invariants]` names quantities that each run must keep; each line is a metric and its gate. A plain number is the limit of every engine.
 
 ```toml
 [invariants]
@@ -95,7 +104,7 @@ momentum = { scale = 12.5, unit = "of that of the fall", engine = "tripoint", li
 body_count = { value = 2, limit = 0, reason = "nothing breaks" }
 ```
 
-`tripoint explain CASE --resolved` prints the whole case, with nothing extended and every gate in a table of its own. `--set` names keys as they are there.
+`tripoint explain CASE --resolved` prints the whole case, with nothing extended and every gate in a table of its own. `--set` uses the names printed there.
 
 )";
 
@@ -121,12 +130,13 @@ std::string ledger_page() {
 std::string case_reference_page() {
   std::string out = fmt::format(
       "# The case file\n\nWritten by `tripoint schema --page` from the table that the reader checks by. TOML, format 1: "
-      "`cases/<subject>/<case>.toml`. An unknown key, a wrong unit or a number out of range is refused with file, line, "
-      "column and the nearest known key.\n\nUnits known by name: {} (with the prefixes n u m c d h k M G where that is usual), "
+      "`cases/<subject>/<case>.toml`. The reader refuses an unknown key, a wrong unit or a number out of range with file, line, "
+      "column and the nearest known key.\n\nUnits: `{}`, with the usual prefixes n u m c d h k M G, "
       "combined as `kg/m3`, `W/m/K`, `J/(kg K)`, `m s^-2`.\n\n"
-      "`run`, `check`, `explain` and `predict` take `--set a.b=VALUE`, which replaces any key: `scene.spacing=0.01`, "
-      "`body.NAME.velocity=[1,0,0]`, "
-      "`material.NAME.density=900`, `study.1.levels=[0.1,0.05]`; tables without a name count from 1.\n\n",
+      "`run`, `check`, `explain` and `predict` take `--set a.b=VALUE` for any key: `scene.spacing=0.01`, "
+      "`body.NAME.velocity=[1,0,0]`, `study.1.levels=[0.1,0.05]`. Tables without a name count from 1.\n\n"
+      "Each key has its type, unit, range, meaning and default. `[scene]` and `[[body]]` are required; other tables may be left "
+      "out.\n\n",
       known_units());
   out += short_forms;
   for (const auto& t : case_keys().tables()) {

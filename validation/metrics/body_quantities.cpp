@@ -135,18 +135,15 @@ const std::vector<Quantity>& body_quantities() {
       vector_of_bodies("position", "m", "", &BodyState::position),
       vector_of_bodies("velocity", "m/s", "", &BodyState::velocity),
       {{"orientation", "rad",
-        "angle between the orientations of bodies, 0..pi, blind to the quaternion's sign; of a named body the angle turned since "
-        "the start minus the stated value"},
+        "angle between the orientations of bodies, 0 to pi; of a named body the angle since the start minus the stated value"},
        orientation},
       vector_of_bodies(
           "angular_velocity", "rad/s",
-          "difference of angular velocities of bodies, world frame; of a named body its size (or component along the "
-          "stated axis) minus the stated value",
+          "difference of angular velocities of bodies, world frame; of a named body its size (component) minus the stated value",
           &BodyState::angular_velocity),
       vector_of_bodies(
           "force", "N",
-          "difference of the forces on bodies from all others; of a named body its size (or component along the stated "
-          "axis) minus the stated value",
+          "difference of the forces on bodies from all others; of a named body its size (component) minus the stated value",
           &BodyState::force),
       vector_of_bodies("torque", "N m", "difference of the torques on bodies from all others; of a named body as for `force`",
                        &BodyState::torque),

@@ -189,8 +189,7 @@ const std::vector<Quantity>& conserved_quantities() {
        bonded_objects},
       {{"recoveries", "1", "how often a guard sent the run back to a good state, minus the stated value"}, recoveries},
       {{"ledger.TERM", "J",
-        "difference of a ledger term: kinetic, potential, thermal from the particles, others as the engine keeps them; residual "
-        "is the change of their sum"},
+        "difference of a ledger term, from the particles or as the engine keeps it; residual is the change of their sum"},
        ledger}};
   return list;
 }

@@ -114,9 +114,8 @@ FrameError object_count(const FramePair& f) {
 const std::vector<Quantity>& contact_quantities() {
   static const std::vector<Quantity> list{
       {{"overlap", "spacings",
-        "largest depth of a solid particle in another body (two walls beside each other do not count): 1 - least distance / "
-        "spacing before its outer layer, over 1 (at most "
-        "3) past it"},
+        "largest depth of a solid particle in another body: 1 - least distance / spacing, and 1 to 3 past its outer layer. Pairs "
+        "of walls do not count"},
        overlap},
       {{"separation", "m",
         "distance of the centres of the metric's and the other body, of their particles as sampled, minus the stated value"},

@@ -380,8 +380,8 @@ const std::vector<MetricWord>& metric_norms() {
       {word(Norm::final), "", "at the end; keeps the sign of a single number"},
       {word(Norm::drift), "", "largest change since the run's own start; needs no reference"},
       {word(Norm::frequency), "Hz",
-       "of a single number: the frequency of the sine about an offset that explains most of it, by least squares, minus the "
-       "stated `frequency`; its numerical uncertainty is the fit's"},
+       "frequency of the best-fitting sine of a single number, minus the stated `frequency`; its numerical uncertainty is the "
+       "fit's"},
       {word(Norm::slope), "1/s", "trend of the largest error over time, least squares"}};
   return words;
 }

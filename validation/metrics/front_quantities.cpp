@@ -115,8 +115,7 @@ MetricValue front_speed(const MetricInput& in, const std::vector<const Snapshot*
 const std::vector<RunQuantity>& front_quantities() {
   static const std::vector<RunQuantity> list{
       {{"front_lead", "m",
-        "front of the liquid (of the body, else of all that no wall holds) minus the measured one, where it is largest in size; "
-        "its uncertainty is the data's"},
+        "front of the liquid (or body) minus the measured one, where the difference is largest; its uncertainty is the data's"},
        front_lead},
       {{"front_speed", "1", "mean speed of the front from the first measured place to the last over the measured one, minus 1"},
        front_speed}};

@@ -130,14 +130,14 @@ MetricValue diffusivity_by_spread(const MetricInput& in, const Frames& frames) {
 }  // namespace
 
 const std::vector<RunQuantity>& heat_run_quantities() {
-  static const std::vector<RunQuantity> list{{{"heat_power", "W",
-                                               "mean over the window of the heat a second that holding the named body's "
-                                               "temperature gives to what it touches, minus the true mean"},
-                                              heat_power},
-                                             {{"diffusivity", "m2/s",
-                                               "half of what the mean square distance of the heat above `value` from its centre, "
-                                               "along the stated axis, grows a second, minus the true `diffusivity`"},
-                                              diffusivity_by_spread}};
+  static const std::vector<RunQuantity> list{
+      {{"heat_power", "W",
+        "mean heat per second that the held body gives to its neighbours over the window, minus the true mean"},
+       heat_power},
+      {{"diffusivity", "m2/s",
+        "half the growth per second of the mean square spread of the heat above `value` along the stated axis, minus the true "
+        "`diffusivity`"},
+       diffusivity_by_spread}};
   return list;
 }
 

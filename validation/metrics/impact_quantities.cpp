@@ -163,11 +163,11 @@ const std::vector<Quantity>& impact_quantities() {
 }
 
 const std::vector<RunQuantity>& impact_run_quantities() {
-  static const std::vector<RunQuantity> list{{{"energy_gain", "J",
-                                               "largest rise of the kinetic and potential energy of free bodies (or of the body) "
-                                               "over the least of all earlier frames, those within a hit left out; of elastic "
-                                               "bodies, which store energy, over the start; needs no reference"},
-                                              energy_gain}};
+  static const std::vector<RunQuantity> list{
+      {{"energy_gain", "J",
+        "largest rise of the kinetic and potential energy of free bodies over the least of earlier frames outside hits. Of "
+        "elastic bodies, over the start. It needs no reference"},
+       energy_gain}};
   return list;
 }
 

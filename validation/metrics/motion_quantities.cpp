@@ -198,17 +198,15 @@ MetricValue sway_frequency(const MetricInput& in, const Frames& frames) {
 const std::vector<RunQuantity>& motion_quantities() {
   static const std::vector<RunQuantity> list{
       {{"acceleration", "m/s2",
-        "acceleration of the body against gravity (along the stated axis, beside a stated value) over the window, by least "
-        "squares, "
-        "minus the true one"},
+        "acceleration of the body against gravity or along the stated axis, by least squares over the window, minus the true "
+        "one"},
        acceleration},
       {{"touch_time", "s", "time at which the body's speed has made half of its change minus the true time of touch"},
        touch_time},
       {{"frequency_squared", "1", "square of the standing wave's frequency over the true one, minus 1"}, frequency_squared},
       {{"spin_rate", "1/s", "rate at which the angular momentum about the centre of mass falls, minus the true one"}, spin_rate},
       {{"sway_frequency", "1",
-        "frequency of the swing of the body's centre of mass along the stated axis, a sine about an offset by least squares, "
-        "over the stated value in Hz, minus 1"},
+        "frequency of the body's centre along the stated axis, by a fitted sine, over the stated value in Hz, minus 1"},
        sway_frequency}};
   return list;
 }

@@ -174,13 +174,12 @@ long body_row(const MetricInput& in) {
 const std::vector<Quantity>& particle_quantities() {
   static const std::vector<Quantity> list{
       {{"position", "m",
-        "distance of particles from their true places, by id; with `body` of its centre of mass, also from a stated value along "
-        "the "
-        "stated axis"},
+        "distance of particles from their true positions; with `body` of its centre of mass, or along an axis minus a stated "
+        "value"},
        [](const FramePair& f) { return vector_error(f, &Snapshot::position, "position", true); }},
       {{"velocity", "m/s",
-        "difference of velocities of particles; with `body` of its centre of mass, also its size (or component along the stated "
-        "axis) minus the stated value"},
+        "difference of velocities of particles; with `body` of its centre of mass, or its size (component) minus the stated "
+        "value"},
        [](const FramePair& f) { return vector_error(f, &Snapshot::velocity, "velocity", false); }},
       {{"temperature", "K",
         "difference of temperatures (from the reference's field, else from the stated value), weighted by rest volume"},

@@ -144,10 +144,9 @@ const std::vector<Quantity>& phase_quantities() {
 }
 
 const std::vector<RunQuantity>& phase_run_quantities() {
-  static const std::vector<RunQuantity> list{{{"toggles", "1",
-                                               "most times that a particle went back to a phase it had left (liquid or solid, "
-                                               "seen at output times), minus the stated value or the reference's"},
-                                              toggles}};
+  static const std::vector<RunQuantity> list{
+      {{"toggles", "1", "most returns of a particle to a phase that it had left, seen at output times, minus the true number"},
+       toggles}};
   return list;
 }
 

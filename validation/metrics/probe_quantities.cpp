@@ -174,23 +174,19 @@ const std::vector<Quantity>& probe_quantities() {
   };
   static const std::vector<Quantity> list{
       at("temperature_at", "K",
-         "temperature at the stated point, by a linear fit to the particles within 2.5 spacings (of the body, or phase), minus "
-         "the true one",
+         "temperature at the stated point, by a linear fit to particles within 2.5 spacings, minus the true one",
          Of::temperature),
       at("pressure_at", "Pa", "pressure at the stated point, by the same fit, minus the true one", Of::pressure),
       at("density_at", "kg/m3", "density at the stated point, by the same fit, minus the true one", Of::density),
       at("velocity_at", "m/s",
          "component of velocity along the stated axis at the stated point, by the same fit, minus the true one", Of::velocity),
       over("mean_temperature", "K",
-           "mean temperature by volume of the body, or phase, in the stated box, minus the stated value or the mean of the true "
-           "field",
-           Of::temperature),
+           "mean temperature by volume (of the body, phase or box), minus the stated value or the true mean", Of::temperature),
       over("mean_pressure", "Pa", "mean pressure there, minus the true one", Of::pressure),
       over("mean_density", "kg/m3", "mean density there, minus the true one", Of::density),
       over("mean_velocity", "m/s", "mean component of velocity along the stated axis there, minus the true one", Of::velocity),
       {{"displacement", "m",
-        "way since the start, along the stated axis, of the matter (of the body) that began at the stated point, minus the true "
-        "one"},
+        "displacement along the stated axis of the matter that began at the stated point, minus the true one"},
        displacement_of_point},
       {{"centre", "m", "place of the centre of mass of the body (or all, or a phase) along the stated axis, minus the true one"},
        centre}};

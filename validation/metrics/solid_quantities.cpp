@@ -138,8 +138,7 @@ MetricValue residual_stretch(const MetricInput& in, const Frames& frames) {
 const std::vector<Quantity>& solid_quantities() {
   static const std::vector<Quantity> list{
       {{"deflection", "m",
-        "displacement of the free end (mean of the last layer) or of the named rigid tip along the reference's direction, minus "
-        "the true one"},
+        "displacement of the free end (mean of the last layer) or rigid tip along the reference's direction, minus the true one"},
        deflection_error},
       {{"stretch", "1", "length of the body along the axis over its length at the start, minus the true one"}, stretch_error},
       {{"reaction", "N", "force on the named held body along the bar, tension positive, minus the true one"}, reaction_error},

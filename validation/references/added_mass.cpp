@@ -56,8 +56,8 @@ std::unique_ptr<Reference> make_added_mass(const ReferenceInput& in) {
 ReferenceEntry added_mass_entry() {
   return {{"added_mass",
            "analytic",
-           "Landau & Lifshitz, Fluid Mechanics, section 11: the added mass of a sphere is half of the liquid it displaces; in a "
-           "concentric shell 1/2 (1 + 3 (R/R_wall)^3) to lowest order",
+           "Landau & Lifshitz, Fluid Mechanics, section 11: half of the displaced liquid; in a concentric shell 1/2 (1 + 3 "
+           "(R/R_wall)^3)",
            "start of a sphere in still liquid: upward at (1 - s)/(s + 1/2) g, s the ratio of densities",
            {{"body", "", "the sphere; default the scene's only free body", ArgumentType::word},
             {"radius_over_wall", "1", "radius of the sphere over that of a concentric wall; default 0: far walls"}}},

@@ -72,7 +72,7 @@ ReferenceEntry ballistic_semi_implicit_entry() {
   return {{"ballistic_semi_implicit",
            "discrete_exact",
            "sum of the scheme's steps: x lags the parabola by g t dt/2; equal steps between output times",
-           "what semi-implicit Euler does exactly to a body in flight with a spin of constant axis",
+           "the exact result of semi-implicit Euler for a body in flight with a spin of constant axis",
            {{"time_step", "s", "step of the scheme; default the run's time step"}}},
           make_semi_implicit};
 }

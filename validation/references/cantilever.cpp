@@ -124,8 +124,7 @@ ReferenceEntry cantilever_entry() {
            "analytic",
            "Timoshenko, Phil. Mag. 41, 1921: beam with shear and rotary inertia; shear coefficient of Cowper, J. Appl. Mech. 33, "
            "1966",
-           "static sag and lowest frequency of an elastic box clamped at one end by a fixed or prescribed solid body, small "
-           "deflections; with a rigid tip too",
+           "static sag and lowest frequency of an elastic box clamped at one end, at small deflections. It may have a rigid tip",
            {{"body", "", "the beam; default the scene's only free elastic body", ArgumentType::word},
             {"tip", "", "name of a rigid body at the free end; default none", ArgumentType::word},
             {"length", "m", "free length; default of the beam's box"},

@@ -97,8 +97,8 @@ std::unique_ptr<Reference> make_column(const ReferenceInput& in) {
 ReferenceEntry collapsing_column_entry() {
   return {{"collapsing_column",
            "self",
-           "Lagrange's equations of an incompressible mesh that moves with the liquid, stepped by Verlet's scheme; its standard "
-           "uncertainty is what half as many cells change",
+           "Lagrange's equations of an incompressible mesh, stepped by Verlet's scheme; its standard uncertainty is the change "
+           "with half the cells",
            "front of a box of inviscid liquid, let go against a wall on a floor, both without friction; pressure at a point",
            {{"axis", "", "x, y or z: along which the front runs, away from the wall; x", ArgumentType::axis},
             {"cells", "1", "of the mesh across the column's width, 4 to 80; 20", ArgumentType::number},

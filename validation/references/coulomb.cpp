@@ -107,20 +107,19 @@ ReferenceEntry sliding_entry() {
   return {{"sliding",
            "analytic",
            "Coulomb's law of friction: g (sin a - mu cos a) downhill, v0^2/(2 mu g) to rest, and no motion where tan a <= mu",
-           "a box that lies on a plane, sticks or slides; gravity may be tilted, and the plane may move at a constant velocity",
+           "a box that sticks or slides on a plane. Gravity may be tilted, and the plane may move",
            {friction}},
           make_sliding};
 }
 
 ReferenceEntry rolling_entry() {
-  return {{"rolling",
-           "analytic",
-           "Coulomb's law of friction and Euler's law of rotation: a ball slips until it rolls, at v0/(1 + I/(m r^2)) on the "
-           "level: 5/7 v0 of a solid ball",
-           "a ball on a plane that slips, rolls, or both in turn, with the moment of its own particles; gravity may be tilted, "
-           "and the plane may move at a constant velocity",
-           {friction}},
-          make_rolling};
+  return {
+      {"rolling",
+       "analytic",
+       "Coulomb's law of friction and Euler's law of rotation: a ball rolls at v0/(1 + I/(m r^2)), a solid one at 5/7 v0",
+       "a ball that slips or rolls on a plane, with the moment of its particles. Gravity may be tilted, and the plane may move",
+       {friction}},
+      make_rolling};
 }
 
 }  // namespace tripoint

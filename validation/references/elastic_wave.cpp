@@ -56,8 +56,8 @@ ReferenceEntry elastic_wave_entry() {
        "analytic",
        "Landau & Lifshitz, Theory of Elasticity, sections 22 and 25: w = k sqrt(modulus/density); as printed with the lattice's "
        "gradient moment (17)",
-       "a standing wave in an elastic body that starts as a cosine of velocity: along the wave vector E, E/(1 - nu^2) or the "
-       "P-wave modulus by what holds the sides, across it the shear modulus",
+       "a standing wave in an elastic body that starts as a cosine of velocity. Its modulus is E, E/(1 - nu^2) or the P-wave "
+       "modulus by `sides`, or the shear modulus",
        {{"body", "", "default the scene's only free elastic body", ArgumentType::word},
         {"sides", "",
          "free, plane_strain (one direction held) or confined (both); default by the periodic directions across the wave vector",

@@ -72,8 +72,8 @@ ReferenceEntry expression_entry() {
   std::vector<ReferenceArgument> args = truth_fields();
   for (const auto& a : measuring_arguments()) args.push_back(a);
   return {{"expression", "analytic", "the case's own formula",
-           "formulas of x, y, z and t, written as texts: `value` of t for a quantity that is a single number, the others for "
-           "fields; x, y, z are where the particle is",
+           "formulas of x, y, z and t as texts. `value` of t is for a single number, the others are for fields at the particle's "
+           "position",
            args},
           make_formula};
 }

@@ -117,11 +117,8 @@ ReferenceEntry hydrostatic_entry() {
            "analytic",
            "Archimedes, Pascal: the pressure is the weight of the liquid above",
            "liquid at rest, in layers stacked along gravity",
-           {{"factor", "1",
-             "of the whole pressure: what an equation that tends to 1/factor of the pressure gradient has to read; default 1"},
-            {"compressed", "true or false",
-             "each layer is compressed by its weight, at its speed of sound in the scene: surface and interfaces have fallen; "
-             "default false",
+           {{"factor", "1", "share of the pressure that a printed equation of state must show; default 1"},
+            {"compressed", "true or false", "each layer is compressed by its weight, at its speed of sound; default false",
              ArgumentType::flag}}},
           make_hydrostatic};
 }

@@ -172,8 +172,7 @@ ReferenceEntry landing_entry() {
   return {{"landing",
            "analytic",
            "Newton's law of impact at each corner that touches, Euler's equations of the free top before and after",
-           "a box that falls on a smooth floor with a corner or an edge first: its flight, the hit, and its flight up to the "
-           "next touch",
+           "a box that hits a smooth floor with a corner or edge: flight, hit, and flight until the next touch",
            {{"restitution", "1",
              "normal speed of the corner after the hit over that before it; default that of all engines' settings, 1 where they "
              "say none"}}},

@@ -19,9 +19,7 @@ std::unique_ptr<Reference> make_stated(const ReferenceInput& in) {
 ReferenceEntry stated_entry() {
   std::vector<ReferenceArgument> args{{"value", "", "what the quantity is compared with, in its unit"}};
   for (const auto& a : measuring_arguments()) args.push_back(a);
-  return {{"stated", "bound", "the case's own claim",
-           "a number that the case states, and what a quantity is measured by: nothing is computed", args},
-          make_stated};
+  return {{"stated", "bound", "the case's own claim", "a number that the case states; nothing is computed", args}, make_stated};
 }
 
 }  // namespace tripoint

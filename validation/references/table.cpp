@@ -118,8 +118,8 @@ ReferenceEntry table_entry() {
                                        ArgumentType::word}};
   for (const auto& a : measuring_arguments()) args.push_back(a);
   return {{"table", "analytic", "the source that the file states",
-           "values in time, or along x, y or z, from the csv file beside the case (key `file`), straight lines between its rows; "
-           "its first column is time, x, y or z, and it states source, units, uncertainty and hash as measured data do",
+           "values from the csv file beside the case (key `file`), with straight lines between rows. Its first column is time, "
+           "x, y or z. It states source, units, uncertainty and hash",
            args},
           make_table};
 }

@@ -161,8 +161,8 @@ std::unique_ptr<Reference> make_tension(const ReferenceInput& in) {
 ReferenceEntry tension_entry() {
   return {{"tension",
            "analytic",
-           "homogeneous bar of St Venant-Kirchhoff material in Green strain, von Mises flow as O'Brien, Bargteil, Hodgins 2002; "
-           "as printed with the lattice's gradient moment (17)",
+           "homogeneous St Venant-Kirchhoff bar, von Mises flow (O'Brien, Bargteil, Hodgins 2002); as printed with the gradient "
+           "moment (17)",
            "reaction, stretch, stored and dissipated energy of an elastic box between two held ends, driven by keyframes, to the "
            "tear",
            {{"body", "", "the bar; default the scene's only free elastic body", ArgumentType::word},

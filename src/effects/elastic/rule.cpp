@@ -43,8 +43,8 @@ std::vector<EffectKey> keys() {
       {{"scene", "bond_reach", number, "", above_one, papers_support, "the paper's support, about 40 neighbours", "",
         "reach of bonds and support of the kernel (17), in spacings, whatever support_ratio is"}},
       {{"scene", "bending", number, "", fraction, "0", "it costs stiffness where particles are disordered", "",
-        "share of the correction for bending: at surfaces gradients are then exact for curved displacements too (model 8.7), and "
-        "slender bars as stiff as they are; 0: none. Only where elasticity is corrected"},
+        "share of the bending correction, which makes gradients at surfaces exact for curved displacements (model 8.7); 0: none. "
+        "Only where elasticity is corrected"},
        {},
        no_bending},
       {{"material", "young_modulus", number, "Pa", positive, "", "not elastic", "", "E of the solid"}, &Material::young_modulus},

@@ -28,7 +28,7 @@ struct SceneNumbers {
       0.0;  ///< a wall particle is at the face of its wall where this share of its number density can be other than wall
   double wall_stiffness = 1.0;   ///< of a wall's equation of state over that of liquids (model 8.4)
   double solid_stiffness = 1.0;  ///< of that of other solids: 1 + scene.contact_stiffness (model 8.3)
-  double contact_step = 0.0;     ///< scene.contact_step, 0 where the bound of contact holds in every step [1]
+  double contact_step = 0.0;     ///< scene.contact_step, 0 where the contact bound always holds [1]
   double contact_speed = 0.0;    ///< greatest speed of sound where solids are stiffer [m/s]
   double surface_head = 0.0;    ///< pressure of the topmost layer of a liquid over its rest density [m2/s2], 0 = none (model 8.3)
   double half_full = 0.5;       ///< density of that layer over the rest density, on the lattice

@@ -144,8 +144,8 @@ std::vector<EffectKey> viscosity_keys() {
        &Scene::viscosity_form,
        no_form_of_viscosity},
       {{"scene", "isotropic_shear", number, "", fraction, "0", "most flows soon leave the lattice of the start", "",
-        "share of 0 to 1 of the weights with which the lattice resists shear alike along its axes and its diagonals (model 8.5). "
-        "Only where viscosity is corrected and central"},
+        "share of the weights that make the lattice's resistance to shear isotropic (model 8.5). Only where viscosity is "
+        "corrected and central"},
        {},
        no_isotropic_shear},
   };
@@ -161,13 +161,13 @@ std::vector<EffectKey> transport_keys() {
        &Scene::transport_velocity,
        no_transport_velocity},
       {{"scene", "mean_pressure", number, "", fraction, "0", "pressure is that of each particle's own density", "",
-        "share of 0 to 1 with which the pressure of a liquid that the transport velocity moves is the mean over its neighbours "
-        "(model 8.3). Only with transport_velocity, where density, pressure and state are corrected"},
+        "share of the neighbours' mean in the pressure of a liquid (model 8.3). Only with transport_velocity, where density, "
+        "pressure and state are corrected"},
        {},
        no_transport},
-      {{"scene", "sound_damping", number, "", not_negative, "0", "a liquid that nothing clamps may be there for its sound", "",
-        "numerical bulk viscosity over rho0 c h, h the support, of a liquid that the transport velocity moves (model 8.3). Only "
-        "with transport_velocity, where density, pressure and state are corrected"},
+      {{"scene", "sound_damping", number, "", not_negative, "0", "off: unclamped liquids are often used to study sound waves", "",
+        "numerical bulk viscosity over rho0 c h, h the support (model 8.3). Only with transport_velocity, where density, "
+        "pressure and state are corrected"},
        {},
        no_transport},
   };
@@ -181,22 +181,20 @@ std::vector<EffectKey> contact_keys() {
       {{"scene", "contact_viscosity", number, "Pa s", not_negative, "0", "contact of solids without friction", "",
         "viscosity between solids that touch"},
        &Scene::contact_viscosity},
-      {{"scene", "contact_stiffness", number, "", not_negative, "0",
-        "solids are as stiff where they touch as the scene's liquids", "",
-        "by how much stiffer solids are than the scene's stiffness where they touch, over it (model 8.3): overlap and step fall "
-        "with the root of 1 + it. Only where the state is corrected, nothing freezes, and a solid is free"},
+      {{"scene", "contact_stiffness", number, "", not_negative, "0", "contacts are as stiff as the scene's liquids", "",
+        "extra stiffness of solid contact: contacts use (1 + contact_stiffness) k (model 8.3). Only where the state is "
+        "corrected, nothing freezes, and a solid is free"},
        {},
        no_contact_stiffness},
-      {{"scene", "contact_step", number, "", fraction, "0", "the bound of contact holds in every step", "",
-        "share of 0 to 1 of the bound of contact that a step takes while a free solid is pressed or about to be; at other times "
-        "only the bound of sound holds (model 8.10). 0: the bound of contact holds in every step. Only where the scene clamps "
-        "and "
-        "gives no time_step, density, pressure and state are corrected, nothing freezes, and a solid is free"},
+      {{"scene", "contact_step", number, "", fraction, "0", "the contact bound always holds", "",
+        "share of the contact bound of the step, used only while a free solid is pressed or about to be (model 8.10). 0: the "
+        "bound always holds. Only where the scene clamps without time_step, density, pressure and state are corrected, nothing "
+        "freezes, and a solid is free"},
        {},
        no_contact_step},
-      {{"scene", "face_pressure", number, "", fraction, "0", "bodies of many particles across need it little", "",
-        "share of 0 to 1 with which pressure on an elastic solid acts at its face, and not at the middles of its outer particles "
-        "(model 8.3). Only where density, pressure, state and elasticity are corrected, nothing freezes and no solid can break"},
+      {{"scene", "face_pressure", number, "", fraction, "0", "bodies of many particles hardly need it", "",
+        "share of the pressure on an elastic solid that acts at its face, not at its outer particles (model 8.3). Only where "
+        "density, pressure, state and elasticity are corrected, nothing freezes and no solid can break"},
        {},
        no_face_pressure},
   };
@@ -207,25 +205,24 @@ std::vector<EffectKey> pressure_keys() {
   using enum ValueType;
   using enum Range;
   return {
-      {{"scene", "bulk_viscosity", number, "", not_negative, "0.2", "ends the sound that the start of a liquid lets go", "",
+      {{"scene", "bulk_viscosity", number, "", not_negative, "0.2", "damps the sound that a liquid's start emits", "",
         "numerical bulk viscosity of liquids over rho0 c h, h the support (model 8.4); 0: none. Only where the scene clamps, "
         "density, pressure and state are corrected, and nothing freezes"},
        {},
        no_bulk_viscosity},
-      {{"scene", "core_reach", number, "", fraction, "0.9",
-        "pairs of a still liquid would close up where the clamp leaves no pressure", "",
-        "distance in spacings below which pairs that exert pressure on each other repel (model 8.3); 0: none. Only where the "
+      {{"scene", "core_reach", number, "", fraction, "0.9", "keeps pairs apart where the clamp leaves no pressure", "",
+        "distance in spacings below which pressing pairs repel (model 8.3); 0: none. Only where the "
         "pressure is corrected"},
        {},
        no_core},
       {{"scene", "surface_weight", number, "", not_negative, "0.5", "half of its own weight lies above the middle of a layer", "",
-        "what of its own weight the topmost layer of a liquid bears as pressure (model 8.3); 0: none. Only where the scene "
+        "share of its weight that the topmost layer of a liquid bears as pressure (model 8.3); 0: none. Only where the scene "
         "clamps, density, pressure and state are corrected, nothing freezes, and no body is free"},
        {},
        no_surface_weight},
-      {{"scene", "interface_weight", number, "", fraction, "0", "it is for layers that lie on each other, heavy below light", "",
-        "share of 0 to 1 of the energy of pairs of unlike liquids that makes the pressure right on both sides of a level "
-        "interface (model 8.3). Only where density, pressure and state are corrected, the scene clamps, nothing freezes, and "
+      {{"scene", "interface_weight", number, "", fraction, "0", "only layers of two liquids need it", "",
+        "share of the energy of unlike pairs that corrects the pressure at a level interface of two liquids (model 8.3). Only "
+        "where density, pressure and state are corrected, the scene clamps, nothing freezes, and "
         "liquids of two densities have a weight"},
        {},
        no_interface_weight},
@@ -237,15 +234,14 @@ std::vector<EffectKey> material_keys() {
   using enum ValueType;
   using enum Range;
   return {
-      {{"material", "stiffness", number, "m2/s2", positive, "",
-        "taken from the speeds of the scene, or from elastic moduli, where something flows or solids can meet", "",
+      {{"material", "stiffness", number, "m2/s2", positive, "", "from the speeds of the scene or elastic moduli", "",
         "k of p = k (rho - rho0), the square of the sound speed"},
        &Material::stiffness},
       {{"material", "sound_speed", number, "m/s", positive, "", "see stiffness", "", "instead of stiffness: k is its square"},
        EffectKey::ByRule{}},
       {{"material", "solid_viscosity", number, "Pa s", not_negative, "0", "a solid has scene.contact_viscosity", "",
-        "dynamic viscosity of the solid in (8), only where modes.viscosity is paper; between t_solid and t_melt, where "
-        "modes.phase is paper, linear from it to viscosity (Fig. 5)"},
+        "dynamic viscosity of the solid in (8), only where modes.viscosity is paper. With modes.phase paper it goes linearly to "
+        "viscosity between t_solid and t_melt (Fig. 5)"},
        {},
        solid_viscosity_idle},
       {{"material", "viscosity", number, "Pa s", not_negative, "0", "inviscid", "", "dynamic viscosity of the liquid"},

@@ -42,7 +42,7 @@ std::vector<EffectKey> keys() {
   return {
       {{"scene", "heat_constant", number, "m2/s", not_negative, "0",
         "each material has its own, conductivity/(density heat_capacity)", "",
-        "the one constant c of (21), of all matter; only where modes.heat is paper; 0: each material has its own"},
+        "the constant c of (21) of all matter, only where modes.heat is paper; 0: a constant for each material"},
        {},
        no_constant},
       {{"material", "conductivity", number, "W/m/K", positive, "", "no heat flows", "", "thermal conductivity"},
@@ -50,20 +50,18 @@ std::vector<EffectKey> keys() {
       {{"material", "heat_capacity", number, "J/kg/K", positive, "", "holds no heat", "", "specific heat at constant pressure"},
        &Material::heat_capacity},
       {{"material", "solid_conductivity", number, "W/m/K", positive, "", "conductivity is that of both phases", "",
-        "conductivity of the solid; `conductivity` is then that of the liquid; not as printed"},
+        "conductivity of the solid; `conductivity` is then the liquid's; a correction"},
        &Material::solid_conductivity},
       {{"material", "solid_heat_capacity", number, "J/kg/K", positive, "", "heat_capacity is that of both phases", "",
-        "specific heat of the solid; `heat_capacity` is then that of the liquid, and `latent_heat` that at t_melt; not as "
-        "printed"},
+        "specific heat of the solid; `heat_capacity` is then the liquid's, `latent_heat` that at t_melt; a correction"},
        &Material::solid_heat_capacity},
       {{"scene", "surface_exchange", number, "", not_negative, "1", "surfaces exchange heat where they lie", "",
-        "1: surface_temperature acts at the surface (model 8.6); 0: the outermost particles are held at that temperature"},
+        "1: surface_temperature acts at the surface (model 8.6); 0: it holds the outermost particles"},
        {},
        no_held_surface},
       {{"material", "surface_temperature", number, "K", not_negative, "0", "nothing passes through surfaces", "",
-        "temperature at which the surfaces of fixed bodies of the material are held, where they touch no other body and lie "
-        "within the "
-        "domain: a body that scene.min or scene.max cuts has a plane of symmetry there (model 8.6); 0: none"},
+        "temperature of the outer surfaces of fixed bodies, where they touch no body (model 8.6); 0: none. A body cut by "
+        "scene.min or scene.max has a plane of symmetry there"},
        {},
        as_printed},
   };

@@ -40,8 +40,8 @@ std::vector<EffectKey> keys() {
         "heat of fusion"},
        &Material::latent_heat},
       {{"material", "softens", flag, "", any, "false", "full stiffness up to melting", "",
-        "stiffness falls with the liquid fraction; with solid = \"rigid\", a young_modulus and modes.phase = \"paper\": elastic "
-        "between t_solid and t_melt, as Fig. 5 prints it"},
+        "stiffness falls with the liquid fraction. With solid = \"rigid\", young_modulus and modes.phase = \"paper\": elastic "
+        "between t_solid and t_melt (Fig. 5)"},
        &Material::softens},
   };
 }

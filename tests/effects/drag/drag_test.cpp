@@ -93,7 +93,7 @@ TEST(AddedEffect, BringsItsKeyToTheReaderTheSchemaAndThePage) {
   } catch (const InputError& e) {
     EXPECT_NE(std::string(e.what()).find("0 or greater"), std::string::npos) << e.what();
   }
-  EXPECT_NE(case_reference_page().find("share of the velocity that drag takes in a second"), std::string::npos);
+  EXPECT_NE(case_reference_page().find("hare of the velocity that drag takes in a second"), std::string::npos);
   EXPECT_NE(case_schema().find("\"drag\""), std::string::npos);
 }
 
