@@ -28,8 +28,9 @@ std::string type_words(const Key& k) {
   return fmt::format("{}: `{}`", text, fmt::join(split_words(k.words), "` `"));
 }
 
+/// None of [model]: the lines above its list say it of all.
 std::string default_words(const Key& k) {
-  if (k.required()) return "";
+  if (k.required() || k.table == "model") return "";
   if (k.fallback.empty()) return fmt::format(" Not set: {}.", k.note);
   if (k.fallback == "=") return fmt::format(" Default: {}.", k.note);
   return fmt::format(" Default `{}`: {}.", k.fallback, k.note);
