@@ -140,6 +140,19 @@ bool may_include(std::string_view from, std::string_view to) {
 
 }  // namespace
 
+std::string Offence::message() const { return fmt::format("{}:{}: {}\n    {}", path, line, why, text); }
+
+std::vector<std::string_view> lines_of(std::string_view text) {
+  std::vector<std::string_view> lines;
+  while (!text.empty()) {
+    const auto end = text.find('\n');
+    lines.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) break;
+    text.remove_prefix(end + 1);
+  }
+  return lines;
+}
+
 const std::map<std::string, std::vector<std::string>, std::less<>>& map_of_rooms() { return allowed; }
 
 std::string room_of(std::string_view path) {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-/// The rules of the rooms, as functions of one file's path and text: who may include whom, licence line, size, paths.
+/// The rules of the rooms, as functions of one file's path and text: who may include whom, and where each library is used.
 namespace tripoint::architecture {
 
 /// A source file: its path from the project's root with '/' between folders, and its text.
@@ -40,15 +40,5 @@ struct Offence {
 /// Headers of Bullet, LAMMPS, HDF5, toml++, OpenVDB, tinyobjloader and CLI11 outside their rooms, MPI anywhere, and
 /// headers that are dear to compile in a header of ours.
 [[nodiscard]] std::vector<Offence> strayed_libraries(const Source& source);
-
-/// A file without its SPDX line in the first three lines: GPL-2.0-only in adapters/lammps and adapters/ranks, BSD-3-Clause
-/// elsewhere.
-[[nodiscard]] std::vector<Offence> missing_licence(const Source& source);
-
-/// A file of more than 500 lines.
-[[nodiscard]] std::vector<Offence> too_long(const Source& source);
-
-/// An absolute path into somebody's home or mount: it exists on one machine only.
-[[nodiscard]] std::vector<Offence> machine_paths(const Source& source);
 
 }  // namespace tripoint::architecture

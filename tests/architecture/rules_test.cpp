@@ -124,32 +124,5 @@ TEST(Libraries, ThatAreDearStayOutOfHeaders) {
   EXPECT_TRUE(strayed_libraries(file("src/files/scene_json.cpp", "#include <nlohmann/json.hpp>\n")).empty());
 }
 
-TEST(Licence, IsNamedAtTheTopAndIsTheGplForLammps) {
-  const std::string tag = "// SPDX-License-Identifier: ";
-  EXPECT_TRUE(missing_licence(file("src/core/a.cpp", tag + "BSD-3-Clause\n")).empty());
-  EXPECT_TRUE(missing_licence(file("reports/a.py", "#!/usr/bin/python3\n# SPDX-License-Identifier: BSD-3-Clause\n")).empty());
-  EXPECT_EQ(missing_licence(file("src/core/a.cpp", "int x;\n")).size(), 1U);
-  EXPECT_EQ(missing_licence(file("src/core/a.cpp", "")).size(), 1U);
-  EXPECT_EQ(missing_licence(file("adapters/lammps/a.cpp", tag + "BSD-3-Clause\n")).size(), 1U);
-  EXPECT_EQ(missing_licence(file("src/core/a.cpp", "\n\n\n" + tag + "BSD-3-Clause\n")).size(), 1U);
-}
-
-TEST(Length, IsFiveHundredLinesAtMost) {
-  std::string text;
-  for (int n = 0; n < 500; ++n) text += "x\n";
-  EXPECT_TRUE(too_long(file("src/core/a.cpp", text)).empty());
-  EXPECT_EQ(too_long(file("src/core/a.cpp", text + "y")).size(), 1U);
-}
-
-TEST(Paths, OfOneMachineAreFound) {
-  const std::string home = std::string("/home") + "/ann/decks";
-  const auto found = machine_paths(file("src/core/a.cpp", "int x;\nopen(\"" + home + "\");\n"));
-  ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].line, 2U);
-  EXPECT_TRUE(
-      machine_paths(file("src/core/a.cpp", "open(\"/usr/bin/python3\"); f(a/root/b, \"./home/x\"); // kinetic/work/heat\n"))
-          .empty());
-}
-
 }  // namespace
 }  // namespace tripoint::architecture

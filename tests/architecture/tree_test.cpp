@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rules on the tree as it stands.
+// The rules of the rooms on the tree as it stands, and on the page that draws them.
 #include "architecture/rules.hpp"
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <regex>
 
 #include <gtest/gtest.h>
 
@@ -72,11 +73,33 @@ TEST(Tree, HasNoRoomOfMoreThanFiftyFiles) {
   }
 }
 
-TEST(Tree, NamesALicenceInEveryFile) { expect_kept(missing_licence); }
+/// docs/architecture.md.
+std::string page_of_rooms() {
+  std::ifstream in(fs::path(TRIPOINT_SOURCE_DIR) / "docs/architecture.md", std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
 
-TEST(Tree, HasNoFileOverFiveHundredLines) { expect_kept(too_long); }
+TEST(ArchitecturePage, HasTheMapOfTheRooms) {
+  const std::string page = page_of_rooms();
+  for (const auto& [room, others] : map_of_rooms()) {
+    std::string row = "| `" + room + "` | " + (others.empty() ? "nothing" : "");
+    for (const std::string& other : others) row += (&other == &others.front() ? "`" : ", `") + other + "`";
+    EXPECT_NE(page.find(row + " |\n"), std::string::npos) << "docs/architecture.md should have the row\n" << row << " |";
+  }
+}
 
-TEST(Tree, HoldsNoPathOfOneMachine) { expect_kept(machine_paths); }
+TEST(ArchitecturePage, DrawsEveryRoom) {
+  const std::string page = page_of_rooms();
+  const auto begin = page.find("```mermaid");
+  const std::string picture = page.substr(begin, page.find("```\n", begin + 3) - begin);
+  ASSERT_GT(picture.size(), 1000U);
+  for (const auto& [room, others] : map_of_rooms()) {
+    std::string name = room.substr(room.rfind('/') + 1);
+    if (name == "*") name = "NAME";
+    EXPECT_TRUE(std::regex_search(picture, std::regex("\\[\"[^\"]*\\b" + name + "\\b[^\"]*\"\\]")))
+        << "the picture of docs/architecture.md has no box that names the room " << room;
+  }
+}
 
 }  // namespace
 }  // namespace tripoint::architecture

@@ -9,7 +9,7 @@ from pathlib import Path
 
 SOURCE = Path(sys.argv[1]).resolve()
 PAGES = (
-    [SOURCE / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "REFERENCES.md")]
+    [SOURCE / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "REFERENCES.md", "SECURITY.md")]
     + sorted((SOURCE / "docs").rglob("*.md"))
     + sorted((SOURCE / "examples").rglob("*.md"))
 )

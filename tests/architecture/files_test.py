@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every source file names its licence, has at most 500 lines and holds no path of one machine: files_test.py SOURCE."""
+
+import re
+import sys
+import unittest
+from pathlib import Path
+
+ROOT = Path(sys.argv.pop(1)).resolve()
+FOLDERS = ("src", "adapters", "validation", "program", "tests", "reports", "cmake", "tools", "python")
+ENDINGS = (".cpp", ".hpp", ".py", ".sh", ".cmake")
+GPL = ("adapters/lammps/", "adapters/ranks/")
+MOST = 500  # lines
+MACHINE = re.compile(r"(?<![\w.}/-])/(?:home|root|work|mnt|Users|opt)/[A-Za-z0-9]")
+
+
+def faults(path, text):
+    """What breaks a rule, as file:line: why."""
+    lines = text.splitlines()
+    licence = f"SPDX-License-Identifier: {'GPL-2.0-only' if path.startswith(GPL) else 'BSD-3-Clause'}"
+    if not any(line.endswith(licence) for line in lines[:3]):
+        yield f"{path}:1: no line '{licence}' at the top"
+    if len(lines) > MOST:
+        yield f"{path}:{MOST + 1}: {len(lines)} lines, {MOST} at most: split by subject"
+    for number, line in enumerate(lines, 1):
+        if MACHINE.search(line):
+            yield f"{path}:{number}: a path of one machine: {line.strip()}"
+
+
+class Rules(unittest.TestCase):
+    TAG = "// SPDX-License-Identifier: "
+
+    def told(self, path, text):
+        return [fault.split(": ")[1] for fault in faults(path, text)]
+
+    def test_the_licence_is_at_the_top_and_is_the_gpl_for_lammps(self):
+        good = self.TAG + "BSD-3-Clause\n"
+        self.assertEqual(self.told("src/core/a.cpp", good), [])
+        self.assertEqual(self.told("reports/a.py", "#!/usr/bin/python3\n# SPDX-License-Identifier: BSD-3-Clause\n"), [])
+        self.assertEqual(self.told("adapters/lammps/a.cpp", self.TAG + "GPL-2.0-only\n"), [])
+        for path, text in (
+            ("src/core/a.cpp", "int x;\n"),
+            ("src/core/a.cpp", ""),
+            ("src/core/a.cpp", "\n\n\n" + good),
+            ("adapters/lammps/a.cpp", good),
+        ):
+            self.assertEqual(len(self.told(path, text)), 1, text)
+
+    def test_a_file_has_five_hundred_lines_at_most(self):
+        text = self.TAG + "BSD-3-Clause\n" + 499 * "x\n"
+        self.assertEqual(self.told("src/core/a.cpp", text), [])
+        self.assertEqual(self.told("src/core/a.cpp", text + "y"), ["501 lines, 500 at most"])
+
+    def test_a_path_of_one_machine_is_named_with_its_line(self):
+        text = self.TAG + "BSD-3-Clause\n"
+        self.assertEqual(
+            list(faults("src/core/a.cpp", text + 'open("/home' + '/ann/decks");\n')),
+            ['src/core/a.cpp:2: a path of one machine: open("/home' + '/ann/decks");'],
+        )
+        good = 'open("/usr/bin/python3"); f(a/root/b, "./home/x"); // kinetic/work/heat\n'
+        self.assertEqual(self.told("src/core/a.cpp", text + good), [])
+
+
+class Tree(unittest.TestCase):
+    def test_every_file_keeps_the_rules(self):
+        files = [file for folder in FOLDERS for file in sorted((ROOT / folder).rglob("*"))]
+        files = [file for file in files if file.suffix in ENDINGS or file.name == "CMakeLists.txt"]
+        self.assertGreater(len(files), 40)  # else the tree was not found
+        self.assertEqual([f for file in files for f in faults(str(file.relative_to(ROOT)), file.read_text())], [])
+
+
+if __name__ == "__main__":
+    unittest.main()
