@@ -9,16 +9,10 @@ from __future__ import annotations
 
 import matplotlib
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.collections import PathCollection
-from matplotlib.figure import Figure
-from matplotlib.image import BboxImage
-from matplotlib.lines import Line2D
-from matplotlib.markers import MarkerStyle
-from matplotlib.transforms import Affine2D, Bbox, IdentityTransform, TransformedBbox
 
 from . import solids, style
 from .curve import Drawing
+from .sheet import KINDS, Sheet
 
 MOST_LINES = 4
 LEAVES = 0.3  # of the extent at the start, that a picture with walls reaches beyond it
@@ -30,119 +24,123 @@ MANY = 200  # particles from which on the picture need not hold all
 SEEN = 60  # squares of the outline of what is solid: with fewer, cutting open shows nothing
 HIDDEN = 0.4  # share of the solids' outline that is seen: below it the scene is cut open
 STRAY = 2  # in a hundred that may lie outside on each side
-DISC = (MarkerStyle("o").get_path().transformed(MarkerStyle("o").get_transform()),)
 TURN, TILT = np.radians(-55.0), np.radians(24.0)
-KINDS = (
-    ("liquid", style.BLUE),
-    ("liquid of another material", style.SKY),
-    ("elastic", "#2bb58c"),
-    ("rigid", "#e8803a"),
-    ("at rest", style.GREY),
-)
 
 
 def draw(case, trajectories, notes):
-    shown = [(curve, t) for curve, t in trajectories if t.position is not None and len(t.position) and t.strobe]
+    shown = shown_of(trajectories, notes)
     if not shown:
         return None
-    shown.sort(key=lambda entry: entry[0].engine.name == "exact")
-    if len(shown) > MOST_LINES:
-        notes.append(
-            f"particles are drawn of {MOST_LINES} engines; not drawn: "
-            + ", ".join(c.label for c, _ in shown[MOST_LINES:])
-        )
-        shown = shown[:MOST_LINES]
-    first = shown[0][1]
-    view, flat = projection(
-        np.concatenate([finite(frame.position) for _, t in shown for frame in t.strobe]), upward(first.gravity)
-    )
-    warm, resting = warmth(shown), [still(t) for _, t in shown]
-    low, high = extent(
-        [view(frame.position) for _, t in shown for frame in t.strobe],
-        spacing_of(shown),
-        first.domain,
-        view,
-        any(rest.any() for rest in resting),
-    )
-    flight = warm is None and flies(first, view, resting[0])
-    ratio = (high - low)[0] / (high - low)[1]
-    times = 1 if flight or ratio > 6 else 3 if ratio > 2.5 else 5
-    columns = min(len(shown), 4 if ratio < 1.2 else 2) if times == 1 and ratio < 6 else times
-    strips = [
-        (curve, t, rest, by_phase)
-        for (curve, t), rest in zip(shown, resting)
-        for by_phase in ((False, True) if warm and changes_phase(t) else (False,))
-    ]
-    both = len(strips) > len(shown)
-    sheet = Sheet(
-        -(-len(shown) // columns) if flight else len(strips),
-        columns,
-        low,
-        high,
-        (0.88 if both else 0.62) if warm else 0.42,
-    )
-    cut = -np.inf if flat else cut_through(first, resting[0], view, cell_of(shown[0][0], low, high))
-    kinds, outside = set(), 0
-    for line, (curve, t, rest, by_phase) in enumerate(strips):
-        chosen = (
-            t.strobe
-            if flight
-            else [t.strobe[k] for k in np.unique(np.linspace(0, len(t.strobe) - 1, times).round().astype(int))]
-            if times > 1
-            else t.strobe[-1:]
-        )
-        for k, frame in enumerate(chosen):
-            place = line if flight else line * columns + k
-            pale = 1.0 if not flight or k == len(chosen) - 1 else 0.12 + 0.35 * k / len(chosen)
-            kinds |= panel(sheet, place, curve, t, frame, rest, view, cut, warm, flat, pale, by_phase)
-            if line == 0 and not flight:
-                sheet.write(
-                    place,
-                    0.0,
-                    1.0,
-                    f"t = {style.power(frame.time) if frame.time else 0} s",
-                    (0, 3),
-                    "bottom",
-                    style.SOFT,
-                )
-        sheet.write(
-            line if flight else line * columns,
-            0.0,
-            1.0,
-            "by phase" if by_phase else curve.label,
-            (3, -3),
-            "top",
-            style.look(curve)["color"],
-            "bold",
-        )
-        outside = max(outside, beyond(view(chosen[-1].position), low, high))
-    how = sheet.legend(warm, kinds)
-    end = first.strobe[-1].time
-    most = max(int(np.isfinite(t.position).all(axis=1).sum()) for _, t in shown)
-    when = "" if times > 1 else f"at t = {end:.4g} s, "
-    if flight:
-        when = f"from 0 to {end:.4g} s in one picture, earlier times paler, "
-    parts = [
-        f"At the case's own resolution, {when}{how}{'; gravity points down' if first.pulled else ''}.",
-        f"Up to {most} particles; of those behind one another the foremost is drawn"
-        + (
-            ", and of what never moves not the part in front."
-            if not flat and any(rest.any() for rest in resting)
-            else "."
-        ),
-    ]
-    solid = warm is None and all(solids.usable(t) for _, t in shown)
-    if solid:
-        parts[1] = "Boxes and balls are drawn by their shapes."
-    parts += ["Cut open through the middle of the solids, which liquid hides."] if np.isfinite(cut) else []
-    parts += [f"{outside} particle{'s lie' if outside > 1 else ' lies'} outside of the picture."] if outside else []
+    scene = Scene(shown)
+    sheet = Sheet(scene.lines, scene.columns, scene.low, scene.high, scene.below)
+    kinds = set().union(*(draw_strip(sheet, scene, line) for line in range(len(scene.strips))))
+    how = sheet.legend(scene.warm, kinds)
     return Drawing(
         "particles",
-        "Bodies in space" if solid else "Particles in time",
-        f"Particles from the start to {end:.4g} s for {', '.join(c.label for c, _ in shown)}, {how}.",
+        "Bodies in space" if scene.solid else "Particles in time",
+        f"Particles from the start to {scene.end:.4g} s for {', '.join(c.label for c, _ in shown)}, {how}.",
         sheet.figure,
-        " ".join(parts),
+        caption(scene, how),
     )
+
+
+def shown_of(trajectories, notes):
+    """The curves and trajectories that have particles, at most MOST_LINES of them, the exact one last."""
+    shown = [(curve, t) for curve, t in trajectories if t.position is not None and len(t.position) and t.strobe]
+    shown.sort(key=lambda entry: entry[0].engine.name == "exact")
+    if len(shown) > MOST_LINES:
+        rest = ", ".join(curve.label for curve, _ in shown[MOST_LINES:])
+        notes.append(f"particles are drawn of {MOST_LINES} engines; not drawn: {rest}")
+    return shown[:MOST_LINES]
+
+
+class Scene:
+    """How the particles are looked at, the same for all engines and times."""
+
+    def __init__(self, shown):
+        self.shown, (curve, self.first) = shown, shown[0]
+        frames = [frame.position for _, t in shown for frame in t.strobe]
+        self.view, self.flat = projection(np.concatenate([finite(f) for f in frames]), upward(self.first.gravity))
+        self.warm, self.resting = warmth(shown), [still(t) for _, t in shown]
+        self.walled = any(rest.any() for rest in self.resting)
+        projected = [self.view(f) for f in frames]
+        self.low, self.high = extent(projected, spacing_of(shown), self.first.domain, self.view, self.walled)
+        self.solid = self.warm is None and all(solids.usable(t) for _, t in shown)
+        self.end = self.first.strobe[-1].time
+        self.lay_out()
+        cell = cell_of(curve, self.low, self.high)
+        self.cut = -np.inf if self.flat else cut_through(self.first, self.resting[0], self.view, cell)
+
+    def lay_out(self):
+        """Strips of times: one an engine, and one more by phase where a warm engine changes phase."""
+        self.flight = self.warm is None and flies(self.first, self.view, self.resting[0])
+        ratio = (self.high - self.low)[0] / (self.high - self.low)[1]
+        self.times = 1 if self.flight or ratio > 6 else 3 if ratio > 2.5 else 5
+        alone = self.times == 1 and ratio < 6
+        self.columns = min(len(self.shown), 4 if ratio < 1.2 else 2) if alone else self.times
+        self.strips = [
+            (curve, t, rest, by_phase)
+            for (curve, t), rest in zip(self.shown, self.resting)
+            for by_phase in ((False, True) if self.warm and changes_phase(t) else (False,))
+        ]
+        self.lines = -(-len(self.shown) // self.columns) if self.flight else len(self.strips)
+        both = len(self.strips) > len(self.shown)
+        self.below = (0.88 if both else 0.62) if self.warm else 0.42
+
+    def chosen(self, trajectory):
+        """The frames of a strip."""
+        strobe = trajectory.strobe
+        if self.flight or self.times == 1:
+            return strobe if self.flight else strobe[-1:]
+        return [strobe[k] for k in np.unique(np.linspace(0, len(strobe) - 1, self.times).round().astype(int))]
+
+    def place(self, line, k=0):
+        """The panel of the k-th frame of a strip."""
+        return line if self.flight else line * self.columns + k
+
+    def paleness(self, k, count):
+        return 1.0 if not self.flight or k == count - 1 else 0.12 + 0.35 * k / count
+
+
+def draw_strip(sheet, scene, line):
+    """@return kinds that it shows"""
+    curve, t, rest, by_phase = scene.strips[line]
+    frames, kinds = scene.chosen(t), set()
+    for k, frame in enumerate(frames):
+        place, pale = scene.place(line, k), scene.paleness(k, len(frames))
+        kinds |= panel(
+            sheet, place, curve, t, frame, rest, scene.view, scene.cut, scene.warm, scene.flat, pale, by_phase
+        )
+        if line == 0 and not scene.flight:
+            time = f"t = {style.power(frame.time) if frame.time else 0} s"
+            sheet.write(place, 0.0, 1.0, time, (0, 3), "bottom", style.SOFT)
+    words, hue = "by phase" if by_phase else curve.label, style.look(curve)["color"]
+    sheet.write(scene.place(line), 0.0, 1.0, words, (3, -3), "top", hue, "bold")
+    return kinds
+
+
+def caption(scene, how):
+    when = "" if scene.times > 1 else f"at t = {scene.end:.4g} s, "
+    if scene.flight:
+        when = f"from 0 to {scene.end:.4g} s in one picture, earlier times paler, "
+    down = "; gravity points down" if scene.first.pulled else ""
+    parts = [f"At the case's own resolution, {when}{how}{down}.", what_is_drawn(scene)]
+    if np.isfinite(scene.cut):
+        parts.append("Cut open through the middle of the solids, which liquid hides.")
+    outside = max(
+        beyond(scene.view(scene.chosen(t)[-1].position), scene.low, scene.high) for _, t, _, _ in scene.strips
+    )
+    if outside:
+        parts.append(f"{outside} particle{'s lie' if outside > 1 else ' lies'} outside of the picture.")
+    return " ".join(parts)
+
+
+def what_is_drawn(scene):
+    if scene.solid:
+        return "Boxes and balls are drawn by their shapes."
+    most = max(int(np.isfinite(t.position).all(axis=1).sum()) for _, t in scene.shown)
+    walls = ", and of what never moves not the part in front" if not scene.flat and scene.walled else ""
+    return f"Up to {most} particles; of those behind one another the foremost is drawn{walls}."
 
 
 def finite(position):
@@ -269,116 +267,6 @@ def extent(projected, spacing, domain, view, walled):
 def beyond(points, low, high):
     sound = points[np.isfinite(points).all(axis=1), :2]
     return int(((sound < low) | (sound > high)).any(axis=1).sum())
-
-
-class Sheet:
-    """Panels of one scale on one figure in inches, without axes: an axis each would cost ten times the drawing, and one
-    for all half of it."""
-
-    def __init__(self, lines, columns, low, high, below):
-        self.low, self.high, self.columns, gap = low, high, columns, 0.1
-        wide = (style.WIDTH - 0.1) / columns - gap
-        self.scale = min(wide / (high - low)[0], (3.4 if columns < 4 else 2.4) / (high - low)[1])  # [inches/m]
-        self.size = self.scale * (high - low)
-        self.step = np.array(
-            [wide + gap if self.size[0] > 0.7 * wide else max(self.size[0] + gap, 0.9), max(self.size[1], 0.25) + gap]
-        )
-        self.base, total = below, below + lines * self.step[1] + 0.25
-        self.figure = Figure(figsize=(style.WIDTH, total))
-        FigureCanvasAgg(self.figure)
-        self.inches = Affine2D().scale(1 / style.WIDTH, 1 / total) + self.figure.transFigure
-        self.lines = lines
-
-    def origin(self, place):
-        """The lower left corner of a panel."""
-        return np.array(
-            [
-                0.1 + (place % self.columns) * self.step[0],
-                self.base + (self.lines - 1 - place // self.columns) * self.step[1],
-            ]
-        )
-
-    def draw(self, place, seen, area, pale, colours):
-        at = self.origin(place) + (seen[:, :2] - self.low) * self.scale
-        discs = PathCollection(
-            DISC,
-            [area],
-            offsets=at,
-            offset_transform=self.inches,
-            facecolors=colours,
-            edgecolors="none",
-            linewidths=0,
-            alpha=pale,
-            rasterized=True,
-        )
-        discs.set_transform(IdentityTransform())
-        self.figure.add_artist(discs)
-        corner, (wide, tall) = self.origin(place), self.size
-        self.line(
-            corner[0] + np.array([0, wide, wide, 0, 0]),
-            corner[1] + np.array([0, 0, tall, tall, 0]),
-            color=style.GRID,
-            linewidth=0.8,
-            zorder=0,
-        )
-
-    def line(self, x, y, **look):
-        self.figure.add_artist(Line2D(x, y, transform=self.inches, **look))
-
-    def words(self, x, y, words, hue=style.INK, **look):
-        """@param x, y: inches"""
-        self.figure.text(x, y, words, transform=self.inches, color=hue, zorder=3, **look)
-
-    def write(self, place, x, y, words, offset, align, hue, weight="normal"):
-        """@param x, y: shares of a panel   @param offset: points"""
-        self.words(
-            *(self.origin(place) + np.array([x, y]) * self.size + np.array(offset) / 72),
-            words,
-            hue,
-            va=align,
-            fontsize=8.5,
-            fontweight=weight,
-            bbox={"facecolor": style.PAPER, "edgecolor": "none", "alpha": 0.75, "pad": 1.0} if align == "top" else None,
-        )
-
-    def legend(self, warm, kinds):
-        """A bar of a round length, and what the colours are. @return the same in words"""
-        length = round_below(0.4 * self.size[0] / self.scale)
-        self.line([0.1, 0.1 + length * self.scale], [0.24, 0.24], color=style.INK, linewidth=2.2, solid_capstyle="butt")
-        self.words(0.1, 0.08, f"{1000 * length:.4g} mm" if length < 0.1 else f"{length:.4g} m", fontsize=8)
-        if warm is not None:
-            bar = BboxImage(TransformedBbox(Bbox.from_extents(3.2, 0.3, 6.0, 0.4), self.inches), cmap=style.TEMPERATURE)
-            bar.set_data(np.linspace(0, 1, 128)[None, :])
-            self.figure.add_artist(bar)
-            for share in (0.0, 0.5, 1.0):
-                self.words(
-                    3.2 + 2.8 * share,
-                    0.13,
-                    f"{warm[0] + share * (warm[1] - warm[0]):.4g}{' K' if share == 1 else ''}",
-                    ha="center",
-                    fontsize=8,
-                )
-            if not kinds:
-                return "coloured by temperature on one scale"
-        names = [KINDS[k] for k in sorted(kinds)]
-        height = 0.18 if warm is None else 0.58
-        widths = [0.35 + 0.062 * len(name) if len(names) > 3 else 1.9 for name, _ in names]
-        at = min(3.2, style.WIDTH - 0.1 - sum(widths))
-        for (name, hue), wide in zip(names, widths):
-            self.line([at], [height], marker="o", linestyle="none", color=hue, markersize=5)
-            self.words(at + 0.1, height, name, va="center", fontsize=8)
-            at += wide
-        if warm is not None:
-            return "coloured by temperature on one scale, and below it by phase"
-        return "coloured by phase" if kinds else "coloured by body"
-
-
-def round_below(length):
-    """1, 2 or 5 times a power of ten."""
-    if not length > 0:
-        return 1.0
-    ten = 10.0 ** np.floor(np.log10(length))
-    return next(n * ten for n in (5, 2, 1) if n * ten <= length * (1 + 1e-9))
 
 
 def cell_of(curve, low, high):
