@@ -4,14 +4,17 @@
 
     tools/draw_mutants.py --tree ../copy --seed 7 --count 20 --out mutants.json
 
-Draws file, line and change (another operator, another sign, a factor of 1.02, a statement left out) over all C++ files of the solver (src/effects,
-src/sph, src/solids, src/step) and adapters, or of each --room. Each is applied to --tree, a copy of the project that is already built with tests (`git worktree add`, then `tools/build.sh --tests N`),
-which is rebuilt as far as the file reaches. Then the cases of the commit profile that touch the file are run, the quickest first, and the unit
-tests of its room between the quick ones and the others, until one is red. Where the change does not compile another is drawn; a mutant nothing sees is printed with its line.
-With --cases-only no unit test is asked: the share that is killed is that of the suite alone. At most --most cases are asked, those of other effects first.
-The seed gives the same mutants from the same sources: --from COMMIT draws from those of a commit, and finds each line in --tree by its text.
-What was judged already in --out is not judged again, but what lived is with --again. A change that computes the same is none: equivalent_mutants.toml gives its reason.
-"""
+Draws file, line and change (another operator, another sign, a factor of 1.02, a statement left out) over all C++ files
+of the solver (src/effects, src/sph, src/solids, src/step) and adapters, or of each --room. Each is applied to --tree, a
+copy of the project that is already built with tests (`git worktree add`, then `tools/build.sh --tests N`), which is
+rebuilt as far as the file reaches. Then the cases of the commit profile that touch the file are run, the quickest
+first, and the unit tests of its room between the quick ones and the others, until one is red. Where the change does not
+compile another is drawn; a mutant nothing sees is printed with its line. With --cases-only no unit test is asked: the
+share that is killed is that of the suite alone. At most --most cases are asked, those of other effects first. The seed
+gives the same mutants from the same sources: --from COMMIT draws from those of a commit, and finds each line in --tree
+by its text. What was judged already in --out is not judged again, but what lived is with --again. A change that
+computes the same is none: equivalent_mutants.toml gives its reason."""
+
 import argparse
 import json
 import pathlib
@@ -28,8 +31,28 @@ ROOMS = ("src/effects", "src/sph", "src/solids", "src/step", "adapters")
 EQUIVALENT = tomllib.loads((pathlib.Path(__file__).resolve().parent / "equivalent_mutants.toml").read_text())["mutant"]
 FOLDERS = ("rigid", "fluid", "motion", "prescribed", "density", "elastic", "plastic", "fracture", "heat", "phase")
 # A line that carries no behaviour of the model: text for people, declarations.
-PASSED_OVER = re.compile(r'^\s*(//|#|\*|using |namespace |template|struct |class |enum |static_assert|assert|\[\[nodiscard\]\]|public:|private:|case )|"|throw |fmt::|static const|const_cast|operator|= default|= delete|make_unique|\bfor \(|\w&[,)]|std::vector<.*=|\w& \w+ = |nullptr|virtual |, \w+ = ')
-OPERATORS = ((" + ", " - "), (" - ", " + "), (" * ", " / "), (" / ", " * "), (" < ", " >= "), (" > ", " <= "), (" <= ", " > "), (" >= ", " < "), (" && ", " || "), (" || ", " && "), (" += ", " -= "), (" -= ", " += "), (" == ", " != "), (" != ", " == "))
+PASSED_OVER = re.compile(
+    r"^\s*(//|#|\*|using |namespace |template|struct |class |enum "
+    r'|static_assert|assert|\[\[nodiscard\]\]|public:|private:|case )|"|throw |fmt::|static '
+    r"const|const_cast|operator|= default|= delete|make_unique|\bfor \(|\w&[,)]|std::vector<.*=|\w& \w+ = "
+    r"|nullptr|virtual |, \w+ = "
+)
+OPERATORS = (
+    (" + ", " - "),
+    (" - ", " + "),
+    (" * ", " / "),
+    (" / ", " * "),
+    (" < ", " >= "),
+    (" > ", " <= "),
+    (" <= ", " > "),
+    (" >= ", " < "),
+    (" && ", " || "),
+    (" || ", " && "),
+    (" += ", " -= "),
+    (" -= ", " += "),
+    (" == ", " != "),
+    (" != ", " == "),
+)
 
 
 def changes_of(line):
@@ -41,16 +64,24 @@ def changes_of(line):
     for old, new in OPERATORS:
         at = -1
         while (at := code.find(old, at + 1)) >= 0:
-            found.append(("operator" if old.strip() not in "+-" else "sign", code[:at] + new + code[at + len(old):]))
+            found.append(("operator" if old.strip() not in "+-" else "sign", code[:at] + new + code[at + len(old) :]))
     for m in re.finditer(r"(?<![\w.])(\d+\.\d+(?:e-?\d+)?)(?![\w.])", code):
         if float(m[1]) == 0.0:
             continue  # 1.02 times nothing
-        found.append(("factor", code[:m.start()] + f"(1.02 * {m[1]})" + code[m.end():]))
+        found.append(("factor", code[: m.start()] + f"(1.02 * {m[1]})" + code[m.end() :]))
     if m := re.fullmatch(r"(\s*)return ([^;{}]+);", code):
         found += [("factor", f"{m[1]}return 1.02 * ({m[2]});"), ("sign", f"{m[1]}return -({m[2]});")]
-    if (m := re.fullmatch(r"(\s*[^;{}()=]+(?:\([^;{}=]*\))?[^;{}()=]* (?:\+|-)?= )([^;{}]+);", code)) and m[2] not in ("0.0", "true", "false", "{}") and not re.search(r"\bauto |\bbool ", code):
+    if (
+        (m := re.fullmatch(r"(\s*[^;{}()=]+(?:\([^;{}=]*\))?[^;{}()=]* (?:\+|-)?= )([^;{}]+);", code))
+        and m[2] not in ("0.0", "true", "false", "{}")
+        and not re.search(r"\bauto |\bbool ", code)
+    ):
         found += [("factor", f"{m[1]}1.02 * ({m[2]});"), ("sign", f"{m[1]}-({m[2]});")]
-    if re.fullmatch(r"\s*(?:[\w\].>()\[:-]+ (?:\+|-|\*)?= [^;{}]+|[\w.>:-]+\([^;{}]*\));", code) and "0.0;" not in code and not re.match(r"\s*(return|const|auto|double|int)\b", code):
+    if (
+        re.fullmatch(r"\s*(?:[\w\].>()\[:-]+ (?:\+|-|\*)?= [^;{}]+|[\w.>:-]+\([^;{}]*\));", code)
+        and "0.0;" not in code
+        and not re.match(r"\s*(return|const|auto|double|int)\b", code)
+    ):
         found.append(("dropped", re.match(r"\s*", code)[0] + ";"))
     return found
 
@@ -58,7 +89,9 @@ def changes_of(line):
 def sources(tree, rooms=ROOMS):
     files = []
     for room in rooms:
-        files += sorted(p for p in (tree / room).rglob("*") if p.suffix in (".cpp", ".hpp") and "templates" not in p.parts)
+        files += sorted(
+            p for p in (tree / room).rglob("*") if p.suffix in (".cpp", ".hpp") and "templates" not in p.parts
+        )
     return files
 
 
@@ -72,19 +105,32 @@ def draw(rng, tree, rooms=ROOMS):
             continue
         n = rng.choice(candidates)
         kind, text = rng.choice(changes_of(lines[n]))
-        return {"file": str(path.relative_to(tree)), "line": n + 1, "kind": kind, "old": lines[n].strip(), "new": text.strip()}
+        return {
+            "file": str(path.relative_to(tree)),
+            "line": n + 1,
+            "kind": kind,
+            "old": lines[n].strip(),
+            "new": text.strip(),
+        }
 
 
 def sources_of(commit):
     """A folder with the sources of a commit, to draw from."""
     folder = tempfile.TemporaryDirectory(prefix="draw-mutants-")
-    packed = subprocess.run(["git", "archive", commit, "src", "adapters"], cwd=pathlib.Path(__file__).resolve().parent.parent, check=True, capture_output=True).stdout
+    packed = subprocess.run(
+        ["git", "archive", commit, "src", "adapters"],
+        cwd=pathlib.Path(__file__).resolve().parent.parent,
+        check=True,
+        capture_output=True,
+    ).stdout
     subprocess.run(["tar", "-x", "-C", folder.name], input=packed, check=True)
     return folder
 
 
 def place_in(tree, mutant, rooms):
-    """Where the line of a mutant stands in the tree: in its file, or in one file that the line has moved to; None where it is gone."""
+    """Where the line of a mutant stands in the tree: in its file, or in one file that the line has moved to; None where
+    it is gone."""
+
     def at(path):
         lines = path.read_text().split("\n") if path.exists() else []
         return lines, [n for n, line in enumerate(lines) if line.strip() == mutant["old"]]
@@ -108,15 +154,29 @@ def targets_of(file):
     """The programs that are rebuilt, the unit tests of the room, and the engine whose cases are asked."""
     if file.startswith("src/effects"):
         part = file.split("/")[2]
-        of = {"elastic": ["elastic"], "plastic": ["plastic"], "fracture": ["plastic"], "phase": ["phase"], "heat": ["phase"]}.get(part, ["elastic", "passes", "phase"])
+        of = {
+            "elastic": ["elastic"],
+            "plastic": ["plastic"],
+            "fracture": ["plastic"],
+            "phase": ["phase"],
+            "heat": ["phase"],
+        }.get(part, ["elastic", "passes", "phase"])
         return OURS, ["test-effects"] + [f"test-effects-{x}" for x in of] + ["test-step"], "tripoint"
     if not file.startswith("adapters"):
-        return OURS, [f"test-{file.split('/')[1]}" if not file.startswith("src/solids") else "test-effects", "test-step"], "tripoint"
+        return (
+            OURS,
+            [f"test-{file.split('/')[1]}" if not file.startswith("src/solids") else "test-effects", "test-step"],
+            "tripoint",
+        )
     part = file.split("/")[1]
     tests = {"tripoint": ["test-step"], "bullet": ["test-bullet"], "lammps": ["test-engines"], "exact": ["test-exact"]}
     if part in tests:
         return OURS if part == "tripoint" else [f"engine-{part}"], tests[part], part
-    return ["engine-tripoint", "engine-bullet", "engine-exact", "engine-lammps", "bin/tripoint"], ["test-files", "test-exact"], "tripoint"
+    return (
+        ["engine-tripoint", "engine-bullet", "engine-exact", "engine-lammps", "bin/tripoint"],
+        ["test-files", "test-exact"],
+        "tripoint",
+    )
 
 
 def run(command, tree, seconds):
@@ -127,7 +187,8 @@ def run(command, tree, seconds):
 
 
 class Cases:
-    """The commit profile: what each case calls for, and what it costs. What `sound`, a tree without a mutant, does not pass tells nothing."""
+    """The commit profile: what each case calls for, and what it costs. What `sound`, a tree without a mutant, does not
+    pass tells nothing."""
 
     def __init__(self, tree, sound):
         self.tree, self.sound, self.known = tree, sound, {}
@@ -140,11 +201,19 @@ class Cases:
         baseline = self.tree / "baselines" / (case["id"] + ".toml")
         runs = tomllib.loads(baseline.read_text()).get("cost", []) if baseline.exists() else []
         counted = {what: sum(run[what] for run in runs) for what in ("pairs", "steps")}
-        return {"effects": {e["name"] for e in shown["effects"]}, "engines": engines, "cost": counted["pairs"] + 1e4 * counted["steps"]}
+        return {
+            "effects": {e["name"] for e in shown["effects"]},
+            "engines": engines,
+            "cost": counted["pairs"] + 1e4 * counted["steps"],
+        }
 
     def touched(self, file, engine):
         part = file.split("/")[2] if file.startswith("src/effects") else ""
-        of = [c for c, about in self.cases.items() if (part not in FOLDERS or part in about["effects"]) and any(e.startswith(engine) for e in about["engines"])]
+        of = [
+            c
+            for c, about in self.cases.items()
+            if (part not in FOLDERS or part in about["effects"]) and any(e.startswith(engine) for e in about["engines"])
+        ]
         return sorted(of, key=lambda c: self.cases[c]["cost"])
 
     def varied(self, touched):
@@ -161,13 +230,34 @@ class Cases:
         engines = sorted(e for e in self.cases[case]["engines"] if e.startswith(engine))
         results = pathlib.Path(out) / "results.json"
         results.unlink(missing_ok=True)
-        done = run(["build/bin/tripoint", "validate", case, "--jobs", "1", "--engines", ",".join(engines), "--no-history", "--no-report", "--out", out], tree or self.tree, 900)
+        done = run(
+            [
+                "build/bin/tripoint",
+                "validate",
+                case,
+                "--jobs",
+                "1",
+                "--engines",
+                ",".join(engines),
+                "--no-history",
+                "--no-report",
+                "--out",
+                out,
+            ],
+            tree or self.tree,
+            900,
+        )
         if done is None or not results.exists():
-            if done is not None and done.returncode in (2, 130):  # the command was refused, or stopped: the mutant is not judged
+            if done is not None and done.returncode in (
+                2,
+                130,
+            ):  # the command was refused, or stopped: the mutant is not judged
                 sys.exit(f"draw_mutants: {case} was not run: {done.stderr.strip()[-300:]}")
             return False, "timed out" if done is None else f"exit {done.returncode}"
         verdict = json.loads(results.read_text())["cases"][0]["verdict"]
-        return verdict == "PASS", next((x.strip() for x in (done.stdout + done.stderr).split("\n") if x.startswith("     ")), verdict)[:200]
+        return verdict == "PASS", next(
+            (x.strip() for x in (done.stdout + done.stderr).split("\n") if x.startswith("     ")), verdict
+        )[:200]
 
     def red(self, case, engine, out):
         """Why the mutant fails the case; empty where it passes, or where the sound tree fails it too."""
@@ -179,8 +269,16 @@ class Cases:
         return f"{case}: {why}" if self.known[case, engine] else ""
 
 
-LAMMPS_SUITES = (("rheo", "LammpsPhase"), ("sph_liquid", "LammpsLiquid"), ("tlsph", "LammpsElastic"), ("layer", "LammpsElastic"), ("rigid_flight", "Lammps"),
-                 ("walker", "LammpsWalkers"), ("heat", "LammpsWalkers"), ("sph_heat", "LammpsSph"))
+LAMMPS_SUITES = (
+    ("rheo", "LammpsPhase"),
+    ("sph_liquid", "LammpsLiquid"),
+    ("tlsph", "LammpsElastic"),
+    ("layer", "LammpsElastic"),
+    ("rigid_flight", "Lammps"),
+    ("walker", "LammpsWalkers"),
+    ("heat", "LammpsWalkers"),
+    ("sph_heat", "LammpsSph"),
+)
 
 
 def suites_of(file):
@@ -203,7 +301,10 @@ def red_test(tests, file, options):
         done = run([f"build/tests/{test}", "--gtest_fail_fast", "--gtest_brief=1", f"--gtest_filter={only}"], tree, 900)
         if done is None or done.returncode != 0:
             failed = re.findall(r"\[  FAILED  \] ([\w./]+)", done.stdout) if done else []
-            return f"{test} {failed[0] if failed else 'does not end' if done is None else 'ends with ' + str(done.returncode)}"
+            return (
+                f"{test} "
+                f"{failed[0] if failed else 'does not end' if done is None else 'ends with ' + str(done.returncode)}"
+            )
     return ""
 
 
@@ -234,8 +335,15 @@ def judge(mutant, cases, options):
     if options.cases_only:
         mutant["killed_by"] = red_case(cases.varied(touched)[: options.most])
         return
-    first = options.first if mutant["file"].startswith("src/effects") else 0  # an adapter's cases are slower than its tests
-    mutant["killed_by"] = red_case(touched[:first]) or red_test(tests, mutant["file"], options) or red_oracle(mutant["file"], options) or red_case(touched[first:])
+    first = (
+        options.first if mutant["file"].startswith("src/effects") else 0
+    )  # an adapter's cases are slower than its tests
+    mutant["killed_by"] = (
+        red_case(touched[:first])
+        or red_test(tests, mutant["file"], options)
+        or red_oracle(mutant["file"], options)
+        or red_case(touched[first:])
+    )
 
 
 def apply(mutant, cases, options, rooms):
@@ -245,7 +353,7 @@ def apply(mutant, cases, options, rooms):
         return mutant
     path, lines, n = place
     original, indent = path.read_text(), re.match(r"\s*", lines[n])[0]
-    path.write_text("\n".join(lines[:n] + [indent + mutant["new"]] + lines[n + 1:]))
+    path.write_text("\n".join(lines[:n] + [indent + mutant["new"]] + lines[n + 1 :]))
     try:
         mutant["compiles"] = build(targets_of(mutant["file"])[0], options)
         if mutant["compiles"]:
@@ -258,7 +366,12 @@ def apply(mutant, cases, options, rooms):
 def main():
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     p.add_argument("--tree", type=pathlib.Path, required=True)
-    p.add_argument("--sound", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent, help="a built tree without a mutant; default this one")
+    p.add_argument(
+        "--sound",
+        type=pathlib.Path,
+        default=pathlib.Path(__file__).resolve().parent.parent,
+        help="a built tree without a mutant; default this one",
+    )
     p.add_argument("--seed", type=int, required=True)
     p.add_argument("--count", type=int, default=20)
     p.add_argument("--jobs", default="2")
@@ -293,7 +406,11 @@ def main():
             before = None
         if options.list or reason_equal(mutant):
             seen.append(mutant)
-            print(f"{len(seen):3}  {'no defect' if reason_equal(mutant) else ''}  {place}\n          {reason_equal(mutant)}", flush=True)
+            print(
+                f"{len(seen):3}  {'no defect' if reason_equal(mutant) else ''}  {place}\n          "
+                f"{reason_equal(mutant)}",
+                flush=True,
+            )
             continue
         if not before:
             before = apply(mutant, cases, options, rooms)
@@ -303,10 +420,18 @@ def main():
             print(f"      no build  {place}", flush=True)
             continue
         seen.append(mutant)
-        print(f"{len(seen):3}  {'killed  ' if before['killed_by'] else 'SURVIVES'}  {place}\n          {before['killed_by']}  ({before['asked']} cases, {before['seconds']} s)", flush=True)
+        print(
+            f"{len(seen):3}  {'killed  ' if before['killed_by'] else 'SURVIVES'}  {place}\n          "
+            f"{before['killed_by']}  ({before['asked']} cases, {before['seconds']} s)",
+            flush=True,
+        )
     if not options.list:
         build([], options)
-        killed = [m for m in done if m["compiles"] and m["killed_by"] and any(m["old"] == s["old"] and m["new"] == s["new"] for s in seen)]
+        killed = [
+            m
+            for m in done
+            if m["compiles"] and m["killed_by"] and any(m["old"] == s["old"] and m["new"] == s["new"] for s in seen)
+        ]
         equal = sum(bool(reason_equal(m)) for m in seen)
         print(f"{len(killed)} of {len(seen) - equal} killed; {equal} more of {len(seen)} are no defects")
 

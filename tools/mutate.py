@@ -1,13 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Mutation score of the judge: one small fault at a time in gate, metrics or references, and the tests that should see it.
+"""Mutation score of the judge: one small fault at a time in gate, metrics or references, and the tests that should \
+see it.
 
-    tools/mutate.py [--seed 1] [--count 50] [--room gate|metrics|references]... [--build build-dev] [--fast] [--list] [--at "FILE:LINE:COLUMN: OPERATOR"]...
+    tools/mutate.py [--seed 1] [--count 50] [--room gate|metrics|references]... [--build build-dev] [--fast] [--list] \
+[--at "FILE:LINE:COLUMN: OPERATOR"]...
 
-A mutant that its tests do not see, and that no reader can show to compute the same, is a test that is missing. No file of the
-checkout is changed: the mutated copy is compiled without optimisation in a folder of its own and linked before the library that holds the true one.
+A mutant that its tests do not see, and that no reader can show to compute the same, is a test that is missing. No \
+file of the
+checkout is changed: the mutated copy is compiled without optimisation in a folder of its own and linked before the \
+library that holds the true one.
 The build is one whose files are compiled each alone, as by `cmake --preset dev`.
---list shows the mutants and runs none; --fast leaves out the tests that start processes, which take a minute for each mutant that survives.
+--list shows the mutants and runs none; --fast leaves out the tests that start processes, which take a minute for each \
+mutant that survives.
 """
 import argparse
 import json

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The contract of an engine (docs/engines.md): the three calls, the job, the trajectory, and the result by rename.
 
-An adapter is a class of `Engine` and one line, `sys.exit(serve(MyEngine(), sys.argv[1:]))`. Only the standard library is used,
-because each engine runs in an environment of its own."""
+An adapter is a class of `Engine` and one line, `sys.exit(serve(MyEngine(), sys.argv[1:]))`. Only the standard library
+is used, because each engine runs in an environment of its own."""
+
 from __future__ import annotations
 
 import hashlib
@@ -21,7 +22,9 @@ from typing import Any
 Row = Sequence[float]  # of trajectory.csv
 DONE, BAD_JOB, REFUSED, DIVERGED = 0, 2, 4, 7  # exit codes of --run
 
-BODY_COLUMNS = "time,body,x,y,z,vx,vy,vz,qw,qx,qy,qz,wx,wy,wz"  # s, -, m, m/s, quaternion (w, x, y, z), rad/s in the world frame
+BODY_COLUMNS = (
+    "time,body,x,y,z,vx,vy,vz,qw,qx,qy,qz,wx,wy,wz"  # s, -, m, m/s, quaternion (w, x, y, z), rad/s in the world frame
+)
 PARTICLE_COLUMNS = "time,id,x,y,z,vx,vy,vz"  # s, -, m, m/s
 HEAT_COLUMNS = "time,id,x,y,z,vx,vy,vz,temperature"  # s, -, m, m/s, K
 
@@ -79,7 +82,16 @@ def read_job(path: str) -> Job:
         scene = document["scene"]
         step = document["resolution"].get("time_step")
         preset, settings = document.get("preset") or "default", document.get("settings") or {}
-        return Job(document, Path(path).resolve(), scene, scene["bodies"], times, preset, settings, None if step is None else float(step))
+        return Job(
+            document,
+            Path(path).resolve(),
+            scene,
+            scene["bodies"],
+            times,
+            preset,
+            settings,
+            None if step is None else float(step),
+        )
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise BadJob(f"{path}: {error!r}") from error
 
@@ -91,7 +103,9 @@ class Outcome:
     steps: int = 0
     pairs: float = 0.0  # contact points or elements that were worked on, summed over steps
     iterations: float = 0.0
-    readback: dict[str, Any] = field(default_factory=dict)  # gravity, time_step, precision, bodies: as the engine itself holds them
+    readback: dict[str, Any] = field(
+        default_factory=dict
+    )  # gravity, time_step, precision, bodies: as the engine itself holds them
     setup_cpu: float = 0.0  # [s]
     state_hash: str = ""
 
@@ -129,9 +143,18 @@ class Engine(ABC):
     def info(self) -> dict[str, Any]:
         library = self.library()
         held = {"path": str(library or ""), "hash": file_hash(library) if library else ""}
-        return {"contract": 1, "name": self.name, "version": self.version(), "build": self.build(), "library": held,
-                "capabilities": list(self.capabilities), "presets": list(self.presets), "preset_words": self.preset_words, "settings": self.settings,
-                "deterministic": self.deterministic}
+        return {
+            "contract": 1,
+            "name": self.name,
+            "version": self.version(),
+            "build": self.build(),
+            "library": held,
+            "capabilities": list(self.capabilities),
+            "presets": list(self.presets),
+            "preset_words": self.preset_words,
+            "settings": self.settings,
+            "deterministic": self.deterministic,
+        }
 
 
 def file_of(package: str, wanted: Callable[[str], bool]) -> Path | None:
@@ -175,14 +198,28 @@ def write_result(job: Job, result: dict[str, Any]) -> None:
     os.rename(part, job.folder / "result.json")
 
 
-def _result(status: str, message: str, time_reached: float, outcome: Outcome, spent: tuple[float, float]) -> dict[str, Any]:
+def _result(
+    status: str, message: str, time_reached: float, outcome: Outcome, spent: tuple[float, float]
+) -> dict[str, Any]:
     """@param spent wall and CPU seconds of the whole run"""
     stepping_cpu = max(0.0, spent[1] - outcome.setup_cpu)
-    return {"contract": 1, "status": status, "message": message, "time_reached": time_reached, "steps": outcome.steps,
-            "counters": {"pairs": outcome.pairs, "iterations": outcome.iterations},
-            "seconds": {"setup_wall": 0.0, "setup_cpu": outcome.setup_cpu,
-                        "stepping_wall": spent[0], "stepping_cpu": stepping_cpu},
-            "state_hash": outcome.state_hash, "readback": outcome.readback, "divergence": None}
+    return {
+        "contract": 1,
+        "status": status,
+        "message": message,
+        "time_reached": time_reached,
+        "steps": outcome.steps,
+        "counters": {"pairs": outcome.pairs, "iterations": outcome.iterations},
+        "seconds": {
+            "setup_wall": 0.0,
+            "setup_cpu": outcome.setup_cpu,
+            "stepping_wall": spent[0],
+            "stepping_cpu": stepping_cpu,
+        },
+        "state_hash": outcome.state_hash,
+        "readback": outcome.readback,
+        "divergence": None,
+    }
 
 
 def _refusal(engine: Engine, job: Job) -> str:
@@ -203,10 +240,18 @@ def _run(engine: Engine, job: Job) -> int:
         outcome = engine.run(job)
     except Diverged as end:
         result = _result("diverged", str(end), end.time, nothing, (0.0, 0.0))
-        result["divergence"] = {"particle": -1, "body": end.body, "field": "position", "stage": "step", "time": end.time}
+        result["divergence"] = {
+            "particle": -1,
+            "body": end.body,
+            "field": "position",
+            "stage": "step",
+            "time": end.time,
+        }
         write_result(job, result)
         return DIVERGED
-    write_result(job, _result("ok", "", job.times[-1], outcome, (time.perf_counter() - wall, time.process_time() - cpu)))
+    write_result(
+        job, _result("ok", "", job.times[-1], outcome, (time.perf_counter() - wall, time.process_time() - cpu))
+    )
     return DONE
 
 

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""CalculiX (GPL-2.0, a process of its own), Debian's ccx: conduction at rest and elastic bodies that something fixed holds.
+"""CalculiX (GPL-2.0, a process of its own), Debian's ccx: conduction at rest and elastic bodies that something fixed
+holds.
 
-Presets are its elements. Each body is meshed with cubes of one spacing, one a particle, and a particle shows the mean of the corners of its
-cube. It also answers the job's gauges, each a sum of the values at the nodes about a point or of a body. Time: CalculiX's own `*HEAT TRANSFER` (backward Euler) and `*DYNAMIC` (its alpha method, ALPHA=0: no numerical damping), with direct
-increments."""
+Presets are its elements. Each body is meshed with cubes of one spacing, one a particle, and a particle shows the mean
+of the corners of its cube. It also answers the job's gauges, each a sum of the values at the nodes about a point or of
+a body. Time: CalculiX's own `*HEAT TRANSFER` (backward Euler) and `*DYNAMIC` (its alpha method, ALPHA=0: no numerical
+damping), with direct increments."""
+
 from __future__ import annotations
 
 import math
@@ -15,13 +18,31 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from contract import HEAT_COLUMNS, PARTICLE_COLUMNS, Diverged, Engine, Job, Outcome, Row, serve, write_gauges, write_trajectory
+from contract import (
+    HEAT_COLUMNS,
+    PARTICLE_COLUMNS,
+    Diverged,
+    Engine,
+    Job,
+    Outcome,
+    Row,
+    serve,
+    write_gauges,
+    write_trajectory,
+)
 from lattice import Mesh, across, mesh_of, nodes_in_box, refuse_boxes, refuse_work, temperature_at, velocity_at
 from rigid import steps_in
 from rotation import norm, vector
 
 FASTEST_RUN = 590.0  # [s] of wall time
-GAUGES = {"temperature_at": "NT", "mean_temperature": "NT", "displacement": "U", "centre": "U", "velocity_at": "V", "mean_velocity": "V"}  # what is summed
+GAUGES = {
+    "temperature_at": "NT",
+    "mean_temperature": "NT",
+    "displacement": "U",
+    "centre": "U",
+    "velocity_at": "V",
+    "mean_velocity": "V",
+}  # what is summed
 
 
 def is_elastic(job: Job) -> bool:
@@ -92,10 +113,16 @@ def refuse_solids(job: Job) -> str:
         if body["velocity_field"]["kind"] not in ("constant", "expression"):
             return f"the velocity of {name} is neither constant nor an expression"
     for body in job.bodies:
-        if body["phase"] == "elastic" and not any(linked(job, body, other) and other["motion"] == "fixed" for other in job.bodies):
+        if body["phase"] == "elastic" and not any(
+            linked(job, body, other) and other["motion"] == "fixed" for other in job.bodies
+        ):
             return f"bodies that nothing holds are not handed to CalculiX, and {body['name']} is free"
     for body in job.bodies:
-        if any(other is not body and not linked(job, body, other) and near(job, body, other) for other in job.bodies if body["phase"] == "elastic"):
+        if any(
+            other is not body and not linked(job, body, other) and near(job, body, other)
+            for other in job.bodies
+            if body["phase"] == "elastic"
+        ):
             return f"contact is not handed to CalculiX, and {body['name']} may touch another body"
     return ""
 
@@ -113,18 +140,27 @@ class Deck:
     def natural_step(self) -> float:
         dx, wanted = self.mesh.spacing, set(self.mesh.body)
         if self.elastic:
+
             def wave(m: dict) -> float:
                 E, nu = float(m["young_modulus"]), float(m["poisson_ratio"] or 0.0)
                 return math.sqrt(E * (1.0 - nu) / (m["density"] * (1.0 + nu) * (1.0 - 2.0 * nu)))
+
             return 2.0 * dx / max(wave(self.materials[k]) for k in wanted)
         return heat_step(self.job)
 
     def gauge(self, asked: dict[str, Any]) -> tuple[dict[int, float], str, float] | None:
-        """Weights of the nodes, what is summed (NT, U1, V2 ...) and what is added; None for a gauge that has no answer here."""
+        """Weights of the nodes, what is summed (NT, U1, V2 ...) and what is added; None for a gauge that has no answer
+        here."""
         where, mesh = asked["where"], self.mesh
         kind = GAUGES.get(asked["quantity"], "")
         bodies = {k for k in set(mesh.body) if asked["body"] in ("", self.job.bodies[k]["name"])}
-        if (kind == "NT") == self.elastic or not kind or not bodies or "phase" in where or (kind != "NT" and "axis" not in where):
+        if (
+            (kind == "NT") == self.elastic
+            or not kind
+            or not bodies
+            or "phase" in where
+            or (kind != "NT" and "axis" not in where)
+        ):
             return None
         axis = "xyz".index(where["axis"]) if kind != "NT" else 0
         word = kind if kind == "NT" else f"{kind}{axis + 1}"
@@ -136,7 +172,11 @@ class Deck:
         total = sum(w for w, take in zip(mass, inside) if take)
         if total == 0.0:
             return None
-        start = sum(w * mesh.middle(e)[axis] for e, (w, take) in enumerate(zip(mass, inside)) if take) / total if asked["quantity"] == "centre" else 0.0
+        start = (
+            sum(w * mesh.middle(e)[axis] for e, (w, take) in enumerate(zip(mass, inside)) if take) / total
+            if asked["quantity"] == "centre"
+            else 0.0
+        )
         return mesh.mean(mass, inside), word, start
 
     @staticmethod
@@ -147,7 +187,9 @@ class Deck:
 
     def started(self) -> dict[str, dict[int, float]]:
         """What the nodes have at the start, which ccx does not print."""
-        values = {f"{letter}{axis}": dict.fromkeys(self.mesh.node.values(), 0.0) for letter in "UV" for axis in (1, 2, 3)}
+        values = {
+            f"{letter}{axis}": dict.fromkeys(self.mesh.node.values(), 0.0) for letter in "UV" for axis in (1, 2, 3)
+        }
         kind = ""
         for line in self.elastic_start() if self.elastic else self.heat_start():
             if line.startswith("*"):
@@ -177,7 +219,10 @@ class Deck:
             for e, (nodes, body) in enumerate(zip(mesh.elements, mesh.body)):
                 if body == number:
                     words = [str(e + 1), *map(str, nodes)]
-                    yield from (",".join(words[k:k + 11]) + ("," if k + 11 < len(words) else "") for k in range(0, len(words), 11))
+                    yield from (
+                        ",".join(words[k : k + 11]) + ("," if k + 11 < len(words) else "")
+                        for k in range(0, len(words), 11)
+                    )
             yield from self.material_lines(number)
         yield "*ELSET, ELSET=EALL"
         yield from (f"E{number}" for number in sorted(set(mesh.body)))
@@ -205,9 +250,15 @@ class Deck:
         heat, content, held = {}, {}, {}
         for e, (nodes, body) in enumerate(zip(mesh.elements, mesh.body)):
             c = self.materials[body]["density"] * of_solid(self.materials[body], "heat_capacity")
-            own = temperature_at(bodies[body]["temperature"], mesh.middle(e)) if bodies[body]["temperature"]["kind"] != "cosine" else None
+            own = (
+                temperature_at(bodies[body]["temperature"], mesh.middle(e))
+                if bodies[body]["temperature"]["kind"] != "cosine"
+                else None
+            )
             for n in nodes:
-                heat[n] = heat.get(n, 0.0) + c * (own if own is not None else temperature_at(bodies[body]["temperature"], self.place_of(n)))
+                heat[n] = heat.get(n, 0.0) + c * (
+                    own if own is not None else temperature_at(bodies[body]["temperature"], self.place_of(n))
+                )
                 content[n] = content.get(n, 0.0) + c
                 if bodies[body]["temperature_held"]:
                     held[n] = own if own is not None else temperature_at(bodies[body]["temperature"], self.place_of(n))
@@ -229,7 +280,9 @@ class Deck:
         yield from (f"{n},1,3" for n in sorted(held))
         for axis in across(self.job)[1]:
             ends = {min(at[axis] for at in mesh.node), max(at[axis] for at in mesh.node)}
-            yield from (f"{n},{axis + 1},{axis + 1}" for at, n in mesh.node.items() if at[axis] in ends and n not in held)
+            yield from (
+                f"{n},{axis + 1},{axis + 1}" for at, n in mesh.node.items() if at[axis] in ends and n not in held
+            )
         moving = []
         for e, (nodes, body) in enumerate(zip(mesh.elements, mesh.body)):
             for n in nodes:
@@ -270,7 +323,8 @@ class Deck:
         return sum(steps_in(length, self.limit) * times for length, times in self.intervals())
 
     def read(self, text: str) -> tuple[list[dict[str, dict[int, float]]], float]:
-        """Values of the printed nodes at each output time after the start, by kind; and the volume of all elements [m3]."""
+        """Values of the printed nodes at each output time after the start, by kind; and the volume of all elements
+        [m3]."""
         frames: list[tuple[float, dict[str, dict[int, float]]]] = []
         volume, block = math.nan, ""
         for line in text.splitlines():
@@ -278,7 +332,9 @@ class Deck:
             if "for set" in line:
                 block = words[0]
                 at = float(words[-1])
-                if block in ("displacements", "velocities", "temperatures") and (not frames or abs(frames[-1][0] - at) > 1e-9):
+                if block in ("displacements", "velocities", "temperatures") and (
+                    not frames or abs(frames[-1][0] - at) > 1e-9
+                ):
                     frames.append((at, {}))
                 continue
             if not words or block == "":
@@ -294,7 +350,8 @@ class Deck:
         return [values for _, values in frames], volume
 
     def rows(self, frames: list[dict[str, dict[int, float]]], start: dict[str, list[Any]]) -> Iterator[Row]:
-        """Rows of the trajectory. @param start of the particles: position, velocity and, where there is heat, temperature"""
+        """Rows of the trajectory. @param start of the particles: position, velocity and, where there is heat,
+        temperature"""
         mesh, places = self.mesh, start["position"]
         low = [min(x[k] for x in places) for k in range(3)]
         element = {self.cell(mesh.middle(e), low): e for e in range(len(mesh.elements))}
@@ -306,7 +363,12 @@ class Deck:
                 if not self.elastic:
                     yield at, i, *x, 0.0, 0.0, 0.0, mean(values["NT"], nodes)
                 elif nodes:
-                    yield at, i, *(a + mean(values[f"U{k}"], nodes) for k, a in enumerate(x, 1)), *(mean(values[f"V{k}"], nodes) for k in (1, 2, 3))
+                    yield (
+                        at,
+                        i,
+                        *(a + mean(values[f"U{k}"], nodes) for k, a in enumerate(x, 1)),
+                        *(mean(values[f"V{k}"], nodes) for k in (1, 2, 3)),
+                    )
                 else:
                     yield at, i, *x, 0.0, 0.0, 0.0
 
@@ -322,14 +384,20 @@ def particles_of(job: Job, heat: bool) -> dict[str, list[Any]]:
     import h5py  # here, because --info and --check need none
 
     with h5py.File(job.particles) as file:
-        return {key: file[f"particles/all/{key}/value"][0].tolist() for key in ("position", "velocity") + (("temperature",) if heat else ())}
+        return {
+            key: file[f"particles/all/{key}/value"][0].tolist()
+            for key in ("position", "velocity") + (("temperature",) if heat else ())
+        }
 
 
 class Calculix(Engine):
     name = "calculix"
     capabilities = ("heat", "heat-held", "elastic")
     presets = ("C3D8", "C3D8I", "C3D20", "C3D20R")
-    settings = {"time_step": "[s]; default half of dx^2 over the greatest diffusivity, or the time of a pressure wave through two spacings"}
+    settings = {
+        "time_step": "[s]; default half of dx^2 over the greatest diffusivity, or the time of a pressure wave through "
+        "two spacings"
+    }
 
     def version(self) -> str:
         return os.environ.get("TRIPOINT_ENGINE_VERSION", "")
@@ -362,11 +430,20 @@ class Calculix(Engine):
         outcome = Outcome(setup_cpu=time.process_time() - began, steps=deck.count())
         frames, volume = deck.read(self.solve(job))
         if len(frames) + 1 != len(job.times):
-            raise Diverged(f"ccx printed {len(frames)} of {len(job.times) - 1} output times", 0, job.times[min(len(frames), len(job.times) - 1)])
+            raise Diverged(
+                f"ccx printed {len(frames)} of {len(job.times) - 1} output times",
+                0,
+                job.times[min(len(frames), len(job.times) - 1)],
+            )
         wanted = len(deck.mesh.elements) * deck.mesh.spacing**3
         if not abs(volume / wanted - 1.0) < 0.01:  # of the deformed elements, whose strains are small
             raise RuntimeError(f"ccx holds a volume of {volume} m3, and the job {wanted} m3")
-        outcome.readback = {"gravity": job.scene["gravity"], "time_step": deck.limit, "precision": "double", "bodies": []}
+        outcome.readback = {
+            "gravity": job.scene["gravity"],
+            "time_step": deck.limit,
+            "precision": "double",
+            "bodies": [],
+        }
         columns = PARTICLE_COLUMNS if deck.elastic else HEAT_COLUMNS
         outcome.state_hash = write_trajectory(job, columns, deck.rows(frames, particles_of(job, not deck.elastic)))
         gauges = list(deck.gauge_rows(frames))
@@ -380,10 +457,20 @@ class Calculix(Engine):
         folder = Path(os.environ["TRIPOINT_ENGINE_FOLDER"]) / "usr/lib/x86_64-linux-gnu"
         path = ":".join(str(f) for f in (folder, folder / "blas", folder / "lapack"))
         environment = {**os.environ, "LD_LIBRARY_PATH": path, "OMP_NUM_THREADS": "1"}
-        end = subprocess.run([str(self.library()), "-i", "ccx"], cwd=job.folder, env=environment, capture_output=True, text=True, timeout=FASTEST_RUN, check=False)
+        end = subprocess.run(
+            [str(self.library()), "-i", "ccx"],
+            cwd=job.folder,
+            env=environment,
+            capture_output=True,
+            text=True,
+            timeout=FASTEST_RUN,
+            check=False,
+        )
         printed = job.folder / "ccx.dat"
         if end.returncode != 0 or not printed.exists():
-            raise RuntimeError(f"ccx ended with {end.returncode}: " + " / ".join((end.stdout + end.stderr).strip().splitlines()[-3:]))
+            raise RuntimeError(
+                f"ccx ended with {end.returncode}: " + " / ".join((end.stdout + end.stderr).strip().splitlines()[-3:])
+            )
         for line in end.stdout.splitlines():
             if "*ERROR" in line:
                 raise RuntimeError("ccx: " + line.strip())

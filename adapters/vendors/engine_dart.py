@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""DART (BSD-2-Clause), its wheel in double precision: free joints with semi-implicit Euler, contacts by its default solver.
+"""DART (BSD-2-Clause), its wheel in double precision: free joints with semi-implicit Euler, contacts by its default
+solver.
 
-Presets are its collision detectors: `default` is FCL, which makes a cylinder a coarse mesh and has no capsule; Bullet's has both."""
+Presets are its collision detectors: `default` is FCL, which makes a cylinder a coarse mesh and has no capsule; Bullet's
+has both."""
+
 from __future__ import annotations
 
 import math
@@ -12,8 +15,20 @@ from typing import Any
 
 from contract import Job, file_of, serve
 from pair_fit import by_least, stated_friction
-from rigid import (SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb, forces_on, pieces_of,
-                   why_it_grows)
+from rigid import (
+    SHARED_SETTINGS,
+    Body,
+    Held,
+    Piece,
+    RigidEngine,
+    State,
+    World,
+    bounciness,
+    coulomb,
+    forces_on,
+    pieces_of,
+    why_it_grows,
+)
 from rotation import IDENTITY, Quaternion, Vector, quaternion, rotate, vector
 
 
@@ -91,12 +106,19 @@ class DartWorld(World):
         node = self.nodes[number]
         place = node.getWorldTransform()
         turn = quaternion(place.quaternion().wxyz())
-        return State(vector(place.translation()), vector(node.getLinearVelocity()), turn, vector(node.getAngularVelocity()))
+        return State(
+            vector(place.translation()), vector(node.getLinearVelocity()), turn, vector(node.getAngularVelocity())
+        )
 
     def held(self, number: int) -> Held:
         inertia = self.nodes[number].getInertia()
         moment = inertia.getMoment()
-        return Held(float(inertia.getMass()), (float(moment[0][0]), float(moment[1][1]), float(moment[2][2])), self.friction, self.restitution * self.restitution)
+        return Held(
+            float(inertia.getMass()),
+            (float(moment[0][0]), float(moment[1][1]), float(moment[2][2])),
+            self.friction,
+            self.restitution * self.restitution,
+        )
 
     def gravity(self) -> Vector:
         return vector(self.world.getGravity())
@@ -120,17 +142,25 @@ class Dart(RigidEngine):
         if grows:
             return "DART " + grows
         if by_least(stated_friction(job, [body["material"] for body in job.bodies])) is None:
-            return "DART takes the smaller friction of two surfaces, and no numbers of the materials give what is stated of their pairs"
+            return (
+                "DART takes the smaller friction of two surfaces, and no numbers of the materials give what is "
+                "stated of their pairs"
+            )
         if len({bounciness(job)} | {law["restitution"] or 0.0 for law in job.scene.get("contacts", ())}) > 1:
             return "one restitution is handed to all pairs of DART, and the scene states several"
         for body in job.bodies:
-            kinds = {piece.kind for piece in pieces_of(body["shape"], (0.0, 0.0, 0.0), IDENTITY) or () if len(job.bodies) > 1}
+            kinds = {
+                piece.kind for piece in pieces_of(body["shape"], (0.0, 0.0, 0.0), IDENTITY) or () if len(job.bodies) > 1
+            }
             if "plane" in kinds:
                 return f"half spaces are not handed to DART, and {body['name']} has one"
             if "hull" in kinds:
                 return f"DART's wheel has no shape that is made of corners, and {body['name']} is a mesh"
             if job.preset == "default" and "capsule" in kinds:
-                return f"DART's default detector knows no capsule, and {body['name']} is one; its BulletCollisionDetector does"
+                return (
+                    f"DART's default detector knows no capsule, and {body['name']} is one; its "
+                    "BulletCollisionDetector does"
+                )
         return ""
 
     def open(self, job: Job, bodies: list[Body], dt: float) -> World:

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Drake (BSD-3-Clause), the wheel: rigid bodies of its MultibodyPlant, contact by points or hydroelastic patches, without restitution.
+"""Drake (BSD-3-Clause), the wheel: rigid bodies of its MultibodyPlant, contact by points or hydroelastic patches,
+without restitution.
 
-Presets: `hydroelastic` and `discrete` are the plant's own discrete update, with contact over patches and by points; the others are names
-of its `integration_scheme` with a fixed step. Optional solvers of other licences are not loaded."""
+Presets: `hydroelastic` and `discrete` are the plant's own discrete update, with contact over patches and by points; the
+others are names of its `integration_scheme` with a fixed step. Optional solvers of other licences are not loaded."""
+
 from __future__ import annotations
 
 import sys
@@ -12,19 +14,35 @@ from typing import Any
 
 from contract import Job, serve
 from pair_fit import by_harmonic_mean, stated_friction
-from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb, forces_on, why_it_grows
+from rigid import (
+    SHARED_SETTINGS,
+    Body,
+    Held,
+    Piece,
+    RigidEngine,
+    State,
+    World,
+    bounciness,
+    coulomb,
+    forces_on,
+    why_it_grows,
+)
 from rotation import IDENTITY, Quaternion, Vector, add, product, quaternion, rotate, vector
 
 APPROXIMATIONS = ("tamsi", "sap", "similar", "lagged")  # discrete_contact_approximation, in Drake's words
 DISCRETE = ("hydroelastic", "discrete")  # presets of the discrete update: contact over patches, and Drake as it comes
 RESOLUTION = 0.02  # of the mesh of a cylinder, Drake's default [m]; boxes need none
 PLANT_SETTINGS = {  # members of MultibodyPlantConfig
-    "discrete_contact_approximation": "tamsi, sap, similar or lagged (Drake's default), of the presets hydroelastic and discrete",
-    "stiction_tolerance": "Drake's default 1e-4 [m/s]"}
+    "discrete_contact_approximation": "tamsi, sap, similar or lagged (Drake's default), of the presets hydroelastic "
+    "and discrete",
+    "stiction_tolerance": "Drake's default 1e-4 [m/s]",
+}
 SURFACE_SETTINGS = {  # members of DefaultProximityProperties
     "margin": "of hydroelastic contact, Drake's default 0 [m]",
-    "hunt_crossley_dissipation": "Drake's default 50 [s/m]", "relaxation_time": "of sap, Drake's default 0.1 [s]",
-    "point_stiffness": "of contact by points, Drake's default 1e6 [N/m]"}
+    "hunt_crossley_dissipation": "Drake's default 50 [s/m]",
+    "relaxation_time": "of sap, Drake's default 0.1 [s]",
+    "point_stiffness": "of contact by points, Drake's default 1e6 [N/m]",
+}
 
 
 def shape_of(piece: Piece) -> Any:
@@ -47,7 +65,13 @@ class DrakeWorld(World):
         self.job, self.bodies = job, bodies
         self.mu = by_harmonic_mean(stated_friction(job, [body.material for body in bodies])) or {}
         self.free = [number for number, body in enumerate(bodies) if body.free]
-        self.build(dt, {number: State(bodies[number].centre, bodies[number].velocity, bodies[number].frame, bodies[number].spin) for number in self.free})
+        self.build(
+            dt,
+            {
+                number: State(bodies[number].centre, bodies[number].velocity, bodies[number].frame, bodies[number].spin)
+                for number in self.free
+            },
+        )
 
     def build(self, dt: float, states: dict[int, State]) -> None:
         """A plant of this step with the bodies in these states; Drake's discrete plants cannot change their step."""
@@ -78,8 +102,12 @@ class DrakeWorld(World):
         self.simulator = Simulator(builder.Build())
         self.context = self.plant.GetMyMutableContextFromRoot(self.simulator.get_mutable_context())
         for number, state in states.items():
-            self.plant.SetFreeBodyPose(self.context, self.rigid[number], self.pose(state.centre, state.orientation, RigidTransform))
-            self.plant.SetFreeBodySpatialVelocity(self.context, self.rigid[number], SpatialVelocity(list(state.spin), list(state.velocity)))
+            self.plant.SetFreeBodyPose(
+                self.context, self.rigid[number], self.pose(state.centre, state.orientation, RigidTransform)
+            )
+            self.plant.SetFreeBodySpatialVelocity(
+                self.context, self.rigid[number], SpatialVelocity(list(state.spin), list(state.velocity))
+            )
         self.push()
         if not discrete:
             config = SimulatorConfig()
@@ -133,7 +161,8 @@ class DrakeWorld(World):
         self.plant.RegisterCollisionGeometry(rigid, place, shape_of(piece), f"surface{self.count}", properties)
 
     def compress(self, properties: Any, fixed: bool) -> None:
-        """Makes a surface hydroelastic. Balls and capsules are left to points: they meet a face in one, and roll as no mesh does."""
+        """Makes a surface hydroelastic. Balls and capsules are left to points: they meet a face in one, and roll as no
+        mesh does."""
         from pydrake.geometry import AddCompliantHydroelasticProperties, AddRigidHydroelasticProperties
 
         if fixed:  # two rigid surfaces would meet in one point
@@ -151,12 +180,21 @@ class DrakeWorld(World):
         rigid = self.rigid[number]
         pose = self.plant.EvalBodyPoseInWorld(self.context, rigid)
         speed = self.plant.EvalBodySpatialVelocityInWorld(self.context, rigid)
-        return State(vector(pose.translation()), vector(speed.translational()), quaternion(pose.rotation().ToQuaternion().wxyz()), vector(speed.rotational()))
+        return State(
+            vector(pose.translation()),
+            vector(speed.translational()),
+            quaternion(pose.rotation().ToQuaternion().wxyz()),
+            vector(speed.rotational()),
+        )
 
     def held(self, number: int) -> Held:
         inertia = self.rigid[number].CalcSpatialInertiaInBodyFrame(self.context)
         mass = float(inertia.get_mass())
-        return Held(mass, vector([mass * float(moment) for moment in inertia.get_unit_inertia().get_moments()]), coulomb(self.job))
+        return Held(
+            mass,
+            vector([mass * float(moment) for moment in inertia.get_unit_inertia().get_moments()]),
+            coulomb(self.job),
+        )
 
     def gravity(self) -> Vector:
         return vector(self.plant.gravity_field().gravity_vector())
@@ -168,12 +206,20 @@ class Drake(RigidEngine):
     presets = (*DISCRETE, "runge_kutta2", "runge_kutta3", "semi_explicit_euler")
     preset_words = {
         "hydroelastic": '"The contact force between two deformed bodies is distributed over a contact patch" '
-                        "(Drake, Hydroelastic Contact User Guide)",
+        "(Drake, Hydroelastic Contact User Guide)",
         "discrete": '"By default no geometry in drake::geometry::SceneGraph has a hydroelastic representation" '
-                    "(Drake, Hydroelastic Contact User Guide)"}
+        "(Drake, Hydroelastic Contact User Guide)",
+    }
     preset_settings = {"hydroelastic": {"hydroelastic_modulus": 1e9}}
-    settings = SHARED_SETTINGS | PLANT_SETTINGS | SURFACE_SETTINGS | {
-        "hydroelastic_modulus": "of free bodies [Pa], 1e9 in the preset hydroelastic, fixed ones being rigid; without it contact is by points"}
+    settings = (
+        SHARED_SETTINGS
+        | PLANT_SETTINGS
+        | SURFACE_SETTINGS
+        | {
+            "hydroelastic_modulus": "of free bodies [Pa], 1e9 in the preset hydroelastic, fixed ones being rigid; "
+            "without it contact is by points"
+        }
+    )
     default_step = 0.001  # of Drake's own MultibodyPlantConfig
 
     def version(self) -> str:
@@ -191,12 +237,18 @@ class Drake(RigidEngine):
         if grows:
             return f"Drake's {job.preset} " + grows
         if by_harmonic_mean(stated_friction(job, [body["material"] for body in job.bodies])) is None:
-            return "Drake combines the friction of two surfaces as 2ab/(a + b), and no numbers of the materials give what is stated of their pairs"
+            return (
+                "Drake combines the friction of two surfaces as 2ab/(a + b), and no numbers of the materials give "
+                "what is stated of their pairs"
+            )
         bounce = max([bounciness(job), *(law["restitution"] or 0.0 for law in job.scene.get("contacts", ()))])
         if bounce > 0.0:
             return f"Drake's contact has no coefficient of restitution, and {bounce:g} is asked for"
         if job.preset not in DISCRETE and len(job.bodies) > 1:
-            return f"Drake's continuous contact is stiff, and its integrators run here with a fixed step: contact is handed to {' and '.join(DISCRETE)} alone"
+            return (
+                "Drake's continuous contact is stiff, and its integrators run here with a fixed step: contact is "
+                f"handed to {' and '.join(DISCRETE)} alone"
+            )
         for body in job.bodies:
             moments = sorted(body["principal_inertia"])
             if body["motion"] == "free" and moments[0] + moments[1] < moments[2] * (1.0 - 1e-12):

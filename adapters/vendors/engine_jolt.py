@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Jolt Physics (MIT), the npm package jolt-physics on node, in single precision: rigid bodies, contacts.
 
-The gyroscopic term is off by default in Jolt; the preset `mApplyGyroscopicForce` is its switch of that name. `many-iterations` has the term
-too, more iterations of its solver, and small tolerances of contact."""
+The gyroscopic term is off by default in Jolt; the preset `mApplyGyroscopicForce` is its switch of that name.
+`many-iterations` has the term too, more iterations of its solver, and small tolerances of contact."""
+
 from __future__ import annotations
 
 import json
@@ -13,14 +14,31 @@ from pathlib import Path
 from typing import Any
 
 from contract import Job, serve
-from rigid import (SHARED_SETTINGS, Body, Held, PairLaws, Piece, RigidEngine, State, World, bounciness, coulomb, forces_on, moves,
-                   upright)
+from rigid import (
+    SHARED_SETTINGS,
+    Body,
+    Held,
+    PairLaws,
+    Piece,
+    RigidEngine,
+    State,
+    World,
+    bounciness,
+    coulomb,
+    forces_on,
+    moves,
+    upright,
+)
 from rotation import Vector, dot, quaternion, rotate, vector
 
 WORLD_SETTINGS = {  # members of PhysicsSettings, in Jolt's words
-    "mNumVelocitySteps": "Jolt's default 10", "mNumPositionSteps": "Jolt's default 2", "mBaumgarte": "Jolt's default 0.2",
-    "mPenetrationSlop": "Jolt's default 0.02 [m]", "mSpeculativeContactDistance": "Jolt's default 0.02 [m]",
-    "mMinVelocityForRestitution": "slower hits than this do not bounce, Jolt's default 1 [m/s]"}
+    "mNumVelocitySteps": "Jolt's default 10",
+    "mNumPositionSteps": "Jolt's default 2",
+    "mBaumgarte": "Jolt's default 0.2",
+    "mPenetrationSlop": "Jolt's default 0.02 [m]",
+    "mSpeculativeContactDistance": "Jolt's default 0.02 [m]",
+    "mMinVelocityForRestitution": "slower hits than this do not bounce, Jolt's default 1 [m/s]",
+}
 
 
 def piece_words(piece: Piece) -> dict[str, Any]:
@@ -31,8 +49,19 @@ def piece_words(piece: Piece) -> dict[str, Any]:
 
 
 def body_words(job: Job, body: Body) -> dict[str, Any]:
-    return {"free": body.free, "moves": moves(body), "material": body.material, "force": forces_on(job, body), "mass": body.mass, "inertia": body.inertia, "centre": body.centre, "frame": body.frame,
-            "velocity": body.velocity, "spin": body.spin, "pieces": [piece_words(piece) for piece in body.pieces]}
+    return {
+        "free": body.free,
+        "moves": moves(body),
+        "material": body.material,
+        "force": forces_on(job, body),
+        "mass": body.mass,
+        "inertia": body.inertia,
+        "centre": body.centre,
+        "frame": body.frame,
+        "velocity": body.velocity,
+        "spin": body.spin,
+        "pieces": [piece_words(piece) for piece in body.pieces],
+    }
 
 
 class JoltWorld(World):
@@ -40,11 +69,19 @@ class JoltWorld(World):
 
     def __init__(self, package: Path, job: Job, bodies: list[Body]) -> None:
         program = str(Path(__file__).resolve().parent / "jolt_world.mjs")
-        self.node = subprocess.Popen(["node", program, str(package)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-        scene = {"gravity": job.scene["gravity"], "gyroscopic": job.preset != "default", "friction": coulomb(job),
-                 "restitution": bounciness(job), "rounded": float(job.settings.get("mConvexRadius", 0.05)), "bodies": [body_words(job, body) for body in bodies],
-                 "laws": PairLaws(job).pairs([body.material for body in bodies]),
-                 "settings": {key: job.settings[key] for key in WORLD_SETTINGS if key in job.settings}}
+        self.node = subprocess.Popen(
+            ["node", program, str(package)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+        )
+        scene = {
+            "gravity": job.scene["gravity"],
+            "gyroscopic": job.preset != "default",
+            "friction": coulomb(job),
+            "restitution": bounciness(job),
+            "rounded": float(job.settings.get("mConvexRadius", 0.05)),
+            "bodies": [body_words(job, body) for body in bodies],
+            "laws": PairLaws(job).pairs([body.material for body in bodies]),
+            "settings": {key: job.settings[key] for key in WORLD_SETTINGS if key in job.settings},
+        }
         self.opened = self.ask({"open": scene})
         self.states = self.opened["states"]
         free = [number for number, body in enumerate(bodies) if body.free]
@@ -72,8 +109,14 @@ class JoltWorld(World):
 
     def held(self, number: int) -> Held:
         held = self.opened["bodies"][self.rows[number]]
-        return Held(held["mass"], vector(held["inertia"]), held["friction"], held["restitution"],
-                    held["linear_damping"], held["angular_damping"])
+        return Held(
+            held["mass"],
+            vector(held["inertia"]),
+            held["friction"],
+            held["restitution"],
+            held["linear_damping"],
+            held["angular_damping"],
+        )
 
     def gravity(self) -> Vector:
         return vector(self.opened["gravity"])
@@ -88,12 +131,29 @@ class Jolt(RigidEngine):
     name, title = "jolt", "Jolt"
     capabilities = ("rigid-free-flight", "gravity", "fixed", "contact", "contact-pairs", "force")
     presets = ("many-iterations", "default", "mApplyGyroscopicForce")
-    preset_settings = {"many-iterations": {"mNumVelocitySteps": 50, "mNumPositionSteps": 10, "mPenetrationSlop": 0.001,
-                                           "mMinVelocityForRestitution": 0.01, "mConvexRadius": 0.0}}
-    preset_words = {"default": '"mApplyGyroscopicForce = false" (Jolt, Physics/Body/BodyCreationSettings.h)',
-                    "mApplyGyroscopicForce": '"Set to indicate that the gyroscopic force should be applied to this body (aka Dzhanibekov '
-                                             'effect...)" (Jolt, Physics/Body/BodyCreationSettings.h)'}
-    settings = SHARED_SETTINGS | WORLD_SETTINGS | {"mConvexRadius": "by which edges and corners of boxes are rounded, Jolt's default 0.05 [m]; at most half the thinnest"}
+    preset_settings = {
+        "many-iterations": {
+            "mNumVelocitySteps": 50,
+            "mNumPositionSteps": 10,
+            "mPenetrationSlop": 0.001,
+            "mMinVelocityForRestitution": 0.01,
+            "mConvexRadius": 0.0,
+        }
+    }
+    preset_words = {
+        "default": '"mApplyGyroscopicForce = false" (Jolt, Physics/Body/BodyCreationSettings.h)',
+        "mApplyGyroscopicForce": '"Set to indicate that the gyroscopic force should be applied to this body (aka '
+        "Dzhanibekov "
+        'effect...)" (Jolt, Physics/Body/BodyCreationSettings.h)',
+    }
+    settings = (
+        SHARED_SETTINGS
+        | WORLD_SETTINGS
+        | {
+            "mConvexRadius": "by which edges and corners of boxes are rounded, Jolt's default 0.05 [m]; at most half "
+            "the thinnest"
+        }
+    )
     precision = "single"
     moves_bodies = True
     dented_meshes = ("fixed", "prescribed")
@@ -103,7 +163,10 @@ class Jolt(RigidEngine):
         return os.environ.get("TRIPOINT_ENGINE_VERSION", "")
 
     def library(self) -> Path | None:
-        return Path(os.environ.get("TRIPOINT_ENGINE_FOLDER", "")) / "node_modules/jolt-physics/dist/jolt-physics.wasm-compat.js"
+        return (
+            Path(os.environ.get("TRIPOINT_ENGINE_FOLDER", ""))
+            / "node_modules/jolt-physics/dist/jolt-physics.wasm-compat.js"
+        )
 
     def refuse(self, job: Job) -> str:
         unions = [body for body in job.bodies if body["shape"]["kind"] == "union"]

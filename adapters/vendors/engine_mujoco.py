@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """MuJoCo (Apache-2.0), any release from 2.3: rigid bodies, contact by soft constraints.
 
-Presets are its integrators by name, with contacts as they come, and `hard-contact`: implicitfast, with contacts as stiff as the step allows."""
+Presets are its integrators by name, with contacts as they come, and `hard-contact`: implicitfast, with contacts as
+stiff as the step allows."""
+
 from __future__ import annotations
 
 import os
@@ -11,8 +13,20 @@ from pathlib import Path
 from typing import Any
 
 from contract import Diverged, Job, file_of, serve
-from rigid import (SHARED_SETTINGS, Body, Held, PairLaws, Piece, RigidEngine, State, World, bounciness, coulomb, forces_on,
-                   why_it_grows)
+from rigid import (
+    SHARED_SETTINGS,
+    Body,
+    Held,
+    PairLaws,
+    Piece,
+    RigidEngine,
+    State,
+    World,
+    bounciness,
+    coulomb,
+    forces_on,
+    why_it_grows,
+)
 from rotation import Quaternion, Vector, add, product, quaternion, rotate, vector
 
 os.environ.setdefault("MUJOCO_GL", "disable")  # nothing is drawn here, so no window library is wanted
@@ -25,19 +39,29 @@ def words(values: tuple[float, ...]) -> str:
 
 def geom_text(name: str, piece: Piece, at: Vector, turn: Quaternion, contact: str) -> str:
     """One geom of the frame whose origin is `at` [m] and whose axes are turned by `turn`."""
-    place = f'name="{name}" pos="{words(add(at, rotate(turn, piece.centre)))}" quat="{words(product(turn, piece.rotation))}"'
+    place = (
+        f'name="{name}" pos="{words(add(at, rotate(turn, piece.centre)))}" '
+        f'quat="{words(product(turn, piece.rotation))}"'
+    )
     if piece.kind == "plane":
         return f'<geom type="plane" size="0 0 1" {place} {contact}/>'  # a size of 0 is infinite
     if piece.kind == "hull":
         return f'<geom type="mesh" mesh="{name}" {place} mass="0" {contact}/>'
-    size = words({"box": piece.size, "sphere": piece.size[:1]}.get(piece.kind, piece.size[1:]))  # of a rod radius and half length
+    size = words(
+        {"box": piece.size, "sphere": piece.size[:1]}.get(piece.kind, piece.size[1:])
+    )  # of a rod radius and half length
     return f'<geom type="{piece.kind}" size="{size}" {place} mass="0" {contact}/>'
 
 
 def meshes_text(bodies: list[Body]) -> str:
-    """MuJoCo makes the hull of the corners, and moves what it takes for the mesh's centre back when it places a geom."""
-    text = [f'<mesh name="{number}.{k}" vertex="{" ".join(map(words, piece.corners))}"/>'
-            for number, body in enumerate(bodies) for k, piece in enumerate(body.pieces) if piece.kind == "hull"]
+    """MuJoCo makes the hull of the corners, and moves what it takes for the mesh's centre back when it places a
+    geom."""
+    text = [
+        f'<mesh name="{number}.{k}" vertex="{" ".join(map(words, piece.corners))}"/>'
+        for number, body in enumerate(bodies)
+        for k, piece in enumerate(body.pieces)
+        if piece.kind == "hull"
+    ]
     return f"<asset>{''.join(text)}</asset>" if text else ""
 
 
@@ -55,7 +79,8 @@ def contact_text(job: Job, dt: float) -> str:
 
 
 def pairs_text(job: Job, bodies: list[Body]) -> str:
-    """A pair of geoms for each pair of pieces whose materials state a law; MuJoCo then asks neither geom for its own."""
+    """A pair of geoms for each pair of pieces whose materials state a law; MuJoCo then asks neither geom for its
+    own."""
     laws = PairLaws(job)
     text = []
     for a, one in enumerate(bodies):
@@ -63,24 +88,34 @@ def pairs_text(job: Job, bodies: list[Body]) -> str:
             if frozenset((one.material, other.material)) not in laws.stated or not (one.free or other.free):
                 continue
             mu, _ = laws.of(one.material, other.material)
-            text += [f'<pair geom1="{a}.{i}" geom2="{b}.{k}" condim="{3 if mu > 0.0 else 1}" friction="{mu!r} {mu!r} 0 0 0"/>'
-                     for i in range(len(one.pieces)) for k in range(len(other.pieces))]
+            text += [
+                f'<pair geom1="{a}.{i}" geom2="{b}.{k}" condim="{3 if mu > 0.0 else 1}" friction="{mu!r} {mu!r} 0 0 '
+                '0"/>'
+                for i in range(len(one.pieces))
+                for k in range(len(other.pieces))
+            ]
     return f"<contact>{''.join(text)}</contact>" if text else ""
 
 
 def model_text(job: Job, bodies: list[Body], dt: float) -> str:
-    """The scene in MJCF: free bodies with the job's own masses and principal moments, fixed ones as geoms of the world."""
+    """The scene in MJCF: free bodies with the job's own masses and principal moments, fixed ones as geoms of the
+    world."""
     contact = contact_text(job, dt)
     gravity = words(vector(job.scene["gravity"]))
-    text = [f'<mujoco><compiler boundmass="0" boundinertia="0" balanceinertia="false"/>'
-            f'<option timestep="{dt!r}" integrator="{integrator_of(job)}" gravity="{gravity}" cone="elliptic"/>{meshes_text(bodies)}<worldbody>']
+    text = [
+        f'<mujoco><compiler boundmass="0" boundinertia="0" balanceinertia="false"/>'
+        f'<option timestep="{dt!r}" integrator="{integrator_of(job)}" gravity="{gravity}" '
+        f'cone="elliptic"/>{meshes_text(bodies)}<worldbody>'
+    ]
     for number, body in enumerate(bodies):
         names = [(f"{number}.{k}", piece) for k, piece in enumerate(body.pieces)]
         if not body.free:
             text += [geom_text(name, piece, body.centre, body.frame, contact) for name, piece in names]
             continue
-        text.append(f'<body pos="{words(body.centre)}" quat="{words(body.frame)}"><freejoint/>'
-                    f'<inertial pos="0 0 0" mass="{body.mass!r}" diaginertia="{words(body.inertia)}"/>')
+        text.append(
+            f'<body pos="{words(body.centre)}" quat="{words(body.frame)}"><freejoint/>'
+            f'<inertial pos="0 0 0" mass="{body.mass!r}" diaginertia="{words(body.inertia)}"/>'
+        )
         text += [geom_text(name, piece, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0), contact) for name, piece in names]
         text.append("</body>")
     return "".join(text) + f"</worldbody>{pairs_text(job, bodies)}</mujoco>"
@@ -98,7 +133,7 @@ class MujocoWorld(World):
             free = self.rows[number] = len(self.rows)
             # MuJoCo's qvel holds a free joint's spin in the body frame.
             spin = rotate((body.frame[0], -body.frame[1], -body.frame[2], -body.frame[3]), body.spin)
-            self.data.qvel[6 * free:6 * free + 6] = [*body.velocity, *spin]
+            self.data.qvel[6 * free : 6 * free + 6] = [*body.velocity, *spin]
             if any(force := forces_on(job, body)):
                 self.data.xfrc_applied[free + 1][0:3] = force  # 0 is the world
         self.touched = 0.0
@@ -120,8 +155,8 @@ class MujocoWorld(World):
 
     def state(self, number: int) -> State:
         free = self.rows[number]
-        q = self.data.qpos[7 * free:7 * free + 7]
-        v = self.data.qvel[6 * free:6 * free + 6]
+        q = self.data.qpos[7 * free : 7 * free + 7]
+        v = self.data.qvel[6 * free : 6 * free + 6]
         orientation = quaternion(q[3:7])
         return State(vector(q[0:3]), vector(v[0:3]), orientation, rotate(orientation, vector(v[3:6])))
 
@@ -143,16 +178,20 @@ class Mujoco(RigidEngine):
     capabilities = ("rigid-free-flight", "gravity", "fixed", "contact", "contact-pairs", "force")
     presets = ("hard-contact", "Euler", "implicitfast", "implicit", "RK4")
     preset_settings = {"hard-contact": {"timeconst_steps": 2, "solimp": "0.99 0.999 0.001 0.5 2"}}
-    preset_words = {"Euler": '"Use Euler for compatibility with older models" (MuJoCo, doc/computation/index.rst)',
-                    "implicitfast": '"the recommended integrator for most models" (MuJoCo, doc/computation/index.rst)',
-                    "implicit": '"the implicit integration of Coriolis and centripetal forces, including gyroscopic forces" '
-                                "(MuJoCo, doc/computation/index.rst)",
-                    "RK4": '"best for systems which are energy conserving, or almost energy-conserving" '
-                           "(MuJoCo, doc/computation/index.rst)"}
-    settings = SHARED_SETTINGS | {"solref": "time constant and damping ratio of contacts, MuJoCo's default 0.02 1; "
-                                            "negative: stiffness and damping",
-                                  "timeconst_steps": "time constant of contacts in time steps, at a damping ratio of 1; solref goes before it",
-                                  "solimp": "impedance of contacts, MuJoCo's default 0.9 0.95 0.001 0.5 2"}
+    preset_words = {
+        "Euler": '"Use Euler for compatibility with older models" (MuJoCo, doc/computation/index.rst)',
+        "implicitfast": '"the recommended integrator for most models" (MuJoCo, doc/computation/index.rst)',
+        "implicit": '"the implicit integration of Coriolis and centripetal forces, including gyroscopic forces" '
+        "(MuJoCo, doc/computation/index.rst)",
+        "RK4": '"best for systems which are energy conserving, or almost energy-conserving" '
+        "(MuJoCo, doc/computation/index.rst)",
+    }
+    settings = SHARED_SETTINGS | {
+        "solref": "time constant and damping ratio of contacts, MuJoCo's default 0.02 1; "
+        "negative: stiffness and damping",
+        "timeconst_steps": "time constant of contacts in time steps, at a damping ratio of 1; solref goes before it",
+        "solimp": "impedance of contacts, MuJoCo's default 0.9 0.95 0.001 0.5 2",
+    }
     default_step = 0.002  # MuJoCo's own
 
     def version(self) -> str:
@@ -171,7 +210,10 @@ class Mujoco(RigidEngine):
             return "MuJoCo's Euler " + grows
         bounce = max([bounciness(job), *(law["restitution"] or 0.0 for law in job.scene.get("contacts", ()))])
         if bounce > 0.0 and len(job.bodies) > 1 and "solref" not in job.settings:
-            return f"MuJoCo has no coefficient of restitution, and {bounce:g} is asked for; the setting solref makes contacts springs with a damping"
+            return (
+                f"MuJoCo has no coefficient of restitution, and {bounce:g} is asked for; the setting solref makes "
+                "contacts springs with a damping"
+            )
         return ""
 
     def open(self, job: Job, bodies: list[Body], dt: float) -> World:

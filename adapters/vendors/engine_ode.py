@@ -2,6 +2,7 @@
 """ODE (BSD-3-Clause or LGPL-2.1+), Debian's library in double precision: rigid bodies, contact joints.
 
 Presets are its two steppers by name."""
+
 from __future__ import annotations
 
 import os
@@ -12,7 +13,20 @@ from typing import Any
 
 from contract import Job, serve
 from ode_library import APPROX_1, BOUNCE, Contact, Mass, Near, load, reals
-from rigid import SHARED_SETTINGS, Body, Held, PairLaws, Piece, RigidEngine, State, World, bounciness, coulomb, forces_on, moves
+from rigid import (
+    SHARED_SETTINGS,
+    Body,
+    Held,
+    PairLaws,
+    Piece,
+    RigidEngine,
+    State,
+    World,
+    bounciness,
+    coulomb,
+    forces_on,
+    moves,
+)
 from rotation import Vector, add, dot, product, quaternion, rotate, vector
 
 MOST_CONTACTS = 64  # of a pair of surfaces; a box meets a box in 8 at most
@@ -49,7 +63,11 @@ class OdeWorld(World):
         gyroscopic = int(job.settings.get("gyroscopic", True))
         self.finite = int(job.settings.get("finite_rotation", False))
         self.bodies = {number: self.add_free(body, gyroscopic) for number, body in enumerate(bodies) if body.free}
-        self.pushed = [(self.bodies[number], force) for number, body in enumerate(bodies) if body.free and any(force := forces_on(job, body))]
+        self.pushed = [
+            (self.bodies[number], force)
+            for number, body in enumerate(bodies)
+            if body.free and any(force := forces_on(job, body))
+        ]
         self.surfaces = sum(len(body.pieces) for body in bodies)
         for body in bodies:
             if moves(body):
@@ -148,14 +166,24 @@ class OdeWorld(World):
 
     def state(self, number: int) -> State:
         ode, handle = self.ode, self.bodies[number]
-        return State(vector(ode.dBodyGetPosition(handle)[0:3]), vector(ode.dBodyGetLinearVel(handle)[0:3]),
-                     quaternion(ode.dBodyGetQuaternion(handle)[0:4]), vector(ode.dBodyGetAngularVel(handle)[0:3]))
+        return State(
+            vector(ode.dBodyGetPosition(handle)[0:3]),
+            vector(ode.dBodyGetLinearVel(handle)[0:3]),
+            quaternion(ode.dBodyGetQuaternion(handle)[0:4]),
+            vector(ode.dBodyGetAngularVel(handle)[0:3]),
+        )
 
     def held(self, number: int) -> Held:
         handle, mass = self.bodies[number], Mass()
         self.ode.dBodyGetMass(handle, byref(mass))
-        return Held(mass.mass, (mass.inertia[0], mass.inertia[5], mass.inertia[10]), self.mu, self.bounce,
-                    self.ode.dBodyGetLinearDamping(handle), self.ode.dBodyGetAngularDamping(handle))
+        return Held(
+            mass.mass,
+            (mass.inertia[0], mass.inertia[5], mass.inertia[10]),
+            self.mu,
+            self.bounce,
+            self.ode.dBodyGetLinearDamping(handle),
+            self.ode.dBodyGetAngularDamping(handle),
+        )
 
     def gravity(self) -> Vector:
         found = reals((0.0,) * 4)
@@ -177,7 +205,8 @@ class Ode(RigidEngine):
         "bounce_vel": "slower hits than this do not bounce, default 0 [m/s]",
         "erp": "share of an error that a step removes, ODE's default 0.2",
         "cfm": "constraint force mixing, ODE's default 1e-10",
-        "iterations": "of dWorldQuickStep, ODE's default 20"}
+        "iterations": "of dWorldQuickStep, ODE's default 20",
+    }
     moves_bodies = True
     dented_meshes = ("fixed", "free", "prescribed")
     default_step = 1.0 / 240.0  # ours: ODE has none

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rapier (Apache-2.0), its Python wheel in single precision: rigid bodies, contacts. Presets are its friction models by name,
-with contacts as they come, and `stiff-contact`: SIMPLIFIED with stiff contacts."""
+"""Rapier (Apache-2.0), its Python wheel in single precision: rigid bodies, contacts. Presets are its friction models by
+name, with contacts as they come, and `stiff-contact`: SIMPLIFIED with stiff contacts."""
+
 from __future__ import annotations
 
 import math
@@ -10,22 +11,38 @@ from pathlib import Path
 from typing import Any
 
 from contract import Job, file_of, serve
-from rigid import (SHARED_SETTINGS, Body, Held, PairLaws, Piece, RigidEngine, State, World, bounciness, coulomb, forces_on, moves,
-                   upright)
+from rigid import (
+    SHARED_SETTINGS,
+    Body,
+    Held,
+    PairLaws,
+    Piece,
+    RigidEngine,
+    State,
+    World,
+    bounciness,
+    coulomb,
+    forces_on,
+    moves,
+    upright,
+)
 from rotation import Quaternion, Vector, norm, rotate, vector
 
 WORLD_SETTINGS = {  # attributes of IntegrationParameters, in Rapier's words, with what they are
     "num_solver_iterations": "substeps of a step, Rapier's default 4",
     "num_internal_pgs_iterations": "Rapier's default 1",
     "num_internal_stabilization_iterations": "Rapier's default 1",
-    "contact_natural_frequency": "Rapier's default 30 [Hz]", "contact_damping_ratio": "Rapier's default 10",
+    "contact_natural_frequency": "Rapier's default 30 [Hz]",
+    "contact_damping_ratio": "Rapier's default 10",
     "static_contact_natural_frequency": "of contact with fixed bodies, Rapier's default 60 [Hz]",
     "static_contact_damping_ratio": "of contact with fixed bodies, Rapier's default 10",
     "contact_recycling": "whether pairs that hardly moved keep their points, true (Rapier's default) or false",
     "friction_in_bias_pass": "true, or false (Rapier's default): friction in the second pass of a substep alone",
     "normalized_allowed_linear_error": "Rapier's default 0.005 [m]",
     "normalized_prediction_distance": "Rapier's default 0.02 [m]",
-    "normalized_max_corrective_velocity": "Rapier's default 3 [m/s]", "warmstart_coefficient": "Rapier's default 1"}
+    "normalized_max_corrective_velocity": "Rapier's default 3 [m/s]",
+    "warmstart_coefficient": "Rapier's default 1",
+}
 # Of a step [rad]: Rapier slows a faster spin down, unless allow_fast_rotation is set, which is not its default.
 FASTEST_TURN = math.pi / 4
 
@@ -34,8 +51,11 @@ def xyz(v: Any) -> Vector:
     return float(v.x), float(v.y), float(v.z)
 
 
-SOFTNESS = {f"{pairs}_{word}": (f"{pairs}_softness", word)  # setting -> member of IntegrationParameters, and its own member
-            for pairs in ("contact", "static_contact") for word in ("natural_frequency", "damping_ratio")}
+SOFTNESS = {
+    f"{pairs}_{word}": (f"{pairs}_softness", word)  # setting -> member of IntegrationParameters, and its own member
+    for pairs in ("contact", "static_contact")
+    for word in ("natural_frequency", "damping_ratio")
+}
 
 
 def set_parameter(parameters: Any, key: str, value: Any) -> None:
@@ -59,7 +79,9 @@ class MaterialHooks:
         self.laws, self.materials = laws, materials  # user data of a collider -> material
 
     def modify_solver_contacts(self, context: Any) -> None:
-        one, other = (self.materials[context.colliders[handle].user_data] for handle in (context.collider1, context.collider2))
+        one, other = (
+            self.materials[context.colliders[handle].user_data] for handle in (context.collider1, context.collider2)
+        )
         context.friction, context.restitution = self.laws.of(one, other)
 
 
@@ -67,7 +89,8 @@ class RapierWorld(World):
     def __init__(self, rapier: Any, job: Job, bodies: list[Body], dt: float) -> None:
         self.rapier = rapier
         self.world = rapier.PhysicsWorld(gravity=vector(job.scene["gravity"]))
-        # No set_num_threads: it would hand every step to a thread of its own, which on a busy machine waits for its turn each time.
+        # No set_num_threads: it would hand every step to a thread of its own, which on a busy machine waits for its
+        # turn each time.
         parameters = self.world.integration_parameters
         parameters.dt = dt
         parameters.friction_model = getattr(rapier.FrictionModel, friction_model(job))
@@ -80,7 +103,9 @@ class RapierWorld(World):
         laws = PairLaws(job)
         self.hooked = bool(laws.stated)
         if self.hooked:
-            self.world.physics_hooks = MaterialHooks(laws, {number: body.material for number, body in enumerate(bodies)})
+            self.world.physics_hooks = MaterialHooks(
+                laws, {number: body.material for number, body in enumerate(bodies)}
+            )
         self.job = job
         self.handles = {number: self.add(number, body) for number, body in enumerate(bodies)}
 
@@ -112,7 +137,11 @@ class RapierWorld(World):
         else:
             shape = self.shape(piece).position(self.isometry(piece.centre, upright(piece).rotation))
         shape = shape.density(0.0).friction(self.friction).restitution(self.restitution)
-        return shape.user_data(number).active_hooks(self.rapier.ActiveHooks.MODIFY_SOLVER_CONTACTS) if self.hooked else shape
+        return (
+            shape.user_data(number).active_hooks(self.rapier.ActiveHooks.MODIFY_SOLVER_CONTACTS)
+            if self.hooked
+            else shape
+        )
 
     def shape(self, piece: Piece) -> Any:
         collider = self.rapier.Collider
@@ -138,8 +167,14 @@ class RapierWorld(World):
 
     def held(self, number: int) -> Held:
         body = self.world.rigid_bodies[self.handles[number]]
-        return Held(float(body.mass), xyz(body.mass_properties.principal_inertia), self.friction, self.restitution,
-                    float(body.linear_damping), float(body.angular_damping))
+        return Held(
+            float(body.mass),
+            xyz(body.mass_properties.principal_inertia),
+            self.friction,
+            self.restitution,
+            float(body.linear_damping),
+            float(body.angular_damping),
+        )
 
     def gravity(self) -> Vector:
         return xyz(self.world.gravity)
@@ -149,11 +184,16 @@ class Rapier(RigidEngine):
     name, title = "rapier", "Rapier"
     capabilities = ("rigid-free-flight", "gravity", "fixed", "contact", "contact-pairs", "force")
     presets = ("stiff-contact", "SIMPLIFIED", "COULOMB")
-    preset_settings = {"stiff-contact": {"contact_natural_frequency": 1000.0, "static_contact_natural_frequency": 1000.0}}
-    preset_words = {"stiff-contact": '"Higher values make the constraint stiffer and resolve constraint violations more quickly" '
-                                     "(Rapier, dynamics/integration_parameters.rs)",
-                    "SIMPLIFIED": '"significantly faster to solve than Self::Coulomb but less accurate" (Rapier, dynamics/integration_parameters.rs)',
-                    "COULOMB": '"one Coulomb friction constraint per contact point" (Rapier, dynamics/integration_parameters.rs)'}
+    preset_settings = {
+        "stiff-contact": {"contact_natural_frequency": 1000.0, "static_contact_natural_frequency": 1000.0}
+    }
+    preset_words = {
+        "stiff-contact": '"Higher values make the constraint stiffer and resolve constraint violations more quickly" '
+        "(Rapier, dynamics/integration_parameters.rs)",
+        "SIMPLIFIED": '"significantly faster to solve than Self::Coulomb but less accurate" (Rapier, '
+        "dynamics/integration_parameters.rs)",
+        "COULOMB": '"one Coulomb friction constraint per contact point" (Rapier, dynamics/integration_parameters.rs)',
+    }
     settings = SHARED_SETTINGS | WORLD_SETTINGS | {"gyroscopic_forces": "true (Rapier's default) or false"}
     precision = "single"
     moves_bodies = True

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rapier (Apache-2.0) in double precision: its crate rapier3d-f64, built by cargo at the install. Presets are its friction models.
+"""Rapier (Apache-2.0) in double precision: its crate rapier3d-f64, built by cargo at the install. Presets are its
+friction models.
 
 The world lives in a process of its own, rapier_f64/src/main.rs."""
+
 from __future__ import annotations
 
 import json
@@ -20,8 +22,19 @@ PROTOCOL = 2  # of rapier_f64/src/main.rs
 
 
 def body_words(job: Job, body: Body) -> dict[str, Any]:
-    return {"free": body.free, "moves": moves(body), "material": body.material, "force": forces_on(job, body), "mass": body.mass, "inertia": body.inertia, "centre": body.centre, "frame": body.frame,
-            "velocity": body.velocity, "spin": body.spin, "pieces": [upright(piece)._asdict() for piece in body.pieces]}
+    return {
+        "free": body.free,
+        "moves": moves(body),
+        "material": body.material,
+        "force": forces_on(job, body),
+        "mass": body.mass,
+        "inertia": body.inertia,
+        "centre": body.centre,
+        "frame": body.frame,
+        "velocity": body.velocity,
+        "spin": body.spin,
+        "pieces": [upright(piece)._asdict() for piece in body.pieces],
+    }
 
 
 class DoubleWorld(World):
@@ -29,13 +42,22 @@ class DoubleWorld(World):
 
     def __init__(self, program: Path, job: Job, bodies: list[Body], dt: float) -> None:
         self.process = subprocess.Popen([str(program)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-        scene = {"gravity": job.scene["gravity"], "dt": dt, "preset": friction_model(job), "friction": coulomb(job), "restitution": bounciness(job),
-                 "gyroscopic": bool(job.settings.get("gyroscopic_forces", True)), "bodies": [body_words(job, body) for body in bodies],
-                 "laws": PairLaws(job).pairs([body.material for body in bodies]),
-                 "settings": {key: job.settings[key] for key in WORLD_SETTINGS if key in job.settings}}
+        scene = {
+            "gravity": job.scene["gravity"],
+            "dt": dt,
+            "preset": friction_model(job),
+            "friction": coulomb(job),
+            "restitution": bounciness(job),
+            "gyroscopic": bool(job.settings.get("gyroscopic_forces", True)),
+            "bodies": [body_words(job, body) for body in bodies],
+            "laws": PairLaws(job).pairs([body.material for body in bodies]),
+            "settings": {key: job.settings[key] for key in WORLD_SETTINGS if key in job.settings},
+        }
         self.opened = self.ask({"open": scene})
         if self.opened.get("protocol") != PROTOCOL:
-            raise RuntimeError("rapier_world was built of other sources: run `tripoint engine install rapier-f64` again")
+            raise RuntimeError(
+                "rapier_world was built of other sources: run `tripoint engine install rapier-f64` again"
+            )
         self.states = self.opened["states"]
         free = [number for number, body in enumerate(bodies) if body.free]
         self.rows = {number: row for row, number in enumerate(free)}
@@ -59,7 +81,14 @@ class DoubleWorld(World):
 
     def held(self, number: int) -> Held:
         held = self.opened["bodies"][self.rows[number]]
-        return Held(held["mass"], vector(held["inertia"]), held["friction"], held["restitution"], held["linear_damping"], held["angular_damping"])
+        return Held(
+            held["mass"],
+            vector(held["inertia"]),
+            held["friction"],
+            held["restitution"],
+            held["linear_damping"],
+            held["angular_damping"],
+        )
 
     def gravity(self) -> Vector:
         return vector(self.opened["gravity"])

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""scikit-fem (BSD-3-Clause) as a witness of conduction and of linear elasticity: finite elements on hexahedra, one element a particle.
+"""scikit-fem (BSD-3-Clause) as a witness of conduction and of linear elasticity: finite elements on hexahedra, one
+element a particle.
 
-Presets are its elements. Each particle is a cube of one spacing, and its temperature is the mean of its element, which is what it
-holds. Time is stepped by Crank and Nicolson, the first step in four of backward Euler, because Crank-Nicolson does not damp a step
-of temperature. What touches nothing is insulated; what is held keeps its temperature up to its sides. Elastic bodies that something
-fixed holds are in scikit_fem_solid.py."""
+Presets are its elements. Each particle is a cube of one spacing, and its temperature is the mean of its element, which
+is what it holds. Time is stepped by Crank and Nicolson, the first step in four of backward Euler, because
+Crank-Nicolson does not damp a step of temperature. What touches nothing is insulated; what is held keeps its
+temperature up to its sides. Elastic bodies that something fixed holds are in scikit_fem_solid.py."""
+
 from __future__ import annotations
 
-import math
 import sys
 import time
 from collections.abc import Iterator
@@ -67,7 +68,9 @@ def refuse_solids(job: Job) -> str:
             return f"prescribed motion is not handed to scikit-fem, and {name} has one"
         if any(body["angular_velocity"]):
             return f"small strains know no turning body, and {name} turns"
-        if body["phase"] == "elastic" and any(material[key] is not None for key in ("elastic_limit", "fracture_stretch", "fracture_distance", "t_melt")):
+        if body["phase"] == "elastic" and any(
+            material[key] is not None for key in ("elastic_limit", "fracture_stretch", "fracture_distance", "t_melt")
+        ):
             return f"linear elasticity has no plastic flow, fracture or melting, and {name} may do so"
     for body in job.bodies:
         group = next(g for g in linked(job) if body["name"] in g)
@@ -134,7 +137,9 @@ class Bar:
         cells = basis.with_element(skfem.ElementHex0())
         stiffness = skfem.BilinearForm(lambda u, v, w: k * dot(grad(u), grad(v))).assemble(basis)
         mass = skfem.BilinearForm(lambda u, v, w: c * u * v).assemble(basis)
-        content = skfem.BilinearForm(lambda u, v, w: u * v).assemble(basis, cells)  # (elements, dofs): integral over each [m3]
+        content = skfem.BilinearForm(lambda u, v, w: u * v).assemble(
+            basis, cells
+        )  # (elements, dofs): integral over each [m3]
         warmth = skfem.BilinearForm(lambda u, v, w: c * u * v).assemble(basis, cells)
         join = lattice.joined(basis.doflocs, np.zeros(basis.N, int))
         self.stiffness, self.mass = join.T @ stiffness @ join, join.T @ mass @ join
@@ -145,7 +150,9 @@ class Bar:
         self.free = np.setdiff1d(np.arange(join.shape[1]), fixed)
         self.fixed = fixed
         self.temperature = np.zeros(join.shape[1])
-        for _ in range(1 + REFINEMENTS):  # a projection alone lowers a wave, which a short run would show as a faster decay
+        for _ in range(
+            1 + REFINEMENTS
+        ):  # a projection alone lowers a wave, which a short run would show as a faster decay
             missing = given - self.mean @ self.temperature
             self.temperature += self.solve(self.mass, join.T @ (warmth.T @ missing))
         if held.any():
@@ -183,8 +190,10 @@ class ScikitFem(Engine):
     name = "scikit-fem"
     capabilities = ("heat", "heat-held", "elastic")
     presets = ("ElementHex1", "ElementHex2")
-    settings = {"time_step": "goes before the job's [s]; default half of dx^2 over the greatest diffusivity, or twice the time "
-                               "of a pressure wave through a spacing"}
+    settings = {
+        "time_step": "goes before the job's [s]; default half of dx^2 over the greatest diffusivity, or twice the time "
+        "of a pressure wave through a spacing"
+    }
 
     def version(self) -> str:
         return version("scikit-fem")

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""SPlisHSPlasH (MIT), its Python wheel in single precision: one liquid between walls, and a rigid body that floats in it.
+"""SPlisHSPlasH (MIT), its Python wheel in single precision: one liquid between walls, and a rigid body that floats in
+it.
 
-Presets are its pressure solvers by name. Walls and bodies are the job's particles (Akinci et al. 2012), each with the volume of its
-mass. The wheel is linked to a part of OpenGL that the system has too, and ends by a signal where both get loaded: the system's comes
-first here, from Debian's packages in the engine's own environment."""
+Presets are its pressure solvers by name. Walls and bodies are the job's particles (Akinci et al. 2012), each with the
+volume of its mass. The wheel is linked to a part of OpenGL that the system has too, and ends by a signal where both get
+loaded: the system's comes first here, from Debian's packages in the engine's own environment."""
+
 from __future__ import annotations
 
 import ctypes
@@ -43,7 +45,9 @@ def liquid_of(job: Job) -> dict[str, Any]:
 def boundary_viscosity(job: Job) -> float:
     """[m2/s]: the setting's, else 0 where all walls slip and the liquid's own where none does."""
     liquid = liquid_of(job)
-    slips = bool(job.scene["periodic"]) or any(body["slip"] == "free" for body in job.bodies if body["phase"] == "rigid")
+    slips = bool(job.scene["periodic"]) or any(
+        body["slip"] == "free" for body in job.bodies if body["phase"] == "rigid"
+    )
     natural = 0.0 if slips or friction_is_mixed(job) else liquid["viscosity"] / liquid["density"]
     return float(job.settings.get("viscosityBoundary", natural))
 
@@ -53,15 +57,28 @@ def configuration(job: Job) -> dict[str, Any]:
     liquid, settings = liquid_of(job), {**CONFIGURED, **job.settings}
     solver = {"maxError": float(settings["maxError"])}
     gravity = job.scene["gravity"]
-    return {"particleRadius": 0.5 * job.scene["spacing"], "simulationMethod": METHODS[job.preset], "boundaryHandlingMethod": 0, "enableZSort": False,
-            "gravitation": [gravity[0], gravity[2], -gravity[1]], "cflMethod": 0, "cflFactor": float(settings["cflFactor"]),
-            "cflMaxTimeStepSize": float(settings["cflMaxTimeStepSize"]), "cflMinTimeStepSize": 1e-7, "timeStepSize": 1e-3, "stopAt": 0.5,
-            "DFSPH": solver, "IISPH": solver, "PCISPH": solver,
-            "WCSPH": {"stiffness": liquid["density"] * liquid["stiffness"] / EXPONENT, "exponent": EXPONENT}}
+    return {
+        "particleRadius": 0.5 * job.scene["spacing"],
+        "simulationMethod": METHODS[job.preset],
+        "boundaryHandlingMethod": 0,
+        "enableZSort": False,
+        "gravitation": [gravity[0], gravity[2], -gravity[1]],
+        "cflMethod": 0,
+        "cflFactor": float(settings["cflFactor"]),
+        "cflMaxTimeStepSize": float(settings["cflMaxTimeStepSize"]),
+        "cflMinTimeStepSize": 1e-7,
+        "timeStepSize": 1e-3,
+        "stopAt": 0.5,
+        "DFSPH": solver,
+        "IISPH": solver,
+        "PCISPH": solver,
+        "WCSPH": {"stiffness": liquid["density"] * liquid["stiffness"] / EXPONENT, "exponent": EXPONENT},
+    }
 
 
 def natural_limit(job: Job) -> float:
-    """What bounds a step besides the engine's CFL condition, of liquid speeds alone [s]: explicit viscosity and, in WCSPH, sound."""
+    """What bounds a step besides the engine's CFL condition, of liquid speeds alone [s]: explicit viscosity and, in
+    WCSPH, sound."""
     liquid, dx = liquid_of(job), float(job.scene["spacing"])
     limits = [math.inf]
     if liquid["viscosity"] > 0.0:
@@ -91,7 +108,14 @@ class Tank:
 
         self.np, self.job, self.files = np, job, files
         self.base = splash.Exec.SimulatorBase()
-        self.base.init(sceneFile=str(files.folder / "scene.json"), useGui=False, initialPause=False, outputDir=str(files.folder), useCache=False, stopAt=0.5)
+        self.base.init(
+            sceneFile=str(files.folder / "scene.json"),
+            useGui=False,
+            initialPause=False,
+            outputDir=str(files.folder),
+            useCache=False,
+            stopAt=0.5,
+        )
         self.base.initSimulation()
         self.time = splash.TimeManager.getCurrent()
         self.time.setTime(1.0)  # beyond its stopAt: bodies are set up, and no step is taken
@@ -104,7 +128,9 @@ class Tank:
         for model in self.models:
             for k in range(model.numberOfParticles()):
                 model.setVolume(k, job.scene["spacing"] ** 3)
-        self.rest = np.array([material["density"] for material in job.scene["materials"]])[files.start["material"]]  # by particle [kg/m3]
+        self.rest = np.array([material["density"] for material in job.scene["materials"]])[
+            files.start["material"]
+        ]  # by particle [kg/m3]
         count = self.model.numActiveParticles()
         if count != len(files.liquid):
             raise RuntimeError(f"SPlisHSPlasH holds {count} particles of liquid, and the job {len(files.liquid)}")
@@ -115,7 +141,7 @@ class Tank:
 
     def field(self, name: str) -> Any:
         """A view of the engine's own column of the liquid."""
-        return self.np.array(self.model.getFieldBuffer(name), copy=False)[:len(self.files.liquid)]
+        return self.np.array(self.model.getFieldBuffer(name), copy=False)[: len(self.files.liquid)]
 
     def turn(self) -> Any:
         x, y, z, w = (float(v) for v in self.body.getRotation())
@@ -137,8 +163,18 @@ class Tank:
             moments.append(1.0 / float(np.array(self.body.getAngularVelocity(), float) @ direction))
             self.body.setAngularVelocity(np.zeros(3))
         centre = from_engine(np.array(self.body.getPosition(), float)).tolist()
-        return [{"name": body["name"], "mass": float(self.body.getMass()), "centre": centre, "principal_inertia": moments,
-                 "friction": None, "restitution": None, "linear_damping": 0.0, "angular_damping": 0.0}]
+        return [
+            {
+                "name": body["name"],
+                "mass": float(self.body.getMass()),
+                "centre": centre,
+                "principal_inertia": moments,
+                "friction": None,
+                "restitution": None,
+                "linear_damping": 0.0,
+                "angular_damping": 0.0,
+            }
+        ]
 
     def limit(self) -> float:
         """[s]"""
@@ -163,10 +199,18 @@ class Tank:
     def first(self, at: float) -> Frame:
         """The job's own start: before its first step the engine has no density."""
         start = self.files.start
-        return Frame(at, start["position"].copy(), start["velocity"].copy(), self.rest.copy(), self.np.zeros_like(self.rest), None)
+        return Frame(
+            at,
+            start["position"].copy(),
+            start["velocity"].copy(),
+            self.rest.copy(),
+            self.np.zeros_like(self.rest),
+            None,
+        )
 
     def pascal(self, density: Any) -> Any:
-        """[Pa] of one unit of the solver's pressure: DFSPH keeps p rho_0 / rho^2 times its last step squared, IISPH and PCISPH p / rho_0.
+        """[Pa] of one unit of the solver's pressure: DFSPH keeps p rho_0 / rho^2 times its last step squared, IISPH and
+        PCISPH p / rho_0.
 
         @param density of the liquid's particles [kg/m3]"""
         rest = self.rest[self.files.liquid]
@@ -200,14 +244,21 @@ class SplishSplash(Engine):
     name = "splishsplash"
     capabilities = ("liquid", "rigid")
     presets = tuple(METHODS)
-    preset_words = {"DFSPH": '"Divergence-free smoothed particle hydrodynamics (DFSPH)", the default (SPlisHSPlasH, doc/file_format.md)',
-                    "IISPH": '"Implicit incompressible SPH (IISPH)" (SPlisHSPlasH, doc/file_format.md)',
-                    "PCISPH": '"Predictive-corrective incompressible SPH (PCISPH)" (SPlisHSPlasH, doc/file_format.md)',
-                    "WCSPH": '"Weakly compressible SPH for free surface flows (WCSPH)" (SPlisHSPlasH, doc/file_format.md)'}
-    settings = {"time_step": "goes before the job's [s]; default its CFL condition, and bounds of explicit viscosity and, in WCSPH, of sound",
-                "cflFactor": '"Factor to scale the CFL time step size", default 0.5', "cflMaxTimeStepSize": '"Max. allowed time step size", default 0.005 [s]',
-                "maxError": '"Maximal density error in percent which the pressure solver tolerates", default 0.01',
-                "viscosityBoundary": "viscosity at all walls [m2/s]; default 0 where all slip, the liquid's where none does"}
+    preset_words = {
+        "DFSPH": '"Divergence-free smoothed particle hydrodynamics (DFSPH)", the default (SPlisHSPlasH, '
+        "doc/file_format.md)",
+        "IISPH": '"Implicit incompressible SPH (IISPH)" (SPlisHSPlasH, doc/file_format.md)',
+        "PCISPH": '"Predictive-corrective incompressible SPH (PCISPH)" (SPlisHSPlasH, doc/file_format.md)',
+        "WCSPH": '"Weakly compressible SPH for free surface flows (WCSPH)" (SPlisHSPlasH, doc/file_format.md)',
+    }
+    settings = {
+        "time_step": "goes before the job's [s]; default its CFL condition, and bounds of explicit viscosity and, in "
+        "WCSPH, of sound",
+        "cflFactor": '"Factor to scale the CFL time step size", default 0.5',
+        "cflMaxTimeStepSize": '"Max. allowed time step size", default 0.005 [s]',
+        "maxError": '"Maximal density error in percent which the pressure solver tolerates", default 0.01',
+        "viscosityBoundary": "viscosity at all walls [m2/s]; default 0 where all slip, the liquid's where none does",
+    }
     precision = "single"
 
     def version(self) -> str:
@@ -236,7 +287,12 @@ class SplishSplash(Engine):
         tank = Tank(splash, job, files)
         outcome = Outcome(setup_cpu=time.process_time() - began)
         bodies = tank.held()
-        outcome.readback = {"gravity": tank.gravity(), "time_step": wanted_step(job) or tank.limit(), "precision": self.precision, "bodies": bodies}
+        outcome.readback = {
+            "gravity": tank.gravity(),
+            "time_step": wanted_step(job) or tank.limit(),
+            "precision": self.precision,
+            "bodies": bodies,
+        }
         path = job.folder / "trajectory.h5"
         write_frames(path, job, files.start, _frames(job, tank, outcome))
         outcome.state_hash = file_hash(path)

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Which engines can be installed, and where their environments are.
 
-An environment is the folder HOME/NAME-VERSION with a file `installed.json`, which is written last; HOME/NAME points to the version
-that the plain name means. HOME is $TRIPOINT_ENGINES, else `.venv-engines` of the checkout. Nothing else is written to."""
+An environment is the folder HOME/NAME-VERSION with a file `installed.json`, which is written last; HOME/NAME points to
+the version that the plain name means. HOME is $TRIPOINT_ENGINES, else `.venv-engines` of the checkout. Nothing else is
+written to."""
+
 from __future__ import annotations
 
 import json
@@ -27,7 +29,9 @@ class InstallError(Exception):
 class File:
     """One package of a registry, pinned."""
 
-    name: str  # as its registry writes it: numpy==2.4.6, libode8=2:0.16.2-1, jolt-physics@1.1.0; of crates the file that pins them all
+    # as its registry writes it: numpy==2.4.6, libode8=2:0.16.2-1, jolt-physics@1.1.0; of crates the file that pins them
+    # all
+    name: str
     sha256: str
     size: int  # [bytes]
 
@@ -77,11 +81,23 @@ def release(words: str) -> Release:
     known = catalogue()
     engine = known["engines"].get(name)
     if engine is None:
-        raise InstallError(f"{name}: is no engine that can be installed; there are {', '.join(sorted(known['engines']))}")
+        raise InstallError(
+            f"{name}: is no engine that can be installed; there are {', '.join(sorted(known['engines']))}"
+        )
     version = version or engine["default"]
     pins = engine["versions"].get(version)
     if pins is None:
         raise InstallError(f"{name}@{version}: no such version is pinned; there are {', '.join(engine['versions'])}")
     files = tuple(File(pin, known["files"][pin]["sha256"], known["files"][pin]["bytes"]) for pin in pins)
     adapter = ADAPTERS / engine["adapter"]
-    return Release(name, engine["title"], version, engine["licence"], engine["from"], adapter, files, engine.get("first", "rigid"), engine["disk_mb"])
+    return Release(
+        name,
+        engine["title"],
+        version,
+        engine["licence"],
+        engine["from"],
+        adapter,
+        files,
+        engine.get("first", "rigid"),
+        engine["disk_mb"],
+    )

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`tripoint engine install NAME[@VERSION] [--yes]`: one pinned engine into an environment of its own."""
+
 from __future__ import annotations
 
 import argparse
@@ -16,8 +17,10 @@ from packages import INSTALLERS, PYTHON, say
 
 def describe(wanted: Release) -> str:
     fetch = sum(file.size for file in wanted.files) / 1e6
-    return (f"{wanted.title} {wanted.version}, licence {wanted.licence}: {fetch:.1f} MB to fetch from {wanted.registries}, "
-            f"about {wanted.disk} MB on the disk, in {wanted.folder}")
+    return (
+        f"{wanted.title} {wanted.version}, licence {wanted.licence}: {fetch:.1f} MB to fetch from {wanted.registries}, "
+        f"about {wanted.disk} MB on the disk, in {wanted.folder}"
+    )
 
 
 def ask(wanted: Release, yes: bool) -> None:
@@ -26,17 +29,25 @@ def ask(wanted: Release, yes: bool) -> None:
     if yes:
         return
     if not sys.stdin.isatty():
-        raise InstallError(f"nobody is here to ask; to agree:  tripoint engine install {wanted.engine}@{wanted.version} --yes")
+        raise InstallError(
+            f"nobody is here to ask; to agree:  tripoint engine install {wanted.engine}@{wanted.version} --yes"
+        )
     print("Go on? [y/N] ", end="", file=sys.stderr, flush=True)
     if sys.stdin.readline().strip().lower() not in ("y", "yes"):
         raise InstallError("nothing was installed")
 
 
 def write_executable(wanted: Release) -> None:
-    """HOME/NAME-VERSION/engine-NAME: the adapter on this environment's Python, or on Debian's where the engine is no wheel."""
+    """HOME/NAME-VERSION/engine-NAME: the adapter on this environment's Python, or on Debian's where the engine is no
+    wheel."""
     python = '"$here/bin/python"' if wanted.registry == "PyPI" else PYTHON
-    lines = ["#!/bin/sh", 'here=$(dirname "$(readlink -f "$0")")',
-             f'export TRIPOINT_ENGINE_FOLDER="$here" TRIPOINT_ENGINE_VERSION={wanted.version}', f'exec {python} -B "{wanted.adapter}" "$@"', ""]
+    lines = [
+        "#!/bin/sh",
+        'here=$(dirname "$(readlink -f "$0")")',
+        f'export TRIPOINT_ENGINE_FOLDER="$here" TRIPOINT_ENGINE_VERSION={wanted.version}',
+        f'exec {python} -B "{wanted.adapter}" "$@"',
+        "",
+    ]
     wanted.executable.write_text("\n".join(lines), encoding="utf-8")
     wanted.executable.chmod(0o755)
 

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Boxes of a scene as a mesh of cubes of one spacing, for solvers of fields that want nodes and elements; only the standard library."""
+"""Boxes of a scene as a mesh of cubes of one spacing, for solvers of fields that want nodes and elements; only the
+standard library."""
+
 from __future__ import annotations
 
 import ast
@@ -14,7 +16,20 @@ Place = tuple[int, int, int]  # of a node, in halves of a spacing from the mesh'
 
 # Corners of an element in the order of C3D8, and middles of its edges in the order of C3D20, in halves of a spacing.
 CORNERS = ((0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2))
-EDGES = ((1, 0, 0), (2, 1, 0), (1, 2, 0), (0, 1, 0), (1, 0, 2), (2, 1, 2), (1, 2, 2), (0, 1, 2), (0, 0, 1), (2, 0, 1), (2, 2, 1), (0, 2, 1))
+EDGES = (
+    (1, 0, 0),
+    (2, 1, 0),
+    (1, 2, 0),
+    (0, 1, 0),
+    (1, 0, 2),
+    (2, 1, 2),
+    (1, 2, 2),
+    (0, 1, 2),
+    (0, 0, 1),
+    (2, 0, 1),
+    (2, 2, 1),
+    (0, 2, 1),
+)
 
 
 @dataclass
@@ -38,10 +53,12 @@ class Mesh:
         self.first.append(at)
 
     def middle(self, element: int) -> Vector:
-        return tuple(c + self.spacing * (0.5 * k + 0.5) for c, k in zip(self.corner, self.first[element]))  # type: ignore[return-value]
+        # type: ignore[return-value]
+        return tuple(c + self.spacing * (0.5 * k + 0.5) for c, k in zip(self.corner, self.first[element]))
 
     def weights(self, point: Vector, wanted: set[int]) -> dict[int, float]:
-        """Trilinear weights of the corner nodes at a point [m]; empty where no element of the wanted bodies holds it."""
+        """Trilinear weights of the corner nodes at a point [m]; empty where no element of the wanted bodies holds
+        it."""
         rest = [(x - c) / self.spacing for x, c in zip(point, self.corner)]
         for nodes, body, first in zip(self.elements, self.body, self.first):
             local = [r - 0.5 * k for r, k in zip(rest, first)]
@@ -75,8 +92,14 @@ def refuse_boxes(job: Job, engine: str) -> str:
     for body in job.bodies:
         shape = body["shape"]
         if shape["kind"] != "box" or "rotation" in shape:
-            return f"{engine} is handed boxes along the axes, and {body['name']} is a {shape['kind']}{' that is turned' if 'rotation' in shape else ''}"
-        if not all(whole((end - begin) / dx) and whole((begin - c) / dx) for begin, end, c in zip(shape["min"], shape["max"], corner)):
+            return (
+                f"{engine} is handed boxes along the axes, and {body['name']} is a "
+                f"{shape['kind']}{' that is turned' if 'rotation' in shape else ''}"
+            )
+        if not all(
+            whole((end - begin) / dx) and whole((begin - c) / dx)
+            for begin, end, c in zip(shape["min"], shape["max"], corner)
+        ):
             return f"{engine}'s elements are cubes of one spacing, and {body['name']} is not made of whole ones"
     return ""
 
@@ -88,8 +111,11 @@ def refuse_work(job: Job, step: float, most: float, quadratic: str, linear: str)
     steps = (job.times[-1] - job.times[0]) / step
     if elements * steps <= most:
         return ""
-    return (f"{round(elements)} elements for {math.ceil(steps)} steps are more than {quadratic} finishes within a run's time; "
-            f"a longer time_step makes them fewer, and {linear} needs a tenth")
+    return (
+        f"{round(elements)} elements for {math.ceil(steps)} steps are more than {quadratic} finishes within a run's "
+        "time; "
+        f"a longer time_step makes them fewer, and {linear} needs a tenth"
+    )
 
 
 def mesh_of(job: Job, wanted: set[int], quadratic: bool) -> Mesh:
@@ -112,13 +138,32 @@ def nodes_in_box(mesh: Mesh, shape: dict[str, Any]) -> list[int]:
     """Numbers of the nodes in or on a box."""
     slack = 1e-6 * mesh.spacing
     low, high = vector(shape["min"]), vector(shape["max"])
-    inside = (n for at, n in mesh.node.items() if all(a - slack <= x <= b + slack for x, a, b in zip(mesh.place(at), low, high)))
+    inside = (
+        n
+        for at, n in mesh.node.items()
+        if all(a - slack <= x <= b + slack for x, a, b in zip(mesh.place(at), low, high))
+    )
     return sorted(inside)
 
 
-_FUNCTIONS = {"sin": math.sin, "cos": math.cos, "tan": math.tan, "exp": math.exp, "log": math.log, "sqrt": math.sqrt, "abs": abs, "min": min, "max": max}
-_OPERATORS = {ast.Add: lambda a, b: a + b, ast.Sub: lambda a, b: a - b, ast.Mult: lambda a, b: a * b, ast.Div: lambda a, b: a / b,
-              ast.Pow: lambda a, b: a**b}
+_FUNCTIONS = {
+    "sin": math.sin,
+    "cos": math.cos,
+    "tan": math.tan,
+    "exp": math.exp,
+    "log": math.log,
+    "sqrt": math.sqrt,
+    "abs": abs,
+    "min": min,
+    "max": max,
+}
+_OPERATORS = {
+    ast.Add: lambda a, b: a + b,
+    ast.Sub: lambda a, b: a - b,
+    ast.Mult: lambda a, b: a * b,
+    ast.Div: lambda a, b: a / b,
+    ast.Pow: lambda a, b: a**b,
+}
 
 
 def formula(text: str, at: Vector) -> float:
@@ -134,7 +179,12 @@ def formula(text: str, at: Vector) -> float:
             return -value(node.operand) if isinstance(node.op, ast.USub) else value(node.operand)
         if isinstance(node, ast.BinOp) and type(node.op) in _OPERATORS:
             return _OPERATORS[type(node.op)](value(node.left), value(node.right))
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in _FUNCTIONS and not node.keywords:
+        if (
+            isinstance(node, ast.Call)
+            and isinstance(node.func, ast.Name)
+            and node.func.id in _FUNCTIONS
+            and not node.keywords
+        ):
             return _FUNCTIONS[node.func.id](*map(value, node.args))
         raise ValueError(f"{text}: is no arithmetic of x, y and z")
 
@@ -146,7 +196,9 @@ def temperature_at(start: dict[str, Any], at: Vector) -> float:
     if start["kind"] == "constant":
         return float(start["value"])
     if start["kind"] == "cosine":
-        return float(start["mean"]) + float(start["amplitude"]) * math.cos(sum(k * x for k, x in zip(start["wave_vector"], at)) + float(start["phase"]))
+        return float(start["mean"]) + float(start["amplitude"]) * math.cos(
+            sum(k * x for k, x in zip(start["wave_vector"], at)) + float(start["phase"])
+        )
     if start["kind"] == "step":
         side = sum(n * (x - p) for n, x, p in zip(start["normal"], at, start["point"]))
         return float(start["behind"] if side < 0.0 else start["ahead"])
@@ -175,7 +227,9 @@ def across(job: Job) -> tuple[str, tuple[int, ...]]:
             low, high = scene["min"][axis], scene["max"][axis]
             if abs(shape["min"][axis] - low) + abs(shape["max"][axis] - high) > 1e-6 * (high - low):
                 return f"{body['name']} does not fill the periodic direction {name}", ()
-            if start is not None and (start["kind"] == "expression" or start.get("wave_vector", start.get("normal", (0.0,) * 3))[axis] != 0.0):
+            if start is not None and (
+                start["kind"] == "expression" or start.get("wave_vector", start.get("normal", (0.0,) * 3))[axis] != 0.0
+            ):
                 return f"the temperature of {body['name']} may change along the periodic direction {name}", ()
         if scene["gravity"][axis] != 0.0 and any(body["phase"] == "elastic" for body in job.bodies):
             return f"gravity acts along the periodic direction {name}", ()

@@ -2,6 +2,7 @@
 """Meshes of a job as engines of rigid bodies take them: shared corners, triangles, and whether the surface is convex.
 
 The harness has read the same file before and found it closed; what it accepts is read here."""
+
 from __future__ import annotations
 
 import struct
@@ -79,7 +80,11 @@ def read_mesh(file: str, scale: float) -> Mesh:
 
 def is_convex(mesh: Mesh) -> bool:
     """Whether no triangle's neighbour lies before it by more than rounding, and the surface is one piece."""
-    across = {edge: (number, face[(k + 2) % 3]) for number, face in enumerate(mesh.faces) for k, edge in enumerate(_edges(face))}
+    across = {
+        edge: (number, face[(k + 2) % 3])
+        for number, face in enumerate(mesh.faces)
+        for k, edge in enumerate(_edges(face))
+    }
     size = max(norm(subtract(corner, mesh.corners[0])) for corner in mesh.corners)
     reached, front = {0}, [0]
     while front:

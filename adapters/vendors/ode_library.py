@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""libode.so.8 by ctypes: the structures and functions that the adapter calls, as ode/contact.h, mass.h and objects.h have them."""
+"""libode.so.8 by ctypes: the structures and functions that the adapter calls, as ode/contact.h, mass.h and objects.h
+have them."""
+
 from __future__ import annotations
 
 from ctypes import CDLL, CFUNCTYPE, POINTER, RTLD_GLOBAL, Structure, c_char_p, c_double, c_int, c_uint, c_void_p
@@ -15,13 +17,37 @@ class Mass(Structure):
 
 
 class Surface(Structure):
-    _fields_ = [("mode", c_int)] + [(name, c_double) for name in (
-        "mu", "mu2", "rho", "rho2", "rhoN", "bounce", "bounce_vel", "soft_erp", "soft_cfm", "motion1", "motion2", "motionN", "slip1", "slip2")]
+    _fields_ = [("mode", c_int)] + [
+        (name, c_double)
+        for name in (
+            "mu",
+            "mu2",
+            "rho",
+            "rho2",
+            "rhoN",
+            "bounce",
+            "bounce_vel",
+            "soft_erp",
+            "soft_cfm",
+            "motion1",
+            "motion2",
+            "motionN",
+            "slip1",
+            "slip2",
+        )
+    ]
 
 
 class ContactGeom(Structure):
-    _fields_ = [("pos", c_double * 4), ("normal", c_double * 4), ("depth", c_double), ("g1", c_void_p), ("g2", c_void_p),
-                ("side1", c_int), ("side2", c_int)]
+    _fields_ = [
+        ("pos", c_double * 4),
+        ("normal", c_double * 4),
+        ("depth", c_double),
+        ("g1", c_void_p),
+        ("g2", c_void_p),
+        ("side1", c_int),
+        ("side2", c_int),
+    ]
 
 
 class Contact(Structure):
@@ -32,26 +58,56 @@ Near = CFUNCTYPE(None, c_void_p, c_void_p, c_void_p)  # called with the two geom
 
 _V, _D, _I, _R = c_void_p, c_double, c_int, POINTER(c_double)
 _FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {  # name -> result, arguments
-    "dInitODE2": (_I, (c_uint,)), "dGetConfiguration": (c_char_p, ()),
-    "dWorldCreate": (_V, ()), "dWorldSetGravity": (None, (_V, _D, _D, _D)), "dWorldGetGravity": (None, (_V, _R)),
-    "dWorldSetERP": (None, (_V, _D)), "dWorldSetCFM": (None, (_V, _D)),
-    "dWorldSetQuickStepNumIterations": (None, (_V, _I)), "dWorldStep": (_I, (_V, _D)), "dWorldQuickStep": (_I, (_V, _D)),
-    "dHashSpaceCreate": (_V, (_V,)), "dSpaceCollide": (None, (_V, _V, Near)),
-    "dJointGroupCreate": (_V, (_I,)), "dJointGroupEmpty": (None, (_V,)), "dJointCreateContact": (_V, (_V, _V, POINTER(Contact))),
+    "dInitODE2": (_I, (c_uint,)),
+    "dGetConfiguration": (c_char_p, ()),
+    "dWorldCreate": (_V, ()),
+    "dWorldSetGravity": (None, (_V, _D, _D, _D)),
+    "dWorldGetGravity": (None, (_V, _R)),
+    "dWorldSetERP": (None, (_V, _D)),
+    "dWorldSetCFM": (None, (_V, _D)),
+    "dWorldSetQuickStepNumIterations": (None, (_V, _I)),
+    "dWorldStep": (_I, (_V, _D)),
+    "dWorldQuickStep": (_I, (_V, _D)),
+    "dHashSpaceCreate": (_V, (_V,)),
+    "dSpaceCollide": (None, (_V, _V, Near)),
+    "dJointGroupCreate": (_V, (_I,)),
+    "dJointGroupEmpty": (None, (_V,)),
+    "dJointCreateContact": (_V, (_V, _V, POINTER(Contact))),
     "dJointAttach": (None, (_V, _V, _V)),
-    "dBodyCreate": (_V, (_V,)), "dBodySetKinematic": (None, (_V,)), "dBodySetMass": (None, (_V, POINTER(Mass))), "dBodyGetMass": (None, (_V, POINTER(Mass))),
+    "dBodyCreate": (_V, (_V,)),
+    "dBodySetKinematic": (None, (_V,)),
+    "dBodySetMass": (None, (_V, POINTER(Mass))),
+    "dBodyGetMass": (None, (_V, POINTER(Mass))),
     "dMassSetParameters": (None, (POINTER(Mass),) + (_D,) * 10),
-    "dBodySetPosition": (None, (_V, _D, _D, _D)), "dBodySetQuaternion": (None, (_V, _R)), "dBodySetLinearVel": (None, (_V, _D, _D, _D)),
-    "dBodySetAngularVel": (None, (_V, _D, _D, _D)), "dBodySetGyroscopicMode": (None, (_V, _I)), "dBodySetFiniteRotationMode": (None, (_V, _I)),
-    "dBodyGetPosition": (_R, (_V,)), "dBodyGetQuaternion": (_R, (_V,)), "dBodyGetLinearVel": (_R, (_V,)), "dBodyGetAngularVel": (_R, (_V,)),
+    "dBodySetPosition": (None, (_V, _D, _D, _D)),
+    "dBodySetQuaternion": (None, (_V, _R)),
+    "dBodySetLinearVel": (None, (_V, _D, _D, _D)),
+    "dBodySetAngularVel": (None, (_V, _D, _D, _D)),
+    "dBodySetGyroscopicMode": (None, (_V, _I)),
+    "dBodySetFiniteRotationMode": (None, (_V, _I)),
+    "dBodyGetPosition": (_R, (_V,)),
+    "dBodyGetQuaternion": (_R, (_V,)),
+    "dBodyGetLinearVel": (_R, (_V,)),
+    "dBodyGetAngularVel": (_R, (_V,)),
     "dBodyAddForce": (None, (_V, _D, _D, _D)),
-    "dBodyGetLinearDamping": (_D, (_V,)), "dBodyGetAngularDamping": (_D, (_V,)),
-    "dCreateBox": (_V, (_V, _D, _D, _D)), "dCreateSphere": (_V, (_V, _D)), "dCreateCylinder": (_V, (_V, _D, _D)),
-    "dCreateCapsule": (_V, (_V, _D, _D)), "dCreatePlane": (_V, (_V, _D, _D, _D, _D)),
-    "dGeomTriMeshDataCreate": (_V, ()), "dGeomTriMeshDataBuildDouble": (None, (_V, _V, _I, _I, _V, _I, _I)), "dCreateTriMesh": (_V, (_V,) * 5),
-    "dGeomSetBody": (None, (_V, _V)), "dGeomGetBody": (_V, (_V,)), "dGeomSetPosition": (None, (_V, _D, _D, _D)),
-    "dGeomSetQuaternion": (None, (_V, _R)), "dGeomSetOffsetPosition": (None, (_V, _D, _D, _D)), "dGeomSetOffsetQuaternion": (None, (_V, _R)),
-    "dCollide": (_I, (_V, _V, _I, _V, _I))}
+    "dBodyGetLinearDamping": (_D, (_V,)),
+    "dBodyGetAngularDamping": (_D, (_V,)),
+    "dCreateBox": (_V, (_V, _D, _D, _D)),
+    "dCreateSphere": (_V, (_V, _D)),
+    "dCreateCylinder": (_V, (_V, _D, _D)),
+    "dCreateCapsule": (_V, (_V, _D, _D)),
+    "dCreatePlane": (_V, (_V, _D, _D, _D, _D)),
+    "dGeomTriMeshDataCreate": (_V, ()),
+    "dGeomTriMeshDataBuildDouble": (None, (_V, _V, _I, _I, _V, _I, _I)),
+    "dCreateTriMesh": (_V, (_V,) * 5),
+    "dGeomSetBody": (None, (_V, _V)),
+    "dGeomGetBody": (_V, (_V,)),
+    "dGeomSetPosition": (None, (_V, _D, _D, _D)),
+    "dGeomSetQuaternion": (None, (_V, _R)),
+    "dGeomSetOffsetPosition": (None, (_V, _D, _D, _D)),
+    "dGeomSetOffsetQuaternion": (None, (_V, _R)),
+    "dCollide": (_I, (_V, _V, _I, _V, _I)),
+}
 
 
 def reals(values: tuple[float, ...]) -> Any:

@@ -2,6 +2,7 @@
 """Fetches pinned packages with each registry's own client, checks their SHA-256, and unpacks them into an environment.
 
 A file that is there and whole is not fetched again, so that an install that was stopped goes on."""
+
 from __future__ import annotations
 
 import hashlib
@@ -31,10 +32,14 @@ def call(words: list[str], folder: Path, limit: float = FETCH_LIMIT) -> None:
     except FileNotFoundError as error:
         raise InstallError(f"{words[0]} is not installed here, and it is what fetches this engine", 4) from error
     except subprocess.TimeoutExpired as error:
-        raise InstallError(f"{' '.join(words[:3])} took more than {limit:g} s; the same command goes on where it stopped", 4) from error
+        raise InstallError(
+            f"{' '.join(words[:3])} took more than {limit:g} s; the same command goes on where it stopped", 4
+        ) from error
     if end.returncode != 0:
         last = "\n  ".join((end.stderr or end.stdout).strip().splitlines()[-4:])
-        raise InstallError(f"{' '.join(words[:3])} failed; the same command goes on where it stopped. It said:\n  {last}", 4)
+        raise InstallError(
+            f"{' '.join(words[:3])} failed; the same command goes on where it stopped. It said:\n  {last}", 4
+        )
 
 
 def is_whole(path: Path, file: File) -> bool:
@@ -63,7 +68,9 @@ def fetched(file: File, downloads: Path, fetch: Callable[[File, Path], None]) ->
     whole = file_of(folder, file)
     if whole is None:
         there = ", ".join(path.name for path in folder.iterdir()) or "nothing"
-        raise InstallError(f"{file.name}: what came ({there}) has not the pinned hash {file.sha256[:16]}...; it is not used", 4)
+        raise InstallError(
+            f"{file.name}: what came ({there}) has not the pinned hash {file.sha256[:16]}...; it is not used", 4
+        )
     return whole
 
 
@@ -76,8 +83,26 @@ def install_wheels(release: Release, downloads: Path) -> None:
     def fetch(file: File, to: Path) -> None:
         pins = to / "pin.txt"
         pins.write_text(f"{file.name} --hash=sha256:{file.sha256}\n", encoding="ascii")
-        call([pip, "download", "--quiet", "--no-deps", "--require-hashes", "--only-binary", ":all:", "--retries", "2", "--timeout", "30",
-              "--dest", str(to), "--requirement", str(pins)], to)
+        call(
+            [
+                pip,
+                "download",
+                "--quiet",
+                "--no-deps",
+                "--require-hashes",
+                "--only-binary",
+                ":all:",
+                "--retries",
+                "2",
+                "--timeout",
+                "30",
+                "--dest",
+                str(to),
+                "--requirement",
+                str(pins),
+            ],
+            to,
+        )
 
     unpack_debian(release, downloads, tuple(file for file in release.files if "==" not in file.name))
     wheels = [fetched(file, downloads, fetch) for file in release.files if "==" in file.name]
@@ -86,6 +111,7 @@ def install_wheels(release: Release, downloads: Path) -> None:
 
 def unpack_debian(release: Release, downloads: Path, files: tuple[File, ...]) -> None:
     """Unpacks Debian's packages into the environment: nothing of the system is changed, and no root is needed."""
+
     def fetch(file: File, to: Path) -> None:
         call(["apt-get", "download", "--quiet", file.name], to)
 
@@ -111,7 +137,9 @@ def unpack(archive: Path, folder: Path) -> None:
         for member in members.getmembers():
             inside = Path(member.name.partition("/")[2])  # without the leading folder "package"
             if inside.is_absolute() or ".." in inside.parts:
-                raise InstallError(f"{archive.name}: {member.name} leads out of the package; nothing more of it is unpacked", 4)
+                raise InstallError(
+                    f"{archive.name}: {member.name} leads out of the package; nothing more of it is unpacked", 4
+                )
             content = members.extractfile(member) if member.isfile() else None
             if content is None:
                 continue
@@ -120,14 +148,29 @@ def unpack(archive: Path, folder: Path) -> None:
 
 
 def install_crates(release: Release, downloads: Path) -> None:
-    """Builds an adapter's own small program on crates. Its Cargo.lock is the pin: cargo checks every crate by the hash that stands there."""
+    """Builds an adapter's own small program on crates. Its Cargo.lock is the pin: cargo checks every crate by the hash
+    that stands there."""
     (lock,) = release.files
     project = ADAPTERS / Path(lock.name).parent
     if hashlib.sha256((ADAPTERS / lock.name).read_bytes()).hexdigest() != lock.sha256:
         raise InstallError(f"{lock.name} has not the pinned hash {lock.sha256[:16]}...; it is not used", 4)
     target = downloads / f"{release.engine}-{release.version}"
     say("cargo fetches the crates and builds: two minutes of a processor")
-    call(["cargo", "build", "--quiet", "--release", "--locked", "--manifest-path", str(project / "Cargo.toml"), "--target-dir", str(target)], project, BUILD_LIMIT)
+    call(
+        [
+            "cargo",
+            "build",
+            "--quiet",
+            "--release",
+            "--locked",
+            "--manifest-path",
+            str(project / "Cargo.toml"),
+            "--target-dir",
+            str(target),
+        ],
+        project,
+        BUILD_LIMIT,
+    )
     (release.folder / "bin").mkdir(exist_ok=True)
     for built in (target / "release").iterdir():
         if built.is_file() and not built.suffix and not built.name.startswith("."):

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Numbers of single surfaces whose combination, by an engine's own rule, gives the friction that a scene states of pairs of materials.
+"""Numbers of single surfaces whose combination, by an engine's own rule, gives the friction that a scene states of
+pairs of materials.
 
 A pair that no table states and no setting names is free: the engine's own rule decides it."""
+
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -17,7 +19,9 @@ def stated_friction(job: Job, materials: list[str]) -> dict[Pair, float]:
     """Friction of each pair that the scene states, or that the setting `friction` holds for."""
     names, laws = list(dict.fromkeys(materials)), PairLaws(job)
     pairs = [(a, b) for k, a in enumerate(names) for b in names[k:]]
-    return {(a, b): laws.of(a, b)[0] for a, b in pairs if "friction" in job.settings or frozenset((a, b)) in laws.stated}
+    return {
+        (a, b): laws.of(a, b)[0] for a, b in pairs if "friction" in job.settings or frozenset((a, b)) in laws.stated
+    }
 
 
 def _holds(wanted: dict[Pair, float], of: dict[str, float], rule: Callable[[float, float], float]) -> bool:
@@ -49,7 +53,9 @@ def by_harmonic_mean(wanted: dict[Pair, float]) -> dict[str, float] | None:
                 inverse[other] = max(0.0, (2.0 / mu if mu > 0.0 else inf) - inverse[name])
                 follow(other)
 
-    def partners(name: str) -> tuple[bool, int]:  # a pair of one material leaves no choice; then the middle of a star comes first
+    def partners(
+        name: str,
+    ) -> tuple[bool, int]:  # a pair of one material leaves no choice; then the middle of a star comes first
         return (name, name) not in wanted, -sum(name in pair for pair in wanted)
 
     for name in sorted({name for pair in wanted for name in pair}, key=lambda name: (*partners(name), name)):

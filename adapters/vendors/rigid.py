@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What all engines of rigid bodies share: the bodies of a job, why some are refused, the step loop and the rows of the trajectory.
+"""What all engines of rigid bodies share: the bodies of a job, why some are refused, the step loop and the rows of the
+trajectory.
 
-An engine works in the body's principal frame: `Body.frame` turns that frame into the world's at the start. Masses and principal moments
-are the job's, never those of the shapes; the shapes are for contact alone."""
+An engine works in the body's principal frame: `Body.frame` turns that frame into the world's at the start. Masses and
+principal moments are the job's, never those of the shapes; the shapes are for contact alone."""
+
 from __future__ import annotations
 
 import math
@@ -14,8 +16,22 @@ from typing import Any, NamedTuple
 
 from contract import BODY_COLUMNS, Diverged, Engine, Job, Outcome, Row, write_trajectory
 from mesh import Face, is_convex, read_mesh
-from rotation import (IDENTITY, Quaternion, Vector, add, between, conjugate, norm, normalised, product, quaternion, rotate_back, scaled,
-                      subtract, vector)
+from rotation import (
+    IDENTITY,
+    Quaternion,
+    Vector,
+    add,
+    between,
+    conjugate,
+    norm,
+    normalised,
+    product,
+    quaternion,
+    rotate_back,
+    scaled,
+    subtract,
+    vector,
+)
 
 
 LARGEST = 1e30  # m, m/s or rad/s: what is beyond has diverged, though it still has a number
@@ -26,8 +42,11 @@ class Piece(NamedTuple):
 
     kind: str  # box | sphere | plane | cylinder | capsule | hull: convex | surface: triangles of any shape
     centre: Vector  # from the body's centre of mass [m]
-    rotation: Quaternion  # piece to principal frame; a plane's outward normal and the axis of a cylinder or capsule are its z axis
-    size: Vector  # half lengths of a box; radius of a sphere in x; radius of a cylinder or capsule in x, half its straight part in z [m]
+    # piece to principal frame; a plane's outward normal and the axis of a cylinder or capsule are its z axis
+    rotation: Quaternion
+    # half lengths of a box; radius of a sphere in x; radius of a cylinder or capsule in x, half its straight part in z
+    # [m]
+    size: Vector
     corners: tuple[Vector, ...] = ()  # of a hull or surface, from `centre` in the piece's axes [m]
     faces: tuple[Face, ...] = ()  # their triangles, counter-clockwise seen from outside
 
@@ -79,7 +98,8 @@ class Held(NamedTuple):
 
 
 class World:
-    """An engine's world with the job's bodies in it. Numbers count from 0 in the order of the bodies that were handed over."""
+    """An engine's world with the job's bodies in it. Numbers count from 0 in the order of the bodies that were handed
+    over."""
 
     def step(self, dt: float, count: int) -> None:
         """Takes `count` steps of dt [s]."""
@@ -138,11 +158,27 @@ def pieces_of(shape: dict[str, Any], centre: Vector, frame: Quaternion) -> tuple
     if kind in ("cylinder", "capsule"):
         axis, half = vector(shape["axis"]), 0.5 * float(shape["length"])
         turn = product(conjugate(frame), between((0.0, 0.0, 1.0), axis))
-        return (Piece(kind, local(add(vector(shape["base"]), scaled(half, axis))), turn, (float(shape["radius"]),) * 2 + (half,)),)
+        return (
+            Piece(
+                kind,
+                local(add(vector(shape["base"]), scaled(half, axis))),
+                turn,
+                (float(shape["radius"]),) * 2 + (half,),
+            ),
+        )
     if kind == "mesh":
         mesh = read_mesh(shape["file"], float(shape["scale"]))
         corners = tuple(local(corner) for corner in mesh.corners)
-        return (Piece("hull" if is_convex(mesh) else "surface", (0.0, 0.0, 0.0), IDENTITY, (0.0, 0.0, 0.0), corners, mesh.faces),)
+        return (
+            Piece(
+                "hull" if is_convex(mesh) else "surface",
+                (0.0, 0.0, 0.0),
+                IDENTITY,
+                (0.0, 0.0, 0.0),
+                corners,
+                mesh.faces,
+            ),
+        )
     if kind == "union":
         rod = _capsule(shape["of"])
         if rod:
@@ -155,9 +191,19 @@ def pieces_of(shape: dict[str, Any], centre: Vector, frame: Quaternion) -> tuple
 def body_of(body: dict[str, Any], touchable: bool) -> Body:
     centre, frame = vector(body["centre"]), quaternion(body["principal_axes"])
     pieces = pieces_of(body["shape"], centre, frame) if touchable else ()
-    return Body(body["name"], int(body["index"]), body["motion"] == "free", float(body["mass"]), centre, frame,
-                vector(body["principal_inertia"]), vector(body["velocity"]), vector(body["angular_velocity"]), pieces or (),
-                body["material"])
+    return Body(
+        body["name"],
+        int(body["index"]),
+        body["motion"] == "free",
+        float(body["mass"]),
+        centre,
+        frame,
+        vector(body["principal_inertia"]),
+        vector(body["velocity"]),
+        vector(body["angular_velocity"]),
+        pieces or (),
+        body["material"],
+    )
 
 
 def bodies_of(job: Job) -> list[Body]:
@@ -178,7 +224,10 @@ def _refuse_body(body: dict[str, Any], engine: str, alone: bool) -> str:
     if body["motion"] == "free" and min(body["principal_inertia"]) <= 0.0:
         return f"{engine} needs three principal moments above 0, and {name} has {body['principal_inertia']} kg m2"
     if not alone and pieces_of(body["shape"], (0.0, 0.0, 0.0), IDENTITY) is None:
-        return f"{engine} is handed boxes, spheres, cylinders, capsules, meshes, half spaces and unions of them, and {name} is a {body['shape']['kind']}"
+        return (
+            f"{engine} is handed boxes, spheres, cylinders, capsules, meshes, half spaces and unions of them, and "
+            f"{name} is a {body['shape']['kind']}"
+        )
     if body["motion"] == "free" and body["shape"]["kind"] == "half_space":
         return f"a half space cannot be free, and {name} is"
     return ""
@@ -211,7 +260,9 @@ class RigidEngine(Engine):
 
     title: str  # the vendor's own spelling
     moves_bodies = False  # whether bodies of constant velocity are handed over
-    dented_meshes: tuple[str, ...] = ()  # motions of the bodies whose meshes need not be convex: fixed, free, prescribed
+    dented_meshes: tuple[
+        str, ...
+    ] = ()  # motions of the bodies whose meshes need not be convex: fixed, free, prescribed
     preset_settings: dict[str, dict[str, Any]] = {}  # preset -> settings that it stands for; the job's own go before
     default_step: float  # [s], where neither the scene nor the settings say one
 
@@ -253,12 +304,20 @@ class RigidEngine(Engine):
         job = replace(job, settings=self.preset_settings.get(job.preset, {}) | job.settings)
         bodies = bodies_of(job)
         limit = self.wanted_step(job)
-        first = (job.times[1] - job.times[0]) / steps_in(job.times[1] - job.times[0], limit) if len(job.times) > 1 else limit
+        first = (
+            (job.times[1] - job.times[0]) / steps_in(job.times[1] - job.times[0], limit)
+            if len(job.times) > 1
+            else limit
+        )
         world = self.open(job, bodies, first)
         outcome = Outcome(setup_cpu=time.process_time() - began)
         held = [(body, world.held(k)) for k, body in enumerate(bodies) if body.free]
-        outcome.readback = {"gravity": list(world.gravity()), "time_step": first, "precision": self.precision,
-                            "bodies": [_readback(body, h) for body, h in held]}
+        outcome.readback = {
+            "gravity": list(world.gravity()),
+            "time_step": first,
+            "precision": self.precision,
+            "bodies": [_readback(body, h) for body, h in held],
+        }
         outcome.state_hash = write_trajectory(job, BODY_COLUMNS, _rows(job, bodies, world, limit, outcome))
         outcome.pairs = world.contacts()
         world.close()
@@ -266,9 +325,16 @@ class RigidEngine(Engine):
 
 
 def _readback(body: Body, held: Held) -> dict[str, Any]:
-    return {"name": body.name, "mass": held.mass, "centre": list(body.centre), "principal_inertia": list(held.inertia),
-            "friction": held.friction, "restitution": held.restitution, "linear_damping": held.linear_damping,
-            "angular_damping": held.angular_damping}
+    return {
+        "name": body.name,
+        "mass": held.mass,
+        "centre": list(body.centre),
+        "principal_inertia": list(held.inertia),
+        "friction": held.friction,
+        "restitution": held.restitution,
+        "linear_damping": held.linear_damping,
+        "angular_damping": held.angular_damping,
+    }
 
 
 def _rows(job: Job, bodies: list[Body], world: World, limit: float, outcome: Outcome) -> Iterator[Row]:
@@ -297,7 +363,8 @@ MOST_GROWTH = 10.0  # of the logarithm of the energy: at 25 the state is no long
 
 
 def growth(job: Job, body: dict[str, Any], default_step: float) -> float:
-    """What explicit Euler adds to the logarithm of the energy of a free top: (rate of its nutation)^2 dt T [Hairer, Lubich & Wanner 2006, I.1]."""
+    """What explicit Euler adds to the logarithm of the energy of a free top: (rate of its nutation)^2 dt T [Hairer,
+    Lubich & Wanner 2006, I.1]."""
     low, middle, high = body["principal_inertia"]
     rate = norm(vector(body["angular_velocity"])) * math.sqrt(max(0.0, (middle - low) * (high - middle) / (low * high)))
     return rate * rate * (job.time_step or default_step) * (job.times[-1] - job.times[0])
@@ -308,8 +375,11 @@ def why_it_grows(job: Job, default_step: float) -> str:
     exponent = max((growth(job, body, default_step) for body in job.bodies if body["motion"] == "free"), default=0.0)
     if exponent <= MOST_GROWTH:
         return ""
-    return (f"takes the gyroscopic term from the start of a step, which at this spin, step and length multiplies the energy by about "
-            f"e^{exponent:.0f}, until nothing is finite")
+    return (
+        "takes the gyroscopic term from the start of a step, which at this spin, step and length multiplies the "
+        "energy by about "
+        f"e^{exponent:.0f}, until nothing is finite"
+    )
 
 
 def coulomb(job: Job) -> float:
@@ -327,7 +397,9 @@ class PairLaws:
 
     def __init__(self, job: Job) -> None:
         self.common = coulomb(job), bounciness(job)
-        self.stated = {frozenset(law["materials"]): (law["friction"], law["restitution"]) for law in job.scene.get("contacts", ())}
+        self.stated = {
+            frozenset(law["materials"]): (law["friction"], law["restitution"]) for law in job.scene.get("contacts", ())
+        }
 
     def of(self, material: str, other: str) -> tuple[float, float]:
         """What no table states of a pair is the setting's."""
@@ -335,11 +407,12 @@ class PairLaws:
         friction, restitution = (common if one is None else float(one) for one, common in zip(stated, self.common))
         return friction, restitution
 
-
     def pairs(self, materials: list[str]) -> list[tuple[str, str, float, float]]:
         """The stated laws of these materials: both, friction, restitution."""
         names = list(dict.fromkeys(materials))
-        return [(a, b, *self.of(a, b)) for k, a in enumerate(names) for b in names[k:] if frozenset((a, b)) in self.stated]
+        return [
+            (a, b, *self.of(a, b)) for k, a in enumerate(names) for b in names[k:] if frozenset((a, b)) in self.stated
+        ]
 
 
 def forces_on(job: Job, body: Body) -> Vector:
@@ -351,6 +424,8 @@ def forces_on(job: Job, body: Body) -> Vector:
     return total
 
 
-SHARED_SETTINGS = {"time_step": "goes before the job's [s]; shortened so that output times are hit exactly",
-                   "friction": "Coulomb's coefficient of every pair, default 0",
-                   "restitution": "of every pair, default 0"}
+SHARED_SETTINGS = {
+    "time_step": "goes before the job's [s]; shortened so that output times are hit exactly",
+    "friction": "Coulomb's coefficient of every pair, default 0",
+    "restitution": "of every pair, default 0",
+}

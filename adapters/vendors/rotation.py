@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Quaternions (w, x, y, z) and vectors as plain tuples: an environment need not hold numpy."""
+
 from __future__ import annotations
 
 import math
@@ -50,8 +51,12 @@ def conjugate(q: Quaternion) -> Quaternion:
 
 def product(a: Quaternion, b: Quaternion) -> Quaternion:
     """The rotation b, then a."""
-    return (a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3], a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
-            a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1], a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0])
+    return (
+        a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
+        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+        a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
+        a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
+    )
 
 
 def rotate(q: Quaternion, v: Vector) -> Vector:

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The particles of a job as hexahedra for scikit-fem: one element a particle, and degrees of freedom that are one across a period."""
+"""The particles of a job as hexahedra for scikit-fem: one element a particle, and degrees of freedom that are one
+across a period."""
+
 from __future__ import annotations
 
 from typing import Any
@@ -30,7 +32,8 @@ class Lattice:
         self.particle_of_cell = taken[tuple(middle.T)]  # -1 where there is none
 
     def mesh(self, wanted: Any) -> tuple[Any, Any]:
-        """@param wanted (particles,) which particles get an element. @return the mesh and the particle of each element"""
+        """@param wanted (particles,) which particles get an element. @return the mesh and the particle of each
+        element"""
         particle = self.particle_of_cell
         inside = self.np.nonzero((particle >= 0) & wanted[particle])[0]
         return self.box.restrict(inside), particle[inside]
@@ -43,7 +46,9 @@ class Lattice:
 
         @param places (3, dofs) [m]   @param component (dofs,) 0 for a scalar"""
         np, scene, dx = self.np, self.job.scene, self.spacing
-        at = np.rint((places.T - [side[0] for side in self.sides]) / (0.25 * dx)).astype(int)  # half nodes of quadratic elements too
+        at = np.rint((places.T - [side[0] for side in self.sides]) / (0.25 * dx)).astype(
+            int
+        )  # half nodes of quadratic elements too
         for axis, name in enumerate("xyz"):
             length = scene["max"][axis] - scene["min"][axis] if scene["max"] else 0.0
             cells = len(self.sides[axis]) - 1

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Linear elasticity of small strains on scikit-fem's elements, by the trapezoidal rule in time, which keeps the energy of a linear body.
+"""Linear elasticity of small strains on scikit-fem's elements, by the trapezoidal rule in time, which keeps the energy
+of a linear body.
 
-What is fixed holds the nodes of its faces. A free rigid body moves its nodes by a translation and a small rotation of its own."""
+What is fixed holds the nodes of its faces. A free rigid body moves its nodes by a translation and a small rotation of
+its own."""
+
 from __future__ import annotations
 
 from typing import Any
@@ -40,7 +43,9 @@ class Solid:
 
         basis = skfem.Basis(mesh, skfem.ElementVector(getattr(skfem, element)()))
         cells = basis.with_element(skfem.ElementVector(skfem.ElementHex0()))
-        stiffness = skfem.BilinearForm(lambda u, v, w: lam * trace(sym_grad(u)) * trace(sym_grad(v)) + 2.0 * mu * ddot(sym_grad(u), sym_grad(v)))
+        stiffness = skfem.BilinearForm(
+            lambda u, v, w: lam * trace(sym_grad(u)) * trace(sym_grad(v)) + 2.0 * mu * ddot(sym_grad(u), sym_grad(v))
+        )
         mass = skfem.BilinearForm(lambda u, v, w: rho * dot(u, v))
         content = skfem.BilinearForm(lambda u, v, w: dot(u, v))
         gravity = np.array(job.scene["gravity"], float)
@@ -112,7 +117,9 @@ class Solid:
             own[dofs] = 0.0
             arm = place[dofs] - np.array(body["centre"], float)
             for k in range(3):
-                columns.append(sparse.csr_matrix(((axis[dofs] == k) * 1.0, (dofs, np.zeros(len(dofs), int))), (count, 1)))
+                columns.append(
+                    sparse.csr_matrix(((axis[dofs] == k) * 1.0, (dofs, np.zeros(len(dofs), int))), (count, 1))
+                )
                 turn = np.cross(np.eye(3)[k], arm)[np.arange(len(dofs)), axis[dofs]]
                 columns.append(sparse.csr_matrix((turn, (dofs, np.zeros(len(dofs), int))), (count, 1)))
         return sparse.hstack([sparse.diags(own).tocsr()] + columns).tocsr()
@@ -120,7 +127,9 @@ class Solid:
     def factor(self, matrix: Any) -> Any:
         from scipy.sparse.linalg import splu
 
-        return splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}).solve
+        return splu(
+            matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+        ).solve
 
     def advance(self, dt: float, count: int) -> None:
         """`count` steps of dt [s]: u1 = u0 + dt (v0 + v1)/2, M (v1 - v0) = dt (f - K (u0 + u1)/2)."""

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""trajectory.h5 (H5MD 1.1, docs/trajectory.md) of an engine whose particles are the job's: liquid, walls and one free body."""
+"""trajectory.h5 (H5MD 1.1, docs/trajectory.md) of an engine whose particles are the job's: liquid, walls and one free
+body."""
+
 from __future__ import annotations
 
 from collections.abc import Iterable
@@ -17,7 +19,9 @@ class Frame(NamedTuple):
     velocity: Any  # (n, 3) [m/s]
     density: Any  # (n,) [kg/m3]
     pressure: Any  # (n,) [Pa]
-    pose: tuple[Any, Any, Any, Any] | None  # of the free body, None at the start: centre [m], turn (w, x, y, z) from the start, velocity [m/s], spin [rad/s]
+    pose: (
+        tuple[Any, Any, Any, Any] | None
+    )  # of the free body, None at the start: centre [m], turn (w, x, y, z) from the start, velocity [m/s], spin [rad/s]
 
 
 def turned(turn: Any, arms: Any) -> Any:
@@ -42,20 +46,37 @@ class Bodies:
     def place(self, frame: Frame) -> dict[str, Any]:
         """Columns of /particles/bodies; the free body's particles are moved in `frame` itself."""
         np, count = self.np, len(self.solid)
-        rows = {"position": np.array([body["centre"] for body in self.solid]).reshape(count, 3), "velocity": np.zeros((count, 3)),
-                "angular_velocity": np.zeros((count, 3)), "orientation": np.tile([1.0, 0.0, 0.0, 0.0], (count, 1)),
-                "mass": np.array([body["mass"] for body in self.solid])}
+        rows = {
+            "position": np.array([body["centre"] for body in self.solid]).reshape(count, 3),
+            "velocity": np.zeros((count, 3)),
+            "angular_velocity": np.zeros((count, 3)),
+            "orientation": np.tile([1.0, 0.0, 0.0, 0.0], (count, 1)),
+            "mass": np.array([body["mass"] for body in self.solid]),
+        }
         if self.free is not None and frame.pose:
             centre, turn, velocity, spin = frame.pose
             own = self.start["body"] == self.solid[self.free]["index"]
             arms = turned(turn, self.start["position"][own] - rows["position"][self.free])
             frame.position[own], frame.velocity[own] = centre + arms, velocity + np.cross(spin, arms)
-            for name, value in (("position", centre), ("velocity", velocity), ("angular_velocity", spin), ("orientation", turn)):
+            for name, value in (
+                ("position", centre),
+                ("velocity", velocity),
+                ("angular_velocity", spin),
+                ("orientation", turn),
+            ):
                 rows[name][self.free] = value
         return rows
 
 
-UNITS = {"position": "m", "velocity": "m s-1", "angular_velocity": "rad s-1", "orientation": "1", "mass": "kg", "density": "kg m-3", "pressure": "Pa"}
+UNITS = {
+    "position": "m",
+    "velocity": "m s-1",
+    "angular_velocity": "rad s-1",
+    "orientation": "1",
+    "mass": "kg",
+    "density": "kg m-3",
+    "pressure": "Pa",
+}
 
 
 def write_frames(path: Path, job: Job, start: dict[str, Any], frames: Iterable[Frame]) -> None:
@@ -64,7 +85,13 @@ def write_frames(path: Path, job: Job, start: dict[str, Any], frames: Iterable[F
     import numpy as np
 
     bodies, count = Bodies(job, start), len(start["mass"])
-    fixed = {"mass": start["mass"], "id": np.arange(count), "phase": start["phase"], "body": start["body"], "material": start["material"]}
+    fixed = {
+        "mass": start["mass"],
+        "id": np.arange(count),
+        "phase": start["phase"],
+        "body": start["body"],
+        "material": start["material"],
+    }
     with h5py.File(path, "w") as file:
         file.create_group("h5md").attrs["version"] = np.array([1, 1], dtype="i4")
         file.create_group("h5md/author").attrs["name"] = "tripoint"
@@ -74,7 +101,14 @@ def write_frames(path: Path, job: Job, start: dict[str, Any], frames: Iterable[F
             value = np.asarray(value)
             if name not in file:
                 kind = "i4" if value.dtype.kind == "i" else "f8"
-                made = file.create_dataset(name, (0, *value.shape), kind, maxshape=(None, *value.shape), chunks=(1, *(max(1, n) for n in value.shape)), fletcher32=True)
+                made = file.create_dataset(
+                    name,
+                    (0, *value.shape),
+                    kind,
+                    maxshape=(None, *value.shape),
+                    chunks=(1, *(max(1, n) for n in value.shape)),
+                    fletcher32=True,
+                )
                 if unit:
                     made.attrs["unit"] = unit
             data = file[name]

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A job as a scene of SPlisHSPlasH: what is refused, its files, and the particles of its walls.
 
-SPlisHSPlasH has gravity along -y, so that a job's (x, y, z) becomes (x, z, -y). The liquid and all walls are the job's own particles.
-It has no periodic directions: where a scene is its own mirror image along one, two walls of particles that slip stand for it, which is
-exact for the equations."""
+SPlisHSPlasH has gravity along -y, so that a job's (x, y, z) becomes (x, z, -y). The liquid and all walls are the job's
+own particles. It has no periodic directions: where a scene is its own mirror image along one, two walls of particles
+that slip stand for it, which is exact for the equations."""
+
 from __future__ import annotations
 
 import json
@@ -13,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from contract import Job
-from rotation import Vector, add, norm, quaternion, rotate, scaled, vector
+from rotation import Vector, add, norm, quaternion, rotate, vector
 
 LAYERS = 2  # of a wall that stands for a periodic direction: the kernel's support is two spacings
 EARTH = 9.81  # [m/s2]: the only gravity that its rigid bodies know
@@ -30,6 +31,7 @@ def from_engine(values: Any) -> Any:
 
 def mirrored(shape: dict[str, Any], axis: int, middle: float, slack: float) -> bool:
     """Whether a shape is surely its own mirror image in the plane where the axis is `middle` [m]."""
+
     def parts(key: str) -> bool:
         return all(mirrored(part, axis, middle, slack) for part in shape[key])
 
@@ -125,11 +127,17 @@ def refuse_scene(job: Job) -> str:
     if len(free) > 1:
         return f"contact between bodies is not handed to SPlisHSPlasH, and {free[0]} and {free[1]} may touch"
     if free and norm(add(vector(scene["gravity"]), (0.0, 0.0, EARTH))) > 1e-9:
-        return f"rigid bodies of SPlisHSPlasH fall by 9.81 m/s2 along its -y, whatever gravity its liquid has, and {free[0]} is free"
+        return (
+            "rigid bodies of SPlisHSPlasH fall by 9.81 m/s2 along its -y, whatever gravity its liquid has, and "
+            f"{free[0]} is free"
+        )
     if reason := refuse_periodic(job):
         return reason
     if friction_is_mixed(job) and liquid["viscosity"] > 0.0 and "viscosityBoundary" not in job.settings:
-        return "SPlisHSPlasH has one viscosityBoundary for all walls, and here some slip and some do not; the setting viscosityBoundary chooses"
+        return (
+            "SPlisHSPlasH has one viscosityBoundary for all walls, and here some slip and some do not; the "
+            "setting viscosityBoundary chooses"
+        )
     return ""
 
 
@@ -142,7 +150,14 @@ def write_particles(path: Path, places: Any) -> None:
     path.write_bytes(b"BgeoV" + struct.pack(">9i", 5, len(rows), 0, 0, 0, 0, 0, 0, 0) + rows.astype(">f4").tobytes())
 
 
-FACES = ((1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (3, 7, 8, 4), (1, 5, 7, 3), (2, 4, 8, 6))  # corners of a box, seen from outside
+FACES = (
+    (1, 3, 4, 2),
+    (5, 6, 8, 7),
+    (1, 2, 6, 5),
+    (3, 7, 8, 4),
+    (1, 5, 7, 3),
+    (2, 4, 8, 6),
+)  # corners of a box, seen from outside
 
 
 def write_box(path: Path, corners: list[Vector]) -> None:
@@ -154,17 +169,21 @@ def write_box(path: Path, corners: list[Vector]) -> None:
 
 
 def corners_of(half: Vector) -> list[Vector]:
-    return [((-half[0], half[0])[k & 1], (-half[1], half[1])[k >> 1 & 1], (-half[2], half[2])[k >> 2]) for k in range(8)]
+    return [
+        ((-half[0], half[0])[k & 1], (-half[1], half[1])[k >> 1 & 1], (-half[2], half[2])[k >> 2]) for k in range(8)
+    ]
 
 
 def equal_box(mass: float, inertia: Vector) -> Vector:
     """Half lengths [m] of the box that has this mass [kg] and these principal moments [kg m2]."""
     whole = sum(inertia)
-    return tuple(0.5 * math.sqrt(6.0 * (whole - 2.0 * moment) / mass) for moment in inertia)  # type: ignore[return-value]
+    # type: ignore[return-value]
+    return tuple(0.5 * math.sqrt(6.0 * (whole - 2.0 * moment) / mass) for moment in inertia)
 
 
 def side_walls(job: Job, places: Any) -> Any:
-    """Particles of the walls that stand for periodic directions, (n, 3) [m]: where the lattice goes on beyond the sides.
+    """Particles of the walls that stand for periodic directions, (n, 3) [m]: where the lattice goes on beyond the
+    sides.
 
     @param places of all particles of the job"""
     import numpy as np
@@ -196,31 +215,64 @@ class Files:
         self.folder = folder
         folder.mkdir(exist_ok=True)
         with h5py.File(job.particles) as file:
-            self.start = {key: file[f"particles/all/{key}/value"][0] for key in ("position", "velocity", "mass", "phase", "body", "material")}
+            self.start = {
+                key: file[f"particles/all/{key}/value"][0]
+                for key in ("position", "velocity", "mass", "phase", "body", "material")
+            }
         materials = {material["name"]: material for material in job.scene["materials"]}
         self.liquid = np.nonzero(self.start["phase"] == 0)[0]
         material = next(materials[body["material"]] for body in job.bodies if body["phase"] == "liquid")
         write_particles(folder / "liquid.bgeo", to_engine(self.start["position"][self.liquid]))
         bodies = [body for body in job.bodies if body["phase"] == "rigid"]
-        bodies.sort(key=lambda body: body["motion"] == "free")  # it ends by a signal where a body that moves stands before one that does not
-        blocks = [self.fixed(f"b{k}", self.start["position"][self.start["body"] == body["index"]]) for k, body in enumerate(bodies) if body["motion"] == "fixed"]
+        bodies.sort(
+            key=lambda body: body["motion"] == "free"
+        )  # it ends by a signal where a body that moves stands before one that does not
+        blocks = [
+            self.fixed(f"b{k}", self.start["position"][self.start["body"] == body["index"]])
+            for k, body in enumerate(bodies)
+            if body["motion"] == "fixed"
+        ]
         if job.scene["periodic"]:
             blocks.append(self.fixed("sides", side_walls(job, self.start["position"])))
         blocks += [self.free(body) for body in bodies if body["motion"] == "free"]
         self.free_body = next((body for body in bodies if body["motion"] == "free"), None)
         viscosity = {"viscosity": material["viscosity"] / material["density"], "viscosityBoundary": boundary_viscosity}
-        scene = {"Configuration": configuration,
-                 "Materials": [{"id": "Fluid", "density0": material["density"], "viscosityMethod": 1, "Standard viscosity": viscosity}],
-                 "FluidModels": [{"id": "Fluid", "particleFile": "liquid.bgeo", "translation": [0, 0, 0], "scale": [1, 1, 1],
-                                  "rotationAxis": [1, 0, 0], "rotationAngle": 0}],
-                 "RigidBodies": blocks}
+        scene = {
+            "Configuration": configuration,
+            "Materials": [
+                {"id": "Fluid", "density0": material["density"], "viscosityMethod": 1, "Standard viscosity": viscosity}
+            ],
+            "FluidModels": [
+                {
+                    "id": "Fluid",
+                    "particleFile": "liquid.bgeo",
+                    "translation": [0, 0, 0],
+                    "scale": [1, 1, 1],
+                    "rotationAxis": [1, 0, 0],
+                    "rotationAngle": 0,
+                }
+            ],
+            "RigidBodies": blocks,
+        }
         (folder / "scene.json").write_text(json.dumps(scene), encoding="ascii")
 
     def block(self, name: str, places: Any, moves: bool, density: float) -> dict[str, Any]:
         write_particles(self.folder / f"{name}.bgeo", to_engine(places))
-        return {"geometryFile": f"{name}.obj", "particleFile": f"{name}.bgeo", "translation": [0, 0, 0], "scale": [1, 1, 1],
-                "rotationAxis": [1, 0, 0], "rotationAngle": 0, "isDynamic": moves, "isWall": not moves, "density": density,
-                "collisionObjectType": 0, "mapInvert": False, "mapThickness": 0.0, "mapResolution": [5, 5, 5]}
+        return {
+            "geometryFile": f"{name}.obj",
+            "particleFile": f"{name}.bgeo",
+            "translation": [0, 0, 0],
+            "scale": [1, 1, 1],
+            "rotationAxis": [1, 0, 0],
+            "rotationAngle": 0,
+            "isDynamic": moves,
+            "isWall": not moves,
+            "density": density,
+            "collisionObjectType": 0,
+            "mapInvert": False,
+            "mapThickness": 0.0,
+            "mapResolution": [5, 5, 5],
+        }
 
     def fixed(self, name: str, places: Any) -> dict[str, Any]:
         write_box(self.folder / f"{name}.obj", corners_of((1.0, 1.0, 1.0)))  # only drawn

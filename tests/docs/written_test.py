@@ -36,8 +36,12 @@ class Pages(unittest.TestCase):
         for name in ("job", "result"):
             command = f"tripoint schema --{name} --page"
             self.assertIn(f"    {command}", page)
-            printed = subprocess.run([TRIPOINT, *command.split()[1:]], capture_output=True, text=True, check=True).stdout
-            schema = subprocess.run([TRIPOINT, "schema", f"--{name}"], capture_output=True, text=True, check=True).stdout
+            printed = subprocess.run(
+                [TRIPOINT, *command.split()[1:]], capture_output=True, text=True, check=True
+            ).stdout
+            schema = subprocess.run(
+                [TRIPOINT, "schema", f"--{name}"], capture_output=True, text=True, check=True
+            ).stdout
             for key in json.loads(schema)["properties"]:
                 self.assertIn(f"| `{key}` |", printed)
 
