@@ -5,7 +5,7 @@ first and on top, in its own colour.
 
 from __future__ import annotations
 
-STRANGERS = 10  # curves beside the truth that a picture holds
+OTHERS = 10  # curves beside the truth that a picture holds
 PRINTED = " as printed"  # our own solver by the paper's equations
 ALIKE = 0.01  # of the range of all curves: nearer ones lie on each other
 
@@ -89,11 +89,11 @@ def looks_of(labels, own):
 
 
 def chosen(curves, own):
-    """(curves to draw, labels left out): own ones first, printed forms last, at most STRANGERS."""
+    """(curves to draw, labels left out): own ones first, printed forms last, at most OTHERS."""
     ordered = sorted(alike(curves, own), key=lambda entry: (not is_own(entry[0], own), entry[0].endswith(PRINTED)))
     printed = [entry for entry in ordered if entry[0].endswith(PRINTED)]
     others = [entry for entry in ordered if entry not in printed]
-    room = STRANGERS - len(printed)
+    room = OTHERS - len(printed)
     return others[:room] + printed, [label for label, _ in others[room:]]
 
 

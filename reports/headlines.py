@@ -72,18 +72,18 @@ def spin(results, out):
     if case is None:
         return None
     sides = turned_against_exact(results, case)
-    strangers, printed = spins_of(case, sides), spins_of(case, sides, printed=True)
-    if not strangers:
+    others, printed = spins_of(case, sides), spins_of(case, sides, printed=True)
+    if not others:
         return None
-    right = [label for angle, label, _, _ in strangers if angle < 0.01]
-    steps = sorted({step for _, _, _, step in strangers + printed})
+    right = [label for angle, label, _, _ in others if angle < 0.01]
+    steps = sorted({step for _, _, _, step in others + printed})
     end = (
         f"after 10 s of tumbling at {'a step' if len(steps) == 1 else 'steps'} of {join(steps)}, "
-        f"{of_all(len(right), len(strangers))} {'(without our printed form) ' if printed else ''}point within 0.01 "
+        f"{of_all(len(right), len(others))} {'(without our printed form) ' if printed else ''}point within 0.01 "
         "rad of the truth"
     )
-    wrong = [(angle, label) for angle, label, _, _ in strangers if angle > 0.1]
-    far = f"; {strangers[-1][1]} is {strangers[-1][0]:.4g} rad off" if strangers[-1][0] >= 0.01 else ""
+    wrong = [(angle, label) for angle, label, _, _ in others if angle > 0.1]
+    far = f"; {others[-1][1]} is {others[-1][0]:.4g} rad off" if others[-1][0] >= 0.01 else ""
     if wrong[:-1]:
         far += ", " + join([f"{label} {angle:.2g}" for angle, label in reversed(wrong[:-1])])
     own = "".join(f"; {label} is {angle:.4g} rad off" for angle, label, _, _ in printed)
@@ -120,7 +120,7 @@ def spin(results, out):
         ["engine", "time step", "angle error [rad]", "[degrees]", "along its spin", "energy error", "order"],
         [
             Line(label, cells, "pass" if angle < 0.01 else "fail" if angle > 0.1 else "open")
-            for angle, label, cells, _ in sorted(strangers + printed)
+            for angle, label, cells, _ in sorted(others + printed)
         ],
         cases=[c for c in (case, case_of(results, "rigid/precession")) if c is not None],
         notes=[

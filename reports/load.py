@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reads results.json.
 
-The file may come from a stranger, from an older version or from a run that broke off: a key that is missing or of the
+The file may come from a third party, from an older version or from a run that broke off: a key that is missing or of the
 wrong kind becomes a note on the page, never an exception.
 """
 

@@ -33,9 +33,9 @@ ROOT = Path(__file__).resolve().parent.parent
 
 # Tests: a program and the filters in the order in which they are tried. The first leaves out what starts processes.
 METRICS, REFERENCES = ("metrics", ["*"]), ("references", ["-Collapse*", "Collapse*"])  # the mesh takes ten times as long as all others
-PROCESSES = "Ends/*:Files/*:Lies/*:Starts*:StrangerReader*:ForkStorm*:Uncertainty.OfAnInput*:StaleOutput*"
-SLOW = "Process*:Kills*:Engines*:Instructions*:Timing*:*Hostile*:NeverFails*:Harmless*"
-HARNESS = ("harness", [f"-{PROCESSES}:{SLOW}", "NeverFailsGate*", PROCESSES, "NeverFails*:Harmless*:*Hostile*:Timing*:-NeverFailsGate*"])
+PROCESSES = "Ends/*:Files/*:Lies/*:Starts*:ThirdPartyReader*:ForkStorm*:Uncertainty.OfAnInput*:StaleOutput*"
+SLOW = "Process*:Kills*:Engines*:Instructions*:Timing*:*Hostile*:NeverFails*:Invariance*"
+HARNESS = ("harness", [f"-{PROCESSES}:{SLOW}", "NeverFailsGate*", PROCESSES, "NeverFails*:Invariance*:*Hostile*:Timing*:-NeverFailsGate*"])
 FAST = 2  # of the filters: the rest starts a process for each test
 TWINS = ("print-reference-values", ["tests/references/twins.py"])  # not GoogleTest: a script computes again what the program prints
 # A room: its files, and the tests that cover it.

@@ -120,7 +120,7 @@ std::string executable_of(const std::string& word) {
 }
 
 int check(const std::string& word, bool sandbox) {
-  if (sandbox) sandbox_strangers("");
+  if (sandbox) sandbox_third_parties("");
   bool good = true;
   for (const auto& c : check_engine(executable_of(word))) {
     print_line(fmt::format("{}  {}{}", c.passed ? "ok   " : "FAILS", c.what, c.found.empty() ? "" : ": " + c.found));

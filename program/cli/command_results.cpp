@@ -39,7 +39,7 @@ std::string finish(const Results& results, const std::string& out, bool pdf = fa
 }
 
 int merge(const std::vector<std::string>& folders, const std::string& out, bool sandbox) {
-  if (sandbox) sandbox_strangers(out);
+  if (sandbox) sandbox_third_parties(out);
   auto results = merge_shards(folders);
   const auto lock = hold_folder(out);
   copy_runs_of_shards(folders, out);
@@ -55,7 +55,7 @@ int report(const std::string& path_or_folder, bool pdf, bool sandbox) {
   auto results = read_results(path);
   judge(results);
   const auto folder = std::filesystem::path(path).parent_path();
-  if (sandbox) sandbox_strangers(folder.string());
+  if (sandbox) sandbox_third_parties(folder.string());
   return finish(results, folder.empty() ? "." : folder.string(), pdf).empty() ? exit_pass : exit_missing;
 }
 

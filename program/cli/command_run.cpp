@@ -252,7 +252,7 @@ int run(RunOptions o) {
   const Case& value = reading.value;
   fill_in(o, value);
   const auto words = sort_engine_words({o.engine});
-  if (o.sandbox) sandbox_strangers(o.out);
+  if (o.sandbox) sandbox_third_parties(o.out);
   const auto engines = discover_engines(words.paths);
   const auto plan = plan_for(value, engines, words.paths.empty() ? o.engine : ask_engine(words.paths.front()).name);
   const Scene scene = scene_of(value, plan.runs.front());

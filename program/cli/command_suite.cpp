@@ -143,7 +143,7 @@ int make(MakeOptions o) {
   queue.command = command_line();
   queue.engine_words = o.engine;
   const auto cases = select_cases(queue.filter);
-  if (o.sandbox) sandbox_strangers(o.dir);
+  if (o.sandbox) sandbox_third_parties(o.dir);
   const auto engines = engines_asked_for(o.engines, o.engine, queue.selection);
   std::map<std::string, double> costs;
   if (!o.costs.empty()) costs = measured_costs(read_results(results_file(o.costs)));
@@ -170,7 +170,7 @@ int run_worker(const std::string& typed, const std::string& shard, WorkOptions o
   o.say = [](const std::string& line) { say(line); };
   const auto start = std::chrono::steady_clock::now();
   go_to_its_folder(opened);
-  if (sandbox) sandbox_strangers(opened.dir);
+  if (sandbox) sandbox_third_parties(opened.dir);
   const auto done = work(opened.dir, opened.queue, engines_of(opened.queue, o.rows), o);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   print_line(fmt::format("{}: {} of {} jobs made here in {:.1f} s, {} of them failed, {} taken over; {} are not finished", typed,
@@ -190,7 +190,7 @@ int merge(const std::string& typed, const std::string& out, bool page, bool json
   const auto opened = open(typed);
   const auto folder = out.empty() ? opened.dir : fs::absolute(out).lexically_normal().string();
   const auto lock = hold_folder(folder);
-  if (sandbox) sandbox_strangers(folder);
+  if (sandbox) sandbox_third_parties(folder);
   set_aside_report(folder);
   std::function<void(const CaseResult&)> on_case;
   if (!json) on_case = [](const CaseResult& c) { print(case_line(c) + "\n"); };

@@ -173,11 +173,11 @@ void keep_history(Results& results, const ValidateOptions& o) {
 /// Limits with so much room that `gate` does not pass them: a call that is green would otherwise not mention them. Empty where
 /// there are none.
 std::string loose_limits(const Results& results, const std::string& out) {
-  const auto remarks = slack_remarks(results);
+  const auto remarks = headroom_remarks(results);
   const auto count = std::count_if(remarks.begin(), remarks.end(), [](const Remark& r) { return r.error; });
   if (count == 0) return {};
   return fmt::format("loose: {} limit{} more than {:g} times what was measured: tripoint gate {} names {}, and does not pass\n",
-                     count, count == 1 ? " is" : "s are", slack_fails, one_line(out), count == 1 ? "it" : "them");
+                     count, count == 1 ? " is" : "s are", headroom_fails, one_line(out), count == 1 ? "it" : "them");
 }
 
 int validate(ValidateOptions o) {
@@ -185,7 +185,7 @@ int validate(ValidateOptions o) {
   fit_threads(o.suite);
   auto lock = hold_earlier(o.suite.out);
   choose_cases(o);
-  if (o.sandbox) sandbox_strangers(o.suite.out);
+  if (o.sandbox) sandbox_third_parties(o.suite.out);
   auto cases = cases_of(o, lock.has_value());
   const auto engines = engines_asked_for(o.engines, o.engine, o.suite.selection);
   if (o.profile == "acceptance") add_all_presets(cases, engines, o.suite.selection.asked);

@@ -65,7 +65,7 @@ struct EngineWords {
 /// A results.json, or that of the folder of a report. @throws InputError where neither is there
 [[nodiscard]] std::string results_file(const std::string& path);
 
-/// The switch --sandbox. Where it is wanted, sandbox_strangers() is called before the first engine is asked.
+/// The switch --sandbox. Where it is wanted, sandbox_third_parties() is called before the first engine is asked.
 void add_sandbox_flag(CLI::App& command, bool& wanted);
 
 /// Makes the folder of --out before anything runs. @throws InputError that says why it cannot be made or written to

@@ -7,7 +7,7 @@
 
 #include "core/errors.hpp"
 
-/// A copy of this process reads files of strangers; it can do nothing but read and hand bytes back. No library is sure to survive
+/// A copy of this process reads third-party files; it can do nothing but read and hand bytes back. No library is sure to survive
 /// every file: one that it does not survive costs a copy. Code that a file brings along finds no network, no program to start, no
 /// process to signal and no file to write.
 namespace tripoint {

@@ -61,7 +61,7 @@ void try_toml_files(const std::vector<std::string>& files, double limit = 30.0);
 /// @throws InputError also when the file is not there, no regular file, empty or above the bound
 [[nodiscard]] TomlNode read_toml(const std::string& file);
 
-/// Bounds on a stranger's text before a parser sees it: size, line length, control bytes, length of dotted keys. Also nesting by
+/// Bounds on third-party text before a parser sees it: size, line length, control bytes, length of dotted keys. Also nesting by
 /// brackets and dots together, and a comma where a value belongs. @throws InputError with line and column
 void check_size(std::size_t bytes, const std::string& file);
 void check_text(std::string_view text, const std::string& file);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A stranger's engine under --sandbox: it answers as it does outside, and reaches neither the network, nor the user's
+"""A third-party engine under --sandbox: it answers as it does outside, and reaches neither the network, nor the user's
 files, nor a token, nor another run."""
 
 import ctypes
@@ -71,7 +71,7 @@ def namespaces_are_allowed():
 
 
 def one_folder_can_be_shown():
-    """Landlock, without which nothing of a stranger is read under --sandbox. 444: landlock_create_ruleset, asked for
+    """Landlock, without which nothing of a third party is read under --sandbox. 444: landlock_create_ruleset, asked for
     its version."""
     return ctypes.CDLL(None, use_errno=True).syscall(444, None, ctypes.c_size_t(0), ctypes.c_uint(1)) > 0
 
@@ -258,7 +258,7 @@ if sys.argv[1] == "--run":
             self.assertEqual({file.read_text() for file in out.rglob("seen.txt")}, {seen}, done.stderr)
 
     def test_who_draws_the_page_changes_no_result_and_sees_no_other_file(self):
-        """A program in place of Python's does what code in a stranger's trajectory would; then it draws the page."""
+        """A program in place of Python's does what code in a third-party trajectory would; then it draws the page."""
         python = self.folder / "python/bin/python3"
         python.parent.mkdir(parents=True)
         out = self.folder / "out"

@@ -18,7 +18,7 @@ from the files. Then it looks:
 - nothing hangs, no process is left behind, and nothing ends by a signal but the one that we sent (a process without
 memory may: the libraries below it do).
 
---what suite is `tripoint validate` of one case, and then that of two engines, one of them a stranger's, where calls
+--what suite is `tripoint validate` of one case, and then that of two engines, one of them third-party, where calls
 about children fail.
 Exit: 0 all of it held, 1 something did not, with the command that shows it again.
 """
@@ -269,7 +269,7 @@ class Suite:
 
 
 class Children(Suite):
-    """`tripoint validate` of one case on two engines that must not be missing, one of them a stranger's: what it wrote
+    """`tripoint validate` of one case on two engines that must not be missing, one of them third-party: what it wrote
     is read by a copy first."""
 
     name = "children"

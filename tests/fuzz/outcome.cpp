@@ -27,7 +27,7 @@ class EndedRun {
   EndedRun() {
     ::mkdir((folder_ / "engine").c_str(), 0777);
     ::mkdir((folder_ / "engine/run").c_str(), 0777);
-    engine_.executable = "/usr/bin/false";  // of others: what it left is read as a stranger's
+    engine_.executable = "/usr/bin/false";  // of others: what it left is read as a third party's
     request.engine = &engine_;
     request.folder = folder_ / "engine/run";
     request.particles = folder_ / "particles.h5";

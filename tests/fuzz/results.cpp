@@ -30,7 +30,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::expect((results.verdict == CaseVerdict::pass) <= (results.exit_code == 0), "PASS ends with 0");
     for (const auto& c : results.cases) fuzz::expect(has_number_for_each_pass(c), "no gate passes a number that is not there");
     static_cast<void>(annotations_text(verdict_remarks(results)));
-    static_cast<void>(slack_remarks(results));
+    static_cast<void>(headroom_remarks(results));
     static_cast<void>(results_text(results));
   } catch (const InputError&) {
   }

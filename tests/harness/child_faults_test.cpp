@@ -211,7 +211,7 @@ TEST(Starts, AChildWithoutAPipeIsNotStarted) {
 TEST(Starts, AForeignFileIsNotReadWhereNoCopyCanTryIt) {
   int done = 0;
   forks.plan(1, EAGAIN);
-  EXPECT_THROW(try_of_stranger([&] { ++done; }, {"a file"}, 5.0), EngineError);
+  EXPECT_THROW(try_of_third_party([&] { ++done; }, {"a file"}, 5.0), EngineError);
   forks.plan(0, 0);
   EXPECT_EQ(done, 0);
 }
@@ -328,7 +328,7 @@ TEST_F(EndsThrownAway, AreKeptByWhoStartsAnEngine) {
 }
 
 TEST_F(EndsThrownAway, AreKeptByWhoTriesAFile) {
-  EXPECT_THROW(try_of_stranger([] { ::raise(SIGSEGV); }, {"a file"}, 5.0), EngineError);
+  EXPECT_THROW(try_of_third_party([] { ::raise(SIGSEGV); }, {"a file"}, 5.0), EngineError);
 }
 
 TEST(ForkStorm, EndsWithItsRun) {

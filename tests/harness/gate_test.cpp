@@ -61,22 +61,22 @@ TEST(Remarks, WhatWouldEndAWorkflowCommandIsEscaped) {
 }
 
 TEST(Slack, ALimitThreeTimesTheErrorWarnsAndTenTimesFails) {
-  EXPECT_TRUE(slack_remarks(used(0.05, 0.1)).empty());
-  EXPECT_FALSE(slack_remarks(used(0.02, 0.1)).at(0).error);
-  EXPECT_TRUE(slack_remarks(used(0.009, 0.1)).at(0).error);
-  EXPECT_TRUE(slack_remarks(used(0.0, 0.1)).at(0).error);  // a metric that is dead is the slackest of all
+  EXPECT_TRUE(headroom_remarks(used(0.05, 0.1)).empty());
+  EXPECT_FALSE(headroom_remarks(used(0.02, 0.1)).at(0).error);
+  EXPECT_TRUE(headroom_remarks(used(0.009, 0.1)).at(0).error);
+  EXPECT_TRUE(headroom_remarks(used(0.0, 0.1)).at(0).error);  // a metric that is dead is the slackest of all
 }
 
 TEST(Slack, TheUncertaintyCountsAsUsed) {
   auto r = green();
   error(r) = value(0.001, 0.02);
-  EXPECT_TRUE(slack_remarks(judged(r)).empty());  // 0.1 over 0.041
+  EXPECT_TRUE(headroom_remarks(judged(r)).empty());  // 0.1 over 0.041
 }
 
 TEST(Slack, ADatedReasonIsShownAndDoesNotFail) {
   auto r = used(0.001, 0.1);
   r.cases[0].gates[0].date = "2026-11-21";
-  const auto remarks = slack_remarks(judged(r));
+  const auto remarks = headroom_remarks(judged(r));
   EXPECT_FALSE(remarks.at(0).error);
   EXPECT_NE(remarks[0].text.find("2026-11-21"), std::string::npos);
 }
@@ -88,16 +88,16 @@ TEST(Slack, TheRunThatUsesMostOfAGateDecides) {
   coarse.group = "coarse";
   engine(r).runs.push_back(coarse);
   error(r).value = 1e-4;
-  EXPECT_TRUE(slack_remarks(judged(r)).empty());
+  EXPECT_TRUE(headroom_remarks(judged(r)).empty());
 }
 
 TEST(Slack, LimitsOfRoundOffAndCountsHaveNoneToGive) {
-  EXPECT_TRUE(slack_remarks(used(1e-16, 1e-10)).empty());
-  EXPECT_FALSE(slack_remarks(used(1e-16, 1e-9)).empty());
+  EXPECT_TRUE(headroom_remarks(used(1e-16, 1e-10)).empty());
+  EXPECT_FALSE(headroom_remarks(used(1e-16, 1e-9)).empty());
   auto r = used(0.0, 0.5);
-  EXPECT_FALSE(slack_remarks(r).empty());
+  EXPECT_FALSE(headroom_remarks(r).empty());
   r.cases[0].metrics[0].quantity = "body_count";
-  EXPECT_TRUE(slack_remarks(r).empty());
+  EXPECT_TRUE(headroom_remarks(r).empty());
 }
 
 TEST(Slack, OrdersAndClassesHaveNoRoomToTighten) {
@@ -106,11 +106,11 @@ TEST(Slack, OrdersAndClassesHaveNoRoomToTighten) {
   row.verdict = Verdict::pass;
   row.value = 2.0;
   row.gate.at_least = 0.1;
-  EXPECT_FALSE(slack_of({}, row).has_value());
+  EXPECT_FALSE(headroom_of({}, row).has_value());
   row.metric = "error";
-  EXPECT_TRUE(slack_of({}, row).has_value());
+  EXPECT_TRUE(headroom_of({}, row).has_value());
   row.expect = FitClass::asymptotic;
-  EXPECT_FALSE(slack_of({}, row).has_value());
+  EXPECT_FALSE(headroom_of({}, row).has_value());
 }
 
 TEST(Slack, ABandIsAskedOnBothSides) {
@@ -118,7 +118,7 @@ TEST(Slack, ABandIsAskedOnBothSides) {
   auto& gate = r.cases[0].gates[0];
   gate.limit.reset();
   gate.band = {0.01, 0.06};
-  EXPECT_EQ(slack_of(r.cases[0], judged(r).cases[0].engines[0].gates[0]).value(), 5.0);  // 0.05 / 0.01
+  EXPECT_EQ(headroom_of(r.cases[0], judged(r).cases[0].engines[0].gates[0]).value(), 5.0);  // 0.05 / 0.01
 }
 
 TEST(GateVerdict, AddsWhatTheResultsDoNotSayOfThemselves) {

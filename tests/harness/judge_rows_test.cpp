@@ -372,7 +372,7 @@ TEST(JudgeSuite, HoldsEachPlannedCaseOnce) {
             "stopped by Ctrl-C: 0 of 1 planned cases are complete");
 }
 
-// --- slack ------------------------------------------------------------------------------------------------------------------
+// --- headroom --------------------------------------------------------------------
 
 TEST(SlackEdges, WarnsAboveThreeAndFailsAboveTen) {
   const auto remark = [](
@@ -383,7 +383,7 @@ TEST(SlackEdges, WarnsAboveThreeAndFailsAboveTen) {
     r.cases[0].gates[0].place = {"one.toml", 7, 3};
     change(r);
     judge(r);
-    const auto list = slack_remarks(r);
+    const auto list = headroom_remarks(r);
     if (list.empty()) return "";
     EXPECT_EQ(list[0].place.line, 7);
     EXPECT_EQ(list[0].excess, most / 0.125);

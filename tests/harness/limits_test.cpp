@@ -211,7 +211,7 @@ GateRow passed(double value, double u, const Gate& gate) {
 }
 
 TEST(SlackEdges, IsTheLimitOverWhatIsUsedAndWhatIsUsedOverTheLeast) {
-  const auto of = [](double value, double u, const Gate& gate) { return slack_of({}, passed(value, u, gate)).value_or(-1.0); };
+  const auto of = [](double value, double u, const Gate& gate) { return headroom_of({}, passed(value, u, gate)).value_or(-1.0); };
   EXPECT_DOUBLE_EQ(of(-0.25, 0.125, gate_of(2.0, {}, {})), 4.0);
   EXPECT_EQ(of(0.0, 0.0, gate_of(2.0, {}, {})), infinity);
   EXPECT_DOUBLE_EQ(of(3.0, 0.5, gate_of({}, 0.5, {})), 8.0);
@@ -225,7 +225,7 @@ TEST(SlackEdges, IsTheLimitOverWhatIsUsedAndWhatIsUsedOverTheLeast) {
   EXPECT_EQ(of(0.0, 0.0, gate_of(above(roundoff_limit), {}, {})), infinity);
   auto row = passed(0.1, 0.0, gate_of(1.0, {}, {}));
   row.verdict = Verdict::fail;
-  EXPECT_FALSE(slack_of({}, row).has_value());
+  EXPECT_FALSE(headroom_of({}, row).has_value());
 }
 
 TEST(SlackEdges, ACountUsesAHalfAtLeastUnlessItIsScaled) {
@@ -236,14 +236,14 @@ TEST(SlackEdges, ACountUsesAHalfAtLeastUnlessItIsScaled) {
   for (const char* count : {"body_count", "bonded_objects", "object_count", "phase_count", "event_count", "toggles"}) {
     c.metrics[0].quantity = count;
     c.metrics[0].scale = 1.0;
-    EXPECT_EQ(slack_of(c, row), 4.0) << count;
-    EXPECT_EQ(slack_of(c, passed(1.0, 0.0, gate_of(2.0, {}, {}))), 2.0) << count;
+    EXPECT_EQ(headroom_of(c, row), 4.0) << count;
+    EXPECT_EQ(headroom_of(c, passed(1.0, 0.0, gate_of(2.0, {}, {}))), 2.0) << count;
     c.metrics[0].scale = 2.0;
-    EXPECT_EQ(slack_of(c, row), infinity) << count;
+    EXPECT_EQ(headroom_of(c, row), infinity) << count;
   }
   c.metrics[0].name = "another";
   c.metrics[0].scale = 1.0;
-  EXPECT_EQ(slack_of(c, row), infinity);
+  EXPECT_EQ(headroom_of(c, row), infinity);
 }
 
 AcceptedGate accepted(std::optional<double> limit, std::optional<double> at_least, std::optional<std::array<double, 2>> band,

@@ -53,7 +53,7 @@ TEST(MergeRules, ADateToComeSilencesNothing) {
   error(r).value = 0.001;
   r.cases[0].gates[0].date = "9999-12-31";
   judge(r);
-  EXPECT_TRUE(slack_remarks(r).at(0).error);
+  EXPECT_TRUE(headroom_remarks(r).at(0).error);
 }
 
 TEST(MergeRules, AWideLimitIsNotLooseWhereAnotherGateHoldsTheValue) {
@@ -63,13 +63,13 @@ TEST(MergeRules, AWideLimitIsNotLooseWhereAnotherGateHoldsTheValue) {
   tight.place.line = 9;
   r.cases[0].gates.push_back(tight);
   judge(r);
-  EXPECT_TRUE(slack_remarks(r).empty());
+  EXPECT_TRUE(headroom_remarks(r).empty());
   r.cases[0].gates[1].limit = 0.05;
   judge(r);
-  EXPECT_EQ(slack_remarks(r).size(), 2u);
+  EXPECT_EQ(headroom_remarks(r).size(), 2u);
 }
 
-/// A case with a file below cases/test, an engine of strangers, and what was accepted of both.
+/// A case with a file below cases/test, a third-party engine, and what was accepted of both.
 struct Adopted {
   TestFolder folder;
   Results r = green();

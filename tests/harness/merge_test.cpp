@@ -25,8 +25,8 @@ std::string text_of(const std::string& path) {
 }
 
 /// Two shards with a file each, and a secret beside them.
-struct StrangersShards : ::testing::Test {
-  StrangersShards() {
+struct ThirdPartyShards : ::testing::Test {
+  ThirdPartyShards() {
     for (int k = 0; k < 2; ++k) {
       auto part = green();
       part.cases[0].id = "test/" + std::to_string(k);
@@ -60,7 +60,7 @@ struct StrangersShards : ::testing::Test {
   TestFolder folder;
 };
 
-TEST_F(StrangersShards, OfFilesAndFoldersAreCopiedWithTheirRuns) {
+TEST_F(ThirdPartyShards, OfFilesAndFoldersAreCopiedWithTheirRuns) {
   fs::create_hard_link(folder / "s0/runs/test/0/result.json", folder / "s0/runs/test/0/again.json");
   merge();
   EXPECT_EQ(text_of(folder / "out/runs/test/0/result.json"), "s0");
@@ -71,7 +71,7 @@ TEST_F(StrangersShards, OfFilesAndFoldersAreCopiedWithTheirRuns) {
   EXPECT_EQ(text_of(folder / "out/runs/test/1/result.json"), "made again");
 }
 
-TEST_F(StrangersShards, WithALinkAreRefusedByItsName) {
+TEST_F(ThirdPartyShards, WithALinkAreRefusedByItsName) {
   for (const std::string to : {"secret/text", "secret", "nowhere"}) {
     fs::create_symlink(folder / to, folder / "s1/runs/test/leak");
     expect_refused("s1/runs/test/leak");
@@ -79,7 +79,7 @@ TEST_F(StrangersShards, WithALinkAreRefusedByItsName) {
   }
 }
 
-TEST_F(StrangersShards, ThatAreLinksThemselvesAreRefusedByName) {
+TEST_F(ThirdPartyShards, ThatAreLinksThemselvesAreRefusedByName) {
   for (const std::string name : {"results.json", "runs"}) {
     fs::rename(folder / ("s1/" + name), folder / ("secret/" + name));
     fs::create_symlink(folder / ("secret/" + name), folder / ("s1/" + name));
@@ -89,7 +89,7 @@ TEST_F(StrangersShards, ThatAreLinksThemselvesAreRefusedByName) {
   }
 }
 
-TEST_F(StrangersShards, WithAPipeAreRefusedByItsName) {
+TEST_F(ThirdPartyShards, WithAPipeAreRefusedByItsName) {
   ASSERT_EQ(::mkfifo((folder / "s0/runs/pipe").c_str(), 0600), 0);
   expect_refused("s0/runs/pipe");
   fs::remove(folder / "s0/runs/pipe");

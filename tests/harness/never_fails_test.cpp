@@ -168,7 +168,7 @@ TEST(NeverFails, Way16AFailedRunAWrongUnitAndAShiftedTimeAxisAreSeen) {
 }
 
 /// A second engine beside ours that ran and was asked for; the case's gate is for `judged` alone.
-Results with_stranger(const std::string& judged) {
+Results with_third_party(const std::string& judged) {
   auto r = green();
   auto mine = engine(r);
   mine.name = "mine";
@@ -180,8 +180,8 @@ Results with_stranger(const std::string& judged) {
 }
 
 TEST(NeverFails, Way17AnEngineThatWasAskedForDoesNotPassUnjudged) {
-  EXPECT_EQ(exit_of(with_stranger("")), exit_pass);
-  auto r = with_stranger("tripoint");
+  EXPECT_EQ(exit_of(with_third_party("")), exit_pass);
+  auto r = with_third_party("tripoint");
   judge(r);
   EXPECT_EQ(r.exit_code, exit_missing);
   EXPECT_NE(r.problems.at(0).find("mine was asked for"), std::string::npos) << r.problems.at(0);
@@ -196,7 +196,7 @@ TEST(NeverFails, Way17AnEngineThatWasAskedForDoesNotPassUnjudged) {
 
 TEST(NeverFails, Way18AnEngineThatWasAskedForAndIsNotThereOrDidNotRunDoesNotPass) {
   for (const auto status : {Status::missing, Status::refused, Status::killed, Status::timeout, Status::error}) {
-    auto r = with_stranger("");
+    auto r = with_third_party("");
     auto& mine = r.cases[0].engines[1];
     mine.status = status;
     mine.reason = "why";
@@ -211,13 +211,13 @@ TEST(NeverFails, Way18AnEngineThatWasAskedForAndIsNotThereOrDidNotRunDoesNotPass
     ASSERT_FALSE(r.problems.empty()) << status;
     EXPECT_NE(r.problems[0].find("mine was asked for"), std::string::npos) << r.problems[0];
   }
-  auto r = with_stranger("");
+  auto r = with_third_party("");
   r.cases[0].engines.pop_back();  // nor is a row that was taken out of the results a pass
   EXPECT_EQ(exit_of(r), exit_missing);
 }
 
 TEST(NeverFails, Way19APartOfASuiteMayLeaveTheJudgingToAnotherAndTheWholeMayNot) {
-  auto r = with_stranger("tripoint");
+  auto r = with_third_party("tripoint");
   r.shard = "1/2";
   EXPECT_EQ(exit_of(r), exit_pass);
   r.shard = "1/1";

@@ -257,7 +257,7 @@ class Both(Claims):
                 self.assertRegex(link, r"^(index\.html|case/[\w-]+\.html|figures/[\w-]+\.svg)$")
             self.assertFalse({"script", "link", "iframe"} & read.tags)
 
-    def test_a_strangers_one_case_has_no_page_of_ours_but_that_case(self):
+    def test_a_third_party_case_has_no_page_of_ours_but_that_case(self):
         self.write(
             [
                 case_of(
@@ -269,7 +269,7 @@ class Both(Claims):
         self.assertEqual(self.files, {"index.html", "signable.html", "case/mine-first.html"})
         self.assertNotIn("Figure", Reader(self.index).text)
 
-    def test_text_of_strangers_is_text_and_values_of_the_wrong_kind_do_not_stop_them(self):
+    def test_third_party_text_is_text_and_values_of_the_wrong_kind_do_not_stop_them(self):
         hostile = "<script>alert(1)</script>"
         self.write(
             [

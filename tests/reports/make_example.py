@@ -3,7 +3,7 @@
 
 It stands in for a validation run where the report is developed and tested, so it holds every trouble a real one may
 have: an engine that is missing, refused, killed or diverged, a number that was not finite, a trajectory that is absent,
-and text of a stranger that looks like HTML. Numbers follow closed forms plus a known error of each engine.
+and third-party text that looks like HTML. Numbers follow closed forms plus a known error of each engine.
 """
 
 import json

@@ -208,13 +208,13 @@ class Page(unittest.TestCase):
         self.assertIn("temperature of particle 17 is not finite in stage rates at t = 0.004 s", spoilt)
         self.assertIn("signal 9 after 3.1 s", spoilt)
 
-    def test_text_of_strangers_is_text(self):
+    def test_third_party_text_is_text(self):
         self.assertNotIn("<script>alert", self.page)
         self.assertIn(
             html.escape(make_example.HOSTILE, quote=False).replace('"', "&#34;").replace("'", "&#39;"), self.page
         )
 
-    def test_no_control_character_of_a_stranger_reaches_a_page_or_a_table(self):
+    def test_no_control_character_of_a_third_party_reaches_a_page_or_a_table(self):
         evil = "\x1b[31m \x07 \x85 \x9b \u202e \u200b \ud800 end"
         data = json.loads(json.dumps(self.data))
         case = data["cases"][0]
@@ -410,7 +410,7 @@ class Trouble(unittest.TestCase):
             self.assertEqual(done.returncode, 0, f"{wrong!r}: {done.stderr}")
             self.assertTrue("200 %" in page, f"{wrong!r}")
 
-    def test_text_of_strangers_is_text_inside_figures_too(self):
+    def test_third_party_text_is_text_inside_figures_too(self):
         name, metric = "</text><script>alert(1)</script>", '$x_<img src="http://x">'
         runs = [
             {"knobs": {"spacing": dx}, "metrics": {metric: {"value": dx}}, "cost": {"cpu_s": 1 / dx}}

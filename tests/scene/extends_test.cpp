@@ -194,7 +194,7 @@ TEST_F(Extends, FollowsAChainOfEightFilesAndNoLonger) {
   EXPECT_THROW(static_cast<void>(read_case(folder_.path() + "/9.toml")), InputError);
 }
 
-/// A stranger's case is no way to read the files of the machine, not even one line of them.
+/// A third-party case is no way to read the files of the machine, not even one line of them.
 TEST_F(Extends, ReadsNoFileThatIsNoCaseBesideIt) {
   fs::create_directories(folder_.path() + "/cases/a/deep.toml");
   fs::create_directories(folder_.path() + "/other");

@@ -107,7 +107,7 @@ TEST(Mesh, ThatTurnsInwardIsRefused) {
             std::string::npos);
 }
 
-TEST(Mesh, OfAStrangerIsRefusedWithoutACrash) {
+TEST(Mesh, OfAThirdPartyIsRefusedWithoutACrash) {
   const Folder folder;
   const auto cube = read_mesh(folder.write("cube.obj", cube_obj()), 1.0);
   auto lying = as_stl(cube, true);

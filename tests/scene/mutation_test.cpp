@@ -12,7 +12,7 @@
 #include "tables/toml_node.hpp"
 #include "validation/case/schema.hpp"
 
-/// Files of strangers reach the reader: whatever is in them, it refuses with line and remedy, or shows what it understood.
+/// third-party files reach the reader: whatever is in them, it refuses with line and remedy, or shows what it understood.
 namespace tripoint::test {
 namespace {
 

@@ -35,7 +35,7 @@ struct AcceptedCost {
   std::string counted_on;  ///< how and where the instructions were counted: they are compared only with the same
 };
 
-/// The engine whose figures were accepted. Its program is known where it is a stranger's.
+/// The engine whose figures were accepted. Its program is known where it is a third party's.
 struct AcceptedEngine {
   std::string name, version, executable;  ///< executable: hash of its program
 };

@@ -29,7 +29,7 @@ GateVerdict gate_verdict(const Results& results, const std::string& baselines, b
     throw InputError("--baselines " + baselines + ": holds no baseline (SUBJECT/CASE.toml), and nothing would be judged by it");
   GateVerdict verdict;
   auto remarks = verdict_remarks(results);
-  for (const auto& list : {recheck_remarks(results), slack_remarks(results),
+  for (const auto& list : {recheck_remarks(results), headroom_remarks(results),
                            baseline_remarks(results, require_baselines, baselines), lost_case_remarks(results, baselines),
                            suite_remarks(results, require_baselines, baselines), engine_remarks(results, baselines)})
     remarks.insert(remarks.end(), list.begin(), list.end());

@@ -6,7 +6,7 @@
 #include "validation/judge/remarks.hpp"
 #include "validation/results/results.hpp"
 
-/// Findings of `tripoint gate` about results: the judge's verdict, the case files read again, slack, baselines. One answer for
+/// Findings of `tripoint gate` about results: the judge's verdict, the case files read again, headroom, baselines. One answer for
 /// the command, the summary and the badge.
 namespace tripoint {
 

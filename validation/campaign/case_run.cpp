@@ -111,7 +111,7 @@ std::string repeat_command(const Case& value, const SuiteOptions& options) {
 
 /// @param number of the run: runs of one start have files of their own, since HDF5 writes the second of the day into each
 std::shared_ptr<const ChangedRun> changed_run(const Case& value, const EnginePlan& engine, const CaseRun& run,
-                                              const HarmlessChange& change, std::size_t number) {
+                                              const InvarianceChange& change, std::size_t number) {
   ChangedScene changed{run.job.scene, *run.initial, run.job.threads};
   change.apply(changed);
   auto made = std::make_shared<ChangedRun>();
@@ -127,7 +127,7 @@ std::shared_ptr<const ChangedRun> changed_run(const Case& value, const EnginePla
 }
 
 /// The frames as the unchanged scene would have made them.
-std::shared_ptr<const Trajectory> taken_back(const CaseRun& run, const HarmlessChange& change, const Trajectory& frames) {
+std::shared_ptr<const Trajectory> taken_back(const CaseRun& run, const InvarianceChange& change, const Trajectory& frames) {
   auto back = std::make_shared<Trajectory>(frames);
   change.take_back({run.job.scene, *run.initial, run.job.threads}, *back);
   return back;
@@ -207,7 +207,7 @@ RunRequest request_of(const CaseRuns& all, const CaseRun& run, const SuiteOption
   request.particles_hash = run.changed ? run.changed->particles_hash : run.particles_hash;
   request.wall_limit = wall_limit(engine, options);
   request.environment = options.environment;
-  request.before_stranger = options.before_stranger;
+  request.before_third_party = options.before_third_party;
   request.keep_finished = options.resume;
   request.count_below = options.count_below;
   return request;

@@ -65,7 +65,7 @@ void give_up(CaseRun&, Status status, const std::string& reason, const SuiteOpti
 /// Makes one run and fills its row; its metrics are evaluated here.
 void make_run(const CaseRuns&, CaseRun&, const SuiteOptions&);
 
-/// Puts the runs into rows, compares the engines, books the ledger and judges.
+/// Puts the runs into rows, compares the engines, adds up the ledger and judges.
 [[nodiscard]] CaseResult finish_case(const CaseRuns&, const SuiteOptions&);
 
 /// Differences between the engines' own trajectories, in each metric that compares states; both errors to truth beside it.

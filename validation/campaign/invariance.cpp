@@ -156,9 +156,9 @@ void own_measures(const ChangedScene&, Trajectory& run) {
 
 }  // namespace
 
-const std::vector<HarmlessChange>& harmless_changes() {
+const std::vector<InvarianceChange>& invariance_changes() {
   constexpr std::string_view sums = "sums in another order: round-off, grown over the steps of a run that is not chaotic";
-  static const std::vector<HarmlessChange> list{
+  static const std::vector<InvarianceChange> list{
       {"threads", "2 threads instead of 1", 0.0, "every sum has a fixed order: the same bits", always, two_threads, as_it_is},
       {"order", "the particles in another order", 1e-10, sums, always, shuffle, sort_back},
       {"ulp", "each coordinate one unit in the last place up or down", 1e-10,
@@ -175,8 +175,8 @@ const std::vector<HarmlessChange>& harmless_changes() {
   return list;
 }
 
-const HarmlessChange& harmless_change(std::string_view name) {
-  const auto& all = harmless_changes();
+const InvarianceChange& invariance_change(std::string_view name) {
+  const auto& all = invariance_changes();
   const auto at = std::find_if(all.begin(), all.end(), [&](const auto& c) { return c.name == name; });
   if (at != all.end()) return *at;
   std::vector<std::string_view> words;

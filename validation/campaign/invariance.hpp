@@ -19,7 +19,7 @@ struct ChangedScene {
 };
 
 /// One change and the way back from it.
-struct HarmlessChange {
+struct InvarianceChange {
   std::string_view name, what;
   double tolerance;      ///< of each metric, in the metric's own scaled unit; 0 = the same bits
   std::string_view why;  ///< where the tolerance comes from
@@ -31,8 +31,8 @@ struct HarmlessChange {
 };
 
 /// All of them, in the order of the reference page.
-[[nodiscard]] const std::vector<HarmlessChange>& harmless_changes();
+[[nodiscard]] const std::vector<InvarianceChange>& invariance_changes();
 /// @throws InputError naming the allowed words
-[[nodiscard]] const HarmlessChange& harmless_change(std::string_view name);
+[[nodiscard]] const InvarianceChange& invariance_change(std::string_view name);
 
 }  // namespace tripoint

@@ -144,7 +144,7 @@ class Suite {
     const std::lock_guard lock(mutex_);
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     ++done_;
-    if (run.taken && !options_.are_all_made) return;  // it was told when it was made
+    if (run.taken && !options_.are_all_made) return;  // it was reported when it was made
     const double left = elapsed / static_cast<double>(done_) * static_cast<double>(all_runs_ - done_);
     options_.say(fmt::format("[{:3}/{}  {:.0f} s, about {:.0f} s left] {} {} {}: {}{}{} ({:.2f} CPU s)", done_, all_runs_,
                              elapsed, left, all.value->id, all.engines[run.engine].name, run.plan.label, run.kept ? "kept, " : "",
@@ -170,31 +170,31 @@ class Suite {
 
 namespace {
 
-/// Runs of strangers, which end before those begin whose results are the truth that they are judged by, or that they could copy.
+/// Third-party runs, which end before those begin whose results are the truth that they are judged by, or that they could copy.
 /// In a sandbox an engine sees neither.
-class StrangersFirst {
+class ThirdPartiesFirst {
  public:
-  StrangersFirst(const std::vector<Case>& cases, const std::vector<EngineEntry>& engines, const SuiteOptions& options)
+  ThirdPartiesFirst(const std::vector<Case>& cases, const std::vector<EngineEntry>& engines, const SuiteOptions& options)
       : cases_(cases), engines_(engines), options_(options) {}
 
   std::vector<CaseResult> run() {
-    const bool strangers = has_runs(true), others = has_runs(false);
+    const bool third_parties = has_runs(true), others = has_runs(false);
     SuiteOptions options = options_;
-    if (strangers) options.before_stranger = [this] { std::call_once(hidden_, [this] { hide_answers(); }); };
-    if (!strangers || !others) return Suite(cases_, engines_, options).run();
+    if (third_parties) options.before_third_party = [this] { std::call_once(hidden_, [this] { hide_answers(); }); };
+    if (!third_parties || !others) return Suite(cases_, engines_, options).run();
     options.settled = std::make_shared<std::map<std::string, std::shared_ptr<const InitialState>>>();
-    make_those_of_strangers(options);
-    options.before_stranger = {};
+    make_third_party_runs(options);
+    options.before_third_party = {};
     options.are_all_made = false;
     options.made = [this](const CaseRuns& all, const CaseRun& run) { return made_before(all, run); };
     return Suite(cases_, engines_, options).run();
   }
 
  private:
-  /// Whether runs of strangers, or of others, are planned.
-  [[nodiscard]] bool has_runs(bool of_strangers) const {
+  /// Whether third-party runs, or the others, are planned.
+  [[nodiscard]] bool has_runs(bool of_third_parties) const {
     SuiteOptions options = options_;
-    options.wanted = only(of_strangers);
+    options.wanted = only(of_third_parties);
     return std::ranges::any_of(cases_, [&](const Case& c) {
       CaseRuns all;
       all.engines = plan_runs(c, engines_, options.selection);
@@ -202,13 +202,13 @@ class StrangersFirst {
     });
   }
 
-  [[nodiscard]] std::function<bool(const EnginePlan&, const RunPlan&)> only(bool strangers) const {
-    return [this, strangers](const EnginePlan& engine, const RunPlan& plan) {
-      return belongs_to_us(engine.entry->executable) != strangers && (!options_.wanted || options_.wanted(engine, plan));
+  [[nodiscard]] std::function<bool(const EnginePlan&, const RunPlan&)> only(bool third_parties) const {
+    return [this, third_parties](const EnginePlan& engine, const RunPlan& plan) {
+      return belongs_to_us(engine.entry->executable) != third_parties && (!options_.wanted || options_.wanted(engine, plan));
     };
   }
 
-  void make_those_of_strangers(SuiteOptions options) {
+  void make_third_party_runs(SuiteOptions options) {
     options.wanted = only(true);
     options.on_case = {};
     options.on_run = [this](const CaseRuns& all, const CaseRun& run) {
@@ -223,12 +223,12 @@ class StrangersFirst {
     return at == made_.end() ? std::optional<MadeRun>() : at->second;
   }
 
-  /// Results of earlier calls that lie in the folder of this one, but for those of strangers, which --resume may keep.
+  /// Results of earlier calls that lie in the folder of this one, but for those of third parties, which --resume may keep.
   void hide_answers() const {
-    std::set<std::string> strangers;
+    std::set<std::string> third_parties;
     for (const EngineEntry& e : engines_)
-      if (!belongs_to_us(e.executable)) strangers.insert(e.name);
-    const auto removed = remove_answers((std::filesystem::path(options_.out) / "runs").string(), strangers);
+      if (!belongs_to_us(e.executable)) third_parties.insert(e.name);
+    const auto removed = remove_answers((std::filesystem::path(options_.out) / "runs").string(), third_parties);
     if (removed > 0 && options_.say)
       options_.say(
           fmt::format("{} files of earlier runs were removed from {}/runs: an engine of somebody else runs without --sandbox",
@@ -245,8 +245,8 @@ class StrangersFirst {
 
 std::vector<CaseResult> results_of(const std::vector<Case>& cases, const std::vector<EngineEntry>& engines,
                                    const SuiteOptions& options) {
-  if (strangers_are_sandboxed() || options.made || options.plans_alone) return Suite(cases, engines, options).run();
-  return StrangersFirst(cases, engines, options).run();
+  if (third_parties_are_sandboxed() || options.made || options.plans_alone) return Suite(cases, engines, options).run();
+  return ThirdPartiesFirst(cases, engines, options).run();
 }
 
 }  // namespace

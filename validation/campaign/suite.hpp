@@ -53,7 +53,7 @@ struct SuiteOptions {
       0.0;  ///< [CPU s] instructions of shorter runs are counted by callgrind where the processor counts none; 0 = never
   double wall_limit = 600.0;                       ///< [s] for a run whose case says nothing else (engine setting wall_limit)
   std::map<std::string, std::string> environment;  ///< for the engines
-  const HarmlessChange* change = nullptr;  ///< every scene is run changed, and its frames are taken back before they are judged
+  const InvarianceChange* change = nullptr;  ///< every scene is run changed, and its frames are taken back before they are judged
   /// Which runs of the plan are made; empty = all.
   std::function<bool(const EnginePlan&, const RunPlan&)> wanted;
   bool plans_alone = false;  ///< no run will be made: nothing is written
@@ -62,7 +62,7 @@ struct SuiteOptions {
   /// Nothing = that run is made here after all.
   std::function<std::optional<MadeRun>(const CaseRuns&, const CaseRun&)> made;
   std::function<void(const CaseRuns&, const CaseRun&)> on_run;  ///< each run as soon as it is made, from any thread
-  std::function<void()> before_stranger;  ///< called before an engine of somebody else runs, where no earlier outcome is kept
+  std::function<void()> before_third_party;  ///< called before an engine of somebody else runs, where no earlier outcome is kept
   /// Starts that were let down into equilibrium, by file: that takes minutes. Unset = none is kept.
   std::shared_ptr<std::map<std::string, std::shared_ptr<const InitialState>>> settled;
   std::function<void(const std::string&)> say;     ///< progress, one line a call, from any thread

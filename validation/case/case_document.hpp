@@ -28,7 +28,7 @@ struct CaseReading;
 // The steps of the way, in their order.
 
 /// The file that `extends` names: "other.toml" in the folder of the case, or a path or a case's name. The path or name must lead
-/// into the folder `cases` around the case, or into that of the shipped cases. A stranger's case can name no other file, and no
+/// into the folder `cases` around the case, or into that of the shipped cases. A third-party case can name no other file, and no
 /// file that is no case.
 /// @throws InputError at the place of `extends`
 [[nodiscard]] std::string extended_file(const TomlNode& extends, const std::string& file);

@@ -34,7 +34,7 @@ double ceiling(const Gate& g) {
 bool states_a_figure(const Gate& g) { return g.band && ((*g.band)[0] > 0.0 || (*g.band)[1] < 0.0); }
 
 /// How many times wider a band around a figure is than what was measured: at its middle it uses none of its room.
-double slack_of_figure(const Gate& g, double value, double u) {
+double headroom_of_figure(const Gate& g, double value, double u) {
   const double low = std::abs((*g.band)[0]), high = std::abs((*g.band)[1]), least = std::min(low, high);
   const double size = std::abs(value);
   return std::max(std::max(low, high) / (size + 2.0 * u), least > 0.0 ? (size + 2.0 * u) / least : 0.0);
@@ -46,7 +46,7 @@ std::string key_of(const CaseResult& c, const Gate& g) {
                      g.level.value_or(0.0));
 }
 
-/// A limit that every engine must hold may be used by one that is not here: how slack it is then cannot be told.
+/// A limit that every engine must hold may be used by one that is not here: how loose it is then is not known.
 bool some_engine_is_absent(const CaseResult& c, const Gate& g) {
   return g.engine.empty() && std::any_of(c.engines.begin(), c.engines.end(),
                                          [](const auto& e) { return !is_exact(e.name) && e.status != Status::ok; });
@@ -55,16 +55,16 @@ bool some_engine_is_absent(const CaseResult& c, const Gate& g) {
 /// A date in the future silences nothing.
 bool is_dated(const Gate& g) { return is_date(g.date) && !is_in_the_future(g.date); }
 
-Remark remark_on(const CaseResult& c, const GateRow& row, double slack, bool engines_were_chosen) {
+Remark remark_on(const CaseResult& c, const GateRow& row, double headroom, bool engines_were_chosen) {
   Remark r;
-  r.error = slack > slack_fails && !is_dated(row.gate) && !some_engine_is_absent(c, row.gate) &&
+  r.error = headroom > headroom_fails && !is_dated(row.gate) && !some_engine_is_absent(c, row.gate) &&
             !(engines_were_chosen && row.gate.engine.empty());
   r.code = r.error ? exit_fail : exit_pass;
   r.place = row.gate.place;
-  r.excess = slack;
+  r.excess = headroom;
   r.title = fmt::format("{}: the limit of {} is loose", c.id, row.metric);
   r.text = fmt::format("{} is asked, {:.3g} with standard uncertainty {:.2g} was measured: room by a factor of {:.3g}{}",
-                       describe(row.gate), row.value, row.uncertainty, slack,
+                       describe(row.gate), row.value, row.uncertainty, headroom,
                        r.error               ? "; tighten it, or give the reason a date"
                        : !is_dated(row.gate) ? ""
                                              : " (dated " + row.gate.date + ")");
@@ -73,11 +73,11 @@ Remark remark_on(const CaseResult& c, const GateRow& row, double slack, bool eng
 
 }  // namespace
 
-std::optional<double> slack_of(const CaseResult& c, const GateRow& row) {
+std::optional<double> headroom_of(const CaseResult& c, const GateRow& row) {
   const Gate& g = row.gate;
   if (row.verdict != Verdict::pass || row.expect || is_of_ladder(row.metric) || !std::isfinite(row.value)) return {};
   if (ceiling(g) <= roundoff_limit || (!g.limit && !g.band && g.at_least.value_or(0.0) <= 0.0)) return {};
-  if (states_a_figure(g)) return slack_of_figure(g, row.value, row.uncertainty);
+  if (states_a_figure(g)) return headroom_of_figure(g, row.value, row.uncertainty);
   double size = std::abs(row.value) + 2.0 * row.uncertainty;
   if (is_count(c, row.metric)) size = std::max(size, 0.5);
   const double used = share_of_limit(g, std::copysign(size, row.value));
@@ -88,7 +88,7 @@ namespace {
 
 bool is_tight(const CaseResult& c, const GateRow& row) {
   if (row.verdict != Verdict::pass || row.expect) return false;
-  return ceiling(row.gate) <= roundoff_limit || slack_of(c, row).value_or(infinity) <= slack_warns;
+  return ceiling(row.gate) <= roundoff_limit || headroom_of(c, row).value_or(infinity) <= headroom_warns;
 }
 
 /// A wide limit, such as one that holds for any engine, lets nothing pass where another gate holds the same value.
@@ -101,20 +101,20 @@ bool is_held_by_another(const CaseResult& c, const EngineRow& e, const GateRow& 
 
 }  // namespace
 
-std::vector<Remark> slack_remarks(const Results& results) {
+std::vector<Remark> headroom_remarks(const Results& results) {
   std::vector<Remark> list;
   for (const auto& c : results.cases) {
     std::map<std::string, std::pair<double, const GateRow*>> tightest;
     for (const auto& e : c.engines)
       for (const auto& row : e.gates) {
-        const auto slack = slack_of(c, row);
+        const auto headroom = headroom_of(c, row);
         const double s =
-            is_held_by_another(c, e, row) ? 0.0 : slack.value_or(0.0);  // a row whose limit is not too wide settles the gate
+            is_held_by_another(c, e, row) ? 0.0 : headroom.value_or(0.0);  // a row whose limit is not too wide settles the gate
         const auto [at, is_new] = tightest.try_emplace(key_of(c, row.gate), s, &row);
         if (!is_new && s < at->second.first) at->second = {s, &row};
       }
     for (const auto& [key, found] : tightest)
-      if (found.first > slack_warns) list.push_back(remark_on(c, *found.second, found.first, !results.only_engines.empty()));
+      if (found.first > headroom_warns) list.push_back(remark_on(c, *found.second, found.first, !results.only_engines.empty()));
   }
   std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.excess > b.excess; });
   return list;

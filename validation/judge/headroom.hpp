@@ -8,7 +8,7 @@
 /// A limit far above the error that it judges guards nothing: a defect has that much room to hide in.
 namespace tripoint {
 
-inline constexpr double slack_warns = 3.0, slack_fails = 10.0;
+inline constexpr double headroom_warns = 3.0, headroom_fails = 10.0;
 
 /// Change of a metric that physically neutral changes may cause (docs/harness.md: harmless changes). A limit that is not above it
 /// is one of round-off. Its values change with compiler and thread count, and the used share of it says nothing.
@@ -18,10 +18,10 @@ inline constexpr double roundoff_limit = 1e-10;
 /// figure is measured by its width: the larger of value over low and high over value. A count changes by whole numbers: half a
 /// count is the least it is compared with. Empty where nothing is to be asked: an order (its interval is judged), a limit of
 /// round-off, no value.
-[[nodiscard]] std::optional<double> slack_of(const CaseResult&, const GateRow&);
+[[nodiscard]] std::optional<double> headroom_of(const CaseResult&, const GateRow&);
 
-/// One remark for each declared gate whose slack is above 3 in every row that it judges. It is a warning, and above 10 an error
-/// unless the gate is dated.
-[[nodiscard]] std::vector<Remark> slack_remarks(const Results&);
+/// One remark for each declared gate whose headroom is above 3 in every row that it judges. It is a warning, and above 10 an
+/// error unless the gate is dated.
+[[nodiscard]] std::vector<Remark> headroom_remarks(const Results&);
 
 }  // namespace tripoint

@@ -111,7 +111,7 @@ void apply_to_all(CaseResult& result, const Gate& gate, bool engines_were_chosen
 }
 
 /// Every engine that was chosen refuses the case, and none is required: it is no case of theirs. An engine that ran no case at
-/// all is told by the whole (unanswered).
+/// all is reported by the whole (unanswered).
 bool is_refused(const CaseResult& result, bool engines_were_chosen) {
   const auto is_judge = [](const EngineRow& e) { return is_exact(e.name); };  // the truth is no engine that could take the case
   if (!engines_were_chosen || std::all_of(result.engines.begin(), result.engines.end(), is_judge)) return false;

@@ -64,7 +64,7 @@ void try_all(const std::vector<Case>& cases, const EngineEntry& solver, const Se
   for (const auto& value : cases)
     for (const auto& defect : value.defects) outcome.defects.push_back(try_defect(value, defect, engines, options));
   for (const auto& value : cases)
-    for (auto& row : try_harmless(value, solver, options)) outcome.harmless.push_back(std::move(row));
+    for (auto& row : try_invariance(value, solver, options)) outcome.harmless.push_back(std::move(row));
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ struct DefectOutcome {
 };
 
 /// One [[harmless]] of one case.
-struct HarmlessOutcome {
+struct InvarianceOutcome {
   std::string change, case_id;
   bool borne = false;
   double greatest = 0.0;  ///< change of any metric of any mode, in the metric's scaled unit
@@ -55,7 +55,7 @@ struct SmallestOutcome {
 
 struct SelftestOutcome {
   std::vector<DefectOutcome> defects;
-  std::vector<HarmlessOutcome> harmless;
+  std::vector<InvarianceOutcome> harmless;
   std::vector<SmallestOutcome> smallest;
   std::vector<std::string> problems;  ///< defects that no case declares, or that the engine does not have
   int exit_code = 0;                  ///< 0 or 5
@@ -79,8 +79,8 @@ struct SelftestOutcome {
 [[nodiscard]] std::vector<SmallestOutcome> try_smallest(const Case&, const EngineEntry&, const SelftestOptions&);
 
 /// The case's own resolution in each of its modes, with and without each harmless change that the case names.
-[[nodiscard]] std::vector<HarmlessOutcome> try_harmless(const Case&, const EngineEntry&, const SelftestOptions&);
+[[nodiscard]] std::vector<InvarianceOutcome> try_invariance(const Case&, const EngineEntry&, const SelftestOptions&);
 /// Effect of a change on the results of a case: both hold the same runs.
-[[nodiscard]] HarmlessOutcome judge_harmless(const HarmlessChange&, const CaseResult& without, const CaseResult& with);
+[[nodiscard]] InvarianceOutcome judge_invariance(const InvarianceChange&, const CaseResult& without, const CaseResult& with);
 
 }  // namespace tripoint

@@ -12,7 +12,7 @@
 namespace tripoint {
 namespace {
 
-void blame(HarmlessOutcome& outcome, const std::string& what) {
+void blame(InvarianceOutcome& outcome, const std::string& what) {
   outcome.borne = false;
   outcome.found += (outcome.found.empty() ? "" : "; ") + what;
 }
@@ -33,7 +33,7 @@ struct Greatest {
   std::string metric;
 };
 
-void compare_metrics(const RunRow& a, const RunRow& b, HarmlessOutcome& outcome, Greatest& most) {
+void compare_metrics(const RunRow& a, const RunRow& b, InvarianceOutcome& outcome, Greatest& most) {
   for (const auto& [name, before] : a.metrics) {
     const auto at = b.metrics.find(name);
     const double after = at == b.metrics.end() ? not_a_number : at->second.value;
@@ -47,7 +47,7 @@ void compare_metrics(const RunRow& a, const RunRow& b, HarmlessOutcome& outcome,
 }
 
 /// Gates that looked at these runs; those of levels that were not run are missing in both.
-void compare_gates(const EngineRow& engine, const char* when, HarmlessOutcome& outcome, int& judged) {
+void compare_gates(const EngineRow& engine, const char* when, InvarianceOutcome& outcome, int& judged) {
   for (const auto& row : engine.gates) {
     if (row.verdict == Verdict::missing) continue;
     ++judged;
@@ -58,8 +58,8 @@ void compare_gates(const EngineRow& engine, const char* when, HarmlessOutcome& o
 
 }  // namespace
 
-HarmlessOutcome judge_harmless(const HarmlessChange& change, const CaseResult& without, const CaseResult& with) {
-  HarmlessOutcome outcome{std::string(change.name), without.id, true, 0.0, change.tolerance, {}};
+InvarianceOutcome judge_invariance(const InvarianceChange& change, const CaseResult& without, const CaseResult& with) {
+  InvarianceOutcome outcome{std::string(change.name), without.id, true, 0.0, change.tolerance, {}};
   Greatest most;
   int judged = 0;
   for (const auto& engine : without.engines)
@@ -88,8 +88,8 @@ HarmlessOutcome judge_harmless(const HarmlessChange& change, const CaseResult& w
   return outcome;
 }
 
-std::vector<HarmlessOutcome> try_harmless(const Case& value, const EngineEntry& engine, const SelftestOptions& o) {
-  const auto run = [&](const HarmlessChange* change) {
+std::vector<InvarianceOutcome> try_invariance(const Case& value, const EngineEntry& engine, const SelftestOptions& o) {
+  const auto run = [&](const InvarianceChange* change) {
     SuiteOptions suite;
     suite.selection.engines = {engine_name::solver};
     suite.environment["OMP_WAIT_POLICY"] = "passive";  // two threads on a busy core would spin for each other
@@ -102,16 +102,16 @@ std::vector<HarmlessOutcome> try_harmless(const Case& value, const EngineEntry& 
     if (results.cases.empty()) throw EngineError("interrupted");
     return std::move(results.cases.front());
   };
-  std::vector<HarmlessOutcome> rows;
+  std::vector<InvarianceOutcome> rows;
   std::optional<CaseResult> without;
   for (const auto& name : value.harmless) {
-    const auto& change = harmless_change(name);
+    const auto& change = invariance_change(name);
     if (const auto why = change.refusal(value.scene); !why.empty()) {
       rows.push_back({name, value.id, false, not_a_number, change.tolerance, "it is no symmetry of this scene: " + why});
       continue;
     }
     if (!without) without = run(nullptr);
-    rows.push_back(judge_harmless(change, *without, run(&change)));
+    rows.push_back(judge_invariance(change, *without, run(&change)));
   }
   return rows;
 }

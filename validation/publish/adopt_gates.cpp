@@ -10,7 +10,7 @@
 namespace tripoint {
 namespace {
 
-constexpr double least_limit = 1e-10;   // a limit of round-off, of which no slack is asked
+constexpr double least_limit = 1e-10;   // a limit of round-off, of which no headroom is asked
 constexpr double round_off_room = 3.0;  // another machine rounds otherwise
 constexpr double noise_room = 4.0;      // standard deviations over repeats and seeds
 constexpr double order_room = 0.2;      // beyond the interval of a fitted order

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uintmax_t most_read = std::uintmax_t{256} << 20;  // size of the greatest mesh; no other file may be as large
 
-/// Content of a file. For a file that every reader refuses for its size it is the size: a stranger's case may name one that fits
+/// Content of a file. For a file that every reader refuses for its size it is the size: a third-party case may name one that fits
 /// in no memory.
 std::string text_of(const fs::path& file) {
   std::error_code none;

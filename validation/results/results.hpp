@@ -93,8 +93,8 @@ struct GateRow {
 /// One row of the matrix: an engine with a preset.
 struct EngineRow {
   std::string name, version, preset = default_preset;
-  std::string library_path, library_hash;   ///< of the engine's own library, as it told; empty = it told none
-  std::string executable, executable_hash;  ///< of a stranger's engine: its program, and the hash of it when it ran
+  std::string library_path, library_hash;   ///< of the engine's own library, as it reported; empty = it reported none
+  std::string executable, executable_hash;  ///< of a third-party engine: its program, and the hash of it when it ran
   bool deterministic = false;               ///< as the engine says
   bool required = false;
   std::string refuses;  ///< words of the refusal that the case declares; empty = it declares none

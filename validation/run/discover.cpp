@@ -120,7 +120,7 @@ EngineEntry ask_engine(const std::string& executable) {
     return unavailable(entry, "--info " + describe(end) + last_words(end.log_tail));
   try {
     if (!belongs_to_us(executable))
-      try_of_stranger([&] { static_cast<void>(with_info(entry, end.output)); }, {"what --info printed"}, info_limit);
+      try_of_third_party([&] { static_cast<void>(with_info(entry, end.output)); }, {"what --info printed"}, info_limit);
     return with_info(entry, end.output);
   } catch (const std::exception& e) {
     return unavailable(entry, e.what() + last_words(end.log_tail));
@@ -131,7 +131,7 @@ std::vector<EngineEntry> discover_engines(const std::vector<std::string>& extra)
 
 std::vector<EngineEntry> discover_engines_wanted(const std::vector<std::string>& names, const std::vector<std::string>& extra) {
   auto list = candidates(extra);
-  std::erase_if(list, [&](const Candidate& c) {  // what a stranger's engine calls itself only the engine knows
+  std::erase_if(list, [&](const Candidate& c) {  // what a third-party engine calls itself only the engine knows
     return !c.joins && std::find(names.begin(), names.end(), name_of_file(c.path)) == names.end();
   });
   return ask_all(list);

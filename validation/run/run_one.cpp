@@ -81,7 +81,7 @@ void prepare_folder(const RunRequest& request) {
 Result result_of(const RunRequest& request) {
   const std::string file = (fs::path(request.folder) / "result.json").string();
   if (!belongs_to_us(request.engine->executable))
-    try_of_stranger([&] { static_cast<void>(read_result(file)); }, {"result.json", request.folder}, reply_limit);
+    try_of_third_party([&] { static_cast<void>(read_result(file)); }, {"result.json", request.folder}, reply_limit);
   return read_result(file);
 }
 
@@ -188,7 +188,7 @@ std::shared_ptr<const Trajectory> read_any_trajectory(const RunRequest& request)
     if (there.empty()) there = name;
   }
   if (there.empty() || belongs_to_us(request.engine->executable)) return std::make_shared<Trajectory>(read_files(request));
-  const auto bytes = read_of_stranger([&] { return packed(read_files(request)); }, {there, request.folder}, read_limit);
+  const auto bytes = read_of_third_party([&] { return packed(read_files(request)); }, {there, request.folder}, read_limit);
   return std::make_shared<Trajectory>(unpacked(bytes, most_frames(request)));
 }
 
@@ -286,7 +286,7 @@ Outcome ask(const RunRequest& request) {
     return failed({}, Status::error, "--check " + describe(check) + last_words(check.log_tail));
   try {
     if (!belongs_to_us(request.engine->executable))
-      try_of_stranger([&] { static_cast<void>(refusal_in(check.output)); }, {"what --check printed"}, reply_limit);
+      try_of_third_party([&] { static_cast<void>(refusal_in(check.output)); }, {"what --check printed"}, reply_limit);
     if (const auto refusal = refusal_in(check.output)) return refused({}, *refusal);
   } catch (const std::exception& e) {
     return failed({}, Status::error, e.what());
@@ -301,7 +301,7 @@ Outcome run_one(const RunRequest& request) {
   if (request.keep_finished) {
     if (auto kept = finished_run(request, hash)) return std::move(*kept);
   }
-  if (request.before_stranger && !belongs_to_us(request.engine->executable)) request.before_stranger();
+  if (request.before_third_party && !belongs_to_us(request.engine->executable)) request.before_third_party();
   if (auto answer = ask(request); answer.status != Status::ok) return answer;
   auto spec = call(request, "--run", request.wall_limit);
   spec.log = (fs::path(request.folder) / "log.txt").string();

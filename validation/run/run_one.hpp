@@ -26,7 +26,7 @@ struct RunRequest {
   std::function<void(const std::string&)> status;  ///< of engines that tell more than how far they are (process.hpp)
   double count_below =
       0.0;  ///< [CPU s] instructions of a shorter run are counted by callgrind where the processor counts none; 0 = never
-  std::function<void()> before_stranger;  ///< called before an engine of somebody else is, where no earlier outcome is kept
+  std::function<void()> before_third_party;  ///< called before an engine of somebody else is, where no earlier outcome is kept
   bool keep_finished = false;  ///< takes the outcome of an earlier run in the folder, if it was of this very job and engine
 };
 

@@ -158,7 +158,7 @@ bool belongs_to_us(const std::string& executable) {
   return !none && !relative.empty() && *relative.begin() != "..";
 }
 
-void sandbox_strangers(const std::string& out) {
+void sandbox_third_parties(const std::string& out) {
   report = out.empty() ? fs::path() : place_of(out);
   ProcessSpec trial;
   trial.argv = bare(engines_run_as());
@@ -185,7 +185,7 @@ void sandbox_strangers(const std::string& out) {
   wanted = true;
 }
 
-bool strangers_are_sandboxed() noexcept { return wanted; }
+bool third_parties_are_sandboxed() noexcept { return wanted; }
 
 namespace {
 

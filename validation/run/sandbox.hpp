@@ -17,10 +17,10 @@ namespace tripoint {
 /// any but its own; "" where there is none
 /// @throws EngineError where bubblewrap is not installed, or this machine lets it make no namespaces: nothing is run unguarded
 /// then
-void sandbox_strangers(const std::string& out);
+void sandbox_third_parties(const std::string& out);
 
 /// Whether it was called.
-[[nodiscard]] bool strangers_are_sandboxed() noexcept;
+[[nodiscard]] bool third_parties_are_sandboxed() noexcept;
 
 /// The child as it is to be started: unchanged where no sandbox is wanted, and where the engine belongs to this program.
 /// @param readable files or folders that it may read besides
@@ -28,7 +28,7 @@ void sandbox_strangers(const std::string& out);
 /// @pre spec.folder, where it has one, is all that it may write
 [[nodiscard]] ProcessSpec sandboxed(ProcessSpec spec, const std::vector<std::string>& readable = {});
 
-/// The program that draws the pages: it opens what strangers wrote. Where a sandbox is wanted, it sees no more than itself and
+/// The program that draws the pages: it opens third-party files. Where a sandbox is wanted, it sees no more than itself and
 /// the report's folder, in which it may change nothing but pages and figures.
 /// @param out folder of the report   @param history file that it shows, "" = none
 [[nodiscard]] ProcessSpec sandboxed_report(ProcessSpec spec, const std::string& out, const std::string& history);

@@ -16,7 +16,7 @@ struct SandboxSums {
   double bytes = 0.0;   ///< of files in its folder, also of removed ones that are open, 0 = unbounded
 };
 
-/// User and group that engines of strangers run as where root calls us: it owns nothing.
+/// User and group that third-party engines run as where root calls us: it owns nothing.
 inline constexpr unsigned sandbox_user = 65534;
 
 /// Looks at all processes below one, and at a folder, a few times a second.

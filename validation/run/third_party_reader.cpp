@@ -10,9 +10,9 @@ namespace tripoint {
 
 namespace {
 
-/// @throws EngineError, InputError as read_of_stranger
+/// @throws EngineError, InputError as read_of_third_party
 std::string read_within(const std::function<std::string()>& read, CopyBounds bounds) {
-  bounds.must_be_confined = strangers_are_sandboxed();
+  bounds.must_be_confined = third_parties_are_sandboxed();
   CopyEnd end;
   try {
     end = read_in_confined_copy(read, bounds);
@@ -26,13 +26,13 @@ std::string read_within(const std::function<std::string()>& read, CopyBounds bou
 
 }  // namespace
 
-std::string read_of_stranger(const std::function<std::string()>& read, const StrangersFile& file, double limit) {
+std::string read_of_third_party(const std::function<std::string()>& read, const ThirdPartyFile& file, double limit) {
   CopyBounds bounds{file.what, limit};
   bounds.folder = file.folder;
   return read_within(read, bounds);
 }
 
-void try_of_stranger(const std::function<void()>& deed, const StrangersFile& file, double limit) {
+void try_of_third_party(const std::function<void()>& deed, const ThirdPartyFile& file, double limit) {
   const auto read = [&] {
     deed();
     return std::string();

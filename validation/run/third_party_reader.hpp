@@ -6,7 +6,7 @@
 namespace tripoint {
 
 /// A file or text of a foreign engine.
-struct StrangersFile {
+struct ThirdPartyFile {
   std::string what;         ///< for the words of errors: "trajectory.h5"
   std::string folder = {};  ///< where it lies: nothing else may be opened. "" = it is a text that we have already
 };
@@ -19,10 +19,10 @@ struct StrangersFile {
 /// @throws InputError what `read` threw there
 /// @throws EngineError where the copy is killed, by itself or at the limit, needs more memory than the machine has, or could not
 /// be made
-[[nodiscard]] std::string read_of_stranger(const std::function<std::string()>& read, const StrangersFile& file, double limit);
+[[nodiscard]] std::string read_of_third_party(const std::function<std::string()>& read, const ThirdPartyFile& file, double limit);
 
-/// Does this in such a copy first, so that a fault which kills the copy does not kill us. An error of the copy is not told: it
-/// ends in the same way here. @throws EngineError as read_of_stranger
-void try_of_stranger(const std::function<void()>& deed, const StrangersFile& file, double limit);
+/// Does this in such a copy first, so that a fault which kills the copy does not kill us. An error of the copy is not reported:
+/// it ends in the same way here. @throws EngineError as read_of_third_party
+void try_of_third_party(const std::function<void()>& deed, const ThirdPartyFile& file, double limit);
 
 }  // namespace tripoint

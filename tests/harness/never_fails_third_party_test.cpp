@@ -20,7 +20,7 @@ class EnginePath {
   EnginePath& operator=(const EnginePath&) = delete;
 };
 
-TEST(NeverFailsStranger, Way30TheReportOfAnEarlierCallIsSetAsideBeforeAnythingIsRead) {
+TEST(NeverFailsThirdParty, Way30TheReportOfAnEarlierCallIsSetAsideBeforeAnythingIsRead) {
   const TestFolder folder;
   for (const char* name : {"results.json", "junit.xml", "summary.md", "index.html"}) write_text(folder / name, "old");
   set_aside_report(folder / ".");
@@ -29,7 +29,7 @@ TEST(NeverFailsStranger, Way30TheReportOfAnEarlierCallIsSetAsideBeforeAnythingIs
   EXPECT_TRUE(std::filesystem::exists(folder / "results.previous.json"));
 }
 
-TEST(NeverFailsStranger, Way31ATrajectoryThatWasSwappedIsNotKeptOnResume) {
+TEST(NeverFailsThirdParty, Way31ATrajectoryThatWasSwappedIsNotKeptOnResume) {
   const TestFolder folder;
   const auto value = read_flight_case(folder, "[engines.fake]\nrequired = true\n");
   SuiteOptions options;
@@ -47,7 +47,7 @@ TEST(NeverFailsStranger, Way31ATrajectoryThatWasSwappedIsNotKeptOnResume) {
   EXPECT_EQ(run_suite({value}, {wrong}, options).exit_code, exit_fail);
 }
 
-TEST(NeverFailsStranger, Way32AnEngineThatWritesIntoTheSharedParticlesIsAnErrorAndTheNextOneFindsThemWhole) {
+TEST(NeverFailsThirdParty, Way32AnEngineThatWritesIntoTheSharedParticlesIsAnErrorAndTheNextOneFindsThemWhole) {
   const TestFolder folder;
   const auto value = read_flight_case(folder, "[engines.a-bad]\nrequired = true\n[engines.good]\nrequired = true\n");
   SuiteOptions options;
@@ -64,7 +64,7 @@ TEST(NeverFailsStranger, Way32AnEngineThatWritesIntoTheSharedParticlesIsAnErrorA
   EXPECT_EQ(c.engines.at(1).status, Status::ok) << c.engines.at(1).reason;
 }
 
-TEST(NeverFailsStranger, Way33AnEngineThatTakesTheNameOfAnotherIsRefusedByName) {
+TEST(NeverFailsThirdParty, Way33AnEngineThatTakesTheNameOfAnotherIsRefusedByName) {
   const TestFolder folder;
   const auto impostor = fake_engine(folder, "nothing", "tripoint");
   try {
@@ -75,7 +75,7 @@ TEST(NeverFailsStranger, Way33AnEngineThatTakesTheNameOfAnotherIsRefusedByName) 
   }
 }
 
-TEST(NeverFailsStranger, AnEngineOfAnotherFileNameIsAskedWhateverNamesAreWanted) {
+TEST(NeverFailsThirdParty, AnEngineOfAnotherFileNameIsAskedWhateverNamesAreWanted) {
   const TestFolder folder;
   const auto mine = fake_engine(folder, "nothing", "mine");
   const auto other = folder / "engine-another-file";
@@ -86,13 +86,13 @@ TEST(NeverFailsStranger, AnEngineOfAnotherFileNameIsAskedWhateverNamesAreWanted)
   EXPECT_NE(find_engine(engines, "mine"), nullptr);
 }
 
-TEST(NeverFailsStranger, Way38AFolderOfThePathThatHoldsNoEngineIsRefused) {
+TEST(NeverFailsThirdParty, Way38AFolderOfThePathThatHoldsNoEngineIsRefused) {
   const TestFolder folder;
   const EnginePath path(folder / ".");
   EXPECT_THROW((void)discover_engines(), EngineError);
 }
 
-TEST(NeverFailsStranger, Way39AnEngineOnThePathThatCannotBeStartedIsARowAndNotNothing) {
+TEST(NeverFailsThirdParty, Way39AnEngineOnThePathThatCannotBeStartedIsARowAndNotNothing) {
   const TestFolder folder;
   write_text(folder / "engine-mine", "#!/bin/sh\n");
   const EnginePath path(folder / ".");
@@ -104,7 +104,7 @@ TEST(NeverFailsStranger, Way39AnEngineOnThePathThatCannotBeStartedIsARowAndNotNo
   EXPECT_NE(mine->reason.find("is not executable"), std::string::npos) << mine->reason;
 }
 
-TEST(NeverFailsStranger, Way40ANameThatLeadsOutOfTheReportOrLooksLikeAnotherIsRefused) {
+TEST(NeverFailsThirdParty, Way40ANameThatLeadsOutOfTheReportOrLooksLikeAnotherIsRefused) {
   for (const char* name : {"../../exact", "trip\xd0\xbeint", "exact ", ""}) {
     const TestFolder folder;
     const auto path = folder / "engine-mine";
@@ -116,7 +116,7 @@ TEST(NeverFailsStranger, Way40ANameThatLeadsOutOfTheReportOrLooksLikeAnotherIsRe
   }
 }
 
-TEST(NeverFailsStranger, Way41ARequiredEngineThatNoGateLooksAtIsMissing) {
+TEST(NeverFailsThirdParty, Way41ARequiredEngineThatNoGateLooksAtIsMissing) {
   auto r = green();
   auto second = engine(r);
   second.name = "second";
@@ -127,7 +127,7 @@ TEST(NeverFailsStranger, Way41ARequiredEngineThatNoGateLooksAtIsMissing) {
   EXPECT_EQ(exit_of(r), exit_pass);
 }
 
-TEST(NeverFailsStranger, Way42AGateForAPresetThatNobodyHasIsNotExcusedByAChoiceOfEngines) {
+TEST(NeverFailsThirdParty, Way42AGateForAPresetThatNobodyHasIsNotExcusedByAChoiceOfEngines) {
   auto r = green();
   auto none = limit("error", 0.1);
   none.engine = "tripoint";
@@ -140,7 +140,7 @@ TEST(NeverFailsStranger, Way42AGateForAPresetThatNobodyHasIsNotExcusedByAChoiceO
   EXPECT_EQ(exit_of(r), exit_pass);
 }
 
-TEST(NeverFailsStranger, Way43AnOptionalEngineThatBreaksOffIsAFailedTestAndNotASkippedOne) {
+TEST(NeverFailsThirdParty, Way43AnOptionalEngineThatBreaksOffIsAFailedTestAndNotASkippedOne) {
   auto r = green();
   auto second = engine(r);
   second.name = "second";
@@ -153,7 +153,7 @@ TEST(NeverFailsStranger, Way43AnOptionalEngineThatBreaksOffIsAFailedTestAndNotAS
   EXPECT_NE(junit_text(r).find("name=\"second runs\"><failure"), std::string::npos) << junit_text(r);
 }
 
-TEST(NeverFailsStranger, Way44StatedErrorsSoLargeThatNothingCanBeSaidAreNotAPass) {
+TEST(NeverFailsThirdParty, Way44StatedErrorsSoLargeThatNothingCanBeSaidAreNotAPass) {
   auto r = green();
   error(r) = value(0.0, 10.0);
   EXPECT_EQ(exit_of(r), exit_inconclusive);

@@ -61,8 +61,8 @@ Snapshot seen(const ChangedScene& c) {
 
 double difference(const Vec3& a, const Vec3& b) { return norm(a - b); }
 
-TEST(Harmless, TheStartOfAChangedSceneTakenBackIsTheStart) {
-  for (const auto& change : harmless_changes()) {
+TEST(Invariance, TheStartOfAChangedSceneTakenBackIsTheStart) {
+  for (const auto& change : invariance_changes()) {
     const auto before = lopsided();
     auto changed = before;
     change.apply(changed);
@@ -82,8 +82,8 @@ TEST(Harmless, TheStartOfAChangedSceneTakenBackIsTheStart) {
   }
 }
 
-TEST(Harmless, AChangeChangesWhatTheEngineIsGiven) {
-  for (const auto& change : harmless_changes()) {
+TEST(Invariance, AChangeChangesWhatTheEngineIsGiven) {
+  for (const auto& change : invariance_changes()) {
     const auto before = lopsided();
     auto changed = before;
     change.apply(changed);
@@ -91,27 +91,27 @@ TEST(Harmless, AChangeChangesWhatTheEngineIsGiven) {
   }
 }
 
-TEST(Harmless, GravityAndTheDomainTurnWithTheScene) {
+TEST(Invariance, GravityAndTheDomainTurnWithTheScene) {
   auto turned = lopsided();
-  harmless_change("rotation").apply(turned);
+  invariance_change("rotation").apply(turned);
   EXPECT_EQ(turned.scene.gravity, (Vec3{-9.75, 0.25, -1.0}));
   EXPECT_EQ(*turned.scene.min, (Vec3{-3.0, -1.0, -2.0}));
   EXPECT_EQ(turned.scene.periodic, (std::array<bool, 3>{false, false, true}));
   auto mirrored = lopsided();
-  harmless_change("mirror").apply(mirrored);
+  invariance_change("mirror").apply(mirrored);
   EXPECT_EQ(mirrored.scene.gravity, (Vec3{-0.25, -1.0, -9.75}));
   EXPECT_EQ(mirrored.scene.min->x, -1.5);
   EXPECT_EQ(mirrored.scene.max->x, 1.0);
 }
 
-TEST(Harmless, ASpinIsAnAxialVector) {
+TEST(Invariance, ASpinIsAnAxialVector) {
   const auto before = lopsided();
   Snapshot s;
   s.bodies.resize(1);
   s.bodies[0].angular_velocity = {1.0, 2.0, 3.0};
   s.bodies[0].orientation = from_rotation_vector({0.1, 0.2, 0.3});
   Trajectory run{{s}};
-  harmless_change("mirror").take_back(before, run);
+  invariance_change("mirror").take_back(before, run);
   EXPECT_EQ(run.frames[0].bodies[0].angular_velocity, (Vec3{1.0, -2.0, -3.0}));
   const Vec3 r{0.3, -0.4, 0.5},
       turned = rotate(s.bodies[0].orientation, r);  // mirror, turn by the mirrored rotation, mirror: the turn itself
@@ -119,39 +119,39 @@ TEST(Harmless, ASpinIsAnAxialVector) {
   EXPECT_LE(difference({-way_round.x, way_round.y, way_round.z}, turned), 1e-15);
 }
 
-TEST(Harmless, IsRefusedWhereItIsNoSymmetry) {
+TEST(Invariance, IsRefusedWhereItIsNoSymmetry) {
   auto c = lopsided();
-  EXPECT_NE(harmless_change("boost").refusal(c.scene), "");  // periodic, and gravity
+  EXPECT_NE(invariance_change("boost").refusal(c.scene), "");  // periodic, and gravity
   c.scene.periodic = {};
   c.scene.gravity = {};
-  EXPECT_EQ(harmless_change("boost").refusal(c.scene), "");
+  EXPECT_EQ(invariance_change("boost").refusal(c.scene), "");
   c.scene.bodies.resize(1);
   c.scene.bodies[0].motion = Motion::fixed;
-  EXPECT_NE(harmless_change("boost").refusal(c.scene), "");
-  EXPECT_EQ(harmless_change("mirror").refusal(c.scene), "");
+  EXPECT_NE(invariance_change("boost").refusal(c.scene), "");
+  EXPECT_EQ(invariance_change("mirror").refusal(c.scene), "");
   c.scene.inflows.resize(1);
-  for (const char* name : {"mirror", "rotation", "units"}) EXPECT_NE(harmless_change(name).refusal(c.scene), "") << name;
+  for (const char* name : {"mirror", "rotation", "units"}) EXPECT_NE(invariance_change(name).refusal(c.scene), "") << name;
 }
 
-TEST(Harmless, AnUnknownChangeIsRefusedAsTheFileIsReadWithTheAllowedWords) {
+TEST(Invariance, AnUnknownChangeIsRefusedAsTheFileIsReadWithTheAllowedWords) {
   const TestFolder folder;
   try {
     (void)read_flight_case(folder, "[[harmless]]\nname = \"shuffle\"\n");
     FAIL() << "the name was taken";
   } catch (const InputError& e) {
-    for (const auto& change : harmless_changes())
+    for (const auto& change : invariance_changes())
       EXPECT_NE(std::string(e.what()).find(change.name), std::string::npos) << e.what();
   }
 }
 
-TEST(Harmless, EveryWordOfTheCaseFileIsAChange) {
+TEST(Invariance, EveryWordOfTheCaseFileIsAChange) {
   const TestFolder folder;
   std::string all;
-  for (const auto& change : harmless_changes()) all += "[[harmless]]\nname = \"" + std::string(change.name) + "\"\n";
+  for (const auto& change : invariance_changes()) all += "[[harmless]]\nname = \"" + std::string(change.name) + "\"\n";
   const auto value = read_flight_case(folder, all);
-  ASSERT_EQ(value.harmless.size(), harmless_changes().size());
-  for (const auto& name : value.harmless) EXPECT_EQ(harmless_change(name).name, name);
-  EXPECT_THROW((void)harmless_change("rigid.order"), InputError);
+  ASSERT_EQ(value.harmless.size(), invariance_changes().size());
+  for (const auto& name : value.harmless) EXPECT_EQ(invariance_change(name).name, name);
+  EXPECT_THROW((void)invariance_change("rigid.order"), InputError);
 }
 
 CaseResult judged_case(double measured, const std::string& hash = "a") {
@@ -162,61 +162,61 @@ CaseResult judged_case(double measured, const std::string& hash = "a") {
   return r.cases[0];
 }
 
-TEST(Harmless, AMetricThatChangesByMoreThanRoundOffIsFelt) {
-  const auto& order = harmless_change("order");
-  EXPECT_TRUE(judge_harmless(order, judged_case(0.05), judged_case(0.05 + 0.5 * order.tolerance)).borne);
-  EXPECT_FALSE(judge_harmless(order, judged_case(0.05), judged_case(0.05 + 2.0 * order.tolerance))
+TEST(Invariance, AMetricThatChangesByMoreThanRoundOffIsFelt) {
+  const auto& order = invariance_change("order");
+  EXPECT_TRUE(judge_invariance(order, judged_case(0.05), judged_case(0.05 + 0.5 * order.tolerance)).borne);
+  EXPECT_FALSE(judge_invariance(order, judged_case(0.05), judged_case(0.05 + 2.0 * order.tolerance))
                    .borne);  // green, and yet another answer
-  EXPECT_FALSE(judge_harmless(order, judged_case(0.05), judged_case(not_a_number)).borne);
+  EXPECT_FALSE(judge_invariance(order, judged_case(0.05), judged_case(not_a_number)).borne);
 }
 
-TEST(Harmless, AGateThatTurnsRedIsFeltHoweverSmallTheChange) {
-  const auto& order = harmless_change("order");
-  EXPECT_FALSE(judge_harmless(order, judged_case(0.1), judged_case(0.1 + 0.5 * order.tolerance)).borne);
+TEST(Invariance, AGateThatTurnsRedIsFeltHoweverSmallTheChange) {
+  const auto& order = invariance_change("order");
+  EXPECT_FALSE(judge_invariance(order, judged_case(0.1), judged_case(0.1 + 0.5 * order.tolerance)).borne);
 }
 
-TEST(Harmless, ThreadsMustKeepEveryBit) {
-  const auto& threads = harmless_change("threads");
-  EXPECT_TRUE(judge_harmless(threads, judged_case(0.05), judged_case(0.05)).borne);
-  EXPECT_FALSE(judge_harmless(threads, judged_case(0.05), judged_case(0.05, "b")).borne);
+TEST(Invariance, ThreadsMustKeepEveryBit) {
+  const auto& threads = invariance_change("threads");
+  EXPECT_TRUE(judge_invariance(threads, judged_case(0.05), judged_case(0.05)).borne);
+  EXPECT_FALSE(judge_invariance(threads, judged_case(0.05), judged_case(0.05, "b")).borne);
 }
 
-TEST(Harmless, ARunThatIsNotThereIsFelt) {
-  const auto& order = harmless_change("order");
+TEST(Invariance, ARunThatIsNotThereIsFelt) {
+  const auto& order = invariance_change("order");
   auto gone = judged_case(0.05);
   gone.engines[0].runs.clear();
-  EXPECT_FALSE(judge_harmless(order, judged_case(0.05), gone).borne);
+  EXPECT_FALSE(judge_invariance(order, judged_case(0.05), gone).borne);
   auto unjudged = judged_case(0.05);
   unjudged.engines[0].gates.clear();
-  EXPECT_FALSE(judge_harmless(order, unjudged, unjudged).borne);
+  EXPECT_FALSE(judge_invariance(order, unjudged, unjudged).borne);
 }
 
 /// The flight against its parabola, on our own solver, changed and taken back.
-TEST(Harmless, AFlightBearsWhatItsSceneAllowsAndTheBoostOfWhatFallsIsRefused) {
+TEST(Invariance, AFlightBearsWhatItsSceneAllowsAndTheBoostOfWhatFallsIsRefused) {
   const auto engine = ask_engine(program_folder() + "/../libexec/tripoint/engine-tripoint");
   ASSERT_TRUE(engine.available) << engine.reason;
   const TestFolder folder;
   std::string names;
-  for (const auto& change : harmless_changes()) names += "[[harmless]]\nname = \"" + std::string(change.name) + "\"\n";
+  for (const auto& change : invariance_changes()) names += "[[harmless]]\nname = \"" + std::string(change.name) + "\"\n";
   SelftestOptions options;
   options.out = folder / "out";
-  for (const auto& row : try_harmless(read_flight_case(folder, names), engine, options))
+  for (const auto& row : try_invariance(read_flight_case(folder, names), engine, options))
     EXPECT_EQ(row.borne, row.change != "boost") << row.change << ": " << row.found;
 }
 
-TEST(Harmless, ASolverWithAnAxisOfItsOwnFeelsTheRotation) {
+TEST(Invariance, ASolverWithAnAxisOfItsOwnFeelsTheRotation) {
   const TestFolder folder;
   SelftestOptions options;
   options.out = folder / "out";
   auto biased = ask_engine(fake_engine(folder, "knows which way is up", "tripoint"));
   ASSERT_TRUE(biased.available) << biased.reason;
-  const auto rows = try_harmless(read_flight_case(folder, "[[harmless]]\nname = \"rotation\"\n"), biased, options);
+  const auto rows = try_invariance(read_flight_case(folder, "[[harmless]]\nname = \"rotation\"\n"), biased, options);
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_FALSE(rows[0].borne);
   EXPECT_NEAR(rows[0].greatest, 0.5 * 0.01 * 9.81 * 0.5 * 0.5, 1e-9) << rows[0].found;  // its error along z, gone along x
 }
 
-TEST(Harmless, RunsOfOneStartHaveFilesOfTheirOwn) {
+TEST(Invariance, RunsOfOneStartHaveFilesOfTheirOwn) {
   const TestFolder folder;
   const auto value = read_flight_case(
       folder,
@@ -227,7 +227,7 @@ TEST(Harmless, RunsOfOneStartHaveFilesOfTheirOwn) {
   SuiteOptions options;
   options.out = folder / "out";
   options.selection.engines = {"tripoint"};
-  const auto changes = harmless_changes();
+  const auto changes = invariance_changes();
   options.change = &changes.front();
   const CaseRuns all = prepare_case(value, {ours}, options);
   std::set<std::string> files;
@@ -236,7 +236,7 @@ TEST(Harmless, RunsOfOneStartHaveFilesOfTheirOwn) {
   EXPECT_EQ(files.size(), all.runs.size());
 }
 
-TEST(Harmless, AFeltChangeEndsTheSelfTestWithFive) {
+TEST(Invariance, AFeltChangeEndsTheSelfTestWithFive) {
   const TestFolder folder;
   SelftestOptions options;
   options.out = folder / "out";

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Without --sandbox a stranger's engine finds no truth that it could copy: strangers_test.py TRIPOINT."""
+"""Without --sandbox a third-party engine finds no truth that it could copy: third_parties_test.py TRIPOINT."""
 
 import json
 import subprocess
@@ -34,7 +34,7 @@ job["scene"]["gravity"], "bodies": bodies}}, open(os.path.join(here, "result.jso
 """
 
 
-class Strangers(unittest.TestCase):
+class ThirdParties(unittest.TestCase):
     def setUp(self):
         place = tempfile.TemporaryDirectory()
         self.addCleanup(place.cleanup)

@@ -16,25 +16,25 @@ namespace {
 /// What is thrown here where this is tried; empty = nothing.
 std::string words_of(const std::function<void()>& deed, double limit = 20.0) {
   try {
-    try_of_stranger(deed, {"a file"}, limit);
+    try_of_third_party(deed, {"a file"}, limit);
     return {};
   } catch (const EngineError& e) {
     return e.what();
   }
 }
 
-TEST(StrangerReader, WhatEndsWellOrWithAnExceptionIsLeftToUs) {
+TEST(ThirdPartyReader, WhatEndsWellOrWithAnExceptionIsLeftToUs) {
   int done = 0;
   EXPECT_EQ(words_of([&] { ++done; }), "");
   EXPECT_EQ(words_of([] { throw std::runtime_error("refused"); }), "");
   EXPECT_EQ(done, 0);  // it was a copy that did it
 }
 
-TEST(StrangerReader, WhatKillsTheCopyIsAnErrorOfTheFile) {
+TEST(ThirdPartyReader, WhatKillsTheCopyIsAnErrorOfTheFile) {
   EXPECT_NE(words_of([] { ::raise(SIGSEGV); }).find("a file kills the library that reads it (signal 11"), std::string::npos);
 }
 
-TEST(StrangerReader, WhatHangsIsStoppedAtTheLimit) {
+TEST(ThirdPartyReader, WhatHangsIsStoppedAtTheLimit) {
   EXPECT_EQ(words_of(
                 [] {
                   for (;;) ::pause();
@@ -43,7 +43,7 @@ TEST(StrangerReader, WhatHangsIsStoppedAtTheLimit) {
             "a file could not be read within 0.2 s");
 }
 
-TEST(StrangerReader, NothingIsReadWithoutADescriptorToSpare) {
+TEST(ThirdPartyReader, NothingIsReadWithoutADescriptorToSpare) {
   rlimit before{};
   ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
   const int next = ::dup(0);
@@ -56,7 +56,7 @@ TEST(StrangerReader, NothingIsReadWithoutADescriptorToSpare) {
   EXPECT_EQ(told, "a file was not read: no file is to spare for what a copy of us reads: Too many open files");
 }
 
-TEST(StrangerReader, WhatTakesMoreThanTheMachineHasIsRefused) {
+TEST(ThirdPartyReader, WhatTakesMoreThanTheMachineHasIsRefused) {
 #if defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "address space is not bounded under the sanitizer";
 #endif
