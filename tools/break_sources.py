@@ -39,7 +39,7 @@ class Wrong(Exception):
 
 def load(root):
     """Changes by file, relative to root, and the defects of all folders. @raises Wrong"""
-    changes, defects = {}, []
+    changes, defects, used, named = {}, [], [], []
     for path in sorted(root.rglob("defects.toml")):
         try:
             data = tomllib.loads(path.read_text())
@@ -51,15 +51,19 @@ def load(root):
             ) from None
         if data:
             raise Wrong(f"{path}: unknown {', '.join(data)}: only [[defect]] and [[change]] stand here")
-        names, used = {name for name, _, _ in own}, {name for _, _, broken in here for name in USED.findall(broken)}
-        for name in sorted(used - names):
-            raise Wrong(f'{path}: defect<"{name}">() is used, and no [[defect]] has that name')
-        for name in sorted(names - used):
-            raise Wrong(f'{path}: no [[change]] uses defect<"{name}">()')
+        used += [(path, name) for _, _, broken in here for name in sorted(set(USED.findall(broken)))]
+        named += [(path, name) for name, _, _ in sorted(own)]
         defects += own
         for file, text, broken in here:
             place = (path.parent / file).relative_to(root).as_posix()
             changes.setdefault(place, []).append((path, text, broken))
+    known, seen = {name for _, name in named}, {name for _, name in used}
+    for path, name in used:
+        if name not in known:
+            raise Wrong(f"{path}: defect<\"{name}\">() is used, and no [[defect]] has that name")
+    for path, name in named:
+        if name not in seen:
+            raise Wrong(f"{path}: no [[change]] uses defect<\"{name}\">()")
     twice = {name for name, _, _ in defects if sum(name == other for other, _, _ in defects) > 1}
     if twice:
         raise Wrong(f"{root}: registered twice: {', '.join(sorted(twice))}")

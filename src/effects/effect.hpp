@@ -91,8 +91,12 @@ class Effect {
   virtual void drift(World&, double /*dt*/) {}
   /// Sets the columns that the pass adds to.
   virtual void clear(World&, PassName) {}
+  /// Adds to the sums of the pass of density, and takes densities from them. Called where places are new, before all states.
+  virtual void densities(World&) {}
   /// Sets the quantities that follow from the densities at the present places: pressures, temperatures, strains.
   virtual void state(World&) {}
+  /// Sets the quantities that follow from the states of all effects.
+  virtual void after_states(World&) {}
   /// Forces of bonds, after all states of the present time.
   virtual void bonds(World&) {}
   /// Sets the values of fixed particles that no step reads, except the sums of the passes (World::forms_fixed). Called after

@@ -87,7 +87,9 @@ inline void Simulation::drift(double dt) {
 }
 
 inline void Simulation::form_states() {
+  if (world_.moved) each_effect(Stage::state, [&](Effect& effect) { effect.densities(world_); });
   each_effect(Stage::state, [&](Effect& effect) { effect.state(world_); });
+  each_effect(Stage::state, [&](Effect& effect) { effect.after_states(world_); });
 }
 
 inline void Simulation::sum_bonds() {

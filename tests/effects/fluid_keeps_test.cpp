@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "effects/fluid/fields.hpp"
 #include "effects/fluid_lab.hpp"
+#include "liquids/fields.hpp"
 
 namespace tripoint {
 namespace {

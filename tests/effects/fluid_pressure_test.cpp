@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <numbers>
 
-#include "effects/fluid/equation_of_state.hpp"
 #include "effects/fluid_lab.hpp"
+#include "liquids/equation_of_state.hpp"
 #include "scene/shared_terms.hpp"
 
 namespace tripoint {

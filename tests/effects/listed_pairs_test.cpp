@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The pairs that the fluid lists beside the fused passes.
-#include "effects/fluid/listed_pairs.hpp"
+#include "liquids/listed_pairs.hpp"
 
 #include <gtest/gtest.h>
 
 namespace tripoint {
 namespace {
 
-using fluid::ListedPairs;
+using liquid::ListedPairs;
 
 /// Two rows: 4 with two pairs, 9 with one.
 void list_two_rows(ListedPairs<>& pairs) {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "effects/fluid/fields.hpp"
 #include "effects/fluid_lab.hpp"
+#include "liquids/fields.hpp"
 #include "scene/shared_terms.hpp"
 
 /// scene.mean_pressure and scene.sound_damping of liquid that the transport velocity moves (model 8.3).

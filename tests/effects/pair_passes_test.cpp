@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "passes/pair_passes.hpp"
-#include "effects/fluid/fields.hpp"
 #include "effects/heat/fields.hpp"
+#include "liquids/fields.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,11 @@
 #include <set>
 
 #include "core/machine.hpp"
+#include "effects/density/pair_slots.hpp"
 #include "effects/fluid/pair_slots.hpp"
 #include "effects/heat/pair_slots.hpp"
+#include "effects/no_slip/pair_slots.hpp"
+#include "effects/transport/pair_slots.hpp"
 #include "passes/run_pass.hpp"
 
 namespace tripoint {
@@ -83,7 +86,8 @@ TEST(PairPasses, SumTheTermsThatAreWantedAndNoOthers) {
     EXPECT_EQ(p.rates(some).terms, some.size()) << names_of(some);
     EXPECT_EQ(p.density(some).run, nullptr) << names_of(some);
   }
-  EXPECT_EQ(p.rates(Terms{pair_term<PressurePaper>}).terms, 0U) << "pressure and viscosity are compiled together alone";
+  EXPECT_EQ(p.rates(Terms{pair_term<PressurePaper>}).terms, 1U) << "where another effect brings the viscosity";
+  EXPECT_EQ(p.rates(Terms{pair_term<ViscosityPaper>}).terms, 0U) << "which is compiled together with a pressure alone";
   const auto names_term = [](const Field<double>* f) { return f->name == field::number_density.name; };
   EXPECT_TRUE(std::ranges::any_of(p.density(Terms{pair_term<NumberDensity>}).adds(), names_term));
 }
@@ -122,7 +126,7 @@ struct FarSlots {
 
 TEST(PairPasses, FuseTheTermOfOneMoreEffectWithThoseOfTheOthers) {
   struct Mine;  // a vector unit of the test's own: one particle at a time
-  using All = PassesOf<fluid::PairSlots, heat::PairSlots, FarSlots>;
+  using All = PassesOf<density::PairSlots, fluid::PairSlots, heat::PairSlots, FarSlots>;
   const PassFunction pass = All::Density::choose_among<1, Mine>(Terms{pair_term<Far>, pair_term<NumberDensity>});
   ASSERT_EQ(pass.terms, 2U);
   std::vector<FieldInfo> fields = common_fields(false);

@@ -6,8 +6,8 @@
 
 #include <numbers>
 
-#include "effects/fluid/fields.hpp"
 #include "effects/fluid_lab.hpp"
+#include "liquids/fields.hpp"
 
 namespace tripoint {
 namespace {

@@ -5,8 +5,8 @@
 #include <array>
 #include <random>
 
-#include "effects/fluid/fields.hpp"
 #include "effects/fluid_lab.hpp"
+#include "liquids/fields.hpp"
 
 namespace tripoint {
 namespace {

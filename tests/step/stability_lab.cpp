@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "step/stability_lab.hpp"
-#include "effects/fluid/fields.hpp"
 #include "effects/heat/fields.hpp"
+#include "liquids/fields.hpp"
 
 #include <cmath>
 #include <random>

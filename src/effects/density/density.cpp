@@ -1,41 +1,119 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "effects/density/density.hpp"
+#include <algorithm>
+#include <memory>
+#include <utility>
 
-#include "sph/density_term.hpp"
-#include "sph/kernels.hpp"
+#include "core/machine.hpp"
+#include "effects/density/density_terms.hpp"
+#include "effects/effect.hpp"
+#include "liquids/scene_numbers.hpp"
+#include "scene/effect_rule.hpp"
+#include "scene/shared_terms.hpp"
+#include "world/body_table.hpp"
+#include "world/fill.hpp"
 
+/// Density, which pressure, viscosity and the heat of the paper divide by: (4), or corrected by the number density (model 8.2).
 namespace tripoint::density {
 namespace {
 
-class DensityEffect : public Effect {
+/// Heat alone takes (4) as printed.
+bool is_printed(const Scene& scene) { return scene.mode_of(term::density) == Mode::paper || !calls_for(scene, "fluid"); }
+
+class Density : public Effect {
  public:
-  /// Each particle's own share of (4), m_i W(0).
-  void clear(World& world, PassName pass) override {
-    if (pass != PassName::density) return;
-    const double self = Poly6(world.support()).value(0.0);
-    const auto rho = world.particles[field::density];
-    const auto m = world.particles[field::mass];
-    for (std::size_t i = 0; i < rho.size(); ++i) rho[i] = m[i] * self;
-  }
-  void state(World& world) override {
-    if (!world.moved) return;
-    const Particles& p = world.particles;
-    const auto V = world.particles[field::volume];
-    const auto rho = p[field::density], m = p[field::mass];
-    for (std::size_t i = 0; i < V.size(); ++i) V[i] = m[i] / rho[i];
-  }
-  [[nodiscard]] PairWork pair_work(const Scene&) const override { return {{pair_term<DensityPaper>}}; }
+  explicit Density(const Scene& scene)
+      : flows_(calls_for(scene, "fluid")),
+        printed_(is_printed(scene)),
+        kernels_(flows_ ? liquid::pair_kernels(scene) : PairKernels(scene.support_ratio * scene.spacing)),
+        scale_(printed_ ? 1.0 : 1.0 / liquid::numbers_of(scene).lattice_density) {}
+  void load(World&, const InitialState&) override;
+  void clear(World&, PassName) override;
+  void densities(World&) override;
+  void settle(World&) override;
+  [[nodiscard]] PairWork pair_work(const Scene&) const override;
+
+ private:
+  void clear_numbers(World&) const;
+  void set_own_density(World&, std::size_t row) const;
+
+  bool flows_, printed_;
+  PairKernels kernels_;
+  double scale_;  ///< 1/S0 of the kernel
 };
+
+void Density::load(World& world, const InitialState&) {
+  for (std::size_t i = 0; i < world.particles.size(); ++i) set_own_density(world, i);
+}
+
+/// Sum that the own pairs of a particle add to its number density, once and for all (model 8.2).
+void Density::set_own_density(World& world, std::size_t row) const {
+  if (!world.particles.has(field::own_density.name)) return;
+  double sum = 0.0;
+  for (const OwnPair& pair : std::as_const(world.own).of(static_cast<std::size_t>(world.particles[field::id][row])))
+    sum += pair.weight;
+  world.particles[field::own_density][row] = sum;
+}
+
+/// When all that looks at the densities before the change has seen them.
+void Density::settle(World& world) {
+  for (const std::uint32_t id : world.change.relisted) set_own_density(world, world.particles.row(id));
+}
+
+/// Each particle's own share of the sum.
+void Density::clear(World& world, PassName pass) {
+  if (pass != PassName::density) return;
+  if (!printed_) return clear_numbers(world);
+  Particles& p = world.particles;
+  const auto rho = awake(p, field::density), m = p[field::mass];
+  const double self = kernels_.poly6.value(0.0);
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (rho.size() > worth_threads)
+  for (std::size_t i = 0; i < rho.size(); ++i) rho[i] = m[i] * self;
+}
+
+void Density::clear_numbers(World& world) const {
+  Particles& p = world.particles;
+  const Rows rows = world.forms_fixed ? Rows{p.awake(), p.size()} : Rows{0, p.awake()};
+  const auto delta = part(p[field::number_density], rows);
+  fill(delta, kernels_.wendland.value(0.0), world.threads);
+  if (!p.has(field::own_density.name)) return;
+  const auto own = part(p[field::own_density], rows);
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (delta.size() > worth_threads)
+  for (std::size_t i = 0; i < delta.size(); ++i) delta[i] += own[i];
+}
+
+void Density::densities(World& world) {
+  Particles& p = world.particles;
+  const auto rho = p[field::density], m = p[field::mass], V = p[field::volume];
+  if (!printed_) {
+    const auto delta = p[field::number_density];
+    const double scale = scale_;
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.awake() > worth_threads)
+    for (std::size_t i = 0; i < p.awake(); ++i) rho[i] = m[i] * (delta[i] * scale);
+  }
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.awake() > worth_threads)
+  for (std::size_t i = 0; i < p.awake(); ++i) V[i] = m[i] / rho[i];
+}
+
+PairWork Density::pair_work(const Scene&) const {
+  PairWork work{{printed_ ? pair_term<DensityPaper> : pair_term<NumberDensity>}};
+  work.where_it_acts = flows_;
+  work.leaves_own_pairs = !printed_;
+  return work;
+}
 
 }  // namespace
 
-EffectSpec spec(const Scene&) {
-  EffectSpec s{"density", Mode::paper, {field::density, field::volume}, {field::mass}};
+EffectSpec spec(const Scene& scene) {
+  const bool printed = is_printed(scene);
+  EffectSpec s{"density", printed ? Mode::paper : Mode::corrected, {field::density, field::volume}, {field::id, field::mass}};
+  if (!printed) s.owns.push_back(field::number_density);
+  if (!printed && can_have_deformable_bodies(scene)) s.owns.push_back(field::own_density);
   s.guards = {{field::density, "density", Written::density}};
   s.positive = {field::density};
+  s.skips_sleeping = calls_for(scene, "fluid");
   return s;
 }
 
-std::unique_ptr<Effect> make(const Scene&) { return std::make_unique<DensityEffect>(); }
+std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<Density>(scene); }
 
 }  // namespace tripoint::density

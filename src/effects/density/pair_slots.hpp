@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "sph/density_term.hpp"
+#include "effects/density/density_terms.hpp"
 #include "sph/pair_slots.hpp"
 
 namespace tripoint::density {
 
 struct PairSlots {
-  using density = SlotList<Slot<DensityPaper>>;
+  using density = SlotList<Slot<DensityPaper, NumberDensity>>;
 };
 
 }  // namespace tripoint::density

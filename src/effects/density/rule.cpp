@@ -7,7 +7,8 @@ namespace tripoint::density {
 namespace {
 
 std::string needed_for(const Scene& s, const Called& called) {
-  const bool printed = s.mode_of(term::heat) == Mode::paper && !called("fluid");
+  if (called("fluid")) return "pressure and viscosity divide by it";
+  const bool printed = s.mode_of(term::heat) == Mode::paper;
   return called("heat") && printed && !equal_temperature(s) ? "(21) as printed divides by the summed density (4)" : "";
 }
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "effects/fluid/fields.hpp"
+#include "liquids/fields.hpp"
 #include "scene/effect_rule.hpp"
 #include "world/ordered_sum.hpp"
 
@@ -27,10 +27,10 @@ constexpr double share_of_frontier = 0.81;
 
 double bulk_viscosity(const Scene& scene) { return acting_number(scene, "bulk_viscosity"); }
 
-void set_bulk_pressure(World& world, const SceneNumbers& n) {
+void set_bulk_pressure(World& world, const liquid::SceneNumbers& n) {
   Particles& p = world.particles;
-  const double dt = 2.0 * world.step_numbers[half_step];  // the step was begun by a half kick
-  const bool flows = dt > 0.0 && world.change.empty();    // new particles change densities at once
+  const double dt = 2.0 * world.step_numbers[liquid::half_step];  // the step was begun by a half kick
+  const bool flows = dt > 0.0 && world.change.empty();            // new particles change densities at once
   const double viscosity = flows ? n.bulk_viscosity * n.sound_speed * world.support() / dt : 0.0;  // [m2/s] over the step
   const auto delta = p[field::number_density], before = p[field::number_density_before], q = p[field::bulk_pressure];
   const auto rest = p[field::rest_density], m = p[field::mass], pressure = p[field::pressure], V = p[field::volume],

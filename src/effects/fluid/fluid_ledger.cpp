@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "effects/fluid/fluid_ledger.hpp"
 
-#include "effects/fluid/fields.hpp"
 #include "effects/fluid/fluid_terms.hpp"
+#include "liquids/fields.hpp"
 #include "scene/shared_terms.hpp"
 #include "world/ordered_sum.hpp"
 
@@ -23,8 +23,7 @@ double core_energy(const World& world, const Triple<const double>& x, std::span<
 
 }  // namespace
 
-void add_fluid(const World& world, const SceneNumbers& n, const PairKernels& kernels, const InterfaceWeight& interfaces,
-               Ledger& ledger) {
+void add_fluid(const World& world, const liquid::SceneNumbers& n, const PairKernels& kernels, Ledger& ledger) {
   const Particles& p = world.particles;
   const bool core = world.scene.mode_of(term::pressure) == Mode::corrected, clamps = world.scene.clamps();
   const auto m = p[field::mass], rho = p[field::density], rest = p[field::rest_density], group = p[field::group];
@@ -32,8 +31,7 @@ void add_fluid(const World& world, const SceneNumbers& n, const PairKernels& ker
   std::vector<std::array<double, 1>> blocks;
   const auto compression = ordered_sums_of_all(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
     if (core && i < world.neighbours->rows()) sum[0] += core_energy(world, x, group, kernels.core, i);
-    if (interfaces.acts() && i < world.neighbours->rows()) sum[0] += interfaces.energy(world, kernels, i);
-    sum[0] += compression_energy(state_of(n, group[i], rest[i], clamps), m[i], rho[i]);
+    sum[0] += compression_energy(liquid::state_of(n, group[i], rest[i], clamps), m[i], rho[i]);
   });
   ledger.energy["compression"] += compression[0];
 }

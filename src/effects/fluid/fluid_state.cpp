@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "core/machine.hpp"
-#include "effects/fluid/fields.hpp"
+#include "liquids/fields.hpp"
 #include "scene/shared_terms.hpp"
 #include "world/body_table.hpp"
 #include "world/failure.hpp"
@@ -14,7 +14,7 @@
 
 namespace tripoint::fluid {
 
-void refuse_overlap(const World& world, const SceneNumbers& n) {
+void refuse_overlap(const World& world, const liquid::SceneNumbers& n) {
   const Particles& p = world.particles;
   if (!p.has(field::number_density) || is_off(world.scene, GuardName::overlap)) return;
   const auto rho = p[field::density], rest = p[field::rest_density], group = p[field::group];
@@ -32,31 +32,18 @@ void refuse_overlap(const World& world, const SceneNumbers& n) {
                    most, n.overlap_density));
 }
 
-void set_density(World& world, const SceneNumbers& n) {
-  Particles& p = world.particles;
-  const auto rho = p[field::density], m = p[field::mass], V = p[field::volume];
-  if (world.scene.mode_of(term::density) == Mode::corrected) {
-    const auto delta = p[field::number_density];
-    const double scale = 1.0 / n.lattice_density;
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.awake() > worth_threads)
-    for (std::size_t i = 0; i < p.awake(); ++i) rho[i] = m[i] * (delta[i] * scale);
-  }
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.awake() > worth_threads)
-  for (std::size_t i = 0; i < p.awake(); ++i) V[i] = m[i] / rho[i];
-}
-
-void set_pressure(World& world, const SceneNumbers& n) {
+void set_pressure(World& world, const liquid::SceneNumbers& n) {
   Particles& p = world.particles;
   const auto rho = p[field::density], rest = p[field::rest_density], pressure = p[field::pressure], group = p[field::group];
   const bool paper = world.scene.mode_of(term::state) == Mode::paper, clamps = world.scene.clamps();
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (p.awake() > worth_threads)
   for (std::size_t i = 0; i < p.awake(); ++i) {
-    const EquationOfState e = state_of(n, group[i], rest[i], clamps);
+    const EquationOfState e = liquid::state_of(n, group[i], rest[i], clamps);
     pressure[i] = paper ? pressure_paper(e, rho[i]) : pressure_corrected(e, rho[i]);
   }
 }
 
-void set_pressure_shares(World& world, const SceneNumbers& n) {
+void set_pressure_shares(World& world, const liquid::SceneNumbers& n) {
   Particles& p = world.particles;
   const auto share = p[field::pressure_share], V = p[field::volume], pressure = p[field::pressure], m = p[field::mass],
              rest = p[field::rest_density];
@@ -75,7 +62,7 @@ void set_pressure_shares(World& world, const SceneNumbers& n) {
 
 void predict_velocities(World& world) {
   Particles& p = world.particles;
-  const double ahead = world.step_numbers[half_step];
+  const double ahead = world.step_numbers[liquid::half_step];
   const FreeRows rows = free_rows(world);
   const FreeLoops loops = free_loops(rows.forces);
   const auto seen = triple(p, field::viscous_velocity_x, field::viscous_velocity_y, field::viscous_velocity_z);

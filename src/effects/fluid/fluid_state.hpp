@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "effects/fluid/material_numbers.hpp"
+#include "liquids/scene_numbers.hpp"
 #include "world/world.hpp"
 
 /// State that follows from places and velocities of one time, particle by particle: before the rate pass.
@@ -9,14 +9,12 @@ namespace tripoint::fluid {
 /// @throws Diverged where a particle that is no wall has the density of two layers in one plane. Then its body or liquid and
 /// another overlap by one spacing. For printed (4) there is no such limit: it sums masses, so an overlap looks like a heavy
 /// neighbour.
-void refuse_overlap(const World&, const SceneNumbers&);
-/// rho and V from the sums of the density pass: delta = sum W / S0, rho = m delta (model 8.2), or (4) as printed.
-void set_density(World&, const SceneNumbers&);
+void refuse_overlap(const World&, const liquid::SceneNumbers&);
 /// (9), printed or scaled (model 8.3).
-void set_pressure(World&, const SceneNumbers&);
+void set_pressure(World&, const liquid::SceneNumbers&);
 /// V^2 p, with the pressure of the bulk viscosity, over the kernel's lattice moment: the share of each particle in the corrected
 /// pressure force.
-void set_pressure_shares(World&, const SceneNumbers&);
+void set_pressure_shares(World&, const liquid::SceneNumbers&);
 /// The velocities that viscous pairs see: those at the full step, half a kick ahead with the old rates (model 7, time).
 void predict_velocities(World&);
 

@@ -2,30 +2,13 @@
 #pragma once
 #include <type_traits>
 
-#include "effects/fluid/fields.hpp"
+#include "liquids/acting_pairs.hpp"
+#include "liquids/fields.hpp"
 #include "sph/pass.hpp"
 
-/// Pair terms of liquids, and of everything that touches: density, pressure and viscosity, printed and corrected.
+/// Pair terms of liquids, and of everything that touches: pressure and viscosity, printed and corrected.
 /// d = r_j - r_i, so that grad_i W = -(W'/r) d.
 namespace tripoint {
-
-/// Number density (model 8.2) [Solenthaler & Pajarola 2008]: delta_i = sum_j W(r_ij) [1/m3]. The particle itself and its own
-/// pairs are added before the pass. The division by the kernel's lattice sum follows it.
-struct NumberDensity {
-  static constexpr bool zero_beyond = true;
-  using reads = Keys<>;
-  using adds = Keys<field::number_density>;
-  template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 0>, std::span<const V, 0>, std::span<V, 1> sum) {
-    sum[0] += where(g.apart, g.kernels.wendland.value_inside(g.r));
-  }
-};
-
-/// Where a pair acts: not where both are members of one rigid body, or both are wall.
-template <class V>
-[[nodiscard]] inline MaskOf<V> acts(V group_i, V group_j) noexcept {
-  return (group_j < wall_group) | (group_i != group_j);
-}
 
 /// Pressure force (7) corrected (model 8.3) [N]: F_i = -sum_j (V_i^2 p_i + V_j^2 p_j) grad_i W, the gradient of
 /// compression_energy(). `pressure_share` is V^2 p over the kernel's lattice moment, so that p is the force on an area also on
@@ -73,15 +56,6 @@ template <class V>
   const MaskOf<V> is_solid_i = solid_i != 0.0, is_solid_j = solid_j != 0.0;
   const V with_j = is_solid_j ? 0.5 * (mu_i + mu_j) : mu_j * stick_i, without_j = is_solid_j ? mu_i * stick_j : liquids;
   return is_solid_i ? with_j : without_j;
-}
-
-/// -W'/r [1/m5], as `central` viscosity weights it for isotropic shear where it does (model 8.5).
-template <bool weighted, class V>
-[[nodiscard, gnu::always_inline]] inline V shear_weighted(const PairGeometry<V>& g) noexcept {
-  if constexpr (weighted)
-    return g.kernels.shear.weighted(-g.gradient, g.r2);
-  else
-    return -g.gradient;
 }
 
 using ViscousKeys = Keys<field::volume, field::viscosity, field::solid, field::stick, field::group, field::viscous_velocity_x,

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "effects/fluid/fields.hpp"
 #include "effects/fluid/fluid_terms.hpp"
+#include "liquids/fields.hpp"
 #include "scene/shared_terms.hpp"
 
 namespace tripoint::fluid {
@@ -24,7 +24,7 @@ std::vector<std::size_t> changed_rows(const World& world) {
 
 }  // namespace
 
-double compression_jump(const World& world, const SceneNumbers& n, const PairKernels& kernels,
+double compression_jump(const World& world, const liquid::SceneNumbers& n, const PairKernels& kernels,
                         const std::function<double(std::size_t)>& group_now, double back) {
   const bool core = world.scene.mode_of(term::pressure) == Mode::corrected,
              numbers = world.scene.mode_of(term::density) == Mode::corrected, clamps = world.scene.clamps();
@@ -55,7 +55,7 @@ double compression_jump(const World& world, const SceneNumbers& n, const PairKer
       jump += (changed[j] ? 0.5 : 1.0) * (acts_now - acted) * kernels.core.energy(r);
     }
     if (!numbers || before == after) continue;
-    const EquationOfState state = state_of(n, group[i], rest[i], clamps);
+    const EquationOfState state = liquid::state_of(n, group[i], rest[i], clamps);
     const auto energy = [&](double delta) { return compression_energy(state, m[i], m[i] * delta / n.lattice_density); };
     jump += energy(after) - energy(before);
   }

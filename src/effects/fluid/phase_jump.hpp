@@ -2,7 +2,7 @@
 #pragma once
 #include <functional>
 
-#include "effects/fluid/material_numbers.hpp"
+#include "liquids/scene_numbers.hpp"
 #include "world/world.hpp"
 
 namespace tripoint::fluid {
@@ -11,7 +11,7 @@ namespace tripoint::fluid {
 /// changed particles and their pairs. @pre the columns `group` and `own_density` and the marks of the neighbour lists are those
 /// of before the change. @param group_now group of a row after the change @param back time before now at which energies are
 /// compared [s]. It is half a drift: the kick before has the old forces, the kick after it the new ones
-[[nodiscard]] double compression_jump(const World&, const SceneNumbers&, const PairKernels&,
+[[nodiscard]] double compression_jump(const World&, const liquid::SceneNumbers&, const PairKernels&,
                                       const std::function<double(std::size_t)>& group_now, double back);
 
 }  // namespace tripoint::fluid

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "effects/fluid/pressing_gravity.hpp"
-#include "effects/fluid/stored_compression.hpp"
+#include "liquids/pressing_gravity.hpp"
+#include "liquids/stored_compression.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/shared_terms.hpp"
 #include "tables/table_reader.hpp"
@@ -13,8 +13,6 @@ namespace tripoint::fluid {
 namespace {
 
 bool is_liquid(const Scene&, const Body& b, const Material&) { return b.phase == Phase::liquid; }
-
-bool is_free_solid(const Scene&, const Body& b, const Material&) { return b.phase != Phase::liquid && b.motion == Motion::free; }
 
 bool has_stiffness(const Material& m) { return m.stiffness.has_value(); }
 
@@ -52,10 +50,6 @@ std::string no_form_of_viscosity(const Scene& s) {
   return s.mode_of(term::viscosity) == Mode::paper ? "viscosity as printed has one form" : "";
 }
 
-std::string no_transport_velocity(const Scene& s) {
-  return s.mode_of(term::pressure) == Mode::paper ? "pressure as printed knows no transport velocity" : "";
-}
-
 std::string solid_viscosity_idle(const Scene& scene) {
   return scene.mode_of(term::viscosity) == Mode::paper
              ? ""
@@ -78,18 +72,8 @@ std::string no_surface_weight(const Scene& scene) {
   if (any_body(scene,
                [](const Scene&, const Body& b, const Material&) { return b.phase != Phase::liquid && b.motion == Motion::free; }))
     return "a free body that floats would be lifted by it";
-  if (pressing_gravity(scene) == Vec3{})
+  if (liquid::pressing_gravity(scene) == Vec3{})
     return "gravity presses nothing down: there is none, or it acts along periodic directions alone";
-  return no_bulk_viscosity(scene);
-}
-
-std::string no_interface_weight(const Scene& scene) {
-  if (pressing_gravity(scene) == Vec3{}) return "gravity presses nothing down";
-  std::vector<double> densities;
-  for (const Body& b : scene.bodies)
-    if (b.phase == Phase::liquid) densities.push_back(scene.material(b.material).density);
-  for (const Inflow& f : scene.inflows) densities.push_back(scene.material(f.material).density);
-  if (std::ranges::all_of(densities, [&](double rho) { return rho == densities.front(); })) return "all liquids are as heavy";
   return no_bulk_viscosity(scene);
 }
 
@@ -100,37 +84,8 @@ std::string no_isotropic_shear(const Scene& s) {
   return any_material(s, [](const Material& m) { return m.viscosity > 0.0; }) ? "" : "nothing is viscous";
 }
 
-std::string no_transport(const Scene& scene) {
-  for (const Term& one : {term::density, term::pressure, term::state})
-    if (scene.mode_of(one) != Mode::corrected) return fmt::format("{} is as printed", one.name);
-  return scene.transport_velocity ? "" : "particles move with their own velocity: transport_velocity is false";
-}
-
 std::string no_core(const Scene& scene) {
   return scene.mode_of(term::pressure) == Mode::paper ? "the pressure is as printed, and has no core" : "";
-}
-
-std::string no_contact_stiffness(const Scene& s) {
-  if (s.mode_of(term::state) == Mode::paper) return "the equation of state is as printed";
-  if (calls_for(s, "phase")) return "where matter melts or freezes, its stiffness would change at once";
-  return any_body(s, is_free_solid) ? "" : "no solid is free to touch another";
-}
-
-std::string no_contact_step(const Scene& s) {
-  if (s.time_step) return "the scene gives its time_step";
-  if (!s.clamps()) return "the scene does not clamp: solids pull at each other before they touch";
-  for (const Term& one : {term::density, term::pressure, term::state})
-    if (s.mode_of(one) != Mode::corrected) return fmt::format("{} is as printed", one.name);
-  if (calls_for(s, "phase")) return "where matter melts or freezes, densities change at once";
-  return any_body(s, is_free_solid) ? "" : "no solid is free to touch another";
-}
-
-std::string no_face_pressure(const Scene& s) {
-  for (const Term term : {term::density, term::pressure, term::state, term::elastic})
-    if (s.mode_of(term) != Mode::corrected) return fmt::format("{} is as printed", term.name);
-  if (!calls_for(s, "elastic")) return "nothing elastic moves";
-  if (calls_for(s, "phase")) return "where matter melts or freezes, its shape of reference changes at once";
-  return calls_for(s, "fracture") ? "where bonds break, the shape of reference changes at once" : "";
 }
 
 /// How liquids resist shear (model 8.5).
@@ -148,55 +103,6 @@ std::vector<EffectKey> viscosity_keys() {
         "corrected and central"},
        {},
        no_isotropic_shear},
-  };
-}
-
-/// Motion by the transport velocity, and what goes with it (model 8.3).
-std::vector<EffectKey> transport_keys() {
-  using enum ValueType;
-  using enum Range;
-  return {
-      {{"scene", "transport_velocity", flag, "", any, "false", "a choice for vortical flow without free surface", "",
-        "move particles by the transport velocity"},
-       &Scene::transport_velocity,
-       no_transport_velocity},
-      {{"scene", "mean_pressure", number, "", fraction, "0", "pressure is that of each particle's own density", "",
-        "share of the neighbours' mean in the pressure of a liquid (model 8.3). Only with transport_velocity, where density, "
-        "pressure and state are corrected"},
-       {},
-       no_transport},
-      {{"scene", "sound_damping", number, "", not_negative, "0", "off: unclamped liquids are often used to study sound waves", "",
-        "numerical bulk viscosity over rho0 c h, h the support (model 8.3). Only with transport_velocity, where density, "
-        "pressure and state are corrected"},
-       {},
-       no_transport},
-  };
-}
-
-/// Forces of solids on each other and on liquids where they touch (model 8.3).
-std::vector<EffectKey> contact_keys() {
-  using enum ValueType;
-  using enum Range;
-  return {
-      {{"scene", "contact_viscosity", number, "Pa s", not_negative, "0", "contact of solids without friction", "",
-        "viscosity between solids that touch"},
-       &Scene::contact_viscosity},
-      {{"scene", "contact_stiffness", number, "", not_negative, "0", "contacts are as stiff as the scene's liquids", "",
-        "extra stiffness of solid contact: contacts use (1 + contact_stiffness) k (model 8.3). Only where the state is "
-        "corrected, nothing freezes, and a solid is free"},
-       {},
-       no_contact_stiffness},
-      {{"scene", "contact_step", number, "", fraction, "0", "the contact bound always holds", "",
-        "share of the contact bound of the step, used only while a free solid is pressed or about to be (model 8.10). 0: the "
-        "bound always holds. Only where the scene clamps without time_step, density, pressure and state are corrected, nothing "
-        "freezes, and a solid is free"},
-       {},
-       no_contact_step},
-      {{"scene", "face_pressure", number, "", fraction, "0", "bodies of many particles hardly need it", "",
-        "share of the pressure on an elastic solid that acts at its face, not at its outer particles (model 8.3). Only where "
-        "density, pressure, state and elasticity are corrected, nothing freezes and no solid can break"},
-       {},
-       no_face_pressure},
   };
 }
 
@@ -220,12 +126,17 @@ std::vector<EffectKey> pressure_keys() {
         "clamps, density, pressure and state are corrected, nothing freezes, and no body is free"},
        {},
        no_surface_weight},
-      {{"scene", "interface_weight", number, "", fraction, "0", "only layers of two liquids need it", "",
-        "share of the energy of unlike pairs that corrects the pressure at a level interface of two liquids (model 8.3). Only "
-        "where density, pressure and state are corrected, the scene clamps, nothing freezes, and "
-        "liquids of two densities have a weight"},
-       {},
-       no_interface_weight},
+  };
+}
+
+/// Friction of solids that touch.
+std::vector<EffectKey> contact_keys() {
+  using enum ValueType;
+  using enum Range;
+  return {
+      {{"scene", "contact_viscosity", number, "Pa s", not_negative, "0", "contact of solids without friction", "",
+        "viscosity between solids that touch"},
+       &Scene::contact_viscosity},
   };
 }
 
@@ -252,7 +163,7 @@ std::vector<EffectKey> material_keys() {
 /// Keys of the case file, in the order of its reference page.
 std::vector<EffectKey> keys() {
   std::vector<EffectKey> all;
-  for (const auto& group : {viscosity_keys(), transport_keys(), contact_keys(), pressure_keys(), material_keys()})
+  for (const auto& group : {viscosity_keys(), contact_keys(), pressure_keys(), material_keys()})
     all.insert(all.end(), group.begin(), group.end());
   return all;
 }
@@ -273,33 +184,13 @@ std::vector<DeclaredTerm> terms() {
 }
 
 std::vector<ModelChoice> choices() {
-  return {{"mean_pressure",
-           {{"neighbours",
-             "the pressure of a liquid that the transport velocity moves is the mean over neighbours (8.3)",
-             {{"mean_pressure", 1.0}}},
-            {"none", "", {{"mean_pressure", 0.0}}}}},
-          {"sound_damping",
-           {{"bulk", "numerical bulk viscosity where the transport velocity moves the liquid (8.3)", {{"sound_damping", 0.2}}},
-            {"none", "", {{"sound_damping", 0.0}}}}},
-          {"contact",
-           {{"stiff", "solids are 25 times as stiff where they touch (8.3)", {{"contact_stiffness", 24.0}}},
-            {"common", "as stiff as the scene's liquids", {{"contact_stiffness", 0.0}}}}},
-          {"contact_step",
-           {{"at-touch", "the bound of contact holds near a touch alone (8.10)", {{"contact_step", 1.0}}},
-            {"always", "it holds in every step", {{"contact_step", 0.0}}}}},
-          {"contact_face",
-           {{"face", "pressure acts at the faces of elastic solids (8.3)", {{"face_pressure", 1.0}}},
-            {"centres", "at the middles of their outer particles", {{"face_pressure", 0.0}}}}},
-          {"bulk_viscosity",
+  return {{"bulk_viscosity",
            {{"numerical", "of liquids, 0.2 rho0 c h (8.4)", {{"bulk_viscosity", 0.2}}}, {"none", "", {{"bulk_viscosity", 0.0}}}}},
           {"core",
            {{"repulsive", "pairs repel below 0.9 spacings (8.3)", {{"core_reach", 0.9}}}, {"none", "", {{"core_reach", 0.0}}}}},
           {"surface",
            {{"weighted", "the topmost layer bears half of its weight (8.3)", {{"surface_weight", 0.5}}},
-            {"none", "", {{"surface_weight", 0.0}}}}},
-          {"interface",
-           {{"weighted", "pressure is right on both sides of a level interface (8.3)", {{"interface_weight", 1.0}}},
-            {"none", "", {{"interface_weight", 0.0}}}}}};
+            {"none", "", {{"surface_weight", 0.0}}}}}};
 }
 
 void settle_material(TableReader& in, Material& m) {
@@ -311,7 +202,7 @@ void settle_material(TableReader& in, Material& m) {
 }
 
 std::vector<std::string_view> always_told(const Scene& scene) {
-  return {"viscous", stores_compression(scene) ? "compression" : "pressure_work"};
+  return {"viscous", liquid::stores_compression(scene) ? "compression" : "pressure_work"};
 }
 
 }  // namespace
@@ -330,8 +221,7 @@ EffectRule rule() {
                              {"pressure_work", "in place of `compression`: work that the printed form of pressure took"},
                              {"phase_work"},
                              {"viscous", "work that viscosity took"},
-                             {"bulk_viscous", "work that the numerical bulk viscosity took"},
-                             {"transport", "work of the transport velocity"}},
+                             {"bulk_viscous", "work that the numerical bulk viscosity took"}},
           .always_told = always_told,
           .over_processes = true,
           .has_pairs = true,

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "effects/fluid/fields.hpp"
 #include "effects/fluid/viscous_form.hpp"
+#include "liquids/fields.hpp"
 #include "passes/pair_passes.hpp"
 #include "passes/run_pass.hpp"
 #include "sph/moments.hpp"

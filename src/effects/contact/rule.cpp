@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "scene/effect_rule.hpp"
+#include "scene/shared_terms.hpp"
+
+namespace tripoint::contact {
+namespace {
+
+bool is_free_solid(const Scene&, const Body& b, const Material&) { return b.phase != Phase::liquid && b.motion == Motion::free; }
+
+std::string no_contact_stiffness(const Scene& s) {
+  if (s.mode_of(term::state) == Mode::paper) return "the equation of state is as printed";
+  if (calls_for(s, "phase")) return "where matter melts or freezes, its stiffness would change at once";
+  return any_body(s, is_free_solid) ? "" : "no solid is free to touch another";
+}
+
+std::string no_contact_step(const Scene& s) {
+  if (s.time_step) return "the scene gives its time_step";
+  if (!s.clamps()) return "the scene does not clamp: solids pull at each other before they touch";
+  for (const Term& one : {term::density, term::pressure, term::state})
+    if (s.mode_of(one) != Mode::corrected) return fmt::format("{} is as printed", one.name);
+  if (calls_for(s, "phase")) return "where matter melts or freezes, densities change at once";
+  return any_body(s, is_free_solid) ? "" : "no solid is free to touch another";
+}
+
+bool asks(const Scene& s) { return acting_number(s, "contact_stiffness") > 0.0 || acting_number(s, "contact_step") > 0.0; }
+
+std::string called_for(const Scene& s) {
+  return calls_for(s, "fluid") && asks(s) ? "solids that touch are stiffer, or shorten the step" : "";
+}
+
+std::string left_out(const Scene& s) {
+  if (!calls_for(s, "fluid")) return "nothing flows or touches";
+  const std::string why = no_contact_stiffness(s);
+  return why.empty() ? "scene.contact_stiffness and scene.contact_step are 0" : why;
+}
+
+std::vector<EffectKey> keys() {
+  using enum ValueType;
+  using enum Range;
+  return {
+      {{"scene", "contact_stiffness", number, "", not_negative, "0", "contacts are as stiff as the scene's liquids", "",
+        "extra stiffness of solid contact: contacts use (1 + contact_stiffness) k (model 8.3). Only where the state is "
+        "corrected, nothing freezes, and a solid is free"},
+       {},
+       no_contact_stiffness},
+      {{"scene", "contact_step", number, "", fraction, "0", "the contact bound always holds", "",
+        "share of the contact bound of the step, used only while a free solid is pressed or about to be (model 8.10). 0: the "
+        "bound always holds. Only where the scene clamps without time_step, density, pressure and state are corrected, nothing "
+        "freezes, and a solid is free"},
+       {},
+       no_contact_step},
+  };
+}
+
+}  // namespace
+
+EffectRule rule() {
+  return {.name = "contact",
+          .called_for = called_for,
+          .left_out = left_out,
+          .choices = {{"contact",
+                       {{"stiff", "solids are 25 times as stiff where they touch (8.3)", {{"contact_stiffness", 24.0}}},
+                        {"common", "as stiff as the scene's liquids", {{"contact_stiffness", 0.0}}}}},
+                      {"contact_step",
+                       {{"at-touch", "the bound of contact holds near a touch alone (8.10)", {{"contact_step", 1.0}}},
+                        {"always", "it holds in every step", {{"contact_step", 0.0}}}}}},
+          .keys = keys(),
+          .over_processes = true};
+}
+
+}  // namespace tripoint::contact

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "liquids/fields.hpp"
+#include "sph/pass.hpp"
+
+namespace tripoint {
+
+/// Density (4): rho_i = sum_j m_j W_poly6(r_ij) [kg/m3]; the particle itself is added before the pass.
+struct DensityPaper {
+  using reads = Keys<field::mass>;
+  using adds = Keys<field::density>;
+  template <class V>
+  static void pair(const PairGeometry<V>& g, std::span<const V, 1>, std::span<const V, 1> j, std::span<V, 1> sum) {
+    const V m_j = j[0];
+    sum[0] += m_j * g.kernels.poly6.value_of_square_inside(g.r2);
+  }
+};
+
+/// Number density (model 8.2) [Solenthaler & Pajarola 2008]: delta_i = sum_j W(r_ij) [1/m3]. The particle itself and its own
+/// pairs are added before the pass. The division by the kernel's lattice sum follows it.
+struct NumberDensity {
+  static constexpr bool zero_beyond = true;
+  using reads = Keys<>;
+  using adds = Keys<field::number_density>;
+  template <class V>
+  static void pair(const PairGeometry<V>& g, std::span<const V, 0>, std::span<const V, 0>, std::span<V, 1> sum) {
+    sum[0] += where(g.apart, g.kernels.wendland.value_inside(g.r));
+  }
+};
+
+}  // namespace tripoint

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "scene/effect_rule.hpp"
+#include "scene/shared_terms.hpp"
+
+namespace tripoint::faces {
+namespace {
+
+std::string no_face_pressure(const Scene& s) {
+  for (const Term term : {term::density, term::pressure, term::state, term::elastic})
+    if (s.mode_of(term) != Mode::corrected) return fmt::format("{} is as printed", term.name);
+  if (!calls_for(s, "elastic")) return "nothing elastic moves";
+  if (calls_for(s, "phase")) return "where matter melts or freezes, its shape of reference changes at once";
+  return calls_for(s, "fracture") ? "where bonds break, the shape of reference changes at once" : "";
+}
+
+std::string called_for(const Scene& s) {
+  return calls_for(s, "fluid") && acting_number(s, "face_pressure") > 0.0
+             ? "scene.face_pressure: pressure acts at the faces of elastic solids"
+             : "";
+}
+
+std::string left_out(const Scene& s) {
+  if (!calls_for(s, "fluid")) return "nothing flows or touches";
+  const std::string why = no_face_pressure(s);
+  return why.empty() ? "scene.face_pressure is 0" : why;
+}
+
+std::vector<EffectKey> keys() {
+  using enum ValueType;
+  using enum Range;
+  return {
+      {{"scene", "face_pressure", number, "", fraction, "0", "bodies of many particles hardly need it", "",
+        "share of the pressure on an elastic solid that acts at its face, not at its outer particles (model 8.3). Only where "
+        "density, pressure, state and elasticity are corrected, nothing freezes and no solid can break"},
+       {},
+       no_face_pressure},
+  };
+}
+
+}  // namespace
+
+EffectRule rule() {
+  return {.name = "faces",
+          .called_for = called_for,
+          .left_out = left_out,
+          .choices = {{"contact_face",
+                       {{"face", "pressure acts at the faces of elastic solids (8.3)", {{"face_pressure", 1.0}}},
+                        {"centres", "at the middles of their outer particles", {{"face_pressure", 0.0}}}}}},
+          .keys = keys(),
+          .over_processes = true};
+}
+
+}  // namespace tripoint::faces

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/interfaces/interface_weight.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "liquids/fields.hpp"
+#include "liquids/pressing_gravity.hpp"
+#include "scene/effect_rule.hpp"
+
+namespace tripoint::interfaces {
+namespace {
+
+bool are_unlike(double group_i, double rest_i, double group_j, double rest_j) {
+  return group_i == liquid_group && group_j == liquid_group && rest_i != rest_j;
+}
+
+}  // namespace
+
+InterfaceWeight::InterfaceWeight(const Scene& scene) : gravity_(liquid::pressing_gravity(scene)) {
+  const double share = acting_number(scene, "interface_weight");
+  if (share == 0.0) return;
+  const double dx = scene.spacing, V0 = dx * dx * dx;
+  factor_ = 0.5 * share * V0 * V0 / wendland_moments(scene.support_ratio).gradient;
+  kernel_ = interface_kernel(scene.support_ratio);
+  kernel_.square /= dx * dx;
+}
+
+void InterfaceWeight::find(const World& world) {
+  if (!pairs_.renew(world.neighbours->rebuilds())) return;
+  const Particles& p = world.particles;
+  const auto group = p[field::group], rest = p[field::rest_density];
+  for (std::uint32_t i = 0; i < p.moving(); ++i) {
+    if (group[i] != liquid_group) continue;
+    for (const Entry e : world.neighbours->of(i)) {
+      const auto j = static_cast<std::uint32_t>(e.row());
+      if (are_unlike(group[i], rest[i], group[j], rest[j])) pairs_.add({j, e.image()});
+    }
+    if (pairs_.has_open_row()) pairs_.end_row(i);
+  }
+}
+
+/// The gradient of a (g.d) K: a (g K + (g.d) K'/r d) on i, the opposite on j.
+void InterfaceWeight::add_forces(World& world, const PairKernels& kernels) {
+  if (world.forms_fixed) return;  // the forces on liquids are of the present time
+  find(world);
+  Particles& p = world.particles;
+  const auto x = positions(std::as_const(p));
+  const auto rest = std::as_const(p)[field::rest_density];
+  const auto F = triple(p, field::force_x, field::force_y, field::force_z);
+  const double support = world.support();
+  pairs_.each_row(world.threads, [&](std::size_t n) {
+    const std::size_t i = pairs_.row(n);
+    Vec3 f;
+    for (const liquid::ListedPair& pair : pairs_.of(n)) {
+      const Vec3 d = liquid::way_to(*world.neighbours, x, i, pair);
+      const double r = norm(d);
+      if (!(r < support)) continue;
+      const double a = factor_ * (rest[i] - rest[pair.row]);
+      f += (a * kernel_.value(kernels.wendland, r)) * gravity_ +
+           (a * dot(gravity_, d) * kernel_.derivative_over_r(kernels.wendland, r)) * d;
+    }
+    F.set(i, F.at(i) + f);
+  });
+  world.refresh(liquid::pressure_force);
+}
+
+double InterfaceWeight::energy(const World& world, const PairKernels& kernels, std::size_t i) const {
+  const Particles& p = world.particles;
+  const auto group = p[field::group], rest = p[field::rest_density];
+  const auto x = positions(p);
+  double sum = 0.0;
+  if (group[i] != liquid_group) return sum;
+  for (const Entry e : world.neighbours->of(i)) {
+    const std::size_t j = e.row();
+    if (!are_unlike(group[i], rest[i], group[j], rest[j])) continue;
+    const Vec3 d = (x.at(j) - x.at(i)) + world.neighbours->shift(e.image());
+    const double r = norm(d);
+    if (r < world.support()) sum += 0.5 * factor_ * (rest[i] - rest[j]) * dot(gravity_, d) * kernel_.value(kernels.wendland, r);
+  }
+  return sum;
+}
+
+}  // namespace tripoint::interfaces

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "effects/effect.hpp"
+#include "effects/interfaces/interface_weight.hpp"
+#include "liquids/changes.hpp"
+#include "liquids/fields.hpp"
+#include "liquids/scene_numbers.hpp"
+#include "world/ordered_sum.hpp"
+
+/// Pressure is right on both sides of a level interface of two liquids (model 8.3).
+namespace tripoint::interfaces {
+namespace {
+
+class Interfaces : public Effect {
+ public:
+  explicit Interfaces(const Scene& scene) : kernels_(liquid::pair_kernels(scene)), weight_(scene) {}
+  void bonds(World& world) override { weight_.add_forces(world, kernels_); }
+  void adopt(World& world) override {
+    if (liquid::groups_changed(world)) weight_.clear();
+  }
+  void happen(World&, const Happening&) override { weight_.clear(); }
+  void renumber(World&) override { weight_.clear(); }
+  void add_to(const World& world, Ledger& ledger) const override {
+    std::vector<std::array<double, 1>> blocks;
+    const auto energy = ordered_sums_of_all(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
+      if (i < world.neighbours->rows()) sum[0] += weight_.energy(world, kernels_, i);
+    });
+    ledger.energy["compression"] += energy[0];
+  }
+
+ private:
+  PairKernels kernels_;
+  InterfaceWeight weight_;
+};
+
+}  // namespace
+
+EffectSpec spec(const Scene&) {
+  EffectSpec s{"interfaces",
+               Mode::corrected,
+               {},
+               fields::joined({fields::position(),
+                               {field::id, field::group, field::rest_density, field::force_x, field::force_y, field::force_z}})};
+  s.reads_if_there = fields::image();
+  s.skips_sleeping = true;
+  return s;
+}
+
+std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<Interfaces>(scene); }
+
+}  // namespace tripoint::interfaces

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "liquids/pressing_gravity.hpp"
+#include "scene/effect_rule.hpp"
+#include "scene/shared_terms.hpp"
+
+namespace tripoint::interfaces {
+namespace {
+
+bool is_liquid(const Scene&, const Body& b, const Material&) { return b.phase == Phase::liquid; }
+
+/// Why the pressure of liquids is not that of an energy alone.
+std::string no_energy(const Scene& scene) {
+  if (scene.inflows.empty() && !any_body(scene, is_liquid)) return "nothing is liquid";
+  if (calls_for(scene, "phase")) return "where matter melts or freezes, densities change at once";
+  for (const Term& one : {term::density, term::pressure, term::state})
+    if (scene.mode_of(one) != Mode::corrected) return fmt::format("{} is as printed", one.name);
+  return scene.clamps() ? "" : "the scene does not clamp";
+}
+
+std::string no_interface_weight(const Scene& scene) {
+  if (liquid::pressing_gravity(scene) == Vec3{}) return "gravity presses nothing down";
+  std::vector<double> densities;
+  for (const Body& b : scene.bodies)
+    if (b.phase == Phase::liquid) densities.push_back(scene.material(b.material).density);
+  for (const Inflow& f : scene.inflows) densities.push_back(scene.material(f.material).density);
+  if (std::ranges::all_of(densities, [&](double rho) { return rho == densities.front(); })) return "all liquids are as heavy";
+  return no_energy(scene);
+}
+
+std::string called_for(const Scene& s) {
+  return calls_for(s, "fluid") && acting_number(s, "interface_weight") > 0.0
+             ? "scene.interface_weight: liquids of two densities have a weight"
+             : "";
+}
+
+std::string left_out(const Scene& s) {
+  if (!calls_for(s, "fluid")) return "nothing flows or touches";
+  const std::string why = no_interface_weight(s);
+  return why.empty() ? "scene.interface_weight is 0" : why;
+}
+
+std::vector<EffectKey> keys() {
+  using enum ValueType;
+  using enum Range;
+  return {
+      {{"scene", "interface_weight", number, "", fraction, "0", "only layers of two liquids need it", "",
+        "share of the energy of unlike pairs that corrects the pressure at a level interface of two liquids (model 8.3). Only "
+        "where density, pressure and state are corrected, the scene clamps, nothing freezes, and "
+        "liquids of two densities have a weight"},
+       {},
+       no_interface_weight},
+  };
+}
+
+}  // namespace
+
+EffectRule rule() {
+  return {.name = "interfaces",
+          .called_for = called_for,
+          .left_out = left_out,
+          .choices = {{"interface",
+                       {{"weighted", "pressure is right on both sides of a level interface (8.3)", {{"interface_weight", 1.0}}},
+                        {"none", "", {{"interface_weight", 0.0}}}}}},
+          .keys = keys(),
+          .over_processes = true};
+}
+
+}  // namespace tripoint::interfaces

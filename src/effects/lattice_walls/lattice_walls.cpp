@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <memory>
+
+#include "effects/effect.hpp"
+#include "effects/lattice_walls/laid_walls.hpp"
+#include "liquids/changes.hpp"
+#include "liquids/fields.hpp"
+
+/// Liquid feels the fixed walls of a jittered scene from their lattice (model 8.4).
+namespace tripoint::lattice_walls {
+namespace {
+
+class LatticeWalls : public Effect {
+ public:
+  explicit LatticeWalls(const Scene& scene) : kernels_(liquid::pair_kernels(scene)) {}
+  void densities(World& world) override { laid_.lay_densities(world, kernels_); }
+  void bonds(World& world) override { laid_.lay_forces(world, kernels_); }
+  void adopt(World& world) override {
+    if (liquid::groups_changed(world)) laid_.clear();
+  }
+  void happen(World&, const Happening&) override { laid_.clear(); }
+  void renumber(World&) override { laid_.clear(); }
+
+ private:
+  PairKernels kernels_;
+  LaidWalls laid_;
+};
+
+}  // namespace
+
+EffectSpec spec(const Scene&) {
+  EffectSpec s{"lattice_walls",
+               Mode::corrected,
+               {},
+               fields::joined({fields::position(),
+                               {field::id, field::body, field::source, field::group, field::number_density, field::pressure_share,
+                                field::force_x, field::force_y, field::force_z}})};
+  s.reads_if_there = fields::image();
+  s.skips_sleeping = true;
+  return s;
+}
+
+std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<LatticeWalls>(scene); }
+
+}  // namespace tripoint::lattice_walls

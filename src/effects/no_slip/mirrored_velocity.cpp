@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/no_slip/mirrored_velocity.hpp"
+
+#include <array>
+
+#include "effects/no_slip/wall_terms.hpp"
+#include "liquids/fields.hpp"
+#include "liquids/fixed_walls.hpp"
+#include "passes/pair_passes.hpp"
+#include "world/fill.hpp"
+
+namespace tripoint::no_slip {
+namespace {
+
+constexpr std::array<const Field<double>*, 3> seen_velocity{&field::viscous_velocity_x, &field::viscous_velocity_y,
+                                                            &field::viscous_velocity_z};
+
+}  // namespace
+
+/// Finds the walls with liquid in reach, anew after each rebuild of the lists. The viscous velocities of fixed walls, which only
+/// wet ones are given, become 0 again.
+void MirroredVelocity::find(World& world) {
+  if (known_ == world.neighbours->rebuilds()) return;
+  known_ = world.neighbours->rebuilds();
+  wet_walls_.clear();
+  const Particles& p = world.particles;
+  for (const Field<double>* f : seen_velocity) fill(part(world.particles[*f], {p.moving(), p.awake()}), 0.0, world.threads);
+  const auto group = world.particles[field::group];
+  const auto stick = world.particles[field::stick];
+  const bool drags = liquid::all_drag(world.scene);
+  const Clusters& c = world.neighbours->clusters();
+  for (const std::size_t k : c.listed) {
+    unsigned walls = 0, wet = 0;  // bits of members
+    for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i)
+      walls |= static_cast<unsigned>(group[i] == wall_group && (drags || stick[i] != 0.0)) << (i - c.first[k]);
+    for (std::size_t e = c.start[k]; e < c.start[k + 1] && (walls & ~wet) != 0; ++e)
+      if (group[Entry{c.entries[e]}.row()] == liquid_group) wet |= c.near[e];
+    for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i)
+      if ((walls & wet) >> (i - c.first[k]) & 1u) wet_walls_.push_back(i);
+  }
+  wet_ = clusters_of(c, wet_walls_);
+}
+
+void MirroredVelocity::mirror(World& world, const PairKernels& kernels) {
+  find(world);
+  Particles& p = world.particles;
+  for (const Field<double>* f : WallExtrapolation::adds::list) fill(awake(p, *f), 0.0, world.threads);
+  if (wet_walls_.empty()) return world.refresh(seen_velocity);
+  const PairTerm term = kernels.shear.even() ? pair_term<WallExtrapolation> : pair_term<WallExtrapolationWeighted>;
+  run_pass_over(pair_passes(world.neighbours->clusters().lanes).alone(term), p, *world.neighbours, kernels, world.threads, wet_);
+
+  const auto weight = p[field::wall_weight];
+  const auto moved = triple(p, field::wall_velocity_x, field::wall_velocity_y, field::wall_velocity_z);
+  const auto seen = triple(p, field::viscous_velocity_x, field::viscous_velocity_y, field::viscous_velocity_z);
+  const auto v = velocities(p);
+#pragma omp parallel for schedule(static) num_threads(world.threads)
+  for (std::size_t k = 0; k < wet_walls_.size(); ++k) {
+    const std::size_t i = wet_walls_[k];
+    if (weight[i] > 0.0)
+      seen.set(i, v.at(i) + (v.at(i) - moved.at(i) / weight[i]));
+    else if (i >= p.moving())
+      seen.set(i, {});
+  }
+  world.refresh(seen_velocity);
+}
+
+}  // namespace tripoint::no_slip

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <memory>
+
+#include "effects/effect.hpp"
+#include "effects/no_slip/mirrored_velocity.hpp"
+#include "liquids/changes.hpp"
+#include "liquids/fields.hpp"
+#include "liquids/scene_numbers.hpp"
+
+/// Liquid sticks to walls: viscous pairs see the mirrored velocity of theirs (model 8.4).
+namespace tripoint::no_slip {
+namespace {
+
+class NoSlip : public Effect {
+ public:
+  explicit NoSlip(const Scene& scene) : kernels_(liquid::pair_kernels(scene)) {}
+  void state(World& world) override { velocity_.mirror(world, kernels_); }
+  void adopt(World& world) override {
+    if (liquid::groups_changed(world)) velocity_.clear();
+  }
+  void happen(World&, const Happening&) override { velocity_.clear(); }
+  void renumber(World&) override { velocity_.clear(); }
+
+ private:
+  PairKernels kernels_;
+  MirroredVelocity velocity_;
+};
+
+}  // namespace
+
+EffectSpec spec(const Scene&) {
+  EffectSpec s{"no_slip",
+               Mode::corrected,
+               {field::wall_weight, field::wall_velocity_x, field::wall_velocity_y, field::wall_velocity_z},
+               fields::joined({fields::position(),
+                               fields::velocity(),
+                               {field::group, field::stick, field::solid, field::viscosity, field::viscous_velocity_x,
+                                field::viscous_velocity_y, field::viscous_velocity_z}})};
+  s.skips_sleeping = true;
+  return s;
+}
+
+std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<NoSlip>(scene); }
+
+}  // namespace tripoint::no_slip

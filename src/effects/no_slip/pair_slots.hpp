@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "effects/no_slip/wall_terms.hpp"
+#include "sph/pair_slots.hpp"
+
+namespace tripoint::no_slip {
+
+struct PairSlots {
+  using alone = Together<WallExtrapolation, WallExtrapolationWeighted>;
+};
+
+}  // namespace tripoint::no_slip

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "effects/transport/transport_terms.hpp"
+#include "sph/pair_slots.hpp"
+
+namespace tripoint::transport {
+
+struct PairSlots {
+  using alone = Together<TransportForces, TransportForcesAndMeans>;
+};
+
+}  // namespace tripoint::transport

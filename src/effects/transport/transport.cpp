@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <memory>
+
+#include "effects/effect.hpp"
+#include "effects/transport/transport_forces.hpp"
+#include "liquids/fields.hpp"
+
+/// Motion by the transport velocity (model 8.3).
+namespace tripoint::transport {
+namespace {
+
+class Transport : public Effect {
+ public:
+  explicit Transport(const Scene& scene) : numbers_(liquid::numbers_of(scene)), kernels_(liquid::pair_kernels(scene)) {}
+  void drift(World& world, double dt) override { set_shift(world, dt); }
+  void state(World& world) override { set_transport_forces(world, numbers_, kernels_); }
+
+ private:
+  liquid::SceneNumbers numbers_;
+  PairKernels kernels_;
+};
+
+}  // namespace
+
+EffectSpec spec(const Scene& scene) {
+  EffectSpec s{"transport",
+               Mode::corrected,
+               {field::shift_x, field::shift_y, field::shift_z, field::background_x, field::background_y, field::background_z,
+                field::transport_force_x, field::transport_force_y, field::transport_force_z},
+               fields::joined({fields::position(),
+                               fields::velocity(),
+                               {field::mass, field::group, field::volume, field::density, field::rest_density, field::pressure,
+                                field::viscous_velocity_x, field::viscous_velocity_y, field::viscous_velocity_z}})};
+  if (liquid::has_transport_means(liquid::numbers_of(scene)))
+    s.owns.insert(s.owns.end(), {field::pressure_around, field::nearing, field::bulk_pressure});
+  Force stress{field::transport_force_x, field::transport_force_y, field::transport_force_z, {"transport_work"}};
+  stress.entry = "transport";
+  stress.feels = Feels::particles;
+  s.forces = {stress};
+  return s;
+}
+
+std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<Transport>(scene); }
+
+}  // namespace tripoint::transport

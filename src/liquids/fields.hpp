@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <array>
+
+#include "core/field.hpp"
+#include "particles/catalogue.hpp"
+#include "world/step_numbers.hpp"
+
+/// Fields of liquids and contact (4), (7) to (9) that no other effect knows.
+namespace tripoint::field {
+
+inline constexpr Field<double> number_density{"number_density", "1/m3"};
+inline constexpr Field<double> pressure_share{"pressure_share", "Pa m6"};  ///< V^2 p over the kernel's lattice moment
+inline constexpr Field<double> viscous_force_x{"viscous_force.x", "N"}, viscous_force_y{"viscous_force.y", "N"},
+    viscous_force_z{"viscous_force.z", "N"};
+inline constexpr Field<double> number_density_before{"number_density_before", "1/m3"},
+    bulk_pressure{"bulk_pressure", "Pa"};  ///< at the last places; of the numerical bulk viscosity
+inline constexpr Field<double> solid_density_before{"solid_density_before", "1/m3"};  ///< of solids, at the last places
+/// Velocity that viscous pairs see: predicted to the full step for liquids, mirrored for walls.
+inline constexpr Field<double> viscous_velocity_x{"viscous_velocity.x", "m/s"}, viscous_velocity_y{"viscous_velocity.y", "m/s"},
+    viscous_velocity_z{"viscous_velocity.z", "m/s"};
+inline constexpr Field<double> viscosity{"viscosity", "Pa s"}, rest_density{"rest_density", "kg/m3"};
+inline constexpr Field<double> solid{"solid", "1"};  ///< 1 for solids and walls, 0 for liquids
+inline constexpr Field<double> stick{"stick", "1"};  ///< 1 where a liquid sticks to this solid, 0 where it slips
+/// Sums of walls over the liquid near them: viscous weights, and velocities times these.
+inline constexpr Field<double> wall_weight{"wall.weight", "Pa s/m5"};
+inline constexpr Field<double> wall_velocity_x{"wall.velocity.x", "Pa/m4"}, wall_velocity_y{"wall.velocity.y", "Pa/m4"},
+    wall_velocity_z{"wall.velocity.z", "Pa/m4"};
+/// Force of the background pressure, and of the stress that the transport velocity carries (model 8.3).
+inline constexpr Field<double> background_x{"background.x", "N"}, background_y{"background.y", "N"},
+    background_z{"background.z", "N"};
+inline constexpr Field<double> transport_force_x{"transport_force.x", "N"}, transport_force_y{"transport_force.y", "N"},
+    transport_force_z{"transport_force.z", "N"};
+/// Sums over neighbours for the mean pressure and the damping of sound (model 8.3).
+inline constexpr Field<double> pressure_around{"pressure_around", "Pa/m3"}, nearing{"nearing", "1/(s m3)"};
+
+}  // namespace tripoint::field
+
+/// Columns that ranks hand to each other: the sum (4), and the force of pressure.
+namespace tripoint::liquid {
+
+inline constexpr std::array<const Field<double>*, 1> density_column{&field::number_density};
+inline constexpr std::array<const Field<double>*, 3> pressure_force{&field::force_x, &field::force_y, &field::force_z};
+
+}  // namespace tripoint::liquid
+
+/// What the next step needs of those before it.
+namespace tripoint::liquid {
+
+inline constexpr StepNumber half_step{"half_step", 0.0};  ///< length of the last kick of liquids [s]
+
+}  // namespace tripoint::liquid
