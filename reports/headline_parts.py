@@ -80,14 +80,19 @@ def of_all(some, every):
 
 
 def own_engines(results):
-    """Names of the engines that the user brought: those of --engine in the command."""
+    """Names of the engines that the user brought: those after `all` of --engines, and the paths that it names."""
     try:
         words = shlex.split(results.command)
     except ValueError:
         return []
-    given = [after for word, after in zip(words, words[1:]) if word == "--engine"] + [
-        word.split("=", 1)[1] for word in words if word.startswith("--engine=")
-    ]
+    words = [part for word in words for part in (word.split("=", 1) if word.startswith("--") else [word])]
+    given = []
+    for option, value in zip(words, words[1:]):
+        names = value.split(",")
+        if option == "--engine":  # an earlier spelling
+            given.append(value)
+        if option == "--engines":
+            given += [name for name in names if name != "all" and ("all" in names or "/" in name)]
     return [Path(path).name.removeprefix("engine-").split("@")[0] for path in given]
 
 

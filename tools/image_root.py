@@ -230,7 +230,7 @@ def gate_in(root):
     project = root.folder / "project"
     shutil.copytree(SOURCE / "examples" / "gated-engine", project)
     root.workdir = "/project"
-    validate = ["tripoint", "validate", "cases", "--engine", "./engine-verlet", "--engines", "verlet"]
+    validate = ["tripoint", "validate", "cases", "--engines", "./engine-verlet"]
     seconds = (
         root.run(validate, network=False)
         + root.run(["tripoint", "gate", "report"], network=False)

@@ -13,6 +13,7 @@
 #include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
+#include "program/cli/options.hpp"
 #include "tables/library.hpp"
 #include "validation/run/discover.hpp"
 #include "validation/run/engine_check.hpp"
@@ -129,6 +130,17 @@ int check(const std::string& word, bool sandbox) {
   return good ? 0 : 1;
 }
 
+/// `tripoint engine list`, which many type for `tripoint engines`.
+void add_list_to(CLI::App& engine, int& exit_code) {
+  auto* command = engine.add_subcommand("list", engines_description)->group("");
+  auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "print one JSON document");
+  command->callback([=, &exit_code] {
+    note_earlier("tripoint engine list", "tripoint engines");
+    exit_code = guarded([&] { return list(*json); });
+  });
+}
+
 }  // namespace
 
 void add_engines(CLI::App& app, int& exit_code) {
@@ -140,7 +152,7 @@ void add_engines(CLI::App& app, int& exit_code) {
 
 void add_engine(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("engine", engine_description);
-  command->require_subcommand(1);
+  list_when_alone(*command, exit_code);
   auto name = std::make_shared<std::string>(), language = std::make_shared<std::string>("python"),
        path = std::make_shared<std::string>();
   auto* made =
@@ -160,6 +172,7 @@ void add_engine(CLI::App& app, int& exit_code) {
   auto sandbox = std::make_shared<bool>(false);
   add_sandbox_flag(*checked, *sandbox);
   checked->callback([=, &exit_code] { exit_code = guarded([&] { return check(*path, *sandbox); }); });
+  add_list_to(*command, exit_code);
   auto yes = std::make_shared<bool>(false);
   auto* installed = command->add_subcommand("install", install_description);
   installed->add_option("NAME[@VERSION]", *name, "an engine that `tripoint engines` lists as not installed")->required();

@@ -5,6 +5,7 @@
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
 #include "program/cli/hand_over.hpp"
+#include "program/cli/options.hpp"
 
 namespace tripoint {
 namespace {
@@ -15,7 +16,7 @@ constexpr const char* export_description =
     "  tripoint export runs/rigid/ballistic/tripoint --to vtp                     frames.pvd for ParaView and PyVista\n"
     "  tripoint export runs/rigid/ballistic/tripoint --to xyz,lammps --out files  OVITO, ASE; only of particles that are alive\n"
     "  tripoint export runs/rigid/ballistic/tripoint --to csv --frames 0:100:10   poses of bodies, energies\n"
-    "  tripoint export report/results.json --csv --latex --pdf                    tables and figures at print size\n"
+    "  tripoint export report/results.json --to csv,latex,pdf                     tables and figures at print size\n"
     "Of a run: vtp, xdmf, h5md, lammps, xyz, ply, obj, csv, paraview. Of a results.json: csv, latex, pdf. Numbers are copied: "
     "SI, every digit.\n"
     "Exit: 0 written, 2 bad input, 4 a dataset, a library or room on the disk is missing, 130 Ctrl-C.";
@@ -45,8 +46,8 @@ void add_export(CLI::App& app, int& exit_code) {
       ->take_all()
       ->allow_extra_args(false);
   for (const char* format : {"csv", "latex", "pdf", "vtp", "xyz", "lammps", "ply", "obj"})
-    command->add_flag_callback(
-        std::string("--") + format, [o, format] { o->to.emplace_back(format); }, std::string("the same as --to ") + format);
+    add_earlier_flag(*command, std::string("--") + format, std::string("--to ") + format,
+                     [o, format] { o->to.emplace_back(format); });
   command->add_option("--out", o->out, "folder of the files (default: `export` in the folder of the run or report)");
   command->add_option("--frames", o->frames, "all, last, a number, or FROM:TO:STEP")->capture_default_str();
   command->add_flag("--json", o->json, "print one JSON document with the names of the files");

@@ -11,6 +11,7 @@
 #include "program/cli/common.hpp"
 #include "program/cli/gate_adopt.hpp"
 #include "program/cli/gate_judge.hpp"
+#include "program/cli/options.hpp"
 #include "validation/baseline/baseline.hpp"
 #include "validation/baseline/history.hpp"
 #include "validation/campaign/recheck.hpp"
@@ -152,7 +153,8 @@ void add_gate(CLI::App& app, int& exit_code) {
       if (accepts->parsed()) return accept_file(*o);
       if (proposes->parsed()) return propose_baselines(o->propose);
       if (o->judge.results.empty())
-        throw InputError("gate: name a results.json, for example report/results.json, or accept, propose or selftest");
+        throw InputError("gate: name a results.json, for example report/results.json, or one of its commands:\n" +
+                         commands_of(*command));
       return judge_results(o->judge);
     });
   });

@@ -201,12 +201,11 @@ int accept_written(const GateAdoptOptions& o, const std::vector<std::string>& fi
   return exit_pass;
 }
 
-void say_what_comes_next(const GateAdoptOptions& o, const std::vector<std::string>& files, std::size_t cases,
-                         const EngineEntry& engine) {
+void say_what_comes_next(const GateAdoptOptions& o, const std::vector<std::string>& files, std::size_t cases) {
   say(
-      fmt::format("{} of {} cases adopted. Commit {} and {}. From then on:\n  tripoint validate {} --engine {} --engines {}\n  "
+      fmt::format("{} of {} cases adopted. Commit {} and {}. From then on:\n  tripoint validate {} --engines {}\n  "
                   "tripoint gate report",
-                  files.size(), cases, o.out, baseline_folder(files.front()), o.out, o.engine, engine.name));
+                  files.size(), cases, o.out, baseline_folder(files.front()), o.out, o.engine));
 }
 
 int adopt(GateAdoptOptions o) {
@@ -225,7 +224,7 @@ int adopt(GateAdoptOptions o) {
     throw EngineError(fmt::format("{} ran none of {} cases: there is nothing to gate", engine.name, cases.size()));
   if (files.empty()) return first_of(codes);
   codes.insert(accept_written(o, files, engines, engine, written));
-  say_what_comes_next(o, files, cases.size(), engine);
+  say_what_comes_next(o, files, cases.size());
   return first_of(codes);
 }
 

@@ -9,6 +9,7 @@
 #include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
+#include "program/cli/options.hpp"
 #include "validation/campaign/accuracy_cost.hpp"
 #include "validation/campaign/suite.hpp"
 #include "validation/case/engine_names.hpp"
@@ -39,8 +40,8 @@ constexpr const char* plan_description =
     "levels leave. Only the two or three coarsest levels of each study are run; nothing is with --from. A level more than 16 "
     "times finer than\n"
     "what was measured is not offered.\n"
-    "  tripoint plan heat/cosine-mode --within 1%\n"
-    "  tripoint plan heat/step-walkers --within 0.5% --metric uncertainty";
+    "  tripoint plan heat/cosine-mode --error 1%\n"
+    "  tripoint plan heat/step-walkers --error 0.5% --metric uncertainty";
 
 struct RecommendOptions {
   std::string what, error, metric, engines, from, axis, out;
@@ -218,6 +219,7 @@ int recommend(RecommendOptions o) {
 
 int plan_for(RecommendOptions o) {
   catch_interrupts();
+  if (o.error.empty()) throw InputError("plan: say the error that is wished: --error X");
   const auto value = case_of(o);
   const auto metric = metric_of(o, value);
   const double wish = wish_of(o.error);
@@ -275,13 +277,17 @@ void add_common(CLI::App& command, RecommendOptions& o, const std::string& name)
   command.add_option("--jobs", o.jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
 }
 
+void add_error_option(CLI::App& command, RecommendOptions& o) {
+  command.add_option("--error", o.error, "the error that is wished, in the metric's unit or as a percentage");
+}
+
 }  // namespace
 
 void add_recommend(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("recommend", recommend_description);
   auto o = std::make_shared<RecommendOptions>();
   add_common(*command, *o, "recommend");
-  command->add_option("--error", o->error, "the error that is wished, in the metric's unit or as a percentage");
+  add_error_option(*command, *o);
   command->add_option("--seconds", o->seconds, "the CPU seconds that may be spent");
   command->add_flag("--json", o->json, "print one JSON document");
   command->callback([o, &exit_code] { exit_code = guarded([&] { return recommend(*o); }); });
@@ -291,7 +297,14 @@ void add_plan(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("plan", plan_description);
   auto o = std::make_shared<RecommendOptions>();
   add_common(*command, *o, "plan");
-  command->add_option("--within", o->error, "the error that is wished, in the metric's unit or as a percentage")->required();
+  add_error_option(*command, *o);
+  command
+      ->add_option_function<std::string>("--within",
+                                         [o](const std::string& wish) {
+                                           note_earlier("--within X", "--error X");
+                                           o->error = wish;
+                                         })
+      ->group("");
   command->callback([o, &exit_code] { exit_code = guarded([&] { return plan_for(*o); }); });
 }
 

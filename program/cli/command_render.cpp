@@ -13,6 +13,7 @@
 #include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
+#include "program/cli/options.hpp"
 #include "program/cli/shown_frame.hpp"
 #include "surface/surface_mesh.hpp"
 #include "validation/results/interrupt.hpp"
@@ -28,9 +29,9 @@ constexpr const char* render_description =
     "ray-traced.\n"
     "  tripoint render runs/paper/fig-12/tripoint                   six frames, a contact sheet, and a film where ffmpeg is "
     "installed\n"
-    "  tripoint render paper/fig-12 --frame -1 --colour temperature the last frame of the run that tripoint run left in runs/\n"
+    "  tripoint render paper/fig-12 --frames -1 --colour temperature the last frame of the run that tripoint run left in runs/\n"
     "  tripoint render paper/fig-12 --frames 0:-1:1 --particles     every frame, as balls: a quick look\n"
-    "  tripoint render paper/fig-12 --frame 5 --mesh shell.ply      also the closed mesh, with temperature, phase and body\n"
+    "  tripoint render paper/fig-12 --frames 5 --mesh shell.ply     also the closed mesh, with temperature, phase and body\n"
     "  tripoint render paper/fig-12 --zb05                          without the factor f of (25): what it repairs is seen\n"
     "Up is against gravity. Fixed bodies are walls: what of them stands before the rest is cut away (--walls). A run in a "
     "periodic box is\n"
@@ -72,8 +73,9 @@ std::vector<std::size_t> frames_of(const RenderOptions& o, std::size_t count) {
     if (*end != '\0') numbers.clear();
     if (*end != '\0') break;
   }
+  if (numbers.size() == 1 && words.size() == 1) return {row(numbers[0], "--frames")};
   if (numbers.size() < 2 || numbers.size() > 3 || words.size() != numbers.size() || (numbers.size() == 3 && numbers[2] < 1))
-    throw InputError(fmt::format("--frames {}: write FIRST:LAST or FIRST:LAST:STEP, for example 0:-1:5", o.frames));
+    throw InputError(fmt::format("--frames {}: write N, FIRST:LAST or FIRST:LAST:STEP, for example 0:-1:5", o.frames));
   const std::size_t last = row(numbers[1], "--frames");
   for (std::size_t n = row(numbers[0], "--frames"); n <= last;
        n += static_cast<std::size_t>(numbers.size() == 3 ? numbers[2] : 1))
@@ -242,9 +244,17 @@ void add_render(CLI::App& app, int& exit_code) {
   auto o = std::make_shared<RenderOptions>();
   command->add_option("RUN", o->run, "folder of a run, its trajectory.h5, or the id of a case that has a run in runs/")
       ->required();
-  command->add_option("--frame", o->frame, "this frame alone, counted from 0; -1 is the last");
-  command->add_option("--frames", o->frames, "these frames, the last included; six where none are named")
-      ->type_name("FIRST:LAST:STEP");
+  command
+      ->add_option("--frames", o->frames,
+                   "one frame or several, the last included; counted from 0, -1 is the last; six where none are named")
+      ->type_name("N|FIRST:LAST:STEP");
+  command
+      ->add_option_function<int>("--frame",
+                                 [o](int frame) {
+                                   note_earlier("--frame N", "--frames N");
+                                   o->frame = frame;
+                                 })
+      ->group("");
   command->add_option("--out", o->out, "folder of the pictures (default: pictures in the run's folder)");
   command->add_option("--size", o->size, "of a picture in pixels")->type_name("WIDTHxHEIGHT")->capture_default_str();
   command
@@ -253,7 +263,7 @@ void add_render(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"temperature", "phase", "body"}));
   command->add_option("--range", o->range, "temperatures at the dark and the light end, in kelvin (default: those of the frames)")
       ->type_name("COLD:HOT");
-  command->add_flag("--surface", o->surface, "surfaces, as without a word");
+  add_earlier_flag(*command, "--surface", "the default", [o] { o->surface = true; });
   command->add_flag("--particles", o->particles, "particles as balls: quicker");
   command->add_flag("--whole", o->whole, "one surface about all that is no wall, instead of one a body and one a liquid");
   command->add_flag("--zb05", o->zb05, "f = 1 everywhere: the surface of Zhu and Bridson 2005, equation (22)");

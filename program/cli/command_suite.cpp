@@ -13,6 +13,8 @@
 #include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
+#include "program/cli/merge.hpp"
+#include "program/cli/options.hpp"
 #include "validation/baseline/history.hpp"
 #include "validation/judge/judge.hpp"
 #include "validation/publish/report_files.hpp"
@@ -39,7 +41,7 @@ constexpr const char* suite_description =
     "  tripoint suite work DIR                        take jobs until all are done; start it as often as you like, where you "
     "like\n"
     "  tripoint status DIR                            done, running, lost, failed, and the time that is left\n"
-    "  tripoint suite merge DIR                       judge, and write DIR/index.html\n"
+    "  tripoint merge DIR                             judge, and write DIR/index.html\n"
     "  tripoint suite emit DIR --for slurm            a script that does it on a scheduler: slurm, hyperqueue, parallel, "
     "snakemake, github\n"
     "A worker that is killed loses the job that it was at, no other; the next `work` takes it over. docs/scale.md tells all of "
@@ -65,11 +67,6 @@ constexpr const char* work_description =
     "some;\n"
     "2 a job is not the run that the suite was made of, because a case, an engine or the program has changed.";
 
-constexpr const char* suite_status_description =
-    "The same as tripoint status.\n"
-    "  tripoint suite status DIR\n"
-    "  tripoint suite status DIR --json";
-
 constexpr const char* status_description =
     "Says where a suite stands: jobs that are done, running, waiting, lost, failed, doubled, and the time that is left.\n"
     "  tripoint status DIR\n"
@@ -78,14 +75,6 @@ constexpr const char* status_description =
     "or ended with an\n"
     "error; `tripoint suite retry DIR` puts it back. doubled: two workers made it; the first result counts. The time left is a "
     "prediction.";
-
-constexpr const char* suite_merge_description =
-    "Judges a suite whose jobs are all done, and writes the report: the cases, values and verdicts that `tripoint validate` "
-    "would have\n"
-    "given, but for times. It refuses (exit 2) and names the jobs while some have no result. Else it ends with the verdict's "
-    "code.\n"
-    "  tripoint suite merge DIR                    DIR/results.json, DIR/index.html\n"
-    "  tripoint suite merge DIR --out report       into another folder, with a copy of the runs";
 
 constexpr const char* retry_description =
     "Puts failed jobs back to those that wait: all of them, or those whose ids are given.\n"
@@ -101,8 +90,8 @@ constexpr const char* emit_description =
     "  tripoint suite emit DIR --for slurm --shards 16 --left > again.sh    only the shards that are not finished";
 
 struct MakeOptions {
-  std::string dir, engines, costs;
-  std::vector<std::string> engine;
+  std::string dir, costs;
+  EngineList engines;
   Queue queue;
   bool sandbox = false;
 };
@@ -141,10 +130,10 @@ int make(MakeOptions o) {
   if (queue.filter.what.empty() && queue.filter.profile.empty()) queue.filter.profile = "commit";
   queue.folder = fs::current_path().string();
   queue.command = command_line();
-  queue.engine_words = o.engine;
+  queue.engine_words = o.engines.words();
   const auto cases = select_cases(queue.filter);
   if (o.sandbox) sandbox_third_parties(o.dir);
-  const auto engines = engines_asked_for(o.engines, o.engine, queue.selection);
+  const auto engines = engines_asked_for(queue.engine_words, queue.selection);
   std::map<std::string, double> costs;
   if (!o.costs.empty()) costs = measured_costs(read_results(results_file(o.costs)));
   make_folder(o.dir);
@@ -186,34 +175,6 @@ int status(const std::string& dir, bool json) {
   return exit_pass;
 }
 
-int merge(const std::string& typed, const std::string& out, bool page, bool json, bool sandbox) {
-  const auto opened = open(typed);
-  const auto folder = out.empty() ? opened.dir : fs::absolute(out).lexically_normal().string();
-  const auto lock = hold_folder(folder);
-  if (sandbox) sandbox_third_parties(folder);
-  set_aside_report(folder);
-  std::function<void(const CaseResult&)> on_case;
-  if (!json) on_case = [](const CaseResult& c) { print(case_line(c) + "\n"); };
-  const auto start = fs::current_path();
-  go_to_its_folder(opened);
-  auto results =
-      join(opened.dir, opened.queue,
-           discover_selected(opened.queue.selection, sort_engine_words(opened.queue.engine_words).paths), folder, on_case);
-  fs::current_path(start);
-  results.command = command_line();
-  results.date = date_now();
-  results.history = "history.jsonl";
-  judge(results);
-  append_history((fs::path(folder) / results.history).string(), history_lines(results));
-  if (!page)
-    write_results(results, folder);
-  else if (const auto missing = write_report(results, folder); !missing.empty())
-    say("tripoint: no page: " + missing);
-  if (!json) print(notes_text(results));
-  print(json ? results_text(results) : last_line(results, out.empty() ? typed : out) + "\n");
-  return results.exit_code;
-}
-
 int retry(const std::string& dir, const std::vector<std::string>& ids) {
   const auto opened = open(dir);
   print_line(fmt::format("{}: {} jobs wait again", dir, retry_failed(opened.dir, opened.queue, ids)));
@@ -250,7 +211,7 @@ int emit(const EmitChoice& o) {
   const auto shards = balanced_shards(jobs, options.shards);
   for (const auto& rows : shards) options.longest = std::max(options.longest, cost_of(jobs, rows));
   options.numbers = shards_left(opened, shards, o.left);
-  if (options.numbers.empty()) throw InputError(o.dir + ": every shard is finished: tripoint suite merge " + o.dir);
+  if (options.numbers.empty()) throw InputError(o.dir + ": every shard is finished: tripoint merge " + o.dir);
   print(script_for(o.scheduler, opened.queue, options));
   return exit_pass;
 }
@@ -265,13 +226,8 @@ void add_make(CLI::App& suite, int& exit_code) {
       ->check(CLI::IsMember({"commit", "nightly", "release"}));
   command->add_option("--tag", queue.filter.tag, "only cases with this tag");
   command->add_option("-k", queue.filter.substring, "only cases with this in their id")->type_name("SUBSTRING");
-  command->add_option("--engines", o->engines, "only these engines, A,B");
+  add_engines_option(*command, o->engines);
   add_sandbox_flag(*command, o->sandbox);
-  command
-      ->add_option("--engine", o->engine,
-                   "an engine that joins every case: the path of an executable, or a name; may be repeated")
-      ->take_all()
-      ->allow_extra_args(false);
   command->add_option_function<std::uint64_t>(
       "--seed", [o](std::uint64_t seed) { o->queue.selection.seed = seed; }, "replaces the cases' seeds");
   command->add_option("--threads", queue.threads, "threads of each engine process")
@@ -299,27 +255,17 @@ void add_work(CLI::App& suite, int& exit_code) {
   command->callback([=, &exit_code] { exit_code = guarded([&] { return run_worker(*dir, *shard, *o, *sandbox); }); });
 }
 
-void add_status_to(CLI::App& app, const char* words, int& exit_code) {
-  auto* command = app.add_subcommand("status", words);
+void add_status_to(CLI::App& app, int& exit_code, const std::string& earlier) {
+  auto* command = app.add_subcommand("status", status_description);
+  if (!earlier.empty()) command->group("");
   auto dir = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
   command->add_option("DIR", *dir, "folder of the suite")->required();
   command->add_flag("--json", *json, "one JSON document on stdout, with every job that is running, lost, failed or doubled");
-  command->callback([=, &exit_code] { exit_code = guarded([&] { return status(*dir, *json); }); });
-}
-
-void add_join(CLI::App& suite, int& exit_code) {
-  auto* command = suite.add_subcommand("merge", suite_merge_description);
-  auto dir = std::make_shared<std::string>(), out = std::make_shared<std::string>();
-  auto page = std::make_shared<bool>(true), json = std::make_shared<bool>(false);
-  command->add_option("DIR", *dir, "folder of the suite")->required();
-  command->add_option("--out", *out, "folder of the report (default DIR itself)");
-  command->add_flag_callback(
-      "--no-report", [page] { *page = false; }, "draw no page: results.json, junit.xml and summary.md are written all the same");
-  command->add_flag("--json", *json, "print results.json, and nothing else, on stdout");
-  auto sandbox = std::make_shared<bool>(false);
-  add_sandbox_flag(*command, *sandbox);
-  command->callback([=, &exit_code] { exit_code = guarded([&] { return merge(*dir, *out, *page, *json, *sandbox); }); });
+  command->callback([=, &exit_code] {
+    if (!earlier.empty()) note_earlier(earlier, "tripoint status");
+    exit_code = guarded([&] { return status(*dir, *json); });
+  });
 }
 
 void add_retry(CLI::App& suite, int& exit_code) {
@@ -347,13 +293,42 @@ void add_emit(CLI::App& suite, int& exit_code) {
 
 }  // namespace
 
-void add_suite(CLI::App& app, int& exit_code) {
-  auto* suite = app.add_subcommand("suite", suite_description);
-  suite->require_subcommand(1);
-  for (const auto add : {add_make, add_work, add_join, add_retry, add_emit}) add(*suite, exit_code);
-  add_status_to(*suite, suite_status_description, exit_code);
+int merge_suite(const std::string& typed, const MergeOptions& o) {
+  const auto opened = open(typed);
+  const auto folder = o.out.empty() ? opened.dir : fs::absolute(o.out).lexically_normal().string();
+  const auto lock = hold_folder(folder);
+  if (o.sandbox) sandbox_third_parties(folder);
+  set_aside_report(folder);
+  std::function<void(const CaseResult&)> on_case;
+  if (!o.json) on_case = [](const CaseResult& c) { print(case_line(c) + "\n"); };
+  const auto start = fs::current_path();
+  go_to_its_folder(opened);
+  auto results =
+      join(opened.dir, opened.queue,
+           discover_selected(opened.queue.selection, sort_engine_words(opened.queue.engine_words).paths), folder, on_case);
+  fs::current_path(start);
+  results.command = command_line();
+  results.date = date_now();
+  results.history = "history.jsonl";
+  judge(results);
+  append_history((fs::path(folder) / results.history).string(), history_lines(results));
+  if (!o.page)
+    write_results(results, folder);
+  else if (const auto missing = write_report(results, folder); !missing.empty())
+    say("tripoint: no page: " + missing);
+  if (!o.json) print(notes_text(results));
+  print(o.json ? results_text(results) : last_line(results, o.out.empty() ? typed : o.out) + "\n");
+  return results.exit_code;
 }
 
-void add_status(CLI::App& app, int& exit_code) { add_status_to(app, status_description, exit_code); }
+void add_suite(CLI::App& app, int& exit_code) {
+  auto* suite = app.add_subcommand("suite", suite_description);
+  list_when_alone(*suite, exit_code);
+  for (const auto add : {add_make, add_work, add_retry, add_emit}) add(*suite, exit_code);
+  add_merge_to(*suite, exit_code, "tripoint suite merge");
+  add_status_to(*suite, exit_code, "tripoint suite status");
+}
+
+void add_status(CLI::App& app, int& exit_code) { add_status_to(app, exit_code, ""); }
 
 }  // namespace tripoint

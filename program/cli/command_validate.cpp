@@ -11,6 +11,7 @@
 #include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
+#include "program/cli/options.hpp"
 #include "validation/baseline/history.hpp"
 #include "validation/campaign/suite.hpp"
 #include "validation/campaign/timing.hpp"
@@ -30,10 +31,10 @@ namespace {
 struct ValidateOptions {
   CaseFilter filter;
   SuiteOptions suite;
-  std::string profile, shard, engines, history;
+  std::string profile, shard, history;
+  EngineList engines;
   bool keep_history = true;
   int timing = 0;
-  std::vector<std::string> engine;
   std::uint64_t seed = 0;
   bool seed_given = false, json = false, page = true, last_failed = false, sandbox = false;
 };
@@ -45,8 +46,8 @@ constexpr const char* validate_description =
     "  tripoint validate heat/cosine-mode --jobs 2           one case, two engine processes at a time\n"
     "  tripoint validate heat                                the cases of one subject, from any folder\n"
     "  tripoint validate -k floating                         the cases with this in their id\n"
-    "  tripoint validate my-cases/ --engine ./my-engine      your cases, with your engine beside ours\n"
-    "  tripoint validate --profile acceptance --engine ./my-engine   your engine by the limits that any engine must hold: a "
+    "  tripoint validate my-cases/ --engines all,./my-engine   your cases, with your engine beside ours\n"
+    "  tripoint validate --profile acceptance --engines all,./my-engine   your engine by the limits that any engine must hold: a "
     "scorecard\n"
     "  tripoint validate --last-failed --no-report           once more what was not green; no page, so it is quick\n"
     "  tripoint validate --resume                            what an earlier call that was cut left to do\n"
@@ -187,7 +188,7 @@ int validate(ValidateOptions o) {
   choose_cases(o);
   if (o.sandbox) sandbox_third_parties(o.suite.out);
   auto cases = cases_of(o, lock.has_value());
-  const auto engines = engines_asked_for(o.engines, o.engine, o.suite.selection);
+  const auto engines = engines_asked_for(o.engines.words(), o.suite.selection);
   if (o.profile == "acceptance") add_all_presets(cases, engines, o.suite.selection.asked);
   if (!lock) lock.emplace(hold_folder(o.suite.out));
   const std::size_t asked = o.suite.selection.engines.empty() ? engines.size() : o.suite.selection.engines.size();
@@ -220,12 +221,7 @@ void add_validate(CLI::App& app, int& exit_code) {
   command->add_option("--tag", o->filter.tag, "only cases with this tag");
   command->add_option("-k", o->filter.substring, "only cases with this in their id")->type_name("SUBSTRING");
   command->add_flag("--last-failed", o->last_failed, "only the cases that are not green in OUT/results.json");
-  command->add_option("--engines", o->engines, "only these engines, A,B");
-  command
-      ->add_option("--engine", o->engine,
-                   "an engine that joins every case: the path of an executable, or a name; may be repeated")
-      ->take_all()
-      ->allow_extra_args(false);
+  add_engines_option(*command, o->engines);
   add_sandbox_flag(*command, o->sandbox);
   command->add_option("--out", o->suite.out, "folder of the report and the runs")->capture_default_str();
   command->add_option("--jobs", o->suite.jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();

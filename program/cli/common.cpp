@@ -136,7 +136,8 @@ std::vector<std::string> split(const std::string& list, char separator) {
 EngineWords sort_engine_words(const std::vector<std::string>& words) {
   EngineWords sorted;
   for (const auto& word : words)
-    (word.find('/') != std::string::npos || std::filesystem::exists(word) ? sorted.paths : sorted.names).push_back(word);
+    (word.find('/') != std::string::npos || (word != all_engines && std::filesystem::exists(word)) ? sorted.paths : sorted.names)
+        .push_back(word);
   return sorted;
 }
 
@@ -209,22 +210,6 @@ std::vector<EngineEntry> discover_selected(const Selection& selection, const std
   auto names = selection.engines;
   names.insert(names.end(), selection.extra.begin(), selection.extra.end());
   return discover_engines_wanted(names, paths);
-}
-
-std::vector<EngineEntry> engines_asked_for(const std::string& only, const std::vector<std::string>& joining,
-                                           Selection& selection) {
-  const auto words = sort_engine_words(joining);
-  selection.engines = split(only);
-  for (const auto& name : words.names) selection.extra.push_back(name);
-  auto engines = discover_selected(selection, words.paths);
-  for (const auto& path : words.paths) selection.extra.push_back(ask_engine(path).name);
-  auto& asked = selection.asked;
-  for (const auto* list : {&selection.engines, &selection.extra}) asked.insert(asked.end(), list->begin(), list->end());
-  std::sort(asked.begin(), asked.end());
-  asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
-  for (const auto& name : asked)
-    if (!find_engine(engines, name)) say("tripoint: " + no_such_engine(name, discover_engines(words.paths)));
-  return engines;
 }
 
 Plan plan_of(const CaseReading& reading) {

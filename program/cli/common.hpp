@@ -40,7 +40,10 @@ void print_commands(const std::string& text);
 /// "A,B" -> {"A", "B"}.
 [[nodiscard]] std::vector<std::string> split(const std::string& list, char separator = ',');
 
-/// Names are those of engines, words with a slash or of existing files are paths: --engines and --engine take both.
+/// The word of --engines for those of each case.
+inline constexpr const char* all_engines = "all";
+
+/// Names are those of engines, words with a slash or of existing files are paths.
 struct EngineWords {
   std::vector<std::string> names, paths;
 };
@@ -48,12 +51,6 @@ struct EngineWords {
 
 /// The engines that a selection can need; `paths` join.
 [[nodiscard]] std::vector<EngineEntry> discover_selected(const Selection&, const std::vector<std::string>& paths);
-
-/// Finds the engines and fills the selection from --engines (`only`) and --engine (`joining`); says which of those asked for are
-/// not there.
-/// @throws EngineError when a path of `joining` is no executable file
-[[nodiscard]] std::vector<EngineEntry> engines_asked_for(const std::string& only, const std::vector<std::string>& joining,
-                                                         Selection&);
 
 /// "no engine is named x (did you mean `y`?)"
 [[nodiscard]] std::string no_such_engine(const std::string& name, const std::vector<EngineEntry>& engines);

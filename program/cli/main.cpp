@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 #include <CLI/CLI.hpp>
 #include <sstream>
 
@@ -7,6 +6,7 @@
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
 #include "program/cli/gate_judge.hpp"
+#include "program/cli/options.hpp"
 #include "scene/sample.hpp"
 #include "step/settle.hpp"
 #include "validation/results/interrupt.hpp"
@@ -32,14 +32,19 @@ constexpr const char* footer =
 class FirstSentences : public CLI::Formatter {
  public:
   std::string make_subcommand(const CLI::App* command) const override {
-    std::string text = command->get_description();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    text = text.substr(0, std::min({text.find(". "), text.find(": "), text.find("; ")}));
     std::ostringstream out;
-    CLI::detail::format_help(out, command->get_name(), text, 14);
+    CLI::detail::format_help(out, command->get_name(), tripoint::first_sentence(command->get_description()), 14);
     return out.str();
   }
 };
+
+/// A command that lists its own exit codes does not list those of all commands too.
+void keep_one_list_of_exit_codes(CLI::App& app) {
+  for (auto* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->get_description().find("\nExit") != std::string::npos) command->footer("");
+    keep_one_list_of_exit_codes(*command);
+  }
+}
 
 }  // namespace
 
@@ -65,6 +70,7 @@ int main(int argc, char** argv) {
         add_converge, add_recommend, add_plan,   add_predict, add_ablate, add_gate,     add_summary, add_check,  add_explain,
         add_list,     add_new,       add_schema, add_engines, add_engine, add_releases, add_bench,   add_export})
     add(app, exit_code);
+  keep_one_list_of_exit_codes(app);
   if (const auto wrong = mistyped_word(app, argc, argv); !wrong.empty()) {
     say("tripoint: " + wrong);
     return exit_bad_input;

@@ -372,14 +372,14 @@ class Cli(unittest.TestCase):
         first = self.start_and_wait_for_its_engine(
             "validate", self.path / "cases", "--engines", "fake", "--engine", engine, "--out", out, "--no-report"
         )
-        for words in (["merge", *shards, "--out", out], ["suite", "merge", self.path / "suite", "--out", out]):
+        for words in (["merge", *shards, "--out", out], ["merge", self.path / "suite", "--out", out]):
             second = call(*words)
             self.assertEqual(second.returncode, 2, second.stdout + second.stderr)
             self.assertIn(f"process {first.pid} writes into this folder", second.stderr)
         first.kill()
         first.communicate(timeout=60)
         (self.path / "go").touch()
-        for words in (["merge", *shards, "--out", out], ["suite", "merge", self.path / "suite", "--out", out]):
+        for words in (["merge", *shards, "--out", out], ["merge", self.path / "suite", "--out", out]):
             second = call(*words)
             self.assertEqual(
                 second.returncode, 0, "a call that was killed holds nothing: " + second.stdout + second.stderr

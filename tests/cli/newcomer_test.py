@@ -70,7 +70,7 @@ class Newcomer(unittest.TestCase):
         for words in (
             ["converge", CASE, "--axis", "time_step", "--engine", "bullet", "--levels", "0.04,0.02"],
             ["compare", CASE, "--engines", "bullet,exact"],
-            ["plan", CASE, "--engines", "bullet", "--within", "0.02"],
+            ["plan", CASE, "--engines", "bullet", "--error", "0.02"],
             ["recommend", CASE, "--engines", "bullet", "--error", "0.03"],
             ["ablate", CASE],
         ):
@@ -117,7 +117,7 @@ class Newcomer(unittest.TestCase):
             ["run", CASE, "--engine", "bulet"],
             ["compare", CASE, "--engines", "exact,bulet"],
             ["converge", CASE, "--engine", "bulet", "--axis", "time_step", "--levels", "0.02,0.01"],
-            ["plan", CASE, "--engines", "bulet", "--within", "1%"],
+            ["plan", CASE, "--engines", "bulet", "--error", "1%"],
         ):
             with self.subTest(words[0]):
                 done = self.call(*words)
@@ -184,7 +184,7 @@ class Newcomer(unittest.TestCase):
             ["run", CASE],
             ["compare", CASE, "--engines", "bullet,exact"],
             ["converge", CASE, "--axis", "time_step", "--engine", "bullet", "--levels", "0.02,0.01"],
-            ["plan", CASE, "--within", "1%"],
+            ["plan", CASE, "--error", "1%"],
             ["recommend", CASE, "--error", "1%"],
             ["ablate", CASE],
         ):
@@ -387,9 +387,9 @@ class Newcomer(unittest.TestCase):
         )
         file = self.path / "c" / "results.json"
         self.assertEqual(
-            self.call("plan", CASE, "--from", file, "--within", "0.01", "--axis", "time_step").returncode, 0
+            self.call("plan", CASE, "--from", file, "--error", "0.01", "--axis", "time_step").returncode, 0
         )  # four times finer
-        far = self.call("plan", CASE, "--from", file, "--within", "1e-7", "--axis", "time_step")
+        far = self.call("plan", CASE, "--from", file, "--error", "1e-7", "--axis", "time_step")
         self.assertEqual(far.returncode, 3)
         self.assertIn("out of reach", far.stdout)
 

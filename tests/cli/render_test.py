@@ -88,7 +88,7 @@ class Render(unittest.TestCase):
         return done
 
     def test_a_frame_shows_two_blocks_on_their_ground(self):
-        done = self.draw("--frame", -1, "--colour", "body")
+        done = self.draw("--frames", -1, "--colour", "body")
         file = done.stdout.split("  t =")[0]
         picture = pixels(file)
         self.assertEqual(picture.shape, (60, 80, 3))
@@ -133,7 +133,7 @@ class Render(unittest.TestCase):
         for walls in ("cut", "show", "hide"):
             picture = pixels(
                 self.draw(
-                    "--frame",
+                    "--frames",
                     0,
                     "--colour",
                     "phase",
@@ -156,7 +156,7 @@ class Render(unittest.TestCase):
             call(
                 "render",
                 "paper/fig-08-elastic",
-                "--frame",
+                "--frames",
                 1,
                 "--out",
                 self.path / f"t{threads}",
@@ -170,7 +170,7 @@ class Render(unittest.TestCase):
         self.assertEqual(*files)
 
     def test_the_mesh_is_closed_and_has_the_volume_of_its_particles(self):
-        done = self.draw("--frame", 0, "--mesh", self.path / "blocks.ply")
+        done = self.draw("--frames", 0, "--mesh", self.path / "blocks.ply")
         corners, triangles = ply(self.path / "blocks.ply")
         self.assertEqual(sorted(set(corners["body"])), [1, 2])
         self.assertEqual(done.stdout.count("closed"), 2)
@@ -190,7 +190,7 @@ class Render(unittest.TestCase):
         run = next(iter((self.path / "runs/heat/step-insulated").iterdir()))
         with h5py.File(run / "trajectory.h5") as file:
             T = file["particles/all/temperature/value"][()]
-        done = self.draw("--frame", 0, "--mesh", self.path / "bar.ply", run=run, out="bar")
+        done = self.draw("--frames", 0, "--mesh", self.path / "bar.ply", run=run, out="bar")
         corners, _ = ply(self.path / "bar.ply")
         self.assertGreaterEqual(corners["temperature"].min(), T.min() - 1e-3)
         self.assertLessEqual(corners["temperature"].max(), T.max() + 1e-3)
@@ -198,7 +198,7 @@ class Render(unittest.TestCase):
         self.assertIn(f"{T[0].min():.6g} K dark", done.stderr)
 
     def test_obj_is_a_mesh_that_a_case_may_use(self):
-        self.draw("--frame", 0, "--mesh", self.path / "blocks.obj")
+        self.draw("--frames", 0, "--mesh", self.path / "blocks.obj")
         case = Path(self.path) / "mesh.toml"
         case.write_text(f"""format = 1
 [case]
@@ -237,15 +237,14 @@ reason = "it is read"
         bare = self.path / "bare"
         bare.mkdir()
         shutil.copy(self.run_folder / "trajectory.h5", bare)
-        self.draw("--frame", 0, run=bare, out="bare-pictures")
+        self.draw("--frames", 0, run=bare, out="bare-pictures")
 
     def test_mistakes_are_told_what_to_write(self):
         for words, said in (
-            (("--frame", 99), "frames 0 to 2"),
-            (("--frames", "1"), "FIRST:LAST"),
+            (("--frames", 99), "frames 0 to 2"),
+            (("--frames", "0:1:1:1"), "FIRST:LAST"),
             (("--frames", "2:1:1"), "behind the last"),
             (("--frames", "a:b"), "FIRST:LAST"),
-            (("--frames", "0:1", "--frame", 0), "give one"),
             (("--size", "640"), "WIDTHxHEIGHT"),
             (("--size", "9x9"), "16x16"),
             (("--mesh", "a.stl"), ".ply"),

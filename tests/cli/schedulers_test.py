@@ -150,7 +150,7 @@ class Schedulers(unittest.TestCase):
             ["sbatch", "--wait", str(script)], capture_output=True, text=True, cwd=self.path, timeout=600, check=False
         )
         self.assertEqual(again.returncode, 0, text + again.stdout + again.stderr)
-        self.call("suite", "merge", "by-slurm")
+        self.call("merge", "by-slurm")
         self.check("by-slurm", killed, time.monotonic() - start, "the same line once more made the rest")
 
 

@@ -131,7 +131,7 @@ FAKE='{fault}' FAKE_NAME={name} exec /usr/bin/python3 -B '{FAKE}' "$@"
         return bare(json.loads((self.path / "whole" / "results.json").read_text()))
 
     def merged(self, code=0):
-        end = self.call("suite", "merge", "suite", "--no-report")
+        end = self.call("merge", "suite", "--no-report")
         self.assertEqual(end.returncode, code, end.stdout + end.stderr)
         return bare(json.loads((self.suite / "results.json").read_text()))
 
@@ -214,7 +214,7 @@ FAKE='{fault}' FAKE_NAME={name} exec /usr/bin/python3 -B '{FAKE}' "$@"
         self.assertEqual([job["id"] for job in status["lost_jobs"]], [running[0]["id"]])
         text = self.done("status", "suite").stdout
         self.assertRegex(text, rf"lost +{running[0]['id']}  {running[0]['case']} fake")
-        refused = self.call("suite", "merge", "suite")
+        refused = self.call("merge", "suite")
         self.assertEqual(refused.returncode, 2)
         self.assertIn(running[0]["id"], refused.stderr)
         before = {file.name: file.stat().st_mtime_ns for file in (self.suite / "done").iterdir()}
@@ -246,12 +246,12 @@ FAKE='{fault}' FAKE_NAME={name} exec /usr/bin/python3 -B '{FAKE}' "$@"
         secret, leak = self.path / "secret.txt", self.suite / "runs" / "leak"
         secret.write_text("precious")
         leak.symlink_to(secret)
-        refused = self.call("suite", "merge", "suite", "--out", "merged", "--no-report")
+        refused = self.call("merge", "suite", "--out", "merged", "--no-report")
         self.assertEqual(refused.returncode, 2, refused.stdout + refused.stderr)
         self.assertIn("suite/runs/leak", refused.stderr)
         self.assertEqual(list((self.path / "merged").rglob("leak")), [])
         leak.unlink()
-        self.done("suite", "merge", "suite", "--out", "merged", "--no-report")
+        self.done("merge", "suite", "--out", "merged", "--no-report")
 
     def test_ctrl_c_gives_the_job_back(self):
         self.cases(1, study=False)
@@ -324,7 +324,7 @@ FAKE='{fault}' FAKE_NAME={name} exec /usr/bin/python3 -B '{FAKE}' "$@"
         self.assertIn(": 0 of ", self.done("suite", "work", "suite").stdout)
         file = self.path / "cases/test/flight1.toml"
         file.write_text(FLIGHT.replace("velocity = [1.0, 0.0, 2.0]", "velocity = [1.5, 0.0, 2.0]"))
-        refused = self.call("suite", "merge", "suite")
+        refused = self.call("merge", "suite")
         self.assertEqual(refused.returncode, 2, refused.stdout)
         self.assertIn("test/flight1", refused.stderr)
         kept = self.make(fake).stdout
@@ -399,7 +399,7 @@ FAKE='{fault}' FAKE_NAME={name} exec /usr/bin/python3 -B '{FAKE}' "$@"
             ["status", "nowhere"],
             ["suite", "work", "suite", "--shard", "4/3"],
             ["suite", "work", "nowhere"],
-            ["suite", "merge", "suite"],
+            ["merge", "suite"],
             ["suite", "retry", "suite", "abc"],
             ["suite"],
             ["suite", "make", "suite", "no/such-case"],
@@ -426,7 +426,7 @@ FAKE='{fault}' FAKE_NAME={name} exec /usr/bin/python3 -B '{FAKE}' "$@"
         for n in range(3):
             planned = cpu_of("suite", "make", f"suite{n}", *question)
             worked = cpu_of("suite", "work", f"suite{n}")
-            merged = cpu_of("suite", "merge", f"suite{n}", "--no-report")
+            merged = cpu_of("merge", f"suite{n}", "--no-report")
             self.assertEqual(len(list((self.path / f"suite{n}" / "done").iterdir())), count)
             validated = cpu_of("validate", *question, "--out", f"whole{n}", "--no-report")
             more.append((worked - validated) / count)

@@ -154,7 +154,7 @@ class Export(unittest.TestCase):
 
     def test_a_report_gives_tables_and_figures(self):
         out = self.path / "paper"
-        done = call("export", self.path / "report", "--csv", "--latex", "--pdf", "--out", out, "--json")
+        done = call("export", self.path / "report", "--to", "csv,latex,pdf", "--out", out, "--json")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(
             {Path(name) for name in json.loads(done.stdout)["files"]},
@@ -200,7 +200,7 @@ class Export(unittest.TestCase):
         self.refused(2, "there is no such file", self.path / "nowhere", "--to", "vtp")
         self.refused(2, "did you mean vtp", self.path / "melt", "--to", "vtpp")
         self.refused(2, "name a format", self.path / "melt")
-        self.refused(2, "exported from a results.json", self.path / "melt", "--latex")
+        self.refused(2, "exported from a results.json", self.path / "melt", "--to", "latex")
         self.refused(2, "exported from a run's folder", self.path / "report", "--to", "vtp")
         self.refused(2, "has no trajectory.h5", self.path, "--to", "vtp")
         (self.path / "taken").write_text("a file")

@@ -195,11 +195,12 @@ class Spin(Pages):
             for name, angle in (("ode", 0.001), ("mine", 0.3), ("bullet", 0.6))
         ]
         results = self.load(case(engines, "rigid/torque-free"))
-        results.command = "tripoint validate rigid --engine 'my folder/engine-mine' --out x"
-        (found,), _ = headlines.pages(results, self.path)
-        self.assertEqual(
-            [(line.label, line.own) for line in found.lines], [("mine", True), ("ode", False), ("bullet", False)]
-        )
+        for words in ("--engine 'my folder/engine-mine'", "--engines=all,mine", "--engines ode,bullet,./engine-mine"):
+            results.command = f"tripoint validate rigid {words} --out x"
+            (found,), _ = headlines.pages(results, self.path)
+            self.assertEqual(
+                [(line.label, line.own) for line in found.lines], [("mine", True), ("ode", False), ("bullet", False)]
+            )
         curves = [(name, (None, None, None)) for name in ("ode", "mine · a", "bullet")]
         looks = headline_pictures.looks_of([name for name, _ in curves], ["mine"])
         from figures import style

@@ -101,10 +101,9 @@ EngineRow row_of(const EnginePlan& plan) {
 
 std::string repeat_command(const Case& value, const SuiteOptions& options) {
   std::string command = "tripoint validate " + value.file;
-  if (!options.selection.engines.empty()) command += fmt::format(" --engines {}", fmt::join(options.selection.engines, ","));
-  for (const auto& name : options.selection.asked)
-    if (std::find(options.selection.engines.begin(), options.selection.engines.end(), name) == options.selection.engines.end())
-      command += " --engine " + name;
+  const auto& asked = options.selection.asked;
+  if (!asked.empty())
+    command += fmt::format(" --engines {}{}", options.selection.engines.empty() ? "all," : "", fmt::join(asked, ","));
   if (options.selection.seed) command += fmt::format(" --seed {}", *options.selection.seed);
   return command;
 }

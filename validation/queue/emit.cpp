@@ -48,7 +48,7 @@ std::string names(const EmitOptions& o) {
 std::string slurm(const Queue& queue, const EmitOptions& o) {
   return "#!/bin/bash\n" + head(queue, o) +
          fmt::format(R"(# sbatch THIS, then, when the array has ended:
-#   sbatch --dependency=afterany:JOBID --wrap="tripoint suite merge {dir}"
+#   sbatch --dependency=afterany:JOBID --wrap="tripoint merge {dir}"
 # A task that was killed or preempted is sent again by the same line; what is done is skipped.
 #SBATCH --job-name=tripoint
 #SBATCH --array={array}
@@ -73,7 +73,7 @@ std::string hyperqueue(const Queue& queue, const EmitOptions& o) {
 set -eu
 {names}hq submit --wait --name tripoint --array {array} --cpus {threads} --crash-limit 3 -- \
   bash -c 'exec "$1" suite work "$2" --shard "$HQ_TASK_ID/{shards}"' shard "$TRIPOINT" "$DIR"
-exec "$TRIPOINT" suite merge "$DIR"
+exec "$TRIPOINT" merge "$DIR"
 )",
                      fmt::arg("array", ranges(o.numbers)), fmt::arg("threads", queue.threads), fmt::arg("names", names(o)),
                      fmt::arg("shards", o.shards));
@@ -85,7 +85,7 @@ std::string parallel(const Queue& queue, const EmitOptions& o) {
              R"(# JOBS=8 bash THIS: eight shards at a time (2 where nothing is said). Other machines: PARALLEL="--sshloginfile hosts" where the folder is shared.
 set -u
 {names}parallel --jobs "${{JOBS:-2}}" --quote --retries 3 --ungroup "$TRIPOINT" suite work "$DIR" --shard "{{}}/{shards}" ::: {numbers}
-exec "$TRIPOINT" suite merge "$DIR"
+exec "$TRIPOINT" merge "$DIR"
 )",
              fmt::arg("names", names(o)), fmt::arg("shards", o.shards), fmt::arg("numbers", fmt::join(o.numbers, " ")));
 }
@@ -113,7 +113,7 @@ rule merge:
         expand(os.path.join(DIR, "shards", "{{k}}-of-{shards}"), k=[{numbers}]),
     shell:
         # A gate that fails is a result, not a rule that broke: `tripoint gate DIR` ends with the verdict's code.
-        "{{TRIPOINT:q}} suite merge {{DIR:q}} || test $? -ne 2 -a -f {{DIR:q}}/results.json"
+        "{{TRIPOINT:q}} merge {{DIR:q}} || test $? -ne 2 -a -f {{DIR:q}}/results.json"
 
 
 rule shard:
@@ -137,9 +137,7 @@ std::string make_command(const Queue& queue, const EmitOptions& o) {
   if (!queue.filter.profile.empty()) line += " --profile " + queue.filter.profile;
   if (!queue.filter.tag.empty()) line += " --tag " + quoted(queue.filter.tag);
   if (!queue.filter.substring.empty()) line += " -k " + quoted(queue.filter.substring);
-  if (!queue.selection.engines.empty())
-    line += " --engines " + quoted(fmt::format("{}", fmt::join(queue.selection.engines, ",")));
-  for (const auto& word : queue.engine_words) line += " --engine " + quoted(word);
+  if (!queue.engine_words.empty()) line += " --engines " + quoted(fmt::format("{}", fmt::join(queue.engine_words, ",")));
   if (queue.selection.seed) line += fmt::format(" --seed {}", *queue.selection.seed);
   return line + fmt::format(" --threads {} --time-limit {:g}", queue.threads, queue.wall_limit);
 }
@@ -187,7 +185,7 @@ jobs:
           path: {typed}
           merge-multiple: true
       - run: {make}
-      - run: tripoint suite merge {dir}
+      - run: tripoint merge {dir}
       - uses: actions/upload-artifact@v4
         if: always()
         with:

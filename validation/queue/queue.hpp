@@ -41,7 +41,7 @@ struct Queue {
   std::string command;  ///< of `suite make`
   CaseFilter filter;    ///< cases that were asked for
   Selection selection;
-  std::vector<std::string> engine_words;  ///< given by --engine, as typed
+  std::vector<std::string> engine_words;  ///< given by --engines, as typed
   int threads = 1;                        ///< of each engine process
   double wall_limit = 600.0;              ///< [s]
   std::vector<QueuedCase> cases;

@@ -127,7 +127,7 @@ std::string status_text(const std::string& dir, const Queue& queue, const QueueS
   if (open > 0)
     text += fmt::format("next: tripoint suite work {}   (lost jobs are taken over)\n", dir);
   else
-    text += fmt::format("next: tripoint suite merge {}{}\n", dir,
+    text += fmt::format("next: tripoint merge {}{}\n", dir,
                         all.count(Stand::failed) > 0 ? "   (or tripoint suite retry, then work, for what failed)" : "");
   return text;
 }

@@ -167,8 +167,7 @@ struct Results {
       false;  ///< these are all cases of `what`, `tag` and `profile`: not with -k or --last-failed, and older results do not say
   bool seed_given = false;                ///< --seed replaced the cases' own
   std::vector<std::string> only_engines;  ///< --engines; empty = all
-  std::vector<std::string>
-      asked;  ///< engines that the command line named, by --engine or --engines: none of them passes unjudged
+  std::vector<std::string> asked;         ///< engines that the command line named, by --engines: none of them passes unjudged
   std::vector<std::string> problems;
   std::vector<CaseResult> cases;
 };
