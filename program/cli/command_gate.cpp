@@ -9,7 +9,6 @@
 #include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
-#include "program/cli/gate_adopt.hpp"
 #include "program/cli/gate_judge.hpp"
 #include "program/cli/options.hpp"
 #include "validation/baseline/baseline.hpp"

@@ -12,8 +12,8 @@
 
 #include "core/durable_file.hpp"
 #include "core/errors.hpp"
+#include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
-#include "program/cli/gate_adopt.hpp"
 #include "validation/baseline/baseline.hpp"
 #include "validation/campaign/suite.hpp"
 #include "validation/case/case_document.hpp"
@@ -86,7 +86,7 @@ std::vector<Case> cases_of(const GateAdoptOptions& o) {
 
 EngineEntry engine_of(const GateAdoptOptions& o, std::vector<EngineEntry>& engines) {
   if (o.sandbox) sandbox_third_parties(o.adopt.work);
-  const auto words = sort_engine_words({o.engine});
+  const auto words = sort_engine_words(files_as_paths({o.engine}));
   engines = discover_engines(words.paths);
   const std::string name = words.paths.empty() ? o.engine : ask_engine(words.paths.front()).name;
   const auto* found = find_engine(engines, name);

@@ -251,7 +251,7 @@ int run(RunOptions o) {
   const CaseReading reading = read_case(shown_path(case_file(o.what)), o.set);
   const Case& value = reading.value;
   fill_in(o, value);
-  const auto words = sort_engine_words({o.engine});
+  const auto words = sort_engine_words(files_as_paths({o.engine}));
   if (o.sandbox) sandbox_third_parties(o.out);
   const auto engines = discover_engines(words.paths);
   const auto plan = plan_for(value, engines, words.paths.empty() ? o.engine : ask_engine(words.paths.front()).name);

@@ -21,6 +21,8 @@ void add_plan(CLI::App& app, int& exit_code);
 void add_predict(CLI::App& app, int& exit_code);
 void add_ablate(CLI::App& app, int& exit_code);
 void add_gate(CLI::App& app, int& exit_code);
+/// @return the subcommand, so that `gate` sees whether it was called
+CLI::App* add_gate_adopt(CLI::App& gate, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
 void add_explain(CLI::App& app, int& exit_code);
 void add_list(CLI::App& app, int& exit_code);

@@ -135,10 +135,14 @@ std::vector<std::string> split(const std::string& list, char separator) {
 
 EngineWords sort_engine_words(const std::vector<std::string>& words) {
   EngineWords sorted;
-  for (const auto& word : words)
-    (word.find('/') != std::string::npos || (word != all_engines && std::filesystem::exists(word)) ? sorted.paths : sorted.names)
-        .push_back(word);
+  for (const auto& word : words) (word.find('/') != std::string::npos ? sorted.paths : sorted.names).push_back(word);
   return sorted;
+}
+
+std::vector<std::string> files_as_paths(std::vector<std::string> words) {
+  for (auto& word : words)
+    if (word.find('/') == std::string::npos && std::filesystem::is_regular_file(word)) word = "./" + word;
+  return words;
 }
 
 std::string no_such_engine(const std::string& name, const std::vector<EngineEntry>& engines) {

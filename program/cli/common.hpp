@@ -43,11 +43,13 @@ void print_commands(const std::string& text);
 /// The word of --engines for those of each case.
 inline constexpr const char* all_engines = "all";
 
-/// Names are those of engines, words with a slash or of existing files are paths.
+/// Names are those of engines, words with a slash are paths.
 struct EngineWords {
   std::vector<std::string> names, paths;
 };
 [[nodiscard]] EngineWords sort_engine_words(const std::vector<std::string>& words);
+/// Words with "./" before those that are files of this folder.
+[[nodiscard]] std::vector<std::string> files_as_paths(std::vector<std::string> words);
 
 /// The engines that a selection can need; `paths` join.
 [[nodiscard]] std::vector<EngineEntry> discover_selected(const Selection&, const std::vector<std::string>& paths);

@@ -19,7 +19,7 @@ std::string first_sentence(std::string text) {
 std::vector<std::string> EngineList::words() const {
   auto words = split(list);
   if (words.empty() && !joining.empty()) words.emplace_back(all_engines);
-  words.insert(words.end(), joining.begin(), joining.end());
+  for (auto& word : files_as_paths(joining)) words.push_back(std::move(word));
   return words;
 }
 
