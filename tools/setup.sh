@@ -67,7 +67,7 @@ install_wheels() {
   fi
   say "engine wheels into .venv: 99 MB to fetch, 310 MB on the disk"
   if { [[ -x .venv/bin/pip ]] || /usr/bin/python3 -m venv .venv; } >&2 &&
-    timeout 600 .venv/bin/pip install --quiet --require-hashes --only-binary :all: --retries 1 --timeout 15 \
+    timeout 600 .venv/bin/pip install --quiet --require-hashes --only-binary :all: "${@:4}" --retries 1 --timeout 15 \
       --requirement "$pins" >&2; then
     printf '%s\n' "$want" >"$stamp"
     rm -f "$tried"
@@ -77,7 +77,7 @@ install_wheels() {
   fi
 }
 
-# install_pins NAME "SIZE" "WITHOUT IT": the pinned wheels of tools/requirements-NAME.txt into .venv-NAME. Without PyPI it says what is lost.
+# install_pins NAME "SIZE" "WITHOUT IT" [OPTION OF PIP]...: the pinned wheels of tools/requirements-NAME.txt into .venv-NAME. Without PyPI it says what is lost.
 install_pins() {
   local pins=tools/requirements-$1.txt home=.venv-$1 want
   want=$(sha256sum <"$pins")
@@ -100,7 +100,7 @@ case ${1:-validate} in
   fuzz) install_packages "${core[@]}" "${fuzzer[@]}" && exit ;;
   checks) install_packages "${core[@]}" "${report[@]}" "${tests[@]}" "${fuzzer[@]}" clang-tidy-14 && exit ;;
   readers) install_packages "${wheel[@]}" && install_pins readers "237 MB to fetch, 1.1 GB on the disk" "the test of exported files is skipped" && exit ;;
-  schedulers) install_packages "${wheel[@]}" "${schedulers[@]}" && install_pins schedulers "20 MB to fetch, 135 MB on the disk" "the test of Snakemake is skipped" && exit ;;
+  schedulers) install_packages "${wheel[@]}" "${schedulers[@]}" && install_pins schedulers "20 MB to fetch, 135 MB on the disk" "the test of Snakemake is skipped" --no-binary connection_pool && exit ;;
   *) say "usage: tools/setup.sh [build|validate|test|peers|readers|schedulers|fuzz|checks]"; exit 2 ;;
 esac
 install_wheels
