@@ -385,10 +385,10 @@ def main():
     p.add_argument("--list", action="store_true", help="only print what would be drawn")
     options = p.parse_args()
     options.tree, options.out = options.tree.resolve(), options.out.resolve()
-    if options.tree == options.sound.resolve():
-        sys.exit("draw_mutants: --sound is --tree: what a mutant fails there, it fails here too, and nothing is killed")
     if options.tree == pathlib.Path(__file__).resolve().parent.parent:
         sys.exit("draw_mutants: --tree is the tree of this script: give a copy, its sources are changed")
+    if options.tree == options.sound.resolve():
+        sys.exit("draw_mutants: --sound is --tree: what a mutant fails there, it fails here too, and nothing is killed")
     rng, done = random.Random(options.seed), json.loads(options.out.read_text()) if options.out.exists() else []
     rooms = options.room or ROOMS
     print(f"seed {options.seed}, {len(sources(options.tree, rooms))} files", flush=True)
