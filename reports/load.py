@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reads results.json.
 
-The file may come from a third party, from an older version or from a run that broke off: a key that is missing or of the
-wrong kind becomes a note on the page, never an exception.
+The file may come from a third party, from an older version or from a run that broke off: a key that is missing or of
+the wrong kind becomes a note on the page, never an exception.
 """
 
 from __future__ import annotations

@@ -60,10 +60,10 @@ def load(root):
     known, seen = {name for _, name in named}, {name for _, name in used}
     for path, name in used:
         if name not in known:
-            raise Wrong(f"{path}: defect<\"{name}\">() is used, and no [[defect]] has that name")
+            raise Wrong(f'{path}: defect<"{name}">() is used, and no [[defect]] has that name')
     for path, name in named:
         if name not in seen:
-            raise Wrong(f"{path}: no [[change]] uses defect<\"{name}\">()")
+            raise Wrong(f'{path}: no [[change]] uses defect<"{name}">()')
     twice = {name for name, _, _ in defects if sum(name == other for other, _, _ in defects) > 1}
     if twice:
         raise Wrong(f"{root}: registered twice: {', '.join(sorted(twice))}")

@@ -121,7 +121,7 @@ class Trajectory(unittest.TestCase):
 
     def test_each_element_of_the_page_is_in_a_run(self):
         found = {general(path) for _, path, _ in self.elements()}
-        writer = (SOURCE / "src" / "io" / "trajectory_writer.cpp").read_text()
+        writer = (SOURCE / "src" / "files" / "trajectory_writer.cpp").read_text()
         for path in self.documented:
             if path in WRITTEN_ELSEWHERE and path not in found:
                 self.assertIn(f'"{path.rpartition("/")[2]}"', writer)
@@ -258,7 +258,7 @@ class ResultsPage(unittest.TestCase):
     def writer():
         """The fields of each record, and the code that writes them."""
         text = "".join(
-            (SOURCE / "validation" / "harness" / name).read_text()
+            (SOURCE / "validation" / "results" / name).read_text()
             for name in ("results_fields.hpp", "results_write.cpp")
         )
         return re.sub(r"//.*", "", text)

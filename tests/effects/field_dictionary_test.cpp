@@ -60,12 +60,13 @@ std::map<std::string, std::set<std::string>> owners() {
   return found;
 }
 
-/// The text of every file that declares fields: those that several rooms know, and all files of an effect.
+/// The text of every file that declares fields: those that several rooms know, those of liquids, and all files of an effect.
 std::string declarations() {
   const fs::path src = fs::path(TRIPOINT_SOURCE_DIR) / "src";
   std::string text = text_of(src / "particles/catalogue.hpp");
-  for (const auto& file : fs::recursive_directory_iterator(src / "effects"))
-    if (file.path().extension() == ".hpp" || file.path().extension() == ".cpp") text += text_of(file.path());
+  for (const char* room : {"liquids", "effects"})
+    for (const auto& file : fs::recursive_directory_iterator(src / room))
+      if (file.path().extension() == ".hpp" || file.path().extension() == ".cpp") text += text_of(file.path());
   return text;
 }
 
