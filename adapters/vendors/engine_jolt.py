@@ -23,10 +23,9 @@ from rigid import (
     RigidEngine,
     State,
     World,
+    body_words,
     bounciness,
     coulomb,
-    forces_on,
-    moves,
     upright,
 )
 from rotation import Vector, dot, quaternion, rotate, vector
@@ -48,22 +47,6 @@ def piece_words(piece: Piece) -> dict[str, Any]:
     return upright(piece)._asdict()
 
 
-def body_words(job: Job, body: Body) -> dict[str, Any]:
-    return {
-        "free": body.free,
-        "moves": moves(body),
-        "material": body.material,
-        "force": forces_on(job, body),
-        "mass": body.mass,
-        "inertia": body.inertia,
-        "centre": body.centre,
-        "frame": body.frame,
-        "velocity": body.velocity,
-        "spin": body.spin,
-        "pieces": [piece_words(piece) for piece in body.pieces],
-    }
-
-
 class JoltWorld(World):
     """Lives in a process of node, which ends with its stdin."""
 
@@ -78,7 +61,7 @@ class JoltWorld(World):
             "friction": coulomb(job),
             "restitution": bounciness(job),
             "rounded": float(job.settings.get("mConvexRadius", 0.05)),
-            "bodies": [body_words(job, body) for body in bodies],
+            "bodies": [body_words(job, body, piece_words) for body in bodies],
             "laws": PairLaws(job).pairs([body.material for body in bodies]),
             "settings": {key: job.settings[key] for key in WORLD_SETTINGS if key in job.settings},
         }

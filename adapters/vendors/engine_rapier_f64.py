@@ -15,26 +15,14 @@ from typing import Any
 
 from contract import Job, serve
 from engine_rapier import WORLD_SETTINGS, Rapier, friction_model
-from rigid import Body, Held, PairLaws, State, World, bounciness, coulomb, forces_on, moves, upright
+from rigid import Body, Held, PairLaws, Piece, State, World, body_words, bounciness, coulomb, upright
 from rotation import Vector, quaternion, vector
 
 PROTOCOL = 2  # of rapier_f64/src/main.rs
 
 
-def body_words(job: Job, body: Body) -> dict[str, Any]:
-    return {
-        "free": body.free,
-        "moves": moves(body),
-        "material": body.material,
-        "force": forces_on(job, body),
-        "mass": body.mass,
-        "inertia": body.inertia,
-        "centre": body.centre,
-        "frame": body.frame,
-        "velocity": body.velocity,
-        "spin": body.spin,
-        "pieces": [upright(piece)._asdict() for piece in body.pieces],
-    }
+def piece_words(piece: Piece) -> dict[str, Any]:
+    return upright(piece)._asdict()
 
 
 class DoubleWorld(World):
@@ -49,7 +37,7 @@ class DoubleWorld(World):
             "friction": coulomb(job),
             "restitution": bounciness(job),
             "gyroscopic": bool(job.settings.get("gyroscopic_forces", True)),
-            "bodies": [body_words(job, body) for body in bodies],
+            "bodies": [body_words(job, body, piece_words) for body in bodies],
             "laws": PairLaws(job).pairs([body.material for body in bodies]),
             "settings": {key: job.settings[key] for key in WORLD_SETTINGS if key in job.settings},
         }

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import time
 from abc import abstractmethod
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -429,3 +429,20 @@ SHARED_SETTINGS = {
     "friction": "Coulomb's coefficient of every pair, default 0",
     "restitution": "of every pair, default 0",
 }
+
+
+def body_words(job: Job, body: Body, piece_words: Callable[[Piece], dict[str, Any]]) -> dict[str, Any]:
+    """A body as a world in a process of its own reads it, in JSON."""
+    return {
+        "free": body.free,
+        "moves": moves(body),
+        "material": body.material,
+        "force": forces_on(job, body),
+        "mass": body.mass,
+        "inertia": body.inertia,
+        "centre": body.centre,
+        "frame": body.frame,
+        "velocity": body.velocity,
+        "spin": body.spin,
+        "pieces": [piece_words(piece) for piece in body.pieces],
+    }

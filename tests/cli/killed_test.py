@@ -87,7 +87,7 @@ class Killed(unittest.TestCase):
         at = next(n for n, line in enumerate(lines) if line.startswith("import "))
         self.engine.write_text("\n".join(lines[:at] + HANGS.split("\n") + lines[at:]))
 
-    def start(self, n, engines="mine"):
+    def start(self, n, engines="mine", before=()):
         words = [
             "validate",
             "rigid/ballistic",
@@ -101,7 +101,7 @@ class Killed(unittest.TestCase):
             "--no-history",
         ]
         return subprocess.Popen(
-            [TRIPOINT, *words], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+            [*before, TRIPOINT, *words], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
         )
 
     def wait_until_it_hangs(self, n):
@@ -153,25 +153,7 @@ class Killed(unittest.TestCase):
 
     def test_a_kill_of_the_whole_group_spares_the_watcher(self):
         self.make_it_hang()
-        harness = subprocess.Popen(
-            [
-                "setsid",
-                TRIPOINT,
-                "validate",
-                "rigid/ballistic",
-                "--engine",
-                self.engine,
-                "--engines",
-                "mine",
-                "--out",
-                self.folder / "out0",
-                "--no-report",
-                "--no-history",
-            ],
-            cwd=self.folder,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
+        harness = self.start(0, before=["setsid"])
         self.wait_until_it_hangs(0)
         os.killpg(harness.pid, signal.SIGKILL)
         os.waitpid(harness.pid, 0)

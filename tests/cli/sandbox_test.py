@@ -76,6 +76,9 @@ def one_folder_can_be_shown():
     return ctypes.CDLL(None, use_errno=True).syscall(444, None, ctypes.c_size_t(0), ctypes.c_uint(1)) > 0
 
 
+QUIETLY = ["--no-report", "--no-history"]
+
+
 class Sandbox(unittest.TestCase):
     def setUp(self):
         self.place = tempfile.TemporaryDirectory()
@@ -89,26 +92,18 @@ class Sandbox(unittest.TestCase):
     def tearDown(self):
         self.place.cleanup()
 
+    def judged(self):
+        """The command that judges our engine in a flight; what follows it says by the side of whom, and where."""
+        return [TRIPOINT, "validate", "rigid/ballistic", "--engine", self.engine]
+
+    def run_in(self, command, **more):
+        return subprocess.run(
+            command, **{"cwd": self.folder, "capture_output": True, "text": True, "check": False, **more}
+        )
+
     def validate(self, *words):
-        done = subprocess.run(
-            [
-                TRIPOINT,
-                "validate",
-                "rigid/ballistic",
-                "--engine",
-                self.engine,
-                "--engines",
-                "mine,exact",
-                "--out",
-                self.folder / "out",
-                "--no-report",
-                "--no-history",
-                *words,
-            ],
-            cwd=self.folder,
-            capture_output=True,
-            text=True,
-            check=False,
+        done = self.run_in(
+            [*self.judged(), "--engines", "mine,exact", "--out", self.folder / "out", *QUIETLY, *words],
             env={**os.environ, "SOME_TOKEN": "secret"},
         )
         return done, json.loads((self.folder / "out/results.json").read_text()) if (
@@ -235,26 +230,7 @@ if sys.argv[1] == "--run":
     open("seen.txt", "w").write(str(len(seen)))
 """)
         for words, seen in (([], "2"), (["--sandbox"], "0")):
-            done = subprocess.run(
-                [
-                    TRIPOINT,
-                    "validate",
-                    "rigid/ballistic",
-                    "--engine",
-                    self.engine,
-                    "--engines",
-                    "mine",
-                    "--out",
-                    out,
-                    "--no-report",
-                    "--no-history",
-                    *words,
-                ],
-                cwd=project,
-                capture_output=True,
-                text=True,
-                check=False,
-            )
+            done = self.run_in([*self.judged(), "--engines", "mine", "--out", out, *QUIETLY, *words], cwd=project)
             self.assertEqual({file.read_text() for file in out.rglob("seen.txt")}, {seen}, done.stderr)
 
     def test_who_draws_the_page_changes_no_result_and_sees_no_other_file(self):
@@ -339,44 +315,15 @@ exec /usr/bin/python3 "$@"
         environment.mkdir(parents=True)
         (environment / "python").symlink_to(versions / "3.11/bin/python3.11")
         for python in (environment / "python", Path("environment/bin/python")):
-            done = subprocess.run(
-                [
-                    TRIPOINT,
-                    "validate",
-                    "rigid/ballistic",
-                    "--engine",
-                    self.engine,
-                    "--engines",
-                    "mine",
-                    "--out",
-                    "out",
-                    "--sandbox",
-                ],
-                cwd=self.folder,
-                capture_output=True,
-                text=True,
-                check=False,
+            done = self.run_in(
+                [*self.judged(), "--engines", "mine", "--out", "out", "--sandbox"],
                 env={**os.environ, "TRIPOINT_PYTHON": str(python)},
             )
             self.assertTrue((self.folder / "out/index.html").exists(), done.stdout + done.stderr)
 
     def test_a_home_is_no_folder_of_an_engine(self):
-        done = subprocess.run(
-            [
-                TRIPOINT,
-                "validate",
-                "rigid/ballistic",
-                "--engine",
-                self.engine,
-                "--sandbox",
-                "--out",
-                self.folder / "out",
-                "--no-report",
-            ],
-            cwd=self.folder,
-            capture_output=True,
-            text=True,
-            check=False,
+        done = self.run_in(
+            [*self.judged(), "--sandbox", "--out", self.folder / "out", "--no-report"],
             env={**os.environ, "HOME": str(self.engine.parent)},
         )
         self.assertNotEqual(done.returncode, 0)
@@ -438,17 +385,12 @@ resource.RLIMIT_NPROC, resource.RLIMIT_CPU)]
             "-c",
             'ulimit -f 2000000 && ulimit -v 8000000 && exec "$@"',
             "sh",
-            TRIPOINT,
-            "validate",
-            "rigid/ballistic",
-            "--engine",
-            self.engine,
+            *self.judged(),
             "--engines",
             "mine",
             "--out",
             self.folder / "out",
-            "--no-report",
-            "--no-history",
+            *QUIETLY,
             "--sandbox",
         ]
         done = subprocess.run(words, cwd=self.folder, capture_output=True, text=True, check=False)
