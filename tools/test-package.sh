@@ -48,8 +48,8 @@ words=("$@")
 ((${#words[@]})) || words=(rigid/ballistic)
 begin=$SECONDS
 code=0
-chroot "$root" /usr/bin/env -i HOME=/root PATH=/usr/bin:/bin LANG=C.UTF-8 sh -c 'cd /root && exec "$@"' - tripoint validate "${words[@]}" --out report || code=$?
+chroot "$root" /usr/bin/env -i HOME=/srv PATH=/usr/bin:/bin LANG=C.UTF-8 sh -c 'cd /srv && exec "$@"' - tripoint validate "${words[@]}" --out report || code=$?
 say "tripoint validate ${words[*]}: exit $code after $((SECONDS - begin)) s"
-[[ -f $root/root/report/index.html ]] || { say "no page was drawn"; exit 1; }
+[[ -f $root/srv/report/index.html ]] || { say "no page was drawn"; exit 1; }
 chroot "$root" dpkg --verify tripoint || { say "files of the package were changed"; exit 1; }
 exit $code
