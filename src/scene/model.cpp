@@ -139,7 +139,7 @@ std::vector<Key> model_keys() {
     for (const ModelForm& form : t.forms) {
       words += fmt::format("{}{}", words.empty() ? "" : " ", form.word);
       if (form.meaning.empty()) continue;
-      meaning += fmt::format("{}{}: {}", meaning.empty() ? "" : "; ", form.word, form.meaning);
+      meaning += fmt::format("{}`{}`: {}", meaning.empty() ? "" : ". ", form.word, form.meaning);
     }
     const std::string_view note = t.term ? "by scene.mode and scene.modes" : "by the keys of [scene]";
     rows.push_back({"model", t.name, ValueType::word, "", Range::any, "=", note, kept(words), kept(meaning)});
