@@ -59,6 +59,12 @@ bool any_body(const Scene& s, BodyTest test) {
 
 bool any_material(const Scene& s, bool (*test)(const Material&)) { return std::ranges::any_of(s.materials, test); }
 
+std::string printed_among(const Scene& s, std::initializer_list<Term> terms) {
+  for (const Term& one : terms)
+    if (s.mode_of(one) != Mode::corrected) return fmt::format("{} is as printed", one.name);
+  return "";
+}
+
 bool moves(const Scene& s, const Body& b) {
   if (b.motion != Motion::fixed) return true;
   return std::ranges::any_of(s.events,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -189,6 +190,8 @@ using BodyTest = bool (*)(const Scene&, const Body&, const Material&);
 [[nodiscard]] bool any_material(const Scene&, bool (*test)(const Material&));
 /// A body that is held for good needs no equations of motion.
 [[nodiscard]] bool moves(const Scene&, const Body&);
+/// "density is as printed", of the first of these terms that is; "" where all are corrected.
+[[nodiscard]] std::string printed_among(const Scene&, std::initializer_list<Term>);
 
 /// The body or material that melts or freezes: the scene's temperatures pass t_melt or t_solid of the material. "" = none.
 [[nodiscard]] std::string who_changes_phase(const Scene&);

@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <vector>
 
 #include "scene/effect_rule.hpp"
@@ -21,8 +18,8 @@ std::string no_contact_stiffness(const Scene& s) {
 std::string no_contact_step(const Scene& s) {
   if (s.time_step) return "the scene gives its time_step";
   if (!s.clamps()) return "the scene does not clamp: solids pull at each other before they touch";
-  for (const Term& one : {term::density, term::pressure, term::state})
-    if (s.mode_of(one) != Mode::corrected) return fmt::format("{} is as printed", one.name);
+  const std::string printed = printed_among(s, {term::density, term::pressure, term::state});
+  if (!printed.empty()) return printed;
   if (calls_for(s, "phase")) return "where matter melts or freezes, densities change at once";
   return any_body(s, is_free_solid) ? "" : "no solid is free to touch another";
 }

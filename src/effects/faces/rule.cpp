@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <vector>
 
 #include "scene/effect_rule.hpp"
@@ -11,8 +8,8 @@ namespace tripoint::faces {
 namespace {
 
 std::string no_face_pressure(const Scene& s) {
-  for (const Term term : {term::density, term::pressure, term::state, term::elastic})
-    if (s.mode_of(term) != Mode::corrected) return fmt::format("{} is as printed", term.name);
+  const std::string printed = printed_among(s, {term::density, term::pressure, term::state, term::elastic});
+  if (!printed.empty()) return printed;
   if (!calls_for(s, "elastic")) return "nothing elastic moves";
   if (calls_for(s, "phase")) return "where matter melts or freezes, its shape of reference changes at once";
   return calls_for(s, "fracture") ? "where bonds break, the shape of reference changes at once" : "";

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fmt/format.h>
-
 #include <algorithm>
 
+#include "liquids/compression_energy.hpp"
 #include "liquids/pressing_gravity.hpp"
 #include "liquids/stored_compression.hpp"
 #include "scene/effect_rule.hpp"
@@ -11,8 +10,6 @@
 
 namespace tripoint::fluid {
 namespace {
-
-bool is_liquid(const Scene&, const Body& b, const Material&) { return b.phase == Phase::liquid; }
 
 bool has_stiffness(const Material& m) { return m.stiffness.has_value(); }
 
@@ -39,7 +36,7 @@ std::string called_for(const Scene& s) {
 }
 
 std::string left_out(const Scene& s) {
-  if (any_body(s, is_liquid)) return "every liquid is held in place, and nothing can touch";
+  if (any_body(s, liquid::is_liquid)) return "every liquid is held in place, and nothing can touch";
   if (!s.contact) return "nothing is liquid, and the scene says contact = \"none\"";
   if (!any_material(s, has_stiffness))
     return "nothing is liquid, no two bodies can meet before the end of the run, and no material has a stiffness";
@@ -58,14 +55,6 @@ std::string solid_viscosity_idle(const Scene& scene) {
 
 /// Why liquids can have no numerical bulk viscosity. Reasons: nothing is liquid; something freezes, which changes densities at
 /// once; density, pressure or state are printed. Or the scene does not clamp, so that it can have no free surface or contact.
-std::string no_bulk_viscosity(const Scene& scene) {
-  if (scene.inflows.empty() && !any_body(scene, is_liquid)) return "nothing is liquid";
-  if (calls_for(scene, "phase")) return "where matter melts or freezes, densities change at once";
-  for (const Term& one : {term::density, term::pressure, term::state})
-    if (scene.mode_of(one) != Mode::corrected) return fmt::format("{} is as printed", one.name);
-  return scene.clamps() ? "" : "the scene does not clamp";
-}
-
 /// Why the topmost layer of a liquid can bear no part of its own weight. The reasons are those of the numerical bulk viscosity,
 /// or there is no gravity. Or a free body floats at the surface and loads it by an unknown weight.
 std::string no_surface_weight(const Scene& scene) {
@@ -74,7 +63,7 @@ std::string no_surface_weight(const Scene& scene) {
     return "a free body that floats would be lifted by it";
   if (liquid::pressing_gravity(scene) == Vec3{})
     return "gravity presses nothing down: there is none, or it acts along periodic directions alone";
-  return no_bulk_viscosity(scene);
+  return liquid::no_compression_energy(scene);
 }
 
 std::string no_isotropic_shear(const Scene& s) {
@@ -115,7 +104,7 @@ std::vector<EffectKey> pressure_keys() {
         "numerical bulk viscosity of liquids over rho0 c h, h the support (model 8.4); 0: none. Only where the scene clamps, "
         "density, pressure and state are corrected, and nothing freezes"},
        {},
-       no_bulk_viscosity},
+       liquid::no_compression_energy},
       {{"scene", "core_reach", number, "", fraction, "0.9", "keeps pairs apart where the clamp leaves no pressure", "",
         "distance in spacings below which pressing pairs repel (model 8.3); 0: none. Only where the "
         "pressure is corrected"},

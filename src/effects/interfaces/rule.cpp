@@ -1,26 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <vector>
 
+#include "liquids/compression_energy.hpp"
 #include "liquids/pressing_gravity.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/shared_terms.hpp"
 
 namespace tripoint::interfaces {
 namespace {
-
-bool is_liquid(const Scene&, const Body& b, const Material&) { return b.phase == Phase::liquid; }
-
-/// Why the pressure of liquids is not that of an energy alone.
-std::string no_energy(const Scene& scene) {
-  if (scene.inflows.empty() && !any_body(scene, is_liquid)) return "nothing is liquid";
-  if (calls_for(scene, "phase")) return "where matter melts or freezes, densities change at once";
-  for (const Term& one : {term::density, term::pressure, term::state})
-    if (scene.mode_of(one) != Mode::corrected) return fmt::format("{} is as printed", one.name);
-  return scene.clamps() ? "" : "the scene does not clamp";
-}
 
 std::string no_interface_weight(const Scene& scene) {
   if (liquid::pressing_gravity(scene) == Vec3{}) return "gravity presses nothing down";
@@ -29,7 +17,7 @@ std::string no_interface_weight(const Scene& scene) {
     if (b.phase == Phase::liquid) densities.push_back(scene.material(b.material).density);
   for (const Inflow& f : scene.inflows) densities.push_back(scene.material(f.material).density);
   if (std::ranges::all_of(densities, [&](double rho) { return rho == densities.front(); })) return "all liquids are as heavy";
-  return no_energy(scene);
+  return liquid::no_compression_energy(scene);
 }
 
 std::string called_for(const Scene& s) {

@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <vector>
 
 #include "scene/effect_rule.hpp"
@@ -15,8 +12,8 @@ std::string no_transport_velocity(const Scene& s) {
 }
 
 std::string no_transport(const Scene& scene) {
-  for (const Term& one : {term::density, term::pressure, term::state})
-    if (scene.mode_of(one) != Mode::corrected) return fmt::format("{} is as printed", one.name);
+  const std::string printed = printed_among(scene, {term::density, term::pressure, term::state});
+  if (!printed.empty()) return printed;
   return scene.transport_velocity ? "" : "particles move with their own velocity: transport_velocity is false";
 }
 
