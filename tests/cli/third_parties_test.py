@@ -43,19 +43,9 @@ class ThirdParties(unittest.TestCase):
         self.engine.write_text(THIEF.replace("PLACE", place.name))
         self.engine.chmod(0o755)
 
-    def validate(self, *words):
+    def validate(self, *words, cases=("rigid/ballistic", "rigid/torque-free")):
         return subprocess.run(
-            [
-                TRIPOINT,
-                "validate",
-                "rigid/ballistic",
-                "rigid/torque-free",
-                "--out",
-                "out",
-                "--no-report",
-                "--no-history",
-                *words,
-            ],
+            [TRIPOINT, "validate", *cases, "--out", "out", "--no-report", "--no-history", *words],
             cwd=self.folder,
             capture_output=True,
             text=True,
@@ -125,26 +115,12 @@ class ThirdParties(unittest.TestCase):
             engine = self.folder / name / f"engine-{name}"
             if language == "cpp":
                 subprocess.run(["c++", "-std=c++20", f"{engine}.cpp", "-o", engine], check=True)
-            done = subprocess.run(
-                [
-                    TRIPOINT,
-                    "validate",
-                    "contact/ball-restitution-050",
-                    "contact/ball-restitution-000",
-                    "rigid/ballistic",
-                    "--engines",
-                    name,
-                    "--engine",
-                    engine,
-                    "--out",
-                    "out",
-                    "--no-report",
-                    "--no-history",
-                ],
-                cwd=self.folder,
-                capture_output=True,
-                text=True,
-                check=False,
+            done = self.validate(
+                "--engines",
+                name,
+                "--engine",
+                engine,
+                cases=("contact/ball-restitution-050", "contact/ball-restitution-000", "rigid/ballistic"),
             )
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             self.assertEqual(done.stdout.count("PASS"), 4, done.stdout)
