@@ -81,7 +81,7 @@ int code_of_runs(const CaseResult& result) {
 
 int compare(const CompareOptions& o) {
   const auto value = one_case(o.what);
-  const auto words = sort_engine_words(files_as_paths(split(o.engines)));
+  const auto words = sort_engine_words(split(o.engines));
   SuiteOptions options;
   options.out = o.out.empty() ? own_folder("compare", value.id) : o.out;
   if (o.sandbox) sandbox_third_parties(options.out);

@@ -90,7 +90,7 @@ std::string metric_of(const RecommendOptions& o, const Case& value) {
 }
 
 CaseResult measure(const RecommendOptions& o, const Case& value, const std::function<bool(const RunPlan&)>& wanted) {
-  const auto words = sort_engine_words(files_as_paths(split(o.engines)));
+  const auto words = sort_engine_words(split(o.engines));
   if (o.sandbox) sandbox_third_parties(o.out);
   SuiteOptions options;
   options.selection.engines = words.names;
