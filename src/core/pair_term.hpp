@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <string_view>
 
 #include "core/field.hpp"
 
-/// Pair terms by their types, for code that chooses among compiled passes at run time.
+/// Names of pair terms, for code that chooses among compiled passes at run time.
 namespace tripoint {
 
 struct PairTerm {
@@ -14,19 +16,20 @@ struct PairTerm {
   constexpr bool operator==(const PairTerm& other) const noexcept { return key == other.key; }
 };
 
-namespace detail {
-
+/// The term T, a struct with `name`, `reads`, `adds` and `pair` (sph/pass.hpp). No other term has its name.
 template <class T>
-[[nodiscard]] consteval std::string_view name_of_type() {
-  const std::string_view whole = __PRETTY_FUNCTION__;  // "... [with T = tripoint::HeatMoment; ...", clang: "[T = ...]"
-  const std::size_t from = whole.find("T = ") + 4;
-  return whole.substr(from, whole.find_first_of(";]", from) - from);
-}
+inline constexpr PairTerm pair_term{T::name};
 
-}  // namespace detail
-
-/// The key of the term T, a struct with `reads`, `adds` and `pair` (sph/pass.hpp).
-template <class T>
-inline constexpr PairTerm pair_term{detail::name_of_type<T>()};
+/// The name of one of several terms that a template makes: its parts one after the other.
+template <const std::string_view&... parts>
+struct JoinedName {
+  static constexpr auto text = [] {
+    std::array<char, (parts.size() + ...)> all{};
+    auto end = all.begin();
+    ((end = std::ranges::copy(parts, end).out), ...);
+    return all;
+  }();
+  static constexpr std::string_view value{text.data(), text.size()};
+};
 
 }  // namespace tripoint

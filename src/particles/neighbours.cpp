@@ -19,12 +19,14 @@ constexpr std::size_t clusters_that_have_strips = 10'000;  ///< what a layer of 
 /// @param listed rows that the last lists knew: the fixed ones among them have not moved
 void refuse_not_finite(const Particles& particles, double time, std::size_t listed) {
   const auto x = positions(particles);
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    if (i == particles.moving() && i < listed) i = listed;
-    if (i == particles.size()) return;
-    if (finite(x.at(i)) && norm(x.at(i)) <= 1e100) continue;
-    throw Diverged(particles[field::id][i], particles[field::body][i], "position", "drift", time, "a position is not finite");
-  }
+  const auto refuse_among = [&](std::size_t first, std::size_t past) {
+    for (std::size_t i = first; i < past; ++i) {
+      if (finite(x.at(i)) && norm(x.at(i)) <= 1e100) continue;
+      throw Diverged(particles[field::id][i], particles[field::body][i], "position", "drift", time, "a position is not finite");
+    }
+  };
+  refuse_among(0, particles.moving());
+  refuse_among(std::max(particles.moving(), listed), particles.size());
 }
 
 /// Resizes without copying: the old values are lost, where none are to be kept. Untouched pages take no memory.

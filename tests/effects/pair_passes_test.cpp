@@ -107,12 +107,13 @@ TEST(PairPasses, ArePutTogetherFromTheSlotsOfEffects) {
   static_assert(std::is_same_v<All::Density, FindingPass<Slot<DensityPaper, NumberDensity>, Slot<HeatMoment>>>);
   static_assert(std::is_same_v<All::Rates, Pass<Slot<HeatFlowPaper>>>);
   static_assert(std::is_same_v<All::Alone, Together<TransportForces>>);
-  EXPECT_EQ(pair_term<DensityPaper>.name, "tripoint::DensityPaper");
+  EXPECT_EQ(pair_term<ViscousSpread<ViscosityCentral>>.name, "ViscousSpread of ViscosityCentral");
   EXPECT_NE(pair_term<ViscosityCentral>.key, pair_term<ViscosityCentralWeighted>.key);
 }
 
 /// A term that the program does not have: sum_j m_j r_ij.
 struct Far {
+  static constexpr std::string_view name = "Far";
   using reads = Keys<field::mass>;
   using adds = Keys<field::conductance>;
   template <class V>

@@ -54,15 +54,15 @@ PAIR_TERMS = {
     "PressurePaper": ["pressure force (7)"],
     "PressureCorrected": ["pressure force 8.3"],
     "ViscosityPaper": ["viscous force (8)"],
-    "ViscosityCentralOf<false>": ["viscous force central 8.5"],
-    "ViscosityCentralOf<true>": ["viscous force central 8.5"],
+    "ViscosityCentral": ["viscous force central 8.5"],
+    "ViscosityCentralWeighted": ["viscous force central 8.5"],
     "ViscosityLaplacian": ["viscous force laplacian 8.5"],
-    "ViscousSpread<ViscosityPaper>": ["viscous bound (8)"],
-    "ViscousSpread<ViscosityCentralOf<false>>": ["viscous bound central 8.10"],
-    "ViscousSpread<ViscosityCentralOf<true>>": ["viscous bound central 8.10"],
-    "ViscousSpread<ViscosityLaplacian>": ["viscous bound laplacian 8.10"],
-    "WallExtrapolationOf<false>": ["wall weight 8.4", "wall velocity 8.4"],
-    "WallExtrapolationOf<true>": ["wall weight 8.4", "wall velocity 8.4"],
+    "ViscousSpread of ViscosityPaper": ["viscous bound (8)"],
+    "ViscousSpread of ViscosityCentral": ["viscous bound central 8.10"],
+    "ViscousSpread of ViscosityCentralWeighted": ["viscous bound central 8.10"],
+    "ViscousSpread of ViscosityLaplacian": ["viscous bound laplacian 8.10"],
+    "WallExtrapolation": ["wall weight 8.4", "wall velocity 8.4"],
+    "WallExtrapolationWeighted": ["wall weight 8.4", "wall velocity 8.4"],
     "TransportForces": ["background force 8.3", "stress of the shift 8.3"],
     "TransportForcesAndMeans": [
         "background force 8.3",
@@ -405,7 +405,7 @@ def compare_all(writer, runs=RUNS):
 def wrong_pair_terms(writer):
     """Pair terms that are compiled and in no row here, entries here whose term is not compiled, and rows that there are
     none of."""
-    compiled = set(subprocess.run([writer, "--terms"], check=True, stdout=subprocess.PIPE, text=True).stdout.split())
+    compiled = set(subprocess.run([writer, "--terms"], check=True, stdout=subprocess.PIPE, text=True).stdout.splitlines())
     wrong = [
         f"the pair term {name}, which no row compares (PAIR_TERMS)" for name in sorted(compiled - PAIR_TERMS.keys())
     ]

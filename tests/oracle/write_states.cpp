@@ -85,17 +85,11 @@ Json state_of(Simulation& s) {
           {"ledger", s.ledger().energy}};
 }
 
-/// Each once, without the namespace that all are in.
+/// Each once.
 void print_terms() {
-  std::set<std::string> names;
-  for (const PairTerm& term : pair_passes(1).terms) {
-    std::string name(term.name);
-    constexpr std::string_view scope = "tripoint::";
-    for (std::size_t at = name.find(scope); at != std::string::npos; at = name.find(scope)) name.erase(at, scope.size());
-    std::erase(name, ' ');  // compilers differ in "> >"
-    names.insert(name);
-  }
-  for (const std::string& name : names) std::cout << name << '\n';
+  std::set<std::string_view> names;
+  for (const PairTerm& term : pair_passes(1).terms) names.insert(term.name);
+  for (const std::string_view name : names) std::cout << name << '\n';
 }
 
 }  // namespace

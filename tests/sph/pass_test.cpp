@@ -14,6 +14,7 @@ namespace {
 
 /// Two terms that share a target, so that the order of adding shows.
 struct First {
+  static constexpr std::string_view name = "First";
   using reads = Keys<field::mass>;
   using adds = Keys<field::heat_rate>;
   template <class V>
@@ -22,6 +23,7 @@ struct First {
   }
 };
 struct Second {
+  static constexpr std::string_view name = "Second";
   using reads = Keys<field::temperature>;
   using adds = Keys<field::heat_rate, field::density>;
   template <class V>

@@ -7,6 +7,7 @@ namespace tripoint {
 
 /// Density (4): rho_i = sum_j m_j W_poly6(r_ij) [kg/m3]; the particle itself is added before the pass.
 struct DensityPaper {
+  static constexpr std::string_view name = "DensityPaper";
   using reads = Keys<field::mass>;
   using adds = Keys<field::density>;
   template <class V>
@@ -19,6 +20,7 @@ struct DensityPaper {
 /// Number density (model 8.2) [Solenthaler & Pajarola 2008]: delta_i = sum_j W(r_ij) [1/m3]. The particle itself and its own
 /// pairs are added before the pass. The division by the kernel's lattice sum follows it.
 struct NumberDensity {
+  static constexpr std::string_view name = "NumberDensity";
   static constexpr bool zero_beyond = true;
   using reads = Keys<>;
   using adds = Keys<field::number_density>;

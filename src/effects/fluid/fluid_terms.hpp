@@ -15,6 +15,7 @@ namespace tripoint {
 /// the lattice (decision 6). The core energy 1/2 kappa (b - r)^2, b = scene.core_reach dx, is added. It keeps pairs apart where
 /// the clamp leaves no repulsion.
 struct PressureCorrected {
+  static constexpr std::string_view name = "PressureCorrected";
   static constexpr bool zero_beyond = true;
   using reads = Keys<field::pressure_share, field::group>;
   using adds = Keys<field::force_x, field::force_y, field::force_z>;
@@ -32,6 +33,7 @@ struct PressureCorrected {
 /// Pressure force (7) as printed [N]: F_i = -sum_j V_i V_j (p_i + p_j)/2 grad_i W_spiky, V = m/rho of (4).
 /// Its faults: it tends to half of grad p, and a clamped mixture of two kernels does not keep energy in contacts.
 struct PressurePaper {
+  static constexpr std::string_view name = "PressurePaper";
   static constexpr bool zero_beyond = true;
   using reads = Keys<field::volume, field::pressure, field::group>;
   using adds = Keys<field::force_x, field::force_y, field::force_z>;
@@ -75,6 +77,7 @@ inline void add_viscous_force(V G, std::span<const V, 8> i, std::span<const V, 8
 /// Viscous force (8) as printed [N]: F_i = sum_j V_i V_j (mu_i + mu_j)/2 (v_j - v_i) lap W_visc.
 /// Its faults: walls slip, the lattice factor is 0.93, and a rigidly turning liquid ball is braked.
 struct ViscosityPaper {
+  static constexpr std::string_view name = "ViscosityPaper";
   static constexpr bool zero_beyond = true;
   using reads = ViscousKeys;
   using adds = ViscousForce;
@@ -95,6 +98,7 @@ struct ViscosityPaper {
 /// `laplacian` (model 8.5) [N]: F_i = sum_j (V_i^2 + V_j^2) mu_ij (-W'/r)(v_j - v_i) over the kernel's lattice moment.
 /// For wall-bounded shear only: it does not keep angular momentum.
 struct ViscosityLaplacian {
+  static constexpr std::string_view name = "ViscosityLaplacian";
   static constexpr bool zero_beyond = true;
   using reads = ViscousKeys;
   using adds = ViscousForce;
@@ -117,6 +121,7 @@ struct ViscosityLaplacian {
 /// line of centres, so angular momentum is kept and a rigid rotation feels nothing. `weighted`: for isotropic shear.
 template <bool weighted>
 struct ViscosityCentralOf {
+  static constexpr std::string_view name = weighted ? "ViscosityCentralWeighted" : "ViscosityCentral";
   static constexpr bool zero_beyond = true;
   using reads = ViscousKeys;
   using adds = ViscousForce;
@@ -150,6 +155,7 @@ using ViscosityCentralWeighted = ViscosityCentralOf<true>;
 /// fills them anew. Only update_viscous_bound() reads them.
 template <class Viscosity>
 struct ViscousSpread {
+  static constexpr std::string_view word = "ViscousSpread of ", name = JoinedName<word, Viscosity::name>::value;
   static constexpr bool central =
       std::is_same_v<Viscosity, ViscosityCentral> || std::is_same_v<Viscosity, ViscosityCentralWeighted>;
   static constexpr bool zero_beyond = true;

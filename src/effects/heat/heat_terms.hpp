@@ -9,6 +9,7 @@ namespace tripoint {
 /// Its faults: on the lattice its rate has a floor, 0.93 of the exact one at h/dx = 2.12 whatever the number of particles. Where
 /// density or conductivity jump, it keeps sum V T, not energy.
 struct HeatFlowPaper {
+  static constexpr std::string_view name = "HeatFlowPaper";
   static constexpr bool zero_beyond = true;
   using reads = Keys<field::volume, field::temperature, field::diffusivity>;
   using adds = Keys<field::temperature_rate, field::exchange>;
@@ -24,6 +25,7 @@ struct HeatFlowPaper {
 /// Second moment M_i = 1/2 sum_j V_j K r r^T, K = -2 W'(r)/r (model 8.6): the unit matrix in a bulk that is fine enough. It is
 /// summed to the columns of its inverse, and inverted there.
 struct HeatMoment {
+  static constexpr std::string_view name = "HeatMoment";
   static constexpr bool zero_beyond = true;
   using reads = Keys<field::rest_volume>;
   using adds = Keys<field::moment_inverse_xx, field::moment_inverse_yy, field::moment_inverse_zz, field::moment_inverse_yz,
@@ -38,6 +40,7 @@ struct HeatMoment {
 /// Conduction between i and j, (21) corrected (model 8.6) [W]: equal and opposite for each pair, so that sum H is kept. It is
 /// G_ij (T_j - T_i), G_ij = V_i V_j [2 k_i k_j/(k_i + k_j)] [1/2 e^T (pinv M_i + pinv M_j) e] K.
 struct HeatFlowCorrected {
+  static constexpr std::string_view name = "HeatFlowCorrected";
   static constexpr bool zero_beyond = true;
   using reads =
       Keys<field::rest_volume, field::conductivity, field::temperature, field::moment_inverse_xx, field::moment_inverse_yy,

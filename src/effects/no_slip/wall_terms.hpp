@@ -12,6 +12,7 @@ namespace tripoint {
 /// -sum G v_f.(v_f + mean v) = -(sum G v_f^2 + (sum G) |mean v|^2).
 template <bool weighted>
 struct WallExtrapolationOf {
+  static constexpr std::string_view name = weighted ? "WallExtrapolationWeighted" : "WallExtrapolation";
   static constexpr bool zero_beyond = true;
   using reads =
       Keys<field::solid, field::viscosity, field::viscous_velocity_x, field::viscous_velocity_y, field::viscous_velocity_z>;

@@ -10,6 +10,7 @@ namespace tripoint {
 /// Background force per background pressure [m2]: sum (V_i^2 + V_j^2) (W'/r) d, which evens out the particles.
 /// Stress force [N]: sum (V_i^2 + V_j^2) 1/2 (A_i + A_j).grad_i W. A = rho v w^T is the momentum that the difference carries.
 struct TransportForces {
+  static constexpr std::string_view name = "TransportForces";
   static constexpr bool zero_beyond = true;
   using reads = Keys<field::volume, field::density, field::viscous_velocity_x, field::viscous_velocity_y,
                      field::viscous_velocity_z, field::shift_x, field::shift_y, field::shift_z>;
@@ -50,6 +51,7 @@ struct TransportMeans {
 
 /// Both in one pass.
 struct TransportForcesAndMeans {
+  static constexpr std::string_view name = "TransportForcesAndMeans";
   static constexpr bool zero_beyond = true;
   using reads = Keys<field::volume, field::density, field::viscous_velocity_x, field::viscous_velocity_y,
                      field::viscous_velocity_z, field::shift_x, field::shift_y, field::shift_z, field::pressure, field::group,
