@@ -52,28 +52,23 @@ def count(number, noun):
 def verdict_words(results):
     """One sentence of the verdict, and one of what is not plain green."""
     gates = [gate for case in results.cases for engine in case.engines for gate in engine.gates]
+    words = summary.tally(word for case in results.cases for word in summary.headline(case) if is_told(word))
+    return gates_sentence(gates, count(len(results.cases), "case")), words
+
+
+def is_told(word):
+    return word in (summary.DIVERGENCE, summary.UNJUDGED, summary.RIGHT, summary.WRONG) or summary.is_defect(word)
+
+
+def gates_sentence(gates, cases):
+    if not gates:
+        return "No gate: nothing here was judged."
     held = sum(gate.verdict == "PASS" for gate in gates)
     bad = summary.tally(gate.verdict for gate in gates if gate.verdict != "PASS")
-    if not gates:
-        first = "No gate: nothing here was judged."
-    elif not bad:
-        first = (
-            f"{'The one gate holds' if held == 1 else f'All {held} gates hold'}, in "
-            f"{count(len(results.cases), 'case')}."
-        )
-    else:
-        first = (
-            f"{held} of {count(len(gates), 'gate')} hold in {count(len(results.cases), 'case')}; "
-            + ", ".join(f"{n} {word.lower()}" for word, n in bad.items())
-            + "."
-        )
-    words = summary.tally(
-        word
-        for case in results.cases
-        for word in summary.headline(case)
-        if word in (summary.DIVERGENCE, summary.UNJUDGED, summary.RIGHT, summary.WRONG) or summary.is_defect(word)
-    )
-    return first, words
+    if not bad:
+        return f"{'The one gate holds' if held == 1 else f'All {held} gates hold'}, in {cases}."
+    failed = ", ".join(f"{n} {word.lower()}" for word, n in bad.items())
+    return f"{held} of {count(len(gates), 'gate')} hold in {cases}; {failed}."
 
 
 def hero(results):
@@ -100,36 +95,45 @@ def keyed(case):
 def baseline(results):
     """({gate: (share, verdict, that gate or None, knobs)}, {case id: verdict}, date, the results before or None): of
     the run before, else of the history."""
+    before = results_before(results)
+    used, verdicts, date = {}, {}, ""
+    if before:
+        for case in before.cases:
+            verdicts[case.id] = case.verdict
+            used |= {key: (g.used, g.verdict, g, knobs_of(engine, g)) for key, engine, g in keyed(case)}
+        date = str(before.raw.get("date") or "")
+    now = str(results.raw.get("date") or "")
+    for case in results.cases:
+        last = None if case.id in verdicts else last_entry(case, now)
+        if last is not None:
+            verdicts[case.id], date = last.verdict.upper(), max(date, last.date)
+            used |= used_in(last, case)
+    return used, verdicts, date, before
+
+
+def results_before(results):
     path = results.folder / "results.previous.json"
     try:
-        before = load.load(path) if path.is_file() else None
+        return load.load(path) if path.is_file() else None
     except load.Unreadable:
-        before = None
-    used = (
-        {
-            key: (gate.used, gate.verdict, gate, knobs_of(engine, gate))
-            for case in before.cases
-            for key, engine, gate in keyed(case)
-        }
-        if before
-        else {}
-    )
-    verdicts = {case.id: case.verdict for case in before.cases} if before else {}
-    date, now = str(before.raw.get("date") or "") if before else "", str(results.raw.get("date") or "")
-    for case in results.cases:
-        last = next(
-            (entry for entry in reversed(case.history) if not entry.accepted and (not now or entry.date < now)), None
-        )
-        if case.id in verdicts or last is None:
-            continue
-        verdicts[case.id], date = last.verdict.upper(), max(date, last.date)
-        several = {key[:-1] for key, _, _ in keyed(case) if key[-1] > 0}
-        for (engine, mode, metric, level), (share, _, verdict) in last.used.items():
-            key = (case.id, engine.replace(" (", " · ").rstrip(")"), mode, metric, level)
-            used.update(
-                {(*key, 0): (share, verdict.upper(), None, {})} if key not in several else {}
-            )  # the history does not say which of several gates it means
-    return used, verdicts, date, before
+        return None
+
+
+def last_entry(case, now):
+    """The last run of the history before this one."""
+    runs = [entry for entry in case.history if not entry.accepted and (not now or entry.date < now)]
+    return runs[-1] if runs else None
+
+
+def used_in(entry, case):
+    """Shares of limits by gate; the history does not say which of several gates of one metric it means."""
+    several = {key[:-1] for key, _, _ in keyed(case) if key[-1] > 0}
+    used = {}
+    for (engine, mode, metric, level), (share, _, verdict) in entry.used.items():
+        key = (case.id, engine.replace(" (", " · ").rstrip(")"), mode, metric, level)
+        if key not in several:
+            used[*key, 0] = (share, verdict.upper(), None, {})
+    return used
 
 
 def changes(results):
@@ -140,86 +144,89 @@ def changes(results):
         return None
     found, marks = [], {}
     for case in results.cases:
-        if case.id not in verdicts:
-            found.append(
-                Change(
-                    case,
-                    "",
-                    "not run",
-                    case.verdict,
-                    "worse" if case.verdict != "PASS" else "new",
-                    1.0 if case.verdict != "PASS" else 0.0,
-                )
-            )
-            marks[case.number] = "new"
-            continue
-        for key, engine, gate in keyed(case):
-            change = compare(case, engine, gate, used.get(key))
-            if change:
-                found.append(change)
-                marks[case.number] = min(change.kind, marks.get(case.number, change.kind), key=ORDER.index)
-        if verdicts[case.id] and case.verdict != verdicts[case.id] and case.number not in marks:
-            worse = (
-                summary.GRADES.index(case.verdict) < summary.GRADES.index(verdicts[case.id])
-                if {case.verdict, verdicts[case.id]} <= set(summary.GRADES)
-                else True
-            )
-            marks[case.number] = "worse" if worse else "better"
-            found.append(Change(case, "verdict", verdicts[case.id], case.verdict, marks[case.number], 10.0))
+        changed, mark = changes_of(case, used, verdicts)
+        found += changed
+        if mark:
+            marks[case.number] = mark
     found.sort(key=lambda change: (ORDER.index(change.kind), -change.weight))
-    gone = (
-        sorted(set(case.id for case in before.cases) - set(case.id for case in results.cases))
-        if before and before.raw.get("what") == results.raw.get("what")
-        else []
-    )
     return {
         "since": date,
         "list": found,
         "worse": any(change.kind == "worse" for change in found),
         "apart": any(change.kind == "apart" for change in found),
         "cases": marks,
-        "gone": gone,
+        "gone": gone(results, before),
         "bits": bits(results, before),
         "cpu": seconds(results, before),
     }
 
 
+def changes_of(case, used, verdicts):
+    """([Change], one of ORDER or nothing) of a case."""
+    if case.id not in verdicts:
+        kind, weight = ("worse", 1.0) if case.verdict != "PASS" else ("new", 0.0)
+        return [Change(case, "", "not run", case.verdict, kind, weight)], "new"
+    compared = (compare(case, engine, gate, used.get(key)) for key, engine, gate in keyed(case))
+    found = [change for change in compared if change]
+    if found:
+        return found, min((change.kind for change in found), key=ORDER.index)
+    before = verdicts[case.id]
+    if not before or case.verdict == before:
+        return [], ""
+    kind = "worse" if is_worse(case.verdict, before) else "better"
+    return [Change(case, "verdict", before, case.verdict, kind, 10.0)], kind
+
+
+def is_worse(verdict, before):
+    """A word that is no grade counts as worse."""
+    grades = summary.GRADES
+    return not {verdict, before} <= set(grades) or grades.index(verdict) < grades.index(before)
+
+
+def gone(results, before):
+    """Cases that the run before had, where both were asked for the same."""
+    if not before or before.raw.get("what") != results.raw.get("what"):
+        return []
+    return sorted({case.id for case in before.cases} - {case.id for case in results.cases})
+
+
 def compare(case, engine, gate, old):
-    where = (
-        f"{engine.label}, {gate.metric.replace('_', ' ')}"
-        + (f" at {gate.level:.4g}" if is_number(gate.level) else "")
-        + (", as printed" if gate.mode == "paper" else "")
-    )
-    kind = "worse" if gate.verdict != "PASS" else "better"
+    where = place_of(engine, gate)
     if old is None:
-        return Change(case, where, "no gate", gate.verdict, kind, 5.0) if kind == "worse" else None
+        return Change(case, where, "no gate", gate.verdict, "worse", 5.0) if gate.verdict != "PASS" else None
     share, verdict, before, knobs = old
     if verdict != gate.verdict:
-        return Change(case, where, verdict, gate.verdict, kind, 10.0)
+        return Change(case, where, verdict, gate.verdict, "worse" if gate.verdict != "PASS" else "better", 10.0)
     if before is not None and before.allowed != gate.allowed:  # shares of two limits are not compared
         return relimited(case, where, before, gate)
-    if (
-        not (is_number(share) and is_number(gate.used))
-        or abs(gate.used - share) <= MOVED
-        or max(share, gate.used) <= 0.2
-    ):
+    if not has_moved(share, gate.used):
         return None
     changed = settings_changed(knobs, knobs_of(engine, gate))
-    kind = (
-        "apart"
-        if changed
-        else "moved"
-        if before is not None and states_a_figure(before)
-        else "worse"
-        if gate.used > share
-        else "better"
+    kind = "apart" if changed else direction(share, before, gate)
+    return Change(
+        case,
+        f"{where}: {changed}" if changed else where,
+        f"{before.value:.4g}" if before is not None else f"{100 * share:.0f} %",
+        f"{gate.value:.4g} (allowed {gate.allowed})" if before is not None else f"{100 * gate.used:.0f} % of the limit",
+        kind,
+        abs(gate.used - share),
     )
-    values = (
-        (f"{before.value:.4g}", f"{gate.value:.4g} (allowed {gate.allowed})")
-        if before is not None
-        else (f"{100 * share:.0f} %", f"{100 * gate.used:.0f} % of the limit")
-    )
-    return Change(case, f"{where}: {changed}" if changed else where, *values, kind, abs(gate.used - share))
+
+
+def place_of(engine, gate):
+    """Engine, metric, level and mode in words."""
+    level = f" at {gate.level:.4g}" if is_number(gate.level) else ""
+    return f"{engine.label}, {gate.metric.replace('_', ' ')}{level}{', as printed' if gate.mode == 'paper' else ''}"
+
+
+def has_moved(share, used):
+    return is_number(share) and is_number(used) and abs(used - share) > MOVED and max(share, used) > 0.2
+
+
+def direction(share, before, gate):
+    if before is not None and states_a_figure(before):
+        return "moved"
+    return "worse" if gate.used > share else "better"
 
 
 def relimited(case, where, before, gate):
@@ -357,36 +364,42 @@ def square(entries):
     """(word, what to write) of one engine in one subject; None where no case of it names the engine."""
     words = [[word for engine in engines for _, word in summary.standings(case, engine)] for case, engines in entries]
     words = [found for found in words if found]
-
-    def expected(word):
-        return word in ("PASS", summary.AS_EXPECTED, summary.DIVERGENCE) or summary.is_defect(word)
-
-    bad = [
-        word
-        for found in words
-        for word in found
-        if not expected(word) and summary.tone(word) in ("fail", "open", "none")
-    ]
-    green = sum(any(map(expected, found)) for found in words)
+    bad = [word for found in words for word in found if is_bad(word)]
     if bad:
-        return summary.worst(bad), f"{sum(any(word in bad for word in found) for found in words)} of {len(words)}"
+        return summary.worst(bad), f"{having(words, bad.__contains__)} of {len(words)}"
+    green = having(words, expected)
     if green:
-        said = [
-            word
-            for case, engines in entries
-            for engine in engines
-            for mode, word in summary.standings(case, engine)
-            if mode != "paper"
-        ]  # and not by a printed form alone
-        wrong = next(
-            (word for word in (summary.DEFECT, summary.AS_EXPECTED) if any(found.startswith(word) for found in said)),
-            "PASS",
-        )
-        return wrong, str(green)
+        return best_word(entries), str(green)
     for word in (summary.UNJUDGED, "refused", "missing"):
-        if any(word in found for found in words):
-            return word, str(sum(word in found for found in words))
+        if number := having(words, word.__eq__):
+            return word, str(number)
     return None
+
+
+def having(words, asked):
+    """The number of cases in which one word at least is as asked."""
+    return sum(any(map(asked, found)) for found in words)
+
+
+def expected(word):
+    return word in ("PASS", summary.AS_EXPECTED, summary.DIVERGENCE) or summary.is_defect(word)
+
+
+def is_bad(word):
+    return not expected(word) and summary.tone(word) in ("fail", "open", "none")
+
+
+def best_word(entries):
+    """The word of a green square, which a printed form alone does not set."""
+    said = {
+        word
+        for case, engines in entries
+        for engine in engines
+        for mode, word in summary.standings(case, engine)
+        if mode != "paper"
+    }
+    lesser = (summary.DEFECT, summary.AS_EXPECTED)
+    return next((word for word in lesser if any(found.startswith(word) for found in said)), "PASS")
 
 
 def cost(results):

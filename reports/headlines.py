@@ -75,6 +75,31 @@ def spin(results, out):
     others, printed = spins_of(case, sides), spins_of(case, sides, printed=True)
     if not others:
         return None
+    notes = [
+        "Signs: within 0.01 rad, within 0.1 rad, farther off. One body at one step: other spins are in the case "
+        "rigid/precession."
+    ]
+    if printed:
+        notes.append(
+            f'"{PRINTED.strip()}": our own solver by the equations as the paper prints them, the mode paper of the '
+            "case."
+        )
+    return Page(
+        "spin.html",
+        "Does your engine spin a free body right?",
+        spin_answer(others, printed),
+        spin_picture(results, out, case),
+        ["engine", "time step", "angle error [rad]", "[degrees]", "along its spin", "energy error", "order"],
+        [
+            Line(label, cells, "pass" if angle < 0.01 else "fail" if angle > 0.1 else "open")
+            for angle, label, cells, _ in sorted(others + printed)
+        ],
+        cases=[c for c in (case, case_of(results, "rigid/precession")) if c is not None],
+        notes=notes,
+    )
+
+
+def spin_answer(others, printed):
     right = [label for angle, label, _, _ in others if angle < 0.01]
     steps = sorted({step for _, _, _, step in others + printed})
     end = (
@@ -82,56 +107,41 @@ def spin(results, out):
         f"{of_all(len(right), len(others))} {'(without our printed form) ' if printed else ''}point within 0.01 "
         "rad of the truth"
     )
+    own = "".join(f"; {label} is {angle:.4g} rad off" for angle, label, _, _ in printed)
+    return f"{'Yes for ' + join(list(by_engine(right))) if right else 'No'}: {end}{farthest(others)}{own}."
+
+
+def farthest(others):
+    """The engines that are farther off than 0.1 rad, the farthest one with its angle."""
     wrong = [(angle, label) for angle, label, _, _ in others if angle > 0.1]
     far = f"; {others[-1][1]} is {others[-1][0]:.4g} rad off" if others[-1][0] >= 0.01 else ""
     if wrong[:-1]:
         far += ", " + join([f"{label} {angle:.2g}" for angle, label in reversed(wrong[:-1])])
-    own = "".join(f"; {label} is {angle:.4g} rad off" for angle, label, _, _ in printed)
-    answer = f"{'Yes for ' + join(list(by_engine(right))) if right else 'No'}: {end}{far}{own}."
+    return far
+
+
+def spin_picture(results, out, case):
     curves = [
         (label, tip(trajectory))
         for label, trajectory in trajectories_of(results, case)
         if "orientation" in trajectory.bodies
     ]
     exact = next((curve for label, curve in curves if label == "exact"), None)
+    if exact is None:
+        return None
     caption = (
         f"Case {case.id}, at its own time step. The wide grey curve is exact. Dots are the frames that were "
         "written; between them, cubics by attitude and angular velocity."
     )
-    picture = (
-        pictures.picture(
-            out,
-            "spin",
-            "Height of the long axis's tip over ten seconds",
-            "z of the body's long axis [1]",
-            [entry for entry in curves if entry[0] != "exact"],
-            ("exact", exact),
-            caption,
-            own_engines(results),
-        )
-        if exact is not None
-        else None
-    )
-    return Page(
-        "spin.html",
-        "Does your engine spin a free body right?",
-        answer,
-        picture,
-        ["engine", "time step", "angle error [rad]", "[degrees]", "along its spin", "energy error", "order"],
-        [
-            Line(label, cells, "pass" if angle < 0.01 else "fail" if angle > 0.1 else "open")
-            for angle, label, cells, _ in sorted(others + printed)
-        ],
-        cases=[c for c in (case, case_of(results, "rigid/precession")) if c is not None],
-        notes=[
-            "Signs: within 0.01 rad, within 0.1 rad, farther off. One body at one step: other spins are in the case "
-            "rigid/precession."
-        ]
-        + [
-            f'"{PRINTED.strip()}": our own solver by the equations as the paper prints them, the mode paper of the '
-            "case."
-            for _ in printed[:1]
-        ],
+    return pictures.picture(
+        out,
+        "spin",
+        "Height of the long axis's tip over ten seconds",
+        "z of the body's long axis [1]",
+        [entry for entry in curves if entry[0] != "exact"],
+        ("exact", exact),
+        caption,
+        own_engines(results),
     )
 
 
@@ -217,54 +227,68 @@ MAKES = 0.01  # share of the energy of the fall above which the page says that a
 
 
 def bounce(results, out):
-    cases = [(case_of(results, name), words) for name, words in BOUNCES]
-    cases = [(case, words) for case, words in cases if case is not None]
-    if not cases:
-        return None
-    gains = {}
-    for case, words in cases:
-        for engine, run in runs_of(case):
-            gain = value(run, "energy_gain")
-            if engine.name != "exact" and gain is not None:
-                gains.setdefault(engine.label, {})[words] = gain
+    cases = cases_of(results, BOUNCES)
+    gains = gains_of(cases)
     if not gains:
         return None
     columns = list(dict.fromkeys(words for _, words in cases))
     worst = {label: max(found.values()) for label, found in gains.items()}
     ordered = sorted(gains, key=worst.get)
-    makers = by_engine([label for label in reversed(ordered) if worst[label] > MAKES])
-    if makers:
-        rest = sum(worst[label] <= MAKES for label in ordered)
-        made = [f"{name} makes up to {share(max(worst[one] for one in members))}" for name, members in makers.items()]
-        answer = (
-            f"{'Some do' if rest else 'Yes'}: {join(made)} of the energy of the fall in its hits; "
-            f"{of_all(rest, len(ordered))} stay below 1 %."
-        )
-    else:
-        one = len(ordered) == 1
-        number = count(1, "engine and preset") if one else f"{len(ordered)} engines and presets"
-        answer = f"No: none of {number} makes more than {share(max(worst.values()))} of the energy of the fall."
     lines = [
         Line(
             label,
-            [share(worst[label])]
-            + ["—" if words not in gains[label] else share(gains[label][words]) for words in columns],
+            [share(worst[label])] + [share(gains[label][words]) if words in gains[label] else "—" for words in columns],
             "fail" if worst[label] > MAKES else "pass",
         )
         for label in ordered
     ]
+    gaps = any(len(found) < len(columns) for found in gains.values())
     return Page(
         "bounce.html",
         "Does it make energy when it bounces?",
-        answer,
+        bounce_answer(worst, ordered),
         energies_picture(out, cases, gains, own_engines(results)),
         ["engine", "greatest"] + [f"e = {words}" for words in columns],
         lines,
-        notes=['"—": the engine refuses this case, or the case does not ask for it.']
-        if any(len(found) < len(columns) for found in gains.values())
-        else [],
+        notes=['"—": the engine refuses this case, or the case does not ask for it.'] if gaps else [],
         cases=[case for case, _ in cases],
     )
+
+
+def cases_of(results, names):
+    """[(case, what it is called by)] of those that were run."""
+    found = [(case_of(results, name), words) for name, words in names]
+    return [(case, words) for case, words in found if case is not None]
+
+
+def measured(cases, metric):
+    """(engine's label, what the case is called by, value, run) of each engine but the exact one."""
+    for case, words in cases:
+        for engine, run in runs_of(case):
+            number = value(run, metric)
+            if engine.name != "exact" and number is not None:
+                yield engine.label, words, number, run
+
+
+def gains_of(cases):
+    """{engine's label: {what the case is called by: energy made}}"""
+    gains = {}
+    for label, words, gain, _ in measured(cases, "energy_gain"):
+        gains.setdefault(label, {})[words] = gain
+    return gains
+
+
+def bounce_answer(worst, ordered):
+    makers = by_engine([label for label in reversed(ordered) if worst[label] > MAKES])
+    if makers:
+        rest = sum(worst[label] <= MAKES for label in ordered)
+        made = [f"{name} makes up to {share(max(worst[one] for one in members))}" for name, members in makers.items()]
+        return (
+            f"{'Some do' if rest else 'Yes'}: {join(made)} of the energy of the fall in its hits; "
+            f"{of_all(rest, len(ordered))} stay below 1 %."
+        )
+    number = count(1, "engine and preset") if len(ordered) == 1 else f"{len(ordered)} engines and presets"
+    return f"No: none of {number} makes more than {share(max(worst.values()))} of the energy of the fall."
 
 
 def energies_picture(out, cases, gains, own):
@@ -307,32 +331,20 @@ FLOATS_WITHIN = 0.5  # spacings of draught: below what the particles resolve
 
 
 def floats(results, out):
-    cases = [(case_of(results, name), density) for name, density in FLOATS]
-    cases = [(case, density) for case, density in cases if case is not None]
+    cases = cases_of(results, FLOATS)
     errors, depths = {}, {}
-    for case, density in cases:
-        for engine, run in runs_of(case):
-            draught = value(run, "draught")
-            if engine.name != "exact" and draught is not None:
-                errors.setdefault(engine.label, {})[density] = draught
-                depths.setdefault(engine.label, []).append((density, run.metrics["draught"]))
+    for label, density, draught, run in measured(cases, "draught"):
+        errors.setdefault(label, {})[density] = draught
+        depths.setdefault(label, []).append((density, run.metrics["draught"]))
     if not errors:
         return None
     worst = {label: max(map(abs, found.values())) for label, found in errors.items()}
     ordered = sorted(errors, key=worst.get)
-    good = [label for label in ordered if worst[label] <= FLOATS_WITHIN]
-    others = [f"{label} is {worst[label]:.2g} off" for label in ordered if label not in good]
-    answer = (
-        f"Yes for {join(good)}: blocks of {join([f'{density:g}' for _, density in cases])} of the density of water "
-        f"float within {max(worst[label] for label in good):.2g} spacings of Archimedes' "
-        f"draught{'; ' + join(others) if others else ''}."
-        if good
-        else f"No: the best, {ordered[0]}, is {worst[ordered[0]]:.2g} spacings off Archimedes' draught."
-    )
+    densities = [density for _, density in cases]
     lines = [
         Line(
             label,
-            ["—" if density not in errors[label] else f"{errors[label][density]:+.2f}" for _, density in cases],
+            [f"{errors[label][density]:+.2f}" if density in errors[label] else "—" for density in densities],
             "pass" if worst[label] <= FLOATS_WITHIN else "fail",
         )
         for label in ordered
@@ -340,12 +352,24 @@ def floats(results, out):
     return Page(
         "float.html",
         "Does it float?",
-        answer,
+        floats_answer(worst, ordered, densities),
         draught_picture(out, depths, cases, own_engines(results)),
-        ["engine"] + [f"density {density:g}" for _, density in cases],
+        ["engine"] + [f"density {density:g}" for density in densities],
         lines,
         notes=["The table is of the draught's error in particle spacings; the densities are relative to water."],
         cases=[case for case, _ in cases],
+    )
+
+
+def floats_answer(worst, ordered, densities):
+    good = [label for label in ordered if worst[label] <= FLOATS_WITHIN]
+    if not good:
+        return f"No: the best, {ordered[0]}, is {worst[ordered[0]]:.2g} spacings off Archimedes' draught."
+    others = join([f"{label} is {worst[label]:.2g} off" for label in ordered if label not in good])
+    return (
+        f"Yes for {join(good)}: blocks of {join([f'{density:g}' for density in densities])} of the density of water "
+        f"float within {max(worst[label] for label in good):.2g} spacings of Archimedes' "
+        f"draught{'; ' + others if others else ''}."
     )
 
 
@@ -382,27 +406,29 @@ def times(ratio):
 def upgrade_answer(document):
     """One sentence from a table of releases: the greatest change for the worse, else that there is none. @return ""
     where nothing can be said"""
-    changes = [c for c in document.get("changes") or [] if isinstance(c, dict) and not c.get("round_off")]
-    sized = [
-        (after / before, c)
-        for c in changes
-        if is_number(before := c.get("before")) and is_number(after := c.get("after")) and before and after
-    ]
-    sized = [(abs(ratio), c) for ratio, c in sized]
-    releases = [row for row in document.get("releases") or [] if isinstance(row, dict)]
+    releases = dicts(document.get("releases"))
     if not releases:
         return ""
-    worse = max(sized, key=lambda entry: entry[0], default=(0, None))
-    names = (
-        f"{text(releases[0].get('engine'))} {text(releases[0].get('version'))} to {text(releases[-1].get('version'))}"
-    )
-    if worse[0] > 1 and worse[1].get("worse"):
-        c = worse[1]
+    first, last = releases[0], releases[-1]
+    names = f"{text(first.get('engine'))} {text(first.get('version'))} to {text(last.get('version'))}"
+    ratio, c = max(map(growth, dicts(document.get("changes"))), key=lambda entry: entry[0], default=(0, {}))
+    if ratio > 1 and c.get("worse"):
         return (
             f"Not blindly: over {names}, {text(c.get('preset'))}'s {text(c.get('metric'))} error grows "
-            f"{times(worse[0])} from {text(c.get('from'))} to {text(c.get('to'))}."
+            f"{times(ratio)} from {text(c.get('from'))} to {text(c.get('to'))}."
         )
     return f"Yes: over {names} no error of this case grows by more than {document.get('margin', 1)} times."
+
+
+def dicts(rows):
+    return [row for row in rows or [] if isinstance(row, dict)]
+
+
+def growth(change):
+    """(by how many times an error grew, the change); 0 times where that is round-off or has no number."""
+    before, after = change.get("before"), change.get("after")
+    sized = not change.get("round_off") and is_number(before) and is_number(after) and before and after
+    return (abs(after / before) if sized else 0, change)
 
 
 # --- all --------------------------------------------------------------------------------------------------------------

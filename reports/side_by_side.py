@@ -38,43 +38,42 @@ def read(results):
 
 
 def compare(case):
+    shown = shown_runs(case)
+    sound = {label: run for label, (_, _, run) in shown.items() if run is not None and run.status == "ok"}
+    if len({shown[label][0].name for label in sound}) < 2:
+        return None
+    rows = [row for metric in case.metrics for row in [metric_row(metric, shown)] if row]
+    floor = digit_cost.floor_of(case)
+    return Comparison(case, list(shown), costs(sound, floor), floor, rows, case.equivalence)
+
+
+def shown_runs(case):
+    """{label: (engine, mode, its run at the case's own resolution, else any; None where it has none)}"""
     shown = {}
     for engine in case.engines:
-        if engine.name == EXACT:
-            continue
-        for mode in engine.modes:
-            run = next((run for run in engine.runs if run.mode == mode and run.base), None) or next(
-                (run for run in engine.runs if run.mode == mode), None
-            )
-            if run is not None or engine.status != "ok":
-                shown[engine.label + (f", {mode}" if mode else "")] = (engine, mode, run)
-    if len({engine.name for engine, _, run in shown.values() if run is not None and run.status == "ok"}) < 2:
-        return None
-    seconds = {
-        label: number(run.cost.get("cpu_s"))
-        for label, (_, _, run) in shown.items()
-        if run is not None and run.status == "ok"
-    }
+        for mode in engine.modes if engine.name != EXACT else ():
+            runs = sorted((run for run in engine.runs if run.mode == mode), key=lambda run: not run.base)
+            if runs or engine.status != "ok":
+                shown[engine.label + (f", {mode}" if mode else "")] = (engine, mode, runs[0] if runs else None)
+    return shown
+
+
+def costs(sound, floor):
+    seconds = {label: number(run.cost.get("cpu_s")) for label, run in sound.items()}
     seconds = {label: s for label, s in seconds.items() if is_number(s) and s > 0}
     least = min(seconds.values(), default=None)
-    rows = []
-    for metric in case.metrics:
-        name = text(metric.get("name"))
-        cells = {label: cell(engine, mode, run, name) for label, (engine, mode, run) in shown.items()}
-        sizes = [abs(c.value) for c in cells.values() if is_number(c.value)]
-        for c in cells.values():
-            c.best = len(sizes) > 1 and is_number(c.value) and abs(c.value) <= min(sizes) and max(sizes) > 1e-12
-        if any(is_number(c.value) for c in cells.values()):
-            rows.append((name, text(metric.get("unit")), cells))
-    floor = digit_cost.floor_of(case)
-    return Comparison(
-        case,
-        list(shown),
-        {label: (s, s / least, s == least or s / least > floor if floor else None) for label, s in seconds.items()},
-        floor,
-        rows,
-        case.equivalence,
-    )
+    return {label: (s, s / least, s == least or s / least > floor if floor else None) for label, s in seconds.items()}
+
+
+def metric_row(metric, shown):
+    """(name, unit, {label: Cell}), the smallest errors marked; None where no engine has a number."""
+    name = text(metric.get("name"))
+    cells = {label: cell(engine, mode, run, name) for label, (engine, mode, run) in shown.items()}
+    known = [c for c in cells.values() if is_number(c.value)]
+    sizes = [abs(c.value) for c in known]
+    for c in known:
+        c.best = len(sizes) > 1 and abs(c.value) <= min(sizes) and max(sizes) > 1e-12
+    return (name, text(metric.get("unit")), cells) if known else None
 
 
 def cell(engine, mode, run, name):

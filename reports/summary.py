@@ -112,18 +112,20 @@ def standings(case, engine):
     return [(mode if len(engine.modes) > 1 else "", standing(case, engine, mode)) for mode in engine.modes]
 
 
+def gates_of(case):
+    return [gate for engine in case.engines for gate in engine.gates]
+
+
 def headline(case):
     """The words of a case: its gate's, its physics', and what it expected beside."""
     words = [word for engine in case.engines for _, word in standings(case, engine)]
-    if case.verdict == "PASS" and text(case.raw.get("expect")) == "diverges" and DIVERGENCE in words:
+    diverged = DIVERGENCE in words
+    if diverged and case.verdict == "PASS" and text(case.raw.get("expect")) == "diverges":
         return [DIVERGENCE]
-    judged = case.verdict != "PASS" or any(engine.gates for engine in case.engines) or DIVERGENCE in words
-    physics = physics_word(
-        case.physics, (gate.defect for engine in case.engines for gate in engine.gates if gate.physics == DEFECT)
-    )
-    return [gate_word(case.verdict, case.physics) if judged else UNJUDGED] + [
-        word for word in (physics, DIVERGENCE) if word and word != UNKNOWN and (word != DIVERGENCE or word in words)
-    ]
+    gates = gates_of(case)
+    gate = gate_word(case.verdict, case.physics) if case.verdict != "PASS" or gates or diverged else UNJUDGED
+    physics = physics_word(case.physics, (gate.defect for gate in gates if gate.physics == DEFECT))
+    return [gate] + [word for word in (physics, DIVERGENCE if diverged else "") if word not in ("", UNKNOWN)]
 
 
 def ran(case):
@@ -131,7 +133,7 @@ def ran(case):
 
 
 def counts(results):
-    gates = [gate for case in results.cases for engine in case.engines for gate in engine.gates]
+    gates = [gate for case in results.cases for gate in gates_of(case)]
     runs = [run for case in results.cases for engine in case.engines for run in engine.runs]
     return {
         "cases": tally(case.verdict for case in results.cases),
@@ -153,81 +155,73 @@ def tally(words):
 
 def engine_table(results):
     """One row a name and version; library, hash and capabilities from `engines` of the file, where it has them."""
-    told = results.raw.get("engines")
-    told = told if isinstance(told, list) else list(told.values()) if isinstance(told, dict) else []
-    told = {row.get("name"): row for row in told if isinstance(row, dict)}
+    infos = infos_of(results)
     table = {}
-    for case in results.cases:
-        for engine in case.engines:
-            row = table.setdefault(
-                engine.name,
-                {
-                    "name": engine.name,
-                    "versions": [],
-                    "presets": [],
-                    "library": {},
-                    "cases": 0,
-                    "ok": 0,
-                    "info": told.get(engine.name, {}),
-                },
-            )
-            for key, value in (("versions", engine.version), ("presets", engine.preset)):
-                if value and value not in row[key]:
-                    row[key].append(value)
-            row["cases"] += 1
-            row["ok"] += engine.status == "ok"
-            library = engine.raw.get("library") or row["info"].get("library")
-            if isinstance(library, dict) and not row["library"]:
-                row["library"] = library
-    for name, info in told.items():
+    for engine in (engine for case in results.cases for engine in case.engines):
+        row = table.setdefault(engine.name, new_row(engine.name, infos.get(engine.name, {})))
+        for key, value in (("versions", engine.version), ("presets", engine.preset)):
+            if value and value not in row[key]:
+                row[key].append(value)
+        row["cases"] += 1
+        row["ok"] += engine.status == "ok"
+        library = engine.raw.get("library") or row["info"].get("library")
+        if isinstance(library, dict) and not row["library"]:
+            row["library"] = library
+    for name, info in infos.items():
         if name not in table and isinstance(name, str):
-            table[name] = {
-                "name": name,
-                "versions": [str(info.get("version", ""))],
-                "presets": [],
-                "library": info.get("library") if isinstance(info.get("library"), dict) else {},
-                "cases": 0,
-                "ok": 0,
-                "info": info,
-            }
+            library = info.get("library") if isinstance(info.get("library"), dict) else {}
+            table[name] = new_row(name, info) | {"versions": [str(info.get("version", ""))], "library": library}
     return list(table.values())
+
+
+def infos_of(results):
+    """{engine name: what it says of itself}"""
+    rows = results.raw.get("engines")
+    rows = list(rows.values()) if isinstance(rows, dict) else rows if isinstance(rows, list) else []
+    return {row.get("name"): row for row in rows if isinstance(row, dict)}
+
+
+def new_row(name, info):
+    return {"name": name, "versions": [], "presets": [], "library": {}, "cases": 0, "ok": 0, "info": info}
 
 
 def not_validated(results):
     """What a reader must not take from this page, found in the results themselves."""
-    lines = (
-        [str(line) for line in results.raw.get("not_validated", []) or [] if isinstance(line, str)]
-        if isinstance(results.raw.get("not_validated"), list)
-        else []
-    )
-    kinds = {case.kind for case in results.cases}
+    cases = results.cases
+    stated = results.raw.get("not_validated")
+    lines = [line for line in stated if isinstance(line, str)] if isinstance(stated, list) else []
+    kinds = {case.kind for case in cases}
     lines += [
         f"No case of kind {kind}: nothing here was compared with {against}."
         for kind, against in KINDS.items()
         if kind not in kinds
     ]
-    for name in dict.fromkeys(engine.name for case in results.cases for engine in case.engines):
-        here = [(case, engine) for case in results.cases for engine in case.engines if engine.name == name]
-        absent = [(case, engine) for case, engine in here if engine.status != "ok"]
-        if len(absent) == len(here):
-            lines.append(f"{name}: ran no case ({absent[0][1].status}: {absent[0][1].reason or 'no reason stated'}).")
-        elif absent:
-            lines.append(
-                f"{name}: no result for " + ", ".join(f"{case.id} ({engine.status})" for case, engine in absent) + "."
-            )
-        ungated = [case.id for case, engine in here if standing(case, engine) == UNJUDGED]
-        if ungated and name != "exact":
-            lines.append(
-                f"{name}: ran without any gate in {', '.join(dict.fromkeys(ungated))}; its numbers are shown, not "
-                "judged."
-            )
-    open_cases = [case.id for case in results.cases if case.verdict not in ("PASS", "FAIL")]
-    if open_cases:
-        lines.append("Without a clear verdict: " + ", ".join(open_cases) + ".")
-    unsure = [case.id for case in results.cases if case.reference.get("uncertainty") is None]
-    if unsure:
-        lines.append("Reference states no uncertainty: " + ", ".join(unsure) + ".")
+    for name in dict.fromkeys(engine.name for case in cases for engine in case.engines):
+        lines += engine_gaps(cases, name)
+    unsettled = [case.id for case in cases if case.verdict not in ("PASS", "FAIL")]
+    lines += listed("Without a clear verdict:", unsettled)
+    unsure = [case.id for case in cases if case.reference.get("uncertainty") is None]
+    lines += listed("Reference states no uncertainty:", unsure)
     lines.append(
         "Verdicts hold for the scenes, resolutions, engines and versions listed here, and say nothing of others."
     )
+    return lines
+
+
+def listed(words, ids):
+    return [f"{words} {', '.join(ids)}."] if ids else []
+
+
+def engine_gaps(cases, name):
+    """Cases in which this engine gave no result, or was judged by no gate."""
+    lines = []
+    here = [(case, engine) for case in cases for engine in case.engines if engine.name == name]
+    absent = [(case, engine) for case, engine in here if engine.status != "ok"]
+    if len(absent) == len(here):
+        lines.append(f"{name}: ran no case ({absent[0][1].status}: {absent[0][1].reason or 'no reason stated'}).")
+    else:
+        lines += listed(f"{name}: no result for", [f"{case.id} ({engine.status})" for case, engine in absent])
+    ungated = dict.fromkeys(case.id for case, engine in here if standing(case, engine) == UNJUDGED)
+    if ungated and name != "exact":
+        lines.append(f"{name}: ran without any gate in {', '.join(ungated)}; its numbers are shown, not judged.")
     return lines

@@ -99,35 +99,42 @@ def tags(case):
 
 def entry(case, engine, mode):
     made = Entry(case, engine.label, engine.status, tone(engine.status))
-    gates = sorted(
-        (gate for gate in engine.gates if not mode or gate.mode in (mode, "")),
-        key=lambda gate: (gate.verdict == "PASS", not gate.reason.startswith(PREDICTED)),
-    )  # what is not as claimed first
-    if engine.status != "ok" and not gates:
-        made.lines = [engine.reason or "no reason stated"]
-        return made
+    gates = [gate for gate in engine.gates if not mode or gate.mode in (mode, "")]
+    gates.sort(key=lambda gate: (gate.verdict == "PASS", not is_predicted(gate)))  # what is not as claimed first
     if gates:
-        physics = physics_of(gates)
-        made.word = gate_word(worst(gate.verdict for gate in gates), physics)
-        if made.word == AS_EXPECTED and is_defect(physics):
-            made.word = PREDICTED if any(gate.reason.startswith(PREDICTED) for gate in gates) else physics
-        made.tone = "open" if made.word == PREDICTED else tone(made.word)
-        made.lines = [
-            (
-                gate.metric,
-                gate.value,
-                gate.allowed,
-                case.units.get(gate.metric, ""),
-                gate.why or (gate.reason if gate.reason.startswith(PREDICTED) else ""),
-            )
-            for gate in gates
-        ]
-        return made
-    run = next((run for run in engine.runs if run.base and (not mode or run.mode == mode)), None)
-    made.word, made.tone = "measured, not judged", "none"
-    made.lines = (
-        [(name, metric.value, "", case.units.get(name, ""), metric.note) for name, metric in run.metrics.items()]
-        if run
-        else ["no run at the case's own resolution"]
-    )
+        judged_entry(made, gates)
+    elif engine.status != "ok":
+        made.lines = [engine.reason or "no reason stated"]
+    else:
+        made.word, made.tone = "measured, not judged", "none"
+        made.lines = measured_lines(case, engine, mode)
     return made
+
+
+def is_predicted(gate):
+    return gate.reason.startswith(PREDICTED)
+
+
+def judged_entry(made, gates):
+    physics = physics_of(gates)
+    made.word = gate_word(worst(gate.verdict for gate in gates), physics)
+    if made.word == AS_EXPECTED and is_defect(physics):
+        made.word = PREDICTED if any(map(is_predicted, gates)) else physics
+    made.tone = "open" if made.word == PREDICTED else tone(made.word)
+    made.lines = [
+        (
+            gate.metric,
+            gate.value,
+            gate.allowed,
+            made.case.units.get(gate.metric, ""),
+            gate.why or (gate.reason if is_predicted(gate) else ""),
+        )
+        for gate in gates
+    ]
+
+
+def measured_lines(case, engine, mode):
+    run = next((run for run in engine.runs if run.base and (not mode or run.mode == mode)), None)
+    if not run:
+        return ["no run at the case's own resolution"]
+    return [(name, metric.value, "", case.units.get(name, ""), metric.note) for name, metric in run.metrics.items()]

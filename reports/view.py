@@ -68,7 +68,6 @@ def folder_of(words):
 
 def read(words, room):
     """@param room bytes that this run may take in the page   @raises BadInput; exports.run.NotARun"""
-    import numpy as np
     from exports.run import Run
 
     with Run(folder_of(words)) as run:
@@ -79,26 +78,10 @@ def read(words, room):
             )
         names = [name for name in (*CLASSES, *NUMBERS) if name in run.fields or name == "speed"]
         every_frame, every_particle = thinned(frames, particles, len(names), room)
-        numbers = list(range(0, frames, every_frame))
-        if numbers[-1] != frames - 1:
-            numbers.append(frames - 1)
+        numbers = sorted({*range(0, frames, every_frame), frames - 1})
         rows = slice(None, None, every_particle)
-        place = np.stack([run.field("position", n)[rows] for n in numbers])
-        if "id" in run.fields:
-            place[np.stack([run.field("id", n)[rows] for n in numbers]) < 0] = np.nan
-        there = np.isfinite(place).all(axis=2)
-        place[~there] = np.nan
-        if not there.any():
-            raise BadInput(f"{run.path}: no particle is alive in any frame, so there is nothing to look at")
-        fields = {}
-        for name in names:
-            if name == "speed":
-                fields[name] = np.stack([np.linalg.norm(run.field("velocity", n)[rows], axis=1) for n in numbers])
-            else:
-                fields[name] = np.stack([run.field(name, n)[rows] for n in numbers])
-        spacing = float((run.job.get("resolution") or {}).get("spacing") or run.scene().get("spacing") or 0.0)
-        gravity = np.array(run.scene().get("gravity") or [0.0, 0.0, 0.0], float)
-        force = float(np.linalg.norm(gravity))
+        place = places_of(run, numbers, rows)
+        fields = {name: field_of(run, name, numbers, rows) for name in names}
         shown = Shown(
             str(run.folder),
             [float(run.times[n]) for n in numbers],
@@ -106,8 +89,8 @@ def read(words, room):
             walls_of(run, fields.get("body"), place),
             fields,
             labels_of(run, fields),
-            spacing if spacing > 0 else spacing_of(place),
-            tuple(-gravity / force) if force > 0 else (0.0, 0.0, 1.0),
+            stated_spacing(run) or spacing_of(place),
+            up_of(run),
             frames,
             particles,
             every_frame,
@@ -115,6 +98,42 @@ def read(words, room):
         )
         shown.name = name_of(run)
         return shown
+
+
+def places_of(run, numbers, rows):
+    """Positions, (frames, particles, 3); not a number where a particle is not alive."""
+    import numpy as np
+
+    place = np.stack([run.field("position", n)[rows] for n in numbers])
+    if "id" in run.fields:
+        place[np.stack([run.field("id", n)[rows] for n in numbers]) < 0] = np.nan
+    there = np.isfinite(place).all(axis=2)
+    place[~there] = np.nan
+    if not there.any():
+        raise BadInput(f"{run.path}: no particle is alive in any frame, so there is nothing to look at")
+    return place
+
+
+def field_of(run, name, numbers, rows):
+    import numpy as np
+
+    if name == "speed":
+        return np.stack([np.linalg.norm(run.field("velocity", n)[rows], axis=1) for n in numbers])
+    return np.stack([run.field(name, n)[rows] for n in numbers])
+
+
+def stated_spacing(run):
+    """[m]; 0 where the run states none"""
+    spacing = (run.job.get("resolution") or {}).get("spacing") or run.scene().get("spacing") or 0.0
+    return max(float(spacing), 0.0)
+
+
+def up_of(run):
+    import numpy as np
+
+    gravity = np.array(run.scene().get("gravity") or [0.0, 0.0, 0.0], float)
+    force = float(np.linalg.norm(gravity))
+    return tuple(-gravity / force) if force > 0 else (0.0, 0.0, 1.0)
 
 
 def name_of(run):

@@ -146,26 +146,36 @@ def keep(args):
 def verdict(study, kind):
     """(words, order, extrapolated value): "no order" and why, or the order with its interval. What is no error of a
     truth tends to a limit, which the fit has to find."""
-    good = [level for level in study["levels"] if level["values"] and not level["failed"]]
-    failed = [level for level in study["levels"] if level["failed"]]
-    if failed and not good:
-        return f"no order: every level {failed[0]['failed']}", None, None
     fit = study["fit"]
+    if why := why_no_ladder(study["levels"]) or why_no_fit(fit, kind):
+        return why, None, None
+    words = f"{fit['value']:.2f} ({fit['low']:.2f} to {fit['high']:.2f}), {fit['class']}"
+    return words, fit["value"], fit["floor"] or None
+
+
+def why_no_ladder(levels):
+    """Why no order can be fitted to the levels; empty where one can."""
+    good = [level for level in levels if level["values"] and not level["failed"]]
+    failed = [level for level in levels if level["failed"]]
+    if failed and not good:
+        return f"no order: every level {failed[0]['failed']}"
     if len(good) < 4:
-        return "no order: fewer than four levels have a number", None, None
+        return "no order: fewer than four levels have a number"
     if all(math.isclose(mean(a), mean(good[0]), rel_tol=1e-9) for a in good):
-        return "the same at every level", None, None
+        return "the same at every level"
     scatter, step = max(spread(good[-1]), spread(good[-2])), abs(mean(good[-1]) - mean(good[-2]))
     if scatter > 0.0 and scatter >= step:
-        return f"no order: scatter {short(scatter)}, difference {short(step if step > 1e-12 else 0.0)}", None, None
+        return f"no order: scatter {short(scatter)}, difference {short(step if step > 1e-12 else 0.0)}"
+    return ""
+
+
+def why_no_fit(fit, kind):
+    """Why the fit is no order; empty where it is one."""
     if not fit or fit["class"] in UNFIT or not is_number(fit["value"]):
-        return f"no order: {fit['class'] if fit else 'not fitted'}", None, None
+        return f"no order: {fit['class'] if fit else 'not fitted'}"
     if not fit["low"] > 0.0:
-        return f"no order: {fit['value']:.2f} in {fit['low']:.2f} to {fit['high']:.2f}", None, None
-    floor = fit["floor"] if fit["floor"] else None
-    if floor is None and kind != "analytic":
-        return "no order: the fit finds no limit", None, None
-    return f"{fit['value']:.2f} ({fit['low']:.2f} to {fit['high']:.2f}), {fit['class']}", fit["value"], floor
+        return f"no order: {fit['value']:.2f} in {fit['low']:.2f} to {fit['high']:.2f}"
+    return "no order: the fit finds no limit" if not fit["floor"] and kind != "analytic" else ""
 
 
 def short(value):

@@ -9,6 +9,7 @@ damping), with direct increments."""
 
 from __future__ import annotations
 
+import itertools
 import math
 import os
 import subprocess
@@ -97,33 +98,34 @@ def refuse_heat(job: Job) -> str:
 
 
 def refuse_solids(job: Job) -> str:
-    for body, material in zip(job.bodies, materials_of(job)):
-        name = body["name"]
-        if body["phase"] == "liquid" or body["temperature"] is not None:
-            return f"CalculiX is handed elastic bodies without heat or liquid, and {name} is not that"
-        if body["motion"] == "prescribed":
-            return f"prescribed motion is not handed to CalculiX, and {name} has one"
-        if any(body["angular_velocity"]):
-            return f"small strains know no turning body, and {name} turns"
-        if body["phase"] == "rigid" and body["motion"] == "free":
-            return f"free rigid bodies are not handed to CalculiX, and {name} is one"
-        limits = ("elastic_limit", "fracture_stretch", "fracture_distance", "t_melt")
-        if body["phase"] == "elastic" and any(material[key] is not None for key in limits):
-            return f"linear elasticity has no plastic flow, fracture or melting, and {name} may do so"
-        if body["velocity_field"]["kind"] not in ("constant", "expression"):
-            return f"the velocity of {name} is neither constant nor an expression"
-    for body in job.bodies:
-        if body["phase"] == "elastic" and not any(
-            linked(job, body, other) and other["motion"] == "fixed" for other in job.bodies
-        ):
+    reasons = (refuse_body(body, material) for body, material in zip(job.bodies, materials_of(job)))
+    if reason := next(filter(None, reasons), ""):
+        return reason
+    elastic = [body for body in job.bodies if body["phase"] == "elastic"]
+    for body in elastic:
+        if not any(linked(job, body, other) and other["motion"] == "fixed" for other in job.bodies):
             return f"bodies that nothing holds are not handed to CalculiX, and {body['name']} is free"
-    for body in job.bodies:
-        if any(
-            other is not body and not linked(job, body, other) and near(job, body, other)
-            for other in job.bodies
-            if body["phase"] == "elastic"
-        ):
+    for body in elastic:
+        if any(other is not body and not linked(job, body, other) and near(job, body, other) for other in job.bodies):
             return f"contact is not handed to CalculiX, and {body['name']} may touch another body"
+    return ""
+
+
+def refuse_body(body: dict, material: dict) -> str:
+    name = body["name"]
+    if body["phase"] == "liquid" or body["temperature"] is not None:
+        return f"CalculiX is handed elastic bodies without heat or liquid, and {name} is not that"
+    if body["motion"] == "prescribed":
+        return f"prescribed motion is not handed to CalculiX, and {name} has one"
+    if any(body["angular_velocity"]):
+        return f"small strains know no turning body, and {name} turns"
+    if body["phase"] == "rigid" and body["motion"] == "free":
+        return f"free rigid bodies are not handed to CalculiX, and {name} is one"
+    limits = ("elastic_limit", "fracture_stretch", "fracture_distance", "t_melt")
+    if body["phase"] == "elastic" and any(material[key] is not None for key in limits):
+        return f"linear elasticity has no plastic flow, fracture or melting, and {name} may do so"
+    if body["velocity_field"]["kind"] not in ("constant", "expression"):
+        return f"the velocity of {name} is neither constant nor an expression"
     return ""
 
 
@@ -154,13 +156,7 @@ class Deck:
         where, mesh = asked["where"], self.mesh
         kind = GAUGES.get(asked["quantity"], "")
         bodies = {k for k in set(mesh.body) if asked["body"] in ("", self.job.bodies[k]["name"])}
-        if (
-            (kind == "NT") == self.elastic
-            or not kind
-            or not bodies
-            or "phase" in where
-            or (kind != "NT" and "axis" not in where)
-        ):
+        if not bodies or not self.has_gauge(kind, where):
             return None
         axis = "xyz".index(where["axis"]) if kind != "NT" else 0
         word = kind if kind == "NT" else f"{kind}{axis + 1}"
@@ -169,15 +165,19 @@ class Deck:
             return (weights, word, 0.0) if weights else None
         inside = [body in bodies and self.in_region(where, mesh.middle(e)) for e, body in enumerate(mesh.body)]
         mass = [float(self.materials[body]["density"]) if kind != "NT" else 1.0 for body in mesh.body]
-        total = sum(w for w, take in zip(mass, inside) if take)
-        if total == 0.0:
+        if sum(itertools.compress(mass, inside)) == 0.0:
             return None
-        start = (
-            sum(w * mesh.middle(e)[axis] for e, (w, take) in enumerate(zip(mass, inside)) if take) / total
-            if asked["quantity"] == "centre"
-            else 0.0
-        )
+        start = self.start_centre(mass, inside, axis) if asked["quantity"] == "centre" else 0.0
         return mesh.mean(mass, inside), word, start
+
+    def has_gauge(self, kind: str, where: dict[str, Any]) -> bool:
+        of_heat = kind == "NT"
+        return bool(kind) and of_heat != self.elastic and "phase" not in where and (of_heat or "axis" in where)
+
+    def start_centre(self, mass: Sequence[float], inside: Sequence[bool], axis: int) -> float:
+        """Centre of mass of the elements inside before anything moves [m]."""
+        taken = [e for e, take in enumerate(inside) if take]
+        return sum(mass[e] * self.mesh.middle(e)[axis] for e in taken) / sum(mass[e] for e in taken)
 
     @staticmethod
     def in_region(where: dict[str, Any], at: Sequence[float]) -> bool:
@@ -283,15 +283,20 @@ class Deck:
             yield from (
                 f"{n},{axis + 1},{axis + 1}" for at, n in mesh.node.items() if at[axis] in ends and n not in held
             )
-        moving = []
-        for e, (nodes, body) in enumerate(zip(mesh.elements, mesh.body)):
-            for n in nodes:
-                if n not in held:
-                    moving.append((n, velocity_at(bodies[body]["velocity_field"], self.place_of(n))))
-        if any(norm(v) > 0.0 for _, v in moving):
+        moving = self.start_velocities(held)
+        if any(norm(v) > 0.0 for v in moving.values()):
             yield "*INITIAL CONDITIONS, TYPE=VELOCITY"
-            for n, v in sorted(dict(moving).items()):
+            for n, v in sorted(moving.items()):
                 yield from (f"{n},{axis + 1},{v[axis]!r}" for axis in range(3))
+
+    def start_velocities(self, held: set[int]) -> dict[int, Any]:
+        """{node that nothing holds: its velocity [m/s]}; where bodies meet, of the last one."""
+        return {
+            n: velocity_at(self.job.bodies[body]["velocity_field"], self.place_of(n))
+            for nodes, body in zip(self.mesh.elements, self.mesh.body)
+            for n in nodes
+            if n not in held
+        }
 
     def intervals(self) -> list[tuple[float, int]]:
         """Length [s] and number of equal output intervals, one after the other."""

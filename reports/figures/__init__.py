@@ -41,12 +41,51 @@ class Picture:
 def draw_case(root, out, case):
     """@returns (pictures, notes, files that belong to them)"""
     shelf = out / "figures" / f"{case.slug}.json"
+    kept = kept_on(shelf)
+    shown = [(curve, curve.shown) for curve in curves(case)]
+    trajectories, drawn = None, {}
+    for module, wanted in keys_of(root, case, shown).items():
+        name, with_notes = module.__name__.rsplit(".", 1)[-1], module in OF_TRAJECTORIES
+        entry = kept.get(name)
+        if not sound(entry, wanted, out):
+            if with_notes and trajectories is None:
+                trajectories = read_all(root, shown)
+            entry = {"key": wanted, **drawing_of(module, case, trajectories or ([], []), out, with_notes)}
+        drawn[name] = entry
+    shelf.parent.mkdir(parents=True, exist_ok=True)
+    if drawn != kept:
+        keep(drawn, shelf)
+    pictures = [Picture(**entry["picture"]) for entry in drawn.values() if entry["picture"]]
+    notes = undrawn(shown) + [note for entry in drawn.values() for note in entry["notes"]]
+    files = [f"figures/{shelf.name}"] + [f"{picture.file}.svg" for picture in pictures]
+    return pictures, list(dict.fromkeys(notes)), files
+
+
+def undrawn(shown):
+    return [
+        f"{curve.label}: no sound run, nothing to draw"
+        for curve, run in shown
+        if run is None and curve.engine.status == "ok"
+    ]
+
+
+def kept_on(shelf):
+    """{module: its entry} of the drawings before; empty where there are none that can be read."""
     try:
         kept = json.loads(shelf.read_text(encoding="utf-8"))
-        kept = kept if isinstance(kept, dict) else {}
     except (OSError, ValueError):
-        kept = {}
-    shown = [(curve, curve.shown) for curve in curves(case)]
+        return {}
+    return kept if isinstance(kept, dict) else {}
+
+
+def keep(drawn, shelf):
+    part = shelf.with_suffix(f".{os.getpid()}")
+    part.write_text(json.dumps(drawn), encoding="utf-8")
+    part.replace(shelf)
+
+
+def keys_of(root, case, shown):
+    """{module: the key of what it draws from}"""
     states = [state(root, curve, run) for curve, run in shown if run]
     inputs = {
         particles: states,
@@ -55,41 +94,9 @@ def draw_case(root, out, case):
         work_precision: numbers_of(case, True),
         history: runs_of(case.history),
     }
-    keys = {
+    return {
         module: key(module.__name__, case.slug, inputs.get(module) or numbers_of(case, False)) for module in OF_A_CASE
     }
-    trajectories, told = (
-        None,
-        [
-            f"{curve.label}: no sound run, nothing to draw"
-            for curve, run in shown
-            if run is None and curve.engine.status == "ok"
-        ],
-    )
-    drawn = {}
-    for module, wanted in keys.items():
-        name = module.__name__.rsplit(".", 1)[-1]
-        entry = kept.get(name)
-        if not sound(entry, wanted, out):
-            if module in OF_TRAJECTORIES and trajectories is None:
-                trajectories = read_all(root, shown)
-            entry = {
-                "key": wanted,
-                **drawing_of(module, case, trajectories or ([], []), out, module in OF_TRAJECTORIES),
-            }
-        drawn[name] = entry
-    shelf.parent.mkdir(parents=True, exist_ok=True)
-    if drawn != kept:
-        part = shelf.with_suffix(f".{os.getpid()}")
-        part.write_text(json.dumps(drawn), encoding="utf-8")
-        part.replace(shelf)
-    pictures = [Picture(**entry["picture"]) for entry in drawn.values() if entry["picture"]]
-    notes = told + [note for entry in drawn.values() for note in entry["notes"]]
-    return (
-        pictures,
-        list(dict.fromkeys(notes)),
-        [f"figures/{shelf.name}"] + [f"{picture.file}.svg" for picture in pictures],
-    )
 
 
 def drawing_of(module, case, trajectories, out, with_notes):

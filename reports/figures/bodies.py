@@ -23,77 +23,77 @@ TURN, ENERGY = "turn from the start [deg]", "energy change / kinetic"  # of pane
 
 def draw(case, trajectories, notes):
     shown = [(curve, t) for curve, t in trajectories if t.bodies]
-    if not shown:
-        return None
-    wanted = [
-        panel
-        for panel in (position_panel(shown), turn_panel(shown), spin_panel(shown), energy_panel(trajectories, notes))
-        if panel
-    ]
+    wanted = panels_of(shown, trajectories, notes) if shown else []
     if not wanted:
         return None
-    most = (
-        max(t.bodies["position"].shape[1] for _, t in shown if "position" in t.bodies)
-        if any("position" in t.bodies for _, t in shown)
-        else 1
-    )
-    if most > MOST_BODIES:
-        notes.append(f"curves show the first {MOST_BODIES} of {most} bodies")
+    say_how_many(shown, notes)
     truth = next((curve for curve, _ in shown if curve.engine.name == "exact"), None)
     left = [residual(title, lines, truth) for title, lines in wanted]
     order = who_leads(wanted[0][0], left[0]) if wanted[0][0].endswith(CENTRE) else ""
     columns = min(len(wanted), 2)
-    ordered = [
-        panel
-        for n in range(0, len(wanted), columns)
-        for panel in (
-            wanted[n : n + columns]
-            + [None] * (columns - len(wanted[n : n + columns]))
-            + (
-                left[n : n + columns] + [None] * (columns - len(left[n : n + columns]))
-                if any(left[n : n + columns])
-                else []
-            )
-        )
-    ]
+    ordered = in_rows(wanted, left, columns)
     figure, axes = plot.panels(len(ordered), len(shown), height=2.3, columns=columns)
     for axis, panel in zip(axes, ordered):
-        if panel is None:
-            axis.set_visible(False)
-            continue
-        title, lines = panel
-        for curve, time, values, nth in lines:
-            look = style.look(curve)
-            dashes = look["linestyle"] if nth == 0 else (0, (1 + nth, 1.5))
-            width = 2.6 if curve.engine.name == "exact" else 1.3
-            fine = between(title, next((t for c, t in shown if c is curve), None), nth, time, values)
-            parts = max(
-                1, (len(fine[0]) - 1) // max(1, len(time) - 1)
-            )  # of an interval between frames, on which the markers stand
-            axis.plot(
-                *fine,
-                color=look["color"],
-                linestyle=dashes,
-                linewidth=width,
-                alpha=0.6 if width > 2 else 1.0,
-                label=curve.label if nth == 0 else None,
-                marker=look["marker"] if nth == 0 and width < 2 else None,
-                markersize=3.2,
-                markevery=(parts * offset(curve, shown), parts * max(1, len(time) // 8)),
-            )
-        axis.set_xlabel("time [s]")
-        axis.set_ylabel(title)
-    title, what = (
-        ("Bodies in time", "Position, rotation and energy of the bodies")
-        if len(wanted) > 1 or wanted[0][0] != ENERGY
-        else ("Energy in time", "Energy")
-    )
+        draw_panel(axis, panel, shown)
+    energy_alone = len(wanted) == 1 and wanted[0][0] == ENERGY
+    title = "Energy in time" if energy_alone else "Bodies in time"
+    what = "Energy" if energy_alone else "Position, rotation and energy of the bodies"
     return Drawing(
         "bodies",
         title,
         f"{what} against time for " + ", ".join(c.label for c, _ in shown) + ".",
         figure,
         caption(wanted, any(left)) + order,
+    )
+
+
+def panels_of(shown, trajectories, notes):
+    panels = (position_panel(shown), turn_panel(shown), spin_panel(shown), energy_panel(trajectories, notes))
+    return [panel for panel in panels if panel]
+
+
+def say_how_many(shown, notes):
+    most = max((t.bodies["position"].shape[1] for _, t in shown if "position" in t.bodies), default=1)
+    if most > MOST_BODIES:
+        notes.append(f"curves show the first {MOST_BODIES} of {most} bodies")
+
+
+def in_rows(wanted, left, columns):
+    """The panels row by row, below each row its residuals, where it has any; None is an empty place."""
+    ordered = []
+    for n in range(0, len(wanted), columns):
+        for row in (wanted[n : n + columns], left[n : n + columns]):
+            ordered += row + [None] * (columns - len(row)) if any(row) else []
+    return ordered
+
+
+def draw_panel(axis, panel, shown):
+    if panel is None:
+        axis.set_visible(False)
+        return
+    title, lines = panel
+    for line in lines:
+        draw_line(axis, title, line, shown)
+    axis.set_xlabel("time [s]")
+    axis.set_ylabel(title)
+
+
+def draw_line(axis, title, line, shown):
+    curve, time, values, nth = line
+    look, exact, first = style.look(curve), curve.engine.name == "exact", nth == 0
+    fine = between(title, next((t for c, t in shown if c is curve), None), nth, time, values)
+    intervals = max(1, len(time) - 1)
+    parts = max(1, (len(fine[0]) - 1) // intervals)  # of an interval between frames, on which the markers stand
+    axis.plot(
+        *fine,
+        color=look["color"],
+        linestyle=look["linestyle"] if first else (0, (1 + nth, 1.5)),
+        linewidth=2.6 if exact else 1.3,
+        alpha=0.6 if exact else 1.0,
+        label=curve.label if first else None,
+        marker=look["marker"] if first and not exact else None,
+        markersize=3.2,
+        markevery=(parts * offset(curve, shown), parts * max(1, len(time) // 8)),
     )
 
 
@@ -142,35 +142,22 @@ def caption(wanted, residuals):
 def who_leads(title, left):
     """A sentence: by how much each engine's first body lags or leads the exact one at the end, in the direction of the
     panel's axis."""
-    ends = (
-        {
-            curve.label: values[-1]
-            for curve, _, values, nth in left[1]
-            if nth == 0 and len(values) and np.isfinite(values[-1])
-        }
-        if left
-        else {}
-    )
-    if not ends:
-        return ""
-    biggest = max(map(abs, ends.values()))
-    none = 1e-3 * biggest
+    lines = left[1] if left else []
+    ends = {curve.label: values[-1] for curve, _, values, nth in lines if nth == 0 and len(values)}
+    ends = {label: value for label, value in ends.items() if np.isfinite(value)}
+    none = 1e-3 * max(map(abs, ends.values()), default=0.0)
     parts = [
         f"{label} {'lags' if value < 0 else 'leads'} by {abs(value):.4g} m"
         for label, value in sorted(ends.items(), key=lambda entry: entry[1])
         if abs(value) > none
     ]
-    level = [label for label, value in ends.items() if abs(value) <= none]
-    rest = (
-        f"; within {float(f'{max(abs(ends[label]) for label in level):.1g}') or 0:g} m of exact: {', '.join(level)}"
-        if level and parts
-        else ""
-    )
+    if not parts:
+        return ""
+    level = {label: abs(value) for label, value in ends.items() if abs(value) <= none}
+    rest = f"; within {float(f'{max(level.values()):.1g}') or 0:g} m of exact: {', '.join(level)}" if level else ""
     return (
         f" At the end, in {title[0]} against exact: {', '.join(parts)}{rest}. To lag is to have less of {title[0]} "
         "than exact, to lead more."
-        if parts
-        else ""
     )
 
 

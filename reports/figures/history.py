@@ -21,53 +21,24 @@ def draw(case, trajectories, notes):
     runs = [entry for entry in case.history if not entry.accepted][-MOST_RUNS:]
     if len(runs) < 2:
         return None  # one run is no history
-    if not any(moved([entry.used[key] for entry in runs if key in entry.used]) for key in worst_first(runs)):
+    keys = worst_first(runs)
+    if not any(moved([entry.used[key] for entry in runs if key in entry.used]) for key in keys):
         notes.append(
             f"history: over {len(runs)} runs no gate's use of its limit has moved by more than {100 * MOVED:.0f} %, "
             "and no verdict has changed"
         )
         return None
-    keys = worst_first(runs)
     if len(keys) > MOST_LINES:
         notes.append(f"the strip of runs shows the {MOST_LINES} of {len(keys)} gates that use most of their limits")
     keys = keys[:MOST_LINES]
-    if not keys:
-        return None
     figure = Figure(figsize=(style.WIDTH, 2.5))
     FigureCanvasAgg(figure)
     axis = figure.add_axes((0.1, 0.2, 0.58, 0.72))
-    names = [engine_label(engine) for engine, _, _, _ in keys]
-    for k, key in enumerate(keys):
-        places = [
-            (n, max(entry.used[key][0], FLOOR), entry.used[key][2])
-            for n, entry in enumerate(runs)
-            if key in entry.used and is_number(entry.used[key][0])
-        ]
-        engine, mode, metric, level = key
-        label = " ".join(part for part in (engine, mode, metric, f"at {level:g}" if level is not None else "") if part)
-        hue = style.colour(engine_label(engine), names)
-        axis.plot(
-            [p[0] for p in places],
-            [p[1] for p in places],
-            color=hue,
-            marker=style.MARKERS[k % len(style.MARKERS)],
-            markersize=3.5,
-            linewidth=1,
-            label=label,
-            alpha=0.9,
-        )
-        red = [p for p in places if p[2] != "pass"]
-        axis.plot([p[0] for p in red], [p[1] for p in red], "x", color=style.RED, markersize=7, markeredgewidth=2)
+    for k in range(len(keys)):
+        draw_gate(axis, runs, keys, k)
     axis.axhline(1.0, color=style.RED, linewidth=1.2)
     mark_acceptances(axis, case, runs)
-    axis.set_yscale("log")
-    axis.yaxis.set_major_locator(style.ticker.LogLocator(subs=(1.0, 2.0, 5.0)))
-    axis.yaxis.set_major_formatter(style.ticker.FuncFormatter(style.power))
-    axis.yaxis.set_minor_locator(style.ticker.NullLocator())
-    axis.set_xlim(-0.5, len(runs) - 0.5)
-    ticks = sorted({0, len(runs) // 2, len(runs) - 1})
-    axis.set_xticks(ticks, [f"{runs[n].date[:10]}\n{runs[n].commit[:8]}" for n in ticks], fontsize=8)
-    axis.set_ylabel("share of the limit")
+    scale_axes(axis, runs)
     figure.legend(*axis.get_legend_handles_labels(), loc="center left", bbox_to_anchor=(0.69, 0.55), fontsize=8)
     return Drawing(
         "history",
@@ -77,6 +48,38 @@ def draw(case, trajectories, notes):
         "Oldest left. Red line: the limit. Crosses: not green. Dashed: figures were accepted there (tripoint gate "
         "accept).",
     )
+
+
+def draw_gate(axis, runs, keys, k):
+    """The line of the k-th gate, with a cross at each run in which it was not green."""
+    key = keys[k]
+    engine, mode, metric, level = key
+    used = [(n, entry.used[key]) for n, entry in enumerate(runs) if key in entry.used]
+    places = [(n, max(share, FLOOR), verdict) for n, (share, _, verdict) in used if is_number(share)]
+    label = " ".join(part for part in (engine, mode, metric, f"at {level:g}" if level is not None else "") if part)
+    axis.plot(
+        [p[0] for p in places],
+        [p[1] for p in places],
+        color=style.colour(engine_label(engine), [engine_label(name) for name, *_ in keys]),
+        marker=style.MARKERS[k % len(style.MARKERS)],
+        markersize=3.5,
+        linewidth=1,
+        label=label,
+        alpha=0.9,
+    )
+    red = [p for p in places if p[2] != "pass"]
+    axis.plot([p[0] for p in red], [p[1] for p in red], "x", color=style.RED, markersize=7, markeredgewidth=2)
+
+
+def scale_axes(axis, runs):
+    axis.set_yscale("log")
+    axis.yaxis.set_major_locator(style.ticker.LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.yaxis.set_major_formatter(style.ticker.FuncFormatter(style.power))
+    axis.yaxis.set_minor_locator(style.ticker.NullLocator())
+    axis.set_xlim(-0.5, len(runs) - 0.5)
+    ticks = sorted({0, len(runs) // 2, len(runs) - 1})
+    axis.set_xticks(ticks, [f"{runs[n].date[:10]}\n{runs[n].commit[:8]}" for n in ticks], fontsize=8)
+    axis.set_ylabel("share of the limit")
 
 
 def engine_label(engine):

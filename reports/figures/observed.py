@@ -22,65 +22,54 @@ QUANTITY = {"front_lead": "front"}  # quantity of a metric -> column of the refe
 
 
 def draw(case, trajectories, notes):
-    if text(case.reference.get("kind")) != "experiment":
+    metric, column = measured_metric(case)
+    if metric is None:
         return None
-    found = [
-        (metric, column)
-        for metric in case.metrics
-        for column in [QUANTITY.get(text(metric.get("quantity")))]
-        if column and not metric.get("reference")
-    ]
-    if not found:
-        return None
-    truth = read(Path(text(case.reference.get("file"))), {column for _, column in found})
+    truth = read(Path(text(case.reference.get("file"))), {column})
     if truth is None:
         notes.append("the measured points are not drawn: the reference's file is not there or cannot be read")
         return None
-    shown = [(curve, curve.shown) for curve in curves(case) if curve.shown]
-    parts = [
-        (curve, metric, column, points)
-        for curve, run in shown
-        for metric, column in found[:1]
-        for points in [differences(run, metric)]
-        if points is not None
-    ]
+    parts = [(curve, differences(curve.shown, metric)) for curve in curves(case) if curve.shown]
+    parts = [(curve, points) for curve, points in parts if points is not None]
     if not parts:
         return None
     figure, axes = plot.panels(2, len(parts) + 1)
-    scale = number(found[0][0].get("scale")) or 1.0
-    unit = text(found[0][0].get("unit")) or "m"
-    time, value, u = truth[found[0][1]]
-    axes[0].errorbar(
-        time,
-        value / scale,
-        yerr=2 * u / scale,
-        color=style.INK,
-        marker="o",
-        markersize=6,
-        markerfacecolor="none",
-        linestyle="none",
-        capsize=3,
-        label="measured",
-    )
-    axes[1].axhline(0.0, color=style.INK, linewidth=1.2, alpha=0.75)
-    axes[1].errorbar(time, 0 * time, yerr=2 * u / scale, color=style.INK, linestyle="none", capsize=3, alpha=0.75)
-    for curve, _, _, (t, lead) in parts:
-        look = style.look(curve)
-        axes[0].plot(t, np.interp(t, time, value) / scale + lead, label=curve.label, **look)
-        axes[1].plot(t, lead, **look)
+    draw_parts(axes, truth[column], number(metric.get("scale")) or 1.0, parts)
     for axis in axes:
         axis.set_xlabel("time [s]")
-    axes[0].set_ylabel(f"{found[0][1]} ({unit})", fontsize=8.5)
+    axes[0].set_ylabel(f"{column} ({text(metric.get('unit')) or 'm'})", fontsize=8.5)
     axes[1].set_ylabel("engine minus measured", fontsize=8.5)
     return Drawing(
         "observed",
-        f"Measured {found[0][1]}, and the engines",
-        f"Measured {found[0][1]} against time with {', '.join(c.label for c, *_ in parts)} over it, and the "
+        f"Measured {column}, and the engines",
+        f"Measured {column} against time with {', '.join(curve.label for curve, _ in parts)} over it, and the "
         "differences.",
         figure,
         f"Circles: {text(case.reference.get('source'))}; bars: two standard uncertainties. Right: what is left "
         "between engine and measurement.",
     )
+
+
+def measured_metric(case):
+    """(the first metric that an experiment's file holds, its column there); None twice where there is none."""
+    for metric in case.metrics if text(case.reference.get("kind")) == "experiment" else ():
+        column = QUANTITY.get(text(metric.get("quantity")))
+        if column and not metric.get("reference"):
+            return metric, column
+    return None, None
+
+
+def draw_parts(axes, measured, scale, parts):
+    """Left the points with the engines over them, right what is left between them."""
+    time, value, u = measured
+    points = {"yerr": 2 * u / scale, "color": style.INK, "linestyle": "none", "capsize": 3}
+    axes[0].errorbar(time, value / scale, marker="o", markersize=6, markerfacecolor="none", label="measured", **points)
+    axes[1].axhline(0.0, color=style.INK, linewidth=1.2, alpha=0.75)
+    axes[1].errorbar(time, 0 * time, alpha=0.75, **points)
+    for curve, (t, lead) in parts:
+        look = style.look(curve)
+        axes[0].plot(t, np.interp(t, time, value) / scale + lead, label=curve.label, **look)
+        axes[1].plot(t, lead, **look)
 
 
 def differences(run, metric):

