@@ -29,7 +29,6 @@ import tomllib
 OURS = ["engine-tripoint", "engine-tripoint-mpi", "tripoint-halo"]  # in one process, and over ranks
 ROOMS = ("src/effects", "src/sph", "src/solids", "src/step", "adapters")
 EQUIVALENT = tomllib.loads((pathlib.Path(__file__).resolve().parent / "equivalent_mutants.toml").read_text())["mutant"]
-FOLDERS = ("rigid", "fluid", "motion", "prescribed", "density", "elastic", "plastic", "fracture", "heat", "phase")
 # A line that carries no behaviour of the model: text for people, declarations.
 PASSED_OVER = re.compile(
     r"^\s*(//|#|\*|using |namespace |template|struct |class |enum "
@@ -170,6 +169,8 @@ def targets_of(file):
         )
     part = file.split("/")[1]
     tests = {"tripoint": ["test-step"], "bullet": ["test-bullet"], "lammps": ["test-engines"], "exact": ["test-exact"]}
+    if part == "ranks":
+        return OURS, ["test-ranks"], "tripoint-mpi"
     if part in tests:
         return OURS if part == "tripoint" else [f"engine-{part}"], tests[part], part
     return (
@@ -209,10 +210,11 @@ class Cases:
 
     def touched(self, file, engine):
         part = file.split("/")[2] if file.startswith("src/effects") else ""
+        a_folder = (self.tree / "src/effects" / part).is_dir() and part
         of = [
             c
             for c, about in self.cases.items()
-            if (part not in FOLDERS or part in about["effects"]) and any(e.startswith(engine) for e in about["engines"])
+            if (not a_folder or part in about["effects"]) and any(e.startswith(engine) for e in about["engines"])
         ]
         return sorted(of, key=lambda c: self.cases[c]["cost"])
 
@@ -320,9 +322,9 @@ def red_oracle(file, options):
 
 def judge(mutant, cases, options):
     """What turned red first, or nothing: some quick cases, then the unit tests, then all other cases."""
-    _, tests, engine = targets_of(mutant["file"])
+    _, tests, engine = targets_of(mutant["at"])
     out = str(options.out.with_suffix("")) + "-runs"
-    touched = cases.touched(mutant["file"], engine)
+    touched = cases.touched(mutant["at"], engine)
     mutant["asked"] = 0
 
     def red_case(some):
@@ -336,12 +338,12 @@ def judge(mutant, cases, options):
         mutant["killed_by"] = red_case(cases.varied(touched)[: options.most])
         return
     first = (
-        options.first if mutant["file"].startswith("src/effects") else 0
+        options.first if mutant["at"].startswith("src/effects") else 0
     )  # an adapter's cases are slower than its tests
     mutant["killed_by"] = (
         red_case(touched[:first])
-        or red_test(tests, mutant["file"], options)
-        or red_oracle(mutant["file"], options)
+        or red_test(tests, mutant["at"], options)
+        or red_oracle(mutant["at"], options)
         or red_case(touched[first:])
     )
 
@@ -352,10 +354,11 @@ def apply(mutant, cases, options, rooms):
     if not (place := place_in(options.tree, mutant, rooms)):
         return mutant
     path, lines, n = place
+    mutant["at"] = str(path.relative_to(options.tree))
     original, indent = path.read_text(), re.match(r"\s*", lines[n])[0]
     path.write_text("\n".join(lines[:n] + [indent + mutant["new"]] + lines[n + 1 :]))
     try:
-        mutant["compiles"] = build(targets_of(mutant["file"])[0], options)
+        mutant["compiles"] = build(targets_of(mutant["at"])[0], options)
         if mutant["compiles"]:
             judge(mutant, cases, options)
     finally:
