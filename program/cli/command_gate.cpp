@@ -40,7 +40,8 @@ constexpr const char* gate_description =
 constexpr const char* accept_description =
     "Accepts the figures of green cases as their baselines (baselines/<subject>/<case>.toml beside the folder cases), and prints "
     "what changes:\n"
-    "old limit, new limit, and the sum of all loosenings since the first baseline.\n"
+    "old limit, new limit, and the sum of all loosenings since the first baseline. Results that lack an engine or a metric that\n"
+    "was accepted are refused, unless --keep-missing or --drop-missing says what becomes of its rows.\n"
     "  tripoint gate accept --reason 'kernel moments corrected, decision 006' report/results.json heat/cosine-mode";
 
 constexpr const char* selftest_description =
@@ -71,6 +72,7 @@ struct GateOptions {
   std::vector<std::string> accepted;  ///< a results.json or its folder, and ids, in any order
   std::string reason;
   bool removed = false;  ///< the ids are of cases that are no more
+  Lacking lacking;
 };
 
 int accept_file(const GateOptions& o) {
@@ -93,7 +95,7 @@ int accept_file(const GateOptions& o) {
   if (const auto wrong = recheck_remarks(results); !wrong.empty())
     throw InputError(path + ": " + wrong.front().title + ": " + wrong.front().text);
   const Acceptance acceptance{results.date.substr(0, 10), results.tool.commit, o.reason};
-  print(accept(results, ids, acceptance));
+  print(accept(results, ids, acceptance, o.lacking));
   if (const auto history = history_file(results, path); !history.empty())
     append_history(history, acceptance_lines(results, ids, acceptance));
   return exit_pass;
@@ -132,6 +134,8 @@ void add_gate(CLI::App& app, int& exit_code) {
   auto* accepts = command->add_subcommand("accept", accept_description);
   accepts->add_option("--reason", o->reason, "who decided what, and why")->required();
   accepts->add_flag("--removed", o->removed, "the ids (or paths) are of cases that are no more: their baselines are removed");
+  accepts->add_flag("--keep-missing", o->lacking.keep, "accepted rows of engines that did not run stay as they are");
+  accepts->add_flag("--drop-missing", o->lacking.drop, "accepted rows that the results lack are removed; --reason says why");
   accepts->add_option("RESULTS|ID", o->accepted,
                       "a results.json or its folder (default report/results.json), and the ids of the cases; none = all");
   auto* self = command->add_subcommand("selftest", selftest_description);

@@ -117,7 +117,8 @@ int propose_baselines(const ProposeOptions& o) {
   if (const auto wrong = recheck_remarks(results); !wrong.empty())
     throw InputError(path + ": " + wrong.front().title + ": " + wrong.front().text);
   const auto list =
-      proposals(results, ids, {results.date.substr(0, 10), results.tool.commit, o.reason.empty() ? undecided_reason : o.reason});
+      proposals(results, ids, {results.date.substr(0, 10), results.tool.commit, o.reason.empty() ? undecided_reason : o.reason},
+                {.keep = true, .drop = true});
   const auto text = patch_text(list, path, list.empty() ? "." : patch_root(list.front().file), o.reason.empty());
   if (o.patch.empty()) {
     print(text);

@@ -175,7 +175,7 @@ struct Kept {
     engine(r).runs[0].folder = "runs/test/one/tripoint/corrected";
     judge(r);
   }
-  std::string accept_all() { return accept(r, {}, {"2026-11-21", "abc", "a test"}); }
+  std::string accept_all(const Lacking& lacking = {}) { return accept(r, {}, {"2026-11-21", "abc", "a test"}, lacking); }
 };
 
 TEST(Baselines, ThatAreNotThereYetAreNamedInOneWarningWhereTheSuiteKeepsThem) {
@@ -205,10 +205,58 @@ TEST(Baselines, AGateThatIsGoneIsRedUntilThatIsAcceptedAndIsCounted) {
   kept.r.cases[0].gates.pop_back();
   judge(kept.r);
   EXPECT_EQ(baseline_remarks(kept.r).at(0).code, exit_missing);
-  const auto said = kept.accept_all();
+  EXPECT_THROW((void)kept.accept_all(), InputError);
+  EXPECT_THROW((void)kept.accept_all({.keep = true}), InputError) << "the case has no such gate any more";
+  const auto said = kept.accept_all({.drop = true});
   EXPECT_NE(said.find("REMOVED, it was limit 0.2"), std::string::npos) << said;
   EXPECT_NE(said.find("and 1 were removed"), std::string::npos) << said;
   EXPECT_TRUE(baseline_remarks(kept.r).empty());
+}
+
+/// Results of two engines, accepted; then those of one of them, as without the other's program.
+struct WithoutTheOther : Kept {
+  WithoutTheOther() {
+    r.cases[0].engines.push_back(r.cases[0].engines[0]);
+    r.cases[0].engines[1].name = "other";
+    r.cases[0].engines[1].runs[0].folder = "runs/test/one/other/corrected";
+    r.cases[0].gates.push_back(r.cases[0].gates[0]);
+    r.cases[0].gates[1].engine = "other";
+    judge(r);
+    (void)accept_all();
+    r.cases[0].engines.pop_back();
+    r.only_engines = {"tripoint"};
+    judge(r);
+  }
+  [[nodiscard]] Baseline accepted() const { return read_baseline(folder / "baselines/test/one.toml"); }
+};
+
+TEST(Baselines, AreNotAcceptedWithoutAnEngineThatTheyHold) {
+  WithoutTheOther kept;
+  const auto before = baseline_text(kept.accepted());
+  try {
+    (void)kept.accept_all();
+    FAIL() << "the rows of the other engine went without a word";
+  } catch (const InputError& e) {
+    const std::string said = e.what();
+    for (const char* part : {"test/one: the results lack what was accepted of other (error)", "--drop-missing", "--keep-missing"})
+      EXPECT_NE(said.find(part), std::string::npos) << said;
+  }
+  EXPECT_EQ(baseline_text(kept.accepted()), before);
+}
+
+TEST(Baselines, KeepTheWholeRowsOfAnEngineThatDidNotRunOrDropThemByName) {
+  WithoutTheOther kept;
+  const auto before = kept.accepted();
+  (void)kept.accept_all({.keep = true});
+  const auto after = kept.accepted();
+  EXPECT_EQ(after.gates.size(), before.gates.size());
+  EXPECT_EQ(after.cost.size(), before.cost.size());
+  EXPECT_EQ(after.engines.size(), before.engines.size());
+  const auto said = kept.accept_all({.drop = true});
+  EXPECT_NE(said.find("test/one other: REMOVED with its runs"), std::string::npos) << said;
+  EXPECT_NE(said.find("error: REMOVED, it was limit 0.1"), std::string::npos) << said;
+  EXPECT_EQ(kept.accepted().engines.size(), 1u);
+  EXPECT_EQ(kept.accepted().cost.size(), 1u);
 }
 
 TEST(Baselines, AValueThatMovesByMoreThanTheDriftThatItsGateStatesIsRedBothWays) {

@@ -44,6 +44,12 @@ struct Acceptance {
   std::string date, commit, reason;
 };
 
+/// What happens to accepted rows that the results lack. Neither: the acceptance is refused.
+struct Lacking {
+  bool keep = false;  ///< rows of engines that did not run stay, where scene and reference are as they were
+  bool drop = false;  ///< what does not stay is removed
+};
+
 struct Baseline {
   std::string id, case_hash;  ///< of the case file's text
   std::uint64_t seed = 1;
@@ -87,7 +93,7 @@ struct Baseline {
 
 /// The baseline that these results would be, after the one that was accepted before.
 [[nodiscard]] Baseline accepted_from(const CaseResult&, const Tool&, std::uint64_t seed, const Baseline* before,
-                                     const Acceptance&, bool engines_were_chosen = false);
+                                     const Acceptance&);
 
 /// Results against their baselines. An edge looser than the accepted one, a lost gate, or one whose engine was there and refused
 /// or ended early: error, exit 4. So is another metric, scene, reference, or an engine that is required no more. A value that has
@@ -116,8 +122,8 @@ struct Baseline {
 
 /// Accepts the cases with these ids (empty: all). @return what changed, old and new, and the sum of all loosenings since the
 /// first baseline
-/// @throws InputError for an id that the results do not hold, and where a case is not green
-[[nodiscard]] std::string accept(const Results&, const std::vector<std::string>& ids, const Acceptance&);
+/// @throws InputError for an id that the results do not hold, where a case is not green, and where they lack accepted rows
+[[nodiscard]] std::string accept(const Results&, const std::vector<std::string>& ids, const Acceptance&, const Lacking& = {});
 
 /// Removes the baselines of cases that are no more. @return text that names the removed ones
 /// @throws InputError for an id that has no baseline, and for one whose case is still there

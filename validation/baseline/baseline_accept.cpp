@@ -8,6 +8,7 @@
 
 #include "core/durable_file.hpp"
 #include "tables/library.hpp"
+#include "validation/baseline/baseline_lacking.hpp"
 #include "validation/baseline/baseline_propose.hpp"
 #include "validation/baseline/baseline_rows.hpp"
 #include "validation/judge/headroom.hpp"
@@ -18,7 +19,7 @@ namespace tripoint {
 namespace fs = std::filesystem;
 
 Baseline accepted_from(const CaseResult& c, const Tool& tool, std::uint64_t seed, const Baseline* before,
-                       const Acceptance& acceptance, bool engines_were_chosen) {
+                       const Acceptance& acceptance) {
   Baseline b;
   b.id = c.id;
   b.case_hash = hash_of_file(c);
@@ -44,10 +45,7 @@ Baseline accepted_from(const CaseResult& c, const Tool& tool, std::uint64_t seed
     g.first_value = old ? old->first_value : g.value;
     if (old) g.loosened = old->loosened + (g.room > old->room && old->room > 0.0 ? std::log(g.room / old->room) : 0.0);
   }
-  if (!before) return b;
-  b.removed = before->removed + static_cast<int>(gone(c, own, *before, engines_were_chosen).size());
-  for (const auto& g : before->gates)  // an engine that is not on this machine keeps its gates accepted elsewhere
-    if (is_absent(c, g, engines_were_chosen)) b.gates.push_back(g);
+  if (before) b.removed = before->removed;
   return b;
 }
 
@@ -126,7 +124,8 @@ void check_acceptable(const CaseResult& c) {
 
 }  // namespace
 
-std::vector<Proposal> proposals(const Results& results, const std::vector<std::string>& ids, const Acceptance& acceptance) {
+std::vector<Proposal> proposals(const Results& results, const std::vector<std::string>& ids, const Acceptance& acceptance,
+                                const Lacking& lacking) {
   check_reason(acceptance);
   const bool engines_were_chosen = !results.only_engines.empty();
   std::vector<const CaseResult*> chosen;
@@ -146,14 +145,10 @@ std::vector<Proposal> proposals(const Results& results, const std::vector<std::s
       before = read_baseline(p.file);
       p.before = text_of_file(p.file);
     }
-    const auto after =
-        accepted_from(*c, results.tool, results.seed, before ? &*before : nullptr, acceptance, engines_were_chosen);
+    auto after = accepted_from(*c, results.tool, results.seed, before ? &*before : nullptr, acceptance);
+    if (before) p.removed = carry_over(*c, *before, after, lacking, engines_were_chosen);
     p.after = baseline_text(after);
     p.changes = changes(before ? &*before : nullptr, after);
-    if (before)
-      for (const auto* g : gone(*c, gates_of(*c, {}), *before, engines_were_chosen))
-        p.removed +=
-            one_line(fmt::format("{} {} {} {}: REMOVED, it was {}", c->id, g->engine, g->mode, g->metric, g->allows)) + "\n";
     p.loosened = loosenings(after, p.limits_loosened);
     p.limits_removed = after.removed;
     list.push_back(std::move(p));
@@ -161,8 +156,9 @@ std::vector<Proposal> proposals(const Results& results, const std::vector<std::s
   return list;
 }
 
-std::string accept(const Results& results, const std::vector<std::string>& ids, const Acceptance& acceptance) {
-  const auto list = proposals(results, ids, acceptance);
+std::string accept(const Results& results, const std::vector<std::string>& ids, const Acceptance& acceptance,
+                   const Lacking& lacking) {
+  const auto list = proposals(results, ids, acceptance, lacking);
   std::string text;
   double sum = 0.0;
   int count = 0, removed = 0;

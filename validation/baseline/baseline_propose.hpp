@@ -23,8 +23,10 @@ struct Proposal {
 };
 
 /// @param ids of the cases; empty = all
-/// @throws InputError for an id that the results do not hold, where a case is not green, and where no reason is given
-[[nodiscard]] std::vector<Proposal> proposals(const Results&, const std::vector<std::string>& ids, const Acceptance&);
+/// @throws InputError for an id that the results do not hold, where a case is not green, where no reason is given, and where
+/// accepted rows are lacking
+[[nodiscard]] std::vector<Proposal> proposals(const Results&, const std::vector<std::string>& ids, const Acceptance&,
+                                              const Lacking& = {});
 
 /// A unified diff of two texts with three lines of context and no file header; empty where they are the same.
 [[nodiscard]] std::string unified_diff(const std::string& before, const std::string& after);
