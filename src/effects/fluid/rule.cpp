@@ -25,6 +25,7 @@ std::string who_can_touch(const Scene& s) {
 }
 
 std::string called_for(const Scene& s) {
+  if (s.has_brought_form(term::pressure)) return "";
   std::string liquid = bodies_where(
       s, [](const Scene& scene, const Body& b, const Material&) { return b.phase == Phase::liquid && moves(scene, b); });
   if (liquid.empty() && !s.inflows.empty()) liquid = "an inflow";

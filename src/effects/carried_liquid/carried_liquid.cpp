@@ -1,0 +1,458 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/carried_liquid/carried_liquid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.hpp"
+#include "core/matrix3.hpp"
+#include "effects/carried_liquid/fields.hpp"
+#include "effects/carried_liquid/hydrostatic_start.hpp"
+#include "effects/carried_liquid/scheme.hpp"
+#include "passes/pair_passes.hpp"
+#include "passes/run_pass.hpp"
+#include "scene/effect_rule.hpp"
+#include "sph/lattice.hpp"
+#include "world/body_table.hpp"
+#include "world/fill.hpp"
+#include "world/free_rows.hpp"
+#include "world/ordered_sum.hpp"
+
+namespace tripoint::carried_liquid {
+namespace {
+
+constexpr StepNumber kick_length{"carried_half_step", 0.0};  ///< length of the last kick [s]
+constexpr Account taken_by_diffusion{"taken_by_diffusion"}, taken_by_shift{"taken_by_shift"};
+constexpr double viscous_share = 0.03;                   ///< of dx^2/nu that a step takes
+constexpr double full_rank = 0.5, own_full_rank = 0.02;  ///< determinant below which an inverse is blended
+constexpr double inside_wall = 0.5;                      ///< share of its neighbourhood that a solid fills at the solid's face
+constexpr double exposed_below = 2.25;                   ///< trace of the moment of a particle at a free surface
+
+struct Numbers {
+  double stiffness = 0.0, reference = 0.0;  ///< k [m2/s2], rho_ref [kg/m3]
+  double sound_speed = 0.0;                 ///< greatest [m/s]
+  double greatest_nu = 0.0;                 ///< [m2/s]
+  LatticeMoments lattice;
+};
+
+/// What these forms do not serve: solids that touch each other, that deform, melt or freeze; inflows.
+void refuse_others(const Scene& scene) {
+  std::size_t free = 0;
+  for (const Body& b : scene.bodies) {
+    if (b.phase == Phase::elastic)
+      throw InputError(b.place, "model.pressure: liquid that carries its density knows no elastic body");
+    free += b.phase == Phase::rigid && b.motion == Motion::free ? 1 : 0;
+  }
+  if (free > 1 || !scene.inflows.empty() || calls_for(scene, "phase"))
+    throw InputError(
+        "model.pressure: liquid that carries its density knows one free body, and neither inflow, melting nor freezing");
+}
+
+Numbers numbers_of(const Scene& scene) {
+  refuse_others(scene);
+  Numbers n;
+  double least = HUGE_VAL;
+  for (const Body& b : scene.bodies)
+    if (b.phase == Phase::liquid) {
+      const Material& m = scene.material(b.material);
+      n.reference = std::max(n.reference, m.density);
+      least = std::min(least, m.density);
+      n.greatest_nu = std::max(n.greatest_nu, m.viscosity / m.density);
+    }
+  for (const Material& m : scene.materials) n.stiffness = std::max(n.stiffness, m.stiffness.value_or(0.0));
+  if (!(n.stiffness > 0.0) || !(n.reference > 0.0))
+    throw InputError("model.pressure: liquid that carries its density needs a sound_speed");
+  n.sound_speed = std::sqrt(n.stiffness * n.reference / least);
+  n.lattice = wendland_moments(scene.support_ratio);
+  return n;
+}
+
+PairKernels kernels_of(const Scene& scene, const Numbers& n) {
+  PairKernels kernels(scene.support_ratio * scene.spacing);
+  kernels.per_gradient_moment = 1.0 / n.lattice.gradient;
+  return kernels;
+}
+
+/// Inverse, blended into `rest` times the identity where the determinant is below `full`.
+Symmetric blended_inverse(const Symmetric& m, double full, double rest) {
+  const double det = determinant(tripoint::full(m));
+  if (!(det > 1e-9)) return {rest, rest, rest, 0.0, 0.0, 0.0};
+  const double share = det / (det + std::max(full - det, 0.0));
+  const Symmetric inverse = symmetric_part(tripoint::inverse(tripoint::full(m)));
+  return share * inverse + ((1.0 - share) * rest) * Symmetric{1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
+}
+
+template <const auto&... f>
+std::array<std::span<double>, sizeof...(f)> columns(Particles& p) {
+  return {p[f]...};
+}
+Symmetric symmetric_at(const std::array<std::span<double>, 6>& c, std::size_t i) {
+  return {c[0][i], c[1][i], c[2][i], c[3][i], c[4][i], c[5][i]};
+}
+
+class CarriedLiquid : public Effect {
+ public:
+  explicit CarriedLiquid(const Scene& scene)
+      : numbers_(numbers_of(scene)), kernels_(kernels_of(scene, numbers_)), scheme_(scheme_of(scene)) {}
+  void load(World&, const InitialState&) override;
+  void kick(World& world, double dt) override {
+    drifted_ = 0.0;
+    world.step_numbers[kick_length] = dt;
+  }
+  void drift(World& world, double dt) override;
+  void clear(World& world, PassName pass) override {
+    if (pass == PassName::density) fill(world.particles[field::summed_density], kernels_.wendland.value(0.0), world.threads);
+  }
+  void state(World&) override;
+  void bonds(World&) override;
+  void adopt(World& world) override { set_groups(world); }
+  void happen(World& world, const Happening&) override { set_groups(world); }
+  [[nodiscard]] TimeStepBound max_dt(const World&) const override;
+  void add_to(const World&, Ledger&) const override;
+  [[nodiscard]] PairWork pair_work(const Scene&) const override {
+    PairWork work{{pair_term<SummedDensity>}};
+    work.where_it_acts = true;
+    work.kernels = &kernels_;
+    return work;
+  }
+
+ private:
+  void set_material(World&, std::size_t) const;
+  void set_groups(World&) const;
+  void run(World&, const PairTerm&, bool liquids_only) const;
+  void correct_gradients(World&) const;
+  void move_density(World&) const;
+  void set_pressure(World&) const;
+  void set_shift(World&) const;
+  void predict_velocities(World&) const;
+  void set_pull(World&) const;
+  [[nodiscard]] double pressure_of(const World& world, double rho, double rest) const {
+    const double p = numbers_.stiffness * numbers_.reference * (rho / rest - 1.0);
+    return world.scene.clamps() ? std::max(p, 0.0) : p;
+  }
+
+  Numbers numbers_;
+  PairKernels kernels_;
+  Scheme scheme_;
+  double drifted_ = 0.0;  ///< since the last forces, within a step [s]
+};
+
+void CarriedLiquid::set_material(World& world, std::size_t i) const {
+  Particles& p = world.particles;
+  const Material& m = world.material_of(i);
+  const bool liquid = p[field::body][i] < 0;
+  const auto source = static_cast<std::size_t>(p[field::source][i]);
+  p[field::liquid_rest_density][i] = m.density;
+  p[field::impedance][i] = liquid ? std::sqrt(m.density * numbers_.stiffness * numbers_.reference) : 0.0;
+  p[field::liquid_viscosity][i] = liquid ? m.viscosity : 0.0;
+  p[field::slips][i] = !liquid && source < world.scene.bodies.size() && world.scene.bodies[source].free_slip ? 1.0 : 0.0;
+}
+
+void CarriedLiquid::set_groups(World& world) const {
+  const auto group = world.particles[field::group];
+  const auto body = world.particles[field::body];
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    const auto b = static_cast<std::size_t>(body[i]);
+    const bool free = body[i] >= 0 && world.bodies[field::body_motion][b] == static_cast<int>(Motion::free);
+    group[i] = body[i] < 0           ? liquid_group
+               : !is_rigid(world, b) ? deformable_group
+               : free                ? 1.0 + static_cast<double>(b)
+                                     : wall_group;
+  }
+}
+
+void CarriedLiquid::load(World& world, const InitialState&) {
+  Particles& p = world.particles;
+  for (std::size_t i = 0; i < p.size(); ++i) set_material(world, i);
+  set_groups(world);
+  const std::vector<double> pressure = hydrostatic_start(world);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const double share = p[field::body][i] < 0 ? pressure[i] / (numbers_.stiffness * numbers_.reference) : 0.0;
+    p[field::density][i] = p[field::liquid_rest_density][i] * (1.0 + share);
+  }
+}
+
+/// The shift of the last rates acts in this drift.
+void CarriedLiquid::drift(World& world, double dt) {
+  drifted_ = dt;
+  const auto w = triple(std::as_const(world.particles), field::shift_x, field::shift_y, field::shift_z);
+  const auto m = world.particles[field::mass];
+  std::vector<std::array<double, 1>> blocks;
+  const Vec3 g = world.scene.gravity;
+  const auto work =
+      ordered_sums(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) { sum[0] += m[i] * dot(g, w.at(i)); });
+  world.booked[taken_by_shift] += dt * work[0];
+}
+
+/// Sums of a term over the clusters that have a liquid, or over all.
+void CarriedLiquid::run(World& world, const PairTerm& term, bool liquids_only) const {
+  Particles& p = world.particles;
+  const PassFunction pass = pair_passes(world.neighbours->clusters().lanes).alone(term);
+  for (const Field<double>* f : pass.adds()) fill(p[*f], 0.0, world.threads);
+  const Clusters& c = world.neighbours->clusters();
+  const auto z = p[field::impedance];
+  ChosenClusters chosen{c.listed, {}};
+  std::erase_if(chosen.clusters, [&](std::uint32_t k) {
+    if (!liquids_only) return false;
+    for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i)
+      if (z[i] != 0.0) return false;
+    return true;
+  });
+  run_pass_over(pass, p, *world.neighbours, kernels_, world.threads, chosen);
+}
+
+void CarriedLiquid::correct_gradients(World& world) const {
+  Particles& p = world.particles;
+  const auto m =
+      columns<field::moment_xx, field::moment_yy, field::moment_zz, field::moment_yz, field::moment_xz, field::moment_xy>(p);
+  const auto b = columns<field::correction_xx, field::correction_yy, field::correction_zz, field::correction_yz,
+                         field::correction_xz, field::correction_xy>(p);
+  const auto z = p[field::impedance], exposed = p[field::exposed];
+#pragma omp parallel for schedule(static) num_threads(world.threads)
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    Symmetric inverse;
+    exposed[i] = 0.0;
+    if (z[i] != 0.0) {
+      const Symmetric moment = symmetric_at(m, i);
+      inverse = blended_inverse(moment, full_rank, 1.0);
+      exposed[i] = trace(moment) < exposed_below ? 1.0 : 0.0;
+    }
+    const double parts[6] = {inverse.xx, inverse.yy, inverse.zz, inverse.yz, inverse.xz, inverse.xy};
+    for (std::size_t k = 0; k < 6; ++k) b[k][i] = parts[k];
+  }
+}
+
+/// The density at the end of the drift: exact where velocities are linear, since x before = (1 - dt A) x now.
+void CarriedLiquid::move_density(World& world) const {
+  Particles& p = world.particles;
+  const auto n = columns<field::own_moment_xx, field::own_moment_yy, field::own_moment_zz, field::own_moment_yz,
+                         field::own_moment_xz, field::own_moment_xy>(p);
+  const auto a = columns<field::velocity_gradient_xx, field::velocity_gradient_xy, field::velocity_gradient_xz,
+                         field::velocity_gradient_yx, field::velocity_gradient_yy, field::velocity_gradient_yz,
+                         field::velocity_gradient_zx, field::velocity_gradient_zy, field::velocity_gradient_zz>(p);
+  const auto slope = triple(p, field::density_gradient_x, field::density_gradient_y, field::density_gradient_z);
+  const auto w = triple(std::as_const(p), field::shift_x, field::shift_y, field::shift_z);
+  const auto z = p[field::impedance], rho = p[field::density], rest = p[field::liquid_rest_density], mass = p[field::mass],
+             divergence = p[field::divergence], diffused = p[field::diffused], near = p[field::exposed_near],
+             exposed = p[field::exposed], summed = p[field::summed_density];
+  const double h = 0.5 * world.support(), c = numbers_.sound_speed, dt = drifted_;
+  const double diffusion = scheme_.damping == Damping::limited ? scheme_.delta : 2.0 * scheme_.delta * h * c;
+  const double relax = scheme_.relax * c / world.support();
+  std::vector<std::array<double, 1>> blocks;
+  const auto taken = ordered_sums(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
+    if (z[i] == 0.0) return;
+    const Symmetric inverse = blended_inverse(symmetric_at(n, i), own_full_rank, 0.0);
+    const Matrix3 A = Matrix3{a[0][i], a[1][i], a[2][i], a[3][i], a[4][i], a[5][i], a[6][i], a[7][i], a[8][i]} * inverse;
+    const double parts[9] = {A.xx, A.xy, A.xz, A.yx, A.yy, A.yz, A.zx, A.zy, A.zz};
+    for (std::size_t k = 0; k < 9; ++k) a[k][i] = parts[k];
+    slope.set(i, inverse * slope.at(i));
+    if (dt == 0.0) return;
+    const double exact = determinant(identity3 - dt * A) + dt * (A.xx + A.yy + A.zz);  // 1 + terms of higher order
+    const double carried = std::clamp(exact - dt * divergence[i], 0.5, 2.0) * rho[i];
+    const double sum_now = mass[i] * summed[i] / numbers_.lattice.density;
+    double extra = dt * diffusion * diffused[i];
+    if (scheme_.follows) extra += dt * dot(w.at(i), slope.at(i));
+    if (scheme_.tie == Tie::relaxed && ((exposed[i] == 0.0 && near[i] == 0.0) || sum_now > carried))
+      extra += dt * relax * (sum_now - carried);
+    if (scheme_.tie == Tie::summed && drifted_ > 0.0) {
+      const bool open = exposed[i] != 0.0 || near[i] != 0.0;
+      extra += 0.2 * ((open ? std::max(sum_now, rest[i]) : sum_now) - carried);
+    }
+    const double next = std::max(carried + extra, 0.5 * rest[i]);
+    sum[0] += mass[i] * pressure_of(world, carried, rest[i]) / (carried * carried) * (next - carried);
+    rho[i] = next;
+  });
+  world.booked[taken_by_diffusion] -= taken[0];
+}
+
+void CarriedLiquid::set_pressure(World& world) const {
+  Particles& p = world.particles;
+  const auto z = p[field::impedance], rho = p[field::density], rest = p[field::liquid_rest_density],
+             pressure = p[field::pressure], share = p[field::wall_share], out = p[field::wall_pressure];
+#pragma omp parallel for schedule(static) num_threads(world.threads)
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    pressure[i] = z[i] != 0.0 ? pressure_of(world, rho[i], rest[i]) : 0.0;
+    const double stiffness = numbers_.stiffness * numbers_.reference;
+    out[i] = z[i] != 0.0 ? stiffness * std::max(share[i] - inside_wall, 0.0) * rho[i] / rest[i] : 0.0;
+  }
+}
+
+void CarriedLiquid::set_shift(World& world) const {
+  Particles& p = world.particles;
+  const auto w = triple(p, field::shift_x, field::shift_y, field::shift_z);
+  const auto s = triple(std::as_const(p), field::unevenness_x, field::unevenness_y, field::unevenness_z);
+  const auto z = p[field::impedance], near = p[field::exposed_near], exposed = p[field::exposed],
+             speed2 = p[field::nearby_speed2];
+  const double h = 0.5 * world.support();
+#pragma omp parallel for schedule(static) num_threads(world.threads)
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const bool inside = z[i] != 0.0 && exposed[i] == 0.0 && near[i] == 0.0;
+    if (!inside || scheme_.shift == Shift::none) {
+      w.set(i, {});
+      continue;
+    }
+    const Vec3 e = s.at(i);
+    const double size2 = h * h * dot(e, e);
+    if (scheme_.shift == Shift::at_rest) {
+      w.set(i, (-scheme_.strength * numbers_.sound_speed * h * std::min(100.0 * size2, 1.0)) * e);
+    } else {
+      const double u = std::sqrt(speed2[i]), way = scheme_.strength * h * u;
+      const double most = 0.25 * u, length = way * norm(e);
+      w.set(i, (-way * (length > most ? most / length : 1.0)) * e);
+    }
+  }
+}
+
+void CarriedLiquid::predict_velocities(World& world) const {
+  Particles& p = world.particles;
+  const double ahead = world.step_numbers[kick_length];
+  const FreeRows rows = free_rows(world);
+  const FreeLoops loops = free_loops(rows.forces);
+  const auto seen = triple(p, field::predicted_x, field::predicted_y, field::predicted_z);
+  const auto v = velocities(std::as_const(p));
+  const auto body = p[field::body];
+  const RigidMembers is_member(world);
+  const auto of_member = [&](std::size_t i) {
+    const auto b = static_cast<std::size_t>(body[i]);
+    const Vec3 arm = world.unwrapped(i) - world.bodies[field::body_centre][b];
+    seen.set(i,
+             world.bodies[field::body_velocity][b] + ahead * world.bodies[field::body_acceleration][b] +
+                 cross(world.bodies[field::body_angular_velocity][b] + ahead * world.bodies[field::body_angular_acceleration][b],
+                       arm));
+  };
+  const auto of_others = [&](std::size_t from, std::size_t to) {
+    if (ahead != 0.0)
+      loops.predict(rows, {v.x.data(), v.y.data(), v.z.data()}, {seen.x.data(), seen.y.data(), seen.z.data()}, ahead, from, to);
+    else
+      for (std::size_t i = from; i < to; ++i) seen.set(i, v.at(i));
+  };
+  each_block(p.moving(), world.threads,
+             [&](std::size_t from, std::size_t to) { is_member.each_run(from, to, of_member, of_others); });
+}
+
+void CarriedLiquid::set_pull(World& world) const {
+  Particles& p = world.particles;
+  const auto pull = triple(p, field::pull_x, field::pull_y, field::pull_z);
+  const auto group = p[field::group];
+  const auto body = p[field::body];
+  Vec3 g = world.scene.gravity;
+  for (std::size_t a = 0; a < 3; ++a)
+    if (world.scene.periodic[a]) g[a] = 0.0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (group[i] == liquid_group) continue;
+    Vec3 a = g;
+    if (group[i] > wall_group) {
+      const auto b = static_cast<std::size_t>(body[i]);
+      a -= world.bodies[field::body_acceleration][b] +
+           cross(world.bodies[field::body_angular_acceleration][b], world.unwrapped(i) - world.bodies[field::body_centre][b]);
+    }
+    pull.set(i, a);
+  }
+}
+
+void CarriedLiquid::state(World& world) {
+  Particles& p = world.particles;
+  const auto rho = p[field::density], m = p[field::mass], V = p[field::volume];
+  // Moments, rates and forces of one state take the same volumes: those before the step.
+#pragma omp parallel for schedule(static) num_threads(world.threads)
+  for (std::size_t i = 0; i < p.size(); ++i) V[i] = m[i] / rho[i];
+  run(world, pair_term<Moments>, true);
+  correct_gradients(world);
+  run(world, scheme_.gradients, true);
+  move_density(world);
+  set_pressure(world);
+  set_shift(world);
+  predict_velocities(world);
+  set_pull(world);
+  drifted_ = 0.0;
+}
+
+void CarriedLiquid::bonds(World& world) {
+  run(world, scheme_.forces, false);
+  if (scheme_.damping != Damping::residue) return;
+  Particles& p = world.particles;
+  const double scale = scheme_.beta * 0.5 * world.support();
+  for (const Field<double>* f : {&field::residue_force_x, &field::residue_force_y, &field::residue_force_z})
+    for (double& one : p[*f]) one *= scale;
+}
+
+TimeStepBound CarriedLiquid::max_dt(const World& world) const {
+  const auto v = velocities(world.particles);
+  const FreeLoops loops = free_loops(world.forces.size());
+  const double v2 = greatest_of_blocks(world.particles.moving(), world.threads, [&](std::size_t from, std::size_t to) {
+    return loops.greatest_speed2({v.x.data(), v.y.data(), v.z.data()}, from, to);
+  });
+  TimeStepBound bound;
+  tighten(bound, scheme_.courant * world.support() / (numbers_.sound_speed + std::sqrt(v2)), "sound");
+  if (numbers_.greatest_nu > 0.0)
+    tighten(bound, viscous_share * world.scene.spacing * world.scene.spacing / numbers_.greatest_nu, "viscosity");
+  return bound;
+}
+
+/// m e(rho), de = p/rho^2 drho, from the rest density.
+void CarriedLiquid::add_to(const World& world, Ledger& ledger) const {
+  const Particles& p = world.particles;
+  const auto z = p[field::impedance], m = p[field::mass], rho = p[field::density], rest = p[field::liquid_rest_density];
+  std::vector<std::array<double, 1>> blocks;
+  const auto share = p[field::wall_share];
+  const auto sums = ordered_sums(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
+    const double s = rho[i] / rest[i], inside = std::max(share[i] - inside_wall, 0.0);
+    if (z[i] != 0.0) sum[0] += 0.5 * numbers_.stiffness * numbers_.reference * m[i] / rest[i] * inside * inside;
+    if (z[i] == 0.0 || (world.scene.clamps() && s <= 1.0)) return;
+    sum[0] += numbers_.stiffness * numbers_.reference * m[i] / rest[i] * (std::log(s) + 1.0 / s - 1.0);
+  });
+  ledger.energy["compression"] += sums[0];
+  ledger.energy["diffusion"] += world.booked[taken_by_diffusion];
+  ledger.energy["shifting"] += world.booked[taken_by_shift];
+}
+
+std::vector<FieldInfo> owned() {
+  std::vector<FieldInfo> list{field::density, field::volume,  field::pressure, field::group,   field::force_x,
+                              field::force_y, field::force_z, field::shift_x,  field::shift_y, field::shift_z};
+  const auto add = [&](std::span<const Field<double>* const> some) {
+    for (const Field<double>* f : some)
+      if (std::ranges::find(list, FieldInfo(*f)) == list.end()) list.emplace_back(*f);
+  };
+  using AllGradients = Gradients<Pair::own>;
+  using AllForces = Forces<Pair::own, Damping::residue>;
+  add(SummedDensity::adds::list);
+  add(Moments::adds::list);
+  add(AllGradients::adds::list);
+  add(AllForces::adds::list);
+  for (const Field<double>* f : AllForces::reads::list)
+    if (f != &field::velocity_x && f != &field::velocity_y && f != &field::velocity_z) add({{f}});
+  add({{&field::exposed}});
+  return list;
+}
+
+std::vector<Force> forces_of() {
+  Force pressure{field::force_x, field::force_y, field::force_z, {"pressure_work"}, Account{"wall_pressure_work"}};
+  pressure.stored = StoredEnergy{{"compression"}, {"start_compression"}, {}, ""};
+  Force viscous{field::shear_force_x, field::shear_force_y, field::shear_force_z, {"viscous_work"}, Account{"wall_viscous_work"}};
+  viscous.entry = "viscous";
+  Force residue{field::residue_force_x, field::residue_force_y, field::residue_force_z, {"residue_work"}};
+  residue.entry = "residue";
+  return {pressure, viscous, residue};
+}
+
+}  // namespace
+
+EffectSpec spec(const Scene&) {
+  EffectSpec s{
+      "carried_liquid", Mode::corrected, owned(),
+      fields::joined(
+          {fields::position(), fields::velocity(), {field::id, field::mass, field::body, field::material, field::source}})};
+  s.reads_if_there = fields::image();
+  s.sums_forces = true;
+  s.forces = forces_of();
+  s.numerical = {taken_by_diffusion, taken_by_shift};
+  s.step_numbers = {kick_length};
+  s.guards = {{field::density, "density", Written::density}};
+  s.positive = {field::density};
+  s.guarded_entries = {{"viscous", EntryRole::only_takes, "viscous forces, which may only take energy"}};
+  return s;
+}
+
+std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<CarriedLiquid>(scene); }
+
+}  // namespace tripoint::carried_liquid
