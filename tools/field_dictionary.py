@@ -27,7 +27,7 @@ from pathlib import Path
 
 SOURCE = Path(__file__).resolve().parents[1]
 BEGIN, END = "<!-- begin fields -->", "<!-- end fields -->"
-COMPONENT = re.compile(r"(.*)\.(x|y|z|xx|yy|zz|yz|xz|xy)")
+COMPONENT = re.compile(r"(.*)\.(x|y|z|xx|yy|zz|yz|xz|xy|yx|zx|zy)")
 TYPES = {4: "1", 8: "1", 24: "Vec3", 32: "Quaternion"}  # by the bytes of one value
 
 

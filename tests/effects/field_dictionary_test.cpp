@@ -34,7 +34,7 @@ std::string text_of(const fs::path& path) {
 
 /// "position.x" is the component x of "position".
 std::pair<std::string, std::string> split(const std::string& name) {
-  static const std::regex component("(.*)\\.(x|y|z|xx|yy|zz|yz|xz|xy)");
+  static const std::regex component("(.*)\\.(x|y|z|xx|yy|zz|yz|xz|xy|yx|zx|zy)");
   std::smatch found;
   return std::regex_match(name, found, component) ? std::pair{found[1].str(), found[2].str()} : std::pair{name, std::string("1")};
 }

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs schemes of the liquid on scenes with a known answer, and prints a row a run: figures, CPU seconds, steps.
 
-    tools/bakeoff/bakeoff.py --schemes today,adjoint --scenes still,wave [--levels 20] [--out DIR]
+tools/bakeoff/bakeoff.py --schemes today,adjoint --scenes still,wave [--levels 20] [--out DIR]
 """
+
 import argparse
 import json
 import os
@@ -12,7 +13,6 @@ import subprocess
 import sys
 
 import h5py
-import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from scenes import SCENES
@@ -20,13 +20,16 @@ from scenes import SCENES
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("TRIPOINT", str(ROOT / "build/bin/tripoint"))
 BARE = {"scene.core_reach": 0, "scene.surface_weight": 0, "scene.bulk_viscosity": 0}
-SCHEMES = {"adjoint-wide": {"model.pressure": "adjoint", "scene.support_ratio": 3.2},
-           "today": {}, "bare": {**BARE, "scene.support_ratio": 3.2},
-           "adjoint": {"model.pressure": "adjoint", "scene.support_ratio": 2.6},
-           "riemann": {"model.pressure": "reverse_riemann", "scene.support_ratio": 2.6},
-           "mean": {"model.pressure": "mean", "scene.support_ratio": 2.6},
-           "adjoint-limited": {"model.pressure": "adjoint_limited", "scene.support_ratio": 3.2},
-           "reverse": {"model.pressure": "reverse", "scene.support_ratio": 3.2}}
+SCHEMES = {
+    "adjoint-wide": {"model.pressure": "adjoint", "scene.support_ratio": 3.2},
+    "today": {},
+    "bare": {**BARE, "scene.support_ratio": 3.2},
+    "adjoint": {"model.pressure": "adjoint", "scene.support_ratio": 2.6},
+    "riemann": {"model.pressure": "reverse_riemann", "scene.support_ratio": 2.6},
+    "mean": {"model.pressure": "mean", "scene.support_ratio": 2.6},
+    "adjoint-limited": {"model.pressure": "adjoint_limited", "scene.support_ratio": 3.2},
+    "reverse": {"model.pressure": "reverse", "scene.support_ratio": 3.2},
+}
 
 
 class Run:
@@ -69,8 +72,12 @@ class Run:
         return float(self.file["particles/bodies/mass/value"][frame, self.row_of(name)])
 
     def gained(self):
-        """Greatest rise of kinetic, potential and compression energy above the start, over the kinetic or the spread of potential."""
-        E = sum(self.file[f"observables/energy_{t}/value"][:] for t in ("kinetic", "potential", "compression") if f"observables/energy_{t}" in self.file)
+        """Greatest rise of energy above the start, over the kinetic energy or the spread of the potential one."""
+        E = sum(
+            self.file[f"observables/energy_{t}/value"][:]
+            for t in ("kinetic", "potential", "compression")
+            if f"observables/energy_{t}" in self.file
+        )
         K = self.file["observables/energy_kinetic/value"][:]
         return float((E.max() - E[0]) / max(K.max(), 1e-300))
 

@@ -35,6 +35,7 @@ EffectRule rule() {
           .left_out = left_out,
           .terms_shared = {term::pressure, term::density, term::state, term::clamp, term::viscosity},
           .forms = forms(),
+          .scene_keys_shared = {"clamp"},
           .ledger_entries = {{"compression"},
                              {"viscous"},
                              {"residue", "work that the viscosity of the residue took"},
