@@ -17,6 +17,8 @@ enum class Pair : int {
 /// What takes noise out of velocities: what linear reconstruction leaves of a pair, the same where it approaches and limited, or
 /// the whole approach, limited [Zhang, Hu, Adams 2017].
 enum class Damping : int { residue, limited_residue, limited };
+inline constexpr std::array<std::string_view, 4> pair_words{"own", "mean", "reverse", "reverse plain"};
+inline constexpr std::array<std::string_view, 3> damping_words{" residue", " limited residue", " limited"};
 
 template <class V>
 struct Way {
@@ -64,6 +66,7 @@ template <class V>
 
 /// Kernel sum of the number density.
 struct SummedDensity {
+  static constexpr std::string_view name = "SummedDensity";
   static constexpr bool zero_beyond = true;
   using reads = Keys<>;
   using adds = Keys<field::summed_density>;
@@ -75,6 +78,7 @@ struct SummedDensity {
 
 /// Moments sum V d (x) G: of all neighbours, where a solid counts once, and of those of the same liquid.
 struct Moments {
+  static constexpr std::string_view name = "CarriedMoments";
   static constexpr bool zero_beyond = true;
   using reads = Keys<field::volume, field::impedance, field::liquid_rest_density>;
   using adds = Keys<field::moment_xx, field::moment_yy, field::moment_zz, field::moment_yz, field::moment_xz, field::moment_xy,
@@ -95,6 +99,8 @@ struct Moments {
 /// sum V_j (X + Y), and the greatest velocity difference.
 template <Pair form>
 struct Gradients {
+  static constexpr std::string_view first = "CarriedGradients ", second = pair_words[static_cast<std::size_t>(form)];
+  static constexpr std::string_view name = JoinedName<first, second>::value;
   static constexpr bool zero_beyond = true;
   using reads = Keys<field::volume, field::impedance, field::liquid_rest_density, field::density, field::velocity_x,
                      field::velocity_y, field::velocity_z, field::correction_xx, field::correction_yy, field::correction_zz,
@@ -111,12 +117,22 @@ struct Gradients {
     const V vx = j[4] - i[4], vy = j[5] - i[5], vz = j[6] - i[6];
     const V same = where<V>((rest_i == rest_j) & (z_j != 0.0), f);
     const V gx = same * g.dx, gy = same * g.dy, gz = same * g.dz, jump = rho_j - rho_i;
-    sum[0] += vx * gx, sum[1] += vx * gy, sum[2] += vx * gz;
-    sum[3] += vy * gx, sum[4] += vy * gy, sum[5] += vy * gz;
-    sum[6] += vz * gx, sum[7] += vz * gy, sum[8] += vz * gz;
-    sum[9] += jump * gx, sum[10] += jump * gy, sum[11] += jump * gz;
+    sum[0] += vx * gx;
+    sum[1] += vx * gy;
+    sum[2] += vx * gz;
+    sum[3] += vy * gx;
+    sum[4] += vy * gy;
+    sum[5] += vy * gz;
+    sum[6] += vz * gx;
+    sum[7] += vz * gy;
+    sum[8] += vz * gz;
+    sum[9] += jump * gx;
+    sum[10] += jump * gy;
+    sum[11] += jump * gz;
     const auto [X, Y] = sides<form, V>(corrected<V>(i, 7, g), corrected<V>(j, 7, g), z_i, z_j);
-    sum[12] += f * (X.x + Y.x), sum[13] += f * (X.y + Y.y), sum[14] += f * (X.z + Y.z);
+    sum[12] += f * (X.x + Y.x);
+    sum[13] += f * (X.y + Y.y);
+    sum[14] += f * (X.z + Y.z);
     const V close = where<V>(g.within, j[13]), speed2 = where<V>(g.within & (z_j != 0.0), vx * vx + vy * vy + vz * vz);
     sum[15] = close > sum[15] ? close : sum[15];
     sum[16] = speed2 > sum[16] ? speed2 : sum[16];
@@ -130,6 +146,9 @@ struct Gradients {
 /// Forces of pressure, of viscosity and of the damping, and the diffusion of density. A solid feels the opposite of what it does.
 template <Pair form, Damping damping>
 struct Forces {
+  static constexpr std::string_view first = "CarriedForces ", second = pair_words[static_cast<std::size_t>(form)],
+                                    third = damping_words[static_cast<std::size_t>(damping)];
+  static constexpr std::string_view name = JoinedName<first, second, third>::value;
   static constexpr bool zero_beyond = true;
   using reads =
       Keys<field::volume, field::impedance, field::liquid_rest_density, field::density, field::pressure, field::liquid_viscosity,
@@ -163,7 +182,9 @@ struct Forces {
     if (any(mu != none)) {
       const V along = ((j[31] - i[31]) * g.dx + (j[32] - i[32]) * g.dy + (j[33] - i[33]) * g.dz) * g.per_r2;
       const V k = (10.0 * g.kernels.per_gradient_moment) * (ff * mu) * along;
-      sum[3] += k * g.dx, sum[4] += k * g.dy, sum[5] += k * g.dz;
+      sum[3] += k * g.dx;
+      sum[4] += k * g.dy;
+      sum[5] += k * g.dz;
     }
     // damping
     const V vx = j[13] - i[13], vy = j[14] - i[14], vz = j[15] - i[15];
@@ -183,7 +204,9 @@ struct Forces {
       const V u = g.r * (parting > left ? -parting : -left), mach = 3.0 * u * (i[2] + j[2]) / (z_i + z_j + 1e-300);
       k = where<V>(u > 0.0, -(ff * z) * u * (mach < 1.0 ? mach : every_lane<V>(1.0)));
     }
-    sum[6] += k * g.dx, sum[7] += k * g.dy, sum[8] += k * g.dz;
+    sum[6] += k * g.dx;
+    sum[7] += k * g.dy;
+    sum[8] += k * g.dz;
     // diffusion of density
     if constexpr (damping == Damping::limited) {
       sum[9] += where<V>(liquids, (2.0 * j[0]) * i[3] * (j[4] - i[4]) * f * g.r / (z_i + z_j + 1e-300));
