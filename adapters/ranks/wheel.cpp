@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "assembly/scene_passes.hpp"
+#include "assembly/all_effects.hpp"
 #include "core/errors.hpp"
 #include "particles/rank_grid.hpp"
 

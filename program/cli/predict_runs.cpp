@@ -9,8 +9,8 @@
 #include <future>
 #include <mutex>
 
+#include "assembly/all_effects.hpp"
 #include "assembly/plan.hpp"
-#include "assembly/scene_passes.hpp"
 #include "core/errors.hpp"
 #include "program/cli/common.hpp"
 #include "scene/effect_rule.hpp"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "pairs/scene_passes.hpp"
 #include "scene/effect_rule.hpp"
 #include "world/body_table.hpp"
 
@@ -209,6 +210,20 @@ Plan plan(const Scene& scene) {
     for (const FieldInfo& f : a.spec.owns) add(f, a.name);
   }
   return p;
+}
+
+std::vector<EffectPairWork> pair_work(const Scene& scene, const std::vector<Active>& effects) {
+  std::vector<EffectPairWork> all;
+  for (const Active& a : effects) all.push_back({a.effect->pair_work(scene), a.declared, a.spec.skips_sleeping});
+  return all;
+}
+
+std::vector<char> idle_particles(const Scene& scene, const InitialState& initial) {
+  const std::vector<Active> effects = active_effects(scene);
+  if (Passes(scene, pair_work(scene, effects), 1).works_on_all()) return {};
+  std::vector<char> idle;
+  for (const int source : initial.source) idle.push_back(scene.bodies[static_cast<std::size_t>(source)].motion == Motion::fixed);
+  return idle;
 }
 
 void declare(World& world, const std::vector<Active>& effects) {

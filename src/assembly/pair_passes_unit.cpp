@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "all_pair_slots.hpp"  // made by the build: effects/NAME/pair_slots.hpp of every effect that has one
-#include "passes/pair_passes.hpp"
-#include "sph/pair_slots.hpp"
+#include "pairs/pair_passes.hpp"
+#include "pairs/pair_slots.hpp"
 
 #ifndef TRIPOINT_EFFECT_LIST
 #define TRIPOINT_EFFECT_LIST "effects/effect_list.inc"

@@ -16,7 +16,7 @@ struct PairTerm {
   constexpr bool operator==(const PairTerm& other) const noexcept { return key == other.key; }
 };
 
-/// The term T, a struct with `name`, `reads`, `adds` and `pair` (sph/pass.hpp). No other term has its name.
+/// The term T, a struct with `name`, `reads`, `adds` and `pair` (pairs/pass.hpp). No other term has its name.
 template <class T>
 inline constexpr PairTerm pair_term{T::name};
 

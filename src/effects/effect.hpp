@@ -7,15 +7,13 @@
 #include <string_view>
 #include <vector>
 
-#include "core/pair_term.hpp"
+#include "pairs/pair_work.hpp"
 #include "scene/initial_state.hpp"
 #include "world/field_groups.hpp"
 #include "world/world.hpp"
 
 /// An effect: a part of physics that a scene calls for. Effects do not know each other; they meet in fields.
 namespace tripoint {
-
-struct PairKernels;
 
 /// The columns that an effect owns and those that it reads of others. The effect is given no other column (declared_view.hpp).
 struct EffectSpec {
@@ -57,20 +55,6 @@ inline constexpr double courant_of_acceleration = 0.25;
 [[nodiscard]] inline double acceleration_step(double support, double acceleration) noexcept {
   return courant_of_acceleration * std::sqrt(support / acceleration);
 }
-
-/// Work that an effect asks of the fused passes in a scene: the terms that it needs, of those that its pair_slots.hpp has
-/// compiled.
-struct PairWork {
-  std::vector<PairTerm> terms{};         ///< that the passes of density and rates sum
-  bool where_it_acts = false;            ///< its terms add nothing to pairs that do not act on each other (Clusters::acting)
-  bool leaves_own_pairs = false;         ///< its density leaves own pairs out
-  bool again = false;                    ///< its rates are computed a second time in each step, without those of others
-  const PairKernels* kernels = nullptr;  ///< the kernels that all terms of the scene use; at most one effect may set them
-  double awake_around = 0.0;             ///< how far around what something can reach its sums read fixed particles [m]
-};
-
-/// again: the rates at the predicted state, of those effects alone that have a second stage.
-enum class PassName { density, rates, again };
 
 /// An event of the scene as it begins or, where it lasts, ends.
 struct Happening {

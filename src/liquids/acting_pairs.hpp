@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "pairs/pass.hpp"
 #include "particles/catalogue.hpp"
-#include "sph/pass.hpp"
 
 namespace tripoint {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "assembly/all_effects.hpp"
-#include "assembly/scene_passes.hpp"
 #include "core/errors.hpp"
+#include "pairs/scene_passes.hpp"
 #include "particles/rank_grid.hpp"
 
 namespace tripoint {

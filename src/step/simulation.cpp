@@ -8,7 +8,9 @@
 namespace tripoint {
 
 Simulation::Simulation(const Scene& scene, const InitialState& initial, const SimulationOptions& options)
-    : options_(options), effects_(active_effects(scene)), passes_(scene, effects_, options.lanes, options.sums_all) {
+    : options_(options),
+      effects_(active_effects(scene)),
+      passes_(scene, pair_work(scene, effects_), options.lanes, options.sums_all) {
   set_up(scene, initial);
   if (scene.recovers) start_ = initial;
   form_rates();
@@ -22,7 +24,9 @@ Simulation::Simulation(const Scene& scene, const InitialState& initial, const Si
 
 Simulation::Simulation(const Scene& scene, const InitialState& initial, const SimulationOptions& options,
                        const Checkpoint& checkpoint)
-    : options_(options), effects_(active_effects(scene)), passes_(scene, effects_, options.lanes, options.sums_all) {
+    : options_(options),
+      effects_(active_effects(scene)),
+      passes_(scene, pair_work(scene, effects_), options.lanes, options.sums_all) {
   set_up(scene, initial);
   if (scene.recovers) {
     start_ = initial;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "assembly/all_effects.hpp"
-#include "assembly/scene_passes.hpp"
 #include "core/checkpoint.hpp"
+#include "pairs/scene_passes.hpp"
 #include "scene/initial_state.hpp"
 #include "step/guard.hpp"
 #include "step/recovery.hpp"

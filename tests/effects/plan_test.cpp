@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "assembly/scene_passes.hpp"
 #include "core/errors.hpp"
 #include "effects/lab.hpp"
+#include "pairs/scene_passes.hpp"
 
 namespace tripoint {
 namespace {
@@ -68,12 +68,12 @@ TEST(Plan, ListsExactlyTheColumnsThatTheRunHas) {
 TEST(Passes, RefuseAPairTermThatReadsAFieldWhichItsEffectDoesNotDeclare) {
   const lab::Lab lab = warm(Mode::corrected);
   std::vector<Active> effects = active_effects(lab.scene);
-  EXPECT_NO_THROW(Passes(lab.scene, effects, 1));
+  EXPECT_NO_THROW(Passes(lab.scene, pair_work(lab.scene, effects), 1));
   const auto heat = std::ranges::find(effects, "heat", &Active::name);
   ASSERT_NE(heat, effects.end());
   std::erase(heat->declared.keys, field::temperature.key);
   try {
-    const Passes passes(lab.scene, effects, 1);
+    const Passes passes(lab.scene, pair_work(lab.scene, effects), 1);
     ADD_FAILURE() << "it was accepted";
   } catch (const InputError& e) {
     EXPECT_STREQ(e.what(),

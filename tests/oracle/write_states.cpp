@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "files/scene_json.hpp"
-#include "passes/pair_passes.hpp"
+#include "pairs/pair_passes.hpp"
 #include "scene/sample.hpp"
 #include "step/simulation.hpp"
 #include "validation/case/read_case.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "effects/carried_liquid/fields.hpp"
-#include "sph/pass.hpp"
+#include "pairs/pass.hpp"
 
 /// Pair terms of the liquid that carries its density. G = grad_i W = (-W'/r) d, d = r_j - r_i.
 namespace tripoint::carried_liquid {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "effects/density/density_terms.hpp"
-#include "sph/pair_slots.hpp"
+#include "pairs/pair_slots.hpp"
 
 namespace tripoint::density {
 

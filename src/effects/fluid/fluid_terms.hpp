@@ -4,7 +4,7 @@
 
 #include "liquids/acting_pairs.hpp"
 #include "liquids/fields.hpp"
-#include "sph/pass.hpp"
+#include "pairs/pass.hpp"
 
 /// Pair terms of liquids, and of everything that touches: pressure and viscosity, printed and corrected.
 /// d = r_j - r_i, so that grad_i W = -(W'/r) d.

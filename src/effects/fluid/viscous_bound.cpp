@@ -8,8 +8,8 @@
 
 #include "effects/fluid/viscous_form.hpp"
 #include "liquids/fields.hpp"
-#include "passes/pair_passes.hpp"
-#include "passes/run_pass.hpp"
+#include "pairs/pair_passes.hpp"
+#include "pairs/run_pass.hpp"
 #include "sph/moments.hpp"
 #include "world/fill.hpp"
 

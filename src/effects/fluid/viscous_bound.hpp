@@ -2,7 +2,7 @@
 #pragma once
 #include <limits>
 
-#include "sph/pass.hpp"
+#include "pairs/pass.hpp"
 #include "world/step_numbers.hpp"
 #include "world/world.hpp"
 

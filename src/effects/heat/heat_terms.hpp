@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "effects/heat/fields.hpp"
-#include "sph/pass.hpp"
+#include "pairs/pass.hpp"
 
 namespace tripoint {
 

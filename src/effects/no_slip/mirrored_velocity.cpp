@@ -6,7 +6,7 @@
 #include "effects/no_slip/wall_terms.hpp"
 #include "liquids/fields.hpp"
 #include "liquids/fixed_walls.hpp"
-#include "passes/pair_passes.hpp"
+#include "pairs/pair_passes.hpp"
 #include "world/fill.hpp"
 
 namespace tripoint::no_slip {

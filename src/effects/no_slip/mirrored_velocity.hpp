@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "passes/run_pass.hpp"
+#include "pairs/run_pass.hpp"
 #include "sph/kernels.hpp"
 #include "world/world.hpp"
 

@@ -5,8 +5,8 @@
 
 #include "effects/transport/transport_terms.hpp"
 #include "liquids/fields.hpp"
-#include "passes/pair_passes.hpp"
-#include "passes/run_pass.hpp"
+#include "pairs/pair_passes.hpp"
+#include "pairs/run_pass.hpp"
 #include "scene/shared_terms.hpp"
 #include "world/fill.hpp"
 

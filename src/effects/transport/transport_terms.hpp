@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "liquids/fields.hpp"
-#include "sph/pass.hpp"
+#include "pairs/pass.hpp"
 
 namespace tripoint {
 

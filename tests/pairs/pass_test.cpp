@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sph/pass.hpp"
+#include "pairs/pass.hpp"
 #include "effects/heat/fields.hpp"
 
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <random>
 
-#include "passes/run_pass.hpp"
+#include "pairs/run_pass.hpp"
 
 namespace tripoint {
 namespace {

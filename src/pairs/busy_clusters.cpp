@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "passes/busy_clusters.hpp"
+#include "pairs/busy_clusters.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -7,8 +7,8 @@
 #include <iterator>
 #include <numeric>
 
+#include "pairs/run_pass.hpp"
 #include "particles/rank_grid.hpp"
-#include "passes/run_pass.hpp"
 #include "world/body_table.hpp"
 
 namespace tripoint {

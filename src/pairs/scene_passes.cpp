@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "assembly/scene_passes.hpp"
+#include "pairs/scene_passes.hpp"
 
 #include <algorithm>
 
+#include "pairs/busy_clusters.hpp"
+#include "pairs/pair_passes.hpp"
+#include "pairs/run_pass.hpp"
 #include "particles/rank_grid.hpp"
-#include "passes/busy_clusters.hpp"
-#include "passes/pair_passes.hpp"
-#include "passes/run_pass.hpp"
 
 namespace tripoint {
 namespace {
@@ -32,25 +32,24 @@ struct AllWork {
 };
 
 /// @throws InputError where a pair term of an effect reads or adds to a field that the effect has not declared
-void refuse_undeclared(const Active& a, const PassFunction& pass) {
+void refuse_undeclared(const DeclaredFields& declared, const PassFunction& pass) {
   for (const Field<double>* f : pass.fields) {
-    if (!std::ranges::binary_search(a.declared.keys, f->key))
-      throw InputError("a pair term of the effect " + a.name + " reads or adds to the field " + std::string(f->name) +
-                       ", which the effect does not declare");
+    if (!std::ranges::binary_search(declared.keys, f->key))
+      throw InputError("a pair term of the effect " + std::string(declared.who) + " reads or adds to the field " +
+                       std::string(f->name) + ", which the effect does not declare");
   }
 }
 
 /// @throws InputError where an effect asks for a term that no pass has, or for one that uses a field without declaring it
-AllWork work_of(const Scene& scene, const std::vector<Active>& effects) {
+AllWork work_of(const std::vector<EffectPairWork>& effects) {
   const PairPasses passes = pair_passes(1);
   AllWork all;
-  for (const Active& a : effects) {
-    const PairWork work = a.effect->pair_work(scene);
+  for (const auto& [work, declared, skips] : effects) {
     const PassFunction density = passes.density(work.terms), rates = passes.rates(work.terms);
     if (density.terms + rates.terms != work.terms.size())
-      throw InputError("the effect " + a.name + " asks for pair terms that its pair_slots.hpp does not bring");
-    refuse_undeclared(a, density);
-    refuse_undeclared(a, rates);
+      throw InputError("the effect " + std::string(declared.who) + " asks for pair terms that its pair_slots.hpp does not bring");
+    refuse_undeclared(declared, density);
+    refuse_undeclared(declared, rates);
     all.add(work);
   }
   all.meets_all = all.meets_all || !all.any_acts;
@@ -58,8 +57,8 @@ AllWork work_of(const Scene& scene, const std::vector<Active>& effects) {
 }
 
 /// Fixed particles may sleep where every effect of the scene skips those that do, and no term works on every pair.
-std::optional<double> sleeps_beyond(const AllWork& work, const std::vector<Active>& effects) {
-  const bool all_skip = std::ranges::all_of(effects, [](const Active& a) { return a.spec.skips_sleeping; });
+std::optional<double> sleeps_beyond(const AllWork& work, const std::vector<EffectPairWork>& effects) {
+  const bool all_skip = std::ranges::all_of(effects, &EffectPairWork::skips_sleeping);
   return work.meets_all || !all_skip ? std::nullopt : std::optional(work.awake_around);
 }
 
@@ -75,8 +74,8 @@ struct Passes::Impl {
   BusyClusters busy{};
 };
 
-Passes::Passes(const Scene& scene, const std::vector<Active>& effects, int lanes, bool sums_all) {
-  const AllWork work = work_of(scene, effects);
+Passes::Passes(const Scene& scene, const std::vector<EffectPairWork>& effects, int lanes, bool sums_all) {
+  const AllWork work = work_of(effects);
   const PairKernels kernels = work.kernels ? *work.kernels : PairKernels(scene.support_ratio * scene.spacing);
   if (lanes == 0) lanes = work.terms.empty() ? 1 : best_lanes();
   const PairPasses passes = pair_passes(lanes);
@@ -97,13 +96,6 @@ std::optional<double> Passes::sleeps_beyond() const { return impl_->sleeps_beyon
 void Passes::drop_clusters() { impl_->busy.drop_clusters(); }
 
 bool Passes::works_on_all() const { return impl_->meets_all; }
-
-std::vector<char> idle_particles(const Scene& scene, const InitialState& initial) {
-  if (Passes(scene, active_effects(scene), 1).works_on_all()) return {};
-  std::vector<char> idle;
-  for (const int source : initial.source) idle.push_back(scene.bodies[static_cast<std::size_t>(source)].motion == Motion::fixed);
-  return idle;
-}
 
 std::vector<double> Passes::cost_at_start(const World& world) const {
   const std::vector<char> fixed = fixed_rows(world, world.particles.size());

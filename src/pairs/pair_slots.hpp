@@ -3,7 +3,7 @@
 #include <array>
 #include <type_traits>
 
-#include "sph/pass.hpp"
+#include "pairs/pass.hpp"
 
 /// The slots of the fused passes, put together from those of each effect. An effect with pair terms has a header
 /// effects/NAME/pair_slots.hpp with a type NAME::PairSlots. The type has any of these aliases:

@@ -20,7 +20,7 @@
 
 /// The fused pair pass. A pair term names the fields that it reads of i and j, those that it adds to i, and the formula. A pass
 /// fuses the terms of its slots at compile time, for whole vectors of particles i against one neighbour j at a time. A scene
-/// picks one of the combinations at run time (passes/run_pass.hpp).
+/// picks one of the combinations at run time (pairs/run_pass.hpp).
 namespace tripoint {
 
 template <const auto&... fields>

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "passes/run_pass.hpp"
-#include "sph/pass.hpp"
+#include "pairs/pass.hpp"
+#include "pairs/run_pass.hpp"
 #include "world/world.hpp"
 
 namespace tripoint {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "passes/run_pass.hpp"
+#include "pairs/run_pass.hpp"
 
 #include <cassert>
 

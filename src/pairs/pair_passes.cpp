@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "passes/pair_passes.hpp"
+#include "pairs/pair_passes.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -8,9 +8,9 @@
 
 #include "core/errors.hpp"
 #include "core/machine.hpp"
+#include "pairs/run_pass.hpp"
 #include "particles/catalogue.hpp"
 #include "particles/neighbours.hpp"
-#include "passes/run_pass.hpp"
 
 namespace tripoint {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "passes/pair_passes.hpp"
+#include "pairs/pair_passes.hpp"
 #include "effects/heat/fields.hpp"
 #include "liquids/fields.hpp"
 
@@ -15,7 +15,7 @@
 #include "effects/heat/pair_slots.hpp"
 #include "effects/no_slip/pair_slots.hpp"
 #include "effects/transport/pair_slots.hpp"
-#include "passes/run_pass.hpp"
+#include "pairs/run_pass.hpp"
 
 namespace tripoint {
 namespace {
@@ -94,16 +94,16 @@ TEST(PairPasses, SumTheTermsThatAreWantedAndNoOthers) {
 
 /// The slots of two effects that share a form are one; all others follow each other.
 TEST(PairPasses, ArePutTogetherFromTheSlotsOfEffects) {
-  struct First {
+  struct FirstEffect {
     using density = SlotList<Slot<DensityPaper, NumberDensity>>;
     using alone = Together<TransportForces>;
   };
   struct Nothing;
-  struct Second {
+  struct SecondEffect {
     using density = SlotList<Slot<DensityPaper>, Slot<HeatMoment>>;
     using rates = SlotList<Slot<HeatFlowPaper>>;
   };
-  using All = PassesOf<First, Nothing, Second, void>;
+  using All = PassesOf<FirstEffect, Nothing, SecondEffect, void>;
   static_assert(std::is_same_v<All::Density, FindingPass<Slot<DensityPaper, NumberDensity>, Slot<HeatMoment>>>);
   static_assert(std::is_same_v<All::Rates, Pass<Slot<HeatFlowPaper>>>);
   static_assert(std::is_same_v<All::Alone, Together<TransportForces>>);

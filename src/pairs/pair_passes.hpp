@@ -2,12 +2,12 @@
 #pragma once
 #include <span>
 
-#include "sph/pass.hpp"
+#include "pairs/pass.hpp"
 
 namespace tripoint {
 
-/// Every pass that effects have brought slots for (sph/pair_slots.hpp), as one vector unit has them. A pass sums the wanted terms
-/// that it has.
+/// Every pass that effects have brought slots for (pairs/pair_slots.hpp), as one vector unit has them. A pass sums the wanted
+/// terms that it has.
 struct PairPasses {
   PassFunction (*density)(std::span<const PairTerm> wanted);
   PassFunction (*rates)(std::span<const PairTerm> wanted);

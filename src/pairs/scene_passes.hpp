@@ -4,7 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "assembly/all_effects.hpp"
+#include "pairs/pair_work.hpp"
+#include "world/world.hpp"
 
 namespace tripoint {
 
@@ -13,7 +14,7 @@ class Passes {
  public:
   /// @param lanes particles of a cluster, 0 = the fastest number here: measured only where a pass works on any pair
   /// @param sums_all whether clusters in which nothing meets are summed over too
-  Passes(const Scene&, const std::vector<Active>&, int lanes, bool sums_all = false);
+  Passes(const Scene&, const std::vector<EffectPairWork>&, int lanes, bool sums_all = false);
   ~Passes();
   Passes(Passes&&) noexcept;
   Passes& operator=(Passes&&) noexcept;
@@ -36,8 +37,5 @@ class Passes {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// By particle, 1 where its body never moves and pairs among such have no work (ParticleCost); empty: all pairs have work.
-[[nodiscard]] std::vector<char> idle_particles(const Scene&, const InitialState&);
 
 }  // namespace tripoint

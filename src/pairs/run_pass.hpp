@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "pairs/pass.hpp"
 #include "particles/neighbours.hpp"
 #include "particles/particles.hpp"
-#include "sph/pass.hpp"
 
 namespace tripoint {
 

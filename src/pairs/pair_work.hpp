@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <vector>
+
+#include "core/pair_term.hpp"
+#include "particles/columns.hpp"
+
+namespace tripoint {
+
+struct PairKernels;
+
+/// Work that an effect asks of the fused passes in a scene: the terms that it needs, of those that its pair_slots.hpp has
+/// compiled.
+struct PairWork {
+  std::vector<PairTerm> terms{};         ///< that the passes of density and rates sum
+  bool where_it_acts = false;            ///< its terms add nothing to pairs that do not act on each other (Clusters::acting)
+  bool leaves_own_pairs = false;         ///< its density leaves own pairs out
+  bool again = false;                    ///< its rates are computed a second time in each step, without those of others
+  const PairKernels* kernels = nullptr;  ///< the kernels that all terms of the scene use; at most one effect may set them
+  double awake_around = 0.0;             ///< how far around what something can reach its sums read fixed particles [m]
+};
+
+/// The work of one effect of a scene.
+struct EffectPairWork {
+  PairWork work;
+  DeclaredFields declared;  ///< by the effect: its terms may use no other
+  bool skips_sleeping;      ///< EffectSpec::skips_sleeping
+};
+
+/// again: the rates at the predicted state, of those effects alone that have a second stage.
+enum class PassName { density, rates, again };
+
+}  // namespace tripoint
