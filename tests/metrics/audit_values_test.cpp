@@ -104,5 +104,36 @@ TEST(Angle, ToAZeroQuaternionIsNoNumber) {
   EXPECT_EQ(angle_between({-1, 0, 0, 0}, {}), 0.0);
 }
 
+/// The sums that an engine states of a flight, from its particles.
+void state_sums(Snapshot& s) {
+  for (std::size_t i = 0; i < s.position.size(); ++i) {
+    const Vec3 p = s.mass[i] * s.velocity[i];
+    s.total_mass += s.mass[i];
+    s.momentum += p;
+    s.angular_momentum += cross(s.position[i], p);
+    s.energy["kinetic"] += 0.5 * dot(s.velocity[i], p);
+  }
+}
+
+TEST(AuditOfSums, TheSumsThatARunStatesAreThoseOfItsParticles) {
+  using Change = std::function<void(Snapshot&)>;
+  for (const auto& [words, change] : {
+           std::pair<std::string, Change>{"", [](Snapshot&) {}},
+           {"`mass`", [](Snapshot& s) { s.total_mass = -s.total_mass; }},
+           {"`momentum.x`", [](Snapshot& s) { s.momentum.x *= 1.001; }},
+           {"`angular_momentum.y`", [](Snapshot& s) { s.angular_momentum.y = s.momentum.z; }},
+           {"`energy_kinetic`", [](Snapshot& s) { s.energy["kinetic"] *= 1.001; }},
+       }) {
+    Trial t(thrown_block(), "ballistic");
+    for (auto& frame : t.run.frames) state_sums(frame);
+    change(t.run.frames.at(5));
+    const auto why = t.sound();
+    EXPECT_EQ(why.empty(), words.empty()) << why;
+    EXPECT_NE(why.find(words), std::string::npos) << why;
+  }
+}
+
+TEST(AuditOfSums, ARunWithoutSumsIsLetAlone) { EXPECT_EQ(Trial(thrown_block(), "ballistic").sound(), ""); }
+
 }  // namespace
 }  // namespace tripoint

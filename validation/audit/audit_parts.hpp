@@ -46,6 +46,8 @@ struct Audited {
 [[nodiscard]] std::string turns_against_its_spin(const Audited&);
 /// A gauge that says something else than the particles of the same run.
 [[nodiscard]] std::string gauges_against_particles(const Audited&);
+/// Sums that the engine states (mass, momentum, angular momentum, kinetic energy) and the same of its particles.
+[[nodiscard]] std::string sums_against_particles(const Audited&);
 
 /// A number for a message, to six digits.
 template <class T>
