@@ -121,24 +121,7 @@ def first_metric(case):
 
 
 def ladder_of(case, engine, mode, axis, metric, formal):
-    levels, failed = {}, []
-    for run in engine.runs:
-        level = number(run.levels.get(axis))
-        if run.mode != mode or not is_number(level):
-            continue
-        value = run.metrics.get(metric)
-        cost = number(run.cost.get("cpu_s"))
-        if run.status != "ok" or value is None or not is_number(value.value):
-            failed.append(f"{level:.4g}: {run.reason or run.status}")
-        elif is_number(cost) and cost > 0:
-            levels.setdefault(level, []).append(
-                (
-                    abs(value.value) + 2.0 * (value.u or 0.0),
-                    cost,
-                    number(run.cost.get("pairs")) or 0.0,
-                    run.knob("time_step") or 0.0,
-                )
-            )
+    levels, failed = levels_of(engine, mode, axis, metric)
     if len(levels) + len(failed) < 2:
         return None
     upward = axis in ("walkers", "iterations", "support_ratio")
@@ -151,34 +134,53 @@ def ladder_of(case, engine, mode, axis, metric, formal):
     return ladder
 
 
+def levels_of(engine, mode, axis, metric):
+    """({level: [(error, CPU seconds, pairs, time step)]}, what each level says that gave no error)"""
+    levels, failed = {}, []
+    for run in engine.runs:
+        level, value = number(run.levels.get(axis)), run.metrics.get(metric)
+        if run.mode != mode or not is_number(level):
+            continue
+        cost = number(run.cost.get("cpu_s"))
+        if run.status != "ok" or value is None or not is_number(value.value):
+            failed.append(f"{level:.4g}: {run.reason or run.status}")
+        elif is_number(cost) and cost > 0:
+            error = abs(value.value) + 2.0 * (value.u or 0.0)
+            point = (error, cost, number(run.cost.get("pairs")) or 0.0, run.knob("time_step") or 0.0)
+            levels.setdefault(level, []).append(point)
+    return levels, failed
+
+
 def settle(ladder, points, formal):
     """Slopes, or why there are none."""
     points = [point for point in points if point[1] > 0]
-    orders = [
-        order
-        for order in ladder.engine.orders
-        if (order.metric, order.axis, order.mode) == (ladder.metric, ladder.axis, ladder.mode)
-    ]
     if len(points) < 2:
         ladder.why = "fewer than two levels gave an error above 0"
         return
     ladder.theory = theory(ladder.axis, points, formal)
     coarse, fine = apart(points)
-    left = GAIN ** min(1.0, math.log2(ratio(coarse, fine)))
-    if fine[1] > left * coarse[1] or any(order.fit_class == "plateau" for order in orders):
-        ladder.why = "finer levels buy no accuracy here" + (
-            ": the error has a floor" if orders and orders[0].fit_class == "plateau" else ""
-        )
-    elif fine[2] < 1.2 * coarse[2]:
-        ladder.why = "cost is that of starting the program: too short to say"
-    elif floor_of(ladder.case) and fine[2] <= floor_of(ladder.case) * coarse[2]:
-        ladder.why = (
-            f"not resolved: the two levels cost the same within the noise floor, a factor {floor_of(ladder.case):.3g}"
-        )
-    else:
+    ladder.why = why_no_slope(ladder, coarse, fine)
+    if not ladder.why:
         ladder.slope = slope(coarse, fine, 2)
         if coarse[3] > 0 and fine[3] > 0:
             ladder.pairs = slope(coarse, fine, 3)
+
+
+def why_no_slope(ladder, coarse, fine):
+    """Why these two levels have none; empty where they have one."""
+    orders = [
+        order.fit_class
+        for order in ladder.engine.orders
+        if (order.metric, order.axis, order.mode) == (ladder.metric, ladder.axis, ladder.mode)
+    ]
+    left, floor = GAIN ** min(1.0, math.log2(ratio(coarse, fine))), floor_of(ladder.case)
+    if fine[1] > left * coarse[1] or "plateau" in orders:
+        return "finer levels buy no accuracy here" + (": the error has a floor" if orders[:1] == ["plateau"] else "")
+    if fine[2] < 1.2 * coarse[2]:
+        return "cost is that of starting the program: too short to say"
+    if floor and fine[2] <= floor * coarse[2]:
+        return f"not resolved: the two levels cost the same within the noise floor, a factor {floor:.3g}"
+    return ""
 
 
 def ratio(a, b):

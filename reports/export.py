@@ -40,24 +40,7 @@ class BadInput(Exception):
 def main(arguments):
     asked = read_arguments(arguments)
     try:
-        source, formats = Path(asked.source), formats_of(asked)
-        results = results_of(source)
-        known = OF_RESULTS if results else OF_RUNS
-        for name in formats:
-            if name not in known:
-                other = "a run's folder" if name in OF_RUNS else "a results.json"
-                raise BadInput(f"{name} is exported from {other}; {source} gives {', '.join(known)}")
-        out = (
-            Path(asked.out)
-            if asked.out
-            else (results.parent if results else source if source.is_dir() else source.parent) / "export"
-        )
-        made = (
-            export_results(results, formats, make_folder(out))
-            if results
-            else export_run(source, formats, lambda: make_folder(out), asked)
-        )
-        tell(made, asked.json)
+        tell(made_of(asked), asked.json)
         return DONE
     except BadInput as error:
         return end(error, BAD_INPUT)
@@ -71,6 +54,21 @@ def main(arguments):
             else f"{error.filename or 'a file'}: {error.strerror or error}",
             MISSING,
         )
+
+
+def made_of(asked):
+    """The files that were written. @raises BadInput"""
+    source, formats = Path(asked.source), formats_of(asked)
+    results = results_of(source)
+    known = OF_RESULTS if results else OF_RUNS
+    for name in formats:
+        if name not in known:
+            other = "a run's folder" if name in OF_RUNS else "a results.json"
+            raise BadInput(f"{name} is exported from {other}; {source} gives {', '.join(known)}")
+    if results:
+        return export_results(results, formats, make_folder(Path(asked.out or results.parent / "export")))
+    out = Path(asked.out or (source if source.is_dir() else source.parent) / "export")
+    return export_run(source, formats, lambda: make_folder(out), asked)
 
 
 def read_arguments(arguments):

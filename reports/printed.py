@@ -90,20 +90,13 @@ def fill(raw, case):
 def figure(wanted, mode, engine, level):
     """The metric of the run of this mode at the level, else at the case's own resolution."""
     name = text(wanted.get("metric"))
-    runs = [run for run in engine.runs if run.mode == mode]
-    at_level = [
-        run
-        for run in runs
-        if level is not None
-        and any(is_number(number(v)) and abs(number(v) - level) <= 1e-9 * level for v in run.levels.values())
-    ]
-    run = next(iter(at_level + [run for run in runs if run.base] + runs), None)
+    run = run_at([run for run in engine.runs if run.mode == mode], level)
     if run is None:
         return Figure(why="this mode was not run")
-    if run.status != "ok" or name not in run.metrics:
-        return Figure(
-            resolution=steps(run), why=run.reason or (run.status if run.status != "ok" else f"no metric {name}")
-        )
+    if run.status != "ok":
+        return Figure(resolution=steps(run), why=run.reason or run.status)
+    if name not in run.metrics:
+        return Figure(resolution=steps(run), why=run.reason or f"no metric {name}")
     add, times = number(wanted.get("add")) or 0.0, number(wanted.get("times")) or 1.0
     metric = run.metrics[name]
     return Figure(
@@ -111,6 +104,16 @@ def figure(wanted, mode, engine, level):
         abs(times) * metric.u if metric.u else None,
         steps(run),
     )
+
+
+def run_at(runs, level):
+    """The first run at the level, else one at the case's own resolution, else any; None of none."""
+    at_level = [run for run in runs if level is not None and is_near(run.levels.values(), level)]
+    return next(iter(at_level + [run for run in runs if run.base] + runs), None)
+
+
+def is_near(values, level):
+    return any(is_number(v) and abs(v - level) <= 1e-9 * level for v in map(number, values))
 
 
 def steps(run):

@@ -65,37 +65,9 @@ def draw(frontiers, out):
     if not maps:
         return "", []
     figure, axes = style.panels(len(maps), 6, height=2.8)
-    words = {"corrected": "", "paper": ", printed"}
     for axis, ((name, parameter), points) in zip(axes, maps.items()):
-        for mode, hue in (("corrected", style.BLUE), ("paper", style.ORANGE)):
-            shown = sorted((p for p in points if p.mode == mode), key=lambda p: p.value)
-            if not shown:
-                continue
-            x = [p.value for p in shown]
-            axis.plot(
-                x,
-                [p.predicted for p in shown],
-                color=style.SOFT,
-                linestyle="-" if mode == "corrected" else "--",
-                label="predicted" + words[mode],
-            )
-            axis.plot(
-                x,
-                [p.measured for p in shown],
-                color=hue,
-                linestyle="",
-                marker="o",
-                label="longest stable" + words[mode],
-            )
-            axis.plot(
-                x,
-                [p.own for p in shown],
-                color=hue,
-                linestyle="",
-                marker="_",
-                markersize=9,
-                label="solver's own" + words[mode],
-            )
+        draw_mode(axis, points, "corrected", style.SOFT, style.BLUE)
+        draw_mode(axis, points, "paper", style.SOFT, style.ORANGE)
         values = [p.value for p in points]
         style.logarithmic(axis, "xy" if min(values) > 0.0 and max(values) > 20.0 * min(values) else "y")
         axis.set_title(f"{name}, over {parameter}")
@@ -103,6 +75,20 @@ def draw(frontiers, out):
         axis.set_ylabel("time step [s]")
     style.legend(figure, axes)
     return style.inline(style.files(figure, out / "figures" / "stability-maps"), "stability"), []
+
+
+def draw_mode(axis, points, mode, soft, hue):
+    shown = sorted((p for p in points if p.mode == mode), key=lambda p: p.value)
+    if not shown:
+        return
+    x, printed = [p.value for p in shown], mode == "paper"
+    lines = (
+        ("predicted", [p.predicted for p in shown], {"color": soft, "linestyle": "--" if printed else "-"}),
+        ("longest stable", [p.measured for p in shown], {"color": hue, "linestyle": "", "marker": "o"}),
+        ("solver's own", [p.own for p in shown], {"color": hue, "linestyle": "", "marker": "_", "markersize": 9}),
+    )
+    for words, y, look in lines:
+        axis.plot(x, y, label=words + (", printed" if printed else ""), **look)
 
 
 def read(results, out):

@@ -182,15 +182,7 @@ def read_bodies(file, result):
 
 def read_csv(path):
     """Rows of one time follow each other; a column `body` means rows of bodies."""
-    with open(path, newline="", encoding="utf-8") as file:
-        reader = csv.DictReader(file)
-        columns = {name: [] for name in reader.fieldnames or []}
-        for count, row in enumerate(reader):
-            if count > MOST_ROWS:
-                raise NoTrajectory(f"{path.name} has more than {MOST_ROWS} rows")
-            for name in columns:
-                columns[name].append(float(row[name]))
-    columns = {name: np.array(values) for name, values in columns.items()}
+    columns = columns_of(path)
     times = np.unique(columns["time"])
     key = "body" if "body" in columns else "id"
     rows = int(columns[key].max()) + 1
@@ -206,19 +198,39 @@ def read_csv(path):
 
     result = Trajectory(times=times)
     if key == "body":
-        groups = {
-            "position": ("x", "y", "z"),
-            "velocity": ("vx", "vy", "vz"),
-            "orientation": ("qw", "qx", "qy", "qz"),
-            "angular_velocity": ("wx", "wy", "wz"),
-        }
-        result.bodies = {name: gather(names) for name, names in groups.items() if all(n in columns for n in names)}
+        result.bodies = {name: gather(names) for name, names in OF_BODIES.items() if columns.keys() >= {*names}}
         result.body_times = times
     else:
-        position = gather(("x", "y", "z"))
-        frames = np.unique(np.linspace(0, len(times) - 1, 5).astype(int))
         warm = gather(("temperature",))[..., 0] if "temperature" in columns else None
-        result.strobe = [Frame(float(times[f]), position[f], None if warm is None else warm[f]) for f in frames]
-        result.position = position[-1]
-        result.temperature = None if warm is None else warm[-1]
+        take_particles(result, gather(("x", "y", "z")), warm)
     return result
+
+
+OF_BODIES = {
+    "position": ("x", "y", "z"),
+    "velocity": ("vx", "vy", "vz"),
+    "orientation": ("qw", "qx", "qy", "qz"),
+    "angular_velocity": ("wx", "wy", "wz"),
+}
+
+
+def columns_of(path):
+    """{name: its column}, at most MOST_ROWS long"""
+    with open(path, newline="", encoding="utf-8") as file:
+        reader = csv.DictReader(file)
+        columns = {name: [] for name in reader.fieldnames or []}
+        for count, row in enumerate(reader):
+            if count > MOST_ROWS:
+                raise NoTrajectory(f"{path.name} has more than {MOST_ROWS} rows")
+            for name in columns:
+                columns[name].append(float(row[name]))
+    return {name: np.array(values) for name, values in columns.items()}
+
+
+def take_particles(result, position, warm):
+    """The last frame, and five frames of the whole time."""
+    times = result.times
+    frames = np.unique(np.linspace(0, len(times) - 1, 5).astype(int))
+    result.strobe = [Frame(float(times[f]), position[f], None if warm is None else warm[f]) for f in frames]
+    result.position = position[-1]
+    result.temperature = None if warm is None else warm[-1]

@@ -249,49 +249,8 @@ def ranges(runs):
 
 def packed(runs, units):
     """@return (what the script reads, base64 of the columns). Columns that never change are held once."""
-    import numpy as np
-
-    store, spans, told = Store(), ranges(runs), []
-    for run in runs:
-        low = np.nanmin(run.position, axis=(0, 1))
-        high = np.nanmax(run.position, axis=(0, 1))
-        fields = {}
-        there = np.isfinite(run.position).all(axis=2)
-        for name, values in run.fields.items():
-            if name in spans:
-                column = rounded(np.where(there, values, np.nan), *spans[name])
-            elif name in CLASSES:
-                column = np.where(there, values.astype(int) + 1, 0).astype("<u2")  # 0: none, as a liquid has no body
-                if len(np.unique(column[there])) < 2 and name != "phase":
-                    continue
-            else:
-                continue
-            once = bool((column == column[:1]).all())
-            fields[name] = {"at": store.add(column[:1] if once else column), "once": once}
-        look = looked_at(run)
-        told.append(
-            {
-                "name": run.name,
-                "look": [corner.tolist() for corner in look],
-                "times": run.times,
-                "particles": int(run.position.shape[1]),
-                "spacing": run.spacing * run.every_particle ** (1 / 3),
-                "up": [float(x) for x in run.up],
-                "low": low.tolist(),
-                "high": high.tolist(),
-                "position": store.add(
-                    np.stack([rounded(run.position[..., k], low[k], high[k]) for k in range(3)], axis=-1)
-                ),
-                "wall": store.add(run.wall.astype("u1")),
-                "walls": int(run.wall.sum()),
-                "fields": fields,
-                "labels": run.labels,
-                "all_frames": run.frames,
-                "all_particles": run.particles,
-                "every_frame": run.every_frame,
-                "every_particle": run.every_particle,
-            }
-        )
+    store, spans = Store(), ranges(runs)
+    told = [packed_run(run, spans, store) for run in runs]
     order = [
         name
         for name in ("phase", "temperature", "speed", "pressure", "body", "material", "density", "liquid_fraction")
@@ -305,6 +264,52 @@ def packed(runs, units):
         "spans": {name: list(span) for name, span in spans.items()},
         "units": {name: UNITS.get(units.get(name, ""), units.get(name, "")) for name in spans},
     }, store.text()
+
+
+def packed_run(run, spans, store):
+    import numpy as np
+
+    low = np.nanmin(run.position, axis=(0, 1))
+    high = np.nanmax(run.position, axis=(0, 1))
+    fields = {}
+    for name in run.fields:
+        column = column_of(run, name, spans)
+        if column is not None:
+            once = bool((column == column[:1]).all())
+            fields[name] = {"at": store.add(column[:1] if once else column), "once": once}
+    look = looked_at(run)
+    return {
+        "name": run.name,
+        "look": [corner.tolist() for corner in look],
+        "times": run.times,
+        "particles": int(run.position.shape[1]),
+        "spacing": run.spacing * run.every_particle ** (1 / 3),
+        "up": [float(x) for x in run.up],
+        "low": low.tolist(),
+        "high": high.tolist(),
+        "position": store.add(np.stack([rounded(run.position[..., k], low[k], high[k]) for k in range(3)], axis=-1)),
+        "wall": store.add(run.wall.astype("u1")),
+        "walls": int(run.wall.sum()),
+        "fields": fields,
+        "labels": run.labels,
+        "all_frames": run.frames,
+        "all_particles": run.particles,
+        "every_frame": run.every_frame,
+        "every_particle": run.every_particle,
+    }
+
+
+def column_of(run, name, spans):
+    """Whole numbers for the page; None for a field that tells particles not apart."""
+    import numpy as np
+
+    there, values = np.isfinite(run.position).all(axis=2), run.fields[name]
+    if name in spans:
+        return rounded(np.where(there, values, np.nan), *spans[name])
+    if name not in CLASSES:
+        return None
+    column = np.where(there, values.astype(int) + 1, 0).astype("<u2")  # 0: none, as a liquid has no body
+    return column if name == "phase" or len(np.unique(column[there])) >= 2 else None
 
 
 def looked_at(run):
@@ -392,19 +397,7 @@ def main(arguments):
     from exports.run import MissingDataset, NotARun
 
     try:
-        if len(asked.runs) > MOST_RUNS:
-            raise BadInput(f"{len(asked.runs)} runs: at most {MOST_RUNS} stand side by side in one page")
-        room = asked.limit * 1e6 - BESIDE
-        if room < 100_000:
-            raise BadInput(f"--limit {asked.limit:g}: a page takes at least 1 MB, for what draws it")
-        runs = [read(words, room / len(asked.runs)) for words in asked.runs]
-        told, columns = packed(runs, units_of(asked.runs))
-        first = folder_of(asked.runs[0])
-        out = Path(asked.out) if asked.out else (first if first.is_dir() else first.parent) / "view.html"
-        write(out, render(told, columns))
-        print(f"{out}  {out.stat().st_size / 1e6:.3g} MB")
-        for run in told["runs"]:
-            print(f"  {said_of(run)}")
+        show(asked)
         return DONE
     except BadInput as error:
         return end(error, BAD_INPUT)
@@ -424,6 +417,23 @@ def main(arguments):
             else f"{error.filename or 'the page'}: {error.strerror or error}",
             MISSING if full else BAD_INPUT,
         )
+
+
+def show(asked):
+    """Writes the page. @raises BadInput"""
+    if len(asked.runs) > MOST_RUNS:
+        raise BadInput(f"{len(asked.runs)} runs: at most {MOST_RUNS} stand side by side in one page")
+    room = asked.limit * 1e6 - BESIDE
+    if room < 100_000:
+        raise BadInput(f"--limit {asked.limit:g}: a page takes at least 1 MB, for what draws it")
+    runs = [read(words, room / len(asked.runs)) for words in asked.runs]
+    told, columns = packed(runs, units_of(asked.runs))
+    first = folder_of(asked.runs[0])
+    out = Path(asked.out) if asked.out else (first if first.is_dir() else first.parent) / "view.html"
+    write(out, render(told, columns))
+    print(f"{out}  {out.stat().st_size / 1e6:.3g} MB")
+    for run in told["runs"]:
+        print(f"  {said_of(run)}")
 
 
 def read_arguments(arguments):

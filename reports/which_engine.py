@@ -275,19 +275,23 @@ def spins(grids, results):
 
 
 def bounces(grids):
-    slow = ("contact/low-bounce", "contact/ball-restitution-050")
     cells = list(cells_of(grids, "Bounce").values())
-    case = next((case for case in slow if any(line["case"] == case for cell in cells for line in cell.lines)), None)
+    asked = {line["case"] for cell in cells for line in cell.lines}
+    case = next((c for c in ("contact/low-bounce", "contact/ball-restitution-050") if c in asked), None)
     if case is None:
         return ""
-    judged = [(cell, line) for cell in cells for line in cell.lines if line["case"] == case]
-    right = [cell for cell, line in judged if line["verdict"] == "pass"]
-    wrong = [cell for cell, line in judged if line["verdict"] != "pass"]
-    none = [cell for cell in cells if case in [text(line.get("case")) for line in cell.refused]]
+    right, wrong = judged_by(cells, case)
+    none = named([cell for cell in cells if case in [text(line.get("case")) for line in cell.refused]])
+    said = [f"{right or 'None'}, by {case}.", wrong and f"Not: {wrong}.", none and f"No restitution at all: {none}."]
+    return " ".join(filter(None, said))
+
+
+def judged_by(cells, case):
+    """The names of those that pass the case, and of the others."""
+    lines = [(cell, line) for cell in cells for line in cell.lines if line["case"] == case]
     return (
-        f"{named(right) or 'None'}, by {case}."
-        + (f" Not: {named(wrong)}." if wrong else "")
-        + (f" No restitution at all: {named(none)}." if none else "")
+        named([cell for cell, line in lines if line["verdict"] == "pass"]),
+        named([cell for cell, line in lines if line["verdict"] != "pass"]),
     )
 
 

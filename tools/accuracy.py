@@ -322,12 +322,8 @@ def curve(axis, value, study, above):
 
 
 def panel(style, axis, value, metric, knob):
-    studies = [
-        s
-        for s in value["studies"]
-        if (s["axis"], s["metric"]) == (knob, metric) and any(level["values"] for level in s["levels"])
-    ]
-    height = {s["mode"]: max(abs(mean(level)) for level in s["levels"] if level["values"]) for s in studies}
+    studies = [s for s in value["studies"] if (s["axis"], s["metric"]) == (knob, metric) and with_values(s)]
+    height = {s["mode"]: max(abs(mean(level)) for level in with_values(s)) for s in studies}
     drawn = [curve(axis, value, s, height[s["mode"]] == max(height.values())) for s in studies]
     places = sorted({x for _, at in drawn for x in at})
     axis.margins(x=0.14, y=0.25)
@@ -341,6 +337,10 @@ def panel(style, axis, value, metric, knob):
         "\n".join([*textwrap.wrap(f"{metric}, {value['metrics'][metric]}", 66), *(words for words, _ in drawn)]),
         fontsize=7.5,
     )
+
+
+def with_values(study):
+    return [level for level in study["levels"] if level["values"]]
 
 
 def draw(args):

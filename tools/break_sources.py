@@ -41,33 +41,45 @@ def load(root):
     """Changes by file, relative to root, and the defects of all folders. @raises Wrong"""
     changes, defects, used, named = {}, [], [], []
     for path in sorted(root.rglob("defects.toml")):
-        try:
-            data = tomllib.loads(path.read_text())
-            own = [(d["name"], d["what"], d["case"]) for d in data.pop("defect", [])]
-            here = [(c["file"], c["text"], c["broken"]) for c in data.pop("change", [])]
-        except (tomllib.TOMLDecodeError, KeyError) as why:
-            raise Wrong(
-                f"{path}: {why}: a [[defect]] has name, what and case, a [[change]] has file, text and broken"
-            ) from None
-        if data:
-            raise Wrong(f"{path}: unknown {', '.join(data)}: only [[defect]] and [[change]] stand here")
+        own, here = rows_of(path)
         used += [(path, name) for _, _, broken in here for name in sorted(set(USED.findall(broken)))]
         named += [(path, name) for name, _, _ in sorted(own)]
         defects += own
         for file, text, broken in here:
             place = (path.parent / file).relative_to(root).as_posix()
             changes.setdefault(place, []).append((path, text, broken))
-    known, seen = {name for _, name in named}, {name for _, name in used}
+    check_names(root, used, named)
+    return changes, defects
+
+
+def rows_of(path):
+    """([(name, what, case)], [(file, text, broken)]) of one defects.toml. @raises Wrong"""
+    try:
+        data = tomllib.loads(path.read_text())
+        own = [(d["name"], d["what"], d["case"]) for d in data.pop("defect", [])]
+        here = [(c["file"], c["text"], c["broken"]) for c in data.pop("change", [])]
+    except (tomllib.TOMLDecodeError, KeyError) as why:
+        raise Wrong(
+            f"{path}: {why}: a [[defect]] has name, what and case, a [[change]] has file, text and broken"
+        ) from None
+    if data:
+        raise Wrong(f"{path}: unknown {', '.join(data)}: only [[defect]] and [[change]] stand here")
+    return own, here
+
+
+def check_names(root, used, named):
+    """Each defect is registered once, and each that is used is registered. @raises Wrong"""
+    names = [name for _, name in named]
+    seen = {name for _, name in used}
     for path, name in used:
-        if name not in known:
+        if name not in names:
             raise Wrong(f'{path}: defect<"{name}">() is used, and no [[defect]] has that name')
     for path, name in named:
         if name not in seen:
             raise Wrong(f'{path}: no [[change]] uses defect<"{name}">()')
-    twice = {name for name, _, _ in defects if sum(name == other for other, _, _ in defects) > 1}
+    twice = {name for name in names if names.count(name) > 1}
     if twice:
         raise Wrong(f"{root}: registered twice: {', '.join(sorted(twice))}")
-    return changes, defects
 
 
 def broken_text(root, file, changes):

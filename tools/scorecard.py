@@ -188,9 +188,7 @@ def unpinned_downloads(c):
 def unpinned_files(c):
     for name in c.files:
         if re.fullmatch(r"tools/requirements-[\w-]+\.txt", name):
-            for line in re.sub(r"\\\n\s*", " ", c.text(name)).splitlines():
-                if line.strip() and not line.startswith("#") and not ("==" in line and HASH.search(line)):
-                    yield f"{name}: without hash: {line[:60]}"
+            yield from unhashed_requirements(name, c.text(name))
         if name.endswith("Cargo.lock"):
             for crate in tomllib.loads(c.text(name))["package"]:
                 if crate.get("source") and not crate.get("checksum"):
@@ -200,6 +198,12 @@ def unpinned_files(c):
     for spelled, file in json.loads(c.text("adapters/vendors/catalogue.json") or '{"files": {}}')["files"].items():
         if not re.fullmatch(r"[0-9a-f]{64}", file.get("sha256", "")):
             yield f"catalogue.json: {spelled} has no hash"
+
+
+def unhashed_requirements(name, text):
+    for line in re.sub(r"\\\n\s*", " ", text).splitlines():
+        if line.strip() and not line.startswith("#") and not ("==" in line and HASH.search(line)):
+            yield f"{name}: without hash: {line[:60]}"
 
 
 def unpinned_images(c):

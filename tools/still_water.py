@@ -236,20 +236,23 @@ def summary(rows):
         f"{sum(r['status'] != 'ok' for r in done)} did not reach their end.",
         "",
     ]
-    for n, (first, last) in enumerate(WINDOWS):
-        seen = [(r["windows"][n][0], r["windows"][n][1], r["name"]) for r in done if r["windows"][n]]
-        if seen:
-            worst, fastest = max(seen), max(seen, key=lambda s: s[1])
-            lines.append(
-                f"- {first:g} to {last:g} s: {sum(s[0] < GOAL for s in seen)} of {len(seen)} stay below {GOAL:g} rms. "
-                f"The worst has {worst[0]:.4f} (`{worst[2]}`), the fastest particle {fastest[1]:.3f}."
-            )
+    lines += [words for n in range(len(WINDOWS)) for words in window_sentence(done, n)]
     if done:
         lines.append(
             f"- Work of fixed walls: at most {small(max(r['greatest_wall_work'] for r in done))}. Energy made by "
             f"finite steps: at most {small(max(abs(r['steps_most']) for r in done))}."
         )
     return "\n".join(lines)
+
+
+def window_sentence(done, n):
+    seen = [(r["windows"][n][0], r["windows"][n][1], r["name"]) for r in done if r["windows"][n]]
+    if seen:
+        (first, last), worst, fastest = WINDOWS[n], max(seen), max(seen, key=lambda s: s[1])
+        yield (
+            f"- {first:g} to {last:g} s: {sum(s[0] < GOAL for s in seen)} of {len(seen)} stay below {GOAL:g} rms. "
+            f"The worst has {worst[0]:.4f} (`{worst[2]}`), the fastest particle {fastest[1]:.3f}."
+        )
 
 
 def rows_of(place):

@@ -123,16 +123,22 @@ def refuse_scene(job: Job) -> str:
     for body in job.bodies:
         if reason := refuse_body(body, liquid["density"], materials[body["material"]]):
             return reason
+    return refuse_free_bodies(job) or refuse_periodic(job) or refuse_friction(job, liquid)
+
+
+def refuse_free_bodies(job: Job) -> str:
     free = [body["name"] for body in job.bodies if body["phase"] == "rigid" and body["motion"] == "free"]
     if len(free) > 1:
         return f"contact between bodies is not handed to SPlisHSPlasH, and {free[0]} and {free[1]} may touch"
-    if free and norm(add(vector(scene["gravity"]), (0.0, 0.0, EARTH))) > 1e-9:
+    if free and norm(add(vector(job.scene["gravity"]), (0.0, 0.0, EARTH))) > 1e-9:
         return (
             "rigid bodies of SPlisHSPlasH fall by 9.81 m/s2 along its -y, whatever gravity its liquid has, and "
             f"{free[0]} is free"
         )
-    if reason := refuse_periodic(job):
-        return reason
+    return ""
+
+
+def refuse_friction(job: Job, liquid: dict[str, Any]) -> str:
     if friction_is_mixed(job) and liquid["viscosity"] > 0.0 and "viscosityBoundary" not in job.settings:
         return (
             "SPlisHSPlasH has one viscosityBoundary for all walls, and here some slip and some do not; the "

@@ -46,19 +46,12 @@ def write(run, out, frames):
     made = vtk_files.write(run, out, frames)
     numbers = list(range(len(run))) if frames is None else list(frames)
     colour = "temperature" if "temperature" in run.fields else "velocity"
-    values = [run.field(colour, number) for number in {numbers[0], numbers[-1]}] if numbers else []
-    values = [np.linalg.norm(v, axis=1) if v.ndim == 2 else v for v in values]
-    finite = np.concatenate([v[np.isfinite(v)] for v in values]) if values else np.zeros(0)
-    least, greatest = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 1.0)
+    least, greatest = ends_of([run.field(colour, number) for number in {*numbers[:1], *numbers[-1:]}])
     low, high, _ = run.box()
     centre, size = (low + high) / 2, float(np.linalg.norm(high - low)) or 1.0
-    up = np.array([0.0, 0.0, 1.0])
-    gravity = np.array(run.scene().get("gravity") or [0.0, 0.0, 0.0], dtype=float)
-    if np.linalg.norm(gravity) > 0:
-        up = -gravity / np.linalg.norm(gravity)
-    aside = np.eye(3)[
-        int(np.argmin(np.where(np.abs(up) > 0.5, np.inf, high - low)))
-    ]  # along the thinnest direction that is not up
+    up = up_of(run)
+    thinnest = np.argmin(np.where(np.abs(up) > 0.5, np.inf, high - low))  # direction that is not up
+    aside = np.eye(3)[int(thinnest)]
     spacing = (run.job.get("resolution") or {}).get("spacing") or size / 50
     script = out / "view.py"
     with whole(script) as file:
@@ -74,3 +67,16 @@ def write(run, out, frames):
             )
         )
     return [script, *made]
+
+
+def ends_of(columns):
+    """Least and greatest number of some columns, of vectors their lengths."""
+    values = [np.linalg.norm(v, axis=1) if v.ndim == 2 else v for v in columns]
+    finite = np.concatenate([np.zeros(0), *(v[np.isfinite(v)] for v in values)])
+    return (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 1.0)
+
+
+def up_of(run):
+    gravity = np.array(run.scene().get("gravity") or [0.0, 0.0, 0.0], dtype=float)
+    size = np.linalg.norm(gravity)
+    return -gravity / size if size > 0 else np.array([0.0, 0.0, 1.0])

@@ -69,13 +69,15 @@ def points(curve, metric, knob):
     for run in curve.runs:
         level, m = run.levels.get(knob, None if run.levels else run.knobs.get(knob)), run.metrics.get(metric)
         if run.status == "ok" and is_number(level) and level > 0 and m and is_number(m.value) and m.value != 0:
-            others = (
-                ()
-                if run.levels
-                else tuple(run.knob(k) for k in ("spacing", "support_ratio", "walkers", "iterations") if k != knob)
-            )
-            groups.setdefault(others, []).append((1.0 / level if knob in INVERSE else level, abs(m.value), m.u or 0.0))
+            point = (1.0 / level if knob in INVERSE else level, abs(m.value), m.u or 0.0)
+            groups.setdefault(other_knobs(run, knob), []).append(point)
     return sorted(max(groups.values(), key=len, default=[]))
+
+
+def other_knobs(run, knob):
+    """What else runs differ in; nothing within a study."""
+    knobs = () if run.levels else ("spacing", "support_ratio", "walkers", "iterations")
+    return tuple(run.knob(k) for k in knobs if k != knob)
 
 
 def panel(case, axis, metric, knob):

@@ -85,14 +85,8 @@ def metrics(case, wanted=4):
     gated ones first."""
     studied = [order.metric for engine in case.engines for order in engine.orders]
     gated = [gate.metric for engine in case.engines for gate in engine.gates]
-    listed = [name for engine in case.engines for run in engine.runs for name in run.metrics]
-    drawn = {
-        name
-        for engine in case.engines
-        for run in engine.runs
-        for name, m in run.metrics.items()
-        if is_number(m.value) and m.value != 0
-    }
-    ordered = [name for name in dict.fromkeys(studied + gated + listed) if name in drawn]
+    found = [entry for engine in case.engines for run in engine.runs for entry in run.metrics.items()]
+    drawn = {name for name, m in found if is_number(m.value) and m.value != 0}
+    ordered = [name for name in dict.fromkeys(studied + gated + list(dict(found))) if name in drawn]
     most = min(wanted, sum(name in studied for name in ordered) or wanted)
     return ordered[:most], ordered[most:]

@@ -304,48 +304,54 @@ class Panel:
         (across, power_x), (up, power_y) = self.x.ticks(), self.y.ticks()
         xs, ys = [left + share * wide for share, _ in across], [top + (1 - share) * tall for share, _ in up]
         _, height, descent = extent("lp", 9)
-        grid = "".join(f"M{x:.2f} {top:.2f}v{tall:.2f}" for x in xs) + "".join(
-            f"M{left:.2f} {y:.2f}h{wide:.2f}" for y in ys
-        )
-        ticks = "".join(f"M{x:.2f} {top + tall:.2f}v{TICK}" for x in xs) + "".join(
-            f"M{left:.2f} {y:.2f}h-{TICK}" for y in ys
-        )
-        drawn = (
-            f'<path d="{grid}" clip-path="url(#{clip})" {stroke(style.GRID, 0.6)}/>\n<path d="{ticks}" '
-            f"{stroke(style.SOFT, 0.8)}/>\n"
-        )
+        drawn = grid_and_ticks(box, clip, xs, ys)
         foot, edge = top + tall + TICK + PAD, left - TICK - PAD
-        drawn += "".join(
-            write(words, x, foot + height - descent, 9, style.INK, "middle") for x, (_, words) in zip(xs, across)
-        )
-        drawn += "".join(
-            write(words, edge, y + 0.5 * (height - descent), 9, style.INK, "end") for y, (_, words) in zip(ys, up)
-        )
+        for x, (_, words) in zip(xs, across):
+            drawn += write(words, x, foot + height - descent, 9, style.INK, "middle")
+        for y, (_, words) in zip(ys, up):
+            drawn += write(words, edge, y + 0.5 * (height - descent), 9, style.INK, "end")
         foot, edge = foot + height, edge - max((extent(words, 9)[0] for _, words in up), default=0.0)
+        drawn += self.labels_of_axes(box, foot, edge)
+        drawn += write(power_x, left + wide, foot + 3 + height - descent, 9, style.SOFT, "end") if power_x else ""
+        drawn += write(power_y, left, top - 3, 9, style.SOFT) if power_y else ""
+        return drawn + self.head(box, power_y)
+
+    def labels_of_axes(self, box, foot, edge):
+        left, top, wide, tall = box
+        drawn = ""
         if self.words["x"]:
             words, size = self.words["x"]
             _, high, low = extent("lp", size)
             drawn += write(words, left + 0.5 * wide, foot + APART + high - low, size, style.INK, "middle")
         if self.words["y"]:
             words, size = self.words["y"]
-            drawn += write(
-                words, edge - APART - extent("lp", size)[2], top + 0.5 * tall, size, style.INK, "middle", True
-            )
-        drawn += write(power_x, left + wide, foot + 3 + height - descent, 9, style.SOFT, "end") if power_x else ""
-        drawn += write(power_y, left, top - 3, 9, style.SOFT) if power_y else ""
-        for where, (words, size, hue) in self.titles.items():
-            over = (
-                9.84 if power_y and (where == "left" or extent(words, size)[0] + extent(power_y, 9)[0] > wide) else 0
-            )  # above the power of ten
-            drawn += write(
-                words,
-                left + wide if where == "right" else left,
-                top - 6 - over,
-                size,
-                hue,
-                "end" if where == "right" else "start",
-            )
+            x = edge - APART - extent("lp", size)[2]
+            drawn += write(words, x, top + 0.5 * tall, size, style.INK, "middle", True)
         return drawn
+
+    def head(self, box, power):
+        """Titles, above the power of ten where both would stand in one place."""
+        left, top, wide, _ = box
+        drawn = ""
+        for where, (words, size, hue) in self.titles.items():
+            meet = power and (where == "left" or extent(words, size)[0] + extent(power, 9)[0] > wide)
+            x, anchor = (left + wide, "end") if where == "right" else (left, "start")
+            drawn += write(words, x, top - 6 - (9.84 if meet else 0), size, hue, anchor)
+        return drawn
+
+
+def grid_and_ticks(box, clip, xs, ys):
+    left, top, wide, tall = box
+    grid = "".join(f"M{x:.2f} {top:.2f}v{tall:.2f}" for x in xs) + "".join(
+        f"M{left:.2f} {y:.2f}h{wide:.2f}" for y in ys
+    )
+    ticks = "".join(f"M{x:.2f} {top + tall:.2f}v{TICK}" for x in xs) + "".join(
+        f"M{left:.2f} {y:.2f}h-{TICK}" for y in ys
+    )
+    return (
+        f'<path d="{grid}" clip-path="url(#{clip})" {stroke(style.GRID, 0.6)}/>\n<path d="{ticks}" '
+        f"{stroke(style.SOFT, 0.8)}/>\n"
+    )
 
 
 class Figure:

@@ -18,7 +18,7 @@ SCATTERED = " Points without a line: temperature is no function of this place al
 
 
 def draw(case, trajectories, notes):
-    shown = [(curve, t) for curve, t in trajectories if t.position is not None and t.temperature is not None]
+    shown = [(curve, t) for curve, t in trajectories if has_temperatures(t)]
     if not shown or warmth(shown) is None:
         return None
     along = longest_axis(shown[0][1].position)
@@ -37,6 +37,10 @@ def draw(case, trajectories, notes):
         figure,
         CAPTION + (SCATTERED if any(scattered) else ""),
     )
+
+
+def has_temperatures(trajectory):
+    return trajectory.position is not None and trajectory.temperature is not None
 
 
 def longest_axis(position):

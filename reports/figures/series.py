@@ -38,23 +38,21 @@ def draw(case, trajectories, notes):
 def numbers(run, name):
     """(time, value, uncertainty|None) as arrays of equal length, None where the series is not sound."""
     entry = table(run.series.get(name))
+    u = entry.get("uncertainty", entry.get("error"))
+    time, value = entry.get("time", ()), entry.get("value", ())
     if name in run.metrics and run.metrics[name].times:
-        entry = {
-            "time": run.metrics[name].times,
-            "value": run.metrics[name].series,
-            **{k: v for k, v in entry.items() if k in ("uncertainty", "error")},
-        }
+        time, value = run.metrics[name].times, run.metrics[name].series
     try:
-        time, value = (
-            np.array([np.nan if v is None else float(v) for v in entry.get(key, ())]) for key in ("time", "value")
-        )
-        u = entry.get("uncertainty", entry.get("error"))
-        u = np.array([np.nan if v is None else float(v) for v in u]) if isinstance(u, list) else None
+        time, value, u = floats(time), floats(value), floats(u) if isinstance(u, list) else None
     except (TypeError, ValueError):
         return None
     if len(time) < 2 or len(time) != len(value) or not np.isfinite(value).any():
         return None
     return time, value, u if u is not None and len(u) == len(value) else None
+
+
+def floats(values):
+    return np.array([np.nan if v is None else float(v) for v in values])
 
 
 def panel(case, axis, name, shown_runs):

@@ -99,29 +99,45 @@ def blocks(page, words=None):
     holds. With words: of such fences alone."""
     if page.name in HELD_ELSEWHERE:
         return []
-    found, block, fence, blank = [], None, False, True
-    for number, line in enumerate(page.read_text().splitlines(), 1):
+    lines = list(enumerate(page.read_text().splitlines(), 1))
+    fenced, rest = fences(lines, words)
+    found = sorted(fenced + ([] if words else indented(rest)))
+    return [(number, "\n".join(text).strip("\n").splitlines()) for number, text in found]
+
+
+def fences(lines, words):
+    """([(number, text) of each wanted fence], the numbered lines outside all; a fence leaves None)"""
+    found, rest, block = [], [], None
+    for number, line in lines:
         if line.startswith("```"):
-            fence, block = not fence, None
-            if fence:
-                block = (number + 1, [])
-                word = line[3:].strip()
-                wanted = word in words if words else word not in (*PICTURES, *PYTHON)
-                found += [block] if wanted else []
-            continue
-        if fence:
-            block[1].append(line)
+            word, block = line[3:].strip(), [] if block is None else None
+            if block is not None and (word in words if words else word not in (*PICTURES, *PYTHON)):
+                found.append((number + 1, block))
+            rest.append((number, None))
+        elif block is not None:
+            block.append(line)
+        else:
+            rest.append((number, line))
+    return found, rest
+
+
+def indented(lines):
+    """[(number, text)] of each block that is indented by four spaces after an empty line."""
+    found, block, blank = [], None, True
+    for number, line in lines:
+        if line is None:
+            block = None
             continue
         inside = line.startswith("    ") and (blank or block is not None)
         if inside and block is None:
-            block = (number, [])
-            found += [] if words else [block]
+            block = []
+            found.append((number, block))
         if inside or (block is not None and not line.strip()):
-            block[1].append(line[4:])
+            block.append(line[4:])
         elif line.strip():
             block = None
         blank = not line.strip()
-    return [(number, "\n".join(lines).strip("\n").splitlines()) for number, lines in found]
+    return found
 
 
 def commands(lines):

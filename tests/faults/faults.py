@@ -321,6 +321,11 @@ def judged(target, folder, end, kind):
         return f"CODE: exit {end.returncode} means nothing"
     if end.returncode == 0:
         return "whole" if target.is_whole(folder) else "WRONG: exit 0, and not all is there"
+    return refused(target, folder, end, kind, without_memory)
+
+
+def refused(target, folder, end, kind, without_memory):
+    """@return what became of a run that ended with a code of its own"""
     if is_harmless(kind):
         return f"REFUSED what may be made again: {end.stderr.strip().splitlines()[-1:]}"
     if not end.stderr.strip() and not without_memory:
@@ -418,18 +423,7 @@ def campaign(target, scratch, options, kinds):
         f"seed {options.seed}",
         flush=True,
     )
-    table, bad, met = {}, [], {kind: set() for kind in stacks}
-    with concurrent.futures.ProcessPoolExecutor(options.jobs) as pool:
-        for kind, at, seed, found, where in pool.map(
-            try_point, *zip(*[(target, scratch, *point) for point in points]), chunksize=8
-        ):
-            row = table.setdefault(kind, {})
-            row[found.split(":")[0]] = row.get(found.split(":")[0], 0) + 1
-            if kind in met and where:
-                met[kind].add(where.split()[-1])
-            if not found.startswith(GOOD):
-                bad.append(f"{target.name} {kind} at {at} ({where}): {found}")
-                print(bad[-1], flush=True)
+    table, bad, met = try_points(target, scratch, options, points, stacks)
     for kind, row in table.items():
         print(f"{kind:20} " + ", ".join(f"{n} {word}" for word, n in sorted(row.items())))
     for kind, names in stacks.items():
@@ -440,6 +434,22 @@ def campaign(target, scratch, options, kinds):
         )
     print(f"{target.name}: {len(points)} points, {len(bad)} broke a promise", flush=True)
     return {"calls": calls, "points": len(points), "table": table, "bad": bad}
+
+
+def try_points(target, scratch, options, points, stacks):
+    """({kind: {word: number of points}}, broken promises, {kind: callers that were met})"""
+    table, bad, met = {}, [], {kind: set() for kind in stacks}
+    tasks = zip(*[(target, scratch, *point) for point in points])
+    with concurrent.futures.ProcessPoolExecutor(options.jobs) as pool:
+        for kind, at, seed, found, where in pool.map(try_point, *tasks, chunksize=8):
+            row = table.setdefault(kind, {})
+            row[found.split(":")[0]] = row.get(found.split(":")[0], 0) + 1
+            if kind in met and where:
+                met[kind].add(where.split()[-1])
+            if not found.startswith(GOOD):
+                bad.append(f"{target.name} {kind} at {at} ({where}): {found}")
+                print(bad[-1], flush=True)
+    return table, bad, met
 
 
 def main():

@@ -427,7 +427,9 @@ def compare_all(writer, runs=RUNS):
 def wrong_pair_terms(writer):
     """Pair terms that are compiled and in no row here, entries here whose term is not compiled, and rows that there are
     none of."""
-    compiled = set(subprocess.run([writer, "--terms"], check=True, stdout=subprocess.PIPE, text=True).stdout.splitlines())
+    compiled = set(
+        subprocess.run([writer, "--terms"], check=True, stdout=subprocess.PIPE, text=True).stdout.splitlines()
+    )
     wrong = [
         f"the pair term {name}, which no row compares (PAIR_TERMS)" for name in sorted(compiled - PAIR_TERMS.keys())
     ]

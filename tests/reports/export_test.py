@@ -161,13 +161,23 @@ class Export(unittest.TestCase):
             {path for path in out.rglob("*") if path.is_file()},
         )
         results = json.loads((self.path / "report" / "results.json").read_text())
-        gates = [
-            (case["id"], engine["name"], gate)
-            for case in results["cases"]
-            for engine in case["engines"]
-            for gate in engine["gates"]
-        ]
-        with open(out / "gates.csv", encoding="utf-8") as file:
+        engines = [(case["id"], engine) for case in results["cases"] for engine in case["engines"]]
+        gates = [(case, engine["name"], gate) for case, engine in engines for gate in engine["gates"]]
+        self.holds_gates(out / "gates.csv", gates)
+        metrics = sum(len(run["metrics"]) for _, engine in engines for run in engine["runs"])
+        with open(out / "metrics.csv", encoding="utf-8") as file:
+            self.assertEqual(len(list(csv.DictReader(file))), metrics)
+        self.is_latex(out / "gates.tex", len(gates))
+        figures = list((out / "figures").glob("*.pdf"))
+        self.assertGreaterEqual(len(figures), 2)
+        for figure in figures:
+            data = figure.read_bytes()
+            width = float(re.search(rb"/MediaBox \[ 0 0 ([\d.]+)", data)[1]) / 72 * 25.4
+            self.assertTrue(abs(width - 170) < 1 or abs(width - 84) < 1, f"{figure}: {width} mm")
+            self.assertIn(b"/Subtype /Type0", data.replace(b"/Subtype/Type0", b"/Subtype /Type0"), "text stays text")
+
+    def holds_gates(self, path, gates):
+        with open(path, encoding="utf-8") as file:
             table = list(csv.DictReader(file))
         self.assertEqual(len(table), len(gates))
         for row, (case, engine, gate) in zip(table, gates):
@@ -177,24 +187,14 @@ class Export(unittest.TestCase):
             )
             self.assertEqual(float(row["value"]), gate["value"])
             self.assertEqual(row["limit"], "" if gate["limit"] is None else repr(gate["limit"]))
-        metrics = sum(
-            len(run["metrics"]) for case in results["cases"] for engine in case["engines"] for run in engine["runs"]
-        )
-        with open(out / "metrics.csv", encoding="utf-8") as file:
-            self.assertEqual(len(list(csv.DictReader(file))), metrics)
-        latex = (out / "gates.tex").read_text()
+
+    def is_latex(self, path, gates):
+        latex = path.read_text()
         lines = [line for line in latex.splitlines() if line.endswith(r"\\") and "&" in line]
-        self.assertEqual(len(lines), len(gates) + 1)
+        self.assertEqual(len(lines), gates + 1)
         self.assertEqual({len(re.findall(r"(?<!\\)&", line)) for line in lines}, {6})
         self.assertEqual(latex.count("{"), latex.count("}"))
         self.assertFalse(re.search(r"(?<!\\)[_#]", latex.replace("\\label{tab:", "")))
-        figures = list((out / "figures").glob("*.pdf"))
-        self.assertGreaterEqual(len(figures), 2)
-        for figure in figures:
-            data = figure.read_bytes()
-            width = float(re.search(rb"/MediaBox \[ 0 0 ([\d.]+)", data)[1]) / 72 * 25.4
-            self.assertTrue(abs(width - 170) < 1 or abs(width - 84) < 1, f"{figure}: {width} mm")
-            self.assertIn(b"/Subtype /Type0", data.replace(b"/Subtype/Type0", b"/Subtype /Type0"), "text stays text")
 
     def test_what_cannot_be_is_a_sentence(self):
         self.refused(2, "there is no such file", self.path / "nowhere", "--to", "vtp")
