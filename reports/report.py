@@ -123,12 +123,11 @@ def sweep(out, made):
     write(listing, json.dumps(sorted(made)))
 
 
-def other_pages(results, out):
-    """Writes those pages beside index.html for which these results hold a case, and removes those for which they do
-    not. @return (pages of questions, [(file, name)])"""
+def pages_beside(results, out):
+    """(file, name, what writes it, whether these results hold something for it)"""
     tagged = {tag for case in results.cases for tag in table1.tags(case) if isinstance(tag, str)}
     cases = {case.id for case in results.cases}
-    pages = (
+    return (
         ("engines.html", "Engines side by side", page.render_side_by_side, side_by_side.read(results)),
         (
             "table-1.html",
@@ -158,8 +157,13 @@ def other_pages(results, out):
         ("stability.html", "Stable steps, hard cases", lambda of: page.render_stability(of, out), "hard" in tagged),
         ("signable.html", "The report to sign", page.render_signable, True),
     )
+
+
+def other_pages(results, out):
+    """Writes those pages beside index.html for which these results hold a case, and removes those for which they do
+    not. @return (pages of questions, [(file, name)])"""
     beside = []
-    for file, name, render, wanted in pages:
+    for file, name, render, wanted in pages_beside(results, out):
         (out / file).unlink(missing_ok=True)
         if wanted:
             write(out / file, render(results))

@@ -366,7 +366,7 @@ def apply(mutant, cases, options, rooms):
     return dict(mutant, seconds=round(time.time() - begun))
 
 
-def main():
+def parser():
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     p.add_argument("--tree", type=pathlib.Path, required=True)
     p.add_argument(
@@ -386,57 +386,81 @@ def main():
     p.add_argument("--from", dest="commit", help="draw from the sources of this commit; default those of --tree")
     p.add_argument("--again", action="store_true", help="judge again what lived")
     p.add_argument("--list", action="store_true", help="only print what would be drawn")
-    options = p.parse_args()
+    return p
+
+
+def read_options():
+    options = parser().parse_args()
     options.tree, options.out = options.tree.resolve(), options.out.resolve()
     if options.tree == pathlib.Path(__file__).resolve().parent.parent:
         sys.exit("draw_mutants: --tree is the tree of this script: give a copy, its sources are changed")
     if options.tree == options.sound.resolve():
         sys.exit("draw_mutants: --sound is --tree: what a mutant fails there, it fails here too, and nothing is killed")
-    rng, done = random.Random(options.seed), json.loads(options.out.read_text()) if options.out.exists() else []
-    rooms = options.room or ROOMS
-    print(f"seed {options.seed}, {len(sources(options.tree, rooms))} files", flush=True)
-    cases = None if options.list else Cases(options.tree, options.sound.resolve())
-    drawn_from = sources_of(options.commit) if options.commit else None
-    base, seen = pathlib.Path(drawn_from.name) if drawn_from else options.tree, []
-    while len(seen) < options.count:
-        mutant = draw(rng, base, rooms)
-        if mutant in seen:
-            continue
+    return options
+
+
+class Campaign:
+    """The mutants that were judged, of this and earlier calls, and those that this call has seen."""
+
+    def __init__(self, options, rooms):
+        self.options, self.rooms, self.seen = options, rooms, []
+        self.done = json.loads(options.out.read_text()) if options.out.exists() else []
+        self.cases = None if options.list else Cases(options.tree, options.sound.resolve())
+
+    def take(self, mutant):
+        """Judges a mutant, or says why it is not judged."""
         place = f"{mutant['file']}:{mutant['line']} {mutant['kind']}: {mutant['old']}  ->  {mutant['new']}"
-        before = next((m for m in done if all(m[k] == mutant[k] for k in ("file", "old", "new"))), None)
-        if before and options.again and before["compiles"] and not before["killed_by"]:
-            done.remove(before)
-            before = None
-        if options.list or reason_equal(mutant):
-            seen.append(mutant)
-            print(
-                f"{len(seen):3}  {'no defect' if reason_equal(mutant) else ''}  {place}\n          "
-                f"{reason_equal(mutant)}",
-                flush=True,
-            )
-            continue
-        if not before:
-            before = apply(mutant, cases, options, rooms)
-            done.append(before)
-            options.out.write_text(json.dumps(done, indent=1) + "\n")
-        if not before["compiles"]:
+        equal = reason_equal(mutant)
+        if self.options.list or equal:
+            self.say(mutant, "no defect" if equal else "", place, equal)
+            return
+        judged = self.known(mutant) or self.judged_now(mutant)
+        if not judged["compiles"]:
             print(f"      no build  {place}", flush=True)
-            continue
-        seen.append(mutant)
-        print(
-            f"{len(seen):3}  {'killed  ' if before['killed_by'] else 'SURVIVES'}  {place}\n          "
-            f"{before['killed_by']}  ({before['asked']} cases, {before['seconds']} s)",
-            flush=True,
-        )
+            return
+        killed = judged["killed_by"]
+        said = f"{killed}  ({judged['asked']} cases, {judged['seconds']} s)"
+        self.say(mutant, "killed  " if killed else "SURVIVES", place, said)
+
+    def say(self, mutant, word, place, why):
+        self.seen.append(mutant)
+        print(f"{len(self.seen):3}  {word}  {place}\n          {why}", flush=True)
+
+    def known(self, mutant):
+        """What came of it before; with --again what lived is forgotten."""
+        before = next((m for m in self.done if all(m[k] == mutant[k] for k in ("file", "old", "new"))), None)
+        if before and self.options.again and before["compiles"] and not before["killed_by"]:
+            self.done.remove(before)
+            return None
+        return before
+
+    def judged_now(self, mutant):
+        judged = apply(mutant, self.cases, self.options, self.rooms)
+        self.done.append(judged)
+        self.options.out.write_text(json.dumps(self.done, indent=1) + "\n")
+        return judged
+
+    def score(self):
+        seen = {(m["old"], m["new"]) for m in self.seen}
+        killed = sum(bool(m["compiles"] and m["killed_by"] and (m["old"], m["new"]) in seen) for m in self.done)
+        equal = sum(bool(reason_equal(m)) for m in self.seen)
+        return f"{killed} of {len(self.seen) - equal} killed; {equal} more of {len(self.seen)} are no defects"
+
+
+def main():
+    options = read_options()
+    rng, rooms = random.Random(options.seed), options.room or ROOMS
+    print(f"seed {options.seed}, {len(sources(options.tree, rooms))} files", flush=True)
+    campaign = Campaign(options, rooms)
+    drawn_from = sources_of(options.commit) if options.commit else None
+    base = pathlib.Path(drawn_from.name) if drawn_from else options.tree
+    while len(campaign.seen) < options.count:
+        mutant = draw(rng, base, rooms)
+        if mutant not in campaign.seen:
+            campaign.take(mutant)
     if not options.list:
         build([], options)
-        killed = [
-            m
-            for m in done
-            if m["compiles"] and m["killed_by"] and any(m["old"] == s["old"] and m["new"] == s["new"] for s in seen)
-        ]
-        equal = sum(bool(reason_equal(m)) for m in seen)
-        print(f"{len(killed)} of {len(seen) - equal} killed; {equal} more of {len(seen)} are no defects")
+        print(campaign.score())
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ The build is one whose files are compiled each alone, as by `cmake --preset dev`
 --list shows the mutants and runs none; --fast leaves out the tests that start processes, which take a minute for each \
 mutant that survives.
 """
+
 import argparse
 import json
 import os
@@ -32,25 +33,88 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 
 # Tests: a program and the filters in the order in which they are tried. The first leaves out what starts processes.
-METRICS, REFERENCES = ("metrics", ["*"]), ("references", ["-Collapse*", "Collapse*"])  # the mesh takes ten times as long as all others
+METRICS, REFERENCES = (
+    ("metrics", ["*"]),
+    ("references", ["-Collapse*", "Collapse*"]),
+)  # the mesh takes ten times as long as all others
 PROCESSES = "Ends/*:Files/*:Lies/*:Starts*:ThirdPartyReader*:ForkStorm*:Uncertainty.OfAnInput*:StaleOutput*"
 SLOW = "Process*:Kills*:Engines*:Instructions*:Timing*:*Hostile*:NeverFails*:Invariance*"
-HARNESS = ("harness", [f"-{PROCESSES}:{SLOW}", "NeverFailsGate*", PROCESSES, "NeverFails*:Invariance*:*Hostile*:Timing*:-NeverFailsGate*"])
+HARNESS = (
+    "harness",
+    [
+        f"-{PROCESSES}:{SLOW}",
+        "NeverFailsGate*",
+        PROCESSES,
+        "NeverFails*:Invariance*:*Hostile*:Timing*:-NeverFailsGate*",
+    ],
+)
 FAST = 2  # of the filters: the rest starts a process for each test
-TWINS = ("print-reference-values", ["tests/references/twins.py"])  # not GoogleTest: a script computes again what the program prints
+TWINS = (
+    "print-reference-values",
+    ["tests/references/twins.py"],
+)  # not GoogleTest: a script computes again what the program prints
 # A room: its files, and the tests that cover it.
 ROOMS = {
-    "gate": (["validation/metrics/verdict.cpp"] + [f"validation/{path}.cpp" for path in ("judge/apply_gate", "judge/judge", "judge/judge_asked", "judge/headroom", "results/verdict", "results/rows",
-             "results/results_read", "campaign/recheck", "baseline/gate_verdict", "baseline/baseline", "baseline/baseline_compare", "baseline/baseline_edges", "baseline/baseline_rows", "baseline/baseline_cases",
-             "baseline/baseline_accept")], [HARNESS]),
+    "gate": (
+        ["validation/metrics/verdict.cpp"]
+        + [
+            f"validation/{path}.cpp"
+            for path in (
+                "judge/apply_gate",
+                "judge/judge",
+                "judge/judge_asked",
+                "judge/headroom",
+                "results/verdict",
+                "results/rows",
+                "results/results_read",
+                "campaign/recheck",
+                "baseline/gate_verdict",
+                "baseline/baseline",
+                "baseline/baseline_compare",
+                "baseline/baseline_edges",
+                "baseline/baseline_rows",
+                "baseline/baseline_cases",
+                "baseline/baseline_accept",
+            )
+        ],
+        [HARNESS],
+    ),
     "metrics": (["validation/metrics/*.cpp"], [METRICS, HARNESS]),
     "references": (["validation/references/*.cpp"], [REFERENCES, TWINS, METRICS, HARNESS]),
 }
 ELSEWHERE = {"validation/metrics/verdict.cpp"}  # of the gate, though in the room of the metrics
 
-SWAPS = {"<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==", "&&": "||", "||": "&&", "+": "-", "-": "+", "*": "/", "/": "*", "+=": "-=", "-=": "+=", "++": "--"}
-KINDS = {"<": "bound", "<=": "bound", ">": "bound", ">=": "bound", "==": "condition", "!=": "condition", "&&": "condition", "||": "condition"}
-TOKEN = re.compile(r'"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])*\'|[A-Za-z_]\w*|\d[\w.]*(?:(?<=[eE])[-+]\d+)?|<=>|->|::|<<|>>|[<>=!+\-*/&|]=|&&|\|\||\+\+|--|.', re.S)
+SWAPS = {
+    "<": "<=",
+    "<=": "<",
+    ">": ">=",
+    ">=": ">",
+    "==": "!=",
+    "!=": "==",
+    "&&": "||",
+    "||": "&&",
+    "+": "-",
+    "-": "+",
+    "*": "/",
+    "/": "*",
+    "+=": "-=",
+    "-=": "+=",
+    "++": "--",
+}
+KINDS = {
+    "<": "bound",
+    "<=": "bound",
+    ">": "bound",
+    ">=": "bound",
+    "==": "condition",
+    "!=": "condition",
+    "&&": "condition",
+    "||": "condition",
+}
+TOKEN = re.compile(
+    r'"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])*\'|[A-Za-z_]\w*|\d[\w.]*(?:(?<=[eE])[-+]\d+)?|<=>|->|::|<<|>>|[<>=!+\-*/&|]=|&&|\|\||\+\+|--|.',
+    re.S,
+)
 
 
 def code_of(line):
@@ -71,37 +135,88 @@ def is_binary(tokens, k):
 
 def mutants_of(path, text):
     """@return [(line number from 0, column, operator, the line as mutated)]"""
-    found = []
-    for number, line in enumerate(text.split("\n")):
-        bare = line.strip()
-        if not bare or bare.startswith(("//", "#", "namespace", "using", "template", "static_assert", "enum", "struct", "class", "///", "constexpr std::string_view")):
-            continue
-        tokens, code = code_of(line)
-        put = lambda match, new, kind: found.append((number, match.start(), kind, line[:match.start()] + new + line[match.end():]))
-        for k, match in enumerate(tokens):
-            word = match.group()
-            if word in SWAPS and (word in ("==", "!=", "&&", "||", "<=", ">=") or is_binary(tokens, k)):
-                if word == "&&" and not is_binary(tokens, k):  # a reference to what is about to end
-                    continue
-                if not ("operator" in code or code.rstrip().endswith("delete;")):
-                    put(match, SWAPS[word], KINDS.get(word, "arithmetic"))
-            elif word == "++":
-                pass
-            elif re.fullmatch(r"\d+", word) and (k == 0 or tokens[k - 1].group() not in (".", "_")) and "array<" not in code:
-                put(match, str(int(word) + 1), "off by one")
-            elif word in ("true", "false") and "=" not in code.split(word)[0][-3:]:
-                put(match, "false" if word == "true" else "true", "condition")
-            elif word == "if" and "constexpr" not in code and "(" in code and (inside := parenthesised(code, match.end())):
-                begin, end = inside
-                if ";" not in code[begin:end]:
-                    found.append((number, match.start(), "condition", line[:begin] + "!(" + line[begin:end] + ")" + line[end:]))
-        for match in re.finditer(r"\b[\w:]+\(([\w.\[\]]+), ([\w.\[\]]+)\)", code):
-            if match.group(1) != match.group(2) and not re.match(r"(const|double|int|auto)\b", match.group(1)):
-                a, b = match.span(1), match.span(2)
-                found.append((number, match.start(), "swapped arguments", line[:a[0]] + match.group(2) + line[a[1]:b[0]] + match.group(1) + line[b[1]:]))
-        if re.match(r"\s+[\w.\[\]()*>-]+(\.|->|\[|\s[-+*/|&]?=\s|\()", code) and code.rstrip().endswith(";") and not re.match(r"\s*(return|throw|const|auto|double|int|bool|std::|static|constexpr|if|for|while|else|using|case|break|continue|[A-Z]\w* )", code):
-            found.append((number, len(line) - len(line.lstrip()), "deleted statement", line[:len(line) - len(line.lstrip())] + ";" + line[len(code):]))
-    return found
+    return [(number, *mutant) for number, line in enumerate(text.split("\n")) for mutant in mutants_of_line(line)]
+
+
+DECLARATIONS = (
+    "//",
+    "#",
+    "namespace",
+    "using",
+    "template",
+    "static_assert",
+    "enum",
+    "struct",
+    "class",
+    "constexpr std::string_view",
+)
+
+
+def mutants_of_line(line):
+    """(column, operator, the line as mutated) of each word, then of its calls, then of the whole statement."""
+    bare = line.strip()
+    if not bare or bare.startswith(DECLARATIONS):
+        return
+    tokens, code = code_of(line)
+    for k, match in enumerate(tokens):
+        change = mutated_sign(tokens, k, code) or mutated_value(tokens, k, code)
+        if change:
+            kind, new = change
+            yield match.start(), kind, line[: match.start()] + new + line[match.end() :]
+        elif match.group() == "if":
+            yield from negated(line, code, match)
+    yield from swapped_arguments(line, code)
+    yield from deleted_statement(line, code)
+
+
+def mutated_sign(tokens, k, code):
+    """(operator, new text) of a comparison or sum; nothing where it is none."""
+    word, binary = tokens[k].group(), is_binary(tokens, k)
+    comparison = word in ("==", "!=", "&&", "||", "<=", ">=")
+    reference = word == "&&" and not binary  # to what is about to end
+    if word not in SWAPS or not (comparison or binary) or reference:
+        return None
+    declares = "operator" in code or code.rstrip().endswith("delete;")
+    return None if declares else (KINDS.get(word, "arithmetic"), SWAPS[word])
+
+
+def mutated_value(tokens, k, code):
+    """(operator, new text) of a whole number or a truth; nothing of other words."""
+    word = tokens[k].group()
+    if re.fullmatch(r"\d+", word):
+        part = k > 0 and tokens[k - 1].group() in (".", "_")
+        return None if part or "array<" in code else ("off by one", str(int(word) + 1))
+    if word in ("true", "false") and "=" not in code.split(word)[0][-3:]:
+        return "condition", "false" if word == "true" else "true"
+    return None
+
+
+def negated(line, code, match):
+    inside = parenthesised(code, match.end()) if "constexpr" not in code and "(" in code else None
+    if inside and ";" not in code[slice(*inside)]:
+        begin, end = inside
+        yield match.start(), "condition", line[:begin] + "!(" + line[begin:end] + ")" + line[end:]
+
+
+def swapped_arguments(line, code):
+    for match in re.finditer(r"\b[\w:]+\(([\w.\[\]]+), ([\w.\[\]]+)\)", code):
+        one, two = match.groups()
+        if one != two and not re.match(r"(const|double|int|auto)\b", one):
+            a, b = match.span(1), match.span(2)
+            yield match.start(), "swapped arguments", line[: a[0]] + two + line[a[1] : b[0]] + one + line[b[1] :]
+
+
+STATEMENT = re.compile(r"\s+[\w.\[\]()*>-]+(\.|->|\[|\s[-+*/|&]?=\s|\()")
+KEPT = re.compile(
+    r"\s*(return|throw|const|auto|double|int|bool|std::|static|constexpr|if|for|while|else|using|case|break|continue"
+    r"|[A-Z]\w* )"
+)
+
+
+def deleted_statement(line, code):
+    if STATEMENT.match(code) and code.rstrip().endswith(";") and not KEPT.match(code):
+        indent = len(line) - len(line.lstrip())
+        yield indent, "deleted statement", line[:indent] + ";" + line[len(code) :]
 
 
 def parenthesised(code, start):
@@ -117,7 +232,14 @@ def parenthesised(code, start):
 
 class Mutant:
     def __init__(self, room, path, number, column, operator, line):
-        self.room, self.path, self.number, self.column, self.operator, self.line = room, path, number, column, operator, line
+        self.room, self.path, self.number, self.column, self.operator, self.line = (
+            room,
+            path,
+            number,
+            column,
+            operator,
+            line,
+        )
 
     def __str__(self):
         return f"{self.path.relative_to(ROOT)}:{self.number + 1}:{self.column + 1}: {self.operator}"
@@ -135,7 +257,8 @@ def all_mutants(rooms):
 
 
 def sample(mutants, count, seed):
-    """A file first, then a mutant in it: a long file does not crowd out the rest. Each mutant once, as many in each room as in another."""
+    """A file first, then a mutant in it: a long file does not crowd out the rest. Each mutant once, as many in each
+    room as in another."""
     r, chosen = random.Random(seed), []
     rooms = {}
     for m in mutants:
@@ -159,7 +282,10 @@ class Build:
 
     def __init__(self, folder, work):
         self.folder, self.work, self.links = Path(folder).resolve(), Path(work), {}
-        self.commands = {entry["file"]: shlex.split(entry["command"]) for entry in json.loads((self.folder / "compile_commands.json").read_text())}
+        self.commands = {
+            entry["file"]: shlex.split(entry["command"])
+            for entry in json.loads((self.folder / "compile_commands.json").read_text())
+        }
         if str(ROOT / "validation/metrics/verdict.cpp") not in self.commands:
             sys.exit(f"{self.folder} compiles several files as one: cmake --preset dev makes build-dev, which does not")
 
@@ -167,16 +293,27 @@ class Build:
         return f"tests/{name}" if name == TWINS[0] else f"tests/test-{name}"
 
     def make(self, name):
-        subprocess.run(["ninja", "-C", str(self.folder), "-j", "1", self.program(name)], check=True, capture_output=True)
-        listed = subprocess.run(["ninja", "-C", str(self.folder), "-t", "commands", self.program(name)], check=True, capture_output=True, text=True).stdout.splitlines()[-1]
+        subprocess.run(
+            ["ninja", "-C", str(self.folder), "-j", "1", self.program(name)], check=True, capture_output=True
+        )
+        listed = subprocess.run(
+            ["ninja", "-C", str(self.folder), "-t", "commands", self.program(name)],
+            check=True,
+            capture_output=True,
+            text=True,
+        ).stdout.splitlines()[-1]
         words = shlex.split(listed)
-        self.links[name] = words[words.index("&&") + 1:len(words) - 1 - words[::-1].index("&&")]
+        self.links[name] = words[words.index("&&") + 1 : len(words) - 1 - words[::-1].index("&&")]
 
     def compile(self, path, text):
         """@return whether the file with this text compiles"""
         copy = self.work / path.name
         copy.write_text(text)
-        words = [w for w in self.commands[str(path)] if not w.endswith("ccache") and not w.startswith(("-O", "-W", "-D_FORTIFY", "-U_FORTIFY"))]
+        words = [
+            w
+            for w in self.commands[str(path)]
+            if not w.endswith("ccache") and not w.startswith(("-O", "-W", "-D_FORTIFY", "-U_FORTIFY"))
+        ]
         words[words.index("-o") + 1], words[words.index("-c") + 1] = str(self.work / "mutant.o"), str(copy)
         return subprocess.run([*words, "-O0", "-w"], cwd=self.folder, capture_output=True, check=False).returncode == 0
 
@@ -195,8 +332,21 @@ class Build:
 
 def run_tests(name, program, words, limit):
     """@return what saw a fault, or None"""
-    asked = ["/usr/bin/python3", "-B", str(ROOT / words), str(program)] if name == TWINS[0] else [str(program), "--gtest_brief=1", "--gtest_fail_fast", f"--gtest_filter={words}"]
-    with subprocess.Popen(asked, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", start_new_session=True, preexec_fn=bounded) as child:
+    asked = (
+        ["/usr/bin/python3", "-B", str(ROOT / words), str(program)]
+        if name == TWINS[0]
+        else [str(program), "--gtest_brief=1", "--gtest_fail_fast", f"--gtest_filter={words}"]
+    )
+    with subprocess.Popen(
+        asked,
+        cwd=ROOT,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        errors="replace",
+        start_new_session=True,
+        preexec_fn=bounded,
+    ) as child:
         try:
             text, _ = child.communicate(timeout=limit)
         except subprocess.TimeoutExpired:
@@ -206,7 +356,13 @@ def run_tests(name, program, words, limit):
     if child.returncode == 0:
         return None
     failed = re.findall(r"\[  FAILED  \] (\S+)", text)
-    return words if name == TWINS[0] else failed[0].rstrip(",") if failed else f"the tests of {name} ended {child.returncode}"
+    return (
+        words
+        if name == TWINS[0]
+        else failed[0].rstrip(",")
+        if failed
+        else f"the tests of {name} ended {child.returncode}"
+    )
 
 
 def bounded():
@@ -242,8 +398,9 @@ def unchanged_tests(rooms, build, fast):
 
 
 def show(mutant, verdict):
-    old, new = mutant.path.read_text().split("\n")[mutant.number], mutant.line
-    print(f"{'SURVIVED' if verdict == 'survived' else 'seen':8} {mutant}{'' if verdict == 'survived' else '  by ' + verdict}\n    - {old.strip()}\n    + {new.strip()}", flush=True)
+    old, new = mutant.path.read_text().split("\n")[mutant.number].strip(), mutant.line.strip()
+    word, by = ("SURVIVED", "") if verdict == "survived" else ("seen", f"  by {verdict}")
+    print(f"{word:8} {mutant}{by}\n    - {old}\n    + {new}", flush=True)
 
 
 def main():

@@ -51,10 +51,7 @@ class Solid:
         gravity = np.array(job.scene["gravity"], float)
         weight = skfem.LinearForm(lambda v, w: rho * (gravity[0] * v[0] + gravity[1] * v[1] + gravity[2] * v[2]))
 
-        component = np.empty(basis.N, int)
-        for group in (basis.nodal_dofs, basis.edge_dofs, basis.facet_dofs, basis.interior_dofs):
-            for row, dofs in enumerate(group):
-                component[dofs] = row % 3
+        component = self.components(basis)
         join = lattice.joined(basis.doflocs, component)
         motion = self.motions(job, basis, bodies, component, join)
         held = self.held(fixed, basis, join)
@@ -69,15 +66,28 @@ class Solid:
         self.gravity = [float(load[component == k].sum()) / total for k in range(3)]  # [m/s2], as it acts
         mean = content.assemble(basis, cells) @ reduce / lattice.spacing**3  # (3 elements, unknowns)
         self.mean = [mean[cells.element_dofs[k]] for k in range(3)]
-        given = np.zeros(cells.N)
-        for k in range(3):
-            given[cells.element_dofs[k]] = self.start["velocity"][self.particle, k]
+        given = self.start_velocities(cells)
         heavy = mass.assemble(basis, cells)
         self.u = np.zeros(reduce.shape[1])  # [m]
         self.v = self.factor(self.mass)(reduce.T @ (heavy.T @ given)) if given.any() else np.zeros_like(self.u)  # [m/s]
         self.elements, self.solvers = len(self.particle), {}
         fastest = float(np.sqrt((lam + 2.0 * mu) / rho).max())
         self.natural_step = lattice.spacing / (STEPS_A_CELL * fastest)
+
+    def start_velocities(self, cells: Any) -> Any:
+        """[m/s] of each dof of the cells."""
+        given = self.np.zeros(cells.N)
+        for k in range(3):
+            given[cells.element_dofs[k]] = self.start["velocity"][self.particle, k]
+        return given
+
+    def components(self, basis: Any) -> Any:
+        """Axis of each dof, 0 to 2."""
+        component = self.np.empty(basis.N, int)
+        for group in (basis.nodal_dofs, basis.edge_dofs, basis.facet_dofs, basis.interior_dofs):
+            for row, dofs in enumerate(group):
+                component[dofs] = row % 3
+        return component
 
     def held(self, fixed: Any, basis: Any, join: Any) -> Any:
         """Unknowns at the faces that bodies share with what is fixed."""

@@ -142,9 +142,7 @@ def caption(wanted, residuals):
 def who_leads(title, left):
     """A sentence: by how much each engine's first body lags or leads the exact one at the end, in the direction of the
     panel's axis."""
-    lines = left[1] if left else []
-    ends = {curve.label: values[-1] for curve, _, values, nth in lines if nth == 0 and len(values)}
-    ends = {label: value for label, value in ends.items() if np.isfinite(value)}
+    ends = ends_of(left[1] if left else [])
     none = 1e-3 * max(map(abs, ends.values()), default=0.0)
     parts = [
         f"{label} {'lags' if value < 0 else 'leads'} by {abs(value):.4g} m"
@@ -159,6 +157,12 @@ def who_leads(title, left):
         f" At the end, in {title[0]} against exact: {', '.join(parts)}{rest}. To lag is to have less of {title[0]} "
         "than exact, to lead more."
     )
+
+
+def ends_of(lines):
+    """{label: last value} of the first bodies"""
+    ends = {curve.label: values[-1] for curve, _, values, nth in lines if nth == 0 and len(values)}
+    return {label: value for label, value in ends.items() if np.isfinite(value)}
 
 
 def residual(title, lines, truth):

@@ -16,6 +16,7 @@ import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 
 import h5py
@@ -144,68 +145,63 @@ def lattice_neighbours(start):
 
 def codes_of(bench, threads):
     """Every code at every work; the solver's own rows come first in each."""
-    list_ = []
-    for work, (many, few) in WORKS.items():
+    return [
+        Code(name, work, parallel, leaves_out, run)
+        for work, (many, few) in WORKS.items()
+        for name, parallel, leaves_out, run in [
+            *own_codes(bench, work, threads, many),
+            *(solid_codes if work == "elastic-40k" else liquid_codes)(bench, work, threads, many, few),
+        ]
+    ]
 
-        def add(name, parallel, leaves_out, run):
-            list_.append(Code(name, work, parallel, leaves_out, run))
 
-        for n in sorted({1, threads}):
-            add(
-                "tripoint",
-                n,
-                "nothing: double, search when a list is outworn",
-                lambda work=work, n=n, many=many: bench.measure(work, n, many),
-            )
-        for n in sorted({1, threads}) if bench.o.beside else []:
-            add(
-                "tripoint beside",
-                n,
-                "as tripoint: another build of it",
-                lambda work=work, n=n, many=many: bench.measure(work, n, many, bench.o.beside),
-            )
-        if work == "elastic-40k":
-            add(
-                "SPlisHSPlasH Becker 2009",
-                threads,
-                "float; contact through WCSPH; search each step",
-                lambda work=work, few=few: bench.splishsplash(work, "becker", threads, few),
-            )
-            for n in sorted({1, threads}):
-                add(
-                    "LAMMPS MACHDYN tlsph",
-                    n,
-                    "no contact; lists of the start for ever",
-                    lambda work=work, n=n, few=few: bench.lammps(work, "tlsph", n, few),
-                )
-            continue
-        if work == "liquid-heat-40k":
-            add(
-                "tripoint corrected",
-                threads,
-                "nothing; corrected forms, heat in two stages",
-                lambda n=threads, few=few: bench.measure("liquid-heat-40k-corrected", n, 2 * few),
-            )
-            add(
-                "LAMMPS RHEO",
-                threads,
-                "quintic kernel, no corrections of it",
-                lambda work=work, few=few: bench.lammps(work, "rheo", threads, few),
-            )
-        add(
-            "SPlisHSPlasH WCSPH",
+def own_codes(bench, work, threads, many):
+    for n in sorted({1, threads}):
+        yield "tripoint", n, "nothing: double, search when a list is outworn", partial(bench.measure, work, n, many)
+    for n in sorted({1, threads}) if bench.o.beside else []:
+        run = partial(bench.measure, work, n, many, bench.o.beside)
+        yield "tripoint beside", n, "as tripoint: another build of it", run
+
+
+def solid_codes(bench, work, threads, many, few):
+    yield (
+        "SPlisHSPlasH Becker 2009",
+        threads,
+        "float; contact through WCSPH; search each step",
+        partial(bench.splishsplash, work, "becker", threads, few),
+    )
+    for n in sorted({1, threads}):
+        run = partial(bench.lammps, work, "tlsph", n, few)
+        yield "LAMMPS MACHDYN tlsph", n, "no contact; lists of the start for ever", run
+
+
+def liquid_codes(bench, work, threads, many, few):
+    if work == "liquid-heat-40k":
+        yield (
+            "tripoint corrected",
             threads,
-            "heat; float; search each step",
-            lambda work=work, few=few: bench.splishsplash(work, "wcsph", threads, few),
+            "nothing; corrected forms, heat in two stages",
+            partial(bench.measure, "liquid-heat-40k-corrected", threads, 2 * few),
         )
-        for n in sorted({1, threads}):
-            add(
-                "LAMMPS taitwater + heat",
-                n,
-                "density sum (integrates continuity): one pass over half lists",
-                lambda work=work, n=n, many=many: bench.lammps(work, "sph", n, many),
-            )
-    return list_
+        yield (
+            "LAMMPS RHEO",
+            threads,
+            "quintic kernel, no corrections of it",
+            partial(bench.lammps, work, "rheo", threads, few),
+        )
+    yield (
+        "SPlisHSPlasH WCSPH",
+        threads,
+        "heat; float; search each step",
+        partial(bench.splishsplash, work, "wcsph", threads, few),
+    )
+    for n in sorted({1, threads}):
+        yield (
+            "LAMMPS taitwater + heat",
+            n,
+            "density sum (integrates continuity): one pass over half lists",
+            partial(bench.lammps, work, "sph", n, many),
+        )
 
 
 def run_rounds(codes, rounds, say):
