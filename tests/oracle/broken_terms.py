@@ -57,6 +57,7 @@ BROKEN = [
     ("fluid.transport.stress=1e-6", "vortices", "corrected", 2, [], "stress of the shift 8.3"),
     ("fluid.mean_pressure=1e-6", "vortices", "corrected", 2, ["scene.mean_pressure=0.8"], "pressure 8.3"),
     ("fluid.sound_damping=1e-6", "vortices", "corrected", 2, ["scene.sound_damping=0.2"], "damping of sound 8.3"),
+    ("carried.viscosity=1e-6", "basin", "corrected", 2, ["model.pressure='adjoint'"], "carried viscous force 8.12"),
     ("heat.paper.diffusivity=1e-6", "mixture", "paper", 2, [], "heat (21)"),
     ("heat.moment=1", "freezing", "corrected", 2, [], "moment 8.6"),
     ("heat.harmonic_mean=1", "freezing", "corrected", 2, [], "heat flow 8.6"),

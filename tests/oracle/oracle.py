@@ -18,6 +18,7 @@ import sys
 
 import numpy as np
 
+import carried
 import kernels
 import flows
 import model
@@ -44,7 +45,9 @@ rank 8.7 | gradients at surfaces 8.7 | strain (14) | strain 8.7 |
 strain of sheets and chains 8.7 | bond force (12) | bond force 8.7 | bond force of sheets and chains 8.7 | elastic \
 energy (10) | elastic energy 8.7 |
 hourglass energy 8.7 | plastic strain 8.8 | plastic strain of sheets and chains 8.8 | broken bonds (12) | broken bonds \
-8.8"""
+8.8 |
+carried sum 8.12 | carried moments 8.12 | carried gradients 8.12 | carried pressure force 8.12 | \
+carried viscous force 8.12 | carried damping 8.12 | carried diffusion 8.12"""
 TERMS = [t.strip() for t in TERMS.replace("\n", " ").split("|")]
 
 # Each pair term that the passes have compiled (its pair_slots.hpp brings it), and the rows above that show its sums.
@@ -73,7 +76,13 @@ PAIR_TERMS = {
     "HeatMoment": ["moment 8.6"],
     "HeatFlowPaper": ["heat (21)", "exchange (21)"],
     "HeatFlowCorrected": ["heat flow 8.6", "conductance 8.6"],
+    "SummedDensity": ["carried sum 8.12"],
+    "CarriedMoments": ["carried moments 8.12"],
 }
+CARRIED_FORCES = [f"carried {what} 8.12" for what in ("pressure force", "viscous force", "damping", "diffusion")]
+for pair, damping in set(carried.FORMS.values()):
+    PAIR_TERMS[f"CarriedGradients {pair}"] = ["carried gradients 8.12"]
+    PAIR_TERMS[f"CarriedForces {pair} {damping}"] = CARRIED_FORCES
 
 # Scene, form, steps, changes to the scene.
 RUNS = [
@@ -95,7 +104,7 @@ RUNS = [
     ("solids", "paper", 12, []),
     ("freezing", "corrected", 12, []),
     ("freezing", "paper", 12, []),
-]
+] + [("basin", "corrected", 2, [f"model.pressure='{form}'", "scene.support_ratio=2.9"]) for form in carried.FORMS]
 
 
 class Differences:
@@ -389,6 +398,8 @@ def compare_fracture(out, s, before):
 
 
 def compare_state(out, s, before):
+    if s.has("impedance"):
+        return carried.compare(out, s, before)
     if s.has("volume"):
         compare_densities(out, s, before)
     if s.has("pressure"):
@@ -415,6 +426,7 @@ def compare_all(writer, runs=RUNS):
     out, broken = Differences(), 0
     for scene, mode, steps, changes in runs:
         start, before, after = states_of(writer, scene, mode, steps, changes)
+        start.form_of_pressure = "".join(changes[:1]).removeprefix("model.pressure=").strip("'")
         out.where = " ".join([scene, mode, *changes])
         compare_state(out, start, None)
         compare_state(out, after, before)

@@ -1,0 +1,228 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sums of model 8.12 for liquid that carries its density, at a start, where all columns are of one state.
+
+`D` is r_j - r_i, `f` is -W'/r, and a tensor T of each particle acts on D as T D. An impedance of 0 marks a solid."""
+
+import numpy as np
+
+import model
+from kernels import wendland
+
+FORMS = {  # pair of pressures, damping
+    "adjoint": ("own", "residue"),
+    "adjoint_limited": ("own", "limited residue"),
+    "reverse": ("reverse", "limited residue"),
+    "reverse_riemann": ("reverse plain", "limited"),
+    "mean": ("mean", "residue"),
+}
+BETA = 0.1
+
+
+class Pairs:
+    """What all sums share: [i, j] or [i, j, k]."""
+
+    def __init__(self, s):
+        self.s, self.D = s, -s.d
+        self.f = np.where(s.distance < s.h, -s.slope_over_r, 0.0)
+        self.z, self.rest, self.V = s["impedance"], s["liquid_rest_density"], s["volume"]
+        self.wall = self.z == 0
+        z_i, z_j = self.z[:, None], self.z[None, :]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            between = np.where(z_i == z_j, 1.0, 2 * z_j / (z_i + z_j))
+        self.w = np.where(z_i == z_j, 1.0, np.where(self.wall[None, :], 2.0, between))
+        self.same = (self.rest[:, None] == self.rest[None, :]) & ~self.wall[None, :]
+        self.liquids = ~self.wall[:, None] & ~self.wall[None, :]
+        B = s.symmetric("correction")
+        self.of_i = np.einsum("ikl,ijl->ijk", B, self.D)
+        self.of_j = np.einsum("jkl,ijl->ijk", B, self.D)
+
+    def sides(self, pair):
+        """X and Y over f."""
+        w_i, w_j = self.w[..., None], self.w.T[..., None]
+        if pair == "own":
+            return w_i * self.of_i, w_j * self.of_j
+        own = 0.5 if pair == "mean" else 0.0
+        X = w_i * (own * self.of_i + (1 - own) * self.of_j)
+        Y = w_j * (own * self.of_j + (1 - own) * self.of_i)
+        X[:, self.wall] = (w_i * self.of_i)[:, self.wall]
+        Y[self.wall] = (w_j * self.of_j)[self.wall]
+        return X, Y
+
+
+def total(s, pairs):
+    """Sums over j, and the sum of their magnitudes, each times its condition."""
+    size = np.abs(pairs).reshape(s.n, s.n, -1).max(axis=2)
+    return pairs.sum(axis=1), (s.condition * size).sum(axis=1)
+
+
+def summed_density(s):
+    W = wendland(s.distance, s.h)
+    own = wendland(0.0, s.h)
+    return W.sum(axis=1) + own, (s.condition * W).sum(axis=1) + own
+
+
+def moments(s):
+    """M of all neighbours, M of the same liquid, and the share of solids."""
+    p = Pairs(s)
+    outer = p.D[..., :, None] * p.D[..., None, :]
+    f = p.f * p.V[None, :]
+    weight = np.where(p.wall[None, :], 1.0, p.w)
+    share = np.where(p.wall[None, :], p.V[None, :] * wendland(s.distance, s.h), 0.0)
+    return [
+        total(s, (weight * f)[..., None, None] * outer),
+        total(s, np.where(p.same, f, 0.0)[..., None, None] * outer),
+        total(s, share),
+    ]
+
+
+def blended(M, full):
+    """Inverse that fades to 0 where the determinant is below `full`."""
+    det = np.linalg.det(M)
+    usable = det > 1e-9
+    inverse = np.linalg.inv(np.where(usable[:, None, None], M, np.eye(3)))
+    share = np.where(usable, det / (det + np.maximum(full - det, 0)), 0.0)
+    return share[:, None, None] * inverse
+
+
+def gradients(s, pair):
+    """Of velocity and density; the unevenness; the divergence."""
+    p = Pairs(s)
+    v, rho = s.vector("velocity"), s["density"]
+    dv = v[None, :] - v[:, None]
+    f = p.f * p.V[None, :]
+    G = np.where(p.same, f, 0.0)[..., None] * p.D
+    inverse = blended(s.symmetric("own_moment"), 0.02)
+    size = np.abs(inverse).max(axis=(1, 2)) * 3
+    A, A_size = total(s, dv[..., :, None] * G[..., None, :])
+    slope, slope_size = total(s, (rho[None, :] - rho[:, None])[..., None] * G)
+    X, Y = p.sides(pair)
+    along = p.w[..., None] * p.D if pair == "reverse plain" else X
+    return [
+        (A @ inverse, A_size * size),
+        (np.einsum("ikl,il->ik", inverse, slope), slope_size * size),
+        total(s, f[..., None] * (X + Y)),
+        total(s, f * np.einsum("ijk,ijk->ij", dv, along)),
+    ]
+
+
+def greatest_near(s):
+    """Whether a neighbour is exposed, and the greatest square of a velocity difference."""
+    within = s.distance < s.h
+    v = s.vector("velocity")
+    speed2 = ((v[None, :] - v[:, None]) ** 2).sum(axis=2)
+    liquid = within & (s["impedance"] != 0)[None, :]
+    near = np.where(within, s["exposed"][None, :], 0.0).max(axis=1)
+    return near, np.where(liquid, speed2, 0.0).max(axis=1)
+
+
+def pressures(p):
+    """Of i and of j in each pair: at a solid with half of the head between the two."""
+    s = p.s
+    pull = s.vector("pull")
+    sign = np.where(p.wall, -1.0, 1.0)[:, None]
+    lean = sign * np.einsum("ijk,ijk->ij", pull[:, None] + pull[None, :], p.D)
+    P, rho = s["pressure"], s["density"]
+    head = lambda P, rho: np.maximum(0.5 * rho * lean, -np.maximum(P, 0.0) + 0 * lean)
+    p_i = P[:, None] + np.where(p.wall[None, :], head(P[:, None], rho[:, None]), 0.0)
+    return p_i, P[None, :] + np.where(p.wall[:, None], head(P[None, :], rho[None, :]), 0.0)
+
+
+def pressure_force(s, pair):
+    p = Pairs(s)
+    p_i, p_j = pressures(p)
+    X, Y = p.sides(pair)
+    out = s["wall_pressure"]
+    push = np.where(p.wall[None, :], out[:, None], 0.0) + np.where(p.wall[:, None], out[None, :], 0.0)
+    inner = p_i[..., None] * X + p_j[..., None] * Y + push[..., None] * p.D
+    return model.summed(s, -(p.f * p.V[:, None] * p.V[None, :])[..., None] * inner)
+
+
+def viscous_force(s):
+    p = Pairs(s)
+    mu, slips, seen = s["liquid_viscosity"], s["slips"], s.vector("predicted_velocity")
+    with np.errstate(divide="ignore", invalid="ignore"):
+        mean = 2 * mu[:, None] * mu[None, :] / (mu[:, None] + mu[None, :])
+    sticks = 2 * (1 - slips)
+    at_wall = (
+        np.where(p.wall, sticks, 0.0)[:, None] * mu[None, :] + np.where(p.wall, sticks, 0.0)[None, :] * mu[:, None]
+    )
+    along = np.einsum("ijk,ijk->ij", seen[None, :] - seen[:, None], p.D) / s.r2
+    k = 10 / s.M * p.f * p.V[:, None] * p.V[None, :] * np.where(p.liquids, mean, at_wall) * along
+    return model.summed(s, k[..., None] * p.D)
+
+
+def parting(p, damping):
+    """Rate at which a pair parts [1/s], and the part of it that linear reconstruction leaves."""
+    s, v = p.s, p.s.vector("velocity")
+    rate = np.einsum("ijk,ijk->ij", v[None, :] - v[:, None], p.D) / s.r2
+    if damping == "limited":
+        return rate, rate
+    A = np.array([[s[f"velocity_gradient.{a}{b}"] for b in "xyz"] for a in "xyz"]).transpose(2, 0, 1)
+    both = A[:, None] + A[None, :]
+    return rate, rate - 0.5 * np.einsum("ijk,ijkl,ijl->ij", p.D, both, p.D) / s.r2
+
+
+def residue_force(s, damping):
+    p = Pairs(s)
+    z_i, z_j = p.z[:, None], p.z[None, :]
+    both = z_i + z_j + 1e-300
+    rate, left = parting(p, damping)
+    r = np.where(np.isfinite(s.distance), s.distance, 0.0)
+    way = BETA * 0.5 * s.h if damping == "residue" else r
+    with np.errstate(invalid="ignore"):
+        ff = np.where(p.liquids, p.f * p.V[:, None] * p.V[None, :] * 2 * z_i * z_j / both, 0.0)
+        if damping == "residue":
+            k = way * np.where(p.rest[:, None] == p.rest[None, :], ff * left, 0.0)
+        else:
+            u = r * np.where(rate > left, -rate, -left)
+            mach = 3 * u * (p.rest[:, None] + p.rest[None, :]) / both
+            k = np.where(u > 0, -ff * u * np.minimum(mach, 1.0), 0.0)
+    scale = (s.condition * ff * (np.abs(rate) + np.abs(rate - left)) * way * r).sum(axis=1)
+    return (k[..., None] * p.D).sum(axis=1), scale
+
+
+def diffused(s, damping):
+    p = Pairs(s)
+    rho, P = s["density"], s["pressure"]
+    if damping == "limited":
+        r = np.where(np.isfinite(s.distance), s.distance, 0.0)
+        z = p.z[:, None] + p.z[None, :] + 1e-300
+        return total(
+            s, np.where(p.liquids, 2 * p.V[None, :] * rho[:, None] * (P[None, :] - P[:, None]) * p.f * r / z, 0.0)
+        )
+    slope = s.vector("density_gradient")
+    linear = 0.5 * np.einsum("ijk,ijk->ij", slope[:, None] + slope[None, :], p.D)
+    same = p.liquids & (p.rest[:, None] == p.rest[None, :])
+    jump = rho[None, :] - rho[:, None]
+    terms = np.where(same, p.f * p.V[None, :], 0.0)
+    sums = (terms * (jump - linear)).sum(axis=1)
+    return sums, (s.condition * terms * (np.abs(jump) + np.abs(linear))).sum(axis=1)
+
+
+def compare(out, s, before):
+    """A start alone: later the density has moved on since the volumes were taken."""
+    out.compare("carried sum 8.12", s["summed_density"], *summed_density(s))
+    if before is not None:
+        return
+    pair, damping = FORMS[s.form_of_pressure]
+    wet = s["impedance"] != 0
+    at = lambda pair_of: (pair_of[0][wet], pair_of[1][wet])
+    for name, moment in zip(("moment", "own_moment"), moments(s)):
+        out.compare("carried moments 8.12", s.symmetric(name)[wet], *at(moment))
+    out.compare("carried moments 8.12", s["wall_share"][wet], *at(moments(s)[2]))
+    A, slope, uneven, divergence = gradients(s, pair)
+    found = np.array([[s[f"velocity_gradient.{a}{b}"] for b in "xyz"] for a in "xyz"]).transpose(2, 0, 1)
+    for solver, twin in (
+        (found, A),
+        (s.vector("density_gradient"), slope),
+        (s.vector("unevenness"), uneven),
+        (s["divergence"], divergence),
+    ):
+        out.compare("carried gradients 8.12", solver[wet], *at(twin))
+    near, speed2 = greatest_near(s)
+    out.compare("carried gradients 8.12", s["exposed_near"][wet], near[wet], 1.0)
+    out.compare("carried gradients 8.12", s["nearby_speed2"][wet], speed2[wet], speed2[wet])
+    out.compare("carried pressure force 8.12", s.vector("force"), *pressure_force(s, pair))
+    out.compare("carried viscous force 8.12", s.vector("shear_force"), *viscous_force(s))
+    out.compare("carried damping 8.12", s.vector("residue_force"), *residue_force(s, damping))
+    out.compare("carried diffusion 8.12", s["diffused"][wet], *at(diffused(s, damping)))
