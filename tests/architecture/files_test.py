@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every source file names its licence, has at most 500 lines and holds no path of one machine: files_test.py SOURCE."""
+"""Every source file names its licence, has at most 500 lines and holds no path of one machine; functions of C++ are
+short: files_test.py SOURCE."""
 
 import re
 import sys
@@ -11,6 +12,10 @@ FOLDERS = ("src", "adapters", "validation", "program", "tests", "reports", "cmak
 ENDINGS = (".cpp", ".hpp", ".py", ".sh", ".cmake")
 GPL = ("adapters/lammps/", "adapters/ranks/")
 MOST = 500  # lines
+MOST_OF_A_FUNCTION = 65  # lines, where the program is written; a test's table may be long
+PROGRAM = ("src/", "adapters/", "validation/", "program/")
+HEAD = re.compile(r"\)( const| noexcept| override| final| mutable| ->.*)* \{$")
+CONTROL = re.compile(r"\s*(\} )?(if|for|while|switch|else|do|try|catch)\b")
 MACHINE = re.compile(r"(?<![\w.}/-])/(?:home|root|work|mnt|Users|opt)/[A-Za-z0-9]")
 HOME = "/".join(["", "home", "ann"])  # in parts, since no file may hold such a path
 
@@ -23,9 +28,27 @@ def faults(path, text):
         yield f"{path}:1: no line '{licence}' at the top"
     if len(lines) > MOST:
         yield f"{path}:{MOST + 1}: {len(lines)} lines, {MOST} at most: split by subject"
+    if path.startswith(PROGRAM) and path.endswith(("pp", ".inc")):
+        for number, length in long_functions(lines):
+            yield f"{path}:{number}: a function of {length} lines, {MOST_OF_A_FUNCTION} at most: split it by subject"
     for number, line in enumerate(lines, 1):
         if MACHINE.search(line):
             yield f"{path}:{number}: a path of one machine: {line.strip()}"
+
+
+def long_functions(lines):
+    """(line, its lines) of each. A body is what stands deeper than the brace that ends it."""
+    for number, head in enumerate(lines[:-1], 1):
+        if not HEAD.search(head) or CONTROL.match(head):
+            continue
+        depth = indent(lines[number])
+        end = next((n for n in range(number, len(lines)) if lines[n].strip() and indent(lines[n]) < depth), number)
+        if end + 2 - number > MOST_OF_A_FUNCTION:
+            yield number, end + 2 - number
+
+
+def indent(line):
+    return len(line) - len(line.lstrip()) if not line.startswith("#") else 1000
 
 
 class Rules(unittest.TestCase):
@@ -51,6 +74,13 @@ class Rules(unittest.TestCase):
         text = self.TAG + "BSD-3-Clause\n" + 499 * "x\n"
         self.assertEqual(self.told("src/core/a.cpp", text), [])
         self.assertEqual(self.told("src/core/a.cpp", text + "y"), ["501 lines, 500 at most"])
+
+    def test_a_function_of_the_program_has_sixty_five_lines_at_most(self):
+        for lines, found in ((61, []), (62, ["a function of 66 lines, 65 at most"])):
+            head = "BSD-3-Clause\nint sum(int x,\n        int y) const {\n"
+            planted = self.TAG + head + lines * "  x += y;\n" + "#endif\n  return x;\n}\n\nint z() {\n}\n"
+            self.assertEqual(self.told("src/core/a.cpp", planted), found)
+            self.assertEqual(self.told("tests/core/a_test.cpp", planted), [])
 
     def test_a_path_of_one_machine_is_named_with_its_line(self):
         text = self.TAG + "BSD-3-Clause\n"
