@@ -19,19 +19,17 @@ namespace tripoint {
 
 namespace {
 
-using AllPasses = PassesOf<
+using AllPasses = PassesOf<TRIPOINT_UNIT_LANES, Unit,
 #define TRIPOINT_EFFECT(name) name::PairSlots,
 #include TRIPOINT_EFFECT_LIST
 #undef TRIPOINT_EFFECT
-    void>;  // an effect of no slots, which ends the list
+                           void>;  // an effect of no slots, which ends the list
 
 }  // namespace
 
 template <>
 PairPasses pair_passes_for<Unit>() {
-  constexpr int lanes = TRIPOINT_UNIT_LANES;
-  return {&AllPasses::Density::choose_among<lanes, Unit>, &AllPasses::Rates::choose_among<lanes, Unit>,
-          &AllPasses::alone<lanes, Unit>, AllPasses::timed<lanes, Unit>(), AllPasses::terms};
+  return {AllPasses::density, AllPasses::rates, AllPasses::alone, AllPasses::timed};
 }
 
 }  // namespace tripoint

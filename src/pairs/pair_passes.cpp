@@ -21,6 +21,22 @@ PairPasses pair_passes_for<Avx2>();
 template <>
 PairPasses pair_passes_for<Avx512>();
 
+namespace {
+
+PassFunction most_of(std::span<const PairTerm> wanted, std::span<const PassFunction> table) {
+  const auto is_wanted = [&](const PairTerm& term) { return std::ranges::find(wanted, term) != wanted.end(); };
+  PassFunction most = {};
+  for (const PassFunction& f : table)
+    if (f.terms.size() > most.terms.size() && std::ranges::all_of(f.terms, is_wanted)) most = f;
+  return most;
+}
+
+}  // namespace
+
+PassFunction PairPasses::density(std::span<const PairTerm> wanted) const { return most_of(wanted, densities); }
+PassFunction PairPasses::rates(std::span<const PairTerm> wanted) const { return most_of(wanted, rates_of_scenes); }
+PassFunction PairPasses::alone(const PairTerm& term) const { return most_of({&term, 1}, single); }
+
 PairPasses pair_passes(int lanes) {
   if (lanes == 1) return pair_passes_for<Any>();
   if (lanes == 4 && machine_has_avx2()) return pair_passes_for<Avx2>();

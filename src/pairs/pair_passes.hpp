@@ -6,14 +6,16 @@
 
 namespace tripoint {
 
-/// Every pass that effects have brought slots for (pairs/pair_slots.hpp), as one vector unit has them. A pass sums the wanted
-/// terms that it has.
+/// The tables of functions that effects have brought terms for (pairs/pair_slots.hpp), as one vector unit has them.
 struct PairPasses {
-  PassFunction (*density)(std::span<const PairTerm> wanted);
-  PassFunction (*rates)(std::span<const PairTerm> wanted);
-  PassFunction (*alone)(const PairTerm&);  ///< of one term; null where no effect has brought it
-  PassFunction timed;                      ///< rates that show which width is fastest
-  std::span<const PairTerm> terms;         ///< all that are compiled, each as often as a form of a slot has it
+  std::span<const PassFunction> densities, rates_of_scenes, single;
+  PassFunction timed;  ///< rates that show which width is fastest
+
+  /// The functions that sum most of the wanted terms and no other; of none where the table has none.
+  [[nodiscard]] PassFunction density(std::span<const PairTerm> wanted) const;
+  [[nodiscard]] PassFunction rates(std::span<const PairTerm> wanted) const;
+  /// Of one term; null where no effect has brought it.
+  [[nodiscard]] PassFunction alone(const PairTerm&) const;
 };
 
 /// As compiled for a vector unit, for clusters as wide as it.

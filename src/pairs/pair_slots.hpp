@@ -1,167 +1,101 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <array>
-#include <type_traits>
 
 #include "pairs/pass.hpp"
 
-/// The slots of the fused passes, put together from those of each effect. An effect with pair terms has a header
-/// effects/NAME/pair_slots.hpp with a type NAME::PairSlots. The type has any of these aliases:
-///   using density = SlotList<Slot<...>...>;  terms that the pass of density sums
-///   using rates = SlotList<Slot<...>...>;    terms that the pass of rates sums
-///   using alone = Together<...>;             terms that have a pass each
-///   using timed = Together<...>;             the form of rates by which the fastest width is found
-/// An effect without pair terms has no such header: NAME::PairSlots is then never defined. All functions here are for their types
-/// alone.
+/// The table of compiled passes. An effect with pair terms has a header effects/NAME/pair_slots.hpp with a type
+///   struct PairSlots : NoPairTerms { using density = OneOf<...>; ... };
+/// which says its forms in each pass. The table of a pass has each form of each effect with each form of every other.
 namespace tripoint {
 
-template <class... Slots>
-struct SlotList {};
+/// Forms, each Terms<...>, of which a scene takes one at most.
+template <class... Forms>
+struct OneOf {
+  static constexpr std::size_t size = sizeof...(Forms);
+};
+/// Forms of one term.
+template <class... T>
+using OneTermOf = OneOf<Terms<T>...>;
+
+/// What an effect leaves out of its PairSlots.
+struct NoPairTerms {
+  using density = OneOf<>;  ///< forms in the pass of density
+  using rates = OneOf<>;    ///< forms in the pass of rates
+  using alone = OneOf<>;    ///< each has a pass of its own
+  using timed = Terms<>;    ///< rates by which the fastest width is found
+};
+
+template <class... A, class... B>
+consteval Terms<A..., B...> operator+(Terms<A...>, Terms<B...>) {
+  return {};
+}
+template <class... A, class... B>
+consteval OneOf<A..., B...> operator|(OneOf<A...>, OneOf<B...>) {
+  return {};
+}
+/// Each form of one with each of the other.
+template <class... A, class B>
+consteval auto operator*(OneOf<A...>, B other) {
+  const auto with_each = []<class Form, class... Others>(Form, OneOf<Others...>) {
+    return OneOf<decltype(Form{} + Others{})...>{};
+  };
+  return (OneOf<>{} | ... | with_each(A{}, other));
+}
 
 namespace detail {
 
-template <class Form, class... Forms>
-inline constexpr bool is_one_of = (std::is_same_v<Form, Forms> || ...);
-
-/// The forms of two slots, each once.
-template <class... A>
-constexpr auto united(Slot<A...> a, Slot<>) {
-  return a;
-}
-template <class... A, class First, class... More>
-constexpr auto united(Slot<A...> a, Slot<First, More...>) {
-  if constexpr (is_one_of<First, A...>)
-    return united(a, Slot<More...>{});
-  else
-    return united(Slot<A..., First>{}, Slot<More...>{});
-}
-
-template <class... A, class... B>
-constexpr bool share_a_form(Slot<A...>, Slot<B...>) {
-  return (is_one_of<B, A...> || ...);
-}
-
-/// A list with one more slot. Slots that share a form are one, since no scene has two of their forms on.
-template <class... Before, class New>
-constexpr auto with_slot(SlotList<Before...>, SlotList<>, New) {
-  return SlotList<Before..., New>{};
-}
-template <class... Before, class First, class... Rest, class New>
-constexpr auto with_slot(SlotList<Before...>, SlotList<First, Rest...>, New) {
-  if constexpr (share_a_form(First{}, New{}))
-    return SlotList<Before..., decltype(united(First{}, New{})), Rest...>{};
-  else
-    return with_slot(SlotList<Before..., First>{}, SlotList<Rest...>{}, New{});
-}
-
-template <class List>
-constexpr auto joined(List list, SlotList<>) {
-  return list;
-}
-template <class List, class First, class... More>
-constexpr auto joined(List list, SlotList<First, More...>) {
-  return joined(with_slot(SlotList<>{}, list, First{}), SlotList<More...>{});
-}
-template <class... A, class... B>
-constexpr auto joined(Together<A...>, Together<B...>) {
-  return Together<A..., B...>{};
-}
-
-/// A list that an effect's PairSlots do not define is empty.
+/// PairSlots of an effect; of one that has no header it is never defined.
 template <class Effect>
-constexpr auto density_of() {
-  if constexpr (requires { typename Effect::density; })
-    return typename Effect::density{};
-  else
-    return SlotList<>{};
-}
+struct SlotsOf : NoPairTerms {};
 template <class Effect>
-constexpr auto rates_of() {
-  if constexpr (requires { typename Effect::rates; })
-    return typename Effect::rates{};
-  else
-    return SlotList<>{};
-}
-template <class Effect>
-constexpr auto alone_of() {
-  if constexpr (requires { typename Effect::alone; })
-    return typename Effect::alone{};
-  else
-    return Together<>{};
-}
-template <class Effect>
-constexpr auto timed_of() {
-  if constexpr (requires { typename Effect::timed; })
-    return typename Effect::timed{};
-  else
-    return Together<>{};
-}
+requires requires { typename Effect::density; }
+struct SlotsOf<Effect> : Effect {};
 
-template <class All>
-constexpr auto joined_all(All all) {
-  return all;
-}
-template <class All, class First, class... More>
-constexpr auto joined_all(All all, First first, More... more) {
-  return joined_all(joined(all, first), more...);
-}
-
-template <bool finds, class... Slots>
-AnyPass<finds, Slots...> pass_of(SlotList<Slots...>);
-
-/// The terms of a form, of a slot and of a pass.
-template <class Term>
-constexpr auto terms_of(std::type_identity<Term>) {
-  return Together<Term>{};
-}
-template <class... Terms>
-constexpr auto terms_of(std::type_identity<Together<Terms...>>) {
-  return Together<Terms...>{};
-}
 template <class... Forms>
-constexpr auto terms_of(std::type_identity<Slot<Forms...>>) {
-  return joined_all(Together<>{}, terms_of(std::type_identity<Forms>{})...);
-}
-template <bool finds, class... Slots>
-constexpr auto terms_of(std::type_identity<AnyPass<finds, Slots...>>) {
-  return joined_all(Together<>{}, terms_of(std::type_identity<Slots>{})...);
-}
-template <class... Terms>
-constexpr std::array<PairTerm, sizeof...(Terms)> list_of(Together<Terms...>) {
-  return {pair_term<Terms>...};
+consteval auto or_none(OneOf<Forms...>) {
+  return OneOf<Terms<>, Forms...>{};
 }
 
-/// The pass of one term, by its key.
-template <int L, class ForUnit, class... Terms>
-PassFunction alone(Together<Terms...>, const PairTerm& wanted) {
-  PassFunction f = {};
-  static_cast<void>(
-      ((pair_term<Terms>.key == wanted.key && (f = Pick<L, ForUnit, false, Together<Terms>>::get(nullptr), true)) || ...));
-  return f;
+/// Whether each has another name, but for those that are one type.
+template <class... T>
+consteval bool names_differ(Terms<T...>) {
+  const std::array<const PairTerm*, sizeof...(T)> terms{&pair_term<T>...};
+  for (const PairTerm* a : terms)
+    for (const PairTerm* b : terms)
+      if (a != b && *a == *b) return false;
+  return true;
+}
+/// Whether no term is twice in a form.
+template <class... T>
+consteval bool each_once(Terms<T...>) {
+  std::size_t equal = 0;
+  for (const PairTerm& a : Terms<T...>::list)
+    for (const PairTerm& b : Terms<T...>::list) equal += a == b ? 1 : 0;
+  return equal == sizeof...(T);
+}
+
+template <int L, class ForUnit, bool finds, class... Forms>
+consteval std::array<PassFunction, sizeof...(Forms)> table_of(OneOf<Forms...>) {
+  static_assert(sizeof...(Forms) <= 81, "more combinations than the build bears");
+  static_assert((each_once(Forms{}) && ...), "two effects bring one pair term");
+  static_assert(names_differ((Terms<>{} + ... + Forms{})), "two pair terms have one name");
+  return {pass_of<L, ForUnit, finds>(Forms{})...};
 }
 
 }  // namespace detail
 
-/// The passes of a list of effects, in its order.
-template <class... Effects>
+/// The tables of these effects, in their order, for clusters of L particles and a vector unit.
+template <int L, class ForUnit, class... Effects>
 struct PassesOf {
-  using Density = decltype(detail::pass_of<true>(detail::joined_all(SlotList<>{}, detail::density_of<Effects>()...)));
-  using Rates = decltype(detail::pass_of<false>(detail::joined_all(SlotList<>{}, detail::rates_of<Effects>()...)));
-  using Alone = decltype(detail::joined_all(Together<>{}, detail::alone_of<Effects>()...));
-  using Timed = decltype(detail::joined_all(Together<>{}, detail::timed_of<Effects>()...));
-  /// All that are compiled, each as often as a form has it.
-  static constexpr auto terms = detail::list_of(detail::joined_all(detail::terms_of(std::type_identity<Density>{}),
-                                                                   detail::terms_of(std::type_identity<Rates>{}), Alone{}));
-
-  /// Null where there is no such term.
-  template <int L, class ForUnit>
-  [[nodiscard]] static PassFunction alone(const PairTerm& term) {
-    return detail::alone<L, ForUnit>(Alone{}, term);
-  }
-  template <int L, class ForUnit>
-  [[nodiscard]] static PassFunction timed() {
-    return detail::Pick<L, ForUnit, false, Timed>::get(nullptr);
-  }
+  static constexpr auto density = detail::table_of<L, ForUnit, true>(
+      (OneOf<Terms<>>{} * ... * detail::or_none(typename detail::SlotsOf<Effects>::density{})));
+  static constexpr auto rates =
+      detail::table_of<L, ForUnit, false>((OneOf<Terms<>>{} * ... * detail::or_none(typename detail::SlotsOf<Effects>::rates{})));
+  static constexpr auto alone =
+      detail::table_of<L, ForUnit, false>((OneOf<>{} | ... | typename detail::SlotsOf<Effects>::alone{}));
+  static constexpr PassFunction timed =
+      pass_of<L, ForUnit, false>((Terms<>{} + ... + typename detail::SlotsOf<Effects>::timed{}));
 };
 
 }  // namespace tripoint

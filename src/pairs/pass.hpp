@@ -18,9 +18,9 @@
 #include "particles/entry.hpp"
 #include "sph/kernels.hpp"
 
-/// The fused pair pass. A pair term names the fields that it reads of i and j, those that it adds to i, and the formula. A pass
-/// fuses the terms of its slots at compile time, for whole vectors of particles i against one neighbour j at a time. A scene
-/// picks one of the combinations at run time (pairs/run_pass.hpp).
+/// The fused pair pass. A pair term names the fields that it reads of i and j, those that it adds to i, and the formula. A
+/// function sums one combination of terms, for whole vectors of particles i against one neighbour j at a time. A scene takes its
+/// combination from a table (pairs/pair_passes.hpp).
 namespace tripoint {
 
 template <const auto&... fields>
@@ -82,11 +82,11 @@ struct PassTask {
 
 /// One combination of terms. Adds each term's sum to its columns.
 struct PassFunction {
-  void (*run)(const PassTask&) = nullptr;          ///< null where all slots are off
+  void (*run)(const PassTask&) = nullptr;          ///< null for no term
   std::span<const Field<double>* const> fields{};  ///< whose columns it wants
   bool finds = false;                              ///< whether it writes PassTask::within; else it reads it
   std::size_t reads = 0;                           ///< fields that are read; it adds to those after them
-  std::size_t terms = 0;                           ///< that it sums
+  std::span<const PairTerm> terms{};               ///< that it sums
   [[nodiscard]] std::span<const Field<double>* const> adds() const { return fields.subspan(reads); }
 };
 
@@ -274,104 +274,21 @@ void fused(const PassTask& t) {
 
 }  // namespace detail
 
-/// Terms that are summed together: one of the forms of a slot.
-template <class... Terms>
-struct Together {};
-
-/// The forms that a slot has; 0 is none of them, n the n-th.
-template <class... Forms>
-struct Slot {
-  static constexpr std::size_t forms = sizeof...(Forms);
+/// Terms that one function sums, each into columns of its own.
+template <class... T>
+struct Terms {
+  static constexpr std::array<PairTerm, sizeof...(T)> list{pair_term<T>...};
 };
 
-namespace detail {
-
-template <class>
-struct IsTogether : std::false_type {};
-template <class... Terms>
-struct IsTogether<Together<Terms...>> : std::true_type {};
-
-/// From the forms chosen at run time to the combination made at compile time.
-template <int L, class ForUnit, bool finds, class Chosen, class... Slots>
-struct Pick;
-template <int L, class ForUnit, bool finds, class... Terms>
-struct Pick<L, ForUnit, finds, Together<Terms...>> {
-  static PassFunction get(const int*) {
-    if constexpr (sizeof...(Terms) == 0)
-      return {};
-    else
-      return {&fused<L, ForUnit, finds, Terms...>, FieldsOf<Terms...>::list, finds, FieldsOf<Terms...>::reads, sizeof...(Terms)};
-  }
-};
-template <int L, class ForUnit, bool finds, class... Terms, class... Forms, class... Slots>
-struct Pick<L, ForUnit, finds, Together<Terms...>, Slot<Forms...>, Slots...> {
-  template <class... More>
-  static PassFunction with(Together<More...>, const int* form) {
-    return Pick<L, ForUnit, finds, Together<Terms..., More...>, Slots...>::get(form + 1);
-  }
-  template <class Form>
-  static PassFunction take(const int* form) {
-    if constexpr (IsTogether<Form>::value)
-      return with(Form{}, form);
-    else
-      return with(Together<Form>{}, form);
-  }
-  static PassFunction get(const int* form) {
-    PassFunction f = {};
-    int n = 0;
-    const bool found = ((++n == *form && (f = take<Forms>(form), true)) || ...);
-    return found ? f : with(Together<>{}, form);
-  }
-};
-
-/// Whether all terms of a form are among those that are wanted.
-template <class ForUnit, class... Terms>
-bool wants(Together<Terms...>, const PairTerm* wanted, std::size_t count) {
-  const auto has = [&](std::uint64_t key) {
-    for (std::size_t k = 0; k < count; ++k)
-      if (wanted[k].key == key) return true;
-    return false;
-  };
-  return (has(pair_term<Terms>.key) && ...);
+/// The function that sums these terms. @tparam L particles of a cluster @tparam ForUnit the vector unit that this file is
+/// compiled for @tparam finds whether it is the first over new places, which finds the entries within the support
+template <int L, class ForUnit, bool finds, class... T>
+[[nodiscard]] consteval PassFunction pass_of(Terms<T...> terms) {
+  if constexpr (sizeof...(T) == 0)
+    return {};
+  else
+    return {&detail::fused<L, ForUnit, finds, T...>, detail::FieldsOf<T...>::list, finds, detail::FieldsOf<T...>::reads,
+            terms.list};
 }
-/// The form of a slot that is wanted: its place, 0 where none is.
-template <class ForUnit, class... Forms>
-int wanted_form(Slot<Forms...>, const PairTerm* wanted, std::size_t count) {
-  int n = 0, found = 0;
-  const auto look = [&]<class Form>(std::type_identity<Form>) {
-    ++n;
-    if constexpr (IsTogether<Form>::value) {
-      if (found == 0 && wants<ForUnit>(Form{}, wanted, count)) found = n;
-    } else {
-      if (found == 0 && wants<ForUnit>(Together<Form>{}, wanted, count)) found = n;
-    }
-  };
-  (look(std::type_identity<Forms>{}), ...);
-  return found;
-}
-
-}  // namespace detail
-
-/// The slots of a pass. Each combination of forms is compiled for each width: 3^4 is the most that the build bears.
-template <bool finds, class... Slots>
-struct AnyPass {
-  static constexpr std::size_t slots = sizeof...(Slots);
-  static_assert((1 * ... * (Slots::forms + 1)) <= 81);
-  /// @param forms of each slot, in order: 0 for off   @tparam ForUnit the vector unit that this file is compiled for
-  template <int L, class ForUnit>
-  [[nodiscard]] static PassFunction choose(const std::array<int, slots>& forms) {
-    return detail::Pick<L, ForUnit, finds, Together<>, Slots...>::get(forms.data());
-  }
-  /// For each slot the form all of whose terms are wanted; terms of other passes may be among them.
-  template <int L, class ForUnit>
-  [[nodiscard]] static PassFunction choose_among(std::span<const PairTerm> wanted) {
-    return choose<L, ForUnit>({detail::wanted_form<ForUnit>(Slots{}, wanted.data(), wanted.size())...});
-  }
-};
-template <class... Slots>
-using Pass = AnyPass<false, Slots...>;
-/// The first pass over new places: it also finds the entries within the support.
-template <class... Slots>
-using FindingPass = AnyPass<true, Slots...>;
 
 }  // namespace tripoint

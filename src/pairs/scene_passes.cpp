@@ -46,7 +46,7 @@ AllWork work_of(const std::vector<EffectPairWork>& effects) {
   AllWork all;
   for (const auto& [work, declared, skips] : effects) {
     const PassFunction density = passes.density(work.terms), rates = passes.rates(work.terms);
-    if (density.terms + rates.terms != work.terms.size())
+    if (density.terms.size() + rates.terms.size() != work.terms.size())
       throw InputError("the effect " + std::string(declared.who) + " asks for pair terms that its pair_slots.hpp does not bring");
     refuse_undeclared(declared, density);
     refuse_undeclared(declared, rates);

@@ -88,7 +88,10 @@ Json state_of(Simulation& s) {
 /// Each once.
 void print_terms() {
   std::set<std::string_view> names;
-  for (const PairTerm& term : pair_passes(1).terms) names.insert(term.name);
+  const PairPasses passes = pair_passes(1);
+  for (const auto& table : {passes.densities, passes.rates_of_scenes, passes.single})
+    for (const PassFunction& pass : table)
+      for (const PairTerm& term : pass.terms) names.insert(term.name);
   for (const std::string_view name : names) std::cout << name << '\n';
 }
 

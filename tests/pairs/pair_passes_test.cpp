@@ -27,20 +27,20 @@ std::vector<int> widths_of_this_machine() {
   return lanes;
 }
 
-using Terms = std::vector<PairTerm>;
+using Wanted = std::vector<PairTerm>;
 
 /// Each of these with each of those.
-std::vector<Terms> each_with_each(const std::vector<Terms>& these, const std::vector<Terms>& those) {
-  std::vector<Terms> all;
-  for (const Terms& a : these)
-    for (const Terms& b : those) {
+std::vector<Wanted> each_with_each(const std::vector<Wanted>& these, const std::vector<Wanted>& those) {
+  std::vector<Wanted> all;
+  for (const Wanted& a : these)
+    for (const Wanted& b : those) {
       all.push_back(a);
       all.back().insert(all.back().end(), b.begin(), b.end());
     }
   return all;
 }
 
-std::string names_of(const Terms& terms) {
+std::string names_of(const Wanted& terms) {
   std::string names;
   for (const PairTerm& t : terms) (names += ' ') += t.name;
   return names;
@@ -49,67 +49,83 @@ std::string names_of(const Terms& terms) {
 constexpr PairTerm viscosities[] = {pair_term<ViscosityPaper>, pair_term<ViscosityCentral>, pair_term<ViscosityLaplacian>,
                                     pair_term<ViscosityCentralWeighted>};
 
-const std::vector<Terms> densities =
+const std::vector<Wanted> densities =
     each_with_each({{}, {pair_term<DensityPaper>}, {pair_term<NumberDensity>}}, {{}, {pair_term<HeatMoment>}});
 
-std::vector<Terms> rates() {
-  std::vector<Terms> flows{{}};
+std::vector<Wanted> rates() {
+  std::vector<Wanted> flows{{}};
   for (const PairTerm& pressure : {pair_term<PressurePaper>, pair_term<PressureCorrected>})
     for (const PairTerm& viscosity : viscosities) flows.push_back({pressure, viscosity});
   return each_with_each(flows, {{}, {pair_term<HeatFlowPaper>}, {pair_term<HeatFlowCorrected>}});
 }
 
-const Terms alone{pair_term<TransportForces>,
-                  pair_term<WallExtrapolation>,
-                  pair_term<WallExtrapolationWeighted>,
-                  pair_term<ViscousSpread<ViscosityPaper>>,
-                  pair_term<ViscousSpread<ViscosityCentral>>,
-                  pair_term<ViscousSpread<ViscosityLaplacian>>,
-                  pair_term<ViscousSpread<ViscosityCentralWeighted>>};
+const Wanted alone{pair_term<TransportForces>,
+                   pair_term<WallExtrapolation>,
+                   pair_term<WallExtrapolationWeighted>,
+                   pair_term<ViscousSpread<ViscosityPaper>>,
+                   pair_term<ViscousSpread<ViscosityCentral>>,
+                   pair_term<ViscousSpread<ViscosityLaplacian>>,
+                   pair_term<ViscousSpread<ViscosityCentralWeighted>>};
 
 /// Every pass at every choice of forms, by name.
 std::vector<std::pair<std::string, PassFunction>> all_passes(int lanes) {
   const PairPasses p = pair_passes(lanes);
   std::vector<std::pair<std::string, PassFunction>> list;
   for (const PairTerm& one : alone) list.emplace_back(one.name, p.alone(one));
-  for (const Terms& some : densities) list.emplace_back("density" + names_of(some), p.density(some));
-  for (const Terms& some : rates()) list.emplace_back("rates" + names_of(some), p.rates(some));
+  for (const Wanted& some : densities) list.emplace_back("density" + names_of(some), p.density(some));
+  for (const Wanted& some : rates()) list.emplace_back("rates" + names_of(some), p.rates(some));
   return list;
 }
 
 TEST(PairPasses, SumTheTermsThatAreWantedAndNoOthers) {
   const PairPasses p = pair_passes(1);
-  for (const PairTerm& one : alone) EXPECT_EQ(p.alone(one).terms, 1U) << one.name;
+  for (const PairTerm& one : alone) EXPECT_EQ(p.alone(one).terms.size(), 1U) << one.name;
   EXPECT_EQ(p.alone(pair_term<HeatMoment>).run, nullptr) << "which is fused with others";
-  for (const Terms& some : densities) EXPECT_EQ(p.density(some).terms, some.size()) << names_of(some);
-  for (const Terms& some : rates()) {
-    EXPECT_EQ(p.rates(some).terms, some.size()) << names_of(some);
+  for (const Wanted& some : densities) EXPECT_EQ(p.density(some).terms.size(), some.size()) << names_of(some);
+  for (const Wanted& some : rates()) {
+    EXPECT_EQ(p.rates(some).terms.size(), some.size()) << names_of(some);
     EXPECT_EQ(p.density(some).run, nullptr) << names_of(some);
   }
-  EXPECT_EQ(p.rates(Terms{pair_term<PressurePaper>}).terms, 1U) << "where another effect brings the viscosity";
-  EXPECT_EQ(p.rates(Terms{pair_term<ViscosityPaper>}).terms, 0U) << "which is compiled together with a pressure alone";
+  EXPECT_EQ(p.rates(Wanted{pair_term<PressurePaper>}).terms.size(), 1U) << "where another effect brings the viscosity";
+  EXPECT_EQ(p.rates(Wanted{pair_term<ViscosityPaper>}).terms.size(), 0U) << "which is compiled together with a pressure alone";
   const auto names_term = [](const Field<double>* f) { return f->name == field::number_density.name; };
-  EXPECT_TRUE(std::ranges::any_of(p.density(Terms{pair_term<NumberDensity>}).adds(), names_term));
+  EXPECT_TRUE(std::ranges::any_of(p.density(Wanted{pair_term<NumberDensity>}).adds(), names_term));
 }
 
-/// The slots of two effects that share a form are one; all others follow each other.
-TEST(PairPasses, ArePutTogetherFromTheSlotsOfEffects) {
-  struct FirstEffect {
-    using density = SlotList<Slot<DensityPaper, NumberDensity>>;
-    using alone = Together<TransportForces>;
+/// Names of the terms of each function.
+std::vector<std::string> names_in(std::span<const PassFunction> table) {
+  std::vector<std::string> names;
+  for (const PassFunction& f : table) names.push_back(names_of({f.terms.begin(), f.terms.end()}));
+  return names;
+}
+
+TEST(PairPasses, AreATableOfEachFormOfEachEffectWithThoseOfTheOthers) {
+  struct Mine;
+  struct FirstEffect : NoPairTerms {
+    using density = OneTermOf<DensityPaper, NumberDensity>;
+    using alone = OneTermOf<TransportForces>;
   };
   struct Nothing;
-  struct SecondEffect {
-    using density = SlotList<Slot<DensityPaper>, Slot<HeatMoment>>;
-    using rates = SlotList<Slot<HeatFlowPaper>>;
+  struct SecondEffect : NoPairTerms {
+    using density = OneTermOf<HeatMoment>;
+    using rates = OneTermOf<HeatFlowPaper>;
   };
-  using All = PassesOf<FirstEffect, Nothing, SecondEffect, void>;
-  static_assert(std::is_same_v<All::Density, FindingPass<Slot<DensityPaper, NumberDensity>, Slot<HeatMoment>>>);
-  static_assert(std::is_same_v<All::Rates, Pass<Slot<HeatFlowPaper>>>);
-  static_assert(std::is_same_v<All::Alone, Together<TransportForces>>);
+  using All = PassesOf<1, Mine, FirstEffect, Nothing, SecondEffect, void>;
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(names_in(All::density), (Names{"", " HeatMoment", " DensityPaper", " DensityPaper HeatMoment", " NumberDensity",
+                                           " NumberDensity HeatMoment"}));
+  EXPECT_EQ(names_in(All::rates), (Names{"", " HeatFlowPaper"}));
+  EXPECT_EQ(names_in(All::alone), (Names{" TransportForces"}));
+  EXPECT_EQ(All::timed.run, nullptr);
   EXPECT_EQ(pair_term<ViscousSpread<ViscosityCentral>>.name, "ViscousSpread of ViscosityCentral");
-  EXPECT_NE(pair_term<ViscosityCentral>.key, pair_term<ViscosityCentralWeighted>.key);
 }
+
+struct Namesake {
+  static constexpr std::string_view name = HeatMoment::name;
+};
+static_assert(detail::names_differ(Terms<HeatMoment, DensityPaper, HeatMoment>{}));
+static_assert(!detail::names_differ(Terms<HeatMoment, Namesake>{}));
+static_assert(!detail::each_once(Terms<HeatMoment, DensityPaper, HeatMoment>{}));
 
 /// A term that the program does not have: sum_j m_j r_ij.
 struct Far {
@@ -121,15 +137,16 @@ struct Far {
     sum[0] += j[0] * g.r;
   }
 };
-struct FarSlots {
-  using density = SlotList<Slot<Far>>;
+struct FarSlots : NoPairTerms {
+  using density = OneTermOf<Far>;
 };
 
 TEST(PairPasses, FuseTheTermOfOneMoreEffectWithThoseOfTheOthers) {
   struct Mine;  // a vector unit of the test's own: one particle at a time
-  using All = PassesOf<density::PairSlots, fluid::PairSlots, heat::PairSlots, FarSlots>;
-  const PassFunction pass = All::Density::choose_among<1, Mine>(Terms{pair_term<Far>, pair_term<NumberDensity>});
-  ASSERT_EQ(pass.terms, 2U);
+  using All = PassesOf<1, Mine, density::PairSlots, fluid::PairSlots, heat::PairSlots, FarSlots>;
+  const PairPasses passes{All::density, All::rates, All::alone, All::timed};
+  const PassFunction pass = passes.density(Wanted{pair_term<Far>, pair_term<NumberDensity>});
+  ASSERT_EQ(pass.terms.size(), 2U);
   std::vector<FieldInfo> fields = common_fields(false);
   fields.insert(fields.end(), {field::conductance, field::number_density});
   Particles p(100, fields);

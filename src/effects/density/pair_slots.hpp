@@ -5,8 +5,8 @@
 
 namespace tripoint::density {
 
-struct PairSlots {
-  using density = SlotList<Slot<DensityPaper, NumberDensity>>;
+struct PairSlots : NoPairTerms {
+  using density = OneTermOf<DensityPaper, NumberDensity>;
 };
 
 }  // namespace tripoint::density

@@ -5,17 +5,15 @@
 
 namespace tripoint::fluid {
 
-/// Pressure and viscosity share a slot: they read much the same fields of a pair. Pressure is alone where another effect
-/// brings the viscosity.
-struct PairSlots {
-  using rates = SlotList<Slot<Together<PressurePaper, ViscosityPaper>, Together<PressurePaper, ViscosityCentral>,
-                              Together<PressurePaper, ViscosityLaplacian>, Together<PressurePaper, ViscosityCentralWeighted>,
-                              Together<PressureCorrected, ViscosityPaper>, Together<PressureCorrected, ViscosityCentral>,
-                              Together<PressureCorrected, ViscosityLaplacian>,
-                              Together<PressureCorrected, ViscosityCentralWeighted>, PressurePaper, PressureCorrected>>;
-  using alone = Together<ViscousSpread<ViscosityPaper>, ViscousSpread<ViscosityCentral>, ViscousSpread<ViscosityLaplacian>,
-                         ViscousSpread<ViscosityCentralWeighted>>;
-  using timed = Together<PressureCorrected, ViscosityCentral>;
+struct PairSlots : NoPairTerms {
+  using Pressures = OneTermOf<PressurePaper, PressureCorrected>;
+  /// None of them where another effect brings the viscosity.
+  using Viscosities =
+      OneOf<Terms<>, Terms<ViscosityPaper>, Terms<ViscosityCentral>, Terms<ViscosityLaplacian>, Terms<ViscosityCentralWeighted>>;
+  using rates = decltype(Pressures{} * Viscosities{});
+  using alone = OneTermOf<ViscousSpread<ViscosityPaper>, ViscousSpread<ViscosityCentral>, ViscousSpread<ViscosityLaplacian>,
+                          ViscousSpread<ViscosityCentralWeighted>>;
+  using timed = Terms<PressureCorrected, ViscosityCentral>;
 };
 
 }  // namespace tripoint::fluid

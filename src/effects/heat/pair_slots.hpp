@@ -5,9 +5,9 @@
 
 namespace tripoint::heat {
 
-struct PairSlots {
-  using density = SlotList<Slot<HeatMoment>>;
-  using rates = SlotList<Slot<HeatFlowPaper, HeatFlowCorrected>>;
+struct PairSlots : NoPairTerms {
+  using density = OneTermOf<HeatMoment>;
+  using rates = OneTermOf<HeatFlowPaper, HeatFlowCorrected>;
 };
 
 }  // namespace tripoint::heat

@@ -5,8 +5,8 @@
 
 namespace tripoint::no_slip {
 
-struct PairSlots {
-  using alone = Together<WallExtrapolation, WallExtrapolationWeighted>;
+struct PairSlots : NoPairTerms {
+  using alone = OneTermOf<WallExtrapolation, WallExtrapolationWeighted>;
 };
 
 }  // namespace tripoint::no_slip

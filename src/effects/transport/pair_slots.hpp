@@ -5,8 +5,8 @@
 
 namespace tripoint::transport {
 
-struct PairSlots {
-  using alone = Together<TransportForces, TransportForcesAndMeans>;
+struct PairSlots : NoPairTerms {
+  using alone = OneTermOf<TransportForces, TransportForcesAndMeans>;
 };
 
 }  // namespace tripoint::transport
