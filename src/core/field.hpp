@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>
@@ -33,6 +34,26 @@ struct Field {
   Per per = Per::particle;
   std::uint64_t key = key_of(name);
 };
+
+/// The three columns of a vector, and the six of a symmetric matrix, as one key.
+template <class T>
+struct VectorField {
+  const Field<T>&x, &y, &z;
+};
+struct SymmetricField {
+  const Field<double>&xx, &yy, &zz, &yz, &xz, &xy;
+};
+template <class T>
+[[nodiscard]] constexpr std::array<const Field<T>*, 1> columns_of(const Field<T>& f) noexcept {
+  return {&f};
+}
+template <class T>
+[[nodiscard]] constexpr std::array<const Field<T>*, 3> columns_of(const VectorField<T>& f) noexcept {
+  return {&f.x, &f.y, &f.z};
+}
+[[nodiscard]] constexpr std::array<const Field<double>*, 6> columns_of(const SymmetricField& f) noexcept {
+  return {&f.xx, &f.yy, &f.zz, &f.yz, &f.xz, &f.xy};
+}
 
 enum class FieldType { real, integer, vector, quaternion };
 

@@ -14,6 +14,7 @@
 #include "core/lanes.hpp"
 #include "core/pair_term.hpp"
 #include "core/vec3.hpp"
+#include "pairs/term_values.hpp"
 #include "particles/catalogue.hpp"
 #include "particles/entry.hpp"
 #include "sph/kernels.hpp"
@@ -22,12 +23,6 @@
 /// function sums one combination of terms, for whole vectors of particles i against one neighbour j at a time. A scene takes its
 /// combination from a table (pairs/pair_passes.hpp).
 namespace tripoint {
-
-template <const auto&... fields>
-struct Keys {
-  static constexpr std::size_t size = sizeof...(fields);
-  static constexpr std::array<const Field<double>*, size> list{&fields...};
-};
 
 /// Geometry of a pair that every term gets.
 template <class V>
@@ -39,6 +34,7 @@ struct PairGeometry {
   MaskOf<V> within;  ///< within the support
   MaskOf<V> apart;   ///< within, and not an own pair, two members of one deformable body that meet through their bonds alone
   const PairKernels& kernels;
+  [[nodiscard, gnu::always_inline]] VectorOf<V> d() const { return {dx, dy, dz}; }
 };
 
 /// A term that says that it adds 0 beyond the support by itself: each of its parts has a factor that is `where` g.within or
@@ -149,15 +145,16 @@ template <std::size_t n, class Make>
 template <class Fields, class Term, std::size_t mention, class V>
 void add_term(const PairGeometry<V>& g, const std::array<V, Fields::reads>& i, const std::array<V, Fields::reads>& j, V* sum) {
   constexpr std::size_t reads = Term::reads::size, adds = Term::adds::size;
-  const std::array<V, reads> of_i = array_of<reads>([&](auto k) { return i[Fields::unique.where[mention + k]]; });
-  const std::array<V, reads> of_j = array_of<reads>([&](auto k) { return j[Fields::unique.where[mention + k]]; });
-  std::array<V, adds> next = array_of<adds>([&](auto k) { return sum[k]; });
-  Term::template pair<V>(g, std::span<const V, reads>(of_i), std::span<const V, reads>(of_j), std::span<V, adds>(next));
+  using Values = ValuesOf<V, typename Term::reads>;
+  const Values of_i{array_of<reads>([&](auto k) { return i[Fields::unique.where[mention + k]]; })};
+  const Values of_j{array_of<reads>([&](auto k) { return j[Fields::unique.where[mention + k]]; })};
+  SumsOf<V, typename Term::adds> next{array_of<adds>([&](auto k) { return sum[k]; })};
+  Term::template pair<V>(g, of_i, of_j, next);
   for (std::size_t k = 0; k < adds; ++k) {
     if constexpr (ZeroBeyond<Term>)
-      sum[k] = next[k];
+      sum[k] = next.values[k];
     else
-      sum[k] = g.within ? next[k] : sum[k];
+      sum[k] = g.within ? next.values[k] : sum[k];
   }
 }
 

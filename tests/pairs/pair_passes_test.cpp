@@ -133,8 +133,8 @@ struct Far {
   using reads = Keys<field::mass>;
   using adds = Keys<field::conductance>;
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 1>, std::span<const V, 1> j, std::span<V, 1> sum) {
-    sum[0] += j[0] * g.r;
+  static void pair(const PairGeometry<V>& g, const auto&, const auto& j, auto& sum) {
+    sum(field::conductance) += j(field::mass) * g.r;
   }
 };
 struct FarSlots : NoPairTerms {

@@ -18,8 +18,8 @@ struct First {
   using reads = Keys<field::mass>;
   using adds = Keys<field::heat_rate>;
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 1> i, std::span<const V, 1> j, std::span<V, 1> sum) {
-    sum[0] += (j[0] - i[0]) * g.gradient;
+  static void pair(const PairGeometry<V>& g, const auto& i, const auto& j, auto& sum) {
+    sum(field::heat_rate) += (j(field::mass) - i(field::mass)) * g.gradient;
   }
 };
 struct Second {
@@ -27,9 +27,9 @@ struct Second {
   using reads = Keys<field::temperature>;
   using adds = Keys<field::heat_rate, field::density>;
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 1> i, std::span<const V, 1> j, std::span<V, 2> sum) {
-    sum[0] += (j[0] - i[0]) * g.r;
-    sum[1] += g.kernels.poly6.value_of_square_inside(g.r2);
+  static void pair(const PairGeometry<V>& g, const auto& i, const auto& j, auto& sum) {
+    sum(field::heat_rate) += (j(field::temperature) - i(field::temperature)) * g.r;
+    sum(field::density) += g.kernels.poly6.value_of_square_inside(g.r2);
   }
 };
 

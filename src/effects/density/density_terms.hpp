@@ -11,9 +11,9 @@ struct DensityPaper {
   using reads = Keys<field::mass>;
   using adds = Keys<field::density>;
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 1>, std::span<const V, 1> j, std::span<V, 1> sum) {
-    const V m_j = j[0];
-    sum[0] += m_j * g.kernels.poly6.value_of_square_inside(g.r2);
+  static void pair(const PairGeometry<V>& g, const auto&, const auto& j, auto& sum) {
+    const V m_j = j(field::mass);
+    sum(field::density) += m_j * g.kernels.poly6.value_of_square_inside(g.r2);
   }
 };
 
@@ -25,8 +25,8 @@ struct NumberDensity {
   using reads = Keys<>;
   using adds = Keys<field::number_density>;
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 0>, std::span<const V, 0>, std::span<V, 1> sum) {
-    sum[0] += where(g.apart, g.kernels.wendland.value_inside(g.r));
+  static void pair(const PairGeometry<V>& g, const auto&, const auto&, auto& sum) {
+    sum(field::number_density) += where(g.apart, g.kernels.wendland.value_inside(g.r));
   }
 };
 

@@ -19,5 +19,7 @@ inline constexpr Field<double> moment_inverse_xx{"moment_inverse.xx", "1"}, mome
     moment_inverse_zz{"moment_inverse.zz", "1"};
 inline constexpr Field<double> moment_inverse_yz{"moment_inverse.yz", "1"}, moment_inverse_xz{"moment_inverse.xz", "1"},
     moment_inverse_xy{"moment_inverse.xy", "1"};
+inline constexpr SymmetricField moment_inverse{moment_inverse_xx, moment_inverse_yy, moment_inverse_zz,
+                                               moment_inverse_yz, moment_inverse_xz, moment_inverse_xy};
 
 }  // namespace tripoint::field

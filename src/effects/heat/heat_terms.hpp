@@ -14,11 +14,11 @@ struct HeatFlowPaper {
   using reads = Keys<field::volume, field::temperature, field::diffusivity>;
   using adds = Keys<field::temperature_rate, field::exchange>;
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 3> i, std::span<const V, 3> j, std::span<V, 2> sum) {
-    const V V_j = j[0], T_j = j[1], T_i = i[1], c_i = i[2];
+  static void pair(const PairGeometry<V>& g, const auto& i, const auto& j, auto& sum) {
+    const V V_j = j(field::volume), T_j = j(field::temperature), T_i = i(field::temperature), c_i = i(field::diffusivity);
     const V a = where(g.within, c_i * V_j * g.kernels.viscosity.laplacian_inside(g.r));
-    sum[0] += a * (T_j - T_i);
-    sum[1] += a;
+    sum(field::temperature_rate) += a * (T_j - T_i);
+    sum(field::exchange) += a;
   }
 };
 
@@ -28,12 +28,11 @@ struct HeatMoment {
   static constexpr std::string_view name = "HeatMoment";
   static constexpr bool zero_beyond = true;
   using reads = Keys<field::rest_volume>;
-  using adds = Keys<field::moment_inverse_xx, field::moment_inverse_yy, field::moment_inverse_zz, field::moment_inverse_yz,
-                    field::moment_inverse_xz, field::moment_inverse_xy>;
+  using adds = Keys<field::moment_inverse>;
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 1>, std::span<const V, 1> j, std::span<V, 6> sum) {
-    const V V_j = j[0];
-    add_outer(where(g.within, V_j * -g.gradient), g, sum);  // 1/2 V_j K
+  static void pair(const PairGeometry<V>& g, const auto&, const auto& j, auto& sum) {
+    const V V_j = j(field::rest_volume);
+    sum(field::moment_inverse) += where(g.within, V_j * -g.gradient) * square(g.d());  // 1/2 V_j K d d^T
   }
 };
 
@@ -42,24 +41,19 @@ struct HeatMoment {
 struct HeatFlowCorrected {
   static constexpr std::string_view name = "HeatFlowCorrected";
   static constexpr bool zero_beyond = true;
-  using reads =
-      Keys<field::rest_volume, field::conductivity, field::temperature, field::moment_inverse_xx, field::moment_inverse_yy,
-           field::moment_inverse_zz, field::moment_inverse_yz, field::moment_inverse_xz, field::moment_inverse_xy>;
+  using reads = Keys<field::rest_volume, field::conductivity, field::temperature, field::moment_inverse>;
   using adds = Keys<field::heat_rate, field::conductance>;
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 9> i, std::span<const V, 9> j, std::span<V, 2> sum) {
-    const V V_i = i[0], k_i = i[1], T_i = i[2];
-    const V V_j = j[0], k_j = j[1], T_j = j[2];
+  static void pair(const PairGeometry<V>& g, const auto& i, const auto& j, auto& sum) {
+    const V V_i = i(field::rest_volume), k_i = i(field::conductivity), T_i = i(field::temperature);
+    const V V_j = j(field::rest_volume), k_j = j(field::conductivity), T_j = j(field::temperature);
     // A = pinv M_i + pinv M_j: the sum of both is taken first, so that it is the same seen from i and from j.
-    const V A_xx = i[3] + j[3], A_yy = i[4] + j[4], A_zz = i[5] + j[5];
-    const V A_yz = i[6] + j[6], A_xz = i[7] + j[7], A_xy = i[8] + j[8];
+    const SymmetricOf<V> A = i(field::moment_inverse) + j(field::moment_inverse);
     const V k = harmonic_mean(k_i, k_j);
-    const V rAr = A_xx * (g.dx * g.dx) + A_yy * (g.dy * g.dy) + A_zz * (g.dz * g.dz) +
-                  2.0 * (A_yz * (g.dy * g.dz) + A_xz * (g.dx * g.dz) + A_xy * (g.dx * g.dy));
-    const V moment = rAr * g.per_r2;  // e^T A e
+    const V moment = quadratic(A, g.d()) * g.per_r2;  // e^T A e
     const V G = where(g.within, (V_i * V_j) * (k * moment) * -g.gradient);
-    sum[0] += G * (T_j - T_i);
-    sum[1] += G;
+    sum(field::heat_rate) += G * (T_j - T_i);
+    sum(field::conductance) += G;
   }
 };
 

@@ -14,17 +14,14 @@ template <bool weighted>
 struct WallExtrapolationOf {
   static constexpr std::string_view name = weighted ? "WallExtrapolationWeighted" : "WallExtrapolation";
   static constexpr bool zero_beyond = true;
-  using reads =
-      Keys<field::solid, field::viscosity, field::viscous_velocity_x, field::viscous_velocity_y, field::viscous_velocity_z>;
-  using adds = Keys<field::wall_weight, field::wall_velocity_x, field::wall_velocity_y, field::wall_velocity_z>;
+  using reads = Keys<field::solid, field::viscosity, field::viscous_velocity>;
+  using adds = Keys<field::wall_weight, field::wall_velocity>;
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 5> i, std::span<const V, 5> j, std::span<V, 4> sum) {
-    const V solid_i = i[0], solid_j = j[0], mu_j = j[1], vx_j = j[2], vy_j = j[3], vz_j = j[4];
+  static void pair(const PairGeometry<V>& g, const auto& i, const auto& j, auto& sum) {
+    const V solid_i = i(field::solid), solid_j = j(field::solid), mu_j = j(field::viscosity);
     const V w = where(g.within, (solid_i * (1.0 - solid_j)) * (mu_j * shear_weighted<weighted>(g)));
-    sum[0] += w;
-    sum[1] += w * vx_j;
-    sum[2] += w * vy_j;
-    sum[3] += w * vz_j;
+    sum(field::wall_weight) += w;
+    sum(field::wall_velocity) += w * j(field::viscous_velocity);
   }
 };
 using WallExtrapolation = WallExtrapolationOf<false>;

@@ -12,23 +12,19 @@ namespace tripoint {
 struct TransportForces {
   static constexpr std::string_view name = "TransportForces";
   static constexpr bool zero_beyond = true;
-  using reads = Keys<field::volume, field::density, field::viscous_velocity_x, field::viscous_velocity_y,
-                     field::viscous_velocity_z, field::shift_x, field::shift_y, field::shift_z>;
-  using adds = Keys<field::background_x, field::background_y, field::background_z, field::transport_force_x,
-                    field::transport_force_y, field::transport_force_z>;
+  using reads = Keys<field::volume, field::density, field::viscous_velocity, field::shift>;
+  using adds = Keys<field::background, field::transport_force>;
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const V, 8> j, std::span<V, 6> sum) {
-    const V V_i = i[0], rho_i = i[1], vx_i = i[2], vy_i = i[3], vz_i = i[4], wx_i = i[5], wy_i = i[6], wz_i = i[7];
-    const V V_j = j[0], rho_j = j[1], vx_j = j[2], vy_j = j[3], vz_j = j[4], wx_j = j[5], wy_j = j[6], wz_j = j[7];
+  static void pair(const PairGeometry<V>& g, const auto& i, const auto& j, auto& sum) {
+    const V V_i = i(field::volume), rho_i = i(field::density);
+    const V V_j = j(field::volume), rho_j = j(field::density);
+    const VectorOf<V> v_i = i(field::viscous_velocity), w_i = i(field::shift);
+    const VectorOf<V> v_j = j(field::viscous_velocity), w_j = j(field::shift);
     const V b = where(g.within, (V_i * V_i + V_j * V_j) * g.gradient);
-    sum[0] += b * g.dx;
-    sum[1] += b * g.dy;
-    sum[2] += b * g.dz;
-    const V out_i = -0.5 * b * rho_i * (wx_i * g.dx + wy_i * g.dy + wz_i * g.dz);
-    const V out_j = -0.5 * b * rho_j * (wx_j * g.dx + wy_j * g.dy + wz_j * g.dz);
-    sum[3] += out_i * vx_i + out_j * vx_j;
-    sum[4] += out_i * vy_i + out_j * vy_j;
-    sum[5] += out_i * vz_i + out_j * vz_j;
+    sum(field::background) += b * g.d();
+    const V out_i = -0.5 * b * rho_i * dot(w_i, g.d());
+    const V out_j = -0.5 * b * rho_j * dot(w_j, g.d());
+    sum(field::transport_force) += out_i * v_i + out_j * v_j;
   }
 };
 
@@ -37,15 +33,15 @@ struct TransportForces {
 /// [1/(s m3)]. Times -V_i it is the divergence of the velocity, as the rate of the number density has it.
 struct TransportMeans {
   static constexpr bool zero_beyond = true;
-  using reads = Keys<field::pressure, field::group, field::velocity_x, field::velocity_y, field::velocity_z>;
+  using reads = Keys<field::pressure, field::group, field::velocity>;
   using adds = Keys<field::pressure_around, field::nearing>;
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 5> i, std::span<const V, 5> j, std::span<V, 2> sum) {
-    const V p_i = i[0], group_i = i[1], vx_i = i[2], vy_i = i[3], vz_i = i[4];
-    const V p_j = j[0], group_j = j[1], vx_j = j[2], vy_j = j[3], vz_j = j[4];
+  static void pair(const PairGeometry<V>& g, const auto& i, const auto& j, auto& sum) {
+    const V p_i = i(field::pressure), group_i = i(field::group);
+    const V p_j = j(field::pressure), group_j = j(field::group);
     const V W = g.kernels.wendland.value_inside(g.r);
-    sum[0] += where(g.within & (group_i == liquid_group) & (group_j == liquid_group), W * (p_j - p_i));
-    sum[1] += where(g.within, g.gradient) * ((vx_j - vx_i) * g.dx + (vy_j - vy_i) * g.dy + (vz_j - vz_i) * g.dz);
+    sum(field::pressure_around) += where(g.within & (group_i == liquid_group) & (group_j == liquid_group), W * (p_j - p_i));
+    sum(field::nearing) += where(g.within, g.gradient) * dot(j(field::velocity) - i(field::velocity), g.d());
   }
 };
 
@@ -53,15 +49,13 @@ struct TransportMeans {
 struct TransportForcesAndMeans {
   static constexpr std::string_view name = "TransportForcesAndMeans";
   static constexpr bool zero_beyond = true;
-  using reads = Keys<field::volume, field::density, field::viscous_velocity_x, field::viscous_velocity_y,
-                     field::viscous_velocity_z, field::shift_x, field::shift_y, field::shift_z, field::pressure, field::group,
-                     field::velocity_x, field::velocity_y, field::velocity_z>;
-  using adds = Keys<field::background_x, field::background_y, field::background_z, field::transport_force_x,
-                    field::transport_force_y, field::transport_force_z, field::pressure_around, field::nearing>;
+  using reads =
+      Keys<field::volume, field::density, field::viscous_velocity, field::shift, field::pressure, field::group, field::velocity>;
+  using adds = Keys<field::background, field::transport_force, field::pressure_around, field::nearing>;
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 13> i, std::span<const V, 13> j, std::span<V, 8> sum) {
-    TransportForces::pair<V>(g, i.template first<8>(), j.template first<8>(), sum.template first<6>());
-    TransportMeans::pair<V>(g, i.template last<5>(), j.template last<5>(), sum.template last<2>());
+  static void pair(const PairGeometry<V>& g, const auto& i, const auto& j, auto& sum) {
+    TransportForces::pair<V>(g, i, j, sum);
+    TransportMeans::pair<V>(g, i, j, sum);
   }
 };
 
