@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""SPlisHSPlasH (MIT), its Python wheel in single precision: one liquid between walls, and a rigid body that floats in
-it.
+"""SPlisHSPlasH (MIT), its Python wheel in single precision: one liquid between walls, and rigid bodies that float or
+sink in it.
 
 Presets are its pressure solvers by name. Walls and bodies are the job's particles (Akinci et al. 2012), each with the
-volume of its mass. The wheel is linked to a part of OpenGL that the system has too, and ends by a signal where both get
-loaded: the system's comes first here, from Debian's packages in the engine's own environment."""
+volume of its mass: with the volumes that it finds by itself a lattice of liquid is too dense beside a wall. The wheel
+is linked to a part of OpenGL that the system has too, and ends by a signal where both get loaded: the system's comes
+first here, from Debian's packages in the engine's own environment."""
 
 from __future__ import annotations
 
@@ -136,45 +137,66 @@ class Tank:
             raise RuntimeError(f"SPlisHSPlasH holds {count} particles of liquid, and the job {len(files.liquid)}")
         self.place, self.velocity = self.field("position"), self.field("velocity")
         self.velocity[:] = to_engine(files.start["velocity"][files.liquid])
-        self.body = self.models[-1].getRigidBodyObject() if files.free_body else None
-        self.first_turn = self.turn() if self.body else None
+        free = files.free_bodies
+        self.bodies = [model.getRigidBodyObject() for model in self.models[len(self.models) - len(free) :]]
+        self.first_pose = [self.pose(body) for body in self.bodies]
+        self.holds = [
+            (self.bodies[k], place, turn, event)
+            for event in job.scene["events"]
+            for k, (place, turn) in enumerate(self.first_pose)
+            if free[k]["name"] in event["bodies"]
+        ]
 
     def field(self, name: str) -> Any:
         """A view of the engine's own column of the liquid."""
         return self.np.array(self.model.getFieldBuffer(name), copy=False)[: len(self.files.liquid)]
 
-    def turn(self) -> Any:
-        x, y, z, w = (float(v) for v in self.body.getRotation())
-        return normalised(quaternion((w, x, y, z)))
+    def pose(self, body: Any) -> tuple[Any, Any]:
+        """Place and turn, in the engine's axes and order."""
+        return self.np.array(body.getPosition(), float), self.np.array(body.getRotation(), float)
+
+    def turn(self, number: int) -> Any:
+        """Of a free body from its start (w, x, y, z), in the engine's axes."""
+        (x, y, z, w), first = self.pose(self.bodies[number])[1], self.first_pose[number][1]
+        start = normalised(quaternion((first[3], *first[:3])))
+        return product(normalised(quaternion((w, x, y, z))), conjugate(start))
+
+    def hold(self) -> None:
+        """Puts back what an event holds at this time."""
+        for body, place, turn, event in self.holds:
+            if event["time"] <= self.time.getTime() < event["until"]:
+                body.setPosition(place)
+                body.setRotation(turn)
+                body.setVelocity(self.np.zeros(3))
+                body.setAngularVelocity(self.np.zeros(3))
 
     def gravity(self) -> list[float]:
         return from_engine(self.np.array(self.simulation.getVec3ValueReal(self.simulation.GRAVITATION), float)).tolist()
 
     def held(self) -> list[dict[str, Any]]:
-        """The free body as the engine holds it. It tells no moments: each is what a torque of its own axis answers."""
-        body = self.files.free_body
-        if not body:
-            return []
-        np, moments = self.np, []
+        """The free bodies as the engine holds them. It tells no moments: each is what a torque of its axis answers."""
         self.time.setTimeStepSize(1.0)  # [s], in which a torque of 1 N m makes a spin of one over the moment
+        return [self.held_body(body, asked) for body, asked in zip(self.bodies, self.files.free_bodies)]
+
+    def held_body(self, body: Any, asked: dict[str, Any]) -> dict[str, Any]:
+        np, moments, spin = self.np, [], self.np.array(body.getAngularVelocity(), float)
         for axis in np.eye(3):
-            direction = to_engine(np.array(rotate(quaternion(body["principal_axes"]), vector(axis))))
-            self.body.addTorque(direction)
-            moments.append(1.0 / float(np.array(self.body.getAngularVelocity(), float) @ direction))
-            self.body.setAngularVelocity(np.zeros(3))
-        centre = from_engine(np.array(self.body.getPosition(), float)).tolist()
-        return [
-            {
-                "name": body["name"],
-                "mass": float(self.body.getMass()),
-                "centre": centre,
-                "principal_inertia": moments,
-                "friction": None,
-                "restitution": None,
-                "linear_damping": 0.0,
-                "angular_damping": 0.0,
-            }
-        ]
+            direction = to_engine(np.array(rotate(quaternion(asked["principal_axes"]), vector(axis))))
+            body.setAngularVelocity(np.zeros(3))
+            body.addTorque(direction)
+            moments.append(1.0 / float(np.array(body.getAngularVelocity(), float) @ direction))
+        body.setAngularVelocity(spin)
+        laws = self.job.settings
+        return {
+            "name": asked["name"],
+            "mass": float(body.getMass()),
+            "centre": (from_engine(self.pose(body)[0]) + self.files.origin).tolist(),
+            "principal_inertia": moments,
+            "friction": float(laws["friction"]) if "friction" in laws else None,
+            "restitution": float(laws["restitution"]) if "restitution" in laws else None,
+            "linear_damping": 0.0,
+            "angular_damping": 0.0,
+        }
 
     def limit(self) -> float:
         """[s]"""
@@ -192,6 +214,7 @@ class Tank:
             step = left / count
             self.time.setTimeStepSize(step)
             self.base.timeStepNoGUI()
+            self.hold()
             left = left - step if count > 1 else 0.0
             taken += 1
         return taken
@@ -200,12 +223,7 @@ class Tank:
         """The job's own start: before its first step the engine has no density."""
         start = self.files.start
         return Frame(
-            at,
-            start["position"].copy(),
-            start["velocity"].copy(),
-            self.rest.copy(),
-            self.np.zeros_like(self.rest),
-            None,
+            at, start["position"].copy(), start["velocity"].copy(), self.rest.copy(), self.np.zeros_like(self.rest), []
         )
 
     def pascal(self, density: Any) -> Any:
@@ -222,7 +240,7 @@ class Tank:
         """Density and pressure of walls and bodies are those of the rest."""
         np, start, liquid = self.np, self.files.start, self.files.liquid
         place, velocity = start["position"].copy(), np.zeros_like(start["velocity"])
-        place[liquid] = from_engine(self.place.astype(float))
+        place[liquid] = from_engine(self.place.astype(float)) + self.files.origin
         velocity[liquid] = from_engine(self.velocity.astype(float))
         if not (np.abs(place) < LARGEST).all() or not (np.abs(velocity) < LARGEST).all():
             raise Diverged(f"the liquid's state is not finite, or beyond {LARGEST:g}", -1, at)
@@ -230,14 +248,16 @@ class Tank:
         density[liquid] = self.field("density").astype(float)
         pressure[liquid] = self.field(PRESSURE[self.job.preset]).astype(float)
         pressure[liquid] *= self.pascal(density[liquid])
-        pose = None
-        if self.body:
-            centre = from_engine(np.array(self.body.getPosition(), float))
-            drift = from_engine(np.array(self.body.getVelocity(), float))
-            spin = from_engine(np.array(self.body.getAngularVelocity(), float))
-            w, *axis = product(self.turn(), conjugate(self.first_turn))
-            pose = centre, (w, *from_engine(np.array(axis))), drift, spin
-        return Frame(at, place, velocity, density, pressure, pose)
+        poses = [self.pose_and_rates(k) for k in range(len(self.bodies))]
+        return Frame(at, place, velocity, density, pressure, poses)
+
+    def pose_and_rates(self, number: int) -> tuple[Any, Any, Any, Any]:
+        body, (w, *axis) = self.bodies[number], self.turn(number)
+        centre, drift, spin = (
+            from_engine(self.np.array(read(), float))
+            for read in (body.getPosition, body.getVelocity, body.getAngularVelocity)
+        )
+        return centre + self.files.origin, (w, *from_engine(self.np.array(axis))), drift, spin
 
 
 class SplishSplash(Engine):
@@ -258,6 +278,10 @@ class SplishSplash(Engine):
         "cflMaxTimeStepSize": '"Max. allowed time step size", default 0.005 [s]',
         "maxError": '"Maximal density error in percent which the pressure solver tolerates", default 0.01',
         "viscosityBoundary": "viscosity at all walls [m2/s]; default 0 where all slip, the liquid's where none does",
+        "friction": "Coulomb's coefficient of every pair of bodies, default 0",
+        "restitution": "of every pair of bodies, default 0",
+        "subSteps": '"Number of sub steps of the solver" of rigid bodies, default 1 here and 5 there',
+        "contactStiffnessRigidBody": '"Stiffness coefficient for rigid-rigid contact resolution", default 100, 1 there',
     }
     precision = "single"
 

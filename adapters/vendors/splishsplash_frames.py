@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""trajectory.h5 (H5MD 1.1, docs/trajectory.md) of an engine whose particles are the job's: liquid, walls and one free
-body."""
+"""trajectory.h5 (H5MD 1.1, docs/trajectory.md) of an engine whose particles are the job's: liquid, walls and free
+bodies."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ class Frame(NamedTuple):
     velocity: Any  # (n, 3) [m/s]
     density: Any  # (n,) [kg/m3]
     pressure: Any  # (n,) [Pa]
-    pose: (
-        tuple[Any, Any, Any, Any] | None
-    )  # of the free body, None at the start: centre [m], turn (w, x, y, z) from the start, velocity [m/s], spin [rad/s]
+    # of the free bodies in the order of the job, none at the start: centre [m], turn (w, x, y, z) from the start,
+    # velocity [m/s], spin [rad/s]
+    poses: list[tuple[Any, Any, Any, Any]]
 
 
 def turned(turn: Any, arms: Any) -> Any:
@@ -34,37 +34,35 @@ def turned(turn: Any, arms: Any) -> Any:
 
 
 class Bodies:
-    """Rows of the job's solid bodies: those that stand still, and the one that moves with its particles."""
+    """Rows of the job's solid bodies: those that stand still, and those that move with their particles."""
 
     def __init__(self, job: Job, start: dict[str, Any]) -> None:
         import numpy as np
 
         self.np, self.start = np, start
         self.solid = sorted((body for body in job.bodies if body["index"] >= 0), key=lambda body: body["index"])
-        self.free = next((k for k, body in enumerate(self.solid) if body["motion"] == "free"), None)
+        self.free = [
+            next(k for k, row in enumerate(self.solid) if row is body)
+            for body in job.bodies
+            if body["phase"] == "rigid" and body["motion"] == "free"
+        ]
 
     def place(self, frame: Frame) -> dict[str, Any]:
-        """Columns of /particles/bodies; the free body's particles are moved in `frame` itself."""
+        """Columns of /particles/bodies; the free bodies' particles are moved in `frame` itself."""
         np, count = self.np, len(self.solid)
         rows = {
             "position": np.array([body["centre"] for body in self.solid]).reshape(count, 3),
-            "velocity": np.zeros((count, 3)),
-            "angular_velocity": np.zeros((count, 3)),
+            "velocity": np.array([body["velocity"] for body in self.solid]).reshape(count, 3),
+            "angular_velocity": np.array([body["angular_velocity"] for body in self.solid]).reshape(count, 3),
             "orientation": np.tile([1.0, 0.0, 0.0, 0.0], (count, 1)),
             "mass": np.array([body["mass"] for body in self.solid]),
         }
-        if self.free is not None and frame.pose:
-            centre, turn, velocity, spin = frame.pose
-            own = self.start["body"] == self.solid[self.free]["index"]
-            arms = turned(turn, self.start["position"][own] - rows["position"][self.free])
+        for k, (centre, turn, velocity, spin) in zip(self.free, frame.poses):
+            own = self.start["body"] == self.solid[k]["index"]
+            arms = turned(turn, self.start["position"][own] - rows["position"][k])
             frame.position[own], frame.velocity[own] = centre + arms, velocity + np.cross(spin, arms)
-            for name, value in (
-                ("position", centre),
-                ("velocity", velocity),
-                ("angular_velocity", spin),
-                ("orientation", turn),
-            ):
-                rows[name][self.free] = value
+            rows["position"][k], rows["orientation"][k] = centre, turn
+            rows["velocity"][k], rows["angular_velocity"][k] = velocity, spin
         return rows
 
 

@@ -14,14 +14,34 @@ from pathlib import Path
 from typing import Any
 
 from contract import Job
-from rotation import Vector, add, norm, quaternion, rotate, vector
+from rotation import IDENTITY, Vector, add, conjugate, norm, scaled, subtract, vector
+from splishsplash_bodies import (
+    BOX,
+    NO_CONTACT,
+    TOLERANCE,
+    UNIT_BOX,
+    Cuboid,
+    Solid,
+    Triangle,
+    axis_angle,
+    cuboids_of,
+    mesh_of,
+    refuse_contact,
+    sized,
+    solid_of,
+    touched,
+    write_mesh,
+)
+from splishsplash_frames import turned
 
+STIFFNESS = 100.0  # of contact; with its default of 1 a body lies g times a step deep
+SUB_STEPS = 1  # its default of 5 serves joints, and makes the rounding of velocities five times as large
 LAYERS = 2  # of a wall that stands for a periodic direction: the kernel's support is two spacings
-EARTH = 9.81  # [m/s2]: the only gravity that its rigid bodies know
 
 
 def to_engine(values: Any) -> Any:
-    """Vectors of the job, (..., 3), in the axes of SPlisHSPlasH: a turn by -90 degrees about x."""
+    """Vectors of the job, (..., 3), in the axes of SPlisHSPlasH: a turn by -90 degrees about x. For places, from
+    `Files.origin`."""
     return values[..., [0, 2, 1]] * (1.0, 1.0, -1.0)
 
 
@@ -83,8 +103,7 @@ def refuse_periodic(job: Job) -> str:
     return ""
 
 
-def refuse_body(body: dict[str, Any], density: float, material: dict[str, Any]) -> str:
-    """@param density of the liquid [kg/m3]"""
+def refuse_body(body: dict[str, Any]) -> str:
     name = body["name"]
     if body["phase"] == "elastic":
         return f"elastic bodies are not handed to SPlisHSPlasH, and {name} is elastic"
@@ -94,12 +113,15 @@ def refuse_body(body: dict[str, Any], density: float, material: dict[str, Any]) 
         return f"bonds between bodies are not handed to SPlisHSPlasH, and {name} has some"
     if body["motion"] == "prescribed":
         return f"prescribed motion is not handed to SPlisHSPlasH, and {name} has one"
-    if body["phase"] == "rigid" and body["motion"] == "free":
-        if any(body["velocity"]) or any(body["angular_velocity"]):
-            return f"free bodies are handed to SPlisHSPlasH at rest, and {name} moves"
-        if material["density"] >= density:
-            return f"contact between bodies is not handed to SPlisHSPlasH, and {name} sinks"
     return ""
+
+
+def free_bodies(job: Job) -> list[dict[str, Any]]:
+    return [body for body in job.bodies if body["phase"] == "rigid" and body["motion"] == "free"]
+
+
+def rests(body: dict[str, Any]) -> bool:
+    return not any(body["velocity"]) and not any(body["angular_velocity"])
 
 
 def friction_is_mixed(job: Job) -> bool:
@@ -115,27 +137,23 @@ def refuse_scene(job: Job) -> str:
     liquids = sorted({body["material"] for body in job.bodies if body["phase"] == "liquid"})
     if scene["mode"] == "paper":
         return "the paper's forms belong to the particle solver; SPlisHSPlasH has none"
-    if scene["events"] or scene["inflows"]:
-        return "events and inflow are not handed to SPlisHSPlasH"
+    if scene["inflows"] or any(event["kind"] != "hold" or not event["bodies"] for event in scene["events"]):
+        return "events but the hold of bodies, and inflow, are not handed to SPlisHSPlasH"
     if len(liquids) != 1:
         return f"SPlisHSPlasH is handed one liquid, and there are {len(liquids)}"
     liquid = materials[liquids[0]]
     for body in job.bodies:
-        if reason := refuse_body(body, liquid["density"], materials[body["material"]]):
+        if reason := refuse_body(body):
             return reason
-    return refuse_free_bodies(job) or refuse_periodic(job) or refuse_friction(job, liquid)
+    return refuse_free_bodies(job, liquid) or refuse_periodic(job) or refuse_friction(job, liquid)
 
 
-def refuse_free_bodies(job: Job) -> str:
-    free = [body["name"] for body in job.bodies if body["phase"] == "rigid" and body["motion"] == "free"]
-    if len(free) > 1:
-        return f"contact between bodies is not handed to SPlisHSPlasH, and {free[0]} and {free[1]} may touch"
-    if free and norm(add(vector(job.scene["gravity"]), (0.0, 0.0, EARTH))) > 1e-9:
-        return (
-            "rigid bodies of SPlisHSPlasH fall by 9.81 m/s2 along its -y, whatever gravity its liquid has, and "
-            f"{free[0]} is free"
-        )
-    return ""
+def refuse_free_bodies(job: Job, liquid: dict[str, Any]) -> str:
+    """A body that floats alone meets nothing; others need contact."""
+    free = free_bodies(job)
+    density = {material["name"]: material["density"] for material in job.scene["materials"]}
+    floats = len(free) == 1 and density[free[0]["material"]] < liquid["density"] and rests(free[0])
+    return "" if floats or not free else refuse_contact(job)
 
 
 def refuse_friction(job: Job, liquid: dict[str, Any]) -> str:
@@ -154,37 +172,6 @@ def write_particles(path: Path, places: Any) -> None:
     rows = np.ones((len(places), 4))
     rows[:, :3] = places
     path.write_bytes(b"BgeoV" + struct.pack(">9i", 5, len(rows), 0, 0, 0, 0, 0, 0, 0) + rows.astype(">f4").tobytes())
-
-
-FACES = (
-    (1, 3, 4, 2),
-    (5, 6, 8, 7),
-    (1, 2, 6, 5),
-    (3, 7, 8, 4),
-    (1, 5, 7, 3),
-    (2, 4, 8, 6),
-)  # corners of a box, seen from outside
-
-
-def write_box(path: Path, corners: list[Vector]) -> None:
-    """An OBJ file of a box. @param corners eight, the first axis fastest [m]"""
-    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in corners]
-    for a, b, c, d in FACES:
-        lines += [f"f {a} {b} {c}", f"f {a} {c} {d}"]
-    path.write_text("\n".join(lines) + "\n", encoding="ascii")
-
-
-def corners_of(half: Vector) -> list[Vector]:
-    return [
-        ((-half[0], half[0])[k & 1], (-half[1], half[1])[k >> 1 & 1], (-half[2], half[2])[k >> 2]) for k in range(8)
-    ]
-
-
-def equal_box(mass: float, inertia: Vector) -> Vector:
-    """Half lengths [m] of the box that has this mass [kg] and these principal moments [kg m2]."""
-    whole = sum(inertia)
-    # type: ignore[return-value]
-    return tuple(0.5 * math.sqrt(6.0 * (whole - 2.0 * moment) / mass) for moment in inertia)
 
 
 def side_walls(job: Job, places: Any) -> Any:
@@ -211,6 +198,25 @@ def side_walls(job: Job, places: Any) -> Any:
     return grid[beyond_any]
 
 
+def side_boxes(job: Job, sides: Any) -> list[Cuboid]:
+    """What the particles of side walls fill: two boxes a periodic direction, each as wide as all."""
+    scene, half = job.scene, 0.5 * float(job.scene["spacing"])
+    low, high = (sides.min(axis=0) - half).tolist(), (sides.max(axis=0) + half).tolist()
+    boxes = []
+    for k in ("xyz".index(name) for name in scene["periodic"]):
+        boxes.append((vector(low), vector([*high[:k], scene["min"][k], *high[k + 1 :]])))
+        boxes.append((vector([*low[:k], scene["max"][k], *low[k + 1 :]]), vector(high)))
+    return boxes
+
+
+def laws(settings: dict[str, Any]) -> dict[str, float]:
+    """Friction and restitution of a body: a pair has the sum of the first and the product of the second."""
+    return {
+        "friction": 0.5 * float(settings.get("friction", 0.0)),
+        "restitution": math.sqrt(float(settings.get("restitution", 0.0))),
+    }
+
+
 class Files:
     """The scene of a job in a folder: `scene.json` and what it names."""
 
@@ -218,7 +224,7 @@ class Files:
         import h5py
         import numpy as np
 
-        self.folder = folder
+        self.folder, self.spacing = folder, float(job.scene["spacing"])
         folder.mkdir(exist_ok=True)
         with h5py.File(job.particles) as file:
             self.start = {
@@ -226,25 +232,24 @@ class Files:
                 for key in ("position", "velocity", "mass", "phase", "body", "material")
             }
         materials = {material["name"]: material for material in job.scene["materials"]}
+        self.free_bodies = free_bodies(job)
+        centres = [body["centre"] for body in self.free_bodies] or [[0.0] * 3]
+        self.origin = np.mean(centres, axis=0)  # of places in single precision, which is finest near it [m]
         self.liquid = np.nonzero(self.start["phase"] == 0)[0]
         material = next(materials[body["material"]] for body in job.bodies if body["phase"] == "liquid")
-        write_particles(folder / "liquid.bgeo", to_engine(self.start["position"][self.liquid]))
-        bodies = [body for body in job.bodies if body["phase"] == "rigid"]
-        bodies.sort(
-            key=lambda body: body["motion"] == "free"
-        )  # it ends by a signal where a body that moves stands before one that does not
-        blocks = [
-            self.fixed(f"b{k}", self.start["position"][self.start["body"] == body["index"]])
-            for k, body in enumerate(bodies)
-            if body["motion"] == "fixed"
-        ]
-        if job.scene["periodic"]:
-            blocks.append(self.fixed("sides", side_walls(job, self.start["position"])))
-        blocks += [self.free(body) for body in bodies if body["motion"] == "free"]
-        self.free_body = next((body for body in bodies if body["motion"] == "free"), None)
+        write_particles(folder / "liquid.bgeo", to_engine(self.start["position"][self.liquid] - self.origin))
+        contacts = bool(self.free_bodies) and not refuse_contact(job)
+        # It ends by a signal where a body that moves stands before one that does not.
+        blocks = self.walls(job, contacts)
+        blocks += [self.free(f"free{k}", body, contacts, job.settings) for k, body in enumerate(self.free_bodies)]
         viscosity = {"viscosity": material["viscosity"] / material["density"], "viscosityBoundary": boundary_viscosity}
         scene = {
             "Configuration": configuration,
+            "Simulation": {
+                "gravity": configuration["gravitation"],  # of its rigid bodies
+                "subSteps": int(job.settings.get("subSteps", SUB_STEPS)),
+                "contactStiffnessRigidBody": float(job.settings.get("contactStiffnessRigidBody", STIFFNESS)),
+            },
             "Materials": [
                 {"id": "Fluid", "density0": material["density"], "viscosityMethod": 1, "Standard viscosity": viscosity}
             ],
@@ -262,35 +267,83 @@ class Files:
         }
         (folder / "scene.json").write_text(json.dumps(scene), encoding="ascii")
 
-    def block(self, name: str, places: Any, moves: bool, density: float) -> dict[str, Any]:
-        write_particles(self.folder / f"{name}.bgeo", to_engine(places))
+    def of(self, body: dict[str, Any]) -> Any:
+        """Particles of a body (n, 3) [m]"""
+        return self.start["position"][self.start["body"] == body["index"]]
+
+    def walls(self, job: Job, contacts: bool) -> list[dict[str, Any]]:
+        """What does not move, with contacts where something may meet it."""
+        fixed = [body for body in job.bodies if body["phase"] == "rigid" and body["motion"] == "fixed"]
+        sides = side_walls(job, self.start["position"]) if job.scene["periodic"] else None
+        if not contacts:
+            blocks = [self.block(f"b{k}", self.of(body), False) for k, body in enumerate(fixed)]
+            return blocks if sides is None else [*blocks, self.block("sides", sides, False)]
+        boxes = [box for body in fixed for box in cuboids_of(body["shape"]) or ()]
+        places = [place for body in fixed for place in self.of(body)]
+        if sides is not None:
+            boxes += side_boxes(job, sides)
+            places += list(sides)
+        return self.touched_walls(boxes, touched(job, boxes), places, job.settings)
+
+    def touched_walls(
+        self, boxes: list[Cuboid], surfaces: list[Cuboid], places: list[Any], settings: dict[str, Any]
+    ) -> list[dict[str, Any]]:
+        """Each particle goes to the first box that holds it, and a box without any is in the middle of others."""
+        blocks, left = [], list(places)
+        for k, (box, (low, high)) in enumerate(zip(boxes, surfaces)):
+            slack = 1e-6 * self.spacing
+            own = [x for x in left if all(a - slack <= c <= b + slack for c, a, b in zip(x, *box))]
+            left = [x for x in left if not all(a - slack <= c <= b + slack for c, a, b in zip(x, *box))]
+            if own:
+                middle, half = scaled(0.5, add(low, high)), scaled(0.5, subtract(high, low))
+                surface = Solid(BOX, middle, IDENTITY, half)
+                blocks.append({**self.block(f"b{k}", own, False, surface), **laws(settings)})
+        if left:
+            raise RuntimeError(f"{len(left)} particles of walls lie outside their shapes")
+        return blocks
+
+    def block(self, name: str, places: Any, moves: bool, solid: Solid | None = None) -> dict[str, Any]:
+        """@param places of its particles [m] @param solid what others touch of it"""
+        import numpy as np
+
+        centre, turn, half = (solid.centre, solid.turn, solid.half) if solid else (self.origin, IDENTITY, (1.0,) * 3)
+        arms = turned(conjugate(turn), np.array(places) - centre)
+        write_particles(self.folder / f"{name}.bgeo", to_engine(arms))
+        if not moves:
+            self.mesh(name, [sized(corner, half) for corner in UNIT_BOX.corners], UNIT_BOX.faces)
+        axis, angle = axis_angle(turn)
+        scale = np.abs(to_engine(2.0 * np.array(half))) if not solid or solid.kind == BOX else np.array(half)
         return {
             "geometryFile": f"{name}.obj",
             "particleFile": f"{name}.bgeo",
-            "translation": [0, 0, 0],
+            "translation": to_engine(np.array(centre) - self.origin).tolist(),
             "scale": [1, 1, 1],
-            "rotationAxis": [1, 0, 0],
-            "rotationAngle": 0,
+            "rotationAxis": to_engine(np.array(axis)).tolist(),
+            "rotationAngle": angle,
             "isDynamic": moves,
             "isWall": not moves,
-            "density": density,
-            "collisionObjectType": 0,
+            "density": 1.0,
+            "collisionObjectType": solid.kind if solid else NO_CONTACT,
+            "collisionObjectScale": scale.tolist(),
             "mapInvert": False,
             "mapThickness": 0.0,
             "mapResolution": [5, 5, 5],
         }
 
-    def fixed(self, name: str, places: Any) -> dict[str, Any]:
-        write_box(self.folder / f"{name}.obj", corners_of((1.0, 1.0, 1.0)))  # only drawn
-        return self.block(name, places, False, 1.0)
+    def mesh(self, name: str, corners: list[Vector], faces: list[Triangle]) -> None:
+        import numpy as np
 
-    def free(self, body: dict[str, Any]) -> dict[str, Any]:
+        write_mesh(self.folder / f"{name}.obj", [vector(c) for c in to_engine(np.array(corners)).tolist()], faces)
+
+    def free(self, name: str, body: dict[str, Any], contacts: bool, settings: dict[str, Any]) -> dict[str, Any]:
         """Its mass and moments are those of its mesh; the liquid sees its particles alone."""
         import numpy as np
 
-        half = equal_box(body["mass"], vector(body["principal_inertia"]))
-        frame, centre = quaternion(body["principal_axes"]), vector(body["centre"])
-        corners = np.array([add(centre, rotate(frame, corner)) for corner in corners_of(half)])
-        write_box(self.folder / "free.obj", [vector(corner) for corner in to_engine(corners).tolist()])
-        density = body["mass"] / (8.0 * math.prod(half))
-        return self.block("free", self.start["position"][self.start["body"] == body["index"]], True, density)
+        solid = solid_of(body) if contacts else None
+        mesh = mesh_of(body, solid or Solid(NO_CONTACT, vector(self.origin), IDENTITY, (1.0,) * 3))
+        surface = solid and solid._replace(half=vector([h - TOLERANCE for h in solid.half]))
+        block = {**self.block(name, self.of(body), True, surface), **laws(settings), "density": mesh.density}
+        self.mesh(name, mesh.corners, mesh.faces)
+        block["velocity"] = to_engine(np.array(body["velocity"])).tolist()
+        block["angularVelocity"] = to_engine(np.array(body["angular_velocity"])).tolist()
+        return block

@@ -17,7 +17,8 @@ sys.path[:0] = [str(ADAPTERS), str(HERE)]
 from contract import read_job  # noqa: E402
 from engine_splishsplash import boundary_viscosity, natural_limit  # noqa: E402
 from scenes import body, check, job  # noqa: E402
-from splishsplash_scene import equal_box, mirrored, write_particles  # noqa: E402
+from splishsplash_bodies import UNIT_BALL, UNIT_BOX, cuboids_of, equal_half, mesh_of, solid_of, touched  # noqa: E402
+from splishsplash_scene import mirrored, write_particles  # noqa: E402
 
 COMMAND = ["/usr/bin/python3", "-B", str(ADAPTERS / "engine_splishsplash.py")]
 REST = {"kind": "constant", "value": [0.0, 0.0, 0.0]}
@@ -65,7 +66,7 @@ class Refusals(unittest.TestCase):
     def test_what_it_has_no_law_for_is_refused_by_name(self):
         for changes, word in (
             ({"mode": "paper"}, "paper"),
-            ({"events": [{}]}, "events"),
+            ({"events": [{"kind": "grip", "bodies": []}]}, "events"),
             ({"liquid": {"phase": "rigid"}}, "one liquid, and there are 0"),
             ({"liquid": {"temperature": {"kind": "constant", "value": 300.0}}}, "heat"),
             ({"tank": {"motion": "prescribed"}}, "prescribed"),
@@ -76,14 +77,23 @@ class Refusals(unittest.TestCase):
         ):
             self.assertIn(word, reason(**changes), changes)
 
-    def test_one_body_floats_and_none_sinks_or_meets_another(self):
+    def test_bodies_float_sink_and_meet_where_their_shapes_have_contact(self):
         floats, iron = body(**BLOCK, slip="free"), body(**{**BLOCK, "material": "water"}, slip="free")
         second = body(**{**BLOCK, "name": "second", "index": 2}, slip="free")
-        self.assertEqual(reason(others=[floats]), "")
-        self.assertIn("sinks", reason(others=[iron]))
-        self.assertIn("may touch", reason(others=[floats, second]))
-        self.assertIn("9.81", reason(others=[floats], gravity=[0.0, 0.0, -9.7]))
-        self.assertIn("at rest", reason(others=[{**floats, "velocity": [0.0, 0.0, 1.0]}]))
+        rod = {"kind": "cylinder", "base": [0.5, 0.3, 0.3], "axis": [0.0, 0.0, 1.0], "length": 0.2, "radius": 0.1}
+        for bodies in ([floats], [iron], [floats, second], [{**iron, "velocity": [0.0, 0.0, 1.0]}]):
+            self.assertEqual(reason(others=bodies), "")
+        self.assertEqual(reason(others=[floats], gravity=[0.0, 0.0, -1.62]), "")
+        self.assertEqual(reason(others=[{**floats, "shape": rod}]), "")
+        self.assertIn("are boxes or balls", reason(others=[{**iron, "shape": rod}]))
+        self.assertIn("not made of them", reason(tank={"shape": rod}, others=[iron]))
+        tiny = {"kind": "sphere", "centre": [0.5, 0.3, 0.4], "radius": 0.015}
+        self.assertIn("not much larger", reason(others=[{**iron, "shape": tiny}]))
+
+    def test_of_events_only_the_hold_of_bodies_is_taken(self):
+        hold = {"kind": "hold", "bodies": ["block"], "time": 0.0, "until": 0.1}
+        self.assertEqual(reason(others=[body(**BLOCK, slip="free")], events=[hold]), "")
+        self.assertIn("hold of bodies", reason(events=[{**hold, "kind": "grip"}]))
 
     def test_two_mirrors_stand_for_a_period_across_which_nothing_flows(self):
         period = {"periodic": ["y"], "min": [-0.2, 0.0, -0.2], "max": [1.2, 0.6, 1.0]}
@@ -117,11 +127,30 @@ class Mirrors(unittest.TestCase):
 
 
 class Values(unittest.TestCase):
-    def test_a_box_has_the_mass_and_the_moments_that_are_asked_for(self):
-        a, b, c = equal_box(6.0, (1.0, 2.0, 2.5))
-        moments = [6.0 * (q * q + r * r) / 3.0 for q, r in ((b, c), (a, c), (a, b))]
-        for moment, wanted in zip(moments, (1.0, 2.0, 2.5)):
-            self.assertAlmostEqual(moment, wanted, 12)
+    def test_a_mesh_has_the_mass_the_centre_and_the_moments_that_are_asked_for(self):
+        for form in (UNIT_BOX, UNIT_BALL):
+            a, b, c = equal_half(form, 6.0, (1.0, 2.0, 2.5))
+            moments = [6.0 * form.square * (q * q + r * r) for q, r in ((b, c), (a, c), (a, b))]
+            for moment, wanted in zip(moments, (1.0, 2.0, 2.5)):
+                self.assertAlmostEqual(moment, wanted, 12)
+        block = body(**{**BLOCK, "mass": 6.0, "centre": [0.51, 0.3, 0.6]})
+        mesh = mesh_of(block, solid_of(block))
+        for axis, wanted in enumerate((0.01, 0.0, 0.0)):  # the first eight corners have the mass
+            self.assertAlmostEqual(sum(corner[axis] for corner in mesh.corners[:8]) / 8.0, wanted, 12)
+        self.assertAlmostEqual(max(corner[0] for corner in mesh.corners[8:]), 0.1, 12)
+
+    def test_a_tank_is_made_of_boxes_that_leave_its_inside_free(self):
+        whole, hole = ([0.0, 0.0, 0.0], [3.0, 3.0, 3.0]), ([1.0, 1.0, 1.0], [2.0, 2.0, 4.0])
+        parts = [{"kind": "box", "min": low, "max": high} for low, high in (whole, hole)]
+        boxes = cuboids_of({"kind": "difference", "of": parts})
+        volume = sum(math.prod(b - a for a, b in zip(low, high)) for low, high in boxes)
+        self.assertAlmostEqual(volume, 27.0 - 2.0, 12)
+
+    def test_contacts_act_at_the_surface_and_at_no_seam(self):
+        given = self.given(periodic=["y"], min=[0.0, 0.0, 0.0], max=[2.0, 1.0, 2.0])
+        low, high = touched(given, [((0.0, 0.0, 0.0), (1.0, 1.0, 0.5)), ((1.0, 0.0, 0.0), (2.0, 1.0, 0.5))])[0]
+        for value, wanted in zip((*low, *high), (0.01, -0.21, 0.01, 1.01, 1.21, 0.49)):
+            self.assertAlmostEqual(value, wanted, 12)
 
     def given(self, **changes):
         with tempfile.TemporaryDirectory() as name:
