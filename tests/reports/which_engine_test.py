@@ -14,6 +14,7 @@ import scorecard
 import thumbnails
 import uses
 import which_engine
+from buyer_questions import bounces, by_case
 
 
 def score(engine, preset, *lines):
@@ -138,6 +139,23 @@ class WhichEngine(Pages):
             text,
         )
         self.assertIn("stack ODE 0.5 s", text)
+
+    def test_one_case_is_answered_by_the_preset_that_does_best_in_it(self):
+        heat, ball = "heat/two-conductivities", "contact/ball-restitution-050"
+        engines = {
+            "ode": [score("ode", "a", judged(heat, "pass", 0.5)), score("ode", "b", judged(heat, "pass", 0.2))],
+            "mujoco": [score("mujoco", "default", judged(heat, "known defect", 3.0, defect="printed-digits"))],
+            "jolt": [score("jolt", "default", judged(ball, "pass", 0.1))],
+        }
+        self.assertEqual(
+            by_case(engines, heat, "does"),
+            "Error over its limit in heat/two-conductivities: ODE (b) 0.2. "
+            "Off: MuJoCo 3 in top, known defect printed digits.",
+        )
+        self.assertEqual(bounces(engines, []), "Error over its limit in contact/ball-restitution-050: Jolt 0.1.")
+
+    def test_an_error_above_its_limit_says_of_what_and_where(self):
+        self.assertIn("9 × the limit (top, tower-1)", self.cell(self.page(*self.SCORES), "MuJoCo"))
 
     def test_nothing_is_to_be_chosen_from_one_engine_or_without_a_scorecard(self):
         self.assertEqual(self.page(self.SCORES[0]), "")
