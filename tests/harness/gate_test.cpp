@@ -359,6 +359,21 @@ TEST(Baselines, ALooserLimitIsRedUntilItIsAccepted) {
   EXPECT_TRUE(baseline_remarks(kept.r).empty());
 }
 
+TEST(Baselines, ABandInThePlaceOfAFloorIsNoLooseningWhereItsLowerEdgeStays) {
+  Kept kept;
+  auto& gate = kept.r.cases[0].gates[0];
+  gate.limit.reset();
+  gate.at_least = 0.04;
+  judge(kept.r);
+  (void)kept.accept_all();
+  gate.at_least.reset();
+  gate.band = {0.04, 60.0};
+  judge(kept.r);
+  const auto said = kept.accept_all();
+  EXPECT_NE(said.find("at least 0.04 -> band 0.04 to 60\n"), std::string::npos) << said;
+  EXPECT_NE(said.find("0 limits were loosened"), std::string::npos) << said;
+}
+
 TEST(Baselines, TheSumOfAllLooseningsIsKeptAndTighteningTakesNothingOff) {
   Kept kept;
   std::string said;

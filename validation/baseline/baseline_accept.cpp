@@ -17,6 +17,14 @@
 
 namespace tripoint {
 namespace fs = std::filesystem;
+namespace {
+
+/// A floor and a band have no room in common: only their edges are compared.
+bool has_edges_alike(const AcceptedGate& a, const AcceptedGate& b) {
+  return a.band.has_value() == b.band.has_value() && a.at_least.has_value() == b.at_least.has_value();
+}
+
+}  // namespace
 
 Baseline accepted_from(const CaseResult& c, const Tool& tool, std::uint64_t seed, const Baseline* before,
                        const Acceptance& acceptance) {
@@ -43,7 +51,8 @@ Baseline accepted_from(const CaseResult& c, const Tool& tool, std::uint64_t seed
     const auto* old = before ? counterpart(own, k, before->gates) : nullptr;
     g.first_room = old ? old->first_room : g.room;
     g.first_value = old ? old->first_value : g.value;
-    if (old) g.loosened = old->loosened + (g.room > old->room && old->room > 0.0 ? std::log(g.room / old->room) : 0.0);
+    const bool looser = old && has_edges_alike(g, *old) && g.room > old->room && old->room > 0.0;
+    if (old) g.loosened = old->loosened + (looser ? std::log(g.room / old->room) : 0.0);
   }
   if (before) b.removed = before->removed;
   return b;
@@ -82,11 +91,13 @@ std::string changes(const Baseline* before, const Baseline& after) {
     }
     if (!old->measures.empty() && old->measures != now.measures) text += name + ": another metric\n";
     const auto edge = looser_edge(now, *old);
-    if (std::abs(now.room / old->room - 1.0) > 1e-9)
+    if (has_edges_alike(now, *old) && std::abs(now.room / old->room - 1.0) > 1e-9)
       text += fmt::format("{}: {} -> {}, {} by a factor {:.3g}\n", name, old->allows, now.allows,
                           now.room > old->room ? "LOOSER" : "tighter", std::max(now.room / old->room, old->room / now.room));
     else if (!edge.empty())
       text += fmt::format("{}: {} -> {}, LOOSER: {}\n", name, old->allows, now.allows, edge);
+    else if (now.allows != old->allows)
+      text += fmt::format("{}: {} -> {}\n", name, old->allows, now.allows);
     else if (std::abs(now.value - old->value) > 1e-3 * std::abs(old->value) + roundoff_limit)
       text += fmt::format("{}: value {:.4g} -> {:.4g}\n", name, old->value, now.value);
   }
