@@ -12,4 +12,8 @@ std::string known_defect(const Gate& gate) {
   return gate.reason.substr(head.size(), end - head.size());
 }
 
+std::string declared_defect(const Gate& gate) {
+  return gate.reason.starts_with("predicted defect") ? "printed-form" : known_defect(gate);
+}
+
 }  // namespace tripoint

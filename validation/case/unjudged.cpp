@@ -40,12 +40,12 @@ void open_metrics(const Case& value, std::vector<Finding>& found) {
 /// A floor alone passes any greater error: 0.05 m and 3 m look the same.
 void open_defects(const Case& value, std::vector<Finding>& found) {
   for (const Gate& g : value.gates)
-    if (!known_defect(g).empty() && g.at_least && !g.limit && !g.band)
+    if (!declared_defect(g).empty() && g.at_least && !g.limit && !g.band)
       found.push_back(
           {false,
            fmt::format("the known defect {} of {} is bounded from below alone, and any greater error passes: write a band "
                        "about the measured value",
-                       known_defect(g), g.engine),
+                       declared_defect(g), g.engine.empty() ? "every engine" : g.engine),
            g.place});
 }
 

@@ -16,8 +16,7 @@ namespace {
 
 /// The defect that a gate declares of an engine, or that it predicts of the printed form; empty = none.
 std::string declared(const CaseResult& result, const Gate& gate) {
-  if (auto name = known_defect(gate); !name.empty()) return name;
-  if (gate.reason.starts_with("predicted defect")) return "printed-form";
+  if (auto name = declared_defect(gate); !name.empty()) return name;
   return result.expect == Expect::defect && (gate.band || gate.at_least) ? "declared-by-the-case" : "";
 }
 
