@@ -33,9 +33,10 @@ Sums sums_of(const Audited& run, const Snapshot& s) {
   return sum;
 }
 
-/// An engine that writes no sums leaves them at zero.
+/// An engine that writes no sums leaves them at zero. One that states an energy states its mass, too.
 bool states_sums(const Audited& run) {
-  return std::any_of(run.frames.begin(), run.frames.end(), [](const Snapshot* s) { return s->total_mass != 0.0; });
+  return std::any_of(run.frames.begin(), run.frames.end(),
+                     [](const Snapshot* s) { return s->total_mass != 0.0 || !s->energy.empty(); });
 }
 
 bool has_rigid_matter(const Audited& run) {
