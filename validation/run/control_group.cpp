@@ -66,8 +66,8 @@ fs::path group_below(const fs::path& ours, const fs::path& top, const std::vecto
 
 ControlGroup::ControlGroup(const SandboxSums& most) {
   if (!(most.memory > 0.0) || most.processes <= 0) return;
-  constexpr double ours = 2.0;  // bubblewrap, and its first process inside
-  const double processes = most.processes + ours;
+  constexpr double ours = 2.0, one_too_many = 1.0;  // bubblewrap, and its first process inside; what the watch ends a run at
+  const double processes = most.processes + ours + one_too_many;
   if (fs::exists(root / "cgroup.controllers")) {
     if (auto made = group_below(own_group(""), root, {{"memory.max", most.memory}, {"pids.max", processes}}); !made.empty())
       folders_.push_back(std::move(made));

@@ -144,7 +144,7 @@ std::vector<std::string> limits(double wall_limit) {
           fmt::format("--data={}", at_most(RLIMIT_DATA, memory)),
           fmt::format("--as={}", at_most(RLIMIT_AS, 4 * memory)),  // some reserve much more than they use
           fmt::format("--fsize={}", at_most(RLIMIT_FSIZE, static_cast<rlim_t>(most_bytes))),
-          fmt::format("--nproc={}", at_most(RLIMIT_NPROC, most_processes)),
+          fmt::format("--nproc={}", at_most(RLIMIT_NPROC, 2 * most_processes)),  // the user's other processes count, too
           fmt::format("--cpu={}", at_most(RLIMIT_CPU, static_cast<rlim_t>(std::ceil(cpu)))),
           "--"};
 }
