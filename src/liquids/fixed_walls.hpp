@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "liquids/carried_density.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/shared_terms.hpp"
 
@@ -19,7 +20,7 @@ namespace tripoint::liquid {
 
 /// Whether viscous pairs see walls by the mirrored velocity (model 8.4).
 [[nodiscard]] inline bool mirrors_velocities(const Scene& scene) {
-  return scene.mode_of(term::walls) == Mode::corrected && can_have_walls(scene);
+  return scene.mode_of(term::walls) == Mode::corrected && can_have_walls(scene) && !carries_density(scene);
 }
 
 /// Whether every wall brakes liquid: (8) as printed does so at walls that slip too.
@@ -30,7 +31,7 @@ namespace tripoint::liquid {
   const bool corrected = std::ranges::all_of(std::array{term::walls, term::density, term::pressure},
                                              [&](const Term& t) { return scene.mode_of(t) == Mode::corrected; });
   const auto is_free = [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; };
-  return corrected && !calls_for(scene, "phase") && std::ranges::none_of(scene.bodies, is_free);
+  return corrected && !carries_density(scene) && !calls_for(scene, "phase") && std::ranges::none_of(scene.bodies, is_free);
 }
 
 /// Jitter below which the difference of two jittered places rounds to that of their lattice places [spacings]. Each place is off

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/shared_terms.hpp"
 #include "validation/audit/audit_rates.hpp"
 
 namespace tripoint {
@@ -47,10 +48,11 @@ bool has_row(const Audited& run, std::size_t particle) {
   return body && body->phase == Phase::rigid && body->index >= 0 && !run.frames.front()->bodies.empty() && keeps_bodies(run.job);
 }
 
-/// The transport velocity moves liquid otherwise than its velocity.
+/// The transport velocity, or the shift of liquid that carries its density, moves liquid otherwise than its velocity.
 bool is_carried(const Audited& run, std::size_t particle) {
   const auto* body = body_of(run, particle);
-  return run.job.scene.transport_velocity && (!body || body->phase == Phase::liquid);
+  const Scene& scene = run.job.scene;
+  return (scene.transport_velocity || scene.has_brought_form(term::pressure)) && (!body || body->phase == Phase::liquid);
 }
 
 Track track_of_particle(const Audited& run, std::size_t i) {

@@ -8,7 +8,10 @@
 #include "core/matrix3.hpp"
 #include "effects/carried_liquid/fields.hpp"
 #include "effects/carried_liquid/hydrostatic_start.hpp"
+#include "effects/carried_liquid/phase_density.hpp"
 #include "effects/carried_liquid/scheme.hpp"
+#include "liquids/pressing_gravity.hpp"
+#include "liquids/scene_numbers.hpp"
 #include "pairs/pair_passes.hpp"
 #include "pairs/run_pass.hpp"
 #include "scene/effect_rule.hpp"
@@ -21,11 +24,11 @@
 namespace tripoint::carried_liquid {
 namespace {
 
-constexpr StepNumber kick_length{"carried_half_step", 0.0};  ///< length of the last kick [s]
+constexpr StepNumber kick_length{"carried_half_step", 0.0};      ///< length of the last kick [s]
+constexpr Account compression_released{"compression_released"};  ///< as the effect of contact has it
 constexpr Account taken_by_diffusion{"taken_by_diffusion"}, taken_by_shift{"taken_by_shift"};
 constexpr double viscous_share = 0.03;                   ///< of dx^2/nu that a step takes
 constexpr double full_rank = 0.5, own_full_rank = 0.02;  ///< determinant below which an inverse is blended
-constexpr double inside_wall = 0.5;                      ///< share of its neighbourhood that a solid fills at the solid's face
 constexpr double exposed_below = 2.25;                   ///< trace of the moment of a particle at a free surface
 
 struct Numbers {
@@ -35,33 +38,25 @@ struct Numbers {
   LatticeMoments lattice;
 };
 
-/// What these forms do not serve: solids that touch each other, that deform, melt or freeze; inflows.
-void refuse_others(const Scene& scene) {
-  std::size_t free = 0;
-  for (const Body& b : scene.bodies) {
-    if (b.phase == Phase::elastic)
-      throw InputError(b.place, "model.pressure: liquid that carries its density knows no elastic body");
-    free += b.phase == Phase::rigid && b.motion == Motion::free ? 1 : 0;
-  }
-  if (free > 1 || !scene.inflows.empty() || calls_for(scene, "phase"))
-    throw InputError(
-        "model.pressure: liquid that carries its density knows one free body, and neither inflow, melting nor freezing");
+/// Materials that are liquid, or can be.
+std::vector<const Material*> liquids_of(const Scene& scene) {
+  std::vector<const Material*> list;
+  for (const Body& b : scene.bodies)
+    if (const Material& m = scene.material(b.material); b.phase == Phase::liquid || m.t_melt) list.push_back(&m);
+  for (const Inflow& f : scene.inflows) list.push_back(&scene.material(f.material));
+  return list;
 }
 
 Numbers numbers_of(const Scene& scene) {
-  refuse_others(scene);
+  const liquid::SceneNumbers all = liquid::numbers_of(scene);
   Numbers n;
-  double least = HUGE_VAL;
-  for (const Body& b : scene.bodies)
-    if (b.phase == Phase::liquid) {
-      const Material& m = scene.material(b.material);
-      n.reference = std::max(n.reference, m.density);
-      least = std::min(least, m.density);
-      n.greatest_nu = std::max(n.greatest_nu, m.viscosity / m.density);
-    }
-  for (const Material& m : scene.materials) n.stiffness = std::max(n.stiffness, m.stiffness.value_or(0.0));
-  if (!(n.stiffness > 0.0) || !(n.reference > 0.0))
-    throw InputError("model.pressure: liquid that carries its density needs a sound_speed");
+  n.stiffness = all.stiffness;
+  n.reference = all.reference_density;
+  double least = n.reference;
+  for (const Material* m : liquids_of(scene)) {
+    least = std::min(least, m->density);
+    n.greatest_nu = std::max(n.greatest_nu, m->viscosity / m->density);
+  }
   n.sound_speed = std::sqrt(n.stiffness * n.reference / least);
   n.lattice = wendland_moments(scene.support_ratio);
   return n;
@@ -82,6 +77,12 @@ Symmetric blended_inverse(const Symmetric& m, double full, double rest) {
   return share * inverse + ((1.0 - share) * rest) * Symmetric{1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
 }
 
+/// Columns that the effect of contact owns where solids meet.
+std::vector<FieldInfo> shared() {
+  return {field::density, field::volume,  field::pressure,        field::group,           field::force_x,
+          field::force_y, field::force_z, field::viscous_force_x, field::viscous_force_y, field::viscous_force_z};
+}
+
 template <const auto&... f>
 std::array<std::span<double>, sizeof...(f)> columns(Particles& p) {
   return {p[f]...};
@@ -93,7 +94,11 @@ Symmetric symmetric_at(const std::array<std::span<double>, 6>& c, std::size_t i)
 class CarriedLiquid : public Effect {
  public:
   explicit CarriedLiquid(const Scene& scene)
-      : numbers_(numbers_of(scene)), kernels_(kernels_of(scene, numbers_)), scheme_(scheme_of(scene)) {}
+      : numbers_(numbers_of(scene)),
+        kernels_(kernels_of(scene, numbers_)),
+        scheme_(scheme_of(scene)),
+        state_{numbers_.stiffness * numbers_.reference, scene.clamps()},
+        solids_meet_(calls_for(scene, "fluid")) {}
   void load(World&, const InitialState&) override;
   void kick(World& world, double dt) override {
     drifted_ = 0.0;
@@ -105,14 +110,14 @@ class CarriedLiquid : public Effect {
   }
   void state(World&) override;
   void bonds(World&) override;
-  void adopt(World& world) override { set_groups(world); }
+  void adopt(World&) override;
   void happen(World& world, const Happening&) override { set_groups(world); }
   [[nodiscard]] TimeStepBound max_dt(const World&) const override;
   void add_to(const World&, Ledger&) const override;
   [[nodiscard]] PairWork pair_work(const Scene&) const override {
     PairWork work{{pair_term<SummedDensity>}};
     work.where_it_acts = true;
-    work.kernels = &kernels_;
+    if (!solids_meet_) work.kernels = &kernels_;
     return work;
   }
 
@@ -126,14 +131,13 @@ class CarriedLiquid : public Effect {
   void set_shift(World&) const;
   void predict_velocities(World&) const;
   void set_pull(World&) const;
-  [[nodiscard]] double pressure_of(const World& world, double rho, double rest) const {
-    const double p = numbers_.stiffness * numbers_.reference * (rho / rest - 1.0);
-    return world.scene.clamps() ? std::max(p, 0.0) : p;
-  }
+  [[nodiscard]] double pressure_of(double rho, double rest) const { return state_.pressure(rho, rest); }
 
   Numbers numbers_;
   PairKernels kernels_;
   Scheme scheme_;
+  CarriedState state_;
+  bool solids_meet_;      ///< another effect has their forces, and the columns that both write to
   double drifted_ = 0.0;  ///< since the last forces, within a step [s]
 };
 
@@ -149,6 +153,7 @@ void CarriedLiquid::set_material(World& world, std::size_t i) const {
 }
 
 void CarriedLiquid::set_groups(World& world) const {
+  if (solids_meet_) return;
   const auto group = world.particles[field::group];
   const auto body = world.particles[field::body];
   for (std::size_t i = 0; i < group.size(); ++i) {
@@ -172,6 +177,26 @@ void CarriedLiquid::load(World& world, const InitialState&) {
   }
 }
 
+void CarriedLiquid::adopt(World& world) {
+  const Change& change = world.change;
+  const std::vector<std::size_t> touched =
+      change.regrouped.empty() ? std::vector<std::size_t>{} : touched_rows(world, change.regrouped);
+  const double before = energy_of(world, state_, kernels_, touched, 0.5 * drifted_);
+  for (const auto* list : {&change.born, &change.regrouped})
+    for (const std::uint32_t id : *list) set_material(world, world.particles.row(id));
+  set_groups(world);
+  take_pressure_around(world, state_, kernels_, change.melted);
+  take_pressure_around(world, state_, kernels_, change.born);
+  if (!touched.empty())
+    world.booked[compression_released] += before - energy_of(world, state_, kernels_, touched, 0.5 * drifted_);
+  const auto m = world.particles[field::mass], rho = world.particles[field::density],
+             rest = world.particles[field::liquid_rest_density];
+  for (const std::uint32_t id : change.born) {
+    const std::size_t i = world.particles.row(id);
+    world.booked[account::inflow] += state_.energy(m[i], rho[i], rest[i]);
+  }
+}
+
 /// The shift of the last rates acts in this drift.
 void CarriedLiquid::drift(World& world, double dt) {
   drifted_ = dt;
@@ -184,21 +209,26 @@ void CarriedLiquid::drift(World& world, double dt) {
   world.booked[taken_by_shift] += dt * work[0];
 }
 
-/// Sums of a term over the clusters that have a liquid, or over all.
+/// Sums of a term over the clusters that have a liquid, or over all whose forces are formed now.
 void CarriedLiquid::run(World& world, const PairTerm& term, bool liquids_only) const {
   Particles& p = world.particles;
   const PassFunction pass = pair_passes(world.neighbours->clusters().lanes).alone(term);
-  for (const Field<double>* f : pass.adds()) fill(p[*f], 0.0, world.threads);
+  const Rows formed = liquids_only ? Rows{0, p.size()} : world.formed();
+  const std::vector<FieldInfo> both = shared();
+  for (const Field<double>* f : pass.adds())
+    if (!solids_meet_ || std::ranges::find(both, FieldInfo(*f)) == both.end()) fill(part(p[*f], formed), 0.0, world.threads);
   const Clusters& c = world.neighbours->clusters();
   const auto z = p[field::impedance];
+  const auto is_wanted = [&](std::uint32_t i) { return world.owns(i) && (!liquids_only || z[i] != 0.0); };
   ChosenClusters chosen{c.listed, {}};
   std::erase_if(chosen.clusters, [&](std::uint32_t k) {
-    if (!liquids_only) return false;
+    if (c.first[k] < formed.from || c.first[k] >= formed.to) return true;
     for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i)
-      if (z[i] != 0.0) return false;
+      if (is_wanted(i)) return false;
     return true;
   });
   run_pass_over(pass, p, *world.neighbours, kernels_, world.threads, chosen);
+  world.refresh(pass.adds());
 }
 
 void CarriedLiquid::correct_gradients(World& world) const {
@@ -259,7 +289,7 @@ void CarriedLiquid::move_density(World& world) const {
       extra += 0.2 * ((open ? std::max(sum_now, rest[i]) : sum_now) - carried);
     }
     const double next = std::max(carried + extra, 0.5 * rest[i]);
-    sum[0] += mass[i] * pressure_of(world, carried, rest[i]) / (carried * carried) * (next - carried);
+    sum[0] += mass[i] * pressure_of(carried, rest[i]) / (carried * carried) * (next - carried);
     rho[i] = next;
   });
   world.booked[taken_by_diffusion] -= taken[0];
@@ -271,7 +301,7 @@ void CarriedLiquid::set_pressure(World& world) const {
              pressure = p[field::pressure], share = p[field::wall_share], out = p[field::wall_pressure];
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
-    pressure[i] = z[i] != 0.0 ? pressure_of(world, rho[i], rest[i]) : 0.0;
+    if (z[i] != 0.0) pressure[i] = pressure_of(rho[i], rest[i]);
     const double stiffness = numbers_.stiffness * numbers_.reference;
     out[i] = z[i] != 0.0 ? stiffness * std::max(share[i] - inside_wall, 0.0) * rho[i] / rest[i] : 0.0;
   }
@@ -284,9 +314,10 @@ void CarriedLiquid::set_shift(World& world) const {
   const auto z = p[field::impedance], near = p[field::exposed_near], exposed = p[field::exposed],
              speed2 = p[field::nearby_speed2];
   const double h = 0.5 * world.support();
+  const auto driven = p.has(field::driven.name) ? p[field::driven] : std::span<int>{};
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const bool inside = z[i] != 0.0 && exposed[i] == 0.0 && near[i] == 0.0;
+    const bool inside = z[i] != 0.0 && (driven.empty() || driven[i] == 0) && exposed[i] == 0.0 && near[i] == 0.0;
     if (!inside || scheme_.shift == Shift::none) {
       w.set(i, {});
       continue;
@@ -330,32 +361,23 @@ void CarriedLiquid::predict_velocities(World& world) const {
              [&](std::size_t from, std::size_t to) { is_member.each_run(from, to, of_member, of_others); });
 }
 
+/// Gravity at solids. Their acceleration is left out: the head that it makes would do work that no energy stands behind.
 void CarriedLiquid::set_pull(World& world) const {
   Particles& p = world.particles;
   const auto pull = triple(p, field::pull_x, field::pull_y, field::pull_z);
-  const auto group = p[field::group];
-  const auto body = p[field::body];
-  Vec3 g = world.scene.gravity;
-  for (std::size_t a = 0; a < 3; ++a)
-    if (world.scene.periodic[a]) g[a] = 0.0;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    if (group[i] == liquid_group) continue;
-    Vec3 a = g;
-    if (group[i] > wall_group) {
-      const auto b = static_cast<std::size_t>(body[i]);
-      a -= world.bodies[field::body_acceleration][b] +
-           cross(world.bodies[field::body_angular_acceleration][b], world.unwrapped(i) - world.bodies[field::body_centre][b]);
-    }
-    pull.set(i, a);
-  }
+  const auto z = p[field::impedance];
+  const Vec3 g = liquid::pressing_gravity(world.scene);
+  for (std::size_t i = 0; i < p.size(); ++i) pull.set(i, z[i] != 0.0 ? Vec3{} : g);
 }
 
 void CarriedLiquid::state(World& world) {
   Particles& p = world.particles;
-  const auto rho = p[field::density], m = p[field::mass], V = p[field::volume];
+  const auto rho = p[field::density], m = p[field::mass], V = p[field::carried_volume], rest = p[field::liquid_rest_density],
+             z = p[field::impedance];
   // Moments, rates and forces of one state take the same volumes: those before the step.
 #pragma omp parallel for schedule(static) num_threads(world.threads)
-  for (std::size_t i = 0; i < p.size(); ++i) V[i] = m[i] / rho[i];
+  for (std::size_t i = 0; i < p.size(); ++i) V[i] = m[i] / (z[i] != 0.0 ? rho[i] : rest[i]);
+  if (!solids_meet_) std::ranges::copy(V, p[field::volume].begin());
   run(world, pair_term<Moments>, true);
   correct_gradients(world);
   run(world, scheme_.gradients, true);
@@ -373,7 +395,7 @@ void CarriedLiquid::bonds(World& world) {
   Particles& p = world.particles;
   const double scale = scheme_.beta * 0.5 * world.support();
   for (const Field<double>* f : {&field::residue_force_x, &field::residue_force_y, &field::residue_force_z})
-    for (double& one : p[*f]) one *= scale;
+    for (double& one : part(p[*f], world.formed())) one *= scale;
 }
 
 TimeStepBound CarriedLiquid::max_dt(const World& world) const {
@@ -396,19 +418,15 @@ void CarriedLiquid::add_to(const World& world, Ledger& ledger) const {
   std::vector<std::array<double, 1>> blocks;
   const auto share = p[field::wall_share];
   const auto sums = ordered_sums(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
-    const double s = rho[i] / rest[i], inside = std::max(share[i] - inside_wall, 0.0);
-    if (z[i] != 0.0) sum[0] += 0.5 * numbers_.stiffness * numbers_.reference * m[i] / rest[i] * inside * inside;
-    if (z[i] == 0.0 || (world.scene.clamps() && s <= 1.0)) return;
-    sum[0] += numbers_.stiffness * numbers_.reference * m[i] / rest[i] * (std::log(s) + 1.0 / s - 1.0);
+    if (z[i] != 0.0) sum[0] += state_.energy(m[i], rho[i], rest[i]) + state_.wall_energy(m[i], rest[i], share[i]);
   });
   ledger.energy["compression"] += sums[0];
   ledger.energy["diffusion"] += world.booked[taken_by_diffusion];
   ledger.energy["shifting"] += world.booked[taken_by_shift];
 }
 
-std::vector<FieldInfo> owned() {
-  std::vector<FieldInfo> list{field::density, field::volume,  field::pressure, field::group,   field::force_x,
-                              field::force_y, field::force_z, field::shift_x,  field::shift_y, field::shift_z};
+std::vector<FieldInfo> owned(bool solids_meet) {
+  std::vector<FieldInfo> list{field::shift_x, field::shift_y, field::shift_z};
   const auto add = [&](std::span<const Field<double>* const> some) {
     for (const Field<double>* f : some)
       if (std::ranges::find(list, FieldInfo(*f)) == list.end()) list.emplace_back(*f);
@@ -422,31 +440,39 @@ std::vector<FieldInfo> owned() {
   for (const Field<double>* f : AllForces::reads::list)
     if (f != &field::velocity_x && f != &field::velocity_y && f != &field::velocity_z) add({{f}});
   add({{&field::exposed}});
+  const std::vector<FieldInfo> both = shared();
+  std::erase_if(list, [&](const FieldInfo& f) { return std::ranges::find(both, f) != both.end(); });
+  if (!solids_meet) list.insert(list.end(), both.begin(), both.end());
   return list;
 }
 
-std::vector<Force> forces_of() {
+std::vector<Force> forces_of(bool solids_meet) {
   Force pressure{field::force_x, field::force_y, field::force_z, {"pressure_work"}, Account{"wall_pressure_work"}};
   pressure.stored = StoredEnergy{{"compression"}, {"start_compression"}, {}, ""};
-  Force viscous{field::shear_force_x, field::shear_force_y, field::shear_force_z, {"viscous_work"}, Account{"wall_viscous_work"}};
+  Force viscous{
+      field::viscous_force_x, field::viscous_force_y, field::viscous_force_z, {"viscous_work"}, Account{"wall_viscous_work"}};
   viscous.entry = "viscous";
-  Force residue{field::residue_force_x, field::residue_force_y, field::residue_force_z, {"residue_work"}};
+  Force residue{
+      field::residue_force_x, field::residue_force_y, field::residue_force_z, {"residue_work"}, Account{"wall_residue_work"}};
   residue.entry = "residue";
-  return {pressure, viscous, residue};
+  return solids_meet ? std::vector{residue} : std::vector{pressure, viscous, residue};
 }
 
 }  // namespace
 
-EffectSpec spec(const Scene&) {
+EffectSpec spec(const Scene& scene) {
+  const bool solids_meet = calls_for(scene, "fluid");
   EffectSpec s{
-      "carried_liquid", Mode::corrected, owned(),
+      "carried_liquid", Mode::corrected, owned(solids_meet),
       fields::joined(
           {fields::position(), fields::velocity(), {field::id, field::mass, field::body, field::material, field::source}})};
-  s.reads_if_there = fields::image();
+  s.reads_if_there = fields::joined({fields::image(), {field::driven}});
+  if (solids_meet) s.reads = fields::joined({s.reads, shared()});
   s.sums_forces = true;
-  s.forces = forces_of();
+  s.forces = forces_of(solids_meet);
   s.numerical = {taken_by_diffusion, taken_by_shift};
   s.step_numbers = {kick_length};
+  if (solids_meet) return s;
   s.guards = {{field::density, "density", Written::density}};
   s.positive = {field::density};
   s.guarded_entries = {{"viscous", EntryRole::only_takes, "viscous forces, which may only take energy"}};

@@ -80,7 +80,7 @@ struct SummedDensity {
 struct Moments {
   static constexpr std::string_view name = "CarriedMoments";
   static constexpr bool zero_beyond = true;
-  using reads = Keys<field::volume, field::impedance, field::liquid_rest_density>;
+  using reads = Keys<field::carried_volume, field::impedance, field::liquid_rest_density>;
   using adds = Keys<field::moment_xx, field::moment_yy, field::moment_zz, field::moment_yz, field::moment_xz, field::moment_xy,
                     field::own_moment_xx, field::own_moment_yy, field::own_moment_zz, field::own_moment_yz, field::own_moment_xz,
                     field::own_moment_xy, field::wall_share>;
@@ -102,7 +102,7 @@ struct Gradients {
   static constexpr std::string_view first = "CarriedGradients ", second = pair_words[static_cast<std::size_t>(form)];
   static constexpr std::string_view name = JoinedName<first, second>::value;
   static constexpr bool zero_beyond = true;
-  using reads = Keys<field::volume, field::impedance, field::liquid_rest_density, field::density, field::velocity_x,
+  using reads = Keys<field::carried_volume, field::impedance, field::liquid_rest_density, field::density, field::velocity_x,
                      field::velocity_y, field::velocity_z, field::correction_xx, field::correction_yy, field::correction_zz,
                      field::correction_yz, field::correction_xz, field::correction_xy, field::exposed>;
   using adds = Keys<field::velocity_gradient_xx, field::velocity_gradient_xy, field::velocity_gradient_xz,
@@ -151,16 +151,16 @@ struct Forces {
   static constexpr std::string_view name = JoinedName<first, second, third>::value;
   static constexpr bool zero_beyond = true;
   using reads =
-      Keys<field::volume, field::impedance, field::liquid_rest_density, field::density, field::pressure, field::liquid_viscosity,
-           field::slips, field::correction_xx, field::correction_yy, field::correction_zz, field::correction_yz,
-           field::correction_xz, field::correction_xy, field::velocity_x, field::velocity_y, field::velocity_z,
-           field::velocity_gradient_xx, field::velocity_gradient_xy, field::velocity_gradient_xz, field::velocity_gradient_yx,
-           field::velocity_gradient_yy, field::velocity_gradient_yz, field::velocity_gradient_zx, field::velocity_gradient_zy,
-           field::velocity_gradient_zz, field::density_gradient_x, field::density_gradient_y, field::density_gradient_z,
-           field::pull_x, field::pull_y, field::pull_z, field::predicted_x, field::predicted_y, field::predicted_z,
-           field::wall_pressure>;
+      Keys<field::carried_volume, field::impedance, field::liquid_rest_density, field::density, field::pressure,
+           field::liquid_viscosity, field::slips, field::correction_xx, field::correction_yy, field::correction_zz,
+           field::correction_yz, field::correction_xz, field::correction_xy, field::velocity_x, field::velocity_y,
+           field::velocity_z, field::velocity_gradient_xx, field::velocity_gradient_xy, field::velocity_gradient_xz,
+           field::velocity_gradient_yx, field::velocity_gradient_yy, field::velocity_gradient_yz, field::velocity_gradient_zx,
+           field::velocity_gradient_zy, field::velocity_gradient_zz, field::density_gradient_x, field::density_gradient_y,
+           field::density_gradient_z, field::pull_x, field::pull_y, field::pull_z, field::predicted_x, field::predicted_y,
+           field::predicted_z, field::wall_pressure>;
   using adds =
-      Keys<field::force_x, field::force_y, field::force_z, field::shear_force_x, field::shear_force_y, field::shear_force_z,
+      Keys<field::force_x, field::force_y, field::force_z, field::viscous_force_x, field::viscous_force_y, field::viscous_force_z,
            field::residue_force_x, field::residue_force_y, field::residue_force_z, field::diffused>;
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 35> i, std::span<const V, 35> j, std::span<V, 10> sum) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "particles/catalogue.hpp"
+#include "liquids/fields.hpp"
 
 /// Fields of the liquid that carries its density. G = grad_i W = (-W'/r) d, d = r_j - r_i.
 namespace tripoint::field {
@@ -33,15 +33,14 @@ inline constexpr Field<double> unevenness_x{"unevenness.x", "1/m"}, unevenness_y
 inline constexpr Field<double> nearby_speed2{"nearby_speed2", "m2/s2"};  ///< greatest square of a velocity difference
 inline constexpr Field<double> divergence{"divergence", "1/s"};          ///< of the velocity, by the form's own pair
 inline constexpr Field<double> diffused{"diffused", "kg/m5"};            ///< sum of the density diffusion, before its coefficient
-/// Gravity less the acceleration of a solid; 0 of liquids.
+/// Gravity at a solid; 0 of liquids.
 inline constexpr Field<double> pull_x{"pull.x", "m/s2"}, pull_y{"pull.y", "m/s2"}, pull_z{"pull.z", "m/s2"};
 inline constexpr Field<double> liquid_viscosity{"liquid_viscosity", "Pa s"};
 inline constexpr Field<double> liquid_rest_density{"liquid_rest_density", "kg/m3"};
 inline constexpr Field<double> slips{"slips", "1"};  ///< 1 where liquid slips along this solid
 inline constexpr Field<double> predicted_x{"predicted_velocity.x", "m/s"}, predicted_y{"predicted_velocity.y", "m/s"},
     predicted_z{"predicted_velocity.z", "m/s"};
-inline constexpr Field<double> shear_force_x{"shear_force.x", "N"}, shear_force_y{"shear_force.y", "N"},
-    shear_force_z{"shear_force.z", "N"};
+inline constexpr Field<double> carried_volume{"carried_volume", "m3"};  ///< m/rho of a liquid, m/rho0 of a solid
 /// Force of the viscosity of the residue: numerical.
 inline constexpr Field<double> residue_force_x{"residue_force.x", "N"}, residue_force_y{"residue_force.y", "N"},
     residue_force_z{"residue_force.z", "N"};

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "liquids/carried_density.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/shared_terms.hpp"
 
@@ -6,14 +7,18 @@ namespace tripoint::carried_liquid {
 
 namespace {
 
-/// Whether the scene's liquids carry their density.
-bool carries_density(const Scene& scene) { return scene.has_brought_form(term::pressure); }
+/// Whether what melts can be pressed or pulled.
+bool flows(const Scene& s) {
+  return s.gravity != Vec3{} || any_material(s, [](const Material& m) { return m.stiffness.has_value(); });
+}
 
 std::string called_for(const Scene& s) {
-  if (!carries_density(s)) return "";
-  return because(bodies_where(s, [](const Scene& scene, const Body& b,
-                                    const Material&) { return b.phase == Phase::liquid && moves(scene, b); }),
-                 "liquid that carries its density");
+  if (!liquid::carries_density(s)) return "";
+  std::string who = bodies_where(
+      s, [](const Scene& scene, const Body& b, const Material&) { return b.phase == Phase::liquid && moves(scene, b); });
+  if (who.empty() && !s.inflows.empty()) who = "an inflow";
+  if (who.empty() && flows(s)) who = who_changes_phase(s);
+  return because(who, "liquid that carries its density");
 }
 
 std::string left_out(const Scene&) { return "liquids take their density from the sum over neighbours"; }
@@ -41,6 +46,7 @@ EffectRule rule() {
                              {"residue", "work that the viscosity of the residue took"},
                              {"diffusion", "energy that density diffusion and the tie to the sum took"},
                              {"shifting", "energy of places that the shift took"}},
+          .over_processes = true,
           .has_pairs = true,
           .has_pressure = true};
 }

@@ -6,6 +6,7 @@
 #include "core/machine.hpp"
 #include "effects/density/density_terms.hpp"
 #include "effects/effect.hpp"
+#include "liquids/carried_density.hpp"
 #include "liquids/scene_numbers.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/shared_terms.hpp"
@@ -17,13 +18,16 @@ namespace tripoint::density {
 namespace {
 
 /// Heat alone takes (4) as printed.
-bool is_printed(const Scene& scene) { return scene.mode_of(term::density) == Mode::paper || !calls_for(scene, "fluid"); }
+bool is_printed(const Scene& scene) {
+  return !liquid::carries_density(scene) && (scene.mode_of(term::density) == Mode::paper || !calls_for(scene, "fluid"));
+}
 
 class Density : public Effect {
  public:
   explicit Density(const Scene& scene)
       : flows_(calls_for(scene, "fluid")),
         printed_(is_printed(scene)),
+        of_solids_(liquid::carries_density(scene)),
         kernels_(flows_ ? liquid::pair_kernels(scene) : PairKernels(scene.support_ratio * scene.spacing)),
         scale_(printed_ ? 1.0 : 1.0 / liquid::numbers_of(scene).lattice_density) {}
   void load(World&, const InitialState&) override;
@@ -37,6 +41,7 @@ class Density : public Effect {
   void set_own_density(World&, std::size_t row) const;
 
   bool flows_, printed_;
+  bool of_solids_;  ///< liquids carry theirs
   PairKernels kernels_;
   double scale_;  ///< 1/S0 of the kernel
 };
@@ -87,15 +92,18 @@ void Density::densities(World& world) {
   if (!printed_) {
     const auto delta = p[field::number_density];
     const double scale = scale_;
+    const auto body = p[field::body];
+    const bool of_solids = of_solids_;
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (p.awake() > worth_threads)
-    for (std::size_t i = 0; i < p.awake(); ++i) rho[i] = m[i] * (delta[i] * scale);
+    for (std::size_t i = 0; i < p.awake(); ++i)
+      if (!of_solids || body[i] >= 0) rho[i] = m[i] * (delta[i] * scale);
   }
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (p.awake() > worth_threads)
   for (std::size_t i = 0; i < p.awake(); ++i) V[i] = m[i] / rho[i];
 }
 
 PairWork Density::pair_work(const Scene&) const {
-  PairWork work{{printed_ ? pair_term<DensityPaper> : pair_term<NumberDensity>}};
+  PairWork work{{printed_ ? pair_term<DensityPaper> : of_solids_ ? pair_term<SolidNumberDensity> : pair_term<NumberDensity>}};
   work.where_it_acts = flows_;
   work.leaves_own_pairs = !printed_;
   return work;
@@ -105,7 +113,9 @@ PairWork Density::pair_work(const Scene&) const {
 
 EffectSpec spec(const Scene& scene) {
   const bool printed = is_printed(scene);
-  EffectSpec s{"density", printed ? Mode::paper : Mode::corrected, {field::density, field::volume}, {field::id, field::mass}};
+  EffectSpec s{
+      "density", printed ? Mode::paper : Mode::corrected, {field::density, field::volume}, {field::id, field::mass, field::body}};
+  if (liquid::carries_density(scene)) s.reads.emplace_back(field::group);
   if (!printed) s.owns.push_back(field::number_density);
   if (!printed && can_have_deformable_bodies(scene)) s.owns.push_back(field::own_density);
   s.guards = {{field::density, "density", Written::density}};

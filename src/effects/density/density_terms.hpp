@@ -30,4 +30,17 @@ struct NumberDensity {
   }
 };
 
+/// The same over solids alone.
+struct SolidNumberDensity {
+  static constexpr std::string_view name = "SolidNumberDensity";
+  static constexpr bool zero_beyond = true;
+  using reads = Keys<field::group>;
+  using adds = Keys<field::number_density>;
+  template <class V>
+  static void pair(const PairGeometry<V>& g, const auto&, const auto& j, auto& sum) {
+    const V group_j = j(field::group);
+    sum(field::number_density) += where(g.apart & (group_j != liquid_group), g.kernels.wendland.value_inside(g.r));
+  }
+};
+
 }  // namespace tripoint

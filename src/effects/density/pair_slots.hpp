@@ -6,7 +6,7 @@
 namespace tripoint::density {
 
 struct PairSlots : NoPairTerms {
-  using density = OneTermOf<DensityPaper, NumberDensity>;
+  using density = OneTermOf<DensityPaper, NumberDensity, SolidNumberDensity>;
 };
 
 }  // namespace tripoint::density

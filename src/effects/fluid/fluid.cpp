@@ -12,6 +12,7 @@
 #include "effects/fluid/solid_viscosity.hpp"
 #include "effects/fluid/viscous_bound.hpp"
 #include "effects/fluid/viscous_form.hpp"
+#include "liquids/carried_density.hpp"
 #include "liquids/changes.hpp"
 #include "liquids/fields.hpp"
 #include "liquids/stored_compression.hpp"
@@ -102,7 +103,8 @@ void Fluid::set_material(World& world, std::size_t row) const {
   const bool liquid = p[field::body][row] < 0;
   p[field::rest_density][row] = world.material_of(row).density;
   p[field::solid][row] = liquid ? 0.0 : 1.0;
-  p[field::viscosity][row] = liquid ? world.material_of(row).viscosity : solid_viscosity_(world, row);
+  const double of_liquid = liquid::carries_density(world.scene) ? 0.0 : world.material_of(row).viscosity;
+  p[field::viscosity][row] = liquid ? of_liquid : solid_viscosity_(world, row);
   p[field::stick][row] = slips ? 0.0 : 1.0;
 }
 
@@ -189,8 +191,11 @@ TimeStepBound Fluid::max_dt(const World& world) const {
 
 PairWork Fluid::pair_work(const Scene& scene) const {
   const auto printed = [&](const Term& one) { return scene.mode_of(one) == Mode::paper; };
-  PairWork work{{printed(term::pressure) ? pair_term<PressurePaper> : pair_term<PressureCorrected>}};
-  if (!scene.has_brought_form(term::viscosity)) work.terms.push_back(viscous_form_of(scene, kernels_).force);
+  const bool solids_alone = liquid::carries_density(scene);
+  PairWork work{{printed(term::pressure) ? pair_term<PressurePaper>
+                 : solids_alone          ? pair_term<PressureOfSolids>
+                                         : pair_term<PressureCorrected>}};
+  if (solids_alone || !scene.has_brought_form(term::viscosity)) work.terms.push_back(viscous_form_of(scene, kernels_).force);
   work.where_it_acts = true;
   work.kernels = &kernels_;
   return work;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/machine.hpp"
+#include "liquids/carried_density.hpp"
 #include "liquids/fields.hpp"
 #include "scene/shared_terms.hpp"
 #include "world/body_table.hpp"
@@ -35,7 +36,7 @@ void refuse_overlap(const World& world, const liquid::SceneNumbers& n) {
 void set_pressure(World& world, const liquid::SceneNumbers& n) {
   Particles& p = world.particles;
   const auto rho = p[field::density], rest = p[field::rest_density], pressure = p[field::pressure], group = p[field::group];
-  const bool paper = world.scene.mode_of(term::state) == Mode::paper, clamps = world.scene.clamps();
+  const bool paper = world.scene.mode_of(term::state) == Mode::paper, clamps = liquid::clamps(world.scene);
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (p.awake() > worth_threads)
   for (std::size_t i = 0; i < p.awake(); ++i) {
     const EquationOfState e = liquid::state_of(n, group[i], rest[i], clamps);

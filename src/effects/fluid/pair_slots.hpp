@@ -6,7 +6,7 @@
 namespace tripoint::fluid {
 
 struct PairSlots : NoPairTerms {
-  using Pressures = OneTermOf<PressurePaper, PressureCorrected>;
+  using Pressures = OneTermOf<PressurePaper, PressureCorrected, PressureOfSolids>;
   /// None of them where another effect brings the viscosity.
   using Viscosities =
       OneOf<Terms<>, Terms<ViscosityPaper>, Terms<ViscosityCentral>, Terms<ViscosityLaplacian>, Terms<ViscosityCentralWeighted>>;

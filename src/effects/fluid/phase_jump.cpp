@@ -5,18 +5,29 @@
 #include <vector>
 
 #include "effects/fluid/fluid_terms.hpp"
+#include "liquids/carried_density.hpp"
 #include "liquids/fields.hpp"
 #include "scene/shared_terms.hpp"
 
 namespace tripoint::fluid {
 namespace {
 
-/// Rows of all that changed, in order of id.
-std::vector<std::size_t> changed_rows(const World& world) {
-  std::vector<std::uint32_t> ids = world.change.regrouped;
-  ids.insert(ids.end(), world.change.relisted.begin(), world.change.relisted.end());
+void sort_once(std::vector<std::uint32_t>& ids) {
   std::ranges::sort(ids);
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
+
+/// Rows of all that changed, in order of id; where solids alone sum densities, with their neighbours, which see them come and go.
+std::vector<std::size_t> changed_rows(const World& world, bool of_solids) {
+  std::vector<std::uint32_t> ids = world.change.regrouped;
+  ids.insert(ids.end(), world.change.relisted.begin(), world.change.relisted.end());
+  sort_once(ids);
+  if (of_solids) {
+    const auto id = world.particles[field::id];
+    for (const std::uint32_t one : std::vector(ids))
+      for (const Entry e : world.neighbours->of(world.particles.row(one))) ids.push_back(static_cast<std::uint32_t>(id[e.row()]));
+    sort_once(ids);
+  }
   std::vector<std::size_t> rows;
   for (const std::uint32_t id : ids) rows.push_back(world.particles.row(id));
   return rows;
@@ -27,10 +38,11 @@ std::vector<std::size_t> changed_rows(const World& world) {
 double compression_jump(const World& world, const liquid::SceneNumbers& n, const PairKernels& kernels,
                         const std::function<double(std::size_t)>& group_now, double back) {
   const bool core = world.scene.mode_of(term::pressure) == Mode::corrected,
-             numbers = world.scene.mode_of(term::density) == Mode::corrected, clamps = world.scene.clamps();
+             numbers = world.scene.mode_of(term::density) == Mode::corrected, clamps = liquid::clamps(world.scene);
   if (!world.neighbours || world.neighbours->rebuilds() == 0 || !(core || numbers)) return 0.0;
   const Particles& p = world.particles;
-  const std::vector<std::size_t> rows = changed_rows(world);
+  const liquid::SumsDensity sums(world.scene);
+  const std::vector<std::size_t> rows = changed_rows(world, sums.of_solids());
   std::vector<char> changed(p.size(), 0);
   for (const std::size_t i : rows) changed[i] = 1;
   const auto x = positions(p), v = velocities(p);
@@ -48,16 +60,19 @@ double compression_jump(const World& world, const liquid::SceneNumbers& n, const
       const double r = norm((place(j) - place(i)) + world.neighbours->shift(e.image()));
       const bool own_now = are_own(world.own, static_cast<std::uint32_t>(id[i]), static_cast<std::uint32_t>(id[j]));
       const double W = kernels.wendland.value(r);
-      if (!e.own()) before += W;
-      if (!own_now) after += W;
+      const bool both = sums(group[i]) && sums(group[j]), both_now = sums(group_now(i)) && sums(group_now(j));
+      if (!e.own() && both) before += W;
+      if (!own_now && both_now) after += W;
       if (!core) continue;
-      const double acted = e.own() ? 0.0 : acts(group[i], group[j]), acts_now = own_now ? 0.0 : acts(group_now(i), group_now(j));
+      const double acted = e.own() || !both ? 0.0 : acts(group[i], group[j]),
+                   acts_now = own_now || !both_now ? 0.0 : acts(group_now(i), group_now(j));
       jump += (changed[j] ? 0.5 : 1.0) * (acts_now - acted) * kernels.core.energy(r);
     }
-    if (!numbers || before == after) continue;
+    const bool counts = sums(group[i]), counts_now = sums(group_now(i));
+    if (!numbers || (before == after && counts == counts_now)) continue;
     const EquationOfState state = liquid::state_of(n, group[i], rest[i], clamps);
     const auto energy = [&](double delta) { return compression_energy(state, m[i], m[i] * delta / n.lattice_density); };
-    jump += energy(after) - energy(before);
+    jump += (counts_now ? energy(after) : 0.0) - (counts ? energy(before) : 0.0);
   }
   return jump;
 }

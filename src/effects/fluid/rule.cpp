@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
+#include "liquids/carried_density.hpp"
 #include "liquids/compression_energy.hpp"
 #include "liquids/pressing_gravity.hpp"
 #include "liquids/stored_compression.hpp"
@@ -24,16 +25,31 @@ std::string who_can_touch(const Scene& s) {
   return bodies_where(s, [](const Scene&, const Body&, const Material&) { return true; });
 }
 
+/// Whether what melts can be pressed or pulled.
+bool flows(const Scene& s) { return any_material(s, has_stiffness) || s.gravity != Vec3{}; }
+
+/// Where liquids carry their density solids alone meet by the sum (4).
+std::string who_can_meet(const Scene& s) {
+  const auto solids = std::ranges::count_if(s.bodies, [](const Body& b) { return b.phase != Phase::liquid; });
+  const auto is_free = [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; };
+  const bool moves_later = std::ranges::any_of(s.events, [](const Event& e) { return e.kind != Event::Kind::heat; });
+  if (!s.contact || !(std::ranges::any_of(s.bodies, is_free) || moves_later)) return "";
+  if (solids < 2 && !any_body(s, can_break) && !moves_later) return "";
+  return bodies_where(s, [](const Scene&, const Body& b, const Material&) { return b.phase != Phase::liquid; });
+}
+
 std::string called_for(const Scene& s) {
-  if (s.has_brought_form(term::pressure)) return "";
+  if (liquid::carries_density(s)) {
+    if (const std::string who = who_changes_phase(s); !who.empty() && flows(s)) return because(who, "what freezes can touch");
+    return because(who_can_meet(s), "solids, one of them free: they can touch");
+  }
   std::string liquid = bodies_where(
       s, [](const Scene& scene, const Body& b, const Material&) { return b.phase == Phase::liquid && moves(scene, b); });
   if (liquid.empty() && !s.inflows.empty()) liquid = "an inflow";
   if (!liquid.empty()) return because(liquid, "liquid, and not held in place");
   if (const std::string touch = who_can_touch(s); !touch.empty())
     return because(touch, "more than one body, one of them free, and a stiffness: they can touch");
-  const bool flows = any_material(s, has_stiffness) || s.gravity != Vec3{};
-  return flows ? because(who_changes_phase(s), "what melts flows") : "";
+  return flows(s) ? because(who_changes_phase(s), "what melts flows") : "";
 }
 
 std::string left_out(const Scene& s) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vector>
 
+#include "liquids/carried_density.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/shared_terms.hpp"
 
@@ -8,12 +9,14 @@ namespace tripoint::transport {
 namespace {
 
 std::string no_transport_velocity(const Scene& s) {
+  if (liquid::carries_density(s)) return "liquid that carries its density has a shift of its own";
   return s.mode_of(term::pressure) == Mode::paper ? "pressure as printed knows no transport velocity" : "";
 }
 
 std::string no_transport(const Scene& scene) {
   const std::string printed = printed_among(scene, {term::density, term::pressure, term::state});
   if (!printed.empty()) return printed;
+  if (liquid::carries_density(scene)) return "liquids carry their density";
   return scene.transport_velocity ? "" : "particles move with their own velocity: transport_velocity is false";
 }
 

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/carried_liquid/phase_density.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "effects/carried_liquid/fields.hpp"
+#include "liquids/pressing_gravity.hpp"
+#include "sph/kernels.hpp"
+
+namespace tripoint::carried_liquid {
+
+double CarriedState::pressure(double rho, double rest) const {
+  const double p = modulus * (rho / rest - 1.0);
+  return clamp ? std::max(p, 0.0) : p;
+}
+
+double CarriedState::energy(double mass, double rho, double rest) const {
+  const double s = rho / rest;
+  return clamp && s <= 1.0 ? 0.0 : modulus * mass / rest * (std::log(s) + 1.0 / s - 1.0);
+}
+
+double CarriedState::wall_energy(double mass, double rest, double share) const {
+  const double inside = std::max(share - inside_wall, 0.0);
+  return 0.5 * modulus * mass / rest * inside * inside;
+}
+
+std::vector<std::size_t> touched_rows(const World& world, const std::vector<std::uint32_t>& ids) {
+  const Particles& p = world.particles;
+  const auto id = p[field::id];
+  std::vector<std::uint32_t> all = ids;
+  for (const std::uint32_t one : ids)
+    for (const Entry e : world.neighbours->of(p.row(one))) all.push_back(static_cast<std::uint32_t>(id[e.row()]));
+  std::ranges::sort(all);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  std::vector<std::size_t> rows;
+  for (const std::uint32_t one : all) rows.push_back(p.row(one));
+  return rows;
+}
+
+double energy_of(const World& world, const CarriedState& state, const PairKernels& kernels, const std::vector<std::size_t>& rows,
+                 double back) {
+  const Particles& p = world.particles;
+  const auto z = p[field::impedance], m = p[field::mass], rho = p[field::density], rest = p[field::liquid_rest_density];
+  const auto x = positions(p), v = velocities(p);
+  double sum = 0.0;
+  for (const std::size_t i : rows) {
+    if (z[i] == 0.0) continue;
+    double share = 0.0;
+    for (const Entry e : world.neighbours->of(i)) {
+      const std::size_t j = e.row();
+      if (z[j] != 0.0) continue;
+      const Vec3 d = (x.at(j) - x.at(i)) + world.neighbours->shift(e.image()) - back * (v.at(j) - v.at(i));
+      share += m[j] / rest[j] * kernels.wendland.value(norm(d));
+    }
+    sum += state.energy(m[i], rho[i], rest[i]) + state.wall_energy(m[i], rest[i], share);
+  }
+  return sum;
+}
+
+namespace {
+
+/// Rows of liquids that were so before.
+std::vector<std::size_t> settled_liquids(const World& world, const std::vector<std::uint32_t>& fresh) {
+  const Particles& p = world.particles;
+  std::vector<char> is_fresh(p.size(), 0);
+  for (const std::uint32_t one : fresh) is_fresh[p.row(one)] = 1;
+  const auto z = p[field::impedance];
+  std::vector<std::size_t> rows;
+  for (std::uint32_t id = 0; id < p.size(); ++id)
+    if (const std::size_t row = p.row(id); z[row] != 0.0 && !is_fresh[row]) rows.push_back(row);
+  return rows;
+}
+
+Vec3 nearest(const PeriodicBox& box, Vec3 d) {
+  for (std::size_t a = 0; a < 3; ++a)
+    if (box.periodic[a]) d[a] -= box.width[a] * std::round(d[a] / box.width[a]);
+  return d;
+}
+
+}  // namespace
+
+void take_pressure_around(World& world, const CarriedState& state, const PairKernels& kernels,
+                          const std::vector<std::uint32_t>& ids) {
+  if (ids.empty()) return;
+  Particles& p = world.particles;
+  const std::vector<std::size_t> others = settled_liquids(world, ids);
+  const auto x = positions(std::as_const(p));
+  const auto rho = p[field::density], rest = p[field::liquid_rest_density], m = p[field::mass];
+  const Vec3 g = liquid::pressing_gravity(world.scene);
+  const double support2 = world.support() * world.support();
+  for (const std::uint32_t id : ids) {
+    const std::size_t i = p.row(id);
+    double weight = 0.0, pressure = 0.0;
+    for (const std::size_t j : others) {
+      const Vec3 d = nearest(world.box, x.at(i) - x.at(j));
+      if (!(dot(d, d) < support2)) continue;
+      const double w = m[j] / rho[j] * kernels.wendland.value(norm(d));
+      weight += w;
+      pressure += w * (state.pressure(rho[j], rest[j]) + rho[j] * dot(g, d));
+    }
+    rho[i] = rest[i] * (1.0 + (weight > 0.0 ? std::max(pressure / weight, 0.0) / state.modulus : 0.0));
+  }
+}
+
+}  // namespace tripoint::carried_liquid

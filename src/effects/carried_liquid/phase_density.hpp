@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "sph/kernels.hpp"
+#include "world/world.hpp"
+
+/// Density of what becomes liquid, and the energy of compression that comes and goes with it.
+namespace tripoint::carried_liquid {
+
+/// p = modulus (rho/rho0 - 1), and what depends on it.
+struct CarriedState {
+  double modulus = 0.0;  ///< k rho_ref, of all liquids [Pa]
+  bool clamp = false;
+  [[nodiscard]] double pressure(double rho, double rest) const;
+  /// m e(rho), de = p/rho^2 drho, from the rest density [J].
+  [[nodiscard]] double energy(double mass, double rho, double rest) const;
+  /// Of a liquid whose neighbourhood solids fill by `share` [J].
+  [[nodiscard]] double wall_energy(double mass, double rest, double share) const;
+};
+
+inline constexpr double inside_wall = 0.5;  ///< share of its neighbourhood that a solid fills at the solid's face
+
+/// Rows of what changed, and of their neighbours.
+[[nodiscard]] std::vector<std::size_t> touched_rows(const World&, const std::vector<std::uint32_t>& ids);
+
+/// Energy of compression of these rows, as far as they are liquid now [J]. @param back time since the places meant [s]
+[[nodiscard]] double energy_of(const World&, const CarriedState&, const PairKernels&, const std::vector<std::size_t>& rows,
+                               double back);
+
+/// What becomes liquid takes the pressure of the liquid around it; alone it is at rest density.
+/// @param ids of new liquids   @pre their materials are set, and those of all others too
+void take_pressure_around(World&, const CarriedState&, const PairKernels&, const std::vector<std::uint32_t>& ids);
+
+}  // namespace tripoint::carried_liquid
