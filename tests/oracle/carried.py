@@ -6,7 +6,7 @@
 import numpy as np
 
 import model
-from kernels import wendland
+from kernels import wendland, wendland_slope
 
 FORMS = {  # pair of pressures, damping
     "adjoint": ("own", "residue"),
@@ -24,7 +24,7 @@ class Pairs:
     def __init__(self, s):
         self.s, self.D = s, -s.d
         self.f = np.where(s.distance < s.h, -s.slope_over_r, 0.0)
-        self.z, self.rest, self.V = s["impedance"], s["liquid_rest_density"], s["volume"]
+        self.z, self.rest, self.V = s["impedance"], s["liquid_rest_density"], s["carried_volume"]
         self.wall = self.z == 0
         z_i, z_j = self.z[:, None], self.z[None, :]
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -199,6 +199,36 @@ def diffused(s, damping):
     return sums, (s.condition * terms * (np.abs(jump) + np.abs(linear))).sum(axis=1)
 
 
+def both_solid(s):
+    solid = s["impedance"] == 0
+    return solid[:, None] & solid[None, :]
+
+
+def solid_number_density(s):
+    """8.2 over solids alone."""
+    total = np.where(s.own | ~both_solid(s), 0.0, wendland(s.distance, s.h)).sum(axis=1) + wendland(0.0, s.h)
+    total = total + s["own_density"]
+    return total, total
+
+
+def solid_pressure_force(s):
+    """8.3 with its core, between solids."""
+    share = s["pressure_share"]
+    kappa, reach = 0.03 * s.stiffness * s.rest_densities()[0] * s.dx, s.scene["core_reach"] * s.dx
+    size = -(share[:, None] + share[None, :]) * wendland_slope(s.distance, s.h)
+    core = np.where(s.distance < min(s.h, reach), kappa * (reach - s.distance), 0.0)
+    pairs = np.where(s.acts & both_solid(s), size + core, 0.0)
+    return model.summed(s, pairs[..., None] * s.d / s.distance[..., None])
+
+
+def solid_viscous_force(s):
+    """`central` of 8.5, between solids."""
+    V, v = s["volume"], s.vector("viscous_velocity")
+    G = 10 / s.M * s.scene["contact_viscosity"] * V[:, None] * V[None, :] * -s.slope_over_r
+    along = np.einsum("ijk,ijk->ij", v[None, :] - v[:, None], s.d) / s.r2
+    return model.summed(s, np.where(s.acts & both_solid(s), G * along, 0.0)[..., None] * s.d)
+
+
 def compare(out, s, before):
     """A start alone: later the density has moved on since the volumes were taken."""
     out.compare("carried sum 8.12", s["summed_density"], *summed_density(s))
@@ -222,7 +252,14 @@ def compare(out, s, before):
     near, speed2 = greatest_near(s)
     out.compare("carried gradients 8.12", s["exposed_near"][wet], near[wet], 1.0)
     out.compare("carried gradients 8.12", s["nearby_speed2"][wet], speed2[wet], speed2[wet])
-    out.compare("carried pressure force 8.12", s.vector("force"), *pressure_force(s, pair))
-    out.compare("carried viscous force 8.12", s.vector("shear_force"), *viscous_force(s))
+    pressure, viscous = pressure_force(s, pair), viscous_force(s)
+    if s.has("number_density"):
+        of_solids = lambda pair_of: (pair_of[0][~wet], pair_of[1][~wet])
+        out.compare("number density of solids 8.12", s["number_density"][~wet], *of_solids(solid_number_density(s)))
+        pressure = [a + b for a, b in zip(pressure, solid_pressure_force(s))]
+        viscous = [a + b for a, b in zip(viscous, solid_viscous_force(s))]
+        out.compare("pressure force of solids 8.12", s.vector("force")[~wet], *of_solids(pressure))
+    out.compare("carried pressure force 8.12", s.vector("force"), *pressure)
+    out.compare("carried viscous force 8.12", s.vector("viscous_force"), *viscous)
     out.compare("carried damping 8.12", s.vector("residue_force"), *residue_force(s, damping))
     out.compare("carried diffusion 8.12", s["diffused"][wet], *at(diffused(s, damping)))

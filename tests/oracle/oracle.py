@@ -47,7 +47,8 @@ energy (10) | elastic energy 8.7 |
 hourglass energy 8.7 | plastic strain 8.8 | plastic strain of sheets and chains 8.8 | broken bonds (12) | broken bonds \
 8.8 |
 carried sum 8.12 | carried moments 8.12 | carried gradients 8.12 | carried pressure force 8.12 | \
-carried viscous force 8.12 | carried damping 8.12 | carried diffusion 8.12"""
+carried viscous force 8.12 | carried damping 8.12 | carried diffusion 8.12 | number density of solids 8.12 | \
+pressure force of solids 8.12"""
 TERMS = [t.strip() for t in TERMS.replace("\n", " ").split("|")]
 
 # Each pair term that the passes have compiled (its pair_slots.hpp brings it), and the rows above that show its sums.
@@ -78,6 +79,8 @@ PAIR_TERMS = {
     "HeatFlowCorrected": ["heat flow 8.6", "conductance 8.6"],
     "SummedDensity": ["carried sum 8.12"],
     "CarriedMoments": ["carried moments 8.12"],
+    "SolidNumberDensity": ["number density of solids 8.12"],
+    "PressureOfSolids": ["pressure force of solids 8.12"],
 }
 CARRIED_FORCES = [f"carried {what} 8.12" for what in ("pressure force", "viscous force", "damping", "diffusion")]
 for pair, damping in set(carried.FORMS.values()):
@@ -92,6 +95,7 @@ RUNS = [
     ("mixture", "corrected", 3, ["scene.face_pressure=0.8", "scene.interface_weight=0.7"]),
     ("mixture", "paper", 3, []),
     ("mixture", "corrected", 2, ["scene.modes={pressure='paper', heat='paper'}"]),
+    ("mixture", "corrected", 2, ["model.pressure='adjoint'"]),
     ("basin", "corrected", 3, []),
     ("basin", "corrected", 2, ["scene.viscosity_form='laplacian'"]),
     ("basin", "corrected", 2, ["scene.isotropic_shear=0.7", "scene.core_reach=0.7"]),
