@@ -7,6 +7,7 @@ of the history."""
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
 
 import load
@@ -50,10 +51,18 @@ def count(number, noun):
 
 
 def verdict_words(results):
-    """One sentence of the verdict, and one of what is not plain green."""
+    """One sentence of the verdict; how many cases have each word that is not plain green; known defects by name."""
     gates = [gate for case in results.cases for engine in case.engines for gate in engine.gates]
-    words = summary.tally(word for case in results.cases for word in summary.headline(case) if is_told(word))
-    return gates_sentence(gates, count(len(results.cases), "case")), words
+    told = [[word for word in summary.headline(case) if is_told(word)] for case in results.cases]
+    words = summary.tally(summary.DEFECT if summary.is_defect(word) else word for case in told for word in case)
+    names = Counter(name for case in told for word in case for name in defect_names(word))
+    return gates_sentence(gates, count(len(results.cases), "case")), words, names.most_common()
+
+
+def defect_names(word):
+    """Of "known defect soft-contact, mass-ratio", in spoken words."""
+    listed = word.removeprefix(summary.DEFECT).strip() if summary.is_defect(word) else ""
+    return [name.replace("-", " ") for name in listed.split(", ") if name]
 
 
 def is_told(word):

@@ -58,6 +58,22 @@ class SinceTheLastRun(Pages):
             front.hero(self.load(known, wrong)), ("gate PASS; physics wrong in 1 case, known defect in 1 case", "fail")
         )
 
+    def test_known_defects_are_counted_by_name(self):
+        def with_defects(name, *defects):
+            gates = [
+                {"metric": "error", "verdict": "pass", "physics": "known defect", "defect": defect, "reason": "r"}
+                for defect in defects
+            ]
+            engine = {"name": "ode", "status": "ok", "runs": [], "gates": gates}
+            return case([engine], name, physics="known defect")
+
+        results = self.load(
+            with_defects("heat/one", "soft-contact", "mass-ratio"), with_defects("heat/two", "mass-ratio")
+        )
+        _, words, names = front.verdict_words(results)
+        self.assertEqual(words, {"known defect": 2})
+        self.assertEqual(names, [("mass ratio", 2), ("soft contact", 1)])
+
     def front(self, before, now):
         self.load(before)
         (self.path / "results.json").rename(self.path / "results.previous.json")
