@@ -141,6 +141,21 @@ ProcessEnd bounded(const SandboxSums& most, const std::string& folder, const std
   return run_process(spec);
 }
 
+TEST(Process, FilesThatPassTheirSumGoWithTheRunAndWhatWasThereBeforeStays) {
+  const TestFolder folder;
+  write_text(folder / "job.json", "{}");
+  ProcessSpec spec;
+  spec.argv = {"/bin/sh", "-c", "/usr/bin/fallocate -l 8M big"};  // done before the next look
+  spec.folder = folder / ".";
+  spec.in_sandbox = true;
+  spec.most = {0.0, 0, 2e6};
+  spec.wall_limit = 20.0;
+  const auto end = run_process(spec);
+  EXPECT_NE(describe(end).find("MB of files, and 2 MB are allowed"), std::string::npos) << describe(end);
+  EXPECT_FALSE(std::filesystem::exists(folder / "big"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "job.json"));
+}
+
 TEST(Process, WhatPassesASumOfTheSandboxIsKilledAndNamed) {
   const TestFolder folder;
   constexpr double mega = 1e6;
@@ -152,7 +167,7 @@ TEST(Process, WhatPassesASumOfTheSandboxIsKilledAndNamed) {
   expect({0.0, 4, 0.0}, "for n in 1 2 3 4 5 6 7 8; do sleep 20 & done", "more than 4 processes");
   expect({50.0 * mega, 0, 0.0}, "/usr/bin/python3 -c 'import time; x = bytearray(200 << 20); time.sleep(20)'", "MB of memory");
   expect({0.0, 0, 2.0 * mega}, "/bin/dd if=/dev/zero of=big bs=1M count=8 2>/dev/null", "MB of files");
-  expect({0.0, 0, 2.0 * mega}, "exec 3>gone; rm gone big; /bin/dd if=/dev/zero bs=1M count=8 >&3 2>/dev/null", "MB of files");
+  expect({0.0, 0, 2.0 * mega}, "exec 3>gone; rm gone; /bin/dd if=/dev/zero bs=1M count=8 >&3 2>/dev/null", "MB of files");
 }
 
 }  // namespace

@@ -102,7 +102,10 @@ void give_all(const std::string& folder, unsigned owner) {
 
 SandboxWatch::SandboxWatch(const SandboxSums& most, std::string folder) : most_(most), folder_(std::move(folder)) {
   constexpr double share = 0.75;
-  if (const double room = free_room(folder_); !folder_.empty() && room > 0.0) most_.bytes = std::min(most_.bytes, share * room);
+  if (folder_.empty()) return;
+  if (const double room = free_room(folder_); room > 0.0) most_.bytes = std::min(most_.bytes, share * room);
+  std::error_code none;
+  for (fs::directory_iterator at(folder_, none), end; !none && at != end; at.increment(none)) at_start_.insert(at->path());
 }
 
 std::string SandboxWatch::passed(pid_t outermost) {
@@ -113,6 +116,25 @@ std::string SandboxWatch::passed(pid_t outermost) {
   return words;
 }
 
+std::string SandboxWatch::passed_at_end() {
+  if (folder_.empty() || !(most_.bytes > 0.0)) return {};
+  std::string words = of_files({});
+  std::error_code none;
+  if (!words.empty())
+    for (fs::directory_iterator at(folder_, none), end; !none && at != end; at.increment(none))
+      if (!at_start_.contains(at->path())) fs::remove_all(at->path(), none);
+  return words;
+}
+
+std::string SandboxWatch::of_files(const std::vector<pid_t>& all) const {
+  constexpr double mega = 1e6;
+  const Taken taken = taken_in(folder_);
+  if (taken.files > most_files) return fmt::format("more than {} files", most_files);
+  if (const double sum = taken.bytes + nameless_bytes(all); sum > most_.bytes)
+    return fmt::format("{:.0f} MB of files, and {:.0f} MB are allowed", sum / mega, most_.bytes / mega);
+  return {};
+}
+
 std::string SandboxWatch::look(pid_t outermost) const {
   constexpr std::size_t ours = 2;  // bubblewrap, and its first process inside
   constexpr double mega = 1e6;
@@ -121,12 +143,7 @@ std::string SandboxWatch::look(pid_t outermost) const {
   if (most_.processes > 0 && all.size() > enough) return fmt::format("more than {} processes", most_.processes);
   if (const double sum = most_.memory > 0.0 ? memory_of(all, most_.memory) : 0.0; sum > most_.memory)
     return fmt::format("{:.0f} MB of memory, and {:.0f} MB are allowed", sum / mega, most_.memory / mega);
-  if (folder_.empty() || !(most_.bytes > 0.0)) return {};
-  const Taken taken = taken_in(folder_);
-  if (taken.files > most_files) return fmt::format("more than {} files", most_files);
-  if (const double sum = taken.bytes + nameless_bytes(all); sum > most_.bytes)
-    return fmt::format("{:.0f} MB of files, and {:.0f} MB are allowed", sum / mega, most_.bytes / mega);
-  return {};
+  return folder_.empty() || !(most_.bytes > 0.0) ? std::string() : of_files(all);
 }
 
 LentFolder::LentFolder(std::string folder) : folder_(std::move(folder)) {

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,12 +27,17 @@ class SandboxWatch {
   SandboxWatch(const SandboxSums& most, std::string folder);
   /// @return the sum that is passed, in words; empty while none is, or where it is no time to look again
   [[nodiscard]] std::string passed(pid_t outermost);
+  /// The same of what is left where all processes have ended. Where files pass their sum, all that came since the start goes: a
+  /// full disk would stop every other run.
+  [[nodiscard]] std::string passed_at_end();
 
  private:
   using Clock = std::chrono::steady_clock;
   [[nodiscard]] std::string look(pid_t outermost) const;
+  [[nodiscard]] std::string of_files(const std::vector<pid_t>& all) const;
   SandboxSums most_;
   std::string folder_;
+  std::set<std::filesystem::path> at_start_;  ///< what the folder held
   Clock::time_point next_{};
 };
 
