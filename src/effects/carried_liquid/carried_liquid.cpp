@@ -124,6 +124,7 @@ class CarriedLiquid : public Effect {
  private:
   void set_material(World&, std::size_t) const;
   void set_groups(World&) const;
+  void let_in(World&) const;
   void run(World&, const PairTerm&, bool liquids_only) const;
   void correct_gradients(World&) const;
   void move_density(World&) const;
@@ -179,19 +180,24 @@ void CarriedLiquid::load(World& world, const InitialState&) {
 
 void CarriedLiquid::adopt(World& world) {
   const Change& change = world.change;
-  const std::vector<std::size_t> touched =
-      change.regrouped.empty() ? std::vector<std::size_t>{} : touched_rows(world, change.regrouped);
-  const double before = energy_of(world, state_, kernels_, touched, 0.5 * drifted_);
-  for (const auto* list : {&change.born, &change.regrouped})
-    for (const std::uint32_t id : *list) set_material(world, world.particles.row(id));
+  let_in(world);
   set_groups(world);
+  if (change.regrouped.empty()) return;
+  const std::vector<std::size_t> touched = touched_rows(world, change.regrouped);
+  const double before = energy_of(world, state_, kernels_, touched, 0.5 * drifted_);
+  for (const std::uint32_t id : change.regrouped) set_material(world, world.particles.row(id));
   take_pressure_around(world, state_, kernels_, change.melted);
-  take_pressure_around(world, state_, kernels_, change.born);
-  if (!touched.empty())
-    world.booked[compression_released] += before - energy_of(world, state_, kernels_, touched, 0.5 * drifted_);
+  world.booked[compression_released] += before - energy_of(world, state_, kernels_, touched, 0.5 * drifted_);
+}
+
+/// What flows in, ahead of all that looks at its neighbours.
+void CarriedLiquid::let_in(World& world) const {
+  const std::vector<std::uint32_t>& born = world.change.born;
+  for (const std::uint32_t id : born) set_material(world, world.particles.row(id));
+  take_pressure_around(world, state_, kernels_, born);
   const auto m = world.particles[field::mass], rho = world.particles[field::density],
              rest = world.particles[field::liquid_rest_density];
-  for (const std::uint32_t id : change.born) {
+  for (const std::uint32_t id : born) {
     const std::size_t i = world.particles.row(id);
     world.booked[account::inflow] += state_.energy(m[i], rho[i], rest[i]);
   }
