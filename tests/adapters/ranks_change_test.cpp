@@ -8,6 +8,7 @@
 
 #include "adapters/changing_scenes.hpp"
 #include "adapters/ranks_lab.hpp"
+#include "scene/shared_terms.hpp"
 
 namespace tripoint {
 namespace {
@@ -64,6 +65,13 @@ TEST(Ranks, LetEventsHappenAndLiquidFlowInAsOneProcessDoes) {
   NEEDS_RANKS();
   const Outcome two = expect_changes_equal(test::eventful());
   EXPECT_GT(two.trajectory.frames.back().total_mass, 1.3 * two.trajectory.frames.front().total_mass);
+}
+
+TEST(Ranks, CarryDensityAsOneProcessDoes) {
+  NEEDS_RANKS();
+  Prepared p = test::eventful();
+  p.job.scene.forms[term::pressure] = "adjoint";
+  expect_changes_equal(p);
 }
 
 /// Wax flows in, and a layer is due at the time of each frame: whoever has lists of it already tells of it all the same.
