@@ -19,8 +19,8 @@ namespace tripoint {
 struct EffectSpec {
   std::string_view name;
   Mode mode = Mode::corrected;
-  std::vector<FieldInfo> owns;                  ///< columns that exist because of it
-  std::vector<FieldInfo> reads;                 ///< of others, that it reads or sets; each has an owner in the scene
+  FieldList owns;                               ///< columns that exist because of it
+  FieldList reads;                              ///< of others, that it reads or sets; each has an owner in the scene
   std::vector<Force> forces{};                  ///< that it makes
   std::vector<Account> accounts{};              ///< that it books on beside those of its forces; common ones need no word
   std::vector<Account> numerical{};             ///< accounts of the energy that its numerical terms take on purpose
@@ -30,10 +30,10 @@ struct EffectSpec {
   std::vector<GuardedEntry> guarded_entries{};  ///< of its entries of the ledger, how the guard of energy takes them
   /// Its columns of bodies that are sums over particles. Where several processes share a scene, each sums its own part.
   std::vector<Field<double>> body_sums{};
-  std::vector<StepNumber> step_numbers{};   ///< that it keeps from step to step beside its columns
-  std::vector<FieldInfo> reads_if_there{};  ///< of others, where the scene has them
-  bool sums_forces = false;                 ///< it reads World::forces of all effects
-  bool changes = false;                     ///< change() may be called of it: wants_change() is asked
+  std::vector<StepNumber> step_numbers{};  ///< that it keeps from step to step beside its columns
+  FieldList reads_if_there{};              ///< of others, where the scene has them
+  bool sums_forces = false;                ///< it reads World::forces of all effects
+  bool changes = false;                    ///< change() may be called of it: wants_change() is asked
   bool skips_sleeping = false;  ///< it ignores sleeping particles, and needs the forces on fixed ones only in form_fixed()
 };
 

@@ -45,10 +45,13 @@ void Particles::rearrange(std::span<const std::uint32_t> from, std::span<const s
 }
 
 std::vector<FieldInfo> common_fields(bool periodic) {
-  std::vector<FieldInfo> list{field::id,         field::body,       field::phase,      field::material,
-                              field::source,     field::mass,       field::position_x, field::position_y,
-                              field::position_z, field::velocity_x, field::velocity_y, field::velocity_z};
-  if (periodic) list.insert(list.end(), {field::image_x, field::image_y, field::image_z});
+  std::vector<FieldInfo> list{field::id, field::body, field::phase, field::material, field::source, field::mass};
+  const auto add = [&](const auto& columns) {
+    for (const auto* f : columns) list.emplace_back(*f);
+  };
+  add(columns_of(field::position));
+  add(columns_of(field::velocity));
+  if (periodic) add(columns_of(field::image));
   return list;
 }
 

@@ -40,14 +40,10 @@ class Particles : public Columns {
   void rearrange(std::span<const std::uint32_t> from, std::span<const std::uint32_t> to, std::size_t moving, std::size_t awake,
                  int threads);
 
-  [[nodiscard]] Vec3 position(std::size_t row) const {
-    return vector(row, field::position_x, field::position_y, field::position_z);
-  }
-  [[nodiscard]] Vec3 velocity(std::size_t row) const {
-    return vector(row, field::velocity_x, field::velocity_y, field::velocity_z);
-  }
-  [[nodiscard]] Vec3 vector(std::size_t row, const Field<double>& x, const Field<double>& y, const Field<double>& z) const {
-    return {(*this)[x][row], (*this)[y][row], (*this)[z][row]};
+  [[nodiscard]] Vec3 position(std::size_t row) const { return vector(row, field::position); }
+  [[nodiscard]] Vec3 velocity(std::size_t row) const { return vector(row, field::velocity); }
+  [[nodiscard]] Vec3 vector(std::size_t row, const VectorField<double>& f) const {
+    return {(*this)[f.x][row], (*this)[f.y][row], (*this)[f.z][row]};
   }
 
  private:
@@ -72,17 +68,21 @@ template <class T, class P>
 [[nodiscard]] auto triple(P& particles, const Field<T>& x, const Field<T>& y, const Field<T>& z) {
   return Triple<std::conditional_t<std::is_const_v<P>, const T, T>>{particles[x], particles[y], particles[z]};
 }
+template <class T, class P>
+[[nodiscard]] auto triple(P& particles, const VectorField<T>& f) {
+  return triple(particles, f.x, f.y, f.z);
+}
 template <class P>
 [[nodiscard]] auto positions(P& p) {
-  return triple(p, field::position_x, field::position_y, field::position_z);
+  return triple(p, field::position);
 }
 template <class P>
 [[nodiscard]] auto velocities(P& p) {
-  return triple(p, field::velocity_x, field::velocity_y, field::velocity_z);
+  return triple(p, field::velocity);
 }
 template <class P>
 [[nodiscard]] auto images(P& p) {
-  return triple(p, field::image_x, field::image_y, field::image_z);
+  return triple(p, field::image);
 }
 
 /// The fields that the particles of every scene have.

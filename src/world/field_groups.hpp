@@ -5,11 +5,36 @@
 
 #include "particles/catalogue.hpp"
 
+namespace tripoint {
+
+/// An item of a list of fields: a vector or a symmetric matrix stands for its columns.
+struct FieldGroup {
+  std::vector<FieldInfo> columns;
+
+  FieldGroup(const FieldInfo& one) : columns{one} {}
+  FieldGroup(const std::vector<FieldInfo>& list) : columns(list) {}
+  template <class T>
+  FieldGroup(const Field<T>& one) : columns{one} {}
+  template <class T>
+  FieldGroup(const VectorField<T>& v) : columns{v.x, v.y, v.z} {}
+  FieldGroup(const SymmetricField& m) : columns{m.xx, m.yy, m.zz, m.yz, m.xz, m.xy} {}
+};
+class FieldList : public std::vector<FieldInfo> {
+ public:
+  FieldList() = default;
+  FieldList(const std::vector<FieldInfo>& list) : vector(list) {}
+  FieldList(std::initializer_list<FieldGroup> groups) {
+    for (const FieldGroup& group : groups) insert(end(), group.columns.begin(), group.columns.end());
+  }
+};
+
+}  // namespace tripoint
+
 /// Fields that are read together, for the declaration of an effect: components of one quantity, and the fields that a shared
 /// function reads.
 namespace tripoint::fields {
 
-using List = std::vector<FieldInfo>;
+using List = FieldList;
 
 [[nodiscard]] inline List joined(std::initializer_list<List> groups) {
   List all;
@@ -17,22 +42,14 @@ using List = std::vector<FieldInfo>;
   return all;
 }
 
-[[nodiscard]] inline List position() { return {field::position_x, field::position_y, field::position_z}; }
-[[nodiscard]] inline List velocity() { return {field::velocity_x, field::velocity_y, field::velocity_z}; }
+[[nodiscard]] inline List position() { return {field::position}; }
+[[nodiscard]] inline List velocity() { return {field::velocity}; }
 /// World::unwrapped(), beside the position; a scene without a periodic direction has none.
-[[nodiscard]] inline List image() { return {field::image_x, field::image_y, field::image_z}; }
-[[nodiscard]] inline List shift() { return {field::shift_x, field::shift_y, field::shift_z}; }
-[[nodiscard]] inline List strain() {
-  return {field::strain_xx, field::strain_yy, field::strain_zz, field::strain_yz, field::strain_xz, field::strain_xy};
-}
-[[nodiscard]] inline List plastic_strain() {
-  return {field::plastic_strain_xx, field::plastic_strain_yy, field::plastic_strain_zz,
-          field::plastic_strain_yz, field::plastic_strain_xz, field::plastic_strain_xy};
-}
-[[nodiscard]] inline List shape_inverse() {
-  return {field::shape_inverse_xx, field::shape_inverse_yy, field::shape_inverse_zz,
-          field::shape_inverse_yz, field::shape_inverse_xz, field::shape_inverse_xy};
-}
+[[nodiscard]] inline List image() { return {field::image}; }
+[[nodiscard]] inline List shift() { return {field::shift}; }
+[[nodiscard]] inline List strain() { return {field::strain}; }
+[[nodiscard]] inline List plastic_strain() { return {field::plastic_strain}; }
+[[nodiscard]] inline List shape_inverse() { return {field::shape_inverse}; }
 
 /// solid::deformation_of() and solid::deformation_energy() of owners of strain energy, beside the position.
 [[nodiscard]] inline List deformation() {

@@ -62,7 +62,7 @@ TEST_P(Forms, ForceIsTheAdjointOfTheRateOfDensity) {
   double force = 0.0, rate = 0.0;
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (p[field::body][i] >= 0) continue;
-    force += dot(p.vector(i, field::force_x, field::force_y, field::force_z), velocities(p).at(i));
+    force += dot(p.vector(i, field::force), velocities(p).at(i));
     rate += p[field::pressure][i] * p[field::volume][i] * p[field::divergence][i];
   }
   EXPECT_GT(std::abs(rate), 1.0);
@@ -83,7 +83,7 @@ TEST_P(Forms, KeepSpinWhereThePairIsTheOwnOne) {
   Vec3 torque;
   double size = 0.0;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const Vec3 F = p.vector(i, field::force_x, field::force_y, field::force_z), r = p.position(i);
+    const Vec3 F = p.vector(i, field::force), r = p.position(i);
     torque += cross(r, F);
     size += norm(r) * norm(F);
   }

@@ -67,7 +67,7 @@ lab::Lab turning_ball(Mode mode, ViscosityForm form) {
 
 Vec3 viscous_torque(const Simulation& s) {
   const auto x = lab::positions_by_id(s);
-  const auto D = lab::vectors_by_id(s, field::viscous_force_x, field::viscous_force_y, field::viscous_force_z);
+  const auto D = lab::vectors_by_id(s, field::viscous_force);
   Vec3 torque;
   for (std::size_t i = 0; i < x.size(); ++i) torque += cross(x[i], D[i]);
   return torque;
@@ -98,8 +98,7 @@ double force_of_parabola(const Vec3& flow, const Vec3& across, double isotropic)
     lab.initial.velocity[i] = (0.5 * y * y) * flow;
   }
   const Simulation s(lab.scene, lab.initial);
-  return dot(lab::vectors_by_id(s, field::viscous_force_x, field::viscous_force_y, field::viscous_force_z)[middle], flow) /
-         (dx * dx * dx);
+  return dot(lab::vectors_by_id(s, field::viscous_force)[middle], flow) / (dx * dx * dx);
 }
 
 /// The shear moduli of lattice.hpp, of the pair pass itself; what is left is the volume that the kernel's sum over the lattice

@@ -64,15 +64,12 @@ inline std::vector<Vec3> positions_by_id(const Simulation& s) {
   for (std::size_t id = 0; id < p.size(); ++id) values[id] = s.world().unwrapped(p.row(id));
   return values;
 }
-inline std::vector<Vec3> vectors_by_id(const Simulation& s, const Field<double>& x, const Field<double>& y,
-                                       const Field<double>& z) {
+inline std::vector<Vec3> vectors_by_id(const Simulation& s, const VectorField<double>& f) {
   const Particles& p = s.world().particles;
   std::vector<Vec3> values(p.size());
-  for (std::size_t id = 0; id < p.size(); ++id) values[id] = p.vector(p.row(id), x, y, z);
+  for (std::size_t id = 0; id < p.size(); ++id) values[id] = p.vector(p.row(id), f);
   return values;
 }
-inline std::vector<Vec3> velocities_by_id(const Simulation& s) {
-  return vectors_by_id(s, field::velocity_x, field::velocity_y, field::velocity_z);
-}
+inline std::vector<Vec3> velocities_by_id(const Simulation& s) { return vectors_by_id(s, field::velocity); }
 
 }  // namespace tripoint::lab

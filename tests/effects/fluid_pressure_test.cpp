@@ -82,7 +82,7 @@ TEST(FreeSurface, IsPressedByTheGradientOfTheEnergyThatTheLedgerHolds) {
   const auto compression = [](const lab::Lab& of) { return Simulation(of.scene, of.initial).ledger().energy.at("compression"); };
   const Simulation s(lab.scene, lab.initial);
   const Particles& p = s.world().particles;
-  const auto F = triple(p, field::force_x, field::force_y, field::force_z);
+  const auto F = triple(p, field::force);
   int looked_at = 0;
   for (std::size_t id = 0; id < lab.initial.size(); id += 3) {
     if (lab.initial.body[id] >= 0 || lab.initial.position[id].z < 1.0 - lab.scene.spacing) continue;

@@ -43,9 +43,7 @@ lab::Lab stirred(const Keys& keys, const Vec3& stream = {}) {
   return lab;
 }
 
-std::vector<Vec3> pressure_forces(const Simulation& s) {
-  return lab::vectors_by_id(s, field::force_x, field::force_y, field::force_z);
-}
+std::vector<Vec3> pressure_forces(const Simulation& s) { return lab::vectors_by_id(s, field::force); }
 
 TEST(MeanPressure, AndTheDampingOfSoundKeepMomentumToRoundOff) {
   const lab::Lab lab = stirred({1.0, 0.2}, {0.7, -0.4, 0.2});

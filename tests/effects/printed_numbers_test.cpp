@@ -30,12 +30,12 @@ lab::Lab printed(const std::vector<Vec3>& places, bool heat = false) {
 
 Vec3 force(const Simulation& s, std::size_t id) {
   const Particles& p = s.world().particles;
-  return p.vector(p.row(static_cast<std::uint32_t>(id)), field::force_x, field::force_y, field::force_z);
+  return p.vector(p.row(static_cast<std::uint32_t>(id)), field::force);
 }
 
 Vec3 viscous(const Simulation& s, std::size_t id) {
   const Particles& p = s.world().particles;
-  return p.vector(p.row(static_cast<std::uint32_t>(id)), field::viscous_force_x, field::viscous_force_y, field::viscous_force_z);
+  return p.vector(p.row(static_cast<std::uint32_t>(id)), field::viscous_force);
 }
 
 TEST(PrintedNumbers, TwoParticlesHaveTheDensityPressureAndForcesOfPaper) {

@@ -60,8 +60,7 @@ class Deformable {
     update();
   }
   [[nodiscard]] Vec3 force(std::size_t id) const {
-    return world_.particles.vector(world_.particles.row(id), field::elastic_force_x, field::elastic_force_y,
-                                   field::elastic_force_z);
+    return world_.particles.vector(world_.particles.row(id), field::elastic_force);
   }
   [[nodiscard]] double energy() const {
     double sum = 0.0;

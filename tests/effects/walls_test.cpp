@@ -30,7 +30,7 @@ double compression(const lab::Lab& lab) { return Simulation(lab.scene, lab.initi
 void expect_gradient(const lab::Lab& lab) {
   const Simulation s(lab.scene, lab.initial);
   const Particles& p = s.world().particles;
-  const auto F = triple(p, field::force_x, field::force_y, field::force_z);
+  const auto F = triple(p, field::force);
   int looked_at = 0;
   for (std::size_t id = 0; id < lab.initial.size(); id += 5) {
     if (lab.initial.body[id] >= 0 || lab.initial.position[id].z > lab.scene.spacing) continue;
@@ -60,8 +60,7 @@ TEST(Walls, ThatDoNotJitterAreFeltWhereTheyAre) {
     const Simulation s(lab.scene, lab.initial);
     const Particles& p = s.world().particles;
     std::vector<Vec3> of_id;
-    for (std::size_t id = 0; id < p.size(); ++id)
-      of_id.push_back(p.vector(p.row(id), field::force_x, field::force_y, field::force_z));
+    for (std::size_t id = 0; id < p.size(); ++id) of_id.push_back(p.vector(p.row(id), field::force));
     return of_id;
   };
   EXPECT_EQ(forces(0.1, false), forces(0.0, true));
@@ -183,7 +182,7 @@ double viscous_power(ViscosityForm form, unsigned seed) {
   lab::set_velocity(lab, [&](const Vec3&) { return Vec3{normal(random), normal(random), normal(random)}; });
   const Simulation s(lab.scene, lab.initial);
   const Particles& p = s.world().particles;
-  const auto F = triple(p, field::viscous_force_x, field::viscous_force_y, field::viscous_force_z);
+  const auto F = triple(p, field::viscous_force);
   double power = 0.0;
   for (std::size_t i = 0; i < p.size(); ++i)
     if (p[field::body][i] < 0) power += dot(F.at(i), p.velocity(i));

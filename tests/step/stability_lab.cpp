@@ -109,7 +109,7 @@ double oscillation_limit(const Lab& lab, bool turns) {
     InitialState moved = lab.initial;
     for (std::size_t i = 0; i < u.size(); ++i) moved.position[i] += e * u[i];
     const Simulation s(lab.scene, moved);
-    std::vector<Vec3> a = lab::vectors_by_id(s, field::force_x, field::force_y, field::force_z);
+    std::vector<Vec3> a = lab::vectors_by_id(s, field::force);
     for (std::size_t i = 0; i < a.size(); ++i) a[i] = (-1.0 / (e * lab.initial.mass[i])) * a[i];
     make_rigid(lab, turns, a);
     return a;
@@ -137,8 +137,7 @@ double friction_limit(const Lab& lab) {
   return 2.0 / greatest_value(random_vectors(lab.initial.size(), 9), 80, [&](const std::vector<Vec3>& u) {
            InitialState pushed = lab.initial;
            pushed.velocity = u;
-           std::vector<Vec3> a = lab::vectors_by_id(Simulation(lab.scene, pushed), field::viscous_force_x, field::viscous_force_y,
-                                                    field::viscous_force_z);
+           std::vector<Vec3> a = lab::vectors_by_id(Simulation(lab.scene, pushed), field::viscous_force);
            for (std::size_t i = 0; i < a.size(); ++i) a[i] = (-1.0 / lab.initial.mass[i]) * a[i];
            return a;
          });

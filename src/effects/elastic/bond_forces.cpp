@@ -29,10 +29,7 @@ PeriodicWidths periodic_widths(const PeriodicBox& box) {
 class Stresses {
  public:
   Stresses(World& world, const ElasticForms& forms, Deformations& all)
-      : forms_(forms),
-        all_(all),
-        constants_(forms.constants(world)),
-        force_(triple(world.particles, field::elastic_force_x, field::elastic_force_y, field::elastic_force_z)) {}
+      : forms_(forms), all_(all), constants_(forms.constants(world)), force_(triple(world.particles, field::elastic_force)) {}
   void none(std::size_t row) { force_.set(row, {}); }
   /// @param G F - I   @param elastic strain less what has flowed   @param A shape inverse   @param P projector on its range
   void set(std::size_t row, std::size_t id, const Matrix3& G, const Matrix3& H, const Symmetric& elastic, const Symmetric& A,
@@ -198,7 +195,7 @@ bool feels_energy(const BondLists::List& list, const Deformations& all, std::uin
 void add_all(World& world, const ElasticForms& forms, const Deformations& all) {
   Particles& p = world.particles;
   const auto id_of = p[field::id], regular = p[field::regular_bonds];
-  const auto f = triple(p, field::elastic_force_x, field::elastic_force_y, field::elastic_force_z);
+  const auto f = triple(p, field::elastic_force);
   const PeriodicWidths box = periodic_widths(world.box);
   const BondSums sum = bond_sums({world.box.any(), forms.hourglass() != 0.0, forms.bending() != 0.0});
 #pragma omp parallel for schedule(static) num_threads(world.threads)

@@ -87,11 +87,8 @@ bool can_freeze(const Scene& scene) { return calls_for(scene, "phase"); }
 EffectSpec spec(const Scene& scene) {
   EffectSpec s{"elastic",
                scene.mode_of(term::elastic),
-               {field::elastic_force_x,  field::elastic_force_y,  field::elastic_force_z,  field::shape_inverse_xx,
-                field::shape_inverse_yy, field::shape_inverse_zz, field::shape_inverse_yz, field::shape_inverse_xz,
-                field::shape_inverse_xy, field::shape_rank,       field::solid_volume,     field::solid_material,
-                field::solid_stiffness,  field::regular_bonds,    field::strain_xx,        field::strain_yy,
-                field::strain_zz,        field::strain_yz,        field::strain_xz,        field::strain_xy},
+               {field::elastic_force, field::shape_inverse, field::shape_rank, field::solid_volume, field::solid_material,
+                field::solid_stiffness, field::regular_bonds, field::strain},
                fields::joined({fields::position(), {field::id, field::mass, field::body, field::material}})};
   s.bounded = {{field::shape_rank, 0, [](const World&) -> std::size_t { return 4; }},  // 0 to 3
                {field::solid_material, 0, [](const World& w) { return w.scene.materials.size(); }}};

@@ -119,7 +119,7 @@ void FacePressure::add_forces(World& world) {
   Particles& p = world.particles;
   const auto share = std::as_const(p)[field::pressure_share];
   const auto id = p[field::id];
-  const auto F = triple(p, field::force_x, field::force_y, field::force_z);
+  const auto F = triple(p, field::force);
   const auto shape = solid::shape_inverses(std::as_const(p));
   const Rows formed = world.formed();
   load_.assign(p.size(), {});
@@ -149,7 +149,7 @@ void FacePressure::load_bonds(World& world) const {
   Particles& p = world.particles;
   const auto id = p[field::id];
   const auto volume = std::as_const(p)[field::solid_volume];
-  const auto F = triple(p, field::force_x, field::force_y, field::force_z);
+  const auto F = triple(p, field::force);
   const Rows formed = world.formed();
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t n = 0; n < bonded_.size(); ++n) {

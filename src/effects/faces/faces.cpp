@@ -36,7 +36,7 @@ EffectSpec spec(const Scene&) {
                fields::joined({fields::position(),
                                fields::deformation(),
                                {field::id, field::mass, field::body, field::material, field::group, field::number_density,
-                                field::pressure_share, field::force_x, field::force_y, field::force_z}})};
+                                field::pressure_share, field::force}})};
   s.reads_if_there = fields::image();
   s.skips_sleeping = true;
   return s;

@@ -154,9 +154,8 @@ void Fluid::drift(World&, double dt) { drifted_ = dt; }
 void Fluid::clear(World& world, PassName pass) {
   if (pass != PassName::rates) return;
   Particles& p = world.particles;
-  for (const Field<double>* f : {&field::force_x, &field::force_y, &field::force_z, &field::viscous_force_x,
-                                 &field::viscous_force_y, &field::viscous_force_z})
-    fill(part(p[*f], world.formed()), 0.0, world.threads);
+  for (const VectorField<double>& force : {field::force, field::viscous_force})
+    for (const Field<double>* f : columns_of(force)) fill(part(p[*f], world.formed()), 0.0, world.threads);
 }
 
 void Fluid::state(World& world) {
@@ -226,9 +225,8 @@ EffectSpec spec(const Scene& scene) {
   EffectSpec s{
       "fluid",
       scene.mode_of(term::pressure),
-      {field::pressure, field::rest_density, field::viscosity, field::solid, field::stick, field::group, field::force_x,
-       field::force_y, field::force_z, field::viscous_force_x, field::viscous_force_y, field::viscous_force_z,
-       field::viscous_velocity_x, field::viscous_velocity_y, field::viscous_velocity_z},
+      {field::pressure, field::rest_density, field::viscosity, field::solid, field::stick, field::group, field::force,
+       field::viscous_force, field::viscous_velocity},
       fields::joined({fields::position(),
                       fields::velocity(),
                       {field::id, field::mass, field::body, field::material, field::source, field::density, field::volume}})};

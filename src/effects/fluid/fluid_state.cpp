@@ -66,7 +66,7 @@ void predict_velocities(World& world) {
   const double ahead = world.step_numbers[liquid::half_step];
   const FreeRows rows = free_rows(world);
   const FreeLoops loops = free_loops(rows.forces);
-  const auto seen = triple(p, field::viscous_velocity_x, field::viscous_velocity_y, field::viscous_velocity_z);
+  const auto seen = triple(p, field::viscous_velocity);
   const auto x = positions(p), v = velocities(p);
   const auto body = p[field::body];
   const RigidMembers is_member(world);

@@ -48,13 +48,11 @@ EffectSpec spec_of_form(const Scene& scene) {
             {field::temperature, field::temperature_rate, field::exchange, field::heat_capacity, field::diffusivity, field::held},
             fields::joined({read_by_both(), {field::density, field::volume}})};
   }
-  return {
-      "heat",
-      Mode::corrected,
-      {field::temperature, field::enthalpy, field::heat_rate, field::heat_rate_before, field::conductance, field::heat_capacity,
-       field::conductivity, field::rest_volume, field::held, field::moment_inverse_xx, field::moment_inverse_yy,
-       field::moment_inverse_zz, field::moment_inverse_yz, field::moment_inverse_xz, field::moment_inverse_xy},
-      read_by_both()};
+  return {"heat",
+          Mode::corrected,
+          {field::temperature, field::enthalpy, field::heat_rate, field::heat_rate_before, field::conductance,
+           field::heat_capacity, field::conductivity, field::rest_volume, field::held, field::moment_inverse},
+          read_by_both()};
 }
 
 }  // namespace

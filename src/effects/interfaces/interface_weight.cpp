@@ -47,7 +47,7 @@ void InterfaceWeight::add_forces(World& world, const PairKernels& kernels) {
   Particles& p = world.particles;
   const auto x = positions(std::as_const(p));
   const auto rest = std::as_const(p)[field::rest_density];
-  const auto F = triple(p, field::force_x, field::force_y, field::force_z);
+  const auto F = triple(p, field::force);
   const double support = world.support();
   pairs_.each_row(world.threads, [&](std::size_t n) {
     const std::size_t i = pairs_.row(n);

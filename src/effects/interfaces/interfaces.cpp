@@ -42,8 +42,7 @@ EffectSpec spec(const Scene&) {
   EffectSpec s{"interfaces",
                Mode::corrected,
                {},
-               fields::joined({fields::position(),
-                               {field::id, field::group, field::rest_density, field::force_x, field::force_y, field::force_z}})};
+               fields::joined({fields::position(), {field::id, field::group, field::rest_density, field::force}})};
   s.reads_if_there = fields::image();
   s.skips_sleeping = true;
   return s;

@@ -91,7 +91,7 @@ void LaidWalls::lay_densities(World& world, const PairKernels& kernels) {
 void LaidWalls::lay_forces(World& world, const PairKernels& kernels) {
   Particles& p = world.particles;
   const auto share = std::as_const(p)[field::pressure_share];
-  const auto F = triple(p, field::force_x, field::force_y, field::force_z);
+  const auto F = triple(p, field::force);
   const Rows formed = world.formed();
   each_pair(world, [&](std::size_t i, std::size_t j, const Vec3& d, const Vec3& from_lattice) {
     if (i < formed.from || i >= formed.to) return;

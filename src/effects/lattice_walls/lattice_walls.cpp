@@ -34,7 +34,7 @@ EffectSpec spec(const Scene&) {
                {},
                fields::joined({fields::position(),
                                {field::id, field::body, field::source, field::group, field::number_density, field::pressure_share,
-                                field::force_x, field::force_y, field::force_z}})};
+                                field::force}})};
   s.reads_if_there = fields::image();
   s.skips_sleeping = true;
   return s;

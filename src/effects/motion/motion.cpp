@@ -69,7 +69,7 @@ void FreeMotion::drift(World& world, double dt) {
   Particles& p = world.particles;
   const auto r = positions(p), v = velocities(p);
   const bool shifts = p.has(field::shift_x.name);
-  const auto w = shifts ? triple(std::as_const(p), field::shift_x, field::shift_y, field::shift_z) : Triple<const double>{};
+  const auto w = shifts ? triple(std::as_const(p), field::shift) : Triple<const double>{};
   const RigidMembers is_member(world);
   const bool guided = p.has(field::driven.name);
   const auto driven = guided ? std::as_const(p)[field::driven] : std::span<const int>{};

@@ -50,8 +50,8 @@ void MirroredVelocity::mirror(World& world, const PairKernels& kernels) {
   run_pass_over(pair_passes(world.neighbours->clusters().lanes).alone(term), p, *world.neighbours, kernels, world.threads, wet_);
 
   const auto weight = p[field::wall_weight];
-  const auto moved = triple(p, field::wall_velocity_x, field::wall_velocity_y, field::wall_velocity_z);
-  const auto seen = triple(p, field::viscous_velocity_x, field::viscous_velocity_y, field::viscous_velocity_z);
+  const auto moved = triple(p, field::wall_velocity);
+  const auto seen = triple(p, field::viscous_velocity);
   const auto v = velocities(p);
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t k = 0; k < wet_walls_.size(); ++k) {

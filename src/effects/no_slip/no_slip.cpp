@@ -31,11 +31,10 @@ class NoSlip : public Effect {
 EffectSpec spec(const Scene&) {
   EffectSpec s{"no_slip",
                Mode::corrected,
-               {field::wall_weight, field::wall_velocity_x, field::wall_velocity_y, field::wall_velocity_z},
+               {field::wall_weight, field::wall_velocity},
                fields::joined({fields::position(),
                                fields::velocity(),
-                               {field::group, field::stick, field::solid, field::viscosity, field::viscous_velocity_x,
-                                field::viscous_velocity_y, field::viscous_velocity_z}})};
+                               {field::group, field::stick, field::solid, field::viscosity, field::viscous_velocity}})};
   s.skips_sleeping = true;
   return s;
 }

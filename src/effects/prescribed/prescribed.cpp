@@ -63,7 +63,7 @@ void Prescribed::drift(World& world, double dt) {
       guide(world, i, world.unwrapped(i) + dt * v, v);
     } else {
       const Event& grip = world.scene.events[static_cast<std::size_t>(driven[i] - driven_grip)];
-      const PrescribedState s = carried(grip, p.vector(i, field::grip_x, field::grip_y, field::grip_z), world.next_time);
+      const PrescribedState s = carried(grip, p.vector(i, field::grip), world.next_time);
       guide(world, i, s.position, s.velocity);
     }
     world.moved = true;
@@ -127,7 +127,7 @@ void Prescribed::happen(World& world, const Happening& now) {
   const int number = driven_grip + static_cast<int>(&event - world.scene.events.data());
   const auto inside = grips ? inside_of(*event.region, world.scene.spacing) : [](const Vec3&) { return true; };
   const RigidMembers is_member(world);
-  const auto place = triple(p, field::grip_x, field::grip_y, field::grip_z);
+  const auto place = triple(p, field::grip);
   for (std::size_t id = 0; id < p.size(); ++id) {
     const std::size_t i = p.row(id);
     if (is_member(i)) continue;
@@ -155,7 +155,7 @@ void Prescribed::happen(World& world, const Happening& now) {
 EffectSpec spec(const Scene& scene) {
   EffectSpec s{"prescribed",
                scene.mode_of(term::time),
-               {field::driven, field::grip_x, field::grip_y, field::grip_z},
+               {field::driven, field::grip},
                fields::joined({fields::position(),
                                fields::velocity(),
                                {field::id, field::mass, field::body, field::material, field::phase, field::source}})};

@@ -80,7 +80,7 @@ void measure(World& world, std::size_t b, const std::vector<std::size_t>& rows) 
   t[field::body_inertia][b] = truncated(properties.principal_inertia, properties.mass, world.scene.spacing);
   t[field::body_axes][b] = properties.principal_axes;
   t[field::body_turns][b] = turning_axes(world, rows);
-  const auto reference = triple(world.particles, field::reference_x, field::reference_y, field::reference_z);
+  const auto reference = triple(world.particles, field::reference);
   for (std::size_t n = 0; n < rows.size(); ++n) reference.set(rows[n], r[n] - properties.centre);
 }
 
@@ -120,7 +120,7 @@ void go_on_driven(World& world, std::size_t b, const BodyMotion& old) {
 void place_members(World& world) {
   Particles& p = world.particles;
   const auto x = positions(p);
-  const auto reference = triple(std::as_const(p), field::reference_x, field::reference_y, field::reference_z);
+  const auto reference = triple(std::as_const(p), field::reference);
   const auto body = p[field::body];
   const auto centre = world.bodies[field::body_centre];
   const auto orientation = world.bodies[field::body_orientation];
@@ -152,7 +152,7 @@ void place_members(World& world) {
 void give_velocities(World& world) {
   Particles& p = world.particles;
   const auto v = velocities(p);
-  const auto reference = triple(std::as_const(p), field::reference_x, field::reference_y, field::reference_z);
+  const auto reference = triple(std::as_const(p), field::reference);
   const auto body = p[field::body];
   const auto velocity = world.bodies[field::body_velocity], omega = world.bodies[field::body_angular_velocity];
   const auto orientation = world.bodies[field::body_orientation];

@@ -6,5 +6,6 @@
 namespace tripoint::field {
 
 inline constexpr Field<double> reference_x{"reference.x", "m"}, reference_y{"reference.y", "m"}, reference_z{"reference.z", "m"};
+inline constexpr VectorField<double> reference{reference_x, reference_y, reference_z};
 
 }  // namespace tripoint::field

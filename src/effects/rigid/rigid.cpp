@@ -337,7 +337,7 @@ void RigidBodies::add_to(const World& world, Ledger& ledger) const {
 EffectSpec spec(const Scene& scene) {
   EffectSpec s{"rigid",
                scene.mode_of(term::rotation),
-               {field::reference_x, field::reference_y, field::reference_z},
+               {field::reference},
                fields::joined({fields::position(), fields::velocity(), {field::id, field::mass, field::body}})};
   s.reads_if_there = fields::image();
   s.sums_forces = true;

@@ -25,12 +25,11 @@ class Transport : public Effect {
 EffectSpec spec(const Scene& scene) {
   EffectSpec s{"transport",
                Mode::corrected,
-               {field::shift_x, field::shift_y, field::shift_z, field::background_x, field::background_y, field::background_z,
-                field::transport_force_x, field::transport_force_y, field::transport_force_z},
+               {field::shift, field::background, field::transport_force},
                fields::joined({fields::position(),
                                fields::velocity(),
                                {field::mass, field::group, field::volume, field::density, field::rest_density, field::pressure,
-                                field::viscous_velocity_x, field::viscous_velocity_y, field::viscous_velocity_z}})};
+                                field::viscous_velocity}})};
   if (liquid::has_transport_means(liquid::numbers_of(scene)))
     s.owns.insert(s.owns.end(), {field::pressure_around, field::nearing, field::bulk_pressure});
   Force stress{field::transport_force_x, field::transport_force_y, field::transport_force_z, {"transport_work"}};

@@ -42,17 +42,17 @@ void set_transport_forces(World& world, const liquid::SceneNumbers& n, const Pai
   world.refresh(pass.adds());
   const double pressure = n.stiffness * n.reference_density;  // rho0 c^2, as Adami, Hu and Adams take it
   const double background = pressure / n.lattice_density, stress = 1.0 / n.lattice_density;
-  for (const Field<double>* f : {&field::background_x, &field::background_y, &field::background_z})
+  for (const Field<double>* f : columns_of(field::background))
     for (double& value : p[*f]) value *= background;
-  for (const Field<double>* f : {&field::transport_force_x, &field::transport_force_y, &field::transport_force_z})
+  for (const Field<double>* f : columns_of(field::transport_force))
     for (double& value : p[*f]) value *= stress;
   if (means) set_mean_pressure(world, n);
 }
 
 void set_shift(World& world, double dt) {
   Particles& p = world.particles;
-  const auto w = triple(p, field::shift_x, field::shift_y, field::shift_z);
-  const auto background = triple(std::as_const(p), field::background_x, field::background_y, field::background_z);
+  const auto w = triple(p, field::shift);
+  const auto background = triple(std::as_const(p), field::background);
   const auto m = p[field::mass], group = p[field::group];
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t i = 0; i < p.size(); ++i)

@@ -42,8 +42,8 @@ void Arithmetic::each_pair(const World& world, std::size_t i, Give give) const {
 /// F_i = sum_j G_ij (v_j - v_i) [N].
 void Arithmetic::bonds(World& world) {
   Particles& p = world.particles;
-  const auto v = triple(std::as_const(p), field::viscous_velocity_x, field::viscous_velocity_y, field::viscous_velocity_z);
-  const auto F = triple(p, field::viscous_force_x, field::viscous_force_y, field::viscous_force_z);
+  const auto v = triple(std::as_const(p), field::viscous_velocity);
+  const auto F = triple(p, field::viscous_force);
   const Rows formed = world.formed();
   for (std::size_t i = formed.from; i < formed.to; ++i) {
     Vec3 sum;
