@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "core/quaternion.hpp"
 #include "core/vec3.hpp"
@@ -53,6 +54,14 @@ template <class T>
 }
 [[nodiscard]] constexpr std::array<const Field<double>*, 6> columns_of(const SymmetricField& f) noexcept {
   return {&f.xx, &f.yy, &f.zz, &f.yz, &f.xz, &f.xy};
+}
+
+/// Columns of several keys, one after the other.
+[[nodiscard]] inline std::vector<const Field<double>*> columns_of_all(const auto&... keys) {
+  std::vector<const Field<double>*> all;
+  const auto take = [&](const auto& columns) { all.insert(all.end(), columns.begin(), columns.end()); };
+  (take(columns_of(keys)), ...);
+  return all;
 }
 
 enum class FieldType { real, integer, vector, quaternion };

@@ -15,6 +15,12 @@
 /// An effect: a part of physics that a scene calls for. Effects do not know each other; they meet in fields.
 namespace tripoint {
 
+/// Columns of which a stage forms the values of own particles alone, as sums over pairs and bonds are. The step hands them to the
+/// copies that other processes have, when the effect has run.
+struct OwnSums {
+  std::vector<const Field<double>*> densities{}, state{}, bonds{};
+};
+
 /// The columns that an effect owns and those that it reads of others. The effect is given no other column (declared_view.hpp).
 struct EffectSpec {
   std::string_view name;
@@ -30,6 +36,7 @@ struct EffectSpec {
   std::vector<GuardedEntry> guarded_entries{};  ///< of its entries of the ledger, how the guard of energy takes them
   /// Its columns of bodies that are sums over particles. Where several processes share a scene, each sums its own part.
   std::vector<Field<double>> body_sums{};
+  OwnSums own_sums{};
   std::vector<StepNumber> step_numbers{};  ///< that it keeps from step to step beside its columns
   FieldList reads_if_there{};              ///< of others, where the scene has them
   bool sums_forces = false;                ///< it reads World::forces of all effects

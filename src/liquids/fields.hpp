@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <array>
-
 #include "core/field.hpp"
 #include "particles/catalogue.hpp"
 #include "world/step_numbers.hpp"
@@ -42,14 +40,6 @@ inline constexpr SymmetricField viscous_spread{force_x, force_y, force_z, viscou
 inline constexpr Field<double> pressure_around{"pressure_around", "Pa/m3"}, nearing{"nearing", "1/(s m3)"};
 
 }  // namespace tripoint::field
-
-/// Columns that ranks hand to each other: the sum (4), and the force of pressure.
-namespace tripoint::liquid {
-
-inline constexpr std::array<const Field<double>*, 1> density_column{&field::number_density};
-inline constexpr std::array<const Field<double>*, 3> pressure_force{&field::force_x, &field::force_y, &field::force_z};
-
-}  // namespace tripoint::liquid
 
 /// What the next step needs of those before it.
 namespace tripoint::liquid {

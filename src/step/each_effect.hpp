@@ -17,4 +17,17 @@ void for_each_effect(const World& world, const std::vector<Active>& effects, Vis
   }
 }
 
+/// The same for a stage whose sums the copies of other processes take (EffectSpec::own_sums).
+template <class Visit>
+void for_each_effect(World& world, const std::vector<Active>& effects, std::vector<const Field<double>*> OwnSums::*sums,
+                     Visit visit) {
+  for (const Active& a : effects) {
+    {
+      const DeclaredView view(world, a);
+      visit(*a.effect);
+    }
+    if (world.halo && !(a.spec.own_sums.*sums).empty()) world.refresh(a.spec.own_sums.*sums);
+  }
+}
+
 }  // namespace tripoint

@@ -82,8 +82,8 @@ class Simulation {
   void correct();
   void check();
   void check_particles();
-  template <class Visit>
-  void each_effect(Stage, Visit);
+  template <class... How>
+  void each_effect(Stage, How...);
   void kick(double dt);
   void drift(double dt);
   void form_states();

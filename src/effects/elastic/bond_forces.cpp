@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <optional>
 #include <type_traits>
@@ -282,9 +281,6 @@ void add_forces(World& world, const ElasticForms& forms, Deformations& all) {
   if (flows(world)) follow_flow(world, forms, all);
   hand_deformed_to_copies(world, all);
   add_all(world, forms, all);
-  static constexpr std::array<const Field<double>*, 3> force{&field::elastic_force_x, &field::elastic_force_y,
-                                                             &field::elastic_force_z};
-  world.refresh(force);
 }
 
 }  // namespace tripoint::elastic

@@ -111,7 +111,6 @@ void FacePressure::add_densities(World& world, const PairKernels& kernels) {
     }
     acting_[n] = static_cast<std::size_t>(last - first);
   });
-  world.refresh(liquid::density_column);
 }
 
 /// With y = F^-1 d: dU/dF = -s/2 F^-T sum_j (share_i + share_j) W'(r*)/r* y y^T.
@@ -141,7 +140,6 @@ void FacePressure::add_forces(World& world) {
   });
   hand_to_copies(world, load_);
   load_bonds(world);
-  world.refresh(liquid::pressure_force);
 }
 
 /// As the force of strain energy, (12): F = -v_l T gradW(x_kl) on l and the opposite on k, T = dU/dF A of k.

@@ -62,7 +62,6 @@ void InterfaceWeight::add_forces(World& world, const PairKernels& kernels) {
     }
     F.set(i, F.at(i) + f);
   });
-  world.refresh(liquid::pressure_force);
 }
 
 double InterfaceWeight::energy(const World& world, const PairKernels& kernels, std::size_t i) const {

@@ -45,6 +45,7 @@ EffectSpec spec(const Scene&) {
                fields::joined({fields::position(), {field::id, field::group, field::rest_density, field::force}})};
   s.reads_if_there = fields::image();
   s.skips_sleeping = true;
+  s.own_sums.bonds = columns_of_all(field::force);
   return s;
 }
 

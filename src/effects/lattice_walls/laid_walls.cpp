@@ -85,7 +85,6 @@ void LaidWalls::lay_densities(World& world, const PairKernels& kernels) {
   each_pair(world, [&](std::size_t i, std::size_t, const Vec3& d, const Vec3& from_lattice) {
     delta[i] += kernels.wendland.value(norm(from_lattice)) - kernels.wendland.value(norm(d));
   });
-  world.refresh(liquid::density_column);
 }
 
 void LaidWalls::lay_forces(World& world, const PairKernels& kernels) {
@@ -99,7 +98,6 @@ void LaidWalls::lay_forces(World& world, const PairKernels& kernels) {
     F.set(i, F.at(i) + pressure * (kernels.wendland.derivative_over_r(norm(from_lattice)) * from_lattice -
                                    kernels.wendland.derivative_over_r(norm(d)) * d));
   });
-  world.refresh(liquid::pressure_force);
 }
 
 }  // namespace tripoint::lattice_walls

@@ -37,6 +37,7 @@ EffectSpec spec(const Scene&) {
                                 field::force}})};
   s.reads_if_there = fields::image();
   s.skips_sleeping = true;
+  s.own_sums = {.densities = columns_of_all(field::number_density), .bonds = columns_of_all(field::force)};
   return s;
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "effects/no_slip/mirrored_velocity.hpp"
 
-#include <array>
-
 #include "effects/no_slip/wall_terms.hpp"
 #include "liquids/fields.hpp"
 #include "liquids/fixed_walls.hpp"
@@ -10,12 +8,6 @@
 #include "world/fill.hpp"
 
 namespace tripoint::no_slip {
-namespace {
-
-constexpr std::array<const Field<double>*, 3> seen_velocity{&field::viscous_velocity_x, &field::viscous_velocity_y,
-                                                            &field::viscous_velocity_z};
-
-}  // namespace
 
 /// Finds the walls with liquid in reach, anew after each rebuild of the lists. The viscous velocities of fixed walls, which only
 /// wet ones are given, become 0 again.
@@ -24,7 +16,8 @@ void MirroredVelocity::find(World& world) {
   known_ = world.neighbours->rebuilds();
   wet_walls_.clear();
   const Particles& p = world.particles;
-  for (const Field<double>* f : seen_velocity) fill(part(world.particles[*f], {p.moving(), p.awake()}), 0.0, world.threads);
+  for (const Field<double>* f : columns_of(field::viscous_velocity))
+    fill(part(world.particles[*f], {p.moving(), p.awake()}), 0.0, world.threads);
   const auto group = world.particles[field::group];
   const auto stick = world.particles[field::stick];
   const bool drags = liquid::all_drag(world.scene);
@@ -45,7 +38,7 @@ void MirroredVelocity::mirror(World& world, const PairKernels& kernels) {
   find(world);
   Particles& p = world.particles;
   for (const Field<double>* f : WallExtrapolation::adds::list) fill(awake(p, *f), 0.0, world.threads);
-  if (wet_walls_.empty()) return world.refresh(seen_velocity);
+  if (wet_walls_.empty()) return;
   const PairTerm term = kernels.shear.even() ? pair_term<WallExtrapolation> : pair_term<WallExtrapolationWeighted>;
   run_pass_over(pair_passes(world.neighbours->clusters().lanes).alone(term), p, *world.neighbours, kernels, world.threads, wet_);
 
@@ -61,7 +54,6 @@ void MirroredVelocity::mirror(World& world, const PairKernels& kernels) {
     else if (i >= p.moving())
       seen.set(i, {});
   }
-  world.refresh(seen_velocity);
 }
 
 }  // namespace tripoint::no_slip

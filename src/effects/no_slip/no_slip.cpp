@@ -36,6 +36,7 @@ EffectSpec spec(const Scene&) {
                                fields::velocity(),
                                {field::group, field::stick, field::solid, field::viscosity, field::viscous_velocity}})};
   s.skips_sleeping = true;
+  s.own_sums.state = columns_of_all(field::viscous_velocity);
   return s;
 }
 
