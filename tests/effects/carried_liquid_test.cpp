@@ -54,6 +54,32 @@ TEST_P(Forms, KeepMomentumToRoundOff) {
   EXPECT_LT(norm(s.ledger().momentum - before), 1e-12 * norm(before));
 }
 
+/// Between renewals too: the corrections that are held make opposite forces, and a restart between two renewals goes on.
+TEST(CarriedLiquid, HoldsCorrectionsForThreeSteps) {
+  lab::Lab lab = blob(1);
+  lab.scene.time_step = 1e-3;
+  lab::set_velocity(lab, [](const Vec3& r) { return Vec3{0.3, 0.1, 0.0} - strain(r - Vec3{0.4, 0.35, 0.3}); });
+  Simulation s(lab.scene, lab.initial);
+  const Vec3 before = s.ledger().momentum;
+  std::vector<double> B{s.world().particles[field::correction_xy][s.world().particles.row(5)]};
+  for (int step = 1; step <= 4; ++step) {
+    s.advance_to(1e-3 * step);
+    B.push_back(s.world().particles[field::correction_xy][s.world().particles.row(5)]);
+    EXPECT_LT(norm(s.ledger().momentum - before), 1e-13 * norm(before)) << step;
+    Vec3 sum;
+    double size = 0.0;
+    const Particles& p = s.world().particles;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const Vec3 F = p.vector(i, field::force_x, field::force_y, field::force_z);
+      sum += F;
+      size += norm(F);
+    }
+    EXPECT_LT(norm(sum), 1e-13 * size) << step;
+  }
+  EXPECT_EQ(B[1], B[2]);
+  EXPECT_NE(B[2], B[3]);
+}
+
 /// sum F.v = sum p dV/dt, whatever the velocities.
 TEST_P(Forms, ForceIsTheAdjointOfTheRateOfDensity) {
   const lab::Lab lab = pressed(GetParam());
@@ -110,7 +136,8 @@ TEST(CarriedLiquid, RateIsExactForLinearVelocities) {
   EXPECT_GT(inside, 4);
 }
 
-/// A step without forces along the velocities of a turn spreads places by 1 + (omega dt)^2, and the density follows to round-off.
+/// A step without forces along the velocities of a turn spreads places by 1 + (omega dt)^2, and the density follows. The
+/// corrections that are held leave 1 % of it.
 TEST(CarriedLiquid, DensityFollowsAStepExactly) {
   lab::Lab lab = blob(4);
   lab.scene.materials[0].viscosity = 0.0;
@@ -123,7 +150,7 @@ TEST(CarriedLiquid, DensityFollowsAStepExactly) {
   for (std::size_t i = 0; i < p.size(); ++i) {
     const auto r = p.position(i) - Vec3{0.4, 0.35, 0.3};
     if (std::max({std::abs(r.x) - 0.1, std::abs(r.y) - 0.1, std::abs(r.z) - 0.05}) > 0.0) continue;
-    EXPECT_NEAR(p[field::density][i] / 1000.0, 1.0 / (1.0 + 4e-4), 1e-12);  // without the higher orders it stays 1
+    EXPECT_NEAR(p[field::density][i] / 1000.0, 1.0 / (1.0 + 4e-4), 1e-5);  // without the higher orders it stays 1
   }
 }
 
@@ -153,6 +180,7 @@ TEST_P(Forms, GoOnFromACheckpointWithTheSameBits) {
   const lab::Lab lab = pressed(GetParam());
   Simulation s(lab.scene, lab.initial);
   s.advance_to(0.01);
+  s.advance_to(0.02, [&] { return s.world().step_numbers[StepNumber{"carried_steps_held", 0.0}] != 1.0 && GetParam() == 1; });
   const Checkpoint cut = s.checkpoint();
   s.advance_to(0.02);
   Simulation again(lab.scene, lab.initial, {}, cut);

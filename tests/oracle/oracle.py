@@ -47,8 +47,8 @@ energy (10) | elastic energy 8.7 |
 hourglass energy 8.7 | plastic strain 8.8 | plastic strain of sheets and chains 8.8 | broken bonds (12) | broken bonds \
 8.8 |
 carried sum 8.12 | carried moments 8.12 | carried gradients 8.12 | carried pressure force 8.12 | \
-carried viscous force 8.12 | carried damping 8.12 | carried diffusion 8.12 | number density of solids 8.12 | \
-pressure force of solids 8.12"""
+carried viscous force 8.12 | carried damping 8.12 | carried diffusion 8.12 | sound rate 8.12 | sound force 8.12 | \
+number density of solids 8.12 | pressure force of solids 8.12"""
 TERMS = [t.strip() for t in TERMS.replace("\n", " ").split("|")]
 
 # Each pair term that the passes have compiled (its pair_slots.hpp brings it), and the rows above that show its sums.
@@ -81,6 +81,9 @@ PAIR_TERMS = {
     "CarriedMoments": ["carried moments 8.12"],
     "SolidNumberDensity": ["number density of solids 8.12"],
     "PressureOfSolids": ["pressure force of solids 8.12"],
+    "SoundRate": ["sound rate 8.12"],
+    "SoundForce": ["sound force 8.12"],
+    "SoundForceViscous": ["sound force 8.12"],
 }
 CARRIED_FORCES = [f"carried {what} 8.12" for what in ("pressure force", "viscous force", "damping", "diffusion")]
 for pair, damping in set(carried.FORMS.values()):
@@ -109,6 +112,7 @@ RUNS = [
     ("freezing", "corrected", 12, []),
     ("freezing", "paper", 12, []),
 ] + [("basin", "corrected", 2, [f"model.pressure='{form}'", "scene.support_ratio=2.9"]) for form in carried.FORMS]
+RUNS += [("basin", "corrected", 2, ["model.pressure='adjoint'", "material.water.viscosity=80"])]
 
 
 class Differences:
@@ -430,7 +434,9 @@ def compare_all(writer, runs=RUNS):
     out, broken = Differences(), 0
     for scene, mode, steps, changes in runs:
         start, before, after = states_of(writer, scene, mode, steps, changes)
-        start.form_of_pressure = "".join(changes[:1]).removeprefix("model.pressure=").strip("'")
+        for state in (start, after):
+            state.form_of_pressure = "".join(changes[:1]).removeprefix("model.pressure=").strip("'")
+            state.holds_viscosity = "material.water.viscosity=80" not in changes
         out.where = " ".join([scene, mode, *changes])
         compare_state(out, start, None)
         compare_state(out, after, before)

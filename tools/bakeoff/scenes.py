@@ -350,6 +350,74 @@ def judge_heat(run, n):
     }
 
 
+def still_long(n):
+    """Still water of `still` for 100 sqrt(H/g)."""
+    text = still(n)
+    old, end = round(60 * math.sqrt(0.2 / G), 3), round(100 * math.sqrt(0.2 / G), 3)
+    return text.replace(f"end_time = {old}", f"end_time = {end}")
+
+
+def sphere(n):
+    """Sinks slowly in oil, on the axis of a closed cylinder of four radii."""
+    a, wide, high = 0.01, 0.04, 0.12
+    dx = a / n
+    t = 3.5 * dx
+    text = head(0.12, dx, 0.01, gravity=[0.0, 0.0, -G], **domain([-0.06] * 2 + [-0.03], [0.06, 0.06, 0.16], []))
+    text += liquid("oil", 1000.0, 3.0, 10 * math.sqrt(G * high)) + '[[material]]\nname = "steel"\ndensity = 1500.0\n'
+    round_of = lambda z, length, radius: (
+        f'{{ kind = "cylinder", base = [0, 0, {z}], axis = [0, 0, 1], length = {length}, radius = {radius} }}'
+    )
+    ball = f'{{ kind = "sphere", centre = [0, 0, 0.075], radius = {a} }}'
+    pot = minus(round_of(-t, high + t, wide + t), round_of(0, 2 * high, wide))
+    text += '[[material]]\nname = "glass"\ndensity = 1000.0\n' + body(
+        "tank", "glass", pot, phase='"rigid"', motion='"fixed"'
+    )
+    text += body("oil", "oil", minus(round_of(0, high, wide), ball), **WET)
+    return text + body("ball", "steel", ball, phase='"rigid"') + TAIL
+
+
+def judge_sphere(run, n):
+    """Stokes, with the cylinder's factor for a ball on its axis, radius ratio 1/4."""
+    dx, mu, q = 0.01 / n, 3.0, 0.25
+    wall = (1 - 2.105 * q + 2.0865 * q**3 - 1.7068 * q**5 + 0.72603 * q**6) / (1 - 0.75857 * q**5)
+    volume = run.body_mass(0, "ball") / 1500.0
+    radius = (3 * volume / (4 * PI)) ** (1 / 3)
+    U = 500.0 * volume * G / (6 * PI * mu * radius) * wall
+    z, t = run.body("ball", "position")[:, 2], run.times
+    speed = lambda p, q: (np.interp(p, t, z) - np.interp(q, t, z)) / (q - p) / U
+    return {"speed - 1": float(speed(0.08, 0.12) - 1), "early": float(speed(0.04, 0.08)), "radius/dx": radius / dx}
+
+
+def layers(n):
+    """Light liquid on liquid five times as heavy, n layers each, at rest."""
+    dx = 0.8 / n
+    w = 6 * dx
+    text = head(1.5, dx, 0.05, gravity=[0.0, 0.0, -G], **domain([0, 0, -1], [w, w, 3], ["x", "y"]))
+    text += liquid("heavy", 1000.0, 300.0, 10 * math.sqrt(G * 1.6)) + liquid("light", 200.0, 60.0, 1.0)
+    text = text.replace("sound_speed = 1.0\n", "")
+    text += '[[material]]\nname = "floor"\ndensity = 1000.0\n'
+    text += body("floor", "floor", box([0, 0, -4 * dx], [w, w, 0]), phase='"rigid"', motion='"fixed"')
+    text += body("below", "heavy", box([0, 0, 0], [w, w, 0.8]), **WET)
+    return text + body("above", "light", box([0, 0, 0.8], [w, w, 1.6]), **WET) + TAIL
+
+
+def judge_layers(run, n):
+    late = range(int(0.6 * run.frames), run.frames)
+    dx, m = 0.8 / n, run.masses(0)
+    heavy = m > 0.5 * m.max()
+    z, p = (np.mean([of(f) for f in late], 0) for of in (lambda f: run.places(f)[:, 2], run.pressure))
+    true = np.where(heavy, 200 * G * 0.8 + 1000 * G * (0.8 - z), 200 * G * (1.6 - z))
+    error = p / true - 1
+    near = np.abs(z - 0.8) < 0.9 * dx
+    speed = np.sqrt(np.mean([np.mean(np.sum(run.speeds(f) ** 2, 1)) for f in late]))
+    return {
+        "heavy side - 1": float(error[near & heavy].mean()),
+        "light side - 1": float(error[near & ~heavy].mean()),
+        "floor - 1": float(error[z < dx].mean()),
+        "speed/sqrt(gH)": float(speed / math.sqrt(G * 1.6)),
+    }
+
+
 SCENES = {
     "fall": (fall, judge_fall, (10,)),
     "still": (still, judge_still, (10, 20)),
@@ -361,4 +429,7 @@ SCENES = {
     "rayleigh-taylor": (layers_grow, judge_layers_grow, (20, 40)),
     "patch": (patch, judge_patch, (20, 40)),
     "heat": (heat, judge_heat, (20,)),
+    "still-long": (still_long, judge_still, (20,)),
+    "sphere": (sphere, judge_sphere, (3,)),
+    "layers": (layers, judge_layers, (8,)),
 }

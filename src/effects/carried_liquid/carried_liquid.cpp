@@ -6,10 +6,13 @@
 
 #include "core/errors.hpp"
 #include "core/matrix3.hpp"
+#include "effects/carried_liquid/blended_inverse.hpp"
 #include "effects/carried_liquid/fields.hpp"
 #include "effects/carried_liquid/hydrostatic_start.hpp"
 #include "effects/carried_liquid/phase_density.hpp"
+#include "effects/carried_liquid/predicted_velocities.hpp"
 #include "effects/carried_liquid/scheme.hpp"
+#include "effects/carried_liquid/sound_terms.hpp"
 #include "liquids/pressing_gravity.hpp"
 #include "liquids/scene_numbers.hpp"
 #include "pairs/pair_passes.hpp"
@@ -26,6 +29,7 @@ namespace {
 
 constexpr StepNumber kick_length{"carried_half_step", 0.0};      ///< length of the last kick [s]
 constexpr Account compression_released{"compression_released"};  ///< as the effect of contact has it
+constexpr StepNumber held_for{"carried_steps_held", -1.0};  ///< steps that have taken the present corrections, -1: none are there
 constexpr Account taken_by_diffusion{"taken_by_diffusion"}, taken_by_shift{"taken_by_shift"};
 constexpr double viscous_share = 0.03;                   ///< of dx^2/nu that a step takes
 constexpr double full_rank = 0.5, own_full_rank = 0.02;  ///< determinant below which an inverse is blended
@@ -68,15 +72,6 @@ PairKernels kernels_of(const Scene& scene, const Numbers& n) {
   return kernels;
 }
 
-/// Inverse, blended into `rest` times the identity where the determinant is below `full`.
-Symmetric blended_inverse(const Symmetric& m, double full, double rest) {
-  const double det = determinant(tripoint::full(m));
-  if (!(det > 1e-9)) return {rest, rest, rest, 0.0, 0.0, 0.0};
-  const double share = det / (det + std::max(full - det, 0.0));
-  const Symmetric inverse = symmetric_part(tripoint::inverse(tripoint::full(m)));
-  return share * inverse + ((1.0 - share) * rest) * Symmetric{1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
-}
-
 /// Columns that the effect of contact owns where solids meet.
 std::vector<FieldInfo> shared() {
   return {field::density, field::volume,  field::pressure,        field::group,           field::force_x,
@@ -111,7 +106,10 @@ class CarriedLiquid : public Effect {
   void state(World&) override;
   void bonds(World&) override;
   void adopt(World&) override;
-  void happen(World& world, const Happening&) override { set_groups(world); }
+  void happen(World& world, const Happening&) override {
+    set_groups(world);
+    world.step_numbers[held_for] = -1.0;
+  }
   [[nodiscard]] TimeStepBound max_dt(const World&) const override;
   void add_to(const World&, Ledger&) const override;
   [[nodiscard]] PairWork pair_work(const Scene&) const override {
@@ -127,10 +125,18 @@ class CarriedLiquid : public Effect {
   void let_in(World&) const;
   void run(World&, const PairTerm&, bool liquids_only) const;
   void correct_gradients(World&) const;
+  void correct_velocity_gradients(World&) const;
+  void form_corrections(World&) const;
+  /// Whether the viscous force changes little while corrections are held. Where solids meet, its column is not held.
+  [[nodiscard]] bool holds_viscosity(const World& world) const {
+    return !solids_meet_ &&
+           scheme_.hold * sound_step(world) * numbers_.greatest_nu < viscous_share * std::pow(world.scene.spacing, 2);
+  }
+  /// Bound of the step where nothing moves [s].
+  [[nodiscard]] double sound_step(const World& world) const { return scheme_.courant * world.support() / numbers_.sound_speed; }
   void move_density(World&) const;
   void set_pressure(World&) const;
   void set_shift(World&) const;
-  void predict_velocities(World&) const;
   void set_pull(World&) const;
   [[nodiscard]] double pressure_of(double rho, double rest) const { return state_.pressure(rho, rest); }
 
@@ -179,6 +185,7 @@ void CarriedLiquid::load(World& world, const InitialState&) {
 }
 
 void CarriedLiquid::adopt(World& world) {
+  world.step_numbers[held_for] = -1.0;
   const Change& change = world.change;
   let_in(world);
   set_groups(world);
@@ -258,11 +265,30 @@ void CarriedLiquid::correct_gradients(World& world) const {
   }
 }
 
-/// The density at the end of the drift: exact where velocities are linear, since x before = (1 - dt A) x now.
-void CarriedLiquid::move_density(World& world) const {
+void CarriedLiquid::correct_velocity_gradients(World& world) const {
   Particles& p = world.particles;
   const auto n = columns<field::own_moment_xx, field::own_moment_yy, field::own_moment_zz, field::own_moment_yz,
                          field::own_moment_xz, field::own_moment_xy>(p);
+  const auto a = columns<field::velocity_gradient_xx, field::velocity_gradient_xy, field::velocity_gradient_xz,
+                         field::velocity_gradient_yx, field::velocity_gradient_yy, field::velocity_gradient_yz,
+                         field::velocity_gradient_zx, field::velocity_gradient_zy, field::velocity_gradient_zz>(p);
+  const auto slope = triple(p, field::density_gradient_x, field::density_gradient_y, field::density_gradient_z);
+  const auto z = p[field::impedance];
+#pragma omp parallel for schedule(static) num_threads(world.threads)
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (z[i] == 0.0) continue;
+    const Symmetric inverse = blended_inverse(symmetric_at(n, i), own_full_rank, 0.0);
+    const Matrix3 A = Matrix3{a[0][i], a[1][i], a[2][i], a[3][i], a[4][i], a[5][i], a[6][i], a[7][i], a[8][i]} * inverse;
+    const double parts[9] = {A.xx, A.xy, A.xz, A.yx, A.yy, A.yz, A.zx, A.zy, A.zz};
+    for (std::size_t k = 0; k < 9; ++k) a[k][i] = parts[k];
+    slope.set(i, inverse * slope.at(i));
+  }
+}
+
+/// The density at the end of the drift: exact where velocities are linear, since x before = (1 - dt A) x now.
+void CarriedLiquid::move_density(World& world) const {
+  if (drifted_ == 0.0) return;
+  Particles& p = world.particles;
   const auto a = columns<field::velocity_gradient_xx, field::velocity_gradient_xy, field::velocity_gradient_xz,
                          field::velocity_gradient_yx, field::velocity_gradient_yy, field::velocity_gradient_yz,
                          field::velocity_gradient_zx, field::velocity_gradient_zy, field::velocity_gradient_zz>(p);
@@ -277,12 +303,7 @@ void CarriedLiquid::move_density(World& world) const {
   std::vector<std::array<double, 1>> blocks;
   const auto taken = ordered_sums(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
     if (z[i] == 0.0) return;
-    const Symmetric inverse = blended_inverse(symmetric_at(n, i), own_full_rank, 0.0);
-    const Matrix3 A = Matrix3{a[0][i], a[1][i], a[2][i], a[3][i], a[4][i], a[5][i], a[6][i], a[7][i], a[8][i]} * inverse;
-    const double parts[9] = {A.xx, A.xy, A.xz, A.yx, A.yy, A.yz, A.zx, A.zy, A.zz};
-    for (std::size_t k = 0; k < 9; ++k) a[k][i] = parts[k];
-    slope.set(i, inverse * slope.at(i));
-    if (dt == 0.0) return;
+    const Matrix3 A{a[0][i], a[1][i], a[2][i], a[3][i], a[4][i], a[5][i], a[6][i], a[7][i], a[8][i]};
     const double exact = determinant(identity3 - dt * A) + dt * (A.xx + A.yy + A.zz);  // 1 + terms of higher order
     const double carried = std::clamp(exact - dt * divergence[i], 0.5, 2.0) * rho[i];
     const double sum_now = mass[i] * summed[i] / numbers_.lattice.density;
@@ -304,12 +325,18 @@ void CarriedLiquid::move_density(World& world) const {
 void CarriedLiquid::set_pressure(World& world) const {
   Particles& p = world.particles;
   const auto z = p[field::impedance], rho = p[field::density], rest = p[field::liquid_rest_density],
-             pressure = p[field::pressure], share = p[field::wall_share], out = p[field::wall_pressure];
+             pressure = p[field::pressure], share = p[field::wall_share], out = p[field::wall_pressure],
+             V = p[field::carried_volume];
+  const auto b = columns<field::correction_xx, field::correction_yy, field::correction_zz, field::correction_yz,
+                         field::correction_xz, field::correction_xy>(p);
+  const auto stress =
+      columns<field::stress_xx, field::stress_yy, field::stress_zz, field::stress_yz, field::stress_xz, field::stress_xy>(p);
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (z[i] != 0.0) pressure[i] = pressure_of(rho[i], rest[i]);
     const double stiffness = numbers_.stiffness * numbers_.reference;
     out[i] = z[i] != 0.0 ? stiffness * std::max(share[i] - inside_wall, 0.0) * rho[i] / rest[i] : 0.0;
+    for (std::size_t k = 0; k < 6; ++k) stress[k][i] = pressure[i] * V[i] * b[k][i];
   }
 }
 
@@ -340,33 +367,6 @@ void CarriedLiquid::set_shift(World& world) const {
   }
 }
 
-void CarriedLiquid::predict_velocities(World& world) const {
-  Particles& p = world.particles;
-  const double ahead = world.step_numbers[kick_length];
-  const FreeRows rows = free_rows(world);
-  const FreeLoops loops = free_loops(rows.forces);
-  const auto seen = triple(p, field::predicted_x, field::predicted_y, field::predicted_z);
-  const auto v = velocities(std::as_const(p));
-  const auto body = p[field::body];
-  const RigidMembers is_member(world);
-  const auto of_member = [&](std::size_t i) {
-    const auto b = static_cast<std::size_t>(body[i]);
-    const Vec3 arm = world.unwrapped(i) - world.bodies[field::body_centre][b];
-    seen.set(i,
-             world.bodies[field::body_velocity][b] + ahead * world.bodies[field::body_acceleration][b] +
-                 cross(world.bodies[field::body_angular_velocity][b] + ahead * world.bodies[field::body_angular_acceleration][b],
-                       arm));
-  };
-  const auto of_others = [&](std::size_t from, std::size_t to) {
-    if (ahead != 0.0)
-      loops.predict(rows, {v.x.data(), v.y.data(), v.z.data()}, {seen.x.data(), seen.y.data(), seen.z.data()}, ahead, from, to);
-    else
-      for (std::size_t i = from; i < to; ++i) seen.set(i, v.at(i));
-  };
-  each_block(p.moving(), world.threads,
-             [&](std::size_t from, std::size_t to) { is_member.each_run(from, to, of_member, of_others); });
-}
-
 /// Gravity at solids. Their acceleration is left out: the head that it makes would do work that no energy stands behind.
 void CarriedLiquid::set_pull(World& world) const {
   Particles& p = world.particles;
@@ -384,18 +384,33 @@ void CarriedLiquid::state(World& world) {
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t i = 0; i < p.size(); ++i) V[i] = m[i] / (z[i] != 0.0 ? rho[i] : rest[i]);
   if (!solids_meet_) std::ranges::copy(V, p[field::volume].begin());
-  run(world, pair_term<Moments>, true);
-  correct_gradients(world);
-  run(world, scheme_.gradients, true);
+  double& held = world.step_numbers[held_for];
+  const bool renewed = held < 0.0 || held + 1.0 >= scheme_.hold || drifted_ == 0.0;
+  held = renewed ? 0.0 : held + 1.0;
+  if (renewed)
+    form_corrections(world);
+  else
+    run(world, pair_term<SoundRate>, true);
   move_density(world);
   set_pressure(world);
-  set_shift(world);
-  predict_velocities(world);
   set_pull(world);
+  if (renewed) set_shift(world);
+  if (renewed || !holds_viscosity(world)) predict_velocities(world, world.step_numbers[kick_length]);
   drifted_ = 0.0;
 }
 
+/// All that is held between renewals, and the divergence.
+void CarriedLiquid::form_corrections(World& world) const {
+  run(world, pair_term<Moments>, true);
+  correct_gradients(world);
+  run(world, scheme_.gradients, true);
+  correct_velocity_gradients(world);
+}
+
+/// The viscous forces, the damping and the diffusion of the last renewal hold until the next.
 void CarriedLiquid::bonds(World& world) {
+  if (world.step_numbers[held_for] > 0.0 && !world.forms_fixed)
+    return run(world, holds_viscosity(world) ? pair_term<SoundForce<false>> : pair_term<SoundForce<true>>, false);
   run(world, scheme_.forces, false);
   if (scheme_.damping != Damping::residue) return;
   Particles& p = world.particles;
@@ -446,6 +461,7 @@ std::vector<FieldInfo> owned(bool solids_meet) {
   for (const Field<double>* f : AllForces::reads::list)
     if (f != &field::velocity_x && f != &field::velocity_y && f != &field::velocity_z) add({{f}});
   add({{&field::exposed}});
+  add(SoundForce<true>::reads::list);
   const std::vector<FieldInfo> both = shared();
   std::erase_if(list, [&](const FieldInfo& f) { return std::ranges::find(both, f) != both.end(); });
   if (!solids_meet) list.insert(list.end(), both.begin(), both.end());
@@ -477,7 +493,7 @@ EffectSpec spec(const Scene& scene) {
   s.sums_forces = true;
   s.forces = forces_of(solids_meet);
   s.numerical = {taken_by_diffusion, taken_by_shift};
-  s.step_numbers = {kick_length};
+  s.step_numbers = {kick_length, held_for};
   if (solids_meet) return s;
   s.guards = {{field::density, "density", Written::density}};
   s.positive = {field::density};

@@ -64,6 +64,25 @@ template <class V>
   return half > -pressed ? half : -pressed;
 }
 
+/// Viscosity of a pair. A solid is seen with its velocity mirrored; two solids have none.
+template <class V>
+[[gnu::always_inline]] inline V pair_viscosity(V z_i, V z_j, V mu_i, V mu_j, V slips_i, V slips_j) {
+  const MaskOf<V> wall_i = z_i == 0.0, wall_j = z_j == 0.0;
+  const V liquids = harmonic_mean<V>(mu_i, mu_j);
+  if (!any(wall_i | wall_j)) return liquids;
+  const V stick = where<V>(wall_i, 2.0 * (1.0 - slips_i)) * mu_j + where<V>(wall_j, 2.0 * (1.0 - slips_j)) * mu_i;
+  return wall_i | wall_j ? stick : liquids;
+}
+/// Viscous force along the line of centres. @param k f V V mu @param v velocity of j less that of i
+template <class V>
+[[gnu::always_inline]] inline void add_shear(const PairGeometry<V>& g, V k, const Way<V>& v, std::span<V, 3> sum) {
+  const V along = (v.x * g.dx + v.y * g.dy + v.z * g.dz) * g.per_r2;
+  const V size = (10.0 * g.kernels.per_gradient_moment) * k * along;
+  sum[0] += size * g.dx;
+  sum[1] += size * g.dy;
+  sum[2] += size * g.dz;
+}
+
 /// Kernel sum of the number density.
 struct SummedDensity {
   static constexpr std::string_view name = "SummedDensity";
@@ -164,7 +183,7 @@ struct Forces {
            field::residue_force_x, field::residue_force_y, field::residue_force_z, field::diffused>;
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 35> i, std::span<const V, 35> j, std::span<V, 10> sum) {
-    const V z_i = i[1], z_j = j[1], none{};
+    const V z_i = i[1], z_j = j[1];
     const MaskOf<V> wall_i = z_i == 0.0, wall_j = z_j == 0.0, liquids = !(wall_i | wall_j);
     const V f = where<V>(g.within, -g.gradient), ff = f * (i[0] * j[0]);
     // pressure; at a solid that of the liquid and of the head between the two
@@ -176,16 +195,8 @@ struct Forces {
     sum[0] -= ff * (p_i * X.x + p_j * Y.x + out * g.dx);
     sum[1] -= ff * (p_i * X.y + p_j * Y.y + out * g.dy);
     sum[2] -= ff * (p_i * X.z + p_j * Y.z + out * g.dz);
-    // viscosity along the line of centres; a solid is seen with its velocity mirrored
-    const V stick = where<V>(wall_i, 2.0 * (1.0 - i[6])) * j[5] + where<V>(wall_j, 2.0 * (1.0 - j[6])) * i[5];
-    const V mu = liquids ? harmonic_mean<V>(i[5], j[5]) : stick;
-    if (any(mu != none)) {
-      const V along = ((j[31] - i[31]) * g.dx + (j[32] - i[32]) * g.dy + (j[33] - i[33]) * g.dz) * g.per_r2;
-      const V k = (10.0 * g.kernels.per_gradient_moment) * (ff * mu) * along;
-      sum[3] += k * g.dx;
-      sum[4] += k * g.dy;
-      sum[5] += k * g.dz;
-    }
+    const V mu = pair_viscosity<V>(z_i, z_j, i[5], j[5], i[6], j[6]);
+    add_shear<V>(g, ff * mu, {j[31] - i[31], j[32] - i[32], j[33] - i[33]}, sum.template subspan<3, 3>());
     // damping
     const V vx = j[13] - i[13], vy = j[14] - i[14], vz = j[15] - i[15];
     const V parting = (vx * g.dx + vy * g.dy + vz * g.dz) * g.per_r2;  // [1/s], below 0 where the pair approaches

@@ -44,6 +44,9 @@ inline constexpr Field<double> carried_volume{"carried_volume", "m3"};  ///< m/r
 /// Force of the viscosity of the residue: numerical.
 inline constexpr Field<double> residue_force_x{"residue_force.x", "N"}, residue_force_y{"residue_force.y", "N"},
     residue_force_z{"residue_force.z", "N"};
+/// p V B, of which a step of sound takes its forces.
+inline constexpr Field<double> stress_xx{"stress.xx", "J"}, stress_yy{"stress.yy", "J"}, stress_zz{"stress.zz", "J"},
+    stress_yz{"stress.yz", "J"}, stress_xz{"stress.xz", "J"}, stress_xy{"stress.xy", "J"};
 inline constexpr Field<double> summed_density{"summed_density", "1/m3"};
 
 }  // namespace tripoint::field

@@ -21,7 +21,13 @@ Scheme made() {
   s.tie = Tie::relaxed;
   s.relax = 0.02;
   s.follows = false;
+  s.hold = 1;
   s.courant = 0.25;
+  if (pair != Pair::own) return s;
+  s.delta = 0.05;
+  s.strength = 0.1;
+  s.hold = 3;
+  s.courant = 0.4;
   return s;
 }
 
