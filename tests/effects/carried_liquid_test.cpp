@@ -70,7 +70,7 @@ TEST(CarriedLiquid, HoldsCorrectionsForThreeSteps) {
     double size = 0.0;
     const Particles& p = s.world().particles;
     for (std::size_t i = 0; i < p.size(); ++i) {
-      const Vec3 F = p.vector(i, field::force_x, field::force_y, field::force_z);
+      const Vec3 F = p.vector(i, field::force);
       sum += F;
       size += norm(F);
     }
