@@ -9,6 +9,7 @@
 #include "adapters/bullet/limits.hpp"
 #include "adapters/bullet/pieces.hpp"
 #include "adapters/bullet/presets.hpp"
+#include "core/not_a_number.hpp"
 #include "scene/contact_law.hpp"
 #include "scene/motion.hpp"
 

@@ -8,6 +8,7 @@
 #include "core/checkpoint.hpp"
 #include "core/defect.hpp"
 #include "files/job.hpp"
+#include "files/result.hpp"
 #include "files/trajectory.hpp"
 
 /// An engine adapter is five functions, SI in and out, one executable each (contracts: engine protocol).

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/not_a_number.hpp"
 #include "validation/references/rigid_body.hpp"
 
 namespace tripoint {

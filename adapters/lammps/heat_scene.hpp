@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "files/job.hpp"
+#include "files/result.hpp"
 #include "files/trajectory.hpp"
 
 /// Parts that walkers and sph/heatconduction share: heat in bodies at rest.

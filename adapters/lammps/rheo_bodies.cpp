@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
 #include "adapters/lammps/rheo_bodies.hpp"
+#include "core/not_a_number.hpp"
 
 #include <algorithm>
 #include <map>

@@ -12,6 +12,7 @@
 
 #include "core/children.hpp"
 #include "files/job.hpp"
+#include "files/result.hpp"
 
 namespace tripoint::lammps {
 namespace {

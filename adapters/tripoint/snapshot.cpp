@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "adapters/tripoint/tripoint_engine.hpp"
+#include "core/not_a_number.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/temperatures.hpp"
 #include "solids/body_forces.hpp"

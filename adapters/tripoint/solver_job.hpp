@@ -6,6 +6,7 @@
 
 #include "core/errors.hpp"
 #include "files/job.hpp"
+#include "files/result.hpp"
 #include "step/simulation.hpp"
 
 /// A job as the solver takes it, for every engine that is the solver.

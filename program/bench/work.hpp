@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/initial_state.hpp"
+#include "scene/scene.hpp"
 
 namespace tripoint::bench {
 

@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <set>
 
+#include "assembly/plan.hpp"
+#include "program/bench/trial.hpp"
+#include "validation/case/case.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/results/escaped_text.hpp"
 

@@ -16,6 +16,7 @@
 #include "validation/campaign/suite.hpp"
 #include "validation/case/ablation.hpp"
 #include "validation/case/engine_names.hpp"
+#include "validation/case/read_case.hpp"
 #include "validation/results/escaped_text.hpp"
 #include "validation/results/interrupt.hpp"
 #include "validation/results/verdict.hpp"

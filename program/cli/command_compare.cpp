@@ -9,6 +9,7 @@
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
 #include "validation/campaign/suite.hpp"
+#include "validation/case/case.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/publish/report_files.hpp"
 #include "validation/results/interrupt.hpp"

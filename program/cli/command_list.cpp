@@ -8,6 +8,7 @@
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
 #include "validation/campaign/suite.hpp"
+#include "validation/case/case.hpp"
 
 namespace tripoint {
 namespace {

@@ -16,6 +16,7 @@
 #include "program/predict/kit.hpp"
 #include "validation/campaign/case_names.hpp"
 #include "validation/campaign/suite.hpp"
+#include "validation/case/read_case.hpp"
 #include "validation/results/interrupt.hpp"
 #include "validation/results/results.hpp"
 #include "validation/results/verdict.hpp"

@@ -12,6 +12,7 @@
 #include "program/cli/options.hpp"
 #include "validation/campaign/accuracy_cost.hpp"
 #include "validation/campaign/suite.hpp"
+#include "validation/case/case.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/results/interrupt.hpp"
 #include "validation/results/rows.hpp"

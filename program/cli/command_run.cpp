@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/errors.hpp"
+#include "files/job.hpp"
+#include "files/trajectory.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
 #include "program/cli/run_progress.hpp"
@@ -21,6 +23,8 @@
 #include "validation/campaign/suite.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/case/idle_keys.hpp"
+#include "validation/case/read_case.hpp"
+#include "validation/metrics/metric.hpp"
 #include "validation/results/interrupt.hpp"
 #include "validation/results/rows.hpp"
 #include "validation/results/verdict.hpp"

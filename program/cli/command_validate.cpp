@@ -15,6 +15,7 @@
 #include "validation/baseline/history.hpp"
 #include "validation/campaign/suite.hpp"
 #include "validation/campaign/timing.hpp"
+#include "validation/case/case.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/judge/headroom.hpp"
 #include "validation/judge/judge.hpp"

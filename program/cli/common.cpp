@@ -14,10 +14,12 @@
 #include <filesystem>
 #include <sstream>
 
+#include "assembly/plan.hpp"
 #include "core/errors.hpp"
 #include "core/limits.hpp"
 #include "step/settle.hpp"
 #include "tables/nearest.hpp"
+#include "validation/case/read_case.hpp"
 #include "validation/results/escaped_text.hpp"
 #include "validation/results/verdict.hpp"
 

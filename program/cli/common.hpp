@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "assembly/plan.hpp"
-#include "validation/case/read_case.hpp"
 #include "validation/run/discover.hpp"
 #include "validation/run/folder_lock.hpp"
 #include "validation/run/plan_runs.hpp"
@@ -16,6 +14,9 @@ class App;
 }
 
 namespace tripoint {
+
+struct CaseReading;
+struct Plan;
 
 /// Calls the command and turns its exceptions into messages on stderr and the exit codes of the contract.
 [[nodiscard]] int guarded(const std::function<int()>& command);

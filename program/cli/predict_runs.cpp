@@ -12,6 +12,8 @@
 #include "assembly/all_effects.hpp"
 #include "assembly/plan.hpp"
 #include "core/errors.hpp"
+#include "files/job.hpp"
+#include "files/trajectory.hpp"
 #include "program/cli/common.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/sample.hpp"

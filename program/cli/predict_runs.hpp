@@ -8,6 +8,8 @@
 
 #include "program/predict/cost.hpp"
 #include "program/predict/part_times.hpp"
+#include "scene/initial_state.hpp"
+#include "validation/case/case.hpp"
 #include "validation/run/plan_runs.hpp"
 #include "validation/run/run_one.hpp"
 

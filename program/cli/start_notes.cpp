@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "program/cli/start_notes.hpp"
+#include "scene/initial_state.hpp"
+#include "scene/scene.hpp"
 
 #include <fmt/format.h>
 

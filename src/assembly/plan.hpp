@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.hpp"
-
 namespace tripoint {
+
+struct Scene;
 
 struct PlannedField {
   std::string name, unit, per;  ///< per: particle, bond or body

@@ -10,6 +10,7 @@
 
 #include "core/durable_file.hpp"
 #include "core/foreign_json.hpp"
+#include "core/not_a_number.hpp"
 #include "files/foreign_file.hpp"
 #include "files/job_records.hpp"
 #include "files/record_json.hpp"

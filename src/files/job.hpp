@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "files/reference_choice.hpp"
-#include "files/status.hpp"
 #include "scene/initial_state.hpp"
 #include "scene/scene.hpp"
 #include "tables/settings.hpp"
 
-/// Input (JOB.json) and output (result.json) of an engine, contract 1.
+/// Input of an engine, JOB.json, contract 1.
 namespace tripoint {
 
 /// One body of a job: of every [[body]], liquid too, in the order of the case file.
@@ -65,48 +63,5 @@ struct Job {
 /// FNV-1a of a text, as 16 hex digits: tells two jobs apart.
 [[nodiscard]] std::string text_hash(const std::string&);
 void write_job(const std::string& path, const Job&);
-
-struct ReadbackBody {
-  std::string name;
-  double mass = 0.0;
-  Vec3 centre, principal_inertia;
-  double friction = 0.0, restitution = 0.0, linear_damping = 0.0, angular_damping = 0.0;
-};
-
-struct Readback {
-  Vec3 gravity;
-  double time_step = 0.0;
-  std::string precision = "double";
-  std::vector<ReadbackBody> bodies;
-};
-
-struct Divergence {
-  long particle = -1, body = -1;
-  std::string field, stage;
-  double time = 0.0;
-  std::string guard;       ///< which one tripped; empty = the engine has none
-  std::string file;        ///< in the run's folder: the culprit and its surroundings, for ParaView; empty = none
-  std::string checkpoint;  ///< last good one; empty = none
-};
-
-/// Contents of result.json.
-struct Result {
-  Status status = Status::ok;  ///< ok, refused, diverged or error
-  std::string message;
-  double time_reached = 0.0;
-  long steps = 0;
-  double pairs = 0.0, iterations = 0.0;
-  double setup_wall = 0.0, setup_cpu = 0.0, stepping_wall = 0.0, stepping_cpu = 0.0;  ///< [s]
-  std::string state_hash;
-  std::string time_step_bound;  ///< which effect's bound set the step
-  Readback readback;
-  std::optional<Divergence> divergence;
-  std::map<std::string, double> extra;  ///< further numbers, under "extra"
-};
-
-/// @throws InputError naming the file and the key that is missing, of the wrong kind, or a status that no engine may give
-[[nodiscard]] Result read_result(const std::string& path);
-/// Writes to a temporary name, fsyncs and renames: the engine's last act.
-void write_result(const std::string& path, const Result&);
 
 }  // namespace tripoint

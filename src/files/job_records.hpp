@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "files/job.hpp"
+#include "files/result.hpp"
 #include "tables/record.hpp"
 
 /// The keys of JOB.json and result.json, each beside the member that keeps it: the reader, the writer and the schemas go by

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/errors.hpp"
+#include "core/not_a_number.hpp"
 #include "files/gauge_error.hpp"
 #include "files/trajectory.hpp"
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/errors.hpp"
+#include "core/not_a_number.hpp"
 #include "files/h5md_file.hpp"
 #include "files/trajectory.hpp"
 

@@ -4,11 +4,13 @@
 #include <optional>
 #include <string>
 
-#include "scene/scene.hpp"
+#include "scene/term.hpp"
 
 /// Values that a scene has where its file says nothing, or a run wants otherwise.
 
 namespace tripoint {
+
+struct Scene;
 
 /// Changes of one run to its scene.
 struct RunChoice {

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "core/quaternion.hpp"
 #include "core/vec3.hpp"
-#include "scene/scene.hpp"
 
 namespace tripoint {
-
-inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// Particles at time 0, row = id, SI: sampled once by the harness, the same for every engine.
 struct InitialState {

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/not_a_number.hpp"
 #include "scene/lattice.hpp"
 #include "scene/motion.hpp"
 #include "scene/sample.hpp"

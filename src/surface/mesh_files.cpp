@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstring>
 
+#include "core/not_a_number.hpp"
 #include "core/written_file.hpp"
 #include "scene/initial_state.hpp"
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/errors.hpp"
+#include "core/not_a_number.hpp"
 #include "scene/initial_state.hpp"
 #include "surface/mesher_module.hpp"
 

@@ -12,6 +12,7 @@
 
 #include "adapters/scenes.hpp"
 #include "files/job.hpp"
+#include "files/result.hpp"
 #include "files/trajectory.hpp"
 
 /// Engines as the harness runs them: a process, a folder, an exit code.

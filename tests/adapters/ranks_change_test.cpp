@@ -8,6 +8,7 @@
 
 #include "adapters/changing_scenes.hpp"
 #include "adapters/ranks_lab.hpp"
+#include "files/result.hpp"
 #include "scene/shared_terms.hpp"
 
 namespace tripoint {

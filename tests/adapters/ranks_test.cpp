@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "adapters/ranks_lab.hpp"
+#include "files/result.hpp"
 #include "scene/shared_terms.hpp"
 
 namespace tripoint {

@@ -12,6 +12,7 @@
 #include <cstdarg>
 #include <new>
 
+#include "assembly/plan.hpp"
 #include "faults/seam.hpp"
 
 using namespace fault_seam;

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdarg>
 
+#include "assembly/plan.hpp"
 #include "faults/seam.hpp"
 
 namespace fault_seam {

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "assembly/plan.hpp"
 #include "faults/seam.hpp"
 
 extern "C" void* __libc_malloc(size_t);

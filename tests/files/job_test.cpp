@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "files/job.hpp"
+#include "files/result.hpp"
 #include "scene/shared_terms.hpp"
 
 namespace tripoint {

@@ -5,6 +5,7 @@
 
 #include "core/errors.hpp"
 #include "files/job.hpp"
+#include "files/result.hpp"
 #include "fuzz/input.hpp"
 #include "validation/run/replies.hpp"
 

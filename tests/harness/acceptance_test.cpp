@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "judged.hpp"
+#include "validation/case/case.hpp"
 #include "validation/case/known_defect.hpp"
 #include "validation/judge/remarks.hpp"
 #include "validation/publish/scorecard.hpp"

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "validation/case/case.hpp"
 #include "validation/judge/apply_gate.hpp"
 
 namespace tripoint {

@@ -20,6 +20,7 @@
 #include <system_error>
 #include <vector>
 
+#include "assembly/plan.hpp"
 #include "core/errors.hpp"
 #include "harness/fakes.hpp"
 #include "tables/toml_node.hpp"

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "validation/campaign/suite.hpp"
+#include "validation/case/read_case.hpp"
 #include "validation/run/discover.hpp"
 
 namespace tripoint {

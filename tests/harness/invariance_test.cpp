@@ -9,6 +9,7 @@
 #include "harness/fakes.hpp"
 #include "harness/judged.hpp"
 #include "validation/campaign/case_run.hpp"
+#include "validation/campaign/invariance.hpp"
 #include "validation/mutation/selftest.hpp"
 
 namespace tripoint {

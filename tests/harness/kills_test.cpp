@@ -4,6 +4,7 @@
 
 #include <sstream>
 
+#include "files/job.hpp"
 #include "files/trajectory.hpp"
 #include "harness/fakes.hpp"
 #include "scene/sample.hpp"

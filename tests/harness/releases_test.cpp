@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Accuracy by release, on results made by hand.
 #include "validation/publish/releases.hpp"
+#include "validation/case/case.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,6 +3,7 @@
 
 #include <ctime>
 
+#include "assembly/plan.hpp"
 #include "core/errors.hpp"
 #include "harness/fakes.hpp"
 #include "harness/judged.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "core/not_a_number.hpp"
 #include "metrics/frames.hpp"
 
 namespace tripoint {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "files/trajectory.hpp"
 #include "references/scenes.hpp"
 #include "validation/audit/audit.hpp"
+#include "validation/case/choices.hpp"
 #include "validation/metrics/metric.hpp"
 
 /// Runs made from a reference, to be broken by the tests.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "files/job.hpp"
 #include "metrics/frames.hpp"
+#include "validation/metrics/metric_value.hpp"
 
 namespace tripoint {
 namespace {

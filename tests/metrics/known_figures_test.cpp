@@ -8,6 +8,7 @@
 
 #include "metrics/known.hpp"
 #include "references/solids.hpp"
+#include "validation/metrics/metric.hpp"
 #include "validation/metrics/statistics.hpp"
 
 namespace tripoint {

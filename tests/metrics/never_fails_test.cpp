@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/not_a_number.hpp"
 #include "metrics/fakes.hpp"
 #include "validation/metrics/order.hpp"
 

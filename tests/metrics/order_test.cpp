@@ -6,6 +6,7 @@
 
 #include "scene/initial_state.hpp"
 
+#include "core/not_a_number.hpp"
 #include "validation/metrics/order.hpp"
 
 namespace tripoint {

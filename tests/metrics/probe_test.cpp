@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "files/gauge_error.hpp"
+#include "files/job.hpp"
+#include "files/trajectory.hpp"
 #include "metrics/frames.hpp"
 #include "validation/audit/audit.hpp"
 #include "validation/metrics/dominant_frequency.hpp"

@@ -5,10 +5,12 @@
 
 #include <cmath>
 
+#include "core/not_a_number.hpp"
 #include "metrics/frames.hpp"
 #include "references/liquids.hpp"
 #include "references/measured.hpp"
 #include "references/melting.hpp"
+#include "validation/metrics/metric.hpp"
 
 namespace tripoint {
 namespace {

@@ -3,6 +3,7 @@
 
 #include "metrics/frames.hpp"
 #include "references/solids.hpp"
+#include "validation/case/choices.hpp"
 
 namespace tripoint {
 namespace {

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "core/errors.hpp"
+#include "files/job.hpp"
 #include "queue/folder.hpp"
 #include "validation/queue/published.hpp"
 #include "validation/queue/standing.hpp"

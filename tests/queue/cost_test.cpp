@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "files/job.hpp"
 #include "scene/effect_rule.hpp"
 #include "validation/case/read_case.hpp"
 

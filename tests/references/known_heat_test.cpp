@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/not_a_number.hpp"
 #include "references/measured.hpp"
 #include "references/melting.hpp"
 #include "references/solids.hpp"

@@ -12,6 +12,7 @@
 #include <map>
 #include <random>
 
+#include "core/not_a_number.hpp"
 #include "effects/lab.hpp"
 #include "files/checkpoint_file.hpp"
 #include "scene/shared_terms.hpp"

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <string>
 
-#include "validation/metrics/metric.hpp"
+#include "files/result.hpp"
 
 namespace tripoint {
+
+struct InitialState;
+struct Job;
+struct Trajectory;
 
 /// Refuses what cannot be judged: times missing to 1e-9 of the end, permuted ids, values outside their set, frozen frames, and a
 /// run that contradicts itself (audit_parts.hpp).

@@ -3,6 +3,9 @@
 #include <sstream>
 #include <string>
 
+#include "files/job.hpp"
+#include "files/result.hpp"
+#include "files/trajectory.hpp"
 #include "validation/metrics/frames.hpp"
 #include "validation/metrics/near_pairs.hpp"
 

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "core/durable_file.hpp"
+#include "scene/scene.hpp"
 #include "tables/library.hpp"
 #include "validation/baseline/baseline_lacking.hpp"
 #include "validation/baseline/baseline_propose.hpp"

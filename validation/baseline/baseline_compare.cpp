@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "scene/scene.hpp"
 #include "validation/baseline/baseline_propose.hpp"
 #include "validation/baseline/baseline_rows.hpp"
 #include "validation/case/engine_names.hpp"

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "scene/scene.hpp"
 #include "validation/baseline/changes.hpp"
 #include "validation/results/escaped_text.hpp"
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 
+#include "scene/scene.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/results/rows.hpp"
 

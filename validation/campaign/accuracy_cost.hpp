@@ -10,6 +10,8 @@
 /// a wish.
 namespace tripoint {
 
+struct Scene;
+
 struct LadderPoint {
   double level = 0.0;  ///< in the axis's own unit
   double step = 0.0;   ///< finer = smaller

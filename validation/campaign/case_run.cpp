@@ -8,6 +8,8 @@
 #include <filesystem>
 
 #include "scene/sample.hpp"
+#include "validation/campaign/invariance.hpp"
+#include "validation/case/case.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/judge/judge.hpp"
 #include "validation/references/experiment.hpp"

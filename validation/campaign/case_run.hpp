@@ -4,11 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "files/job.hpp"
 #include "validation/campaign/suite.hpp"
 #include "validation/run/run_one.hpp"
 
 /// The parts of the suite that look at one case.
 namespace tripoint {
+
+struct Trajectory;
 
 /// Inputs of a changed run, made in the place of a run whose scene is changed.
 struct ChangedRun {

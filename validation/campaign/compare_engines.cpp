@@ -3,7 +3,10 @@
 #include <cmath>
 
 #include "validation/campaign/case_run.hpp"
+#include "validation/case/case.hpp"
 #include "validation/case/engine_names.hpp"
+#include "validation/metrics/metric.hpp"
+#include "validation/references/reference.hpp"
 
 namespace tripoint {
 namespace {

@@ -11,6 +11,7 @@
 #include "validation/case/engine_names.hpp"
 #include "validation/case/read_case.hpp"
 #include "validation/judge/apply_gate.hpp"
+#include "validation/metrics/metric.hpp"
 #include "validation/references/experiment.hpp"
 #include "validation/results/case_hash.hpp"
 #include "validation/results/verdict.hpp"

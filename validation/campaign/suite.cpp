@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "validation/campaign/case_run.hpp"
+#include "validation/case/case.hpp"
 #include "validation/judge/judge.hpp"
 #include "validation/results/interrupt.hpp"
 #include "validation/run/finished_run.hpp"

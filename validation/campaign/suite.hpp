@@ -8,12 +8,15 @@
 #include <vector>
 
 #include "core/errors.hpp"
-#include "validation/campaign/invariance.hpp"
 #include "validation/results/results.hpp"
 #include "validation/run/plan_runs.hpp"
 
 /// Runs cases on engines and judges them.
 namespace tripoint {
+
+struct Case;
+struct InitialState;
+struct InvarianceChange;
 
 /// A tag, name or profile that no case has: nothing was asked to run.
 class NothingSelected : public InputError {

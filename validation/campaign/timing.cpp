@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "validation/campaign/case_run.hpp"
+#include "validation/case/case.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/results/interrupt.hpp"
 #include "validation/results/timing_pairs.hpp"

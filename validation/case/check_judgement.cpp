@@ -6,6 +6,7 @@
 
 #include "scene/name_checks.hpp"
 #include "tables/nearest.hpp"
+#include "validation/case/case.hpp"
 #include "validation/case/gated_metric.hpp"
 #include "validation/case/judge_readers.hpp"
 #include "validation/case/known_defect.hpp"

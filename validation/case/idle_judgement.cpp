@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "validation/case/choices.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/case/gated_metric.hpp"
 #include "validation/case/idle_search.hpp"

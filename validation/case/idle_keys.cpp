@@ -6,7 +6,9 @@
 #include <algorithm>
 
 #include "scene/effect_rule.hpp"
+#include "scene/initial_state.hpp"
 #include "validation/case/idle_search.hpp"
+#include "validation/case/read_case.hpp"
 
 /// Parts of a case that no run of it can show: common code of the searches for them, and their order.
 namespace tripoint {

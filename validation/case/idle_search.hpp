@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "scene/geometry.hpp"
+#include "scene/initial_state.hpp"
 #include "validation/case/preflight.hpp"
+#include "validation/case/read_case.hpp"
 
 /// The parts of idle_keys(), one a subject, and their common data.
 namespace tripoint {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "validation/case/known_defect.hpp"
+#include "validation/case/choices.hpp"
 
 #include <string_view>
 

@@ -2,9 +2,9 @@
 #pragma once
 #include <string>
 
-#include "validation/case/case.hpp"
-
 namespace tripoint {
+
+struct Gate;
 
 /// NAME, one word, of a gate whose reason begins "known defect NAME:": a defect of the engine that its band measures. The engine
 /// is then excused from the limit that any engine must hold on this metric, and must exceed it. Empty = the gate declares none.

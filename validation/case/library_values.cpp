@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tables/library.hpp"
 #include "validation/case/preflight.hpp"
+#include "validation/case/read_case.hpp"
 
 namespace tripoint {
 

@@ -6,6 +6,7 @@
 #include "scene/model.hpp"
 #include "scene/scene_keys.hpp"
 #include "validation/case/preflight.hpp"
+#include "validation/case/read_case.hpp"
 
 namespace tripoint {
 

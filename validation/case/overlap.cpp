@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "validation/case/overlap.hpp"
+#include "scene/scene.hpp"
 
 #include <algorithm>
 #include <array>

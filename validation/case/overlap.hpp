@@ -6,6 +6,8 @@
 
 namespace tripoint {
 
+struct Scene;
+
 /// Two bodies (rows of Scene::bodies, a < b) with particles nearer than a distance.
 struct Overlap {
   std::size_t a = 0, b = 0;

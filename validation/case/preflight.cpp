@@ -10,6 +10,7 @@
 #include "scene/geometry.hpp"
 #include "scene/phase_values.hpp"
 #include "scene/shared_terms.hpp"
+#include "validation/case/case.hpp"
 #include "validation/case/dates.hpp"
 #include "validation/case/overlap.hpp"
 #include "validation/case/preflight.hpp"

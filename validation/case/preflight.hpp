@@ -4,10 +4,13 @@
 #include <vector>
 
 #include "core/errors.hpp"
-#include "scene/initial_state.hpp"
-#include "validation/case/read_case.hpp"
 
 namespace tripoint {
+
+struct Case;
+struct CaseReading;
+struct InitialState;
+struct Scene;
 
 /// One finding of the pre-flight check.
 struct Finding {

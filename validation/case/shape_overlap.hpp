@@ -6,6 +6,8 @@
 
 namespace tripoint {
 
+struct Scene;
+
 /// Two bodies (rows of Scene::bodies, a < b) whose shapes share room.
 struct SharedRoom {
   std::size_t a = 0, b = 0;

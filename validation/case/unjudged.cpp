@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "validation/case/case.hpp"
 #include "validation/case/gated_metric.hpp"
 #include "validation/case/known_defect.hpp"
 

@@ -6,6 +6,10 @@
 
 namespace tripoint {
 
+struct Gate;
+struct MetricChoice;
+struct Study;
+
 /// Warnings of what the case's gates leave open. Nothing judges the case, so that `validate` would pass it unjudged; no gate
 /// looks at a metric; a known defect has a floor and no ceiling; a ladder for every engine whose limit is not judged.
 [[nodiscard]] std::vector<Finding> unjudged(const Case&);

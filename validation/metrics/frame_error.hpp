@@ -5,7 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "core/not_a_number.hpp"
+#include "files/job.hpp"
+#include "files/trajectory.hpp"
+#include "validation/case/choices.hpp"
 #include "validation/metrics/metric.hpp"
+#include "validation/references/reference.hpp"
 
 namespace tripoint {
 

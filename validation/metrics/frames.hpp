@@ -3,9 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "validation/metrics/metric.hpp"
-
 namespace tripoint {
+
+struct InitialState;
+struct Job;
+struct MetricChoice;
+struct Snapshot;
+struct Trajectory;
 
 using Frames = std::vector<const Snapshot*>;
 

@@ -4,26 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "files/job.hpp"
-#include "files/trajectory.hpp"
-#include "validation/case/case.hpp"
-#include "validation/references/reference.hpp"
+#include "validation/metrics/metric_value.hpp"
 
 namespace tripoint {
 
-/// Standard uncertainties, in the metric's scaled unit.
-struct Uncertainty {
-  double numerical = 0.0, statistical = 0.0, input = 0.0, data = 0.0;
-  [[nodiscard]] double combined() const;  ///< root sum of squares
-};
-
-/// One metric of one run. A value that is not finite never passes.
-struct MetricValue {
-  double value = 0.0;  ///< scaled; NaN where it could not be formed
-  Uncertainty uncertainty;
-  std::string note;                   ///< why it could not be formed, or where the worst place is
-  std::vector<double> times, series;  ///< the error in time, where the norm is over time
-};
+struct InitialState;
+struct Job;
+struct MetricChoice;
+struct Trajectory;
+class Reference;
 
 /// Compares a trajectory with its reference by the metric's quantity and norm.
 /// @throws InputError for an unknown quantity; a trajectory that does not fit (count, ids, times, units) gives NaN and a

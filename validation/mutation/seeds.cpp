@@ -11,6 +11,7 @@
 
 #include "core/errors.hpp"
 #include "validation/campaign/suite.hpp"
+#include "validation/case/case.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/judge/apply_gate.hpp"
 #include "validation/results/escaped_text.hpp"

@@ -8,6 +8,7 @@
 
 #include "core/errors.hpp"
 #include "validation/campaign/suite.hpp"
+#include "validation/case/case.hpp"
 #include "validation/mutation/selftest_runs.hpp"
 #include "validation/results/verdict.hpp"
 

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "validation/campaign/invariance.hpp"
 #include "validation/mutation/smallest.hpp"
 #include "validation/results/results.hpp"
 #include "validation/run/discover.hpp"
@@ -12,6 +11,9 @@
 /// Proof that the gates can fail, and only where they should. Faults in the test build of our solver must turn the gates red that
 /// say so. Changes that physics does not feel must leave them green.
 namespace tripoint {
+
+struct Case;
+struct InvarianceChange;
 
 struct SelftestOptions {
   std::vector<std::string> what;        ///< cases; empty = all

@@ -5,7 +5,9 @@
 #include <filesystem>
 
 #include "core/errors.hpp"
+#include "validation/campaign/invariance.hpp"
 #include "validation/campaign/suite.hpp"
+#include "validation/case/case.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/mutation/selftest.hpp"
 

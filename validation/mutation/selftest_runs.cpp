@@ -8,6 +8,7 @@
 
 #include "core/errors.hpp"
 #include "validation/campaign/suite.hpp"
+#include "validation/case/case.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/case/gated_metric.hpp"
 #include "validation/judge/apply_gate.hpp"

@@ -5,6 +5,8 @@
 /// Work of the self-test for one case and one defect.
 namespace tripoint {
 
+struct Defect;
+
 /// The engine whose test build a defect is put into. It is the solver in one process, unless each gate that must turn red judges
 /// the solver over ranks alone.
 [[nodiscard]] std::string engine_of_defect(const Case&, const Defect&);

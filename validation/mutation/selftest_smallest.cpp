@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "validation/case/case.hpp"
 #include "validation/mutation/selftest_runs.hpp"
 #include "validation/mutation/smallest.hpp"
 

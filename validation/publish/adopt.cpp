@@ -9,6 +9,7 @@
 
 #include "core/errors.hpp"
 #include "validation/campaign/suite.hpp"
+#include "validation/case/case.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/mutation/seeds.hpp"
 #include "validation/publish/releases.hpp"

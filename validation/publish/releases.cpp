@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "validation/case/case.hpp"
 
 namespace tripoint {
 namespace {

@@ -9,6 +9,8 @@
 /// Accuracy by release: one case on several releases of an engine, oldest first.
 namespace tripoint {
 
+struct Case;
+
 struct Release {
   EngineEntry engine;
   CaseResult result;

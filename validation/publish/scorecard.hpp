@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "validation/case/case.hpp"
 #include "validation/results/results.hpp"
 #include "validation/run/discover.hpp"
 
 /// An engine judged by the limits that any engine must hold: a row a case, totals, and its place among the engines that ran.
 namespace tripoint {
+
+struct Case;
 
 /// Score of an engine in a case by the limits that any engine must hold.
 enum class Score { pass, fail, known_defect, inconclusive, diverged, crashed, not_judged, refused, missing };

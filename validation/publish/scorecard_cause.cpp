@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "validation/case/case.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/case/gated_metric.hpp"
 #include "validation/case/known_defect.hpp"

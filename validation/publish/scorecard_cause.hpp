@@ -2,10 +2,11 @@
 #pragma once
 #include <string>
 
-#include "validation/case/case.hpp"
-#include "validation/results/results.hpp"
-
 namespace tripoint {
+
+struct Case;
+struct CaseResult;
+struct EngineRow;
 
 /// What an engine's error looks like, for each acceptance limit that it exceeds: the known defect of another engine whose band
 /// holds it, and the size of a registered defect of our solver that would make it. Empty where nothing is like it.

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "files/job.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/phase_values.hpp"
 #include "validation/case/engine_names.hpp"
+#include "validation/results/results.hpp"
 
 namespace tripoint {
 namespace {

@@ -3,11 +3,11 @@
 #include <map>
 #include <string>
 
-#include "files/job.hpp"
-#include "validation/results/results.hpp"
-
 /// Cost of a run before it is made: good enough to share work out, never shown as a measurement.
 namespace tripoint {
+
+struct Job;
+struct Results;
 
 /// CPU seconds that earlier runs cost, by their folder ("runs/CASE/ENGINE/LABEL").
 [[nodiscard]] std::map<std::string, double> measured_costs(const Results&);

@@ -12,6 +12,7 @@
 #include "validation/queue/published.hpp"
 #include "validation/queue/standing.hpp"
 #include "validation/run/plain_tree.hpp"
+#include "validation/case/case.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;

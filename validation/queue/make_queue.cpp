@@ -9,6 +9,7 @@
 
 #include "core/durable_file.hpp"
 #include "validation/campaign/case_run.hpp"
+#include "validation/case/case.hpp"
 #include "validation/queue/cost.hpp"
 #include "validation/queue/published.hpp"
 

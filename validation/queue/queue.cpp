@@ -11,6 +11,7 @@
 
 #include "core/errors.hpp"
 #include "tables/toml_node.hpp"
+#include "validation/case/case.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/results/json_text.hpp"
 

@@ -15,6 +15,7 @@
 
 #include "core/errors.hpp"
 #include "validation/campaign/case_run.hpp"
+#include "validation/case/case.hpp"
 #include "validation/queue/published.hpp"
 #include "validation/queue/standing.hpp"
 #include "validation/results/interrupt.hpp"

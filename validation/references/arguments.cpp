@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tables/nearest.hpp"
+#include "scene/scene.hpp"
 
 namespace tripoint {
 

@@ -5,7 +5,7 @@
 
 #include "core/vec3.hpp"
 #include "files/reference_choice.hpp"
-#include "scene/scene.hpp"
+#include "scene/term.hpp"
 #include "validation/references/reference.hpp"
 
 namespace tripoint {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
+#include "files/job.hpp"
 #include "validation/references/on_plane.hpp"
 #include "validation/references/resting.hpp"
 

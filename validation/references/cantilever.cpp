@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "files/job.hpp"
 #include "validation/references/beam.hpp"
 #include "validation/references/heat_scene.hpp"
 #include "validation/references/number_table.hpp"

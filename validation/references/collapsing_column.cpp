@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "files/job.hpp"
 #include "scene/geometry.hpp"
 #include "validation/references/collapse_mesh.hpp"
 #include "validation/references/liquid_scene.hpp"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "files/job.hpp"
 #include "scene/shared_terms.hpp"
 #include "validation/references/cosine_wave.hpp"
 #include "validation/references/functions.hpp"

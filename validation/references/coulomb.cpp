@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "files/job.hpp"
 #include "validation/references/contact_entries.hpp"
 #include "validation/references/on_plane.hpp"
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "files/job.hpp"
 #include "scene/geometry.hpp"
 #include "validation/references/liquid_scene.hpp"
 

@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "tables/nearest.hpp"
+#include "validation/case/case.hpp"
 #include "validation/references/functions.hpp"
 
 namespace tripoint {

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "validation/case/case.hpp"
 #include "validation/references/reference.hpp"
 
 /// Measured data: a table beside the case, `<case>.ref.csv`, that says where it comes from, in what unit and how well it is
@@ -20,6 +19,8 @@
 ///
 /// Other comments are free text. The first column is the time, and it rises.
 namespace tripoint {
+
+struct Case;
 
 /// A data file as read.
 struct ExperimentFile {

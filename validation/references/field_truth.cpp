@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "validation/references/field_truth.hpp"
+#include "core/not_a_number.hpp"
 
 namespace tripoint {
 

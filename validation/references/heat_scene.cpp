@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "validation/references/heat_scene.hpp"
+#include "files/job.hpp"
 #include "scene/geometry.hpp"
 
 #include <algorithm>

@@ -7,6 +7,8 @@
 
 namespace tripoint {
 
+enum class Phase : int;
+
 /// A conducting scene along one axis: its ends, and whether it closes on itself.
 struct BarAxis {
   std::size_t axis = 0;          ///< 0, 1, 2 for x, y, z

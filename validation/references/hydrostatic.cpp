@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "files/job.hpp"
 #include "validation/references/liquid_scene.hpp"
 
 namespace tripoint {

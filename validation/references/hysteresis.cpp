@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
+#include "files/job.hpp"
 #include "validation/references/functions.hpp"
 #include "validation/references/region.hpp"
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "files/job.hpp"
 #include "validation/references/functions.hpp"
 #include "validation/references/rigid_body.hpp"
 

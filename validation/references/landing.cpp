@@ -4,6 +4,8 @@
 #include <Eigen/Dense>
 #include <optional>
 
+#include "core/not_a_number.hpp"
+#include "files/job.hpp"
 #include "scene/geometry.hpp"
 #include "validation/references/contact_entries.hpp"
 #include "validation/references/on_plane.hpp"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "files/job.hpp"
 #include "scene/shared_terms.hpp"
 
 namespace tripoint {

@@ -2,6 +2,8 @@
 #pragma once
 #include <cstddef>
 
+#include "core/not_a_number.hpp"
+#include "scene/scene.hpp"
 #include "validation/references/functions.hpp"
 #include "validation/references/heat_scene.hpp"
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "files/job.hpp"
 #include "tables/nearest.hpp"
 #include "validation/references/contact_entries.hpp"
 

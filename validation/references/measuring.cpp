@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "validation/references/measuring.hpp"
 
+#include "files/job.hpp"
 #include "tables/nearest.hpp"
 
 namespace tripoint {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "scene/scene.hpp"
 #include "validation/references/functions.hpp"
 
 namespace tripoint {

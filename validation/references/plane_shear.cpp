@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "validation/references/plane_shear.hpp"
+#include "files/job.hpp"
 
 #include <cmath>
 #include <numbers>

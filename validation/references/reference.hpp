@@ -6,11 +6,13 @@
 #include <string_view>
 #include <vector>
 
-#include "files/job.hpp"
+#include "files/reference_choice.hpp"
 #include "files/trajectory.hpp"
 #include "tables/words.hpp"
 
 namespace tripoint {
+
+struct Job;
 
 /// Measured values of a quantity in an experiment, in SI.
 struct MeasuredCurve {

@@ -3,6 +3,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/not_a_number.hpp"
+#include "files/job.hpp"
 #include "validation/references/reference.hpp"
 #include "validation/references/rigid_body.hpp"
 #include "validation/references/torque_free.hpp"

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "files/job.hpp"
 #include "validation/references/cosine_wave.hpp"
 #include "validation/references/functions.hpp"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "validation/references/solid_scene.hpp"
 
+#include "files/job.hpp"
 #include "scene/shared_terms.hpp"
 #include "tables/nearest.hpp"
 #include "validation/references/heat_scene.hpp"

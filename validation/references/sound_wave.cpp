@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
+#include "files/job.hpp"
 #include "validation/references/liquid_scene.hpp"
 
 namespace tripoint {

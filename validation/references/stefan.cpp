@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "files/job.hpp"
 #include "validation/references/heat_scene.hpp"
 #include "validation/references/neumann.hpp"
 #include "validation/references/solid_scene.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
+#include "files/job.hpp"
 #include "validation/references/functions.hpp"
 #include "validation/references/heat_scene.hpp"
 #include "validation/references/step_images.hpp"

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/not_a_number.hpp"
 #include "tables/nearest.hpp"
 #include "validation/references/experiment.hpp"
 #include "validation/references/field_truth.hpp"

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "files/job.hpp"
 #include "validation/references/liquid_scene.hpp"
 
 namespace tripoint {

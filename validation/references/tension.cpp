@@ -4,6 +4,7 @@
 #include <limits>
 #include <set>
 
+#include "files/job.hpp"
 #include "validation/references/heat_scene.hpp"
 #include "validation/references/solid_scene.hpp"
 

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/not_a_number.hpp"
+#include "files/job.hpp"
 #include "validation/references/functions.hpp"
 #include "validation/references/heat_scene.hpp"
 #include "validation/references/two_layers.hpp"

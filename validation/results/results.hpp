@@ -5,11 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "core/not_a_number.hpp"
 #include "files/status.hpp"
-#include "validation/case/case.hpp"
+#include "validation/case/choices.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/metrics/ladder_limit.hpp"
-#include "validation/metrics/metric.hpp"
+#include "validation/metrics/metric_value.hpp"
 #include "validation/metrics/order.hpp"
 #include "validation/results/case_hash.hpp"
 #include "validation/results/verdict.hpp"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "files/job.hpp"
 #include "validation/run/run_one.hpp"
 
 namespace tripoint {

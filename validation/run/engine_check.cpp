@@ -13,8 +13,10 @@
 #include "core/errors.hpp"
 #include "core/foreign_json.hpp"
 #include "files/foreign_file.hpp"
+#include "files/job.hpp"
 #include "files/trajectory.hpp"
 #include "scene/sample.hpp"
+#include "validation/case/read_case.hpp"
 #include "validation/run/run_one.hpp"
 #include "validation/run/sandbox.hpp"
 

@@ -15,6 +15,7 @@
 #include "core/durable_file.hpp"
 #include "core/whole_number.hpp"
 #include "files/foreign_file.hpp"
+#include "files/job.hpp"
 #include "files/trajectory.hpp"
 
 namespace tripoint {

@@ -3,8 +3,10 @@
 
 #include <cmath>
 
+#include "files/job.hpp"
 #include "scene/contact_law.hpp"
 #include "scene/sample.hpp"
+#include "validation/case/case.hpp"
 #include "validation/metrics/metric.hpp"
 #include "validation/references/measuring.hpp"
 #include "validation/results/expected_refusal.hpp"

@@ -10,6 +10,7 @@
 
 #include "core/errors.hpp"
 #include "validation/case/engine_names.hpp"
+#include "validation/case/read_case.hpp"
 #include "validation/results/rows.hpp"
 
 namespace tripoint {

@@ -4,13 +4,20 @@
 #include <string>
 #include <vector>
 
-#include "files/job.hpp"
+#include "scene/defaults.hpp"
+#include "tables/settings.hpp"
+#include "validation/case/case_words.hpp"
 #include "validation/case/engine_names.hpp"
-#include "validation/case/read_case.hpp"
+#include "validation/case/study_axes.hpp"
 #include "validation/run/discover.hpp"
 
 /// From a case to the list of its runs and their jobs.
 namespace tripoint {
+
+struct Case;
+struct InitialState;
+struct Job;
+struct ReferenceChoice;
 
 /// One run that is to be made.
 struct RunPlan {

@@ -8,10 +8,14 @@
 #include <filesystem>
 
 #include "files/foreign_file.hpp"
+#include "files/job.hpp"
 #include "files/trajectory.hpp"
 #include "scene/contact_law.hpp"
 #include "validation/audit/audit.hpp"
+#include "validation/case/case.hpp"
 #include "validation/case/engine_names.hpp"
+#include "validation/metrics/metric.hpp"
+#include "validation/references/reference.hpp"
 #include "validation/run/finished_run.hpp"
 #include "validation/run/instructions.hpp"
 #include "validation/run/replies.hpp"

@@ -5,11 +5,15 @@
 #include <memory>
 #include <string>
 
+#include "files/result.hpp"
 #include "validation/results/results.hpp"
 #include "validation/run/plan_runs.hpp"
 #include "validation/run/process.hpp"
 
 namespace tripoint {
+
+struct MetricChoice;
+struct Trajectory;
 
 /// One job for one engine executable.
 struct RunRequest {

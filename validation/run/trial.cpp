@@ -12,10 +12,14 @@
 #include <set>
 
 #include "core/errors.hpp"
+#include "files/job.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/sample.hpp"
 #include "tables/nearest.hpp"
+#include "validation/case/case.hpp"
 #include "validation/case/engine_names.hpp"
+#include "validation/metrics/metric.hpp"
+#include "validation/references/reference.hpp"
 #include "validation/results/expected_refusal.hpp"
 #include "validation/run/run_one.hpp"
 

@@ -2,11 +2,13 @@
 #pragma once
 #include <vector>
 
-#include "files/job.hpp"
 #include "validation/case/preflight.hpp"
-#include "validation/case/read_case.hpp"
 
 namespace tripoint {
+
+struct Case;
+struct InitialState;
+struct Job;
 
 /// Faults of a case that only the harness can tell before anything runs. They are words that nobody evaluates, references that do
 /// not fit the scene, and metrics that no run could form. The metrics are tried on particles that stay where they start. An

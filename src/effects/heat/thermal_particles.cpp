@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/not_a_number.hpp"
 #include "scene/geometry.hpp"
 #include "solids/fusion.hpp"
 
