@@ -69,6 +69,11 @@ bool ValueReader::operator()(const Key& key, std::vector<std::string>& value) {
   return false;
 }
 
+bool ValueReader::operator()(const Key& key, Settings& value) {
+  value = in_.settings(key.name);
+  return false;
+}
+
 bool ValueReader::operator()(const Key& key, std::array<bool, 3>& value) {
   for (const auto& word : in_.texts(key.name)) value[static_cast<std::size_t>(word[0] - 'x')] = true;
   return false;

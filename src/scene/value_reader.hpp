@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -34,6 +35,7 @@ class ValueReader {
   bool operator()(const Key&, std::optional<Vec3>&);
   bool operator()(const Key&, Quaternion&);
   bool operator()(const Key&, std::vector<std::string>&);
+  bool operator()(const Key&, Settings&);
   bool operator()(const Key&, std::array<bool, 3>&);         ///< words x y z
   bool operator()(const Key&, std::array<std::string, 3>&);  ///< expressions
   bool operator()(const Key&, std::array<Vec3, 3>&);         ///< rows
@@ -81,6 +83,11 @@ class RecordReader {
       if (entry.key.name == name) absent = read(entry);
     });
     return absent;
+  }
+
+  /// Reads some keys, in this order.
+  void each(std::initializer_list<std::string_view> names) {
+    for (const std::string_view name : names) static_cast<void>((*this)(name));
   }
 
   /// Reads all keys; absent(name) is called for each that has no value.

@@ -7,8 +7,10 @@
 #include <filesystem>
 
 #include "scene/readers.hpp"
+#include "scene/value_reader.hpp"
 #include "tables/library.hpp"
 #include "validation/case/case_document.hpp"
+#include "validation/case/case_records.hpp"
 #include "validation/case/judge_readers.hpp"
 
 namespace tripoint {
@@ -37,17 +39,11 @@ void read_head(const TomlNode& node, Case& c, Reading& reading) {
     c.title = *title;
   else
     in.ruled("title", "\"" + (c.title = c.id) + "\"", "the id");
-  c.requirement = in.text("requirement");
-  c.claims = in.text("claims");
-  c.kind = from_word<CaseKind>(in.text("kind"));
-  c.profiles = in.texts("profiles");
-  c.tags = in.texts("tags");
-  c.expect = from_word<Expect>(in.text("expect"));
-  if (in.has("modes")) {
-    c.modes.clear();
-    for (const auto& word : in.texts("modes")) c.modes.push_back(mode_from(word));
-    if (c.modes.empty()) in.refuse("modes", "name at least one of corrected, paper");
-  }
+  RecordReader read(in, c, reading);
+  read.each({"requirement", "claims", "kind", "profiles", "tags", "expect"});
+  if (!in.has("modes")) return;
+  read("modes");
+  if (c.modes.empty()) in.refuse("modes", "name at least one of corrected, paper");
 }
 
 void read_judgement(TableReader& top, Case& c, Reading& reading) {

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "scene/readers.hpp"
+#include "scene/value_reader.hpp"
 #include "tables/expression.hpp"
 #include "tables/nearest.hpp"
+#include "validation/case/case_records.hpp"
 #include "validation/case/dates.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/case/gated_metric.hpp"
@@ -20,11 +21,8 @@ EngineChoice read_engine(const TomlNode& node, const std::string& name, Reading&
   plain_name(in, "", name);
   EngineChoice e;
   e.name = name;
-  const bool says = in.has("required");
-  e.required = in.flag("required") || (is_own_solver(name) && !says);  // ours is required where a case says nothing else
-  e.adopted = in.flag("adopted");
-  e.presets = in.texts("preset");
-  e.settings = in.settings("settings");
+  RecordReader(in, e, reading).each({"required", "adopted", "preset", "settings"});
+  if (is_own_solver(name) && !in.has("required")) e.required = true;  // ours is required where a case says nothing else
   if (const auto refuses = in.maybe_text("refuses")) {
     if (refuses->empty()) in.refuse("refuses", "write words of the engine's own reason");
     if (e.required)
@@ -55,16 +53,16 @@ static void check_formulas(const TableReader& in, const Settings& args) {
 ReferenceChoice read_reference(const TomlNode& node, const std::string& path, Reading& reading) {
   TableReader in = case_table(node, "reference", path, reading);
   ReferenceChoice r;
-  r.kind = from_word<ReferenceKind>(in.text("kind"));
-  r.function = in.maybe_text("function").value_or("");
+  RecordReader read(in, r, reading);
+  read.each({"kind", "function"});
   const bool formula =
       r.kind == ReferenceKind::analytic || r.kind == ReferenceKind::discrete_exact || r.kind == ReferenceKind::mms;
   if (formula && r.function.empty())
     in.refuse(in.has("function") ? "function" : "kind",
               fmt::format("a reference of kind \"{}\" needs the key `function`: the exact solution's name", r.kind));
-  r.args = in.settings("args");
+  read("args");
   if (r.function == "expression") check_formulas(in, r.args);
-  r.file = in.text("file");
+  read("file");
   if (r.kind == ReferenceKind::experiment && r.file.empty())
     in.refuse("kind", "a reference of kind \"experiment\" needs the key `file`: the data beside the case");
   if (r.function == "table" && r.file.empty())
@@ -79,8 +77,7 @@ ReferenceChoice read_reference(const TomlNode& node, const std::string& path, Re
       in.refuse("file", fmt::format("no file `{}` beside the case", printable(r.file)));
     r.file = std::filesystem::absolute(full).lexically_normal().string();
   }
-  r.source = in.text("source");
-  r.uncertainty = in.number("uncertainty");
+  read.each({"source", "uncertainty"});
   return r;
 }
 
@@ -88,18 +85,15 @@ MetricChoice read_metric(const TomlNode& node, Reading& reading) {
   TableReader in = case_table(node, "metric", "metric." + entry_name(node, 1), reading);
   MetricChoice m;
   m.place = node.place;
-  m.name = in.text("name");
+  RecordReader read(in, m, reading);
+  read("name");
   plain_name(in, "name", m.name);
-  m.quantity = in.text("quantity");
-  m.norm = from_word<Norm>(in.text("norm"));
-  m.body = in.text("body");
-  m.at = in.text("at");
+  read.each({"quantity", "norm", "body", "at"});
   const auto window = in.numbers("window");
   if (window.size() != 2 || (in.has("window") && !(window[1] > window[0] && window[0] >= 0.0)))
     in.refuse("window", "write [from, to] in s, 0 <= from < to");
   m.window = {window[0], window[1]};
-  m.scale = in.number("scale");
-  m.unit = in.text("unit");
+  read.each({"scale", "unit"});
   if (const auto* r = in.composite("reference")) m.reference = read_reference(*r, in.path() + ".reference", reading);
   return m;
 }
@@ -149,16 +143,16 @@ Study read_study(const TomlNode& node, std::size_t number, double end_time, Read
   s.time_steps = read_together(in, "time_steps", s);
   s.axes.support_ratio = !s.support_ratios.empty();
   s.axes.time_step = !s.time_steps.empty();
-  s.jitter = in.number("jitter");
+  RecordReader read(in, s, reading);
+  read("jitter");
   constexpr long most_seeds = 1000;
   const long seeds = in.integer("seeds");
   if (seeds > most_seeds)
     in.refuse("seeds", fmt::format("{} runs for each level are more than the {} that can be planned", seeds, most_seeds));
   s.seeds = static_cast<int>(seeds);
-  s.engine = in.text("engine");
+  read("engine");
   s.mode = read_mode(in);
-  s.order = in.maybe_number("order");
-  s.metric = in.text("metric");
+  read.each({"order", "metric"});
   if (const auto word = in.text("expect"); !word.empty()) s.expect = from_word<FitClass>(word);
   return s;
 }
@@ -167,12 +161,10 @@ Gate read_gate(const TomlNode& node, std::size_t number, Reading& reading) {
   TableReader in = case_table(node, "gate", fmt::format("gate.{}", number), reading);
   Gate g;
   g.place = node.place;
-  g.metric = in.text("metric");
-  g.engine = in.text("engine");
+  RecordReader read(in, g, reading);
+  read.each({"metric", "engine"});
   g.mode = read_mode(in);
-  g.preset = in.text("preset");
-  g.limit = in.maybe_number("limit");
-  g.at_least = in.maybe_number("at_least");
+  read.each({"preset", "limit", "at_least"});
   if (const auto band = in.maybe_numbers("band")) {
     if (band->size() != 2 || !((*band)[0] <= (*band)[1])) in.refuse("band", "write [low, high] with low <= high");
     g.band = std::array<double, 2>{(*band)[0], (*band)[1]};
@@ -187,13 +179,10 @@ Gate read_gate(const TomlNode& node, std::size_t number, Reading& reading) {
                      : g.at_least ? "at_least"
                      : g.band     ? "band"
                                   : "expect");  // the line that a red gate points at
-  g.level = in.maybe_number("level");
-  g.drift = in.maybe_number("drift");
-  g.reason = in.text("reason");
+  read.each({"level", "drift", "reason"});
   if (g.reason.find_first_not_of(" \t\n") == std::string::npos)
     in.refuse("reason", "a limit needs a reason: say where the number comes from");
-  g.by = in.text("by");
-  g.date = in.text("date");
+  read.each({"by", "date"});
   if (!g.date.empty() && !is_date(g.date)) in.refuse("date", "write a day that has been, as 2026-11-29, or no date");
   return g;
 }
@@ -202,9 +191,7 @@ UncertainInput read_input(const TomlNode& node, std::size_t number, Reading& rea
   TableReader in = case_table(node, "input", fmt::format("input.{}", number), reading);
   UncertainInput u;
   u.place = node.place;
-  u.key = in.text("key");
-  u.low = in.text("low");
-  u.high = in.text("high");
+  RecordReader(in, u, reading).each({"key", "low", "high"});
   if (u.key.find('.') == std::string::npos || u.key.find('=') != std::string::npos)
     in.refuse("key", "write a key as --set takes it: scene.viscosity_form, material.water.viscosity");
   if (u.low == u.high) in.refuse("high", "low and high are the same: that is an exact input");
@@ -215,10 +202,7 @@ Defect read_defect(const TomlNode& node, std::size_t number, Reading& reading) {
   TableReader in = case_table(node, "defect", fmt::format("defect.{}", number), reading);
   Defect d;
   d.place = node.place;
-  d.name = in.text("name");
-  d.size = in.number("size");
-  d.smallest = in.maybe_number("smallest");
-  d.killed_by = in.texts("killed_by");
+  RecordReader(in, d, reading).each({"name", "size", "smallest", "killed_by"});
   return d;
 }
 
