@@ -19,6 +19,7 @@
 #include "validation/case/read_case.hpp"
 #include "validation/results/escaped_text.hpp"
 #include "validation/results/interrupt.hpp"
+#include "validation/results/json_text.hpp"
 #include "validation/results/verdict.hpp"
 
 namespace tripoint {
@@ -138,10 +139,8 @@ int ablate(const AblateOptions& o) {
     document.push_back(json_of(c, base.at(c.id), without_pieces));
     print_case(c, base.at(c.id), without_pieces);
   }
-  write_durably(
-      (fs::path(o.out) / "ablation.json").string(),
-      Json{{"format", 1}, {"tool", this_tool().commit}, {"cases", document}}.dump(1, ' ', false, Json::error_handler_t::replace) +
-          "\n");
+  write_durably((fs::path(o.out) / "ablation.json").string(),
+                json_text(Json{{"format", 1}, {"tool", this_tool().commit}, {"cases", document}}));
   const auto results = fs::path(o.out) / "results.json";
   const auto next = fs::exists(results) ? "tripoint report " + results.string() + " draws its page"
                                         : "with --out the folder of a report, tripoint report draws its page";

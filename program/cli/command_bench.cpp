@@ -14,6 +14,7 @@
 #include "program/bench/measure.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
+#include "validation/results/json_text.hpp"
 
 namespace tripoint {
 namespace {
@@ -164,7 +165,7 @@ int run_bench(const BenchOptions& o) {
     else
       print_row(w, m);
   }
-  if (o.as_document) print(json{{"format", 1}, {"machine", machine()}, {"threads", how.threads}, {"works", rows}}.dump(2) + "\n");
+  if (o.as_document) print(json_text(json{{"format", 1}, {"machine", machine()}, {"threads", how.threads}, {"works", rows}}, 2));
   return 0;
 }
 

@@ -21,6 +21,7 @@
 #include "validation/case/case_document.hpp"
 #include "validation/case/read_case.hpp"
 #include "validation/case/shape_match.hpp"
+#include "validation/results/json_text.hpp"
 
 namespace tripoint {
 namespace {
@@ -179,7 +180,7 @@ int explain(const ExplainOptions& options) {
     json document = as_json(reading, planned);
     if (has_mesh(scene)) document["meshes"] = meshes_of(scene);
     if (options.trial.value_or(0) > 0) document["trial"] = as_json(trial(*options.trial), options.threads);
-    print(document.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
+    print(json_text(document, 2));
     return 0;
   }
   const long steps = options.trial.value_or(usual_trial);

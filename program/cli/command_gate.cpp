@@ -15,6 +15,7 @@
 #include "validation/baseline/history.hpp"
 #include "validation/campaign/recheck.hpp"
 #include "validation/campaign/suite.hpp"
+#include "validation/case/case.hpp"
 #include "validation/mutation/seeds.hpp"
 #include "validation/mutation/selftest.hpp"
 #include "validation/results/interrupt.hpp"

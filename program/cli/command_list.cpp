@@ -9,6 +9,7 @@
 #include "program/cli/common.hpp"
 #include "validation/campaign/suite.hpp"
 #include "validation/case/case.hpp"
+#include "validation/results/json_text.hpp"
 
 namespace tripoint {
 namespace {
@@ -38,7 +39,7 @@ int list(const CaseFilter& filter, bool json) {
                         {"tags", c.tags},
                         {"file", c.file}});
   }
-  if (json) print(nlohmann::ordered_json{{"cases", document}}.dump(2) + "\n");
+  if (json) print(json_text(nlohmann::ordered_json{{"cases", document}}, 2));
   return 0;
 }
 

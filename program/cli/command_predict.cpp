@@ -18,6 +18,7 @@
 #include "validation/campaign/suite.hpp"
 #include "validation/case/read_case.hpp"
 #include "validation/results/interrupt.hpp"
+#include "validation/results/json_text.hpp"
 #include "validation/results/results.hpp"
 #include "validation/results/verdict.hpp"
 
@@ -69,8 +70,7 @@ std::string text_of(const std::string& path) {
 int compare(const PredictOptions& o) {
   const auto document = nlohmann::ordered_json::parse(text_of(o.compare), nullptr, false);
   if (document.is_discarded()) throw InputError(o.compare + ": is no JSON");
-  print(o.json ? document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n"
-               : prediction_text(document));
+  print(o.json ? json_text(document, 2) : prediction_text(document));
   return exit_pass;
 }
 
@@ -201,8 +201,7 @@ int predict_case(PredictOptions o) {
                     1e6 * r.machine.latency));
   add_lines(r, o, runs);
   const nlohmann::ordered_json document = prediction_json(r);
-  print(o.json ? document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n"
-               : prediction_text(document));
+  print(o.json ? json_text(document, 2) : prediction_text(document));
   return exit_pass;
 }
 

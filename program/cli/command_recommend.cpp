@@ -15,6 +15,7 @@
 #include "validation/case/case.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/results/interrupt.hpp"
+#include "validation/results/json_text.hpp"
 #include "validation/results/rows.hpp"
 #include "validation/results/verdict.hpp"
 #include "validation/run/sandbox.hpp"
@@ -199,19 +200,18 @@ int recommend(RecommendOptions o) {
   const bool met = o.error.empty() ? made.cpu_s <= o.seconds : made.error <= wish;
   const double error_factor = factor_between(r->error.value, made.error), cpu_factor = factor_between(r->cpu_s.value, made.cpu_s);
   if (o.json)
-    print(nlohmann::ordered_json{{"found", true},
-                                 {"case", value.id},
-                                 {"metric", metric},
-                                 {"engine", r->ladder->engine},
-                                 {"preset", r->ladder->preset},
-                                 {"mode", r->ladder->mode},
-                                 {"axis", r->ladder->axis},
-                                 {"level", r->level},
-                                 {"predicted", {{"error", r->error.value}, {"cpu_s", r->cpu_s.value}}},
-                                 {"measured", {{"error", made.error}, {"cpu_s", made.cpu_s}}},
-                                 {"met", met}}
-              .dump(2) +
-          "\n");
+    print(json_text(nlohmann::ordered_json{{"found", true},
+                                           {"case", value.id},
+                                           {"metric", metric},
+                                           {"engine", r->ladder->engine},
+                                           {"preset", r->ladder->preset},
+                                           {"mode", r->ladder->mode},
+                                           {"axis", r->ladder->axis},
+                                           {"level", r->level},
+                                           {"predicted", {{"error", r->error.value}, {"cpu_s", r->cpu_s.value}}},
+                                           {"measured", {{"error", made.error}, {"cpu_s", made.cpu_s}}},
+                                           {"met", met}},
+                    2));
   else
     print(fmt::format("the run: error {:.4g} (predicted to a factor {:.2f}), {:.3g} CPU s (to {:.2f}): {}\n", made.error,
                       error_factor, made.cpu_s, cpu_factor, met ? "meets the wish" : "DOES NOT meet the wish"));

@@ -26,6 +26,7 @@
 #include "validation/case/read_case.hpp"
 #include "validation/metrics/metric.hpp"
 #include "validation/results/interrupt.hpp"
+#include "validation/results/json_text.hpp"
 #include "validation/results/rows.hpp"
 #include "validation/results/verdict.hpp"
 #include "validation/run/earlier_run.hpp"
@@ -172,18 +173,18 @@ void print_json(const RunOptions& o, const Outcome& outcome, const std::map<std:
     if (!std::isfinite(m.value)) values[name]["finite"] = false;
   }
   const auto& r = outcome.result;
-  print(nlohmann::ordered_json{
-            {"status", outcome.status},
-            {"reason", outcome.reason},
-            {"time_reached", r.time_reached},
-            {"steps", r.steps},
-            {"time_step_bound", r.time_step_bound},
-            {"state_hash", r.state_hash},
-            {"cost", {{"cpu_s", outcome.cost.cpu_s}, {"wall_s", outcome.cost.wall_s}, {"peak_bytes", outcome.cost.peak_bytes}}},
-            {"metrics", values},
-            {"folder", o.out}}
-            .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
-        "\n");
+  print(json_text(
+      nlohmann::ordered_json{
+          {"status", outcome.status},
+          {"reason", outcome.reason},
+          {"time_reached", r.time_reached},
+          {"steps", r.steps},
+          {"time_step_bound", r.time_step_bound},
+          {"state_hash", r.state_hash},
+          {"cost", {{"cpu_s", outcome.cost.cpu_s}, {"wall_s", outcome.cost.wall_s}, {"peak_bytes", outcome.cost.peak_bytes}}},
+          {"metrics", values},
+          {"folder", o.out}},
+      2));
 }
 
 /// Says the findings of `check` about particles and metrics: a run of its own is not refused for them, but not silent either.

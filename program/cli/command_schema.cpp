@@ -12,10 +12,12 @@
 #include "files/job_schema.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
+#include "tables/text_table.hpp"
 #include "validation/case/schema.hpp"
 #include "validation/metrics/metric.hpp"
 #include "validation/references/measuring.hpp"
 #include "validation/references/reference.hpp"
+#include "validation/results/json_text.hpp"
 
 namespace tripoint {
 namespace {
@@ -52,7 +54,7 @@ std::string schema() {
   document["x-reference-functions"] = functions;
   document["x-quantities"] = words_of(metric_quantities());
   document["x-norms"] = words_of(metric_norms());
-  return document.dump(2) + "\n";
+  return json_text(document, 2);
 }
 
 std::string word_list(const char* title, const std::vector<MetricWord>& words) {
@@ -111,10 +113,10 @@ std::string value_words(const json& value) {
 }
 
 std::string key_table(const std::string& title, const json& table) {
-  std::string out = fmt::format("| {} | value | meaning |\n|---|---|---|\n", title);
+  TextTable text({{title}, {"value"}, {"meaning"}});
   for (const auto& [name, value] : table["properties"].items())
-    out += fmt::format("| `{}` | {} | {} |\n", name, value_words(value), value.value("description", ""));
-  return out + "\n";
+    text.add({fmt::format("`{}`", name), value_words(value), value.value("description", "")});
+  return text.markdown() + "\n";
 }
 
 /// The tables of a schema that an engine's author looks up. Scene, materials and shapes have the keys of the case file.
@@ -132,7 +134,7 @@ struct Wanted {
 std::string wanted_text(const Wanted& wanted) {
   if (!wanted.job && !wanted.result) return wanted.page ? page() : schema();
   const json chosen = wanted.job ? job_schema() : result_schema();
-  return wanted.page ? key_tables(chosen, wanted.job ? "JOB.json" : "result.json") : chosen.dump(2) + "\n";
+  return wanted.page ? key_tables(chosen, wanted.job ? "JOB.json" : "result.json") : json_text(chosen, 2);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "program/cli/merge.hpp"
 #include "program/cli/options.hpp"
 #include "validation/baseline/history.hpp"
+#include "validation/case/case.hpp"
 #include "validation/judge/judge.hpp"
 #include "validation/publish/report_files.hpp"
 #include "validation/queue/cost.hpp"

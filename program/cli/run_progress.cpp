@@ -10,6 +10,7 @@
 
 #include "core/errors.hpp"
 #include "validation/results/escaped_text.hpp"
+#include "validation/results/json_text.hpp"
 
 namespace tripoint {
 namespace {
@@ -94,7 +95,7 @@ void RunProgress::show(double done) {
     if (last_->ledger_residual) line["ledger_residual"] = *last_->ledger_residual;
     if (last_->ledger_exchanged) line["ledger_exchanged"] = *last_->ledger_exchanged;
     line["seconds_left"] = left ? nlohmann::ordered_json(*left) : nlohmann::ordered_json();
-    tell(line.dump() + "\n");
+    tell(json_text(line, -1));
     return;
   }
   const std::string line = last_ ? status_line(*last_, done, left) : fmt::format("{:3.0f} %", 100.0 * done);

@@ -4,6 +4,7 @@
 
 #include "scene/effect_rule.hpp"
 #include "scene/scene.hpp"
+#include "tables/text_table.hpp"
 #include "tables/units.hpp"
 #include "validation/case/case_document.hpp"
 #include "validation/case/case_keys.hpp"
@@ -18,6 +19,8 @@ std::string cell(std::string_view text) {
   for (const char c : text) out += c == '|' ? std::string("\\|") : std::string(1, c);
   return out;
 }
+
+std::string code(std::string_view name) { return fmt::format("`{}`", name); }
 
 std::string type_words(const Key& k) {
   std::string text(k.type == ValueType::tables && k.words.empty() ? "three rows of three numbers" : type_text(k.type));
@@ -111,19 +114,18 @@ body_count = { value = 2, limit = 0, reason = "nothing breaks" }
 
 /// Table of the names of [invariants].
 std::string invariants_page() {
-  std::string out = "| name | quantity | norm | meaning |\n|---|---|---|---|\n";
+  TextTable table({{"name"}, {"quantity"}, {"norm"}, {"meaning"}});
   for (const Invariant& one : invariants())
-    out += fmt::format("| `{}` | `{}` | `{}` | {} |\n", one.name, one.quantity, one.norm, cell(one.meaning));
-  return out + "\n";
+    table.add({code(one.name), code(one.quantity), code(to_string(one.norm)), cell(one.meaning)});
+  return table.markdown() + "\n";
 }
 
 /// Table of the terms that the ledger can have.
 std::string ledger_page() {
-  std::string out =
-      "Terms of the ledger of energy, of `ledger.TERM` and of `/observables/energy_TERM` in `trajectory.h5`:\n\n| TERM | holds "
-      "|\n|---|---|\n";
-  for (const LedgerEntry& one : ledger_entries()) out += fmt::format("| `{}` | {} |\n", one.name, cell(one.holds));
-  return out + "\n";
+  TextTable table({{"TERM"}, {"holds"}});
+  for (const LedgerEntry& one : ledger_entries()) table.add({code(one.name), cell(one.holds)});
+  return "Terms of the ledger of energy, of `ledger.TERM` and of `/observables/energy_TERM` in `trajectory.h5`:\n\n" +
+         table.markdown() + "\n";
 }
 
 }  // namespace

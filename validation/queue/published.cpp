@@ -53,7 +53,7 @@ bool publish(const std::string& dir, const QueuedJob& job, const MadeRun& made, 
   fs::create_directories(folder);
   Json document{{"format", 1}, {"id", job.id}, {"worker", worker}, {"row", Json::parse(run_row_text(made.row))}};
   for (const auto& [term, energy] : made.ledger) document["ledger"][term] = json_number(energy);
-  write_durably((fs::path(folder) / "row.json").string(), document.dump(1) + "\n");
+  write_durably((fs::path(folder) / "row.json").string(), json_text(document));
   for (int n = 0; n < 100; ++n) {  // each turn takes one older folder out of the way
     if (std::rename(folder.c_str(), target.c_str()) == 0) return true;
     if (errno != ENOTEMPTY && errno != EEXIST) break;

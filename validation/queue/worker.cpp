@@ -17,6 +17,7 @@
 
 #include "core/errors.hpp"
 #include "validation/queue/queue.hpp"
+#include "validation/results/json_text.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;
@@ -115,7 +116,7 @@ Worker::Worker(std::string dir, int number) : dir_(std::move(dir)) {
   name_ = fmt::format("{}.{}.{}.{}", host_name(), ::getpid(), started, number);
   const nlohmann::ordered_json sign{
       {"host", host_name()}, {"machine", this_machine()}, {"pid", ::getpid()}, {"started", started}};
-  write_by_rename(sign_file(dir_, name_), sign.dump() + "\n", name_);
+  write_by_rename(sign_file(dir_, name_), json_text(sign, -1), name_);
   heart_ = std::thread([this] { beat(); });
 }
 
