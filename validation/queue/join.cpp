@@ -9,10 +9,10 @@
 
 #include "core/errors.hpp"
 #include "validation/campaign/case_run.hpp"
+#include "validation/case/case.hpp"
 #include "validation/queue/published.hpp"
 #include "validation/queue/standing.hpp"
 #include "validation/run/plain_tree.hpp"
-#include "validation/case/case.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;

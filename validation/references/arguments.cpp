@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "tables/nearest.hpp"
 #include "scene/scene.hpp"
+#include "tables/nearest.hpp"
 
 namespace tripoint {
 
