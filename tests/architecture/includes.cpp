@@ -42,7 +42,7 @@ const std::map<std::string, std::vector<std::string>, std::less<>> allowed{
     {"validation/case", {"core", "tables", "mesh", "scene", "files"}},
     {"validation/references", {"core", "tables", "scene", "files", "validation/case"}},
     {"validation/metrics", {"core", "tables", "mesh", "scene", "files", "validation/case", "validation/references"}},
-    {"validation/audit", {"core", "scene", "validation/references", "validation/metrics"}},
+    {"validation/audit", {"core", "scene", "files", "validation/references", "validation/metrics"}},
     {"validation/results",
      {"core", "tables", "scene", "files", "validation/case", "validation/references", "validation/metrics"}},
     {"validation/judge", {"core", "scene", "validation/case", "validation/metrics", "validation/results"}},
