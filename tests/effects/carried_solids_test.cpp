@@ -213,18 +213,5 @@ TEST(CarriedPhase, LiquidThatFlowsInBringsItsEnergy) {
   EXPECT_NEAR(lab::total_energy(s.ledger()), before, 1e-12 * std::abs(before));
 }
 
-/// A layer flows in beside particles that freeze in the same step.
-TEST(CarriedPhase, LiquidFreezesBesideWhatFlowsIn) {
-  lab::Lab lab = all_at_once();
-  lab.scene.inflows[0].temperature = lab::cold;
-  Simulation s(lab.scene, lab.initial);
-  const double before = lab::total_energy(s.ledger());
-  s.advance_to(0.08);
-  const auto body = lab::integers_by_id(s, field::body);
-  EXPECT_TRUE(
-      std::any_of(body.begin() + static_cast<std::ptrdiff_t>(lab.initial.size()), body.end(), [](int b) { return b >= 0; }));
-  EXPECT_NEAR(lab::total_energy(s.ledger()), before, 1e-12 * std::abs(before));
-}
-
 }  // namespace
 }  // namespace tripoint

@@ -234,20 +234,5 @@ TEST(NeverFails, Way20AnEngineOnThePathJoinsEveryCaseAndIsJudgedByWhatEveryEngin
   EXPECT_EQ(run_suite({value}, {wrong}, options).exit_code, exit_fail);
 }
 
-/// The audit refuses a frozen run before a gate sees it; the self-test asks what the gate sees.
-TEST(NeverFails, AGateOfTheSelfTestSeesARunThatTheAuditWouldRefuse) {
-  const TestFolder folder;
-  const auto value = read_flight_case(folder);
-  SuiteOptions options;
-  options.out = folder / "out";
-  options.selection.engines = {"fake"};
-  for (const bool self_test : {false, true}) {
-    if (self_test) options.environment["TRIPOINT_DEFECT"] = "frozen=1";
-    const auto c = run_suite({value}, {ask_engine(fake_engine(folder, "frozen"))}, options).cases.at(0);
-    EXPECT_EQ(c.engines.at(0).status == Status::ok, self_test) << c.engines[0].reason;
-    EXPECT_NE(c.exit_code, exit_pass);
-  }
-}
-
 }  // namespace
 }  // namespace tripoint

@@ -52,9 +52,7 @@ bool has_row(const Audited& run, std::size_t particle) {
 bool is_carried(const Audited& run, std::size_t particle) {
   const auto* body = body_of(run, particle);
   const Scene& scene = run.job.scene;
-  const bool carries = scene.has_brought_form(term::pressure);  // what melts then is shifted too
-  if (!scene.transport_velocity && !carries) return false;
-  return !body || body->phase == Phase::liquid || (carries && scene.material(body->material).t_melt);
+  return (scene.transport_velocity || scene.has_brought_form(term::pressure)) && (!body || body->phase == Phase::liquid);
 }
 
 Track track_of_particle(const Audited& run, std::size_t i) {

@@ -122,7 +122,6 @@ class CarriedLiquid : public Effect {
  private:
   void set_material(World&, std::size_t) const;
   void set_groups(World&) const;
-  void let_in(World&) const;
   void run(World&, const PairTerm&, bool liquids_only) const;
   void correct_gradients(World&) const;
   void correct_velocity_gradients(World&) const;
@@ -187,24 +186,19 @@ void CarriedLiquid::load(World& world, const InitialState&) {
 void CarriedLiquid::adopt(World& world) {
   world.step_numbers[held_for] = -1.0;
   const Change& change = world.change;
-  let_in(world);
-  set_groups(world);
-  if (change.regrouped.empty()) return;
-  const std::vector<std::size_t> touched = touched_rows(world, change.regrouped);
+  const std::vector<std::size_t> touched =
+      change.regrouped.empty() ? std::vector<std::size_t>{} : touched_rows(world, change.regrouped);
   const double before = energy_of(world, state_, kernels_, touched, 0.5 * drifted_);
-  for (const std::uint32_t id : change.regrouped) set_material(world, world.particles.row(id));
+  for (const auto* list : {&change.born, &change.regrouped})
+    for (const std::uint32_t id : *list) set_material(world, world.particles.row(id));
+  set_groups(world);
   take_pressure_around(world, state_, kernels_, change.melted);
-  world.booked[compression_released] += before - energy_of(world, state_, kernels_, touched, 0.5 * drifted_);
-}
-
-/// What flows in, ahead of all that looks at its neighbours.
-void CarriedLiquid::let_in(World& world) const {
-  const std::vector<std::uint32_t>& born = world.change.born;
-  for (const std::uint32_t id : born) set_material(world, world.particles.row(id));
-  take_pressure_around(world, state_, kernels_, born);
+  take_pressure_around(world, state_, kernels_, change.born);
+  if (!touched.empty())
+    world.booked[compression_released] += before - energy_of(world, state_, kernels_, touched, 0.5 * drifted_);
   const auto m = world.particles[field::mass], rho = world.particles[field::density],
              rest = world.particles[field::liquid_rest_density];
-  for (const std::uint32_t id : born) {
+  for (const std::uint32_t id : change.born) {
     const std::size_t i = world.particles.row(id);
     world.booked[account::inflow] += state_.energy(m[i], rho[i], rest[i]);
   }

@@ -42,7 +42,7 @@ std::vector<EffectKey> keys() {
        no_hourglass},
       {{"scene", "bond_reach", number, "", above_one, papers_support, "the paper's support, about 40 neighbours", "",
         "reach of bonds and support of the kernel (17), in spacings, whatever support_ratio is"}},
-      {{"scene", "bending", number, "", fraction, "0", "it costs stiffness where particles are disordered", "",
+      {{"scene", "bending", number, "", fraction, "1", "bars bend and twist by their own stiffness", "",
         "share of the bending correction, which makes gradients at surfaces exact for curved displacements (model 8.7); 0: none. "
         "Only where elasticity is corrected"},
        {},
@@ -55,8 +55,8 @@ std::vector<EffectKey> keys() {
 
 std::vector<DeclaredTerm> terms() {
   DeclaredTerm elasticity{term::elastic,
-                          {{"first-order", "gradients exact for linear displacements (8.7)", {{"bending", 0.0}}},
-                           {"second-order", "at surfaces exact for curved ones too", {{"bending", 1.0}}}}};
+                          {{"second-order", "gradients at surfaces exact for curved displacements too (8.7)", {{"bending", 1.0}}},
+                           {"first-order", "exact for linear ones", {{"bending", 0.0}}}}};
   elasticity.name = "elasticity";
   return {elasticity, {term::hourglass, {{"energy", "energy against modes without energy (8.7)"}}}};
 }

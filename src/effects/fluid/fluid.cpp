@@ -124,12 +124,6 @@ void Fluid::follow_temperature(World& world) const {
 }
 
 void Fluid::adopt(World& world) {
-  if (liquid::carries_density(world.scene))  // neighbours of what changes, which the jump looks at
-    for (const std::uint32_t id : world.change.born) {
-      const std::size_t row = world.particles.row(id);
-      set_material(world, row);
-      world.particles[field::group][row] = liquid_group;
-    }
   world.booked[compression_released] -= compression_jump(world, numbers_, kernels_, Groups(world), 0.5 * drifted_);
   for (const std::uint32_t id : world.change.born) set_material(world, world.particles.row(id));
   for (const std::uint32_t id : world.change.regrouped) set_material(world, world.particles.row(id));
