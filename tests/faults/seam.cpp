@@ -20,7 +20,6 @@
 //   FAULT_STACKS    how many callers make a stack of calls. Of calls for memory that are counted there is a line for each stack:
 //                   number of its first, of its last, name
 #include "faults/seam.hpp"
-#include "assembly/plan.hpp"
 
 #include <signal.h>
 #include <sys/mman.h>

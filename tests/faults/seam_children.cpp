@@ -12,7 +12,6 @@
 #include <cstdarg>
 #include <new>
 
-#include "assembly/plan.hpp"
 #include "faults/seam.hpp"
 
 using namespace fault_seam;

@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <cstdarg>
 
-#include "assembly/plan.hpp"
 #include "faults/seam.hpp"
 
 namespace fault_seam {

@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <cstring>
 
-#include "assembly/plan.hpp"
 #include "faults/seam.hpp"
 
 extern "C" void* __libc_malloc(size_t);

@@ -35,7 +35,6 @@
 #include <vector>
 
 #include "adapters/tripoint/tripoint_engine.hpp"
-#include "validation/references/reference.hpp"
 
 extern "C" void fault_seam_begins();  // of seam.cpp, which is part of this program
 
