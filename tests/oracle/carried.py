@@ -249,8 +249,11 @@ def sound_rate(s):
 def compare_sound(out, s):
     """A step that takes the corrections that an earlier one has formed."""
     wet = s["impedance"] != 0
+    # The velocity of a solid that moves is not known at the middle of the step: its neighbours are left out.
+    moves = ~wet & (s.vector("velocity") != 0).any(axis=1)
+    known = wet & ~((s.distance < s.h) & moves[None, :]).any(axis=1)
     for name, (twin, scale) in zip(("divergence", "wall_share"), sound_rate(s)):
-        out.compare("sound rate 8.12", s[name][wet], twin[wet], scale[wet])
+        out.compare("sound rate 8.12", s[name][known], twin[known], scale[known])
     out.compare("sound force 8.12", s.vector("force")[wet], *(one[wet] for one in pressure_force(s, "own")))
     if s.holds_viscosity:
         return
