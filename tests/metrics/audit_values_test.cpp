@@ -123,14 +123,15 @@ TEST(AuditOfSums, TheSumsThatARunStatesAreThoseOfItsParticles) {
     bool is_rigid;
     Change change;
   };
-  for (const auto& [words, is_rigid, change] : {
-           Row{"", false, [](Snapshot&) {}},
-           Row{"`mass`", true, [](Snapshot& s) { s.total_mass = -s.total_mass; }},
-           Row{"`momentum.x`", true, [](Snapshot& s) { s.momentum.x *= 1.001; }},
-           Row{"`angular_momentum.y`", false, [](Snapshot& s) { s.angular_momentum.y = s.momentum.z; }},
-           Row{"`energy_kinetic`", false, [](Snapshot& s) { s.energy["kinetic"] *= 1.001; }},
-           Row{"", true, [](Snapshot& s) { s.energy["kinetic"] *= 1.001; }},
-       }) {
+  const Row rows[] = {
+      Row{"", false, [](Snapshot&) {}},
+      Row{"`mass`", true, [](Snapshot& s) { s.total_mass = -s.total_mass; }},
+      Row{"`momentum.x`", true, [](Snapshot& s) { s.momentum.x *= 1.001; }},
+      Row{"`angular_momentum.y`", false, [](Snapshot& s) { s.angular_momentum.y = s.momentum.z; }},
+      Row{"`energy_kinetic`", false, [](Snapshot& s) { s.energy["kinetic"] *= 1.001; }},
+      Row{"", true, [](Snapshot& s) { s.energy["kinetic"] *= 1.001; }},
+  };
+  for (const auto& [words, is_rigid, change] : rows) {
     Trial t(thrown_block(), "ballistic");
     for (auto& frame : t.run.frames) {
       state_sums(frame);
