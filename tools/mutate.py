@@ -72,7 +72,8 @@ ROOMS = {
                 "baseline/baseline",
                 "baseline/baseline_compare",
                 "baseline/baseline_edges",
-                "baseline/baseline_rows", "baseline/baseline_text",
+                "baseline/baseline_rows",
+                "baseline/baseline_text",
                 "baseline/baseline_cases",
                 "baseline/baseline_accept",
             )
