@@ -36,13 +36,16 @@ struct Field {
   std::uint64_t key = key_of(name);
 };
 
-/// The three columns of a vector, and the six of a symmetric matrix, as one key.
+/// The three columns of a vector, the six of a symmetric matrix and the nine of a matrix, as one key.
 template <class T>
 struct VectorField {
   const Field<T>&x, &y, &z;
 };
 struct SymmetricField {
   const Field<double>&xx, &yy, &zz, &yz, &xz, &xy;
+};
+struct MatrixField {
+  const Field<double>&xx, &xy, &xz, &yx, &yy, &yz, &zx, &zy, &zz;
 };
 template <class T>
 [[nodiscard]] constexpr std::array<const Field<T>*, 1> columns_of(const Field<T>& f) noexcept {
@@ -54,6 +57,9 @@ template <class T>
 }
 [[nodiscard]] constexpr std::array<const Field<double>*, 6> columns_of(const SymmetricField& f) noexcept {
   return {&f.xx, &f.yy, &f.zz, &f.yz, &f.xz, &f.xy};
+}
+[[nodiscard]] constexpr std::array<const Field<double>*, 9> columns_of(const MatrixField& f) noexcept {
+  return {&f.xx, &f.xy, &f.xz, &f.yx, &f.yy, &f.yz, &f.zx, &f.zy, &f.zz};
 }
 
 /// Columns of several keys, one after the other.

@@ -44,17 +44,6 @@ concept ZeroBeyond = requires {
   requires Term::zero_beyond;
 };
 
-/// Adds w d d^T, d = r_j - r_i: xx, yy, zz, yz, xz, xy.
-template <class V>
-[[gnu::always_inline]] inline void add_outer(V w, const PairGeometry<V>& g, std::span<V, 6> sum) noexcept {
-  sum[0] += w * (g.dx * g.dx);
-  sum[1] += w * (g.dy * g.dy);
-  sum[2] += w * (g.dz * g.dz);
-  sum[3] += w * (g.dy * g.dz);
-  sum[4] += w * (g.dx * g.dz);
-  sum[5] += w * (g.dx * g.dy);
-}
-
 /// Clusters of particles and their neighbours to sum over, as plain memory. Code compiled for one vector unit shares nothing with
 /// the rest.
 struct PassTask {

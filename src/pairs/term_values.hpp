@@ -2,7 +2,6 @@
 #pragma once
 #include <array>
 #include <cstddef>
-#include <span>
 
 #include "core/field.hpp"
 
@@ -53,6 +52,14 @@ struct SymmetricPlace {
         xz(Of::place(f.xz)),
         xy(Of::place(f.xy)) {}
 };
+/// Of the nine columns of a matrix, in their order.
+template <class Of>
+struct MatrixPlace {
+  std::array<std::size_t, 9> k;
+  consteval MatrixPlace(const MatrixField& f) : k{} {
+    for (std::size_t n = 0; n < 9; ++n) k.at(n) = Of::place(*columns_of(f).at(n));
+  }
+};
 
 /// A vector of each particle.
 template <class V>
@@ -77,7 +84,28 @@ struct SymmetricOf {
   [[gnu::always_inline]] friend SymmetricOf operator*(V s, const SymmetricOf& a) {
     return {s * a.xx, s * a.yy, s * a.zz, s * a.yz, s * a.xz, s * a.xy};
   }
+  [[gnu::always_inline]] friend VectorOf<V> operator*(const SymmetricOf& a, const VectorOf<V>& d) {
+    return {a.xx * d.x + a.xy * d.y + a.xz * d.z, a.xy * d.x + a.yy * d.y + a.yz * d.z, a.xz * d.x + a.yz * d.y + a.zz * d.z};
+  }
 };
+/// A matrix of each particle, row by row.
+template <class V>
+struct MatrixOf {
+  std::array<V, 9> a;
+  [[gnu::always_inline]] friend MatrixOf operator+(const MatrixOf& l, const MatrixOf& r) {
+    return {l.a[0] + r.a[0], l.a[1] + r.a[1], l.a[2] + r.a[2], l.a[3] + r.a[3], l.a[4] + r.a[4],
+            l.a[5] + r.a[5], l.a[6] + r.a[6], l.a[7] + r.a[7], l.a[8] + r.a[8]};
+  }
+  [[gnu::always_inline]] friend VectorOf<V> operator*(const MatrixOf& m, const VectorOf<V>& d) {
+    return {m.a[0] * d.x + m.a[1] * d.y + m.a[2] * d.z, m.a[3] * d.x + m.a[4] * d.y + m.a[5] * d.z,
+            m.a[6] * d.x + m.a[7] * d.y + m.a[8] * d.z};
+  }
+};
+/// u w^T
+template <class V>
+[[gnu::always_inline]] inline MatrixOf<V> outer(const VectorOf<V>& u, const VectorOf<V>& w) {
+  return {u.x * w.x, u.x * w.y, u.x * w.z, u.y * w.x, u.y * w.y, u.y * w.z, u.z * w.x, u.z * w.y, u.z * w.z};
+}
 /// d d^T
 template <class V>
 [[gnu::always_inline]] inline SymmetricOf<V> square(const VectorOf<V>& d) {
@@ -100,7 +128,10 @@ struct ValuesOf {
   [[gnu::always_inline]] SymmetricOf<V> operator()(SymmetricPlace<Of> at) const {
     return {values[at.xx], values[at.yy], values[at.zz], values[at.yz], values[at.xz], values[at.xy]};
   }
-  [[gnu::always_inline]] operator std::span<const V, Of::size>() const { return std::span<const V, Of::size>(values); }
+  [[gnu::always_inline]] MatrixOf<V> operator()(MatrixPlace<Of> at) const {
+    return {values[at.k[0]], values[at.k[1]], values[at.k[2]], values[at.k[3]], values[at.k[4]],
+            values[at.k[5]], values[at.k[6]], values[at.k[7]], values[at.k[8]]};
+  }
 };
 
 /// Sums that a term adds to. @tparam Of the term's Keys
@@ -127,12 +158,19 @@ struct SumsOf {
       xy += a.xy;
     }
   };
+  struct Matrix {
+    std::array<V, Of::size>& values;
+    MatrixPlace<Of> at;
+    [[gnu::always_inline]] void operator+=(const MatrixOf<V>& m) const {
+      for (std::size_t n = 0; n < 9; ++n) values[at.k[n]] += m.a[n];
+    }
+  };
   [[gnu::always_inline]] V& operator()(Place<Of> at) { return values[at.k]; }
   [[gnu::always_inline]] Vector operator()(VectorPlace<Of> at) { return {values[at.x], values[at.y], values[at.z]}; }
   [[gnu::always_inline]] Symmetric operator()(SymmetricPlace<Of> at) {
     return {values[at.xx], values[at.yy], values[at.zz], values[at.yz], values[at.xz], values[at.xy]};
   }
-  [[gnu::always_inline]] operator std::span<V, Of::size>() { return std::span<V, Of::size>(values); }
+  [[gnu::always_inline]] Matrix operator()(MatrixPlace<Of> at) { return {values, at}; }
 };
 
 }  // namespace tripoint

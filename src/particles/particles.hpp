@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/matrix3.hpp"
 #include "particles/catalogue.hpp"
 #include "particles/columns.hpp"
 
@@ -71,6 +72,42 @@ template <class T, class P>
 template <class T, class P>
 [[nodiscard]] auto triple(P& particles, const VectorField<T>& f) {
   return triple(particles, f.x, f.y, f.z);
+}
+/// Six columns of a symmetric field.
+template <class T>
+struct SymmetricColumns {
+  std::span<T> xx, yy, zz, yz, xz, xy;
+  [[nodiscard]] Symmetric at(std::size_t row) const { return {xx[row], yy[row], zz[row], yz[row], xz[row], xy[row]}; }
+  void set(std::size_t row, const Symmetric& e) const {
+    xx[row] = e.xx;
+    yy[row] = e.yy;
+    zz[row] = e.zz;
+    yz[row] = e.yz;
+    xz[row] = e.xz;
+    xy[row] = e.xy;
+  }
+};
+template <class P>
+[[nodiscard]] auto symmetric_columns(P& p, const SymmetricField& f) {
+  return SymmetricColumns<std::conditional_t<std::is_const_v<P>, const double, double>>{p[f.xx], p[f.yy], p[f.zz],
+                                                                                        p[f.yz], p[f.xz], p[f.xy]};
+}
+/// Nine columns of a matrix field, row by row.
+template <class T>
+struct MatrixColumns {
+  std::array<std::span<T>, 9> a;
+  [[nodiscard]] Matrix3 at(std::size_t row) const {
+    return {a[0][row], a[1][row], a[2][row], a[3][row], a[4][row], a[5][row], a[6][row], a[7][row], a[8][row]};
+  }
+  void set(std::size_t row, const Matrix3& m) const {
+    const std::array<double, 9> parts{m.xx, m.xy, m.xz, m.yx, m.yy, m.yz, m.zx, m.zy, m.zz};
+    for (std::size_t k = 0; k < 9; ++k) a[k][row] = parts[k];
+  }
+};
+template <class P>
+[[nodiscard]] auto matrix_columns(P& p, const MatrixField& f) {
+  return MatrixColumns<std::conditional_t<std::is_const_v<P>, const double, double>>{
+      {p[f.xx], p[f.xy], p[f.xz], p[f.yx], p[f.yy], p[f.yz], p[f.zx], p[f.zy], p[f.zz]}};
 }
 template <class P>
 [[nodiscard]] auto positions(P& p) {

@@ -129,41 +129,21 @@ inline bool ElasticForms::Constants::may_flow(std::size_t row, int rank, const S
   return contraction(e, e) > limit;
 }
 
-/// Six columns of a symmetric field.
-template <class T>
-struct SymmetricColumns {
-  std::span<T> xx, yy, zz, yz, xz, xy;
-  [[nodiscard]] Symmetric at(std::size_t row) const { return {xx[row], yy[row], zz[row], yz[row], xz[row], xy[row]}; }
-  void set(std::size_t row, const Symmetric& e) const {
-    xx[row] = e.xx;
-    yy[row] = e.yy;
-    zz[row] = e.zz;
-    yz[row] = e.yz;
-    xz[row] = e.xz;
-    xy[row] = e.xy;
-  }
-};
 // The six columns of particles, to be written to where these are not const.
 /// A_i [1]
 template <class P>
 [[nodiscard]] auto shape_inverses(P& p) {
-  return SymmetricColumns<std::conditional_t<std::is_const_v<P>, const double, double>>{
-      p[field::shape_inverse_xx], p[field::shape_inverse_yy], p[field::shape_inverse_zz],
-      p[field::shape_inverse_yz], p[field::shape_inverse_xz], p[field::shape_inverse_xy]};
+  return symmetric_columns(p, field::shape_inverse);
 }
 /// Total strain [1]
 template <class P>
 [[nodiscard]] auto strains(P& p) {
-  return SymmetricColumns<std::conditional_t<std::is_const_v<P>, const double, double>>{p[field::strain_xx], p[field::strain_yy],
-                                                                                        p[field::strain_zz], p[field::strain_yz],
-                                                                                        p[field::strain_xz], p[field::strain_xy]};
+  return symmetric_columns(p, field::strain);
 }
 /// eps_p [1]. @pre the scene has plastic flow
 template <class P>
 [[nodiscard]] auto plastic_strains(P& p) {
-  return SymmetricColumns<std::conditional_t<std::is_const_v<P>, const double, double>>{
-      p[field::plastic_strain_xx], p[field::plastic_strain_yy], p[field::plastic_strain_zz],
-      p[field::plastic_strain_yz], p[field::plastic_strain_xz], p[field::plastic_strain_xy]};
+  return symmetric_columns(p, field::plastic_strain);
 }
 /// A_i [1]
 [[nodiscard]] Symmetric shape_inverse_of(const Particles&, std::size_t row);

@@ -10,9 +10,11 @@
 #include "effects/carried_liquid/fields.hpp"
 #include "effects/carried_liquid/hydrostatic_start.hpp"
 #include "effects/carried_liquid/phase_density.hpp"
-#include "effects/carried_liquid/predicted_velocities.hpp"
 #include "effects/carried_liquid/scheme.hpp"
 #include "effects/carried_liquid/sound_terms.hpp"
+#include "liquids/changes.hpp"
+#include "liquids/groups.hpp"
+#include "liquids/predicted_velocities.hpp"
 #include "liquids/pressing_gravity.hpp"
 #include "liquids/scene_numbers.hpp"
 #include "pairs/pair_passes.hpp"
@@ -76,14 +78,6 @@ PairKernels kernels_of(const Scene& scene, const Numbers& n) {
 std::vector<FieldInfo> shared() {
   return {field::density, field::volume,  field::pressure,        field::group,           field::force_x,
           field::force_y, field::force_z, field::viscous_force_x, field::viscous_force_y, field::viscous_force_z};
-}
-
-template <const auto&... f>
-std::array<std::span<double>, sizeof...(f)> columns(Particles& p) {
-  return {p[f]...};
-}
-Symmetric symmetric_at(const std::array<std::span<double>, 6>& c, std::size_t i) {
-  return {c[0][i], c[1][i], c[2][i], c[3][i], c[4][i], c[5][i]};
 }
 
 class CarriedLiquid : public Effect {
@@ -161,15 +155,8 @@ void CarriedLiquid::set_material(World& world, std::size_t i) const {
 void CarriedLiquid::set_groups(World& world) const {
   if (solids_meet_) return;
   const auto group = world.particles[field::group];
-  const auto body = world.particles[field::body];
-  for (std::size_t i = 0; i < group.size(); ++i) {
-    const auto b = static_cast<std::size_t>(body[i]);
-    const bool free = body[i] >= 0 && world.bodies[field::body_motion][b] == static_cast<int>(Motion::free);
-    group[i] = body[i] < 0           ? liquid_group
-               : !is_rigid(world, b) ? deformable_group
-               : free                ? 1.0 + static_cast<double>(b)
-                                     : wall_group;
-  }
+  const liquid::Groups group_of(world);
+  for (std::size_t i = 0; i < group.size(); ++i) group[i] = group_of(i);
 }
 
 void CarriedLiquid::load(World& world, const InitialState&) {
@@ -240,41 +227,32 @@ void CarriedLiquid::run(World& world, const PairTerm& term, bool liquids_only) c
 
 void CarriedLiquid::correct_gradients(World& world) const {
   Particles& p = world.particles;
-  const auto m =
-      columns<field::moment_xx, field::moment_yy, field::moment_zz, field::moment_yz, field::moment_xz, field::moment_xy>(p);
-  const auto b = columns<field::correction_xx, field::correction_yy, field::correction_zz, field::correction_yz,
-                         field::correction_xz, field::correction_xy>(p);
+  const auto m = symmetric_columns(p, field::moment), b = symmetric_columns(p, field::correction);
   const auto z = p[field::impedance], exposed = p[field::exposed];
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
     Symmetric inverse;
     exposed[i] = 0.0;
     if (z[i] != 0.0) {
-      const Symmetric moment = symmetric_at(m, i);
+      const Symmetric moment = m.at(i);
       inverse = blended_inverse(moment, full_rank, 1.0);
       exposed[i] = trace(moment) < exposed_below ? 1.0 : 0.0;
     }
-    const double parts[6] = {inverse.xx, inverse.yy, inverse.zz, inverse.yz, inverse.xz, inverse.xy};
-    for (std::size_t k = 0; k < 6; ++k) b[k][i] = parts[k];
+    b.set(i, inverse);
   }
 }
 
 void CarriedLiquid::correct_velocity_gradients(World& world) const {
   Particles& p = world.particles;
-  const auto n = columns<field::own_moment_xx, field::own_moment_yy, field::own_moment_zz, field::own_moment_yz,
-                         field::own_moment_xz, field::own_moment_xy>(p);
-  const auto a = columns<field::velocity_gradient_xx, field::velocity_gradient_xy, field::velocity_gradient_xz,
-                         field::velocity_gradient_yx, field::velocity_gradient_yy, field::velocity_gradient_yz,
-                         field::velocity_gradient_zx, field::velocity_gradient_zy, field::velocity_gradient_zz>(p);
-  const auto slope = triple(p, field::density_gradient_x, field::density_gradient_y, field::density_gradient_z);
+  const auto n = symmetric_columns(p, field::own_moment);
+  const auto a = matrix_columns(p, field::velocity_gradient);
+  const auto slope = triple(p, field::density_gradient);
   const auto z = p[field::impedance];
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (z[i] == 0.0) continue;
-    const Symmetric inverse = blended_inverse(symmetric_at(n, i), own_full_rank, 0.0);
-    const Matrix3 A = Matrix3{a[0][i], a[1][i], a[2][i], a[3][i], a[4][i], a[5][i], a[6][i], a[7][i], a[8][i]} * inverse;
-    const double parts[9] = {A.xx, A.xy, A.xz, A.yx, A.yy, A.yz, A.zx, A.zy, A.zz};
-    for (std::size_t k = 0; k < 9; ++k) a[k][i] = parts[k];
+    const Symmetric inverse = blended_inverse(n.at(i), own_full_rank, 0.0);
+    a.set(i, a.at(i) * inverse);
     slope.set(i, inverse * slope.at(i));
   }
 }
@@ -283,11 +261,9 @@ void CarriedLiquid::correct_velocity_gradients(World& world) const {
 void CarriedLiquid::move_density(World& world) const {
   if (drifted_ == 0.0) return;
   Particles& p = world.particles;
-  const auto a = columns<field::velocity_gradient_xx, field::velocity_gradient_xy, field::velocity_gradient_xz,
-                         field::velocity_gradient_yx, field::velocity_gradient_yy, field::velocity_gradient_yz,
-                         field::velocity_gradient_zx, field::velocity_gradient_zy, field::velocity_gradient_zz>(p);
-  const auto slope = triple(p, field::density_gradient_x, field::density_gradient_y, field::density_gradient_z);
-  const auto w = triple(std::as_const(p), field::shift_x, field::shift_y, field::shift_z);
+  const auto a = matrix_columns(p, field::velocity_gradient);
+  const auto slope = triple(p, field::density_gradient);
+  const auto w = triple(std::as_const(p), field::shift);
   const auto z = p[field::impedance], rho = p[field::density], rest = p[field::liquid_rest_density], mass = p[field::mass],
              divergence = p[field::divergence], diffused = p[field::diffused], near = p[field::exposed_near],
              exposed = p[field::exposed], summed = p[field::summed_density];
@@ -297,7 +273,7 @@ void CarriedLiquid::move_density(World& world) const {
   std::vector<std::array<double, 1>> blocks;
   const auto taken = ordered_sums(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
     if (z[i] == 0.0) return;
-    const Matrix3 A{a[0][i], a[1][i], a[2][i], a[3][i], a[4][i], a[5][i], a[6][i], a[7][i], a[8][i]};
+    const Matrix3 A = a.at(i);
     const double exact = determinant(identity3 - dt * A) + dt * (A.xx + A.yy + A.zz);  // 1 + terms of higher order
     const double carried = std::clamp(exact - dt * divergence[i], 0.5, 2.0) * rho[i];
     const double sum_now = mass[i] * summed[i] / numbers_.lattice.density;
@@ -321,23 +297,20 @@ void CarriedLiquid::set_pressure(World& world) const {
   const auto z = p[field::impedance], rho = p[field::density], rest = p[field::liquid_rest_density],
              pressure = p[field::pressure], share = p[field::wall_share], out = p[field::wall_pressure],
              V = p[field::carried_volume];
-  const auto b = columns<field::correction_xx, field::correction_yy, field::correction_zz, field::correction_yz,
-                         field::correction_xz, field::correction_xy>(p);
-  const auto stress =
-      columns<field::stress_xx, field::stress_yy, field::stress_zz, field::stress_yz, field::stress_xz, field::stress_xy>(p);
+  const auto b = symmetric_columns(p, field::correction), stress = symmetric_columns(p, field::stress);
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (z[i] != 0.0) pressure[i] = pressure_of(rho[i], rest[i]);
     const double stiffness = numbers_.stiffness * numbers_.reference;
     out[i] = z[i] != 0.0 ? stiffness * std::max(share[i] - inside_wall, 0.0) * rho[i] / rest[i] : 0.0;
-    for (std::size_t k = 0; k < 6; ++k) stress[k][i] = pressure[i] * V[i] * b[k][i];
+    stress.set(i, (pressure[i] * V[i]) * b.at(i));
   }
 }
 
 void CarriedLiquid::set_shift(World& world) const {
   Particles& p = world.particles;
-  const auto w = triple(p, field::shift_x, field::shift_y, field::shift_z);
-  const auto s = triple(std::as_const(p), field::unevenness_x, field::unevenness_y, field::unevenness_z);
+  const auto w = triple(p, field::shift);
+  const auto s = triple(std::as_const(p), field::unevenness);
   const auto z = p[field::impedance], near = p[field::exposed_near], exposed = p[field::exposed],
              speed2 = p[field::nearby_speed2];
   const double h = 0.5 * world.support();
@@ -364,7 +337,7 @@ void CarriedLiquid::set_shift(World& world) const {
 /// Gravity at solids. Their acceleration is left out: the head that it makes would do work that no energy stands behind.
 void CarriedLiquid::set_pull(World& world) const {
   Particles& p = world.particles;
-  const auto pull = triple(p, field::pull_x, field::pull_y, field::pull_z);
+  const auto pull = triple(p, field::pull);
   const auto z = p[field::impedance];
   const Vec3 g = liquid::pressing_gravity(world.scene);
   for (std::size_t i = 0; i < p.size(); ++i) pull.set(i, z[i] != 0.0 ? Vec3{} : g);
@@ -389,7 +362,7 @@ void CarriedLiquid::state(World& world) {
   set_pressure(world);
   set_pull(world);
   if (renewed) set_shift(world);
-  if (renewed || !holds_viscosity(world)) predict_velocities(world, world.step_numbers[kick_length]);
+  if (renewed || !holds_viscosity(world)) liquid::predict_velocities(world, world.step_numbers[kick_length], field::predicted);
   drifted_ = 0.0;
 }
 
@@ -409,18 +382,13 @@ void CarriedLiquid::bonds(World& world) {
   if (scheme_.damping != Damping::residue) return;
   Particles& p = world.particles;
   const double scale = scheme_.beta * 0.5 * world.support();
-  for (const Field<double>* f : {&field::residue_force_x, &field::residue_force_y, &field::residue_force_z})
+  for (const Field<double>* f : columns_of(field::residue_force))
     for (double& one : part(p[*f], world.formed())) one *= scale;
 }
 
 TimeStepBound CarriedLiquid::max_dt(const World& world) const {
-  const auto v = velocities(world.particles);
-  const FreeLoops loops = free_loops(world.forces.size());
-  const double v2 = greatest_of_blocks(world.particles.moving(), world.threads, [&](std::size_t from, std::size_t to) {
-    return loops.greatest_speed2({v.x.data(), v.y.data(), v.z.data()}, from, to);
-  });
   TimeStepBound bound;
-  tighten(bound, scheme_.courant * world.support() / (numbers_.sound_speed + std::sqrt(v2)), "sound");
+  tighten(bound, scheme_.courant * world.support() / (numbers_.sound_speed + liquid::greatest_speed(world)), "sound");
   if (numbers_.greatest_nu > 0.0)
     tighten(bound, viscous_share * world.scene.spacing * world.scene.spacing / numbers_.greatest_nu, "viscosity");
   return bound;

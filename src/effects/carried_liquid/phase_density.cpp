@@ -7,6 +7,7 @@
 
 #include "effects/carried_liquid/fields.hpp"
 #include "liquids/pressing_gravity.hpp"
+#include "solids/solid_particles.hpp"
 #include "sph/kernels.hpp"
 
 namespace tripoint::carried_liquid {
@@ -73,12 +74,6 @@ std::vector<std::size_t> settled_liquids(const World& world, const std::vector<s
   return rows;
 }
 
-Vec3 nearest(const PeriodicBox& box, Vec3 d) {
-  for (std::size_t a = 0; a < 3; ++a)
-    if (box.periodic[a]) d[a] -= box.width[a] * std::round(d[a] / box.width[a]);
-  return d;
-}
-
 }  // namespace
 
 void take_pressure_around(World& world, const CarriedState& state, const PairKernels& kernels,
@@ -94,7 +89,7 @@ void take_pressure_around(World& world, const CarriedState& state, const PairKer
     const std::size_t i = p.row(id);
     double weight = 0.0, pressure = 0.0;
     for (const std::size_t j : others) {
-      const Vec3 d = nearest(world.box, x.at(i) - x.at(j));
+      const Vec3 d = solid::nearest_image(world.box, x.at(i) - x.at(j));
       if (!(dot(d, d) < support2)) continue;
       const double w = m[j] / rho[j] * kernels.wendland.value(norm(d));
       weight += w;

@@ -99,7 +99,7 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all, bool
   const auto strain_of = solid::strains(p);
   const PeriodicWidths box = periodic_widths(world.box);
   const bool hourglass = forms.hourglass() != 0.0;
-  std::optional<solid::SymmetricColumns<const double>> plastic_of;
+  std::optional<SymmetricColumns<const double>> plastic_of;
   if (flows(world)) plastic_of = solid::plastic_strains(std::as_const(p));
   const auto may_flow = flows(world) ? p[field::may_flow] : std::span<int>{};
   const BondSums sum = bond_sums({world.box.any(), hourglass, forms.bending() != 0.0});

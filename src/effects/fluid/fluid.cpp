@@ -15,6 +15,8 @@
 #include "liquids/carried_density.hpp"
 #include "liquids/changes.hpp"
 #include "liquids/fields.hpp"
+#include "liquids/groups.hpp"
+#include "liquids/predicted_velocities.hpp"
 #include "liquids/stored_compression.hpp"
 #include "pairs/pass.hpp"
 #include "scene/effect_rule.hpp"
@@ -31,24 +33,6 @@ namespace {
 constexpr double courant_printed = 0.7, courant_corrected = 0.45;
 /// The background pressure of the transport velocity adds half to the stiffness: 0.45/sqrt(1.5) = 0.37, rounded down.
 constexpr double courant_transported = 0.35;
-
-/// The group of each row (field::group).
-class Groups {
- public:
-  explicit Groups(const World& world) : body_(world.particles[field::body]) {
-    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-      const bool free = world.bodies[field::body_motion][b] == static_cast<int>(Motion::free);
-      of_.push_back(!is_rigid(world, b) ? deformable_group : free ? 1.0 + static_cast<double>(b) : wall_group);
-    }
-  }
-  [[nodiscard]] double operator()(std::size_t row) const {
-    return body_[row] < 0 ? liquid_group : of_[static_cast<std::size_t>(body_[row])];
-  }
-
- private:
-  std::span<const int> body_;
-  std::vector<double> of_;  ///< members of each body
-};
 
 /// Energy of compression that changes of phase and of own pairs let go [J].
 constexpr Account compression_released{"compression_released"};
@@ -124,7 +108,7 @@ void Fluid::follow_temperature(World& world) const {
 }
 
 void Fluid::adopt(World& world) {
-  world.booked[compression_released] -= compression_jump(world, numbers_, kernels_, Groups(world), 0.5 * drifted_);
+  world.booked[compression_released] -= compression_jump(world, numbers_, kernels_, liquid::Groups(world), 0.5 * drifted_);
   for (const std::uint32_t id : world.change.born) set_material(world, world.particles.row(id));
   for (const std::uint32_t id : world.change.regrouped) set_material(world, world.particles.row(id));
   set_groups(world);
@@ -132,7 +116,7 @@ void Fluid::adopt(World& world) {
 
 void Fluid::set_groups(World& world) {
   const auto group = world.particles[field::group];
-  const Groups group_of(world);
+  const liquid::Groups group_of(world);
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (group.size() > worth_threads)
   for (std::size_t i = 0; i < group.size(); ++i) group[i] = group_of(i);
   world.step_numbers[viscous_age] = 0.0;
@@ -156,7 +140,7 @@ void Fluid::state(World& world) {
   if (solid_viscosity_.follows_temperature()) follow_temperature(world);
   set_pressure(world, numbers_);
   if (damps_ && world.moved) set_bulk_pressure(world, numbers_);
-  predict_velocities(world);
+  liquid::predict_velocities(world, world.step_numbers[liquid::half_step], field::viscous_velocity);
 }
 
 void Fluid::after_states(World& world) {

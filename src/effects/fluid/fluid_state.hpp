@@ -15,7 +15,5 @@ void set_pressure(World&, const liquid::SceneNumbers&);
 /// V^2 p, with the pressure of the bulk viscosity, over the kernel's lattice moment: the share of each particle in the corrected
 /// pressure force.
 void set_pressure_shares(World&, const liquid::SceneNumbers&);
-/// The velocities that viscous pairs see: those at the full step, half a kick ahead with the old rates (model 7, time).
-void predict_velocities(World&);
 
 }  // namespace tripoint::fluid

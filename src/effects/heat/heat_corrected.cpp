@@ -179,17 +179,11 @@ void CorrectedHeat::clear(World& world, PassName pass) {
 void CorrectedHeat::state(World& world) {
   if (!world.moved) return;
   Particles& p = world.particles;
-  const auto axx = p[field::moment_inverse_xx], ayy = p[field::moment_inverse_yy], azz = p[field::moment_inverse_zz];
-  const auto ayz = p[field::moment_inverse_yz], axz = p[field::moment_inverse_xz], axy = p[field::moment_inverse_xy];
+  const auto inverse = symmetric_columns(p, field::moment_inverse);
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const Symmetric a = pseudo_inverse({axx[i], ayy[i], azz[i], ayz[i], axz[i], axy[i]}, moment_cut);
-    axx[i] = a.xx;
-    ayy[i] = a.yy;
-    azz[i] = a.zz;
-    ayz[i] = a.yz;
-    axz[i] = a.xz;
-    axy[i] = a.xy;
+    const Symmetric a = pseudo_inverse(inverse.at(i), moment_cut);
+    inverse.set(i, a);
   }
 }
 

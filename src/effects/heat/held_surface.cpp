@@ -142,9 +142,7 @@ bool leaves_by_a_face(const std::vector<Beyond>& beyond, double spacing) {
   return std::ranges::any_of(beyond, [&](const Beyond& b) { return norm(b.away) < 1.1 * spacing; });
 }
 
-constexpr std::array<const Field<double>*, 6> inverse{&field::moment_inverse_xx, &field::moment_inverse_yy,
-                                                      &field::moment_inverse_zz, &field::moment_inverse_yz,
-                                                      &field::moment_inverse_xz, &field::moment_inverse_xy};
+constexpr std::array<const Field<double>*, 6> inverse = columns_of(field::moment_inverse);
 
 }  // namespace
 
