@@ -7,6 +7,7 @@ import base64
 import functools
 import hashlib
 import math
+import shlex
 import time
 from pathlib import Path
 
@@ -25,6 +26,7 @@ from model import COUNTED, is_number, number
 
 TEMPLATES = Path(__file__).resolve().parent / "templates"
 VENDOR = Path(__file__).resolve().parent / "vendor"  # Tabulator as npm has it; tests/reports holds its hash
+WRITES_TO = ("--out", "--history", "--to")
 EXITS = {
     "0": "pass",
     "1": "accuracy, order or an invariant fails",
@@ -121,6 +123,21 @@ def truth(row, case, side):
     return None
 
 
+def portable(command):
+    """A command as it can be typed elsewhere: of the folder that it wrote to the name is enough."""
+    try:
+        words = shlex.split(command or "")
+    except ValueError:
+        return command
+    for n, word in enumerate(words):
+        option, _, value = word.partition("=")
+        if value and option in WRITES_TO:
+            words[n] = f"{option}={Path(value).name}"
+        elif n and words[n - 1] in WRITES_TO:
+            words[n] = Path(word).name
+    return shlex.join(words)
+
+
 @functools.lru_cache
 def environment():
     import jinja2
@@ -130,6 +147,7 @@ def environment():
     )
     made.filters.update(
         show=show,
+        portable=portable,
         times=digit_cost.times,
         size=size,
         percent=percent,

@@ -11,6 +11,8 @@ ROOT = Path(sys.argv.pop(1)).resolve()
 FOLDERS = ("src", "adapters", "validation", "program", "tests", "reports", "cmake", "tools", "python")
 ENDINGS = (".cpp", ".hpp", ".py", ".sh", ".cmake")
 GPL = ("adapters/lammps/", "adapters/ranks/")
+PAGES = ("docs", "cases", "baselines", "examples", ".github")
+WORDS = (".md", ".html", ".toml", ".yml", ".json", ".csv")
 MOST = 500  # lines
 MOST_OF_A_FUNCTION = 65  # lines, where the program is written; a test's table may be long
 PROGRAM = ("src/", "adapters/", "validation/", "program/")
@@ -31,9 +33,13 @@ def faults(path, text):
     if path.startswith(PROGRAM) and path.endswith(("pp", ".inc")):
         for number, length in long_functions(lines):
             yield f"{path}:{number}: a function of {length} lines, {MOST_OF_A_FUNCTION} at most: split it by subject"
-    for number, line in enumerate(lines, 1):
+    yield from machine_paths(path, text)
+
+
+def machine_paths(path, text):
+    for number, line in enumerate(text.splitlines(), 1):
         if MACHINE.search(line):
-            yield f"{path}:{number}: a path of one machine: {line.strip()}"
+            yield f"{path}:{number}: a path of one machine: {line.strip()[:200]}"
 
 
 def long_functions(lines):
@@ -88,11 +94,20 @@ class Rules(unittest.TestCase):
             list(faults("src/core/a.cpp", text + f'open("{HOME}/decks");\n')),
             [f'src/core/a.cpp:2: a path of one machine: open("{HOME}/decks");'],
         )
-        good = 'open("/usr/bin/python3"); f(a/root/b, "./home/x"); // kinetic/work/heat\n'
+        good = f'open("/usr/bin/python3"); f(a{HOME}/b, ".{HOME}"); // kinetic/work/heat\n'
         self.assertEqual(self.told("src/core/a.cpp", text + good), [])
 
 
 class Tree(unittest.TestCase):
+    def test_no_page_or_case_holds_a_path_of_one_machine(self):
+        """Nor what a command has drawn into the project."""
+        pages = [f for room in PAGES for f in sorted((ROOT / room).rglob("*")) if f.suffix in WORDS]
+        pages += [f for f in sorted(ROOT.iterdir()) if f.is_file() and f.suffix in WORDS]
+        self.assertGreater(len(pages), 400)
+        self.assertEqual(
+            [f for page in pages for f in machine_paths(str(page.relative_to(ROOT)), page.read_text())], []
+        )
+
     def test_every_file_keeps_the_rules(self):
         files = [file for folder in FOLDERS for file in sorted((ROOT / folder).rglob("*"))]
         files = [file for file in files if file.suffix in ENDINGS or file.name == "CMakeLists.txt"]

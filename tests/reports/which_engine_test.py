@@ -9,6 +9,7 @@ import unittest
 
 from pages_test import Pages, case  # it knows the folders of the others
 from report_test import Reader
+import page
 import report
 import scorecard
 import thumbnails
@@ -221,6 +222,26 @@ class Scorecards(unittest.TestCase):
         self.assertIn('<th class="n">refused</th>', html)
         self.assertNotIn("known defect", html)
         self.assertNotIn('<th class="n">diverged</th>', html)
+
+
+class Commands(unittest.TestCase):
+    def test_a_command_names_no_folder_of_the_machine_that_it_wrote_on(self):
+        home = "/".join(["", "home", "ann"])
+        for typed, shown in (
+            (
+                f"tripoint validate contact --out {home}/reports/new --jobs 2",
+                "tripoint validate contact --out new --jobs 2",
+            ),
+            (f"tripoint validate --out='{home}/a b'", "tripoint validate '--out=a b'"),
+            (f"tripoint validate --history {home}/h.jsonl -k tower", "tripoint validate --history h.jsonl -k tower"),
+            (
+                "tripoint validate --out report --engines all,./mine",
+                "tripoint validate --out report --engines all,./mine",
+            ),
+            ("tripoint validate 'open", "tripoint validate 'open"),
+            (None, ""),
+        ):
+            self.assertEqual(page.portable(typed), shown)
 
 
 if __name__ == "__main__":
