@@ -244,6 +244,30 @@ TEST(Baselines, AreNotAcceptedWithoutAnEngineThatTheyHold) {
   EXPECT_EQ(baseline_text(kept.accepted()), before);
 }
 
+TEST(Baselines, AreAcceptedWithANoteForAnEngineThatTheCaseDoesNotName) {
+  Kept kept;
+  for (const auto& [engines, notes] : {std::pair{"", true}, {"\n[engines.tripoint]\n", false}}) {
+    write_text(kept.folder / "cases/test/one.toml", flight_case() + engines);
+    const auto said = kept.accept_all();
+    EXPECT_EQ(said.find("test/one tripoint: note: the case names no such engine") != std::string::npos, notes) << said;
+    EXPECT_EQ(read_baseline(kept.folder / "baselines/test/one.toml").engines.size(), 1u);
+  }
+}
+
+TEST(Baselines, OfTheSuiteHoldNoEngineThatTheirCaseDoesNotName) {
+  const auto suite = std::filesystem::path(TRIPOINT_SOURCE_DIR);
+  int files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(suite / "baselines")) {
+    if (entry.path().extension() != ".toml") continue;
+    ++files;
+    const auto hashes = case_hashes(suite / "cases" / std::filesystem::relative(entry.path(), suite / "baselines"));
+    ASSERT_TRUE(hashes) << entry.path();
+    for (const auto& g : read_baseline(entry.path()).gates)
+      EXPECT_TRUE(hashes->required.contains(g.engine)) << entry.path() << ": " << g.engine;
+  }
+  EXPECT_GT(files, 200);
+}
+
 TEST(Baselines, KeepTheWholeRowsOfAnEngineThatDidNotRunOrDropThemByName) {
   WithoutTheOther kept;
   const auto before = kept.accepted();

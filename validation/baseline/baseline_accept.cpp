@@ -134,6 +134,20 @@ void check_acceptable(const CaseResult& c) {
     throw InputError(fmt::format("{}: is {} and cannot be accepted; what is measured must be green first", c.id, c.verdict));
 }
 
+/// A note for each accepted engine that the case does not name: a run that is not told of it lacks what was accepted.
+std::string unnamed_engines(const CaseResult& c, const Baseline& after) {
+  const auto hashes = case_hashes(c.file);
+  if (!hashes) return "";
+  std::string text;
+  for (const auto& e : after.engines)
+    if (!hashes->required.contains(e.name))
+      text += one_line(fmt::format("{} {}: note: the case names no such engine, so that each run without --engines {} lacks its "
+                                   "gates and is red: add [engines.{}], or accept results without it",
+                                   c.id, e.name, e.name, e.name)) +
+              "\n";
+  return text;
+}
+
 }  // namespace
 
 std::vector<Proposal> proposals(const Results& results, const std::vector<std::string>& ids, const Acceptance& acceptance,
@@ -160,7 +174,7 @@ std::vector<Proposal> proposals(const Results& results, const std::vector<std::s
     auto after = accepted_from(*c, results.tool, results.seed, before ? &*before : nullptr, acceptance);
     if (before) p.removed = carry_over(*c, *before, after, lacking, engines_were_chosen);
     p.after = baseline_text(after);
-    p.changes = changes(before ? &*before : nullptr, after);
+    p.changes = changes(before ? &*before : nullptr, after) + unnamed_engines(*c, after);
     p.loosened = loosenings(after, p.limits_loosened);
     p.limits_removed = after.removed;
     list.push_back(std::move(p));
