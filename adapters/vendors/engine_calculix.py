@@ -31,7 +31,18 @@ from contract import (
     write_gauges,
     write_trajectory,
 )
-from lattice import Mesh, across, mesh_of, nodes_in_box, refuse_boxes, refuse_work, temperature_at, velocity_at
+from lattice import (
+    Mesh,
+    across,
+    materials_of,
+    mesh_of,
+    nodes_in_box,
+    refuse_body,
+    refuse_boxes,
+    refuse_work,
+    temperature_at,
+    velocity_at,
+)
 from rigid import steps_in
 from rotation import norm, vector
 
@@ -54,11 +65,6 @@ def of_solid(material: dict, key: str) -> float:
     """A value of the solid, which is the liquid's where it has none of its own."""
     own = material.get("solid_" + key)
     return float(material[key] if own is None else own)
-
-
-def materials_of(job: Job) -> list[dict]:
-    named = {m["name"]: m for m in job.scene["materials"]}
-    return [named[body["material"]] for body in job.bodies]
 
 
 MOST_QUADRATIC = 250_000  # elements times steps of the elements of 20 nodes
@@ -98,7 +104,7 @@ def refuse_heat(job: Job) -> str:
 
 
 def refuse_solids(job: Job) -> str:
-    reasons = (refuse_body(body, material) for body, material in zip(job.bodies, materials_of(job)))
+    reasons = (refuse_solid(body, material) for body, material in zip(job.bodies, materials_of(job)))
     if reason := next(filter(None, reasons), ""):
         return reason
     elastic = [body for body in job.bodies if body["phase"] == "elastic"]
@@ -111,21 +117,13 @@ def refuse_solids(job: Job) -> str:
     return ""
 
 
-def refuse_body(body: dict, material: dict) -> str:
-    name = body["name"]
-    if body["phase"] == "liquid" or body["temperature"] is not None:
-        return f"CalculiX is handed elastic bodies without heat or liquid, and {name} is not that"
-    if body["motion"] == "prescribed":
-        return f"prescribed motion is not handed to CalculiX, and {name} has one"
-    if any(body["angular_velocity"]):
-        return f"small strains know no turning body, and {name} turns"
+def refuse_solid(body: dict, material: dict) -> str:
+    if reason := refuse_body(body, material, "CalculiX"):
+        return reason
     if body["phase"] == "rigid" and body["motion"] == "free":
-        return f"free rigid bodies are not handed to CalculiX, and {name} is one"
-    limits = ("elastic_limit", "fracture_stretch", "fracture_distance", "t_melt")
-    if body["phase"] == "elastic" and any(material[key] is not None for key in limits):
-        return f"linear elasticity has no plastic flow, fracture or melting, and {name} may do so"
+        return f"free rigid bodies are not handed to CalculiX, and {body['name']} is one"
     if body["velocity_field"]["kind"] not in ("constant", "expression"):
-        return f"the velocity of {name} is neither constant nor an expression"
+        return f"the velocity of {body['name']} is neither constant nor an expression"
     return ""
 
 

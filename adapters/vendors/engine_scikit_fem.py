@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from contract import HEAT_COLUMNS, PARTICLE_COLUMNS, Engine, Job, Outcome, Row, serve, write_trajectory
-from lattice import refuse_work
+from lattice import materials_of, refuse_body, refuse_work
 from rigid import steps_in
 from scikit_fem_mesh import Lattice
 from scikit_fem_solid import Solid
@@ -58,10 +58,9 @@ def linked(job: Job) -> list[set[str]]:
 
 
 def refuse_solids(job: Job) -> str:
-    names = {material["name"]: material for material in job.scene["materials"]}
     fixed = {body["name"] for body in job.bodies if body["motion"] == "fixed"}
-    for body in job.bodies:
-        if reason := refuse_body(body, names[body["material"]]):
+    for body, material in zip(job.bodies, materials_of(job)):
+        if reason := refuse_body(body, material, "scikit-fem"):
             return reason
     for body in job.bodies:
         group = next(g for g in linked(job) if body["name"] in g)
@@ -69,21 +68,6 @@ def refuse_solids(job: Job) -> str:
             return f"bodies that nothing holds are not handed to scikit-fem, and {body['name']} is free"
     if len(linked(job)) > 1:
         return "contact is not handed to scikit-fem, and not all bodies hang together"
-    return ""
-
-
-def refuse_body(body: dict, material: dict) -> str:
-    name = body["name"]
-    if body["phase"] == "liquid" or body["temperature"] is not None:
-        return f"scikit-fem is handed elastic bodies without heat or liquid, and {name} is not that"
-    if body["motion"] == "prescribed":
-        return f"prescribed motion is not handed to scikit-fem, and {name} has one"
-    if any(body["angular_velocity"]):
-        return f"small strains know no turning body, and {name} turns"
-    if body["phase"] == "elastic" and any(
-        material[key] is not None for key in ("elastic_limit", "fracture_stretch", "fracture_distance", "t_melt")
-    ):
-        return f"linear elasticity has no plastic flow, fracture or melting, and {name} may do so"
     return ""
 
 

@@ -104,10 +104,31 @@ def refuse_boxes(job: Job, engine: str) -> str:
     return ""
 
 
+def materials_of(job: Job) -> list[dict]:
+    """Of each body."""
+    named = {m["name"]: m for m in job.scene["materials"]}
+    return [named[body["material"]] for body in job.bodies]
+
+
+def refuse_body(body: dict, material: dict, engine: str) -> str:
+    """Why a body is not linearly elastic, or held, without heat; "" if it is."""
+    name = body["name"]
+    if body["phase"] == "liquid" or body["temperature"] is not None:
+        return f"{engine} is handed elastic bodies without heat or liquid, and {name} is not that"
+    if body["motion"] == "prescribed":
+        return f"prescribed motion is not handed to {engine}, and {name} has one"
+    if any(body["angular_velocity"]):
+        return f"small strains know no turning body, and {name} turns"
+    limits = ("elastic_limit", "fracture_stretch", "fracture_distance", "t_melt")
+    if body["phase"] == "elastic" and any(material[key] is not None for key in limits):
+        return f"linear elasticity has no plastic flow, fracture or melting, and {name} may do so"
+    return ""
+
+
 def refuse_work(job: Job, step: float, most: float, quadratic: str, linear: str) -> str:
     """Why a run of quadratic elements takes more than `most` elements times steps of `step` [s]; "" if it does not."""
-    density = {m["name"]: m["density"] for m in job.scene["materials"]}
-    elements = sum(body["mass"] / (density[body["material"]] * job.scene["spacing"] ** 3) for body in job.bodies)
+    every = zip(job.bodies, materials_of(job))
+    elements = sum(body["mass"] / (material["density"] * job.scene["spacing"] ** 3) for body, material in every)
     steps = (job.times[-1] - job.times[0]) / step
     if elements * steps <= most:
         return ""
