@@ -37,6 +37,7 @@ TOUCHLESS = (
     "contact/conveyor",
     "contact/moving-board",
     "contact/mesh-rest",
+    "contact/mesh-groove",
     "contact/mesh-slope",
 )  # the toy takes no prescribed body and no mesh
 
