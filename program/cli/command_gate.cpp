@@ -77,20 +77,27 @@ struct GateOptions {
 };
 
 int accept_file(const GateOptions& o) {
-  std::string path = "report/results.json";
+  std::string path;
   std::vector<std::string> ids;
+  const auto take = [&](const std::string& results) {
+    if (!path.empty()) throw InputError(path + " and " + results + " are two results: accept one of them at a time");
+    path = results;
+  };
   for (const auto& word : o.accepted) {
     const auto within = std::filesystem::path(word) / "results.json";  // also the folder of a report is named
     std::error_code none;
     if (std::filesystem::is_regular_file(within, none))
-      path = within.string();
+      take(within.string());
+    else if (word.ends_with(".json"))
+      take(word);
     else
-      (word.ends_with(".json") ? path = word : ids.emplace_back(word));
+      ids.push_back(word);
   }
   if (o.removed) {
     print(accept_removal(ids, {{}, {}, o.reason}));
     return exit_pass;
   }
+  if (path.empty()) path = "report/results.json";
   const auto results = judged_results(path);
   say_if_called_elsewhere(results, path);
   if (const auto wrong = recheck_remarks(results); !wrong.empty())

@@ -112,6 +112,11 @@ class Newcomer(unittest.TestCase):
                 self.assertIn(near, done.stderr)
                 self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
 
+    def test_two_results_are_not_accepted_at_once(self):
+        done = self.call("gate", "accept", "--reason", "x", "one.json", "other.json")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("one.json and other.json are two results", done.stderr)
+
     def test_a_mistyped_engine_gets_the_nearest_name_and_is_missing(self):
         for words in (
             ["run", CASE, "--engine", "bulet"],

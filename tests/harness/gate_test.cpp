@@ -7,6 +7,7 @@
 #include "core/errors.hpp"
 #include "fakes.hpp"
 #include "judged.hpp"
+#include "kept.hpp"
 #include "validation/baseline/baseline.hpp"
 #include "validation/baseline/baseline_propose.hpp"
 #include "validation/baseline/gate_verdict.hpp"
@@ -162,22 +163,6 @@ TEST(Recheck, ACaseThatTheResultsLeaveOutIsAnError) {
   EXPECT_NE(remarks[0].text.find("is not in them"), std::string::npos) << remarks[0].text;
 }
 
-/// A suite in a folder of its own, which keeps baselines.
-struct Kept {
-  TestFolder folder;
-  Results r = green();
-  Kept() {
-    write_text(folder / "cases/test/one.toml", "format = 1\n");
-    std::filesystem::create_directories(folder / "baselines");
-    r.cases[0].file = folder / "cases/test/one.toml";
-    engine(r).runs[0].cost.pairs = 1000.0;
-    engine(r).runs[0].cost.steps = 10.0;
-    engine(r).runs[0].folder = "runs/test/one/tripoint/corrected";
-    judge(r);
-  }
-  std::string accept_all(const Lacking& lacking = {}) { return accept(r, {}, {"2026-11-21", "abc", "a test"}, lacking); }
-};
-
 TEST(Baselines, ThatAreNotThereYetAreNamedInOneWarningWhereTheSuiteKeepsThem) {
   Kept kept;
   kept.r.cases.push_back(kept.r.cases[0]);
@@ -213,37 +198,6 @@ TEST(Baselines, AGateThatIsGoneIsRedUntilThatIsAcceptedAndIsCounted) {
   EXPECT_TRUE(baseline_remarks(kept.r).empty());
 }
 
-/// Results of two engines, accepted; then those of one of them, as without the other's program.
-struct WithoutTheOther : Kept {
-  WithoutTheOther() {
-    r.cases[0].engines.push_back(r.cases[0].engines[0]);
-    r.cases[0].engines[1].name = "other";
-    r.cases[0].engines[1].runs[0].folder = "runs/test/one/other/corrected";
-    r.cases[0].gates.push_back(r.cases[0].gates[0]);
-    r.cases[0].gates[1].engine = "other";
-    judge(r);
-    (void)accept_all();
-    r.cases[0].engines.pop_back();
-    r.only_engines = {"tripoint"};
-    judge(r);
-  }
-  [[nodiscard]] Baseline accepted() const { return read_baseline(folder / "baselines/test/one.toml"); }
-};
-
-TEST(Baselines, AreNotAcceptedWithoutAnEngineThatTheyHold) {
-  WithoutTheOther kept;
-  const auto before = baseline_text(kept.accepted());
-  try {
-    (void)kept.accept_all();
-    FAIL() << "the rows of the other engine went without a word";
-  } catch (const InputError& e) {
-    const std::string said = e.what();
-    for (const char* part : {"test/one: the results lack what was accepted of other (error)", "--drop-missing", "--keep-missing"})
-      EXPECT_NE(said.find(part), std::string::npos) << said;
-  }
-  EXPECT_EQ(baseline_text(kept.accepted()), before);
-}
-
 TEST(Baselines, AreAcceptedWithANoteForAnEngineThatTheCaseDoesNotName) {
   Kept kept;
   for (const auto& [engines, notes] : {std::pair{"", true}, {"\n[engines.tripoint]\n", false}}) {
@@ -266,21 +220,6 @@ TEST(Baselines, OfTheSuiteHoldNoEngineThatTheirCaseDoesNotName) {
       EXPECT_TRUE(hashes->required.contains(g.engine)) << entry.path() << ": " << g.engine;
   }
   EXPECT_GT(files, 200);
-}
-
-TEST(Baselines, KeepTheWholeRowsOfAnEngineThatDidNotRunOrDropThemByName) {
-  WithoutTheOther kept;
-  const auto before = kept.accepted();
-  (void)kept.accept_all({.keep = true});
-  const auto after = kept.accepted();
-  EXPECT_EQ(after.gates.size(), before.gates.size());
-  EXPECT_EQ(after.cost.size(), before.cost.size());
-  EXPECT_EQ(after.engines.size(), before.engines.size());
-  const auto said = kept.accept_all({.drop = true});
-  EXPECT_NE(said.find("test/one other: REMOVED with its runs"), std::string::npos) << said;
-  EXPECT_NE(said.find("error: REMOVED, it was limit 0.1"), std::string::npos) << said;
-  EXPECT_EQ(kept.accepted().engines.size(), 1u);
-  EXPECT_EQ(kept.accepted().cost.size(), 1u);
 }
 
 TEST(Baselines, AValueThatMovesByMoreThanTheDriftThatItsGateStatesIsRedBothWays) {

@@ -75,12 +75,25 @@ std::string changes_of_cost(const Baseline& before, const Baseline& after) {
   return text;
 }
 
+/// Another question than the accepted one: id, seed, scene, reference, profiles and required engines.
+std::string changes_of_question(const Baseline& before, const Baseline& after) {
+  std::string text;
+  const auto say = [&](const std::string& what) { text += one_line(after.id + ": " + what) + "\n"; };
+  if (!before.id.empty() && before.id != after.id) say("RENAMED, it was " + before.id);
+  if (before.seed != after.seed) say(fmt::format("seed {} -> {}", before.seed, after.seed));
+  if (!before.scene.empty() && before.scene != after.scene) say("another scene, study or setting");
+  if (!before.reference.empty() && before.reference != after.reference) say("another reference");
+  for (const auto& profile : before.profiles)
+    if (std::ranges::find(after.profiles, profile) == after.profiles.end()) say("LEAVES the profile " + profile);
+  for (const auto& engine : before.required)
+    if (std::ranges::find(after.required, engine) == after.required.end()) say(engine + " is REQUIRED NO MORE");
+  return text;
+}
+
 /// Changes of one case by acceptance: each gate whose edges, metric or value have changed.
 std::string changes(const Baseline* before, const Baseline& after) {
   if (!before) return fmt::format("{}: first baseline, {} gates\n", one_line(after.id), after.gates.size());
-  std::string text;
-  if (!before->scene.empty() && before->scene != after.scene) text += one_line(after.id) + ": another scene, study or setting\n";
-  if (!before->reference.empty() && before->reference != after.reference) text += one_line(after.id) + ": another reference\n";
+  std::string text = changes_of_question(*before, after);
   for (std::size_t k = 0; k < after.gates.size(); ++k) {
     const auto& now = after.gates[k];
     const auto* old = counterpart(after.gates, k, before->gates);

@@ -128,6 +128,22 @@ void compare_cost(const CaseResult& c, const Tool& tool, const Baseline& b, std:
   }
 }
 
+/// Names runs that ended well when they were accepted, and do not any more; perhaps no gate judges them.
+void compare_ends(const CaseResult& c, const Baseline& b, std::vector<Remark>& list) {
+  for (const auto& e : c.engines)
+    for (const auto& r : e.runs) {
+      if (r.status == Status::ok || r.status == Status::missing) continue;
+      if (std::ranges::find(b.cost, run_name(e, r), &AcceptedCost::run) == b.cost.end()) continue;
+      list.push_back({true,
+                      exit_missing,
+                      {c.file, 1, 0},
+                      c.id + " " + run_name(e, r),
+                      fmt::format("the run is {}, and ran to its end when it was accepted{}", to_string(r.status), decide),
+                      infinity,
+                      "GONE"});
+    }
+}
+
 /// Compares the scene, the reference and the required engines with the accepted ones.
 void compare_question(const CaseResult& c, const Baseline& b, const std::optional<CaseHashes>& now, std::vector<Remark>& list) {
   const auto say = [&](const std::string& what) {
@@ -168,6 +184,7 @@ bool less_is_better(const CaseResult& c, const Baseline& b, const AcceptedGate& 
 void compare_case(const Results& results, const CaseResult& c, const Baseline& b, std::vector<Remark>& list) {
   const auto hashes = case_hashes(c.file);
   compare_question(c, b, hashes, list);
+  compare_ends(c, b, list);
   const auto all = all_gates_of(c, hashes);
   std::size_t k = 0;
   for (const auto& e : c.engines)

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -22,9 +23,24 @@ std::string engine_of(const AcceptedCost& cost) { return cost.run.substr(0, cost
 struct Missing {
   std::set<std::string> engines;
   std::vector<const AcceptedGate*> absent, gone;
+  std::map<const AcceptedCost*, Status> runs;  ///< of engines that did run: ended early now, or (ok) no run at all
 };
 
-Missing missing_from(const CaseResult& c, const Baseline& before, bool engines_were_chosen) {
+/// Accepted runs of engines that are there, and that the results do not have as whole runs.
+std::map<const AcceptedCost*, Status> runs_missing_from(const CaseResult& c, const Baseline& before, const Baseline& after,
+                                                        const std::set<std::string>& absent) {
+  std::map<const AcceptedCost*, Status> list;
+  for (const auto& run : before.cost)
+    if (!absent.contains(engine_of(run)) && std::ranges::find(after.cost, run.run, &AcceptedCost::run) == after.cost.end())
+      list[&run] = Status::ok;
+  for (const auto& e : c.engines)
+    for (const auto& r : e.runs)
+      for (auto& [run, status] : list)
+        if (run->run == run_name(e, r)) status = r.status;
+  return list;
+}
+
+Missing missing_from(const CaseResult& c, const Baseline& before, const Baseline& after, bool engines_were_chosen) {
   Missing m;
   m.gone = gone(c, gates_of(c, {}), before, engines_were_chosen);
   for (const auto& g : before.gates)
@@ -39,7 +55,12 @@ Missing missing_from(const CaseResult& c, const Baseline& before, bool engines_w
   };
   for (const auto& e : before.engines) note(e.name);
   for (const auto& run : before.cost) note(engine_of(run));
+  m.runs = runs_missing_from(c, before, after, m.engines);
   return m;
+}
+
+bool has_early_ends(const Missing& m) {
+  return std::ranges::any_of(m.runs, [](const auto& run) { return run.second != Status::ok; });
 }
 
 /// "jolt (energy, spin), lammps (no gate)".
@@ -48,6 +69,9 @@ std::string names_of(const Missing& m, bool with_absent) {
   if (with_absent)
     for (const auto& name : m.engines) metrics[name];
   for (const auto* g : m.gone) metrics[with_preset(*g)].insert(g->metric);
+  for (const auto& [run, status] : m.runs)
+    if (status != Status::ok)
+      metrics[engine_of(*run)].insert(fmt::format("{}: {}", run->run.substr(run->run.find('/') + 1), to_string(status)));
   if (with_absent)
     for (const auto* g : m.absent) metrics[g->engine].insert(g->metric);
   std::string text;
@@ -84,15 +108,25 @@ std::string removed_gates(const Baseline& before, const std::vector<const Accept
   return text;
 }
 
+std::string removed_runs(const Baseline& before, const Missing& m) {
+  std::string text;
+  for (const auto& [run, status] : m.runs)
+    text += one_line(fmt::format("{} {}: REMOVED, {}", before.id, run->run,
+                                 status == Status::ok ? "there is no such run" : to_string(status))) +
+            "\n";
+  return text;
+}
+
 }  // namespace
 
 std::string carry_over(const CaseResult& c, const Baseline& before, Baseline& after, const Lacking& lacking,
                        bool engines_were_chosen) {
-  const auto m = missing_from(c, before, engines_were_chosen);
+  const auto m = missing_from(c, before, after, engines_were_chosen);
   const bool same_scene = before.scene == after.scene && before.reference == after.reference;
   const bool kept = lacking.keep && same_scene;
-  if (!lacking.drop && (!m.gone.empty() || (!kept && !m.engines.empty()))) refuse(before, m, kept, same_scene);
-  auto text = removed_gates(before, m.gone);
+  if (!lacking.drop && (!m.gone.empty() || has_early_ends(m) || (!kept && !m.engines.empty())))
+    refuse(before, m, kept, same_scene);
+  auto text = removed_runs(before, m) + removed_gates(before, m.gone);
   after.removed += static_cast<int>(m.gone.size());
   if (kept) {
     keep(before, m, after);

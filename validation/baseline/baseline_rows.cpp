@@ -44,11 +44,6 @@ AcceptedGate gate_of(const EngineRow& e, const GateRow& row, const std::optional
   return g;
 }
 
-std::string run_name(const EngineRow& e, const RunRow& r) {
-  const auto at = r.folder.find("/" + e.name + "/");
-  return at == std::string::npos ? e.name + "/" + r.group : r.folder.substr(at + 1);
-}
-
 std::string counted_on(const Tool& tool, const RunRow& r) {
   return r.cost.instructions > 0.0 ? fmt::format("{}; {}; {}; {}", r.cost.counted_by, tool.cpu, tool.compiler, tool.flags)
                                    : std::string();
@@ -76,6 +71,11 @@ std::vector<AcceptedGate> all_gates_of(const CaseResult& c, const std::optional<
   for (const auto& e : c.engines)
     for (const auto& row : e.gates) list.push_back(gate_of(e, row, hashes));
   return list;
+}
+
+std::string run_name(const EngineRow& e, const RunRow& r) {
+  const auto at = r.folder.find("/" + e.name + "/");
+  return at == std::string::npos ? e.name + "/" + r.group : r.folder.substr(at + 1);
 }
 
 std::vector<AcceptedCost> costs_of(const CaseResult& c, const Tool& tool) {

@@ -13,6 +13,8 @@ namespace tripoint {
 /// All gates, red ones too, so that each keeps its place among its like.
 [[nodiscard]] std::vector<AcceptedGate> all_gates_of(const CaseResult&, const std::optional<CaseHashes>&);
 [[nodiscard]] bool is_accepted(const GateRow&);
+/// Engine and folder of a run.
+[[nodiscard]] std::string run_name(const EngineRow&, const RunRow&);
 [[nodiscard]] std::vector<AcceptedCost> costs_of(const CaseResult&, const Tool&);
 /// Engines that a gate judges, once each.
 [[nodiscard]] std::vector<AcceptedEngine> engines_of(const CaseResult&);
