@@ -65,7 +65,8 @@ void BulletEngine::load(const Job& job, const InitialState& state) {
     enter(rows_.back(), start_motion(rows_.back(), body));
   }
   events_ = job.scene.events;
-  std::stable_sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.time < b.time; });
+  std::stable_sort(events_.begin(), events_.end(),
+                   [](const Event& a, const Event& b) { return a.time < b.time; });
 }
 
 BulletEngine::Row BulletEngine::start_row(const JobBody& body) const {
@@ -86,7 +87,8 @@ BulletEngine::Row BulletEngine::start_row(const JobBody& body) const {
   return row;
 }
 
-void BulletEngine::set_arms(Row& row, const std::vector<Vec3>& at, const Vec3& centre, const Quaternion& principal) const {
+void BulletEngine::set_arms(Row& row, const std::vector<Vec3>& at, const Vec3& centre,
+                            const Quaternion& principal) const {
   row.arms.clear();
   for (const Vec3& x : at) row.arms.push_back(rotate_back(principal, x - centre));
 }
@@ -95,7 +97,8 @@ void BulletEngine::set_arms(Row& row, const std::vector<Vec3>& at, const Vec3& c
 std::vector<Piece> BulletEngine::start_pieces(const Row& row, const JobBody& body) const {
   const Quaternion& axes = row.frame;
   if (preset_for(job_).collision == Collision::solid) {
-    auto own = pieces_of(job_.scene.body(body.name).shape, {body.properties.centre, axes, body.motion == Motion::free});
+    auto own = pieces_of(job_.scene.body(body.name).shape,
+                         {body.properties.centre, axes, body.motion == Motion::free});
     if (!own.empty()) return own;
   }
   std::vector<Piece> pieces(row.arms.size(), particle_piece());
@@ -107,13 +110,19 @@ std::vector<Piece> BulletEngine::start_pieces(const Row& row, const JobBody& bod
 }
 
 Piece BulletEngine::particle_piece() const {
-  const double half = (0.5 - job_.scene.jitter) * job_.resolution.spacing;  // pieces of particles that jitter do not overlap
-  return {preset_for(job_).collision == Collision::spheres ? Piece::Kind::sphere : Piece::Kind::box, {}, {}, {half, half, half}};
+  // Pieces of particles that jitter do not overlap
+  const double half = (0.5 - job_.scene.jitter) * job_.resolution.spacing;
+  return {preset_for(job_).collision == Collision::spheres ? Piece::Kind::sphere : Piece::Kind::box,
+          {},
+          {},
+          {half, half, half}};
 }
 
 RigidMotion BulletEngine::start_motion(const Row& row, const JobBody& body) const {
-  if (row.motion != Motion::prescribed) return {body.properties.centre, row.frame, body.velocity, body.angular_velocity};
-  const PrescribedState s = prescribed_state(row.keyframes, body.properties.centre, body.velocity, body.angular_velocity, time_);
+  if (row.motion != Motion::prescribed)
+    return {body.properties.centre, row.frame, body.velocity, body.angular_velocity};
+  const PrescribedState s =
+      prescribed_state(row.keyframes, body.properties.centre, body.velocity, body.angular_velocity, time_);
   return {s.position, s.rotation * row.frame, s.velocity, s.angular_velocity};
 }
 
@@ -121,7 +130,8 @@ void BulletEngine::enter(Row& row, const RigidMotion& motion) {
   const Drive drive = row.motion == Motion::fixed        ? Drive::fixed
                       : row.motion == Motion::prescribed ? Drive::kinematic
                                                          : Drive::dynamic;
-  row.handle = world_->add({row.properties.mass, row.properties.principal_inertia, motion, drive, row.pieces, row.material});
+  row.handle = world_->add(
+      {row.properties.mass, row.properties.principal_inertia, motion, drive, row.pieces, row.material});
 }
 
 void BulletEngine::advance_to(double time) {
@@ -169,7 +179,8 @@ void BulletEngine::integrate_to(double time) {
 void BulletEngine::drive_bodies(double time) {
   for (const Row& r : rows_) {
     if (r.handle < 0 || r.motion != Motion::prescribed) continue;
-    const PrescribedState s = prescribed_state(r.keyframes, r.properties.centre, r.start_velocity, r.start_spin, time);
+    const PrescribedState s =
+        prescribed_state(r.keyframes, r.properties.centre, r.start_velocity, r.start_spin, time);
     world_->drive(r.handle, s.position, s.rotation * r.frame);
   }
 }
@@ -180,7 +191,8 @@ void BulletEngine::push_bodies() {
     for (const Row& r : rows_) {
       if (r.name != force.body || r.handle < 0) continue;
       const Quaternion turned = world_->motion(r.handle).orientation * conjugate(r.frame);
-      world_->push(r.handle, force.value, force.point ? rotate(turned, *force.point - r.properties.centre) : Vec3{});
+      world_->push(r.handle, force.value,
+                   force.point ? rotate(turned, *force.point - r.properties.centre) : Vec3{});
     }
 }
 
@@ -188,7 +200,8 @@ void BulletEngine::check_finite() const {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     if (rows_[i].handle < 0) continue;
     const RigidMotion m = world_->motion(rows_[i].handle);
-    if (!finite(m.centre) || !finite(m.velocity) || !finite(m.angular_velocity) || !std::isfinite(norm(m.orientation)))
+    if (!finite(m.centre) || !finite(m.velocity) || !finite(m.angular_velocity) ||
+        !std::isfinite(norm(m.orientation)))
       throw Diverged(-1, static_cast<long>(i), "position", "stepSimulation", time_,
                      fmt::format("the state of {} is not finite", rows_[i].name));
   }
@@ -215,14 +228,16 @@ Snapshot BulletEngine::observe() const {
 void BulletEngine::show_body(Snapshot& s, const Row& r) const {
   const Vec3 nan{not_a_number, not_a_number, not_a_number};
   if (r.handle < 0) {
-    s.bodies.push_back({nan, nan, nan, {not_a_number, not_a_number, not_a_number, not_a_number}, not_a_number, nan, nan});
+    s.bodies.push_back(
+        {nan, nan, nan, {not_a_number, not_a_number, not_a_number, not_a_number}, not_a_number, nan, nan});
     return;
   }
   const RigidMotion m = world_->motion(r.handle);
   const Wrench wrench = last_dt_ > 0.0 ? world_->contact(r.handle, last_dt_) : Wrench{};
   const int index = static_cast<int>(s.bodies.size());
-  s.bodies.push_back({m.centre, m.velocity, m.angular_velocity, normalised(m.orientation * conjugate(r.frame)), r.properties.mass,
-                      wrench.force, wrench.torque});
+  s.bodies.push_back({m.centre, m.velocity, m.angular_velocity,
+                      normalised(m.orientation * conjugate(r.frame)), r.properties.mass, wrench.force,
+                      wrench.torque});
   for (std::size_t k = 0; k < r.members.size(); ++k) {
     const auto i = static_cast<std::size_t>(r.members[k]);
     const Vec3 arm = rotate(m.orientation, r.arms[k]);
@@ -236,7 +251,8 @@ void BulletEngine::show_body(Snapshot& s, const Row& r) const {
   s.momentum += r.properties.mass * m.velocity;
   s.angular_momentum += r.properties.mass * cross(m.centre, m.velocity) + rotate(m.orientation, spin);
   s.energy["kinetic"] += 0.5 * r.properties.mass * dot(m.velocity, m.velocity) + 0.5 * dot(w, spin);
-  if (r.motion != Motion::fixed) s.energy["potential"] -= r.properties.mass * dot(world_->gravity(), m.centre);
+  if (r.motion != Motion::fixed)
+    s.energy["potential"] -= r.properties.mass * dot(world_->gravity(), m.centre);
 }
 
 Readback BulletEngine::readback() const {
@@ -247,15 +263,16 @@ Readback BulletEngine::readback() const {
   for (const Row& r : rows_) {
     if (r.handle < 0) continue;
     const HeldBody held = world_->held(r.handle);
-    back.bodies.push_back({r.name, held.mass, held.centre, held.principal_inertia, held.friction, held.restitution,
-                           held.linear_damping, held.angular_damping});
+    back.bodies.push_back({r.name, held.mass, held.centre, held.principal_inertia, held.friction,
+                           held.restitution, held.linear_damping, held.angular_damping});
   }
   return back;
 }
 
 void BulletEngine::account(Result& result) const {
   result.steps = steps_;
-  result.time_step_bound = job_.resolution.time_step || job_.settings.contains("time_step") ? "given" : "default 1/240 s";
+  result.time_step_bound =
+      job_.resolution.time_step || job_.settings.contains("time_step") ? "given" : "default 1/240 s";
   if (!world_) return;
   result.pairs = world_->contact_points();
   result.iterations = static_cast<double>(steps_) * preset_for(job_).iterations;

@@ -27,19 +27,21 @@ class BulletEngine final : public Engine {
     std::vector<Keyframe> keyframes;
     Vec3 start_velocity, start_spin;  ///< of a prescribed body without keyframes
     MassProperties properties;        ///< centre as of time 0 or birth
-    Quaternion frame;                 ///< principal axes in body axes; body axes are the world's at the start or birth
-    std::vector<int> members;         ///< particle ids, ascending
-    std::vector<Vec3> arms;           ///< of the members, in the principal frame [m]
-    std::vector<Piece> pieces;        ///< in the principal frame
-    int material = 0;                 ///< of the scene's
-    int handle = -1;                  ///< in the world; -1 = dead
+    /// Principal axes in body axes; body axes are the world's at the start or birth
+    Quaternion frame;
+    std::vector<int> members;   ///< particle ids, ascending
+    std::vector<Vec3> arms;     ///< of the members, in the principal frame [m]
+    std::vector<Piece> pieces;  ///< in the principal frame
+    int material = 0;           ///< of the scene's
+    int handle = -1;            ///< in the world; -1 = dead
   };
 
   [[nodiscard]] Row start_row(const JobBody&) const;
   [[nodiscard]] std::vector<Piece> start_pieces(const Row&, const JobBody&) const;
   [[nodiscard]] Piece particle_piece() const;
   [[nodiscard]] RigidMotion start_motion(const Row&, const JobBody&) const;
-  void set_arms(Row&, const std::vector<Vec3>& positions, const Vec3& centre, const Quaternion& principal) const;
+  void set_arms(Row&, const std::vector<Vec3>& positions, const Vec3& centre,
+                const Quaternion& principal) const;
   void enter(Row&, const RigidMotion&);
   void integrate_to(double time);
   [[nodiscard]] double first_step() const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Merge and split: bodies are taken out of Bullet's world and others put in. They have the momenta of the very particles, so that
-// P and L hold to round-off. (A btFixedConstraint between two bodies would lose angular momentum.)
+// Merge and split: bodies are taken out of Bullet's world and others put in. They have the momenta of the
+// very particles, so that P and L hold to round-off. (A btFixedConstraint between two bodies would lose
+// angular momentum.)
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +16,8 @@ namespace {
 /// w = I^-1 L in principal axes; no spin about an axis without a moment. [rad/s], world frame
 Vec3 spin_of(const MassProperties& p, const Vec3& angular_momentum) {
   Vec3 w = rotate_back(p.principal_axes, angular_momentum);
-  for (std::size_t k = 0; k < 3; ++k) w[k] = p.principal_inertia[k] > 0.0 ? w[k] / p.principal_inertia[k] : 0.0;
+  for (std::size_t k = 0; k < 3; ++k)
+    w[k] = p.principal_inertia[k] > 0.0 ? w[k] / p.principal_inertia[k] : 0.0;
   return rotate(p.principal_axes, w);
 }
 
@@ -42,12 +44,15 @@ void BulletEngine::apply(const Event& event) {
 }
 
 BulletEngine::Row& BulletEngine::alive(const std::string& name) {
-  const auto found = std::find_if(rows_.begin(), rows_.end(), [&](const Row& r) { return r.name == name && r.handle >= 0; });
+  const auto found =
+      std::find_if(rows_.begin(), rows_.end(), [&](const Row& r) { return r.name == name && r.handle >= 0; });
   if (found == rows_.end()) throw EngineError(fmt::format("no body '{}' at t = {} s", name, time_));
   return *found;
 }
 
-Quaternion BulletEngine::orientation(const Row& r) const { return world_->motion(r.handle).orientation * conjugate(r.frame); }
+Quaternion BulletEngine::orientation(const Row& r) const {
+  return world_->motion(r.handle).orientation * conjugate(r.frame);
+}
 
 void BulletEngine::take_out(Row& r) {
   world_->remove(r.handle);
@@ -55,7 +60,8 @@ void BulletEngine::take_out(Row& r) {
 }
 
 /// Makes the row a body of the given particles with their momenta.
-/// @param now all particles, as they are   @param axes orientation that the row goes on with; (1,0,0,0) at a birth
+/// @param now all particles, as they are   @param axes orientation that the row goes on with; (1,0,0,0) at a
+/// birth
 void BulletEngine::launch(Row& r, std::vector<int> members, const Snapshot& now, const Quaternion& axes,
                           const std::vector<Piece>& world_pieces) {
   std::sort(members.begin(), members.end());
@@ -121,10 +127,12 @@ void BulletEngine::split(const Event& event) {
   std::vector<int> leaving;
   std::vector<Piece> pieces;
   for (Row& r : rows_) {
-    const bool named = event.bodies.empty() || std::find(event.bodies.begin(), event.bodies.end(), r.name) != event.bodies.end();
+    const bool named = event.bodies.empty() ||
+                       std::find(event.bodies.begin(), event.bodies.end(), r.name) != event.bodies.end();
     if (r.handle < 0 || r.motion != Motion::free || !named) continue;
     std::vector<int> staying, parting;
-    for (const int i : r.members) (inside(now.position[static_cast<std::size_t>(i)]) ? parting : staying).push_back(i);
+    for (const int i : r.members)
+      (inside(now.position[static_cast<std::size_t>(i)]) ? parting : staying).push_back(i);
     if (parting.empty()) continue;
     const Quaternion axes = orientation(r);
     const std::vector<Piece> mine = world_pieces(parting, now, axes);
@@ -133,7 +141,8 @@ void BulletEngine::split(const Event& event) {
     take_out(r);
     if (!staying.empty()) launch(r, staying, now, axes, world_pieces(staying, now, axes));
   }
-  if (leaving.empty()) throw EngineError(fmt::format("the split at t = {} s finds no particle in its region", event.time));
+  if (leaving.empty())
+    throw EngineError(fmt::format("the split at t = {} s finds no particle in its region", event.time));
   launch(child, leaving, now, {}, pieces);
   rows_.push_back(child);
 }

@@ -24,7 +24,8 @@ std::string refuse_bodies(const Job& job) {
 }
 
 bool is_free(const Job& job, const std::string& name) {
-  const auto found = std::find_if(job.bodies.begin(), job.bodies.end(), [&](const JobBody& b) { return b.name == name; });
+  const auto found =
+      std::find_if(job.bodies.begin(), job.bodies.end(), [&](const JobBody& b) { return b.name == name; });
   return found == job.bodies.end() || found->motion == Motion::free;  // a body born by a split is free
 }
 
@@ -33,7 +34,8 @@ std::string refuse_events(const Job& job) {
     if (event.kind != Event::Kind::merge && event.kind != Event::Kind::split)
       return "of the events only merge and split are handed to Bullet";
     for (const std::string& name : event.bodies)
-      if (!is_free(job, name)) return fmt::format("Bullet's bodies merge and split in free flight, and {} is held", name);
+      if (!is_free(job, name))
+        return fmt::format("Bullet's bodies merge and split in free flight, and {} is held", name);
   }
   return {};
 }
@@ -43,7 +45,8 @@ std::string refuse_scene(const Scene& scene) {
   if (std::any_of(scene.periodic.begin(), scene.periodic.end(), [](bool p) { return p; }))
     return "Bullet has no periodic directions";
   if (!scene.inflows.empty()) return "Bullet has no inflow";
-  if (!scene.contact && scene.bodies.size() > 1) return "Bullet's bodies meet, and the scene says contact = \"none\"";
+  if (!scene.contact && scene.bodies.size() > 1)
+    return "Bullet's bodies meet, and the scene says contact = \"none\"";
   return {};
 }
 
@@ -52,7 +55,8 @@ std::string refuse_spin(const Job& job) {
   for (const JobBody& body : job.bodies) {
     const double angle = norm(body.angular_velocity) * wanted_time_step(job);
     if (body.motion == Motion::free && angle > std::numbers::pi / 4)
-      return fmt::format("{} turns by {:.3g} rad a step; Bullet distorts rotations above pi/4 a step", body.name, angle);
+      return fmt::format("{} turns by {:.3g} rad a step; Bullet distorts rotations above pi/4 a step",
+                         body.name, angle);
   }
   return {};
 }
@@ -69,7 +73,8 @@ std::string refuse_settings(const Job& job) {
 }  // namespace
 
 std::string why_not(const Job& job) {
-  for (const std::string& reason : {refuse_settings(job), refuse_scene(job.scene), refuse_bodies(job), refuse_events(job)})
+  for (const std::string& reason :
+       {refuse_settings(job), refuse_scene(job.scene), refuse_bodies(job), refuse_events(job)})
     if (!reason.empty()) return reason;
   return refuse_spin(job);
 }

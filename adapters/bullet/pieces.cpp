@@ -16,7 +16,8 @@ bool convex(const Mesh& mesh) {
   for (const Vec3& p : mesh.points) size = std::max(size, norm(p - mesh.points.front()));
   return std::ranges::all_of(mesh.triangles, [&](const auto& t) {
     const Vec3 a = mesh.points[t[0]], normal = cross(mesh.points[t[1]] - a, mesh.points[t[2]] - a);
-    return std::ranges::all_of(mesh.points, [&](const Vec3& p) { return dot(normal, p - a) <= 1e-9 * size * norm(normal); });
+    return std::ranges::all_of(
+        mesh.points, [&](const Vec3& p) { return dot(normal, p - a) <= 1e-9 * size * norm(normal); });
   });
 }
 
@@ -40,14 +41,17 @@ Piece rod(Piece::Kind kind, const Shape& shape, const PlaceOfShape& place) {
 
 /// The cylinder of a union that is a capsule: balls of its radius lie at both ends of its axis.
 const Shape* capsule_in(const std::vector<Shape>& parts) {
-  const auto is_rod = [](const Shape& part) { return part.kind == Shape::Kind::cylinder && !is_turned(part); };
+  const auto is_rod = [](const Shape& part) {
+    return part.kind == Shape::Kind::cylinder && !is_turned(part);
+  };
   const auto found = std::ranges::find_if(parts, is_rod);
   if (parts.size() != 3 || found == parts.end()) return nullptr;
   const double size = 1e-9 * found->radius;
   const Vec3 end = found->base + found->length * found->axis;
   const auto has_ball = [&](const Vec3& at) {
     return std::ranges::any_of(parts, [&](const Shape& ball) {
-      return ball.kind == Shape::Kind::sphere && std::abs(ball.radius - found->radius) <= size && norm(ball.centre - at) <= size;
+      return ball.kind == Shape::Kind::sphere && std::abs(ball.radius - found->radius) <= size &&
+             norm(ball.centre - at) <= size;
     });
   };
   return has_ball(found->base) && has_ball(end) ? &*found : nullptr;
@@ -79,7 +83,8 @@ std::vector<Piece> pieces_of(const Shape& shape, const PlaceOfShape& place) {
   const auto local = [&](const Vec3& x) { return rotate_back(place.axes, x - place.centre); };
   switch (shape.kind) {
     case Shape::Kind::box:
-      return {{Piece::Kind::box, local(0.5 * (shape.min + shape.max)), conjugate(place.axes), 0.5 * (shape.max - shape.min)}};
+      return {{Piece::Kind::box, local(0.5 * (shape.min + shape.max)), conjugate(place.axes),
+               0.5 * (shape.max - shape.min)}};
     case Shape::Kind::sphere:
       return {{Piece::Kind::sphere, local(shape.centre), {}, Vec3{shape.radius, shape.radius, shape.radius}}};
     case Shape::Kind::cylinder:

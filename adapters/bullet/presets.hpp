@@ -14,9 +14,10 @@ enum class Gyro { off, explicit_world, implicit_body, implicit_world };
 enum class Collision { solid, boxes, spheres, none };
 
 struct Preset {
-  int iterations = 10;                 ///< of the sequential impulse solver
-  double erp2 = 0.2;                   ///< share of the penetration that is removed in a step
-  double split_threshold = -0.04;      ///< deeper penetrations than this are corrected apart from the velocity [m]
+  int iterations = 10;  ///< of the sequential impulse solver
+  double erp2 = 0.2;    ///< share of the penetration that is removed in a step
+  /// Deeper penetrations than this are corrected apart from the velocity [m]
+  double split_threshold = -0.04;
   double restitution_threshold = 0.2;  ///< slower hits than this do not bounce [m/s]
   double contact_threshold = 1e30;     ///< contacts act from this distance on [m]
   double restitution = 0.0;            ///< of a pair of bodies

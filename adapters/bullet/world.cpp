@@ -55,11 +55,15 @@ namespace {
 /// Bullet asks free functions for the values of a pair. A process has one world.
 const PairLaws* laws_in_use = nullptr;
 
-double of_pair(const std::vector<std::vector<double>>& table, const btCollisionObject* a, const btCollisionObject* b) {
-  return table.at(static_cast<std::size_t>(a->getUserIndex())).at(static_cast<std::size_t>(b->getUserIndex()));
+double of_pair(const std::vector<std::vector<double>>& table, const btCollisionObject* a,
+               const btCollisionObject* b) {
+  return table.at(static_cast<std::size_t>(a->getUserIndex()))
+      .at(static_cast<std::size_t>(b->getUserIndex()));
 }
 
-btScalar friction_of(const btCollisionObject* a, const btCollisionObject* b) { return of_pair(laws_in_use->friction, a, b); }
+btScalar friction_of(const btCollisionObject* a, const btCollisionObject* b) {
+  return of_pair(laws_in_use->friction, a, b);
+}
 btScalar restitution_of(const btCollisionObject* a, const btCollisionObject* b) {
   return of_pair(laws_in_use->restitution, a, b);
 }
@@ -82,7 +86,9 @@ struct World::Impl {
     for (Solid& s : solids)
       if (s.body) world.removeRigidBody(s.body.get());
   }
-  [[nodiscard]] btRigidBody& at(int handle) const { return *solids.at(static_cast<std::size_t>(handle)).body; }
+  [[nodiscard]] btRigidBody& at(int handle) const {
+    return *solids.at(static_cast<std::size_t>(handle)).body;
+  }
 };
 
 World::World(const Preset& preset, const Vec3& gravity) : impl_(std::make_unique<Impl>(preset)) {
@@ -147,7 +153,8 @@ Solid build_shapes(const std::vector<Piece>& pieces) {
   return solid;
 }
 
-/// A moment of 0 cannot turn: Bullet reads it as infinite, so the spin about that axis, which carries no momentum, goes.
+/// A moment of 0 cannot turn: Bullet reads it as infinite, so the spin about that axis, which carries no
+/// momentum, goes.
 Vec3 spin_with_momentum(const RigidPart& part) {
   Vec3 w = rotate_back(part.motion.orientation, part.motion.angular_velocity);
   for (std::size_t k = 0; k < 3; ++k)
@@ -163,8 +170,9 @@ int World::add(const RigidPart& part) {
   Solid solid = build_shapes(part.pieces);
   const bool dynamic = part.drive == Drive::dynamic;
   // The particles' own moments; never calculateLocalInertia(), which would see the shapes.
-  const btRigidBody::btRigidBodyConstructionInfo info(dynamic ? part.mass : 0.0, nullptr, solid.shape.get(),
-                                                      dynamic ? bt(part.principal_inertia) : btVector3(0, 0, 0));
+  const btRigidBody::btRigidBodyConstructionInfo info(
+      dynamic ? part.mass : 0.0, nullptr, solid.shape.get(),
+      dynamic ? bt(part.principal_inertia) : btVector3(0, 0, 0));
   solid.body = std::make_unique<btRigidBody>(info);
   btRigidBody& body = *solid.body;
   body.setCenterOfMassTransform(btTransform(bt(part.motion.orientation), bt(part.motion.centre)));
@@ -172,7 +180,8 @@ int World::add(const RigidPart& part) {
     body.setLinearVelocity(bt(part.motion.velocity));
     body.setAngularVelocity(bt(dynamic ? spin_with_momentum(part) : part.motion.angular_velocity));
   }
-  if (part.drive == Drive::kinematic) body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
+  if (part.drive == Drive::kinematic)
+    body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
   body.setFlags(singular(part.principal_inertia) ? 0 : flags(impl_->preset.gyro));
   body.setActivationState(DISABLE_DEACTIVATION);
   body.setDamping(0.0, 0.0);
@@ -181,9 +190,11 @@ int World::add(const RigidPart& part) {
   body.setRollingFriction(0.0);
   body.setSpinningFriction(0.0);
   body.setRestitution(std::sqrt(impl_->preset.restitution));
-  if (impl_->preset.contact_threshold < 1e30) body.setContactProcessingThreshold(impl_->preset.contact_threshold);
+  if (impl_->preset.contact_threshold < 1e30)
+    body.setContactProcessingThreshold(impl_->preset.contact_threshold);
   const int all = -1, none = 0;
-  impl_->world.addRigidBody(&body, btBroadphaseProxy::DefaultFilter, impl_->preset.collision == Collision::none ? none : all);
+  impl_->world.addRigidBody(&body, btBroadphaseProxy::DefaultFilter,
+                            impl_->preset.collision == Collision::none ? none : all);
   impl_->solids.push_back(std::move(solid));
   return static_cast<int>(impl_->solids.size()) - 1;
 }
@@ -204,7 +215,9 @@ void World::use(PairLaws laws) {
   gCalculateCombinedRestitutionCallback = restitution_of;
 }
 
-void World::push(int handle, const Vec3& force, const Vec3& arm) { impl_->at(handle).applyForce(bt(force), bt(arm)); }
+void World::push(int handle, const Vec3& force, const Vec3& arm) {
+  impl_->at(handle).applyForce(bt(force), bt(arm));
+}
 
 void World::step(double dt) {
   impl_->world.stepSimulation(dt, 0);  // 0 substeps: exactly one step of dt, no interpolation
@@ -214,8 +227,8 @@ void World::step(double dt) {
 
 RigidMotion World::motion(int handle) const {
   const btRigidBody& body = impl_->at(handle);
-  return {vec(body.getCenterOfMassPosition()), quaternion(body.getCenterOfMassTransform()), vec(body.getLinearVelocity()),
-          vec(body.getAngularVelocity())};
+  return {vec(body.getCenterOfMassPosition()), quaternion(body.getCenterOfMassTransform()),
+          vec(body.getLinearVelocity()), vec(body.getAngularVelocity())};
 }
 
 HeldBody World::held(int handle) const {
@@ -245,8 +258,8 @@ Wrench World::contact(int handle, double dt) const {
                                 point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
                                 point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2;
       const Vec3 force = ((first ? 1.0 : -1.0) / dt) * vec(impulse);
-      const Vec3 arm =
-          vec(first ? point.getPositionWorldOnA() : point.getPositionWorldOnB()) - vec(body->getCenterOfMassPosition());
+      const Vec3 arm = vec(first ? point.getPositionWorldOnA() : point.getPositionWorldOnB()) -
+                       vec(body->getCenterOfMassPosition());
       sum.force += force;
       sum.torque += cross(arm, force);
     }
@@ -256,7 +269,9 @@ Wrench World::contact(int handle, double dt) const {
 
 double World::contact_points() const { return impl_->contact_points; }
 
-std::string World::version() { return fmt::format("{}.{:02d}", BT_BULLET_VERSION / 100, BT_BULLET_VERSION % 100); }
+std::string World::version() {
+  return fmt::format("{}.{:02d}", BT_BULLET_VERSION / 100, BT_BULLET_VERSION % 100);
+}
 
 std::string World::library_path() { return loaded_library("libBulletDynamics"); }
 

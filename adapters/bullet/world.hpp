@@ -16,9 +16,10 @@ namespace tripoint::bullet {
 /// One part of a body, in the body's principal frame.
 struct Piece {
   enum class Kind { box, sphere, cylinder, capsule, hull, surface } kind = Kind::box;
-  Vec3 centre;                  ///< [m]
-  Quaternion rotation;          ///< of the part's axes
-  Vec3 half_extents;            ///< [m]; a radius is x; of a cylinder or capsule z is half its straight part, along its z axis
+  Vec3 centre;          ///< [m]
+  Quaternion rotation;  ///< of the part's axes
+  /// [m]; a radius is x; of a cylinder or capsule z is half its straight part, along its z axis
+  Vec3 half_extents;
   std::vector<Vec3> corners{};  ///< hull, surface: about `centre`, in the part's axes [m]
   std::vector<std::array<std::uint32_t, 3>> triangles{};  ///< surface: counter-clockwise seen from outside
 };
@@ -68,7 +69,8 @@ class World {
 
   /// From now on every pair of bodies has the friction and restitution of its materials.
   void use(PairLaws);
-  /// Adds a body and returns its handle. Call in the order of the bodies' rows: the order changes Bullet's bits.
+  /// Adds a body and returns its handle. Call in the order of the bodies' rows: the order changes Bullet's
+  /// bits.
   [[nodiscard]] int add(const RigidPart&);
   void remove(int handle);
   /// Where a kinematic body will be at the end of the next step.

@@ -27,22 +27,26 @@ std::string scene_hash(Job job) {
   return text_hash(job_text(job));
 }
 
-std::string earlier_trajectory(const Job& job) { return (fs::path(job.resume).parent_path() / "trajectory.h5").string(); }
+std::string earlier_trajectory(const Job& job) {
+  return (fs::path(job.resume).parent_path() / "trajectory.h5").string();
+}
 
 template <class Values>
-const Values& take(const std::map<std::string, Values>& arrays, const std::string& name, const std::string& path) {
+const Values& take(const std::map<std::string, Values>& arrays, const std::string& name,
+                   const std::string& path) {
   const auto at = arrays.find(name);
   if (at == arrays.end() || at->second.empty()) throw InputError(path + ": has no " + name);
   return at->second;
 }
 
-/// Times up to the one that the run was on its way to must be times of this job. Otherwise its steps would not be those of the
-/// whole run.
+/// Times up to the one that the run was on its way to must be times of this job. Otherwise its steps would
+/// not be those of the whole run.
 void expect_times(const Job& job, const std::vector<double>& times) {
   for (std::size_t k = 0; k < times.size(); ++k) {
     if (k < job.times.size() && job.times[k] == times[k]) continue;
     throw InputError(
-        fmt::format("{}: its run {} t = {:.17g} s, which is no output time of this one: keep output_interval, and an end that "
+        fmt::format("{}: its run {} t = {:.17g} s, which is no output time of this one: keep "
+                    "output_interval, and an end that "
                     "comes no sooner",
                     job.resume, k + 1 < times.size() ? "showed" : "was on its way to", times[k]));
   }
@@ -54,15 +58,19 @@ std::vector<std::string> identity_of(const Job& job, const InitialState& initial
   return {"scene " + scene_hash(job), "particles " + state_hash(initial), "build " + build};
 }
 
-Checkpoints::Checkpoints(const Job& job, std::vector<std::string> identity) : job_(job), identity_(std::move(identity)) {
+Checkpoints::Checkpoints(const Job& job, std::vector<std::string> identity)
+    : job_(job), identity_(std::move(identity)) {
   const auto at = job.settings.find(interval_key);
   if (at == job.settings.end()) return;
   const double* interval = std::get_if<double>(&at->second);
-  if (!interval || !(*interval > 0.0)) throw InputError(std::string(interval_key) + " must be a time above 0, in seconds");
+  if (!interval || !(*interval > 0.0))
+    throw InputError(std::string(interval_key) + " must be a time above 0, in seconds");
   interval_ = *interval;
 }
 
-long Checkpoints::multiples(double time) const { return interval_ > 0.0 ? static_cast<long>(std::floor(time / interval_)) : 0; }
+long Checkpoints::multiples(double time) const {
+  return interval_ > 0.0 ? static_cast<long>(std::floor(time / interval_)) : 0;
+}
 
 double Checkpoints::go_on_from(const Checkpoint& kept) {
   const double time = take(kept.real, "run/time", job_.resume)[0];
@@ -83,7 +91,8 @@ std::string Checkpoints::write(Checkpoint kept, double time, long step, const Pr
   kept.text["run/frames_hash"] = {progress.hash.text()};
   kept.real["run/time"] = {time};
   kept.whole["run/frames"] = {static_cast<std::int64_t>(progress.frames)};
-  kept.real["run/times"].assign(job_.times.begin(), job_.times.begin() + static_cast<std::ptrdiff_t>(progress.frames) + 1);
+  kept.real["run/times"].assign(job_.times.begin(),
+                                job_.times.begin() + static_cast<std::ptrdiff_t>(progress.frames) + 1);
   // Frames that the checkpoint counts on must not be in memory only.
   if (const std::string frames = job_.output + "/trajectory.h5"; fs::exists(frames)) make_durable(frames);
   const std::string path = (fs::path(job_.output) / fmt::format("checkpoint-{:09}.h5", step)).string();
@@ -94,7 +103,9 @@ std::string Checkpoints::write(Checkpoint kept, double time, long step, const Pr
   return path;
 }
 
-std::string Checkpoints::last() const { return kept_.empty() ? "" : fs::path(kept_.back()).filename().string(); }
+std::string Checkpoints::last() const {
+  return kept_.empty() ? "" : fs::path(kept_.back()).filename().string();
+}
 
 Checkpoint open_checkpoint(const Job& job, const std::vector<std::string>& identity) {
   Checkpoint kept = read_checkpoint(job.resume);
@@ -102,8 +113,8 @@ Checkpoint open_checkpoint(const Job& job, const std::vector<std::string>& ident
   for (std::size_t k = 0; k < identity.size(); ++k) {
     if (k < theirs.size() && theirs[k] == identity[k]) continue;
     const std::string what = identity[k].substr(0, identity[k].find(' '));
-    throw InputError(fmt::format("{}: is of another {}: it holds \"{}\", this run is \"{}\"", job.resume, what,
-                                 k < theirs.size() ? theirs[k] : "", identity[k]));
+    throw InputError(fmt::format("{}: is of another {}: it holds \"{}\", this run is \"{}\"", job.resume,
+                                 what, k < theirs.size() ? theirs[k] : "", identity[k]));
   }
   expect_times(job, take(kept.real, "run/times", job.resume));
   return kept;
@@ -116,10 +127,12 @@ std::vector<Snapshot> earlier_frames(const Job& job, const Checkpoint& kept) {
   FramesHash hash;
   if (frames.size() > wanted) frames.resize(wanted);
   for (Snapshot& frame : frames) {
-    while (!frame.bodies.empty() && std::isnan(frame.bodies.back().mass)) frame.bodies.pop_back();  // bodies born in later frames
+    // Bodies born in later frames
+    while (!frame.bodies.empty() && std::isnan(frame.bodies.back().mass)) frame.bodies.pop_back();
     hash.add(frame);
   }
-  if (frames.size() == wanted && hash.text() == take(kept.text, "run/frames_hash", job.resume)[0]) return frames;
+  if (frames.size() == wanted && hash.text() == take(kept.text, "run/frames_hash", job.resume)[0])
+    return frames;
   throw InputError(path + ": does not hold the " + std::to_string(wanted) +
                    " frames that were written before the checkpoint; keep both in one folder");
 }

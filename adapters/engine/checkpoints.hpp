@@ -8,11 +8,12 @@
 #include "files/job.hpp"
 #include "files/trajectory.hpp"
 
-/// Checkpoints of a job: data of the run beside the engine's own state, when they are due, and where they lie.
+/// Checkpoints of a job: data of the run beside the engine's own state, when they are due, and where they
+/// lie.
 namespace tripoint {
 
-/// Data that must be the same when a checkpoint is resumed: the scene, its particles and the build. Threads, paths, the end and
-/// the interval of checkpoints may change.
+/// Data that must be the same when a checkpoint is resumed: the scene, its particles and the build. Threads,
+/// paths, the end and the interval of checkpoints may change.
 [[nodiscard]] std::vector<std::string> identity_of(const Job&, const InitialState&, const std::string& build);
 
 /// The run as far as its frames go: they are in trajectory.h5 beside the checkpoint.
@@ -21,8 +22,8 @@ struct Progress {
   FramesHash hash;         ///< of them
 };
 
-/// Writes checkpoint-STEP.h5 into the job's folder: each time that simulated time passes a multiple of the job's setting
-/// checkpoint_interval [s], and when asked to. The last two are kept.
+/// Writes checkpoint-STEP.h5 into the job's folder: each time that simulated time passes a multiple of the
+/// job's setting checkpoint_interval [s], and when asked to. The last two are kept.
 class Checkpoints {
  public:
   /// @throws InputError when the interval is no positive number
@@ -48,8 +49,8 @@ class Checkpoints {
   std::deque<std::string> kept_;
 };
 
-/// Reads the checkpoint that the job resumes from. @throws InputError: torn, of another scene, of another build, or on its way to
-/// a time that is no output time of this job
+/// Reads the checkpoint that the job resumes from. @throws InputError: torn, of another scene, of another
+/// build, or on its way to a time that is no output time of this job
 [[nodiscard]] Checkpoint open_checkpoint(const Job&, const std::vector<std::string>& identity);
 
 /// The frames that the cut run had written, from trajectory.h5 beside the checkpoint.

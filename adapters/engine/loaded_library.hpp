@@ -6,7 +6,8 @@
 
 namespace tripoint {
 
-/// Path of the shared library whose file name starts with `stem`, as the loader took it into this process; "" if none.
+/// Path of the shared library whose file name starts with `stem`, as the loader took it into this process; ""
+/// if none.
 inline std::string loaded_library(const std::string& stem) {
   struct Search {
     std::string stem, found;

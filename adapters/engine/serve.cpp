@@ -39,7 +39,9 @@ double cpu_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-double wall_seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 /// FNV-1a over a file's bytes: tells two builds of a library apart.
 std::string hash_of_file(const std::string& path) {
@@ -48,14 +50,16 @@ std::string hash_of_file(const std::string& path) {
   std::uint64_t hash = 1469598103934665603ULL;
   char block[1 << 16];
   while (in.read(block, sizeof block) || in.gcount() > 0)
-    for (std::streamsize k = 0; k < in.gcount(); ++k) hash = (hash ^ static_cast<unsigned char>(block[k])) * 1099511628211ULL;
+    for (std::streamsize k = 0; k < in.gcount(); ++k)
+      hash = (hash ^ static_cast<unsigned char>(block[k])) * 1099511628211ULL;
   return fmt::format("fnv1a64:{:016x}", hash);
 }
 
 int print_info(const Engine& engine) {
   const EngineInfo info = engine.info();
   json defects = json::array();
-  for (const DefectEntry& d : info.defects) defects.push_back({{"name", d.name}, {"what", d.what}, {"case", d.case_id}});
+  for (const DefectEntry& d : info.defects)
+    defects.push_back({{"name", d.name}, {"what", d.what}, {"case", d.case_id}});
   const json out{{"contract", 1},
                  {"name", info.name},
                  {"version", info.version},
@@ -75,8 +79,9 @@ int print_info(const Engine& engine) {
 std::string refusal(const Engine& engine, const Job& job) {
   if (!job.resume.empty() && !dynamic_cast<const Restartable*>(&engine))
     return engine.info().name + ": cannot continue from a checkpoint";
-  if (std::ranges::any_of(job.scene.materials,
-                          [](const Material& m) { return value_of(m.values, "surface_temperature") > 0.0; })) {
+  if (std::ranges::any_of(job.scene.materials, [](const Material& m) {
+        return value_of(m.values, "surface_temperature") > 0.0;
+      })) {
     const EngineInfo info = engine.info();
     if (std::ranges::find(info.capabilities, "surface-temperature") == info.capabilities.end())
       return info.name + ": is not told to hold the temperature of a surface (surface_temperature)";
@@ -116,8 +121,10 @@ class LedgerChange {
     exchanged_ = std::max(exchanged_, 0.5 * sizes);
   }
   [[nodiscard]] bool has_any() const { return !start_.empty(); }
-  [[nodiscard]] double residual() const { return residual_; }    ///< change of the sum of all terms, at the last frame [J]
-  [[nodiscard]] double exchanged() const { return exchanged_; }  ///< greatest half sum of the sizes of all changes [J]
+  /// Change of the sum of all terms, at the last frame [J]
+  [[nodiscard]] double residual() const { return residual_; }
+  /// Greatest half sum of the sizes of all changes [J]
+  [[nodiscard]] double exchanged() const { return exchanged_; }
 
  private:
   std::map<std::string, double> start_;
@@ -140,7 +147,8 @@ struct Interrupted {
 /// One run: frames are announced on stderr once they are safe in the file; result.json is the last act.
 class Run {
  public:
-  Run(Engine& engine, Job job) : engine_(engine), restartable_(dynamic_cast<Restartable*>(&engine)), job_(std::move(job)) {
+  Run(Engine& engine, Job job)
+      : engine_(engine), restartable_(dynamic_cast<Restartable*>(&engine)), job_(std::move(job)) {
     std::filesystem::create_directories(job_.output);
     result_path_ = job_.output + "/result.json";
     std::filesystem::remove(result_path_);
@@ -155,7 +163,8 @@ class Run {
       step_to_the_end();
       return finish(Status::ok, Exit::ok);
     } catch (const Interrupted& e) {
-      result_.message = fmt::format("interrupted at t = {:.9g} s; continue with --resume {}", e.time, e.checkpoint);
+      result_.message =
+          fmt::format("interrupted at t = {:.9g} s; continue with --resume {}", e.time, e.checkpoint);
       result_.time_reached = e.time;
       account();
       return finish(Status::error, Exit::interrupted);
@@ -186,9 +195,12 @@ class Run {
   bool set_up() {
     const double cpu = cpu_seconds(), wall = wall_seconds();
     const InitialState initial = read_particles(job_.particles);
-    if (restartable_) checkpoints_.emplace(job_, identity_of(job_, initial, engine_.info().version + " " + engine_.info().build));
+    if (restartable_)
+      checkpoints_.emplace(job_,
+                           identity_of(job_, initial, engine_.info().version + " " + engine_.info().build));
     engine_.load(job_, initial);
-    result_.readback = engine_.readback();  // of the scene as given: bodies of a run that goes on may have merged since
+    // Of the scene as given: bodies of a run that goes on may have merged since
+    result_.readback = engine_.readback();
     if (!job_.resume.empty() && !resume(initial)) return false;
     result_.setup_cpu = cpu_seconds() - cpu;
     result_.setup_wall = wall_seconds() - wall;
@@ -209,8 +221,10 @@ class Run {
   }
 
   void step_to_the_end() {
-    // Frames of a run that goes on are written beside the file that still holds them, which then is replaced at once.
-    const std::string path = job_.output + "/trajectory.h5", begun = job_.resume.empty() ? path : path + ".part";
+    // Frames of a run that goes on are written beside the file that still holds them, which then is replaced
+    // at once.
+    const std::string path = job_.output + "/trajectory.h5",
+                      begun = job_.resume.empty() ? path : path + ".part";
     TrajectoryWriter writer(begun, domain_of(job_.scene));
     for (const Snapshot& frame : earlier_) show(writer, frame);
     earlier_.clear();
@@ -233,7 +247,8 @@ class Run {
     write_xdmf(job_.output, shown_, last_);
   }
 
-  /// The file that held the frames of before the checkpoint is gone after this: all of the new one must be durable first.
+  /// The file that held the frames of before the checkpoint is gone after this: all of the new one must be
+  /// durable first.
   void put_in_place(const std::string& begun, const std::string& path) const {
     make_durable(begun);
     std::filesystem::rename(begun, path);
@@ -273,7 +288,8 @@ class Run {
     if (sofar.steps == 0) return;  // nothing sets a step yet
     next_status_ = wall_seconds() + status_interval_;
     json line{{"time", now}, {"end", job_.times.back()}, {"step", sofar.steps}};
-    if (const auto dt = sofar.extra.find("time_step"); dt != sofar.extra.end()) line["time_step"] = dt->second;
+    if (const auto dt = sofar.extra.find("time_step"); dt != sofar.extra.end())
+      line["time_step"] = dt->second;
     if (!sofar.time_step_bound.empty()) line["bound"] = sofar.time_step_bound;
     if (ledger_.has_any()) {
       line["ledger_residual"] = ledger_.residual();
@@ -295,7 +311,8 @@ class Run {
     if (!d.file.empty()) result_.message += fmt::format("; {} shows it and what is around it", d.file);
     result_.message +=
         d.checkpoint.empty()
-            ? fmt::format("; last good frame at t = {:.9g} s, no checkpoint was kept (checkpoint_interval)", result_.time_reached)
+            ? fmt::format("; last good frame at t = {:.9g} s, no checkpoint was kept (checkpoint_interval)",
+                          result_.time_reached)
             : "; last good checkpoint " + d.checkpoint;
     result_.divergence = std::move(d);
   }
@@ -331,7 +348,8 @@ class Run {
 
 int usage(const char* program) {
   tell(
-      "usage: {0} --info | --check JOB.json | --run JOB.json\nAn engine of tripoint; `tripoint run CASE --engine NAME` "
+      "usage: {0} --info | --check JOB.json | --run JOB.json\nAn engine of tripoint; `tripoint run CASE "
+      "--engine NAME` "
       "writes the job and calls it.\n",
       program);
   return bad_job;

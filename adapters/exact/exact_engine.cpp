@@ -13,7 +13,8 @@ EngineInfo ExactEngine::info() const {
   info.name = "exact";
   info.version = "1";
   info.build = "closed forms in double and long double";
-  info.capabilities = {"rigid-free-flight", "gravity", "force", "merge", "split", "prescribed", "heat", "surface-temperature"};
+  info.capabilities = {"rigid-free-flight",  "gravity", "force", "merge", "split", "prescribed", "heat",
+                       "surface-temperature"};
   return info;
 }
 
@@ -50,11 +51,12 @@ std::string ExactEngine::refusal(const Job& job) const {
       place_by_bodies(job, initial, start);
       for (std::size_t i = 0; i < initial.size(); ++i)
         if (!(norm(start.position[i] - initial.position[i]) <= 1e-6 * job.scene.spacing))
-          return "not applicable: the reference `" + job.reference.function + "` knows the end, not the way there";
+          return "not applicable: the reference `" + job.reference.function +
+                 "` knows the end, not the way there";
     }
-    return start.position.empty()
-               ? "not applicable: the reference `" + job.reference.function + "` gives scalar results, not particle positions"
-               : "";
+    return start.position.empty() ? "not applicable: the reference `" + job.reference.function +
+                                        "` gives scalar results, not particle positions"
+                                  : "";
   } catch (const InputError& e) {
     return e.what();
   }
@@ -99,8 +101,8 @@ Readback ExactEngine::readback() const {
   held.precision = "exact";
   for (const auto& b : job_.bodies)
     if (b.index >= 0)
-      held.bodies.push_back(
-          {b.name, b.properties.mass, b.properties.centre, b.properties.principal_inertia, not_a_number, not_a_number});
+      held.bodies.push_back({b.name, b.properties.mass, b.properties.centre, b.properties.principal_inertia,
+                             not_a_number, not_a_number});
   return held;
 }
 

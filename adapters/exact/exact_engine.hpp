@@ -7,8 +7,9 @@
 
 namespace tripoint {
 
-/// The exact solution of the job's reference, served by the same protocol as every engine. Its row in a report shows the error of
-/// the comparison itself (reading, interpolating, rounding). It also gives pictures and curves of the truth.
+/// The exact solution of the job's reference, served by the same protocol as every engine. Its row in a
+/// report shows the error of the comparison itself (reading, interpolating, rounding). It also gives pictures
+/// and curves of the truth.
 class ExactEngine : public Engine {
  public:
   [[nodiscard]] EngineInfo info() const override;

@@ -2,5 +2,6 @@
 #include "adapters/exact/exact_engine.hpp"
 
 int main(int argc, char** argv) {
-  return tripoint::serve(argc, argv, [] { return std::unique_ptr<tripoint::Engine>(new tripoint::ExactEngine); });
+  return tripoint::serve(argc, argv,
+                         [] { return std::unique_ptr<tripoint::Engine>(new tripoint::ExactEngine); });
 }

@@ -10,10 +10,10 @@ namespace {
 /// @param S sum of m a b^T
 Quaternion horn(const Eigen::Matrix3d& S) {
   Eigen::Matrix4d N;
-  N << S(0, 0) + S(1, 1) + S(2, 2), S(1, 2) - S(2, 1), S(2, 0) - S(0, 2), S(0, 1) - S(1, 0), S(1, 2) - S(2, 1),
-      S(0, 0) - S(1, 1) - S(2, 2), S(0, 1) + S(1, 0), S(2, 0) + S(0, 2), S(2, 0) - S(0, 2), S(0, 1) + S(1, 0),
-      -S(0, 0) + S(1, 1) - S(2, 2), S(1, 2) + S(2, 1), S(0, 1) - S(1, 0), S(2, 0) + S(0, 2), S(1, 2) + S(2, 1),
-      -S(0, 0) - S(1, 1) + S(2, 2);
+  N << S(0, 0) + S(1, 1) + S(2, 2), S(1, 2) - S(2, 1), S(2, 0) - S(0, 2), S(0, 1) - S(1, 0),
+      S(1, 2) - S(2, 1), S(0, 0) - S(1, 1) - S(2, 2), S(0, 1) + S(1, 0), S(2, 0) + S(0, 2), S(2, 0) - S(0, 2),
+      S(0, 1) + S(1, 0), -S(0, 0) + S(1, 1) - S(2, 2), S(1, 2) + S(2, 1), S(0, 1) - S(1, 0),
+      S(2, 0) + S(0, 2), S(1, 2) + S(2, 1), -S(0, 0) - S(1, 1) + S(2, 2);
   const Eigen::Vector4d q = Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(N).eigenvectors().col(3);
   const double sign = q(0) < 0.0 ? -1.0 : 1.0;
   return normalised({sign * q(0), sign * q(1), sign * q(2), sign * q(3)});
@@ -31,14 +31,15 @@ Quaternion swing(const Vec3& a, const Vec3& b) {
 Vec3 spin_of(const MassProperties& start, const Quaternion& orientation, const Vec3& L) {
   const Quaternion principal = orientation * start.principal_axes;
   Vec3 w = rotate_back(principal, L);
-  for (std::size_t k = 0; k < 3; ++k) w[k] = start.principal_inertia[k] > 0.0 ? w[k] / start.principal_inertia[k] : 0.0;
+  for (std::size_t k = 0; k < 3; ++k)
+    w[k] = start.principal_inertia[k] > 0.0 ? w[k] / start.principal_inertia[k] : 0.0;
   return rotate(principal, w);
 }
 
 }  // namespace
 
-BodyState fit_body(const MassProperties& start, const std::vector<std::size_t>& members, const InitialState& before,
-                   const Snapshot& now) {
+BodyState fit_body(const MassProperties& start, const std::vector<std::size_t>& members,
+                   const InitialState& before, const Snapshot& now) {
   BodyState s;
   s.mass = start.mass;
   for (const std::size_t i : members) {

@@ -7,10 +7,10 @@
 
 namespace tripoint::lammps {
 
-/// State of a rigid body from its particles, because fix rigid shows no more of its orientation. Centre and velocity are mass
-/// means. The rotation since time 0 is Horn's quaternion fit (exact for a rigid set). The angular velocity is w = I^-1 L. A
-/// collinear body gets the shortest rotation of its axis.
-[[nodiscard]] BodyState fit_body(const MassProperties& start, const std::vector<std::size_t>& members, const InitialState&,
-                                 const Snapshot& now);
+/// State of a rigid body from its particles, because fix rigid shows no more of its orientation. Centre and
+/// velocity are mass means. The rotation since time 0 is Horn's quaternion fit (exact for a rigid set). The
+/// angular velocity is w = I^-1 L. A collinear body gets the shortest rotation of its axis.
+[[nodiscard]] BodyState fit_body(const MassProperties& start, const std::vector<std::size_t>& members,
+                                 const InitialState&, const Snapshot& now);
 
 }  // namespace tripoint::lammps

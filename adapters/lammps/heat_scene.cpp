@@ -43,7 +43,9 @@ std::string changing_phase(const Scene& scene) {
   for (const Material& m : scene.materials)
     for (const auto& t : {m.t_melt, m.t_solid})
       if (t && least <= *t && *t <= greatest)
-        return fmt::format("{} changes phase at {} K within the scene's temperatures; LAMMPS runs conduction only", m.name, *t);
+        return fmt::format(
+            "{} changes phase at {} K within the scene's temperatures; LAMMPS runs conduction only", m.name,
+            *t);
   return {};
 }
 
@@ -55,7 +57,8 @@ std::string why_no_conduction(const Job& job) {
   for (const Body& b : scene.bodies) {
     if (!b.temperature) return fmt::format("{} has no temperature", b.name);
     const Material& m = scene.material(b.material);
-    if (!m.conductivity || !m.heat_capacity) return fmt::format("{} has no conductivity or no heat capacity", m.name);
+    if (!m.conductivity || !m.heat_capacity)
+      return fmt::format("{} has no conductivity or no heat capacity", m.name);
   }
   if (const std::string reason = moving(job); !reason.empty()) return reason;
   return changing_phase(scene);
@@ -69,7 +72,8 @@ double diffusivity(const Scene& scene, const Body& b) {
   return conductivity_of(scene.material(b.material), b.phase) / heat_per_volume(scene, b);
 }
 
-Snapshot at_rest(const Job& job, const InitialState& state, double time, long step, std::vector<double> temperature) {
+Snapshot at_rest(const Job& job, const InitialState& state, double time, long step,
+                 std::vector<double> temperature) {
   Snapshot s;
   s.time = time;
   s.step = step;
@@ -84,10 +88,10 @@ Snapshot at_rest(const Job& job, const InitialState& state, double time, long st
   for (std::size_t i = 0; i < state.size(); ++i) {
     s.id.push_back(static_cast<int>(i));
     s.total_mass += s.mass[i];
-    s.energy["thermal"] +=
-        s.mass[i] *
-        heat_capacity_of(job.scene.materials.at(static_cast<std::size_t>(s.material[i])), static_cast<Phase>(s.phase[i])) *
-        s.temperature[i];
+    s.energy["thermal"] += s.mass[i] *
+                           heat_capacity_of(job.scene.materials.at(static_cast<std::size_t>(s.material[i])),
+                                            static_cast<Phase>(s.phase[i])) *
+                           s.temperature[i];
   }
   for (const JobBody& b : job.bodies) {
     if (b.index < 0) continue;
@@ -112,12 +116,13 @@ namespace {
 std::string hold_face(const Body& plate, double spacing, CellBox& box) {
   const Vec3 &low = plate.shape.min, &high = plate.shape.max;
   if (plate.temperature->kind != TemperatureField::Kind::constant)
-    return fmt::format("walkers need faces of one held temperature, and that of {} changes in place", plate.name);
+    return fmt::format("walkers need faces of one held temperature, and that of {} changes in place",
+                       plate.name);
   const double slack = 1e-6 * spacing;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
-    const bool covers = low[a] <= box.min[a] + slack && high[a] >= box.max[a] - slack && low[b] <= box.min[b] + slack &&
-                        high[b] >= box.max[b] - slack;
+    const bool covers = low[a] <= box.min[a] + slack && high[a] >= box.max[a] - slack &&
+                        low[b] <= box.min[b] + slack && high[b] >= box.max[b] - slack;
     const bool below = std::abs(high[k] - box.min[k]) < slack, above = std::abs(low[k] - box.max[k]) < slack;
     if (!covers || !(below || above)) continue;
     const int axis = static_cast<int>(k);
@@ -158,7 +163,8 @@ std::optional<CellBox> cell_box(const Scene& scene, std::string& why) {
     return {};
   }
   const Vec3 e = box.max - box.min;
-  if (std::abs(filled / (e.x * e.y * e.z) - 1.0) > 1e-9) why = "walkers need one box, and the bodies do not tile one";
+  if (std::abs(filled / (e.x * e.y * e.z) - 1.0) > 1e-9)
+    why = "walkers need one box, and the bodies do not tile one";
   for (std::size_t k = 0; k < 3; ++k) {
     const double n = e[k] / scene.spacing;
     box.cells[k] = static_cast<int>(std::lround(n));

@@ -15,7 +15,8 @@ namespace tripoint::lammps {
 /// Why this is no scene of pure conduction at rest; empty = it is.
 [[nodiscard]] std::string why_no_conduction(const Job&);
 
-/// Which material melts or freezes within the temperatures of the bodies and of the events; empty = none does.
+/// Which material melts or freezes within the temperatures of the bodies and of the events; empty = none
+/// does.
 [[nodiscard]] std::string changing_phase(const Scene&);
 
 /// k/(rho c) of a body [m2/s].
@@ -24,17 +25,20 @@ namespace tripoint::lammps {
 [[nodiscard]] double heat_per_volume(const Scene&, const Body&);
 
 /// Particles that never move, with the given temperatures.
-[[nodiscard]] Snapshot at_rest(const Job&, const InitialState&, double time, long step, std::vector<double> temperature);
+[[nodiscard]] Snapshot at_rest(const Job&, const InitialState&, double time, long step,
+                               std::vector<double> temperature);
 
-/// Gravity does not act on bodies at rest; no bodies, as LAMMPS holds walkers or scaled particles of unit mass.
+/// Gravity does not act on bodies at rest; no bodies, as LAMMPS holds walkers or scaled particles of unit
+/// mass.
 [[nodiscard]] Readback rest_readback(const Job&, double time_step);
 
 /// The one box that the bodies fill, in cells of one spacing.
 struct CellBox {
   Vec3 min, max;
   std::array<int, 3> cells{};
-  std::array<bool, 3> periodic{};  ///< the body reaches across the periodic domain; else an insulated wall, unless it is held
-  int held_axis = -1;              ///< across the faces whose temperature is held; -1 = none is
+  /// The body reaches across the periodic domain; else an insulated wall, unless it is held
+  std::array<bool, 3> periodic{};
+  int held_axis = -1;                         ///< across the faces whose temperature is held; -1 = none is
   std::optional<double> held_low, held_high;  ///< temperatures of these faces [K]
 };
 /// Box of the bodies whose temperature is free; held bodies must be plates that cover whole faces of it.

@@ -20,7 +20,8 @@ struct Style {
   const char *category, *name;
 };
 
-/// One way to run a scene: the styles that the loaded build must have, its refusals, its model, and its words in --info.
+/// One way to run a scene: the styles that the loaded build must have, its refusals, its model, and its words
+/// in --info.
 struct Way {
   std::string name;
   std::vector<Style> needs;
@@ -29,12 +30,20 @@ struct Way {
   std::vector<std::string> capabilities;
 };
 
-std::unique_ptr<Model> make_brownian(const Job& job, const InitialState& state) { return make_walkers(job, state, true); }
-std::unique_ptr<Model> make_langevin(const Job& job, const InitialState& state) { return make_walkers(job, state, false); }
+std::unique_ptr<Model> make_brownian(const Job& job, const InitialState& state) {
+  return make_walkers(job, state, true);
+}
+std::unique_ptr<Model> make_langevin(const Job& job, const InitialState& state) {
+  return make_walkers(job, state, false);
+}
 
 const std::vector<Way>& ways() {
   static const std::vector<Way> list{
-      {"rigid", {{"fix", "rigid"}}, why_no_rigid, make_rigid_flight, {"rigid-free-flight", "gravity", "fixed"}},
+      {"rigid",
+       {{"fix", "rigid"}},
+       why_no_rigid,
+       make_rigid_flight,
+       {"rigid-free-flight", "gravity", "fixed"}},
       {"langevin", {{"fix", "langevin"}}, why_no_walkers, make_langevin, {"heat", "walkers", "langevin"}},
       {"brownian", {{"fix", "brownian"}}, why_no_walkers, make_brownian, {"brownian"}},
       {"sph", {{"pair", "sph/heatconduction"}}, why_no_sph_heat, make_sph_heat, {"conduction"}},
@@ -44,7 +53,11 @@ const std::vector<Way>& ways() {
        make_sph_liquid,
        {"taitwater"}},
       {"tlsph", {{"pair", "smd/tlsph"}, {"atom", "smd"}}, why_no_tlsph, make_tlsph, {"tlsph"}},
-      {"rheo", {{"fix", "rheo/thermal"}, {"pair", "rheo/solid"}, {"bond", "bpm/spring"}}, why_no_rheo, make_rheo, {"rheo"}}};
+      {"rheo",
+       {{"fix", "rheo/thermal"}, {"pair", "rheo/solid"}, {"bond", "bpm/spring"}},
+       why_no_rheo,
+       make_rheo,
+       {"rheo"}}};
   return list;
 }
 
@@ -52,7 +65,9 @@ const std::vector<Way>& ways() {
 struct Build {
   std::string version;
   std::vector<std::string> ways;
-  [[nodiscard]] bool has(const std::string& way) const { return std::find(ways.begin(), ways.end(), way) != ways.end(); }
+  [[nodiscard]] bool has(const std::string& way) const {
+    return std::find(ways.begin(), ways.end(), way) != ways.end();
+  }
 };
 
 const Build& build() {
@@ -60,7 +75,8 @@ const Build& build() {
     const Library library;
     Build b{library.version(), {}};
     for (const Way& way : ways())
-      if (std::all_of(way.needs.begin(), way.needs.end(), [&](const Style& s) { return library.has_style(s.category, s.name); }))
+      if (std::all_of(way.needs.begin(), way.needs.end(),
+                      [&](const Style& s) { return library.has_style(s.category, s.name); }))
         b.ways.push_back(way.name);
     return b;
   }();
@@ -68,15 +84,19 @@ const Build& build() {
 }
 
 bool has_heat(const Job& job) {
-  return std::any_of(job.scene.bodies.begin(), job.scene.bodies.end(), [](const Body& b) { return b.temperature.has_value(); });
+  return std::any_of(job.scene.bodies.begin(), job.scene.bodies.end(),
+                     [](const Body& b) { return b.temperature.has_value(); });
 }
 bool has(const Job& job, Phase phase) {
-  return std::any_of(job.bodies.begin(), job.bodies.end(), [&](const JobBody& b) { return b.phase == phase; });
+  return std::any_of(job.bodies.begin(), job.bodies.end(),
+                     [&](const JobBody& b) { return b.phase == phase; });
 }
 
 /// Matter that melts or freezes, or that is free to move and could.
 bool changes_phase(const Job& job) {
-  const auto could = [&](const JobBody& b) { return b.motion == Motion::free && job.scene.material(b.material).t_melt; };
+  const auto could = [&](const JobBody& b) {
+    return b.motion == Motion::free && job.scene.material(b.material).t_melt;
+  };
   return !changing_phase(job.scene).empty() || std::any_of(job.bodies.begin(), job.bodies.end(), could);
 }
 
@@ -121,8 +141,10 @@ std::string LammpsEngine::refusal(const Job& job) const {
   try {
     const Way& way = way_for(job);
     if (!build().has(way.name))
-      return fmt::format("this LAMMPS ({}) has no {} {}", build().version, way.needs.front().category, way.needs.front().name);
-    if (job.scene.mode == Mode::paper) return "the paper's forms belong to the particle solver; LAMMPS has none";
+      return fmt::format("this LAMMPS ({}) has no {} {}", build().version, way.needs.front().category,
+                         way.needs.front().name);
+    if (job.scene.mode == Mode::paper)
+      return "the paper's forms belong to the particle solver; LAMMPS has none";
     return way.refusal(job);
   } catch (const InputError& error) {
     return error.what();

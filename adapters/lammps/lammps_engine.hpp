@@ -11,7 +11,8 @@ namespace tripoint::lammps {
 class LammpsEngine final : public Engine {
  public:
   /// @param missing why there is no library for this name; empty = there is
-  LammpsEngine(std::string name, std::string missing) : name_(std::move(name)), missing_(std::move(missing)) {}
+  LammpsEngine(std::string name, std::string missing)
+      : name_(std::move(name)), missing_(std::move(missing)) {}
   [[nodiscard]] EngineInfo info() const override;
   [[nodiscard]] std::string refusal(const Job&) const override;
   void load(const Job&, const InitialState&) override;

@@ -13,8 +13,8 @@ namespace {
 
 /// Place in the plane, in hundredths of a spacing.
 std::array<long, 3> column_of(const InitialState& state, std::size_t i, double spacing) {
-  return {std::lround(100.0 * state.position[i].x / spacing), std::lround(100.0 * state.position[i].y / spacing),
-          state.source[i]};
+  return {std::lround(100.0 * state.position[i].x / spacing),
+          std::lround(100.0 * state.position[i].y / spacing), state.source[i]};
 }
 
 template <class T>
@@ -27,10 +27,13 @@ void take(std::vector<T>& to, const std::vector<T>& from, std::size_t i) {
 std::string why_no_layer(const Job& job) {
   const Scene& scene = job.scene;
   if (scene.periodic[0] || scene.periodic[1])
-    return "smd/tlsph takes present distances without the periodic image: bodies across a periodic boundary fly apart; along z "
+    return "smd/tlsph takes present distances without the periodic image: bodies across a periodic boundary "
+           "fly apart; along z "
            "alone one layer is run in plane strain";
-  if (scene.jitter > 0.0) return "smd/tlsph is run in one layer where z is periodic, and the particles are jittered";
-  if (scene.gravity.z != 0.0) return "smd/tlsph is run in one layer where z is periodic, and gravity acts along z";
+  if (scene.jitter > 0.0)
+    return "smd/tlsph is run in one layer where z is periodic, and the particles are jittered";
+  if (scene.gravity.z != 0.0)
+    return "smd/tlsph is run in one layer where z is periodic, and gravity acts along z";
   for (const Body& b : scene.bodies)
     if (b.velocity.value.z != 0.0 || b.angular_velocity.x != 0.0 || b.angular_velocity.y != 0.0)
       return fmt::format("smd/tlsph is run in one layer where z is periodic, and {} moves out of it", b.name);
@@ -41,7 +44,9 @@ Layer lowest_layer(const Job& job, const InitialState& whole) {
   Layer layer;
   std::map<std::array<long, 3>, std::size_t> rows;
   const double bottom =
-      std::min_element(whole.position.begin(), whole.position.end(), [](const Vec3& a, const Vec3& b) { return a.z < b.z; })->z;
+      std::min_element(whole.position.begin(), whole.position.end(), [](const Vec3& a, const Vec3& b) {
+        return a.z < b.z;
+      })->z;
   for (std::size_t i = 0; i < whole.size(); ++i) {
     if (whole.position[i].z > bottom + 0.01 * job.scene.spacing) continue;
     rows[column_of(whole, i, job.scene.spacing)] = layer.state.size();

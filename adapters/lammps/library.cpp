@@ -22,8 +22,10 @@ void finish() {
 }
 
 Library::Library(const std::string& log) {
-  ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);  // else OpenMPI starts a daemon, orted, that outlives the run
-  ::unsetenv("OMP_NUM_THREADS");  // LAMMPS then runs one thread; the OpenMP library has read the variable before
+  // Else OpenMPI starts a daemon, orted, that outlives the run
+  ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  // LAMMPS then runs one thread; the OpenMP library has read the variable before
+  ::unsetenv("OMP_NUM_THREADS");
   std::vector<std::string> words{"lammps", "-log", log, "-screen", "none", "-nocite"};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
@@ -53,7 +55,8 @@ void Library::run(const std::string& commands) {
   }
 }
 
-void Library::create_atoms(const std::vector<int>& type, const std::vector<Vec3>& position, const std::vector<Vec3>& velocity) {
+void Library::create_atoms(const std::vector<int>& type, const std::vector<Vec3>& position,
+                           const std::vector<Vec3>& velocity) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
   const int n = static_cast<int>(type.size());
   std::vector<int> id(type.size());
@@ -62,7 +65,8 @@ void Library::create_atoms(const std::vector<int>& type, const std::vector<Vec3>
                                        velocity.empty() ? nullptr : &velocity.front().x, nullptr, 0);
   check();
   if (made != n)
-    throw EngineError("LAMMPS took " + std::to_string(made) + " of " + std::to_string(n) + " particles into its box");
+    throw EngineError("LAMMPS took " + std::to_string(made) + " of " + std::to_string(n) +
+                      " particles into its box");
 }
 
 int Library::local_count() const { return lammps_extract_setting(handle_, "nlocal"); }
@@ -82,7 +86,8 @@ std::vector<int> Library::unordered_types() const {
 }
 
 double Library::compute_value(const std::string& id, int index) const {
-  const auto* value = static_cast<const double*>(lammps_extract_compute(handle_, id.c_str(), LMP_STYLE_GLOBAL, LMP_TYPE_VECTOR));
+  const auto* value = static_cast<const double*>(
+      lammps_extract_compute(handle_, id.c_str(), LMP_STYLE_GLOBAL, LMP_TYPE_VECTOR));
   check();
   if (!value) throw EngineError("LAMMPS has no value of compute " + id);
   return value[index];
@@ -91,7 +96,8 @@ double Library::compute_value(const std::string& id, int index) const {
 std::vector<Vec3> Library::vectors(const char* name) const {
   const auto* const* x = static_cast<const double* const*>(lammps_extract_atom(handle_, name));
   std::vector<Vec3> by_id(static_cast<std::size_t>(local_count()));
-  for (int i = 0; i < local_count(); ++i) by_id.at(static_cast<std::size_t>(ids()[i] - 1)) = {x[i][0], x[i][1], x[i][2]};
+  for (int i = 0; i < local_count(); ++i)
+    by_id.at(static_cast<std::size_t>(ids()[i] - 1)) = {x[i][0], x[i][1], x[i][2]};
   return by_id;
 }
 
@@ -104,8 +110,12 @@ std::vector<T> Library::by_id(const void* column, const char* name) const {
   return rows;
 }
 
-std::vector<double> Library::scalars(const char* name) const { return by_id<double>(lammps_extract_atom(handle_, name), name); }
-std::vector<int> Library::integers(const char* name) const { return by_id<int>(lammps_extract_atom(handle_, name), name); }
+std::vector<double> Library::scalars(const char* name) const {
+  return by_id<double>(lammps_extract_atom(handle_, name), name);
+}
+std::vector<int> Library::integers(const char* name) const {
+  return by_id<int>(lammps_extract_atom(handle_, name), name);
+}
 
 std::vector<double> Library::compute(const char* id) const {
   const void* column = lammps_extract_compute(handle_, id, LMP_STYLE_ATOM, LMP_TYPE_VECTOR);
@@ -114,7 +124,8 @@ std::vector<double> Library::compute(const char* id) const {
 }
 
 double Library::fix_value(const std::string& id, int index) const {
-  auto* value = static_cast<double*>(lammps_extract_fix(handle_, id.c_str(), LMP_STYLE_GLOBAL, LMP_TYPE_VECTOR, index, 0));
+  auto* value = static_cast<double*>(
+      lammps_extract_fix(handle_, id.c_str(), LMP_STYLE_GLOBAL, LMP_TYPE_VECTOR, index, 0));
   check();
   if (!value) throw EngineError("LAMMPS has no value of fix " + id);
   const double copy = *value;
@@ -128,10 +139,16 @@ void Library::set_scalars(const char* name, const std::vector<double>& by_id) {
   for (int i = 0; i < local_count(); ++i) x[i] = by_id.at(static_cast<std::size_t>(ids()[i] - 1));
 }
 
-bool Library::has_style(const char* category, const char* name) const { return lammps_has_style(handle_, category, name) != 0; }
+bool Library::has_style(const char* category, const char* name) const {
+  return lammps_has_style(handle_, category, name) != 0;
+}
 std::string Library::version() const { return std::to_string(lammps_version(handle_)); }
-double Library::mass_of_type(int type) const { return static_cast<const double*>(lammps_extract_atom(handle_, "mass"))[type]; }
-double Library::time_step() const { return *static_cast<const double*>(lammps_extract_global(handle_, "dt")); }
+double Library::mass_of_type(int type) const {
+  return static_cast<const double*>(lammps_extract_atom(handle_, "mass"))[type];
+}
+double Library::time_step() const {
+  return *static_cast<const double*>(lammps_extract_global(handle_, "dt"));
+}
 std::string Library::path() { return loaded_library("liblammps"); }
 
 }  // namespace tripoint::lammps

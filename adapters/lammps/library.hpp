@@ -7,8 +7,8 @@
 
 namespace tripoint::lammps {
 
-/// One LAMMPS instance behind plain data. A build with exceptions throws EngineError in LAMMPS's own words. One without
-/// (Debian's) writes them to the log and ends the process, which supervise() turns into a result.
+/// One LAMMPS instance behind plain data. A build with exceptions throws EngineError in LAMMPS's own words.
+/// One without (Debian's) writes them to the log and ends the process, which supervise() turns into a result.
 class Library {
  public:
   /// @param log file for LAMMPS's log, "none" for no log
@@ -20,7 +20,8 @@ class Library {
   /// One command or several lines. @throws EngineError
   void run(const std::string& commands);
   /// Atoms with ids 1..n. @param velocity may be empty
-  void create_atoms(const std::vector<int>& type, const std::vector<Vec3>& position, const std::vector<Vec3>& velocity);
+  void create_atoms(const std::vector<int>& type, const std::vector<Vec3>& position,
+                    const std::vector<Vec3>& velocity);
   /// A vector column (x, v, f), row = id - 1.
   [[nodiscard]] std::vector<Vec3> vectors(const char* name) const;
   /// A scalar column (esph), row = id - 1.

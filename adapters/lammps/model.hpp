@@ -29,7 +29,8 @@ struct Choice {
   bool pool = true;                     ///< walkers of a field of one coordinate are counted in layers
   std::optional<double> rigid_modulus;  ///< of the bonds that stand in for rigid matter that melts [Pa]
   std::optional<double> sound_speed;    ///< of RHEO's liquid [m/s]
-  std::string freezing;  ///< t_melt | t_solid: which of them RHEO takes for both; empty = it takes none that differ
+  /// t_melt | t_solid: which of them RHEO takes for both; empty = it takes none that differ
+  std::string freezing;
   std::string commands;  ///< LAMMPS commands after the set-up
 };
 [[nodiscard]] std::vector<std::string> preset_names();

@@ -13,7 +13,8 @@ double particle_mass(const InitialState& state, int source, const std::string& n
   for (std::size_t i = 0; i < state.size(); ++i) {
     if (state.source[i] != source) continue;
     if (mass > 0.0 && std::abs(state.mass[i] - mass) > 1e-12 * mass)
-      throw EngineError(fmt::format("the particles of {} differ in mass, and a LAMMPS type has one mass", name));
+      throw EngineError(
+          fmt::format("the particles of {} differ in mass, and a LAMMPS type has one mass", name));
     mass = state.mass[i];
   }
   return mass;
@@ -26,7 +27,8 @@ Drive drive_at(const JobBody& b, double time, double end) {
   if (time < first * (1.0 - 1e-12)) return {{}, first};
   for (std::size_t k = 1; k < b.keyframes.size(); ++k) {
     const Keyframe &from = b.keyframes[k - 1], &to = b.keyframes[k];
-    if (time < to.time - 1e-9 * (to.time - from.time)) return {(to.position - from.position) / (to.time - from.time), to.time};
+    if (time < to.time - 1e-9 * (to.time - from.time))
+      return {(to.position - from.position) / (to.time - from.time), to.time};
   }
   return {{}, end};
 }
@@ -34,7 +36,8 @@ Drive drive_at(const JobBody& b, double time, double end) {
 bool is_turned(const JobBody& b) {
   if (b.motion != Motion::prescribed) return false;
   const auto turns = [](const Keyframe& k) { return std::abs(std::abs(k.rotation.w) - 1.0) > 1e-12; };
-  return std::any_of(b.keyframes.begin(), b.keyframes.end(), turns) || (b.keyframes.empty() && norm(b.angular_velocity) > 0.0);
+  return std::any_of(b.keyframes.begin(), b.keyframes.end(), turns) ||
+         (b.keyframes.empty() && norm(b.angular_velocity) > 0.0);
 }
 
 bool are_joined(const Body& a, const Body& b) {
@@ -70,16 +73,17 @@ void ParticleModel::make_particles(const std::string& style, const std::string& 
     const bool wraps = scene.periodic[k] && scene.min && scene.max;
     edges += fmt::format(" {:.17g} {:.17g}", wraps ? units_.place(*scene.min)[k] : lo[k] - margin,
                          wraps ? units_.place(*scene.max)[k] : hi[k] + margin);
-    letters += wraps ? " p" : " m";  // shrink-wrapped from no less than this box: a single layer is no flat box
+    // shrink-wrapped from no less than this box: a single layer is no flat box
+    letters += wraps ? " p" : " m";
   }
   if (flat_) {
     edges += " -0.1 0.1";
     letters += " p";
   }
-  library_.run("units lj\n" + std::string(flat_ ? "dimension 2\n" : "") + style + "\natom_modify map array sort 0 0.0\nboundary" +
-               letters + "\n");
-  library_.run(
-      fmt::format("region box block{}\ncreate_box {} box{}\n", edges, *std::max_element(types.begin(), types.end()), extra));
+  library_.run("units lj\n" + std::string(flat_ ? "dimension 2\n" : "") + style +
+               "\natom_modify map array sort 0 0.0\nboundary" + letters + "\n");
+  library_.run(fmt::format("region box block{}\ncreate_box {} box{}\n", edges,
+                           *std::max_element(types.begin(), types.end()), extra));
   std::vector<int> type;
   std::vector<Vec3> position, velocity;
   for (std::size_t i = 0; i < state_.size(); ++i) {
@@ -117,11 +121,12 @@ void ParticleModel::make_gravity() {
   }
   const Vec3 g = job_.scene.gravity / units_.acceleration();
   if (norm(g) == 0.0) return;
-  library_.run(fmt::format("fix weight free gravity {:.17g} vector {:.17g} {:.17g} {:.17g}", norm(g), g.x, g.y, g.z));
+  library_.run(
+      fmt::format("fix weight free gravity {:.17g} vector {:.17g} {:.17g} {:.17g}", norm(g), g.x, g.y, g.z));
   library_.run("pair_style zero 1.0 nocoeff\npair_coeff * *\nrun 0 post no");
   const auto force = library_.vectors("f");
-  const auto first =
-      std::find_if(job_.bodies.begin(), job_.bodies.end(), [](const JobBody& b) { return b.motion == Motion::free; });
+  const auto first = std::find_if(job_.bodies.begin(), job_.bodies.end(),
+                                  [](const JobBody& b) { return b.motion == Motion::free; });
   const std::size_t row = members(static_cast<std::size_t>(first - job_.bodies.begin())).front();
   gravity_ = (units_.mass * units_.acceleration() / state_.mass[row]) * force[row];
 }
@@ -131,7 +136,8 @@ void ParticleModel::advance_to(double time) {
   time_ = time;
   const std::vector<Vec3> x = library_.vectors("x");
   for (std::size_t i = 0; i < x.size(); ++i)
-    if (!finite(x[i])) throw Diverged(static_cast<long>(i), -1, "position", "run", time, "the position is not finite");
+    if (!finite(x[i]))
+      throw Diverged(static_cast<long>(i), -1, "position", "run", time, "the position is not finite");
 }
 
 Readback ParticleModel::readback() const {

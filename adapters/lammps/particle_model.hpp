@@ -7,8 +7,8 @@
 
 namespace tripoint::lammps {
 
-/// Units in which LAMMPS holds a scene. Lengths are in spacings from an origin. Time and mass make its own numbers of order one,
-/// because some of its tolerances are absolute.
+/// Units in which LAMMPS holds a scene. Lengths are in spacings from an origin. Time and mass make its own
+/// numbers of order one, because some of its tolerances are absolute.
 struct Units {
   double length = 1.0, time = 1.0, mass = 1.0;  ///< [m], [s], [kg]
   Vec3 origin;                                  ///< [m]
@@ -32,11 +32,13 @@ struct Drive {
 /// Whether one is joined_to the other.
 [[nodiscard]] bool are_joined(const Body&, const Body&);
 
-/// Mass of every particle of a body of the case. @throws EngineError where they differ: a LAMMPS type has one mass [kg]
+/// Mass of every particle of a body of the case. @throws EngineError where they differ: a LAMMPS type has one
+/// mass [kg]
 [[nodiscard]] double particle_mass(const InitialState&, int source, const std::string& name);
 
 /// The job's own particles under a style of LAMMPS; id = row + 1.
-/// Directions that are not periodic end where the particles end: nothing holds them but the scene's own bodies.
+/// Directions that are not periodic end where the particles end: nothing holds them but the scene's own
+/// bodies.
 class ParticleModel : public Model {
  public:
   void advance_to(double time) override;
@@ -48,12 +50,15 @@ class ParticleModel : public Model {
   /// Everything up to the particles. @param style atom_style with the commands that must stand before the box
   /// @param extra of create_box, e.g. bonds @param margin about the particles at the start [spacings]
   /// @param types of the bodies of the case, 1..n
-  void make_particles(const std::string& style, const std::string& extra, double margin, const std::vector<int>& types);
+  void make_particles(const std::string& style, const std::string& extra, double margin,
+                      const std::vector<int>& types);
   [[nodiscard]] std::vector<int> type_a_body() const;  ///< 1, 2, 3, ...
   [[nodiscard]] std::vector<int> one_type() const { return std::vector<int>(job_.bodies.size(), 1); }
-  /// Gravity on the bodies that are free, measured on them with no pair style: before any other force. Defines the group `free`.
+  /// Gravity on the bodies that are free, measured on them with no pair style: before any other force.
+  /// Defines the group `free`.
   void make_gravity();
-  /// Makes a group of the bodies that satisfy a condition. @return whether there are any; else there is no group
+  /// Makes a group of the bodies that satisfy a condition. @return whether there are any; else there is no
+  /// group
   template <class Condition>
   bool make_group(const std::string& name, Condition condition) {
     std::string ids;
@@ -65,7 +70,8 @@ class ParticleModel : public Model {
   [[nodiscard]] std::string ids_of(std::size_t body) const;  ///< " first:last"
   /// Particles of one body of the case.
   [[nodiscard]] std::vector<std::size_t> members(std::size_t body) const;
-  /// Positions, velocities and what follows from them; phases, bodies and materials as at the start; no bodies' rows.
+  /// Positions, velocities and what follows from them; phases, bodies and materials as at the start; no
+  /// bodies' rows.
   [[nodiscard]] Snapshot particles() const;
 
   Job job_;

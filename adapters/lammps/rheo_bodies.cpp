@@ -22,7 +22,8 @@ void RheoBodies::follow(const std::vector<int>& piece) {
   }
   std::vector<std::tuple<bool, int, int, int>> claims;  // held, particles, -row, piece: the strongest last
   for (const auto& [label, share] : shares)
-    for (const auto& [row, count] : share) claims.emplace_back(held_[static_cast<std::size_t>(row)], count, -row, label);
+    for (const auto& [row, count] : share)
+      claims.emplace_back(held_[static_cast<std::size_t>(row)], count, -row, label);
   std::sort(claims.begin(), claims.end());
   std::map<int, int> row_of_piece;
   std::vector<bool> taken(held_.size(), false);

@@ -15,7 +15,9 @@ namespace {
 
 constexpr double least_viscosity = 1e-12;  // pair rheo divides by the sum of two
 
-const Material& material_of(const Job& job, std::size_t body) { return job.scene.material(job.bodies[body].material); }
+const Material& material_of(const Job& job, std::size_t body) {
+  return job.scene.material(job.bodies[body].material);
+}
 
 /// Young's modulus of a body's bonds when it is solid [Pa]; none for matter that is never free and solid.
 std::optional<double> modulus_of(const Job& job, std::size_t body) {
@@ -48,7 +50,8 @@ double fastest_diffusion(const Job& job) {
   return D;
 }
 
-/// Speed of sound of the liquid, else of the bonds [m/s]. Where everything is held there is no sound, and heat sets the time.
+/// Speed of sound of the liquid, else of the bonds [m/s]. Where everything is held there is no sound, and
+/// heat sets the time.
 double speed_of_sound(const Job& job) {
   if (const auto given = choice_for(job).sound_speed) return *given;
   double k = 0.0;
@@ -66,7 +69,8 @@ double viscosity_of(const Job& job, std::size_t body) {
 }
 
 std::string why_not_event(const Event& e) {
-  if (e.kind != Event::Kind::heat) return "of the events RHEO is handed heating only: no merge, split, release, hold or grip";
+  if (e.kind != Event::Kind::heat)
+    return "of the events RHEO is handed heating only: no merge, split, release, hold or grip";
   if (e.region && e.region->kind != Shape::Kind::box && e.region->kind != Shape::Kind::sphere)
     return "RHEO heats boxes and spheres here, and the region of an event is neither";
   return {};
@@ -76,26 +80,36 @@ std::string why_not_matter(const Job& job, std::size_t body) {
   const JobBody& b = job.bodies[body];
   const Material& m = material_of(job, body);
   if (!job.scene.bodies[body].temperature) return fmt::format("{} has no temperature", b.name);
-  if (!m.conductivity || !m.heat_capacity) return fmt::format("{} has no conductivity or no heat capacity", m.name);
+  if (!m.conductivity || !m.heat_capacity)
+    return fmt::format("{} has no conductivity or no heat capacity", m.name);
   if (has_two_phases(m))
     return fmt::format(
-        "{} conducts or holds heat otherwise when solid (solid_conductivity, solid_heat_capacity); RHEO is handed one value for "
+        "{} conducts or holds heat otherwise when solid (solid_conductivity, solid_heat_capacity); RHEO is "
+        "handed one value for "
         "both phases",
         m.name);
-  if (std::abs(heat_per_volume(job.scene, job.scene.bodies[body]) / heat_per_volume(job.scene, job.scene.bodies.front()) - 1.0) >
-      1e-9)
-    return fmt::format("RHEO conserves heat between equal heat capacities only, and that of {} differs from that of {}", b.name,
-                       job.bodies.front().name);
-  if (is_turned(b)) return fmt::format("{} is turned; RHEO is handed driven bodies that are shifted only", b.name);
+  if (std::abs(heat_per_volume(job.scene, job.scene.bodies[body]) /
+                   heat_per_volume(job.scene, job.scene.bodies.front()) -
+               1.0) > 1e-9)
+    return fmt::format(
+        "RHEO conserves heat between equal heat capacities only, and that of {} differs from that of {}",
+        b.name, job.bodies.front().name);
+  if (is_turned(b))
+    return fmt::format("{} is turned; RHEO is handed driven bodies that are shifted only", b.name);
   if (b.motion != Motion::free) return {};
-  if (m.density != density_of(job)) return fmt::format("{} has another density; RHEO is run here with one", b.name);
+  if (m.density != density_of(job))
+    return fmt::format("{} has another density; RHEO is run here with one", b.name);
   if (m.t_melt && m.t_solid && *m.t_solid < *m.t_melt && choice_for(job).freezing.empty())
     return fmt::format(
-        "{} freezes below its melting point; RHEO knows one temperature for both, which the setting freezing picks", m.name);
+        "{} freezes below its melting point; RHEO knows one temperature for both, which the setting freezing "
+        "picks",
+        m.name);
   if (m.elastic_limit || m.fracture_stretch)
     return fmt::format("{} yields or breaks; bonds of RHEO are run here without either", m.name);
   if ((b.phase != Phase::liquid || m.t_melt) && !modulus_of(job, body))
-    return fmt::format("{} is rigid when solid, and RHEO has bonds only; the setting rigid_modulus gives them a modulus", m.name);
+    return fmt::format(
+        "{} is rigid when solid, and RHEO has bonds only; the setting rigid_modulus gives them a modulus",
+        m.name);
   return {};
 }
 
@@ -103,13 +117,16 @@ std::string why_not_one_network(const Job& job) {
   std::set<double> moduli;
   for (std::size_t b = 0; b < job.bodies.size(); ++b)
     if (const auto E = modulus_of(job, b)) moduli.insert(*E);
-  return moduli.size() > 1 ? "fix rheo/thermal makes bonds of one kind, and the scene's solids differ in Young's modulus" : "";
+  return moduli.size() > 1
+             ? "fix rheo/thermal makes bonds of one kind, and the scene's solids differ in Young's modulus"
+             : "";
 }
 
 }  // namespace
 
 bool anything_free(const Job& job) {
-  return std::any_of(job.bodies.begin(), job.bodies.end(), [](const JobBody& b) { return b.motion == Motion::free; });
+  return std::any_of(job.bodies.begin(), job.bodies.end(),
+                     [](const JobBody& b) { return b.motion == Motion::free; });
 }
 
 Units rheo_units(const Job& job) {
@@ -149,7 +166,8 @@ std::string why_no_rheo(const Job& job) {
     if (const std::string reason = why_not_event(e); !reason.empty()) return reason;
   for (std::size_t b = 0; b < job.bodies.size(); ++b)
     if (const std::string reason = why_not_matter(job, b); !reason.empty()) return reason;
-  if (speed_of_sound(job) <= 0.0) return "the scene gives no stiffness and no Young's modulus that a time step could follow from";
+  if (speed_of_sound(job) <= 0.0)
+    return "the scene gives no stiffness and no Young's modulus that a time step could follow from";
   return why_not_one_network(job);
 }
 

@@ -8,7 +8,8 @@ namespace tripoint::lammps {
 
 [[nodiscard]] bool anything_free(const Job&);
 
-/// Spacing, mass of a free particle, and the time of sound over a spacing (of the bonds, where nothing flows).
+/// Spacing, mass of a free particle, and the time of sound over a spacing (of the bonds, where nothing
+/// flows).
 [[nodiscard]] Units rheo_units(const Job&);
 
 /// Matter of one body in RHEO's units; energy is temperature.
@@ -17,7 +18,8 @@ struct RheoMatter {
   bool melts = false;
   double melting = 0.0, latent = 0.0;  ///< [K]; latent heat over heat capacity
 };
-/// A body that is held beside free ones is given no melting point: RHEO would shift it. refuse_molten_walls() watches over that.
+/// A body that is held beside free ones is given no melting point: RHEO would shift it. refuse_molten_walls()
+/// watches over that.
 [[nodiscard]] RheoMatter rheo_matter(const Job&, std::size_t body);
 /// Young's modulus of the bonds, of the stiffest solid that is free, in RHEO's units.
 [[nodiscard]] double bond_modulus(const Job&);

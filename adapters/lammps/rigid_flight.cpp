@@ -54,10 +54,13 @@ class RigidFlight final : public Model {
         hi[k] = std::max(hi[k], x[k]);
       }
     library_.run("units si\natom_style atomic\natom_modify map array sort 0 0.0\nboundary s s s\n");
-    library_.run(fmt::format("region box block {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\ncreate_box {} box\n", lo.x - dx,
-                             hi.x + dx, lo.y - dx, hi.y + dx, lo.z - dx, hi.z + dx, job_.bodies.size()));
-    library_.run(fmt::format(
-        "pair_style none\ncomm_modify cutoff {0:.17g}\nneighbor {0:.17g} bin\nneigh_modify every 1 delay 0 check yes\n", dx));
+    library_.run(
+        fmt::format("region box block {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\ncreate_box {} box\n",
+                    lo.x - dx, hi.x + dx, lo.y - dx, hi.y + dx, lo.z - dx, hi.z + dx, job_.bodies.size()));
+    library_.run(
+        fmt::format("pair_style none\ncomm_modify cutoff {0:.17g}\nneighbor {0:.17g} bin\nneigh_modify every "
+                    "1 delay 0 check yes\n",
+                    dx));
   }
 
   /// A type a body, so that the body is a set of types.
@@ -67,10 +70,13 @@ class RigidFlight final : public Model {
     std::vector<Vec3> velocity;
     for (std::size_t i = 0; i < state_.size(); ++i) {
       const JobBody& b = job_.bodies.at(static_cast<std::size_t>(state_.source[i]));
-      velocity.push_back(
-          b.motion == Motion::fixed ? Vec3{} : b.velocity + cross(b.angular_velocity, state_.position[i] - b.properties.centre));
+      velocity.push_back(b.motion == Motion::fixed
+                             ? Vec3{}
+                             : b.velocity +
+                                   cross(b.angular_velocity, state_.position[i] - b.properties.centre));
     }
-    for (const JobBody& b : job_.bodies) library_.run(fmt::format("mass {} {:.17g}", b.index + 1, particle_mass(b)));
+    for (const JobBody& b : job_.bodies)
+      library_.run(fmt::format("mass {} {:.17g}", b.index + 1, particle_mass(b)));
     library_.run("fix tags all property/atom i_bodytag");
     library_.create_atoms(type, state_.position, velocity);
     for (const JobBody& b : job_.bodies) library_.run(fmt::format("set type {0} i_bodytag {0}", b.index + 1));
@@ -81,7 +87,8 @@ class RigidFlight final : public Model {
     for (std::size_t i = 0; i < state_.size(); ++i) {
       if (state_.body[i] != b.index) continue;
       if (mass > 0.0 && std::abs(state_.mass[i] - mass) > 1e-12 * mass)
-        throw EngineError(fmt::format("the particles of {} differ in mass, and a LAMMPS type has one mass", b.name));
+        throw EngineError(
+            fmt::format("the particles of {} differ in mass, and a LAMMPS type has one mass", b.name));
       mass = state_.mass[i];
     }
     return mass;
@@ -98,13 +105,15 @@ class RigidFlight final : public Model {
   void make_fixes() {
     std::string rigid, points;
     for (const JobBody& b : job_.bodies)
-      if (b.motion == Motion::free) (members(b).size() > 1 ? rigid : points) += fmt::format(" {}", b.index + 1);
+      if (b.motion == Motion::free)
+        (members(b).size() > 1 ? rigid : points) += fmt::format(" {}", b.index + 1);
     if (!(rigid + points).empty()) library_.run("group moving type" + rigid + points);
     const double g = norm(job_.scene.gravity);
     if (g > 0.0)
-      library_.run(fmt::format("fix weight moving gravity {:.17g} vector {:.17g} {:.17g} {:.17g}", g, job_.scene.gravity.x,
-                               job_.scene.gravity.y, job_.scene.gravity.z));
-    if (!rigid.empty()) library_.run("group bodies type" + rigid + "\nfix flight bodies rigid custom i_bodytag");
+      library_.run(fmt::format("fix weight moving gravity {:.17g} vector {:.17g} {:.17g} {:.17g}", g,
+                               job_.scene.gravity.x, job_.scene.gravity.y, job_.scene.gravity.z));
+    if (!rigid.empty())
+      library_.run("group bodies type" + rigid + "\nfix flight bodies rigid custom i_bodytag");
     if (!points.empty()) library_.run("group points type" + points + "\nfix points points nve");
     library_.run("thermo 0");
   }
@@ -181,19 +190,22 @@ void RigidFlight::refuse_contact(const Snapshot& now) const {
       for (const std::size_t i : members(job_.bodies[a]))
         for (const std::size_t j : members(job_.bodies[b]))
           if (norm(now.position[i] - now.position[j]) < reach)
-            throw EngineError(fmt::format("{} and {} touch at t = {:.6g} s; fix rigid runs here without contact",
-                                          job_.bodies[a].name, job_.bodies[b].name, time_));
+            throw EngineError(
+                fmt::format("{} and {} touch at t = {:.6g} s; fix rigid runs here without contact",
+                            job_.bodies[a].name, job_.bodies[b].name, time_));
     }
 }
 
-/// Half the shortest side of the box that has the body's principal moments; of a ball 0.775 of its radius [m].
+/// Half the shortest side of the box that has the body's principal moments; of a ball 0.775 of its radius
+/// [m].
 double inner_radius(const JobBody& b) {
   const Vec3& I = b.properties.principal_inertia;  // ascending
   return std::sqrt(std::max(0.0, 1.5 * (I.x + I.y - I.z) / b.properties.mass));
 }
 
 bool is_convex(const Body& b) {
-  return b.shape.kind == Shape::Kind::box || b.shape.kind == Shape::Kind::sphere || b.shape.kind == Shape::Kind::cylinder;
+  return b.shape.kind == Shape::Kind::box || b.shape.kind == Shape::Kind::sphere ||
+         b.shape.kind == Shape::Kind::cylinder;
 }
 
 /// Distance of a place from a box; 0 inside [m].
@@ -208,20 +220,22 @@ std::string why_it_lands(const Job& job) {
   for (std::size_t a = 0; a < job.bodies.size(); ++a)
     for (std::size_t b = 0; b < job.bodies.size(); ++b) {
       const JobBody& flying = job.bodies[a];
-      if (flying.motion != Motion::free || job.bodies[b].motion != Motion::fixed || !is_convex(job.scene.bodies[a]) ||
-          !is_upright_box(job.scene.bodies[b].shape))
+      if (flying.motion != Motion::free || job.bodies[b].motion != Motion::fixed ||
+          !is_convex(job.scene.bodies[a]) || !is_upright_box(job.scene.bodies[b].shape))
         continue;
       for (const double t : job.times) {
-        const Vec3 centre = flying.properties.centre + t * flying.velocity + (0.5 * t * t) * job.scene.gravity;
+        const Vec3 centre =
+            flying.properties.centre + t * flying.velocity + (0.5 * t * t) * job.scene.gravity;
         if (distance(job.scene.bodies[b].shape, centre) < inner_radius(flying))
-          return fmt::format("{} meets {}, and fix rigid runs here without contact", flying.name, job.bodies[b].name);
+          return fmt::format("{} meets {}, and fix rigid runs here without contact", flying.name,
+                             job.bodies[b].name);
       }
     }
   return {};
 }
 
-/// Two convex bodies that fly into each other, whichever way they turn: of the same gravity, so that they come together along a
-/// line.
+/// Two convex bodies that fly into each other, whichever way they turn: of the same gravity, so that they
+/// come together along a line.
 std::string why_they_meet(const Job& job) {
   for (std::size_t a = 0; a < job.bodies.size(); ++a)
     for (std::size_t b = a + 1; b < job.bodies.size(); ++b) {
@@ -243,12 +257,16 @@ std::string why_they_meet(const Job& job) {
 std::string why_no_rigid(const Job& job) {
   for (const JobBody& b : job.bodies) {
     if (b.phase != Phase::rigid)
-      return fmt::format("LAMMPS runs rigid bodies by fix rigid here, and {} is {}", b.name, to_string(b.phase));
-    if (b.motion == Motion::prescribed) return fmt::format("{} is prescribed; fix rigid follows forces, not keyframes", b.name);
+      return fmt::format("LAMMPS runs rigid bodies by fix rigid here, and {} is {}", b.name,
+                         to_string(b.phase));
+    if (b.motion == Motion::prescribed)
+      return fmt::format("{} is prescribed; fix rigid follows forces, not keyframes", b.name);
   }
   for (const Body& b : job.scene.bodies)
-    if (b.joins || !b.joined_to.empty()) return fmt::format("bonds are not handed to fix rigid, and {} has some", b.name);
-  if (!job.scene.events.empty()) return "fix rigid keeps its bodies for the whole run: no merge, split or other events";
+    if (b.joins || !b.joined_to.empty())
+      return fmt::format("bonds are not handed to fix rigid, and {} has some", b.name);
+  if (!job.scene.events.empty())
+    return "fix rigid keeps its bodies for the whole run: no merge, split or other events";
   if (!job.scene.inflows.empty()) return "no inflow into fix rigid";
   if (job.scene.periodic[0] || job.scene.periodic[1] || job.scene.periodic[2])
     return "rigid bodies across periodic directions are not handed to fix rigid";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
 // Lengths are scaled to spacings and a particle has mass and density 1. Then sph/heatconduction's
-// 2 m_i m_j/(m_i + m_j) (rho_i + rho_j)/(rho_i rho_j) D (e_i - e_j) W'/r is the diffusion of e = T with D in spacings^2/s.
+// 2 m_i m_j/(m_i + m_j) (rho_i + rho_j)/(rho_i rho_j) D (e_i - e_j) W'/r is the diffusion of e = T with D in
+// spacings^2/s.
 #include "adapters/lammps/sph_heat.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +19,11 @@ constexpr double diffusion_number = 0.1;  ///< D dt / dx2; explicit, and first o
 class SphHeat final : public Model {
  public:
   SphHeat(const Job& job, const InitialState& state)
-      : job_(job), state_(state), choice_(choice_for(job)), library_(job.output + "/log.lammps"), time_(job.times.front()) {
+      : job_(job),
+        state_(state),
+        choice_(choice_for(job)),
+        library_(job.output + "/log.lammps"),
+        time_(job.times.front()) {
     double greatest = 0.0;
     for (const Body& b : job.scene.bodies) greatest = std::max(greatest, scaled_diffusivity(b));
     limit_ = wanted_time_step(job).value_or(diffusion_number / greatest);
@@ -53,7 +58,8 @@ class SphHeat final : public Model {
 
   [[nodiscard]] double cutoff() const { return choice_.cutoff.value_or(heat_support); }
 
-  /// Periodic directions take the scene's domain; elsewhere the box is wide and particle ends insulate by themselves.
+  /// Periodic directions take the scene's domain; elsewhere the box is wide and particle ends insulate by
+  /// themselves.
   void make_box() {
     const Scene& scene = job_.scene;
     Vec3 lo = state_.position.front(), hi = lo;
@@ -71,9 +77,11 @@ class SphHeat final : public Model {
       edges += fmt::format(" 0 {:.17g}", (to - from) / scene.spacing);
     }
     const auto letter = [&](std::size_t k) { return scene.periodic[k] ? 'p' : 'f'; };
-    library_.run(fmt::format("units lj\natom_style sph\natom_modify map array sort 0 0.0\nboundary {} {} {}\n", letter(0),
-                             letter(1), letter(2)));
-    library_.run(fmt::format("region box block{}\ncreate_box {} box\nmass * 1.0\n", edges, scene.bodies.size()));
+    library_.run(
+        fmt::format("units lj\natom_style sph\natom_modify map array sort 0 0.0\nboundary {} {} {}\n",
+                    letter(0), letter(1), letter(2)));
+    library_.run(
+        fmt::format("region box block{}\ncreate_box {} box\nmass * 1.0\n", edges, scene.bodies.size()));
   }
 
   /// A type a body of the case.
@@ -89,7 +97,8 @@ class SphHeat final : public Model {
     library_.set_scalars("esph", state_.temperature);
   }
 
-  /// Between two bodies the harmonic mean, which keeps the interface without a jump. Held bodies are left out of the integration.
+  /// Between two bodies the harmonic mean, which keeps the interface without a jump. Held bodies are left out
+  /// of the integration.
   void make_pairs() {
     library_.run("pair_style sph/heatconduction");
     const auto& bodies = job_.scene.bodies;
@@ -97,7 +106,8 @@ class SphHeat final : public Model {
     for (std::size_t a = 0; a < bodies.size(); ++a) {
       for (std::size_t b = a; b < bodies.size(); ++b) {
         const double D_a = scaled_diffusivity(bodies[a]), D_b = scaled_diffusivity(bodies[b]);
-        library_.run(fmt::format("pair_coeff {} {} {:.17g} {:.17g}", a + 1, b + 1, 2.0 * D_a * D_b / (D_a + D_b), cutoff()));
+        library_.run(fmt::format("pair_coeff {} {} {:.17g} {:.17g}", a + 1, b + 1,
+                                 2.0 * D_a * D_b / (D_a + D_b), cutoff()));
       }
       if (!bodies[a].temperature_held) live += fmt::format(" {}", a + 1);
     }
@@ -123,11 +133,14 @@ std::string why_no_sph_heat(const Job& job) {
   for (const Body& b : scene.bodies)
     if (std::abs(heat_per_volume(scene, b) / first - 1.0) > 1e-9)
       return fmt::format(
-          "sph/heatconduction conserves heat between equal heat capacities only, and that of {} differs from that of {}", b.name,
-          scene.bodies.front().name);
+          "sph/heatconduction conserves heat between equal heat capacities only, and that of {} differs from "
+          "that of {}",
+          b.name, scene.bodies.front().name);
   return {};
 }
 
-std::unique_ptr<Model> make_sph_heat(const Job& job, const InitialState& state) { return std::make_unique<SphHeat>(job, state); }
+std::unique_ptr<Model> make_sph_heat(const Job& job, const InitialState& state) {
+  return std::make_unique<SphHeat>(job, state);
+}
 
 }  // namespace tripoint::lammps

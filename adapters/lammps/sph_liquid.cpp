@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-only
 // In LAMMPS a particle of the liquid has mass 1 and rest density 1. Sound goes one spacing in a unit of time.
 //
-// It has known faults, measured in docs/engines.md. Walls act about half a spacing outside their surface, as the velocity is not
-// reflected in them. A particle's density only follows the continuity equation, and nothing brings it back to that of its
-// neighbours' positions. There is no clamp, so that stretched liquid pulls, and particles pair up under the Lucy kernel. The
-// viscosity acts along the difference of velocities, which brakes a liquid that turns. fix sph lets sound grow at w2 dt/4.
+// It has known faults, measured in docs/engines.md. Walls act about half a spacing outside their surface, as
+// the velocity is not reflected in them. A particle's density only follows the continuity equation, and
+// nothing brings it back to that of its neighbours' positions. There is no clamp, so that stretched liquid
+// pulls, and particles pair up under the Lucy kernel. The viscosity acts along the difference of velocities,
+// which brakes a liquid that turns. fix sph lets sound grow at w2 dt/4.
 #include "adapters/lammps/sph_liquid.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +21,8 @@ constexpr double gamma = 7.0;  // sph/taitwater knows no other
 constexpr double sound_courant = 0.06, viscous_number = 0.1;
 
 const JobBody& liquid_of(const Job& job) {
-  return *std::find_if(job.bodies.begin(), job.bodies.end(), [](const JobBody& b) { return b.phase == Phase::liquid; });
+  return *std::find_if(job.bodies.begin(), job.bodies.end(),
+                       [](const JobBody& b) { return b.phase == Phase::liquid; });
 }
 
 /// Speed of sound of the scene's equation of state: one k a scene, its largest [m/s].
@@ -37,7 +39,9 @@ double greatest_viscosity(const Scene& scene) {
   return mu;
 }
 
-double liquid_support_of(const Job& job) { return choice_for(job).cutoff.value_or(job.resolution.support_ratio); }
+double liquid_support_of(const Job& job) {
+  return choice_for(job).cutoff.value_or(job.resolution.support_ratio);
+}
 
 Units liquid_units(const Job& job) {
   const double dx = job.resolution.spacing, rho0 = job.scene.material(liquid_of(job).material).density;
@@ -59,12 +63,14 @@ class SphLiquid final : public ParticleModel {
         viscous_(greatest_viscosity(job.scene) > 0.0) {
     make_particles("atom_style sph\nnewton on", "", support_, type_a_body());
     for (std::size_t b = 0; b < job.bodies.size(); ++b) {  // walls are made of still liquid
-      const double mass =
-          job.bodies[b].phase == Phase::liquid ? particle_mass(state, static_cast<int>(b), job.bodies[b].name) : units_.mass;
+      const double mass = job.bodies[b].phase == Phase::liquid
+                              ? particle_mass(state, static_cast<int>(b), job.bodies[b].name)
+                              : units_.mass;
       library_.run(fmt::format("mass {} {:.17g}", b + 1, mass / units_.mass));
     }
     library_.run(
-        "set group all sph/rho 1.0 sph/e 0.0 sph/cv 1.0\ncomm_modify vel yes\nneighbor 0.3 bin\nneigh_modify every 1 delay 0 "
+        "set group all sph/rho 1.0 sph/e 0.0 sph/cv 1.0\ncomm_modify vel yes\nneighbor 0.3 bin\nneigh_modify "
+        "every 1 delay 0 "
         "check yes\nthermo 0");
     make_gravity();
     make_pairs();
@@ -81,7 +87,8 @@ class SphLiquid final : public ParticleModel {
     result.extra["support_in_spacings"] = support_;
     result.extra["sound_speed"] = units_.speed();
     result.message = fmt::format(
-        "pair sph/taitwater{}, Lucy kernel of support {:g} dx, c = {:g} m/s; density by continuity, started at rest density; no "
+        "pair sph/taitwater{}, Lucy kernel of support {:g} dx, c = {:g} m/s; density by continuity, started "
+        "at rest density; no "
         "clamp",
         viscous_ ? "/morris" : "", support_, units_.speed());
   }
@@ -89,7 +96,9 @@ class SphLiquid final : public ParticleModel {
  private:
   [[nodiscard]] double viscosity(std::size_t a, std::size_t b) const;
   void make_pairs();
-  [[nodiscard]] bool is_liquid(std::size_t particle) const { return state_.phase[particle] == static_cast<int>(Phase::liquid); }
+  [[nodiscard]] bool is_liquid(std::size_t particle) const {
+    return state_.phase[particle] == static_cast<int>(Phase::liquid);
+  }
   double support_;
   bool viscous_;
 };
@@ -104,19 +113,23 @@ double SphLiquid::viscosity(std::size_t a, std::size_t b) const {
   if (A.phase == Phase::liquid && B.phase == Phase::liquid)
     return mu_a + mu_b > 0.0 ? 2.0 * mu_a * mu_b / (mu_a + mu_b) / unit : 0.0;
   if (A.phase != Phase::liquid && B.phase != Phase::liquid) return 0.0;
-  return (A.phase == Phase::liquid ? B.free_slip : A.free_slip) ? 0.0 : (A.phase == Phase::liquid ? mu_a : mu_b) / unit;
+  return (A.phase == Phase::liquid ? B.free_slip : A.free_slip)
+             ? 0.0
+             : (A.phase == Phase::liquid ? mu_a : mu_b) / unit;
 }
 
 void SphLiquid::make_pairs() {
   library_.run(viscous_ ? "pair_style sph/taitwater/morris" : "pair_style sph/taitwater");
   for (std::size_t a = 0; a < job_.bodies.size(); ++a)
     for (std::size_t b = a; b < job_.bodies.size(); ++b)
-      library_.run(fmt::format("pair_coeff {} {} 1.0 1.0 {:.17g} {:.17g}", a + 1, b + 1, viscosity(a, b), support_));
+      library_.run(
+          fmt::format("pair_coeff {} {} 1.0 1.0 {:.17g} {:.17g}", a + 1, b + 1, viscosity(a, b), support_));
 }
 
 /// Stored in a particle [J]: m int p/rho^2 drho.
 double compression_energy(double stiffness, double mass, double s) {
-  return mass * stiffness / gamma * (std::pow(s, gamma - 1.0) / (gamma - 1.0) + 1.0 / s - gamma / (gamma - 1.0));
+  return mass * stiffness / gamma *
+         (std::pow(s, gamma - 1.0) / (gamma - 1.0) + 1.0 / s - gamma / (gamma - 1.0));
 }
 
 Snapshot SphLiquid::observe() const {
@@ -140,10 +153,12 @@ Snapshot SphLiquid::observe() const {
 }
 
 std::string why_no_wall(const JobBody& b) {
-  if (b.phase == Phase::elastic) return fmt::format("{} is elastic; sph/taitwater knows liquids and fixed walls only", b.name);
+  if (b.phase == Phase::elastic)
+    return fmt::format("{} is elastic; sph/taitwater knows liquids and fixed walls only", b.name);
   if (b.motion == Motion::free)
     return fmt::format("{} is a free rigid body; sph/taitwater is run here between fixed walls only", b.name);
-  if (b.motion == Motion::prescribed) return fmt::format("{} is prescribed; walls of sph/taitwater are at rest here", b.name);
+  if (b.motion == Motion::prescribed)
+    return fmt::format("{} is prescribed; walls of sph/taitwater are at rest here", b.name);
   return {};
 }
 
@@ -159,14 +174,18 @@ std::string why_no_sph_liquid(const Job& job) {
       if (const std::string reason = why_no_wall(b); !reason.empty()) return reason;
       continue;
     }
-    if (b.motion != Motion::free) return fmt::format("{} is a liquid that is held; sph/taitwater lets it flow", b.name);
+    if (b.motion != Motion::free)
+      return fmt::format("{} is a liquid that is held; sph/taitwater lets it flow", b.name);
     const double density = scene.material(b.material).density;
     if (rho0 > 0.0 && density != rho0)
-      return fmt::format("sph/taitwater weighs neighbours by mass and smears the density where liquids meet; {} has another one",
-                         b.name);
+      return fmt::format(
+          "sph/taitwater weighs neighbours by mass and smears the density where liquids meet; {} has another "
+          "one",
+          b.name);
     rho0 = density;
   }
-  return sound_speed(scene) > 0.0 ? "" : "the scene gives no stiffness and no speed that one could follow from";
+  return sound_speed(scene) > 0.0 ? ""
+                                  : "the scene gives no stiffness and no speed that one could follow from";
 }
 
 std::unique_ptr<Model> make_sph_liquid(const Job& job, const InitialState& state) {

@@ -47,7 +47,8 @@ int pass_on_signal(int signal) {
 }  // namespace
 
 int supervise(const std::string& job_path, int (*child)(int, char**), int argc, char** argv) {
-  const std::string output = output_of(job_path), log = output + "/log.lammps", result = output + "/result.json";
+  const std::string output = output_of(job_path), log = output + "/log.lammps",
+                    result = output + "/result.json";
   std::error_code ignored;
   if (!output.empty()) {
     std::filesystem::remove(log, ignored);

@@ -19,8 +19,9 @@ constexpr double hourglass = 10.0;        ///< of the manual's examples
 constexpr double elastic_courant = 0.2;   ///< dt c_L / support
 
 const Material& elastic_material(const Job& job) {
-  const auto found = std::find_if(job.bodies.begin(), job.bodies.end(),
-                                  [](const JobBody& b) { return b.phase == Phase::elastic && b.motion == Motion::free; });
+  const auto found = std::find_if(job.bodies.begin(), job.bodies.end(), [](const JobBody& b) {
+    return b.phase == Phase::elastic && b.motion == Motion::free;
+  });
   return job.scene.material(found->material);
 }
 
@@ -39,21 +40,28 @@ Units elastic_units(const Job& job) {
 double elastic_support_of(const Job& job) { return choice_for(job).cutoff.value_or(elastic_support); }
 
 double elastic_step_limit(const Job& job) {
-  return elastic_courant * elastic_support_of(job) * job.resolution.spacing / wave_speed(elastic_material(job));
+  return elastic_courant * elastic_support_of(job) * job.resolution.spacing /
+         wave_speed(elastic_material(job));
 }
 
 class Tlsph final : public ParticleModel {
  public:
   Tlsph(const Job& job, const InitialState& whole, Layer layer)
-      : ParticleModel(job, layer.state, elastic_units(job), elastic_step_limit(job)), whole_(whole), layer_(std::move(layer)) {
+      : ParticleModel(job, layer.state, elastic_units(job), elastic_step_limit(job)),
+        whole_(whole),
+        layer_(std::move(layer)) {
     flat_ = job.scene.periodic[2];
-    make_particles("atom_style smd\nnewton off\ncomm_modify vel yes", "", 3.0 * elastic_support_of(job), one_type());
-    library_.run(fmt::format("set group all mol 1 volume 1.0 diameter {:.17g} smd/mass/density 1.0", elastic_support_of(job)));
-    library_.run(fmt::format("neighbor {:.17g} bin\nneigh_modify every 10 delay 0 check yes\nthermo 0", elastic_support_of(job)));
+    make_particles("atom_style smd\nnewton off\ncomm_modify vel yes", "", 3.0 * elastic_support_of(job),
+                   one_type());
+    library_.run(fmt::format("set group all mol 1 volume 1.0 diameter {:.17g} smd/mass/density 1.0",
+                             elastic_support_of(job)));
+    library_.run(fmt::format("neighbor {:.17g} bin\nneigh_modify every 10 delay 0 check yes\nthermo 0",
+                             elastic_support_of(job)));
     make_gravity();
     library_.run("group tlsph union all\npair_style smd/tlsph");
-    library_.run(fmt::format("pair_coeff 1 1 *COMMON 1.0 1.0 {:.17g} 0.0 0.0 {} 1.0 *STRENGTH_LINEAR *EOS_LINEAR *END",
-                             *elastic_material(job).poisson_ratio, hourglass));
+    library_.run(
+        fmt::format("pair_coeff 1 1 *COMMON 1.0 1.0 {:.17g} 0.0 0.0 {} 1.0 *STRENGTH_LINEAR *EOS_LINEAR *END",
+                    *elastic_material(job).poisson_ratio, hourglass));
     library_.run("fix move tlsph smd/integrate_tlsph");
     library_.run(choice_.commands);
   }
@@ -89,9 +97,9 @@ class Tlsph final : public ParticleModel {
     result.steps = clock_.total();
     result.time_step_bound = wanted_time_step(job_) ? "given" : "elastic wave";
     result.extra["support_in_spacings"] = elastic_support_of(job_);
-    result.message =
-        fmt::format("smd/tlsph, support {:g} dx, hourglass {:g}, no artificial viscosity{}", elastic_support_of(job_), hourglass,
-                    flat_ ? "; one layer in plane strain stands for all along z" : "");
+    result.message = fmt::format("smd/tlsph, support {:g} dx, hourglass {:g}, no artificial viscosity{}",
+                                 elastic_support_of(job_), hourglass,
+                                 flat_ ? "; one layer in plane strain stands for all along z" : "");
   }
 
  private:
@@ -106,7 +114,8 @@ class Tlsph final : public ParticleModel {
 
   void hold(std::size_t b, const Vec3& velocity) {
     const Vec3 v = velocity / units_.speed();
-    const std::string command = fmt::format("fix end{0} end{0} smd/setvel {1:.17g} {2:.17g} {3:.17g}", b, v.x, v.y, v.z);
+    const std::string command =
+        fmt::format("fix end{0} end{0} smd/setvel {1:.17g} {2:.17g} {3:.17g}", b, v.x, v.y, v.z);
     std::string& last = held_[b];
     if (last.empty()) library_.run(fmt::format("group end{} id{}", b, ids_of(b)));
     if (last != command) {
@@ -124,12 +133,14 @@ class Tlsph final : public ParticleModel {
 
 std::string why_not_matter(const Job& job, const JobBody& b) {
   const Material& m = job.scene.material(b.material);
-  if (b.phase == Phase::liquid) return fmt::format("{} is liquid; smd/tlsph runs elastic objects alone", b.name);
+  if (b.phase == Phase::liquid)
+    return fmt::format("{} is liquid; smd/tlsph runs elastic objects alone", b.name);
   if (b.phase == Phase::rigid && b.motion == Motion::free)
     return fmt::format("{} is a free rigid body; smd/tlsph knows held and driven ends only", b.name);
   if (is_turned(b)) return fmt::format("{} is turned; fix smd/setvel sets one velocity for all", b.name);
   if (b.phase != Phase::elastic) return {};
-  if (!m.young_modulus || !m.poisson_ratio) return fmt::format("{} has no Young's modulus or no Poisson's ratio", m.name);
+  if (!m.young_modulus || !m.poisson_ratio)
+    return fmt::format("{} has no Young's modulus or no Poisson's ratio", m.name);
   if (m.elastic_limit || m.fracture_stretch)
     return fmt::format("{} yields or breaks; smd/tlsph's laws of plasticity and damage are others", m.name);
   const Vec3& I = b.properties.principal_inertia;
@@ -143,19 +154,22 @@ std::string why_not_one_object(const Scene& scene) {
   std::vector<std::size_t> reached{0};
   for (std::size_t n = 0; n < reached.size(); ++n)
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-      if (std::find(reached.begin(), reached.end(), b) == reached.end() && are_joined(scene.bodies[reached[n]], scene.bodies[b]))
+      if (std::find(reached.begin(), reached.end(), b) == reached.end() &&
+          are_joined(scene.bodies[reached[n]], scene.bodies[b]))
         reached.push_back(b);
   for (std::size_t b = 0; b < scene.bodies.size(); ++b)
     if (std::find(reached.begin(), reached.end(), b) == reached.end())
-      return fmt::format("{} is not joined to {}, and contact in MACHDYN is a penalty of its own that is not set up here",
-                         scene.bodies[b].name, scene.bodies.front().name);
+      return fmt::format(
+          "{} is not joined to {}, and contact in MACHDYN is a penalty of its own that is not set up here",
+          scene.bodies[b].name, scene.bodies.front().name);
   return {};
 }
 
 }  // namespace
 
 std::string why_no_tlsph(const Job& job) {
-  if (!job.scene.events.empty()) return "smd/tlsph keeps its reference shape for the whole run: no merge, split or other events";
+  if (!job.scene.events.empty())
+    return "smd/tlsph keeps its reference shape for the whole run: no merge, split or other events";
   if (!job.scene.inflows.empty()) return "no inflow into smd/tlsph";
   bool free = false;
   std::string material;
@@ -164,7 +178,8 @@ std::string why_no_tlsph(const Job& job) {
     free = free || (b.phase == Phase::elastic && b.motion == Motion::free);
     if (b.phase != Phase::elastic) continue;
     if (!material.empty() && b.material != material)
-      return fmt::format("smd/tlsph has no coefficients between two materials, and {} is of another one", b.name);
+      return fmt::format("smd/tlsph has no coefficients between two materials, and {} is of another one",
+                         b.name);
     material = b.material;
   }
   if (!free) return "no elastic body is free";
@@ -175,7 +190,8 @@ std::string why_no_tlsph(const Job& job) {
 }
 
 std::unique_ptr<Model> make_tlsph(const Job& job, const InitialState& state) {
-  return std::make_unique<Tlsph>(job, state, job.scene.periodic[2] ? lowest_layer(job, state) : Layer{state, {}, 1});
+  return std::make_unique<Tlsph>(job, state,
+                                 job.scene.periodic[2] ? lowest_layer(job, state) : Layer{state, {}, 1});
 }
 
 }  // namespace tripoint::lammps

@@ -9,8 +9,9 @@ namespace tripoint::lammps {
 
 /// Why MACHDYN's smd/tlsph cannot run this job honestly; empty = it can.
 [[nodiscard]] std::string why_no_tlsph(const Job&);
-/// One elastic object, with the held and driven ends that are joined to it, by pair smd/tlsph. It is total Lagrangian SPH with
-/// corrected gradients, linear elasticity in the unrotated frame, and hourglass stiffness 10.
+/// One elastic object, with the held and driven ends that are joined to it, by pair smd/tlsph. It is total
+/// Lagrangian SPH with corrected gradients, linear elasticity in the unrotated frame, and hourglass
+/// stiffness 10.
 /// @throws EngineError in LAMMPS's words
 [[nodiscard]] std::unique_ptr<Model> make_tlsph(const Job&, const InitialState&);
 

@@ -28,8 +28,10 @@ WalkerStart::WalkerStart(const Job& job, const InitialState& state, const CellBo
   baseline_ = all.least;
   top_ = all.greatest - all.least;
   if (box.held_axis >= 0) {
-    const double one = box.held_low.value_or(box.held_high.value_or(0.0)), other = box.held_high.value_or(one);
-    top_ = std::max(std::abs(all.greatest - std::min(one, other)), std::abs(all.least - std::max(one, other)));
+    const double one = box.held_low.value_or(box.held_high.value_or(0.0)),
+                 other = box.held_high.value_or(one);
+    top_ =
+        std::max(std::abs(all.greatest - std::min(one, other)), std::abs(all.least - std::max(one, other)));
   }
   if (!(top_ > 0.0)) throw EngineError("the temperature is uniform: there is nothing for walkers to carry");
   place_particles(state);
@@ -48,7 +50,8 @@ void WalkerStart::place_particles(const InitialState& state) {
     ++placed;
     std::array<int, 3> c{};
     for (std::size_t k = 0; k < 3; ++k)
-      c[k] = std::clamp(static_cast<int>(std::floor((state.position[i][k] - box_.min[k]) / scene_.spacing)), 0, n[k] - 1);
+      c[k] = std::clamp(static_cast<int>(std::floor((state.position[i][k] - box_.min[k]) / scene_.spacing)),
+                        0, n[k] - 1);
     const int cell = c[0] + n[0] * (c[1] + n[1] * c[2]);
     if (particle_of_cell_[static_cast<std::size_t>(cell)] >= 0)
       throw EngineError("two particles lie in one cell of a spacing: walkers are counted on the lattice");
@@ -62,20 +65,25 @@ void WalkerStart::place_particles(const InitialState& state) {
 double WalkerStart::excess(int particle, const Vec3& cells) const {
   const auto i = static_cast<std::size_t>(particle);
   const Body& body = scene_.bodies[static_cast<std::size_t>(state_.source[i])];
-  return value_at(*body.temperature, box_.min + scene_.spacing * cells).value_or(state_.temperature[i]) - base(cells);
+  return value_at(*body.temperature, box_.min + scene_.spacing * cells).value_or(state_.temperature[i]) -
+         base(cells);
 }
 
 double WalkerStart::excess_at(const Vec3& at) const {
   std::array<int, 3> c{};
-  for (std::size_t k = 0; k < 3; ++k) c[k] = std::clamp(static_cast<int>(std::floor(at[k])), 0, box_.cells[k] - 1);
-  return excess(particle_of_cell_[static_cast<std::size_t>(c[0] + box_.cells[0] * (c[1] + box_.cells[1] * c[2]))], at);
+  for (std::size_t k = 0; k < 3; ++k)
+    c[k] = std::clamp(static_cast<int>(std::floor(at[k])), 0, box_.cells[k] - 1);
+  return excess(
+      particle_of_cell_[static_cast<std::size_t>(c[0] + box_.cells[0] * (c[1] + box_.cells[1] * c[2]))], at);
 }
 
-/// Between two held faces the straight line, beside one its temperature: the rest then vanishes at the held faces.
+/// Between two held faces the straight line, beside one its temperature: the rest then vanishes at the held
+/// faces.
 double WalkerStart::base(const Vec3& cells) const {
   if (box_.held_axis < 0) return baseline_;
   const auto axis = static_cast<std::size_t>(box_.held_axis);
-  const double low = box_.held_low.value_or(box_.held_high.value_or(0.0)), high = box_.held_high.value_or(low);
+  const double low = box_.held_low.value_or(box_.held_high.value_or(0.0)),
+               high = box_.held_high.value_or(low);
   return low + (high - low) * cells[axis] / box_.cells[axis];
 }
 
@@ -89,8 +97,8 @@ void WalkerStart::weigh_cells() {
                       double(cell / box_.cells[0] / box_.cells[1])};
     double mean = 0.0, size = 0.0;
     for (std::size_t p = 0; p < 27; ++p) {
-      const double T =
-          excess(particle_of_cell_[static_cast<std::size_t>(cell)], corner + Vec3{at[p % 3], at[p / 3 % 3], at[p / 9]});
+      const double T = excess(particle_of_cell_[static_cast<std::size_t>(cell)],
+                              corner + Vec3{at[p % 3], at[p / 3 % 3], at[p / 9]});
       const double part = share[p % 3] * share[p / 3 % 3] * share[p / 9];
       mean += part * T;
       size += part * std::abs(T);
@@ -102,14 +110,16 @@ void WalkerStart::weigh_cells() {
 
 /// A cell by its share, then a place within it by rejection under the field itself.
 Vec3 WalkerStart::draw(Random& random) const {
-  const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), random.uniform() * cumulative_.back());
-  const int cell = static_cast<int>(
-      std::min<std::ptrdiff_t>(found - cumulative_.begin(), static_cast<std::ptrdiff_t>(cumulative_.size()) - 1));
+  const auto found =
+      std::upper_bound(cumulative_.begin(), cumulative_.end(), random.uniform() * cumulative_.back());
+  const int cell = static_cast<int>(std::min<std::ptrdiff_t>(
+      found - cumulative_.begin(), static_cast<std::ptrdiff_t>(cumulative_.size()) - 1));
   const Vec3 corner{double(cell % box_.cells[0]), double(cell / box_.cells[0] % box_.cells[1]),
                     double(cell / box_.cells[0] / box_.cells[1])};
   for (;;) {
     const Vec3 at = corner + Vec3{random.uniform(), random.uniform(), random.uniform()};
-    if (random.uniform() * top_ < std::abs(excess(particle_of_cell_[static_cast<std::size_t>(cell)], at))) return at;
+    if (random.uniform() * top_ < std::abs(excess(particle_of_cell_[static_cast<std::size_t>(cell)], at)))
+      return at;
   }
 }
 

@@ -18,9 +18,9 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-/// Temperature beside a base as a density to draw walkers from: T(r) = base(r) + (content / N) n(r), n the number density of
-/// walkers with their signs. The base is the field's least value, so that all walkers count as +1. Between held faces it is the
-/// steady profile, and walkers count as -1 where the start lies below it.
+/// Temperature beside a base as a density to draw walkers from: T(r) = base(r) + (content / N) n(r), n the
+/// number density of walkers with their signs. The base is the field's least value, so that all walkers count
+/// as +1. Between held faces it is the steady profile, and walkers count as -1 where the start lies below it.
 class WalkerStart {
  public:
   WalkerStart(const Job&, const InitialState&, const CellBox&);
@@ -28,8 +28,9 @@ class WalkerStart {
   [[nodiscard]] Vec3 draw(Random&) const;
   /// +1 or -1, of a walker that starts here [cells].
   [[nodiscard]] int sign(const Vec3& cells) const { return excess_at(cells) < 0.0 ? -1 : 1; }
-  [[nodiscard]] double base(const Vec3& cells) const;                  ///< [K], at a place in cells
-  [[nodiscard]] double content() const { return cumulative_.back(); }  ///< integral of |T - base| [K spacings^3]
+  [[nodiscard]] double base(const Vec3& cells) const;  ///< [K], at a place in cells
+  /// Integral of |T - base| [K spacings^3]
+  [[nodiscard]] double content() const { return cumulative_.back(); }
   /// Cell of each particle; -1 for one whose temperature is held.
   [[nodiscard]] const std::vector<int>& cell_of_particle() const { return cell_of_particle_; }
   /// The one axis that the start depends on, or whose faces are held; -1 where there are more, or none.
@@ -38,7 +39,8 @@ class WalkerStart {
  private:
   void place_particles(const InitialState&);
   void weigh_cells();
-  [[nodiscard]] double excess(int particle, const Vec3& cells) const;  ///< T - base at a place within the particle's cell
+  /// T - base at a place within the particle's cell
+  [[nodiscard]] double excess(int particle, const Vec3& cells) const;
   [[nodiscard]] double excess_at(const Vec3& cells) const;
 
   const Scene& scene_;
@@ -46,7 +48,8 @@ class WalkerStart {
   CellBox box_;
   double baseline_ = 0.0, top_ = 0.0;
   std::vector<int> cell_of_particle_, particle_of_cell_;
-  std::vector<double> mean_, cumulative_;  ///< of the cells, x fastest: mean of T - base, and the sums of the mean sizes
+  /// Of the cells, x fastest: mean of T - base, and the sums of the mean sizes
+  std::vector<double> mean_, cumulative_;
 };
 
 }  // namespace tripoint::lammps

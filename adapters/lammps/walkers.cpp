@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-only
 // Lengths are scaled to spacings, time stays in seconds; kT = D / dx2 and unit friction.
 //
-// A face of held temperature is a mirror that turns signs. The temperature less the steady profile vanishes there, so it goes on
-// as an odd field beyond the face. Walkers cross the face freely and count with the opposite sign on the other side. Between two
-// held faces the box of twice the length is periodic; beside one, its ends are insulated walls. Both are exact.
+// A face of held temperature is a mirror that turns signs. The temperature less the steady profile vanishes
+// there, so it goes on as an odd field beyond the face. Walkers cross the face freely and count with the
+// opposite sign on the other side. Between two held faces the box of twice the length is periodic; beside
+// one, its ends are insulated walls. Both are exact.
 //
-// Langevin walkers (v' = -v/tau + noise, kT/m = D/tau) spread as 2 D (t - tau (1 - exp(-t/tau))), late by tau. Their steps form a
-// Gaussian process that mirror walls reflect exactly, so there is no other error than the lag. With the ratio step/tau below, the
-// lag of LAMMPS's discrete scheme is exactly two steps, and the clock is started two steps early. A remainder of exp(-t/tau)
-// stays.
+// Langevin walkers (v' = -v/tau + noise, kT/m = D/tau) spread as 2 D (t - tau (1 - exp(-t/tau))), late by
+// tau. Their steps form a Gaussian process that mirror walls reflect exactly, so there is no other error than
+// the lag. With the ratio step/tau below, the lag of LAMMPS's discrete scheme is exactly two steps, and the
+// clock is started two steps early. A remainder of exp(-t/tau) stays.
 #include "adapters/lammps/walkers.hpp"
 
 #include <fmt/format.h>
@@ -31,7 +32,8 @@ constexpr double box_over_step = 8.0;
 
 /// The first body whose temperature is free; cell_box() has seen that there is one.
 const Body& free_body(const Scene& scene) {
-  return *std::find_if(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return !b.temperature_held; });
+  return *std::find_if(scene.bodies.begin(), scene.bodies.end(),
+                       [](const Body& b) { return !b.temperature_held; });
 }
 
 class Walkers final : public Model {
@@ -79,11 +81,13 @@ class Walkers final : public Model {
       result.extra["diffusivity_error"] = error;
     }
     result.message = fmt::format(
-        "{:.0f} {} walkers {}; {}; cell means lie (k dx)^2/24 below the values at the centres", choice_.walkers,
-        brownian_ ? "Brownian" : "Langevin",
-        box_.held_axis >= 0 ? "beside the steady profile, with their signs" : fmt::format("above {} K", start_.base({})),
-        axis_ >= 0 ? fmt::format("counted in whole layers along {}, as the start depends on it alone", "xyz"[axis_])
-                   : "counted in single cells");
+        "{:.0f} {} walkers {}; {}; cell means lie (k dx)^2/24 below the values at the centres",
+        choice_.walkers, brownian_ ? "Brownian" : "Langevin",
+        box_.held_axis >= 0 ? "beside the steady profile, with their signs"
+                            : fmt::format("above {} K", start_.base({})),
+        axis_ >= 0
+            ? fmt::format("counted in whole layers along {}, as the start depends on it alone", "xyz"[axis_])
+            : "counted in single cells");
     if (!brownian_) result.message += fmt::format("; relaxation time {:.3g} s, its lag taken off", tau_);
     if (gauges_.empty()) return;
     std::ofstream file(job_.output + "/gauges.csv");
@@ -92,8 +96,8 @@ class Walkers final : public Model {
   }
 
  private:
-  /// Sides of the walkers' box in cells. Where the start depends on one axis alone, walkers are free across it and their section
-  /// is of no account.
+  /// Sides of the walkers' box in cells. Where the start depends on one axis alone, walkers are free across
+  /// it and their section is of no account.
   void choose_box() {
     for (std::size_t k = 0; k < 3; ++k) {
       const bool across = axis_ >= 0 && static_cast<int>(k) != axis_;
@@ -109,19 +113,23 @@ class Walkers final : public Model {
     const double least_side = *std::min_element(sides_.begin(), sides_.end());
     limit_ = least_side * least_side / (2.0 * box_over_step * box_over_step * D_);
     double shortest = job_.times.back() - job_.times.front();
-    for (std::size_t i = 1; i < job_.times.size(); ++i) shortest = std::min(shortest, job_.times[i] - job_.times[i - 1]);
+    for (std::size_t i = 1; i < job_.times.size(); ++i)
+      shortest = std::min(shortest, job_.times[i] - job_.times[i - 1]);
     if (!brownian_) limit_ = std::min(limit_, shortest / steps_an_interval);
-    const auto set = job_.settings.find("time_step");  // the job's own step is the particle solver's: walkers do not need it
+    // The job's own step is the particle solver's: walkers do not need it
+    const auto set = job_.settings.find("time_step");
     if (set != job_.settings.end()) limit_ = std::min(limit_, *wanted_time_step(job_));
     if (job_.times.size() > 1) tau_ = steps_in(job_.times[1] - job_.times[0], limit_).size / step_over_tau;
   }
 
   void make_box() {
-    library_.run(fmt::format("units lj\natom_style atomic\natom_modify sort 0 0.0\nboundary {} {} {}\n", wraps_[0] ? 'p' : 'f',
-                             wraps_[1] ? 'p' : 'f', wraps_[2] ? 'p' : 'f'));
-    library_.run(fmt::format("region box block 0 {} 0 {} 0 {}\ncreate_box 2 box\nmass * 1.0\npair_style none\n", sides_[0],
-                             sides_[1], sides_[2]));
-    library_.run("comm_modify cutoff 0.05\nneighbor 0.0 bin\nneigh_modify every 1 delay 0 check no\nthermo 0\n");
+    library_.run(fmt::format("units lj\natom_style atomic\natom_modify sort 0 0.0\nboundary {} {} {}\n",
+                             wraps_[0] ? 'p' : 'f', wraps_[1] ? 'p' : 'f', wraps_[2] ? 'p' : 'f'));
+    library_.run(
+        fmt::format("region box block 0 {} 0 {} 0 {}\ncreate_box 2 box\nmass * 1.0\npair_style none\n",
+                    sides_[0], sides_[1], sides_[2]));
+    library_.run(
+        "comm_modify cutoff 0.05\nneighbor 0.0 bin\nneigh_modify every 1 delay 0 check no\nthermo 0\n");
   }
 
   void make_walkers() {
@@ -133,7 +141,8 @@ class Walkers final : public Model {
       Vec3& x = position[i];
       x = start_.draw(random);
       if (box_.held_axis >= 0 && start_.sign(x) < 0) type[i] = minus;
-      if (held_low_alone()) x[static_cast<std::size_t>(box_.held_axis)] += box_.cells[static_cast<std::size_t>(box_.held_axis)];
+      if (held_low_alone())
+        x[static_cast<std::size_t>(box_.held_axis)] += box_.cells[static_cast<std::size_t>(box_.held_axis)];
       for (std::size_t k = 0; k < 3; ++k)
         if (axis_ >= 0 && static_cast<int>(k) != axis_) x[k] = random.uniform() * sides_[k];
     }
@@ -156,8 +165,8 @@ class Walkers final : public Model {
     if (brownian_)
       library_.run(fmt::format("fix move all brownian {:.17g} {} gamma_t 1.0 rng gaussian", D_, seed));
     else
-      library_.run(
-          fmt::format("fix move all nve\nfix bath all langevin {0:.17g} {0:.17g} {1:.17g} {2}\n", D_ / tau_, tau_, seed));
+      library_.run(fmt::format("fix move all nve\nfix bath all langevin {0:.17g} {0:.17g} {1:.17g} {2}\n",
+                               D_ / tau_, tau_, seed));
     std::string walls;
     for (std::size_t k = 0; k < 3; ++k)
       if (!wraps_[k]) walls += fmt::format(" {0}lo EDGE {0}hi EDGE", "xyz"[k]);
@@ -167,8 +176,8 @@ class Walkers final : public Model {
   /// Whether the box begins with the mirrored half.
   [[nodiscard]] bool held_low_alone() const { return box_.held_low && !box_.held_high; }
 
-  /// The diffusivity that a gauge asks for, along its axis or, without one, along all. {} where walkers do not go on for ever
-  /// there.
+  /// The diffusivity that a gauge asks for, along its axis or, without one, along all. {} where walkers do
+  /// not go on for ever there.
   [[nodiscard]] std::pair<double, double> gauged(const JobGauge& gauge) const {
     if (gauge.quantity != "diffusivity") return {};
     const auto axis = gauge.where.find("axis");
@@ -178,8 +187,8 @@ class Walkers final : public Model {
     return diffusivity_by_displacement({(*word)[0] - 'x'});
   }
 
-  /// Half the mean squared displacement a second, of those of the axes along which walkers go on for ever, and its standard
-  /// error. [m2/s]
+  /// Half the mean squared displacement a second, of those of the axes along which walkers go on for ever,
+  /// and its standard error. [m2/s]
   [[nodiscard]] std::pair<double, double> diffusivity_by_displacement(const std::vector<int>& axes) const {
     const double dx2 = job_.scene.spacing * job_.scene.spacing, time = time_ - job_.times.front();
     double sum = 0.0;
@@ -197,7 +206,9 @@ class Walkers final : public Model {
   [[nodiscard]] double kelvin_a_walker() const { return start_.content() / choice_.walkers; }
   /// Number of cells that are counted together.
   [[nodiscard]] int pooled() const {
-    return axis_ < 0 ? 1 : box_.cells[0] * box_.cells[1] * box_.cells[2] / box_.cells[static_cast<std::size_t>(axis_)];
+    return axis_ < 0
+               ? 1
+               : box_.cells[0] * box_.cells[1] * box_.cells[2] / box_.cells[static_cast<std::size_t>(axis_)];
   }
   [[nodiscard]] int bin_of(int cell) const {
     if (axis_ < 0) return cell;
@@ -274,7 +285,8 @@ Snapshot Walkers::observe() const {
     const Vec3 place = (1.0 / job_.scene.spacing) * (state_.position[i] - box_.min);
     temperature.push_back(start_.base(place) + unit * count.net[bin]);
     const double n = count.all[bin];
-    error.push_back(unit * std::sqrt(std::max(n, 1.0) * std::max(1.0 - n / N, 0.0)));  // multinomial; an empty cell counts as one
+    // multinomial; an empty cell counts as one
+    error.push_back(unit * std::sqrt(std::max(n, 1.0) * std::max(1.0 - n / N, 0.0)));
   }
   Snapshot s = at_rest(job_, state_, time_, clock_.total(), std::move(temperature));
   s.temperature_error = std::move(error);
@@ -291,9 +303,11 @@ std::string why_no_walkers(const Job& job) {
   if (!cell_box(scene, why)) return why;
   const Body& first = free_body(scene);
   for (const Body& b : scene.bodies)
-    if (!b.temperature_held && (std::abs(diffusivity(scene, b) / diffusivity(scene, first) - 1.0) > 1e-9 ||
-                                std::abs(heat_per_volume(scene, b) / heat_per_volume(scene, first) - 1.0) > 1e-9))
-      return fmt::format("walkers need one diffusivity, and that of {} differs from that of {}", b.name, first.name);
+    if (!b.temperature_held &&
+        (std::abs(diffusivity(scene, b) / diffusivity(scene, first) - 1.0) > 1e-9 ||
+         std::abs(heat_per_volume(scene, b) / heat_per_volume(scene, first) - 1.0) > 1e-9))
+      return fmt::format("walkers need one diffusivity, and that of {} differs from that of {}", b.name,
+                         first.name);
   return {};
 }
 

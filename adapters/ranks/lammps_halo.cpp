@@ -18,7 +18,8 @@ namespace {
 constexpr double allowed_later = 1.05;    ///< cost of the dearest rank over the mean, as lists are made anew
 constexpr std::size_t rows_at_once = 32;  ///< whose columns are written while their numbers are in the cache
 
-/// Calls visit(values, number of the column) for each column of numbers. @throws EngineError for a column of anything else
+/// Calls visit(values, number of the column) for each column of numbers. @throws EngineError for a column of
+/// anything else
 template <class P, class Visit>
 void each_column(P& particles, Visit visit) {
   int column = 0;
@@ -26,7 +27,8 @@ void each_column(P& particles, Visit visit) {
     if constexpr (std::is_arithmetic_v<T>)
       visit(values, column++);
     else
-      throw EngineError("the column " + std::string(field.name) + " is not made of numbers and cannot go between ranks");
+      throw EngineError("the column " + std::string(field.name) +
+                        " is not made of numbers and cannot go between ranks");
   });
 }
 
@@ -52,8 +54,8 @@ PeriodicBox LammpsHalo::split_of(const PeriodicBox& box) const {
   return split;
 }
 
-/// Every rank has all particles, and takes those that LAMMPS has put into its part of the box. Particles that flowed in have no
-/// atoms yet: then all are made anew, which also evens out the parts.
+/// Every rank has all particles, and takes those that LAMMPS has put into its part of the box. Particles that
+/// flowed in have no atoms yet: then all are made anew, which also evens out the parts.
 void LammpsHalo::share_out(Particles& particles, Bonds& bonds, OwnPairs& own, const PeriodicBox& box,
                            std::span<const Vec3> places, std::span<const double> cost) {
   const std::size_t lists = most_list_numbers(bonds, own);
@@ -65,20 +67,25 @@ void LammpsHalo::share_out(Particles& particles, Bonds& bonds, OwnPairs& own, co
   ranks_->make_room(lists);
   if (particles.size() != atoms_) {
     std::vector<Vec3> now;
-    for (std::size_t id = 0; id < particles.size(); ++id) now.push_back(particles.position(particles.row(id)));
+    for (std::size_t id = 0; id < particles.size(); ++id)
+      now.push_back(particles.position(particles.row(id)));
     host_.renew(now);
     atoms_ = particles.size();
   }
   const double bond =
-      has_lists_ ? longest_bond(particles, bonds, particles.size(), box) + 2.0 * farthest(particles, places) : 0.0;
+      has_lists_ ? longest_bond(particles, bonds, particles.size(), box) + 2.0 * farthest(particles, places)
+                 : 0.0;
   reach_now_ = std::max(reach_, bond * (1.0 + 1e-9));
   std::vector<std::size_t> rows(ranks_->owned());
-  for (std::size_t atom = 0; atom < rows.size(); ++atom) rows[atom] = particles.row(static_cast<std::size_t>(ranks_->id(atom)));
+  for (std::size_t atom = 0; atom < rows.size(); ++atom)
+    rows[atom] = particles.row(static_cast<std::size_t>(ranks_->id(atom)));
   pack(particles, split_of(box), rows, places);
-  const bool are_written = ranks_->size() == 1 && migrations_ > 0 && known_changes_ == std::array{bonds.changes(), own.changes()};
+  const bool are_written =
+      ranks_->size() == 1 && migrations_ > 0 && known_changes_ == std::array{bonds.changes(), own.changes()};
   for (std::size_t atom = 0; atom < ranks_->owned() && !are_written; ++atom)
-    ranks_->lists(atom) =
-        has_lists_ ? lists_as_numbers(bonds, own, static_cast<std::size_t>(ranks_->id(atom))) : std::vector<double>{};
+    ranks_->lists(atom) = has_lists_
+                              ? lists_as_numbers(bonds, own, static_cast<std::size_t>(ranks_->id(atom)))
+                              : std::vector<double>{};
   if (!cost.empty() && ranks_->size() > 1) {
     for (std::size_t atom = 0; atom < ranks_->owned(); ++atom)
       ranks_->cost(atom) = cost[static_cast<std::size_t>(ranks_->id(atom))];
@@ -120,8 +127,9 @@ void LammpsHalo::migrate(Particles& particles, Bonds& bonds, OwnPairs& own, cons
   hand_over(particles, bonds, own);
 }
 
-/// From now on each atom carries the particle of its row. Neighbours in memory then move together, and columns are written and
-/// read one after the other. Rows of this rank's own come first. @return for each atom the id
+/// From now on each atom carries the particle of its row. Neighbours in memory then move together, and
+/// columns are written and read one after the other. Rows of this rank's own come first. @return for each
+/// atom the id
 std::vector<std::uint32_t> LammpsHalo::follow_rows(const Particles& particles) {
   const auto id = particles[field::id];
   std::vector<std::uint32_t> ids(id.begin(), id.begin() + static_cast<std::ptrdiff_t>(owned()));
@@ -153,7 +161,8 @@ void LammpsHalo::hand_over(Particles& particles, Bonds& bonds, OwnPairs& own) {
   }
 }
 
-/// Copies reach as far as the longest bond of all ranks now. They stay until the next migration, however bonds are stretched.
+/// Copies reach as far as the longest bond of all ranks now. They stay until the next migration, however
+/// bonds are stretched.
 double LammpsHalo::reach_of(double longest_bond) {
   if (!has_lists_) return reach_;
   double least = -longest_bond;
@@ -162,13 +171,15 @@ double LammpsHalo::reach_of(double longest_bond) {
   return std::max(reach_, -least * (1.0 + 1e-9));
 }
 
-/// Lists are written down as the scene is shared out, where ids are numbers. Nobody changes the lists of its parts.
+/// Lists are written down as the scene is shared out, where ids are numbers. Nobody changes the lists of its
+/// parts.
 void LammpsHalo::expect_known(const Bonds& bonds, const OwnPairs& own) const {
   if (known_changes_ != std::array{bonds.changes(), own.changes()})
     throw EngineError("bonds or own pairs of a scene that is shared out have changed");
 }
 
-/// Each rank sends how many particles it has, their numbers, then column by column, then the lengths of lists, and the lists.
+/// Each rank sends how many particles it has, their numbers, then column by column, then the lengths of
+/// lists, and the lists.
 WholeScene LammpsHalo::gather(const Particles& particles, const Bonds& bonds, const OwnPairs& own) {
   expect_known(bonds, own);
   ++gatherings_;
@@ -179,10 +190,12 @@ WholeScene LammpsHalo::gather(const Particles& particles, const Bonds& bonds, co
   numbers.reserve(1 + count * (2 + static_cast<std::size_t>(count_columns(particles))) + in_lists);
   numbers.insert(numbers.end(), numbers_.begin(), numbers_.begin() + static_cast<std::ptrdiff_t>(count));
   each_column(particles, [&](auto values, int) {
-    for (std::size_t id = 0; id < count; ++id) numbers.push_back(static_cast<double>(values[particles.row(id)]));
+    for (std::size_t id = 0; id < count; ++id)
+      numbers.push_back(static_cast<double>(values[particles.row(id)]));
   });
   for (std::size_t id = 0; id < count; ++id) numbers.push_back(static_cast<double>(ranks_->lists(id).size()));
-  for (std::size_t id = 0; id < count; ++id) numbers.insert(numbers.end(), ranks_->lists(id).begin(), ranks_->lists(id).end());
+  for (std::size_t id = 0; id < count; ++id)
+    numbers.insert(numbers.end(), ranks_->lists(id).begin(), ranks_->lists(id).end());
   const std::vector<double> all = all_of(numbers);
 
   WholeScene whole{Particles(atoms_, particles.fields()), {}, {}};
@@ -217,7 +230,9 @@ void LammpsHalo::unpack_lists(Bonds& bonds, OwnPairs& own) {
     known_changes_ = {};
     return;
   }
-  Share share{ranks_->owned(), {}, [this](std::size_t id) { return std::span<const double>(ranks_->lists(atoms_here_[id])); }};
+  Share share{ranks_->owned(), {}, [this](std::size_t id) {
+                return std::span<const double>(ranks_->lists(atoms_here_[id]));
+              }};
   share.number = numbers_;
   take_lists(share, bonds, own);
   known_changes_ = {bonds.changes(), own.changes()};
@@ -225,47 +240,56 @@ void LammpsHalo::unpack_lists(Bonds& bonds, OwnPairs& own) {
 
 /// Only rows that other ranks are to have are written for LAMMPS; for the rest the row number alone is noted.
 /// @param rows of the atoms   @param places that LAMMPS is told, by number; empty: those of now
-void LammpsHalo::pack(const Particles& particles, const PeriodicBox& box, const std::vector<std::size_t>& rows,
-                      std::span<const Vec3> places) {
+void LammpsHalo::pack(const Particles& particles, const PeriodicBox& box,
+                      const std::vector<std::size_t>& rows, std::span<const Vec3> places) {
   ranks_->set_rows(rows, [&particles](std::span<const std::size_t> wanted, std::span<double* const> to) {
     for (std::size_t from = 0; from < wanted.size(); from += rows_at_once)
-      each_column(particles, [&, past = std::min(from + rows_at_once, wanted.size())](auto values, int column) {
-        for (std::size_t k = from; k < past; ++k) to[k][column] = static_cast<double>(values[wanted[k]]);
-      });
+      each_column(particles,
+                  [&, past = std::min(from + rows_at_once, wanted.size())](auto values, int column) {
+                    for (std::size_t k = from; k < past; ++k)
+                      to[k][column] = static_cast<double>(values[wanted[k]]);
+                  });
   });
   const auto x = positions(particles);
   for (std::size_t atom = 0; atom < rows.size(); ++atom) {
     const Vec3 r = places.empty() ? x.at(rows[atom]) : places[static_cast<std::size_t>(ranks_->id(atom))];
     for (std::size_t a = 0; a < 3; ++a)
-      ranks_->position(atom)[a] = box.periodic[a] ? r[a] - std::floor((r[a] - box.min[a]) / box.width[a]) * box.width[a] : r[a];
+      ranks_->position(atom)[a] =
+          box.periodic[a] ? r[a] - std::floor((r[a] - box.min[a]) / box.width[a]) * box.width[a] : r[a];
   }
 }
 
-/// Copies of one particle at several images are one here, and so are copies of this rank's own particles. Lists find them across
-/// a periodic boundary by themselves.
+/// Copies of one particle at several images are one here, and so are copies of this rank's own particles.
+/// Lists find them across a periodic boundary by themselves.
 void LammpsHalo::number_atoms() {
-  const auto owned = static_cast<std::uint32_t>(ranks_->owned()), all = static_cast<std::uint32_t>(ranks_->all());
+  const auto owned = static_cast<std::uint32_t>(ranks_->owned()),
+             all = static_cast<std::uint32_t>(ranks_->all());
   numbers_.clear();
   atoms_here_.clear();
   id_of_atom_.resize(all);
   std::vector<std::pair<int, std::uint32_t>> copies;  // number and atom
   for (std::uint32_t atom = owned; atom < all; ++atom) copies.emplace_back(ranks_->id(atom), atom);
   std::ranges::sort(copies);
-  std::vector<char> may_be_copied(std::bit_ceil(16 * copies.size() + 1), 0);  // by the last bits of a number: few share them
-  const auto last_bits = [&](int number) { return static_cast<std::size_t>(number) & (may_be_copied.size() - 1); };
+  // By the last bits of a number: few share them
+  std::vector<char> may_be_copied(std::bit_ceil(16 * copies.size() + 1), 0);
+  const auto last_bits = [&](int number) {
+    return static_cast<std::size_t>(number) & (may_be_copied.size() - 1);
+  };
   for (const auto& [number, atom] : copies) may_be_copied[last_bits(number)] = 1;
 
   std::vector<std::uint32_t> first(all - owned);  // of each copy the first atom with its number
   for (std::size_t k = 0; k < copies.size(); ++k)
-    first[copies[k].second - owned] =
-        k > 0 && copies[k].first == copies[k - 1].first ? first[copies[k - 1].second - owned] : copies[k].second;
+    first[copies[k].second - owned] = k > 0 && copies[k].first == copies[k - 1].first
+                                          ? first[copies[k - 1].second - owned]
+                                          : copies[k].second;
   for (std::uint32_t atom = 0; atom < owned; ++atom) {
     const int number = ranks_->id(atom);
     id_of_atom_[atom] = atom;
     numbers_.push_back(number);
     atoms_here_.push_back(atom);
     if (!may_be_copied[last_bits(number)]) continue;
-    for (const auto& one : std::ranges::equal_range(copies, number, {}, &std::pair<int, std::uint32_t>::first))
+    for (const auto& one :
+         std::ranges::equal_range(copies, number, {}, &std::pair<int, std::uint32_t>::first))
       first[one.second - owned] = atom;
   }
   for (std::uint32_t atom = owned; atom < all; ++atom) {
@@ -293,7 +317,8 @@ void LammpsHalo::unpack(Particles& particles) {
   for (std::size_t from = 0; from < came.size(); from += rows_at_once)
     each_column(particles, [&, past = std::min(from + rows_at_once, came.size())](auto values, int column) {
       using T = typename decltype(values)::value_type;
-      for (std::size_t k = from; k < past; ++k) values[came[k].first] = static_cast<T>(came[k].second[column]);
+      for (std::size_t k = from; k < past; ++k)
+        values[came[k].first] = static_cast<T>(came[k].second[column]);
     });
   particles.number();
 }
@@ -304,7 +329,8 @@ void LammpsHalo::refresh(Particles& particles, std::span<const Field<double>* co
   exchanges_ += 1.0;
   numbers_a_copy_ += static_cast<double>(columns_.size());
   begin_call();
-  ranks_->forward({columns_.data(), static_cast<int>(columns_.size()), id_of_atom_.data(), particles.rows().data(), 1});
+  ranks_->forward(
+      {columns_.data(), static_cast<int>(columns_.size()), id_of_atom_.data(), particles.rows().data(), 1});
   end_part();
 }
 

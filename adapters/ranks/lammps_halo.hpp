@@ -17,12 +17,21 @@ class LammpsHalo : public Halo {
  public:
   /// Actions that only LAMMPS itself can do, beside its fix.
   struct Host {
-    std::function<Ranks&(int columns)> begin;                    ///< makes the fix, when the columns are known
-    std::function<void(const std::vector<Vec3>& places)> renew;  ///< other atoms for those that there are, by number [m]
+    /// Makes the fix, when the columns are known
+    std::function<Ranks&(int columns)> begin;
+    /// Other atoms for those that there are, by number [m]
+    std::function<void(const std::vector<Vec3>& places)> renew;
   };
-  /// @param reach of a neighbour list [m]: copies reach as far, or as the longest bond does   @param owners_above as of Halo
-  LammpsHalo(std::array<bool, 3> splits, double reach, std::size_t atoms, bool is_first, std::size_t owners_above, Host host)
-      : splits_(splits), reach_(reach), atoms_(atoms), is_first_(is_first), owners_above_(owners_above), host_(std::move(host)) {}
+  /// @param reach of a neighbour list [m]: copies reach as far, or as the longest bond does   @param
+  /// owners_above as of Halo
+  LammpsHalo(std::array<bool, 3> splits, double reach, std::size_t atoms, bool is_first,
+             std::size_t owners_above, Host host)
+      : splits_(splits),
+        reach_(reach),
+        atoms_(atoms),
+        is_first_(is_first),
+        owners_above_(owners_above),
+        host_(std::move(host)) {}
   void share_out(Particles&, Bonds&, OwnPairs&, const PeriodicBox&, std::span<const Vec3> places,
                  std::span<const double> cost) override;
   void share_lists(Bonds&, OwnPairs&) override;
@@ -46,7 +55,8 @@ class LammpsHalo : public Halo {
     }
   }
   [[nodiscard]] std::vector<double> all_of(const std::vector<double>& own) override;
-  [[nodiscard]] std::vector<std::vector<double>> exchange(const std::vector<std::vector<double>>& to) override;
+  [[nodiscard]] std::vector<std::vector<double>> exchange(
+      const std::vector<std::vector<double>>& to) override;
   [[nodiscard]] std::size_t processes() const override { return static_cast<std::size_t>(ranks_->size()); }
   [[nodiscard]] std::size_t process() const override { return static_cast<std::size_t>(ranks_->rank()); }
   [[nodiscard]] std::size_t owners_above() const override { return owners_above_; }
@@ -59,8 +69,8 @@ class LammpsHalo : public Halo {
   [[nodiscard]] Ranks* ranks() const noexcept { return ranks_; }
   [[nodiscard]] long migrations() const noexcept { return migrations_; }
   [[nodiscard]] long gatherings() const noexcept { return gatherings_; }
-  /// Requests to the other ranks so far, counted also where there is no other. They are exchanges of columns, numbers that each
-  /// copy took in them, and collective calls. `tripoint predict` has its counts from here.
+  /// Requests to the other ranks so far, counted also where there is no other. They are exchanges of columns,
+  /// numbers that each copy took in them, and collective calls. `tripoint predict` has its counts from here.
   struct Traffic {
     double exchanges = 0.0, numbers_a_copy = 0.0, collectives = 0.0;
     int columns = 0;                                    ///< that go with a particle or a new copy
@@ -81,7 +91,8 @@ class LammpsHalo : public Halo {
   void hand_over(Particles&, Bonds&, OwnPairs&);
   [[nodiscard]] std::vector<std::uint32_t> follow_rows(const Particles&);
   void balance(double allowed);
-  void pack(const Particles&, const PeriodicBox& split, const std::vector<std::size_t>& rows, std::span<const Vec3> places = {});
+  void pack(const Particles&, const PeriodicBox& split, const std::vector<std::size_t>& rows,
+            std::span<const Vec3> places = {});
   void unpack(Particles&);
   void number_atoms();
   void unpack_lists(Bonds&, OwnPairs&);
@@ -101,12 +112,14 @@ class LammpsHalo : public Halo {
   double exchanges_ = 0.0, numbers_a_copy_ = 0.0, collectives_ = 0.0;
   int columns_of_particle_ = 0;
   std::size_t own_at_start_ = 0, copies_at_start_ = 0;
-  bool has_lists_ = false;                        ///< the scene has bonds or own pairs
-  std::array<std::uint64_t, 2> known_changes_{};  ///< of bonds and of own pairs, as the last migration left them
-  std::vector<int> numbers_;                      ///< of each id of this part, among the particles of all ranks
-  std::vector<std::uint32_t> id_of_atom_;         ///< of each of LAMMPS's atoms, copies too
-  std::vector<std::uint32_t> atoms_here_;         ///< of each id the atom that it was made of
-  std::vector<double*> columns_;                  ///< likewise
+  bool has_lists_ = false;  ///< the scene has bonds or own pairs
+  /// Of bonds and of own pairs, as the last migration left them
+  std::array<std::uint64_t, 2> known_changes_{};
+  /// Of each id of this part, among the particles of all ranks
+  std::vector<int> numbers_;
+  std::vector<std::uint32_t> id_of_atom_;  ///< of each of LAMMPS's atoms, copies too
+  std::vector<std::uint32_t> atoms_here_;  ///< of each id the atom that it was made of
+  std::vector<double*> columns_;           ///< likewise
 };
 
 }  // namespace tripoint::ranks

@@ -11,7 +11,9 @@
 
 namespace tripoint::ranks {
 
-std::string words_file(const std::string& output, int rank) { return fmt::format("{}/rank-{}.log", output, rank); }
+std::string words_file(const std::string& output, int rank) {
+  return fmt::format("{}/rank-{}.log", output, rank);
+}
 
 void write_words(const std::string& file, const std::string& how_far) {
   const std::string next = file + ".part";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
-// The engine's three calls as any engine's; --run starts the ranks, which are this program again, called with --rank.
+// The engine's three calls as any engine's; --run starts the ranks, which are this program again, called with
+// --rank.
 #include <malloc.h>
 
 #include <algorithm>
@@ -24,8 +25,8 @@ const Job* this_job = nullptr;
 
 std::unique_ptr<Engine> make() { return std::make_unique<RanksEngine>(this_rank); }
 
-/// Keeps the memory that one new share gives back, because the next share needs it. Otherwise the system would hand out empty
-/// pages each time.
+/// Keeps the memory that one new share gives back, because the next share needs it. Otherwise the system
+/// would hand out empty pages each time.
 void keep_memory() {
   constexpr int most = 1 << 30;  // [bytes]
   ::mallopt(M_MMAP_THRESHOLD, most);
@@ -35,7 +36,8 @@ void keep_memory() {
 /// All ranks have ended after the same step, and the first has left a checkpoint.
 struct Stopped {};
 
-/// Does the work of the first rank through serve(), without its files. The first rank alone says whether a checkpoint fits.
+/// Does the work of the first rank through serve(), without its files. The first rank alone says whether a
+/// checkpoint fits.
 void follow(const Job& job) {
   RanksEngine engine(this_rank);
   const InitialState initial = read_particles(job.particles);
@@ -92,7 +94,8 @@ int follow_or_give_up(const Job& job, int rank) {
   } catch (const Stopped&) {
     return exit_interrupted;
   } catch (const Diverged& e) {
-    give_up(job, rank, Status::diverged, e.what(), 7, Divergence{e.particle, e.body, e.field, e.stage, e.time, e.guard, "", ""});
+    give_up(job, rank, Status::diverged, e.what(), 7,
+            Divergence{e.particle, e.body, e.field, e.stage, e.time, e.guard, "", ""});
   } catch (const InputError& e) {
     give_up(job, rank, Status::refused, std::string("tripoint-mpi: ") + e.what(), 4);
   } catch (const std::exception& e) {
@@ -142,7 +145,8 @@ int main(int argc, char** argv) {
   try {
     if (verb == "--rank" && argc == 3) {
       const tripoint::Job job = tripoint::read_job(argv[2]);
-      return tripoint::ranks::keep_a_rank(job.output, [&] { return tripoint::ranks::be_a_rank(job, argv[0], argv[2]); });
+      return tripoint::ranks::keep_a_rank(job.output,
+                                          [&] { return tripoint::ranks::be_a_rank(job, argv[0], argv[2]); });
     }
     if (verb == "--probe" && argc == 2) return tripoint::ranks::probe();
     if (verb == "--probe-rank" && argc == 3) return tripoint::ranks::be_a_probe(argv[2]);

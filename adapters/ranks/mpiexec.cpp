@@ -31,8 +31,8 @@ std::string log_of(const std::string& output) { return output + "/mpiexec.log"; 
 
 volatile sig_atomic_t mpiexec_pid = 0, stop_came = 0;
 
-/// mpiexec hands SIGINT on to the ranks, which leave a checkpoint. It would answer SIGTERM, and a second SIGINT, by killing them.
-/// A second SIGHUP does not ask for that.
+/// mpiexec hands SIGINT on to the ranks, which leave a checkpoint. It would answer SIGTERM, and a second
+/// SIGINT, by killing them. A second SIGHUP does not ask for that.
 extern "C" void on_stop_of_ranks(int signal) {
   if (signal == SIGHUP && stop_came) return;
   stop_came = 1;
@@ -48,7 +48,8 @@ sigset_t hold_stops() {
   return before;
 }
 
-/// From now on Ctrl-C, SIGTERM and SIGHUP are for the ranks; a second Ctrl-C or SIGTERM ends us at once, and them with us.
+/// From now on Ctrl-C, SIGTERM and SIGHUP are for the ranks; a second Ctrl-C or SIGTERM ends us at once, and
+/// them with us.
 void hand_stops_on(pid_t mpiexec, const sigset_t& before) {
   mpiexec_pid = mpiexec;
   on_stop_signals(on_stop_of_ranks);
@@ -58,10 +59,10 @@ void hand_stops_on(pid_t mpiexec, const sigset_t& before) {
 /// mpiexec and its ranks as children; they end with this process. @return status as wait() gives it
 int start_and_wait(const Wheel& wheel, int count, const std::string& job_path, const std::string& output) {
   std::error_code ignored;
-  const std::string self = fs::read_symlink("/proc/self/exe", ignored).string(), ranks = std::to_string(count),
-                    log = log_of(output);
-  const char* chosen = std::getenv(
-      "TRIPOINT_MPI_LAUNCHER");  // hydra's: fork for this machine; slurm or ssh for several nodes, which nobody has tried
+  const std::string self = fs::read_symlink("/proc/self/exe", ignored).string(),
+                    ranks = std::to_string(count), log = log_of(output);
+  // hydra's: fork for this machine; slurm or ssh for several nodes, which nobody has tried
+  const char* chosen = std::getenv("TRIPOINT_MPI_LAUNCHER");
   const std::string launcher = chosen && *chosen ? chosen : "fork";
   keep_ends_of_children();
   const sigset_t before = hold_stops();
@@ -72,12 +73,13 @@ int start_and_wait(const Wheel& wheel, int count, const std::string& job_path, c
     if (::getppid() != parent) ::_exit(1);  // the parent died before the line above
     ::setpgid(0, 0);                        // signals to our group are for the parent alone
     ::sigprocmask(SIG_SETMASK, &before, nullptr);
-    const int nothing = ::open("/dev/null", O_RDONLY), words = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    const int nothing = ::open("/dev/null", O_RDONLY),
+              words = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     ::dup2(nothing, STDIN_FILENO);
     ::dup2(words, STDOUT_FILENO);
     let_waits_give_way();
-    ::execl(wheel.mpiexec.c_str(), wheel.mpiexec.c_str(), "-launcher", launcher.c_str(), "-n", ranks.c_str(), self.c_str(),
-            "--rank", job_path.c_str(), nullptr);
+    ::execl(wheel.mpiexec.c_str(), wheel.mpiexec.c_str(), "-launcher", launcher.c_str(), "-n", ranks.c_str(),
+            self.c_str(), "--rank", job_path.c_str(), nullptr);
     ::_exit(127);
   }
   hand_stops_on(pid, before);
@@ -102,12 +104,14 @@ Result result_of_failure(const std::string& output, int count, int status) {
   for (int rank = 0; rank < count; ++rank) {
     const LastWords words = last_words(output, rank);
     if (words.end.empty()) continue;
-    failed.message += fmt::format("{}rank {} of {} {}; its last words: {}", failed.message.empty() ? "" : "; ", rank, count,
-                                  words.end, words.how_far.empty() ? "none, it had not begun to step" : words.how_far);
+    failed.message +=
+        fmt::format("{}rank {} of {} {}; its last words: {}", failed.message.empty() ? "" : "; ", rank, count,
+                    words.end, words.how_far.empty() ? "none, it had not begun to step" : words.how_far);
   }
   if (failed.message.empty())
     failed.message = fmt::format(
-        "the ranks ended without a result, and none was seen to be ended by a signal; mpiexec {} {}, and its words "
+        "the ranks ended without a result, and none was seen to be ended by a signal; mpiexec {} {}, and its "
+        "words "
         "are in {}",
         WIFSIGNALED(status) ? "was ended by signal" : "gave exit code",
         WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status), log_of(output));
@@ -115,7 +119,10 @@ Result result_of_failure(const std::string& output, int count, int status) {
 }
 
 int exit_code_of(const Result& result) {
-  return result.status == Status::ok ? 0 : result.status == Status::refused ? 4 : result.status == Status::diverged ? 7 : 1;
+  return result.status == Status::ok         ? 0
+         : result.status == Status::refused  ? 4
+         : result.status == Status::diverged ? 7
+                                             : 1;
 }
 
 }  // namespace
@@ -133,7 +140,8 @@ int run_ranks(const std::string& job_path) {
   }
   const int status = start_and_wait(find_wheel(), count, job_path, job.output);
   const bool left_checkpoint = WIFEXITED(status) && WEXITSTATUS(status) == exit_interrupted;
-  if (fs::exists(result, ignored)) return left_checkpoint ? exit_interrupted : exit_code_of(read_result(result));
+  if (fs::exists(result, ignored))
+    return left_checkpoint ? exit_interrupted : exit_code_of(read_result(result));
   Result failed = result_of_failure(job.output, count, status);
   if (stop_came) failed.message = "interrupted before the ranks could leave a checkpoint; " + failed.message;
   std::fputs(fmt::format("{}: {}\n", failed.status, failed.message).c_str(), stderr);

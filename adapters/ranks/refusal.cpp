@@ -27,7 +27,8 @@ const std::vector<std::string>& presets() {
 
 int ranks_of(const Job& job) {
   if (std::ranges::find(presets(), job.preset) == presets().end())
-    throw InputError("tripoint-mpi: no preset is named " + printable(job.preset) + suggestion(job.preset, presets()));
+    throw InputError("tripoint-mpi: no preset is named " + printable(job.preset) +
+                     suggestion(job.preset, presets()));
   double count = job.ranks;
   if (job.preset != presets().front()) count = job.preset.back() - '0';
   if (const auto given = job.settings.find("ranks"); given != job.settings.end()) {
@@ -43,7 +44,8 @@ int ranks_of(const Job& job) {
 std::size_t owners_above(const Job& job) {
   const double bodies = setting(job, "owners_above", 1000.0);
   if (!(bodies >= 0.0 && bodies <= 1e9))
-    throw InputError("the setting owners_above of the engine tripoint-mpi is a number of bodies, from 0 to 1e9");
+    throw InputError(
+        "the setting owners_above of the engine tripoint-mpi is a number of bodies, from 0 to 1e9");
   return static_cast<std::size_t>(bodies);
 }
 
@@ -63,9 +65,9 @@ std::string RanksEngine::refusal(const Job& job) const {
     return e.what();
   }
   const std::string part = refused_part(job.scene);
-  return part.empty()
-             ? part
-             : "tripoint-mpi: over ranks there is no part yet for " + part + "; the engine tripoint runs them in one process";
+  return part.empty() ? part
+                      : "tripoint-mpi: over ranks there is no part yet for " + part +
+                            "; the engine tripoint runs them in one process";
 }
 
 }  // namespace tripoint::ranks

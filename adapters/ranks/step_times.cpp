@@ -12,7 +12,9 @@
 namespace tripoint::ranks {
 namespace {
 
-double wall_clock() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double wall_clock() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 double cpu_clock() {
   timespec cpu{};

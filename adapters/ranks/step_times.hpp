@@ -6,9 +6,9 @@
 
 namespace tripoint::ranks {
 
-/// Seconds of each step of this process, in parts: work, and then a call of all ranks, which lasts as long as another rank still
-/// works. A core that is slow for a while slows some parts of a run and others of its repeat: whoever has several runs can
-/// compare the best of each part, and tell work from waiting.
+/// Seconds of each step of this process, in parts: work, and then a call of all ranks, which lasts as long as
+/// another rank still works. A core that is slow for a while slows some parts of a run and others of its
+/// repeat: whoever has several runs can compare the best of each part, and tell work from waiting.
 class StepTimes {
  public:
   explicit StepTimes(std::string path) : path_(std::move(path)) {}
@@ -20,7 +20,8 @@ class StepTimes {
   void end_part();
   /// A step has ended, and its last part with it, in which there is no call.
   void end_step();
-  /// One line a step: wall seconds of work and of the call, and CPU seconds of both, for each part, with blanks between.
+  /// One line a step: wall seconds of work and of the call, and CPU seconds of both, for each part, with
+  /// blanks between.
   /// @throws EngineError where the file cannot be written
   void write() const;
 

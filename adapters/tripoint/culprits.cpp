@@ -33,7 +33,8 @@ std::vector<std::size_t> rows_around(const World& world, long culprit) {
   if (!any) rows.push_back(centre);
   for (std::size_t id = 0; id < p.size(); ++id) {
     const std::size_t row = p.row(id);
-    if (any || (row != centre && norm(between(world, place_of(world, row) - place_of(world, centre))) < 2.0 * world.support()))
+    if (any || (row != centre &&
+                norm(between(world, place_of(world, row) - place_of(world, centre))) < 2.0 * world.support()))
       rows.push_back(row);
   }
   return rows;

@@ -9,12 +9,13 @@
 
 namespace {
 
-/// Threads that wait for each other spin for some tens of microseconds and then sleep. This is as fast as spinning where the
-/// machine is quiet, and no waste where it is full. The library of threads reads its settings before main, so the program begins
-/// once more with them.
+/// Threads that wait for each other spin for some tens of microseconds and then sleep. This is as fast as
+/// spinning where the machine is quiet, and no waste where it is full. The library of threads reads its
+/// settings before main, so the program begins once more with them.
 void begin_with_short_waits(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;
-  if (setenv("GOMP_SPINCOUNT", "1000", 1) != 0) return;  // without memory for it the program would begin again for ever
+  // Without memory for it the program would begin again for ever
+  if (setenv("GOMP_SPINCOUNT", "1000", 1) != 0) return;
   std::error_code none;
   const std::string program = std::filesystem::read_symlink("/proc/self/exe", none);
   execv(program.c_str(), argv);  // where this fails, threads wait as they do by default
@@ -24,5 +25,6 @@ void begin_with_short_waits(char** argv) {
 
 int main(int argc, char** argv) {
   begin_with_short_waits(argv);
-  return tripoint::serve(argc, argv, [] { return std::unique_ptr<tripoint::Engine>(new tripoint::TripointEngine); });
+  return tripoint::serve(argc, argv,
+                         [] { return std::unique_ptr<tripoint::Engine>(new tripoint::TripointEngine); });
 }

@@ -31,7 +31,8 @@ BodyState body_state(const World& world, std::size_t b) {
   const Columns& bodies = world.bodies;
   if (!bodies[field::body_alive][b]) {
     constexpr Vec3 nowhere{not_a_number, not_a_number, not_a_number};
-    return {nowhere, nowhere, nowhere, {not_a_number, not_a_number, not_a_number, not_a_number}, not_a_number, nowhere, nowhere};
+    return {nowhere,      nowhere, nowhere, {not_a_number, not_a_number, not_a_number, not_a_number},
+            not_a_number, nowhere, nowhere};
   }
   BodyState s;
   if (!is_rigid(world, b)) {
@@ -66,7 +67,8 @@ Snapshot snapshot_of(Simulation& simulation) {
     s.id.push_back(static_cast<int>(id));
   }
   s.temperature = by_id(p, field::temperature);
-  if (const auto equal = equal_temperature(world.scene)) s.temperature.assign(p.size(), *equal);  // heat keeps no column then
+  // Heat keeps no column then
+  if (const auto equal = equal_temperature(world.scene)) s.temperature.assign(p.size(), *equal);
   s.density = by_id(p, field::density);
   s.pressure = by_id(p, field::pressure);
   s.liquid_fraction = by_id(p, field::liquid_fraction);
@@ -88,8 +90,10 @@ Snapshot snapshot_of(Simulation& simulation) {
   s.energy = sums.energy;
   if (world.bodies.has(field::body_heat.name))
     for (std::size_t b = 0; b < world.bodies.size(); ++b)
-      if (world.bodies[field::body_source][b] >= 0) s.heat_given[world.body_names[b]] = world.bodies[field::body_heat][b];
-  if (calls_for(world.scene, &EffectRule::has_bonds)) s.counts["objects"] = static_cast<double>(count_objects(world));
+      if (world.bodies[field::body_source][b] >= 0)
+        s.heat_given[world.body_names[b]] = world.bodies[field::body_heat][b];
+  if (calls_for(world.scene, &EffectRule::has_bonds))
+    s.counts["objects"] = static_cast<double>(count_objects(world));
   if (world.scene.recovers) s.counts["recoveries"] = static_cast<double>(simulation.recovery().count());
   return s;
 }

@@ -44,11 +44,14 @@ Readback readback_of(const World& world, const TimeStepBound& bound) {
   Readback held;
   held.gravity = world.scene.gravity;
   held.time_step = world.scene.time_step.value_or(bound.dt);
-  const auto of_scene =
-      static_cast<std::size_t>(std::ranges::count_if(world.scene.bodies, [](const Body& b) { return b.phase != Phase::liquid; }));
-  for (std::size_t b = 0; b < of_scene; ++b) {  // matter that is cold from the start has frozen to bodies of its own by now
-    held.bodies.push_back({world.body_names[b], world.bodies[field::body_mass][b], world.bodies[field::body_centre][b],
-                           world.bodies[field::body_inertia][b], 0.0, 1.0, 0.0, 0.0});  // elastic by its energy, without friction
+  const auto of_scene = static_cast<std::size_t>(
+      std::ranges::count_if(world.scene.bodies, [](const Body& b) { return b.phase != Phase::liquid; }));
+  // Matter that is cold from the start has frozen to bodies of its own by now
+  for (std::size_t b = 0; b < of_scene; ++b) {
+    held.bodies.push_back({world.body_names[b], world.bodies[field::body_mass][b],
+                           world.bodies[field::body_centre][b],
+                           // Elastic by its energy, without friction
+                           world.bodies[field::body_inertia][b], 0.0, 1.0, 0.0, 0.0});
   }
   return held;
 }
@@ -57,8 +60,8 @@ void tell_recoveries(const Recovery& recovery, Result& result) {
   if (recovery.count() == 0) return;
   result.extra["recoveries"] = static_cast<double>(recovery.count());
   if (result.message.empty())
-    result.message = "recovered " + std::to_string(recovery.count()) + (recovery.count() == 1 ? " time" : " times") +
-                     ", last when " + recovery.last();
+    result.message = "recovered " + std::to_string(recovery.count()) +
+                     (recovery.count() == 1 ? " time" : " times") + ", last when " + recovery.last();
 }
 
 }  // namespace tripoint

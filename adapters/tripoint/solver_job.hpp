@@ -12,10 +12,12 @@
 /// A job as the solver takes it, for every engine that is the solver.
 namespace tripoint {
 
-/// Begins the presets that turn bodies about one axis after the other; followed by the axes, outer to inner: no_squish-012.
+/// Begins the presets that turn bodies about one axis after the other; followed by the axes, outer to inner:
+/// no_squish-012.
 inline constexpr std::string_view no_squish = "no_squish-";
 
-/// A setting of the job, or the other value where there is none. @throws InputError where it is of another kind
+/// A setting of the job, or the other value where there is none. @throws InputError where it is of another
+/// kind
 template <class T>
 T setting(const Job& job, const std::string& name, T otherwise) {
   const auto place = job.settings.find(name);
@@ -27,8 +29,8 @@ T setting(const Job& job, const std::string& name, T otherwise) {
 
 /// The scene with the time step of the job's resolution.
 [[nodiscard]] Scene scene_of(const Job&);
-/// Options from the job's settings and preset. @throws InputError for a setting of the wrong kind, and for a preset that there is
-/// not
+/// Options from the job's settings and preset. @throws InputError for a setting of the wrong kind, and for a
+/// preset that there is not
 [[nodiscard]] SimulationOptions options_of(const Job&);
 /// Values that the solver itself holds of the scene's bodies.
 [[nodiscard]] Readback readback_of(const World&, const TimeStepBound&);

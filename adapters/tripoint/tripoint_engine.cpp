@@ -14,22 +14,26 @@ namespace {
 /// A setting that nobody reads would be ignored in silence. @return why not, or empty
 std::string refuse_settings(const Job& job, const EngineInfo& info) {
   std::vector<std::string> known{"wall_limit", "walkers",
-                                 "iterations"};  // the harness's own, and axes of studies that all engines take part in
+                                 // The harness's own, and axes of studies that all engines take part in
+                                 "iterations"};
   for (const auto& [name, meaning] : info.settings) known.push_back(name);
   for (const auto& [name, value] : job.settings) {
     if (std::ranges::find(known, name) != known.end()) continue;
-    if (name == "restitution") {  // for all engines: contact is the gradient of an energy, which gives back the energy that it
-                                  // took
+    // For all engines: contact is the gradient of an energy, which gives back the energy that it took
+    if (name == "restitution") {
       if (const double* e = std::get_if<double>(&value); e && *e == 1.0) continue;
-      return "tripoint: contact in the particle model is elastic by its energy: restitution is no setting, and only 1 is what it "
+      return "tripoint: contact in the particle model is elastic by its energy: restitution is no setting, "
+             "and only 1 is what it "
              "does";
     }
     if (name == "friction") {
-      if (const double* mu = std::get_if<double>(&value); mu && *mu == 0.0) continue;  // which is what its contact does
+      // Which is what its contact does
+      if (const double* mu = std::get_if<double>(&value); mu && *mu == 0.0) continue;
     }
     if (name.find("friction") != std::string::npos)
-      return "tripoint: the particle model meets by pressure and viscosity alone and has no law of Coulomb: " + name +
-             " is no setting; scene.contact_viscosity brakes solids that slide on each other";
+      return "tripoint: the particle model meets by pressure and viscosity alone and has no law of "
+             "Coulomb: " +
+             name + " is no setting; scene.contact_viscosity brakes solids that slide on each other";
     return "tripoint: no setting is named " + printable(name) + suggestion(name, known);
   }
   return {};
@@ -43,7 +47,8 @@ EngineInfo TripointEngine::info() const {
   info.version = TRIPOINT_VERSION;
   info.build = TRIPOINT_BUILD;
   std::error_code ignored;
-  info.library_path = std::filesystem::read_symlink("/proc/self/exe", ignored).string();  // the solver is this program
+  // The solver is this program
+  info.library_path = std::filesystem::read_symlink("/proc/self/exe", ignored).string();
   info.capabilities = {"rigid-free-flight",
                        "gravity",
                        "merge",
@@ -67,13 +72,16 @@ EngineInfo TripointEngine::info() const {
                        "phase",
                        "surface-temperature"};
   info.presets = {"default"};
-  for (const char* axes : {"012", "021", "102", "120", "201", "210"}) info.presets.push_back(std::string(no_squish) + axes);
+  for (const char* axes : {"012", "021", "102", "120", "201", "210"})
+    info.presets.push_back(std::string(no_squish) + axes);
   info.settings = {
       {"force_time_step", "true runs with the scene's time_step though it is above a bound; default false"},
       {"skin", "skin of the neighbour lists in support radii; default 0.1"},
       {"lanes",
-       "particles that pair passes work on at once: 1, 4 (AVX2) or 8 (AVX-512); they change no bit; default what is fastest"},
-      {"checkpoint_interval", "seconds of simulated time between checkpoints; they change no bit; default none"}};
+       "particles that pair passes work on at once: 1, 4 (AVX2) or 8 (AVX-512); they change no bit; default "
+       "what is fastest"},
+      {"checkpoint_interval",
+       "seconds of simulated time between checkpoints; they change no bit; default none"}};
   info.deterministic = true;
   return info;
 }
@@ -81,7 +89,8 @@ EngineInfo TripointEngine::info() const {
 std::string TripointEngine::refusal(const Job& job) const {
   if (const std::string missing = missing_effect(job.scene); !missing.empty())
     return "tripoint: the " + missing + " effect is not in this build";
-  if (job.ranks != 1) return "tripoint: runs in one process, ranks = " + std::to_string(job.ranks) + " is not possible";
+  if (job.ranks != 1)
+    return "tripoint: runs in one process, ranks = " + std::to_string(job.ranks) + " is not possible";
   return refuse_settings(job, info());
 }
 
@@ -107,7 +116,8 @@ void TripointEngine::resume(const Job& job, const InitialState& initial, const C
 }
 
 bool TripointEngine::advance_to(double time, const std::function<bool(double, long)>& go_on) {
-  return simulation_->advance_to(time, [&] { return go_on(simulation_->world().time, simulation_->steps()); });
+  return simulation_->advance_to(time,
+                                 [&] { return go_on(simulation_->world().time, simulation_->steps()); });
 }
 
 void TripointEngine::save(Checkpoint& kept) const { kept = simulation_->checkpoint(); }

@@ -25,11 +25,13 @@ class TripointEngine : public Engine, public Restartable {
   void save(Checkpoint&) const override;
 
  private:
-  std::unique_ptr<Simulation> simulation_;  ///< not const where the engine is: observe() and save() ask it, and asking computes
+  /// Not const where the engine is: observe() and save() ask it, and asking computes
+  std::unique_ptr<Simulation> simulation_;
 };
 
-/// The culprit of a failure with all particles within two support radii of it (of no single particle: everything). Every column
-/// of the solver is an array. A particle whose place is not finite has the place where it was listed last.
+/// The culprit of a failure with all particles within two support radii of it (of no single particle:
+/// everything). Every column of the solver is an array. A particle whose place is not finite has the place
+/// where it was listed last.
 [[nodiscard]] PointCloud culprits_of(const World&, const Diverged&);
 
 /// Snapshot of the world: rows by id, places not put back into a periodic box.

@@ -6,6 +6,8 @@ namespace tripoint::bench {
 
 using Clock = std::chrono::steady_clock;
 /// Wall seconds from then till now.
-[[nodiscard]] inline double since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+[[nodiscard]] inline double since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
 
 }  // namespace tripoint::bench

@@ -18,7 +18,8 @@ constexpr double seconds_of_look = 0.015;
 constexpr std::chrono::milliseconds between_looks{30};
 constexpr int looks_to_learn = 20;
 constexpr std::size_t one_in = 10;  ///< of all looks sets what is fast: a single fast one need not come again
-constexpr double slow = 1.15;       ///< looks at quiet cores differ by some hundredths, and a narrow one has 1.5 or more
+/// Looks at quiet cores differ by some hundredths, and a narrow one has 1.5 or more
+constexpr double slow = 1.15;
 constexpr int operations = 40000;
 
 /// A loop that does as much at once as the core can: eight chains that do not wait for each other.
@@ -38,7 +39,8 @@ double look_at(int core) {
   cpu_set_t only;
   CPU_ZERO(&only);
   CPU_SET(core, &only);
-  sched_setaffinity(0, sizeof only, &only);  // of this thread; where that is refused, the system chooses the core
+  // Of this thread; where that is refused, the system chooses the core
+  sched_setaffinity(0, sizeof only, &only);
   int turns = 0;
   const Clock::time_point begin = Clock::now();
   double took = 0.0;

@@ -33,7 +33,8 @@ void sweep(LaneColumns& c, const LaneLists& lists, double support, int threads) 
       const V dx = x[j_row] - x_i, dy = y[j_row] - y_i, dz = z[j_row] - z_i;
       std::array<double, reads> j{};
       for (std::size_t k = 0; k < reads; ++k) j[k] = column[k][j_row];
-      Terms::pair(LanePair<V>{dx, dy, dz, dx * dx + dy * dy + dz * dz, support}, i.data(), j.data(), sum.data());
+      Terms::pair(LanePair<V>{dx, dy, dz, dx * dx + dy * dy + dz * dz, support}, i.data(), j.data(),
+                  sum.data());
     }
     for (std::size_t k = 0; k < sums; ++k) std::memcpy(target[k] + row, &sum[k], bytes);
   }
@@ -57,17 +58,18 @@ Block block_of(const LaneColumns& c, const LaneCells& cells, std::size_t from, s
 }
 
 /// Appends the rows in reach of any lane. @return pairs within the support, of lanes below `lanes`
-double list_cluster(const LaneColumns& c, const LaneCells& cells, double support2, double reach2, std::size_t row,
-                    std::size_t lanes, std::vector<std::uint32_t>& out) {
+double list_cluster(const LaneColumns& c, const LaneCells& cells, double support2, double reach2,
+                    std::size_t row, std::size_t lanes, std::vector<std::uint32_t>& out) {
   const double *x = c.of[0].data(), *y = c.of[1].data(), *z = c.of[2].data();
-  const V x_i = load_lanes<L>(x + row), y_i = load_lanes<L>(y + row), z_i = load_lanes<L>(z + row), edge = V{} + reach2,
-          inner = V{} + support2;
+  const V x_i = load_lanes<L>(x + row), y_i = load_lanes<L>(y + row), z_i = load_lanes<L>(z + row),
+          edge = V{} + reach2, inner = V{} + support2;
   const unsigned used = (1u << lanes) - 1u;
   const Block b = block_of(c, cells, row, row + lanes);
   double pairs = 0.0;
   for (int kz = b.low[2]; kz <= b.high[2]; ++kz) {
     for (int ky = b.low[1]; ky <= b.high[1]; ++ky) {
-      const std::size_t line = static_cast<std::size_t>(cells.count[0]) * static_cast<std::size_t>(ky + cells.count[1] * kz);
+      const std::size_t line =
+          static_cast<std::size_t>(cells.count[0]) * static_cast<std::size_t>(ky + cells.count[1] * kz);
       const std::uint32_t from = cells.first[line + static_cast<std::size_t>(b.low[0])],
                           to = cells.first[line + static_cast<std::size_t>(b.high[0]) + 1];
       std::size_t n = out.size();
@@ -84,9 +86,11 @@ double list_cluster(const LaneColumns& c, const LaneCells& cells, double support
   return pairs - static_cast<double>(lanes);  // without each particle itself
 }
 
-void list(const LaneColumns& c, const LaneCells& cells, double support, double reach, int threads, LaneLists& lists) {
+void list(const LaneColumns& c, const LaneCells& cells, double support, double reach, int threads,
+          LaneLists& lists) {
   lists.first.clear();
-  const std::size_t lines = static_cast<std::size_t>(cells.count[1]) * static_cast<std::size_t>(cells.count[2]),
+  const std::size_t lines =
+                        static_cast<std::size_t>(cells.count[1]) * static_cast<std::size_t>(cells.count[2]),
                     width = static_cast<std::size_t>(cells.count[0]);
   for (std::size_t line = 0; line < lines; ++line)
     for (std::uint32_t row = cells.first[line * width]; row < cells.first[(line + 1) * width]; row += L)
@@ -101,8 +105,8 @@ void list(const LaneColumns& c, const LaneCells& cells, double support, double r
     part[p].reserve(clusters / parts * 300);
     for (std::size_t n = clusters * p / parts; n < clusters * (p + 1) / parts; ++n) {
       const std::size_t before = part[p].size();
-      pairs +=
-          list_cluster(c, cells, support * support, reach * reach, lists.first[n], lists.first[n + 1] - lists.first[n], part[p]);
+      pairs += list_cluster(c, cells, support * support, reach * reach, lists.first[n],
+                            lists.first[n + 1] - lists.first[n], part[p]);
       lists.start[n + 1] = part[p].size() - before;
     }
   }
@@ -117,8 +121,13 @@ void list(const LaneColumns& c, const LaneCells& cells, double support, double r
 
 template <>
 LaneLoops lane_loops<Unit>() {
-  return {
-      L, &list, &sweep<SeedDensity>, &sweep<SeedRates>, &sweep<CorrectedDensity>, &sweep<CorrectedRates>, &sweep<CorrectedHeat>};
+  return {L,
+          &list,
+          &sweep<SeedDensity>,
+          &sweep<SeedRates>,
+          &sweep<CorrectedDensity>,
+          &sweep<CorrectedRates>,
+          &sweep<CorrectedHeat>};
 }
 
 }  // namespace tripoint::bench

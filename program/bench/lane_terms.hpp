@@ -3,7 +3,8 @@
 #include "core/lanes.hpp"
 #include "program/bench/lane_loops.hpp"
 
-/// The pair formulas of the limit, bare: constant factors are left out, so that only what differs from pair to pair is paid.
+/// The pair formulas of the limit, bare: constant factors are left out, so that only what differs from pair
+/// to pair is paid.
 namespace tripoint::bench {
 
 template <class V>
@@ -77,10 +78,11 @@ struct CorrectedDensity {
 
 /// Conductance of a pair (model 8.6). @param m first of the six moments among the columns that are read
 template <class V>
-[[nodiscard, gnu::always_inline]] inline V conductance(const LanePair<V>& g, V k, V per_r2, V k_i, double k_j, const V* i,
-                                                       const double* j) {
-  const V along = (i[0] + j[0]) * g.dx * g.dx + (i[1] + j[1]) * g.dy * g.dy + (i[2] + j[2]) * g.dz * g.dz +
-                  2.0 * ((i[3] + j[3]) * g.dy * g.dz + (i[4] + j[4]) * g.dx * g.dz + (i[5] + j[5]) * g.dx * g.dy);
+[[nodiscard, gnu::always_inline]] inline V conductance(const LanePair<V>& g, V k, V per_r2, V k_i, double k_j,
+                                                       const V* i, const double* j) {
+  const V along =
+      (i[0] + j[0]) * g.dx * g.dx + (i[1] + j[1]) * g.dy * g.dy + (i[2] + j[2]) * g.dz * g.dz +
+      2.0 * ((i[3] + j[3]) * g.dy * g.dz + (i[4] + j[4]) * g.dx * g.dz + (i[5] + j[5]) * g.dx * g.dy);
   return k * along * per_r2 * (k_i * k_j / (k_i + k_j));
 }
 
@@ -88,8 +90,10 @@ template <class V>
 struct CorrectedRates {
   using C = LaneColumns;
   static constexpr std::array<std::size_t, 14> reads{
-      C::u,      C::v,          C::w,          C::pressure,   C::viscosity,  C::volume,    C::temperature, C::conductivity,
-      C::moment, C::moment + 1, C::moment + 2, C::moment + 3, C::moment + 4, C::moment + 5};
+      C::u,          C::v,          C::w,           C::pressure,
+      C::viscosity,  C::volume,     C::temperature, C::conductivity,
+      C::moment,     C::moment + 1, C::moment + 2,  C::moment + 3,
+      C::moment + 4, C::moment + 5};
   static constexpr std::size_t sums = 4;
   template <class V>
   [[gnu::always_inline]] static void pair(const LanePair<V>& g, const V* i, const double* j, V* sum) {
@@ -107,8 +111,9 @@ struct CorrectedRates {
 /// The second stage of heat's two (decision 5).
 struct CorrectedHeat {
   using C = LaneColumns;
-  static constexpr std::array<std::size_t, 9> reads{C::volume,     C::temperature, C::conductivity, C::moment,    C::moment + 1,
-                                                    C::moment + 2, C::moment + 3,  C::moment + 4,   C::moment + 5};
+  static constexpr std::array<std::size_t, 9> reads{C::volume,     C::temperature, C::conductivity,
+                                                    C::moment,     C::moment + 1,  C::moment + 2,
+                                                    C::moment + 3, C::moment + 4,  C::moment + 5};
   static constexpr std::size_t sums = 1;
   template <class V>
   [[gnu::always_inline]] static void pair(const LanePair<V>& g, const V* i, const double* j, V* sum) {

@@ -42,7 +42,8 @@ LaneCells cells_over(const LaneColumns& c, double reach) {
   constexpr double finer[3] = {4.0, 1.0, 1.0};
   LaneCells cells;
   for (std::size_t a = 0; a < 3; ++a) {
-    const auto [low, high] = std::minmax_element(c.of[a].begin(), c.of[a].begin() + static_cast<std::ptrdiff_t>(c.rows));
+    const auto [low, high] =
+        std::minmax_element(c.of[a].begin(), c.of[a].begin() + static_cast<std::ptrdiff_t>(c.rows));
     cells.low[a] = *low;
     cells.per_width[a] = finer[a] / reach;
     cells.count[a] = static_cast<int>((*high - *low) * cells.per_width[a]) + 1;
@@ -88,14 +89,18 @@ void Limit::sort() {
   const double *x = start_.of[0].data(), *y = start_.of[1].data(), *z = start_.of[2].data();
 #pragma omp parallel for schedule(static) num_threads(threads_)
   for (std::size_t i = 0; i < n; ++i) {
-    const auto place = [&](double r, std::size_t a) { return static_cast<int>((r - cells_.low[a]) * cells_.per_width[a]); };
-    cell[i] = static_cast<std::uint32_t>(place(x[i], 0) + cells_.count[0] * (place(y[i], 1) + cells_.count[1] * place(z[i], 2)));
+    const auto place = [&](double r, std::size_t a) {
+      return static_cast<int>((r - cells_.low[a]) * cells_.per_width[a]);
+    };
+    cell[i] = static_cast<std::uint32_t>(
+        place(x[i], 0) + cells_.count[0] * (place(y[i], 1) + cells_.count[1] * place(z[i], 2)));
   }
   for (const std::uint32_t k : cell) ++cells_.first[k + 1];
   for (std::size_t k = 0; k + 1 < cells_.first.size(); ++k) cells_.first[k + 1] += cells_.first[k];
   std::vector<std::uint32_t> next(cells_.first.begin(), cells_.first.end() - 1);
   for (std::uint32_t i = 0; i < n; ++i) order[next[cell[i]]++] = i;
-  const std::size_t used = mode_ == Mode::paper ? static_cast<std::size_t>(LaneColumns::viscosity) : LaneColumns::count;
+  const std::size_t used =
+      mode_ == Mode::paper ? static_cast<std::size_t>(LaneColumns::viscosity) : LaneColumns::count;
   columns_.rows = n;
 #pragma omp parallel for schedule(static) num_threads(threads_)
   for (std::size_t k = 0; k < used; ++k)
@@ -114,7 +119,8 @@ void Limit::round() {
     const bool seed = mode_ == Mode::paper;
     LimitSeconds mean{r.loops.lanes}, cpu = mean;
     const auto loop = [&](LaneLoops::Loop run, double LimitSeconds::*part) {
-      time_part(times, r.least.*part, mean.*part, cpu.*part, [&] { run(columns_, r.lists, support_, threads_); });
+      time_part(times, r.least.*part, mean.*part, cpu.*part,
+                [&] { run(columns_, r.lists, support_, threads_); });
     };
     if (first_) search(r);
     time_part(1, r.least.search, mean.search, cpu.search, [&] { search(r); });
@@ -131,17 +137,20 @@ void Limit::round() {
 std::vector<double> Limit::density(std::size_t unit) {
   Runner& r = runners_[unit];
   search(r);
-  (mode_ == Mode::paper ? r.loops.seed_density : r.loops.corrected_density)(columns_, r.lists, support_, threads_);
+  (mode_ == Mode::paper ? r.loops.seed_density : r.loops.corrected_density)(columns_, r.lists, support_,
+                                                                            threads_);
   return {columns_.sum[0].begin(), columns_.sum[0].begin() + static_cast<std::ptrdiff_t>(columns_.rows)};
 }
 
 std::vector<double> Limit::sums(std::size_t unit) {
   Runner& r = runners_[unit];
   search(r);
-  (mode_ == Mode::paper ? r.loops.seed_rates : r.loops.corrected_rates)(columns_, r.lists, support_, threads_);
+  (mode_ == Mode::paper ? r.loops.seed_rates : r.loops.corrected_rates)(columns_, r.lists, support_,
+                                                                        threads_);
   std::vector<double> all;
   for (std::size_t k = 0; k < 4; ++k)
-    all.insert(all.end(), columns_.sum[k].begin(), columns_.sum[k].begin() + static_cast<std::ptrdiff_t>(columns_.rows));
+    all.insert(all.end(), columns_.sum[k].begin(),
+               columns_.sum[k].begin() + static_cast<std::ptrdiff_t>(columns_.rows));
   return all;
 }
 

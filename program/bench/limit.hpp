@@ -12,13 +12,14 @@ namespace tripoint::bench {
 /// Seconds of the parts of one step.
 struct LimitSeconds {
   int lanes = 0;
-  double search = 0.0, density = 0.0, rates = 0.0, again = 0.0;  ///< again: heat's second stage, corrected forms only
+  /// Again: heat's second stage, corrected forms only
+  double search = 0.0, density = 0.0, rates = 0.0, again = 0.0;
   /// One step, with the search shared by as many steps as a list lasts. @param rebuilds a step
   [[nodiscard]] double step(double rebuilds) const { return density + rates + again + rebuilds * search; }
 };
 
-/// The hand-written loops at given places, timed part by part in rounds. So they can be interleaved with the loops that they are
-/// compared with: this machine's speed drifts while it runs.
+/// The hand-written loops at given places, timed part by part in rounds. So they can be interleaved with the
+/// loops that they are compared with: this machine's speed drifts while it runs.
 class Limit {
  public:
   /// @param mode whose terms: those of (4), (7), (8), (21) or of their corrected forms
@@ -28,8 +29,10 @@ class Limit {
   void round();
   /// Least seconds of the parts, of the vector unit with the least step. @param rebuilds of lists a step
   [[nodiscard]] LimitSeconds best(double rebuilds) const;
-  /// Seconds of a step of that unit in each round, in order. The mean of some steps of a solver is to be compared with them.
-  /// @param rebuilds of lists a step, of the whole   @param of_rounds of each round: a round of few steps has more or less
+  /// Seconds of a step of that unit in each round, in order. The mean of some steps of a solver is to be
+  /// compared with them.
+  /// @param rebuilds of lists a step, of the whole   @param of_rounds of each round: a round of few steps has
+  /// more or less
   [[nodiscard]] std::vector<double> steps(double rebuilds, std::span<const double> of_rounds) const;
   /// The same in CPU seconds of all threads, which other work on the machine does not lengthen.
   [[nodiscard]] std::vector<double> steps_cpu(double rebuilds, std::span<const double> of_rounds) const;

@@ -38,7 +38,8 @@ std::string hash_of(const Simulation& s) {
   const auto x = positions(p), v = velocities(p);
   for (std::size_t id = 0; id < p.size(); ++id) {
     for (const Vec3& a : {x.at(p.row(id)), v.at(p.row(id))}) {
-      for (std::size_t k = 0; k < 3; ++k) hash = (hash ^ std::bit_cast<std::uint64_t>(a[k])) * 1099511628211ULL;
+      for (std::size_t k = 0; k < 3; ++k)
+        hash = (hash ^ std::bit_cast<std::uint64_t>(a[k])) * 1099511628211ULL;
     }
   }
   char text[17];
@@ -81,7 +82,8 @@ Measured measure(const Work& work, const MeasureOptions& options) {
 
   std::optional<Limit> limit;
   const double support = simulation.world().support();
-  if (work.has_limit) limit.emplace(places(simulation), work.mode, support, how.skin * support, options.threads);
+  if (work.has_limit)
+    limit.emplace(places(simulation), work.mode, support, how.skin * support, options.threads);
   const long each = std::max(1L, options.steps.value_or(work.steps) / options.rounds);
   std::vector<double> seconds, cpu, rebuilds;
   stages = {};

@@ -29,7 +29,8 @@ struct Measured {
   double time_step = 0.0;      ///< the last one [s]
   double support = 0.0;        ///< [m]
   double rebuilds = 0.0;       ///< of the neighbour lists, a step
-  double pairs = 0.0;          ///< directed pairs within the support where the timed part began; 0 where they were not counted
+  /// Directed pairs within the support where the timed part began; 0 where they were not counted
+  double pairs = 0.0;
   double bonds = 0.0;          ///< directed bonds of elastic bodies
   double bytes = 0.0;          ///< that the simulation added to the process at most
   double planned_bytes = 0.0;  ///< a particle, its fields alone
@@ -39,7 +40,9 @@ struct Measured {
   Spread over_limit_cpu;   ///< CPU seconds of a step over those of the limit
   Spread over_limit;       ///< step over limit, by rounds: both were timed within the same seconds
 
-  [[nodiscard]] double particle_steps_per_second() const { return static_cast<double>(particles) / step_seconds.median; }
+  [[nodiscard]] double particle_steps_per_second() const {
+    return static_cast<double>(particles) / step_seconds.median;
+  }
   [[nodiscard]] double pairs_per_second() const { return pairs / step_seconds.median; }
   [[nodiscard]] double search_share() const;
 };

@@ -16,7 +16,8 @@ namespace {
 void take_steps(Trial& trial, const Scene& scene, long steps, int threads, std::size_t most) {
   const InitialState initial = sample(scene);
   trial.particles = initial.size();
-  if (initial.size() > most) throw InputError(fmt::format("{} particles, more than {}", initial.size(), most));
+  if (initial.size() > most)
+    throw InputError(fmt::format("{} particles, more than {}", initial.size(), most));
   restart_peak();
   const double before = resident_bytes();
   StageSeconds stages{};

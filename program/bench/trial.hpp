@@ -8,7 +8,8 @@
 
 namespace tripoint::bench {
 
-/// Time of the first steps of a scene on this machine. Seconds are wall seconds, so other work on the machine is in them.
+/// Time of the first steps of a scene on this machine. Seconds are wall seconds, so other work on the machine
+/// is in them.
 struct Trial {
   std::size_t particles = 0;
   long steps = 0;              ///< that were timed
@@ -25,7 +26,8 @@ struct Trial {
   [[nodiscard]] double run_seconds() const { return setup_seconds + run_steps * step_seconds; }
 };
 
-/// Takes the first `steps` steps of a scene, or fewer where it ends before; none of one that has more than `most` particles.
+/// Takes the first `steps` steps of a scene, or fewer where it ends before; none of one that has more than
+/// `most` particles.
 [[nodiscard]] Trial try_scene(const Scene&, long steps, int threads, std::size_t most);
 
 }  // namespace tripoint::bench

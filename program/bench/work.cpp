@@ -16,7 +16,8 @@ const std::vector<std::string> wider_figure_12{
     R"(body.cream.shape={kind="box",min=[-0.05,-0.05,0.0],max=[0.05,0.05,0.05]})"};
 /// Figure 9 on a wider ground, and in larger blocks, three times as fine.
 const std::vector<std::string> finer_figure_9{
-    "scene.spacing=0.0033333333333333335", R"(body.ground.shape={kind="box",min=[-0.12,-0.08,-0.02],max=[0.12,0.08,0.0]})",
+    "scene.spacing=0.0033333333333333335",
+    R"(body.ground.shape={kind="box",min=[-0.12,-0.08,-0.02],max=[0.12,0.08,0.0]})",
     R"(body."rigid block".shape={kind="box",min=[-0.08,-0.03,0.0],max=[-0.01,0.03,0.08]})",
     R"(body."elastic block".shape={kind="box",min=[0.01,-0.03,0.0],max=[0.08,0.03,0.08]})"};
 

@@ -29,9 +29,12 @@ std::string matter(const Scene& scene) {
   constexpr std::size_t shown = 4;
   const std::size_t left = bodies.size() > shown ? bodies.size() - shown : 0;
   bodies.resize(bodies.size() - left);
-  std::string text = fmt::format("{}{}", fmt::join(bodies, ", "), left > 0 ? fmt::format(" and {} more", left) : "");
-  if (!scene.inflows.empty()) text += fmt::format("; {} inflow{}", scene.inflows.size(), scene.inflows.size() == 1 ? "" : "s");
-  if (!scene.events.empty()) text += fmt::format("; {} event{}", scene.events.size(), scene.events.size() == 1 ? "" : "s");
+  std::string text =
+      fmt::format("{}{}", fmt::join(bodies, ", "), left > 0 ? fmt::format(" and {} more", left) : "");
+  if (!scene.inflows.empty())
+    text += fmt::format("; {} inflow{}", scene.inflows.size(), scene.inflows.size() == 1 ? "" : "s");
+  if (!scene.events.empty())
+    text += fmt::format("; {} event{}", scene.events.size(), scene.events.size() == 1 ? "" : "s");
   return text;
 }
 
@@ -43,10 +46,11 @@ std::string simulated(const Scene& scene, const bench::Trial& trial) {
 /// Says how a liquid under gravity starts.
 std::string start_of(const Scene& scene) {
   if (scene.settle) return "liquids are let down into equilibrium before time 0 (settle = true)";
-  if (scene.gravity == Vec3{} ||
-      std::none_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return b.phase == Phase::liquid; }))
+  if (scene.gravity == Vec3{} || std::none_of(scene.bodies.begin(), scene.bodies.end(),
+                                              [](const Body& b) { return b.phase == Phase::liquid; }))
     return "";
-  return "liquids lie on a lattice, which sinks by a tenth of a spacing and breaks up; settle = true lets them down first, where "
+  return "liquids lie on a lattice, which sinks by a tenth of a spacing and breaks up; settle = true lets "
+         "them down first, where "
          "solids hold them";
 }
 
@@ -59,12 +63,14 @@ std::string effects_of(const Plan& plan) {
 std::string truth(const ReferenceChoice& r) {
   if (r.function.empty() && r.file.empty() && r.source.empty()) return "";
   const std::string what = !r.function.empty() ? r.function : r.file;
-  return fmt::format("{}{}{}{}{}", r.kind, what.empty() ? "" : " ", what, r.source.empty() ? "" : ": ", r.source);
+  return fmt::format("{}{}{}{}{}", r.kind, what.empty() ? "" : " ", what, r.source.empty() ? "" : ": ",
+                     r.source);
 }
 
 std::string measured_by(const Case& c) {
   std::vector<std::string> names;
-  for (const auto& m : c.metrics) names.push_back(m.unit.empty() ? m.name : fmt::format("{} [{}]", m.name, m.unit));
+  for (const auto& m : c.metrics)
+    names.push_back(m.unit.empty() ? m.name : fmt::format("{} [{}]", m.name, m.unit));
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
@@ -72,13 +78,15 @@ std::string judged_by(const Case& c) {
   if (c.gates.empty()) return "no gate: the case measures and judges nothing";
   std::set<std::string> metrics;
   for (const auto& g : c.gates) metrics.insert(g.metric);
-  return fmt::format("{} gate{} on {}{}", c.gates.size(), c.gates.size() == 1 ? "" : "s", fmt::join(metrics, ", "),
+  return fmt::format("{} gate{} on {}{}", c.gates.size(), c.gates.size() == 1 ? "" : "s",
+                     fmt::join(metrics, ", "),
                      c.expect == Expect::pass ? "" : fmt::format("; expected: {}", c.expect));
 }
 
 std::string engines_of(const Case& c) {
   std::vector<std::string> names;
-  const bool listed = std::any_of(c.engines.begin(), c.engines.end(), [](const auto& e) { return is_own_solver(e.name); });
+  const bool listed =
+      std::any_of(c.engines.begin(), c.engines.end(), [](const auto& e) { return is_own_solver(e.name); });
   if (!listed) names.push_back(std::string(engine_name::solver) + " (required)");
   for (const auto& e : c.engines) names.push_back(e.name + (e.required ? " (required)" : ""));
   return fmt::format("{}", fmt::join(names, ", "));
@@ -87,22 +95,26 @@ std::string engines_of(const Case& c) {
 std::string studies_of(const Case& c) {
   std::vector<std::string> studies;
   for (const auto& s : c.studies)
-    studies.push_back(fmt::format("{} levels of {}{}{}", s.levels.size(), s.axes.axis, s.engine.empty() ? "" : " on ", s.engine));
+    studies.push_back(fmt::format("{} levels of {}{}{}", s.levels.size(), s.axes.axis,
+                                  s.engine.empty() ? "" : " on ", s.engine));
   return fmt::format("{}", fmt::join(studies, ", "));
 }
 
 std::string cost(const bench::Trial& t) {
   if (t.steps == 0) return t.failure.empty() ? "" : "not timed: " + t.failure;
-  return fmt::format("about {:.2g} s for the case's own run: {:.0f} steps of {:.3g} s, bound by {}, each computed in {:.2g} s",
-                     t.run_seconds(), t.run_steps, t.time_step, t.bound_by, t.step_seconds);
+  return fmt::format(
+      "about {:.2g} s for the case's own run: {:.0f} steps of {:.3g} s, bound by {}, each computed in {:.2g} "
+      "s",
+      t.run_seconds(), t.run_steps, t.time_step, t.bound_by, t.step_seconds);
 }
 
 }  // namespace
 
 std::string case_summary(const Case& c, const Scene& scene, const Plan& plan, const bench::Trial& trial) {
   return one_line(fmt::format("{}: {}", c.id, c.title)) + "\n" + line("claims", c.claims) +
-         line("simulates", simulated(scene, trial)) + line("bodies", matter(scene)) + line("starts", start_of(scene)) +
-         line("effects", effects_of(plan)) + line("truth", truth(c.reference)) + line("measures", measured_by(c)) +
+         line("simulates", simulated(scene, trial)) + line("bodies", matter(scene)) +
+         line("starts", start_of(scene)) + line("effects", effects_of(plan)) +
+         line("truth", truth(c.reference)) + line("measures", measured_by(c)) +
          line("judged by", judged_by(c)) + line("engines", engines_of(c)) + line("refined", studies_of(c)) +
          line("costs", cost(trial)) + "\n";
 }

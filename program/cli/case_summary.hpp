@@ -12,7 +12,8 @@ struct Case;
 struct Plan;
 struct Scene;
 
-/// A case on ten lines: its claim, the simulated scene, the truth, the judged metrics, the engines, and the cost.
+/// A case on ten lines: its claim, the simulated scene, the truth, the judged metrics, the engines, and the
+/// cost.
 [[nodiscard]] std::string case_summary(const Case&, const Scene&, const Plan&, const bench::Trial&);
 
 }  // namespace tripoint

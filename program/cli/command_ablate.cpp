@@ -27,11 +27,14 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* ablate_description =
-    "Puts one term of the model after the other back to its printed form, all others corrected, and prints what each correction "
+    "Puts one term of the model after the other back to its printed form, all others corrected, and prints "
+    "what each correction "
     "buys:\n"
-    "the metrics of each case with that one term as printed, beside those of the corrected model. A term that the paper does not "
+    "the metrics of each case with that one term as printed, beside those of the corrected model. A term "
+    "that the paper does not "
     "have\n"
-    "is left out instead, and its row has the name of its key (bulk_viscosity). OUT/ablation.json holds it; in the folder of a "
+    "is left out instead, and its row has the name of its key (bulk_viscosity). OUT/ablation.json holds it; "
+    "in the folder of a "
     "report,\n"
     "its page \"what each correction buys\" shows it.\n"
     "  tripoint ablate                            the cases of the commit profile that run corrected\n"
@@ -50,18 +53,24 @@ Json json_of(const CaseResult& result) {
     for (const auto& run : engine.runs) {
       Json metrics = Json::object();
       for (const auto& [name, m] : run.metrics)
-        metrics[name] = {{"value", std::isfinite(m.value) ? Json(m.value) : Json()}, {"uncertainty", m.uncertainty.combined()}};
+        metrics[name] = {{"value", std::isfinite(m.value) ? Json(m.value) : Json()},
+                         {"uncertainty", m.uncertainty.combined()}};
       return {{"status", run.status},
               {"reason", run.reason},
               {"state_hash", run.state_hash},
               {"cpu_s", run.cost.cpu_s},
               {"metrics", metrics}};
     }
-  return {{"status", "error"}, {"reason", "no run"}, {"state_hash", ""}, {"cpu_s", 0.0}, {"metrics", Json::object()}};
+  return {{"status", "error"},
+          {"reason", "no run"},
+          {"state_hash", ""},
+          {"cpu_s", 0.0},
+          {"metrics", Json::object()}};
 }
 
 /// One round of runs, in a folder of its own.
-std::map<std::string, Json> round(const std::vector<Case>& chosen, const std::string& name, const AblateOptions& o) {
+std::map<std::string, Json> round(const std::vector<Case>& chosen, const std::string& name,
+                                  const AblateOptions& o) {
   if (chosen.empty()) return {};
   SuiteOptions options;
   options.selection.engines = {engine_name::solver};
@@ -87,14 +96,16 @@ std::vector<Case> cases_of(const AblateOptions& o) {
   std::vector<Case> cases;
   for (auto& c : select_cases(o.filter)) {
     const bool runs_so = std::find(c.modes.begin(), c.modes.end(), Mode::corrected) != c.modes.end();
-    if (runs_so && c.expect != Expect::diverges && !acting_terms(as_it_runs(c)).empty()) cases.push_back(corrected(std::move(c)));
+    if (runs_so && c.expect != Expect::diverges && !acting_terms(as_it_runs(c)).empty())
+      cases.push_back(corrected(std::move(c)));
   }
   if (cases.empty()) throw InputError("ablate: no case runs corrected");
   return cases;
 }
 
 /// By case: its run without each piece, where that has other bits than the corrected run.
-std::map<std::string, Json> runs_without_pieces(const std::vector<Case>& cases, const std::map<std::string, Json>& base,
+std::map<std::string, Json> runs_without_pieces(const std::vector<Case>& cases,
+                                                const std::map<std::string, Json>& base,
                                                 const AblateOptions& o) {
   std::map<std::string, Json> found;
   for (const Correction& piece : corrections()) {
@@ -112,15 +123,21 @@ std::map<std::string, Json> runs_without_pieces(const std::vector<Case>& cases, 
 
 Json json_of(const Case& c, const Json& whole, const Json& without_pieces) {
   Json metrics = Json::array();
-  for (const auto& m : c.metrics) metrics.push_back({{"name", m.name}, {"unit", m.unit}, {"quantity", m.quantity}});
-  return {{"id", c.id}, {"title", c.title}, {"metrics", metrics}, {"corrected", whole}, {"printed", without_pieces}};
+  for (const auto& m : c.metrics)
+    metrics.push_back({{"name", m.name}, {"unit", m.unit}, {"quantity", m.quantity}});
+  return {{"id", c.id},
+          {"title", c.title},
+          {"metrics", metrics},
+          {"corrected", whole},
+          {"printed", without_pieces}};
 }
 
 void print_case(const Case& c, const Json& whole, const Json& without_pieces) {
   print_line(c.id);
   for (const auto& m : c.metrics) {
     print(fmt::format("  {:24} corrected {:>12}", one_line(m.name), number_text(whole, m.name)));
-    for (const auto& [piece, run] : without_pieces.items()) print(fmt::format("  {} {:>10}", piece, number_text(run, m.name)));
+    for (const auto& [piece, run] : without_pieces.items())
+      print(fmt::format("  {} {:>10}", piece, number_text(run, m.name)));
     print("\n");
   }
 }
@@ -154,13 +171,18 @@ void add_ablate(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("ablate", ablate_description);
   auto o = std::make_shared<AblateOptions>();
   command->add_option("CASE", o->filter.what, "case files, folders of them, or ids")->type_name("CASE|DIR");
-  command->add_option("--profile", o->filter.profile, "only cases of this profile (commit where no CASE is given)")
+  command
+      ->add_option("--profile", o->filter.profile,
+                   "only cases of this profile (commit where no CASE is given)")
       ->check(CLI::IsMember({"commit", "nightly", "release"}));
   command->add_option("--tag", o->filter.tag, "only cases with this tag");
   command->add_option("--out", o->out, "folder of ablation.json and the runs")->capture_default_str();
-  command->add_option("--jobs", o->jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
+  command->add_option("--jobs", o->jobs, "engine processes at a time")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
   command->callback([o, &exit_code] {
-    if (o->filter.what.empty() && o->filter.profile.empty() && o->filter.tag.empty()) o->filter.profile = "commit";
+    if (o->filter.what.empty() && o->filter.profile.empty() && o->filter.tag.empty())
+      o->filter.profile = "commit";
     exit_code = guarded([&] { return ablate(*o); });
   });
 }

@@ -25,12 +25,15 @@ using bench::Spread;
 using bench::Work;
 
 constexpr const char* bench_description =
-    "Times standard work on this machine, stage by stage, beside the machine's own limit: the same pair loops fused by hand in "
+    "Times standard work on this machine, stage by stage, beside the machine's own limit: the same pair "
+    "loops fused by hand in "
     "the\n"
-    "best layout known, with lists that last as long, measured in the same seconds. Compare ratios, not seconds.\n"
+    "best layout known, with lists that last as long, measured in the same seconds. Compare ratios, not "
+    "seconds.\n"
     "  tripoint bench\n"
     "  tripoint bench --work liquid-heat-40k --threads 2 --json\n"
-    "  tripoint bench --growth --threads 1    cost a particle-step of liquid with heat from 1,000 to 2,000,000 particles";
+    "  tripoint bench --growth --threads 1    cost a particle-step of liquid with heat from 1,000 to "
+    "2,000,000 particles";
 
 struct BenchOptions {
   std::vector<std::string> work;
@@ -73,11 +76,14 @@ json as_json(const Work& work, const Measured& m) {
   if (m.limit) {
     row["neighbours"] = m.pairs / static_cast<double>(m.particles);
     row["pairs_per_s"] = m.pairs_per_second();
-    row["limit"] = {
-        {"lanes", m.limit->lanes},       {"search_s", m.limit->search},
-        {"density_s", m.limit->density}, {"rates_s", m.limit->rates},
-        {"again_s", m.limit->again},     {"step_s", m.limit->step(m.rebuilds)},
-        {"cpu_s", m.limit_cpu},          {"particle_steps_per_s", static_cast<double>(m.particles) / m.limit->step(m.rebuilds)}};
+    row["limit"] = {{"lanes", m.limit->lanes},
+                    {"search_s", m.limit->search},
+                    {"density_s", m.limit->density},
+                    {"rates_s", m.limit->rates},
+                    {"again_s", m.limit->again},
+                    {"step_s", m.limit->step(m.rebuilds)},
+                    {"cpu_s", m.limit_cpu},
+                    {"particle_steps_per_s", static_cast<double>(m.particles) / m.limit->step(m.rebuilds)}};
     row["over_limit"] = as_json(m.over_limit);
     row["over_limit_cpu"] = as_json(m.over_limit_cpu);
   }
@@ -85,9 +91,9 @@ json as_json(const Work& work, const Measured& m) {
 }
 
 void print_header() {
-  print(fmt::format("{:26} {:>9} {:>3} {:>19} {:>8} {:>8} {:>8} {:>15} {:>8} {:>7}  {}\n", "work", "particles", "thr",
-                    "ms/step (best)", "M p-s/s", "M pair/s", "limit ms", "x limit (CPU)", "rebuilds", "B/part.",
-                    "share of the step"));
+  print(fmt::format("{:26} {:>9} {:>3} {:>19} {:>8} {:>8} {:>8} {:>15} {:>8} {:>7}  {}\n", "work",
+                    "particles", "thr", "ms/step (best)", "M p-s/s", "M pair/s", "limit ms", "x limit (CPU)",
+                    "rebuilds", "B/part.", "share of the step"));
 }
 
 /// The stages that take most, in per cent of the step.
@@ -101,18 +107,20 @@ std::string shares(const Measured& m) {
   std::ranges::sort(parts, std::ranges::greater{});
   std::string text;
   for (const auto& [seconds, name] : parts)
-    if (seconds > 0.02 * all) text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", name, 100.0 * seconds / all);
+    if (seconds > 0.02 * all)
+      text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", name, 100.0 * seconds / all);
   return text;
 }
 
 void print_row(const Work& work, const Measured& m) {
   const auto limit = [&](const std::string& text) { return m.limit ? text : std::string("-"); };
-  print(fmt::format("{:26} {:9} {:3} {:10.3f} ({:.3f}) {:8.3f} {:>8} {:>8} {:>15} {:8.3f} {:7.0f}  {}\n", work.name, m.particles,
-                    m.threads, 1e3 * m.step_seconds.median, 1e3 * m.step_seconds.best, 1e-6 * m.particle_steps_per_second(),
+  print(fmt::format("{:26} {:9} {:3} {:10.3f} ({:.3f}) {:8.3f} {:>8} {:>8} {:>15} {:8.3f} {:7.0f}  {}\n",
+                    work.name, m.particles, m.threads, 1e3 * m.step_seconds.median, 1e3 * m.step_seconds.best,
+                    1e-6 * m.particle_steps_per_second(),
                     limit(fmt::format("{:.1f}", 1e-6 * m.pairs_per_second())),
                     limit(m.limit ? fmt::format("{:.3f}", 1e3 * m.limit->step(m.rebuilds)) : ""),
-                    limit(fmt::format("{:.2f} ({:.2f})", m.over_limit.median, m.over_limit_cpu.median)), m.rebuilds,
-                    m.bytes / static_cast<double>(m.particles), shares(m)));
+                    limit(fmt::format("{:.2f} ({:.2f})", m.over_limit.median, m.over_limit_cpu.median)),
+                    m.rebuilds, m.bytes / static_cast<double>(m.particles), shares(m)));
 }
 
 json machine() {
@@ -134,14 +142,16 @@ std::vector<Work> chosen(const BenchOptions& o) {
   std::vector<Work> list;
   for (const std::string& name : o.work) {
     const auto place = std::ranges::find(all, name, &Work::name);
-    if (place == all.end()) throw InputError("no standard work is named " + name + " (tripoint bench --list prints the names)");
+    if (place == all.end())
+      throw InputError("no standard work is named " + name + " (tripoint bench --list prints the names)");
     list.push_back(*place);
   }
   return list;
 }
 
 int list_work() {
-  for (const Work& w : bench::standard_work()) print(fmt::format("{:26} {:9} {}\n", w.name, to_string(w.mode), w.case_id));
+  for (const Work& w : bench::standard_work())
+    print(fmt::format("{:26} {:9} {}\n", w.name, to_string(w.mode), w.case_id));
   return 0;
 }
 
@@ -153,7 +163,8 @@ int run_bench(const BenchOptions& o) {
     return 0;
   }
   bench::MeasureOptions how;
-  how.threads = o.threads > 0 ? o.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  how.threads =
+      o.threads > 0 ? o.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   how.rounds = o.rounds;
   if (o.steps > 0) how.steps = o.steps;
   json rows = json::array();
@@ -165,7 +176,9 @@ int run_bench(const BenchOptions& o) {
     else
       print_row(w, m);
   }
-  if (o.as_document) print(json_text(json{{"format", 1}, {"machine", machine()}, {"threads", how.threads}, {"works", rows}}, 2));
+  if (o.as_document)
+    print(
+        json_text(json{{"format", 1}, {"machine", machine()}, {"threads", how.threads}, {"works", rows}}, 2));
   return 0;
 }
 
@@ -178,12 +191,16 @@ void add_bench(CLI::App& app, int& exit_code) {
       ->take_all()
       ->allow_extra_args(false);
   command->add_option("--threads", o->threads, "default: all cores")->check(CLI::Range(1, 1024));
-  command->add_option("--steps", o->steps, "steps of the timed part, default: 120")->check(CLI::Range(1L, 1000000000L));
-  command->add_option("--rounds", o->rounds, "parts that they are timed in, each followed by a round of the limit")
+  command->add_option("--steps", o->steps, "steps of the timed part, default: 120")
+      ->check(CLI::Range(1L, 1000000000L));
+  command
+      ->add_option("--rounds", o->rounds,
+                   "parts that they are timed in, each followed by a round of the limit")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command
-      ->add_option("--particles", o->particles, "runs nothing: writes the particles that the work starts from, for other codes")
+      ->add_option("--particles", o->particles,
+                   "runs nothing: writes the particles that the work starts from, for other codes")
       ->type_name("FILE.h5");
   command->add_flag("--list", o->list, "print the standard work");
   command->add_flag("--growth", o->growth, "liquid with heat, from 1,000 to 2,000,000 particles");

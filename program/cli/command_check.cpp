@@ -23,8 +23,10 @@ namespace tripoint {
 namespace {
 
 constexpr const char* check_description =
-    "Checks a case before anything runs: every key, unit and name; then the particles: bodies that overlap or stand too near,\n"
-    "that are too coarse or of wrong mass, a time step above a bound; events and keys that can change nothing; then metrics,\n"
+    "Checks a case before anything runs: every key, unit and name; then the particles: bodies that overlap "
+    "or stand too near,\n"
+    "that are too coarse or of wrong mass, a time step above a bound; events and keys that can change "
+    "nothing; then metrics,\n"
     "references and engines: what would be refused; and whether any gate judges it.\n"
     "Ends 2 where it finds an error, 0 where it finds none or warnings.\n"
     "  tripoint check my.toml\n"
@@ -49,15 +51,19 @@ int check(const std::string& file, const std::vector<std::string>& set) {
   for (const auto& f : moment_notes(scene, state)) say("note: " + with_place(f));
   for (const auto& f : start_notes(scene, state)) say("note: " + with_place(f));
   if (scene.settle)
-    say("note: nothing is run here: liquids are not let down into equilibrium (scene.settle), and the particles are those before "
+    say("note: nothing is run here: liquids are not let down into equilibrium (scene.settle), and the "
+        "particles are those before "
         "it");
   for (const auto& f : findings) {
     errors += f.error ? 1 : 0;
     say((f.error ? "error: " : "warning: ") + with_place(f));
   }
-  const auto counted = [](long n, const char* one, const char* more) { return fmt::format("{} {}", n, n == 1 ? one : more); };
+  const auto counted = [](long n, const char* one, const char* more) {
+    return fmt::format("{} {}", n, n == 1 ? one : more);
+  };
   print_line(fmt::format("{}: {} particles in {}, {}, {}", file, state.size(),
-                         counted(static_cast<long>(scene.bodies.size()), "body", "bodies"), counted(errors, "error", "errors"),
+                         counted(static_cast<long>(scene.bodies.size()), "body", "bodies"),
+                         counted(errors, "error", "errors"),
                          counted(static_cast<long>(findings.size()) - errors, "warning", "warnings")));
   return errors > 0 ? 2 : 0;
 }
@@ -69,10 +75,13 @@ void add_check(CLI::App& app, int& exit_code) {
   auto file = std::make_shared<std::string>();
   auto set = std::make_shared<std::vector<std::string>>();
   command->add_option("CASE", *file, "path of a case file, or the id of a case that is shipped")->required();
-  command->add_option("--set", *set, "replace a key: scene.spacing=0.01, body.NAME.velocity=[1,0,0]; may be repeated")
+  command
+      ->add_option("--set", *set,
+                   "replace a key: scene.spacing=0.01, body.NAME.velocity=[1,0,0]; may be repeated")
       ->take_all()
       ->allow_extra_args(false);
-  command->callback([=, &exit_code] { exit_code = guarded([&] { return check(shown_path(case_file(*file)), *set); }); });
+  command->callback(
+      [=, &exit_code] { exit_code = guarded([&] { return check(shown_path(case_file(*file)), *set); }); });
 }
 
 }  // namespace tripoint

@@ -20,17 +20,21 @@ namespace tripoint {
 namespace {
 
 constexpr const char* compare_description =
-    "Runs one case on the named engines and states their equivalence: the difference of their trajectories in each metric, its\n"
-    "uncertainty, the margin that the case sets, and both errors to truth, so that two engines that are wrong together are "
+    "Runs one case on the named engines and states their equivalence: the difference of their trajectories "
+    "in each metric, its\n"
+    "uncertainty, the margin that the case sets, and both errors to truth, so that two engines that are "
+    "wrong together are "
     "seen.\n"
     "  tripoint compare rigid/ballistic --engines tripoint,bullet\n"
     "Exit: 0 compared, 4 an engine did not run or two scenes are not the same scene, 7 diverged.";
 
 constexpr const char* converge_description =
-    "Refines one axis of a case in our solver and prints error, order and its 95 % interval for each metric.\n"
+    "Refines one axis of a case in our solver and prints error, order and its 95 % interval for each "
+    "metric.\n"
     "  tripoint converge heat/cosine-mode --axis spacing --levels 1e-3,5e-4,2.5e-4,1.25e-4\n"
     "  tripoint converge rigid/torque-free --axis time_step --engine bullet\n"
-    "Levels are in the axis's own unit (SI), coarse to fine; without them the case's own study of this axis is taken.\n"
+    "Levels are in the axis's own unit (SI), coarse to fine; without them the case's own study of this axis "
+    "is taken.\n"
     "Four levels or more make an interval worth reading. OUT then holds the whole report.";
 
 struct CompareOptions {
@@ -62,7 +66,8 @@ Results run_one_case(const Case& value, const SuiteOptions& options, const std::
   const auto lock = hold_folder(options.out);
   auto results = run_suite({value}, engines, options);
   results.command = command_line();
-  if (const auto missing = write_report(results, options.out); !missing.empty()) say("tripoint: no page: " + missing);
+  if (const auto missing = write_report(results, options.out); !missing.empty())
+    say("tripoint: no page: " + missing);
   return results;
 }
 
@@ -96,12 +101,14 @@ int compare(const CompareOptions& o) {
   const auto results = run_one_case(value, options, words.paths);
   if (results.cases.empty()) return exit_interrupted;
   if (results.cases.front().equivalence.empty())
-    say("nothing is compared here: two engines are, and exact is the truth that both are judged by (tripoint validate)");
-  print(fmt::format("{:20} {:20} {:20} {:>11} {:>11} {:>11} {:>11} {:>11}  verdict\n", "a", "b", "metric", "difference",
-                    "uncertainty", "margin", "error a", "error b"));
+    say("nothing is compared here: two engines are, and exact is the truth that both are judged by (tripoint "
+        "validate)");
+  print(fmt::format("{:20} {:20} {:20} {:>11} {:>11} {:>11} {:>11} {:>11}  verdict\n", "a", "b", "metric",
+                    "difference", "uncertainty", "margin", "error a", "error b"));
   for (const auto& q : results.cases.front().equivalence)
-    print_line(fmt::format("{:20} {:20} {:20} {:11.4g} {:11.2g} {:>11} {:11.4g} {:11.4g}  {}", q.a, q.b, q.metric, q.difference,
-                           q.uncertainty, q.margin ? fmt::format("{:.4g}", *q.margin) : "-", q.error_a, q.error_b, q.verdict));
+    print_line(fmt::format(
+        "{:20} {:20} {:20} {:11.4g} {:11.2g} {:>11} {:11.4g} {:11.4g}  {}", q.a, q.b, q.metric, q.difference,
+        q.uncertainty, q.margin ? fmt::format("{:.4g}", *q.margin) : "-", q.error_a, q.error_b, q.verdict));
   print((std::filesystem::path(options.out) / "index.html").string() + "\n");
   return code_of_runs(results.cases.front());
 }
@@ -112,29 +119,31 @@ Study study_for(const Case& value, const ConvergeOptions& o) {
   study.engine = o.engine;
   study.levels = o.levels;
   for (const auto& s : value.studies)
-    if (s.axes.axis == study.axes.axis && study.levels.empty() && (s.engine.empty() || s.engine == o.engine)) {
+    if (s.axes.axis == study.axes.axis && study.levels.empty() &&
+        (s.engine.empty() || s.engine == o.engine)) {
       study.levels = s.levels;
       study.order = s.order;
       study.jitter = s.jitter;
       study.seeds = s.seeds;
     }
   if (study.levels.empty())
-    throw InputError(
-        fmt::format("{} has no study of {} for {}: name --levels a,b,c, coarse to fine", value.id, o.axis, o.engine));
+    throw InputError(fmt::format("{} has no study of {} for {}: name --levels a,b,c, coarse to fine",
+                                 value.id, o.axis, o.engine));
   for (const double level : study.levels)
     if (!(level > 0.0)) throw InputError(fmt::format("--levels: {:g} is no level; they are positive", level));
   return study;
 }
 
 void print_order(const OrderRow& o) {
-  print_line(fmt::format("{}{}{} over {}", o.metric, o.mode == JudgedMode::none ? "" : ", ", o.mode, to_string(o.axes)));
+  print_line(fmt::format("{}{}{} over {}", o.metric, o.mode == JudgedMode::none ? "" : ", ", o.mode,
+                         to_string(o.axes)));
   for (std::size_t k = 0; k < o.step.size(); ++k) {
     const bool ratio = k > 0 && o.error[k] != 0.0;
     print_line(fmt::format("  {:<12.5g} {:12.5g}  +- {:<9.2g} {}", o.step[k], o.error[k], o.uncertainty[k],
                            ratio ? fmt::format("/ {:.3g}", o.error[k - 1] / o.error[k]) : ""));
   }
-  print(fmt::format("  order {:.3f}, 95 % interval {:.3f} to {:.3f}, {}\n", o.order.value, o.order.low, o.order.high,
-                    o.order.fit_class));
+  print(fmt::format("  order {:.3f}, 95 % interval {:.3f} to {:.3f}, {}\n", o.order.value, o.order.low,
+                    o.order.high, o.order.fit_class));
 }
 
 int converge(const ConvergeOptions& o) {
@@ -144,7 +153,8 @@ int converge(const ConvergeOptions& o) {
   SuiteOptions options;
   options.out = o.out.empty() ? own_folder("converge", value.id) : o.out;
   if (o.sandbox) sandbox_third_parties(options.out);
-  options.selection.engines = words.paths.empty() ? words.names : std::vector<std::string>{ask_engine(words.paths.front()).name};
+  options.selection.engines =
+      words.paths.empty() ? words.names : std::vector<std::string>{ask_engine(words.paths.front()).name};
   value.studies.front().engine = options.selection.engines.front();
   options.jobs = o.jobs;
   options.say = [](const std::string& line) { say(line); };
@@ -166,7 +176,9 @@ void add_compare(CLI::App& app, int& exit_code) {
   command->add_option("--engines", o->engines, "names or paths, A,B")->required();
   add_sandbox_flag(*command, o->sandbox);
   command->add_option("--out", o->out, "folder of the report and the runs (default: report-compare/CASE)");
-  command->add_option("--jobs", o->jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
+  command->add_option("--jobs", o->jobs, "engine processes at a time")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
   command->callback([o, &exit_code] { exit_code = guarded([&] { return compare(*o); }); });
 }
 
@@ -174,12 +186,18 @@ void add_converge(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("converge", converge_description);
   auto o = std::make_shared<ConvergeOptions>();
   command->add_option("CASE", o->what, "a case file or id")->required();
-  command->add_option("--axis", o->axis, "what is refined")->check(CLI::IsMember(axis_words()))->capture_default_str();
-  command->add_option("--levels", o->levels, "a,b,c: coarse to fine")->delimiter(',')->allow_extra_args(false);
+  command->add_option("--axis", o->axis, "what is refined")
+      ->check(CLI::IsMember(axis_words()))
+      ->capture_default_str();
+  command->add_option("--levels", o->levels, "a,b,c: coarse to fine")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command->add_option("--engine", o->engine, "name or path")->capture_default_str();
   add_sandbox_flag(*command, o->sandbox);
   command->add_option("--out", o->out, "folder of the report and the runs (default: report-converge/CASE)");
-  command->add_option("--jobs", o->jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
+  command->add_option("--jobs", o->jobs, "engine processes at a time")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
   command->callback([o, &exit_code] { exit_code = guarded([&] { return converge(*o); }); });
 }
 

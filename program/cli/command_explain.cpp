@@ -32,9 +32,11 @@ constexpr long usual_trial = 3;              ///< steps
 constexpr std::size_t most_tried = 100'000;  ///< particles, unless --trial asks for more
 
 constexpr const char* explain_description =
-    "Says what a case means: a summary; then every key with its value in SI and the reason for it, the effects that the scene "
+    "Says what a case means: a summary; then every key with its value in SI and the reason for it, the "
+    "effects that the scene "
     "calls for and why, those\n"
-    "that it does without and the proof, the bytes of its particles by effect, and the seconds of its first steps.\n"
+    "that it does without and the proof, the bytes of its particles by effect, and the seconds of its first "
+    "steps.\n"
     "  tripoint explain rigid/ballistic\n"
     "  tripoint explain fluid/hydrostatic --trial 20 --threads 2\n"
     "  tripoint explain my.toml --set scene.spacing=\"2 mm\" --json | jq .effects\n"
@@ -84,18 +86,21 @@ void print_plan(const Plan& plan) {
 }
 
 void print_trial(const bench::Trial& t, int threads) {
-  if (!t.failure.empty()) return print(fmt::format("\nNo steps are timed (--trial N times N): {}\n", t.failure));
+  if (!t.failure.empty())
+    return print(fmt::format("\nNo steps are timed (--trial N times N): {}\n", t.failure));
   if (t.steps == 0) return;
-  print(fmt::format("\nMeasured in the first {} steps of {} particles on {} thread{}\n", t.steps, t.particles, threads,
-                    threads == 1 ? "" : "s"));
+  print(fmt::format("\nMeasured in the first {} steps of {} particles on {} thread{}\n", t.steps, t.particles,
+                    threads, threads == 1 ? "" : "s"));
   print(
-      fmt::format("  {:.3g} s a step, {:.3g} us a particle-step; about {:.0f} steps of {:.3g} s, bound by {}, so about {:.3g} s "
+      fmt::format("  {:.3g} s a step, {:.3g} us a particle-step; about {:.0f} steps of {:.3g} s, bound by "
+                  "{}, so about {:.3g} s "
                   "for the whole run, and {:.3g} s to set it up\n",
-                  t.step_seconds, 1e6 * t.step_seconds / static_cast<double>(t.particles), t.run_steps, t.time_step, t.bound_by,
-                  t.run_seconds(), t.setup_seconds));
+                  t.step_seconds, 1e6 * t.step_seconds / static_cast<double>(t.particles), t.run_steps,
+                  t.time_step, t.bound_by, t.run_seconds(), t.setup_seconds));
   if (t.particles >= most_tried / 10)  // else the program itself outweighs them
-    print(fmt::format("  {:.0f} bytes a particle in memory: fields, neighbour lists, bonds and what is used between them\n",
-                      t.bytes));
+    print(fmt::format(
+        "  {:.0f} bytes a particle in memory: fields, neighbour lists, bonds and what is used between them\n",
+        t.bytes));
   for (std::size_t k = 0; k < stage_names.size(); ++k)
     if (t.stages[k] > 0.005 * t.step_seconds)
       print(fmt::format("  {:10} {:4.1f} %\n", stage_names[k], 100.0 * t.stages[k] / t.step_seconds));
@@ -118,7 +123,8 @@ json as_json(const bench::Trial& t, int threads) {
 }
 
 json as_json(const CaseReading& reading, const Plan& plan) {
-  json decisions = json::array(), effects = json::array(), fields = json::array(), idle = json::array(), bytes = json::object();
+  json decisions = json::array(), effects = json::array(), fields = json::array(), idle = json::array(),
+       bytes = json::object();
   for (const auto& d : reading.decisions) {
     json row{{"key", d.key}, {"value", d.value}, {"given", d.given}, {"reason", d.reason}};
     if (d.given && !d.place.file.empty()) row["file"] = d.place.file;
@@ -127,7 +133,8 @@ json as_json(const CaseReading& reading, const Plan& plan) {
   }
   for (const auto& e : plan.effects) effects.push_back({{"name", e.name}, {"mode", e.mode}, {"why", e.why}});
   for (const auto& f : plan.fields)
-    fields.push_back({{"name", f.name}, {"unit", f.unit}, {"per", f.per}, {"owner", f.owner}, {"bytes", f.bytes}});
+    fields.push_back(
+        {{"name", f.name}, {"unit", f.unit}, {"per", f.per}, {"owner", f.owner}, {"bytes", f.bytes}});
   for (const auto& e : plan.idle) idle.push_back({{"name", e.name}, {"why", e.why}});
   for (const auto& [owner, sum] : bytes_by_owner(plan)) bytes[owner] = sum;
   return {{"format", 1},
@@ -199,18 +206,23 @@ int explain(const ExplainOptions& options) {
 void add_explain(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("explain", explain_description);
   auto options = std::make_shared<ExplainOptions>();
-  command->add_option("CASE", options->file, "path of a case file, or the id of a case that is shipped")->required();
-  command->add_option("--set", options->set, "replace a key: scene.spacing=0.01, body.NAME.velocity=[1,0,0]; may be repeated")
+  command->add_option("CASE", options->file, "path of a case file, or the id of a case that is shipped")
+      ->required();
+  command
+      ->add_option("--set", options->set,
+                   "replace a key: scene.spacing=0.01, body.NAME.velocity=[1,0,0]; may be repeated")
       ->take_all()
       ->allow_extra_args(false);
   command->add_flag("--json", options->as_document, "print one JSON document");
-  command->add_flag("--resolved", options->as_case,
-                    "print the whole case as a case file: what it extends merged in, every gate in a table of its own");
+  command->add_flag(
+      "--resolved", options->as_case,
+      "print the whole case as a case file: what it extends merged in, every gate in a table of its own");
   command
       ->add_option("--trial", options->trial,
                    fmt::format("steps to time, 0 for none (default: {}; none with --json)", usual_trial))
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--threads", options->threads, "threads of the steps that are timed")->check(CLI::PositiveNumber);
+  command->add_option("--threads", options->threads, "threads of the steps that are timed")
+      ->check(CLI::PositiveNumber);
   command->callback([=, &exit_code] { exit_code = guarded([&] { return explain(*options); }); });
 }
 

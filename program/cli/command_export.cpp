@@ -11,13 +11,18 @@ namespace tripoint {
 namespace {
 
 constexpr const char* export_description =
-    "Writes a run for other programs, or the numbers of a report for a paper. docs/trajectory.md says which program reads which "
+    "Writes a run for other programs, or the numbers of a report for a paper. docs/trajectory.md says which "
+    "program reads which "
     "file.\n"
-    "  tripoint export runs/rigid/ballistic/tripoint --to vtp                     frames.pvd for ParaView and PyVista\n"
-    "  tripoint export runs/rigid/ballistic/tripoint --to xyz,lammps --out files  OVITO, ASE; only of particles that are alive\n"
+    "  tripoint export runs/rigid/ballistic/tripoint --to vtp                     frames.pvd for ParaView "
+    "and PyVista\n"
+    "  tripoint export runs/rigid/ballistic/tripoint --to xyz,lammps --out files  OVITO, ASE; only of "
+    "particles that are alive\n"
     "  tripoint export runs/rigid/ballistic/tripoint --to csv --frames 0:100:10   poses of bodies, energies\n"
-    "  tripoint export report/results.json --to csv,latex,pdf                     tables and figures at print size\n"
-    "Of a run: vtp, xdmf, h5md, lammps, xyz, ply, obj, csv, paraview. Of a results.json: csv, latex, pdf. Numbers are copied: "
+    "  tripoint export report/results.json --to csv,latex,pdf                     tables and figures at "
+    "print size\n"
+    "Of a run: vtp, xdmf, h5md, lammps, xyz, ply, obj, csv, paraview. Of a results.json: csv, latex, pdf. "
+    "Numbers are copied: "
     "SI, every digit.\n"
     "Exit: 0 written, 2 bad input, 4 a dataset, a library or room on the disk is missing, 130 Ctrl-C.";
 
@@ -48,7 +53,8 @@ void add_export(CLI::App& app, int& exit_code) {
   for (const char* format : {"csv", "latex", "pdf", "vtp", "xyz", "lammps", "ply", "obj"})
     add_earlier_flag(*command, std::string("--") + format, std::string("--to ") + format,
                      [o, format] { o->to.emplace_back(format); });
-  command->add_option("--out", o->out, "folder of the files (default: `export` in the folder of the run or report)");
+  command->add_option("--out", o->out,
+                      "folder of the files (default: `export` in the folder of the run or report)");
   command->add_option("--frames", o->frames, "all, last, a number, or FROM:TO:STEP")->capture_default_str();
   command->add_flag("--json", o->json, "print one JSON document with the names of the files");
   command->callback([o, &exit_code] { exit_code = guarded([&]() -> int { write_files(*o); }); });

@@ -25,38 +25,53 @@ namespace tripoint {
 namespace {
 
 constexpr const char* gate_description =
-    "Judges a results.json from its measured values and limits alone; it runs nothing and trusts no stored verdict, and\n"
-    "reads the case files again: metrics, gates, runs and values must be those of the cases as they are. Then it judges the\n"
-    "limits: none more than 10 times its error (above 3 times warns) unless its reason is dated, none looser than the accepted "
+    "Judges a results.json from its measured values and limits alone; it runs nothing and trusts no stored "
+    "verdict, and\n"
+    "reads the case files again: metrics, gates, runs and values must be those of the cases as they are. "
+    "Then it judges the\n"
+    "limits: none more than 10 times its error (above 3 times warns) unless its reason is dated, none looser "
+    "than the accepted "
     "baseline,\n"
-    "no gate gone that was accepted, no value moved by more than the drift that its gate states, no run with more than 1 % more "
+    "no gate gone that was accepted, no value moved by more than the drift that its gate states, no run with "
+    "more than 1 % more "
     "pairs, steps or\n"
     "instructions than accepted. A case without a baseline yet is named in a warning.\n"
     "  tripoint gate report/results.json     exit 0 only when every gate is green\n"
-    "  tripoint gate report --against base/results.json     every metric beside that of a base, in units of its limit\n"
-    "  tripoint gate accept report/results.json --reason 'who decided what, and why'     the only writer of baselines\n"
+    "  tripoint gate report --against base/results.json     every metric beside that of a base, in units of "
+    "its limit\n"
+    "  tripoint gate accept report/results.json --reason 'who decided what, and why'     the only writer of "
+    "baselines\n"
     "  tripoint gate adopt --engine ./my-engine --out cases     writes gates for an engine of your own\n"
     "  tripoint gate selftest                proves that the gates can fail, and only where they should";
 
 constexpr const char* accept_description =
-    "Accepts the figures of green cases as their baselines (baselines/<subject>/<case>.toml beside the folder cases), and prints "
+    "Accepts the figures of green cases as their baselines (baselines/<subject>/<case>.toml beside the "
+    "folder cases), and prints "
     "what changes:\n"
-    "old limit, new limit, and the sum of all loosenings since the first baseline. Results that lack an engine or a metric that\n"
+    "old limit, new limit, and the sum of all loosenings since the first baseline. Results that lack an "
+    "engine or a metric that\n"
     "was accepted are refused, unless --keep-missing or --drop-missing says what becomes of its rows.\n"
-    "  tripoint gate accept --reason 'kernel moments corrected, decision 006' report/results.json heat/cosine-mode";
+    "  tripoint gate accept --reason 'kernel moments corrected, decision 006' report/results.json "
+    "heat/cosine-mode";
 
 constexpr const char* selftest_description =
-    "Runs every defect that the cases declare in the test build of our solver, and expects the gates named in killed_by to turn "
+    "Runs every defect that the cases declare in the test build of our solver, and expects the gates named "
+    "in killed_by to turn "
     "red;\n"
-    "and asks that every defect which a physical term registers has a case that kills it. Then runs every harmless change that "
+    "and asks that every defect which a physical term registers has a case that kills it. Then runs every "
+    "harmless change that "
     "the cases\n"
-    "declare (threads, order, ulp, boost, mirror, rotation, units): no gate may turn and no metric may change by more than "
+    "declare (threads, order, ulp, boost, mirror, rotation, units): no gate may turn and no metric may "
+    "change by more than "
     "round-off.\n"
-    "Of defects that state a `smallest` size it finds by bisection the least one that turns the gate red: a table, red where it "
+    "Of defects that state a `smallest` size it finds by bisection the least one that turns the gate red: a "
+    "table, red where it "
     "has grown by more than a quarter.\n"
-    "With --seeds N it looks for false alarms instead: all that chance has a hand in (jittered particles, walkers) runs again "
+    "With --seeds N it looks for false alarms instead: all that chance has a hand in (jittered particles, "
+    "walkers) runs again "
     "with N other seeds.\n"
-    "Exit 5 when a defect survives, a gate turns by its seed, a harmless change is felt, or a smallest visible defect has "
+    "Exit 5 when a defect survives, a gate turns by its seed, a harmless change is felt, or a smallest "
+    "visible defect has "
     "grown.\n"
     "  tripoint gate selftest                every case\n"
     "  tripoint gate selftest heat/cosine-mode --jobs 2\n"
@@ -80,7 +95,8 @@ int accept_file(const GateOptions& o) {
   std::string path;
   std::vector<std::string> ids;
   const auto take = [&](const std::string& results) {
-    if (!path.empty()) throw InputError(path + " and " + results + " are two results: accept one of them at a time");
+    if (!path.empty())
+      throw InputError(path + " and " + results + " are two results: accept one of them at a time");
     path = results;
   };
   for (const auto& word : o.accepted) {
@@ -141,19 +157,28 @@ void add_gate(CLI::App& app, int& exit_code) {
   auto* proposes = add_propose(*command, o->propose);
   auto* accepts = command->add_subcommand("accept", accept_description);
   accepts->add_option("--reason", o->reason, "who decided what, and why")->required();
-  accepts->add_flag("--removed", o->removed, "the ids (or paths) are of cases that are no more: their baselines are removed");
-  accepts->add_flag("--keep-missing", o->lacking.keep, "accepted rows of engines that did not run stay as they are");
-  accepts->add_flag("--drop-missing", o->lacking.drop, "accepted rows that the results lack are removed; --reason says why");
-  accepts->add_option("RESULTS|ID", o->accepted,
-                      "a results.json or its folder (default report/results.json), and the ids of the cases; none = all");
+  accepts->add_flag("--removed", o->removed,
+                    "the ids (or paths) are of cases that are no more: their baselines are removed");
+  accepts->add_flag("--keep-missing", o->lacking.keep,
+                    "accepted rows of engines that did not run stay as they are");
+  accepts->add_flag("--drop-missing", o->lacking.drop,
+                    "accepted rows that the results lack are removed; --reason says why");
+  accepts->add_option(
+      "RESULTS|ID", o->accepted,
+      "a results.json or its folder (default report/results.json), and the ids of the cases; none = all");
   auto* self = command->add_subcommand("selftest", selftest_description);
-  self->add_option("CASE", o->selftest.what, "case files, folders or ids; none = every case")->type_name("CASE|DIR");
+  self->add_option("CASE", o->selftest.what, "case files, folders or ids; none = every case")
+      ->type_name("CASE|DIR");
   self->add_option("--out", o->selftest.out, "folder of the runs")->capture_default_str();
-  self->add_option("--jobs", o->selftest.jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
+  self->add_option("--jobs", o->selftest.jobs, "engine processes at a time")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
   self->add_flag("--smallest", o->selftest.only_smallest, "only the smallest visible defects");
-  self->add_option("--seeds", o->seeds, "other seeds to run what chance has a hand in with; nothing else is then done")
+  self->add_option("--seeds", o->seeds,
+                   "other seeds to run what chance has a hand in with; nothing else is then done")
       ->check(CLI::Range(1, 10000));
-  self->add_option("--profile", o->profile, "with --seeds: only cases of this profile (commit where no CASE is given)")
+  self->add_option("--profile", o->profile,
+                   "with --seeds: only cases of this profile (commit where no CASE is given)")
       ->check(CLI::IsMember({"commit", "nightly", "release"}));
   self->add_flag("--json", o->json, "print selftest.json, and nothing else, on stdout");
   auto* adopts = add_gate_adopt(*command, exit_code);
@@ -164,8 +189,9 @@ void add_gate(CLI::App& app, int& exit_code) {
       if (accepts->parsed()) return accept_file(*o);
       if (proposes->parsed()) return propose_baselines(o->propose);
       if (o->judge.results.empty())
-        throw InputError("gate: name a results.json, for example report/results.json, or one of its commands:\n" +
-                         commands_of(*command));
+        throw InputError(
+            "gate: name a results.json, for example report/results.json, or one of its commands:\n" +
+            commands_of(*command));
       return judge_results(o->judge);
     });
   });

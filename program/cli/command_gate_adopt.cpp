@@ -33,19 +33,24 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* adopt_description =
-    "Measures an engine of your own on the acceptance cases, twice and with other seeds where chance has a hand, and writes a "
+    "Measures an engine of your own on the acceptance cases, twice and with other seeds where chance has a "
+    "hand, and writes a "
     "case file with\n"
-    "gates into your repository for each case that it runs: what drifts from then on, to the worse or to the better, is red. "
+    "gates into your repository for each case that it runs: what drifts from then on, to the worse or to the "
+    "better, is red. "
     "Baselines are\n"
     "accepted beside them. Cases that the engine refuses are left out.\n"
-    "Not adopted, by name: what fails a limit that holds for any engine, an engine that says it is deterministic and is not, "
+    "Not adopted, by name: what fails a limit that holds for any engine, an engine that says it is "
+    "deterministic and is not, "
     "and a noise\n"
     "above the value, unless --despite says why; and a case with a metric that has no finite value.\n"
     "  tripoint gate adopt --engine ./my-engine --out cases\n"
     "  tripoint gate adopt --engine my-engine --margin 1.2 --out cases rigid/ballistic\n"
-    "Exit 0 when the written gates hold on a run of their own, 1 when a case fails acceptance, 2 when a file is there already, 3 "
+    "Exit 0 when the written gates hold on a run of their own, 1 when a case fails acceptance, 2 when a file "
+    "is there already, 3 "
     "when noise\n"
-    "hides a value, 4 when a metric has no value or the engine runs none of the cases. What is adoptable is written even so.";
+    "hides a value, 4 when a metric has no value or the engine runs none of the cases. What is adoptable is "
+    "written even so.";
 
 struct GateAdoptOptions {
   std::string engine, out = "cases";
@@ -69,7 +74,9 @@ std::string first_comment(const std::string& file) {
   return comment;
 }
 
-fs::path file_of(const GateAdoptOptions& o, const std::string& id) { return fs::path(o.out) / (id + ".toml"); }
+fs::path file_of(const GateAdoptOptions& o, const std::string& id) {
+  return fs::path(o.out) / (id + ".toml");
+}
 
 std::vector<Case> cases_of(const GateAdoptOptions& o) {
   CaseFilter filter;
@@ -78,9 +85,10 @@ std::vector<Case> cases_of(const GateAdoptOptions& o) {
   auto cases = select_cases(filter);
   for (const auto& c : cases)
     if (!o.overwrite && fs::exists(file_of(o, c.id)))
-      throw InputError(fmt::format(
-          "{}: is there already; --overwrite writes it anew, and `tripoint gate accept` keeps new figures of old gates",
-          file_of(o, c.id).string()));
+      throw InputError(
+          fmt::format("{}: is there already; --overwrite writes it anew, and `tripoint gate accept` keeps "
+                      "new figures of old gates",
+                      file_of(o, c.id).string()));
   return cases;
 }
 
@@ -113,7 +121,8 @@ class WrittenFiles {
       }
       std::error_code none;
       fs::remove(file, none);
-      for (auto folder = file.parent_path(); fs::is_empty(folder, none) && !none; folder = folder.parent_path())
+      for (auto folder = file.parent_path(); fs::is_empty(folder, none) && !none;
+           folder = folder.parent_path())
         fs::remove(folder, none);
     }
   }
@@ -122,20 +131,23 @@ class WrittenFiles {
   std::vector<std::pair<fs::path, std::optional<std::string>>> files_;
 };
 
-/// Meshes and data of the source go beside the written case, as it names them. @throws InputError for one that lies elsewhere
-void copy_files(const TomlNode& document, const std::string& source, const fs::path& file, WrittenFiles& written) {
+/// Meshes and data of the source go beside the written case, as it names them. @throws InputError for one
+/// that lies elsewhere
+void copy_files(const TomlNode& document, const std::string& source, const fs::path& file,
+                WrittenFiles& written) {
   for (const auto& name : files_named_in(document)) {
     const auto path = fs::path(name).lexically_normal();
     if (path.is_absolute() || path.begin()->string() == "..")
-      throw InputError({source, 0, 0},
-                       "names the file " + printable(name) + ", which does not lie beside the case: it is not adopted");
+      throw InputError({source, 0, 0}, "names the file " + printable(name) +
+                                           ", which does not lie beside the case: it is not adopted");
     written.write(file.parent_path() / path, text_of_file((fs::path(source).parent_path() / path).string()));
   }
 }
 
 void say_findings(const AdoptedCase& c, bool refused) {
   for (const auto& f : c.all_findings()) {
-    const std::string line = fmt::format("{}: {}: {}", c.id, refused ? "NOT ADOPTED" : "adopted despite this", f.text);
+    const std::string line =
+        fmt::format("{}: {}: {}", c.id, refused ? "NOT ADOPTED" : "adopted despite this", f.text);
     print_line(line);
     if (refused) say("tripoint: " + line);
   }
@@ -144,7 +156,8 @@ void say_findings(const AdoptedCase& c, bool refused) {
 void print_gates(const AdoptedCase& c) {
   for (const auto& row : c.rows)
     for (const auto& g : row.gates)
-      print_line(fmt::format("  {:28} {:34} {}", g.metric + (is_default_preset(row.preset) ? "" : " (" + row.preset + ")"),
+      print_line(fmt::format("  {:28} {:34} {}",
+                             g.metric + (is_default_preset(row.preset) ? "" : " (" + row.preset + ")"),
                              describe(g), g.reason));
 }
 
@@ -169,15 +182,16 @@ std::vector<std::string> write_cases(const GateAdoptOptions& o, const std::vecto
 }
 
 std::string reason_of(const GateAdoptOptions& o, const EngineEntry& engine) {
-  auto reason =
-      fmt::format("adopted from {} {} by tripoint gate adopt --margin {:g}", engine.name, engine.version, o.adopt.margin);
+  auto reason = fmt::format("adopted from {} {} by tripoint gate adopt --margin {:g}", engine.name,
+                            engine.version, o.adopt.margin);
   if (!o.adopt.despite.empty()) reason += ", despite what fails: " + o.adopt.despite;
   return one_line(reason);
 }
 
 /// The written gates judge a run of their own before anything is accepted.
-int accept_written(const GateAdoptOptions& o, const std::vector<std::string>& files, const std::vector<EngineEntry>& engines,
-                   const EngineEntry& engine, const WrittenFiles& written) {
+int accept_written(const GateAdoptOptions& o, const std::vector<std::string>& files,
+                   const std::vector<EngineEntry>& engines, const EngineEntry& engine,
+                   const WrittenFiles& written) {
   CaseFilter filter;
   filter.what = files;
   SuiteOptions suite;
@@ -192,7 +206,8 @@ int accept_written(const GateAdoptOptions& o, const std::vector<std::string>& fi
   for (const auto& c : results.cases) print(case_line(c) + "\n");
   if (results.exit_code != exit_pass) {
     written.take_back();
-    say("tripoint: the gates that were just written do not hold on a second look; they are taken back, and no baseline was "
+    say("tripoint: the gates that were just written do not hold on a second look; they are taken back, and "
+        "no baseline was "
         "accepted: is the engine deterministic?");
     return results.exit_code;
   }
@@ -201,11 +216,12 @@ int accept_written(const GateAdoptOptions& o, const std::vector<std::string>& fi
   return exit_pass;
 }
 
-void say_what_comes_next(const GateAdoptOptions& o, const std::vector<std::string>& files, std::size_t cases) {
-  say(
-      fmt::format("{} of {} cases adopted. Commit {} and {}. From then on:\n  tripoint validate {} --engines {}\n  "
-                  "tripoint gate report",
-                  files.size(), cases, o.out, baseline_folder(files.front()), o.out, o.engine));
+void say_what_comes_next(const GateAdoptOptions& o, const std::vector<std::string>& files,
+                         std::size_t cases) {
+  say(fmt::format(
+      "{} of {} cases adopted. Commit {} and {}. From then on:\n  tripoint validate {} --engines {}\n  "
+      "tripoint gate report",
+      files.size(), cases, o.out, baseline_folder(files.front()), o.out, o.engine));
 }
 
 int adopt(GateAdoptOptions o) {
@@ -221,7 +237,8 @@ int adopt(GateAdoptOptions o) {
   WrittenFiles written;
   const auto files = write_cases(o, measured, engine, written, codes);
   if (files.empty() && codes.empty())
-    throw EngineError(fmt::format("{} ran none of {} cases: there is nothing to gate", engine.name, cases.size()));
+    throw EngineError(
+        fmt::format("{} ran none of {} cases: there is nothing to gate", engine.name, cases.size()));
   if (files.empty()) return first_of(codes);
   codes.insert(accept_written(o, files, engines, engine, written));
   say_what_comes_next(o, files, cases.size());
@@ -233,21 +250,28 @@ int adopt(GateAdoptOptions o) {
 CLI::App* add_gate_adopt(CLI::App& gate, int& exit_code) {
   auto* command = gate.add_subcommand("adopt", adopt_description);
   auto o = std::make_shared<GateAdoptOptions>();
-  command->add_option("CASE", o->what, "case files, folders or ids; none = the profile acceptance")->type_name("CASE|DIR");
+  command->add_option("CASE", o->what, "case files, folders or ids; none = the profile acceptance")
+      ->type_name("CASE|DIR");
   command->add_option("--engine", o->engine, "the engine: the path of an executable, or a name")->required();
   add_sandbox_flag(*command, o->sandbox);
-  command->add_option("--margin", o->adopt.margin, "factor by which an error may grow or shrink before that is red")
+  command
+      ->add_option("--margin", o->adopt.margin,
+                   "factor by which an error may grow or shrink before that is red")
       ->check(CLI::Range(1.0, 100.0))
       ->capture_default_str();
-  command->add_option("--out", o->out, "folder of the written cases; baselines go beside it")->capture_default_str();
+  command->add_option("--out", o->out, "folder of the written cases; baselines go beside it")
+      ->capture_default_str();
   command->add_option("--seeds", o->adopt.seeds, "other seeds, where chance has a hand in a run")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->add_option("--jobs", o->adopt.jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
+  command->add_option("--jobs", o->adopt.jobs, "engine processes at a time")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
   command->add_option("--work", o->adopt.work, "folder of the runs")->capture_default_str();
   command->add_flag("--overwrite", o->overwrite, "write files that are there anew");
-  auto* despite = command->add_option("--despite", o->adopt.despite,
-                                      "adopt also what fails a limit of any engine, with this reason written into the case");
+  auto* despite = command->add_option(
+      "--despite", o->adopt.despite,
+      "adopt also what fails a limit of any engine, with this reason written into the case");
   command->callback([o, despite, &exit_code] {
     o->despite_given = despite->count() > 0;
     exit_code = guarded([&] { return adopt(*o); });

@@ -49,7 +49,8 @@ void add_list(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("list", list_description);
   auto filter = std::make_shared<CaseFilter>();
   auto json = std::make_shared<bool>(false);
-  command->add_option("CASE", filter->what, "only these: case files, folders of them, subjects or ids")->type_name("CASE|DIR");
+  command->add_option("CASE", filter->what, "only these: case files, folders of them, subjects or ids")
+      ->type_name("CASE|DIR");
   command->add_option("--tag", filter->tag, "only cases with this tag");
   command->add_option("--profile", filter->profile, "only cases of this profile")
       ->check(CLI::IsMember({"commit", "nightly", "release", "acceptance"}));

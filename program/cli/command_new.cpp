@@ -19,7 +19,8 @@ namespace tripoint {
 namespace {
 
 constexpr const char* new_description =
-    "Writes a new case file that runs as it is: one steel block in free flight, judged against the exact solution. Change it\n"
+    "Writes a new case file that runs as it is: one steel block in free flight, judged against the exact "
+    "solution. Change it\n"
     "from there; a file that exists is never overwritten.\n"
     "  tripoint new my-case        writes my-case.toml\n"
     "  tripoint run my-case.toml";
@@ -30,19 +31,25 @@ int create(const std::string& name) {
   if (path.extension() != ".toml") path += ".toml";
   const auto stem = path.stem().string();
   if (stem.empty() ||
-      stem.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") != std::string::npos)
-    throw InputError(fmt::format("`{}` is no name for a case: use letters, digits, or any of _ - .", printable(stem)));
+      stem.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") !=
+          std::string::npos)
+    throw InputError(
+        fmt::format("`{}` is no name for a case: use letters, digits, or any of _ - .", printable(stem)));
   std::error_code error;
   const auto folder = fs::absolute(path, error).parent_path();
-  if (!fs::is_directory(folder, error)) throw InputError({path.string(), 0, 0}, "its folder does not exist: make it first");
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);  // in one act: no other file can slip in
+  if (!fs::is_directory(folder, error))
+    throw InputError({path.string(), 0, 0}, "its folder does not exist: make it first");
+  // In one act: no other file can slip in
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
   if (file < 0)
-    throw InputError({path.string(), 0, 0}, errno == EEXIST
-                                                ? std::string("exists already, and is left as it is: choose another name")
-                                                : fmt::format("cannot be written: {}", std::strerror(errno)));
+    throw InputError({path.string(), 0, 0},
+                     errno == EEXIST
+                         ? std::string("exists already, and is left as it is: choose another name")
+                         : fmt::format("cannot be written: {}", std::strerror(errno)));
   const auto text = new_case_text("my/" + stem);
   const bool whole = ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  if (::close(file) != 0 || !whole) throw InputError({path.string(), 0, 0}, "could not be written whole: is the disk full?");
+  if (::close(file) != 0 || !whole)
+    throw InputError({path.string(), 0, 0}, "could not be written whole: is the disk full?");
   print_line(fmt::format("wrote {}", path.string()));
   say(fmt::format("next: tripoint explain {0}; tripoint run {0}", path.string()));
   return 0;

@@ -26,28 +26,37 @@ namespace tripoint {
 namespace {
 
 constexpr const char* predict_description =
-    "Predicts what a step of a case costs on many ranks of the engine tripoint-mpi: time, efficiency, memory. Three short runs "
+    "Predicts what a step of a case costs on many ranks of the engine tripoint-mpi: time, efficiency, "
+    "memory. Three short runs "
     "on one rank give\n"
-    "the cost of a particle and a pair, a probe of MPI between two ranks gives latency and bandwidth, and the particles are "
+    "the cost of a particle and a pair, a probe of MPI between two ranks gives latency and bandwidth, and "
+    "the particles are "
     "shared out as the\n"
     "engine would do it. Every table says what is prediction; --measure runs it beside.\n"
     "  tripoint predict heat/cosine-mode --ranks 2,4,64\n"
     "  tripoint predict fluid/dam-break-small --ranks 1024,10240 --particles 1e8,1e9 --machine cluster.toml\n"
-    "  tripoint predict heat/cosine-mode --ranks 1,2 --measure 1,2 --set scene.spacing='0.125 mm'   beside what this machine "
+    "  tripoint predict heat/cosine-mode --ranks 1,2 --measure 1,2 --set scene.spacing='0.125 mm'   beside "
+    "what this machine "
     "takes\n"
-    "  tripoint predict speed/liquid-heat --measure 1,2 --weak-set 'body.cube.shape.max=[0.34,0.34,0.68]'    as many particles a "
+    "  tripoint predict speed/liquid-heat --measure 1,2 --weak-set 'body.cube.shape.max=[0.34,0.34,0.68]'    "
+    "as many particles a "
     "rank\n"
-    "  tripoint predict heat/cosine-mode --ranks 1,2,4,8 --kit > kit.sh                one file for a cluster: sbatch kit.sh\n"
-    "  tripoint predict --compare FILE.json                                            what the kit has brought back\n"
-    "A machine file (TOML) has name, cores_a_node, latency (s), bandwidth (bytes/s); where they differ, allreduce (s), pack_rate "
+    "  tripoint predict heat/cosine-mode --ranks 1,2,4,8 --kit > kit.sh                one file for a "
+    "cluster: sbatch kit.sh\n"
+    "  tripoint predict --compare FILE.json                                            what the kit has "
+    "brought back\n"
+    "A machine file (TOML) has name, cores_a_node, latency (s), bandwidth (bytes/s); where they differ, "
+    "allreduce (s), pack_rate "
     "(bytes/s),\n"
-    "core_speed (of its cores over these), speed_at_once (of a core where all have work, over one alone), waiting (share of the "
+    "core_speed (of its cores over these), speed_at_once (of a core where all have work, over one alone), "
+    "waiting (share of the "
     "work, 0.05).\n"
     "Exit: 0 done, 2 bad input, 4 the engine is missing or cannot run the case over ranks.";
 
 /// Particles times ranks up to which shares are counted one by one; beyond, they are scaled by volume.
 constexpr double most_counted = 1e9;
-constexpr double slow_latency = 1e-4;  ///< [s] of a message between two processes of one machine: fifty times that of a quiet one
+/// [s] of a message between two processes of one machine: fifty times that of a quiet one
+constexpr double slow_latency = 1e-4;
 constexpr int most_repeats_by_default = 40;  ///< where other work slows the cores, times settle late
 constexpr int most_ranks = 1000000, most_measured = 1024;
 
@@ -76,7 +85,8 @@ int compare(const PredictOptions& o) {
 
 void check(const std::vector<int>& list, const char* option, int most) {
   for (const int n : list)
-    if (n < 1 || n > most) throw InputError(fmt::format("{} {}: write whole numbers from 1 to {}", option, n, most));
+    if (n < 1 || n > most)
+      throw InputError(fmt::format("{} {}: write whole numbers from 1 to {}", option, n, most));
 }
 
 predict::Shares shares_of(const predict::Cloud& cloud, int ranks, double particles, bool& counted) {
@@ -92,12 +102,13 @@ double speed_where_all_work(const PredictionReport& r, int ranks) {
   return found == r.speed_at_once.begin() ? 1.0 : std::prev(found)->second;
 }
 
-PredictedLine line_of(const PredictionReport& r, const predict::Cloud& cloud, const predict::Share& whole, int ranks,
-                      double particles) {
+PredictedLine line_of(const PredictionReport& r, const predict::Cloud& cloud, const predict::Share& whole,
+                      int ranks, double particles) {
   PredictedLine line;
   bool counted = false;
   const predict::Shares shares = shares_of(cloud, ranks, particles, counted);
-  line.prediction = predict::predict(shares, whole, r.cost, r.memory, r.traffic, r.machine, speed_where_all_work(r, ranks));
+  line.prediction =
+      predict::predict(shares, whole, r.cost, r.memory, r.traffic, r.machine, speed_where_all_work(r, ranks));
   line.prediction.particles = particles;  // shares by volume add up to it but for rounding
   line.prediction.counted = counted;
   line.grid = shares.grid;
@@ -135,7 +146,8 @@ void add_lines(PredictionReport& r, const PredictOptions& o, const RunsInTurns& 
     const auto particles = static_cast<double>(larger.initial.size());
     r.lines.push_back(line_of(r, larger.cloud, whole_of(larger.cloud, particles), ranks, particles));
     r.lines.back().weak = true;
-    if (const auto found = runs.weak.find(ranks); found != runs.weak.end()) r.lines.back().measured = found->second;
+    if (const auto found = runs.weak.find(ranks); found != runs.weak.end())
+      r.lines.back().measured = found->second;
   }
   const auto on_one = [&](double seconds, const PredictedLine& line) {
     return seconds / sampled * line.prediction.particles / line.prediction.ranks;
@@ -143,9 +155,11 @@ void add_lines(PredictionReport& r, const PredictOptions& o, const RunsInTurns& 
   for (PredictedLine& line : r.lines) {
     if (!line.measured) continue;
     line.measured_efficiency = on_one(runs.alone().best.wall(), line) / line.measured->best.wall();
-    if (const auto found = runs.at_once.find(std::min(line.prediction.ranks, r.cores)); found != runs.at_once.end())
+    if (const auto found = runs.at_once.find(std::min(line.prediction.ranks, r.cores));
+        found != runs.at_once.end())
       line.measured_at_once = std::min(1.0, runs.alone().best.wall() / found->second.best.wall());
-    line.undisturbed_efficiency = on_one(runs.alone().best.undisturbed(), line) / line.measured->best.undisturbed();
+    line.undisturbed_efficiency =
+        on_one(runs.alone().best.undisturbed(), line) / line.measured->best.undisturbed();
   }
 }
 
@@ -183,8 +197,9 @@ int predict_case(PredictOptions o) {
   for (std::size_t k = 0; k < runs.one_rank.size(); ++k) {
     const Prepared& p = runs.one_rank[k];
     const Timed& t = runs.one_rank_timed[k];
-    r.runs.push_back({static_cast<double>(p.initial.size()), whole_of(p.cloud, static_cast<double>(p.initial.size())).worked,
-                      t.best.cpu(), t.bytes});
+    r.runs.push_back({static_cast<double>(p.initial.size()),
+                      whole_of(p.cloud, static_cast<double>(p.initial.size())).worked, t.best.cpu(),
+                      t.bytes});
     r.labels.push_back(p.label);
   }
   r.cost = predict::fit_work(r.runs);
@@ -196,7 +211,8 @@ int predict_case(PredictOptions o) {
   if (o.machine.empty()) r.machine = engine.probe();
   if (o.machine.empty() && r.machine.latency > slow_latency)
     r.notes.push_back(
-        fmt::format("the probe found {:.3g} us for a message: other programs hold the cores, so that what is said of messages is "
+        fmt::format("the probe found {:.3g} us for a message: other programs hold the cores, so that what is "
+                    "said of messages is "
                     "far too slow; probe a quiet machine, or give --machine",
                     1e6 * r.machine.latency));
   add_lines(r, o, runs);
@@ -217,10 +233,13 @@ int predict_for(PredictOptions o) {
   check(o.ranks, "--ranks", most_ranks);
   check(o.measure, "--measure", most_measured);
   for (const double n : o.particles)
-    if (!(n >= 1.0 && n <= 1e15)) throw InputError(fmt::format("--particles {:g}: write numbers from 1 to 1e15", n));
+    if (!(n >= 1.0 && n <= 1e15))
+      throw InputError(fmt::format("--particles {:g}: write numbers from 1 to 1e15", n));
   if (!o.kit) return predict_case(std::move(o));
-  static_cast<void>(read_case(shown_path(case_file(o.what)), o.set));  // a kit that cannot run is found out here
-  if (!o.larger.empty()) throw InputError("--weak-set: a kit makes its larger scenes finer; leave one of the two out");
+  // a kit that cannot run is found out here
+  static_cast<void>(read_case(shown_path(case_file(o.what)), o.set));
+  if (!o.larger.empty())
+    throw InputError("--weak-set: a kit makes its larger scenes finer; leave one of the two out");
   check(o.ranks, "--ranks", most_measured);
   std::sort(o.ranks.begin(), o.ranks.end());
   print(predict::kit_script(o.what, o.set, o.ranks));
@@ -233,31 +252,41 @@ void add_predict(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("predict", predict_description);
   auto o = std::make_shared<PredictOptions>();
   command->add_option("CASE", o->what, "a case file or id");
-  command->add_option("--ranks", o->ranks, "numbers of ranks to predict, N[,N...]")->delimiter(',')->allow_extra_args(false);
-  command->add_option("--particles", o->particles, "numbers of particles in the place of the case's own, by its shape: 1e7,1e9")
+  command->add_option("--ranks", o->ranks, "numbers of ranks to predict, N[,N...]")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--machine", o->machine, "a machine file (TOML) in the place of the probe")->type_name("FILE");
+  command
+      ->add_option("--particles", o->particles,
+                   "numbers of particles in the place of the case's own, by its shape: 1e7,1e9")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--machine", o->machine, "a machine file (TOML) in the place of the probe")
+      ->type_name("FILE");
   command->add_option("--measure", o->measure, "numbers of ranks to run here too, beside the prediction")
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_flag("--weak", o->weak, "also P times the particles on P ranks, by a finer spacing");
   command
-      ->add_option("--weak-set", o->larger,
-                   "a.b=VALUE makes the scene of --weak larger, in the place of a finer spacing; may be repeated")
+      ->add_option(
+          "--weak-set", o->larger,
+          "a.b=VALUE makes the scene of --weak larger, in the place of a finer spacing; may be repeated")
       ->take_all()
       ->allow_extra_args(false);
   command
       ->add_option("--repeats", o->repeats,
-                   "of each run at least, in turns; of each part of a step, between calls of all ranks, the best counts")
+                   "of each run at least, in turns; of each part of a step, between calls of all ranks, the "
+                   "best counts")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command
-      ->add_option("--most-repeats", o->most_repeats,
-                   "of each run at most: repeats end when three in a row lower no best time by over half a per cent")
+      ->add_option(
+          "--most-repeats", o->most_repeats,
+          "of each run at most: repeats end when three in a row lower no best time by over half a per cent")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->add_option("--patience", o->patience, "seconds to wait in all for cores that are slow before a run; 0: none")
+  command
+      ->add_option("--patience", o->patience,
+                   "seconds to wait in all for cores that are slow before a run; 0: none")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->add_option("--seconds", o->seconds, "of each run on one rank, about")
@@ -267,7 +296,8 @@ void add_predict(CLI::App& app, int& exit_code) {
       ->take_all()
       ->allow_extra_args(false);
   command->add_option("--out", o->out, "folder of the runs (default: report-predict/CASE)");
-  command->add_flag("--kit", o->kit, "runs nothing: prints one shell file that measures the case on a cluster");
+  command->add_flag("--kit", o->kit,
+                    "runs nothing: prints one shell file that measures the case on a cluster");
   command->add_option("--compare", o->compare, "runs nothing: prints this result, measured beside predicted")
       ->type_name("RESULT");
   command->add_flag("--quiet", o->quiet, "no progress on stderr");

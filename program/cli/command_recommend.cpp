@@ -24,22 +24,27 @@ namespace tripoint {
 namespace {
 
 constexpr const char* recommend_description =
-    "Measures what accuracy costs along the studies of a case, on every engine, and says which settings are cheapest for a wish; "
+    "Measures what accuracy costs along the studies of a case, on every engine, and says which settings are "
+    "cheapest for a wish; "
     "then makes that\n"
-    "run and says how well error and cost were predicted. Error is |value| + 2 u of the metric, in its own scaled unit.\n"
+    "run and says how well error and cost were predicted. Error is |value| + 2 u of the metric, in its own "
+    "scaled unit.\n"
     "  tripoint recommend heat/cosine-mode --error 1%\n"
     "  tripoint recommend rigid/torque-free --error 1e-5 --engines tripoint\n"
-    "  tripoint recommend fluid/sound-wave --seconds 5 --from report/results.json   the front of runs that were made before\n"
+    "  tripoint recommend fluid/sound-wave --seconds 5 --from report/results.json   the front of runs that "
+    "were made before\n"
     "Exit: 0 the run met the wish, 1 it did not, 3 no settings within twice of what was measured promise it.";
 
-/// How much finer than the finest measured level a plan still names a level. An order from two or three coarse levels may be off
-/// by 0.3. Over this factor that makes the error wrong by 2.
+/// How much finer than the finest measured level a plan still names a level. An order from two or three
+/// coarse levels may be off by 0.3. Over this factor that makes the error wrong by 2.
 constexpr double farthest = 16.0;
 
 constexpr const char* plan_description =
-    "Says beforehand how fine the levels, how many walkers and how many CPU seconds a wished error takes, with the interval that "
+    "Says beforehand how fine the levels, how many walkers and how many CPU seconds a wished error takes, "
+    "with the interval that "
     "the measured\n"
-    "levels leave. Only the two or three coarsest levels of each study are run; nothing is with --from. A level more than 16 "
+    "levels leave. Only the two or three coarsest levels of each study are run; nothing is with --from. A "
+    "level more than 16 "
     "times finer than\n"
     "what was measured is not offered.\n"
     "  tripoint plan heat/cosine-mode --error 1%\n"
@@ -77,9 +82,11 @@ Case case_of(const RecommendOptions& o) {
     study.metric = o.metric;
     value.studies = {study};
   }
-  if (!o.axis.empty()) std::erase_if(value.studies, [&](const Study& s) { return to_string(s.axes.axis) != o.axis; });
+  if (!o.axis.empty())
+    std::erase_if(value.studies, [&](const Study& s) { return to_string(s.axes.axis) != o.axis; });
   if (value.studies.empty())
-    throw InputError(o.what + ": has no study to read a front from: name --axis and --levels a,b,c, coarse to fine");
+    throw InputError(o.what +
+                     ": has no study to read a front from: name --axis and --levels a,b,c, coarse to fine");
   return value;
 }
 
@@ -91,7 +98,8 @@ std::string metric_of(const RecommendOptions& o, const Case& value) {
   return value.metrics.front().name;
 }
 
-CaseResult measure(const RecommendOptions& o, const Case& value, const std::function<bool(const RunPlan&)>& wanted) {
+CaseResult measure(const RecommendOptions& o, const Case& value,
+                   const std::function<bool(const RunPlan&)>& wanted) {
   const auto words = sort_engine_words(split(o.engines));
   if (o.sandbox) sandbox_third_parties(o.out);
   SuiteOptions options;
@@ -101,7 +109,9 @@ CaseResult measure(const RecommendOptions& o, const Case& value, const std::func
   options.jobs = o.jobs;
   options.threads = o.threads;
   options.say = [](const std::string& line) { say(line); };
-  options.wanted = [&](const EnginePlan& engine, const RunPlan& run) { return !is_exact(engine.name) && wanted(run); };
+  options.wanted = [&](const EnginePlan& engine, const RunPlan& run) {
+    return !is_exact(engine.name) && wanted(run);
+  };
   const auto engines = discover_engines(words.paths);
   for (const auto& name : options.selection.engines)
     if (!find_engine(engines, name)) throw EngineError(no_such_engine(name, engines));
@@ -130,12 +140,12 @@ bool is_coarse(const Case& value, const RunPlan& run, std::size_t count) {
 std::string name_of(const Ladder& l) { return label_of(l.engine, l.preset) + after_blank(l.mode); }
 
 void print_ladders(const std::vector<Ladder>& ladders, const std::string& metric) {
-  print(fmt::format("measured front of {}\n  {:28} {:14} {:>12} {:>12} {:>10} {:>12}\n", metric, "engine", "axis", "level",
-                    "error", "CPU s", "pairs"));
+  print(fmt::format("measured front of {}\n  {:28} {:14} {:>12} {:>12} {:>10} {:>12}\n", metric, "engine",
+                    "axis", "level", "error", "CPU s", "pairs"));
   for (const auto& l : ladders)
     for (const auto& p : l.points)
-      print_line(fmt::format("  {:28} {:14} {:12.5g} {:12.4g} {:10.3g} {:12.4g}", name_of(l), l.axis, p.level, p.error, p.cpu_s,
-                             p.pairs));
+      print_line(fmt::format("  {:28} {:14} {:12.5g} {:12.4g} {:10.3g} {:12.4g}", name_of(l), l.axis, p.level,
+                             p.error, p.cpu_s, p.pairs));
 }
 
 double factor_between(double a, double b) {
@@ -143,7 +153,8 @@ double factor_between(double a, double b) {
 }
 
 /// The recommended run itself.
-LadderPoint make_recommended(const RecommendOptions& o, Case value, const Recommendation& r, const std::string& metric) {
+LadderPoint make_recommended(const RecommendOptions& o, Case value, const Recommendation& r,
+                             const std::string& metric) {
   Study only;
   only.axes.axis = r.ladder->axis;
   only.levels = {r.level};
@@ -167,54 +178,64 @@ LadderPoint make_recommended(const RecommendOptions& o, Case value, const Recomm
   for (const auto& engine : result.engines)
     for (const auto& run : engine.runs) {
       const auto v = measured(run, metric);
-      if (run.status != Status::ok) throw EngineError(fmt::format("the recommended run is {}: {}", run.status, run.reason));
+      if (run.status != Status::ok)
+        throw EngineError(fmt::format("the recommended run is {}: {}", run.status, run.reason));
       if (engine.preset == r.ladder->preset && v)
-        return {r.level, 0.0, std::abs(v->value) + 2.0 * v->uncertainty.combined(), run.cost.cpu_s, run.cost.pairs};
+        return {r.level, 0.0, std::abs(v->value) + 2.0 * v->uncertainty.combined(), run.cost.cpu_s,
+                run.cost.pairs};
     }
   throw EngineError("the recommended run gave no value of " + metric);
 }
 
 int recommend(RecommendOptions o) {
   catch_interrupts();
-  if (o.error.empty() == !(o.seconds > 0.0)) throw InputError("recommend: give --error X or --seconds Y, one of them");
+  if (o.error.empty() == !(o.seconds > 0.0))
+    throw InputError("recommend: give --error X or --seconds Y, one of them");
   const auto value = case_of(o);
   if (o.out.empty()) o.out = own_folder("recommend", value.id);
   const auto lock = hold_folder(o.out);
   const auto metric = metric_of(o, value);
-  const auto result = o.from.empty() ? measure(o, value, [](const RunPlan& run) { return !run.levels.empty() || run.base; })
-                                     : read_case_of(o.from, value.id);
+  const auto result =
+      o.from.empty() ? measure(o, value, [](const RunPlan& run) { return !run.levels.empty() || run.base; })
+                     : read_case_of(o.from, value.id);
   const auto ladders = ladders_of(result, metric);
   if (!o.json) print_ladders(ladders, metric);
   const double wish = o.error.empty() ? 0.0 : wish_of(o.error);
-  const auto r = o.error.empty() ? best_within(value.scene, ladders, o.seconds) : cheapest_for_error(value.scene, ladders, wish);
+  const auto r = o.error.empty() ? best_within(value.scene, ladders, o.seconds)
+                                 : cheapest_for_error(value.scene, ladders, wish);
   if (!r) {
     print(o.json ? std::string("{\"found\": false}\n")
                  : std::string("no settings within twice of what was measured promise it\n"));
     return exit_inconclusive;
   }
   if (!o.json)
-    print(fmt::format(
-        "recommended: {}, {} = {:.6g}\n  predicted error {:.4g} (within a factor {:.2f}), {:.3g} CPU s (within {:.2f})\n",
-        name_of(*r->ladder), r->ladder->axis, r->level, r->error.value, r->error.factor, r->cpu_s.value, r->cpu_s.factor));
+    print(
+        fmt::format("recommended: {}, {} = {:.6g}\n  predicted error {:.4g} (within a factor {:.2f}), {:.3g} "
+                    "CPU s (within {:.2f})\n",
+                    name_of(*r->ladder), r->ladder->axis, r->level, r->error.value, r->error.factor,
+                    r->cpu_s.value, r->cpu_s.factor));
   const auto made = make_recommended(o, value, *r, metric);
   const bool met = o.error.empty() ? made.cpu_s <= o.seconds : made.error <= wish;
-  const double error_factor = factor_between(r->error.value, made.error), cpu_factor = factor_between(r->cpu_s.value, made.cpu_s);
+  const double error_factor = factor_between(r->error.value, made.error),
+               cpu_factor = factor_between(r->cpu_s.value, made.cpu_s);
   if (o.json)
-    print(json_text(nlohmann::ordered_json{{"found", true},
-                                           {"case", value.id},
-                                           {"metric", metric},
-                                           {"engine", r->ladder->engine},
-                                           {"preset", r->ladder->preset},
-                                           {"mode", r->ladder->mode},
-                                           {"axis", r->ladder->axis},
-                                           {"level", r->level},
-                                           {"predicted", {{"error", r->error.value}, {"cpu_s", r->cpu_s.value}}},
-                                           {"measured", {{"error", made.error}, {"cpu_s", made.cpu_s}}},
-                                           {"met", met}},
-                    2));
+    print(json_text(
+        nlohmann::ordered_json{{"found", true},
+                               {"case", value.id},
+                               {"metric", metric},
+                               {"engine", r->ladder->engine},
+                               {"preset", r->ladder->preset},
+                               {"mode", r->ladder->mode},
+                               {"axis", r->ladder->axis},
+                               {"level", r->level},
+                               {"predicted", {{"error", r->error.value}, {"cpu_s", r->cpu_s.value}}},
+                               {"measured", {{"error", made.error}, {"cpu_s", made.cpu_s}}},
+                               {"met", met}},
+        2));
   else
-    print(fmt::format("the run: error {:.4g} (predicted to a factor {:.2f}), {:.3g} CPU s (to {:.2f}): {}\n", made.error,
-                      error_factor, made.cpu_s, cpu_factor, met ? "meets the wish" : "DOES NOT meet the wish"));
+    print(fmt::format("the run: error {:.4g} (predicted to a factor {:.2f}), {:.3g} CPU s (to {:.2f}): {}\n",
+                      made.error, error_factor, made.cpu_s, cpu_factor,
+                      met ? "meets the wish" : "DOES NOT meet the wish"));
   return met ? exit_pass : exit_fail;
 }
 
@@ -226,40 +247,44 @@ int plan_for(RecommendOptions o) {
   const double wish = wish_of(o.error);
   if (o.out.empty()) o.out = own_folder("plan", value.id);
   const auto lock = hold_folder(o.out);
-  const auto result = o.from.empty() ? measure(o, value, [&](const RunPlan& run) { return is_coarse(value, run, 3); })
-                                     : read_case_of(o.from, value.id);
+  const auto result = o.from.empty()
+                          ? measure(o, value, [&](const RunPlan& run) { return is_coarse(value, run, 3); })
+                          : read_case_of(o.from, value.id);
   const auto ladders = ladders_of(result, metric);
   print_ladders(ladders, metric);
-  print(fmt::format("to bring {} within {:.3g}:\n  {:28} {:14} {:>12} {:>24} {:>24}\n", metric, wish, "engine", "axis", "level",
-                    "CPU s (from..to)", "error (from..to)"));
+  print(fmt::format("to bring {} within {:.3g}:\n  {:28} {:14} {:>12} {:>24} {:>24}\n", metric, wish,
+                    "engine", "axis", "level", "CPU s (from..to)", "error (from..to)"));
   bool any = false;
   for (const auto& l : ladders) {
     const auto& fine = l.points.back();
-    const double slope =
-        std::log(l.points[l.points.size() - 2].error / fine.error) / std::log(l.points[l.points.size() - 2].step / fine.step);
+    const double slope = std::log(l.points[l.points.size() - 2].error / fine.error) /
+                         std::log(l.points[l.points.size() - 2].step / fine.step);
     double step = 0.0;
     for (const auto& p : l.points)
       if (p.error <= wish && step == 0.0) step = p.step;
     if (step == 0.0 && slope > 0.05) step = fine.step * std::pow(wish / fine.error, 1.0 / slope);
     if (step == 0.0) {
       print_line(
-          fmt::format("  {:28} {:14} {:>12}  its error falls with no power of the level (slope {:.2f}): no level brings it there",
+          fmt::format("  {:28} {:14} {:>12}  its error falls with no power of the level (slope {:.2f}): no "
+                      "level brings it there",
                       name_of(l), l.axis, "-", slope));
       continue;
     }
     const bool upward = refines_upward(l.axis);
     if (fine.step > farthest * step) {
       print_line(
-          fmt::format("  {:28} {:14} {:>12}  out of reach: its error falls as the level to the {:.2g}, which would take {:.2g}, "
+          fmt::format("  {:28} {:14} {:>12}  out of reach: its error falls as the level to the {:.2g}, which "
+                      "would take {:.2g}, "
                       "{:.2g} times beyond what was measured",
                       name_of(l), l.axis, "-", slope, upward ? 1.0 / step : step, fine.step / step));
       continue;
     }
     any = true;
     const auto e = predicted_error(l, step), c = predicted_cpu(l, step);
-    print_line(fmt::format("  {:28} {:14} {:12.5g} {:>24} {:>24}", name_of(l), l.axis, upward ? 1.0 / step : step,
-                           fmt::format("{:.3g} ({:.3g}..{:.3g})", c.value, c.value / c.factor, c.value * c.factor),
-                           fmt::format("{:.3g} ({:.3g}..{:.3g})", e.value, e.value / e.factor, e.value * e.factor)));
+    print_line(
+        fmt::format("  {:28} {:14} {:12.5g} {:>24} {:>24}", name_of(l), l.axis, upward ? 1.0 / step : step,
+                    fmt::format("{:.3g} ({:.3g}..{:.3g})", c.value, c.value / c.factor, c.value * c.factor),
+                    fmt::format("{:.3g} ({:.3g}..{:.3g})", e.value, e.value / e.factor, e.value * e.factor)));
   }
   return any ? exit_pass : exit_inconclusive;
 }
@@ -270,12 +295,15 @@ void add_common(CLI::App& command, RecommendOptions& o, const std::string& name)
   command.add_option("--engines", o.engines, "only these engines, A,B");
   add_sandbox_flag(command, o.sandbox);
   command.add_option("--axis", o.axis, "only this axis")->check(CLI::IsMember(axis_words()));
-  command.add_option("--levels", o.levels, "levels of the front in the place of the studies', coarse to fine")
+  command
+      .add_option("--levels", o.levels, "levels of the front in the place of the studies', coarse to fine")
       ->delimiter(',')
       ->allow_extra_args(false);
   command.add_option("--from", o.from, "take the front from this results.json; run nothing for it");
   command.add_option("--out", o.out, "folder of the runs (default: report-" + name + "/CASE)");
-  command.add_option("--jobs", o.jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
+  command.add_option("--jobs", o.jobs, "engine processes at a time")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
 }
 
 void add_error_option(CLI::App& command, RecommendOptions& o) {

@@ -23,15 +23,19 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* releases_description =
-    "Can I upgrade? Runs a case on several releases of an engine, each in its own environment, and prints error and observed "
+    "Can I upgrade? Runs a case on several releases of an engine, each in its own environment, and prints "
+    "error and observed "
     "order by release.\n"
     "  tripoint releases mujoco --versions 2.3.7,3.3.7,3.7.0,3.10.0,3.17.0,4.0.0 rigid/torque-free\n"
     "  tripoint releases my-engine --versions ./old/engine-mine,./new/engine-mine rigid/ballistic\n"
-    "A version is one that `tripoint engine install NAME@VERSION` knows, or the path of an executable; oldest first. Without "
+    "A version is one that `tripoint engine install NAME@VERSION` knows, or the path of an executable; "
+    "oldest first. Without "
     "--versions all\n"
-    "pinned ones are taken. What is not installed is installed, after --yes. OUT holds releases.json, releases.md and "
+    "pinned ones are taken. What is not installed is installed, after --yes. OUT holds releases.json, "
+    "releases.md and "
     "index.html.\n"
-    "Exit 0: the last release is not worse than the first beyond the margin; 1: it is; 2: bad input; 4: a release cannot be "
+    "Exit 0: the last release is not worse than the first beyond the margin; 1: it is; 2: bad input; 4: a "
+    "release cannot be "
     "installed or run.";
 
 constexpr double install_limit = 3600.0;  // [s]
@@ -98,7 +102,8 @@ Release run_release(const ReleasesOptions& o, const Case& value, const EngineEnt
   options.out = (fs::path(o.out) / (engine.name + "-" + engine.version)).string();
   options.jobs = o.jobs;
   options.say = [](const std::string& line) { say(line); };
-  const auto results = run_suite({case_for_releases(value, engine, split(o.presets), o.levels)}, {engine}, options);
+  const auto results =
+      run_suite({case_for_releases(value, engine, split(o.presets), o.levels)}, {engine}, options);
   if (results.cases.empty()) throw EngineError("stopped");
   return {engine, results.cases.front()};
 }
@@ -117,14 +122,16 @@ int releases(const ReleasesOptions& o) {
   catch_interrupts();
   const auto lock = hold_folder(o.out);
   ReleaseTable table{value.id, value.title, command_line(), o.margin, {}};
-  for (const auto& version : versions_of(o)) table.releases.push_back(run_release(o, value, release_of(o, version)));
+  for (const auto& version : versions_of(o))
+    table.releases.push_back(run_release(o, value, release_of(o, version)));
   write_durably((fs::path(o.out) / "releases.json").string(), releases_text(table));
   write_durably((fs::path(o.out) / "releases.md").string(), releases_markdown(table));
   write_page(o.out);
   print(releases_markdown(table));
   for (const auto& r : table.releases)
     for (const auto& e : r.result.engines)
-      if (e.status != Status::ok) say(fmt::format("{} {} ({}) {}: {}", e.name, r.engine.version, e.preset, e.status, e.reason));
+      if (e.status != Status::ok)
+        say(fmt::format("{} {} ({}) {}: {}", e.name, r.engine.version, e.preset, e.status, e.reason));
   return is_worse(table) ? exit_fail : exit_pass;
 }
 
@@ -138,16 +145,18 @@ void add_releases(CLI::App& app, int& exit_code) {
   command->add_option("--versions", o->versions, "A,B,C: versions or paths of executables, oldest first");
   command->add_option("--presets", o->presets, "A,B (default: those of the case, else all of the engine)");
   command
-      ->add_option(
-          "--levels", o->levels,
-          "time steps a,b,c, coarse to fine [s] (default: the case's study of the engine, else 2, 1, 1/2, 1/4 of its own step)")
+      ->add_option("--levels", o->levels,
+                   "time steps a,b,c, coarse to fine [s] (default: the case's study of the engine, else 2, "
+                   "1, 1/2, 1/4 of its own step)")
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_option("--margin", o->margin, "an error may differ by this factor before it counts as changed")
       ->check(CLI::Range(1.0, 1e6))
       ->capture_default_str();
   command->add_option("--out", o->out, "folder of the table and the runs")->capture_default_str();
-  command->add_option("--jobs", o->jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
+  command->add_option("--jobs", o->jobs, "engine processes at a time")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
   command->add_flag("--yes", o->yes, "install what is not installed");
   command->callback([o, &exit_code] { exit_code = guarded([&] { return releases(*o); }); });
 }

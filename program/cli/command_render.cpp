@@ -25,17 +25,24 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* render_description =
-    "Draws frames of a run that has ended: the surface of each body and liquid, equations (22) to (26) of the paper, "
+    "Draws frames of a run that has ended: the surface of each body and liquid, equations (22) to (26) of "
+    "the paper, "
     "ray-traced.\n"
-    "  tripoint render runs/paper/fig-12/tripoint                   six frames, a contact sheet, and a film where ffmpeg is "
+    "  tripoint render runs/paper/fig-12/tripoint                   six frames, a contact sheet, and a film "
+    "where ffmpeg is "
     "installed\n"
-    "  tripoint render paper/fig-12 --frames -1 --colour temperature the last frame of the run that tripoint run left in runs/\n"
+    "  tripoint render paper/fig-12 --frames -1 --colour temperature the last frame of the run that tripoint "
+    "run left in runs/\n"
     "  tripoint render paper/fig-12 --frames 0:-1:1 --particles     every frame, as balls: a quick look\n"
-    "  tripoint render paper/fig-12 --frames 5 --mesh shell.ply     also the closed mesh, with temperature, phase and body\n"
-    "  tripoint render paper/fig-12 --zb05                          without the factor f of (25): what it repairs is seen\n"
-    "Up is against gravity. Fixed bodies are walls: what of them stands before the rest is cut away (--walls). A run in a "
+    "  tripoint render paper/fig-12 --frames 5 --mesh shell.ply     also the closed mesh, with temperature, "
+    "phase and body\n"
+    "  tripoint render paper/fig-12 --zb05                          without the factor f of (25): what it "
+    "repairs is seen\n"
+    "Up is against gravity. Fixed bodies are walls: what of them stands before the rest is cut away "
+    "(--walls). A run in a "
     "periodic box is\n"
-    "drawn as it lies in the box. docs/surface.md says what is drawn, how near it is to the truth, and what it costs.\n"
+    "drawn as it lies in the box. docs/surface.md says what is drawn, how near it is to the truth, and what "
+    "it costs.\n"
     "OUT then holds frame-NNNN.png, sheet.png and film.mp4. stdout says the files, one a line.";
 
 constexpr int sheet_width = 320;   // of one frame on the contact sheet [pixels]
@@ -54,7 +61,8 @@ std::vector<std::size_t> frames_of(const RenderOptions& o, std::size_t count) {
   const auto row = [&](int n, const char* option) {
     const int at = n < 0 ? n + static_cast<int>(count) : n;
     if (at < 0 || at >= static_cast<int>(count))
-      throw InputError(fmt::format("{} {}: the run has frames 0 to {}; -1 is the last", option, n, count - 1));
+      throw InputError(
+          fmt::format("{} {}: the run has frames 0 to {}; -1 is the last", option, n, count - 1));
     return static_cast<std::size_t>(at);
   };
   if (o.frame) return {row(*o.frame, "--frame")};
@@ -74,13 +82,16 @@ std::vector<std::size_t> frames_of(const RenderOptions& o, std::size_t count) {
     if (*end != '\0') break;
   }
   if (numbers.size() == 1 && words.size() == 1) return {row(numbers[0], "--frames")};
-  if (numbers.size() < 2 || numbers.size() > 3 || words.size() != numbers.size() || (numbers.size() == 3 && numbers[2] < 1))
-    throw InputError(fmt::format("--frames {}: write N, FIRST:LAST or FIRST:LAST:STEP, for example 0:-1:5", o.frames));
+  if (numbers.size() < 2 || numbers.size() > 3 || words.size() != numbers.size() ||
+      (numbers.size() == 3 && numbers[2] < 1))
+    throw InputError(
+        fmt::format("--frames {}: write N, FIRST:LAST or FIRST:LAST:STEP, for example 0:-1:5", o.frames));
   const std::size_t last = row(numbers[1], "--frames");
   for (std::size_t n = row(numbers[0], "--frames"); n <= last;
        n += static_cast<std::size_t>(numbers.size() == 3 ? numbers[2] : 1))
     chosen.push_back(n);
-  if (chosen.empty()) throw InputError(fmt::format("--frames {}: the first frame lies behind the last", o.frames));
+  if (chosen.empty())
+    throw InputError(fmt::format("--frames {}: the first frame lies behind the last", o.frames));
   return chosen;
 }
 
@@ -157,7 +168,8 @@ void make_film(const fs::path& out, const std::vector<std::size_t>& frames, doub
     return;
   }
   std::ofstream list(out / "film.txt");
-  for (const std::size_t n : frames) list << "file '" << frame_name(n) << "'\nduration " << 1.0 / rate << "\n";
+  for (const std::size_t n : frames)
+    list << "file '" << frame_name(n) << "'\nduration " << 1.0 / rate << "\n";
   list.close();
   ProcessSpec spec;
   spec.argv = {program,    "-y",      "-loglevel", "error", "-f",
@@ -175,12 +187,14 @@ void make_film(const fs::path& out, const std::vector<std::size_t>& frames, doub
 /// FILE.ply, or FILE-0007.ply where several frames are asked for.
 std::string mesh_name(const std::string& file, std::size_t frame, bool several) {
   const fs::path path(file);
-  return several
-             ? (path.parent_path() / fmt::format("{}-{:04}{}", path.stem().string(), frame, path.extension().string())).string()
-             : file;
+  return several ? (path.parent_path() /
+                    fmt::format("{}-{:04}{}", path.stem().string(), frame, path.extension().string()))
+                       .string()
+                 : file;
 }
 
-void write_meshes(const ShownRun& run, std::size_t frame, const Showing& s, const RenderOptions& o, const std::string& file) {
+void write_meshes(const ShownRun& run, std::size_t frame, const Showing& s, const RenderOptions& o,
+                  const std::string& file) {
   const auto parts = meshes_of(run, run.trajectory.frames[frame], s, o.voxel * run.spacing);
   if (fs::path(file).extension() == ".obj")
     write_obj(file, parts);
@@ -189,23 +203,29 @@ void write_meshes(const ShownRun& run, std::size_t frame, const Showing& s, cons
   print_line(file);
   for (const SurfacePart& p : parts) {
     const MeshMeasures m = measures_of(p.mesh);
-    print_line(fmt::format("  {:24} {} triangles, {} {}, volume {:.6g} m3, area {:.6g} m2{}", p.name, p.mesh.triangles.size(),
-                           m.pieces, m.pieces == 1 ? "piece" : "pieces", volume(p.mesh), m.area,
+    print_line(fmt::format("  {:24} {} triangles, {} {}, volume {:.6g} m3, area {:.6g} m2{}", p.name,
+                           p.mesh.triangles.size(), m.pieces, m.pieces == 1 ? "piece" : "pieces",
+                           volume(p.mesh), m.area,
                            m.open_edges > 0 ? fmt::format(", {} edges open", m.open_edges) : ", closed"));
   }
 }
 
 void check_words(const RenderOptions& o) {
-  if (o.frame && !o.frames.empty()) throw InputError("--frame names one frame, --frames several: give one of them");
-  if (o.particles && o.surface) throw InputError("--particles draws balls, --surface surfaces: give one of them");
+  if (o.frame && !o.frames.empty())
+    throw InputError("--frame names one frame, --frames several: give one of them");
+  if (o.particles && o.surface)
+    throw InputError("--particles draws balls, --surface surfaces: give one of them");
   const auto ending = fs::path(o.mesh).extension();
   if (!o.mesh.empty() && ending != ".ply" && ending != ".obj")
-    throw InputError(fmt::format("--mesh {}: a mesh is a .ply file (with temperature, phase and body) or a .obj file", o.mesh));
+    throw InputError(fmt::format(
+        "--mesh {}: a mesh is a .ply file (with temperature, phase and body) or a .obj file", o.mesh));
 }
 
 std::string legend_of(const Showing& s) {
-  if (s.colouring == Colouring::temperature) return fmt::format("colours: {:.4g} K dark to {:.4g} K light", s.cold, s.hot);
-  if (s.colouring == Colouring::phase) return "colours: liquid blue, another liquid light blue, elastic green, rigid orange";
+  if (s.colouring == Colouring::temperature)
+    return fmt::format("colours: {:.4g} K dark to {:.4g} K light", s.cold, s.hot);
+  if (s.colouring == Colouring::phase)
+    return "colours: liquid blue, another liquid light blue, elastic green, rigid orange";
   return "colours: each solid body has its own, liquid is blue";
 }
 
@@ -230,8 +250,9 @@ int render(const RenderOptions& o) {
     if (interrupted()) return exit_interrupted;
   }
   if (frames.size() < 2) return exit_pass;
-  write_png((out / "sheet.png").string(),
-            contact_sheet(small, static_cast<int>(std::ceil(std::sqrt(1.5 * static_cast<double>(small.size()))))));
+  write_png(
+      (out / "sheet.png").string(),
+      contact_sheet(small, static_cast<int>(std::ceil(std::sqrt(1.5 * static_cast<double>(small.size()))))));
   print_line((out / "sheet.png").string());
   make_film(out, frames, o.rate);
   return exit_pass;
@@ -242,11 +263,14 @@ int render(const RenderOptions& o) {
 void add_render(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("render", render_description);
   auto o = std::make_shared<RenderOptions>();
-  command->add_option("RUN", o->run, "folder of a run, its trajectory.h5, or the id of a case that has a run in runs/")
+  command
+      ->add_option("RUN", o->run,
+                   "folder of a run, its trajectory.h5, or the id of a case that has a run in runs/")
       ->required();
   command
-      ->add_option("--frames", o->frames,
-                   "one frame or several, the last included; counted from 0, -1 is the last; six where none are named")
+      ->add_option(
+          "--frames", o->frames,
+          "one frame or several, the last included; counted from 0, -1 is the last; six where none are named")
       ->type_name("N|FIRST:LAST:STEP");
   command
       ->add_option_function<int>("--frame",
@@ -256,32 +280,47 @@ void add_render(CLI::App& app, int& exit_code) {
                                  })
       ->group("");
   command->add_option("--out", o->out, "folder of the pictures (default: pictures in the run's folder)");
-  command->add_option("--size", o->size, "of a picture in pixels")->type_name("WIDTHxHEIGHT")->capture_default_str();
+  command->add_option("--size", o->size, "of a picture in pixels")
+      ->type_name("WIDTHxHEIGHT")
+      ->capture_default_str();
   command
       ->add_option("--colour", o->colour,
                    "temperature, phase or body; the first of them that tells something where none is named")
       ->check(CLI::IsMember({"temperature", "phase", "body"}));
-  command->add_option("--range", o->range, "temperatures at the dark and the light end, in kelvin (default: those of the frames)")
+  command
+      ->add_option("--range", o->range,
+                   "temperatures at the dark and the light end, in kelvin (default: those of the frames)")
       ->type_name("COLD:HOT");
   add_earlier_flag(*command, "--surface", "the default", [o] { o->surface = true; });
   command->add_flag("--particles", o->particles, "particles as balls: quicker");
-  command->add_flag("--whole", o->whole, "one surface about all that is no wall, instead of one a body and one a liquid");
-  command->add_flag("--zb05", o->zb05, "f = 1 everywhere: the surface of Zhu and Bridson 2005, equation (22)");
+  command->add_flag("--whole", o->whole,
+                    "one surface about all that is no wall, instead of one a body and one a liquid");
+  command->add_flag("--zb05", o->zb05,
+                    "f = 1 everywhere: the surface of Zhu and Bridson 2005, equation (22)");
   command->add_option("--walls", o->walls, "fixed bodies: cut away before the rest, all of them, or none")
       ->check(CLI::IsMember({"cut", "show", "hide"}))
       ->capture_default_str();
-  command->add_option("--azimuth", o->azimuth, "where from, to the right of the front [degrees]")->capture_default_str();
+  command->add_option("--azimuth", o->azimuth, "where from, to the right of the front [degrees]")
+      ->capture_default_str();
   command->add_option("--elevation", o->elevation, "where from, above the horizon [degrees]")
       ->check(CLI::Range(-89.0, 89.0))
       ->capture_default_str();
-  command->add_option("--influence-radius", o->influence, "ir of (24) in spacings; the larger, the smoother (default: 2.4)")
+  command
+      ->add_option("--influence-radius", o->influence,
+                   "ir of (24) in spacings; the larger, the smoother (default: 2.4)")
       ->check(CLI::Range(1.2, 10.0));
   command->add_option("--distance", o->distance, "R of (22) and (23) in spacings (default: 0.28 ir)")
       ->check(CLI::Range(0.05, 5.0));
-  command->add_option("--mesh", o->mesh, "also writes the closed mesh: .ply with temperature, phase and body, or .obj")
+  command
+      ->add_option("--mesh", o->mesh,
+                   "also writes the closed mesh: .ply with temperature, phase and body, or .obj")
       ->type_name("FILE");
-  command->add_option("--voxel", o->voxel, "of the mesh, in spacings")->check(CLI::Range(0.05, 5.0))->capture_default_str();
-  command->add_option("--rate", o->rate, "frames a second of the film")->check(CLI::Range(0.1, 240.0))->capture_default_str();
+  command->add_option("--voxel", o->voxel, "of the mesh, in spacings")
+      ->check(CLI::Range(0.05, 5.0))
+      ->capture_default_str();
+  command->add_option("--rate", o->rate, "frames a second of the film")
+      ->check(CLI::Range(0.1, 240.0))
+      ->capture_default_str();
   command->add_option("--threads", o->threads, "they do not change a bit of the pictures (default: all)")
       ->check(CLI::Range(1, 1024));
   command->callback([o, &exit_code] { exit_code = guarded([&] { return render(*o); }); });

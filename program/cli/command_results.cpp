@@ -24,14 +24,17 @@ constexpr const char* merge_description =
     "  tripoint validate --shard 1/2 --out a     tripoint validate --shard 2/2 --out b\n"
     "  tripoint merge a b --out report           a missing or doubled shard is refused (exit 2)\n"
     "  tripoint suite make DIR                   tripoint suite work DIR\n"
-    "  tripoint merge DIR                        DIR/results.json, DIR/index.html; jobs without a result are named (exit 2)\n"
+    "  tripoint merge DIR                        DIR/results.json, DIR/index.html; jobs without a result are "
+    "named (exit 2)\n"
     "  tripoint merge DIR --out report           into another folder, with a copy of the runs";
 
 constexpr const char* report_description =
-    "Draws the report anew from a results.json: index.html, junit.xml and summary.md beside it. Runs and judges nothing anew\n"
+    "Draws the report anew from a results.json: index.html, junit.xml and summary.md beside it. Runs and "
+    "judges nothing anew\n"
     "but the verdicts, which are always recomputed from the measured values.\n"
     "  tripoint report report/results.json\n"
-    "  tripoint report report/results.json --pdf      also report.pdf, the report to sign (needs Debian's weasyprint)\n"
+    "  tripoint report report/results.json --pdf      also report.pdf, the report to sign (needs Debian's "
+    "weasyprint)\n"
     "Exit: 0 drawn, whatever the verdict; 4 where the page or the PDF could not be made.";
 
 int merge_reports(const MergeOptions& o) {
@@ -53,7 +56,8 @@ int merge_reports(const MergeOptions& o) {
 }
 
 int merge(const MergeOptions& o) {
-  const bool is_suite = o.folders.size() == 1 && std::filesystem::exists(std::filesystem::path(o.folders[0]) / "suite.json");
+  const bool is_suite =
+      o.folders.size() == 1 && std::filesystem::exists(std::filesystem::path(o.folders[0]) / "suite.json");
   return is_suite ? merge_suite(o.folders[0], o) : merge_reports(o);
 }
 
@@ -83,7 +87,8 @@ void add_merge_to(CLI::App& group, int& exit_code, const std::string& earlier) {
   command->add_option("DIR", o->folders, "folders of the shards, or the folder of a suite")->required();
   command->add_option("--out", o->out, "folder of the joined report (default for a suite: its own)");
   command->add_flag_callback(
-      "--no-report", [o] { o->page = false; }, "draw no page: results.json, junit.xml and summary.md are written all the same");
+      "--no-report", [o] { o->page = false; },
+      "draw no page: results.json, junit.xml and summary.md are written all the same");
   command->add_flag("--json", o->json, "print results.json, and nothing else, on stdout");
   add_sandbox_flag(*command, o->sandbox);
   command->callback([=, &exit_code] {

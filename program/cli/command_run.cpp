@@ -40,7 +40,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* run_description =
-    "Runs one case on one engine, at the case's own resolution, and prints how it ended, and each metric with its unit, its "
+    "Runs one case on one engine, at the case's own resolution, and prints how it ended, and each metric "
+    "with its unit, its "
     "standard\n"
     "uncertainty and the limit that the case sets it. The exit code judges nothing: tripoint validate does.\n"
     "  tripoint run rigid/ballistic\n"
@@ -48,13 +49,17 @@ constexpr const char* run_description =
     "  tripoint run rigid/ballistic --engine bullet --until 0.5\n"
     "  tripoint run heat/cosine-mode --checkpoint-interval '10 s'; tripoint run heat/cosine-mode --resume "
     "runs/heat/cosine-mode/tripoint\n"
-    "  tripoint run paper/fig-08-rigid --progress json --json --until 0.1   progress as JSON lines on stderr, the result on "
+    "  tripoint run paper/fig-08-rigid --progress json --json --until 0.1   progress as JSON lines on "
+    "stderr, the result on "
     "stdout\n"
-    "DIR then holds job.json, particles.h5, trajectory.h5 (H5MD; trajectory.xdmf opens it in ParaView), result.json and "
+    "DIR then holds job.json, particles.h5, trajectory.h5 (H5MD; trajectory.xdmf opens it in ParaView), "
+    "result.json and "
     "log.txt.\n"
-    "Ctrl-C leaves a checkpoint there too. A run that goes on from one has the same bits as one that was never cut, on any "
+    "Ctrl-C leaves a checkpoint there too. A run that goes on from one has the same bits as one that was "
+    "never cut, on any "
     "number of threads.\n"
-    "Exit: 0 done, 2 bad input, 4 the engine is missing, refuses, fails or does not answer, 7 diverged, 130 Ctrl-C.";
+    "Exit: 0 done, 2 bad input, 4 the engine is missing, refuses, fails or does not answer, 7 diverged, 130 "
+    "Ctrl-C.";
 
 struct RunOptions {
   std::string what, engine = engine_name::solver, out, until, resume, checkpoint_interval;
@@ -70,9 +75,9 @@ std::string checkpoint_file(const std::string& path) {
   if (fs::is_regular_file(path)) return fs::absolute(path).string();
   const auto found = checkpoints_in(path);
   if (found.empty())
-    throw InputError(
-        path +
-        ": is no checkpoint, nor a folder with one (a run leaves checkpoint-STEP.h5 with --checkpoint-interval, and at Ctrl-C)");
+    throw InputError(path +
+                     ": is no checkpoint, nor a folder with one (a run leaves checkpoint-STEP.h5 with "
+                     "--checkpoint-interval, and at Ctrl-C)");
   return fs::absolute(found.back()).string();
 }
 
@@ -115,14 +120,15 @@ int code_of(const RunOptions& o, const Outcome& outcome) {
 }
 
 /// Limits that the case sets for the metric in this run; empty where it sets none.
-std::string limits_of(const Case& value, const EnginePlan& plan, const RunPlan& run, const std::string& metric,
-                      const MetricValue& m) {
+std::string limits_of(const Case& value, const EnginePlan& plan, const RunPlan& run,
+                      const std::string& metric, const MetricValue& m) {
   std::string text;
   for (const auto& g : value.gates) {
-    const bool of_level = !g.level || std::any_of(run.levels.begin(), run.levels.end(),
-                                                  [&](const auto& l) { return same_level(l.second, *g.level); });
-    const bool ours =
-        (g.engine.empty() || g.engine == plan.name) && fits(g.mode, run.mode) && (g.preset.empty() || g.preset == plan.preset);
+    const bool of_level = !g.level || std::any_of(run.levels.begin(), run.levels.end(), [&](const auto& l) {
+      return same_level(l.second, *g.level);
+    });
+    const bool ours = (g.engine.empty() || g.engine == plan.name) && fits(g.mode, run.mode) &&
+                      (g.preset.empty() || g.preset == plan.preset);
     if (g.metric != metric || !ours || !of_level) continue;
     const double size = std::abs(m.value) + 2.0 * m.uncertainty.combined();
     if (g.limit && *g.limit > 0.0 && size > *g.limit)
@@ -138,7 +144,8 @@ std::string limits_of(const Case& value, const EnginePlan& plan, const RunPlan& 
 }
 
 /// In the order of the case file.
-void print_metrics(const Case& value, const EnginePlan& plan, const std::map<std::string, MetricValue>& metrics) {
+void print_metrics(const Case& value, const EnginePlan& plan,
+                   const std::map<std::string, MetricValue>& metrics) {
   if (metrics.empty()) return;
   print(fmt::format("  {:26} {:>12} {:8} {:>9}\n", "metric", "value", "unit", "+- u"));
   for (const auto& choice : value.metrics) {
@@ -146,7 +153,8 @@ void print_metrics(const Case& value, const EnginePlan& plan, const std::map<std
     if (at == metrics.end()) continue;
     const auto& m = at->second;
     print_line(fmt::format("  {:26} {:12.5g} {:8} {:9.2g}{}{}", choice.name, m.value, unit_of_value(choice),
-                           m.uncertainty.combined(), limits_of(value, plan, plan.runs.front(), choice.name, m),
+                           m.uncertainty.combined(),
+                           limits_of(value, plan, plan.runs.front(), choice.name, m),
                            m.note.empty() ? "" : "  (" + m.note + ")"));
   }
 }
@@ -156,39 +164,45 @@ void print_text(const RunOptions& o, const Case& value, const EnginePlan& plan, 
   print_line(fmt::format("{}{}{}", outcome.status, outcome.reason.empty() ? "" : ": ", outcome.reason));
   const auto& r = outcome.result;
   if (r.steps > 0)
-    print_line(fmt::format("  t = {:g} s in {} steps; last step {:g} s{}", r.time_reached, r.steps, r.readback.time_step,
+    print_line(fmt::format("  t = {:g} s in {} steps; last step {:g} s{}", r.time_reached, r.steps,
+                           r.readback.time_step,
                            r.time_step_bound.empty() ? "" : ", bound by " + r.time_step_bound));
-  print(fmt::format("  {:.3g} CPU s, {:.3g} s wall, {:.3g} MB memory\n", outcome.cost.cpu_s, outcome.cost.wall_s,
-                    outcome.cost.peak_bytes / 1e6));
+  print(fmt::format("  {:.3g} CPU s, {:.3g} s wall, {:.3g} MB memory\n", outcome.cost.cpu_s,
+                    outcome.cost.wall_s, outcome.cost.peak_bytes / 1e6));
   print_metrics(value, plan, metrics);
   print_line(fmt::format("  in {}", o.out));
 }
 
-void print_json(const RunOptions& o, const Outcome& outcome, const std::map<std::string, MetricValue>& metrics) {
+void print_json(const RunOptions& o, const Outcome& outcome,
+                const std::map<std::string, MetricValue>& metrics) {
   nlohmann::ordered_json values = nlohmann::ordered_json::object();
   for (const auto& [name, m] : metrics) {
-    values[name] = {{"value", std::isfinite(m.value) ? nlohmann::ordered_json(m.value) : nlohmann::ordered_json()},
-                    {"uncertainty", m.uncertainty.combined()},
-                    {"note", m.note}};
+    values[name] = {
+        {"value", std::isfinite(m.value) ? nlohmann::ordered_json(m.value) : nlohmann::ordered_json()},
+        {"uncertainty", m.uncertainty.combined()},
+        {"note", m.note}};
     if (!std::isfinite(m.value)) values[name]["finite"] = false;
   }
   const auto& r = outcome.result;
-  print(json_text(
-      nlohmann::ordered_json{
-          {"status", outcome.status},
-          {"reason", outcome.reason},
-          {"time_reached", r.time_reached},
-          {"steps", r.steps},
-          {"time_step_bound", r.time_step_bound},
-          {"state_hash", r.state_hash},
-          {"cost", {{"cpu_s", outcome.cost.cpu_s}, {"wall_s", outcome.cost.wall_s}, {"peak_bytes", outcome.cost.peak_bytes}}},
-          {"metrics", values},
-          {"folder", o.out}},
-      2));
+  print(json_text(nlohmann::ordered_json{{"status", outcome.status},
+                                         {"reason", outcome.reason},
+                                         {"time_reached", r.time_reached},
+                                         {"steps", r.steps},
+                                         {"time_step_bound", r.time_step_bound},
+                                         {"state_hash", r.state_hash},
+                                         {"cost",
+                                          {{"cpu_s", outcome.cost.cpu_s},
+                                           {"wall_s", outcome.cost.wall_s},
+                                           {"peak_bytes", outcome.cost.peak_bytes}}},
+                                         {"metrics", values},
+                                         {"folder", o.out}},
+                  2));
 }
 
-/// Says the findings of `check` about particles and metrics: a run of its own is not refused for them, but not silent either.
-void say_findings(const CaseReading& reading, const Scene& scene, const InitialState& initial, const Job& job) {
+/// Says the findings of `check` about particles and metrics: a run of its own is not refused for them, but
+/// not silent either.
+void say_findings(const CaseReading& reading, const Scene& scene, const InitialState& initial,
+                  const Job& job) {
   for (const auto& f : library_values(reading)) say("note: " + with_place(f));
   for (const auto& f : old_keys(reading)) say("note: " + with_place(f));
   for (const auto& f : start_notes(scene, initial)) say("note: " + with_place(f));
@@ -220,7 +234,8 @@ bool goes_on_in(const RunOptions& o) {
   return !o.resume.empty() && fs::equivalent(fs::path(o.resume).parent_path(), o.out, none);
 }
 
-/// Runs the job in its folder, and shows how far it is. A run that does not begin leaves the one that was there.
+/// Runs the job in its folder, and shows how far it is. A run that does not begin leaves the one that was
+/// there.
 Outcome run_shown(const EnginePlan& plan, const Job& job, const InitialState& initial, const RunOptions& o) {
   RunRequest request;
   request.engine = plan.entry;
@@ -235,15 +250,16 @@ Outcome run_shown(const EnginePlan& plan, const Job& job, const InitialState& in
   };
   write_particles(request.particles, initial);
   if (!o.quiet)
-    say(fmt::format("{} on {} {}: {} particles to t = {:g} s", job.case_id, plan.name, plan.entry->version, initial.size(),
-                    job.scene.end_time));
+    say(fmt::format("{} on {} {}: {} particles to t = {:g} s", job.case_id, plan.name, plan.entry->version,
+                    initial.size(), job.scene.end_time));
   RunProgress progress(progress_form(o.progress, o.quiet, isatty(2) == 1));
   request.progress = [&](double done) {
     let_go_of_earlier();
     progress.at(done);
   };
   request.status = [&](const std::string& status) { progress.at(status); };
-  if (const auto seconds = progress.interval(); !seconds.empty()) request.environment["TRIPOINT_STATUS"] = seconds;
+  if (const auto seconds = progress.interval(); !seconds.empty())
+    request.environment["TRIPOINT_STATUS"] = seconds;
   auto outcome = run_one(request);
   progress.end();
   if (outcome.status != Status::refused) let_go_of_earlier();
@@ -259,11 +275,13 @@ int run(RunOptions o) {
   const auto words = sort_engine_words(files_as_paths({o.engine}));
   if (o.sandbox) sandbox_third_parties(o.out);
   const auto engines = discover_engines(words.paths);
-  const auto plan = plan_for(value, engines, words.paths.empty() ? o.engine : ask_engine(words.paths.front()).name);
+  const auto plan =
+      plan_for(value, engines, words.paths.empty() ? o.engine : ask_engine(words.paths.front()).name);
   const Scene scene = scene_of(value, plan.runs.front());
   const auto lock = hold_folder(o.out);
   if (scene.settle && !o.quiet)
-    say("letting the liquids down into equilibrium, which takes as long as some thousand steps (scene.settle)");
+    say("letting the liquids down into equilibrium, which takes as long as some thousand steps "
+        "(scene.settle)");
   const auto initial = sample(scene);
   auto job = make_job(value, plan, plan.runs.front(), scene, initial);
   if (!o.quiet) say_findings(reading, scene, initial, job);
@@ -287,7 +305,8 @@ void add_run(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("run", run_description);
   auto o = std::make_shared<RunOptions>();
   command->add_option("CASE", o->what, "a case file or id")->required();
-  command->add_option("--engine", o->engine, "name of an engine, or path of an executable")->capture_default_str();
+  command->add_option("--engine", o->engine, "name of an engine, or path of an executable")
+      ->capture_default_str();
   add_sandbox_flag(*command, o->sandbox);
   command->add_option("--out", o->out, "folder of the run (default: runs/CASE/ENGINE)");
   command->add_option("--threads", o->threads, "threads of the engine; they do not change its bits")
@@ -299,12 +318,15 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_option("--until", o->until, "end at this time instead: seconds, or a number with a unit");
   command
       ->add_option("--resume", o->resume,
-                   "go on from this checkpoint, or from the last in this folder; writes there unless --out says otherwise")
+                   "go on from this checkpoint, or from the last in this folder; writes there unless --out "
+                   "says otherwise")
       ->type_name("CHECKPOINT");
-  command->add_option("--checkpoint-interval", o->checkpoint_interval,
-                      "simulated time between checkpoints: seconds, or a number with a unit; the last two are kept");
+  command->add_option(
+      "--checkpoint-interval", o->checkpoint_interval,
+      "simulated time between checkpoints: seconds, or a number with a unit; the last two are kept");
   command
-      ->add_option("--progress", o->progress, "on stderr: auto (one line on a terminal), lines, json (one object a line) or none")
+      ->add_option("--progress", o->progress,
+                   "on stderr: auto (one line on a terminal), lines, json (one object a line) or none")
       ->check(CLI::IsMember({"auto", "lines", "json", "none"}))
       ->capture_default_str();
   command->add_flag("--quiet", o->quiet, "no progress and no notes on stderr");

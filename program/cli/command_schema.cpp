@@ -25,8 +25,10 @@ namespace {
 using json = nlohmann::ordered_json;
 
 constexpr const char* schema_description =
-    "Prints the JSON Schema of the case file, for editors that complete and check while you type; with --page the reference\n"
-    "page of all keys, reference functions, quantities and norms in Markdown. All come from the tables the program reads by.\n"
+    "Prints the JSON Schema of the case file, for editors that complete and check while you type; with "
+    "--page the reference\n"
+    "page of all keys, reference functions, quantities and norms in Markdown. All come from the tables the "
+    "program reads by.\n"
     "  tripoint schema > case.schema.json      # in the case file: #:schema ./case.schema.json\n"
     "  tripoint schema --job                   # of what an engine is asked, JOB.json\n"
     "  tripoint schema --result                # of what it answers, result.json\n"
@@ -44,9 +46,11 @@ std::string schema() {
   json names = json::array(), functions = json::array();
   for (const auto& f : reference_functions()) {
     json args = json::array();
-    for (const auto& a : f.args) args.push_back({{"name", a.name}, {"type", a.type}, {"unit", a.unit}, {"meaning", a.meaning}});
+    for (const auto& a : f.args)
+      args.push_back({{"name", a.name}, {"type", a.type}, {"unit", a.unit}, {"meaning", a.meaning}});
     names.push_back(f.name);
-    functions.push_back({{"name", f.name}, {"kind", f.kind}, {"meaning", f.meaning}, {"source", f.source}, {"args", args}});
+    functions.push_back(
+        {{"name", f.name}, {"kind", f.kind}, {"meaning", f.meaning}, {"source", f.source}, {"args", args}});
   }
   auto& function = document["$defs"]["reference"]["properties"]["function"];
   function.erase("type");
@@ -60,7 +64,8 @@ std::string schema() {
 std::string word_list(const char* title, const std::vector<MetricWord>& words) {
   std::string out = fmt::format("## {}\n\n", title);
   for (const auto& w : words)
-    out += fmt::format("- `{}`{}: {}.\n", w.name, w.unit.empty() ? "" : fmt::format(" ({})", w.unit), w.meaning);
+    out +=
+        fmt::format("- `{}`{}: {}.\n", w.name, w.unit.empty() ? "" : fmt::format(" ({})", w.unit), w.meaning);
   return out + "\n";
 }
 
@@ -68,10 +73,12 @@ std::string word_list(const char* title, const std::vector<MetricWord>& words) {
 std::string argument_list(const std::vector<ReferenceArgument>& args) {
   std::string out;
   for (std::size_t n = 0; n < args.size(); ++n) {
-    const std::string name = fmt::format("`{}`{}", args[n].name, args[n].unit.empty() ? "" : fmt::format(" ({})", args[n].unit));
+    const std::string name =
+        fmt::format("`{}`{}", args[n].name, args[n].unit.empty() ? "" : fmt::format(" ({})", args[n].unit));
     out += n > 0 && args[n].meaning == args[n - 1].meaning ? ", " : "- ";
     out += name;
-    if (n + 1 == args.size() || args[n + 1].meaning != args[n].meaning) out += fmt::format(": {}.\n", args[n].meaning);
+    if (n + 1 == args.size() || args[n + 1].meaning != args[n].meaning)
+      out += fmt::format(": {}.\n", args[n].meaning);
   }
   return out.empty() ? "" : out + "\n";
 }
@@ -105,7 +112,8 @@ std::string page() {
 std::string value_words(const json& value) {
   if (value.contains("anyOf")) return value_words(value["anyOf"][0]) + " or null";
   if (value.contains("$ref")) return "`" + value["$ref"].get<std::string>().substr(8) + "`";
-  if (value.contains("enum")) return fmt::format("{}", fmt::join(value["enum"].get<std::vector<std::string>>(), ", "));
+  if (value.contains("enum"))
+    return fmt::format("{}", fmt::join(value["enum"].get<std::vector<std::string>>(), ", "));
   const auto type = value.value("type", "object");
   if (type != "array") return type;
   return (value.contains("minItems") ? fmt::format("{} of ", value["minItems"].get<int>()) : "list of ") +
@@ -119,10 +127,12 @@ std::string key_table(const std::string& title, const json& table) {
   return text.markdown() + "\n";
 }
 
-/// The tables of a schema that an engine's author looks up. Scene, materials and shapes have the keys of the case file.
+/// The tables of a schema that an engine's author looks up. Scene, materials and shapes have the keys of the
+/// case file.
 std::string key_tables(const json& schema, const std::string& title) {
   std::string out = key_table(title, schema);
-  for (const char* name : {"resolution", "body", "gauge", "counters", "seconds", "readback", "readback.body", "divergence"})
+  for (const char* name :
+       {"resolution", "body", "gauge", "counters", "seconds", "readback", "readback.body", "divergence"})
     if (schema["$defs"].contains(name)) out += key_table(fmt::format("`{}`", name), schema["$defs"][name]);
   return out;
 }

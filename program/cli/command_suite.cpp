@@ -35,46 +35,60 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* suite_description =
-    "Makes a suite by many processes or machines that share a folder: a job is one run of one engine, any worker takes it, and "
+    "Makes a suite by many processes or machines that share a folder: a job is one run of one engine, any "
+    "worker takes it, and "
     "the\n"
     "merged report is the one that `tripoint validate` would have written.\n"
     "  tripoint suite make DIR --profile nightly      plan the jobs; nothing runs\n"
-    "  tripoint suite work DIR                        take jobs until all are done; start it as often as you like, where you "
+    "  tripoint suite work DIR                        take jobs until all are done; start it as often as you "
+    "like, where you "
     "like\n"
-    "  tripoint status DIR                            done, running, lost, failed, and the time that is left\n"
+    "  tripoint status DIR                            done, running, lost, failed, and the time that is "
+    "left\n"
     "  tripoint merge DIR                             judge, and write DIR/index.html\n"
-    "  tripoint suite emit DIR --for slurm            a script that does it on a scheduler: slurm, hyperqueue, parallel, "
+    "  tripoint suite emit DIR --for slurm            a script that does it on a scheduler: slurm, "
+    "hyperqueue, parallel, "
     "snakemake, github\n"
-    "A worker that is killed loses the job that it was at, no other; the next `work` takes it over. docs/scale.md tells all of "
+    "A worker that is killed loses the job that it was at, no other; the next `work` takes it over. "
+    "docs/scale.md tells all of "
     "it.";
 
 constexpr const char* make_description =
-    "Plans every run of the cases as a job in DIR, with a predicted cost; nothing runs. The id of a job is a hash of all that "
+    "Plans every run of the cases as a job in DIR, with a predicted cost; nothing runs. The id of a job is a "
+    "hash of all that "
     "makes the run:\n"
-    "its scene, particles, engine, version, level and seed. Made again after a change, the suite keeps the results that still "
+    "its scene, particles, engine, version, level and seed. Made again after a change, the suite keeps the "
+    "results that still "
     "hold.\n"
     "  tripoint suite make DIR                                    the commit suite\n"
     "  tripoint suite make DIR heat rigid/ballistic --engines tripoint,bullet\n"
-    "  tripoint suite make DIR --profile nightly --costs report/results.json    shares work out by what runs have cost before";
+    "  tripoint suite make DIR --profile nightly --costs report/results.json    shares work out by what runs "
+    "have cost before";
 
 constexpr const char* work_description =
     "Takes jobs of the suite until all are finished. Ctrl-C gives back what it holds (exit 130).\n"
     "  tripoint suite work DIR                  any job that waits, the dearest first\n"
     "  tripoint suite work DIR --jobs 4         four engine processes at a time\n"
     "  tripoint suite work DIR --shard 2/8      the second of eight shards of equal predicted cost\n"
-    "Jobs that other workers hold are waited for, and taken over where their worker is gone: on this machine at once, on another "
+    "Jobs that other workers hold are waited for, and taken over where their worker is gone: on this machine "
+    "at once, on another "
     "after\n"
-    "60 s without a sign. Exit: 0 every job that was wanted has a result, whatever it says; 4 (--no-wait alone) others hold "
+    "60 s without a sign. Exit: 0 every job that was wanted has a result, whatever it says; 4 (--no-wait "
+    "alone) others hold "
     "some;\n"
-    "2 a job is not the run that the suite was made of, because a case, an engine or the program has changed.";
+    "2 a job is not the run that the suite was made of, because a case, an engine or the program has "
+    "changed.";
 
 constexpr const char* status_description =
-    "Says where a suite stands: jobs that are done, running, waiting, lost, failed, doubled, and the time that is left.\n"
+    "Says where a suite stands: jobs that are done, running, waiting, lost, failed, doubled, and the time "
+    "that is left.\n"
     "  tripoint status DIR\n"
     "  tripoint status DIR --json\n"
-    "lost: its worker is gone; the next `tripoint suite work DIR` makes that job again, and no other. failed: killed, timed out "
+    "lost: its worker is gone; the next `tripoint suite work DIR` makes that job again, and no other. "
+    "failed: killed, timed out "
     "or ended with an\n"
-    "error; `tripoint suite retry DIR` puts it back. doubled: two workers made it; the first result counts. The time left is a "
+    "error; `tripoint suite retry DIR` puts it back. doubled: two workers made it; the first result counts. "
+    "The time left is a "
     "prediction.";
 
 constexpr const char* retry_description =
@@ -83,12 +97,14 @@ constexpr const char* retry_description =
     "  tripoint suite retry DIR 1b6f0c55a1e2d3f4";
 
 constexpr const char* emit_description =
-    "Prints a script that makes the suite on a scheduler. Short jobs are batched: a task takes a shard of about --batch "
+    "Prints a script that makes the suite on a scheduler. Short jobs are batched: a task takes a shard of "
+    "about --batch "
     "seconds.\n"
     "  tripoint suite emit DIR --for slurm > suite.sh                       sbatch suite.sh\n"
     "  tripoint suite emit DIR --for parallel --batch 60 > suite.sh         JOBS=8 bash suite.sh\n"
     "  tripoint suite emit DIR --for snakemake --shards 16 > Snakefile      snakemake --cores 2\n"
-    "  tripoint suite emit DIR --for slurm --shards 16 --left > again.sh    only the shards that are not finished";
+    "  tripoint suite emit DIR --for slurm --shards 16 --left > again.sh    only the shards that are not "
+    "finished";
 
 struct MakeOptions {
   std::string dir, costs;
@@ -97,8 +113,8 @@ struct MakeOptions {
   bool sandbox = false;
 };
 
-/// The suite of a folder, and its folder's path from anywhere. Goes to the working folder in which the suite was made: there
-/// every path is the same text.
+/// The suite of a folder, and its folder's path from anywhere. Goes to the working folder in which the suite
+/// was made: there every path is the same text.
 struct Opened {
   std::string typed, dir;
   Queue queue;
@@ -112,7 +128,8 @@ Opened open(const std::string& typed) {
 
 void go_to_its_folder(const Opened& o) {
   std::error_code none;
-  fs::current_path(o.queue.folder, none);  // not there on a machine with other folders: then paths must not matter
+  // Not there on a machine with other folders: then paths must not matter
+  fs::current_path(o.queue.folder, none);
 }
 
 /// The engines of these jobs and no other: to ask each engine takes longer than many a job.
@@ -140,14 +157,17 @@ int make(MakeOptions o) {
   make_folder(o.dir);
   if (fs::exists(fs::path(o.dir) / "suite.json")) {
     const Queue before = read_queue(o.dir);
-    say(fmt::format("{}: was a suite of {} jobs of {} cases, and is made anew", o.dir, before.jobs.size(), before.cases.size()));
+    say(fmt::format("{}: was a suite of {} jobs of {} cases, and is made anew", o.dir, before.jobs.size(),
+                    before.cases.size()));
   }
   const auto made = make_queue(o.dir, std::move(queue), cases, engines, costs);
   const auto& jobs = made.queue.jobs;
-  print_line(fmt::format("{}: {} jobs of {} cases, {:.0f} CPU s predicted ({} by what they cost before); {} have a result", o.dir,
-                         jobs.size(), cases.size(), cost_of(jobs, dearest_first(jobs)), made.measured, made.kept));
-  say(fmt::format("next: tripoint suite work {}   or a script for a scheduler: tripoint suite emit {} --for slurm", o.dir,
-                  o.dir));
+  print_line(fmt::format(
+      "{}: {} jobs of {} cases, {:.0f} CPU s predicted ({} by what they cost before); {} have a result",
+      o.dir, jobs.size(), cases.size(), cost_of(jobs, dearest_first(jobs)), made.measured, made.kept));
+  say(fmt::format(
+      "next: tripoint suite work {}   or a script for a scheduler: tripoint suite emit {} --for slurm", o.dir,
+      o.dir));
   return exit_pass;
 }
 
@@ -163,8 +183,9 @@ int run_worker(const std::string& typed, const std::string& shard, WorkOptions o
   if (sandbox) sandbox_third_parties(opened.dir);
   const auto done = work(opened.dir, opened.queue, engines_of(opened.queue, o.rows), o);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  print_line(fmt::format("{}: {} of {} jobs made here in {:.1f} s, {} of them failed, {} taken over; {} are not finished", typed,
-                         done.made, o.rows.size(), seconds, done.failed, done.taken_over, done.held_by_others));
+  print_line(fmt::format(
+      "{}: {} of {} jobs made here in {:.1f} s, {} of them failed, {} taken over; {} are not finished", typed,
+      done.made, o.rows.size(), seconds, done.failed, done.taken_over, done.held_by_others));
   if (interrupted()) return exit_interrupted;
   return done.held_by_others > 0 ? exit_missing : exit_pass;
 }
@@ -190,14 +211,16 @@ struct EmitChoice {
 };
 
 /// Shards with a job that has no result, from 1.
-std::vector<int> shards_left(const Opened& opened, const std::vector<std::vector<std::size_t>>& shards, bool only_left) {
+std::vector<int> shards_left(const Opened& opened, const std::vector<std::vector<std::size_t>>& shards,
+                             bool only_left) {
   const auto standing = look(opened.dir, opened.queue);
   const auto is_open = [&](std::size_t row) {
     return standing.jobs[row].stand != Stand::done && standing.jobs[row].stand != Stand::failed;
   };
   std::vector<int> numbers;
   for (std::size_t k = 0; k < shards.size(); ++k)
-    if (!only_left || std::any_of(shards[k].begin(), shards[k].end(), is_open)) numbers.push_back(static_cast<int>(k) + 1);
+    if (!only_left || std::any_of(shards[k].begin(), shards[k].end(), is_open))
+      numbers.push_back(static_cast<int>(k) + 1);
   return numbers;
 }
 
@@ -222,11 +245,15 @@ void add_make(CLI::App& suite, int& exit_code) {
   auto o = std::make_shared<MakeOptions>();
   auto& queue = o->queue;
   command->add_option("DIR", o->dir, "folder of the suite")->required();
-  command->add_option("CASE", queue.filter.what, "case files, folders of them, or ids")->type_name("CASE|DIR");
-  command->add_option("--profile", queue.filter.profile, "only cases of this profile (commit where no CASE is given)")
+  command->add_option("CASE", queue.filter.what, "case files, folders of them, or ids")
+      ->type_name("CASE|DIR");
+  command
+      ->add_option("--profile", queue.filter.profile,
+                   "only cases of this profile (commit where no CASE is given)")
       ->check(CLI::IsMember({"commit", "nightly", "release"}));
   command->add_option("--tag", queue.filter.tag, "only cases with this tag");
-  command->add_option("-k", queue.filter.substring, "only cases with this in their id")->type_name("SUBSTRING");
+  command->add_option("-k", queue.filter.substring, "only cases with this in their id")
+      ->type_name("SUBSTRING");
   add_engines_option(*command, o->engines);
   add_sandbox_flag(*command, o->sandbox);
   command->add_option_function<std::uint64_t>(
@@ -234,10 +261,14 @@ void add_make(CLI::App& suite, int& exit_code) {
   command->add_option("--threads", queue.threads, "threads of each engine process")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  command->add_option("--time-limit", queue.wall_limit, "seconds for one run; engine setting wall_limit goes before it")
+  command
+      ->add_option("--time-limit", queue.wall_limit,
+                   "seconds for one run; engine setting wall_limit goes before it")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--costs", o->costs, "a results.json, or its folder: what its runs cost goes before what is predicted")
+  command
+      ->add_option("--costs", o->costs,
+                   "a results.json, or its folder: what its runs cost goes before what is predicted")
       ->type_name("RESULTS");
   command->callback([o, &exit_code] { exit_code = guarded([&] { return make(*o); }); });
 }
@@ -250,10 +281,14 @@ void add_work(CLI::App& suite, int& exit_code) {
   auto sandbox = std::make_shared<bool>(false);
   add_sandbox_flag(*command, *sandbox);
   command->add_option("--shard", *shard, "k/n: the jobs of the k-th of n shards alone");
-  command->add_option("--jobs", o->jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
+  command->add_option("--jobs", o->jobs, "engine processes at a time")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
   command->add_flag_callback(
-      "--no-wait", [o] { o->waits = false; }, "leave when nothing is to be taken, though others are still at their jobs");
-  command->callback([=, &exit_code] { exit_code = guarded([&] { return run_worker(*dir, *shard, *o, *sandbox); }); });
+      "--no-wait", [o] { o->waits = false; },
+      "leave when nothing is to be taken, though others are still at their jobs");
+  command->callback(
+      [=, &exit_code] { exit_code = guarded([&] { return run_worker(*dir, *shard, *o, *sandbox); }); });
 }
 
 void add_status_to(CLI::App& app, int& exit_code, const std::string& earlier) {
@@ -262,7 +297,8 @@ void add_status_to(CLI::App& app, int& exit_code, const std::string& earlier) {
   auto dir = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
   command->add_option("DIR", *dir, "folder of the suite")->required();
-  command->add_flag("--json", *json, "one JSON document on stdout, with every job that is running, lost, failed or doubled");
+  command->add_flag("--json", *json,
+                    "one JSON document on stdout, with every job that is running, lost, failed or doubled");
   command->callback([=, &exit_code] {
     if (!earlier.empty()) note_earlier(earlier, "tripoint status");
     exit_code = guarded([&] { return status(*dir, *json); });
@@ -283,7 +319,9 @@ void add_emit(CLI::App& suite, int& exit_code) {
   auto o = std::make_shared<EmitChoice>();
   command->add_option("DIR", o->dir, "folder of the suite")->required();
   command->add_option("--for", o->scheduler, "the scheduler")->required()->check(CLI::IsMember(schedulers()));
-  command->add_option("--batch", o->batch, "predicted CPU seconds of a task")->check(CLI::PositiveNumber)->capture_default_str();
+  command->add_option("--batch", o->batch, "predicted CPU seconds of a task")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   command->add_option("--shards", o->shards, "tasks, in the place of --batch")->check(CLI::Range(1, 100000));
   command->add_option("--most", o->most, "tasks at most, as sites limit arrays")
       ->check(CLI::Range(1, 100000))
@@ -306,7 +344,8 @@ int merge_suite(const std::string& typed, const MergeOptions& o) {
   go_to_its_folder(opened);
   auto results =
       join(opened.dir, opened.queue,
-           discover_selected(opened.queue.selection, sort_engine_words(opened.queue.engine_words).paths), folder, on_case);
+           discover_selected(opened.queue.selection, sort_engine_words(opened.queue.engine_words).paths),
+           folder, on_case);
   fs::current_path(start);
   results.command = command_line();
   results.date = date_now();

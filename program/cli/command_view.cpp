@@ -12,17 +12,25 @@ namespace tripoint {
 namespace {
 
 constexpr const char* view_description =
-    "Writes one page that shows the particles of a run in three dimensions, in any browser and without a network.\n"
-    "  tripoint view runs/paper/fig-14-coated/tripoint              view.html in the run's folder: turn it, play it, colour it\n"
-    "  tripoint view paper/fig-14-coated --out look.html            the run that `tripoint run` left in runs/, into a file of "
+    "Writes one page that shows the particles of a run in three dimensions, in any browser and without a "
+    "network.\n"
+    "  tripoint view runs/paper/fig-14-coated/tripoint              view.html in the run's folder: turn it, "
+    "play it, colour it\n"
+    "  tripoint view paper/fig-14-coated --out look.html            the run that `tripoint run` left in "
+    "runs/, into a file of "
     "your own\n"
-    "  tripoint view report/runs/rigid/ballistic/tripoint/corrected report/runs/rigid/ballistic/bullet/base --out beside.html\n"
-    "                                                               several runs, with one camera and one time\n"
-    "In the page: a slider of time, colour by phase, temperature, speed, pressure, body or material, walls on and off; every key "
+    "  tripoint view report/runs/rigid/ballistic/tripoint/corrected report/runs/rigid/ballistic/bullet/base "
+    "--out beside.html\n"
+    "                                                               several runs, with one camera and one "
+    "time\n"
+    "In the page: a slider of time, colour by phase, temperature, speed, pressure, body or material, walls "
+    "on and off; every key "
     "is named there.\n"
-    "Gravity points down. A run that is too large for the page loses frames first, then particles, and the page says so "
+    "Gravity points down. A run that is too large for the page loses frames first, then particles, and the "
+    "page says so "
     "(--limit).\n"
-    "docs/surface.md says more. For a picture of the surface: tripoint render. For other programs: tripoint export.\n"
+    "docs/surface.md says more. For a picture of the surface: tripoint render. For other programs: tripoint "
+    "export.\n"
     "Exit: 0 written, 2 bad input, 4 a dataset, a library or room on the disk is missing, 130 Ctrl-C.";
 
 struct ViewOptions {
@@ -43,9 +51,12 @@ void add_view(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("view", view_description);
   auto o = std::make_shared<ViewOptions>();
   command
-      ->add_option("RUN", o->runs, "folders of runs, their trajectory.h5, or ids of cases that have a run in runs/; at most six")
+      ->add_option(
+          "RUN", o->runs,
+          "folders of runs, their trajectory.h5, or ids of cases that have a run in runs/; at most six")
       ->required();
-  command->add_option("--out", o->out, "the page (default: view.html in the folder of the first run)")->type_name("FILE");
+  command->add_option("--out", o->out, "the page (default: view.html in the folder of the first run)")
+      ->type_name("FILE");
   command->add_option("--limit", o->limit, "greatest size of the page in MB")
       ->capture_default_str()
       ->type_name("MB")

@@ -5,7 +5,8 @@ namespace CLI {
 class App;
 }
 
-/// One function a command: adds its subcommand to the program, and sets the exit code when it was called (contracts: exit codes).
+/// One function a command: adds its subcommand to the program, and sets the exit code when it was called
+/// (contracts: exit codes).
 namespace tripoint {
 
 void add_run(CLI::App& app, int& exit_code);

@@ -54,9 +54,11 @@ bool wants_colour() {
 std::string painted(const std::string& line) {
   const std::size_t from = line.starts_with("verdict ") ? 8 : 0;
   for (const auto& [word, colour] : colours) {
-    const bool whole =
-        line.compare(from, word.size(), word) == 0 && (line.size() == from + word.size() || line[from + word.size()] == ' ');
-    if (whole) return fmt::format("{}\033[1;{}m{}\033[0m{}", line.substr(0, from), colour, word, line.substr(from + word.size()));
+    const bool whole = line.compare(from, word.size(), word) == 0 &&
+                       (line.size() == from + word.size() || line[from + word.size()] == ' ');
+    if (whole)
+      return fmt::format("{}\033[1;{}m{}\033[0m{}", line.substr(0, from), colour, word,
+                         line.substr(from + word.size()));
   }
   return line;
 }
@@ -116,7 +118,8 @@ void print(const std::string& plain) {
 void hold_standard_streams() {
   constexpr std::array<const char*, 3> instead{"/dev/null", "/dev/full", "/dev/null"};
   for (int stream = 0; stream < 3; ++stream)
-    if (::fcntl(stream, F_GETFD) == -1 && ::open(instead[static_cast<std::size_t>(stream)], O_RDWR) != stream) std::abort();
+    if (::fcntl(stream, F_GETFD) == -1 && ::open(instead[static_cast<std::size_t>(stream)], O_RDWR) != stream)
+      std::abort();
 }
 
 bool output_arrived() {
@@ -137,7 +140,8 @@ std::vector<std::string> split(const std::string& list, char separator) {
 
 EngineWords sort_engine_words(const std::vector<std::string>& words) {
   EngineWords sorted;
-  for (const auto& word : words) (word.find('/') != std::string::npos ? sorted.paths : sorted.names).push_back(word);
+  for (const auto& word : words)
+    (word.find('/') != std::string::npos ? sorted.paths : sorted.names).push_back(word);
   return sorted;
 }
 
@@ -161,15 +165,17 @@ std::string own_folder(const std::string& command, const std::string& case_id) {
 
 std::string results_file(const std::string& path) {
   if (!std::filesystem::exists(path))
-    throw InputError(path + ": there is no such file or folder" +
-                     (std::filesystem::path(path).is_absolute() ? "" : " in " + std::filesystem::current_path().string()) +
-                     ": name a results.json, or the folder of a report");
+    throw InputError(
+        path + ": there is no such file or folder" +
+        (std::filesystem::path(path).is_absolute() ? "" : " in " + std::filesystem::current_path().string()) +
+        ": name a results.json, or the folder of a report");
   return std::filesystem::is_directory(path) ? (std::filesystem::path(path) / "results.json").string() : path;
 }
 
 void add_sandbox_flag(CLI::App& command, bool& wanted) {
   command.add_flag("--sandbox", wanted,
-                   "run engines that do not belong to this program by bubblewrap: no network, your files out of sight, writing "
+                   "run engines that do not belong to this program by bubblewrap: no network, your files out "
+                   "of sight, writing "
                    "in the run's own folder alone; and what draws the pages of what they left");
 }
 
@@ -178,10 +184,11 @@ void make_folder(const std::string& out) {
   std::filesystem::create_directories(out, error);
   if (!error && !std::filesystem::is_directory(out)) error = std::make_error_code(std::errc::not_a_directory);
   if (error)
-    throw InputError(
-        fmt::format("--out {}: the folder cannot be made: {}. Name another with --out", printable(out, 200), error.message()));
+    throw InputError(fmt::format("--out {}: the folder cannot be made: {}. Name another with --out",
+                                 printable(out, 200), error.message()));
   if (::access(out.c_str(), W_OK | X_OK) != 0)
-    throw InputError(fmt::format("--out {}: the folder cannot be written to. Name another with --out", printable(out, 200)));
+    throw InputError(fmt::format("--out {}: the folder cannot be written to. Name another with --out",
+                                 printable(out, 200)));
 }
 
 FolderLock hold_folder(const std::string& out) {
@@ -199,7 +206,8 @@ const std::string& command_line() { return remembered(); }
 Shard read_shard(const std::string& text) {
   Shard shard{0, 0};
   char rest = 0;
-  if (std::sscanf(text.c_str(), "%d/%d%c", &shard.i, &shard.n, &rest) != 2 || shard.i < 1 || shard.n < 1 || shard.i > shard.n)
+  if (std::sscanf(text.c_str(), "%d/%d%c", &shard.i, &shard.n, &rest) != 2 || shard.i < 1 || shard.n < 1 ||
+      shard.i > shard.n)
     throw InputError("--shard " + text + ": write i/n with 1 <= i <= n, for example 2/4");
   return shard;
 }
@@ -211,7 +219,8 @@ std::string date_now() {
   return text.data();
 }
 
-std::vector<EngineEntry> discover_selected(const Selection& selection, const std::vector<std::string>& paths) {
+std::vector<EngineEntry> discover_selected(const Selection& selection,
+                                           const std::vector<std::string>& paths) {
   if (selection.engines.empty()) return discover_engines(paths);
   auto names = selection.engines;
   names.insert(names.end(), selection.extra.begin(), selection.extra.end());

@@ -21,15 +21,16 @@ struct Plan;
 /// Calls the command and turns its exceptions into messages on stderr and the exit codes of the contract.
 [[nodiscard]] int guarded(const std::function<int()>& command);
 
-/// Plan of the quantities that a case simulates and stores. @throws InputError naming its file, also where the scene as a whole
-/// asks for what cannot be
+/// Plan of the quantities that a case simulates and stores. @throws InputError naming its file, also where
+/// the scene as a whole asks for what cannot be
 [[nodiscard]] Plan plan_of(const CaseReading&);
 
 /// One line on stderr; further lines of it are indented, and none of them is a workflow command.
 void say(const std::string& line);
 
-/// One piece of the result, on stdout, at once. On a terminal its verdicts have colours, unless NO_COLOR is set.
-/// No line of it is a workflow command, whatever name or reason it holds; names in it must have gone through one_line().
+/// One piece of the result, on stdout, at once. On a terminal its verdicts have colours, unless NO_COLOR is
+/// set. No line of it is a workflow command, whatever name or reason it holds; names in it must have gone
+/// through one_line().
 void print(const std::string& text);
 
 /// One line of the result, whatever names and reasons it holds.
@@ -53,22 +54,25 @@ struct EngineWords {
 [[nodiscard]] std::vector<std::string> files_as_paths(std::vector<std::string> words);
 
 /// The engines that a selection can need; `paths` join.
-[[nodiscard]] std::vector<EngineEntry> discover_selected(const Selection&, const std::vector<std::string>& paths);
+[[nodiscard]] std::vector<EngineEntry> discover_selected(const Selection&,
+                                                         const std::vector<std::string>& paths);
 
 /// "no engine is named x (did you mean `y`?)"
 [[nodiscard]] std::string no_such_engine(const std::string& name, const std::vector<EngineEntry>& engines);
 
-/// Folder that a command writes to where no --out is given: one for each command and case, so that none overwrites another's
-/// report.
+/// Folder that a command writes to where no --out is given: one for each command and case, so that none
+/// overwrites another's report.
 [[nodiscard]] std::string own_folder(const std::string& command, const std::string& case_id);
 
 /// A results.json, or that of the folder of a report. @throws InputError where neither is there
 [[nodiscard]] std::string results_file(const std::string& path);
 
-/// The switch --sandbox. Where it is wanted, sandbox_third_parties() is called before the first engine is asked.
+/// The switch --sandbox. Where it is wanted, sandbox_third_parties() is called before the first engine is
+/// asked.
 void add_sandbox_flag(CLI::App& command, bool& wanted);
 
-/// Makes the folder of --out before anything runs. @throws InputError that says why it cannot be made or written to
+/// Makes the folder of --out before anything runs. @throws InputError that says why it cannot be made or
+/// written to
 void make_folder(const std::string& out);
 
 /// The same, and no other call has it while the result lives: for commands that make runs or reports in it.
@@ -78,8 +82,8 @@ void make_folder(const std::string& out);
 /// Message about a command or option that does not exist, with the nearest one; empty where none is mistyped.
 [[nodiscard]] std::string mistyped_word(const CLI::App& app, int argc, char** argv);
 
-/// Opens the standard streams that the caller has closed. Otherwise the next opened file would take their place, and our words
-/// would go into it.
+/// Opens the standard streams that the caller has closed. Otherwise the next opened file would take their
+/// place, and our words would go into it.
 void hold_standard_streams();
 /// Whether all that was printed has arrived; says so where it has not (a full disk, a closed pipe).
 [[nodiscard]] bool output_arrived();

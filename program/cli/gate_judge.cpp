@@ -26,9 +26,11 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* propose_description =
-    "Writes what `gate accept` would write as a patch, and accepts nothing: no baseline is touched. Above the patch, as text, "
+    "Writes what `gate accept` would write as a patch, and accepts nothing: no baseline is touched. Above "
+    "the patch, as text, "
     "stand what changes and\n"
-    "the line that accepts it. Without --reason the patch says that nobody has decided, and a baseline that says so is red (exit "
+    "the line that accepts it. Without --reason the patch says that nobody has decided, and a baseline that "
+    "says so is red (exit "
     "4).\n"
     "  tripoint gate propose report/results.json flight/throw --patch baselines.patch";
 
@@ -55,8 +57,8 @@ std::vector<Remark> as_warnings(std::vector<Remark> remarks) {
 std::string last_words(const GateVerdict& verdict, bool informational) {
   if (!informational || verdict.code == exit_pass)
     return fmt::format("verdict {} exit {}{}", verdict.word, verdict.code, verdict.absent);
-  return fmt::format("verdict {} exit 0 (informational; without --informational exit {}){}", verdict.word, verdict.code,
-                     verdict.absent);
+  return fmt::format("verdict {} exit 0 (informational; without --informational exit {}){}", verdict.word,
+                     verdict.code, verdict.absent);
 }
 
 }  // namespace
@@ -76,7 +78,8 @@ void say_if_called_elsewhere(const Results& results, const std::string& path) {
   const auto& file = results.cases.front().file;
   const auto folder = folder_above(path, file);
   say(
-      fmt::format("tripoint: {} names cases by their paths from the folder in which validate was called, and {} is not in {}: "
+      fmt::format("tripoint: {} names cases by their paths from the folder in which validate was called, and "
+                  "{} is not in {}: "
                   "call this command in {}",
                   printable(path, 200), printable(file, 200), fs::current_path(none).string(),
                   folder.empty() ? "that folder, if the case is still there" : folder.string()));
@@ -116,10 +119,12 @@ int propose_baselines(const ProposeOptions& o) {
   say_if_called_elsewhere(results, path);
   if (const auto wrong = recheck_remarks(results); !wrong.empty())
     throw InputError(path + ": " + wrong.front().title + ": " + wrong.front().text);
-  const auto list =
-      proposals(results, ids, {results.date.substr(0, 10), results.tool.commit, o.reason.empty() ? undecided_reason : o.reason},
-                {.keep = true, .drop = true});
-  const auto text = patch_text(list, path, list.empty() ? "." : patch_root(list.front().file), o.reason.empty());
+  const auto list = proposals(
+      results, ids,
+      {results.date.substr(0, 10), results.tool.commit, o.reason.empty() ? undecided_reason : o.reason},
+      {.keep = true, .drop = true});
+  const auto text =
+      patch_text(list, path, list.empty() ? "." : patch_root(list.front().file), o.reason.empty());
   if (o.patch.empty()) {
     print(text);
     return exit_pass;
@@ -134,29 +139,34 @@ int propose_baselines(const ProposeOptions& o) {
 void add_judge_options(CLI::App& gate, JudgeOptions& o) {
   gate.add_option("RESULTS", o.results, "a results.json, or the folder of one");
   gate.add_option("--against", o.against,
-                  "print every metric beside that of this base, with the change in units of its limit and the noise; worse "
+                  "print every metric beside that of this base, with the change in units of its limit and "
+                  "the noise; worse "
                   "within the limit is said")
       ->type_name("BASE.json");
-  gate.add_option("--again", o.again,
-                  "with --against: results of the base once more (A/A); what differs between the two counts as noise")
+  gate.add_option(
+          "--again", o.again,
+          "with --against: results of the base once more (A/A); what differs between the two counts as noise")
       ->type_name("BASE2.json");
   gate.add_flag("--no-worse", o.no_worse,
-                "with --against: worse than the base by more than its noise is red (exit 1), a metric that is gone or a looser "
+                "with --against: worse than the base by more than its noise is red (exit 1), a metric that "
+                "is gone or a looser "
                 "limit too (exit 4)");
   gate.add_flag("--informational", o.informational, "say the verdict, and end 0 whatever it is");
   gate.add_flag("--annotations", o.annotations,
-                "remarks as workflow commands of GitHub (also where GITHUB_ACTIONS is true): ten of a kind, the worst first");
+                "remarks as workflow commands of GitHub (also where GITHUB_ACTIONS is true): ten of a kind, "
+                "the worst first");
   gate.add_option("--baselines", o.baselines,
-                  "judge by the baselines in this folder, for example those of the branch that a change is to go into (default: "
+                  "judge by the baselines in this folder, for example those of the branch that a change is "
+                  "to go into (default: "
                   "beside the cases); one that is gone beside the cases is an error, exit 4")
       ->type_name("DIR");
-  gate.add_flag(
-      "--require-baselines", o.require_baselines,
-      "a case that has no baseline is an error, exit 4 (else one warning names them); with --baselines also a case that has "
-      "one there and is not among the results");
-  gate.add_option(
-      "--history", o.history,
-      "append a line of JSON a case, with every value and count, to this file (validate has done so to OUT/history.jsonl)");
+  gate.add_flag("--require-baselines", o.require_baselines,
+                "a case that has no baseline is an error, exit 4 (else one warning names them); with "
+                "--baselines also a case that has "
+                "one there and is not among the results");
+  gate.add_option("--history", o.history,
+                  "append a line of JSON a case, with every value and count, to this file (validate has done "
+                  "so to OUT/history.jsonl)");
 }
 
 CLI::App* add_propose(CLI::App& gate, ProposeOptions& o) {

@@ -9,8 +9,8 @@ namespace CLI {
 class App;
 }
 
-/// Judging results that are there: `tripoint gate RESULTS`, `tripoint gate propose` and `tripoint summary`. These commands
-/// neither run anything nor write a baseline.
+/// Judging results that are there: `tripoint gate RESULTS`, `tripoint gate propose` and `tripoint summary`.
+/// These commands neither run anything nor write a baseline.
 namespace tripoint {
 
 struct JudgeOptions {
@@ -19,15 +19,18 @@ struct JudgeOptions {
   bool annotations = false, require_baselines = false, no_worse = false, informational = false;
 };
 
-/// The results of a results.json, or of the folder of a report, judged anew. @throws InputError where there are none
+/// The results of a results.json, or of the folder of a report, judged anew. @throws InputError where there
+/// are none
 [[nodiscard]] Results judged_results(const std::string& path);
 
-/// Results name a case by its path from the folder in which `validate` was called. From another folder no case can be read again,
-/// and the verdict alone would not tell why. This function says on stderr in which folder to call.
+/// Results name a case by its path from the folder in which `validate` was called. From another folder no
+/// case can be read again, and the verdict alone would not tell why. This function says on stderr in which
+/// folder to call.
 void say_if_called_elsewhere(const Results&, const std::string& path);
 
 void add_judge_options(CLI::App& gate, JudgeOptions&);
-/// Prints the verdict, the remarks about the results and, with a base, every metric beside it. @return the exit code
+/// Prints the verdict, the remarks about the results and, with a base, every metric beside it. @return the
+/// exit code
 [[nodiscard]] int judge_results(const JudgeOptions&);
 
 struct ProposeOptions {

@@ -15,7 +15,8 @@
 namespace tripoint {
 namespace fs = std::filesystem;
 
-void hand_over(const std::string& program, const std::vector<std::string>& options, const std::vector<std::string>& operands) {
+void hand_over(const std::string& program, const std::vector<std::string>& options,
+               const std::vector<std::string>& operands) {
   const fs::path file = fs::path(share_folder()) / "reports" / program;
   if (!fs::exists(file)) throw EngineError("the program " + file.string() + " is missing");
   std::vector<std::string> words{python_program(), "-B", file.string()};

@@ -15,7 +15,8 @@
 namespace {
 
 constexpr const char* description =
-    "tripoint: one scene in our SPH solver, in Bullet, in LAMMPS and in exact solutions, compared and judged.\n\n"
+    "tripoint: one scene in our SPH solver, in Bullet, in LAMMPS and in exact solutions, compared and "
+    "judged.\n\n"
     "First steps:\n"
     "  tripoint list                         the cases and what each one proves\n"
     "  tripoint explain rigid/ballistic      what a case simulates, and why each default is what it is\n"
@@ -24,16 +25,19 @@ constexpr const char* description =
 
 constexpr const char* footer =
     "tripoint COMMAND --help says more, with examples.\n"
-    "Exit codes: 0 pass, 1 an accuracy, order or invariant gate fails, 2 bad input, 3 inconclusive, 4 a required engine, "
+    "Exit codes: 0 pass, 1 an accuracy, order or invariant gate fails, 2 bad input, 3 inconclusive, 4 a "
+    "required engine, "
     "reference\n"
-    "or metric is missing or not comparable, 5 the gate's self-test fails, 6 cost regression, 7 diverged, 130 Ctrl-C.";
+    "or metric is missing or not comparable, 5 the gate's self-test fails, 6 cost regression, 7 diverged, "
+    "130 Ctrl-C.";
 
 /// Lists commands by the first sentence of their descriptions: the rest is in each one's own help.
 class FirstSentences : public CLI::Formatter {
  public:
   std::string make_subcommand(const CLI::App* command) const override {
     std::ostringstream out;
-    CLI::detail::format_help(out, command->get_name(), tripoint::first_sentence(command->get_description()), 14);
+    CLI::detail::format_help(out, command->get_name(), tripoint::first_sentence(command->get_description()),
+                             14);
     return out.str();
   }
 };
@@ -66,9 +70,10 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   int exit_code = exit_pass;
   for (const auto add :
-       {add_run,      add_validate,  add_merge,  add_suite,   add_status, add_compare,  add_report,  add_render, add_view,
-        add_converge, add_recommend, add_plan,   add_predict, add_ablate, add_gate,     add_summary, add_check,  add_explain,
-        add_list,     add_new,       add_schema, add_engines, add_engine, add_releases, add_bench,   add_export})
+       {add_run,     add_validate, add_merge,    add_suite,     add_status, add_compare, add_report,
+        add_render,  add_view,     add_converge, add_recommend, add_plan,   add_predict, add_ablate,
+        add_gate,    add_summary,  add_check,    add_explain,   add_list,   add_new,     add_schema,
+        add_engines, add_engine,   add_releases, add_bench,     add_export})
     add(app, exit_code);
   keep_one_list_of_exit_codes(app);
   if (const auto wrong = mistyped_word(app, argc, argv); !wrong.empty()) {
@@ -78,7 +83,8 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? exit_pass : exit_bad_input;  // CLI11's own codes, 106 and others, mean nothing here
+    // CLI11's own codes, 106 and others, mean nothing here
+    return app.exit(e) == 0 ? exit_pass : exit_bad_input;
   }
   return output_arrived() || exit_code != exit_pass ? exit_code : exit_bad_input;
 }

@@ -16,10 +16,12 @@ struct MergeOptions {
   bool page = true, json = false, sandbox = false;
 };
 
-/// Judges a suite whose jobs are done, and writes its report into its folder or `out`. @return the exit code of its verdict
+/// Judges a suite whose jobs are done, and writes its report into its folder or `out`. @return the exit code
+/// of its verdict
 [[nodiscard]] int merge_suite(const std::string& folder, const MergeOptions&);
 
-/// Adds the command `merge` to a group. @param earlier its spelling there, where it is one of an earlier version; else empty
+/// Adds the command `merge` to a group. @param earlier its spelling there, where it is one of an earlier
+/// version; else empty
 void add_merge_to(CLI::App& group, int& exit_code, const std::string& earlier);
 
 }  // namespace tripoint

@@ -20,7 +20,8 @@ const CLI::App* below(const CLI::App& app, const std::string& name) {
 
 std::vector<std::string> verbs_of(const CLI::App& app) {
   std::vector<std::string> names;
-  for (const auto* sub : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(sub->get_name());
+  for (const auto* sub : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(sub->get_name());
   return names;
 }
 
@@ -42,7 +43,8 @@ std::string mistyped_option(const CLI::App& command, int argc, char** argv) {
     if (std::find(known.begin(), known.end(), option) != known.end()) continue;
     const auto near = nearest(option, known);
     if (!near.empty())
-      return fmt::format("{} has no option --{} (did you mean `--{}`?)", command.get_name(), printable(option), near);
+      return fmt::format("{} has no option --{} (did you mean `--{}`?)", command.get_name(),
+                         printable(option), near);
   }
   return "";
 }
@@ -61,10 +63,12 @@ std::string mistyped_word(const CLI::App& app, int argc, char** argv) {
   }
   const std::string second = argc > 2 ? argv[2] : "";
   if (const auto* sub = below(*command, second)) return mistyped_option(*sub, argc, argv);
-  const bool is_word = !second.empty() && second.find_first_of("-./") == std::string::npos && !std::filesystem::exists(second);
+  const bool is_word =
+      !second.empty() && second.find_first_of("-./") == std::string::npos && !std::filesystem::exists(second);
   const auto near = is_word ? nearest(second, verbs_of(*command)) : "";
   if (!near.empty())
-    return fmt::format("{}: no command is named {} (did you mean `{} {}`?)", verb, printable(second), verb, near);
+    return fmt::format("{}: no command is named {} (did you mean `{} {}`?)", verb, printable(second), verb,
+                       near);
   return mistyped_option(*command, argc, argv);
 }
 

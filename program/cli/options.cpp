@@ -43,7 +43,8 @@ void note_earlier(const std::string& spelling, const std::string& now) {
   say(fmt::format("tripoint: note: {} is now {}", spelling, now));
 }
 
-void add_earlier_flag(CLI::App& command, const std::string& flag, const std::string& now, const std::function<void()>& set) {
+void add_earlier_flag(CLI::App& command, const std::string& flag, const std::string& now,
+                      const std::function<void()>& set) {
   command
       .add_flag_callback(flag,
                          [flag, now, set] {
@@ -56,7 +57,8 @@ void add_earlier_flag(CLI::App& command, const std::string& flag, const std::str
 std::string commands_of(const CLI::App& group) {
   std::string text;
   for (const auto* command : group.get_subcommands([](const CLI::App* c) { return !c->get_group().empty(); }))
-    text += fmt::format("{} {}  {}\n", group.get_name(), command->get_name(), first_sentence(command->get_description()));
+    text += fmt::format("{} {}  {}\n", group.get_name(), command->get_name(),
+                        first_sentence(command->get_description()));
   return text;
 }
 
@@ -69,14 +71,16 @@ void list_when_alone(CLI::App& group, int& exit_code) {
   });
 }
 
-std::vector<EngineEntry> engines_asked_for(const std::vector<std::string>& asked_words, Selection& selection) {
+std::vector<EngineEntry> engines_asked_for(const std::vector<std::string>& asked_words,
+                                           Selection& selection) {
   auto words = sort_engine_words(asked_words);
   auto& wanted = std::erase(words.names, all_engines) > 0 ? selection.extra : selection.engines;
   wanted = words.names;
   for (const auto& path : words.paths) wanted.push_back(ask_engine(path).name);
   auto engines = discover_selected(selection, words.paths);
   auto& asked = selection.asked;
-  for (const auto* list : {&selection.engines, &selection.extra}) asked.insert(asked.end(), list->begin(), list->end());
+  for (const auto* list : {&selection.engines, &selection.extra})
+    asked.insert(asked.end(), list->begin(), list->end());
   std::sort(asked.begin(), asked.end());
   asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
   for (const auto& name : asked)

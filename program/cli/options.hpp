@@ -14,8 +14,8 @@ class App;
 
 namespace tripoint {
 
-/// The option --engines: `A,B` is these alone, `all,A` those of each case and A. --engine A is the earlier spelling of the
-/// second.
+/// The option --engines: `A,B` is these alone, `all,A` those of each case and A. --engine A is the earlier
+/// spelling of the second.
 struct EngineList {
   std::string list;
   std::vector<std::string> joining;
@@ -31,7 +31,8 @@ void add_engines_option(CLI::App& command, EngineList& choice);
 void note_earlier(const std::string& spelling, const std::string& now);
 
 /// A flag of an earlier version: it works, says on stderr what is written now, and --help does not list it.
-void add_earlier_flag(CLI::App& command, const std::string& flag, const std::string& now, const std::function<void()>& set);
+void add_earlier_flag(CLI::App& command, const std::string& flag, const std::string& now,
+                      const std::function<void()>& set);
 
 /// Of a command's description: the rest is in its own help.
 [[nodiscard]] std::string first_sentence(std::string description);

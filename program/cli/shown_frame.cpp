@@ -23,15 +23,18 @@ bool has(const Box& b) { return b.low.x <= b.high.x; }
 double lowest(const Box& b, const Vec3& up) {
   double least = std::numeric_limits<double>::infinity();
   for (unsigned c = 0; c < 8; ++c)
-    least = std::min(least, dot(up, Vec3{c & 1U ? b.high.x : b.low.x, c & 2U ? b.high.y : b.low.y, c & 4U ? b.high.z : b.low.z}));
+    least = std::min(least, dot(up, Vec3{c & 1U ? b.high.x : b.low.x, c & 2U ? b.high.y : b.low.y,
+                                         c & 4U ? b.high.z : b.low.z}));
   return least;
 }
 
-Colour colour_of_row(const ShownRun& run, const Snapshot& f, std::size_t row, const Showing& s, int first_liquid) {
+Colour colour_of_row(const ShownRun& run, const Snapshot& f, std::size_t row, const Showing& s,
+                     int first_liquid) {
   if (run.wall[row] != 0) return wall_colour();
   const int phase = f.phase.empty() ? 2 : f.phase[row], body = f.body.empty() ? -1 : f.body[row];
   if (s.colouring == Colouring::temperature) {
-    const double share = f.temperature.empty() ? 0.0 : (f.temperature[row] - s.cold) / std::max(s.hot - s.cold, least_span);
+    const double share =
+        f.temperature.empty() ? 0.0 : (f.temperature[row] - s.cold) / std::max(s.hot - s.cold, least_span);
     return std::isfinite(share) ? temperature_colour(share) : wall_colour();
   }
   if (s.colouring == Colouring::phase || body < 0)
@@ -49,8 +52,8 @@ int first_liquid_of(const ShownRun& run) {
 }
 
 /// Rows of a part that are drawn: no wall that hides, none that has left the picture by far.
-std::vector<std::uint32_t> drawn_rows(const ShownPart& part, const Snapshot& f, const Showing& s, const Box& room, const Vec3& up,
-                                      const Vec3& towards, double spacing) {
+std::vector<std::uint32_t> drawn_rows(const ShownPart& part, const Snapshot& f, const Showing& s,
+                                      const Box& room, const Vec3& up, const Vec3& towards, double spacing) {
   std::vector<std::uint32_t> rows;
   for (const std::uint32_t row : part.rows)
     if (room.holds(f.position[row]) && !(part.wall && s.walls == WallsDrawn::cut && has(s.room.free) &&
@@ -77,7 +80,8 @@ void each_temperature(const ShownRun& run, const std::vector<std::size_t>& frame
 
 }  // namespace
 
-std::optional<std::pair<double, double>> temperatures_of(const ShownRun& run, const std::vector<std::size_t>& frames) {
+std::optional<std::pair<double, double>> temperatures_of(const ShownRun& run,
+                                                         const std::vector<std::size_t>& frames) {
   constexpr double most = std::numeric_limits<double>::infinity();
   std::pair free{most, -most}, all{most, -most};
   each_temperature(run, frames, [&](double T, bool wall) {
@@ -103,7 +107,8 @@ Colouring natural_colouring(const ShownRun& run, const std::vector<std::size_t>&
 std::vector<Vec3> looked_at(const ShownRun& run, const std::vector<std::size_t>& frames, const Showing& s) {
   const Vec3 up = upwards(run.gravity), towards = -CameraAxes(up, s.view).forward;
   const bool free_ones = has(s.room.free);
-  const Box near = free_ones ? grown(s.room.free, 0.5 * norm(s.room.free.high - s.room.free.low)) : s.room.walls;
+  const Box near =
+      free_ones ? grown(s.room.free, 0.5 * norm(s.room.free.high - s.room.free.low)) : s.room.walls;
   std::vector<Vec3> places;
   for (const std::size_t n : frames) {
     const Snapshot& f = run.trajectory.frames[n];
@@ -112,7 +117,8 @@ std::vector<Vec3> looked_at(const ShownRun& run, const std::vector<std::size_t>&
       if (!is_there(f, i) || (wall && (s.walls == WallsDrawn::hide || n != frames.front())) ||
           !(wall || !free_ones ? near : s.room.free).holds(f.position[i]))
         continue;
-      if (!(wall && s.walls == WallsDrawn::cut && free_ones && hides(f.position[i], s.room.free, up, towards, run.spacing)))
+      if (!(wall && s.walls == WallsDrawn::cut && free_ones &&
+            hides(f.position[i], s.room.free, up, towards, run.spacing)))
         places.push_back(f.position[i]);
     }
   }
@@ -122,13 +128,15 @@ std::vector<Vec3> looked_at(const ShownRun& run, const std::vector<std::size_t>&
 Picture picture_of(const ShownRun& run, const Snapshot& f, const Showing& s) {
   const Vec3 up = upwards(run.gravity);
   const Box shown = box_around(s.looked_at);
-  const Camera camera(s.looked_at, run.spacing, CameraAxes(up, s.view), static_cast<double>(s.width) / s.height);
+  const Camera camera(s.looked_at, run.spacing, CameraAxes(up, s.view),
+                      static_cast<double>(s.width) / s.height);
   Display display;
   display.up = up;
   display.size = norm(shown.high - shown.low);
   const bool has_walls = s.walls != WallsDrawn::hide && has(s.room.walls);
   if (norm(run.gravity) > 0.0)
-    display.ground = lowest(has_walls ? united(s.room.free, s.room.walls) : s.room.free, up) - 0.5 * run.spacing;
+    display.ground =
+        lowest(has_walls ? united(s.room.free, s.room.walls) : s.room.free, up) - 0.5 * run.spacing;
   const Box room = grown(shown, clip * display.size);
   const int first_liquid = first_liquid_of(run);
   for (const ShownPart& part : parts_of(run, f, s.whole)) {
@@ -139,7 +147,8 @@ Picture picture_of(const ShownRun& run, const Snapshot& f, const Showing& s) {
     for (const std::uint32_t row : rows) colours.push_back(colour_of_row(run, f, row, s, first_liquid));
     const auto places = places_of(f, rows);
     if (s.particles)
-      display.targets.push_back(std::make_unique<SphereTarget>(places, ball * run.spacing, std::move(colours)));
+      display.targets.push_back(
+          std::make_unique<SphereTarget>(places, ball * run.spacing, std::move(colours)));
     else
       display.targets.push_back(std::make_unique<SurfaceTarget>(places, s.surface, std::move(colours)));
   }
@@ -160,9 +169,12 @@ std::vector<SurfacePart> meshes_of(const ShownRun& run, const Snapshot& f, const
       return of;
     };
     const auto& corners = made.mesh.points;
-    if (!f.temperature.empty()) made.temperature = mean_at(surface, corners, values(f.temperature), s.threads);
-    made.phase = f.phase.empty() ? std::vector<int>(corners.size(), 2) : label_at(surface, corners, values(f.phase), s.threads);
-    made.body = f.body.empty() ? std::vector<int>(corners.size(), -1) : label_at(surface, corners, values(f.body), s.threads);
+    if (!f.temperature.empty())
+      made.temperature = mean_at(surface, corners, values(f.temperature), s.threads);
+    made.phase = f.phase.empty() ? std::vector<int>(corners.size(), 2)
+                                 : label_at(surface, corners, values(f.phase), s.threads);
+    made.body = f.body.empty() ? std::vector<int>(corners.size(), -1)
+                               : label_at(surface, corners, values(f.body), s.threads);
     meshes.push_back(std::move(made));
   }
   return meshes;

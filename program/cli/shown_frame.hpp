@@ -33,18 +33,22 @@ struct Showing {
 /// Default colouring of a run: temperature where it varies, else phase where there are several, else body.
 [[nodiscard]] Colouring natural_colouring(const ShownRun&, const std::vector<std::size_t>& frames);
 
-/// Least and greatest temperature of all but walls; of everything where that has none or one only; nothing without temperatures
-/// [K].
-[[nodiscard]] std::optional<std::pair<double, double>> temperatures_of(const ShownRun&, const std::vector<std::size_t>& frames);
+/// Least and greatest temperature of all but walls; of everything where that has none or one only; nothing
+/// without temperatures [K].
+[[nodiscard]] std::optional<std::pair<double, double>> temperatures_of(
+    const ShownRun&, const std::vector<std::size_t>& frames);
 
-/// Places that pictures of these frames should hold: free particles, and walls that are shown and no more than half their size
-/// off.
-[[nodiscard]] std::vector<Vec3> looked_at(const ShownRun&, const std::vector<std::size_t>& frames, const Showing&);
+/// Places that pictures of these frames should hold: free particles, and walls that are shown and no more
+/// than half their size off.
+[[nodiscard]] std::vector<Vec3> looked_at(const ShownRun&, const std::vector<std::size_t>& frames,
+                                          const Showing&);
 
 [[nodiscard]] Picture picture_of(const ShownRun&, const Snapshot&, const Showing&);
 
-/// Meshes of the frame's parts, walls left out unless they are shown, each with what its corners know of the particles.
+/// Meshes of the frame's parts, walls left out unless they are shown, each with what its corners know of the
+/// particles.
 /// @param voxel [m]
-[[nodiscard]] std::vector<SurfacePart> meshes_of(const ShownRun&, const Snapshot&, const Showing&, double voxel);
+[[nodiscard]] std::vector<SurfacePart> meshes_of(const ShownRun&, const Snapshot&, const Showing&,
+                                                 double voxel);
 
 }  // namespace tripoint

@@ -18,7 +18,8 @@ namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double flown_off = 0.005;     // share of the free particles, at each end of each axis, that a picture may lose
+// Share of the free particles, at each end of each axis, that a picture may lose
+constexpr double flown_off = 0.005;
 constexpr std::size_t looked_at = 400;  // particles whose nearest neighbour is looked for
 
 int at_or(const std::vector<int>& column, std::size_t row, int otherwise) {
@@ -30,8 +31,10 @@ std::string runs_below(const fs::path& folder) {
   std::string found;
   std::error_code none;
   std::size_t count = 0;
-  for (fs::recursive_directory_iterator at(folder, none), end; !none && at != end && count < 3; at.increment(none))
-    if (at->path().filename() == "trajectory.h5") found += (count++ == 0 ? "" : ", ") + at->path().parent_path().string();
+  for (fs::recursive_directory_iterator at(folder, none), end; !none && at != end && count < 3;
+       at.increment(none))
+    if (at->path().filename() == "trajectory.h5")
+      found += (count++ == 0 ? "" : ", ") + at->path().parent_path().string();
   return found;
 }
 
@@ -39,14 +42,17 @@ fs::path folder_of(const std::string& run) {
   const fs::path path(run);
   if (fs::is_regular_file(path)) return path.parent_path().empty() ? fs::path(".") : path.parent_path();
   if (fs::exists(path / "trajectory.h5")) return path;
-  if (const auto by_case = fs::path("runs") / path / engine_name::solver; fs::exists(by_case / "trajectory.h5")) return by_case;
+  if (const auto by_case = fs::path("runs") / path / engine_name::solver;
+      fs::exists(by_case / "trajectory.h5"))
+    return by_case;
   if (!fs::is_directory(path))
-    throw InputError(
-        fmt::format("{}: no such folder, and no run of a case of this name in runs/. `tripoint run CASE` makes one", run));
+    throw InputError(fmt::format(
+        "{}: no such folder, and no run of a case of this name in runs/. `tripoint run CASE` makes one",
+        run));
   const auto others = runs_below(path);
-  throw InputError(
-      fmt::format("{}: no trajectory.h5 here{}", run,
-                  others.empty() ? ". `tripoint run CASE --out DIR` leaves one in DIR" : "; there is one in " + others));
+  throw InputError(fmt::format(
+      "{}: no trajectory.h5 here{}", run,
+      others.empty() ? ". `tripoint run CASE --out DIR` leaves one in DIR" : "; there is one in " + others));
 }
 
 /// Median distance of a particle to its nearest neighbour.
@@ -61,7 +67,8 @@ double spacing_of(const Snapshot& f, const std::string& folder) {
       if (j != rows[n]) least = std::min(least, norm(f.position[j] - f.position[rows[n]]));
     nearest.push_back(least);
   }
-  if (nearest.size() < 2) throw InputError(folder + ": too few particles to tell their spacing, and no job.json that says it");
+  if (nearest.size() < 2)
+    throw InputError(folder + ": too few particles to tell their spacing, and no job.json that says it");
   std::ranges::nth_element(nearest, nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2));
   return nearest[nearest.size() / 2];
 }
@@ -98,7 +105,8 @@ void find_walls(ShownRun& run) {
   for (std::size_t i = 0; i < first.position.size(); ++i) {
     bool still = is_there(first, i);
     for (const Snapshot& f : frames)
-      still = still && i < f.position.size() && is_there(f, i) && norm(f.position[i] - first.position[i]) < 1e-9 * run.spacing;
+      still = still && i < f.position.size() && is_there(f, i) &&
+              norm(f.position[i] - first.position[i]) < 1e-9 * run.spacing;
     run.wall[i] = still && at_or(first.body, i, -1) >= 0;
   }
 }
@@ -109,7 +117,8 @@ Box without_flown_off(std::vector<Vec3>& places) {
   if (lost == 0) return b;
   for (std::size_t a = 0; a < 3; ++a) {
     const auto value = [&](std::size_t n) {
-      std::ranges::nth_element(places, places.begin() + static_cast<std::ptrdiff_t>(n), {}, [&](const Vec3& r) { return r[a]; });
+      std::ranges::nth_element(places, places.begin() + static_cast<std::ptrdiff_t>(n), {},
+                               [&](const Vec3& r) { return r[a]; });
       return places[n][a];
     };
     b.low[a] = value(lost);
@@ -126,7 +135,9 @@ Box united(const Box& a, const Box& b) {
   return b.low.x > b.high.x ? a : box_around(corners);
 }
 
-bool is_there(const Snapshot& f, std::size_t row) { return (f.id.empty() || f.id[row] >= 0) && finite(f.position[row]); }
+bool is_there(const Snapshot& f, std::size_t row) {
+  return (f.id.empty() || f.id[row] >= 0) && finite(f.position[row]);
+}
 
 ShownRun read_shown_run(const std::string& path) {
   ShownRun run;
@@ -148,7 +159,8 @@ ShownRun read_shown_run(const std::string& path) {
 }
 
 std::vector<ShownPart> parts_of(const ShownRun& run, const Snapshot& frame, bool whole) {
-  std::map<std::tuple<int, int>, ShownPart> parts;  // walls (0, body), liquids (1, material), bodies (2, body)
+  // Walls (0, body), liquids (1, material), bodies (2, body)
+  std::map<std::tuple<int, int>, ShownPart> parts;
   for (std::size_t i = 0; i < frame.position.size(); ++i) {
     if (!is_there(frame, i)) continue;
     const int body = at_or(frame.body, i, -1), material = at_or(frame.material, i, 0);
@@ -160,7 +172,8 @@ std::vector<ShownPart> parts_of(const ShownRun& run, const Snapshot& frame, bool
     ShownPart& part = parts[key];
     if (part.rows.empty()) {
       const auto named = [](const std::vector<std::string>& names, int n, const char* kind) {
-        return n >= 0 && static_cast<std::size_t>(n) < names.size() && !names[static_cast<std::size_t>(n)].empty()
+        return n >= 0 && static_cast<std::size_t>(n) < names.size() &&
+                       !names[static_cast<std::size_t>(n)].empty()
                    ? names[static_cast<std::size_t>(n)]
                    : fmt::format("{} {}", kind, n);
       };

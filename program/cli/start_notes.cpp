@@ -12,16 +12,19 @@
 namespace tripoint {
 namespace {
 
-constexpr double stirs = 0.03;  ///< rms speed of a lattice that is let go, over sqrt(g H): the least that was measured
+/// Rms speed of a lattice that is let go, over sqrt(g H): the least that was measured
+constexpr double stirs = 0.03;
 
 /// The part of gravity that no periodic direction lets through [m/s2]
 Vec3 weight(const Scene& s) {
-  return {s.periodic[0] ? 0.0 : s.gravity.x, s.periodic[1] ? 0.0 : s.gravity.y, s.periodic[2] ? 0.0 : s.gravity.z};
+  return {s.periodic[0] ? 0.0 : s.gravity.x, s.periodic[1] ? 0.0 : s.gravity.y,
+          s.periodic[2] ? 0.0 : s.gravity.z};
 }
 
 bool is_solid(const Body& b, Motion motion) { return b.phase != Phase::liquid && b.motion == motion; }
 
-/// Depth of the liquid of this body along gravity, one spacing more than its particles lie apart [m]; 0 where one of them moves.
+/// Depth of the liquid of this body along gravity, one spacing more than its particles lie apart [m]; 0 where
+/// one of them moves.
 double depth_at_rest(const Scene& s, const InitialState& state, std::size_t body, const Vec3& down) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (std::size_t i = 0; i < state.size(); ++i) {
@@ -53,7 +56,8 @@ std::vector<Finding> start_notes(const Scene& s, const InitialState& state) {
     const double speed = stirs * std::sqrt(g * depth_at_rest(s, state, n, weight(s) / g));
     if (m.viscosity >= m.density * speed * s.spacing) continue;  // it is held back within about a spacing
     return {{false,
-             fmt::format("liquid \"{}\" starts as a lattice, which is no equilibrium: let go, it moves at some {:.1g} m/s rms "
+             fmt::format("liquid \"{}\" starts as a lattice, which is no equilibrium: let go, it moves at "
+                         "some {:.1g} m/s rms "
                          "for seconds; where it is to be at rest, scene.settle = true lets it down first",
                          b.name, speed),
              b.place}};

@@ -17,9 +17,11 @@ using Row = std::array<double, 3>;
 constexpr double head_of_a_number = sizeof(double);
 constexpr double atom_numbers = 6.0;  ///< place, id, type and mask, which LAMMPS sends with a new copy
 
-/// Solves the normal equations of the chosen terms by Gauss with pivots. @param of_first weight of the first row; others have 1
+/// Solves the normal equations of the chosen terms by Gauss with pivots. @param of_first weight of the first
+/// row; others have 1
 /// @return nothing where they do not tell the terms apart
-std::optional<Row> least_squares(const std::vector<Row>& rows, const std::vector<std::size_t>& terms, double of_first) {
+std::optional<Row> least_squares(const std::vector<Row>& rows, const std::vector<std::size_t>& terms,
+                                 double of_first) {
   const std::size_t n = terms.size();
   std::array<std::array<double, 4>, 3> m{};
   for (const Row& row : rows) {
@@ -48,21 +50,24 @@ std::optional<Row> least_squares(const std::vector<Row>& rows, const std::vector
 
 }  // namespace
 
-/// Terms are scaled by their values in the greatest run, and each run by its time: the fitted value is 1 in each run. The first
-/// run is of the case itself and counts most: predictions are nearest to it, also in the effect of caches.
+/// Terms are scaled by their values in the greatest run, and each run by its time: the fitted value is 1 in
+/// each run. The first run is of the case itself and counts most: predictions are nearest to it, also in the
+/// effect of caches.
 WorkCost fit_work(const std::vector<OneRank>& runs) {
   if (runs.empty()) throw InputError("no run on one rank to fit the cost of a step to");
   for (const OneRank& r : runs)
-    if (!(r.particles > 0.0 && r.pairs > 0.0 && r.seconds > 0.0)) throw InputError("a run on one rank gave no time of a step");
-  const OneRank& most =
-      *std::max_element(runs.begin(), runs.end(), [](const OneRank& a, const OneRank& b) { return a.pairs < b.pairs; });
+    if (!(r.particles > 0.0 && r.pairs > 0.0 && r.seconds > 0.0))
+      throw InputError("a run on one rank gave no time of a step");
+  const OneRank& most = *std::max_element(
+      runs.begin(), runs.end(), [](const OneRank& a, const OneRank& b) { return a.pairs < b.pairs; });
   const Row scale{most.seconds, most.seconds / most.particles, most.seconds / most.pairs};
   constexpr double weight_of_case = 10.0;
   std::vector<Row> rows;
   for (const OneRank& r : runs)
-    rows.push_back({scale[0] / r.seconds, scale[1] * r.particles / r.seconds, scale[2] * r.pairs / r.seconds});
-  // A step consists mainly of pairs, so that they are never left out. Fewer terms go first where they do as well, and particles
-  // before fixed costs. Runs of one number of particles do not tell these two apart.
+    rows.push_back(
+        {scale[0] / r.seconds, scale[1] * r.particles / r.seconds, scale[2] * r.pairs / r.seconds});
+  // A step consists mainly of pairs, so that they are never left out. Fewer terms go first where they do as
+  // well, and particles before fixed costs. Runs of one number of particles do not tell these two apart.
   const std::array<std::vector<std::size_t>, 4> choices{{{2}, {1, 2}, {0, 2}, {0, 1, 2}}};
   constexpr double better = 1e-9;
   WorkCost best;
@@ -86,8 +91,8 @@ WorkCost fit_work(const std::vector<OneRank>& runs) {
 
 Memory fit_memory(const std::vector<OneRank>& runs, double scene_bytes) {
   if (runs.empty()) throw InputError("no run on one rank to fit memory to");
-  const auto [least, most] =
-      std::minmax_element(runs.begin(), runs.end(), [](const OneRank& a, const OneRank& b) { return a.particles < b.particles; });
+  const auto [least, most] = std::minmax_element(
+      runs.begin(), runs.end(), [](const OneRank& a, const OneRank& b) { return a.particles < b.particles; });
   const double apart = most->particles - least->particles;
   const double slope = apart > 0.0 ? (most->bytes - least->bytes) / apart : most->bytes / most->particles;
   Memory m;
@@ -97,8 +102,8 @@ Memory fit_memory(const std::vector<OneRank>& runs, double scene_bytes) {
   return m;
 }
 
-Prediction predict(const Shares& shares, const Share& whole, const WorkCost& cost, const Memory& memory, const Traffic& traffic,
-                   const Machine& machine, double speed_at_once) {
+Prediction predict(const Shares& shares, const Share& whole, const WorkCost& cost, const Memory& memory,
+                   const Traffic& traffic, const Machine& machine, double speed_at_once) {
   Prediction p;
   p.ranks = static_cast<int>(shares.ranks.size());
   if (p.ranks > 1) p.speed_at_once = speed_at_once;
@@ -116,8 +121,8 @@ Prediction predict(const Shares& shares, const Share& whole, const WorkCost& cos
   }
   p.imbalance = p.work * count / sum;
   if (p.ranks > 1) {
-    const double bytes =
-        most_copies * head_of_a_number * (traffic.numbers_a_copy + traffic.migrations * (traffic.columns + atom_numbers));
+    const double bytes = most_copies * head_of_a_number *
+                         (traffic.numbers_a_copy + traffic.migrations * (traffic.columns + atom_numbers));
     p.messages = (traffic.exchanges + traffic.migrations) * shares.messages * machine.latency;
     p.transport = bytes * (1.0 / machine.bandwidth + 2.0 / machine.pack_rate);
     p.collectives = traffic.collectives * std::ceil(std::log2(count)) * machine.allreduce;

@@ -17,21 +17,27 @@ struct OneRank {
 /// Seconds of a step that a rank does alone: fixed + particle n + pair p, none of them negative.
 struct WorkCost {
   double fixed = 0.0, particle = 0.0, pair = 0.0;  ///< [s]
-  double worst_misfit = 0.0;                       ///< greatest relative difference from the runs that it was fitted to
-  [[nodiscard]] double seconds(double particles, double pairs) const { return fixed + particle * particles + pair * pairs; }
+  /// Greatest relative difference from the runs that it was fitted to
+  double worst_misfit = 0.0;
+  [[nodiscard]] double seconds(double particles, double pairs) const {
+    return fixed + particle * particles + pair * pairs;
+  }
 };
 
-/// The least relative squares over the runs; a term that would be negative is left out. @throws InputError without runs, or where
-/// one has no particles, pairs or time
+/// The least relative squares over the runs; a term that would be negative is left out. @throws InputError
+/// without runs, or where one has no particles, pairs or time
 [[nodiscard]] WorkCost fit_work(const std::vector<OneRank>&);
 
-/// Bytes of a rank: base + scene N + particle (own + copies), N the particles of the whole scene, which each rank holds as it
-/// starts.
+/// Bytes of a rank: base + scene N + particle (own + copies), N the particles of the whole scene, which each
+/// rank holds as it starts.
 struct Memory {
   double base = 0.0, scene = 0.0, particle = 0.0;
-  [[nodiscard]] double bytes(double whole, double held) const { return base + scene * whole + particle * held; }
+  [[nodiscard]] double bytes(double whole, double held) const {
+    return base + scene * whole + particle * held;
+  }
 };
-/// From the smallest and the greatest run. @param scene_bytes a particle of the scene as it is handed over and loaded
+/// From the smallest and the greatest run. @param scene_bytes a particle of the scene as it is handed over
+/// and loaded
 [[nodiscard]] Memory fit_memory(const std::vector<OneRank>&, double scene_bytes);
 
 /// Requests of a step to other ranks, counted on one rank.
@@ -45,7 +51,8 @@ struct Traffic {
 struct Prediction {
   int ranks = 1;
   double particles = 0.0;
-  double own = 0.0, copies = 0.0;                                                        ///< mean of the ranks
+  /// Mean of the ranks
+  double own = 0.0, copies = 0.0;
   double work = 0.0, messages = 0.0, transport = 0.0, collectives = 0.0, waiting = 0.0;  ///< [s] a step
   double speed_at_once = 1.0;  ///< of a core where all have work, over one alone
   double imbalance = 1.0;      ///< work of the slowest rank over the mean
@@ -58,8 +65,9 @@ struct Prediction {
 };
 
 /// @param whole particles and pairs of the scene on one rank
-/// @param speed_at_once of a core where all have work, over its speed where no other has; of more than one rank
-[[nodiscard]] Prediction predict(const Shares&, const Share& whole, const WorkCost&, const Memory&, const Traffic&,
-                                 const Machine&, double speed_at_once = 1.0);
+/// @param speed_at_once of a core where all have work, over its speed where no other has; of more than one
+/// rank
+[[nodiscard]] Prediction predict(const Shares&, const Share& whole, const WorkCost&, const Memory&,
+                                 const Traffic&, const Machine&, double speed_at_once = 1.0);
 
 }  // namespace tripoint::predict

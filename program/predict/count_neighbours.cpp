@@ -53,7 +53,8 @@ class Cells {
  private:
   [[nodiscard]] std::array<long, 3> place_of(const Vec3& r) const {
     std::array<long, 3> c{};
-    for (std::size_t a = 0; a < 3; ++a) c[a] = std::min(static_cast<long>((r[a] - low_[a]) / reach_), count_[a] - 1);
+    for (std::size_t a = 0; a < 3; ++a)
+      c[a] = std::min(static_cast<long>((r[a] - low_[a]) / reach_), count_[a] - 1);
     return c;
   }
   [[nodiscard]] std::size_t cell_of(const Vec3& r) const {
@@ -70,7 +71,8 @@ class Cells {
 
 }  // namespace
 
-std::vector<NeighbourCount> count_neighbours(const std::vector<Point>& members, const std::vector<Point>& images, double reach) {
+std::vector<NeighbourCount> count_neighbours(const std::vector<Point>& members,
+                                             const std::vector<Point>& images, double reach) {
   std::vector<NeighbourCount> found;
   if (members.empty()) return found;
   const Cells cells(members, images, reach);

@@ -8,7 +8,8 @@
 namespace tripoint::predict {
 
 /// Periodic images of these points within `reach` of the domain, in the directions `seen`.
-[[nodiscard]] std::vector<Point> images_within(const std::vector<Point>& members, const std::array<bool, 3>& seen,
-                                               const Vec3& min, const Vec3& max, double reach);
+[[nodiscard]] std::vector<Point> images_within(const std::vector<Point>& members,
+                                               const std::array<bool, 3>& seen, const Vec3& min,
+                                               const Vec3& max, double reach);
 
 }  // namespace tripoint::predict

@@ -17,7 +17,8 @@ std::string quoted(const std::string& word) {
 
 }  // namespace
 
-std::string kit_script(const std::string& what, const std::vector<std::string>& set, const std::vector<int>& ranks) {
+std::string kit_script(const std::string& what, const std::vector<std::string>& set,
+                       const std::vector<int>& ranks) {
   std::string words, list;
   for (const auto& s : set) words += " --set " + quoted(s);
   for (const int n : ranks) list += (list.empty() ? "" : " ") + std::to_string(n);

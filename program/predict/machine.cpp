@@ -14,8 +14,9 @@
 namespace tripoint::predict {
 namespace {
 
-constexpr double usual_pack_rate = 4e9;     ///< [bytes/s]
-constexpr double least_for_rate = 1 << 16;  ///< [bytes] of the probe's exchanges that the bandwidth is read from
+constexpr double usual_pack_rate = 4e9;  ///< [bytes/s]
+/// [bytes] of the probe's exchanges that the bandwidth is read from
+constexpr double least_for_rate = 1 << 16;
 
 const std::vector<std::string> keys{"name",      "cores_a_node", "latency",       "bandwidth", "allreduce",
                                     "pack_rate", "core_speed",   "speed_at_once", "waiting"};
@@ -30,7 +31,8 @@ double number(const TomlNode& file, const std::string& key, double otherwise, bo
                                      ")");
   if (!node) return otherwise;
   const bool is_number = node->kind == TomlNode::Kind::integer || node->kind == TomlNode::Kind::real;
-  const double value = node->kind == TomlNode::Kind::integer ? static_cast<double>(node->integer) : node->real;
+  const double value =
+      node->kind == TomlNode::Kind::integer ? static_cast<double>(node->integer) : node->real;
   if (!is_number || !std::isfinite(value) || value < 0.0 || (value == 0.0 && !may_be_zero))
     throw InputError(node->place, key + ": write a number above 0, in SI units");
   return value;
@@ -43,7 +45,9 @@ Machine read_machine(const std::string& path) {
   for (const auto& [key, value] : file.members) {
     bool known = false;
     for (const auto& k : keys) known = known || k == key;
-    if (!known) throw InputError(value.key_place, "a machine file has no key " + printable(key) + suggestion(key, keys));
+    if (!known)
+      throw InputError(value.key_place,
+                       "a machine file has no key " + printable(key) + suggestion(key, keys));
   }
   Machine m;
   m.source = path;
@@ -68,8 +72,8 @@ Machine machine_of_probe(const std::string& text, int cores) {
     Machine m;
     m.cores_a_node = cores;
     m.source = "a probe of " + o.at("mpi").get<std::string>() + " between two ranks";
-    // On a machine that is not quiet a small exchange may take longer than a large one. No exchange is faster than the latency,
-    // and the best rate was possible.
+    // On a machine that is not quiet a small exchange may take longer than a large one. No exchange is faster
+    // than the latency, and the best rate was possible.
     m.latency = INFINITY;
     for (const auto& e : o.at("exchanges")) m.latency = std::min(m.latency, e.at("seconds").get<double>());
     for (const auto& e : o.at("exchanges")) {

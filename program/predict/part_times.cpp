@@ -16,7 +16,8 @@ double sum(const std::vector<double>& values) { return std::accumulate(values.be
 /// The less of each pair of entries. @param kept empty before the first
 void keep_least(std::vector<double>& kept, const std::vector<double>& other) {
   if (kept.empty()) kept = other;
-  if (kept.size() != other.size()) throw EngineError("two runs of the same job made different numbers of steps or calls");
+  if (kept.size() != other.size())
+    throw EngineError("two runs of the same job made different numbers of steps or calls");
   for (std::size_t k = 0; k < kept.size(); ++k) kept[k] = std::min(kept[k], other[k]);
 }
 
@@ -47,13 +48,16 @@ PartTimes read_part_times(const std::string& path) {
   return times;
 }
 
-void BestTimes::add(const std::vector<PartTimes>& ranks) { keep(ranks, sums(ranks.front().work, ranks.front().call)); }
+void BestTimes::add(const std::vector<PartTimes>& ranks) {
+  keep(ranks, sums(ranks.front().work, ranks.front().call));
+}
 
 void BestTimes::add_apart(const std::vector<PartTimes>& runs) {
   std::vector<double> slowest(runs.front().work.size(), 0.0);
   for (const PartTimes& run : runs) {
     const std::vector<double> wall = sums(run.work, run.call);
-    for (std::size_t k = 0; k < std::min(slowest.size(), wall.size()); ++k) slowest[k] = std::max(slowest[k], wall[k]);
+    for (std::size_t k = 0; k < std::min(slowest.size(), wall.size()); ++k)
+      slowest[k] = std::max(slowest[k], wall[k]);
   }
   keep(runs, slowest);
 }

@@ -29,7 +29,8 @@ Seen seen_by(const std::vector<double>& at, std::size_t n, double x, double reac
   return s;
 }
 
-/// By direction and part: where its ranks see the particle at r; in the part that has it as its own, its place comes first.
+/// By direction and part: where its ranks see the particle at r; in the part that has it as its own, its
+/// place comes first.
 using SeenBy = std::array<std::vector<Seen>, 3>;
 SeenBy seen_by_all(const Cloud& cloud, const Cuts& cuts, Vec3 r) {
   SeenBy seen;
@@ -70,12 +71,13 @@ void hold(const Seen& x, const Seen& y, const Seen& z, bool idle, Held& held, Sh
 
 std::vector<Point> points_of(const Cloud& cloud) {
   std::vector<Point> points;
-  for (std::size_t i = 0; i < cloud.position.size(); ++i) points.push_back({cloud.position[i], cloud.is_idle(i)});
+  for (std::size_t i = 0; i < cloud.position.size(); ++i)
+    points.push_back({cloud.position[i], cloud.is_idle(i)});
   return points;
 }
 
-std::vector<Point> images_within(const std::vector<Point>& members, const std::array<bool, 3>& seen, const Vec3& min,
-                                 const Vec3& max, double reach) {
+std::vector<Point> images_within(const std::vector<Point>& members, const std::array<bool, 3>& seen,
+                                 const Vec3& min, const Vec3& max, double reach) {
   std::vector<Point> all = members;
   for (std::size_t a = 0; a < 3; ++a) {
     if (!seen[a]) continue;
@@ -114,8 +116,8 @@ Shares share_out(const Cloud& cloud, int ranks) {
   for (std::size_t a = 0; a < 3; ++a) own_images[a] = cloud.periodic[a] && !cuts.cut(a);
   for (std::size_t n = 0; n < held.size(); ++n) {
     const std::vector<Point>& points = held[n].points;
-    const std::vector<NeighbourCount> neighbours =
-        count_neighbours(points, images_within(points, own_images, cloud.min, cloud.max, cloud.pair_reach), cloud.pair_reach);
+    const std::vector<NeighbourCount> neighbours = count_neighbours(
+        points, images_within(points, own_images, cloud.min, cloud.max, cloud.pair_reach), cloud.pair_reach);
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (!held[n].own[i]) continue;
       shares.ranks[n].pairs += neighbours[i].all;

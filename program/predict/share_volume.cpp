@@ -16,10 +16,11 @@ struct Part {
 
 constexpr std::size_t points_enough = 200'000;  ///< to find cuts by
 
-/// The matter of a cloud as points that lie evenly within the cube of each particle. Of a finer scene layers are thin beside the
-/// parts of ranks, so that cuts are not held between the layers of the cloud.
+/// The matter of a cloud as points that lie evenly within the cube of each particle. Of a finer scene layers
+/// are thin beside the parts of ranks, so that cuts are not held between the layers of the cloud.
 Cloud spread(const Cloud& cloud) {
-  constexpr double g = 1.22074408460575947536;  // g^4 = g + 1: the sequence of [Roberts 2018] in three dimensions
+  // g^4 = g + 1: the sequence of [Roberts 2018] in three dimensions
+  constexpr double g = 1.22074408460575947536;
   const std::size_t each = points_enough / cloud.position.size() + 1;
   Cloud points = cloud;
   points.position.clear();
@@ -41,11 +42,14 @@ Cloud spread(const Cloud& cloud) {
   return points;
 }
 
-double overlap(double a, double b, double low, double high) { return std::max(0.0, std::min(b, high) - std::max(a, low)); }
+double overlap(double a, double b, double low, double high) {
+  return std::max(0.0, std::min(b, high) - std::max(a, low));
+}
 
-/// Lists the shares of the cube from a to b in each part whose widened interval it touches. The outer parts of a direction that
-/// does not wrap have no outer end.
-void parts_of(const std::vector<double>& at, double a, double b, double reach, double width, std::vector<Part>& parts) {
+/// Lists the shares of the cube from a to b in each part whose widened interval it touches. The outer parts
+/// of a direction that does not wrap have no outer end.
+void parts_of(const std::vector<double>& at, double a, double b, double reach, double width,
+              std::vector<Part>& parts) {
   parts.clear();
   const std::size_t n = at.size() - 1;
   const int most = width > 0.0 ? static_cast<int>(std::ceil(reach / width)) + 1 : 0;
@@ -54,7 +58,8 @@ void parts_of(const std::vector<double>& at, double a, double b, double reach, d
     auto k = static_cast<std::size_t>(
         std::max<std::ptrdiff_t>(0, std::upper_bound(at.begin(), at.end(), from - reach) - at.begin() - 1));
     for (; k < n && at[k] - reach < to; ++k) {
-      const double low = width == 0.0 && k == 0 ? -INFINITY : at[k], high = width == 0.0 && k + 1 == n ? INFINITY : at[k + 1];
+      const double low = width == 0.0 && k == 0 ? -INFINITY : at[k],
+                   high = width == 0.0 && k + 1 == n ? INFINITY : at[k + 1];
       const double own = overlap(from, to, low, high), all = overlap(from, to, low - reach, high + reach);
       if (!(all > 0.0)) continue;
       const auto found = std::find_if(parts.begin(), parts.end(), [&](const Part& p) { return p.rank == k; });
@@ -77,7 +82,8 @@ Shares share_volume(const Cloud& cloud, int ranks, double particles) {
   shares.ranks.resize(static_cast<std::size_t>(ranks));
   const std::vector<Point> points = points_of(cloud);
   const std::vector<NeighbourCount> neighbours =
-      count_neighbours(points, images_within(points, cloud.periodic, cloud.min, cloud.max, cloud.pair_reach), cloud.pair_reach);
+      count_neighbours(points, images_within(points, cloud.periodic, cloud.min, cloud.max, cloud.pair_reach),
+                       cloud.pair_reach);
   std::array<std::vector<Part>, 3> parts;
   for (std::size_t i = 0; i < cloud.position.size(); ++i) {
     for (std::size_t a = 0; a < 3; ++a) {
@@ -93,7 +99,8 @@ Shares share_volume(const Cloud& cloud, int ranks, double particles) {
         for (const Part& x : parts[0]) {
           Share& s = shares.ranks[x.rank + static_cast<std::size_t>(cuts.grid[0]) *
                                                (y.rank + static_cast<std::size_t>(cuts.grid[1]) * z.rank)];
-          const double own = x.own * y.own * z.own, all = (x.own + x.beyond) * (y.own + y.beyond) * (z.own + z.beyond);
+          const double own = x.own * y.own * z.own,
+                       all = (x.own + x.beyond) * (y.own + y.beyond) * (z.own + z.beyond);
           s.own += each * own;
           s.copies += each * (all - own);
           s.worked += each * neighbours[i].worked * own;

@@ -6,8 +6,8 @@
 #include "core/vec3.hpp"
 #include "particles/rank_grid.hpp"
 
-/// Particles that each rank would hold of a scene, were it shared out as the engine tripoint-mpi does it (decision 021). No rank
-/// runs for it.
+/// Particles that each rank would hold of a scene, were it shared out as the engine tripoint-mpi does it
+/// (decision 021). No rank runs for it.
 namespace tripoint::predict {
 
 /// The particles of a scene as far as sharing them out depends on them.
@@ -17,8 +17,9 @@ struct Cloud {
   double reach = 0.0;          ///< of copies beyond a rank's part of the box [m]
   double pair_reach = 0.0;     ///< of a neighbour list [m]
   std::array<bool, 3> periodic{};
-  Vec3 min, max;           ///< the domain, used in periodic directions only [m]
-  std::vector<char> idle;  ///< of each, 1 where it is fixed and pairs of fixed particles have no work; empty: all have
+  Vec3 min, max;  ///< the domain, used in periodic directions only [m]
+  /// Of each, 1 where it is fixed and pairs of fixed particles have no work; empty: all have
+  std::vector<char> idle;
   [[nodiscard]] bool is_idle(std::size_t i) const { return !idle.empty() && idle[i] != 0; }
 };
 
@@ -34,14 +35,14 @@ struct Shares {
   std::vector<Share> ranks;          ///< of each, z slowest
 };
 
-/// Counts particles one by one. The cuts are those of LAMMPS's `balance 1.02 shift xyz 20 1.02`, each particle weighed by its
-/// cost at the start (ParticleCost). Own particles lie between the cuts, copies in the box around them by `reach`. Pairs are
-/// counted among both.
+/// Counts particles one by one. The cuts are those of LAMMPS's `balance 1.02 shift xyz 20 1.02`, each
+/// particle weighed by its cost at the start (ParticleCost). Own particles lie between the cuts, copies in
+/// the box around them by `reach`. Pairs are counted among both.
 /// @param ranks > 0   @throws InputError for an empty cloud
 [[nodiscard]] Shares share_out(const Cloud&, int ranks);
 
-/// The same scene with another number of particles, by volume. Each particle of the cloud stands for a cube of matter, and
-/// reaches shrink with the spacing.
+/// The same scene with another number of particles, by volume. Each particle of the cloud stands for a cube
+/// of matter, and reaches shrink with the spacing.
 /// @param particles of the scene that is meant, > 0
 [[nodiscard]] Shares share_volume(const Cloud&, int ranks, double particles);
 
@@ -59,8 +60,8 @@ struct NeighbourCount {
   double all = 0.0, worked = 0.0;  ///< of all, and those of which not both are idle
 };
 /// For each member, how many members and images are within `reach`, itself left out.
-[[nodiscard]] std::vector<NeighbourCount> count_neighbours(const std::vector<Point>& members, const std::vector<Point>& images,
-                                                           double reach);
+[[nodiscard]] std::vector<NeighbourCount> count_neighbours(const std::vector<Point>& members,
+                                                           const std::vector<Point>& images, double reach);
 [[nodiscard]] std::vector<Point> points_of(const Cloud&);
 
 }  // namespace tripoint::predict

@@ -37,7 +37,8 @@ constexpr Registered every_effect[] = {
 #undef TRIPOINT_EFFECT
 };
 
-/// Whether this build has an effect: TRIPOINT_EFFECTS lists those that it has, between commas; without it it has all.
+/// Whether this build has an effect: TRIPOINT_EFFECTS lists those that it has, between commas; without it it
+/// has all.
 constexpr bool in_build(const Registered& effect) {
 #ifdef TRIPOINT_EFFECTS
   constexpr std::string_view list = TRIPOINT_EFFECTS;
@@ -49,7 +50,8 @@ constexpr bool in_build(const Registered& effect) {
 #endif
 }
 
-/// The effects of this build; an effect that it leaves out is in no table, so that the linker leaves it out too.
+/// The effects of this build; an effect that it leaves out is in no table, so that the linker leaves it out
+/// too.
 constexpr auto all_effects = [] {
   std::array<Registered, static_cast<std::size_t>(std::ranges::count_if(every_effect, in_build))> list{};
   std::ranges::copy_if(every_effect, list.begin(), in_build);
@@ -75,7 +77,8 @@ void check_ownership(const std::vector<Active>& effects, bool periodic) {
     for (const FieldInfo& f : a.spec.owns) {
       const auto other = owner_of(f);
       if (other != owned.end()) {
-        throw InputError("the field " + std::string(f.name) + " is owned by two effects, " + other->owner + " and " + a.name);
+        throw InputError("the field " + std::string(f.name) + " is owned by two effects, " + other->owner +
+                         " and " + a.name);
       }
       owned.push_back({f, a.name});
     }
@@ -93,7 +96,8 @@ void check_ownership(const std::vector<Active>& effects, bool periodic) {
 void check_bounds(const std::vector<Active>& effects) {
   const auto owned_by = [](const Active& a, const FieldInfo& f) {
     if (std::ranges::find(a.spec.owns, f) == a.spec.owns.end())
-      throw InputError("the effect " + a.name + " bounds the field " + std::string(f.name) + " and does not own it");
+      throw InputError("the effect " + a.name + " bounds the field " + std::string(f.name) +
+                       " and does not own it");
   };
   for (const Active& a : effects) {
     for (const Bounded& b : a.spec.bounded) owned_by(a, b.field);
@@ -101,7 +105,8 @@ void check_bounds(const std::vector<Active>& effects) {
   }
 }
 
-/// Columns that each effect may ask for: those that it owns and reads, the table of bodies, and all forces where it sums them.
+/// Columns that each effect may ask for: those that it owns and reads, the table of bodies, and all forces
+/// where it sums them.
 void set_declared(std::vector<Active>& effects) {
   std::vector<FieldInfo> forces;
   for (const Active& a : effects)
@@ -122,17 +127,19 @@ void set_declared(std::vector<Active>& effects) {
 
 /// Of the columns that every scene has, and of the table of bodies where there is one.
 std::vector<Bounded> common_bounds(const Scene& scene) {
-  std::vector<Bounded> bounds{{field::body, -1, [](const World& w) { return w.bodies.size(); }},
-                              {field::phase, 0, [](const World&) -> std::size_t { return 3; }},  // phases
-                              {field::material, 0, [](const World& w) { return w.scene.materials.size(); }},
-                              {field::source, 0, [](const World& w) { return w.scene.bodies.size() + w.scene.inflows.size(); }}};
+  std::vector<Bounded> bounds{
+      {field::body, -1, [](const World& w) { return w.bodies.size(); }},
+      {field::phase, 0, [](const World&) -> std::size_t { return 3; }},  // phases
+      {field::material, 0, [](const World& w) { return w.scene.materials.size(); }},
+      {field::source, 0, [](const World& w) { return w.scene.bodies.size() + w.scene.inflows.size(); }}};
   if (!can_have_bodies(scene)) return bounds;
   const std::vector<Bounded> of_bodies = body_table_bounds();
   bounds.insert(bounds.end(), of_bodies.begin(), of_bodies.end());
   return bounds;
 }
 
-/// @throws InputError when two effects declare a force's columns or an account, or there are more forces than sums have room for
+/// @throws InputError when two effects declare a force's columns or an account, or there are more forces than
+/// sums have room for
 void check_forces(const std::vector<Active>& effects) {
   std::vector<Account> seen;
   std::size_t forces = 0;
@@ -145,7 +152,8 @@ void check_forces(const std::vector<Active>& effects) {
     for (const Force& f : a.spec.forces) {
       ++forces;
       if (std::ranges::find(a.spec.owns, FieldInfo(f.x)) == a.spec.owns.end())
-        throw InputError("the effect " + a.name + " makes the force " + std::string(f.x.name) + " and does not own it");
+        throw InputError("the effect " + a.name + " makes the force " + std::string(f.x.name) +
+                         " and does not own it");
       if (!f.stored && f.entry.empty())
         throw InputError("the work of the force " + std::string(f.x.name) +
                          " has no entry of the ledger, and no energy stores it");
@@ -157,8 +165,8 @@ void check_forces(const std::vector<Active>& effects) {
     for (const Account& one : a.spec.numerical) once(one, a.name);
   }
   if (forces > most_forces)
-    throw InputError("the effects of this scene make " + std::to_string(forces) + " forces, and sums have room for " +
-                     std::to_string(most_forces));
+    throw InputError("the effects of this scene make " + std::to_string(forces) +
+                     " forces, and sums have room for " + std::to_string(most_forces));
 }
 
 }  // namespace
@@ -178,7 +186,8 @@ std::vector<Active> active_effects(const Scene& scene) {
   std::vector<Active> list;
   for (const Registered& r : all_effects) {
     const auto call = std::ranges::find(calls, r.name, &CalledEffect::name);
-    if (call != calls.end()) list.push_back({std::string(r.name), call->why, r.spec(scene), r.make(scene), {}});
+    if (call != calls.end())
+      list.push_back({std::string(r.name), call->why, r.spec(scene), r.make(scene), {}});
   }
   check_ownership(list, scene.periodic[0] || scene.periodic[1] || scene.periodic[2]);
   check_bounds(list);
@@ -190,20 +199,26 @@ std::vector<Active> active_effects(const Scene& scene) {
 Plan plan(const Scene& scene) {
   Plan p;
   const auto add = [&](const FieldInfo& f, const std::string& owner) {
-    p.fields.push_back({std::string(f.name), std::string(f.unit), std::string(to_string(f.per)), owner, f.bytes});
+    p.fields.push_back(
+        {std::string(f.name), std::string(f.unit), std::string(to_string(f.per)), owner, f.bytes});
     if (f.per == Per::particle) p.bytes_per_particle += f.bytes;
   };
-  for (const FieldInfo& f : common_fields(scene.periodic[0] || scene.periodic[1] || scene.periodic[2])) add(f, "particles");
+  for (const FieldInfo& f : common_fields(scene.periodic[0] || scene.periodic[1] || scene.periodic[2]))
+    add(f, "particles");
   if (can_have_bodies(scene))
     for (const FieldInfo& f : body_table_fields()) add(f, "bodies");
-  // An effect that is called for and not in this build is listed all the same: explain says what a scene means.
+  // An effect that is called for and not in this build is listed all the same: explain says what a scene
+  // means.
   for (const CalledEffect& c : needed_effects(scene)) {
-    if (!find(c.name)) p.effects.push_back({c.name, c.why + " (not in this build)", std::string(to_string(scene.mode))});
+    if (!find(c.name))
+      p.effects.push_back({c.name, c.why + " (not in this build)", std::string(to_string(scene.mode))});
   }
   if (!p.effects.empty()) return p;
   const std::vector<Active> active = active_effects(scene);
-  for (const CalledEffect& idle : idle_effects(scene)) {  // bodies that are driven call for the rigid effect too
-    if (std::ranges::find(active, idle.name, &Active::name) == active.end()) p.idle.push_back({idle.name, idle.why, {}});
+  // Bodies that are driven call for the rigid effect too
+  for (const CalledEffect& idle : idle_effects(scene)) {
+    if (std::ranges::find(active, idle.name, &Active::name) == active.end())
+      p.idle.push_back({idle.name, idle.why, {}});
   }
   for (const Active& a : active) {
     p.effects.push_back({a.name, a.why, std::string(to_string(a.spec.mode))});
@@ -214,7 +229,8 @@ Plan plan(const Scene& scene) {
 
 std::vector<EffectPairWork> pair_work(const Scene& scene, const std::vector<Active>& effects) {
   std::vector<EffectPairWork> all;
-  for (const Active& a : effects) all.push_back({a.effect->pair_work(scene), a.declared, a.spec.skips_sleeping});
+  for (const Active& a : effects)
+    all.push_back({a.effect->pair_work(scene), a.declared, a.spec.skips_sleeping});
   return all;
 }
 
@@ -222,14 +238,16 @@ std::vector<char> idle_particles(const Scene& scene, const InitialState& initial
   const std::vector<Active> effects = active_effects(scene);
   if (Passes(scene, pair_work(scene, effects), 1).works_on_all()) return {};
   std::vector<char> idle;
-  for (const int source : initial.source) idle.push_back(scene.bodies[static_cast<std::size_t>(source)].motion == Motion::fixed);
+  for (const int source : initial.source)
+    idle.push_back(scene.bodies[static_cast<std::size_t>(source)].motion == Motion::fixed);
   return idle;
 }
 
 void declare(World& world, const std::vector<Active>& effects) {
-  world.guarded = {{field::position_x, "position", Written::drift}, {field::position_y, "position", Written::drift},
-                   {field::position_z, "position", Written::drift}, {field::velocity_x, "velocity", Written::kick},
-                   {field::velocity_y, "velocity", Written::kick},  {field::velocity_z, "velocity", Written::kick}};
+  world.guarded = {
+      {field::position_x, "position", Written::drift}, {field::position_y, "position", Written::drift},
+      {field::position_z, "position", Written::drift}, {field::velocity_x, "velocity", Written::kick},
+      {field::velocity_y, "velocity", Written::kick},  {field::velocity_z, "velocity", Written::kick}};
   world.bounded = common_bounds(world.scene);
   world.positive = {field::mass};
   for (const Active& a : effects) {
@@ -245,7 +263,8 @@ void declare(World& world, const std::vector<Active>& effects) {
     world.guarded.insert(world.guarded.end(), a.spec.guards.begin(), a.spec.guards.end());
     world.bounded.insert(world.bounded.end(), a.spec.bounded.begin(), a.spec.bounded.end());
     world.positive.insert(world.positive.end(), a.spec.positive.begin(), a.spec.positive.end());
-    world.guarded_entries.insert(world.guarded_entries.end(), a.spec.guarded_entries.begin(), a.spec.guarded_entries.end());
+    world.guarded_entries.insert(world.guarded_entries.end(), a.spec.guarded_entries.begin(),
+                                 a.spec.guarded_entries.end());
     for (const StepNumber& one : a.spec.step_numbers) world.step_numbers.declare(one);
     world.body_sums.insert(world.body_sums.end(), a.spec.body_sums.begin(), a.spec.body_sums.end());
   }

@@ -4,7 +4,8 @@
 
 namespace tripoint {
 
-/// While it lives, the columns of the world are those that this effect has declared: any other is refused, in the test build.
+/// While it lives, the columns of the world are those that this effect has declared: any other is refused, in
+/// the test build.
 class DeclaredView {
  public:
   DeclaredView([[maybe_unused]] const World& world, [[maybe_unused]] const Active& a) {

@@ -12,9 +12,9 @@
 
 namespace tripoint {
 
-/// From now on the system tells us how our children end. Our parent may have ignored SIGCHLD, as a shell does after `trap ''
-/// CHLD`, and we inherit that. The system then throws the ends of children away, and a wait for one learns nothing. Called before
-/// each child that is waited for.
+/// From now on the system tells us how our children end. Our parent may have ignored SIGCHLD, as a shell does
+/// after `trap '' CHLD`, and we inherit that. The system then throws the ends of children away, and a wait
+/// for one learns nothing. Called before each child that is waited for.
 inline void keep_ends_of_children() noexcept {
   struct sigaction action {};
   if (::sigaction(SIGCHLD, nullptr, &action) != 0) return;
@@ -28,7 +28,8 @@ inline void keep_ends_of_children() noexcept {
 /// Whether the child has ended, or its end is not to be had any more. The end stays to be waited for.
 inline bool has_ended(pid_t child) noexcept {
   siginfo_t end{};
-  return ::waitid(P_PID, static_cast<id_t>(child), &end, WEXITED | WNOHANG | WNOWAIT) != 0 || end.si_pid == child;
+  return ::waitid(P_PID, static_cast<id_t>(child), &end, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+         end.si_pid == child;
 }
 
 /// @param limit wall clock [s]
@@ -41,7 +42,8 @@ inline bool ends_within(pid_t child, double limit) noexcept {
   while (!ended) {
     const double left = 1e3 * limit - std::chrono::duration<double, std::milli>(Clock::now() - start).count();
     if (left <= 0.0) break;
-    // Without a descriptor (a kernel before 5.3, or none to spare) poll passes the entry over and only lets time go by.
+    // Without a descriptor (a kernel before 5.3, or none to spare) poll passes the entry over and only lets
+    // time go by.
     ::poll(&wait, 1, 1 + static_cast<int>(std::min(left, wait.fd < 0 ? look : longest)));
     ended = has_ended(child);
   }
@@ -51,8 +53,9 @@ inline bool ends_within(pid_t child, double limit) noexcept {
 
 /// How a child ended.
 struct ChildEnd {
-  bool in_time = true;   ///< false: it was killed at the limit
-  int status = SIGKILL;  ///< as waitpid tells it; an end that nobody tells counts as a death, never as a good one
+  bool in_time = true;  ///< false: it was killed at the limit
+  /// As waitpid tells it; an end that nobody tells counts as a death, never as a good one
+  int status = SIGKILL;
 };
 
 /// Waits for a child of ours and kills it at the limit. @param limit wall clock [s]

@@ -35,11 +35,13 @@ namespace {
 /// Exit codes of the copy. Any other exit code (for example a sanitizer's) counts as a crash.
 enum Code { done = 81, refusal = 82, memory_is_short = 83, cannot_confine = 84 };
 
-constexpr int to_us = 3;                    ///< the copy's descriptor of the bytes that it hands back; it has no other above 2
+/// The copy's descriptor of the bytes that it hands back; it has no other above 2
+constexpr int to_us = 3;
 constexpr std::size_t most_letters = 4096;  ///< of each part of a refusal
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool is_sanitized = true;  // its shadow alone takes terabytes of address space, and it has something to say
+// Its shadow alone takes terabytes of address space, and it has something to say
+constexpr bool is_sanitized = true;
 #elif defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
 constexpr bool is_sanitized = true;
@@ -109,7 +111,8 @@ constexpr std::array free_calls{SCMP_SYS(read),
                                 SCMP_SYS(geteuid),
                                 SCMP_SYS(sched_getaffinity)};
 
-/// Rule for the n-th word of a call. @param a value, or a mask @param b value of the bits that the mask leaves
+/// Rule for the n-th word of a call. @param a value, or a mask @param b value of the bits that the mask
+/// leaves
 scmp_arg_cmp word(unsigned n, scmp_compare how, scmp_datum_t a, scmp_datum_t b = 0) {
   scmp_arg_cmp rule{};
   rule.arg = n;
@@ -129,9 +132,11 @@ class Filter {
   Filter(const Filter&) = delete;
   Filter& operator=(const Filter&) = delete;
   void allow(int call, std::initializer_list<scmp_arg_cmp> where = {}) {
-    const int error =
-        good_ ? seccomp_rule_add_array(filter_, SCMP_ACT_ALLOW, call, static_cast<unsigned>(where.size()), where.begin()) : 0;
-    good_ = good_ && (error == 0 || error == -EDOM);  // -EDOM: a call that this processor's system does not have
+    const int error = good_ ? seccomp_rule_add_array(filter_, SCMP_ACT_ALLOW, call,
+                                                     static_cast<unsigned>(where.size()), where.begin())
+                            : 0;
+    // -EDOM: a call that this processor's system does not have
+    good_ = good_ && (error == 0 || error == -EDOM);
   }
   [[nodiscard]] bool load() { return good_ && seccomp_load(filter_) == 0; }
 
@@ -140,13 +145,15 @@ class Filter {
   bool good_;
 };
 
-/// Whether the kernel supports seccomp filters. Valgrind does not, and its own system calls would be filtered.
+/// Whether the kernel supports seccomp filters. Valgrind does not, and its own system calls would be
+/// filtered.
 bool has_filters() {
   std::uint32_t action = SECCOMP_RET_ERRNO;
   return ::syscall(SYS_seccomp, SECCOMP_GET_ACTION_AVAIL, 0, &action) == 0;
 }
 
-/// From here on this process computes, and writes to `to_us` alone. @returns false where the system has no seccomp
+/// From here on this process computes, and writes to `to_us` alone. @returns false where the system has no
+/// seccomp
 bool filter_calls(bool may_open) {
   if (!has_filters()) return false;
   Filter filter;
@@ -158,22 +165,25 @@ bool filter_calls(bool may_open) {
     for (const scmp_datum_t lock : {LOCK_SH, LOCK_SH | LOCK_NB, LOCK_UN})
       filter.allow(SCMP_SYS(flock), {word(1, SCMP_CMP_EQ, lock)});
   }
-  for (const scmp_datum_t what : {F_GETFD, F_SETFD, F_GETFL})  // no other: fcntl can ask for signals to any process
+  // No other: fcntl can ask for signals to any process
+  for (const scmp_datum_t what : {F_GETFD, F_SETFD, F_GETFL})
     filter.allow(SCMP_SYS(fcntl), {word(1, SCMP_CMP_EQ, what)});
   filter.allow(SCMP_SYS(setitimer), {word(0, SCMP_CMP_EQ, ITIMER_PROF)});
   filter.allow(SCMP_SYS(write), {word(0, SCMP_CMP_LE, to_us)});
   filter.allow(SCMP_SYS(mmap), {word(2, SCMP_CMP_MASKED_EQ, PROT_EXEC, 0)});
   filter.allow(SCMP_SYS(mprotect), {word(2, SCMP_CMP_MASKED_EQ, PROT_EXEC, 0)});
-  filter.allow(SCMP_SYS(prlimit64), {word(2, SCMP_CMP_EQ, 0)});                                   // asked, not set
+  // Asked, not set
+  filter.allow(SCMP_SYS(prlimit64), {word(2, SCMP_CMP_EQ, 0)});
   filter.allow(SCMP_SYS(tgkill), {word(0, SCMP_CMP_EQ, static_cast<scmp_datum_t>(::getpid()))});  // abort()
   return filter.load();
 }
 
-/// From here on the files below a folder are all that this process may open. @returns false where the system has no Landlock
+/// From here on the files below a folder are all that this process may open. @returns false where the system
+/// has no Landlock
 bool see_one_folder(const std::string& folder) {
   landlock_ruleset_attr rules{};
-  rules.handled_access_fs =
-      LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR | LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_EXECUTE;
+  rules.handled_access_fs = LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR |
+                            LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_EXECUTE;
   const Descriptor set(static_cast<int>(::syscall(SYS_landlock_create_ruleset, &rules, sizeof rules, 0)));
   const Descriptor place(::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
   if (set.get() < 0 || place.get() < 0 || ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return false;
@@ -184,7 +194,8 @@ bool see_one_folder(const std::string& folder) {
          ::syscall(SYS_landlock_restrict_self, set.get(), 0) == 0;
 }
 
-/// Ends this process by SIGPROF after so much of its processor time; 0 takes that back. @param part of a second [us]
+/// Ends this process by SIGPROF after so much of its processor time; 0 takes that back. @param part of a
+/// second [us]
 void end_after(suseconds_t part) {
   const itimerval time{{0, 0}, {0, part}};
   ::setitimer(ITIMER_PROF, &time, nullptr);
@@ -192,7 +203,8 @@ void end_after(suseconds_t part) {
 
 /// @returns false where the system cannot
 bool confine(const CopyBounds& bounds) {
-  constexpr suseconds_t longest = 500'000;  // it takes 500 us; libseccomp 2.5 never ends where it has no memory
+  // It takes 500 us; libseccomp 2.5 never ends where it has no memory
+  constexpr suseconds_t longest = 500'000;
   const bool may_open = !bounds.folder.empty();
   const bool sees_one = !may_open || see_one_folder(bounds.folder);
   end_after(longest);
@@ -226,8 +238,8 @@ void let_go_of_our_files(int file) {
 /// @param space that it may have, ours among it [bytes]
 void bound(const CopyBounds& bounds, rlim_t space) {
   const auto seconds = static_cast<rlim_t>(std::ceil(bounds.wall_limit)) + 1;
-  const rlimit no_core{0, 0}, memory{space, space}, handed{bounds.most_bytes + 3 * most_letters, RLIM_INFINITY},
-      cpu{seconds, seconds};
+  const rlimit no_core{0, 0}, memory{space, space},
+      handed{bounds.most_bytes + 3 * most_letters, RLIM_INFINITY}, cpu{seconds, seconds};
   ::setrlimit(RLIMIT_CORE, &no_core);
   ::setrlimit(RLIMIT_FSIZE, &handed);
   ::setrlimit(RLIMIT_CPU, &cpu);
@@ -261,7 +273,8 @@ std::string bare_words(const InputError& e) {
 /// "line column letters\n", the file, which has so many letters, and the words.
 std::string refusal_text(const SourcePlace& place, const std::string& words) {
   const std::string file = place.file.substr(0, most_letters);
-  return fmt::format("{} {} {}\n{}{}", place.line, place.column, file.size(), file, words.substr(0, most_letters));
+  return fmt::format("{} {} {}\n{}{}", place.line, place.column, file.size(), file,
+                     words.substr(0, most_letters));
 }
 
 /// @throws std::bad_alloc
@@ -283,8 +296,8 @@ struct Start {
   rlim_t space = address_space();
 };
 
-[[noreturn, maybe_unused]] void be_the_copy(const std::function<std::string()>& read, const CopyBounds& bounds,
-                                            const Start& start, int file) {
+[[noreturn, maybe_unused]] void be_the_copy(const std::function<std::string()>& read,
+                                            const CopyBounds& bounds, const Start& start, int file) {
   end_with(start.parent);
   let_go_of_our_files(file);
   bound(bounds, start.space + bounds.memory);
@@ -309,10 +322,12 @@ CopyEnd read_here(const std::function<std::string()>& read) {
 }
 #endif
 
-/// All bytes of a file in memory that nobody writes any more. @throws std::system_error EFBIG where there are too many
+/// All bytes of a file in memory that nobody writes any more. @throws std::system_error EFBIG where there are
+/// too many
 std::string bytes_of(int file, rlim_t most) {
   struct stat info {};
-  if (::fstat(file, &info) != 0) throw std::system_error(errno, std::generic_category(), "what a copy handed back");
+  if (::fstat(file, &info) != 0)
+    throw std::system_error(errno, std::generic_category(), "what a copy handed back");
   if (static_cast<rlim_t>(info.st_size) > most)
     throw std::system_error(EFBIG, std::generic_category(), "what a copy handed back");
   std::string bytes(static_cast<std::size_t>(info.st_size), '\0');
@@ -320,20 +335,22 @@ std::string bytes_of(int file, rlim_t most) {
   while (at < bytes.size()) {
     const ssize_t n = ::pread(file, bytes.data() + at, bytes.size() - at, static_cast<off_t>(at));
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) throw std::system_error(n < 0 ? errno : EIO, std::generic_category(), "what a copy handed back");
+    if (n <= 0)
+      throw std::system_error(n < 0 ? errno : EIO, std::generic_category(), "what a copy handed back");
     at += static_cast<std::size_t>(n);
   }
   return bytes;
 }
 
-/// Reads the bytes that refusal_text() made. Any other bytes, which a hijacked copy could hand back, are taken as words.
+/// Reads the bytes that refusal_text() made. Any other bytes, which a hijacked copy could hand back, are
+/// taken as words.
 void take_refusal(CopyEnd& end) {
   end.how = CopyEnd::How::refused;
   const std::string bytes = end.bytes.substr(0, 3 * most_letters);
   std::size_t letters = 0;
   const auto start = bytes.find('\n') + 1;  // 0 where there is none
-  if (std::sscanf(bytes.c_str(), "%d %d %zu", &end.place.line, &end.place.column, &letters) == 3 && start > 0 &&
-      letters <= bytes.size() - start) {
+  if (std::sscanf(bytes.c_str(), "%d %d %zu", &end.place.line, &end.place.column, &letters) == 3 &&
+      start > 0 && letters <= bytes.size() - start) {
     end.place.file = bytes.substr(start, letters);
     end.bytes = bytes.substr(start + letters);
   }
@@ -373,9 +390,12 @@ void take_refusal(CopyEnd& end) {
 
 }  // namespace
 
-rlim_t machine_memory() { return static_cast<rlim_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)); }
+rlim_t machine_memory() {
+  return static_cast<rlim_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
+}
 
-CopyEnd read_in_confined_copy(const std::function<std::string()>& read, [[maybe_unused]] const CopyBounds& bounds) {
+CopyEnd read_in_confined_copy(const std::function<std::string()>& read,
+                              [[maybe_unused]] const CopyBounds& bounds) {
 #if defined(FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION)
   return read_here(read);  // a process for each input would leave a fuzzer no inputs
 #else
@@ -407,15 +427,16 @@ std::string failure_of(const CopyEnd& end, const CopyBounds& bounds) {
     case How::refused:
       return {};
     case How::killed:
-      return end.code == 0
-                 ? what + " ends the program that reads it"
-                 : fmt::format("{} kills the library that reads it (signal {}, {})", what, end.code, ::strsignal(end.code));
+      return end.code == 0 ? what + " ends the program that reads it"
+                           : fmt::format("{} kills the library that reads it (signal {}, {})", what, end.code,
+                                         ::strsignal(end.code));
     case How::late:
       return fmt::format("{} could not be read within {:g} s", what, bounds.wall_limit);
     case How::no_memory:
       return what + " takes more memory than this machine has";
     case How::not_confined:
-      return what + " was not read: this system cannot confine its reader (seccomp; for trajectories Landlock too)";
+      return what +
+             " was not read: this system cannot confine its reader (seccomp; for trajectories Landlock too)";
   }
   return {};
 }

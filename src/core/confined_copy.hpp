@@ -7,9 +7,9 @@
 
 #include "core/errors.hpp"
 
-/// A copy of this process reads third-party files; it can do nothing but read and hand bytes back. No library is sure to survive
-/// every file: one that it does not survive costs a copy. Code that a file brings along finds no network, no program to start, no
-/// process to signal and no file to write.
+/// A copy of this process reads third-party files; it can do nothing but read and hand bytes back. No library
+/// is sure to survive every file: one that it does not survive costs a copy. Code that a file brings along
+/// finds no network, no program to start, no process to signal and no file to write.
 namespace tripoint {
 
 /// Memory of this machine [bytes].
@@ -40,15 +40,16 @@ struct CopyEnd {
   SourcePlace place;  ///< of a refusal
 };
 
-/// Calls `read` in a copy of this process and returns its result. The copy may ask for memory, open files of one folder for
-/// reading (Landlock, where the system has it) and hand its bytes back. The system refuses all else (seccomp). It has no open
-/// file of ours, and ends with us.
-/// @pre no other thread is within a library that `read` uses, such as HDF5: its lock would stay closed in the copy for ever
+/// Calls `read` in a copy of this process and returns its result. The copy may ask for memory, open files of
+/// one folder for reading (Landlock, where the system has it) and hand its bytes back. The system refuses all
+/// else (seccomp). It has no open file of ours, and ends with us.
+/// @pre no other thread is within a library that `read` uses, such as HDF5: its lock would stay closed in the
+/// copy for ever
 /// @throws std::system_error where no process, or no file for the result, is to spare
 [[nodiscard]] CopyEnd read_in_confined_copy(const std::function<std::string()>& read, const CopyBounds&);
 
-/// Why nothing was read: "trajectory.h5 kills the library that reads it (signal 11, Segmentation fault)". Empty where it was, and
-/// where the reader refused it.
+/// Why nothing was read: "trajectory.h5 kills the library that reads it (signal 11, Segmentation fault)".
+/// Empty where it was, and where the reader refused it.
 [[nodiscard]] std::string failure_of(const CopyEnd&, const CopyBounds&);
 
 /// Throws here the error that the reader threw in the copy, if any. @throws InputError

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-/// Run-time defects: faults that the self-test injects to prove that the gate sees them. No source of the solver knows one. The
-/// defects.toml of a folder says what can be broken there and how. tools/break_sources.py writes broken copies of the files, and
-/// the self-test's engines are made of these.
+/// Run-time defects: faults that the self-test injects to prove that the gate sees them. No source of the
+/// solver knows one. The defects.toml of a folder says what can be broken there and how.
+/// tools/break_sources.py writes broken copies of the files, and the self-test's engines are made of these.
 namespace tripoint {
 
 /// Registration of a physical term: the case that must turn red when the term is broken.
@@ -36,7 +36,8 @@ inline double defect_size(std::string_view name) {
 template <std::size_t length>
 struct DefectName {
   char text[length];
-  constexpr DefectName(const char (&name)[length]) {  // NOLINT(google-explicit-constructor): a literal stands for it
+  constexpr DefectName(
+      const char (&name)[length]) {  // NOLINT(google-explicit-constructor): a literal stands for it
     for (std::size_t k = 0; k < length; ++k) text[k] = name[k];
   }
 };

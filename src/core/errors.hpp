@@ -40,8 +40,8 @@ class EngineError : public std::runtime_error {
 /// A run blew up, or left what its equations hold for (exit code 7).
 class Diverged : public std::runtime_error {
  public:
-  Diverged(long id, long row, std::string what_field, std::string at_stage, double when, const std::string& what,
-           std::string by_guard = "finite")
+  Diverged(long id, long row, std::string what_field, std::string at_stage, double when,
+           const std::string& what, std::string by_guard = "finite")
       : std::runtime_error(what),
         particle(id),
         body(row),

@@ -12,8 +12,8 @@
 #include "core/quaternion.hpp"
 #include "core/vec3.hpp"
 
-/// Fields are typed keys: a name, a unit, and what carries a value. A column of that field exists only where an effect of
-/// the scene owns it.
+/// Fields are typed keys: a name, a unit, and what carries a value. A column of that field exists only where
+/// an effect of the scene owns it.
 namespace tripoint {
 
 enum class Per { particle, bond, body };
@@ -102,12 +102,13 @@ struct FieldInfo {
   }
 };
 
-/// A column was asked for that no effect of this scene owns: a fault of the program, so it says the field by name.
+/// A column was asked for that no effect of this scene owns: a fault of the program, so it says the field by
+/// name.
 class MissingField : public std::logic_error {
  public:
   MissingField(std::string_view name, Per per)
-      : std::logic_error("no effect of this scene owns the field " + std::string(name) + " (per " + std::string(to_string(per)) +
-                         ")"),
+      : std::logic_error("no effect of this scene owns the field " + std::string(name) + " (per " +
+                         std::string(to_string(per)) + ")"),
         field_(name) {}
   [[nodiscard]] const std::string& field() const noexcept { return field_; }
 

@@ -6,14 +6,15 @@
 
 namespace tripoint {
 
-/// Levels that JSON of others may nest. Our own has ten. A reader that calls itself once a level runs out of stack at some
-/// 100,000.
+/// Levels that JSON of others may nest. Our own has ten. A reader that calls itself once a level runs out of
+/// stack at some 100,000.
 inline constexpr std::size_t most_levels = 64;
-/// Keys that one object of others may have: a reader that keeps their order looks through all of them for each.
+/// Keys that one object of others may have: a reader that keeps their order looks through all of them for
+/// each.
 inline constexpr int most_keys = 10'000;
 
-/// Why a text of others is not parsed as JSON; "" where it may be. Reasons: "nests deeper than 64 levels", "has an object of more
-/// than 10000 keys". One pass over the text; all other content is left to the parser.
+/// Why a text of others is not parsed as JSON; "" where it may be. Reasons: "nests deeper than 64 levels",
+/// "has an object of more than 10000 keys". One pass over the text; all other content is left to the parser.
 [[nodiscard]] inline std::string unfit_json(std::string_view json) {
   std::array<int, most_levels + 1> keys{};  // of the open object of each level
   std::size_t level = 0;
@@ -33,7 +34,8 @@ inline constexpr int most_keys = 10'000;
     } else if (c == '}' || c == ']') {
       level -= level > 0 ? 1 : 0;
     } else if (c == ':') {
-      if (++keys[level] > most_keys) return "has an object of more than " + std::to_string(most_keys) + " keys";
+      if (++keys[level] > most_keys)
+        return "has an object of more than " + std::to_string(most_keys) + " keys";
     }
   }
   return {};

@@ -8,11 +8,12 @@
 #include <immintrin.h>
 #endif
 
-/// Vectors of doubles, a lane a particle. With one lane a vector is a double: the same source, the oracle of the others.
+/// Vectors of doubles, a lane a particle. With one lane a vector is a double: the same source, the oracle of
+/// the others.
 namespace tripoint {
 
-/// The vector unit that a file is compiled for. It is part of the type of everything that is compiled for several units, so that
-/// the linker never mixes them up. In code compiled for any machine it is `Any`.
+/// The vector unit that a file is compiled for. It is part of the type of everything that is compiled for
+/// several units, so that the linker never mixes them up. In code compiled for any machine it is `Any`.
 #ifndef TRIPOINT_UNIT
 #define TRIPOINT_UNIT Any
 #define TRIPOINT_UNIT_LANES 1
@@ -106,7 +107,8 @@ requires(sizeof(Mask) > sizeof(long)) [[nodiscard, gnu::always_inline]] inline b
 template <class V>
 [[nodiscard, gnu::always_inline]] inline unsigned bits_below(V v, double bound) noexcept {
 #ifdef __AVX512F__
-  if constexpr (sizeof(V) == 64) return _mm512_cmp_pd_mask(reinterpret_cast<__m512d>(v), _mm512_set1_pd(bound), _CMP_LT_OS);
+  if constexpr (sizeof(V) == 64)
+    return _mm512_cmp_pd_mask(reinterpret_cast<__m512d>(v), _mm512_set1_pd(bound), _CMP_LT_OS);
 #endif
   return bits_of<static_cast<int>(sizeof(V) / sizeof(double))>(v < bound);
 }
@@ -138,8 +140,8 @@ template <class V>
   return value - V{};  // -0 and values that are not finite keep their bits
 }
 
-/// 2ab/(a + b) of numbers that are not negative. Where both are equal it is they themselves, to the bit; where they are in every
-/// lane nothing is divided.
+/// 2ab/(a + b) of numbers that are not negative. Where both are equal it is they themselves, to the bit;
+/// where they are in every lane nothing is divided.
 template <class V>
 [[nodiscard, gnu::always_inline]] inline V harmonic_mean(V a, V b) noexcept {
   const MaskOf<V> differ = a != b;

@@ -9,7 +9,8 @@
 #include <cstring>
 #include <string>
 
-/// Limits that the caller's shell may have set (ulimit), and that would otherwise end us by a signal without a word.
+/// Limits that the caller's shell may have set (ulimit), and that would otherwise end us by a signal without
+/// a word.
 namespace tripoint {
 
 /// A file above the limit of its size is an error of the write from now on, as a full disk is.
@@ -21,7 +22,8 @@ inline void expect_file_limit() noexcept { ::signal(SIGXFSZ, SIG_IGN); }
   rlimit file{};
   constexpr rlim_t kilo = 1024;
   const bool known = ::getrlimit(RLIMIT_FSIZE, &file) == 0 && file.rlim_cur != RLIM_INFINITY;
-  return words + " (a file may have " + (known ? std::to_string(file.rlim_cur / kilo) + " kB" : "no such size") +
+  return words + " (a file may have " +
+         (known ? std::to_string(file.rlim_cur / kilo) + " kB" : "no such size") +
          " here: raise that, as by ulimit -f unlimited)";
 }
 

@@ -14,6 +14,8 @@ inline constexpr std::size_t worth_threads = 4096;
 }
 
 /// Particles that the widest vectors of this machine hold: 1, 4 or 8.
-[[nodiscard]] inline int widest_lanes() noexcept { return !machine_has_avx2() ? 1 : machine_has_avx512() ? 8 : 4; }
+[[nodiscard]] inline int widest_lanes() noexcept {
+  return !machine_has_avx2() ? 1 : machine_has_avx512() ? 8 : 4;
+}
 
 }  // namespace tripoint

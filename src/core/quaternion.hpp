@@ -18,7 +18,9 @@ constexpr Quaternion operator*(const Quaternion& a, const Quaternion& b) noexcep
           a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
 constexpr Quaternion conjugate(const Quaternion& q) noexcept { return {q.w, -q.x, -q.y, -q.z}; }
-inline double norm(const Quaternion& q) noexcept { return std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z); }
+inline double norm(const Quaternion& q) noexcept {
+  return std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+}
 inline Quaternion normalised(const Quaternion& q) noexcept {
   const double n = norm(q);
   return {q.w / n, q.x / n, q.y / n, q.z / n};
@@ -39,8 +41,8 @@ inline Quaternion from_rotation_vector(const Vec3& a) noexcept {
   return {std::cos(0.5 * angle), s * a.x, s * a.y, s * a.z};
 }
 
-/// Angle [rad] in 0..pi between two orientations, blind to the quaternion's sign: 2 atan2(|vec|, |scal|) of a* b. NaN where one
-/// is zero, which is no orientation.
+/// Angle [rad] in 0..pi between two orientations, blind to the quaternion's sign: 2 atan2(|vec|, |scal|) of
+/// a* b. NaN where one is zero, which is no orientation.
 inline double angle_between(const Quaternion& a, const Quaternion& b) noexcept {
   const Quaternion d = conjugate(a) * b;
   if (!(norm(d) > 0.0)) return std::numeric_limits<double>::quiet_NaN();

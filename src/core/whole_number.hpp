@@ -4,12 +4,13 @@
 
 namespace tripoint {
 
-/// Converts a number that others wrote as a whole number, cut towards zero. Beyond the range of T it becomes the nearest end of
-/// that range, and NaN becomes 0.
+/// Converts a number that others wrote as a whole number, cut towards zero. Beyond the range of T it becomes
+/// the nearest end of that range, and NaN becomes 0.
 template <class T>
 [[nodiscard]] constexpr T whole_number(double v) noexcept {
   // This is exactly one past the greatest value: the remainder of the division does not count.
-  constexpr double end = 2.0 * static_cast<double>(std::numeric_limits<T>::max() / 2 + 1);  // NOLINT(bugprone-integer-division)
+  constexpr double end =
+      2.0 * static_cast<double>(std::numeric_limits<T>::max() / 2 + 1);  // NOLINT(bugprone-integer-division)
   if (v >= end) return std::numeric_limits<T>::max();
   if (std::numeric_limits<T>::is_signed ? v < -end : v < 0.0) return std::numeric_limits<T>::min();
   return v == v ? static_cast<T>(v) : T{0};

@@ -14,7 +14,8 @@
 /// Files that are written by calls of the system: a stream of the library would not say why it failed.
 namespace tripoint {
 
-/// Writes all of it in as many calls as that takes. @param write takes the remaining bytes and answers as write(2) does
+/// Writes all of it in as many calls as that takes. @param write takes the remaining bytes and answers as
+/// write(2) does
 /// @return 0, or the errno of the call that failed
 template <class Write>
 [[nodiscard]] int write_whole(std::string_view bytes, Write write) {
@@ -28,8 +29,8 @@ template <class Write>
   return 0;
 }
 
-/// A file that is made anew and grows by the bytes that are added. Each call throws EngineError with its path and the system's
-/// reason.
+/// A file that is made anew and grows by the bytes that are added. Each call throws EngineError with its path
+/// and the system's reason.
 class WrittenFile {
  public:
   explicit WrittenFile(const std::string& path)
@@ -43,7 +44,8 @@ class WrittenFile {
   WrittenFile& operator=(const WrittenFile&) = delete;
 
   void add(std::string_view bytes) {
-    const int why = write_whole(bytes, [&](std::string_view rest) { return ::write(file_, rest.data(), rest.size()); });
+    const int why =
+        write_whole(bytes, [&](std::string_view rest) { return ::write(file_, rest.data(), rest.size()); });
     if (why != 0) fail(why);
   }
   /// Some file systems say only here that there was no space.
@@ -53,7 +55,9 @@ class WrittenFile {
   }
 
  private:
-  [[noreturn]] void fail(int why) const { throw EngineError(path_ + ": cannot be written: " + std::strerror(why)); }
+  [[noreturn]] void fail(int why) const {
+    throw EngineError(path_ + ": cannot be written: " + std::strerror(why));
+  }
   std::string path_;
   int file_;
 };

@@ -15,33 +15,42 @@
 /// An effect: a part of physics that a scene calls for. Effects do not know each other; they meet in fields.
 namespace tripoint {
 
-/// Columns of which a stage forms the values of own particles alone, as sums over pairs and bonds are. The step hands them to the
-/// copies that other processes have, when the effect has run.
+/// Columns of which a stage forms the values of own particles alone, as sums over pairs and bonds are. The
+/// step hands them to the copies that other processes have, when the effect has run.
 struct OwnSums {
   std::vector<const Field<double>*> densities{}, state{}, bonds{};
 };
 
-/// The columns that an effect owns and those that it reads of others. The effect is given no other column (declared_view.hpp).
+/// The columns that an effect owns and those that it reads of others. The effect is given no other column
+/// (declared_view.hpp).
 struct EffectSpec {
   std::string_view name;
   Mode mode = Mode::corrected;
-  FieldList owns;                               ///< columns that exist because of it
-  FieldList reads;                              ///< of others, that it reads or sets; each has an owner in the scene
-  std::vector<Force> forces{};                  ///< that it makes
-  std::vector<Account> accounts{};              ///< that it books on beside those of its forces; common ones need no word
-  std::vector<Account> numerical{};             ///< accounts of the energy that its numerical terms take on purpose
-  std::vector<Guarded> guards{};                ///< of its columns those that are looked at after every step
-  std::vector<Bounded> bounded{};               ///< of its columns those of whole numbers that stand for something
-  std::vector<Field<double>> positive{};        ///< of its columns those that formulas divide by, and densities
-  std::vector<GuardedEntry> guarded_entries{};  ///< of its entries of the ledger, how the guard of energy takes them
-  /// Its columns of bodies that are sums over particles. Where several processes share a scene, each sums its own part.
+  FieldList owns;  ///< columns that exist because of it
+  /// Of others, that it reads or sets; each has an owner in the scene
+  FieldList reads;
+  std::vector<Force> forces{};  ///< that it makes
+  /// That it books on beside those of its forces; common ones need no word
+  std::vector<Account> accounts{};
+  /// Accounts of the energy that its numerical terms take on purpose
+  std::vector<Account> numerical{};
+  std::vector<Guarded> guards{};  ///< of its columns those that are looked at after every step
+  /// Of its columns those of whole numbers that stand for something
+  std::vector<Bounded> bounded{};
+  /// Of its columns those that formulas divide by, and densities
+  std::vector<Field<double>> positive{};
+  /// Of its entries of the ledger, how the guard of energy takes them
+  std::vector<GuardedEntry> guarded_entries{};
+  /// Its columns of bodies that are sums over particles. Where several processes share a scene, each sums its
+  /// own part.
   std::vector<Field<double>> body_sums{};
   OwnSums own_sums{};
   std::vector<StepNumber> step_numbers{};  ///< that it keeps from step to step beside its columns
   FieldList reads_if_there{};              ///< of others, where the scene has them
   bool sums_forces = false;                ///< it reads World::forces of all effects
   bool changes = false;                    ///< change() may be called of it: wants_change() is asked
-  bool skips_sleeping = false;  ///< it ignores sleeping particles, and needs the forces on fixed ones only in form_fixed()
+  /// It ignores sleeping particles, and needs the forces on fixed ones only in form_fixed()
+  bool skips_sleeping = false;
 };
 
 /// Greatest stable step of an effect, and what sets it.
@@ -53,12 +62,13 @@ inline void tighten(TimeStepBound& bound, double dt, std::string_view name) {
   if (dt < bound.dt) bound = {dt, std::string(name)};
 }
 
-/// Share of sqrt(h/a) that a step under an acceleration a takes [1]: a choice that guards accuracy, not stability.
-/// AccelerationBound measures the energy that four times such a step loses (tests/step/bounds_test.cpp).
+/// Share of sqrt(h/a) that a step under an acceleration a takes [1]: a choice that guards accuracy, not
+/// stability. AccelerationBound measures the energy that four times such a step loses
+/// (tests/step/bounds_test.cpp).
 inline constexpr double courant_of_acceleration = 0.25;
 
-/// Greatest step under an acceleration (model 8.10) [s]. @param support radius h of the support [m] @param acceleration its
-/// greatest size, above 0 [m/s2]
+/// Greatest step under an acceleration (model 8.10) [s]. @param support radius h of the support [m] @param
+/// acceleration its greatest size, above 0 [m/s2]
 [[nodiscard]] inline double acceleration_step(double support, double acceleration) noexcept {
   return courant_of_acceleration * std::sqrt(support / acceleration);
 }
@@ -69,8 +79,8 @@ struct Happening {
   bool begins;
 };
 
-/// An effect keeps nothing from step to step in members of its own. State that the next step needs is a column or a step number,
-/// where a checkpoint finds it.
+/// An effect keeps nothing from step to step in members of its own. State that the next step needs is a
+/// column or a step number, where a checkpoint finds it.
 class Effect {
  public:
   virtual ~Effect() = default;
@@ -82,29 +92,33 @@ class Effect {
   virtual void drift(World&, double /*dt*/) {}
   /// Sets the columns that the pass adds to.
   virtual void clear(World&, PassName) {}
-  /// Adds to the sums of the pass of density, and takes densities from them. Called where places are new, before all states.
+  /// Adds to the sums of the pass of density, and takes densities from them. Called where places are new,
+  /// before all states.
   virtual void densities(World&) {}
-  /// Sets the quantities that follow from the densities at the present places: pressures, temperatures, strains.
+  /// Sets the quantities that follow from the densities at the present places: pressures, temperatures,
+  /// strains.
   virtual void state(World&) {}
   /// Sets the quantities that follow from the states of all effects.
   virtual void after_states(World&) {}
   /// Forces of bonds, after all states of the present time.
   virtual void bonds(World&) {}
-  /// Sets the values of fixed particles that no step reads, except the sums of the passes (World::forms_fixed). Called after
-  /// their density.
+  /// Sets the values of fixed particles that no step reads, except the sums of the passes
+  /// (World::forms_fixed). Called after their density.
   virtual void form_fixed(World&) {}
-  /// Whether change() has anything to decide. Changes that depend on one particle's state alone are made here first. Each process
-  /// that shares the scene is asked, about its own particles and about the known values of copies.
+  /// Whether change() has anything to decide. Changes that depend on one particle's state alone are made here
+  /// first. Each process that shares the scene is asked, about its own particles and about the known values
+  /// of copies.
   [[nodiscard]] virtual bool wants_change(World&) { return false; }
-  /// Decides what melts, freezes or breaks, changes bonds, phases and bodies, and tells it in World::change. It is called where
-  /// wants_change() said so, in any of the processes that share the scene; each of them then holds all of it.
+  /// Decides what melts, freezes or breaks, changes bonds, phases and bodies, and tells it in World::change.
+  /// It is called where wants_change() said so, in any of the processes that share the scene; each of them
+  /// then holds all of it.
   virtual void change(World&) {}
   /// Follows World::change in the columns that the effect owns.
   virtual void adopt(World&) {}
   /// Settles what World::change cost or set free, when all have adopted it.
   virtual void settle(World&) {}
-  /// The second stage of two-stage schemes, with rates at the predicted state. @param dt length of the step [s] @return whether
-  /// rates must be computed again (PassName::again)
+  /// The second stage of two-stage schemes, with rates at the predicted state. @param dt length of the step
+  /// [s] @return whether rates must be computed again (PassName::again)
   virtual bool correct(World&, double /*dt*/) { return false; }
   virtual void happen(World&, const Happening&) {}
   /// Rows and ids stand for other particles (World::halo): data that the effect keeps by row or id are void.

@@ -25,7 +25,8 @@ namespace {
 constexpr std::size_t first_block = 512;  // the smallest user block of HDF5
 constexpr std::string_view magic = "tripoint checkpoint 1\n";
 
-/// FNV-1a over what follows the first block: each byte is taken by a bijection, so no single change goes unseen.
+/// FNV-1a over what follows the first block: each byte is taken by a bijection, so no single change goes
+/// unseen.
 std::string checksum_of(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   in.seekg(first_block);
@@ -67,12 +68,14 @@ void expect_seal(const std::string& path) {
   const std::string_view kind = magic.substr(0, magic.size() - 2);
   if (in.gcount() != static_cast<std::streamsize>(first_block) || !block.starts_with(kind))
     throw InputError(path + ": is no checkpoint of tripoint");
-  if (!block.starts_with(magic)) throw InputError(path + ": is a checkpoint of another version; this build reads version 1");
+  if (!block.starts_with(magic))
+    throw InputError(path + ": is a checkpoint of another version; this build reads version 1");
   if (block != sealed_block(path))
     throw InputError(path + ": is torn or altered: its checksum does not match; take an earlier checkpoint");
 }
 
-void write_bytes(hid_t group, const std::string& path, const std::string& name, hid_t type, std::size_t count, const void* data) {
+void write_bytes(hid_t group, const std::string& path, const std::string& name, hid_t type, std::size_t count,
+                 const void* data) {
   const std::string what = path + ": " + name;
   const hsize_t n = count;
   const h5::Handle space(count > 0 ? H5Screate_simple(1, &n, nullptr) : H5Screate(H5S_NULL), H5Sclose, what);
@@ -84,8 +87,9 @@ void write_bytes(hid_t group, const std::string& path, const std::string& name, 
   }
   const h5::Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, what);
   h5::check(H5Pset_create_intermediate_group(links.get(), 1), what);
-  h5::Handle dataset(H5Dcreate2(group, name.c_str(), type, space.get(), links.get(), properties.get(), H5P_DEFAULT), H5Dclose,
-                     what);
+  h5::Handle dataset(
+      H5Dcreate2(group, name.c_str(), type, space.get(), links.get(), properties.get(), H5P_DEFAULT),
+      H5Dclose, what);
   if (count > 0) h5::check(H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), what);
   dataset.close(what);
 }
@@ -94,7 +98,8 @@ template <class T>
 std::vector<T> read_values(hid_t group, const std::string& name, hid_t type, const std::string& path) {
   const h5::Handle dataset(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose, path);
   const h5::Handle space(H5Dget_space(dataset.get()), H5Sclose, path);
-  std::vector<T> values(static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space.get()), 0)));
+  std::vector<T> values(
+      static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space.get()), 0)));
   if (!values.empty() && H5Dread(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     throw InputError(path + ": " + name + " cannot be read");
   return values;
@@ -103,7 +108,8 @@ std::vector<T> read_values(hid_t group, const std::string& name, hid_t type, con
 /// Strings as bytes, each ended by a zero.
 std::vector<char> joined(const std::vector<std::string>& lines) {
   std::vector<char> bytes;
-  for (const std::string& line : lines) bytes.insert(bytes.end(), line.c_str(), line.c_str() + line.size() + 1);
+  for (const std::string& line : lines)
+    bytes.insert(bytes.end(), line.c_str(), line.c_str() + line.size() + 1);
   return bytes;
 }
 std::vector<std::string> split_at_zeros(const std::vector<char>& bytes) {
@@ -137,10 +143,11 @@ bool is_group(hid_t file, const std::string& path) {
 
 constexpr int most_groups = 4;  ///< one within the other: the states that a run can go back to are four deep
 
-/// Calls visit(name below the group) for every dataset, e.g. "particles/mass" of /real. @param path of a group in it, ended by a
-/// stroke; empty: the whole   @param depth of that group
-void for_each_dataset(hid_t file, const std::string& group, const std::function<void(const std::string&)>& visit,
-                      const std::string& path = "", int depth = 1) {
+/// Calls visit(name below the group) for every dataset, e.g. "particles/mass" of /real. @param path of a
+/// group in it, ended by a stroke; empty: the whole   @param depth of that group
+void for_each_dataset(hid_t file, const std::string& group,
+                      const std::function<void(const std::string&)>& visit, const std::string& path = "",
+                      int depth = 1) {
   for (const std::string& name : h5::members(file, "/" + group + "/" + path)) {
     if (depth < most_groups && is_group(file, "/" + group + "/" + path + name))
       for_each_dataset(file, group, visit, path + name + "/", depth + 1);
@@ -150,10 +157,12 @@ void for_each_dataset(hid_t file, const std::string& group, const std::function<
 }
 
 template <class T>
-bool same_arrays(const std::map<std::string, std::vector<T>>& a, const std::map<std::string, std::vector<T>>& b) {
+bool same_arrays(const std::map<std::string, std::vector<T>>& a,
+                 const std::map<std::string, std::vector<T>>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
     return x.first == y.first && x.second.size() == y.second.size() &&
-           (x.second.empty() || std::memcmp(x.second.data(), y.second.data(), x.second.size() * sizeof(T)) == 0);
+           (x.second.empty() ||
+            std::memcmp(x.second.data(), y.second.data(), x.second.size() * sizeof(T)) == 0);
   });
 }
 
@@ -184,12 +193,14 @@ void write_checkpoint(const std::string& path, const Checkpoint& kept) {
   write_all(temporary, kept);
   seal(temporary);
   try {
-    if (!same_bits(read_checkpoint(temporary), kept)) throw EngineError(path + ": does not read back as it was written");
+    if (!same_bits(read_checkpoint(temporary), kept))
+      throw EngineError(path + ": does not read back as it was written");
   } catch (const InputError& e) {
     throw EngineError(std::string("a new checkpoint does not read back: ") + e.what());
   }
   make_durable(temporary);
-  if (std::rename(temporary.c_str(), path.c_str()) != 0) throw EngineError(path + ": cannot be written: " + std::strerror(errno));
+  if (std::rename(temporary.c_str(), path.c_str()) != 0)
+    throw EngineError(path + ": cannot be written: " + std::strerror(errno));
   make_durable(std::filesystem::absolute(path).parent_path().string());
 }
 

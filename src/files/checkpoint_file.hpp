@@ -4,12 +4,13 @@
 
 #include "core/checkpoint.hpp"
 
-/// Checkpoints as files: HDF5 of the latest version, every array with fletcher32. A first block of 512 bytes holds the checksum
-/// of all the rest. So a torn or altered file is refused before HDF5 reads one byte of it.
+/// Checkpoints as files: HDF5 of the latest version, every array with fletcher32. A first block of 512 bytes
+/// holds the checksum of all the rest. So a torn or altered file is refused before HDF5 reads one byte of it.
 namespace tripoint {
 
-/// Writes a new file under a temporary name, closes it, reads it back and compares. Then come fsync, rename and fsync of the
-/// folder. A reader of `path` finds the earlier contents or all of the new, whenever this process or the machine stops.
+/// Writes a new file under a temporary name, closes it, reads it back and compares. Then come fsync, rename
+/// and fsync of the folder. A reader of `path` finds the earlier contents or all of the new, whenever this
+/// process or the machine stops.
 /// @throws EngineError naming the file when it cannot be written or does not read back the same
 void write_checkpoint(const std::string& path, const Checkpoint&);
 

@@ -20,7 +20,8 @@ void expect_regular_file(const std::string& path, std::uintmax_t most) {
   const auto size = fs::file_size(path, error);
   if (error) throw InputError(path + ": cannot be read");
   if (size > most)
-    throw InputError(fmt::format("{}: has {} bytes, more than the {} that it can need; refused", path, size, most));
+    throw InputError(
+        fmt::format("{}: has {} bytes, more than the {} that it can need; refused", path, size, most));
 }
 
 bool is_no_own_file(const std::string& path) {
@@ -35,7 +36,8 @@ std::string text_of_regular_file(const std::string& path, std::uintmax_t most) {
   std::ifstream in(path, std::ios::binary);
   std::string text;
   std::array<char, 1 << 16> part;
-  while (in.read(part.data(), part.size()) || in.gcount() > 0) text.append(part.data(), static_cast<std::size_t>(in.gcount()));
+  while (in.read(part.data(), part.size()) || in.gcount() > 0)
+    text.append(part.data(), static_cast<std::size_t>(in.gcount()));
   if (!in.is_open() || in.bad()) throw InputError(path + ": cannot be read");
   return text;
 }

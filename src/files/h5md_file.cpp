@@ -13,10 +13,13 @@
 namespace tripoint::h5 {
 namespace {
 
-constexpr std::size_t greatest_elements = std::size_t{1} << 31;  // 16 GiB of doubles: a file that claims more is refused
+// 16 GiB of doubles: a file that claims more is refused
+constexpr std::size_t greatest_elements = std::size_t{1} << 31;
 
 hid_t native(Type type) {
-  return type == Type::float64 ? H5T_NATIVE_DOUBLE : type == Type::int32 ? H5T_NATIVE_INT32 : H5T_NATIVE_INT64;
+  return type == Type::float64 ? H5T_NATIVE_DOUBLE
+         : type == Type::int32 ? H5T_NATIVE_INT32
+                               : H5T_NATIVE_INT64;
 }
 
 void set_fill_value(hid_t properties, Type type) {
@@ -35,7 +38,8 @@ Handle open_own_dataset(hid_t file, const std::string& path, const std::string& 
     H5L_info_t link;
     if (H5Lexists(file, part.c_str(), H5P_DEFAULT) <= 0) throw InputError(name_of_file + ": has no " + part);
     check(H5Lget_info(file, part.c_str(), &link, H5P_DEFAULT), part);
-    if (link.type != H5L_TYPE_HARD) throw InputError(name_of_file + ": " + part + " is a link; links are refused");
+    if (link.type != H5L_TYPE_HARD)
+      throw InputError(name_of_file + ": " + part + " is a link; links are refused");
     if (end == std::string::npos) break;
   }
   const hid_t id = H5Dopen2(file, path.c_str(), H5P_DEFAULT);
@@ -50,7 +54,8 @@ Handle open_own_dataset(hid_t file, const std::string& path, const std::string& 
 std::vector<std::size_t> shape_of(hid_t dataset, const std::string& what) {
   const Handle space(H5Dget_space(dataset), H5Sclose, what);
   const int rank = H5Sget_simple_extent_ndims(space.get());
-  if (rank < 1 || rank > 3) throw InputError(what + ": has " + std::to_string(rank) + " dimensions, expected 1 to 3");
+  if (rank < 1 || rank > 3)
+    throw InputError(what + ": has " + std::to_string(rank) + " dimensions, expected 1 to 3");
   hsize_t dims[3] = {1, 1, 1};
   H5Sget_simple_extent_dims(space.get(), dims, nullptr);
   std::size_t total = 1;
@@ -62,7 +67,8 @@ std::vector<std::size_t> shape_of(hid_t dataset, const std::string& what) {
   return {dims, dims + rank};
 }
 
-/// A small file can claim a great dataset: parts never written read as fill values, and zeros pack a thousandfold.
+/// A small file can claim a great dataset: parts never written read as fill values, and zeros pack a
+/// thousandfold.
 void refuse_bombs(hid_t dataset, const std::vector<std::size_t>& shape, const std::string& what) {
   constexpr double harmless = 1e9, packed = 64.0;  // [bytes], and as dense as particles ever pack
   double bytes = 8.0;
@@ -77,7 +83,8 @@ std::size_t count(const std::vector<std::size_t>& shape) {
   return n;
 }
 
-/// All frames at once; where that fails, frame by frame up to the first that is torn, which may be the first of all.
+/// All frames at once; where that fails, frame by frame up to the first that is torn, which may be the first
+/// of all.
 template <class T>
 void read_whole_frames(hid_t dataset, hid_t type, std::vector<std::size_t>& shape, std::vector<T>& values,
                        const std::string& what, bool may_be_none) {
@@ -91,16 +98,20 @@ void read_whole_frames(hid_t dataset, hid_t type, std::vector<std::size_t>& shap
   for (shape[0] = 0; shape[0] < frames; ++shape[0]) {
     start[0] = shape[0];
     check(H5Sselect_hyperslab(file_space.get(), H5S_SELECT_SET, start, nullptr, size, nullptr), what);
-    if (H5Dread(dataset, type, memory.get(), file_space.get(), H5P_DEFAULT, values.data() + shape[0] * row) < 0) break;
+    if (H5Dread(dataset, type, memory.get(), file_space.get(), H5P_DEFAULT, values.data() + shape[0] * row) <
+        0)
+      break;
   }
   values.resize(shape[0] * row);
-  if (shape[0] == 0 && !may_be_none) throw InputError(what + ": cannot be read (torn, or a checksum does not match)");
+  if (shape[0] == 0 && !may_be_none)
+    throw InputError(what + ": cannot be read (torn, or a checksum does not match)");
 }
 
 void expect_class(hid_t dataset, H5T_class_t wanted, const std::string& what) {
   const Handle type(H5Dget_type(dataset), H5Tclose, what);
   if (H5Tget_class(type.get()) != wanted)
-    throw InputError(what + ": is of the wrong type, expected " + (wanted == H5T_FLOAT ? "floating point" : "integers"));
+    throw InputError(what + ": is of the wrong type, expected " +
+                     (wanted == H5T_FLOAT ? "floating point" : "integers"));
 }
 
 /// The attribute `unit` of a dataset; empty where it has none, or one that is no text.
@@ -117,12 +128,13 @@ std::string unit_of(hid_t dataset, const std::string& what) {
     return unit;
   }
   std::string text(std::min<std::size_t>(H5Tget_size(type.get()), 256), '\0');
-  if (text.size() != H5Tget_size(type.get()) || H5Aread(attribute.get(), type.get(), text.data()) < 0) return "";
+  if (text.size() != H5Tget_size(type.get()) || H5Aread(attribute.get(), type.get(), text.data()) < 0)
+    return "";
   return text.c_str();
 }
 
-/// errno of the system call that failed. The library writes it into the text of its last error, innermost first, and so does
-/// io/ordered_file.cpp. @return 0 where no such call failed
+/// errno of the system call that failed. The library writes it into the text of its last error, innermost
+/// first, and so does io/ordered_file.cpp. @return 0 where no such call failed
 int errno_of_last_error() {
   const auto look = [](unsigned, const H5E_error2_t* error, void* found) -> herr_t {
     constexpr std::string_view key = "errno = ";
@@ -142,7 +154,8 @@ int errno_of_last_error() {
 Handle::Handle(hid_t id, Closer closer, const std::string& what) : id_(id), closer_(closer) {
   if (id >= 0) return;
   const int why = errno_of_last_error();
-  throw EngineError(what + (why != 0 ? std::string(": ") + std::strerror(why) : ": HDF5 refused (damaged, or a link?)"));
+  throw EngineError(
+      what + (why != 0 ? std::string(": ") + std::strerror(why) : ": HDF5 refused (damaged, or a link?)"));
 }
 
 Handle& Handle::operator=(Handle&& other) noexcept {
@@ -166,10 +179,12 @@ void Handle::close(const std::string& what) {
 void check(herr_t status, const std::string& what) {
   if (status >= 0) return;
   const int why = errno_of_last_error();
-  throw EngineError(what + (why != 0 ? std::string(": cannot be written: ") + std::strerror(why) : ": HDF5 could not write"));
+  throw EngineError(what + (why != 0 ? std::string(": cannot be written: ") + std::strerror(why)
+                                     : ": HDF5 could not write"));
 }
 
-Column::Column(hid_t group, const std::string& name, Type type, std::size_t rows, std::size_t width, const std::string& unit)
+Column::Column(hid_t group, const std::string& name, Type type, std::size_t rows, std::size_t width,
+               const std::string& unit)
     : name_(name),
       type_(type),
       rows_(rows),
@@ -180,14 +195,16 @@ Column::Column(hid_t group, const std::string& name, Type type, std::size_t rows
   if (rank_ == 1) rows_ = 0;
   const hsize_t dims[3] = {0, rows_, width_};
   const hsize_t limits[3] = {H5S_UNLIMITED, H5S_UNLIMITED, width_};
-  const hsize_t chunk[3] = {1, std::max<hsize_t>(rows_, 1), width_};  // one frame: a frame half written then spoils no other
+  // One frame: a frame half written then spoils no other
+  const hsize_t chunk[3] = {1, std::max<hsize_t>(rows_, 1), width_};
   const Handle space(H5Screate_simple(rank_, dims, limits), H5Sclose, name);
   const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
   check(H5Pset_chunk(properties.get(), rank_, chunk), name);
   check(H5Pset_fletcher32(properties.get()), name);
   set_fill_value(properties.get(), type);
-  dataset_ = Handle(H5Dcreate2(group, name.c_str(), native(type), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
-                    H5Dclose, name);
+  dataset_ = Handle(
+      H5Dcreate2(group, name.c_str(), native(type), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
+      H5Dclose, name);
   if (!unit.empty()) write_text_attribute(dataset_.get(), "unit", unit);
 }
 
@@ -216,7 +233,8 @@ void write_texts(hid_t object, const std::string& name, const Handle& space, con
   const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, name);
   check(H5Tset_size(type.get(), H5T_VARIABLE), name);
   check(H5Tset_cset(type.get(), H5T_CSET_UTF8), name);
-  const Handle attribute(H5Acreate2(object, name.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name);
+  const Handle attribute(H5Acreate2(object, name.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT),
+                         H5Aclose, name);
   check(H5Awrite(attribute.get(), type.get(), static_cast<const void*>(texts)), name);
 }
 
@@ -237,7 +255,9 @@ void write_text_attribute(hid_t object, const std::string& name, const std::vect
 void write_whole_attribute(hid_t object, const std::string& name, const std::vector<int>& values) {
   const hsize_t count = values.size();
   const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose, name);
-  const Handle attribute(H5Acreate2(object, name.c_str(), H5T_NATIVE_INT, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name);
+  const Handle attribute(
+      H5Acreate2(object, name.c_str(), H5T_NATIVE_INT, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+      name);
   check(H5Awrite(attribute.get(), H5T_NATIVE_INT, values.data()), name);
 }
 
@@ -250,7 +270,9 @@ bool has(hid_t file, const std::string& path) {
 
 bool is_linked_to_one(hid_t file, const std::string& a, const std::string& b) {
   H5L_info_t one, other;
-  if (H5Lget_info(file, a.c_str(), &one, H5P_DEFAULT) < 0 || H5Lget_info(file, b.c_str(), &other, H5P_DEFAULT) < 0) return false;
+  if (H5Lget_info(file, a.c_str(), &one, H5P_DEFAULT) < 0 ||
+      H5Lget_info(file, b.c_str(), &other, H5P_DEFAULT) < 0)
+    return false;
   return one.type == H5L_TYPE_HARD && other.type == H5L_TYPE_HARD && one.u.address == other.u.address;
 }
 
@@ -289,7 +311,8 @@ std::vector<std::string> members(hid_t file, const std::string& path) {
     static_cast<std::vector<std::string>*>(list)->emplace_back(name);
     return 0;
   };
-  // Uses the file's own order. Where a read fails, the library frees the table of a sorted order before it has filled it.
+  // Uses the file's own order. Where a read fails, the library frees the table of a sorted order before it
+  // has filled it.
   if (H5Literate(group.get(), H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, add, &names) < 0)
     throw InputError("the group " + path + " of an HDF5 file cannot be read");
   std::ranges::sort(names);
@@ -298,8 +321,9 @@ std::vector<std::string> members(hid_t file, const std::string& path) {
 
 namespace {
 
-/// A file names the filters of its data by number. For a number that it does not know the library would load a shared object from
-/// HDF5_PLUGIN_PATH or its own folder, and run it. Done at each opening, since another user of the library may ask for more.
+/// A file names the filters of its data by number. For a number that it does not know the library would load
+/// a shared object from HDF5_PLUGIN_PATH or its own folder, and run it. Done at each opening, since another
+/// user of the library may ask for more.
 void load_no_plugins() { check(H5PLset_loading_state(0), "HDF5: its plugins cannot be switched off"); }
 
 /// On the way to a dataset the library would open whatever file a link names.
@@ -308,8 +332,9 @@ void follow_no_links_into_other_files() {
   static_cast<void>(no_such_links);
 }
 
-/// Opens without HDF5's lock on the file. A process just started holds a copy of every open file, and the lock with it, until it
-/// runs its own program. A file closed here would for a moment be refused to the next that opens it.
+/// Opens without HDF5's lock on the file. A process just started holds a copy of every open file, and the
+/// lock with it, until it runs its own program. A file closed here would for a moment be refused to the next
+/// that opens it.
 Handle unlocked_access(const std::string& path) {
   static const herr_t no_clean_up_at_exit =
       H5dont_atexit();  // it ends by a signal where a file could not be written; handles close their files

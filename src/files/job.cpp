@@ -26,7 +26,8 @@ constexpr std::size_t most_letters = 4096;           // of a text in a result, w
 
 json parse(const std::string& path) {
   const std::string text = text_of_regular_file(path, greatest_file);
-  if (const std::string why = unfit_json(text); !why.empty()) throw InputError(fmt::format("{}: {}; refused", path, why));
+  if (const std::string why = unfit_json(text); !why.empty())
+    throw InputError(fmt::format("{}: {}; refused", path, why));
   json value = json::parse(text, nullptr, false);
   if (value.is_discarded()) throw InputError(path + ": is no JSON");
   return value;
@@ -39,13 +40,16 @@ json reference_json(const ReferenceChoice& r) {
 
 ReferenceChoice reference_from(const JsonObject& o) {
   const auto kind = o.text_or("kind", "analytic");
-  if (!find_word<ReferenceKind>(kind)) throw InputError(o.path() + ".kind: `" + printable(kind) + "` is no kind of reference");
+  if (!find_word<ReferenceKind>(kind))
+    throw InputError(o.path() + ".kind: `" + printable(kind) + "` is no kind of reference");
   return {from_word<ReferenceKind>(kind), o.text_or("function", ""), o.text_or("file", ""),
           o.text_or("source", ""),        o.settings("args"),        o.number_or("uncertainty", 0.0)};
 }
 
 std::string below(const std::string& folder, const std::string& path) {
-  return path.empty() || std::filesystem::path(path).is_absolute() ? path : (std::filesystem::path(folder) / path).string();
+  return path.empty() || std::filesystem::path(path).is_absolute()
+             ? path
+             : (std::filesystem::path(folder) / path).string();
 }
 
 template <class Owner, class Record>
@@ -123,7 +127,8 @@ Status status_from(const JsonObject& o, const std::string& path) {
   const auto word = o.text("status");
   for (const auto status : {Status::ok, Status::refused, Status::diverged, Status::error})
     if (to_string(status) == word) return status;
-  throw InputError(path + ": status: `" + printable(word) + "` is none that an engine may give (ok, refused, diverged, error)");
+  throw InputError(path + ": status: `" + printable(word) +
+                   "` is none that an engine may give (ok, refused, diverged, error)");
 }
 
 }  // namespace
@@ -135,7 +140,8 @@ Result read_result(const std::string& path) {
   Result r;
   r.status = status_from(o, path);
   take_by(records::of_result, o, r);
-  for (std::string* words : {&r.message, &r.state_hash, &r.time_step_bound}) *words = words->substr(0, most_letters);
+  for (std::string* words : {&r.message, &r.state_hash, &r.time_step_bound})
+    *words = words->substr(0, most_letters);
   if (o.has("counters")) take_by(records::of_counters, o.object("counters"), r);
   if (o.has("seconds")) take_by(records::of_seconds, o.object("seconds"), r);
   if (o.has("readback")) r.readback = readback_from(o.object("readback"));

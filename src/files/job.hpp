@@ -27,11 +27,14 @@ struct JobBody {
   Vec3 angular_velocity;      ///< world frame [rad/s]
 };
 
-/// A number that the case asks for at a point, or of a body or region. A solver of fields may answer these alone.
+/// A number that the case asks for at a point, or of a body or region. A solver of fields may answer these
+/// alone.
 struct JobGauge {
-  std::string metric, quantity;  ///< name of the case's metric; displacement, temperature_at, mean_temperature ...
-  std::string body;              ///< empty = all
-  Settings where;                ///< point, axis, min, max, outside, phase: those that the case states, never its value
+  /// Name of the case's metric; displacement, temperature_at, mean_temperature ...
+  std::string metric, quantity;
+  std::string body;  ///< empty = all
+  /// Point, axis, min, max, outside, phase: those that the case states, never its value
+  Settings where;
 };
 
 struct Resolution {
@@ -57,7 +60,8 @@ struct Job {
   std::string resume;         ///< checkpoint to continue from; empty = none
 };
 
-/// @throws InputError naming the key that is missing or of the wrong kind. Relative paths inside count from the file's folder.
+/// @throws InputError naming the key that is missing or of the wrong kind. Relative paths inside count from
+/// the file's folder.
 [[nodiscard]] Job read_job(const std::string& path);
 [[nodiscard]] std::string job_text(const Job&);
 /// FNV-1a of a text, as 16 hex digits: tells two jobs apart.

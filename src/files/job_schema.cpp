@@ -107,8 +107,9 @@ bool is_needed(const Key& key, bool later) {
   else if constexpr (std::is_same_v<T, bool>)
     return false;
   else
-    return !later && (std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, Vec3> || std::is_same_v<T, Quaternion> ||
-                      std::is_same_v<T, std::array<Vec3, 3>> || std::is_same_v<T, std::vector<double>>);
+    return !later && (std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, Vec3> ||
+                      std::is_same_v<T, Quaternion> || std::is_same_v<T, std::array<Vec3, 3>> ||
+                      std::is_same_v<T, std::vector<double>>);
 }
 
 template <class Owner, class T>
@@ -138,7 +139,8 @@ void add_effect_keys(json& to, std::string_view of_table) {
   });
 }
 
-/// The kinds of a shape or a field. Parts of a shape stand in one list; the first of a difference is the one that is cut.
+/// The kinds of a shape or a field. Parts of a shape stand in one list; the first of a difference is the one
+/// that is cut.
 template <class Owner>
 json kinds_of(const json& plain_value) {
   json any = json::array();
@@ -146,7 +148,8 @@ json kinds_of(const json& plain_value) {
     json kind = object_of(of.record);
     if (of.word == "union" || of.word == "difference")
       kind = {{"type", "object"}, {"properties", {{"of", list_of(table("shape"))}}}, {"required", {"of"}}};
-    if (of.word == "constant") kind = {{"type", "object"}, {"properties", {{"value", plain_value}}}, {"required", {"value"}}};
+    if (of.word == "constant")
+      kind = {{"type", "object"}, {"properties", {{"value", plain_value}}}, {"required", {"value"}}};
     if constexpr (std::is_same_v<Owner, Shape>) {
       kind["properties"]["rotation"] = numbers(4);
       kind["properties"]["rotation_centre"] = numbers(3);
@@ -169,7 +172,8 @@ json scene_schema() {
   json scene = object_of(record<Scene>);
   add_effect_keys<Scene>(scene, "scene");
   for (const char* list : {"materials", "bodies", "events", "inflows", "contacts", "forces"}) {
-    const std::string one = std::string(list) == "bodies" ? "body" : std::string(list, std::char_traits<char>::length(list) - 1);
+    const std::string one =
+        std::string(list) == "bodies" ? "body" : std::string(list, std::char_traits<char>::length(list) - 1);
     scene["properties"][list] = list_of(table(one));
     if (std::string(list) != "contacts" && std::string(list) != "forces") scene["required"].push_back(list);
   }
@@ -180,7 +184,8 @@ json scene_schema() {
 json model_schema() {
   json model = of_type("object");
   for (const ModelTerm& t : model_terms())
-    for (const ModelForm& form : t.forms) model["properties"][std::string(t.name)]["enum"].push_back(form.word);
+    for (const ModelForm& form : t.forms)
+      model["properties"][std::string(t.name)]["enum"].push_back(form.word);
   return model;
 }
 

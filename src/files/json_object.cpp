@@ -12,7 +12,8 @@ json to_json(const Quaternion& q) { return json::array({q.w, q.x, q.y, q.z}); }
 
 json to_json(const Settings& settings) {
   json out = json::object();
-  for (const auto& [key, value] : settings) std::visit([&, &name = key](const auto& v) { out[name] = v; }, value);
+  for (const auto& [key, value] : settings)
+    std::visit([&, &name = key](const auto& v) { out[name] = v; }, value);
   return out;
 }
 
@@ -139,7 +140,8 @@ std::vector<JsonObject> JsonObject::objects(const std::string& key) const {
   const json& v = at(key);
   if (!v.is_array()) wrong(key, "a list of objects");
   std::vector<JsonObject> out;
-  for (std::size_t k = 0; k < v.size(); ++k) out.emplace_back(v[k], path_ + "." + key + "[" + std::to_string(k) + "]");
+  for (std::size_t k = 0; k < v.size(); ++k)
+    out.emplace_back(v[k], path_ + "." + key + "[" + std::to_string(k) + "]");
   return out;
 }
 

@@ -52,9 +52,10 @@ int read_all(int file, haddr_t at, char* data, std::size_t size) {
   return 0;
 }
 
-/// Order of writes: 1. the superblock, which holds the end of the file; 2. index nodes, nearest to the root first; 3. all other
-/// blocks, from the end of the file to its beginning. A dataset made first therefore grows last. An early write of a node does no
-/// harm, because the old node still has the entries that it hands over. (HDF5's format: a node begins with TREE, type, level.)
+/// Order of writes: 1. the superblock, which holds the end of the file; 2. index nodes, nearest to the root
+/// first; 3. all other blocks, from the end of the file to its beginning. A dataset made first therefore
+/// grows last. An early write of a node does no harm, because the old node still has the entries that it
+/// hands over. (HDF5's format: a node begins with TREE, type, level.)
 int rank_of(const std::pair<haddr_t, std::string>& block) {
   constexpr int first = 1000, last = -1;
   const std::string& bytes = block.second;
@@ -63,9 +64,9 @@ int rank_of(const std::pair<haddr_t, std::string>& block) {
   return last;
 }
 
-/// A file of HDF5. Blocks where nothing lay at the last flush are written at once, since nothing leads to them yet. Blocks that
-/// replace older bytes are held until the next flush. Once a change has failed there are no more changes: the library's last
-/// writes, made to close the file, would lead into the gap.
+/// A file of HDF5. Blocks where nothing lay at the last flush are written at once, since nothing leads to
+/// them yet. Blocks that replace older bytes are held until the next flush. Once a change has failed there
+/// are no more changes: the library's last writes, made to close the file, would lead into the gap.
 class OrderedFile {
  public:
   OrderedFile(int file, haddr_t end) : file_(file), end_of_file_(end) {}
@@ -76,7 +77,8 @@ class OrderedFile {
   int read(haddr_t at, char* data, std::size_t size) const {
     if (const int why = read_all(file_, at, data, size); why != 0) return why;
     for (auto block = first_beyond(held_, at); block != held_.end() && block->first < at + size; ++block) {
-      const haddr_t from = std::max(at, block->first), to = std::min(at + size, block->first + block->second.size());
+      const haddr_t from = std::max(at, block->first),
+                    to = std::min(at + size, block->first + block->second.size());
       std::memcpy(data + (from - at), block->second.data() + (from - block->first), to - from);
     }
     return 0;
@@ -97,8 +99,9 @@ class OrderedFile {
     std::vector<std::pair<haddr_t, std::string>> blocks(std::make_move_iterator(held_.begin()),
                                                         std::make_move_iterator(held_.end()));
     held_.clear();
-    std::sort(blocks.begin(), blocks.end(),
-              [](const auto& a, const auto& b) { return std::pair(rank_of(a), a.first) > std::pair(rank_of(b), b.first); });
+    std::sort(blocks.begin(), blocks.end(), [](const auto& a, const auto& b) {
+      return std::pair(rank_of(a), a.first) > std::pair(rank_of(b), b.first);
+    });
     for (const auto& [at, bytes] : blocks)
       if (change(at, bytes.data(), bytes.size()) != 0) return failure_;
     flushed_.merge(fresh_);
@@ -106,11 +109,13 @@ class OrderedFile {
     return 0;
   }
 
-  /// A file must not be shorter than its superblock says, so that it grows before it is flushed and shrinks after.
+  /// A file must not be shorter than its superblock says, so that it grows before it is flushed and shrinks
+  /// after.
   int set_length(haddr_t length) {
     if (length == end_of_file_) return 0;
     if (length < end_of_file_ && flush() != 0) return failure_;
-    while (failure_ == 0 && ::ftruncate(file_, static_cast<off_t>(length)) != 0) failure_ = errno == EINTR ? 0 : errno;
+    while (failure_ == 0 && ::ftruncate(file_, static_cast<off_t>(length)) != 0)
+      failure_ = errno == EINTR ? 0 : errno;
     if (failure_ == 0) end_of_file_ = length;
     return failure_;
   }
@@ -164,14 +169,15 @@ struct Open {
 Open& own(H5FD_t* file) { return *reinterpret_cast<Open*>(file); }
 const Open& own(const H5FD_t* file) { return *reinterpret_cast<const Open*>(file); }
 
-/// Puts the reason for a failure where the library's own drivers put it, in their words. The caller of the library finds it
-/// there.
+/// Puts the reason for a failure where the library's own drivers put it, in their words. The caller of the
+/// library finds it there.
 void note_failure(int why) noexcept {
   H5Epush2(H5E_DEFAULT, __FILE__, "tripoint-ordered", __LINE__, H5E_ERR_CLS, H5E_IO, H5E_SYSERRSTR,
            "errno = %d, error message = '%s'", why, std::strerror(why));
 }
 
-/// No exception may pass through the library: where memory runs out the call fails, and the file changes no more.
+/// No exception may pass through the library: where memory runs out the call fails, and the file changes no
+/// more.
 template <class Act>
 herr_t carry_out(H5FD_t* file, Act act) noexcept {
   OrderedFile& own_file = own(file).file;
@@ -187,16 +193,19 @@ herr_t carry_out(H5FD_t* file, Act act) noexcept {
 }
 
 H5FD_t* open_file(const char* name, unsigned flags, hid_t /*access*/, haddr_t /*greatest*/) {
-  const int create = (flags & H5F_ACC_CREAT) != 0 ? O_CREAT : 0, truncate = (flags & H5F_ACC_TRUNC) != 0 ? O_TRUNC : 0;
-  const int exclusive = (flags & H5F_ACC_EXCL) != 0 ? O_EXCL : 0, mode = (flags & H5F_ACC_RDWR) != 0 ? O_RDWR : O_RDONLY;
+  const int create = (flags & H5F_ACC_CREAT) != 0 ? O_CREAT : 0,
+            truncate = (flags & H5F_ACC_TRUNC) != 0 ? O_TRUNC : 0;
+  const int exclusive = (flags & H5F_ACC_EXCL) != 0 ? O_EXCL : 0,
+            mode = (flags & H5F_ACC_RDWR) != 0 ? O_RDWR : O_RDONLY;
   const int file = ::open(name, mode | create | truncate | exclusive | O_CLOEXEC, 0666);
   if (file < 0) {
     note_failure(errno);
     return nullptr;
   }
   struct stat status {};
-  Open* made =
-      ::fstat(file, &status) == 0 ? new (std::nothrow) Open{{}, {file, static_cast<haddr_t>(status.st_size)}, 0} : nullptr;
+  Open* made = ::fstat(file, &status) == 0 ? new (std::nothrow)
+                                                 Open{{}, {file, static_cast<haddr_t>(status.st_size)}, 0}
+                                           : nullptr;
   if (made == nullptr) {
     note_failure(errno);
     ::close(file);
@@ -220,9 +229,11 @@ int compare(const H5FD_t* one, const H5FD_t* other) {
   return a.st_ino == b.st_ino ? 0 : a.st_ino < b.st_ino ? -1 : 1;
 }
 
-/// Without the library's joining of neighbouring writes of structure: each comes alone, and its kind can be told.
+/// Without the library's joining of neighbouring writes of structure: each comes alone, and its kind can be
+/// told.
 herr_t features(const H5FD_t* /*file*/, unsigned long* flags) {
-  *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
+  *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA |
+           H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
   return 0;
 }
 
@@ -235,13 +246,16 @@ herr_t set_end_of_space(H5FD_t* file, H5FD_mem_t /*kind*/, haddr_t end) {
 
 haddr_t end_of_file(const H5FD_t* file, H5FD_mem_t /*kind*/) { return own(file).file.end_of_file(); }
 
-herr_t read_file(H5FD_t* file, H5FD_mem_t /*kind*/, hid_t /*transfer*/, haddr_t at, std::size_t size, void* data) {
+herr_t read_file(H5FD_t* file, H5FD_mem_t /*kind*/, hid_t /*transfer*/, haddr_t at, std::size_t size,
+                 void* data) {
   return carry_out(file, [&](OrderedFile& open) { return open.read(at, static_cast<char*>(data), size); });
 }
 
-herr_t write_file(H5FD_t* file, H5FD_mem_t kind, hid_t /*transfer*/, haddr_t at, std::size_t size, const void* data) {
-  return carry_out(
-      file, [&](OrderedFile& open) { return open.write(kind == H5FD_MEM_DRAW, at, static_cast<const char*>(data), size); });
+herr_t write_file(H5FD_t* file, H5FD_mem_t kind, hid_t /*transfer*/, haddr_t at, std::size_t size,
+                  const void* data) {
+  return carry_out(file, [&](OrderedFile& open) {
+    return open.write(kind == H5FD_MEM_DRAW, at, static_cast<const char*>(data), size);
+  });
 }
 
 herr_t flush_file(H5FD_t* file, hid_t /*transfer*/, hbool_t /*is_closing*/) {

@@ -4,9 +4,10 @@
 
 namespace tripoint::h5 {
 
-/// Orders the changes to a file that is created by these access properties. A process may die between any two calls, and every
-/// frame flushed before stays readable. HDF5 itself writes by address. Where it splits a node of an index, the old node then
-/// loses its last entries before anything leads to the new one. For src/files only.
+/// Orders the changes to a file that is created by these access properties. A process may die between any two
+/// calls, and every frame flushed before stays readable. HDF5 itself writes by address. Where it splits a
+/// node of an index, the old node then loses its last entries before anything leads to the new one. For
+/// src/files only.
 /// @throws EngineError when HDF5 refuses
 void write_in_order(hid_t access);
 

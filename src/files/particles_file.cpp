@@ -41,7 +41,8 @@ InitialState read_particles(const std::string& path) {
   Snapshot& frame = trajectory.frames.front();
   for (std::size_t i = 0; i < frame.id.size(); ++i)
     if (frame.id[i] != static_cast<int>(i))
-      throw InputError(path + ": row " + std::to_string(i) + " holds id " + std::to_string(frame.id[i]) + "; rows must be ids");
+      throw InputError(path + ": row " + std::to_string(i) + " holds id " + std::to_string(frame.id[i]) +
+                       "; rows must be ids");
   InitialState s;
   s.position = std::move(frame.position);
   s.velocity = std::move(frame.velocity);
@@ -54,8 +55,8 @@ InitialState read_particles(const std::string& path) {
   if (h5::has(file.get(), "/particles/all/source/value"))
     s.source = h5::read_whole(file.get(), "/particles/all/source/value", path).whole;
   const std::size_t n = s.position.size();
-  if (s.velocity.size() != n || s.mass.size() != n || s.phase.size() != n || s.body.size() != n || s.material.size() != n ||
-      s.source.size() != n)
+  if (s.velocity.size() != n || s.mass.size() != n || s.phase.size() != n || s.body.size() != n ||
+      s.material.size() != n || s.source.size() != n)
     throw InputError(path + ": a column of mass, velocity, phase, body, material or source is missing");
   return s;
 }

@@ -37,9 +37,11 @@ std::string encoded(const std::vector<T>& values) {
 }
 
 template <class T>
-void array(WrittenFile& out, const char* type, const std::string& name, std::size_t components, const std::vector<T>& values) {
-  out.add(fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}</DataArray>\n", type,
-                      name, components, encoded(values)));
+void array(WrittenFile& out, const char* type, const std::string& name, std::size_t components,
+           const std::vector<T>& values) {
+  out.add(fmt::format(
+      "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}</DataArray>\n", type,
+      name, components, encoded(values)));
 }
 
 }  // namespace
@@ -59,10 +61,12 @@ void write_vtp(const std::string& path, const PointCloud& cloud) {
                   "header_type=\"UInt64\">\n<PolyData>\n<FieldData>\n",
                   std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian"));
   for (const auto& [name, value] : cloud.numbers)
-    out.add(fmt::format("<DataArray type=\"Float64\" Name=\"{}\" NumberOfTuples=\"1\" format=\"binary\">{}</DataArray>\n", name,
-                        encoded(std::vector<double>{value})));
+    out.add(fmt::format(
+        "<DataArray type=\"Float64\" Name=\"{}\" NumberOfTuples=\"1\" format=\"binary\">{}</DataArray>\n",
+        name, encoded(std::vector<double>{value})));
   out.add(
-      fmt::format("</FieldData>\n<Piece NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+      fmt::format("</FieldData>\n<Piece NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\" NumberOfLines=\"0\" "
+                  "NumberOfStrips=\"0\" "
                   "NumberOfPolys=\"0\">\n<PointData>\n",
                   n));
   for (const auto& a : cloud.arrays) array(out, "Float64", a.name, a.components, a.values);

@@ -19,8 +19,8 @@ struct PointCloud {
   std::vector<std::pair<std::string, double>> numbers;  ///< of the whole cloud: time, culprit
 };
 
-/// A VTK file of polygonal data (.vtp, XML), one vertex a point. Values are binary, so that NaN and infinity are kept as they
-/// are.
+/// A VTK file of polygonal data (.vtp, XML), one vertex a point. Values are binary, so that NaN and infinity
+/// are kept as they are.
 /// @throws EngineError when it cannot be written
 void write_vtp(const std::string& path, const PointCloud&);
 

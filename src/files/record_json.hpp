@@ -23,7 +23,8 @@ json kind_json(const auto& owner);
 template <class Owner>
 Owner from_kind_json(const JsonObject&);
 
-// --- one value --------------------------------------------------------------------------------------------------------
+// --- one value
+// --------------------------------------------------------------------------------------------------------
 
 /// Whether it is a list of words of one enumeration.
 template <class T>
@@ -44,9 +45,11 @@ json put(const Key& key, std::string_view yes, const T& value) {
     json list = json::array();
     for (const auto one : value) list.push_back(split_words(key.words).at(static_cast<std::size_t>(one)));
     return list;
-  } else if constexpr (std::is_same_v<T, Vec3> || std::is_same_v<T, Quaternion> || std::is_same_v<T, Settings>) {
+  } else if constexpr (std::is_same_v<T, Vec3> || std::is_same_v<T, Quaternion> ||
+                       std::is_same_v<T, Settings>) {
     return to_json(value);
-  } else if constexpr (std::is_same_v<T, Shape> || std::is_same_v<T, TemperatureField> || std::is_same_v<T, VelocityField>) {
+  } else if constexpr (std::is_same_v<T, Shape> || std::is_same_v<T, TemperatureField> ||
+                       std::is_same_v<T, VelocityField>) {
     return kind_json(value);
   } else if constexpr (std::is_same_v<T, std::array<bool, 3>>) {
     json list = json::array();
@@ -74,10 +77,12 @@ inline std::size_t place_of(const JsonObject& o, const std::string& name, const 
   return static_cast<std::size_t>(at - words.begin());
 }
 
-/// Reads a member. Flags, lists, texts that have a default and what may be unknown stay as they are where a job lacks them.
+/// Reads a member. Flags, lists, texts that have a default and what may be unknown stay as they are where a
+/// job lacks them.
 /// @param later whether any value does so
 template <class T>
-void take(const JsonObject& o, const std::string& name, const Key& key, std::string_view yes, bool later, T& value) {
+void take(const JsonObject& o, const std::string& name, const Key& key, std::string_view yes, bool later,
+          T& value) {
   if constexpr (std::is_same_v<T, double>) {
     value = later ? o.number_or(name, value) : o.number(name);
   } else if constexpr (std::is_same_v<T, bool>) {
@@ -88,13 +93,15 @@ void take(const JsonObject& o, const std::string& name, const Key& key, std::str
   } else if constexpr (std::is_same_v<T, std::string>) {
     value = later || !key.required() ? o.text_or(name, value) : o.text(name);
   } else if constexpr (std::integral<T>) {
-    value = later ? whole_number<T>(o.number_or(name, static_cast<double>(value))) : static_cast<T>(o.integer(name));
+    value = later ? whole_number<T>(o.number_or(name, static_cast<double>(value)))
+                  : static_cast<T>(o.integer(name));
   } else if constexpr (std::is_same_v<T, Settings>) {
     value = o.settings(name);
   } else if constexpr (std::is_same_v<T, std::vector<double>>) {
     value = o.numbers(name);
   } else if constexpr (std::is_enum_v<T>) {
-    if (!later || o.has(name)) value = static_cast<T>(place_of(o, name, o.text(name), split_words(key.words)));
+    if (!later || o.has(name))
+      value = static_cast<T>(place_of(o, name, o.text(name), split_words(key.words)));
   } else if constexpr (std::is_same_v<T, Vec3>) {
     if (!later || o.has(name)) value = o.vector(name);
   } else if constexpr (std::is_same_v<T, Quaternion>) {
@@ -127,7 +134,8 @@ void take(const JsonObject& o, const std::string& name, const Key& key, std::str
   }
 }
 
-// --- a record ---------------------------------------------------------------------------------------------------------
+// --- a record
+// ---------------------------------------------------------------------------------------------------------
 
 /// Members by a record that is named. A key without a member has its place, and its owner fills it.
 template <class Owner, class Record>
@@ -163,11 +171,13 @@ void take_record(const JsonObject& o, Owner& owner) {
   });
 }
 
-// --- shapes, and fields of the start ----------------------------------------------------------------------------------
+// --- shapes, and fields of the start
+// ----------------------------------------------------------------------------------
 
 template <class Owner>
 std::vector<std::string> kind_words() {
-  return std::apply([](const auto&... all) { return std::vector<std::string>{std::string(all.word)...}; }, kinds<Owner>);
+  return std::apply([](const auto&... all) { return std::vector<std::string>{std::string(all.word)...}; },
+                    kinds<Owner>);
 }
 
 /// A shape or a field: its kind, and the keys of that.

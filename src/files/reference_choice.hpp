@@ -10,7 +10,8 @@ namespace tripoint {
 /// Where a truth comes from.
 enum class ReferenceKind { analytic, discrete_exact, mms, self, engine, experiment, invariant, bound };
 constexpr WordTable<8> word_table(ReferenceKind) {
-  return {"kind of reference", {"analytic", "discrete_exact", "mms", "self", "engine", "experiment", "invariant", "bound"}};
+  return {"kind of reference",
+          {"analytic", "discrete_exact", "mms", "self", "engine", "experiment", "invariant", "bound"}};
 }
 
 /// The truth that a case names. The judge reads it, and of the engines `exact` alone.

@@ -29,8 +29,9 @@ struct Divergence {
   long particle = -1, body = -1;
   std::string field, stage;
   double time = 0.0;
-  std::string guard;       ///< which one tripped; empty = the engine has none
-  std::string file;        ///< in the run's folder: the culprit and its surroundings, for ParaView; empty = none
+  std::string guard;  ///< which one tripped; empty = the engine has none
+  /// In the run's folder: the culprit and its surroundings, for ParaView; empty = none
+  std::string file;
   std::string checkpoint;  ///< last good one; empty = none
 };
 
@@ -49,7 +50,8 @@ struct Result {
   std::map<std::string, double> extra;  ///< further numbers, under "extra"
 };
 
-/// @throws InputError naming the file and the key that is missing, of the wrong kind, or a status that no engine may give
+/// @throws InputError naming the file and the key that is missing, of the wrong kind, or a status that no
+/// engine may give
 [[nodiscard]] Result read_result(const std::string& path);
 /// Writes to a temporary name, fsyncs and renames: the engine's last act.
 void write_result(const std::string& path, const Result&);

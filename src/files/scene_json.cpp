@@ -29,19 +29,24 @@ json beginning_with(std::initializer_list<const char*> names) {
 /// Values of keys that effects bring, as they are kept in a scene or a material.
 template <class Owner>
 void put_effect_values(const Owner& owner, std::string_view table, json& out) {
-  each_effect_key(owner, table, [&](const Key& key, const auto& value) { out[std::string(key.name)] = put(key, "", value); });
+  each_effect_key(owner, table, [&](const Key& key, const auto& value) {
+    out[std::string(key.name)] = put(key, "", value);
+  });
 }
 
 /// A missing value stays as the owner has it.
 template <class Owner>
 void take_effect_values(const JsonObject& o, std::string_view table, Owner& owner) {
-  each_effect_key(owner, table, [&](const Key& key, auto& value) { take(o, std::string(key.name), key, "", true, value); });
+  each_effect_key(owner, table,
+                  [&](const Key& key, auto& value) { take(o, std::string(key.name), key, "", true, value); });
 }
 
-// --- materials, bodies, events ----------------------------------------------------------------------------------------
+// --- materials, bodies, events
+// ----------------------------------------------------------------------------------------
 
 json material_json(const Material& m) {
-  json out = beginning_with({"name", "density", "solid", "stiffness", "solid_conductivity", "solid_heat_capacity"});
+  json out =
+      beginning_with({"name", "density", "solid", "stiffness", "solid_conductivity", "solid_heat_capacity"});
   put_record(m, out);
   put_effect_values(m, "material", out);
   return out;
@@ -54,11 +59,12 @@ Material material_from(const JsonObject& o) {
   return m;
 }
 
-/// A body as the case file says it and as its particles are: `velocity` is that of the centre of mass, the field beside it.
+/// A body as the case file says it and as its particles are: `velocity` is that of the centre of mass, the
+/// field beside it.
 json body_json(const Body& b, const JobBody& j) {
-  json out = beginning_with({"name", "index", "material", "phase", "motion", "keyframes", "temperature_held", "mass", "centre",
-                             "principal_inertia", "principal_axes", "orientation", "velocity", "angular_velocity",
-                             "velocity_field", "temperature", "shape"});
+  json out = beginning_with({"name", "index", "material", "phase", "motion", "keyframes", "temperature_held",
+                             "mass", "centre", "principal_inertia", "principal_axes", "orientation",
+                             "velocity", "angular_velocity", "velocity_field", "temperature", "shape"});
   put_record(b, out);
   put_by(records::of_job_body, j, out);
   put_by(records::of_mass, j.properties, out);
@@ -97,7 +103,8 @@ void take_list(const JsonObject& o, const std::string& name, std::vector<T>& lis
 
 json modes_json(const Scene& s) {
   json modes = json::object();
-  for (const DeclaredTerm& one : declared_terms()) modes[std::string(one.term.name)] = to_string(s.mode_of(one.term));
+  for (const DeclaredTerm& one : declared_terms())
+    modes[std::string(one.term.name)] = to_string(s.mode_of(one.term));
   return modes;
 }
 
@@ -115,22 +122,26 @@ void take_forms(const JsonObject& o, Scene& s) {
   for (const EffectRule& rule : effect_rules())
     for (const BroughtForm& f : rule.forms)
       for (const ModelTerm& t : model_terms())
-        if (t.term == f.term && model.text_or(std::string(t.name), "") == f.form.word) s.forms[f.term] = f.form.word;
+        if (t.term == f.term && model.text_or(std::string(t.name), "") == f.form.word)
+          s.forms[f.term] = f.form.word;
 }
 
 }  // namespace
 
 json scene_to_json(const Scene& s, const std::vector<JobBody>& bodies) {
-  json out = beginning_with({"end_time", "gravity", "spacing", "support_ratio", "mode", "modes", "time_step", "seed", "jitter",
-                             "min", "max", "periodic", "output_interval", "settle", "merge_distance", "contact", "clamp"});
+  json out = beginning_with({"end_time", "gravity", "spacing", "support_ratio", "mode", "modes", "time_step",
+                             "seed", "jitter", "min", "max", "periodic", "output_interval", "settle",
+                             "merge_distance", "contact", "clamp"});
   put_record(s, out);
   out["modes"] = modes_json(s);
   out["model"] = model_json(s);
   out["clamp"] = s.clamps();
   put_effect_values(s, "scene", out);
-  for (const char* list : {"materials", "bodies", "events", "inflows", "contacts", "forces"}) out[list] = json::array();
+  for (const char* list : {"materials", "bodies", "events", "inflows", "contacts", "forces"})
+    out[list] = json::array();
   for (const Material& m : s.materials) out["materials"].push_back(material_json(m));
-  for (std::size_t k = 0; k < s.bodies.size(); ++k) out["bodies"].push_back(body_json(s.bodies[k], bodies.at(k)));
+  for (std::size_t k = 0; k < s.bodies.size(); ++k)
+    out["bodies"].push_back(body_json(s.bodies[k], bodies.at(k)));
   for (const Event& e : s.events) out["events"].push_back(event_json(e));
   for (const Inflow& f : s.inflows) put_record(f, out["inflows"].emplace_back(json::object()));
   for (const ContactLaw& law : s.contact_laws) put_record(law, out["contacts"].emplace_back(json::object()));

@@ -35,11 +35,15 @@ class JsonObject {
   [[nodiscard]] JsonObject object(const std::string& key) const;
   [[nodiscard]] std::vector<JsonObject> objects(const std::string& key) const;
   [[nodiscard]] std::optional<double> maybe_number(const std::string& key) const;
-  [[nodiscard]] double number_or(const std::string& key, double other) const { return maybe_number(key).value_or(other); }
+  [[nodiscard]] double number_or(const std::string& key, double other) const {
+    return maybe_number(key).value_or(other);
+  }
   [[nodiscard]] std::string text_or(const std::string& key, const std::string& other) const {
     return has(key) ? text(key) : other;
   }
-  [[nodiscard]] bool flag_or(const std::string& key, bool other) const { return has(key) ? flag(key) : other; }
+  [[nodiscard]] bool flag_or(const std::string& key, bool other) const {
+    return has(key) ? flag(key) : other;
+  }
   [[nodiscard]] const std::string& path() const { return path_; }
 
  private:

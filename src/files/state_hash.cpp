@@ -50,13 +50,15 @@ void FramesHash::add(const Snapshot& s) {
   add_column(s.position);
   add_column(s.velocity);
   add_column(s.mass);
-  for (const auto* column : {&s.temperature, &s.temperature_error, &s.density, &s.pressure, &s.liquid_fraction})
+  for (const auto* column :
+       {&s.temperature, &s.temperature_error, &s.density, &s.pressure, &s.liquid_fraction})
     add_column(*column);
   for (const auto* column : {&s.id, &s.phase, &s.body, &s.material}) add_column(*column);
   for (const BodyState& b : s.bodies) {
     if (std::isnan(b.mass)) continue;
     for (const Vec3& v : {b.position, b.velocity, b.angular_velocity, b.force, b.torque}) hash.add(v);
-    for (const double q : {b.orientation.w, b.orientation.x, b.orientation.y, b.orientation.z, b.mass}) hash.add(q);
+    for (const double q : {b.orientation.w, b.orientation.x, b.orientation.y, b.orientation.z, b.mass})
+      hash.add(q);
   }
   hash.add(s.total_mass);
   hash.add(s.momentum);

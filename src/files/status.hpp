@@ -4,8 +4,8 @@
 
 namespace tripoint {
 
-/// How a run ended. An engine says ok, refused, diverged or error of itself. The harness sees that an engine is missing, was
-/// killed or ran out of time.
+/// How a run ended. An engine says ok, refused, diverged or error of itself. The harness sees that an engine
+/// is missing, was killed or ran out of time.
 enum class Status { ok, refused, missing, diverged, killed, timeout, error };
 
 constexpr WordTable<7> word_table(Status) {

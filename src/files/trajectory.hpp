@@ -18,13 +18,14 @@ namespace tripoint {
 /// One solid body at one time; a dead or unborn body is all NaN.
 struct BodyState {
   Vec3 position, velocity, angular_velocity;  ///< [m], [m/s], [rad/s] world frame
-  Quaternion orientation;                     ///< unit quaternion [1], from the pose at the start, or at birth, to now
-  double mass = 0.0;                          ///< [kg]
-  Vec3 force, torque;                         ///< from all others [N], [N m]
+  /// Unit quaternion [1], from the pose at the start, or at birth, to now
+  Quaternion orientation;
+  double mass = 0.0;   ///< [kg]
+  Vec3 force, torque;  ///< from all others [N], [N m]
 };
 
-/// Values that an engine shows at one time: SI, world frame. Each column of particles has one value a particle, row = particle
-/// id, or is empty where the engine has no such values.
+/// Values that an engine shows at one time: SI, world frame. Each column of particles has one value a
+/// particle, row = particle id, or is empty where the engine has no such values.
 struct Snapshot {
   double time = 0.0;                           ///< [s]
   long step = 0;                               ///< steps that the engine has taken
@@ -41,10 +42,14 @@ struct Snapshot {
   Vec3 momentum, angular_momentum;             ///< [kg m/s]; [kg m2/s], about the origin
   std::map<std::string, double> energy;        ///< TERM of the ledger -> [J]
   std::map<std::string, double> counts;        ///< [1]: recoveries so far; objects that bonds hold together
-  std::map<std::string, double> heat_given;    ///< name of a body -> heat given to it so far by what holds its temperature [J]
-  std::map<std::string, double> gauges;        ///< name of a gauge of the job -> value that the engine itself reads there [SI]
+  /// Name of a body -> heat given to it so far by what holds its temperature [J]
+  std::map<std::string, double> heat_given;
+  /// Name of a gauge of the job -> value that the engine itself reads there [SI]
+  std::map<std::string, double> gauges;
   /// Whether the engine shows no particles at all: a solver of fields that answers by its gauges.
-  [[nodiscard]] bool gauges_only() const { return position.empty() && temperature.empty() && !gauges.empty(); }
+  [[nodiscard]] bool gauges_only() const {
+    return position.empty() && temperature.empty() && !gauges.empty();
+  }
 };
 
 /// The scene's domain, as far as it has one; a bound that is not finite is none.
@@ -57,12 +62,14 @@ struct Domain {
   [[nodiscard]] bool is_periodic() const { return periodic[0] || periodic[1] || periodic[2]; }
 };
 
-/// A whole trajectory in memory: frames in order of time. Frames may have unequal row counts only by inflow (later ones longer).
+/// A whole trajectory in memory: frames in order of time. Frames may have unequal row counts only by inflow
+/// (later ones longer).
 struct Trajectory {
   std::vector<Snapshot> frames;
 };
 
-/// Appends frames to trajectory.h5; every frame is flushed before append() returns, and then announced as written by `frames()`.
+/// Appends frames to trajectory.h5; every frame is flushed before append() returns, and then announced as
+/// written by `frames()`.
 class TrajectoryWriter {
  public:
   /// @param domain what /particles/all/box says: its boundary, and its edges where a direction is periodic
@@ -83,22 +90,23 @@ class TrajectoryWriter {
 
 inline constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
 
-/// Reads trajectory.h5. @throws InputError naming the file and the part that is missing, torn or of the wrong shape, and where it
-/// has more than most_frames frames. Sizes are bounded before reading.
+/// Reads trajectory.h5. @throws InputError naming the file and the part that is missing, torn or of the wrong
+/// shape, and where it has more than most_frames frames. Sizes are bounded before reading.
 [[nodiscard]] Trajectory read_trajectory(const std::string& path, std::size_t most_frames = any_number);
-/// Reads a small engine's trajectory.csv (contracts): rows of particles or, with the column `body`, of bodies.
-/// Masses, phases and materials come from `initial`. @throws InputError with the line, and where it has more than most_frames
-/// times
-[[nodiscard]] Trajectory read_trajectory_csv(const std::string& path, const InitialState& initial, std::size_t bodies,
-                                             std::size_t most_frames = any_number);
-/// Reads gauges.csv (rows of time, number of the gauge, value) into the frames of their times, and makes these where there are
-/// none.
+/// Reads a small engine's trajectory.csv (contracts): rows of particles or, with the column `body`, of
+/// bodies. Masses, phases and materials come from `initial`. @throws InputError with the line, and where it
+/// has more than most_frames times
+[[nodiscard]] Trajectory read_trajectory_csv(const std::string& path, const InitialState& initial,
+                                             std::size_t bodies, std::size_t most_frames = any_number);
+/// Reads gauges.csv (rows of time, number of the gauge, value) into the frames of their times, and makes
+/// these where there are none.
 /// @param names of the job's gauges, in their order
 /// @throws InputError with the line, and where there would be more than most_frames frames
 void read_gauges_csv(const std::string& path, const std::vector<std::string>& names, Trajectory&,
                      std::size_t most_frames = any_number);
 
-/// The same bytes for the same trajectory, within one build of the program: one process reads in place of another.
+/// The same bytes for the same trajectory, within one build of the program: one process reads in place of
+/// another.
 [[nodiscard]] std::string packed(const Trajectory&);
 /// @throws InputError where the bytes are no whole trajectory: none of its sizes is taken on trust
 [[nodiscard]] Trajectory unpacked(const std::string& bytes, std::size_t most_frames = any_number);
@@ -108,15 +116,16 @@ void write_particles(const std::string& path, const InitialState&);
 [[nodiscard]] InitialState read_particles(const std::string& path);
 
 /// trajectory.xdmf beside trajectory.h5, for ParaView.
-/// @param times of the frames [s]   @param last the last frame: its columns and row count are those of the file
+/// @param times of the frames [s]   @param last the last frame: its columns and row count are those of the
+/// file
 void write_xdmf(const std::string& folder, const std::vector<double>& times, const Snapshot& last);
 
 /// FNV-1a over the bits of positions, velocities, temperatures and bodies, as 16 hex digits.
 [[nodiscard]] std::string state_hash(const Snapshot&);
 /// FNV-1a over the bits of all that was sampled.
 [[nodiscard]] std::string state_hash(const InitialState&);
-/// FNV-1a over the bits of all that these frames show, one after the other. Rows that do not exist count for nothing, so frames
-/// read back have the hash that they had when written.
+/// FNV-1a over the bits of all that these frames show, one after the other. Rows that do not exist count for
+/// nothing, so frames read back have the hash that they had when written.
 class FramesHash {
  public:
   void add(const Snapshot&);

@@ -12,10 +12,12 @@ namespace {
 /// Shows each part of a snapshot to a visitor. A part more or less does not compile.
 template <class Snapshot_, class Visit>
 void each_part(Snapshot_& s, Visit&& visit) {
-  auto& [time, step, position, velocity, temperature, temperature_error, density, pressure, liquid_fraction, id, phase, body,
-         material, mass, bodies, total_mass, momentum, angular_momentum, energy, counts, heat_given, gauges] = s;
+  auto& [time, step, position, velocity, temperature, temperature_error, density, pressure, liquid_fraction,
+         id, phase, body, material, mass, bodies, total_mass, momentum, angular_momentum, energy, counts,
+         heat_given, gauges] = s;
   const auto all = [&](auto&... part) { (visit(part), ...); };
-  all(time, step, position, velocity, temperature, temperature_error, density, pressure, liquid_fraction, id, phase, body);
+  all(time, step, position, velocity, temperature, temperature_error, density, pressure, liquid_fraction, id,
+      phase, body);
   all(material, mass, bodies, total_mass, momentum, angular_momentum, energy, counts, heat_given, gauges);
 }
 
@@ -54,7 +56,8 @@ void pack(const Trajectory& trajectory, Sink sink) {
   for (const Snapshot& s : trajectory.frames) each_part(s, packer);
 }
 
-/// Takes no size on trust. An item that claims more than the remaining bytes is refused before memory is asked for.
+/// Takes no size on trust. An item that claims more than the remaining bytes is refused before memory is
+/// asked for.
 class Unpacker {
  public:
   explicit Unpacker(const std::string& bytes) : bytes_(bytes) {}
@@ -87,7 +90,9 @@ class Unpacker {
   }
 
  private:
-  [[noreturn]] static void refuse() { throw InputError("the reader of a trajectory handed back what is none"); }
+  [[noreturn]] static void refuse() {
+    throw InputError("the reader of a trajectory handed back what is none");
+  }
   void take(void* to, std::size_t size) {
     if (size > bytes_.size() - at_) refuse();
     if (size > 0) std::memcpy(to, bytes_.data() + at_, size);
@@ -100,11 +105,13 @@ class Unpacker {
 /// @throws InputError where a column of particles is neither empty nor as long as the longest
 void expect_equal_columns(const Snapshot& s) {
   std::set<std::size_t> lengths{s.position.size(), s.velocity.size()};
-  for (const auto* column : {&s.temperature, &s.temperature_error, &s.density, &s.pressure, &s.liquid_fraction, &s.mass})
+  for (const auto* column :
+       {&s.temperature, &s.temperature_error, &s.density, &s.pressure, &s.liquid_fraction, &s.mass})
     lengths.insert(column->size());
   for (const auto* column : {&s.id, &s.phase, &s.body, &s.material}) lengths.insert(column->size());
   lengths.erase(0);
-  if (lengths.size() > 1) throw InputError("the reader of a trajectory handed back columns of unequal length");
+  if (lengths.size() > 1)
+    throw InputError("the reader of a trajectory handed back columns of unequal length");
 }
 
 }  // namespace
@@ -114,14 +121,16 @@ std::string packed(const Trajectory& trajectory) {
   pack(trajectory, [&](const void*, std::size_t size) { total += size; });
   std::string bytes;
   bytes.reserve(total);  // a string that grows is in memory twice
-  pack(trajectory, [&](const void* from, std::size_t size) { bytes.append(static_cast<const char*>(from), size); });
+  pack(trajectory,
+       [&](const void* from, std::size_t size) { bytes.append(static_cast<const char*>(from), size); });
   return bytes;
 }
 
 Trajectory unpacked(const std::string& bytes, std::size_t most_frames) {
   Unpacker unpack(bytes);
   const std::size_t frames = unpack.count(1);
-  if (frames > most_frames) throw InputError("the reader of a trajectory handed back more frames than there can be");
+  if (frames > most_frames)
+    throw InputError("the reader of a trajectory handed back more frames than there can be");
   Trajectory trajectory;
   trajectory.frames.resize(frames);
   for (Snapshot& s : trajectory.frames) each_part(s, unpack);

@@ -39,8 +39,8 @@ class Table {
     place_ = {path_, number, 0};
     const auto cells = split(text);
     if (cells.size() != column_.size())
-      throw InputError(place_,
-                       "has " + std::to_string(cells.size()) + " cells, the header has " + std::to_string(column_.size()));
+      throw InputError(place_, "has " + std::to_string(cells.size()) + " cells, the header has " +
+                                   std::to_string(column_.size()));
     value_.assign(cells.size(), 0.0);
     for (std::size_t k = 0; k < cells.size(); ++k) value_[k] = number_in(cells[k]);
   }
@@ -50,11 +50,14 @@ class Table {
     if (at == column_.end()) throw InputError(place_, "the column " + name + " is missing");
     return value_[at->second];
   }
-  [[nodiscard]] Vec3 vector(const char* x, const char* y, const char* z) const { return {(*this)[x], (*this)[y], (*this)[z]}; }
+  [[nodiscard]] Vec3 vector(const char* x, const char* y, const char* z) const {
+    return {(*this)[x], (*this)[y], (*this)[z]};
+  }
   [[nodiscard]] std::size_t row(const std::string& name, std::size_t rows) const {
     const double v = (*this)[name];
     if (!(v >= 0.0 && v < static_cast<double>(rows)) || v != std::floor(v))
-      throw InputError(place_, name + " " + std::to_string(v) + " is not one of 0 to " + std::to_string(rows) + " - 1");
+      throw InputError(
+          place_, name + " " + std::to_string(v) + " is not one of 0 to " + std::to_string(rows) + " - 1");
     return static_cast<std::size_t>(v);
   }
 
@@ -62,7 +65,8 @@ class Table {
   [[nodiscard]] double number_in(const std::string& cell) const {
     double v = 0.0;
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), v);
-    if (error != std::errc() || end != cell.data() + cell.size()) throw InputError(place_, "\"" + cell + "\" is no number");
+    if (error != std::errc() || end != cell.data() + cell.size())
+      throw InputError(place_, "\"" + cell + "\" is no number");
     return v;
   }
   std::string path_;
@@ -82,8 +86,10 @@ Snapshot empty_frame(double time, const InitialState& initial, std::size_t bodie
   s.body = initial.body;
   s.material = initial.material;
   s.id.assign(initial.size(), -1);
-  s.bodies.assign(bodies,
-                  BodyState{nan, nan, nan, {not_a_number, not_a_number, not_a_number, not_a_number}, not_a_number, {}, {}});
+  s.bodies.assign(
+      bodies,
+      BodyState{
+          nan, nan, nan, {not_a_number, not_a_number, not_a_number, not_a_number}, not_a_number, {}, {}});
   return s;
 }
 
@@ -145,10 +151,12 @@ void expect_read_whole(const std::ifstream& file, const std::string& path) {
 
 /// The frame of a time, made where there is none. @throws InputError where there are too many
 template <class Make>
-Snapshot& frame_at(double time, std::map<double, Snapshot>& frames, std::size_t most, const Table& row, const Make& make) {
+Snapshot& frame_at(double time, std::map<double, Snapshot>& frames, std::size_t most, const Table& row,
+                   const Make& make) {
   const auto at = frames.find(time);
   if (at != frames.end()) return at->second;
-  if (frames.size() >= most) row.refuse("has more than " + std::to_string(most) + " different times, more than it can need");
+  if (frames.size() >= most)
+    row.refuse("has more than " + std::to_string(most) + " different times, more than it can need");
   return frames.emplace(time, make()).first->second;
 }
 
@@ -159,7 +167,8 @@ Trajectory read_trajectory_csv(const std::string& path, const InitialState& init
   std::ifstream file(path);
   if (!file) throw InputError(path + ": cannot be read");
   std::string text;
-  if (!std::getline(file, text) || text.size() > greatest_line) throw InputError(path + ": has no header line");
+  if (!std::getline(file, text) || text.size() > greatest_line)
+    throw InputError(path + ": has no header line");
   Table row(path, text);
   const std::vector<Start> start = starts(initial, bodies);
   std::map<double, Snapshot> frames;
@@ -169,7 +178,8 @@ Trajectory read_trajectory_csv(const std::string& path, const InitialState& init
     row.line(text, number);
     const double time = row["time"];
     if (!std::isfinite(time)) throw InputError({path, number, 0}, "the time is not finite");
-    Snapshot& frame = frame_at(time, frames, most_frames, row, [&] { return empty_frame(time, initial, bodies); });
+    Snapshot& frame =
+        frame_at(time, frames, most_frames, row, [&] { return empty_frame(time, initial, bodies); });
     row.has("body") ? put_body(row, initial, start, frame) : put_particle(row, initial, frame);
   }
   expect_read_whole(file, path);
@@ -189,7 +199,8 @@ void read_gauges_csv(const std::string& path, const std::vector<std::string>& na
                      std::size_t most_frames) {
   std::ifstream file(path);
   std::string text;
-  if (!file || !std::getline(file, text) || text.size() > greatest_line) throw InputError(path + ": has no header line");
+  if (!file || !std::getline(file, text) || text.size() > greatest_line)
+    throw InputError(path + ": has no header line");
   Table row(path, text);
   std::map<double, Snapshot> frames;
   for (Snapshot& frame : trajectory.frames) frames[frame.time] = std::move(frame);
@@ -207,7 +218,8 @@ void read_gauges_csv(const std::string& path, const std::vector<std::string>& na
       throw InputError({path, number, 0}, "the gauge `" + name + "` has two values at this time");
     if (!row.has("standard_error")) continue;
     if (!(row["standard_error"] >= 0.0) || !std::isfinite(row["standard_error"]))
-      throw InputError({path, number, 0}, "the standard error of the gauge `" + name + "` is no number from 0 on");
+      throw InputError({path, number, 0},
+                       "the standard error of the gauge `" + name + "` is no number from 0 on");
     frame.gauges[gauge_error_key(name)] = row["standard_error"];
   }
   expect_read_whole(file, path);

@@ -33,14 +33,19 @@ class Reader {
   [[nodiscard]] std::size_t frames() const { return frames_; }
   [[nodiscard]] double time(std::size_t f) const { return time_[f]; }
   [[nodiscard]] long step(std::size_t f) const { return step_[f]; }
-  [[nodiscard]] bool has(const std::string& element) const { return h5::has(file_.get(), "/" + element + "/value"); }
-  [[nodiscard]] std::vector<std::string> members(const std::string& group) const { return h5::members(file_.get(), group); }
+  [[nodiscard]] bool has(const std::string& element) const {
+    return h5::has(file_.get(), "/" + element + "/value");
+  }
+  [[nodiscard]] std::vector<std::string> members(const std::string& group) const {
+    return h5::members(file_.get(), group);
+  }
 
   /// Real values of an element, frames x rows x width flattened. The unit must be the contract's.
   h5::Block real(const std::string& element, std::size_t width, const std::string& unit) {
     const std::string value = "/" + element + "/value";
     h5::Block block = h5::read_real(file_.get(), value, path_, frames_ == 0);
-    if (block.unit != unit) throw InputError(path_ + ": " + value + " is in \"" + block.unit + "\", expected \"" + unit + "\"");
+    if (block.unit != unit)
+      throw InputError(path_ + ": " + value + " is in \"" + block.unit + "\", expected \"" + unit + "\"");
     expect(block, width, value);
     block.real.resize(total(block), not_a_number);
     widen(element, block, block.real, not_a_number);
@@ -58,17 +63,19 @@ class Reader {
   }
 
  private:
-  static std::size_t total(const h5::Block& block) { return block.shape[0] * block.shape[1] * block.shape[2]; }
+  static std::size_t total(const h5::Block& block) {
+    return block.shape[0] * block.shape[1] * block.shape[2];
+  }
 
-  /// Blocks that a killed writer left torn are padded with a marker that is never a valid value. Their frames are cut off at the
-  /// end.
+  /// Blocks that a killed writer left torn are padded with a marker that is never a valid value. Their frames
+  /// are cut off at the end.
   void expect(h5::Block& block, std::size_t width, const std::string& what) {
     if (block.shape.size() < 3) block.shape.resize(3, 1);
     whole_ = std::min(whole_, block.shape[0]);
     block.shape[0] = std::max(block.shape[0], frames_);
     if (block.shape[2] != width)
-      throw InputError(path_ + ": " + what + " has " + std::to_string(block.shape[2]) + " components, expected " +
-                       std::to_string(width));
+      throw InputError(path_ + ": " + what + " has " + std::to_string(block.shape[2]) +
+                       " components, expected " + std::to_string(width));
   }
 
   /// How wide a group's columns are, and whether one of them holds more frames than there are times.
@@ -82,29 +89,32 @@ class Reader {
     }
   }
 
-  /// A writer makes the columns wider for particles born in its last frame. Where it was killed meanwhile, the columns that it
-  /// had not come to are still narrow.
+  /// A writer makes the columns wider for particles born in its last frame. Where it was killed meanwhile,
+  /// the columns that it had not come to are still narrow.
   template <class T>
   void widen(const std::string& element, h5::Block& block, std::vector<T>& values, T nothing) {
     const std::size_t rows = rows_[element.substr(0, element.rfind('/'))], row = block.shape[2];
     if (!is_torn_ || block.shape[1] >= rows) return;
     std::vector<T> wide(block.shape[0] * rows * row, nothing);
     for (std::size_t f = 0; f < block.shape[0]; ++f)
-      std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(f * block.shape[1] * row), block.shape[1] * row,
-                  wide.begin() + static_cast<std::ptrdiff_t>(f * rows * row));
+      std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(f * block.shape[1] * row),
+                  block.shape[1] * row, wide.begin() + static_cast<std::ptrdiff_t>(f * rows * row));
     values = std::move(wide);
     block.shape[1] = rows;
   }
 
-  /// H5MD gives each element times of its own. An element without the times of the positions is not of these frames.
+  /// H5MD gives each element times of its own. An element without the times of the positions is not of these
+  /// frames.
   void expect_own_times(const std::string& element) const {
     const std::string name = "/" + element + "/time";
-    if (!h5::has(file_.get(), name) || h5::is_linked_to_one(file_.get(), name, "/particles/all/position/time")) return;
+    if (!h5::has(file_.get(), name) ||
+        h5::is_linked_to_one(file_.get(), name, "/particles/all/position/time"))
+      return;
     const std::vector<double> own = h5::read_real(file_.get(), name, path_, true).real;
     for (std::size_t f = 0; f < std::min(own.size(), frames_); ++f)
       if (own[f] != time_[f])
-        throw InputError(path_ + ": " + element + " is of " + std::to_string(own[f]) + " s in frame " + std::to_string(f) +
-                         ", and position of " + std::to_string(time_[f]) + " s");
+        throw InputError(path_ + ": " + element + " is of " + std::to_string(own[f]) + " s in frame " +
+                         std::to_string(f) + ", and position of " + std::to_string(time_[f]) + " s");
   }
 
   std::string path_;
@@ -174,7 +184,8 @@ void read_bodies(Reader& in, Frames& frames) {
   const h5::Block q = in.real("particles/bodies/orientation", 4, "1");
   const h5::Block m = in.real("particles/bodies/mass", 1, "kg");
   for (std::size_t f = 0; f < frames.size(); ++f) {
-    if (q.shape[1] != frames[f].bodies.size() || m.shape[1] != q.shape[1]) throw InputError("bodies: columns of unequal length");
+    if (q.shape[1] != frames[f].bodies.size() || m.shape[1] != q.shape[1])
+      throw InputError("bodies: columns of unequal length");
     for (std::size_t i = 0; i < q.shape[1]; ++i) {
       const double* v = &q.real[(f * q.shape[1] + i) * 4];
       frames[f].bodies[i].orientation = {v[0], v[1], v[2], v[3]};
@@ -194,13 +205,17 @@ void read_observables(Reader& in, Frames& frames) {
     return n == 3 ? Vec3{v[0], v[1], v[2]} : Vec3{not_a_number, not_a_number, not_a_number};
   };
   numbers("mass", "kg", [](Snapshot& s, const double* v, std::size_t) { s.total_mass = *v; });
-  numbers("momentum", "kg m s-1", [&](Snapshot& s, const double* v, std::size_t n) { s.momentum = three(v, n); });
+  numbers("momentum", "kg m s-1",
+          [&](Snapshot& s, const double* v, std::size_t n) { s.momentum = three(v, n); });
   numbers("angular_momentum", "kg m2 s-1",
           [&](Snapshot& s, const double* v, std::size_t n) { s.angular_momentum = three(v, n); });
-  const auto family = [&](const std::string& prefix, const std::string& unit, std::map<std::string, double> Snapshot::*members) {
+  const auto family = [&](const std::string& prefix, const std::string& unit,
+                          std::map<std::string, double> Snapshot::*members) {
     for (const std::string& name : in.members("/observables"))
       if (name.rfind(prefix, 0) == 0)
-        numbers(name, unit, [&](Snapshot& s, const double* v, std::size_t) { (s.*members)[name.substr(prefix.size())] = *v; });
+        numbers(name, unit, [&](Snapshot& s, const double* v, std::size_t) {
+          (s.*members)[name.substr(prefix.size())] = *v;
+        });
   };
   family("energy_", "J", &Snapshot::energy);
   family("heat_", "J", &Snapshot::heat_given);
@@ -210,9 +225,10 @@ void read_observables(Reader& in, Frames& frames) {
 void expect_equal_lengths(const std::string& path, const Snapshot& s) {
   const std::size_t n = s.position.size();
   const auto fits = [&](std::size_t size) { return size == 0 || size == n; };
-  if (!fits(s.velocity.size()) || !fits(s.temperature.size()) || !fits(s.temperature_error.size()) || !fits(s.density.size()) ||
-      !fits(s.pressure.size()) || !fits(s.liquid_fraction.size()) || !fits(s.id.size()) || !fits(s.phase.size()) ||
-      !fits(s.body.size()) || !fits(s.material.size()) || !fits(s.mass.size()))
+  if (!fits(s.velocity.size()) || !fits(s.temperature.size()) || !fits(s.temperature_error.size()) ||
+      !fits(s.density.size()) || !fits(s.pressure.size()) || !fits(s.liquid_fraction.size()) ||
+      !fits(s.id.size()) || !fits(s.phase.size()) || !fits(s.body.size()) || !fits(s.material.size()) ||
+      !fits(s.mass.size()))
     throw InputError(path + ": columns of particles/all have unequal lengths");
 }
 
@@ -221,8 +237,8 @@ void expect_equal_lengths(const std::string& path, const Snapshot& s) {
 Trajectory read_trajectory(const std::string& path, std::size_t most_frames) {
   Reader in(path);
   if (in.frames() > most_frames)
-    throw InputError(
-        fmt::format("{}: has {} frames, more than the {} that it can need; refused", path, in.frames(), most_frames));
+    throw InputError(fmt::format("{}: has {} frames, more than the {} that it can need; refused", path,
+                                 in.frames(), most_frames));
   Trajectory trajectory;
   Frames& frames = trajectory.frames;
   frames.resize(in.frames());

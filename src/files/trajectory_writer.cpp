@@ -29,8 +29,9 @@ void write_box(hid_t file, const Domain& domain) {
   const h5::Handle box = h5::make_group(file, "particles/all/box");
   const int dimension = 3;
   const h5::Handle one(H5Screate(H5S_SCALAR), H5Sclose, "box");
-  const h5::Handle attribute(H5Acreate2(box.get(), "dimension", H5T_NATIVE_INT, one.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-                             "box");
+  const h5::Handle attribute(
+      H5Acreate2(box.get(), "dimension", H5T_NATIVE_INT, one.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+      "box");
   h5::check(H5Awrite(attribute.get(), H5T_NATIVE_INT, &dimension), "box");
   std::vector<std::string> boundary;
   for (const bool periodic : domain.periodic) boundary.emplace_back(periodic ? "periodic" : "none");
@@ -47,13 +48,16 @@ Vec3 edges_of(const Domain& domain, const std::vector<Vec3>& places) {
     high = {std::max(high.x, r.x), std::max(high.y, r.y), std::max(high.z, r.z)};
   }
   const Vec3 own = domain.max - domain.min, around = high - low;
-  const auto edge = [](double bounded, double occupied) { return std::isfinite(bounded) ? bounded : std::max(occupied, 0.0); };
+  const auto edge = [](double bounded, double occupied) {
+    return std::isfinite(bounded) ? bounded : std::max(occupied, 0.0);
+  };
   return {edge(own.x, around.x), edge(own.y, around.y), edge(own.z, around.z)};
 }
 
 std::size_t expect(std::size_t rows, std::size_t n, const char* name) {
   if (rows != n)
-    throw EngineError(std::string(name) + " has " + std::to_string(rows) + " rows for " + std::to_string(n) + " particles");
+    throw EngineError(std::string(name) + " has " + std::to_string(rows) + " rows for " + std::to_string(n) +
+                      " particles");
   return n;
 }
 
@@ -67,8 +71,8 @@ struct TrajectoryWriter::Impl {
     write_box(file.get(), domain);
   }
 
-  void put(const std::string& element, h5::Type type, std::size_t rows, std::size_t width, const std::string& unit,
-           const void* data) {
+  void put(const std::string& element, h5::Type type, std::size_t rows, std::size_t width,
+           const std::string& unit, const void* data) {
     auto at = columns.find(element);
     if (at == columns.end()) {
       if (frames > 0) throw EngineError(path + ": " + element + " appears after the first frame");
@@ -105,11 +109,13 @@ void TrajectoryWriter::Impl::put_particles(const Snapshot& s) {
   const std::size_t n = s.position.size();
   const auto real = [&](const char* name, const std::vector<double>& column, const char* unit) {
     if (!column.empty())
-      put(std::string("particles/all/") + name, h5::Type::float64, expect(column.size(), n, name), 0, unit, column.data());
+      put(std::string("particles/all/") + name, h5::Type::float64, expect(column.size(), n, name), 0, unit,
+          column.data());
   };
   const auto whole = [&](const char* name, const std::vector<int>& column) {
     if (!column.empty())
-      put(std::string("particles/all/") + name, h5::Type::int32, expect(column.size(), n, name), 0, "", column.data());
+      put(std::string("particles/all/") + name, h5::Type::int32, expect(column.size(), n, name), 0, "",
+          column.data());
   };
   put("particles/all/position", h5::Type::float64, n, 3, "m", s.position.data());
   put("particles/all/velocity", h5::Type::float64, n, 3, "m s-1", s.velocity.data());
@@ -155,12 +161,16 @@ void TrajectoryWriter::Impl::put_observables(const Snapshot& s) {
   put("observables/mass", h5::Type::float64, scalar, 0, "kg", &s.total_mass);
   put("observables/momentum", h5::Type::float64, 3, 0, "kg m s-1", &s.momentum);
   put("observables/angular_momentum", h5::Type::float64, 3, 0, "kg m2 s-1", &s.angular_momentum);
-  for (const auto& [term, joule] : s.energy) put("observables/energy_" + term, h5::Type::float64, scalar, 0, "J", &joule);
-  for (const auto& [body, joule] : s.heat_given) put("observables/heat_" + body, h5::Type::float64, scalar, 0, "J", &joule);
-  for (const auto& [what, count] : s.counts) put("observables/count_" + what, h5::Type::float64, scalar, 0, "1", &count);
+  for (const auto& [term, joule] : s.energy)
+    put("observables/energy_" + term, h5::Type::float64, scalar, 0, "J", &joule);
+  for (const auto& [body, joule] : s.heat_given)
+    put("observables/heat_" + body, h5::Type::float64, scalar, 0, "J", &joule);
+  for (const auto& [what, count] : s.counts)
+    put("observables/count_" + what, h5::Type::float64, scalar, 0, "1", &count);
 }
 
-TrajectoryWriter::TrajectoryWriter(const std::string& path, const Domain& domain) : impl_(std::make_unique<Impl>(path, domain)) {}
+TrajectoryWriter::TrajectoryWriter(const std::string& path, const Domain& domain)
+    : impl_(std::make_unique<Impl>(path, domain)) {}
 TrajectoryWriter::~TrajectoryWriter() = default;
 
 void TrajectoryWriter::append(const Snapshot& s) {
@@ -169,7 +179,8 @@ void TrajectoryWriter::append(const Snapshot& s) {
   impl_->put_observables(s);
   const long long step = s.step;
   impl_->step->append(static_cast<std::size_t>(impl_->frames), 1, &step);
-  impl_->time->append(static_cast<std::size_t>(impl_->frames), 1, &s.time);  // last: a frame is there when its time is
+  // Last: a frame is there when its time is
+  impl_->time->append(static_cast<std::size_t>(impl_->frames), 1, &s.time);
   h5::check(H5Fflush(impl_->file.get(), H5F_SCOPE_LOCAL), impl_->path);
   ++impl_->frames;
 }

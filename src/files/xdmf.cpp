@@ -9,11 +9,13 @@
 namespace tripoint {
 namespace {
 
-std::string item(std::size_t frame, std::size_t frames, std::size_t n, std::size_t width, const std::string& element,
-                 bool whole) {
-  const std::string tail = width > 1 ? fmt::format(" {}", width) : "", zero = width > 1 ? " 0" : "", one = width > 1 ? " 1" : "";
+std::string item(std::size_t frame, std::size_t frames, std::size_t n, std::size_t width,
+                 const std::string& element, bool whole) {
+  const std::string tail = width > 1 ? fmt::format(" {}", width) : "", zero = width > 1 ? " 0" : "",
+                    one = width > 1 ? " 1" : "";
   return fmt::format(
-      "<DataItem ItemType=\"HyperSlab\" Dimensions=\"{1}{2}\"><DataItem Dimensions=\"3 {8}\" Format=\"XML\">{3} 0{4} 1 1{5} 1 "
+      "<DataItem ItemType=\"HyperSlab\" Dimensions=\"{1}{2}\"><DataItem Dimensions=\"3 {8}\" "
+      "Format=\"XML\">{3} 0{4} 1 1{5} 1 "
       "{1}{2}</DataItem>"
       "<DataItem Format=\"HDF\" NumberType=\"{6}\" Precision=\"{9}\" Dimensions=\"{0} "
       "{1}{2}\">trajectory.h5:/particles/all/{7}/value</DataItem></DataItem>",
@@ -29,11 +31,13 @@ void attribute(std::string& out, const std::string& name, const std::string& dat
 
 void write_xdmf(const std::string& folder, const std::vector<double>& times, const Snapshot& s) {
   std::string out =
-      "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"><Domain><Grid GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+      "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"><Domain><Grid GridType=\"Collection\" "
+      "CollectionType=\"Temporal\">\n";
   const std::size_t frames = times.size(), n = s.position.size();
   for (std::size_t f = 0; f < frames; ++f) {
-    out += fmt::format("<Grid><Time Value=\"{:.17g}\"/><Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\"/>\n",
-                       times[f], n);
+    out += fmt::format(
+        "<Grid><Time Value=\"{:.17g}\"/><Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\"/>\n",
+        times[f], n);
     out += "<Geometry GeometryType=\"XYZ\">" + item(f, frames, n, 3, "position", false) + "</Geometry>\n";
     attribute(out, "velocity", item(f, frames, n, 3, "velocity", false), true);
     const auto real = [&](const char* name, const std::vector<double>& column) {

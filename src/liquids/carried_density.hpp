@@ -6,9 +6,11 @@
 
 namespace tripoint::liquid {
 
-/// Whether the liquids of a scene carry their density. The sum (4) and the pressure (7) are then those of solids among each
-/// other.
-[[nodiscard]] inline bool carries_density(const Scene& scene) { return scene.has_brought_form(term::pressure); }
+/// Whether the liquids of a scene carry their density. The sum (4) and the pressure (7) are then those of
+/// solids among each other.
+[[nodiscard]] inline bool carries_density(const Scene& scene) {
+  return scene.has_brought_form(term::pressure);
+}
 
 /// Tells of groups whether their particles take their pressure from the sum (4).
 class SumsDensity {
@@ -21,7 +23,8 @@ class SumsDensity {
   bool of_solids_;
 };
 
-/// Whether what takes its pressure from the sum (4) is never below zero: without a clamp solids would attract each other.
+/// Whether what takes its pressure from the sum (4) is never below zero: without a clamp solids would attract
+/// each other.
 [[nodiscard]] inline bool clamps(const Scene& scene) { return scene.clamps() || carries_density(scene); }
 
 }  // namespace tripoint::liquid

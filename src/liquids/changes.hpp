@@ -16,9 +16,10 @@ namespace tripoint::liquid {
 [[nodiscard]] inline double greatest_speed(const World& world) {
   const auto v = velocities(world.particles);
   const FreeLoops loops = free_loops(world.forces.size());
-  return std::sqrt(greatest_of_blocks(world.particles.moving(), world.threads, [&](std::size_t from, std::size_t to) {
-    return loops.greatest_speed2({v.x.data(), v.y.data(), v.z.data()}, from, to);
-  }));
+  return std::sqrt(
+      greatest_of_blocks(world.particles.moving(), world.threads, [&](std::size_t from, std::size_t to) {
+        return loops.greatest_speed2({v.x.data(), v.y.data(), v.z.data()}, from, to);
+      }));
 }
 
 }  // namespace tripoint::liquid

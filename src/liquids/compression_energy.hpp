@@ -6,7 +6,9 @@
 
 namespace tripoint::liquid {
 
-[[nodiscard]] inline bool is_liquid(const Scene&, const Body& b, const Material&) { return b.phase == Phase::liquid; }
+[[nodiscard]] inline bool is_liquid(const Scene&, const Body& b, const Material&) {
+  return b.phase == Phase::liquid;
+}
 
 /// Why the pressure of liquids is not that of an energy of compression (model 8.3) alone; "" where it is.
 [[nodiscard]] inline std::string no_compression_energy(const Scene& scene) {

@@ -13,10 +13,10 @@ struct EquationOfState {
   double rest_density;       ///< rho0 of the particle [kg/m3]
   double reference_density;  ///< rho_ref, the largest rest density of the scene's liquids [kg/m3]
   bool clamp;                ///< no negative pressure: free surfaces and contacts do not pull
-  double work = 1.0;         ///< energy a p dV: the factor that makes p the force on an area, on the kernel's lattice (decision
-                             ///< 6)
-  double surface = 0.0;      ///< pressure of the topmost layer of a liquid [Pa], 0 = none
-  double half_full = 0.5;    ///< density of that layer over the rest density, on the lattice
+  /// Energy a p dV: the factor that makes p the force on an area, on the kernel's lattice (decision 6)
+  double work = 1.0;
+  double surface = 0.0;    ///< pressure of the topmost layer of a liquid [Pa], 0 = none
+  double half_full = 0.5;  ///< density of that layer over the rest density, on the lattice
 };
 
 /// (9) as printed: p = k (rho - rho0) [Pa].
@@ -25,24 +25,26 @@ struct EquationOfState {
   return e.clamp ? std::max(p, 0.0) : p;
 }
 
-/// Pressure of a particle below its rest density at a free surface (model 8.3) [Pa]: p_s (1 - |s - b|/(1 - b)), s = rho/rho0, not
-/// below 0. In the topmost layer of a lattice s = b, and the pressure is p_s. In the liquid, in a film of one layer and in drops
-/// it is 0.
+/// Pressure of a particle below its rest density at a free surface (model 8.3) [Pa]: p_s (1 - |s - b|/(1 -
+/// b)), s = rho/rho0, not below 0. In the topmost layer of a lattice s = b, and the pressure is p_s. In the
+/// liquid, in a film of one layer and in drops it is 0.
 [[nodiscard]] inline double surface_pressure(const EquationOfState& e, double density) noexcept {
   assert(e.half_full < 1.0);
-  return e.surface * std::max(0.0, 1.0 - std::abs(density / e.rest_density - e.half_full) / (1.0 - e.half_full));
+  return e.surface *
+         std::max(0.0, 1.0 - std::abs(density / e.rest_density - e.half_full) / (1.0 - e.half_full));
 }
 
 /// Integral of surface_pressure() over s from here to the rest density [Pa].
 [[nodiscard]] inline double surface_pressure_above(const EquationOfState& e, double density) noexcept {
   const double s = density / e.rest_density, width = 1.0 - e.half_full;
-  const double above = s > e.half_full ? 1.0 - s : std::max(0.0, s - e.half_full + width);  // of the two slopes' feet
+  // Of the two slopes' feet
+  const double above = s > e.half_full ? 1.0 - s : std::max(0.0, s - e.half_full + width);
   const double triangle = 0.5 * above * above / width;
   return e.surface * (s > e.half_full ? triangle : width - triangle);
 }
 
-/// (9) scaled so that all liquids are equally hard to compress (model 8.3): p = k (rho - rho0) rho_ref/rho0 [Pa]. Clamped, it is
-/// that of a free surface where this is negative.
+/// (9) scaled so that all liquids are equally hard to compress (model 8.3): p = k (rho - rho0) rho_ref/rho0
+/// [Pa]. Clamped, it is that of a free surface where this is negative.
 [[nodiscard]] inline double pressure_corrected(const EquationOfState& e, double density) noexcept {
   const double p = e.stiffness * (density - e.rest_density) * (e.reference_density / e.rest_density);
   if (!e.clamp || e.surface == 0.0) return e.clamp ? std::max(p, 0.0) : p;
@@ -50,10 +52,12 @@ struct EquationOfState {
 }
 
 /// Energy of compression U of one particle [J], with dU/d(delta) = work p V^2, V = 1/delta, delta = rho/m.
-/// U = work k rho_ref/rho0 (m ln(rho/rho0) + rho0 (V - V0)). Its gradient is the force of model 8.3. At a free surface V is V0. U
-/// is then the work of the surface pressure since the rest density: -work V0 integral from s to 1 of p, s = rho/rho0.
+/// U = work k rho_ref/rho0 (m ln(rho/rho0) + rho0 (V - V0)). Its gradient is the force of model 8.3. At a
+/// free surface V is V0. U is then the work of the surface pressure since the rest density: -work V0 integral
+/// from s to 1 of p, s = rho/rho0.
 /// @param mass [kg]   @param density rho = m delta [kg/m3]
-[[nodiscard]] inline double compression_energy(const EquationOfState& e, double mass, double density) noexcept {
+[[nodiscard]] inline double compression_energy(const EquationOfState& e, double mass,
+                                               double density) noexcept {
   assert(mass > 0.0 && density > 0.0);
   const double s = density / e.rest_density;
   if (e.clamp && density <= e.rest_density) {

@@ -15,7 +15,9 @@ class Groups {
   explicit Groups(const World& world) : body_(world.particles[field::body]) {
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
       const bool free = world.bodies[field::body_motion][b] == static_cast<int>(Motion::free);
-      of_.push_back(!is_rigid(world, b) ? deformable_group : free ? 1.0 + static_cast<double>(b) : wall_group);
+      of_.push_back(!is_rigid(world, b) ? deformable_group
+                    : free              ? 1.0 + static_cast<double>(b)
+                                        : wall_group);
     }
   }
   [[nodiscard]] double operator()(std::size_t row) const {

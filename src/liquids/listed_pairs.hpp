@@ -15,22 +15,24 @@ struct ListedPair {
   std::uint32_t row, image;
 };
 
-/// r_j - r_i of a pair [m], in the order of sums that makes it exactly antisymmetric in i and j. @param x places by row [m]
+/// r_j - r_i of a pair [m], in the order of sums that makes it exactly antisymmetric in i and j. @param x
+/// places by row [m]
 template <class Places, class Pair>
 [[nodiscard]] Vec3 way_to(const Neighbours& lists, const Places& x, std::size_t i, const Pair& pair) {
   return (x.at(pair.row) - x.at(i)) + lists.shift(pair.image);
 }
 
-/// Pairs of a few rows to which an effect adds something after a fused pass. They are found once for each rebuild of the
-/// neighbour lists, and keep their order. A sum over them has the same bits for any number of threads.
+/// Pairs of a few rows to which an effect adds something after a fused pass. They are found once for each
+/// rebuild of the neighbour lists, and keep their order. A sum over them has the same bits for any number of
+/// threads.
 /// @tparam Pair has at least `row` and `image`, as ListedPair
 template <class Pair = ListedPair>
 class ListedPairs {
  public:
   /// Groups or rows have changed: the next renew() drops the listed pairs.
   void clear() noexcept { known_ = never; }
-  /// Drops all pairs where they are of other neighbour lists, or clear() was called. @param rebuilds Neighbours::rebuilds() of
-  /// now
+  /// Drops all pairs where they are of other neighbour lists, or clear() was called. @param rebuilds
+  /// Neighbours::rebuilds() of now
   /// @return whether it dropped them, so that the caller lists them again
   [[nodiscard]] bool renew(long rebuilds) {
     if (known_ == rebuilds) return false;

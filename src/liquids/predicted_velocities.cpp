@@ -21,7 +21,8 @@ void predict_velocities(World& world, double ahead, const VectorField<double>& t
   };
   const auto centre = of_bodies(field::body_centre), velocity = of_bodies(field::body_velocity),
              omega = of_bodies(field::body_angular_velocity);
-  const auto gained = of_bodies(field::body_acceleration), turned = of_bodies(field::body_angular_acceleration);
+  const auto gained = of_bodies(field::body_acceleration),
+             turned = of_bodies(field::body_angular_acceleration);
   const auto of_member = [&](std::size_t i) {
     const auto b = static_cast<std::size_t>(body[i]);
     const Vec3 arm = (world.box.any() ? world.unwrapped(i) : x.at(i)) - centre[b];
@@ -29,14 +30,15 @@ void predict_velocities(World& world, double ahead, const VectorField<double>& t
   };
   const auto of_others = [&](std::size_t from, std::size_t to) {
     if (ahead != 0.0) {
-      loops.predict(rows, {v.x.data(), v.y.data(), v.z.data()}, {seen.x.data(), seen.y.data(), seen.z.data()}, ahead, from, to);
+      loops.predict(rows, {v.x.data(), v.y.data(), v.z.data()}, {seen.x.data(), seen.y.data(), seen.z.data()},
+                    ahead, from, to);
     } else {
       for (std::size_t i = from; i < to; ++i) seen.set(i, v.at(i));
     }
   };
-  each_block(p.moving(), world.threads, [&](std::size_t from, std::size_t to) {  // fixed particles are seen at rest
-    is_member.each_run(from, to, of_member, of_others);
-  });
+  // Fixed particles are seen at rest
+  each_block(p.moving(), world.threads,
+             [&](std::size_t from, std::size_t to) { is_member.each_run(from, to, of_member, of_others); });
 }
 
 }  // namespace tripoint::liquid

@@ -4,7 +4,8 @@
 
 namespace tripoint::liquid {
 
-/// The velocities that viscous pairs see: those at the full step, by the rates of the last one. @param ahead half a step [s]
+/// The velocities that viscous pairs see: those at the full step, by the rates of the last one. @param ahead
+/// half a step [s]
 void predict_velocities(World&, double ahead, const VectorField<double>& target);
 
 }  // namespace tripoint::liquid

@@ -26,7 +26,8 @@ std::string read_bytes(const std::string& file) {
   if (error) throw InputError({file, 0, 0}, "the mesh cannot be read: " + error.message());
   if (size == 0) throw InputError({file, 0, 0}, "the mesh is empty");
   if (size > max_bytes)
-    throw InputError({file, 0, 0}, fmt::format("the mesh has {} bytes; at most {} are read: simplify it", size, max_bytes));
+    throw InputError({file, 0, 0},
+                     fmt::format("the mesh has {} bytes; at most {} are read: simplify it", size, max_bytes));
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
@@ -92,7 +93,8 @@ class Nearby {
   std::unordered_multimap<Vec3, std::uint32_t, Exactly> cells_;
 };
 
-constexpr double round_off = 1e-6;  ///< of the mesh's extent: what single precision and a CAD program leave between equal corners
+/// Of the mesh's extent: what single precision and a CAD program leave between equal corners
+constexpr double round_off = 1e-6;
 
 /// Corners that differ by round-off become one.
 Mesh welded(const Mesh& from) {
@@ -117,11 +119,14 @@ void check_numbers(const Mesh& mesh, const std::string& file) {
                                                mesh.triangles.size(), max_triangles));
   for (const auto& p : mesh.points)
     if (!finite(p) || std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > 1e9)
-      throw InputError({file, 0, 0}, fmt::format("the mesh has a corner at ({}, {}, {}): corners must be finite", p.x, p.y, p.z));
+      throw InputError(
+          {file, 0, 0},
+          fmt::format("the mesh has a corner at ({}, {}, {}): corners must be finite", p.x, p.y, p.z));
   for (const auto& t : mesh.triangles)
     for (const auto corner : t)
       if (corner >= mesh.points.size())
-        throw InputError({file, 0, 0}, fmt::format("a triangle names corner {}, but there are {}", corner, mesh.points.size()));
+        throw InputError({file, 0, 0}, fmt::format("a triangle names corner {}, but there are {}", corner,
+                                                   mesh.points.size()));
 }
 
 }  // namespace
@@ -142,7 +147,8 @@ EdgeUses edge_uses(const Mesh& mesh) {
 }
 
 bool is_closed(const Mesh& mesh) {
-  return std::ranges::all_of(edge_uses(mesh), [](const auto& edge) { return edge.second[0] == edge.second[1]; });
+  return std::ranges::all_of(edge_uses(mesh),
+                             [](const auto& edge) { return edge.second[0] == edge.second[1]; });
 }
 
 /// The first few edges of a kind, with their uses.
@@ -152,12 +158,14 @@ std::string some_edges(const Mesh& mesh, const EdgeUses& uses, bool (*of_kind)(c
   for (const auto& [edge, use] : uses) {
     if (!of_kind(use) || ++told > 3) continue;
     const auto &a = mesh.points[edge.first], &b = mesh.points[edge.second];
-    text += fmt::format("; ({}, {}, {}) to ({}, {}, {}) used {} and {} times", a.x, a.y, a.z, b.x, b.y, b.z, use[0], use[1]);
+    text += fmt::format("; ({}, {}, {}) to ({}, {}, {}) used {} and {} times", a.x, a.y, a.z, b.x, b.y, b.z,
+                        use[0], use[1]);
   }
   return text;
 }
 
-/// An edge of a hole is used by an odd number of faces; one between faces that turn against each other by an even number.
+/// An edge of a hole is used by an odd number of faces; one between faces that turn against each other by an
+/// even number.
 bool of_hole(const std::array<int, 2>& use) { return (use[0] + use[1]) % 2 == 1; }
 bool of_turned(const std::array<int, 2>& use) { return (use[0] + use[1]) % 2 == 0 && use[0] != use[1]; }
 
@@ -169,7 +177,8 @@ void refuse_repeated_faces(const Mesh& mesh, const std::string& file) {
   const auto same = std::ranges::adjacent_find(faces);
   if (same == faces.end()) return;
   const auto& p = mesh.points[(*same)[0]];
-  throw InputError({file, 0, 0}, fmt::format("a face at ({}, {}, {}) is written twice: remove the copies", p.x, p.y, p.z));
+  throw InputError({file, 0, 0},
+                   fmt::format("a face at ({}, {}, {}) is written twice: remove the copies", p.x, p.y, p.z));
 }
 
 }  // namespace
@@ -181,21 +190,25 @@ void check_closed(const Mesh& mesh, const std::string& file) {
   };
   const auto edges = [](long n) { return fmt::format("{} edge{}", n, n == 1 ? "" : "s"); };
   if (const long open = count(of_hole); open > 0)
-    throw InputError({file, 0, 0},
-                     fmt::format("the mesh is not closed: {} open {} (each must be used as often in one direction as "
-                                 "in the other){}; fill the holes",
-                                 open, open == 1 ? "edge" : "edges", some_edges(mesh, uses, of_hole)));
+    throw InputError(
+        {file, 0, 0},
+        fmt::format("the mesh is not closed: {} open {} (each must be used as often in one direction as "
+                    "in the other){}; fill the holes",
+                    open, open == 1 ? "edge" : "edges", some_edges(mesh, uses, of_hole)));
   if (const long turned = count(of_turned); turned > 0)
-    throw InputError({file, 0, 0},
-                     fmt::format("some of the mesh's faces turn inward and others outward: {} between them{}; turn all outward",
-                                 edges(turned), some_edges(mesh, uses, of_turned)));
+    throw InputError(
+        {file, 0, 0},
+        fmt::format(
+            "some of the mesh's faces turn inward and others outward: {} between them{}; turn all outward",
+            edges(turned), some_edges(mesh, uses, of_turned)));
   refuse_repeated_faces(mesh, file);
 }
 
 double volume(const Mesh& mesh) {
   double six = 0.0;
   const Vec3 o = mesh.points.empty() ? Vec3{} : mesh.points.front();  // less cancellation far from the origin
-  for (const auto& t : mesh.triangles) six += dot(mesh.points[t[0]] - o, cross(mesh.points[t[1]] - o, mesh.points[t[2]] - o));
+  for (const auto& t : mesh.triangles)
+    six += dot(mesh.points[t[0]] - o, cross(mesh.points[t[1]] - o, mesh.points[t[2]] - o));
   return six / 6.0;
 }
 
@@ -208,7 +221,8 @@ void append(std::string& bytes, const std::vector<T>& from) {
   bytes.append(reinterpret_cast<const char*>(from.data()), from.size() * sizeof(T));
 }
 
-/// The data that the copy handed back: the number of points, the points, the triangles. The caller checks their numbers.
+/// The data that the copy handed back: the number of points, the points, the triangles. The caller checks
+/// their numbers.
 Mesh unpacked(const std::string& bytes) {
   Mesh mesh;
   std::uint64_t points = 0;
@@ -220,7 +234,8 @@ Mesh unpacked(const std::string& bytes) {
   if (points > 0) std::memcpy(mesh.points.data(), at, points * sizeof(Vec3));
   at += points * sizeof(Vec3);
   mesh.triangles.resize((left - points * sizeof(Vec3)) / sizeof mesh.triangles[0]);
-  if (!mesh.triangles.empty()) std::memcpy(mesh.triangles.data(), at, mesh.triangles.size() * sizeof mesh.triangles[0]);
+  if (!mesh.triangles.empty())
+    std::memcpy(mesh.triangles.data(), at, mesh.triangles.size() * sizeof mesh.triangles[0]);
   return mesh;
 }
 
@@ -238,7 +253,8 @@ Mesh parse(const std::string& bytes, const std::string& ending, const std::strin
       },
       bounds);
   rethrow(end);
-  if (const auto failure = failure_of(end, bounds); !failure.empty()) throw InputError(failure + ": simplify the mesh");
+  if (const auto failure = failure_of(end, bounds); !failure.empty())
+    throw InputError(failure + ": simplify the mesh");
   return unpacked(end.bytes);
 }
 
@@ -253,7 +269,8 @@ Mesh read_mesh(const std::string& file, double scale) {
   Mesh mesh = parse(bytes, ending, file);
   check_numbers(mesh, file);
   mesh = joined(mesh, scale);
-  if (mesh.triangles.empty()) throw InputError({file, 0, 0}, "all of the mesh's triangles are lines or points");
+  if (mesh.triangles.empty())
+    throw InputError({file, 0, 0}, "all of the mesh's triangles are lines or points");
   if (!is_closed(mesh)) mesh = welded(mesh);
   check_closed(mesh, file);
   if (volume(mesh) < 0.0) throw InputError({file, 0, 0}, "the mesh's faces turn inward: flip them");

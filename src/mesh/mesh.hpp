@@ -16,9 +16,9 @@ struct Mesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Reads .obj or .stl (ASCII or binary), joins equal corners, and checks that the surface is closed: every edge is used as often
-/// in one direction as in the other. Where it is not, corners that differ by round-off (1e-6 of the extent) are joined too. A
-/// confined copy of this process reads the file.
+/// Reads .obj or .stl (ASCII or binary), joins equal corners, and checks that the surface is closed: every
+/// edge is used as often in one direction as in the other. Where it is not, corners that differ by round-off
+/// (1e-6 of the extent) are joined too. A confined copy of this process reads the file.
 /// @throws InputError naming the file, and for an open mesh the number of open edges and the first of them
 [[nodiscard]] Mesh read_mesh(const std::string& file, double scale);
 
@@ -36,7 +36,8 @@ class MeshInterior {
   MeshInterior(const Mesh&, double voxel, const std::string& file);
   ~MeshInterior();
   [[nodiscard]] bool holds(const Vec3& r) const { return distance(r) <= 0.0; }
-  [[nodiscard]] double distance(const Vec3&) const;  ///< below zero inside, of a size of at most three voxels [m]
+  /// Below zero inside, of a size of at most three voxels [m]
+  [[nodiscard]] double distance(const Vec3&) const;
 
  private:
   struct Grid;

@@ -13,11 +13,13 @@
 struct TripointMeshField {
   openvdb::FloatGrid::Ptr field;
   openvdb::FloatGrid::ConstAccessor values;
-  explicit TripointMeshField(openvdb::FloatGrid::Ptr f) : field(std::move(f)), values(field->getConstAccessor()) {}
+  explicit TripointMeshField(openvdb::FloatGrid::Ptr f)
+      : field(std::move(f)), values(field->getConstAccessor()) {}
 };
 
-TripointMeshField* tripoint_mesh_field_make(const double* points, std::size_t point_count, const std::uint32_t* triangles,
-                                            std::size_t triangle_count, double voxel) {
+TripointMeshField* tripoint_mesh_field_make(const double* points, std::size_t point_count,
+                                            const std::uint32_t* triangles, std::size_t triangle_count,
+                                            double voxel) {
   try {
     openvdb::initialize();
     std::vector<openvdb::Vec3s> corners;
@@ -25,11 +27,13 @@ TripointMeshField* tripoint_mesh_field_make(const double* points, std::size_t po
     corners.reserve(point_count);
     faces.reserve(triangle_count);
     for (std::size_t i = 0; i < 3 * point_count; i += 3)
-      corners.emplace_back(static_cast<float>(points[i]), static_cast<float>(points[i + 1]), static_cast<float>(points[i + 2]));
-    for (std::size_t i = 0; i < 3 * triangle_count; i += 3) faces.emplace_back(triangles[i], triangles[i + 1], triangles[i + 2]);
+      corners.emplace_back(static_cast<float>(points[i]), static_cast<float>(points[i + 1]),
+                           static_cast<float>(points[i + 2]));
+    for (std::size_t i = 0; i < 3 * triangle_count; i += 3)
+      faces.emplace_back(triangles[i], triangles[i + 1], triangles[i + 2]);
     const auto transform = openvdb::math::Transform::createLinearTransform(voxel);
-    return new TripointMeshField(
-        openvdb::tools::meshToLevelSet<openvdb::FloatGrid>(*transform, corners, faces, std::vector<openvdb::Vec4I>{}, 3.0F));
+    return new TripointMeshField(openvdb::tools::meshToLevelSet<openvdb::FloatGrid>(
+        *transform, corners, faces, std::vector<openvdb::Vec4I>{}, 3.0F));
   } catch (const std::exception&) {
     return nullptr;
   }
@@ -44,7 +48,7 @@ double tripoint_mesh_field_deepest(const TripointMeshField* f) {
 }
 
 double tripoint_mesh_field_at(const TripointMeshField* f, double x, double y, double z) {
-  const openvdb::tools::GridSampler<openvdb::FloatGrid::ConstAccessor, openvdb::tools::BoxSampler> sampler(f->values,
-                                                                                                           f->field->transform());
+  const openvdb::tools::GridSampler<openvdb::FloatGrid::ConstAccessor, openvdb::tools::BoxSampler> sampler(
+      f->values, f->field->transform());
   return sampler.wsSample(openvdb::Vec3R(x, y, z));
 }

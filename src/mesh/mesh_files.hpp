@@ -6,7 +6,8 @@
 
 namespace tripoint {
 
-/// Triangles as written, corners not joined. Polygons of an OBJ become fans. @throws InputError naming the file (and line)
+/// Triangles as written, corners not joined. Polygons of an OBJ become fans. @throws InputError naming the
+/// file (and line)
 [[nodiscard]] Mesh parse_obj(const std::string& bytes, const std::string& file);
 [[nodiscard]] Mesh parse_stl(const std::string& bytes, const std::string& file);
 

@@ -56,21 +56,27 @@ struct MeshInterior::Grid {
 MeshInterior::MeshInterior(const Mesh& mesh, double voxel, const std::string& file) {
   const Module& vdb = module();
   if (!vdb.failure.empty())
-    throw InputError({file, 0, 0}, fmt::format("the part of the program that reads meshes cannot be loaded: {}", vdb.failure));
+    throw InputError(
+        {file, 0, 0},
+        fmt::format("the part of the program that reads meshes cannot be loaded: {}", vdb.failure));
   std::vector<double> points;
   std::vector<std::uint32_t> triangles;
   points.reserve(3 * mesh.points.size());
   triangles.reserve(3 * mesh.triangles.size());
   for (const auto& p : mesh.points) points.insert(points.end(), {p.x, p.y, p.z});
   for (const auto& t : mesh.triangles) triangles.insert(triangles.end(), t.begin(), t.end());
-  TripointMeshField* field = vdb.make(points.data(), mesh.points.size(), triangles.data(), mesh.triangles.size(), voxel);
-  if (field == nullptr) throw InputError({file, 0, 0}, fmt::format("no distance field of the mesh at voxels of {} m", voxel));
+  TripointMeshField* field =
+      vdb.make(points.data(), mesh.points.size(), triangles.data(), mesh.triangles.size(), voxel);
+  if (field == nullptr)
+    throw InputError({file, 0, 0}, fmt::format("no distance field of the mesh at voxels of {} m", voxel));
   grid_ = std::make_unique<Grid>(field);
   // A leaking mesh has no inside at all, silently: values below zero are round-off at its surface.
   if (!(vdb.deepest(field) < -1e-3 * voxel))
     throw InputError(
         {file, 0, 0},
-        fmt::format("the mesh has no inside at voxels of {} m: its surface leaks, or it is thinner than the spacing", voxel));
+        fmt::format(
+            "the mesh has no inside at voxels of {} m: its surface leaks, or it is thinner than the spacing",
+            voxel));
 }
 
 MeshInterior::~MeshInterior() = default;

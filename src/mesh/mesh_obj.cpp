@@ -26,7 +26,8 @@ bool is_number(const std::string& word) {
   return *stop == '\0' && std::isfinite(value) && word.find_first_of("xX") == std::string::npos;
 }
 
-/// The first number of "7", "7/", "7/2", "7//3" or "7/2/3"; nothing where one of them is no whole number, or 0.
+/// The first number of "7", "7/", "7/2", "7//3" or "7/2/3"; nothing where one of them is no whole number, or
+/// 0.
 std::optional<long> corner_of(const std::string& word) {
   std::istringstream parts(word);
   std::optional<long> first;
@@ -52,7 +53,8 @@ std::string with_plain_ends(const std::string& bytes) {
   return text;
 }
 
-/// Corners and faces as the library understands them. It reads text that is no number as 0, and not every valid line.
+/// Corners and faces as the library understands them. It reads text that is no number as 0, and not every
+/// valid line.
 class PlainObj {
  public:
   explicit PlainObj(std::string file) : file_(std::move(file)) {}
@@ -101,17 +103,21 @@ class PlainObj {
 
   void face(const std::string& line, const std::vector<std::string>& words) {
     if (words.size() > most_corners)
-      refuse(fmt::format("a face of {} corners; at most {}: cut it into triangles", words.size(), most_corners));
+      refuse(
+          fmt::format("a face of {} corners; at most {}: cut it into triangles", words.size(), most_corners));
     std::vector<long> named;
     for (const auto& word : words)
       if (const auto n = corner_of(word)) named.push_back(*n < 0 ? corners_ + 1 + *n : *n);
     if (words.size() < 3 || named.size() != words.size())
       refuse(
-          fmt::format("\"{}\" is no face: write f and three or more numbers of corners, as 7, 7/2 or 7/2/3; corners are counted "
+          fmt::format("\"{}\" is no face: write f and three or more numbers of corners, as 7, 7/2 or 7/2/3; "
+                      "corners are counted "
                       "from 1, or from -1 backwards",
                       printable(line)));
     for (const long n : named) {
-      if (n < 1) refuse(fmt::format("a face names corner {} before the first of the {} above it", n - 1 - corners_, corners_));
+      if (n < 1)
+        refuse(fmt::format("a face names corner {} before the first of the {} above it", n - 1 - corners_,
+                           corners_));
       if (n > greatest_) {
         greatest_ = n;
         line_of_greatest_ = line_;
@@ -142,7 +148,8 @@ Mesh parse_obj(const std::string& bytes, const std::string& file) {
     const auto& index = shape.mesh.indices;
     for (std::size_t i = 0; i + 2 < index.size(); i += 3) {
       std::array<std::uint32_t, 3> t{};
-      for (std::size_t c = 0; c < 3; ++c) t[c] = static_cast<std::uint32_t>(index[i + c].vertex_index);  // checked above
+      // Checked above
+      for (std::size_t c = 0; c < 3; ++c) t[c] = static_cast<std::uint32_t>(index[i + c].vertex_index);
       mesh.triangles.push_back(t);
     }
   }

@@ -16,11 +16,12 @@ namespace {
 
 enum Work : std::uint8_t { none = 0, density = 1, rates = 2, density_is_still = 4 };
 
-/// The work that a cluster needs. Two act on each other unless they are an own pair, or members of one group of 0 and above.
-/// @param moving number of rows that may move @param acting of each entry of the cluster a bit, set where it acts on a member;
-/// zero until now
-Work work_of(const Clusters& c, std::size_t cluster, std::span<const double> group, const std::vector<char>& fixed,
-             std::size_t moving, bool leaves_own, std::uint64_t* acting) {
+/// The work that a cluster needs. Two act on each other unless they are an own pair, or members of one group
+/// of 0 and above.
+/// @param moving number of rows that may move @param acting of each entry of the cluster a bit, set where it
+/// acts on a member; zero until now
+Work work_of(const Clusters& c, std::size_t cluster, std::span<const double> group,
+             const std::vector<char>& fixed, std::size_t moving, bool leaves_own, std::uint64_t* acting) {
   const std::uint32_t first = c.first[cluster], past = c.first[cluster + 1];
   const std::size_t start = c.start[cluster], end = c.start[cluster + 1];
   if (first >= moving) {  // fixed walls, all of one group
@@ -28,7 +29,8 @@ Work work_of(const Clusters& c, std::size_t cluster, std::span<const double> gro
     for (std::size_t e = start; e < end; ++e) {
       const std::size_t j = Entry{c.entries[e]}.row();
       any_moves = any_moves || fixed[j] == 0;
-      acting[(e - start) / within_bits] |= std::uint64_t{group[j] != group[first]} << ((e - start) % within_bits);
+      acting[(e - start) / within_bits] |= std::uint64_t{group[j] != group[first]}
+                                           << ((e - start) % within_bits);
     }
     return any_moves ? density : density_is_still;
   }
@@ -44,7 +46,8 @@ Work work_of(const Clusters& c, std::size_t cluster, std::span<const double> gro
   const auto look = [&](double g) {
     asked = g;
     of_another = 0;
-    for (std::uint32_t i = first; i < past; ++i) of_another |= static_cast<unsigned>(group[i] != g) << (i - first);
+    for (std::uint32_t i = first; i < past; ++i)
+      of_another |= static_cast<unsigned>(group[i] != g) << (i - first);
   };
   look(asked);
   const auto others = [&](double g) {
@@ -61,7 +64,9 @@ Work work_of(const Clusters& c, std::size_t cluster, std::span<const double> gro
     any_acts = any_acts || acts;
     acting[(e - start) / within_bits] |= std::uint64_t{acts} << ((e - start) % within_bits);
   }
-  const Work in_density = !any_moves ? density_is_still : any_acts || any_apart || !leaves_own ? density : none;
+  const Work in_density = !any_moves                             ? density_is_still
+                          : any_acts || any_apart || !leaves_own ? density
+                                                                 : none;
   return static_cast<Work>(in_density | (any_acts ? rates : none));
 }
 
@@ -76,7 +81,8 @@ bool owns_any(const World& world, std::uint32_t first, std::uint32_t past) {
 std::vector<char> fixed_rows(const World& world, std::size_t rows) {
   std::vector<char> of_body;
   for (std::size_t b = 0; b < world.bodies.size(); ++b)
-    of_body.push_back(is_rigid(world, b) && world.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed));
+    of_body.push_back(is_rigid(world, b) &&
+                      world.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed));
   const auto body = world.particles[field::body];
   std::vector<char> fixed(rows, 1);
   for (std::size_t i = 0; i < world.particles.moving(); ++i)
@@ -109,7 +115,8 @@ void BusyClusters::find(World& world, bool leaves_own) {
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (!owns_any(world, c.first[k], c.first[k + 1])) continue;
-    work[k] = work_of(c, k, group, fixed, world.particles.moving(), leaves_own, c.acting.data() + within_start(c.start[k], k));
+    work[k] = work_of(c, k, group, fixed, world.particles.moving(), leaves_own,
+                      c.acting.data() + within_start(c.start[k], k));
   }
   in_density_ = {};
   in_rates_ = {};
@@ -124,7 +131,8 @@ void BusyClusters::find(World& world, bool leaves_own) {
   known_ = true;
 }
 
-/// Finds the density of fixed particles that meet only fixed ones, for the time when their lists are no longer made.
+/// Finds the density of fixed particles that meet only fixed ones, for the time when their lists are no
+/// longer made.
 void BusyClusters::learn_still(const PassFunction& pass, World& world, const PairKernels& kernels) {
   Neighbours& n = *world.neighbours;
   Particles& p = world.particles;
@@ -133,8 +141,10 @@ void BusyClusters::learn_still(const PassFunction& pass, World& world, const Pai
   for (const std::uint32_t one : n.still_ids()) is_still[p.row(one)] = 1;
   std::vector<std::uint64_t> among(within_start(c.start.back(), c.size()), 0);
   for (std::size_t k = 0; k < c.size(); ++k)
-    for (std::size_t e = c.start[k], from = within_start(c.start[k], k) * within_bits; e < c.start[k + 1]; ++e, ++from)
-      among[from / within_bits] |= std::uint64_t{is_still[Entry{c.entries[e]}.row()] != 0} << from % within_bits;
+    for (std::size_t e = c.start[k], from = within_start(c.start[k], k) * within_bits; e < c.start[k + 1];
+         ++e, ++from)
+      among[from / within_bits] |= std::uint64_t{is_still[Entry{c.entries[e]}.row()] != 0}
+                                   << from % within_bits;
   density_among_still_.clear();
   std::vector<std::vector<double>> before;
   for (const Field<double>* f : pass.adds()) before.emplace_back(p[*f].begin(), p[*f].end());
@@ -185,23 +195,27 @@ void BusyClusters::put_back(const PassFunction& pass, Particles& p) const {
   }
 }
 
-/// The first over new lists sums all, also because the passes that follow ask which pairs are within the support. So does the
-/// first one after fixed particles were placed by their body's pose, which can move them by a rounding error.
-void BusyClusters::sum_density(const PassFunction& pass, World& world, const PairKernels& kernels, bool leaves_own) {
+/// The first over new lists sums all, also because the passes that follow ask which pairs are within the
+/// support. So does the first one after fixed particles were placed by their body's pose, which can move them
+/// by a rounding error.
+void BusyClusters::sum_density(const PassFunction& pass, World& world, const PairKernels& kernels,
+                               bool leaves_own) {
   Particles& p = world.particles;
   if (known_ && placed_ == world.placed) {
     put_back(pass, p);
     run_pass_over(pass, p, *world.neighbours, kernels, world.threads, in_density_);
     return;
   }
-  if (world.neighbours->may_rest_next() && still_known_ != world.neighbours->whole_lists()) learn_still(pass, world, kernels);
+  if (world.neighbours->may_rest_next() && still_known_ != world.neighbours->whole_lists())
+    learn_still(pass, world, kernels);
   sum_listed(pass, world, kernels);
   if (!known_) find(world, leaves_own);
   keep(pass, world);
 }
 
 /// Clusters without a list take the density that was stored for them among fixed particles alone.
-void BusyClusters::sum_fixed_density(const PassFunction& pass, World& world, const PairKernels& kernels) const {
+void BusyClusters::sum_fixed_density(const PassFunction& pass, World& world,
+                                     const PairKernels& kernels) const {
   Neighbours& n = *world.neighbours;
   Particles& p = world.particles;
   const Clusters& c = n.clusters();
@@ -231,7 +245,8 @@ void BusyClusters::sum_fixed_rates(const PassFunction& pass, World& world, const
   c.acting.resize(within_start(c.start.back(), c.size()), 0);
   for (const std::uint32_t k : c.on_demand)  // their pairs with fixed particles add zeros
     std::fill(c.acting.begin() + static_cast<std::ptrdiff_t>(within_start(c.start[k], k)),
-              c.acting.begin() + static_cast<std::ptrdiff_t>(within_start(c.start[k + 1], k + 1)), ~std::uint64_t{0});
+              c.acting.begin() + static_cast<std::ptrdiff_t>(within_start(c.start[k + 1], k + 1)),
+              ~std::uint64_t{0});
   run_pass_over(pass, world.particles, *world.neighbours, kernels, world.threads, fixed);
 }
 
@@ -243,14 +258,15 @@ std::vector<double> BusyClusters::cost_by_row(const World& world, double steps, 
   const Clusters& c = world.neighbours->clusters();
   std::vector<double> cost(world.particles.size(), 0.0);
   const auto add = [&](std::uint32_t k, double of_cluster) {
-    for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i) cost[i] += of_cluster / (c.first[k + 1] - c.first[k]);
+    for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i)
+      cost[i] += of_cluster / (c.first[k + 1] - c.first[k]);
   };
   const auto entries_of = [&](std::uint32_t k) { return static_cast<double>(c.start[k + 1] - c.start[k]); };
   const auto acting_of = [&](std::uint32_t k) {
     const auto first = c.acting.begin() + static_cast<std::ptrdiff_t>(within_start(c.start[k], k)),
                past = c.acting.begin() + static_cast<std::ptrdiff_t>(within_start(c.start[k + 1], k + 1));
-    const double bits =
-        std::accumulate(first, past, 0.0, [](double sum, std::uint64_t word) { return sum + std::popcount(word); });
+    const double bits = std::accumulate(
+        first, past, 0.0, [](double sum, std::uint64_t word) { return sum + std::popcount(word); });
     return std::min(bits, entries_of(k));  // where all act, the bits past the last entry are set too
   };
   using Cost = ParticleCost;
@@ -259,7 +275,8 @@ std::vector<double> BusyClusters::cost_by_row(const World& world, double steps, 
     if (all) add(k, entries_of(k) * Cost::of_rates);
   }
   if (all) return cost;
-  for (const std::uint32_t k : in_density_.clusters) add(k, entries_of(k) * Cost::of_density * (1.0 - 1.0 / steps));
+  for (const std::uint32_t k : in_density_.clusters)
+    add(k, entries_of(k) * Cost::of_density * (1.0 - 1.0 / steps));
   for (const std::uint32_t k : in_rates_.clusters) add(k, acting_of(k) * Cost::of_rates);
   return cost;
 }

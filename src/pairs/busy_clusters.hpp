@@ -10,13 +10,15 @@
 
 namespace tripoint {
 
-/// For each of these rows, whether it never moves: a member of a fixed rigid body. Beyond Particles::moving() all rows are fixed.
+/// For each of these rows, whether it never moves: a member of a fixed rigid body. Beyond Particles::moving()
+/// all rows are fixed.
 [[nodiscard]] std::vector<char> fixed_rows(const World&, std::size_t rows);
 
-/// Clusters in which a pass has work, and the entries of their lists that act. A dry wall and the inside of a body meet nothing,
-/// and cost nothing. Skipping these clusters changes no bit. Forces between groups that never act on each other are sums of
-/// zeros. The density of fixed particles that have only fixed neighbours stays as first computed for these lists. The class helps
-/// only where no term works on every pair; heat conduction does.
+/// Clusters in which a pass has work, and the entries of their lists that act. A dry wall and the inside of a
+/// body meet nothing, and cost nothing. Skipping these clusters changes no bit. Forces between groups that
+/// never act on each other are sums of zeros. The density of fixed particles that have only fixed neighbours
+/// stays as first computed for these lists. The class helps only where no term works on every pair; heat
+/// conduction does.
 ///
 /// In a shared scene (World::copies) clusters of copies alone are left out too: their owners form their sums.
 class BusyClusters {
@@ -32,12 +34,13 @@ class BusyClusters {
   void sum_density(const PassFunction&, World&, const PairKernels&, bool leaves_own);
   /// After sum_density() over the same lists.
   void sum_rates(const PassFunction&, World&, const PairKernels&) const;
-  /// Values of fixed particles that no step reads (World::forms_fixed): the density of those that sleep, and the forces on all of
-  /// them.
+  /// Values of fixed particles that no step reads (World::forms_fixed): the density of those that sleep, and
+  /// the forces on all of them.
   void sum_fixed_density(const PassFunction&, World&, const PairKernels&) const;
   void sum_fixed_rates(const PassFunction&, World&, const PairKernels&) const;
-  /// Cost of lists, a density and a rates pass for each row in a step, weighed as in ParticleCost. It is shared among the members
-  /// of a cluster; copies cost nothing. @param steps from new lists to new lists @param all no pair is left out
+  /// Cost of lists, a density and a rates pass for each row in a step, weighed as in ParticleCost. It is
+  /// shared among the members of a cluster; copies cost nothing. @param steps from new lists to new lists
+  /// @param all no pair is left out
   /// @pre has_entries()
   [[nodiscard]] std::vector<double> cost_by_row(const World&, double steps, bool all) const;
   /// Whether there are lists of these particles, and it is known where they have work.
@@ -55,11 +58,12 @@ class BusyClusters {
   std::optional<ChosenClusters> own_;  ///< with a member that is no copy; none: there are no copies
   bool known_ = false;
   ChosenClusters in_density_, in_rates_;
-  std::vector<std::uint32_t> still_;         ///< rows of the clusters whose density is kept
-  std::vector<double> density_;              ///< of each of them, one column after the other
-  bool placed_ = false;                      ///< World::placed as the density was kept
-  long still_known_ = -1;                    ///< Neighbours::whole_lists() that the next are of
-  std::vector<double> density_among_still_;  ///< of Neighbours::still_ids() among themselves, one column after the other
+  std::vector<std::uint32_t> still_;  ///< rows of the clusters whose density is kept
+  std::vector<double> density_;       ///< of each of them, one column after the other
+  bool placed_ = false;               ///< World::placed as the density was kept
+  long still_known_ = -1;             ///< Neighbours::whole_lists() that the next are of
+  /// Of Neighbours::still_ids() among themselves, one column after the other
+  std::vector<double> density_among_still_;
 };
 
 }  // namespace tripoint

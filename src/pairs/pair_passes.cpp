@@ -24,7 +24,9 @@ PairPasses pair_passes_for<Avx512>();
 namespace {
 
 PassFunction most_of(std::span<const PairTerm> wanted, std::span<const PassFunction> table) {
-  const auto is_wanted = [&](const PairTerm& term) { return std::ranges::find(wanted, term) != wanted.end(); };
+  const auto is_wanted = [&](const PairTerm& term) {
+    return std::ranges::find(wanted, term) != wanted.end();
+  };
   PassFunction most = {};
   for (const PassFunction& f : table)
     if (f.terms.size() > most.terms.size() && std::ranges::all_of(f.terms, is_wanted)) most = f;
@@ -33,15 +35,20 @@ PassFunction most_of(std::span<const PairTerm> wanted, std::span<const PassFunct
 
 }  // namespace
 
-PassFunction PairPasses::density(std::span<const PairTerm> wanted) const { return most_of(wanted, densities); }
-PassFunction PairPasses::rates(std::span<const PairTerm> wanted) const { return most_of(wanted, rates_of_scenes); }
+PassFunction PairPasses::density(std::span<const PairTerm> wanted) const {
+  return most_of(wanted, densities);
+}
+PassFunction PairPasses::rates(std::span<const PairTerm> wanted) const {
+  return most_of(wanted, rates_of_scenes);
+}
 PassFunction PairPasses::alone(const PairTerm& term) const { return most_of({&term, 1}, single); }
 
 PairPasses pair_passes(int lanes) {
   if (lanes == 1) return pair_passes_for<Any>();
   if (lanes == 4 && machine_has_avx2()) return pair_passes_for<Avx2>();
   if (lanes == 8 && machine_has_avx512()) return pair_passes_for<Avx512>();
-  throw InputError(std::to_string(lanes) + " lanes: there are 1, 4 (where the machine has AVX2) and 8 (AVX-512)");
+  throw InputError(std::to_string(lanes) +
+                   " lanes: there are 1, 4 (where the machine has AVX2) and 8 (AVX-512)");
 }
 
 namespace {
@@ -57,8 +64,8 @@ double seconds_of(int lanes) {
   for (const Field<double>* f : rates.fields) std::ranges::fill(block[*f], 1.0);
   std::ranges::fill(block[field::group], -1.0);
   for (std::size_t i = 0; i < block.size(); ++i)
-    positions(block).set(
-        i, {static_cast<double>(i % across), static_cast<double>(i / across % across), static_cast<double>(i / across / across)});
+    positions(block).set(i, {static_cast<double>(i % across), static_cast<double>(i / across % across),
+                             static_cast<double>(i / across / across)});
   constexpr double support = 2.5;
   Neighbours neighbours(support, 0.0, {}, 1, lanes);
   neighbours.update(block, 0.0);

@@ -6,7 +6,8 @@
 
 namespace tripoint {
 
-/// The tables of functions that effects have brought terms for (pairs/pair_slots.hpp), as one vector unit has them.
+/// The tables of functions that effects have brought terms for (pairs/pair_slots.hpp), as one vector unit has
+/// them.
 struct PairPasses {
   std::span<const PassFunction> densities, rates_of_scenes, single;
   PassFunction timed;  ///< rates that show which width is fastest
@@ -22,8 +23,8 @@ struct PairPasses {
 template <class ForUnit>
 [[nodiscard]] PairPasses pair_passes_for();
 
-/// For clusters of that many particles, made for the machine's vectors. @param lanes 1, 4 or 8   @throws InputError for another,
-/// and for one that this machine has no vectors for
+/// For clusters of that many particles, made for the machine's vectors. @param lanes 1, 4 or 8   @throws
+/// InputError for another, and for one that this machine has no vectors for
 [[nodiscard]] PairPasses pair_passes(int lanes);
 
 /// Lanes that are fastest here, as measured once, in about a millisecond.

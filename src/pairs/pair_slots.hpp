@@ -4,9 +4,11 @@
 
 #include "pairs/pass.hpp"
 
-/// The table of compiled passes. An effect with pair terms has a header effects/NAME/pair_slots.hpp with a type
+/// The table of compiled passes. An effect with pair terms has a header effects/NAME/pair_slots.hpp with a
+/// type
 ///   struct PairSlots : NoPairTerms { using density = OneOf<...>; ... };
-/// which says its forms in each pass. The table of a pass has each form of each effect with each form of every other.
+/// which says its forms in each pass. The table of a pass has each form of each effect with each form of
+/// every other.
 namespace tripoint {
 
 /// Forms, each Terms<...>, of which a scene takes one at most.
@@ -90,8 +92,8 @@ template <int L, class ForUnit, class... Effects>
 struct PassesOf {
   static constexpr auto density = detail::table_of<L, ForUnit, true>(
       (OneOf<Terms<>>{} * ... * detail::or_none(typename detail::SlotsOf<Effects>::density{})));
-  static constexpr auto rates =
-      detail::table_of<L, ForUnit, false>((OneOf<Terms<>>{} * ... * detail::or_none(typename detail::SlotsOf<Effects>::rates{})));
+  static constexpr auto rates = detail::table_of<L, ForUnit, false>(
+      (OneOf<Terms<>>{} * ... * detail::or_none(typename detail::SlotsOf<Effects>::rates{})));
   static constexpr auto alone =
       detail::table_of<L, ForUnit, false>((OneOf<>{} | ... | typename detail::SlotsOf<Effects>::alone{}));
   static constexpr PassFunction timed =

@@ -9,15 +9,19 @@ namespace tripoint {
 
 struct PairKernels;
 
-/// Work that an effect asks of the fused passes in a scene: the terms that it needs, of those that its pair_slots.hpp has
-/// compiled.
+/// Work that an effect asks of the fused passes in a scene: the terms that it needs, of those that its
+/// pair_slots.hpp has compiled.
 struct PairWork {
-  std::vector<PairTerm> terms{};         ///< that the passes of density and rates sum
-  bool where_it_acts = false;            ///< its terms add nothing to pairs that do not act on each other (Clusters::acting)
-  bool leaves_own_pairs = false;         ///< its density leaves own pairs out
-  bool again = false;                    ///< its rates are computed a second time in each step, without those of others
-  const PairKernels* kernels = nullptr;  ///< the kernels that all terms of the scene use; at most one effect may set them
-  double awake_around = 0.0;             ///< how far around what something can reach its sums read fixed particles [m]
+  std::vector<PairTerm> terms{};  ///< that the passes of density and rates sum
+  /// Its terms add nothing to pairs that do not act on each other (Clusters::acting)
+  bool where_it_acts = false;
+  bool leaves_own_pairs = false;  ///< its density leaves own pairs out
+  /// Its rates are computed a second time in each step, without those of others
+  bool again = false;
+  /// The kernels that all terms of the scene use; at most one effect may set them
+  const PairKernels* kernels = nullptr;
+  /// How far around what something can reach its sums read fixed particles [m]
+  double awake_around = 0.0;
 };
 
 /// The work of one effect of a scene.

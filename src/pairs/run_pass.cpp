@@ -6,7 +6,8 @@
 namespace tripoint {
 namespace {
 
-PassTask task_of(const Particles& particles, Neighbours& neighbours, const PairKernels& kernels, int threads) {
+PassTask task_of(const Particles& particles, Neighbours& neighbours, const PairKernels& kernels,
+                 int threads) {
   const auto x = positions(particles);
   Clusters& c = neighbours.clusters();
   const double support = neighbours.support();
@@ -34,8 +35,8 @@ std::vector<double*> columns_of(const PassFunction& function, Particles& particl
 
 }  // namespace
 
-void run_pass(const PassFunction& function, Particles& particles, Neighbours& neighbours, const PairKernels& kernels,
-              int threads) {
+void run_pass(const PassFunction& function, Particles& particles, Neighbours& neighbours,
+              const PairKernels& kernels, int threads) {
   if (!function.run) return;
   if (function.finds) neighbours.make_room_within();
   PassTask task = task_of(particles, neighbours, kernels, threads);
@@ -45,8 +46,8 @@ void run_pass(const PassFunction& function, Particles& particles, Neighbours& ne
   function.run(task);
 }
 
-void run_pass_among(const PassFunction& function, Particles& particles, Neighbours& neighbours, const PairKernels& kernels,
-                    int threads, const std::vector<std::uint64_t>& entries) {
+void run_pass_among(const PassFunction& function, Particles& particles, Neighbours& neighbours,
+                    const PairKernels& kernels, int threads, const std::vector<std::uint64_t>& entries) {
   PassTask task = task_of(particles, neighbours, kernels, threads);
   const std::vector<double*> columns = columns_of(function, particles);
   task.columns = columns.data();
@@ -55,8 +56,8 @@ void run_pass_among(const PassFunction& function, Particles& particles, Neighbou
   function.run(task);
 }
 
-void run_pass_in(const PassFunction& function, Particles& particles, Neighbours& neighbours, const PairKernels& kernels,
-                 int threads, const std::optional<ChosenClusters>& chosen) {
+void run_pass_in(const PassFunction& function, Particles& particles, Neighbours& neighbours,
+                 const PairKernels& kernels, int threads, const std::optional<ChosenClusters>& chosen) {
   if (!chosen) return run_pass(function, particles, neighbours, kernels, threads);
   if (!function.run || chosen->clusters.empty()) return;
   if (function.finds) neighbours.make_room_within();
@@ -68,8 +69,8 @@ void run_pass_in(const PassFunction& function, Particles& particles, Neighbours&
   function.run(task);
 }
 
-void run_pass_over(const PassFunction& function, Particles& particles, Neighbours& neighbours, const PairKernels& kernels,
-                   int threads, const ChosenClusters& chosen) {
+void run_pass_over(const PassFunction& function, Particles& particles, Neighbours& neighbours,
+                   const PairKernels& kernels, int threads, const ChosenClusters& chosen) {
   if (!function.run || chosen.clusters.empty()) return;
   PassTask task = task_of(particles, neighbours, kernels, threads);
   const std::vector<double*> columns = columns_of(function, particles);
@@ -77,7 +78,8 @@ void run_pass_over(const PassFunction& function, Particles& particles, Neighbour
   task.chosen = chosen.clusters.data();
   task.count = chosen.clusters.size();
   if (!chosen.members.empty()) task.members = chosen.members.data();
-  if (!function.finds && !neighbours.clusters().acting.empty()) task.only = neighbours.clusters().acting.data();
+  if (!function.finds && !neighbours.clusters().acting.empty())
+    task.only = neighbours.clusters().acting.data();
   function.run(task);
 }
 

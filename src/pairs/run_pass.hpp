@@ -11,10 +11,12 @@
 namespace tripoint {
 
 /// Adds each term's sum to its columns; the caller sets their values before.
-/// @param function made for clusters as wide as those of the neighbours   @throws MissingField that a term names and nobody owns
+/// @param function made for clusters as wide as those of the neighbours   @throws MissingField that a term
+/// names and nobody owns
 void run_pass(const PassFunction& function, Particles&, Neighbours&, const PairKernels&, int threads);
 
-/// For these entries only, and without finding which are within the support. @param entries of each a bit, as in Clusters::within
+/// For these entries only, and without finding which are within the support. @param entries of each a bit, as
+/// in Clusters::within
 void run_pass_among(const PassFunction&, Particles&, Neighbours&, const PairKernels&, int threads,
                     const std::vector<std::uint64_t>& entries);
 
@@ -26,13 +28,15 @@ struct ChosenClusters {
 /// The clusters of these rows, with these rows alone as members. @param rows each once, ascending
 [[nodiscard]] ChosenClusters clusters_of(const Clusters&, const std::vector<std::uint32_t>& rows);
 
-/// Adds each term's sum to the rows of these clusters; to all where none are chosen. As run_pass(), and entries within the
-/// support are found for these alone.
+/// Adds each term's sum to the rows of these clusters; to all where none are chosen. As run_pass(), and
+/// entries within the support are found for these alone.
 void run_pass_in(const PassFunction&, Particles&, Neighbours&, const PairKernels&, int threads,
                  const std::optional<ChosenClusters>&);
 
-/// For these clusters only, and for what acts there (Clusters::acting): terms add nothing where nothing acts. Results of a
-/// finding pass for other clusters stay. A finding pass looks at all entries, and must not be asked for some members alone.
-void run_pass_over(const PassFunction&, Particles&, Neighbours&, const PairKernels&, int threads, const ChosenClusters&);
+/// For these clusters only, and for what acts there (Clusters::acting): terms add nothing where nothing acts.
+/// Results of a finding pass for other clusters stay. A finding pass looks at all entries, and must not be
+/// asked for some members alone.
+void run_pass_over(const PassFunction&, Particles&, Neighbours&, const PairKernels&, int threads,
+                   const ChosenClusters&);
 
 }  // namespace tripoint

@@ -31,23 +31,27 @@ struct AllWork {
   }
 };
 
-/// @throws InputError where a pair term of an effect reads or adds to a field that the effect has not declared
+/// @throws InputError where a pair term of an effect reads or adds to a field that the effect has not
+/// declared
 void refuse_undeclared(const DeclaredFields& declared, const PassFunction& pass) {
   for (const Field<double>* f : pass.fields) {
     if (!std::ranges::binary_search(declared.keys, f->key))
-      throw InputError("a pair term of the effect " + std::string(declared.who) + " reads or adds to the field " +
-                       std::string(f->name) + ", which the effect does not declare");
+      throw InputError("a pair term of the effect " + std::string(declared.who) +
+                       " reads or adds to the field " + std::string(f->name) +
+                       ", which the effect does not declare");
   }
 }
 
-/// @throws InputError where an effect asks for a term that no pass has, or for one that uses a field without declaring it
+/// @throws InputError where an effect asks for a term that no pass has, or for one that uses a field without
+/// declaring it
 AllWork work_of(const std::vector<EffectPairWork>& effects) {
   const PairPasses passes = pair_passes(1);
   AllWork all;
   for (const auto& [work, declared, skips] : effects) {
     const PassFunction density = passes.density(work.terms), rates = passes.rates(work.terms);
     if (density.terms.size() + rates.terms.size() != work.terms.size())
-      throw InputError("the effect " + std::string(declared.who) + " asks for pair terms that its pair_slots.hpp does not bring");
+      throw InputError("the effect " + std::string(declared.who) +
+                       " asks for pair terms that its pair_slots.hpp does not bring");
     refuse_undeclared(declared, density);
     refuse_undeclared(declared, rates);
     all.add(work);
@@ -56,7 +60,8 @@ AllWork work_of(const std::vector<EffectPairWork>& effects) {
   return all;
 }
 
-/// Fixed particles may sleep where every effect of the scene skips those that do, and no term works on every pair.
+/// Fixed particles may sleep where every effect of the scene skips those that do, and no term works on every
+/// pair.
 std::optional<double> sleeps_beyond(const AllWork& work, const std::vector<EffectPairWork>& effects) {
   const bool all_skip = std::ranges::all_of(effects, &EffectPairWork::skips_sleeping);
   return work.meets_all || !all_skip ? std::nullopt : std::optional(work.awake_around);
@@ -79,8 +84,9 @@ Passes::Passes(const Scene& scene, const std::vector<EffectPairWork>& effects, i
   const PairKernels kernels = work.kernels ? *work.kernels : PairKernels(scene.support_ratio * scene.spacing);
   if (lanes == 0) lanes = work.terms.empty() ? 1 : best_lanes();
   const PairPasses passes = pair_passes(lanes);
-  impl_ = std::make_unique<Impl>(Impl{lanes, passes.density(work.terms), passes.rates(work.terms), passes.rates(work.again),
-                                      kernels, sums_all || work.meets_all, work.leaves_own_pairs,
+  impl_ = std::make_unique<Impl>(Impl{lanes, passes.density(work.terms), passes.rates(work.terms),
+                                      passes.rates(work.again), kernels, sums_all || work.meets_all,
+                                      work.leaves_own_pairs,
                                       sums_all ? std::nullopt : tripoint::sleeps_beyond(work, effects)});
 }
 Passes::~Passes() = default;
@@ -111,7 +117,8 @@ std::vector<double> Passes::cost(const World& world, double steps) const {
   if (world.neighbours) cost = impl_->busy.cost_by_row(world, steps, impl_->meets_all);
   for (std::size_t i = 0; i < p.size(); ++i)
     cost[i] += ParticleCost::of_row(steps) +
-               ParticleCost::of_bond * static_cast<double>(world.bonds.of(static_cast<std::size_t>(p[field::id][i])).size());
+               ParticleCost::of_bond *
+                   static_cast<double>(world.bonds.of(static_cast<std::size_t>(p[field::id][i])).size());
   return cost;
 }
 
@@ -125,7 +132,9 @@ void Passes::run_fixed(PassName name, World& world) const {
 void Passes::run(PassName name, World& world) const {
   if (!needed()) return;
   Impl& i = *impl_;
-  const PassFunction& pass = name == PassName::density ? i.density : name == PassName::rates ? i.rates : i.again;
+  const PassFunction& pass = name == PassName::density ? i.density
+                             : name == PassName::rates ? i.rates
+                                                       : i.again;
   if (!i.meets_all && name == PassName::density)
     i.busy.sum_density(pass, world, i.kernels, i.leaves_own);
   else if (!i.meets_all && name == PassName::rates)

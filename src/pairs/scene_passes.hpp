@@ -12,7 +12,8 @@ namespace tripoint {
 /// The fused pair passes, as the scene's modes choose them.
 class Passes {
  public:
-  /// @param lanes particles of a cluster, 0 = the fastest number here: measured only where a pass works on any pair
+  /// @param lanes particles of a cluster, 0 = the fastest number here: measured only where a pass works on
+  /// any pair
   /// @param sums_all whether clusters in which nothing meets are summed over too
   Passes(const Scene&, const std::vector<EffectPairWork>&, int lanes, bool sums_all = false);
   ~Passes();
@@ -23,14 +24,18 @@ class Passes {
   void run(PassName, World&) const;
   /// Sums the values of fixed particles that no step reads (World::forms_fixed).
   void run_fixed(PassName, World&) const;
-  /// How far around what something can reach fixed particles must be awake, for every bit to stay [m]; none: nothing may sleep.
+  /// How far around what something can reach fixed particles must be awake, for every bit to stay [m]; none:
+  /// nothing may sleep.
   [[nodiscard]] std::optional<double> sleeps_beyond() const;
-  [[nodiscard]] bool works_on_all() const;  ///< pairs of fixed particles have work too, as where they conduct heat
-  /// Cost of each particle in a step, by row, as lists and bonds are now; before there are any, a guess (ParticleCost).
+  /// Pairs of fixed particles have work too, as where they conduct heat
+  [[nodiscard]] bool works_on_all() const;
+  /// Cost of each particle in a step, by row, as lists and bonds are now; before there are any, a guess
+  /// (ParticleCost).
   /// @param steps from new lists to new lists
   [[nodiscard]] std::vector<double> cost(const World&, double steps) const;
   [[nodiscard]] std::vector<double> cost_at_start(const World&) const;
-  /// To be called when lists, own pairs, groups or the motion of bodies have changed: where a pass has work is found anew.
+  /// To be called when lists, own pairs, groups or the motion of bodies have changed: where a pass has work
+  /// is found anew.
   void drop_clusters();
 
  private:

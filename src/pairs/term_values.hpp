@@ -5,8 +5,8 @@
 
 #include "core/field.hpp"
 
-/// What a pair term reads and adds, by field: i(field::viscosity) is a vector of numbers, a particle each, and
-/// sum(field::force) += f * g.d() adds to three sums. A field's place is found at compile time.
+/// What a pair term reads and adds, by field: i(field::viscosity) is a vector of numbers, a particle each,
+/// and sum(field::force) += f * g.d() adds to three sums. A field's place is found at compile time.
 namespace tripoint {
 
 /// The fields of a term, one column after the other.
@@ -39,7 +39,8 @@ struct Place {
 template <class Of>
 struct VectorPlace {
   std::size_t x, y, z;
-  consteval VectorPlace(const VectorField<double>& f) : x(Of::place(f.x)), y(Of::place(f.y)), z(Of::place(f.z)) {}
+  consteval VectorPlace(const VectorField<double>& f)
+      : x(Of::place(f.x)), y(Of::place(f.y)), z(Of::place(f.z)) {}
 };
 template <class Of>
 struct SymmetricPlace {
@@ -71,8 +72,12 @@ struct VectorOf {
   [[gnu::always_inline]] friend VectorOf operator-(const VectorOf& a, const VectorOf& b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
   }
-  [[gnu::always_inline]] friend VectorOf operator*(V s, const VectorOf& a) { return {s * a.x, s * a.y, s * a.z}; }
-  [[gnu::always_inline]] friend V dot(const VectorOf& a, const VectorOf& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+  [[gnu::always_inline]] friend VectorOf operator*(V s, const VectorOf& a) {
+    return {s * a.x, s * a.y, s * a.z};
+  }
+  [[gnu::always_inline]] friend V dot(const VectorOf& a, const VectorOf& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+  }
 };
 /// A symmetric matrix of each particle.
 template <class V>
@@ -85,7 +90,8 @@ struct SymmetricOf {
     return {s * a.xx, s * a.yy, s * a.zz, s * a.yz, s * a.xz, s * a.xy};
   }
   [[gnu::always_inline]] friend VectorOf<V> operator*(const SymmetricOf& a, const VectorOf<V>& d) {
-    return {a.xx * d.x + a.xy * d.y + a.xz * d.z, a.xy * d.x + a.yy * d.y + a.yz * d.z, a.xz * d.x + a.yz * d.y + a.zz * d.z};
+    return {a.xx * d.x + a.xy * d.y + a.xz * d.z, a.xy * d.x + a.yy * d.y + a.yz * d.z,
+            a.xz * d.x + a.yz * d.y + a.zz * d.z};
   }
 };
 /// A matrix of each particle, row by row.
@@ -124,7 +130,9 @@ struct ValuesOf {
   std::array<V, Of::size> values;
 
   [[gnu::always_inline]] V operator()(Place<Of> at) const { return values[at.k]; }
-  [[gnu::always_inline]] VectorOf<V> operator()(VectorPlace<Of> at) const { return {values[at.x], values[at.y], values[at.z]}; }
+  [[gnu::always_inline]] VectorOf<V> operator()(VectorPlace<Of> at) const {
+    return {values[at.x], values[at.y], values[at.z]};
+  }
   [[gnu::always_inline]] SymmetricOf<V> operator()(SymmetricPlace<Of> at) const {
     return {values[at.xx], values[at.yy], values[at.zz], values[at.yz], values[at.xz], values[at.xy]};
   }
@@ -166,7 +174,9 @@ struct SumsOf {
     }
   };
   [[gnu::always_inline]] V& operator()(Place<Of> at) { return values[at.k]; }
-  [[gnu::always_inline]] Vector operator()(VectorPlace<Of> at) { return {values[at.x], values[at.y], values[at.z]}; }
+  [[gnu::always_inline]] Vector operator()(VectorPlace<Of> at) {
+    return {values[at.x], values[at.y], values[at.z]};
+  }
   [[gnu::always_inline]] Symmetric operator()(SymmetricPlace<Of> at) {
     return {values[at.xx], values[at.yy], values[at.zz], values[at.yz], values[at.xz], values[at.xy]};
   }

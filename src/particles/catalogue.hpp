@@ -2,17 +2,20 @@
 #pragma once
 #include "core/field.hpp"
 
-/// The catalogue of fields that several rooms know: one line a field. One that an effect alone knows stands in its folder, in
-/// fields.hpp. Vectors of particles are three columns, so that a pair pass loads lanes.
+/// The catalogue of fields that several rooms know: one line a field. One that an effect alone knows stands
+/// in its folder, in fields.hpp. Vectors of particles are three columns, so that a pair pass loads lanes.
 namespace tripoint::field {
 
 // particles: every scene has these
 inline constexpr Field<int> id{"id", "1"}, body{"body", "1"}, phase{"phase", "1"}, material{"material", "1"},
     source{"source", "1"};
 inline constexpr Field<double> mass{"mass", "kg"};
-inline constexpr Field<double> position_x{"position.x", "m"}, position_y{"position.y", "m"}, position_z{"position.z", "m"};
-inline constexpr Field<double> velocity_x{"velocity.x", "m/s"}, velocity_y{"velocity.y", "m/s"}, velocity_z{"velocity.z", "m/s"};
-inline constexpr VectorField<double> position{position_x, position_y, position_z}, velocity{velocity_x, velocity_y, velocity_z};
+inline constexpr Field<double> position_x{"position.x", "m"}, position_y{"position.y", "m"},
+    position_z{"position.z", "m"};
+inline constexpr Field<double> velocity_x{"velocity.x", "m/s"}, velocity_y{"velocity.y", "m/s"},
+    velocity_z{"velocity.z", "m/s"};
+inline constexpr VectorField<double> position{position_x, position_y, position_z},
+    velocity{velocity_x, velocity_y, velocity_z};
 /// How many box widths a particle has been moved back by in a periodic direction.
 inline constexpr Field<int> image_x{"image.x", "1"}, image_y{"image.y", "1"}, image_z{"image.z", "1"};
 inline constexpr VectorField<int> image{image_x, image_y, image_z};
@@ -22,28 +25,32 @@ inline constexpr Field<double> density{"density", "kg/m3"};
 
 // liquids and contact (4), (7)-(9)
 inline constexpr Field<double> volume{"volume", "m3"}, pressure{"pressure", "Pa"};
-inline constexpr Field<double> force_x{"force.x", "N"}, force_y{"force.y", "N"}, force_z{"force.z", "N"};  ///< of pressure
+/// Of pressure
+inline constexpr Field<double> force_x{"force.x", "N"}, force_y{"force.y", "N"}, force_z{"force.z", "N"};
 inline constexpr VectorField<double> force{force_x, force_y, force_z};
-/// Group of the particle. Members of one group of 0 and above exert no force on each other. The values are listed at the end of
-/// this file.
+/// Group of the particle. Members of one group of 0 and above exert no force on each other. The values are
+/// listed at the end of this file.
 inline constexpr Field<double> group{"group", "1"};
 /// Transport velocity less velocity.
-inline constexpr Field<double> shift_x{"shift.x", "m/s"}, shift_y{"shift.y", "m/s"}, shift_z{"shift.z", "m/s"};
+inline constexpr Field<double> shift_x{"shift.x", "m/s"}, shift_y{"shift.y", "m/s"},
+    shift_z{"shift.z", "m/s"};
 inline constexpr VectorField<double> shift{shift_x, shift_y, shift_z};
 
-/// sum of W(x_ij) over the own pairs of a member of a deformable body: a constant part of its number density (model 8.2)
+/// sum of W(x_ij) over the own pairs of a member of a deformable body: a constant part of its number density
+/// (model 8.2)
 inline constexpr Field<double> own_density{"own_density", "1/m3"};
 
-/// Code of the agent that moves this particle in place of forces: 0 none, else one of the codes at the end of this file.
+/// Code of the agent that moves this particle in place of forces: 0 none, else one of the codes at the end of
+/// this file.
 inline constexpr Field<int> driven{"driven", "1"};
 
 // elastic solids (10)-(17)
-/// A_i = pinv M_i of the reference list (model 8.7), symmetric, and its rank: 3 solid, 2 sheet, 1 chain, 0 without neighbours.
-/// Members of rigid bodies that own no strain energy have rank 3.
-inline constexpr Field<double> shape_inverse_xx{"shape_inverse.xx", "1"}, shape_inverse_yy{"shape_inverse.yy", "1"},
-    shape_inverse_zz{"shape_inverse.zz", "1"};
-inline constexpr Field<double> shape_inverse_yz{"shape_inverse.yz", "1"}, shape_inverse_xz{"shape_inverse.xz", "1"},
-    shape_inverse_xy{"shape_inverse.xy", "1"};
+/// A_i = pinv M_i of the reference list (model 8.7), symmetric, and its rank: 3 solid, 2 sheet, 1 chain, 0
+/// without neighbours. Members of rigid bodies that own no strain energy have rank 3.
+inline constexpr Field<double> shape_inverse_xx{"shape_inverse.xx", "1"},
+    shape_inverse_yy{"shape_inverse.yy", "1"}, shape_inverse_zz{"shape_inverse.zz", "1"};
+inline constexpr Field<double> shape_inverse_yz{"shape_inverse.yz", "1"},
+    shape_inverse_xz{"shape_inverse.xz", "1"}, shape_inverse_xy{"shape_inverse.xy", "1"};
 inline constexpr SymmetricField shape_inverse{shape_inverse_xx, shape_inverse_yy, shape_inverse_zz,
                                               shape_inverse_yz, shape_inverse_xz, shape_inverse_xy};
 inline constexpr Field<int> shape_rank{"shape_rank", "1"};
@@ -53,19 +60,23 @@ inline constexpr Field<int> solid_material{"solid_material", "1"};
 inline constexpr Field<double> solid_stiffness{"solid_stiffness", "1"};
 /// 1 where neither this particle nor any of its body neighbours is a sheet or a chain.
 inline constexpr Field<int> regular_bonds{"regular_bonds", "1"};
-/// Square of the frequency that the bonds give this particle while its neighbours stay [1/s2]; 0 while its list is the first one.
+/// Square of the frequency that the bonds give this particle while its neighbours stay [1/s2]; 0 while its
+/// list is the first one.
 inline constexpr Field<double> bond_frequency{"bond_frequency", "1/s2"};
-/// Strain of the present time, total, within the range of M_i; and the part of it that has flowed (model 8.7, 8.8).
-inline constexpr Field<double> strain_xx{"strain.xx", "1"}, strain_yy{"strain.yy", "1"}, strain_zz{"strain.zz", "1"},
-    strain_yz{"strain.yz", "1"}, strain_xz{"strain.xz", "1"}, strain_xy{"strain.xy", "1"};
+/// Strain of the present time, total, within the range of M_i; and the part of it that has flowed
+/// (model 8.7, 8.8).
+inline constexpr Field<double> strain_xx{"strain.xx", "1"}, strain_yy{"strain.yy", "1"},
+    strain_zz{"strain.zz", "1"}, strain_yz{"strain.yz", "1"}, strain_xz{"strain.xz", "1"},
+    strain_xy{"strain.xy", "1"};
 inline constexpr SymmetricField strain{strain_xx, strain_yy, strain_zz, strain_yz, strain_xz, strain_xy};
-inline constexpr Field<double> plastic_strain_xx{"plastic_strain.xx", "1"}, plastic_strain_yy{"plastic_strain.yy", "1"},
-    plastic_strain_zz{"plastic_strain.zz", "1"};
-inline constexpr Field<double> plastic_strain_yz{"plastic_strain.yz", "1"}, plastic_strain_xz{"plastic_strain.xz", "1"},
-    plastic_strain_xy{"plastic_strain.xy", "1"};
+inline constexpr Field<double> plastic_strain_xx{"plastic_strain.xx", "1"},
+    plastic_strain_yy{"plastic_strain.yy", "1"}, plastic_strain_zz{"plastic_strain.zz", "1"};
+inline constexpr Field<double> plastic_strain_yz{"plastic_strain.yz", "1"},
+    plastic_strain_xz{"plastic_strain.xz", "1"}, plastic_strain_xy{"plastic_strain.xy", "1"};
 inline constexpr SymmetricField plastic_strain{plastic_strain_xx, plastic_strain_yy, plastic_strain_zz,
                                                plastic_strain_yz, plastic_strain_xz, plastic_strain_xy};
-inline constexpr Field<int> may_flow{"may_flow", "1"};  ///< 1 where the strain of now is beyond the bound of plastic flow, else 0
+/// 1 where the strain of now is beyond the bound of plastic flow, else 0
+inline constexpr Field<int> may_flow{"may_flow", "1"};
 
 // phase change, Fig. 5
 inline constexpr Field<double> liquid_fraction{"liquid_fraction", "1"};
@@ -75,42 +86,49 @@ inline constexpr Field<double> stiffness_share{"stiffness_share", "1"};
 // heat (21)
 inline constexpr Field<double> temperature{"temperature", "K"};
 inline constexpr Field<double> enthalpy{"enthalpy", "J"};
-inline constexpr Field<double> heat_capacity{"heat_capacity", "J/kg/K"};  ///< of the solid where something melts
+/// Of the solid where something melts
+inline constexpr Field<double> heat_capacity{"heat_capacity", "J/kg/K"};
 inline constexpr Field<int> held{"temperature.held", "1"};
 
 // solid bodies: one row for each that ever existed, [[body]] order, then births
 inline constexpr Field<double> body_mass{"body.mass", "kg", Per::body};
-inline constexpr Field<Vec3> body_centre{"body.centre", "m", Per::body}, body_velocity{"body.velocity", "m/s", Per::body};
+inline constexpr Field<Vec3> body_centre{"body.centre", "m", Per::body},
+    body_velocity{"body.velocity", "m/s", Per::body};
 /// Velocity change of the last kick, divided by the kick's length.
 inline constexpr Field<Vec3> body_acceleration{"body.acceleration", "m/s2", Per::body},
     body_angular_acceleration{"body.angular_acceleration", "rad/s2", Per::body};
 inline constexpr Field<Vec3> body_angular_momentum{"body.angular_momentum", "kg m2/s", Per::body};
 inline constexpr Field<Vec3> body_angular_velocity{"body.angular_velocity", "rad/s", Per::body};
-inline constexpr Field<Vec3> body_inertia{"body.inertia", "kg m2", Per::body};  ///< principal, ascending; 0 where truncated
+/// Principal, ascending; 0 where truncated
+inline constexpr Field<Vec3> body_inertia{"body.inertia", "kg m2", Per::body};
 inline constexpr Field<Quaternion> body_orientation{"body.orientation", "1", Per::body};
 inline constexpr Field<Quaternion> body_axes{"body.axes", "1", Per::body};  ///< principal frame to body frame
-inline constexpr Field<Vec3> body_turns{"body.turns", "1", Per::body};      ///< 1 about the world axes it may turn about
+/// 1 about the world axes it may turn about
+inline constexpr Field<Vec3> body_turns{"body.turns", "1", Per::body};
 inline constexpr Field<Vec3> body_start_centre{"body.start_centre", "m", Per::body};
-/// From the point that keyframes move to the centre of mass, in the body frame: not 0 after others have joined.
+/// From the point that keyframes move to the centre of mass, in the body frame: not 0 after others have
+/// joined.
 inline constexpr Field<Vec3> body_offset{"body.offset", "m", Per::body};
 inline constexpr Field<Vec3> body_start_velocity{"body.start_velocity", "m/s", Per::body},
     body_start_spin{"body.start_spin", "rad/s", Per::body};
-inline constexpr Field<int> body_phase{"body.phase", "1", Per::body};  ///< rigid where the particles move as one, else elastic
+/// Rigid where the particles move as one, else elastic
+inline constexpr Field<int> body_phase{"body.phase", "1", Per::body};
 /// Number of the event that grips it + 1, 0 for none; its centre and orientation as it was gripped.
 inline constexpr Field<int> body_grip{"body.grip", "1", Per::body};
 inline constexpr Field<Vec3> body_grip_centre{"body.grip_centre", "m", Per::body};
 inline constexpr Field<Quaternion> body_grip_orientation{"body.grip_orientation", "1", Per::body};
 inline constexpr Field<double> body_heat{"body.heat", "J",
-                                         Per::body};  ///< given to it so far by what holds the temperature of its particles
-inline constexpr Field<int> body_motion{"body.motion", "1", Per::body}, body_alive{"body.alive", "1", Per::body},
-    body_source{"body.source", "1", Per::body};
+                                         /// Given to it so far by what holds the temperature of its particles
+                                         Per::body};
+inline constexpr Field<int> body_motion{"body.motion", "1", Per::body},
+    body_alive{"body.alive", "1", Per::body}, body_source{"body.source", "1", Per::body};
 
 }  // namespace tripoint::field
 
 namespace tripoint {
 
-/// Values of field::group; members of a free rigid body have 1 + its row. Members of one group of 0 and above exert no force on
-/// each other.
+/// Values of field::group; members of a free rigid body have 1 + its row. Members of one group of 0 and above
+/// exert no force on each other.
 inline constexpr double deformable_group = -2.0, liquid_group = -1.0, wall_group = 0.0;
 /// Whether a particle of this group exerts a force on every other particle, also of its own group.
 [[nodiscard]] constexpr bool acts_on_all(double group) noexcept { return group < wall_group; }

@@ -4,7 +4,8 @@
 namespace tripoint {
 namespace {
 
-constexpr std::size_t padding = vector_bytes / sizeof(double);  ///< rows beyond the last that a vector load may touch
+/// Rows beyond the last that a vector load may touch
+constexpr std::size_t padding = vector_bytes / sizeof(double);
 
 }  // namespace
 

@@ -5,9 +5,9 @@
 
 namespace tripoint {
 
-/// An entry of a neighbour list. The low 26 bits are the row of j. The bits from 27 on are the periodic image in which j is seen.
-/// Lists keep own pairs in a separate column (Clusters::own). RowEntries sets the bit between the two while a caller walks the
-/// entries of one row.
+/// An entry of a neighbour list. The low 26 bits are the row of j. The bits from 27 on are the periodic image
+/// in which j is seen. Lists keep own pairs in a separate column (Clusters::own). RowEntries sets the bit
+/// between the two while a caller walks the entries of one row.
 struct Entry {
   std::uint32_t bits;
   static constexpr std::uint32_t row_bits = 26, row_mask = (1u << row_bits) - 1, own_bit = 1u << row_bits,
@@ -17,7 +17,8 @@ struct Entry {
     return {row | image << image_shift};
   }
   [[nodiscard]] constexpr std::uint32_t row() const noexcept { return bits & row_mask; }
-  [[nodiscard]] constexpr bool own() const noexcept { return (bits & own_bit) != 0; }  ///< members of one deformable body
+  /// Members of one deformable body
+  [[nodiscard]] constexpr bool own() const noexcept { return (bits & own_bit) != 0; }
   [[nodiscard]] constexpr std::uint32_t image() const noexcept { return bits >> image_shift; }  ///< 0..26
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lists where fixed particles can sleep: rows of moving particles, of fixed ones that are read, and of sleeping ones (decisions
-// 020, 028).
+// Lists where fixed particles can sleep: rows of moving particles, of fixed ones that are read, and of
+// sleeping ones (decisions 020, 028).
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -24,18 +24,21 @@ struct Sorted {
 };
 
 /// Counting sort of rows by cell, and by id within each. Sets grid.first.
-Sorted sort_by_cell(const std::vector<std::uint32_t>& rows, const auto& x, std::span<const int> id, auto& grid, int threads) {
+Sorted sort_by_cell(const std::vector<std::uint32_t>& rows, const auto& x, std::span<const int> id,
+                    auto& grid, int threads) {
   const std::size_t m = rows.size();
   grid.first.assign(grid.cells() + 2, 0);
   constexpr std::uint32_t nobody = ~std::uint32_t{0};
   std::vector<std::uint32_t> place(m, nobody), cell_of(m);
 #pragma omp parallel for schedule(static) num_threads(threads)
-  for (std::size_t k = 0; k < m; ++k) cell_of[k] = static_cast<std::uint32_t>(grid.index(grid.place(x.at(rows[k]))));
+  for (std::size_t k = 0; k < m; ++k)
+    cell_of[k] = static_cast<std::uint32_t>(grid.index(grid.place(x.at(rows[k]))));
   for (const std::uint32_t c : cell_of) ++grid.first[c + 2];
   for (std::size_t c = 1; c <= grid.cells(); ++c) grid.first[c + 1] += grid.first[c];
   for (std::uint32_t k = 0; k < m; ++k) {
     const std::uint32_t c = cell_of[k];
-    std::uint32_t at = grid.first[c + 1]++;  // the next place of the cell, in the end the first of the one after it
+    // The next place of the cell, in the end the first of the one after it
+    std::uint32_t at = grid.first[c + 1]++;
     const auto is_after = [&](std::uint32_t other) {
       return other != nobody && cell_of[other] == c && id[rows[other]] > id[rows[k]];
     };
@@ -51,8 +54,8 @@ struct Moves {
   std::vector<std::uint32_t> from, to;
 };
 
-/// The rows `was` come to the front, in that order. Rows displaced from the front take the places that became free; all other
-/// rows stay.
+/// The rows `was` come to the front, in that order. Rows displaced from the front take the places that became
+/// free; all other rows stay.
 Moves bring_to_front(const std::vector<std::uint32_t>& was, std::size_t all) {
   std::vector<char> taken(all, 0);
   for (const std::uint32_t one : was) taken[one] = 1;
@@ -94,18 +97,20 @@ void Neighbours::learn_still(const Particles& particles, const Grid& grid, const
   }
   for (std::size_t a = 0; a < 3; ++a)
     if (box_.periodic[a])
-      still_.count[a] =
-          std::max(still_.count[a], Grid::stretch({grid.count[0] - 1, grid.count[1] - 1, grid.count[2] - 1})[a] + 1);
+      still_.count[a] = std::max(
+          still_.count[a], Grid::stretch({grid.count[0] - 1, grid.count[1] - 1, grid.count[2] - 1})[a] + 1);
   still_.first.assign(static_cast<std::size_t>(still_.count[0]) * still_.count[1] * still_.count[2] + 1, 0);
   for (const auto& s : stretch) ++still_.first[still_.index(s) + 1];
   for (std::size_t s = 0; s + 1 < still_.first.size(); ++s) still_.first[s + 1] += still_.first[s];
   still_.known = !still_.id.empty();
 }
 
-/// Marks every stretch of cells within `distance` [m] of a marked one. It may mark some more: it takes a box around each.
+/// Marks every stretch of cells within `distance` [m] of a marked one. It may mark some more: it takes a box
+/// around each.
 std::vector<char> Neighbours::within(std::vector<char> marks, double distance) const {
   const std::array<int, 3>& n = still_.count;
-  const std::array<std::size_t, 3> step{1, static_cast<std::size_t>(n[0]), static_cast<std::size_t>(n[0]) * n[1]};
+  const std::array<std::size_t, 3> step{1, static_cast<std::size_t>(n[0]),
+                                        static_cast<std::size_t>(n[0]) * n[1]};
   for (std::size_t a = 0; a < 3; ++a) {
     const double wide = still_.width[a] * (a == 0 ? Grid::cells_a_stretch : 1);
     const int far = static_cast<int>(std::ceil(distance / wide * (1.0 - Grid::slack))) +
@@ -114,10 +119,12 @@ std::vector<char> Neighbours::within(std::vector<char> marks, double distance) c
     std::vector<char> line(static_cast<std::size_t>(n[a]));
     for (int j = 0; j < n[b]; ++j) {
       for (int k = 0; k < n[c]; ++k) {
-        const std::size_t from = static_cast<std::size_t>(j) * step[b] + static_cast<std::size_t>(k) * step[c];
+        const std::size_t from =
+            static_cast<std::size_t>(j) * step[b] + static_cast<std::size_t>(k) * step[c];
         const auto spread = [&](bool forward) {
           int since = far + 1;
-          const int turns = box_.periodic[a] ? 2 : 1;  // twice around, so that marks reach across the boundary
+          // Twice around, so that marks reach across the boundary
+          const int turns = box_.periodic[a] ? 2 : 1;
           for (int turn = 0; turn < turns; ++turn)
             for (int at = 0; at < n[a]; ++at) {
               const int m = forward ? at : n[a] - 1 - at;
@@ -128,7 +135,8 @@ std::vector<char> Neighbours::within(std::vector<char> marks, double distance) c
         std::ranges::fill(line, char{0});
         spread(true);
         spread(false);
-        for (int m = 0; m < n[a]; ++m) marks[from + static_cast<std::size_t>(m) * step[a]] = line[static_cast<std::size_t>(m)];
+        for (int m = 0; m < n[a]; ++m)
+          marks[from + static_cast<std::size_t>(m) * step[a]] = line[static_cast<std::size_t>(m)];
       }
     }
   }
@@ -136,7 +144,8 @@ std::vector<char> Neighbours::within(std::vector<char> marks, double distance) c
 }
 
 /// Which rows are awake, and why: all that moves, and of the fixed particles those within reach of it.
-Neighbours::Awake Neighbours::awake_rows(const Particles& particles, const Grid& grid, const Resting& resting) const {
+Neighbours::Awake Neighbours::awake_rows(const Particles& particles, const Grid& grid,
+                                         const Resting& resting) const {
   const std::size_t n = particles.size();
   const auto x = positions(particles);
   const auto body = particles[field::body];
@@ -171,8 +180,9 @@ Neighbours::Awake Neighbours::awake_rows(const Particles& particles, const Grid&
   return found;
 }
 
-/// Row order: 1. moving particles; 2. fixed particles that a step reads; 3. fixed particles in reach that act only by their
-/// position; 4. sleeping particles. The first two groups are sorted by (cell, id). Most sleeping particles keep their row.
+/// Row order: 1. moving particles; 2. fixed particles that a step reads; 3. fixed particles in reach that act
+/// only by their position; 4. sleeping particles. The first two groups are sorted by (cell, id). Most
+/// sleeping particles keep their row.
 void Neighbours::sort_awake(Particles& particles, Grid& grid, const Resting& resting) {
   const std::size_t n = particles.size();
   const auto x = positions(particles);
@@ -182,7 +192,8 @@ void Neighbours::sort_awake(Particles& particles, Grid& grid, const Resting& res
   const auto [place, cell_of] = sort_by_cell(rows, x, id, grid, threads_);
   if (!grid_ || grid_->count != grid.count) {  // their order stays where there are more cells or fewer
     still_.in_cell.assign(grid.cells() + 1, 0);
-    for (const std::uint32_t one : still_.id) ++still_.in_cell[grid.index(grid.place(x.at(particles.row(one)))) + 1];
+    for (const std::uint32_t one : still_.id)
+      ++still_.in_cell[grid.index(grid.place(x.at(particles.row(one)))) + 1];
     for (std::size_t c = 0; c < grid.cells(); ++c) still_.in_cell[c + 1] += still_.in_cell[c];
   }
 
@@ -218,7 +229,9 @@ void Neighbours::sort_awake(Particles& particles, Grid& grid, const Resting& res
 /// Blocks of all rows in order of (cell, id): how many moving rows come before each.
 void Neighbours::find_blocks(const Particles& particles, const Grid& grid) {
   const auto id = particles[field::id];
-  const auto rows_before = [&](std::size_t cell) { return std::size_t{moving_first_[cell]} + still_.in_cell[cell]; };
+  const auto rows_before = [&](std::size_t cell) {
+    return std::size_t{moving_first_[cell]} + still_.in_cell[cell];
+  };
   row_blocks_.clear();
   std::size_t c = 0;  // the cell that a block begins in
   for (std::size_t first = 0; first < rows_before(grid.cells()); first += rows_a_block) {
@@ -228,8 +241,9 @@ void Neighbours::find_blocks(const Particles& particles, const Grid& grid) {
     }
     std::uint32_t moving = moving_first_[c], fixed = still_.in_cell[c];
     for (std::size_t at = rows_before(c); at < first; ++at) {
-      const bool is_fixed = moving == moving_first_[c + 1] ||
-                            (fixed < still_.in_cell[c + 1] && still_.id[fixed] < static_cast<std::uint32_t>(id[moving]));
+      const bool is_fixed =
+          moving == moving_first_[c + 1] ||
+          (fixed < still_.in_cell[c + 1] && still_.id[fixed] < static_cast<std::uint32_t>(id[moving]));
       ++(is_fixed ? fixed : moving);
     }
     row_blocks_.push_back(moving);
@@ -253,16 +267,16 @@ std::vector<std::uint32_t> Neighbours::rows_in_order(const Particles& particles)
   return rows;
 }
 
-/// Makes lists of those fixed clusters that stand in a list of a moving cluster: lists of the others would name nothing that
-/// moves.
+/// Makes lists of those fixed clusters that stand in a list of a moving cluster: lists of the others would
+/// name nothing that moves.
 void Neighbours::list_fixed(const Particles& particles, const Places& places, const Grid& grid) {
   Clusters& c = clusters_;
   std::vector<char> is_met(rows(), 0);
   for (std::size_t e = 0; e < c.start.back(); ++e) is_met[Entry{c.entries[e]}.row()] = 1;
   const std::size_t moving = c.listed.size();
   for (auto k = static_cast<std::uint32_t>(moving); k < c.size(); ++k) {
-    const bool any =
-        std::find(is_met.begin() + c.first[k], is_met.begin() + c.first[k + 1], 1) != is_met.begin() + c.first[k + 1];
+    const bool any = std::find(is_met.begin() + c.first[k], is_met.begin() + c.first[k + 1], 1) !=
+                     is_met.begin() + c.first[k + 1];
     (!any ? c.unlisted : c.first[k] < particles.awake() ? c.listed : c.on_demand).push_back(k);
   }
   list(places, grid, std::span(c.listed).subspan(moving), listed_by_[1]);
@@ -271,7 +285,8 @@ void Neighbours::list_fixed(const Particles& particles, const Places& places, co
 void Neighbours::list_sleeping() {
   if (listed_sleeping_ || clusters_.on_demand.empty()) return;
   listed_sleeping_ = true;
-  AlignedVector<double> x(rows() + vector_bytes), y(x.size()), z(x.size());  // readable a whole vector past the last
+  // Readable a whole vector past the last
+  AlignedVector<double> x(rows() + vector_bytes), y(x.size()), z(x.size());
   for (std::size_t i = 0; i < rows(); ++i) {
     x[i] = built_[i].x;
     y[i] = built_[i].y;
@@ -280,21 +295,25 @@ void Neighbours::list_sleeping() {
   list({x.data(), y.data(), z.data()}, *grid_, clusters_.on_demand, listed_by_[2]);
 }
 
-/// Pairs without a list are counted too. A pair of a moving and a fixed particle was counted twice, because the lists of fixed
-/// particles do not count. The number of pairs among fixed particles is known.
+/// Pairs without a list are counted too. A pair of a moving and a fixed particle was counted twice, because
+/// the lists of fixed particles do not count. The number of pairs among fixed particles is known.
 void Neighbours::count_still_pairs(const Particles& particles) {
   if (!listed_all_) pairs_ += still_.pairs;
   if (!may_rest_next()) return;
   const Clusters& c = clusters_;
   const auto id = particles[field::id];
-  const auto is_still = [&](std::size_t row) { return still_.place[static_cast<std::size_t>(id[row])] != ~std::uint32_t{0}; };
+  const auto is_still = [&](std::size_t row) {
+    return still_.place[static_cast<std::size_t>(id[row])] != ~std::uint32_t{0};
+  };
   std::size_t pairs = 0;
 #pragma omp parallel for schedule(static) num_threads(threads_) reduction(+ : pairs)
   for (std::size_t k = 0; k < c.size(); ++k) {
     unsigned still = 0;  // bits of members
-    for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i) still |= static_cast<unsigned>(is_still(i)) << (i - c.first[k]);
+    for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i)
+      still |= static_cast<unsigned>(is_still(i)) << (i - c.first[k]);
     for (std::size_t e = c.start[k]; e < c.start[k + 1] && still != 0; ++e)
-      if (is_still(Entry{c.entries[e]}.row())) pairs += static_cast<unsigned>(std::popcount(c.near[e] & still));
+      if (is_still(Entry{c.entries[e]}.row()))
+        pairs += static_cast<unsigned>(std::popcount(c.near[e] & still));
   }
   still_.pairs = pairs;
 }

@@ -10,8 +10,9 @@
 
 namespace tripoint {
 
-/// Cells are finer than the reach of the lists, most of all in x, whose index runs fastest. The numbers are measured. The
-/// particles of a cluster are then near each other, and their neighbours fill few whole rows of cells.
+/// Cells are finer than the reach of the lists, most of all in x, whose index runs fastest. The numbers are
+/// measured. The particles of a cluster are then near each other, and their neighbours fill few whole rows of
+/// cells.
 struct Neighbours::Grid {
   static constexpr std::array<double, 3> cells_a_reach{6.0, 1.5, 1.5};
   static constexpr int cells_a_stretch = 6;  ///< see Neighbours::Still
@@ -25,7 +26,8 @@ struct Neighbours::Grid {
   [[nodiscard]] std::size_t index(const std::array<int, 3>& c) const {
     return static_cast<std::size_t>(c[0]) +
            static_cast<std::size_t>(count[0]) *
-               (static_cast<std::size_t>(c[1]) + static_cast<std::size_t>(count[1]) * static_cast<std::size_t>(c[2]));
+               (static_cast<std::size_t>(c[1]) +
+                static_cast<std::size_t>(count[1]) * static_cast<std::size_t>(c[2]));
   }
   [[nodiscard]] std::size_t cells() const { return static_cast<std::size_t>(count[0]) * count[1] * count[2]; }
   [[nodiscard]] std::array<int, 3> place(const Vec3& r) const {
@@ -35,10 +37,13 @@ struct Neighbours::Grid {
     return c;
   }
 
-  [[nodiscard]] static std::array<int, 3> stretch(const std::array<int, 3>& c) { return {c[0] / cells_a_stretch, c[1], c[2]}; }
+  [[nodiscard]] static std::array<int, 3> stretch(const std::array<int, 3>& c) {
+    return {c[0] / cells_a_stretch, c[1], c[2]};
+  }
 
   /// @param low, high corners of all positions   @param reach of a list
-  static Grid over(const Vec3& low, const Vec3& high, double reach, const PeriodicBox& box, std::size_t particles) {
+  static Grid over(const Vec3& low, const Vec3& high, double reach, const PeriodicBox& box,
+                   std::size_t particles) {
     Grid g;
     // A particle far away must not ask for a mountain of empty cells: then all become wider.
     const double most_cells = 16.0 * static_cast<double>(particles) + 1024.0;
@@ -57,7 +62,8 @@ struct Neighbours::Grid {
     }
   }
 
-  /// Keeps the cells of a whole scene that its part between these corners touches: never more than the whole has.
+  /// Keeps the cells of a whole scene that its part between these corners touches: never more than the whole
+  /// has.
   void keep(const Vec3& low, const Vec3& high, const PeriodicBox& box) {
     for (std::size_t a = 0; a < 3; ++a) {
       if (box.periodic[a]) continue;
@@ -70,9 +76,11 @@ struct Neighbours::Grid {
   struct Axis {
     double origin, cells_a_length;
     int skipped, least, most;
-    /// Numbers of the cells that [low, high] touches. They are cut off before they become whole: what is not below zero does so
-    /// without a call.
-    [[nodiscard]] std::array<int, 2> touched(double low, double high) const { return {cell_of(low), cell_of(high)}; }
+    /// Numbers of the cells that [low, high] touches. They are cut off before they become whole: what is not
+    /// below zero does so without a call.
+    [[nodiscard]] std::array<int, 2> touched(double low, double high) const {
+      return {cell_of(low), cell_of(high)};
+    }
 
    private:
     [[nodiscard]] int cell_of(double x) const {
@@ -81,7 +89,8 @@ struct Neighbours::Grid {
     }
   };
   [[nodiscard]] Axis axis(std::size_t a, bool periodic) const {
-    return {origin[a], 1.0 / width[a], skipped[a], periodic ? -count[a] : 0, periodic ? 2 * count[a] - 1 : count[a] - 1};
+    return {origin[a], 1.0 / width[a], skipped[a], periodic ? -count[a] : 0,
+            periodic ? 2 * count[a] - 1 : count[a] - 1};
   }
   [[nodiscard]] int image(std::size_t a, int cell) const { return cell < 0 ? -1 : cell >= count[a] ? 1 : 0; }
   /// Distance of an interval to a cell along an axis; 0 where they touch.
@@ -110,13 +119,15 @@ struct Neighbours::Grid {
   }
 
  private:
-  [[gnu::always_inline]] void add_row(const std::array<int, 2>& xs, int y, int z, std::vector<CandidateRange>& ranges) const {
+  [[gnu::always_inline]] void add_row(const std::array<int, 2>& xs, int y, int z,
+                                      std::vector<CandidateRange>& ranges) const {
     const int iy = image(1, y), iz = image(2, z);
     const std::uint32_t* const row = first.data() + index({0, y - iy * count[1], z - iz * count[2]});
     for (int ix = image(0, xs[0]); ix <= image(0, xs[1]); ++ix) {
       const int from = std::max(xs[0] - ix * count[0], 0), to = std::min(xs[1] - ix * count[0], count[0] - 1);
       if (row[from] != row[to + 1])
-        ranges.push_back({row[from], row[to + 1], Entry::box_itself + static_cast<std::uint32_t>(ix + 3 * iy + 9 * iz)});
+        ranges.push_back(
+            {row[from], row[to + 1], Entry::box_itself + static_cast<std::uint32_t>(ix + 3 * iy + 9 * iz)});
     }
   }
 };

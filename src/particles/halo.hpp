@@ -23,34 +23,34 @@ struct WholeScene {
   OwnPairs own;
 };
 
-/// The other processes, as seen by a simulation that holds a part of its scene (decision 021). Its rows are its own particles,
-/// then copies of particles of other processes within reach of them. A change of a particle by itself is made by every process
-/// that has it, with the same bits. Sums over pairs are complete at the owner only, which sends them to the copies. All
-/// processes make every call, in the same order.
+/// The other processes, as seen by a simulation that holds a part of its scene (decision 021). Its rows are
+/// its own particles, then copies of particles of other processes within reach of them. A change of a
+/// particle by itself is made by every process that has it, with the same bits. Sums over pairs are complete
+/// at the owner only, which sends them to the copies. All processes make every call, in the same order.
 class Halo {
  public:
   virtual ~Halo() = default;
-  /// On entry each process holds the same whole scene, ordered by particle number. It keeps its part, as migrate() leaves it. The
-  /// scene may have more particles than before.
-  /// @param places positions by particle number, used to split the scene as it was at the last lists [m]; empty: the present
-  /// positions
-  /// @param cost cost of each particle in one step, by number, any unit. If given, the parts are recut so that each has the same
-  /// cost. Empty: the parts of space stay
+  /// On entry each process holds the same whole scene, ordered by particle number. It keeps its part, as
+  /// migrate() leaves it. The scene may have more particles than before.
+  /// @param places positions by particle number, used to split the scene as it was at the last lists [m];
+  /// empty: the present positions
+  /// @param cost cost of each particle in one step, by number, any unit. If given, the parts are recut so
+  /// that each has the same cost. Empty: the parts of space stay
   virtual void share_out(Particles&, Bonds&, OwnPairs&, const PeriodicBox&, std::span<const Vec3> places,
                          std::span<const double> cost) = 0;
-  /// Gives each process the lists of the particles that it has, own ones and copies. On entry they are those of the whole, by
-  /// number.
+  /// Gives each process the lists of the particles that it has, own ones and copies. On entry they are those
+  /// of the whole, by number.
   virtual void share_lists(Bonds&, OwnPairs&) = 0;
-  /// The scene that is shared out next is another state: where its particles are, and what they hang on, has nothing to do with
-  /// the last.
+  /// The scene that is shared out next is another state: where its particles are, and what they hang on, has
+  /// nothing to do with the last.
   virtual void begin_anew() {}
   /// The whole scene, for each process, as share_out() takes it again. Parts stay as they are.
   [[nodiscard]] virtual WholeScene gather(const Particles&, const Bonds&, const OwnPairs&) = 0;
-  /// Particles go to the process that owns their part of space, and each process gets copies of particles within reach of its
-  /// own. Ids are renumbered 0..size()-1, own particles first. Every column, bond and own pair goes with its particle
-  /// (moving_lists.hpp). The bond partners of own particles are always among the copies, at any distance. Nobody may change lists
-  /// of a shared scene. Each particle is here once, at the position that its owner has. Across a periodic boundary it is seen as
-  /// in a run of one process.
+  /// Particles go to the process that owns their part of space, and each process gets copies of particles
+  /// within reach of its own. Ids are renumbered 0..size()-1, own particles first. Every column, bond and own
+  /// pair goes with its particle (moving_lists.hpp). The bond partners of own particles are always among the
+  /// copies, at any distance. Nobody may change lists of a shared scene. Each particle is here once, at the
+  /// position that its owner has. Across a periodic boundary it is seen as in a run of one process.
   /// @param cost cost of each own particle, by id, as in share_out()
   virtual void migrate(Particles&, Bonds&, OwnPairs&, const PeriodicBox&, std::span<const double> cost) = 0;
   /// Number of each particle here, by id, among the particles of all processes.
@@ -68,8 +68,10 @@ class Halo {
   virtual void add(std::span<double> numbers) = 0;
   /// Numbers of all processes, one process after the other, for each of them.
   [[nodiscard]] virtual std::vector<double> all_of(const std::vector<double>& own) = 0;
-  /// Numbers for each process, of which there are processes(). @return those that each has for this one, by process
-  [[nodiscard]] virtual std::vector<std::vector<double>> exchange(const std::vector<std::vector<double>>& to) = 0;
+  /// Numbers for each process, of which there are processes(). @return those that each has for this one, by
+  /// process
+  [[nodiscard]] virtual std::vector<std::vector<double>> exchange(
+      const std::vector<std::vector<double>>& to) = 0;
   [[nodiscard]] virtual std::size_t processes() const = 0;
   [[nodiscard]] virtual std::size_t process() const = 0;  ///< this one, from 0
   /// Up to so many bodies are kept by every process; of more each has an owner (decision 044).
@@ -80,9 +82,11 @@ class Halo {
   [[nodiscard]] virtual bool is_first() const = 0;
 };
 
-/// Start of each record of `width` numbers, in ascending order of the first numbers. A sum in this order has the bits of one
-/// process, however particles are shared out. Records of equal first numbers stay in their order.
-[[nodiscard]] inline std::vector<const double*> records_in_order(const std::vector<double>& all, std::size_t width) {
+/// Start of each record of `width` numbers, in ascending order of the first numbers. A sum in this order has
+/// the bits of one process, however particles are shared out. Records of equal first numbers stay in their
+/// order.
+[[nodiscard]] inline std::vector<const double*> records_in_order(const std::vector<double>& all,
+                                                                 std::size_t width) {
   std::vector<const double*> order;
   for (std::size_t k = 0; k < all.size(); k += width) order.push_back(&all[k]);
   std::ranges::stable_sort(order, {}, [](const double* one) { return *one; });

@@ -15,12 +15,14 @@ namespace {
 
 constexpr std::size_t of_counts = 2, of_bond = 8, of_own = 2;  ///< numbers
 
-/// The ids here of a particle, by its number: an own particle before its copies. There is one copy for each image that is near.
+/// The ids here of a particle, by its number: an own particle before its copies. There is one copy for each
+/// image that is near.
 class Ids {
   using Pair = std::pair<int, std::uint32_t>;
 
  public:
-  explicit Ids(const std::vector<int>& number) : first_(std::bit_ceil(2 * number.size() + 1), {none_here, none}) {
+  explicit Ids(const std::vector<int>& number)
+      : first_(std::bit_ceil(2 * number.size() + 1), {none_here, none}) {
     for (std::uint32_t id = 0; id < number.size(); ++id) {
       Pair& place = first_[place_of(number[id])];
       if (place.first == none_here) place = {number[id], id};
@@ -32,13 +34,15 @@ class Ids {
     const auto from = std::ranges::lower_bound(ids_, number, {}, &Pair::first);
     return {from, std::ranges::upper_bound(from, ids_.end(), number, {}, &Pair::first)};
   }
-  /// The one that has the bonds: places are told apart by the nearest image, so that any image will do. none where it is not here
+  /// The one that has the bonds: places are told apart by the nearest image, so that any image will do. none
+  /// where it is not here
   [[nodiscard]] std::uint32_t first(int number) const { return first_[place_of(number)].second; }
   static constexpr std::uint32_t none = ~std::uint32_t{0};
 
  private:
   static constexpr int none_here = -1;
-  /// Where a number stands in the table, or would: the first such place or free one from a place that its bits choose.
+  /// Where a number stands in the table, or would: the first such place or free one from a place that its
+  /// bits choose.
   [[nodiscard]] std::size_t place_of(int number) const {
     const std::size_t last = first_.size() - 1;
     std::size_t at = (static_cast<std::uint32_t>(number) * std::size_t{2654435761U} >> 7) & last;
@@ -64,7 +68,8 @@ Bond bond_from(const double* n, std::uint32_t other) {
 int partner_in(const double* n) { return static_cast<int>(n[0] - of_twin * std::floor(n[0] / of_twin)); }
 
 [[noreturn]] void refuse_lost(int number, int partner) {
-  throw InputError("particle " + std::to_string(number) + " of the scene has a bond with particle " + std::to_string(partner) +
+  throw InputError("particle " + std::to_string(number) + " of the scene has a bond with particle " +
+                   std::to_string(partner) +
                    ", which is not among the copies of its process: their bond is longer than copies reach");
 }
 
@@ -119,8 +124,8 @@ std::vector<double> lists_as_numbers(const Bonds& bonds, const OwnPairs& own, st
   std::vector<double> numbers{static_cast<double>(b.size()), static_cast<double>(o.size())};
   numbers.reserve(of_counts + b.size() * of_bond + o.size() * of_own);
   for (const Bond& one : b)
-    numbers.insert(numbers.end(), {one.other + of_twin * one.twin, one.x.x, one.x.y, one.x.z, one.gradient.x, one.gradient.y,
-                                   one.gradient.z, one.weight});
+    numbers.insert(numbers.end(), {one.other + of_twin * one.twin, one.x.x, one.x.y, one.x.z, one.gradient.x,
+                                   one.gradient.y, one.gradient.z, one.weight});
   for (const OwnPair& one : o) numbers.insert(numbers.end(), {static_cast<double>(one.other), one.weight});
   return numbers;
 }
@@ -151,7 +156,8 @@ void take_lists(const Share& share, Bonds& bonds, OwnPairs& own) {
   set_twins_of_copies(bonds, share.owned);
 }
 
-double longest_bond(const Particles& particles, const Bonds& bonds, std::size_t owned, const PeriodicBox& box) {
+double longest_bond(const Particles& particles, const Bonds& bonds, std::size_t owned,
+                    const PeriodicBox& box) {
   double most = 0.0;
   for (std::size_t id = 0; id < owned; ++id) {
     const auto list = bonds.of(id);

@@ -27,26 +27,31 @@ struct PeriodicBox {
   [[nodiscard]] bool any() const noexcept { return periodic[0] || periodic[1] || periodic[2]; }
 };
 
-/// Clusters of up to `lanes` consecutive rows. Each has one list of the rows that are near to any of its members. A pass works on
-/// a cluster as one vector of particles.
+/// Clusters of up to `lanes` consecutive rows. Each has one list of the rows that are near to any of its
+/// members. A pass works on a cluster as one vector of particles.
 struct Clusters {
   int lanes = 1;
   std::vector<std::uint32_t> first;    ///< first row of each cluster, and one past the last row
   std::vector<std::size_t> start;      ///< first entry of each cluster, and one past the last
   std::vector<std::uint32_t> entries;  ///< row and image, as in Entry
-  std::vector<std::uint8_t> near;      ///< of each entry: bit l where it is near to member l; a particle is not near to itself
-  std::vector<std::uint8_t> own;       ///< of each entry: bit l where it is an own pair of member l; empty where there is none
-  /// One bit for each entry: whether it is within the support of a member now, not only near to it. Each cluster begins a word,
-  /// at within_start(). The last finding pass sets them for the present places, as densities are. Empty where no pass has set
-  /// them.
+  /// Of each entry: bit l where it is near to member l; a particle is not near to itself
+  std::vector<std::uint8_t> near;
+  /// Of each entry: bit l where it is an own pair of member l; empty where there is none
+  std::vector<std::uint8_t> own;
+  /// One bit for each entry: whether it is within the support of a member now, not only near to it. Each
+  /// cluster begins a word, at within_start(). The last finding pass sets them for the present places, as
+  /// densities are. Empty where no pass has set them.
   std::vector<std::uint64_t> within;
-  /// One bit for each entry, as in `within`: whether it acts on a member at all. Found anew with each list; empty where all may.
+  /// One bit for each entry, as in `within`: whether it acts on a member at all. Found anew with each list;
+  /// empty where all may.
   std::vector<std::uint64_t> acting;
   std::vector<std::uint32_t> listed,  ///< clusters with a list, ascending
       unlisted,                       ///< without, since all they meet is fixed as they are
-      on_demand;  ///< of sleeping rows in reach of moving ones, after all others: see Neighbours::list_sleeping()
-  /// All clusters in the order in which passes visit them: strip by strip along y, so that what one layer of cells has read is
-  /// still in the cache for the next. Empty where there are few: as they are numbered. No sum depends on it.
+      /// Of sleeping rows in reach of moving ones, after all others: see Neighbours::list_sleeping()
+      on_demand;
+  /// All clusters in the order in which passes visit them: strip by strip along y, so that what one layer of
+  /// cells has read is still in the cache for the next. Empty where there are few: as they are numbered. No
+  /// sum depends on it.
   std::vector<std::uint32_t> visits;
   [[nodiscard]] std::size_t size() const noexcept { return first.empty() ? 0 : first.size() - 1; }
   /// The cluster that a row is a member of.
@@ -98,8 +103,12 @@ class RowEntries {
   };
   RowEntries(const Clusters& list, std::size_t row)
       : list_(&list), cluster_(list.of(row)), lane_(static_cast<unsigned>(row - list.first[cluster_])) {}
-  [[nodiscard]] iterator begin() const { return {list_, list_->start[cluster_], list_->start[cluster_ + 1], lane_}; }
-  [[nodiscard]] iterator end() const { return {list_, list_->start[cluster_ + 1], list_->start[cluster_ + 1], lane_}; }
+  [[nodiscard]] iterator begin() const {
+    return {list_, list_->start[cluster_], list_->start[cluster_ + 1], lane_};
+  }
+  [[nodiscard]] iterator end() const {
+    return {list_, list_->start[cluster_ + 1], list_->start[cluster_ + 1], lane_};
+  }
 
  private:
   const Clusters* list_;
@@ -109,13 +118,17 @@ class RowEntries {
 
 /// Particles that can sleep: see Particles.
 struct Resting {
-  std::vector<char> bodies;  ///< of each solid body, 1 where its members stay where they are; empty: nothing sleeps
-  double around =
-      0.0;  ///< distance within which they are awake around those that something can reach; where less, the reach of a list [m]
-  std::span<const char> unread{};  ///< of each id, 1 where no step reads of a fixed particle but its place; empty: it reads all
+  /// Of each solid body, 1 where its members stay where they are; empty: nothing sleeps
+  std::vector<char> bodies;
+  /// Distance within which they are awake around those that something can reach; where less, the reach of a
+  /// list [m]
+  double around = 0.0;
+  /// Of each id, 1 where no step reads of a fixed particle but its place; empty: it reads all
+  std::span<const char> unread{};
 };
 
-/// Facts about the whole scene that the lists of a part need, so that each has the order that it has in the whole.
+/// Facts about the whole scene that the lists of a part need, so that each has the order that it has in the
+/// whole.
 struct Whole {
   Vec3 low, high;             ///< corners of all places that are listed [m]
   std::size_t particles = 0;  ///< of the whole
@@ -123,34 +136,39 @@ struct Whole {
   std::size_t own = 0;        ///< ids below it are no copies
 };
 
-/// Full directed lists: every i has all its j within support + skin, ordered by (cell, id) at the last rebuild. A sum over them
-/// has the same bits for any number of threads and any earlier order of particles. Periodic images count each; a particle may be
-/// its own neighbour through a periodic boundary.
+/// Full directed lists: every i has all its j within support + skin, ordered by (cell, id) at the last
+/// rebuild. A sum over them has the same bits for any number of threads and any earlier order of particles.
+/// Periodic images count each; a particle may be its own neighbour through a periodic boundary.
 class Neighbours {
  public:
   /// @param support radius beyond which pairs do nothing [m]
   /// @param skin kept around it, so that lists last; 0 for particles that never move [m]
-  /// @param lanes particles of a cluster: the lists of each row are the same, and in the same order, whatever it is
+  /// @param lanes particles of a cluster: the lists of each row are the same, and in the same order, whatever
+  /// it is
   /// @throws InputError when a periodic direction is narrower than support + skin, or there is no such width
   Neighbours(double support, double skin, const PeriodicBox& box, int threads, int lanes = 1);
 
   /// Sorts the particles and lists them anew when one has moved by more than skin/2 since the last time.
   /// @throws Diverged when a position is not finite
-  /// @param resting asked where lists are made. Sleeping particles are left out of the lists. An awake particle that can meet
-  /// only fixed ones has no list. Members of fixed bodies must not have moved since the rebuild before the last. The first lists
-  /// are whole: of all particles
+  /// @param resting asked where lists are made. Sleeping particles are left out of the lists. An awake
+  /// particle that can meet only fixed ones has no list. Members of fixed bodies must not have moved since
+  /// the rebuild before the last. The first lists are whole: of all particles
   /// @return whether the rows have a new order
   bool update(Particles&, double time, const std::function<Resting()>& resting = {});
-  /// Lists the particles anew from the positions of an earlier rebuild, as a restart must to continue the same bits.
+  /// Lists the particles anew from the positions of an earlier rebuild, as a restart must to continue the
+  /// same bits.
   /// @param build_positions by row of `particles`, as build_positions() gave them
   /// @param rebuilds as counted until then
   void rebuild_from(Particles&, std::span<const Vec3> build_positions, double time, long rebuilds = 1);
 
-  /// Lists like these of another set of particles in another box: none are made yet, and rebuilds are counted on.
+  /// Lists like these of another set of particles in another box: none are made yet, and rebuilds are counted
+  /// on.
   [[nodiscard]] Neighbours anew(const PeriodicBox&) const;
-  /// From the next rebuild on a row has its list, with the same entries, where somebody asks for it by of(). Passes have none.
+  /// From the next rebuild on a row has its list, with the same entries, where somebody asks for it by of().
+  /// Passes have none.
   void list_when_asked() { asked_.emplace(); }
-  /// The same lists of the same rows, which count as made anew: what was found of lists of that number until now is outdated.
+  /// The same lists of the same rows, which count as made anew: what was found of lists of that number until
+  /// now is outdated.
   void renew(long rebuilds) {
     rebuilds_ = rebuilds;
     marked_ = false;
@@ -175,11 +193,13 @@ class Neighbours {
   /// Whether that was done since the last rebuild.
   [[nodiscard]] bool marked() const noexcept { return marked_; }
 
-  /// Also lists sleeping particles that something moving can reach, as the last lists would have. This is done once for each set
-  /// of lists, and only when values other than their places are asked for.
+  /// Also lists sleeping particles that something moving can reach, as the last lists would have. This is
+  /// done once for each set of lists, and only when values other than their places are asked for.
   void list_sleeping();
   /// Rows 0..rows()-1 are members of clusters, with a list or without.
-  [[nodiscard]] std::size_t rows() const noexcept { return clusters_.size() > 0 ? clusters_.first.back() : 0; }
+  [[nodiscard]] std::size_t rows() const noexcept {
+    return clusters_.size() > 0 ? clusters_.first.back() : 0;
+  }
 
   /// Makes room for Clusters::within, to be filled by a pass.
   void make_room_within();
@@ -194,16 +214,18 @@ class Neighbours {
   [[nodiscard]] std::size_t entries() const noexcept {
     return pairs_;
   }  ///< directed pairs within support + skin, of sleeping rows too
-  /// Lists of all particles that were made until now. Quantities that follow from fixed places alone are to be found anew with
-  /// them.
+  /// Lists of all particles that were made until now. Quantities that follow from fixed places alone are to
+  /// be found anew with them.
   [[nodiscard]] long whole_lists() const noexcept { return whole_lists_; }
-  /// Whether the present lists are whole, and the next need not be. Quantities that follow from fixed places alone are found now.
+  /// Whether the present lists are whole, and the next need not be. Quantities that follow from fixed places
+  /// alone are found now.
   [[nodiscard]] bool may_rest_next() const noexcept { return still_.known && listed_all_; }
-  /// Fixed particles by id, in an order that stays; the place of one in it. Only where may_rest_next() or something sleeps.
+  /// Fixed particles by id, in an order that stays; the place of one in it. Only where may_rest_next() or
+  /// something sleeps.
   [[nodiscard]] std::span<const std::uint32_t> still_ids() const noexcept { return still_.id; }
   [[nodiscard]] std::uint32_t still_place(std::size_t id) const noexcept { return still_.place[id]; }
-  /// First moving row of each block of 1024 rows, and one past the last. Blocks are counted over all rows in order of (cell, id),
-  /// as if fixed rows lay among the moving ones.
+  /// First moving row of each block of 1024 rows, and one past the last. Blocks are counted over all rows in
+  /// order of (cell, id), as if fixed rows lay among the moving ones.
   [[nodiscard]] std::span<const std::uint32_t> row_blocks() const noexcept { return row_blocks_; }
   /// All rows in order of (cell, id).
   [[nodiscard]] std::vector<std::uint32_t> rows_in_order(const Particles&) const;
@@ -239,8 +261,11 @@ class Neighbours {
   void order_visits();
   void bring_own_first(const Particles&, std::vector<std::uint32_t>& order);
   /// The row of each place in order of (cell, id); empty: rows are in that order.
-  [[nodiscard]] const std::vector<std::uint32_t>& rows_of_places() const { return order_.empty() ? own_first_ : order_; }
-  std::size_t list(const Places&, const Grid&, std::span<const std::uint32_t> clusters, std::vector<std::size_t>& listed_by);
+  [[nodiscard]] const std::vector<std::uint32_t>& rows_of_places() const {
+    return order_.empty() ? own_first_ : order_;
+  }
+  std::size_t list(const Places&, const Grid&, std::span<const std::uint32_t> clusters,
+                   std::vector<std::size_t>& listed_by);
   /// What a scan of one cluster finds, with room for all that it looks at.
   struct Found {
     std::vector<std::uint32_t> entries;
@@ -251,7 +276,8 @@ class Neighbours {
   void keep_to_ask(const Particles&, Grid&&);
   [[nodiscard]] const Clusters& asked_list(std::size_t row) const;
   std::optional<std::size_t> list_into(const Places&, const Grid&, std::span<const std::uint32_t> clusters,
-                                       std::span<const std::size_t> rooms, std::vector<std::size_t>& listed_by);
+                                       std::span<const std::size_t> rooms,
+                                       std::vector<std::size_t>& listed_by);
 
   double support_, skin_;
   PeriodicBox box_;
@@ -264,19 +290,23 @@ class Neighbours {
       listed_by_;  ///< entries of each thread at the last build, of moving, fixed and sleeping rows
   std::size_t pairs_ = 0;
   std::vector<Vec3> built_;
-  /// Fixed particles in stretches along x, each as long as the reach of a list and one cell wide: they are woken by stretches.
+  /// Fixed particles in stretches along x, each as long as the reach of a list and one cell wide: they are
+  /// woken by stretches.
   struct Still {
     bool known = false;
     std::vector<char> bodies;
-    Vec3 origin, width, low, high;              ///< of the grid's cells; corners of the particles [m]
-    std::array<int, 3> count{};                 ///< stretches
-    std::vector<std::uint32_t> first, id;       ///< first of each stretch, and one past the last; ids in order of (cell, id)
-    std::vector<std::uint32_t> place, in_cell;  ///< of each id its place in `id`; first of each cell, and one past the last
-    std::size_t pairs = 0;                      ///< directed ones among fixed particles
+    Vec3 origin, width, low, high;  ///< of the grid's cells; corners of the particles [m]
+    std::array<int, 3> count{};     ///< stretches
+    /// First of each stretch, and one past the last; ids in order of (cell, id)
+    std::vector<std::uint32_t> first, id;
+    /// Of each id its place in `id`; first of each cell, and one past the last
+    std::vector<std::uint32_t> place, in_cell;
+    std::size_t pairs = 0;  ///< directed ones among fixed particles
     [[nodiscard]] std::size_t index(const std::array<int, 3>& s) const {
       return static_cast<std::size_t>(s[0]) +
              static_cast<std::size_t>(count[0]) *
-                 (static_cast<std::size_t>(s[1]) + static_cast<std::size_t>(count[1]) * static_cast<std::size_t>(s[2]));
+                 (static_cast<std::size_t>(s[1]) +
+                  static_cast<std::size_t>(count[1]) * static_cast<std::size_t>(s[2]));
     }
   } still_;
   /// Lists that are made where somebody asks for them.
@@ -289,10 +319,13 @@ class Neighbours {
   std::optional<Asked> asked_;
   /// Rows that lists name, in order of (cell, id); empty: all rows are in that order.
   std::vector<std::uint32_t> order_;
-  std::vector<std::uint32_t> own_first_;     ///< the row of each place, where there are copies; else empty
-  std::vector<char> meets_;                  ///< of each of these rows, whether something that moves can reach it; empty as above
-  std::shared_ptr<const Grid> grid_;         ///< of the last lists, by places in order_; null where that is empty
-  std::vector<std::uint32_t> moving_first_;  ///< first moving row of each cell, and one past the last; empty as above
+  std::vector<std::uint32_t> own_first_;  ///< the row of each place, where there are copies; else empty
+  /// Of each of these rows, whether something that moves can reach it; empty as above
+  std::vector<char> meets_;
+  /// Of the last lists, by places in order_; null where that is empty
+  std::shared_ptr<const Grid> grid_;
+  /// First moving row of each cell, and one past the last; empty as above
+  std::vector<std::uint32_t> moving_first_;
   std::vector<std::uint32_t> row_blocks_;
   std::vector<std::uint32_t> strips_;  ///< of each cluster
   std::size_t moving_ = 0;             ///< rows of the last lists, as Particles::moving()

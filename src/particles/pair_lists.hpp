@@ -11,9 +11,9 @@
 
 namespace tripoint {
 
-/// Lists of partners by particle id, each a stretch of one pool, in order of insertion. The cost of a change depends on its size
-/// alone. Neither threads nor the order of rows affect the order of a list. Changes are counted, so that data made from the lists
-/// can follow.
+/// Lists of partners by particle id, each a stretch of one pool, in order of insertion. The cost of a change
+/// depends on its size alone. Neither threads nor the order of rows affect the order of a list. Changes are
+/// counted, so that data made from the lists can follow.
 template <class Pair>
 class PairLists {
  public:
@@ -109,20 +109,24 @@ struct Bond {
   std::uint32_t other = 0;  ///< id of j
   std::uint32_t twin = 0;   ///< place of i in the list of j
   Vec3 x;                   ///< reference vector x_ij = r_i - r_j, in the reference frame of i [m]
-  Vec3 gradient;  ///< grad W(x_ij) of the kernel (17) with respect to i, or what stands for it at a surface (model 8.7) [1/m4]
+  /// Grad W(x_ij) of the kernel (17) with respect to i, or what stands for it at a surface (model 8.7) [1/m4]
+  Vec3 gradient;
   double weight = 0.0;  ///< W(x_ij) of the kernel (17) [1/m3]
 };
 static_assert(sizeof(Bond) == 64);
 using Bonds = PairLists<Bond>;
 
-/// Two members of one body, which exert no pressure and no viscous force on each other (model 8.2). Lists are in order of id.
+/// Two members of one body, which exert no pressure and no viscous force on each other (model 8.2). Lists are
+/// in order of id.
 struct OwnPair {
   std::uint32_t other = 0;
-  double weight = 0.0;  ///< W(x_ij) of the density kernel where the pair began, a constant part of both number densities [1/m3]
+  /// W(x_ij) of the density kernel where the pair began, a constant part of both number densities [1/m3]
+  double weight = 0.0;
 };
 using OwnPairs = PairLists<OwnPair>;
 
-/// Adds the bond of i and j to both lists. @param of_i,of_j x, gradient and weight of each; other and twin are set here
+/// Adds the bond of i and j to both lists. @param of_i,of_j x, gradient and weight of each; other and twin
+/// are set here
 inline void connect(Bonds& bonds, std::uint32_t i, std::uint32_t j, Bond of_i, Bond of_j) {
   of_i.other = j;
   of_j.other = i;
@@ -133,7 +137,8 @@ inline void connect(Bonds& bonds, std::uint32_t i, std::uint32_t j, Bond of_i, B
 }
 
 /// Ends the bonds of i that `ends` picks, in both lists; the others keep their order.
-/// @param ends called as ends(const Bond&)  @return ids of the partners that were lost, in the order of the list
+/// @param ends called as ends(const Bond&)  @return ids of the partners that were lost, in the order of the
+/// list
 template <class Ends>
 std::vector<std::uint32_t> disconnect(Bonds& bonds, std::uint32_t i, Ends ends) {
   std::vector<std::uint32_t> lost;
@@ -143,7 +148,8 @@ std::vector<std::uint32_t> disconnect(Bonds& bonds, std::uint32_t i, Ends ends) 
       if (!gone(b)) kept.push_back(b);
     bonds.replace(id, kept);
     const auto list = bonds.of(id);
-    for (std::size_t n = 0; n < list.size(); ++n) bonds.edit(list[n].other)[list[n].twin].twin = static_cast<std::uint32_t>(n);
+    for (std::size_t n = 0; n < list.size(); ++n)
+      bonds.edit(list[n].other)[list[n].twin].twin = static_cast<std::uint32_t>(n);
   };
   for (const Bond& b : bonds.of(i))
     if (ends(b)) lost.push_back(b.other);

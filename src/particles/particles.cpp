@@ -5,7 +5,10 @@
 
 namespace tripoint {
 
-Particles::Particles(std::size_t count, std::span<const FieldInfo> fields) : Columns(count, Per::particle, fields) { number(); }
+Particles::Particles(std::size_t count, std::span<const FieldInfo> fields)
+    : Columns(count, Per::particle, fields) {
+  number();
+}
 
 void Particles::number() {
   row_of_id_.resize(size());
@@ -35,8 +38,8 @@ void Particles::permute(std::span<const std::uint32_t> order, int threads) {
   moving_ = awake_ = size();
 }
 
-void Particles::rearrange(std::span<const std::uint32_t> from, std::span<const std::uint32_t> to, std::size_t moving,
-                          std::size_t awake, int threads) {
+void Particles::rearrange(std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
+                          std::size_t moving, std::size_t awake, int threads) {
   Columns::rearrange(from, to, threads);
   const auto id = (*this)[field::id];
   for (const std::uint32_t row : to) row_of_id_[static_cast<std::size_t>(id[row])] = row;
@@ -45,7 +48,8 @@ void Particles::rearrange(std::span<const std::uint32_t> from, std::span<const s
 }
 
 std::vector<FieldInfo> common_fields(bool periodic) {
-  std::vector<FieldInfo> list{field::id, field::body, field::phase, field::material, field::source, field::mass};
+  std::vector<FieldInfo> list{field::id,       field::body,   field::phase,
+                              field::material, field::source, field::mass};
   const auto add = [&](const auto& columns) {
     for (const auto* f : columns) list.emplace_back(*f);
   };

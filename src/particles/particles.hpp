@@ -11,17 +11,18 @@
 
 namespace tripoint {
 
-/// The particles of a scene. Rows are in order of the neighbour grid's cells; ids are for ever. Where members of fixed bodies can
-/// sleep, moving particles have the first rows, then come the fixed particles that a step reads. Each of the two has that order.
-/// Sleeping particles come last: nothing that moves can reach them, or they act by their place alone (decisions 020 and 028).
+/// The particles of a scene. Rows are in order of the neighbour grid's cells; ids are for ever. Where members
+/// of fixed bodies can sleep, moving particles have the first rows, then come the fixed particles that a step
+/// reads. Each of the two has that order. Sleeping particles come last: nothing that moves can reach them, or
+/// they act by their place alone (decisions 020 and 028).
 class Particles : public Columns {
  public:
   Particles() = default;
   /// Particles 0..count-1, in rows of the same number. @param fields every field that the scene's effects own
   Particles(std::size_t count, std::span<const FieldInfo> fields);
 
-  /// Other particles in the same columns. Particle n has the values of the old row rows[n]; where that is `none` the caller must
-  /// write them. number() is to be called then.
+  /// Other particles in the same columns. Particle n has the values of the old row rows[n]; where that is
+  /// `none` the caller must write them. number() is to be called then.
   void make_of(std::span<const std::uint32_t> rows) { gather(rows); }
   /// Row n is of particle n from now on.
   void number();
@@ -29,7 +30,8 @@ class Particles : public Columns {
   /// Row of the particle with this id, which is in 0..size()-1.
   [[nodiscard]] std::size_t row(std::size_t id) const noexcept { return row_of_id_[id]; }
   [[nodiscard]] std::span<const std::uint32_t> rows() const noexcept { return row_of_id_; }  ///< of each id
-  /// Rows 0..moving()-1 are of particles that are not known to be fixed: forces, velocities and places are theirs.
+  /// Rows 0..moving()-1 are of particles that are not known to be fixed: forces, velocities and places are
+  /// theirs.
   [[nodiscard]] std::size_t moving() const noexcept { return moving_; }
   /// Rows 0..awake()-1 take part in a step.
   [[nodiscard]] std::size_t awake() const noexcept { return awake_; }
@@ -38,8 +40,8 @@ class Particles : public Columns {
   /// Reorders every column and the map from ids to rows.
   void permute(std::span<const std::uint32_t> order, int threads = 1);
   /// Columns::rearrange() with the map from ids to rows. @param moving,awake as they return from now on
-  void rearrange(std::span<const std::uint32_t> from, std::span<const std::uint32_t> to, std::size_t moving, std::size_t awake,
-                 int threads);
+  void rearrange(std::span<const std::uint32_t> from, std::span<const std::uint32_t> to, std::size_t moving,
+                 std::size_t awake, int threads);
 
   [[nodiscard]] Vec3 position(std::size_t row) const { return vector(row, field::position); }
   [[nodiscard]] Vec3 velocity(std::size_t row) const { return vector(row, field::velocity); }
@@ -77,7 +79,9 @@ template <class T, class P>
 template <class T>
 struct SymmetricColumns {
   std::span<T> xx, yy, zz, yz, xz, xy;
-  [[nodiscard]] Symmetric at(std::size_t row) const { return {xx[row], yy[row], zz[row], yz[row], xz[row], xy[row]}; }
+  [[nodiscard]] Symmetric at(std::size_t row) const {
+    return {xx[row], yy[row], zz[row], yz[row], xz[row], xy[row]};
+  }
   void set(std::size_t row, const Symmetric& e) const {
     xx[row] = e.xx;
     yy[row] = e.yy;
@@ -89,15 +93,16 @@ struct SymmetricColumns {
 };
 template <class P>
 [[nodiscard]] auto symmetric_columns(P& p, const SymmetricField& f) {
-  return SymmetricColumns<std::conditional_t<std::is_const_v<P>, const double, double>>{p[f.xx], p[f.yy], p[f.zz],
-                                                                                        p[f.yz], p[f.xz], p[f.xy]};
+  return SymmetricColumns<std::conditional_t<std::is_const_v<P>, const double, double>>{
+      p[f.xx], p[f.yy], p[f.zz], p[f.yz], p[f.xz], p[f.xy]};
 }
 /// Nine columns of a matrix field, row by row.
 template <class T>
 struct MatrixColumns {
   std::array<std::span<T>, 9> a;
   [[nodiscard]] Matrix3 at(std::size_t row) const {
-    return {a[0][row], a[1][row], a[2][row], a[3][row], a[4][row], a[5][row], a[6][row], a[7][row], a[8][row]};
+    return {a[0][row], a[1][row], a[2][row], a[3][row], a[4][row],
+            a[5][row], a[6][row], a[7][row], a[8][row]};
   }
   void set(std::size_t row, const Matrix3& m) const {
     const std::array<double, 9> parts{m.xx, m.xy, m.xz, m.yx, m.yy, m.yz, m.zx, m.zy, m.zz};

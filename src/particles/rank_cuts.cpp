@@ -8,8 +8,8 @@
 namespace tripoint {
 namespace {
 
-constexpr double margin =
-    1e-4;  ///< by which LAMMPS keeps a shrunk box around its particles, in widths of the box that it was made with
+/// By which LAMMPS keeps a shrunk box around its particles, in widths of the box that it was made with
+constexpr double margin = 1e-4;
 
 double cost_of(const ToShareOut& what, std::size_t i) { return ParticleCost::at_start(what.is_idle(i)); }
 
@@ -31,7 +31,8 @@ struct CostAlong {
 
 CostAlong cost_along(const ToShareOut& what, std::size_t a) {
   std::vector<std::pair<double, double>> sorted;
-  for (std::size_t i = 0; i < what.places.size(); ++i) sorted.emplace_back(what.places[i][a], cost_of(what, i));
+  for (std::size_t i = 0; i < what.places.size(); ++i)
+    sorted.emplace_back(what.places[i][a], cost_of(what, i));
   std::sort(sorted.begin(), sorted.end());
   CostAlong along{{}, {0.0}};
   for (const auto& [place, cost] : sorted) {
@@ -41,20 +42,21 @@ CostAlong cost_along(const ToShareOut& what, std::size_t a) {
   return along;
 }
 
-/// Planes of one direction, each bisected between the nearest places known to have too little and too much below, until all costs
-/// are within `delta`.
+/// Planes of one direction, each bisected between the nearest places known to have too little and too much
+/// below, until all costs are within `delta`.
 void shift(const CostAlong& cost, std::vector<double>& at, double delta) {
   const std::size_t n = at.size() - 1;
   const auto below = [&](double place) {
-    return cost
-        .before[static_cast<std::size_t>(std::lower_bound(cost.place.begin(), cost.place.end(), place) - cost.place.begin())];
+    return cost.before[static_cast<std::size_t>(
+        std::lower_bound(cost.place.begin(), cost.place.end(), place) - cost.place.begin())];
   };
   std::vector<double> low(n + 1, at.front()), high(n + 1, at.back());
   for (int round = 0; round < most_bisections; ++round) {
     bool close = true;
     for (std::size_t i = 1; i < n; ++i) {
       for (std::size_t j = 1; j < n; ++j) {
-        const double target = cost.before.back() * static_cast<double>(i) / static_cast<double>(n), sum = below(at[j]);
+        const double target = cost.before.back() * static_cast<double>(i) / static_cast<double>(n),
+                     sum = below(at[j]);
         if (sum <= target) low[i] = std::max(low[i], at[j]);
         if (sum >= target) high[i] = std::min(high[i], at[j]);
         if (i == j && std::abs(sum - target) > delta * target) close = false;
@@ -88,7 +90,8 @@ Cuts cuts_of(const ToShareOut& what, const std::array<int, 3>& grid) {
   cuts.grid = grid;
   for (std::size_t a = 0; a < 3; ++a) {
     const bool wraps = what.periodic[a] && cuts.cut(a);
-    const double room = margin * (high[a] - low[a] + 2.0 * what.spacing);  // the engine makes it one spacing wider on each side
+    // The engine makes it one spacing wider on each side
+    const double room = margin * (high[a] - low[a] + 2.0 * what.spacing);
     const double from = wraps ? what.min[a] : low[a] - room, to = wraps ? what.max[a] : high[a] + room;
     for (int n = 0; n <= grid[a]; ++n) cuts.at[a].push_back(from + (to - from) * n / grid[a]);
   }

@@ -6,9 +6,11 @@
 namespace tripoint {
 namespace {
 
-constexpr std::size_t most_looked_at = 200'000;  ///< particles; of more, so many are looked at, evenly spread over the list
+/// particles; of more, so many are looked at, evenly spread over the list
+constexpr std::size_t most_looked_at = 200'000;
 
-/// Particles of a rank below which they say nothing of how evenly space is shared out: cuts lie between their layers.
+/// Particles of a rank below which they say nothing of how evenly space is shared out: cuts lie between their
+/// layers.
 constexpr std::size_t least_of_a_rank = 64;
 constexpr std::size_t most_tried = 16;  ///< grids, those with the least area of cuts
 
@@ -53,7 +55,8 @@ double most_copies(const ToShareOut& what, const Cuts& cuts, std::size_t a) {
     return at[static_cast<std::size_t>(n - turn * parts)] + turn * width;
   };
   const auto add = [&](int n) {
-    if (what.periodic[a] || (n >= 0 && n < parts)) copies[static_cast<std::size_t>((n % parts + parts) % parts)] += 1.0;
+    if (what.periodic[a] || (n >= 0 && n < parts))
+      copies[static_cast<std::size_t>((n % parts + parts) % parts)] += 1.0;
   };
   for (const Vec3& r : what.places) {
     const auto part = static_cast<int>(std::upper_bound(at.begin() + 1, at.end() - 1, r[a]) - at.begin()) - 1;
@@ -74,7 +77,8 @@ double predicted_step(const ToShareOut& what, const Cuts& cuts) {
   }
   double copies = 0.0;
   for (std::size_t a = 0; a < 3; ++a) copies += most_copies(what, cuts, a) * cuts.grid[a] / ranks;
-  return ParticleCost::at_start(true) * std::ranges::max(rows) + ParticleCost::of_row() * copies + std::ranges::max(entries);
+  return ParticleCost::at_start(true) * std::ranges::max(rows) + ParticleCost::of_row() * copies +
+         std::ranges::max(entries);
 }
 
 }  // namespace
@@ -96,7 +100,8 @@ std::array<int, 3> rank_grid(int ranks, const ToShareOut& what) {
     some.places = places;
     some.idle = idle;
   }
-  return *std::ranges::min_element(grids, {}, [&](const auto& grid) { return predicted_step(some, cuts_of(some, grid)); });
+  return *std::ranges::min_element(
+      grids, {}, [&](const auto& grid) { return predicted_step(some, cuts_of(some, grid)); });
 }
 
 }  // namespace tripoint

@@ -10,7 +10,8 @@
 
 namespace tripoint {
 
-/// Places [from, to) in the order of (cell, id), seen in one image of the box: where neighbours of a cluster may be.
+/// Places [from, to) in the order of (cell, id), seen in one image of the box: where neighbours of a cluster
+/// may be.
 struct CandidateRange {
   std::uint32_t from, to, image;
 };
@@ -25,7 +26,8 @@ struct Scan {
   const Vec3* shift;           ///< of each image [m]
   double reach2;               ///< [m2]
   const std::uint32_t* order;  ///< the row of each place; null: rows are in this order
-  std::size_t twice_from;      ///< row from which on a pair counts for two, where there is an order: see Neighbours
+  /// Row from which on a pair counts for two, where there is an order: see Neighbours
+  std::size_t twice_from;
 };
 
 /// How many entries a scan wrote, and how many pairs they are.
@@ -33,8 +35,8 @@ struct Scanned {
   std::size_t entries, pairs;
 };
 
-/// Writes the candidates within reach of any member, in the order of the ranges, as in Entry. `near` gets the bits of the members
-/// that each one is near to. Both must have room for all candidates.
+/// Writes the candidates within reach of any member, in the order of the ranges, as in Entry. `near` gets the
+/// bits of the members that each one is near to. Both must have room for all candidates.
 using ScanFunction = Scanned (*)(const Scan&, std::uint32_t* rows, std::uint8_t* near);
 
 template <int L, class ForUnit, bool ordered>
@@ -63,7 +65,8 @@ Scanned scan_places(const Scan& s, std::uint32_t* rows, std::uint8_t* near) {
         }
         const V r2 = dx * dx + dy * dy + dz * dz;
         unsigned bits = bits_of<L>(r2 < reach2) & members;
-        if (box_itself && j - first < static_cast<std::uint32_t>(L)) bits &= ~(1u << (j - first));  // a member itself
+        // a member itself
+        if (box_itself && j - first < static_cast<std::uint32_t>(L)) bits &= ~(1u << (j - first));
         rows[n] = image | j;
         near[n] = static_cast<std::uint8_t>(bits);
         n += bits != 0;
@@ -80,7 +83,8 @@ Scanned scan_places(const Scan& s, std::uint32_t* rows, std::uint8_t* near) {
 
 template <int L, class ForUnit>
 [[gnu::flatten]] Scanned scan(const Scan& s, std::uint32_t* rows, std::uint8_t* near) {
-  return s.order ? scan_places<L, ForUnit, true>(s, rows, near) : scan_places<L, ForUnit, false>(s, rows, near);
+  return s.order ? scan_places<L, ForUnit, true>(s, rows, near)
+                 : scan_places<L, ForUnit, false>(s, rows, near);
 }
 
 /// The scan that is compiled for a vector unit, for clusters as wide as it.

@@ -19,7 +19,8 @@ double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
 CameraAxes::CameraAxes(const Vec3& up, const View& view) noexcept {
   const Vec3 y{0.0, 1.0, 0.0}, z{0.0, 0.0, 1.0};
-  const Vec3 ahead = std::abs(up.y) < 0.9 ? unit_vector(y - dot(y, up) * up) : unit_vector(z - dot(z, up) * up);
+  const Vec3 ahead =
+      std::abs(up.y) < 0.9 ? unit_vector(y - dot(y, up) * up) : unit_vector(z - dot(z, up) * up);
   const Vec3 aside = cross(ahead, up);
   const double az = radians(view.azimuth), el = radians(std::clamp(view.elevation, -89.0, 89.0));
   forward = std::cos(el) * (std::cos(az) * ahead - std::sin(az) * aside) - std::sin(el) * up;
@@ -27,11 +28,15 @@ CameraAxes::CameraAxes(const Vec3& up, const View& view) noexcept {
   upward = cross(right, forward);
 }
 
-// The eye is at (X, Y, E), a place at (x, y) across and f along the axes. The place is in the picture where |x - X| <= w (f - E)
-// and |y - Y| <= h (f - E). Each side of the picture bounds one sum of two coordinates, and the greatest of all places counts.
+// The eye is at (X, Y, E), a place at (x, y) across and f along the axes. The place is in the picture where
+// |x - X| <= w (f - E) and |y - Y| <= h (f - E). Each side of the picture bounds one sum of two coordinates,
+// and the greatest of all places counts.
 Camera::Camera(std::span<const Vec3> places, double room, const CameraAxes& axes, double aspect) noexcept
-    : axes_(axes), half_width_(aspect * std::tan(radians(half_angle))), half_height_(std::tan(radians(half_angle))) {
-  const double w = half_width_ / margin, h = half_height_ / margin, most = std::numeric_limits<double>::infinity();
+    : axes_(axes),
+      half_width_(aspect * std::tan(radians(half_angle))),
+      half_height_(std::tan(radians(half_angle))) {
+  const double w = half_width_ / margin, h = half_height_ / margin,
+               most = std::numeric_limits<double>::infinity();
   double right = -most, left = -most, top = -most, bottom = -most;
   for (const Vec3& r : places) {
     const double x = dot(r, axes.right), y = dot(r, axes.upward), f = dot(r, axes.forward) - room;

@@ -14,7 +14,8 @@ using Colour = Vec3;
 /// One byte of a screen. @param light linear, 0 to 1; values beyond are cut off
 [[nodiscard]] std::uint8_t screen_byte(double light) noexcept;
 
-/// From dark blue (cold) by red and orange to pale yellow (hot), ever lighter, as in the paper's figures. @param share 0 to 1
+/// From dark blue (cold) by red and orange to pale yellow (hot), ever lighter, as in the paper's figures.
+/// @param share 0 to 1
 [[nodiscard]] Colour temperature_colour(double share) noexcept;
 /// Liquid blue, elastic green, rigid orange; a liquid of another material than the first is light blue.
 [[nodiscard]] Colour phase_colour(int phase, bool other_liquid) noexcept;

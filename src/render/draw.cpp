@@ -49,7 +49,8 @@ class Tracer {
         what = n + 2;
       }
     }
-    if (const auto t = ground_distance(ray); t && !(hit && hit->distance < *t)) return {on_ground(ray, *t), 1};
+    if (const auto t = ground_distance(ray); t && !(hit && hit->distance < *t))
+      return {on_ground(ray, *t), 1};
     if (!hit) return {sky(ray), 0};
     return {lit(ray, *hit), what};
   }
@@ -82,7 +83,8 @@ class Tracer {
   [[nodiscard]] Colour on_ground(const Ray& ray, double t) {
     const Vec3 place = ray.at(t), off = place - middle_;
     const double away = norm(off - dot(off, display_->up) * display_->up) / display_->size;
-    const double part = std::clamp((away - fade_from) / (fade_to - fade_from), 0.0, 1.0), fade = part * part * (3.0 - 2.0 * part);
+    const double part = std::clamp((away - fade_from) / (fade_to - fade_from), 0.0, 1.0),
+                 fade = part * part * (3.0 - 2.0 * part);
     if (fade >= 1.0) return sky(ray);
     const double light = ambient + (in_shadow(place, display_->up) ? 0.0 : sun * dot(display_->up, sun_));
     return (1.0 - fade) * (light * ground_colour) + fade * sky(ray);
@@ -92,7 +94,8 @@ class Tracer {
     const double facing = dot(normal, sun_);
     const double soft = ambient * (0.75 + 0.25 * dot(normal, display_->up));
     if (facing <= 0.0 || in_shadow(ray.at(hit.distance), normal)) return soft * hit.colour;
-    const double glint = shine * std::pow(std::max(dot(unit_vector(sun_ - ray.along), normal), 0.0), sharpness);
+    const double glint =
+        shine * std::pow(std::max(dot(unit_vector(sun_ - ray.along), normal), 0.0), sharpness);
     return (soft + sun * facing) * hit.colour + Colour{glint, glint, glint};
   }
 
@@ -117,8 +120,8 @@ Ray ray_of(const Camera& camera, const Frame& f, double x, double y) {
 }
 
 bool unlike(const Seen& a, const Seen& b) {
-  return a.what != b.what || std::abs(a.light.x - b.light.x) > differs || std::abs(a.light.y - b.light.y) > differs ||
-         std::abs(a.light.z - b.light.z) > differs;
+  return a.what != b.what || std::abs(a.light.x - b.light.x) > differs ||
+         std::abs(a.light.y - b.light.y) > differs || std::abs(a.light.z - b.light.z) > differs;
 }
 
 bool differs_from_neighbours(const Frame& f, int x, int y) {
@@ -132,7 +135,8 @@ Colour finer_light(Tracer& tracer, const Camera& camera, const Frame& f, int x, 
   for (int i = 0; i < finer; ++i)
     for (int j = 0; j < finer; ++j) {
       const bool middle = i == finer / 2 && j == finer / 2;
-      sum += middle ? f.at(x, y).light : tracer.seen(ray_of(camera, f, x + (i + 0.5) / finer, y + (j + 0.5) / finer)).light;
+      sum += middle ? f.at(x, y).light
+                    : tracer.seen(ray_of(camera, f, x + (i + 0.5) / finer, y + (j + 0.5) / finer)).light;
     }
   return sum / static_cast<double>(finer * finer);
 }
@@ -149,7 +153,8 @@ void each_pixel(const Frame& f, int number, Work&& work) {
 }  // namespace
 
 Picture draw(const Display& display, const Camera& camera, int width, int height, int threads) {
-  Frame f{width, height, std::vector<Seen>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height))};
+  Frame f{width, height,
+          std::vector<Seen>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height))};
   Picture picture(width, height);
   const int tiles = ((width + tile - 1) / tile) * ((height + tile - 1) / tile);
 #pragma omp parallel num_threads(threads)
@@ -164,7 +169,8 @@ Picture draw(const Display& display, const Camera& camera, int width, int height
 #pragma omp for schedule(dynamic)
     for (int n = 0; n < tiles; ++n)
       each_pixel(f, n, [&](int x, int y) {
-        const Colour light = differs_from_neighbours(f, x, y) ? finer_light(tracer, camera, f, x, y) : f.at(x, y).light;
+        const Colour light =
+            differs_from_neighbours(f, x, y) ? finer_light(tracer, camera, f, x, y) : f.at(x, y).light;
         std::uint8_t* pixel = picture.at(x, y);
         for (std::size_t c = 0; c < 3; ++c) pixel[c] = screen_byte(light[c]);
       });

@@ -18,8 +18,9 @@ struct Display {
   double size = 1.0;             ///< of what is shown: the ground fades away some of it off [m]
 };
 
-/// Casts a ray through each pixel, and eight more where it differs from its neighbours. Light comes from the upper left, behind
-/// the viewer, with hard shadows. It uses no random numbers: the picture does not depend on the number of threads.
+/// Casts a ray through each pixel, and eight more where it differs from its neighbours. Light comes from the
+/// upper left, behind the viewer, with hard shadows. It uses no random numbers: the picture does not depend
+/// on the number of threads.
 [[nodiscard]] Picture draw(const Display&, const Camera&, int width, int height, int threads);
 
 }  // namespace tripoint

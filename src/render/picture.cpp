@@ -41,7 +41,8 @@ Picture shrunk(const Picture& from, int width) {
 Picture contact_sheet(std::span<const Picture> pictures, int columns) {
   constexpr int gap = 4;  // pixels
   if (pictures.empty()) return {};
-  const int count = static_cast<int>(pictures.size()), across = std::min(columns, count), down = (count + across - 1) / across;
+  const int count = static_cast<int>(pictures.size()), across = std::min(columns, count),
+            down = (count + across - 1) / across;
   const int w = pictures.front().width, h = pictures.front().height;
   Picture sheet(across * (w + gap) - gap, down * (h + gap) - gap);
   std::ranges::fill(sheet.rgb, std::uint8_t{255});

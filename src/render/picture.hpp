@@ -12,12 +12,17 @@ struct Picture {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgb;
   Picture() = default;
-  Picture(int w, int h) : width(w), height(h), rgb(std::size_t{3} * static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
+  Picture(int w, int h)
+      : width(w),
+        height(h),
+        rgb(std::size_t{3} * static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
   [[nodiscard]] std::uint8_t* at(int x, int y) {
-    return &rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x))];
+    return &rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                     static_cast<std::size_t>(x))];
   }
   [[nodiscard]] const std::uint8_t* at(int x, int y) const {
-    return &rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x))];
+    return &rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                     static_cast<std::size_t>(x))];
   }
 };
 

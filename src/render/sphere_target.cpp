@@ -12,8 +12,8 @@ class SphereGaze : public Gaze {
   SphereGaze(const PointCells& cells, double radius, std::span<const Colour> colours)
       : cells_(&cells), cache_(cells, radius), radius_(radius), colours_(colours) {}
 
-  /// Goes from cell to cell. A cell's list holds every ball that reaches into it, so that a ball met within the cell is the
-  /// first.
+  /// Goes from cell to cell. A cell's list holds every ball that reaches into it, so that a ball met within
+  /// the cell is the first.
   std::optional<Hit> first(const Ray& ray, const Span& span) override {
     const Span box = inside(ray, grown(cells_->box(), radius_));
     const double nudge = 1e-6 * radius_;
@@ -51,6 +51,8 @@ class SphereGaze : public Gaze {
 
 }  // namespace
 
-std::unique_ptr<Gaze> SphereTarget::gaze() const { return std::make_unique<SphereGaze>(cells_, radius_, colours_); }
+std::unique_ptr<Gaze> SphereTarget::gaze() const {
+  return std::make_unique<SphereGaze>(cells_, radius_, colours_);
+}
 
 }  // namespace tripoint

@@ -11,11 +11,12 @@ constexpr double shortest = 0.03, longest = 0.25, share = 0.7;  // of a step: ov
 constexpr double tolerance = 1e-5;                              // over ir
 
 /// Root between an outer place (phi > 0) and an inner one, by the Illinois form of false position.
-double closed_in(SurfaceProbe& probe, const Ray& ray, double outer, double inner, double phi_outer, double phi_inner, double ir) {
+double closed_in(SurfaceProbe& probe, const Ray& ray, double outer, double inner, double phi_outer,
+                 double phi_inner, double ir) {
   int kept = 0;
   for (int step = 0; step < 40 && inner - outer > tolerance * ir; ++step) {
-    const double t = std::clamp(outer + (inner - outer) * phi_outer / (phi_outer - phi_inner), outer + 0.02 * (inner - outer),
-                                inner - 0.02 * (inner - outer));
+    const double t = std::clamp(outer + (inner - outer) * phi_outer / (phi_outer - phi_inner),
+                                outer + 0.02 * (inner - outer), inner - 0.02 * (inner - outer));
     const double phi = probe.phi(ray.at(t));
     if (std::abs(phi) < tolerance * ir) return t;
     if (phi > 0.0) {
@@ -51,7 +52,9 @@ class SurfaceGaze : public Gaze {
     if (weights > 0.0) hit.colour *= 1.0 / weights;
     return hit;
   }
-  bool blocks(const Ray& ray, const Span& span) override { return first_crossing(*surface_, probe_, ray, span).has_value(); }
+  bool blocks(const Ray& ray, const Span& span) override {
+    return first_crossing(*surface_, probe_, ray, span).has_value();
+  }
 
  private:
   const ImplicitSurface* surface_;
@@ -61,9 +64,12 @@ class SurfaceGaze : public Gaze {
 
 }  // namespace
 
-std::unique_ptr<Gaze> SurfaceTarget::gaze() const { return std::make_unique<SurfaceGaze>(surface_, colours_); }
+std::unique_ptr<Gaze> SurfaceTarget::gaze() const {
+  return std::make_unique<SurfaceGaze>(surface_, colours_);
+}
 
-std::optional<double> first_crossing(const ImplicitSurface& surface, SurfaceProbe& probe, const Ray& ray, const Span& span) {
+std::optional<double> first_crossing(const ImplicitSurface& surface, SurfaceProbe& probe, const Ray& ray,
+                                     const Span& span) {
   const double ir = surface.options().influence_radius;
   const Span box = inside(ray, surface.bounds());
   const double end = std::min(span.to, box.to);
@@ -77,7 +83,8 @@ std::optional<double> first_crossing(const ImplicitSurface& surface, SurfaceProb
     } else if (const SurfaceValue v = probe.value(r); !v.near) {
       const auto nearest = probe.nearest(r);
       const double far =
-          nearest ? *nearest - ir : inside(ray, surface.cells().box_of(surface.cells().cell_of(r))).to - t + 1e-6 * ir;
+          nearest ? *nearest - ir
+                  : inside(ray, surface.cells().box_of(surface.cells().cell_of(r))).to - t + 1e-6 * ir;
       step = std::max(step, far);
     } else {
       phi = v.phi;

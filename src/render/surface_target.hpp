@@ -22,10 +22,12 @@ class SurfaceTarget : public Target {
   std::vector<Colour> colours_;
 };
 
-/// Distance at which a ray first passes from outside of phi = 0 to inside, to 1e-5 ir; nothing where it does not.
-/// Cells leave out places that no particle is near. Elsewhere a step is at most 0.7 of phi, and at least 0.03 ir. A surface
-/// towards which phi falls no faster than by 1/0.7 a metre is then not stepped through. Matter thinner than 0.03 ir along the ray
-/// may be missed. The crossing is then closed in by false position between the two places of unlike sign.
-[[nodiscard]] std::optional<double> first_crossing(const ImplicitSurface&, SurfaceProbe&, const Ray&, const Span&);
+/// Distance at which a ray first passes from outside of phi = 0 to inside, to 1e-5 ir; nothing where it does
+/// not. Cells leave out places that no particle is near. Elsewhere a step is at most 0.7 of phi, and at least
+/// 0.03 ir. A surface towards which phi falls no faster than by 1/0.7 a metre is then not stepped through.
+/// Matter thinner than 0.03 ir along the ray may be missed. The crossing is then closed in by false position
+/// between the two places of unlike sign.
+[[nodiscard]] std::optional<double> first_crossing(const ImplicitSurface&, SurfaceProbe&, const Ray&,
+                                                   const Span&);
 
 }  // namespace tripoint

@@ -15,7 +15,8 @@ struct Hit {
   Colour colour;
 };
 
-/// One thread's way of asking a target: may keep its last result. Its answers do not depend on earlier questions.
+/// One thread's way of asking a target: may keep its last result. Its answers do not depend on earlier
+/// questions.
 class Gaze {
  public:
   virtual ~Gaze() = default;

@@ -43,24 +43,32 @@ class Checker : NameChecks {
       turning(b);
       const Material& m = scene_.material(b.material);
       if (b.temperature && !(m.conductivity && m.heat_capacity))
-        throw InputError(place(fmt::format("body.{}.temperature", b.name), b.place),
-                         fmt::format("body \"{}\" has a temperature, but its material \"{}\" lacks {}: give it (a conductivity "
-                                     "of 1e-12 W/m/K insulates), or remove the temperatures of all bodies",
-                                     b.name, m.name, m.conductivity ? "heat_capacity" : "conductivity"));
+        throw InputError(
+            place(fmt::format("body.{}.temperature", b.name), b.place),
+            fmt::format(
+                "body \"{}\" has a temperature, but its material \"{}\" lacks {}: give it (a conductivity "
+                "of 1e-12 W/m/K insulates), or remove the temperatures of all bodies",
+                b.name, m.name, m.conductivity ? "heat_capacity" : "conductivity"));
       if (!b.keyframes.empty() && b.keyframes.back().time < scene_.end_time && b.keyframes.size() < 2)
-        throw InputError(place(fmt::format("body.{}.keyframes", b.name), b.place),
-                         fmt::format("body \"{}\" has one keyframe: give at least two, the motion lies between them", b.name));
+        throw InputError(
+            place(fmt::format("body.{}.keyframes", b.name), b.place),
+            fmt::format("body \"{}\" has one keyframe: give at least two, the motion lies between them",
+                        b.name));
     }
   }
 
   /// A kernel of its own form belongs to each term: alone it cannot differ from that of the scene.
   void kernel() const {
     const auto given = scene_.modes_given.find(term::kernel);
-    if (given == scene_.modes_given.end() || std::ranges::all_of(runs_, [&](Mode m) { return m == given->second; })) return;
+    if (given == scene_.modes_given.end() ||
+        std::ranges::all_of(runs_, [&](Mode m) { return m == given->second; }))
+      return;
     throw InputError(place("scene.modes.kernel", {}),
-                     "each term brings the kernel of its form (as printed poly6, spiky and the viscosity kernel, corrected "
+                     "each term brings the kernel of its form (as printed poly6, spiky and the viscosity "
+                     "kernel, corrected "
                      "Wendland C2), and none can have another: "
-                     "set the terms that are meant (modes.density, modes.pressure, modes.viscosity, modes.heat), or remove it");
+                     "set the terms that are meant (modes.density, modes.pressure, modes.viscosity, "
+                     "modes.heat), or remove it");
   }
 
   /// (21) and Fig. 5 as printed know one conductivity and one heat capacity of a material.
@@ -73,16 +81,20 @@ class Checker : NameChecks {
         const Material& m = scene_.material(b.material);
         if (!b.temperature || !has_two_phases(m)) continue;
         throw InputError(
-            place(fmt::format("material.{}.{}", m.name, m.solid_conductivity ? "solid_conductivity" : "solid_heat_capacity"),
+            place(fmt::format("material.{}.{}", m.name,
+                              m.solid_conductivity ? "solid_conductivity" : "solid_heat_capacity"),
                   b.place),
-            fmt::format("heat as printed knows one conductivity and one heat capacity of a material, and \"{}\" has others when "
-                        "solid: write modes.{} = \"corrected\", or leave solid_conductivity and solid_heat_capacity out",
+            fmt::format("heat as printed knows one conductivity and one heat capacity of a material, and "
+                        "\"{}\" has others when "
+                        "solid: write modes.{} = \"corrected\", or leave solid_conductivity and "
+                        "solid_heat_capacity out",
                         m.name, one.name));
       }
     }
   }
 
-  /// A rigid body that reaches across a periodic direction may only turn about that axis: else it would not meet itself.
+  /// A rigid body that reaches across a periodic direction may only turn about that axis: else it would not
+  /// meet itself.
   void turning(const Body& b) const {
     if (b.phase != Phase::rigid || b.angular_velocity == Vec3{}) return;
     for (std::size_t a = 0; a < 3; ++a) {
@@ -91,9 +103,11 @@ class Checker : NameChecks {
       Vec3 other = b.angular_velocity;
       other[a] = 0.0;
       if (across && norm(other) > 0.0)
-        throw InputError(place(fmt::format("body.{}.angular_velocity", b.name), b.place),
-                         fmt::format("body \"{}\" reaches across the periodic direction {}: it can turn only about that axis",
-                                     b.name, "xyz"[a]));
+        throw InputError(
+            place(fmt::format("body.{}.angular_velocity", b.name), b.place),
+            fmt::format(
+                "body \"{}\" reaches across the periodic direction {}: it can turn only about that axis",
+                b.name, "xyz"[a]));
     }
   }
 
@@ -112,32 +126,35 @@ class Checker : NameChecks {
       for (const auto& name : e.bodies) known_body(scene_, name, path + ".bodies", e.place, born);
       acts_on(e, path);
       if (e.time > scene_.end_time)
-        throw InputError(place(path + ".time", e.place),
-                         fmt::format("the event at {} s never comes: end_time is {} s; remove it, or lengthen the run", e.time,
-                                     scene_.end_time));
+        throw InputError(
+            place(path + ".time", e.place),
+            fmt::format("the event at {} s never comes: end_time is {} s; remove it, or lengthen the run",
+                        e.time, scene_.end_time));
       for (const auto& [name, time] : absorbed)
         if (e.time > time && holds(e.bodies, name))
-          throw InputError(
-              place(path + ".bodies", e.place),
-              fmt::format("body \"{}\" is absorbed by a merge at {} s and is no more at {} s: name the body that absorbs it",
-                          printable(name), time, e.time));
+          throw InputError(place(path + ".bodies", e.place),
+                           fmt::format("body \"{}\" is absorbed by a merge at {} s and is no more at {} s: "
+                                       "name the body that absorbs it",
+                                       printable(name), time, e.time));
       if (e.kind == Event::Kind::heat &&
-          std::none_of(scene_.bodies.begin(), scene_.bodies.end(), [](const Body& b) { return b.temperature.has_value(); }))
+          std::none_of(scene_.bodies.begin(), scene_.bodies.end(),
+                       [](const Body& b) { return b.temperature.has_value(); }))
         throw InputError(place(path + ".temperature", e.place),
                          "no body has a temperature, so that nothing can be heated: give every body one");
       if (e.kind == Event::Kind::split && holds(names_of(scene_.bodies), e.name))
         throw InputError(
             place(path + ".name", e.place),
-            fmt::format("a body \"{}\" exists already: give the part that splits off another name", printable(e.name)));
+            fmt::format("a body \"{}\" exists already: give the part that splits off another name",
+                        printable(e.name)));
     }
     n = 0;
     for (const auto& f : scene_.inflows) {
       ++n;
       if (f.start >= scene_.end_time)
-        throw InputError(
-            place(fmt::format("inflow.{}.start", n), {}),
-            fmt::format("nothing flows in before end_time = {} s, since start = {} s: begin sooner, or remove the inflow",
-                        scene_.end_time, f.start));
+        throw InputError(place(fmt::format("inflow.{}.start", n), {}),
+                         fmt::format("nothing flows in before end_time = {} s, since start = {} s: begin "
+                                     "sooner, or remove the inflow",
+                                     scene_.end_time, f.start));
       if (!holds(names_of(scene_.materials), f.material))
         throw InputError(place(fmt::format("inflow.{}.material", n), {}),
                          fmt::format("no material is named \"{}\"{}", printable(f.material),
@@ -152,13 +169,14 @@ class Checker : NameChecks {
       const auto where = place(fmt::format("contact.{}.materials", n + 1), law.place);
       for (const auto& name : law.materials)
         if (!holds(names_of(scene_.materials), name))
-          throw InputError(
-              where, fmt::format("no material is named \"{}\"{}", printable(name), suggestion(name, names_of(scene_.materials))));
+          throw InputError(where, fmt::format("no material is named \"{}\"{}", printable(name),
+                                              suggestion(name, names_of(scene_.materials))));
       auto pair = law.materials;
       std::ranges::sort(pair);
       if (std::ranges::find(pairs, pair) != pairs.end())
-        throw InputError(where,
-                         fmt::format("\"{}\" and \"{}\" have a [[contact]] already: write one of a pair", pair[0], pair[1]));
+        throw InputError(
+            where, fmt::format("\"{}\" and \"{}\" have a [[contact]] already: write one of a pair", pair[0],
+                               pair[1]));
       pairs.push_back(std::move(pair));
     }
   }
@@ -176,9 +194,9 @@ class Checker : NameChecks {
       if (scene_.material(b.material).t_melt || std::ranges::any_of(scene_.events, [](const Event& e) {
             return e.kind == Event::Kind::merge || e.kind == Event::Kind::split;
           }))
-        throw InputError(
-            place(path, force.place),
-            "a force acts on a body that stays one: remove the events of merge and split, or t_melt of its material");
+        throw InputError(place(path, force.place),
+                         "a force acts on a body that stays one: remove the events of merge and split, or "
+                         "t_melt of its material");
     }
   }
 
@@ -193,7 +211,8 @@ class Checker : NameChecks {
         refuse("is liquid: only solids merge and split");
       if (e.kind == Event::Kind::release && b.phase == Phase::elastic && b.motion != Motion::free)
         refuse(
-            "is elastic, and moves as a whole as long as its motion is not free, also after a release: make it free, and hold it "
+            "is elastic, and moves as a whole as long as its motion is not free, also after a release: make "
+            "it free, and hold it "
             "by an event until then");
     }
   }

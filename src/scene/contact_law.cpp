@@ -7,7 +7,8 @@ namespace tripoint {
 namespace {
 
 bool can_meet(const Body& a, const Body& b) {
-  return a.phase != Phase::liquid && b.phase != Phase::liquid && (a.motion == Motion::free || b.motion == Motion::free);
+  return a.phase != Phase::liquid && b.phase != Phase::liquid &&
+         (a.motion == Motion::free || b.motion == Motion::free);
 }
 
 }  // namespace
@@ -29,7 +30,8 @@ CommonContact common_contact(const Scene& scene) {
       if (!can_meet(scene.bodies[i], scene.bodies[j])) continue;
       const ContactLaw* law = contact_law_of(scene, scene.bodies[i].material, scene.bodies[j].material);
       const CommonContact own{law ? law->friction : std::nullopt, law ? law->restitution : std::nullopt};
-      common.differs = common.differs || (!first && (own.friction != common.friction || own.restitution != common.restitution));
+      common.differs = common.differs ||
+                       (!first && (own.friction != common.friction || own.restitution != common.restitution));
       if (first) common = own;
       first = false;
     }

@@ -8,12 +8,15 @@
 namespace tripoint {
 
 /// The law of a pair of materials, in either order; null where no [[contact]] names it.
-[[nodiscard]] const ContactLaw* contact_law_of(const Scene&, std::string_view material, std::string_view other);
+[[nodiscard]] const ContactLaw* contact_law_of(const Scene&, std::string_view material,
+                                               std::string_view other);
 
-/// What all pairs of solids that can meet have in common: two bodies that do not move by forces never count as a pair.
+/// What all pairs of solids that can meet have in common: two bodies that do not move by forces never count
+/// as a pair.
 struct CommonContact {
   std::optional<double> friction, restitution;  ///< empty = no pair states it
-  bool differs = false;                         ///< some pair has another friction or restitution than another pair
+  /// Some pair has another friction or restitution than another pair
+  bool differs = false;
 };
 [[nodiscard]] CommonContact common_contact(const Scene&);
 

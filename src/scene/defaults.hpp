@@ -19,7 +19,8 @@ struct RunChoice {
   std::optional<std::uint64_t> seed;
 };
 
-/// The scene of one run: modes resolved for every term, support ratio by its default rule where the file gives none.
+/// The scene of one run: modes resolved for every term, support ratio by its default rule where the file
+/// gives none.
 [[nodiscard]] Scene scene_for(Scene, const RunChoice&);
 
 /// Stiffness k [m2/s2] of a scene whose materials give none, and its rule in words.
@@ -27,14 +28,15 @@ struct DefaultStiffness {
   double value = 0.0;
   std::string rule;
 };
-/// Liquids take k = (10 v)^2, v the greatest of initial and prescribed speeds and sqrt(2 |g| depth of the liquids). The speed of
-/// sound is then ten times the expected speed. Solids of which two can meet (meeting.hpp) take it from their speed of approach,
-/// the height of the scene, and the moduli of elastic bodies. Empty where a material gives one, nothing flows or can meet, or no
-/// speed is known.
+/// Liquids take k = (10 v)^2, v the greatest of initial and prescribed speeds and sqrt(2 |g| depth of the
+/// liquids). The speed of sound is then ten times the expected speed. Solids of which two can meet
+/// (meeting.hpp) take it from their speed of approach, the height of the scene, and the moduli of elastic
+/// bodies. Empty where a material gives one, nothing flows or can meet, or no speed is known.
 [[nodiscard]] std::optional<DefaultStiffness> default_stiffness(const Scene&);
 
-/// Distance within which a freezing particle joins where the scene does not say [spacings]. As in the paper: all that its bonds
-/// reach (h = 2.12 dx). Corrected: nearest and diagonal neighbours of the lattice, so that no bond bridges a molten layer.
+/// Distance within which a freezing particle joins where the scene does not say [spacings]. As in the paper:
+/// all that its bonds reach (h = 2.12 dx). Corrected: nearest and diagonal neighbours of the lattice, so that
+/// no bond bridges a molten layer.
 [[nodiscard]] double default_merge_distance(const Scene&);
 
 }  // namespace tripoint

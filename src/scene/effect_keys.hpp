@@ -6,11 +6,12 @@
 #include "scene/effect_rule.hpp"
 #include "scene/value_reader.hpp"
 
-/// The keys that effects bring, wherever a scene is read or written: the case file, and JSON in both directions.
+/// The keys that effects bring, wherever a scene is read or written: the case file, and JSON in both
+/// directions.
 namespace tripoint {
 
-/// Calls visit(row, value) for each key that effects have in this table and keep in an Owner, a Scene or a Material. Numbers that
-/// have no member of their own are a double of Owner::values.
+/// Calls visit(row, value) for each key that effects have in this table and keep in an Owner, a Scene or a
+/// Material. Numbers that have no member of their own are a double of Owner::values.
 template <class Owner, class Visit>
 void each_effect_key(Owner& owner, std::string_view table, Visit visit) {
   for (const EffectRule& rule : effect_rules()) {
@@ -22,7 +23,9 @@ void each_effect_key(Owner& owner, std::string_view table, Visit visit) {
           if constexpr (std::is_const_v<Owner>)
             visit(key.row, kept_number(owner.values, key.row));
           else
-            visit(key.row, owner.values.try_emplace(std::string(key.row.name), kept_number(owner.values, key.row)).first->second);
+            visit(key.row,
+                  owner.values.try_emplace(std::string(key.row.name), kept_number(owner.values, key.row))
+                      .first->second);
         } else if constexpr (requires { owner.*member; }) {
           visit(key.row, owner.*member);
         }

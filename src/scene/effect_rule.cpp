@@ -28,7 +28,8 @@ bool changes_phase(const Scene& s, const Body& b, const Material& m) {
 
 bool freezes(const Scene& s, const Inflow& f) {
   const Material& m = s.material(f.material);
-  return f.temperature && m.t_melt && m.conductivity && m.heat_capacity && temperatures_of(s).least < *m.t_solid;
+  return f.temperature && m.t_melt && m.conductivity && m.heat_capacity &&
+         temperatures_of(s).least < *m.t_solid;
 }
 
 bool is_elastic_when_frozen(const Scene& s, const Material& m) {
@@ -47,7 +48,9 @@ std::string names_where(const Scene& s, Test test) {
 
 }  // namespace
 
-std::string because(const std::string& who, std::string_view why) { return who.empty() ? "" : fmt::format("{}: {}", who, why); }
+std::string because(const std::string& who, std::string_view why) {
+  return who.empty() ? "" : fmt::format("{}: {}", who, why);
+}
 
 std::string bodies_where(const Scene& s, BodyTest test) {
   return names_where(s, [&](const Body& b, const Material& m) { return test(s, b, m); });
@@ -57,7 +60,9 @@ bool any_body(const Scene& s, BodyTest test) {
   return std::ranges::any_of(s.bodies, [&](const Body& b) { return test(s, b, s.material(b.material)); });
 }
 
-bool any_material(const Scene& s, bool (*test)(const Material&)) { return std::ranges::any_of(s.materials, test); }
+bool any_material(const Scene& s, bool (*test)(const Material&)) {
+  return std::ranges::any_of(s.materials, test);
+}
 
 std::string printed_among(const Scene& s, std::initializer_list<Term> terms) {
   for (const Term& one : terms)
@@ -67,36 +72,42 @@ std::string printed_among(const Scene& s, std::initializer_list<Term> terms) {
 
 bool moves(const Scene& s, const Body& b) {
   if (b.motion != Motion::fixed) return true;
-  return std::ranges::any_of(s.events,
-                             [](const Event& e) { return e.kind == Event::Kind::release || e.kind == Event::Kind::grip; });
+  return std::ranges::any_of(
+      s.events, [](const Event& e) { return e.kind == Event::Kind::release || e.kind == Event::Kind::grip; });
 }
 
 std::string who_changes_phase(const Scene& s) {
   std::string who = bodies_where(s, changes_phase);
-  if (who.empty() && std::ranges::any_of(s.inflows, [&](const Inflow& f) { return freezes(s, f); })) who = "an inflow";
+  if (who.empty() && std::ranges::any_of(s.inflows, [&](const Inflow& f) { return freezes(s, f); }))
+    who = "an inflow";
   return who;
 }
 
 std::string who_freezes_elastic(const Scene& s, bool (*limited)(const Material&)) {
-  std::string who = names_where(
-      s, [&](const Body& b, const Material& m) { return changes_phase(s, b, m) && is_elastic_when_frozen(s, m) && limited(m); });
+  std::string who = names_where(s, [&](const Body& b, const Material& m) {
+    return changes_phase(s, b, m) && is_elastic_when_frozen(s, m) && limited(m);
+  });
   const auto pours = [&](const Inflow& f) {
-    return freezes(s, f) && is_elastic_when_frozen(s, s.material(f.material)) && limited(s.material(f.material));
+    return freezes(s, f) && is_elastic_when_frozen(s, s.material(f.material)) &&
+           limited(s.material(f.material));
   };
   if (who.empty() && std::ranges::any_of(s.inflows, pours)) who = "an inflow";
   return who;
 }
 
-std::string limit_called_for(const Scene& s, bool (*limited)(const Material&), std::string_view limit, std::string_view can) {
-  const std::string who =
-      names_where(s, [&](const Body& b, const Material& m) { return b.phase == Phase::elastic && moves(s, b) && limited(m); });
+std::string limit_called_for(const Scene& s, bool (*limited)(const Material&), std::string_view limit,
+                             std::string_view can) {
+  const std::string who = names_where(s, [&](const Body& b, const Material& m) {
+    return b.phase == Phase::elastic && moves(s, b) && limited(m);
+  });
   if (!who.empty()) return because(who, fmt::format("elastic with {}: can {}", limit, can));
   return because(who_freezes_elastic(s, limited), fmt::format("what freezes can {}", can));
 }
 
 std::string limit_left_out(const Scene& s, bool (*limited)(const Material&), std::string_view limit) {
   if (!any_material(s, limited)) return fmt::format("no material has {}", limit);
-  const bool elastic = any_body(s, [](const Scene&, const Body& b, const Material&) { return b.phase == Phase::elastic; });
+  const bool elastic =
+      any_body(s, [](const Scene&, const Body& b, const Material&) { return b.phase == Phase::elastic; });
   return elastic ? "the bodies that have a limit are held in place, or not elastic" : "nothing is elastic";
 }
 
@@ -120,7 +131,8 @@ std::vector<LedgerEntry> ledger_entries() {
   std::vector<LedgerEntry> entries;
   for (const EffectRule& rule : effect_rules())
     for (const LedgerEntry& entry : rule.ledger_entries)
-      if (const auto known = std::ranges::find(entries, entry.name, &LedgerEntry::name); known == entries.end())
+      if (const auto known = std::ranges::find(entries, entry.name, &LedgerEntry::name);
+          known == entries.end())
         entries.push_back(entry);
       else if (known->holds.empty())
         known->holds = entry.holds;
@@ -153,8 +165,9 @@ bool calls_for(const Scene& s, std::string_view effect) {
 }
 
 bool calls_for(const Scene& s, bool EffectRule::*says) {
-  return std::ranges::any_of(
-      effect_rules(), [&](const EffectRule& rule) { return rule.*says && rule.called_for && !rule.called_for(s).empty(); });
+  return std::ranges::any_of(effect_rules(), [&](const EffectRule& rule) {
+    return rule.*says && rule.called_for && !rule.called_for(s).empty();
+  });
 }
 
 std::vector<CalledEffect> needed_effects(const Scene& s) {
@@ -162,7 +175,8 @@ std::vector<CalledEffect> needed_effects(const Scene& s) {
   for (const EffectRule& rule : effect_rules()) {
     const Called called(list);
     if (!rule.needed_for || called(rule.name)) continue;
-    if (const std::string why = rule.needed_for(s, called); !why.empty()) list.push_back({std::string(rule.name), why});
+    if (const std::string why = rule.needed_for(s, called); !why.empty())
+      list.push_back({std::string(rule.name), why});
   }
   return list;
 }

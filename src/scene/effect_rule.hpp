@@ -11,8 +11,8 @@
 #include "scene/scene.hpp"
 #include "tables/key_table.hpp"
 
-/// Facts about an effect for code that reads scenes and runs nothing. Each effect's rule stands in its folder, in rule.cpp; a
-/// build without the effect has its rule all the same.
+/// Facts about an effect for code that reads scenes and runs nothing. Each effect's rule stands in its
+/// folder, in rule.cpp; a build without the effect has its rule all the same.
 namespace tripoint {
 
 class TableReader;
@@ -40,18 +40,21 @@ class Called {
   const std::vector<CalledEffect>& list_;
 };
 
-/// A key of the case file that an effect brings: its row, and the member that keeps the value. Without a member it is a number of
-/// Scene::values or Material::values, by the key's name; where no reader made them, it has the row's fallback.
+/// A key of the case file that an effect brings: its row, and the member that keeps the value. Without a
+/// member it is a number of Scene::values or Material::values, by the key's name; where no reader made them,
+/// it has the row's fallback.
 struct EffectKey {
   /// The effect's settle_material() reads it.
   struct ByRule {};
   Key row;
-  std::variant<std::monostate, ByRule, double Scene::*, bool Scene::*, ViscosityForm Scene::*, double Material::*,
-               bool Material::*, std::optional<double> Material::*>
+  std::variant<std::monostate, ByRule, double Scene::*, bool Scene::*, ViscosityForm Scene::*,
+               double Material::*, bool Material::*, std::optional<double> Material::*>
       kept_in{};
-  /// Why a value in this scene changes nothing although the effect is on; "" = it acts. None: it acts wherever the effect is on.
+  /// Why a value in this scene changes nothing although the effect is on; "" = it acts. None: it acts
+  /// wherever the effect is on.
   std::string (*idle)(const Scene&) = nullptr;
-  bool limit = false;  ///< of [[material]]: matter beyond it yields or breaks; `tripoint check` tells where nothing ever can
+  /// Of [[material]]: matter beyond it yields or breaks; `tripoint check` tells where nothing ever can
+  bool limit = false;
 };
 
 /// A key of [scene] that stands with those of no effect (scene_records.hpp), and acts where its effect is on.
@@ -72,7 +75,8 @@ enum class TermKind { kernel, law, time };
 /// A form of a term: a word of the table [model] (model.hpp).
 struct ModelForm {
   std::string_view word, meaning;
-  /// Keys of [scene] that it sets, each with its value: a flag's 0 or 1, the place of a word among those of its key.
+  /// Keys of [scene] that it sets, each with its value: a flag's 0 or 1, the place of a word among those of
+  /// its key.
   std::vector<std::pair<std::string_view, double>> values{};
 };
 
@@ -83,7 +87,8 @@ struct DeclaredTerm {
   TermKind kind = TermKind::law;
   bool has_equation = true;  ///< that the paper prints: else no default waits for its printed form
   std::string_view name{};   ///< in [model], where the term's own is no noun
-  DeclaredTerm(const Term& t, std::vector<ModelForm> corrected = {{"corrected", "the corrected form"}}) noexcept
+  DeclaredTerm(const Term& t,
+               std::vector<ModelForm> corrected = {{"corrected", "the corrected form"}}) noexcept
       : term(t), forms(std::move(corrected)) {}
   DeclaredTerm(const Term& t, std::vector<ModelForm> corrected, TermKind k, bool printed = true) noexcept
       : term(t), forms(std::move(corrected)), kind(k), has_equation(printed) {}
@@ -109,13 +114,16 @@ struct LedgerEntry {
 
 struct EffectRule {
   std::string_view name;
-  /// The body or other item that calls for the effect, and why: "body a: elastic, and not held in place". "" = none does.
+  /// The body or other item that calls for the effect, and why: "body a: elastic, and not held in place". ""
+  /// = none does.
   std::string (*called_for)(const Scene&) = nullptr;
   /// The proof that it can never act, asked where nobody calls for it. Both empty: it only serves others.
   std::string (*left_out)(const Scene&) = nullptr;
-  /// The need that effects called for, or needed before this one, have of it; "" = none. Asked where nobody calls for it.
+  /// The need that effects called for, or needed before this one, have of it; "" = none. Asked where nobody
+  /// calls for it.
   std::string (*needed_for)(const Scene&, const Called&) = nullptr;
-  /// Terms with a printed form that act where the effect is on: a key of [model] and rows of `tripoint ablate` each.
+  /// Terms with a printed form that act where the effect is on: a key of [model] and rows of `tripoint
+  /// ablate` each.
   std::vector<DeclaredTerm> terms{};
   std::vector<Term> terms_shared{};    ///< of others that its forms read too
   std::vector<ModelChoice> choices{};  ///< terms that the paper does not have: the same as `terms`
@@ -123,17 +131,20 @@ struct EffectRule {
   std::vector<EffectKey> keys{};       ///< of [scene] and [[material]]
   std::vector<SceneKey> scene_keys{};
   std::vector<std::string_view> scene_keys_shared{};  ///< scene_keys of others that it reads too
-  /// Checks keys of a material against each other, once all are read: refuses impossible values, and sets those that a rule
-  /// gives.
+  /// Checks keys of a material against each other, once all are read: refuses impossible values, and sets
+  /// those that a rule gives.
   void (*settle_material)(TableReader&, Material&) = nullptr;
-  /// Keys of a material that fit no run of a case, asked where the effect is on in one. @param runs the scene in each mode
+  /// Keys of a material that fit no run of a case, asked where the effect is on in one. @param runs the scene
+  /// in each mode
   std::vector<WrongKey> (*wrong_keys)(const Material&, std::span<const Scene> runs) = nullptr;
   std::vector<LedgerEntry> ledger_entries{};  ///< that it tells, or that take the work of its forces
-  /// Of these those that every scene with forces tells, 0 where the effect is off: reports put scenes side by side.
+  /// Of these those that every scene with forces tells, 0 where the effect is off: reports put scenes side by
+  /// side.
   std::vector<std::string_view> (*always_told)(const Scene&) = nullptr;
   bool over_processes = false;  ///< it also runs where several processes share a scene (World::halo)
 
-  // What the rest of the program must know of a scene that calls for it; calls_for(scene, &EffectRule::...) asks.
+  // What the rest of the program must know of a scene that calls for it; calls_for(scene, &EffectRule::...)
+  // asks.
   bool has_pairs = false;             ///< particles act on each other by it, so that the scene has neighbours
   bool has_pressure = false;          ///< it needs a stiffness, and presses apart what overlaps
   bool has_bonds = false;             ///< solids are held together by bonds, or get and lose some by it
@@ -149,12 +160,14 @@ struct EffectRule {
 /// Entries that the ledger can have, each once: those of all effects, and those of every scene.
 [[nodiscard]] std::vector<LedgerEntry> ledger_entries();
 
-/// Every term of two forms, in the order of jobs and pages: those that effects declare, the kernel, and the scheme of steps.
+/// Every term of two forms, in the order of jobs and pages: those that effects declare, the kernel, and the
+/// scheme of steps.
 /// @throws std::logic_error where two effects declare one term
 [[nodiscard]] std::span<const DeclaredTerm> declared_terms();
 /// The term of a word of [modes]. @throws InputError naming the nearest word, or all
 [[nodiscard]] Term term_from(std::string_view word);
-/// Terms with two forms that act in a scene: those of the effects that it calls for and, if any, of the step scheme.
+/// Terms with two forms that act in a scene: those of the effects that it calls for and, if any, of the step
+/// scheme.
 [[nodiscard]] std::vector<Term> acting_terms(const Scene&);
 /// Whether a term acts in every scene, whatever it calls for.
 [[nodiscard]] bool acts_everywhere(const Term&);
@@ -164,8 +177,9 @@ struct EffectRule {
 /// The number of a key without a member: as it is kept, else the row's fallback, 0 where it has none.
 [[nodiscard]] double kept_number(const EffectValues&, const Key&);
 
-/// The number of a key of [scene] that an effect brings, 0 where the key changes nothing in this scene (EffectKey::idle). Whether
-/// the scene calls for the effect is not asked. @pre an effect brings the key, and it is a number
+/// The number of a key of [scene] that an effect brings, 0 where the key changes nothing in this scene
+/// (EffectKey::idle). Whether the scene calls for the effect is not asked. @pre an effect brings the key, and
+/// it is a number
 [[nodiscard]] double acting_number(const Scene&, std::string_view key);
 
 /// Reach of the first bonds of elastic bodies, and support of the kernel (17) [spacings]: scene.bond_reach.
@@ -178,7 +192,8 @@ struct EffectRule {
 /// Effects that a scene calls for, and those that these in turn need.
 [[nodiscard]] std::vector<CalledEffect> needed_effects(const Scene&);
 
-// --- what rules ask ----------------------------------------------------------------------------------------------------
+// --- what rules ask
+// ----------------------------------------------------------------------------------------------------
 
 /// "WHO: why", "" where nobody.
 [[nodiscard]] std::string because(const std::string& who, std::string_view why);
@@ -193,15 +208,17 @@ using BodyTest = bool (*)(const Scene&, const Body&, const Material&);
 /// "density is as printed", of the first of these terms that is; "" where all are corrected.
 [[nodiscard]] std::string printed_among(const Scene&, std::initializer_list<Term>);
 
-/// The body or material that melts or freezes: the scene's temperatures pass t_melt or t_solid of the material. "" = none.
+/// The body or material that melts or freezes: the scene's temperatures pass t_melt or t_solid of the
+/// material. "" = none.
 [[nodiscard]] std::string who_changes_phase(const Scene&);
 /// The body or material that is elastic once it has frozen, of a material that passes the test.
 [[nodiscard]] std::string who_freezes_elastic(const Scene&, bool (*limited)(const Material&));
-/// For a limit of elastic matter, as of yield or fracture. It gives the body that has it or freezes with it, and what it `can` do
-/// then. `limit` names it with its article.
-[[nodiscard]] std::string limit_called_for(const Scene&, bool (*limited)(const Material&), std::string_view limit,
-                                           std::string_view can);
+/// For a limit of elastic matter, as of yield or fracture. It gives the body that has it or freezes with it,
+/// and what it `can` do then. `limit` names it with its article.
+[[nodiscard]] std::string limit_called_for(const Scene&, bool (*limited)(const Material&),
+                                           std::string_view limit, std::string_view can);
 /// Why that limit never acts.
-[[nodiscard]] std::string limit_left_out(const Scene&, bool (*limited)(const Material&), std::string_view limit);
+[[nodiscard]] std::string limit_left_out(const Scene&, bool (*limited)(const Material&),
+                                         std::string_view limit);
 
 }  // namespace tripoint

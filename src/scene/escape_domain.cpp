@@ -36,8 +36,8 @@ std::vector<Bounds> boxes_of(const Scene& s, const InitialState& initial) {
 double depth(const Scene& s, const Bounds& box) {
   double most = -INFINITY;
   for (int n = 0; n < 8; ++n)
-    most = std::max(
-        most, dot(s.gravity, Vec3{n & 1 ? box.max.x : box.min.x, n & 2 ? box.max.y : box.min.y, n & 4 ? box.max.z : box.min.z}));
+    most = std::max(most, dot(s.gravity, Vec3{n & 1 ? box.max.x : box.min.x, n & 2 ? box.max.y : box.min.y,
+                                              n & 4 ? box.max.z : box.min.z}));
   return most;
 }
 
@@ -48,7 +48,8 @@ bool has_wall_below(const Scene& s, const std::vector<Bounds>& boxes, const Boun
 }
 
 /// Where a body that forces move can be at the end, and where its flight turns.
-void include_flight(Bounds& all, double end, const Bounds& box, const Vec3& velocity, double spread, const Vec3& g) {
+void include_flight(Bounds& all, double end, const Bounds& box, const Vec3& velocity, double spread,
+                    const Vec3& g) {
   include(all, box, end * velocity + 0.5 * end * end * g, spread * end);
   for (std::size_t a = 0; a < 3; ++a) {
     const double t = g[a] != 0.0 ? -velocity[a] / g[a] : 0.0;
@@ -71,7 +72,8 @@ Vec3 applied_acceleration(const Scene& s, const InitialState& initial, std::size
 void include_driven(Bounds& all, const Scene& s, const Body& b, const Bounds& box) {
   const double turning = 0.5 * norm(box.extent());
   for (const Keyframe& k : b.keyframes) include(all, {k.position, k.position}, {}, turning);
-  if (b.motion == Motion::prescribed && b.keyframes.empty()) include(all, box, s.end_time * b.velocity.value, turning);
+  if (b.motion == Motion::prescribed && b.keyframes.empty())
+    include(all, box, s.end_time * b.velocity.value, turning);
 }
 
 }  // namespace
@@ -89,10 +91,11 @@ Bounds escape_domain(const Scene& s, const InitialState& initial) {
     if (!(boxes[n].min.x <= boxes[n].max.x)) continue;
     include_driven(all, s, b, boxes[n]);
     if (b.motion == Motion::fixed && s.events.empty()) continue;
-    const bool uniform =
-        b.velocity.kind == VelocityField::Kind::constant && (b.phase != Phase::liquid || b.angular_velocity == Vec3{});
-    include_flight(all, s.end_time, boxes[n], uniform ? b.velocity.value : Vec3{}, uniform ? 0.0 : greatest_speed(b),
-                   (has_wall_below(s, boxes, boxes[n]) ? Vec3{} : s.gravity) + applied_acceleration(s, initial, n));
+    const bool uniform = b.velocity.kind == VelocityField::Kind::constant &&
+                         (b.phase != Phase::liquid || b.angular_velocity == Vec3{});
+    include_flight(
+        all, s.end_time, boxes[n], uniform ? b.velocity.value : Vec3{}, uniform ? 0.0 : greatest_speed(b),
+        (has_wall_below(s, boxes, boxes[n]) ? Vec3{} : s.gravity) + applied_acceleration(s, initial, n));
   }
   for (const Inflow& f : s.inflows)
     include_flight(all, s.end_time, bounds(f.shape), f.velocity, 0.0,

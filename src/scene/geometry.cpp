@@ -86,12 +86,14 @@ bool in_box(const Shape& s, const Vec3& r) {
 
 Vec3 middle(const Bounds& box) { return 0.5 * (box.min + box.max); }
 
-/// Corners of the bounds of a shape that is not turned; those of a mesh itself, whose bounds they give exactly.
+/// Corners of the bounds of a shape that is not turned; those of a mesh itself, whose bounds they give
+/// exactly.
 std::vector<Vec3> corners_of(const Shape& s, const Bounds& box) {
   if (s.kind == Kind::mesh) return read_mesh(s.file, s.scale).points;
   std::vector<Vec3> corners;
   for (int n = 0; n < 8; ++n)
-    corners.push_back({n & 1 ? box.max.x : box.min.x, n & 2 ? box.max.y : box.min.y, n & 4 ? box.max.z : box.min.z});
+    corners.push_back(
+        {n & 1 ? box.max.x : box.min.x, n & 2 ? box.max.y : box.min.y, n & 4 ? box.max.z : box.min.z});
   return corners;
 }
 
@@ -105,7 +107,8 @@ Bounds bounds_of_turned(const Shape& s) {
 }  // namespace
 
 bool has_turned_part(const Shape& s) {
-  return is_turned(s) || std::any_of(s.of.begin(), s.of.end(), [](const Shape& part) { return has_turned_part(part); });
+  return is_turned(s) ||
+         std::any_of(s.of.begin(), s.of.end(), [](const Shape& part) { return has_turned_part(part); });
 }
 
 Shape not_turned(Shape s) {
@@ -116,7 +119,8 @@ Shape not_turned(Shape s) {
 Vec3 turning_centre(const Shape& s) { return middle(bounds(not_turned(s))); }
 
 std::function<Vec3(const Vec3&)> turning(const Shape& s) {
-  return [q = s.rotation, centre = turning_centre(s)](const Vec3& r) { return centre + rotate(q, r - centre); };
+  return
+      [q = s.rotation, centre = turning_centre(s)](const Vec3& r) { return centre + rotate(q, r - centre); };
 }
 
 Bounds bounds(const Shape& s) {
@@ -149,9 +153,8 @@ std::optional<Vec3> symmetry_centre(const Shape& s) {
 
 std::function<bool(const Vec3&)> inside_of(const Shape& s, double spacing) {
   if (is_turned(s))
-    return [inside = inside_of(not_turned(s), spacing), q = s.rotation, centre = turning_centre(s)](const Vec3& r) {
-      return inside(centre + rotate_back(q, r - centre));
-    };
+    return [inside = inside_of(not_turned(s), spacing), q = s.rotation, centre = turning_centre(s)](
+               const Vec3& r) { return inside(centre + rotate_back(q, r - centre)); };
   switch (s.kind) {
     case Kind::box:
       return [s](const Vec3& r) { return in_box(s, r); };
@@ -168,7 +171,9 @@ std::function<bool(const Vec3&)> inside_of(const Shape& s, double spacing) {
     case Kind::unite: {
       std::vector<std::function<bool(const Vec3&)>> parts;
       for (const auto& part : s.of) parts.push_back(inside_of(part, spacing));
-      return [parts](const Vec3& r) { return std::any_of(parts.begin(), parts.end(), [&](const auto& in) { return in(r); }); };
+      return [parts](const Vec3& r) {
+        return std::any_of(parts.begin(), parts.end(), [&](const auto& in) { return in(r); });
+      };
     }
     case Kind::mesh: {
       auto interior = std::make_shared<MeshInterior>(read_mesh(s.file, s.scale), 0.5 * spacing, s.file);

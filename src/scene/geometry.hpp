@@ -17,7 +17,9 @@ struct Bounds {
 [[nodiscard]] inline bool is_turned(const Shape& s) { return s.rotation != Quaternion{}; }
 
 /// Whether the shape is a box along the axes: min and max are its corners.
-[[nodiscard]] inline bool is_upright_box(const Shape& s) { return s.kind == Shape::Kind::box && !is_turned(s); }
+[[nodiscard]] inline bool is_upright_box(const Shape& s) {
+  return s.kind == Shape::Kind::box && !is_turned(s);
+}
 
 /// Whether the shape or any part of it is turned.
 [[nodiscard]] bool has_turned_part(const Shape&);
@@ -31,17 +33,19 @@ struct Bounds {
 /// The map that turns points of the shape that is not turned [m].
 [[nodiscard]] std::function<Vec3(const Vec3&)> turning(const Shape&);
 
-/// Box that holds the shape (for a difference: that of the shape that is cut, shortened where a half space along an axis cuts
-/// it). @throws InputError for a mesh that cannot be read
+/// Box that holds the shape (for a difference: that of the shape that is cut, shortened where a half space
+/// along an axis cuts it). @throws InputError for a mesh that cannot be read
 [[nodiscard]] Bounds bounds(const Shape&);
 
-/// Centre of the shape's symmetry, where it has one that a lattice should share: sphere, cylinder (of its whole axis).
+/// Centre of the shape's symmetry, where it has one that a lattice should share: sphere, cylinder (of its
+/// whole axis).
 [[nodiscard]] std::optional<Vec3> symmetry_centre(const Shape&);
 
 /// Whether a point lies in the shape. @param spacing of the lattice [m]: a mesh is voxelised finer than it
 [[nodiscard]] std::function<bool(const Vec3&)> inside_of(const Shape&, double spacing);
 
-/// Volume [m3] by formula or, for a mesh, the divergence theorem; empty for a union or difference, which may overlap.
+/// Volume [m3] by formula or, for a mesh, the divergence theorem; empty for a union or difference, which may
+/// overlap.
 [[nodiscard]] std::optional<double> volume(const Shape&);
 
 }  // namespace tripoint

@@ -14,8 +14,8 @@ constexpr double on_lattice = 1e-6;
 
 constexpr double max_cells = 1e8;
 
-/// Spacings from the lattice's origin. Beyond it round-off is more than on_lattice, and further out an index no whole number of
-/// 64 bits.
+/// Spacings from the lattice's origin. Beyond it round-off is more than on_lattice, and further out an index
+/// no whole number of 64 bits.
 constexpr double farthest = 1e9;
 
 struct Span {
@@ -35,8 +35,10 @@ Span along(const Scene& s, const Body& b, const Bounds& box, std::size_t a) {
     const double cells = ((*s.max)[a] - (*s.min)[a]) / dx;
     if (std::abs(cells - std::round(cells)) > on_lattice * std::max(1.0, cells))
       throw InputError(
-          b.place, fmt::format("the domain is {} spacings long in the periodic direction {}: choose a spacing that divides it",
-                               cells, "xyz"[a]));
+          b.place,
+          fmt::format(
+              "the domain is {} spacings long in the periodic direction {}: choose a spacing that divides it",
+              cells, "xyz"[a]));
     return cells_between((*s.min)[a], std::max(low, (*s.min)[a]), std::min(high, (*s.max)[a]), dx);
   }
   if (const auto centre = symmetry_centre(b.shape)) {
@@ -51,10 +53,11 @@ Span along(const Scene& s, const Body& b, const Bounds& box, std::size_t a) {
 /// A mesh says no unit: one in millimetres is a thousand times too large.
 std::string scale_of_mesh(const Shape& shape, const Bounds& box) {
   const Vec3 size = box.extent();
-  return shape.kind != Shape::Kind::mesh
-             ? ""
-             : fmt::format(", or give the mesh a shape.scale where it is not in metres: now it is {:.4g} x {:.4g} x {:.4g} m",
-                           size.x, size.y, size.z);
+  return shape.kind != Shape::Kind::mesh ? ""
+                                         : fmt::format(
+                                               ", or give the mesh a shape.scale where it is not in metres: "
+                                               "now it is {:.4g} x {:.4g} x {:.4g} m",
+                                               size.x, size.y, size.z);
 }
 
 }  // namespace
@@ -71,17 +74,23 @@ Lattice lattice_of(const Scene& s, const Body& b) {
     }
     if (!std::isfinite(box.min[a]) || !std::isfinite(box.max[a]))
       throw InputError(
-          b.place, fmt::format("body \"{}\" has no end along {}: cut it by a difference, or give scene.min and scene.max", b.name,
-                               "xyz"[a]));
+          b.place,
+          fmt::format(
+              "body \"{}\" has no end along {}: cut it by a difference, or give scene.min and scene.max",
+              b.name, "xyz"[a]));
     cells *= std::max(0.0, (box.max[a] - box.min[a]) / s.spacing + 2.0);
     if (!(cells <= max_cells))
-      throw InputError(b.place, fmt::format("body \"{}\" spans more than {:.0e} cells of spacing {} m: coarsen scene.spacing{}",
-                                            b.name, max_cells, s.spacing, scale_of_mesh(b.shape, box)));
+      throw InputError(
+          b.place,
+          fmt::format("body \"{}\" spans more than {:.0e} cells of spacing {} m: coarsen scene.spacing{}",
+                      b.name, max_cells, s.spacing, scale_of_mesh(b.shape, box)));
     const Span span = along(s, b, box, a);
     if (!(std::abs(span.first) <= farthest))
-      throw InputError(b.place, fmt::format("body \"{}\" lies {:.2g} spacings from {} = {} m, where a number cannot tell one "
-                                            "particle's place from the next: move it nearer",
-                                            b.name, std::abs(span.first), "xyz"[a], span.origin));
+      throw InputError(
+          b.place,
+          fmt::format("body \"{}\" lies {:.2g} spacings from {} = {} m, where a number cannot tell one "
+                      "particle's place from the next: move it nearer",
+                      b.name, std::abs(span.first), "xyz"[a], span.origin));
     lattice.origin[a] = span.origin;
     lattice.first[a] = static_cast<long>(span.first);
     lattice.count[a] = static_cast<long>(span.count);
@@ -113,8 +122,9 @@ std::vector<Vec3> fill(const Scene& s, const Body& b) {
         if (const Vec3 r = lattice.centre(i, j, k); inside(r)) centres.push_back(r);
   if (centres.empty())
     throw InputError(
-        b.place, fmt::format("body \"{}\" holds no particle at spacing {} m: refine scene.spacing or enlarge the body", b.name,
-                             s.spacing));
+        b.place,
+        fmt::format("body \"{}\" holds no particle at spacing {} m: refine scene.spacing or enlarge the body",
+                    b.name, s.spacing));
   return centres;
 }
 

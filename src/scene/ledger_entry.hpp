@@ -6,6 +6,7 @@ namespace tripoint::ledger_entry {
 
 inline constexpr const char* kinetic = "kinetic";
 inline constexpr const char* potential = "potential";
-inline constexpr const char* time_integration = "time_integration";  ///< what finite time steps have made, lost where negative
+/// What finite time steps have made, lost where negative
+inline constexpr const char* time_integration = "time_integration";
 
 }  // namespace tripoint::ledger_entry

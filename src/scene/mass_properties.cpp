@@ -11,7 +11,8 @@ namespace tripoint {
 namespace {
 
 /// Inertia tensor about the centre [kg m2], of point masses.
-Eigen::Matrix3d inertia(const std::vector<Vec3>& position, const std::vector<double>& mass, const Vec3& centre) {
+Eigen::Matrix3d inertia(const std::vector<Vec3>& position, const std::vector<double>& mass,
+                        const Vec3& centre) {
   Eigen::Matrix3d I = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < position.size(); ++i) {
     const Vec3 d = position[i] - centre;
@@ -28,7 +29,8 @@ Eigen::Matrix3d inertia(const std::vector<Vec3>& position, const std::vector<dou
   return I;
 }
 
-/// The same axes whatever sign the solver found: the largest component of the first two is positive, the third follows.
+/// The same axes whatever sign the solver found: the largest component of the first two is positive, the
+/// third follows.
 void fix_signs(Eigen::Matrix3d& axes) {
   for (int k = 0; k < 2; ++k) {
     Eigen::Index largest = 0;
@@ -38,7 +40,8 @@ void fix_signs(Eigen::Matrix3d& axes) {
   axes.col(2) = axes.col(0).cross(axes.col(1));
 }
 
-/// Axes along x, y, z where the tensor has no products of inertia beyond round-off: no rotation is invented for a cube.
+/// Axes along x, y, z where the tensor has no products of inertia beyond round-off: no rotation is invented
+/// for a cube.
 Eigen::Matrix3d axes_of_diagonal(const Eigen::Vector3d& moments, Eigen::Vector3d& ascending) {
   std::array<int, 3> order{0, 1, 2};
   const double tie = 1e-12 * moments.maxCoeff();
@@ -107,7 +110,8 @@ MassProperties mass_properties(const Mesh& mesh, double density) {
     const double six = a.dot(b.cross(c));
     volume += six / 6.0;
     first += six / 24.0 * sum;
-    second += six / 120.0 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
+    second +=
+        six / 120.0 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
   }
   MassProperties p;
   p.mass = density * volume;

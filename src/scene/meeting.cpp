@@ -32,7 +32,8 @@ Vec3 corner(const Bounds& box, int n) {
   return {n & 1 ? box.max.x : box.min.x, n & 2 ? box.max.y : box.min.y, n & 4 ? box.max.z : box.min.z};
 }
 
-/// Greatest speed of a field in a box, at points between whose values no smooth field of a scene hides much [m/s].
+/// Greatest speed of a field in a box, at points between whose values no smooth field of a scene hides much
+/// [m/s].
 double expression_speed(const std::array<std::string, 3>& text, const Bounds& box) {
   constexpr int points = 9;
   const std::array<Expression, 3> value{Expression(text[0]), Expression(text[1]), Expression(text[2])};
@@ -42,7 +43,8 @@ double expression_speed(const std::array<std::string, 3>& text, const Bounds& bo
     const Vec3 share{column / (points - 1.0), row / (points - 1.0), layer / (points - 1.0)};
     Vec3 r;
     for (std::size_t a = 0; a < 3; ++a) r[a] = box.min[a] + share[a] * (box.max[a] - box.min[a]);
-    if (const double v = norm(Vec3{value[0](r), value[1](r), value[2](r)}); std::isfinite(v)) most = std::max(most, v);
+    if (const double v = norm(Vec3{value[0](r), value[1](r), value[2](r)}); std::isfinite(v))
+      most = std::max(most, v);
   }
   return most;
 }
@@ -59,7 +61,9 @@ struct Path {
   double lost = INFINITY;  ///< time from which nothing is known of it [s]
 };
 
-bool breaks(const Body& b, const Material& m) { return b.phase == Phase::elastic && (m.fracture_stretch || m.fracture_distance); }
+bool breaks(const Body& b, const Material& m) {
+  return b.phase == Phase::elastic && (m.fracture_stretch || m.fracture_distance);
+}
 
 Bounds around(const Bounds& box, double factor) {
   const Vec3 centre = 0.5 * (box.min + box.max);
@@ -108,7 +112,8 @@ Path own_path(const Scene& s, const Body& b) {
 Box velocities_of(const Path& p) {
   Box v = p.velocity;
   for (std::size_t k = 1; k < p.keyframes.size(); ++k)
-    v = hull(v, point((p.keyframes[k].position - p.keyframes[k - 1].position) / (p.keyframes[k].time - p.keyframes[k - 1].time)));
+    v = hull(v, point((p.keyframes[k].position - p.keyframes[k - 1].position) /
+                      (p.keyframes[k].time - p.keyframes[k - 1].time)));
   if (!p.keyframes.empty()) v = hull(v, Box{});
   return v;
 }
@@ -120,7 +125,8 @@ void bend_by_events(const Scene& s, std::vector<Path>& paths) {
       Path& p = paths[n];
       const bool named = std::ranges::find(e.bodies, s.bodies[n].name) != e.bodies.end() || e.bodies.empty();
       const bool inside = !e.region || overlap(bounds(*e.region), p.box);
-      const bool grips = e.kind == Event::Kind::grip && inside, merges = e.kind == Event::Kind::merge && named;
+      const bool grips = e.kind == Event::Kind::grip && inside,
+                 merges = e.kind == Event::Kind::merge && named;
       const bool stops = (e.kind == Event::Kind::hold || e.kind == Event::Kind::release) && named;
       if (grips || merges || (stops && !p.keyframes.empty())) p.lost = std::min(p.lost, e.time);
       if (stops) {
@@ -166,7 +172,8 @@ void bend_by_joints(const Scene& s, std::vector<Path>& paths) {
 Extent moved(Extent v, Extent a, double from, double to) {
   const auto at = [&](double t) { return scaled(v, t) + scaled(a, 0.5 * t * t); };
   Extent r = hull(at(from), at(to));
-  for (const auto& [speed, pull] : {std::pair{v.low, a.low}, {v.high, a.high}}) {  // the turning points of both edges
+  // The turning points of both edges
+  for (const auto& [speed, pull] : {std::pair{v.low, a.low}, {v.high, a.high}}) {
     const double t = pull != 0.0 ? -speed / pull : -1.0;
     if (t > from && t < to) r = hull(r, {speed * t + 0.5 * pull * t * t, speed * t + 0.5 * pull * t * t});
   }
@@ -182,13 +189,15 @@ Box led(const std::vector<Keyframe>& frames, double from, double to) {
   return r;
 }
 
-/// Least distance between two boxes along an axis, the first moved by `by`, across the sides of a periodic direction too.
+/// Least distance between two boxes along an axis, the first moved by `by`, across the sides of a periodic
+/// direction too.
 bool near(const Scene& s, std::size_t axis, const Bounds& a, const Bounds& b, Extent by, double reach) {
   const double low = a.min[axis] + by.low - reach, high = a.max[axis] + by.high + reach;
   if (!s.periodic[axis]) return low <= b.max[axis] && high >= b.min[axis];
   const double width = (*s.max)[axis] - (*s.min)[axis];
   if (!(high - low + b.max[axis] - b.min[axis] < width)) return true;
-  const double shift = std::floor((b.max[axis] - low) / width) * width;  // the last image that begins before b ends
+  // The last image that begins before b ends
+  const double shift = std::floor((b.max[axis] - low) / width) * width;
   return high + shift >= b.min[axis];
 }
 
@@ -200,8 +209,8 @@ bool meet(const Scene& s, const Path& a, const Path& b, double until) {
     g[k] = a.acceleration[k] - b.acceleration[k];
   }
   const double spread = a.spread + b.spread;
-  const bool still =
-      size(v) == 0.0 && size(g) == 0.0 && spread == 0.0 && a.keyframes.empty() && b.keyframes.empty() && !a.turns && !b.turns;
+  const bool still = size(v) == 0.0 && size(g) == 0.0 && spread == 0.0 && a.keyframes.empty() &&
+                     b.keyframes.empty() && !a.turns && !b.turns;
   if (still || !(until > 0.0)) return false;
   const auto near_between = [&](double from, double to) {
     const Box by_a = led(a.keyframes, from, to), by_b = led(b.keyframes, from, to);
@@ -227,7 +236,9 @@ bool is_joined(const Body& a, const Body& b) {
 double apart_until(const Scene& s, const Body& a, const Body& b) {
   double until = s.end_time;
   for (const Event& e : s.events) {
-    const auto names = [&](const Body& body) { return std::ranges::find(e.bodies, body.name) != e.bodies.end(); };
+    const auto names = [&](const Body& body) {
+      return std::ranges::find(e.bodies, body.name) != e.bodies.end();
+    };
     if (e.kind == Event::Kind::merge && names(a) && names(b)) until = std::min(until, e.time);
   }
   return until;
@@ -236,7 +247,8 @@ double apart_until(const Scene& s, const Body& a, const Body& b) {
 bool can_be_free(const Scene& s, const Body& b) {
   if (b.motion == Motion::free) return true;
   return std::ranges::any_of(s.events, [&](const Event& e) {
-    return e.kind == Event::Kind::release && (e.bodies.empty() || std::ranges::find(e.bodies, b.name) != e.bodies.end());
+    return e.kind == Event::Kind::release &&
+           (e.bodies.empty() || std::ranges::find(e.bodies, b.name) != e.bodies.end());
   });
 }
 
@@ -277,7 +289,8 @@ double greatest_speed(const Body& b) {
 
 std::vector<Meeting> meetings(const Scene& s) {
   std::vector<Meeting> found;
-  if (s.bodies.size() < 2 || std::ranges::none_of(s.bodies, [&](const Body& b) { return can_be_free(s, b); })) return found;
+  if (s.bodies.size() < 2 || std::ranges::none_of(s.bodies, [&](const Body& b) { return can_be_free(s, b); }))
+    return found;
   std::vector<Path> paths;
   for (const Body& b : s.bodies) paths.push_back(own_path(s, b));
   bend_by_events(s, paths);
@@ -285,7 +298,8 @@ std::vector<Meeting> meetings(const Scene& s) {
   for (std::size_t i = 0; i < paths.size(); ++i)
     for (std::size_t j = i + 1; j < paths.size(); ++j) {
       const Body &a = s.bodies[i], &b = s.bodies[j];
-      if ((!can_be_free(s, a) && !can_be_free(s, b)) || is_joined(a, b) || !meet(s, paths[i], paths[j], apart_until(s, a, b)))
+      if ((!can_be_free(s, a) && !can_be_free(s, b)) || is_joined(a, b) ||
+          !meet(s, paths[i], paths[j], apart_until(s, a, b)))
         continue;
       Box v;
       for (std::size_t k = 0; k < 3; ++k) v[k] = velocities_of(paths[i])[k] - velocities_of(paths[j])[k];

@@ -7,23 +7,27 @@
 #include "scene/initial_state.hpp"
 #include "scene/scene.hpp"
 
-/// Which solid bodies of a scene can come to touch while it runs, by the boxes and spheres around them and how these can move.
-/// Everything is rounded towards "they can": two bodies that are not named here never come nearer than one spacing.
+/// Which solid bodies of a scene can come to touch while it runs, by the boxes and spheres around them and
+/// how these can move. Everything is rounded towards "they can": two bodies that are not named here never
+/// come nearer than one spacing.
 namespace tripoint {
 
 /// Two bodies, rows of Scene::bodies, of which one at least is moved by forces.
 struct Meeting {
   std::size_t a = 0, b = 0;
-  double speed = 0.0;  ///< greatest speed at which they can approach each other, without what gravity adds on the way [m/s]
+  /// Greatest speed at which they can approach each other, without what gravity adds on the way [m/s]
+  double speed = 0.0;
 };
-/// Pairs of solids that can meet before the end of the run. Bodies that are joined from the start do not meet each other.
+/// Pairs of solids that can meet before the end of the run. Bodies that are joined from the start do not meet
+/// each other.
 [[nodiscard]] std::vector<Meeting> meetings(const Scene&);
 
 /// Greatest speed that a body starts with or is driven at, as far as the file tells without sampling [m/s].
 [[nodiscard]] double greatest_speed(const Body&);
 
-/// Box that holds a healthy run, where the scene gives no domain. It reaches twice the diagonal of the start beyond its
-/// particles, and to all places that bodies are driven to or can fly to. A body with a wall below it does not fall freely.
+/// Box that holds a healthy run, where the scene gives no domain. It reaches twice the diagonal of the start
+/// beyond its particles, and to all places that bodies are driven to or can fly to. A body with a wall below
+/// it does not fall freely.
 [[nodiscard]] Bounds escape_domain(const Scene&, const InitialState&);
 
 }  // namespace tripoint

@@ -42,7 +42,8 @@ std::vector<ModelTerm> collected_terms() {
 /// Whether another effect than the owner of the term brings the form.
 bool is_brought(const Term& t, std::string_view word) {
   return std::ranges::any_of(effect_rules(), [&](const EffectRule& rule) {
-    return std::ranges::any_of(rule.forms, [&](const BroughtForm& f) { return f.term == t && f.form.word == word; });
+    return std::ranges::any_of(rule.forms,
+                               [&](const BroughtForm& f) { return f.term == t && f.form.word == word; });
   });
 }
 
@@ -57,7 +58,8 @@ void visit_key(Owner& scene, std::string_view key, Visit visit) {
 double number_in(const Scene& scene, std::string_view key) {
   double number = 0.0;
   visit_key(scene, key, [&](const auto& value) {
-    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>> || std::is_enum_v<std::decay_t<decltype(value)>>)
+    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>> ||
+                  std::is_enum_v<std::decay_t<decltype(value)>>)
       number = static_cast<double>(value);
   });
   return number;
@@ -76,12 +78,13 @@ void set_number(Scene& scene, std::string_view key, double number) {
 }
 
 bool has_values(const Scene& scene, const ModelForm& form) {
-  return std::ranges::all_of(form.values, [&](const auto& one) { return number_in(scene, one.first) == one.second; });
+  return std::ranges::all_of(form.values,
+                             [&](const auto& one) { return number_in(scene, one.first) == one.second; });
 }
 
 const EffectKey* key_of(const EffectRule& rule, std::string_view name) {
-  const auto key =
-      std::ranges::find_if(rule.keys, [&](const EffectKey& one) { return one.row.table == "scene" && one.row.name == name; });
+  const auto key = std::ranges::find_if(
+      rule.keys, [&](const EffectKey& one) { return one.row.table == "scene" && one.row.name == name; });
   return key == rule.keys.end() ? nullptr : &*key;
 }
 
@@ -100,7 +103,8 @@ const ModelForm* form_of_word(const ModelTerm& t, std::string_view word) {
 const ModelForm* form_in(const Scene& scene, const ModelTerm& t) {
   if (t.term && scene.mode_of(*t.term) == Mode::paper) return &t.forms.back();
   if (t.term && scene.has_brought_form(*t.term)) return form_of_word(t, scene.forms.at(*t.term));
-  const auto form = std::ranges::find_if(t.forms, [&](const ModelForm& one) { return has_values(scene, one); });
+  const auto form =
+      std::ranges::find_if(t.forms, [&](const ModelForm& one) { return has_values(scene, one); });
   return form == t.forms.end() ? nullptr : &*form;
 }
 
@@ -125,7 +129,8 @@ std::string why_idle(const Scene& scene, const ModelTerm& t, const ModelForm& fo
 }
 
 std::string shown(const Key& row, double number) {
-  if (row.type == ValueType::word) return fmt::format("\"{}\"", split_words(row.words).at(static_cast<std::size_t>(number)));
+  if (row.type == ValueType::word)
+    return fmt::format("\"{}\"", split_words(row.words).at(static_cast<std::size_t>(number)));
   if (row.type == ValueType::flag) return number != 0.0 ? "true" : "false";
   return fmt::format("{}", number);
 }

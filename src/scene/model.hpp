@@ -7,8 +7,8 @@
 
 #include "scene/effect_rule.hpp"
 
-/// The table [model]: every term of the model with its forms, each by a word. The reader, the schema, the page, jobs, `explain`
-/// and `ablate` go over this one list.
+/// The table [model]: every term of the model with its forms, each by a word. The reader, the schema, the
+/// page, jobs, `explain` and `ablate` go over this one list.
 namespace tripoint {
 
 struct ModelTerm {

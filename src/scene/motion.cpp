@@ -18,14 +18,18 @@ Vec3 rotation_between(const Quaternion& a, const Quaternion& b) {
 
 }  // namespace
 
-PrescribedState prescribed_state(const std::vector<Keyframe>& frames, const Vec3& centre, const Vec3& velocity,
-                                 const Vec3& angular_velocity, double time) {
+PrescribedState prescribed_state(const std::vector<Keyframe>& frames, const Vec3& centre,
+                                 const Vec3& velocity, const Vec3& angular_velocity, double time) {
   if (frames.empty())
-    return {centre + time * velocity, velocity, angular_velocity, from_rotation_vector(time * angular_velocity)};
+    return {centre + time * velocity, velocity, angular_velocity,
+            from_rotation_vector(time * angular_velocity)};
   if (time < frames.front().time) return {frames.front().position, {}, {}, frames.front().rotation};
-  if (time > frames.back().time || frames.size() == 1) return {frames.back().position, {}, {}, frames.back().rotation};
-  // A keyframe's own time belongs to the piece that begins there, the last one's to the piece that ends there.
-  auto next = std::upper_bound(frames.begin(), frames.end(), time, [](double t, const Keyframe& k) { return t < k.time; });
+  if (time > frames.back().time || frames.size() == 1)
+    return {frames.back().position, {}, {}, frames.back().rotation};
+  // A keyframe's own time belongs to the piece that begins there, the last one's to the piece that ends
+  // there.
+  auto next = std::upper_bound(frames.begin(), frames.end(), time,
+                               [](double t, const Keyframe& k) { return t < k.time; });
   if (next == frames.end()) --next;
   const auto& a = *(next - 1);
   const auto& b = *next;

@@ -30,17 +30,18 @@ void NameChecks::unique_names(const std::vector<std::string>& names, const char*
   for (std::size_t i = 0; i < names.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (names[i] == names[j])
-        throw InputError(last_place(fmt::format("{}.{}.name", table, names[i])),
-                         fmt::format("two tables [[{}]] are named \"{}\": rename one", table, printable(names[i])));
+        throw InputError(
+            last_place(fmt::format("{}.{}.name", table, names[i])),
+            fmt::format("two tables [[{}]] are named \"{}\": rename one", table, printable(names[i])));
 }
 
-void NameChecks::known_body(const Scene& scene, const std::string& name, const std::string& key, const SourcePlace& table,
-                            const std::vector<std::string>& also) const {
+void NameChecks::known_body(const Scene& scene, const std::string& name, const std::string& key,
+                            const SourcePlace& table, const std::vector<std::string>& also) const {
   auto known = names_of(scene.bodies);
   known.insert(known.end(), also.begin(), also.end());
   if (!holds(known, name))
-    throw InputError(place(key, table),
-                     fmt::format("`{}`: no body is named \"{}\"{}", key, printable(name), suggestion(name, known)));
+    throw InputError(place(key, table), fmt::format("`{}`: no body is named \"{}\"{}", key, printable(name),
+                                                    suggestion(name, known)));
 }
 
 }  // namespace tripoint

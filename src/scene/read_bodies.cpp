@@ -15,22 +15,28 @@ namespace tripoint {
 namespace {
 
 /// Phase of a body where the case does not say: by melting, else by the abilities of its material.
-std::pair<Phase, std::string> phase_rule(const Material& m, const std::optional<TemperatureField>& temperature) {
+std::pair<Phase, std::string> phase_rule(const Material& m,
+                                         const std::optional<TemperatureField>& temperature) {
   const Phase solid = m.solid == SolidKind::rigid ? Phase::rigid : Phase::elastic;
   const bool constant = temperature && temperature->kind == TemperatureField::Kind::constant;
   if (m.t_melt && constant) {
-    if (temperature->value > *m.t_melt) return {Phase::liquid, fmt::format("its temperature is above t_melt = {} K", *m.t_melt)};
-    return {solid, fmt::format("its temperature is not above t_melt = {} K, and its material is {} when solid", *m.t_melt,
-                               to_string(m.solid))};
+    if (temperature->value > *m.t_melt)
+      return {Phase::liquid, fmt::format("its temperature is above t_melt = {} K", *m.t_melt)};
+    return {solid,
+            fmt::format("its temperature is not above t_melt = {} K, and its material is {} when solid",
+                        *m.t_melt, to_string(m.solid))};
   }
-  if (m.viscosity > 0.0 && !m.young_modulus) return {Phase::liquid, "its material has a viscosity and no young_modulus"};
+  if (m.viscosity > 0.0 && !m.young_modulus)
+    return {Phase::liquid, "its material has a viscosity and no young_modulus"};
   return {solid, fmt::format("its material is {} when solid", to_string(m.solid))};
 }
 
 /// The rotation of a body is that of its shape, about the same centre.
 void turn(const TableReader& in, Shape& shape, const Quaternion& rotation) {
-  if (shape.rotation != Quaternion{}) in.refuse("rotation", "its shape has a rotation too: write one of them");
-  if (shape.kind == Shape::Kind::half_space) in.refuse("rotation", "a half space has no centre to turn about: turn its normal");
+  if (shape.rotation != Quaternion{})
+    in.refuse("rotation", "its shape has a rotation too: write one of them");
+  if (shape.kind == Shape::Kind::half_space)
+    in.refuse("rotation", "a half space has no centre to turn about: turn its normal");
   shape.rotation = rotation;
 }
 
@@ -38,8 +44,8 @@ void turn(const TableReader& in, Shape& shape, const Quaternion& rotation) {
 
 void plain_name(TableReader& in, std::string_view key, const std::string& name) {
   const bool plain = !name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.' ||
-           c == ' ';
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '.' || c == ' ';
   });
   if (!plain) in.refuse(key, "write a name of 1 to 64 letters, digits, blanks, or any of _ - .");
 }
@@ -59,7 +65,8 @@ Material read_material(const TomlNode& node, Reading& reading) {
     const TomlNode document = read_toml(file);
     if (const auto* values = document.find("material")) library = *values;
     const auto* source = library.find("source");
-    in.fall_back_on(library, fmt::format("library, cases/materials/{}.toml{}", m.name, source ? ": " + source->text : ""));
+    in.fall_back_on(library, fmt::format("library, cases/materials/{}.toml{}", m.name,
+                                         source ? ": " + source->text : ""));
   }
   read("density");
   read_effect_keys(in, "material", m, reading);
@@ -87,11 +94,13 @@ Body read_body(const TomlNode& node, const std::vector<Material>& materials, Rea
   read("name");
   plain_name(in, "name", b.name);
   read("material");
-  const auto material = std::find_if(materials.begin(), materials.end(), [&](const Material& m) { return m.name == b.material; });
+  const auto material = std::find_if(materials.begin(), materials.end(),
+                                     [&](const Material& m) { return m.name == b.material; });
   if (material == materials.end()) {
     auto known = library_names();
     for (const auto& m : materials) known.push_back(m.name);
-    in.refuse("material", fmt::format("no material is named \"{}\"{}", printable(b.material), suggestion(b.material, known)));
+    in.refuse("material", fmt::format("no material is named \"{}\"{}", printable(b.material),
+                                      suggestion(b.material, known)));
   }
   read("shape");
   if (const auto q = in.maybe_numbers("rotation")) turn(in, b.shape, unit_quaternion(in, "rotation", *q));
@@ -102,11 +111,10 @@ Body read_body(const TomlNode& node, const std::vector<Material>& materials, Rea
     in.ruled("phase", fmt::format("\"{}\"", to_string(found)), why);
   }
   if (b.phase == Phase::elastic && !material->young_modulus)
-    in.refuse(
-        in.has("phase") ? "phase" : "material",
-        fmt::format(
-            "an elastic body needs young_modulus and poisson_ratio of its material \"{}\": give them, or write phase = \"rigid\"",
-            b.material));
+    in.refuse(in.has("phase") ? "phase" : "material",
+              fmt::format("an elastic body needs young_modulus and poisson_ratio of its material \"{}\": "
+                          "give them, or write phase = \"rigid\"",
+                          b.material));
   for (const char* key : {"velocity", "angular_velocity", "temperature_held"}) read(key);
   if (b.temperature_held && !b.temperature)
     in.refuse("temperature_held", "no temperature is given to hold: give temperature too");
@@ -125,7 +133,8 @@ Body read_body(const TomlNode& node, const std::vector<Material>& materials, Rea
   read("slip");
   if (read("joins")) {
     b.joins = material->t_melt.has_value();
-    in.ruled("joins", b.joins ? "true" : "false", b.joins ? "its material melts" : "its material does not melt");
+    in.ruled("joins", b.joins ? "true" : "false",
+             b.joins ? "its material melts" : "its material does not melt");
   }
   read.rest();
   return b;
@@ -135,12 +144,13 @@ std::vector<Keyframe> read_keyframes(TableReader& owner, const Key& key, Reading
   std::vector<Keyframe> frames;
   const auto list = owner.tables(key.name);
   for (std::size_t i = 0; i < list.size(); ++i) {
-    TableReader in(*list[i], "keyframe", fmt::format("{}.{}.{}", owner.path(), key.name, i + 1), reading.decisions, scene_keys());
+    TableReader in(*list[i], "keyframe", fmt::format("{}.{}.{}", owner.path(), key.name, i + 1),
+                   reading.decisions, scene_keys());
     Keyframe k;
     RecordReader(in, k, reading).all();
     if (!frames.empty() && !(k.time > frames.back().time))
-      in.refuse("time",
-                fmt::format("{} s is not after the keyframe before it ({} s): times must rise", k.time, frames.back().time));
+      in.refuse("time", fmt::format("{} s is not after the keyframe before it ({} s): times must rise",
+                                    k.time, frames.back().time));
     frames.push_back(k);
   }
   if (list.empty()) owner.ruled(key.name, std::string(key.fallback), std::string(key.note));
@@ -149,31 +159,36 @@ std::vector<Keyframe> read_keyframes(TableReader& owner, const Key& key, Reading
 
 /// A key that this kind of event does not read would be lost without a word.
 static void refuse_keys_of_others(TableReader& in, const std::string& kind) {
-  const std::vector<std::pair<std::string_view, std::string_view>> readers{{"bodies", "merge split release heat hold"},
-                                                                           {"region", "split heat grip"},
-                                                                           {"temperature", "heat"},
-                                                                           {"until", "heat hold grip"},
-                                                                           {"keyframes", "grip"}};
+  const std::vector<std::pair<std::string_view, std::string_view>> readers{
+      {"bodies", "merge split release heat hold"},
+      {"region", "split heat grip"},
+      {"temperature", "heat"},
+      {"until", "heat hold grip"},
+      {"keyframes", "grip"}};
   for (const auto& [key, kinds] : readers) {
     const auto known = split_words(kinds);
     if (in.has(key) && std::find(known.begin(), known.end(), kind) == known.end())
-      in.refuse(key, fmt::format("a {} event does not read it ({} {}): remove it", kind, fmt::join(known, ", "),
-                                 known.size() == 1 ? "does" : "do"));
+      in.refuse(key, fmt::format("a {} event does not read it ({} {}): remove it", kind,
+                                 fmt::join(known, ", "), known.size() == 1 ? "does" : "do"));
   }
 }
 
 Event read_event(const TomlNode& node, std::size_t number, Reading& reading) {
-  TableReader in(node, "event", fmt::format("event.{}", entry_name(node, number)), reading.decisions, scene_keys());
+  TableReader in(node, "event", fmt::format("event.{}", entry_name(node, number)), reading.decisions,
+                 scene_keys());
   Event e;
   e.place = node.place;
   RecordReader(in, e, reading).all();
   const auto kind = split_words(key_row("event", "kind").words).at(static_cast<std::size_t>(e.kind));
-  if (e.until && !(*e.until > e.time)) in.refuse("until", "the event ends before it begins: until must be greater than time");
+  if (e.until && !(*e.until > e.time))
+    in.refuse("until", "the event ends before it begins: until must be greater than time");
   const auto needs = [&](bool there, std::string_view key) {
     if (!there) in.refuse("", fmt::format("a {} event needs the key `{}`", kind, key));
   };
   if (e.kind == Event::Kind::merge && e.bodies.size() < 2)
-    in.refuse("bodies", "a merge needs at least two bodies: name another one, which bodies[0] absorbs, or remove the event");
+    in.refuse(
+        "bodies",
+        "a merge needs at least two bodies: name another one, which bodies[0] absorbs, or remove the event");
   if (e.kind == Event::Kind::split) {
     needs(e.region.has_value(), "region");
     needs(!e.name.empty(), "name");
@@ -190,9 +205,11 @@ Event read_event(const TomlNode& node, std::size_t number, Reading& reading) {
   if (e.kind == Event::Kind::release) needs(!e.bodies.empty(), "bodies");
   refuse_keys_of_others(in, kind);
   if (!e.keyframes.empty() && e.keyframes.front().time < e.time)
-    in.refuse("keyframes", fmt::format("the first is at {} s and the grip begins at {} s: what it takes would jump to where the "
-                                       "grip is by then; begin with a keyframe at {} s",
-                                       e.keyframes.front().time, e.time, e.time));
+    in.refuse(
+        "keyframes",
+        fmt::format("the first is at {} s and the grip begins at {} s: what it takes would jump to where the "
+                    "grip is by then; begin with a keyframe at {} s",
+                    e.keyframes.front().time, e.time, e.time));
   return e;
 }
 
@@ -206,7 +223,8 @@ Inflow read_inflow(const TomlNode& node, std::size_t number, double end_time, Re
     }
   });
   if (!(norm(f.velocity) > 0.0))
-    in.refuse("velocity", "nothing flows in at rest: give a velocity, its direction serves where rate is given");
+    in.refuse("velocity",
+              "nothing flows in at rest: give a velocity, its direction serves where rate is given");
   if (!(f.stop > f.start)) in.refuse("stop", "it ends before it begins: stop must be greater than start");
   return f;
 }
@@ -220,7 +238,8 @@ ContactLaw read_contact_law(const TomlNode& node, std::size_t number, Reading& r
     in.refuse("materials", "write the two materials that meet, the same one twice for bodies of one");
   law.friction = in.maybe_number("friction");
   law.restitution = in.maybe_number("restitution");
-  if (!law.friction && !law.restitution) in.refuse("materials", "give the friction or the restitution of the pair, or both");
+  if (!law.friction && !law.restitution)
+    in.refuse("materials", "give the friction or the restitution of the pair, or both");
   return law;
 }
 

@@ -23,7 +23,8 @@ void read_modes(TableReader& in, Scene& s) {
   const auto* modes = in.composite("modes");
   if (!modes) return;
   if (modes->kind != TomlNode::Kind::table)
-    in.refuse("modes", fmt::format("write modes.TERM = \"paper\" or \"corrected\", not {}", kind_name(modes->kind)));
+    in.refuse("modes",
+              fmt::format("write modes.TERM = \"paper\" or \"corrected\", not {}", kind_name(modes->kind)));
   for (const auto& [term, word] : modes->members) {
     try {
       if (word.kind != TomlNode::Kind::text)
@@ -63,12 +64,14 @@ void read_model(TableReader& top, TableReader& in, Scene& s, Reading& reading) {
     if (!word) continue;
     const ModelForm& form = *form_of_word(t, *word);
     if (t.term && s.modes_given.contains(*t.term))
-      model.refuse(t.name,
-                   fmt::format("scene.{} gives the form too: remove one of them",
-                               *t.term == term::clamp && in.has("clamp") ? "clamp" : "modes." + std::string(t.term->name)));
+      model.refuse(t.name, fmt::format("scene.{} gives the form too: remove one of them",
+                                       *t.term == term::clamp && in.has("clamp")
+                                           ? "clamp"
+                                           : "modes." + std::string(t.term->name)));
     choose(s, t, form);
     for (const auto& [key, number] : form.values) {
-      if (in.has(key)) model.refuse(t.name, fmt::format("scene.{} gives the form too: remove one of them", key));
+      if (in.has(key))
+        model.refuse(t.name, fmt::format("scene.{} gives the form too: remove one of them", key));
       decide_by_form(reading, key, number, t.name);
     }
   }
@@ -76,12 +79,15 @@ void read_model(TableReader& top, TableReader& in, Scene& s, Reading& reading) {
 
 void check_domain(const TableReader& in, const Scene& s) {
   if (s.min.has_value() != s.max.has_value())
-    in.refuse(s.min ? "min" : "max", fmt::format("a domain has two corners: give scene.{} too", s.min ? "max" : "min"));
+    in.refuse(s.min ? "min" : "max",
+              fmt::format("a domain has two corners: give scene.{} too", s.min ? "max" : "min"));
   for (std::size_t a = 0; a < 3; ++a) {
     if (s.periodic[a] && !(s.min && s.max))
-      in.refuse("periodic", fmt::format("direction {} repeats over the domain: give scene.min and scene.max", "xyz"[a]));
+      in.refuse("periodic",
+                fmt::format("direction {} repeats over the domain: give scene.min and scene.max", "xyz"[a]));
     if (s.min && s.max && !((*s.max)[a] > (*s.min)[a]))
-      in.refuse("max", fmt::format("the domain has no extent along {}: max must be greater than min", "xyz"[a]));
+      in.refuse("max",
+                fmt::format("the domain has no extent along {}: max must be greater than min", "xyz"[a]));
   }
 }
 
@@ -94,10 +100,13 @@ void read_scene_table(TableReader& in, Scene& s, RecordReader<Scene>& read, Read
   read_clamp(in, s);
   read("time_step");
   if (s.time_step && *s.time_step > s.end_time)
-    in.refuse("time_step", fmt::format("{} s is longer than end_time = {} s: shorten it", *s.time_step, s.end_time));
+    in.refuse("time_step",
+              fmt::format("{} s is longer than end_time = {} s: shorten it", *s.time_step, s.end_time));
   if (s.time_step && s.end_time > most_steps * *s.time_step)
-    in.refuse("time_step", fmt::format("{} s would need {:.3g} steps to end_time = {} s: at most {:.0e} can be made; lengthen it",
-                                       *s.time_step, s.end_time / *s.time_step, s.end_time, most_steps));
+    in.refuse("time_step",
+              fmt::format(
+                  "{} s would need {:.3g} steps to end_time = {} s: at most {:.0e} can be made; lengthen it",
+                  *s.time_step, s.end_time / *s.time_step, s.end_time, most_steps));
   read("seed");
   read("jitter");
   read("min");
@@ -107,10 +116,11 @@ void read_scene_table(TableReader& in, Scene& s, RecordReader<Scene>& read, Read
   if (read("output_interval"))
     in.ruled("output_interval", show(s.output_interval = s.end_time / 20.0), "a twentieth of end_time");
   if (s.output_interval > s.end_time)
-    in.refuse("output_interval", fmt::format("{} s is longer than end_time = {} s: shorten it", s.output_interval, s.end_time));
-  if (s.end_time / s.output_interval > 1e6)
     in.refuse("output_interval",
-              fmt::format("{:.3g} frames would be written; at most 1e6: lengthen it", s.end_time / s.output_interval));
+              fmt::format("{} s is longer than end_time = {} s: shorten it", s.output_interval, s.end_time));
+  if (s.end_time / s.output_interval > 1e6)
+    in.refuse("output_interval", fmt::format("{:.3g} frames would be written; at most 1e6: lengthen it",
+                                             s.end_time / s.output_interval));
   read_effect_keys(in, "scene", s, reading);
   read.rest();
 }
@@ -124,14 +134,15 @@ void resolve_modes(TableReader& in, Scene& s, RecordReader<Scene>& read) {
   s.resolve_modes();
   for (const ModelTerm& t : model_terms())
     if (t.term && !s.modes_given.contains(*t.term))
-      in.decisions().push_back({fmt::format("model.{}", t.name), show_form(s, t), "as scene.mode", false, {}});
+      in.decisions().push_back(
+          {fmt::format("model.{}", t.name), show_form(s, t), "as scene.mode", false, {}});
   if (!in.has("clamp")) in.ruled("clamp", s.clamps() ? "true" : "false", "as modes.clamp");
   const bool paper = s.all_printed();
   if (!read("support_ratio")) {
     s.support_ratio_given = true;
     if (s.support_ratio > 10.0)
-      in.refuse("support_ratio", fmt::format("{} spacings reach some {:.0f} neighbours: at most 10", s.support_ratio,
-                                             4.19 * std::pow(s.support_ratio, 3)));
+      in.refuse("support_ratio", fmt::format("{} spacings reach some {:.0f} neighbours: at most 10",
+                                             s.support_ratio, 4.19 * std::pow(s.support_ratio, 3)));
   } else {
     s.support_ratio = s.default_support_ratio();
     in.ruled("support_ratio", show(s.support_ratio),
@@ -163,7 +174,8 @@ void resolve_spacing(TableReader& in, Scene& s, RecordReader<Scene>& read) {
   if (!std::isfinite(least) || !(least > 0.0))
     in.refuse("spacing", "no body has a finite extent to take a tenth of: give scene.spacing");
   s.spacing = least / 10.0;
-  in.ruled("spacing", show(s.spacing), fmt::format("a tenth of the smallest extent, {} m of body {}", least, which));
+  in.ruled("spacing", show(s.spacing),
+           fmt::format("a tenth of the smallest extent, {} m of body {}", least, which));
 }
 
 /// Materials of [[material]], then those of the library that a body or inflow names.
@@ -174,7 +186,9 @@ void read_materials(TableReader& top, Scene& s, Reading& reading) {
     for (const auto* node : top.tables(list)) {
       const auto* name = node->find("material");
       if (!name || name->kind != TomlNode::Kind::text || library_file(name->text).empty()) continue;
-      if (std::any_of(s.materials.begin(), s.materials.end(), [&](const Material& m) { return m.name == name->text; })) continue;
+      if (std::any_of(s.materials.begin(), s.materials.end(),
+                      [&](const Material& m) { return m.name == name->text; }))
+        continue;
       TomlNode entry;
       entry.place = name->place;
       entry.members.emplace_back("name", *name);
@@ -201,15 +215,19 @@ Scene read_scene(TableReader& top, Reading& reading) {
   std::size_t n = 0;
   for (const auto* node : top.tables("event")) s.events.push_back(read_event(*node, ++n, reading));
   n = 0;
-  for (const auto* node : top.tables("inflow")) s.inflows.push_back(read_inflow(*node, ++n, s.end_time, reading));
+  for (const auto* node : top.tables("inflow"))
+    s.inflows.push_back(read_inflow(*node, ++n, s.end_time, reading));
   n = 0;
-  for (const auto* node : top.tables("contact")) s.contact_laws.push_back(read_contact_law(*node, ++n, reading));
+  for (const auto* node : top.tables("contact"))
+    s.contact_laws.push_back(read_contact_law(*node, ++n, reading));
   n = 0;
   for (const auto* node : top.tables("force")) s.forces.push_back(read_force(*node, ++n, reading));
-  const bool flows =
-      !s.inflows.empty() || std::any_of(s.bodies.begin(), s.bodies.end(), [](const Body& b) { return b.phase == Phase::liquid; });
+  const bool flows = !s.inflows.empty() || std::any_of(s.bodies.begin(), s.bodies.end(), [](const Body& b) {
+    return b.phase == Phase::liquid;
+  });
   if (!s.contact && flows)
-    in.refuse("contact", "a liquid meets every solid by the same forces as solids meet each other: remove it");
+    in.refuse("contact",
+              "a liquid meets every solid by the same forces as solids meet each other: remove it");
   if (const auto stiffness = default_stiffness(s))
     reading.decisions.push_back({"material.stiffness", show(stiffness->value), stiffness->rule, false, {}});
   return s;

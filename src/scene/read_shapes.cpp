@@ -27,15 +27,19 @@ std::string read_kind(const TomlNode& node, std::string_view family, const std::
   };
   std::apply([&](const auto&... all) { (add(all), ...); }, kinds<Owner>);
   if (node.kind != Kind::table)
-    throw InputError(node.place, fmt::format("`{}` must be a table {{kind = \"{}\", ...}}, not {} ({})", path, words.front(),
-                                             kind_name(node.kind), printable(to_toml(node))));
+    throw InputError(node.place, fmt::format("`{}` must be a table {{kind = \"{}\", ...}}, not {} ({})", path,
+                                             words.front(), kind_name(node.kind), printable(to_toml(node))));
   const auto* given = node.find("kind");
-  if (!given) throw InputError(node.place, fmt::format("`{}` lacks the key `kind` (one of: {})", path, fmt::join(words, ", ")));
+  if (!given)
+    throw InputError(node.place,
+                     fmt::format("`{}` lacks the key `kind` (one of: {})", path, fmt::join(words, ", ")));
   const bool is_text = given->kind == Kind::text;
   if (!is_text || std::find(words.begin(), words.end(), given->text) == words.end())
-    throw InputError(given->place,
-                     fmt::format("`{}.kind` = {} is none of: {}{}", path, printable(to_toml(*given)), fmt::join(words, ", "),
-                                 is_text && !nearest(given->text, words).empty() ? suggestion(given->text, words) : ""));
+    throw InputError(
+        given->place,
+        fmt::format("`{}.kind` = {} is none of: {}{}", path, printable(to_toml(*given)),
+                    fmt::join(words, ", "),
+                    is_text && !nearest(given->text, words).empty() ? suggestion(given->text, words) : ""));
   const auto take = [&](const auto& kind) {
     if (kind.word == given->text) owner.kind = kind.kind;
   };
@@ -47,7 +51,8 @@ std::string read_kind(const TomlNode& node, std::string_view family, const std::
 template <class Owner>
 class KindReader : public TableReader {
  public:
-  KindReader(const TomlNode& node, std::string_view family, const std::string& path, Owner& owner, Reading& reading)
+  KindReader(const TomlNode& node, std::string_view family, const std::string& path, Owner& owner,
+             Reading& reading)
       : KindReader(node, fmt::format("{}.{}", family, read_kind(node, family, path, owner)), path, reading) {
     given("kind", to_toml(*node.find("kind")));
     RecordReader<Owner>(*this, owner, reading).all();
@@ -72,7 +77,8 @@ std::string mesh_path(const TableReader& in, const fs::path& given, const Readin
     const auto full = given.is_absolute() ? given : base / given;
     if (fs::is_regular_file(full, error)) return fs::absolute(full).lexically_normal().string();
   }
-  in.refuse("file", fmt::format("no file `{}` beside the case: give a path from the case's folder", printable(given.string())));
+  in.refuse("file", fmt::format("no file `{}` beside the case: give a path from the case's folder",
+                                printable(given.string())));
 }
 
 void expression_is_sound(const TomlNode& place, const std::string& text, const std::string& path) {
@@ -86,14 +92,16 @@ void expression_is_sound(const TomlNode& place, const std::string& text, const s
 }  // namespace
 
 Shape read_shape(const TomlNode& node, const std::string& path, Reading& reading, int depth) {
-  if (depth > 8) throw InputError(node.place, fmt::format("`{}` is nested deeper than 8 shapes: use one union", path));
+  if (depth > 8)
+    throw InputError(node.place, fmt::format("`{}` is nested deeper than 8 shapes: use one union", path));
   Shape s;
   KindReader in(node, "shape", path, s, reading);
   switch (s.kind) {
     case Shape::Kind::box:
       for (std::size_t a = 0; a < 3; ++a)
         if (!(s.max[a] > s.min[a]))
-          in.refuse("max", fmt::format("the box has no extent along {}: max must be greater than min", "xyz"[a]));
+          in.refuse("max",
+                    fmt::format("the box has no extent along {}: max must be greater than min", "xyz"[a]));
       break;
     case Shape::Kind::sphere:
       break;
@@ -131,7 +139,8 @@ TemperatureField read_temperature(const TomlNode& node, const std::string& path,
   if (f.kind == TemperatureField::Kind::cosine && f.mean - std::abs(f.amplitude) <= 0.0)
     in.refuse("amplitude", "the wave falls below 0 K: raise the mean or lower the amplitude");
   if (f.kind == TemperatureField::Kind::step) f.normal = direction(in, "normal", f.normal);
-  if (f.kind == TemperatureField::Kind::expression) expression_is_sound(*node.find("value"), f.expression, path + ".value");
+  if (f.kind == TemperatureField::Kind::expression)
+    expression_is_sound(*node.find("value"), f.expression, path + ".value");
   return f;
 }
 
@@ -144,7 +153,8 @@ VelocityField read_velocity(const TomlNode& node, const std::string& path, Readi
   }
   KindReader in(node, "velocity", path, f, reading);
   if (f.kind == VelocityField::Kind::expression)
-    for (const std::string& text : f.expression) expression_is_sound(*node.find("value"), text, path + ".value");
+    for (const std::string& text : f.expression)
+      expression_is_sound(*node.find("value"), text, path + ".value");
   return f;
 }
 

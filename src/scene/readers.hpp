@@ -6,7 +6,8 @@
 #include "scene/scene.hpp"
 #include "tables/table_reader.hpp"
 
-/// The parts of the reader of scenes, one function a table. All throw InputError with the place and what to write instead.
+/// The parts of the reader of scenes, one function a table. All throw InputError with the place and what to
+/// write instead.
 namespace tripoint {
 
 /// Data that the parts share.
@@ -32,14 +33,16 @@ struct Reading {
 /// Everything that is simulated: [scene], materials, bodies, events, inflows, laws of contact, forces.
 [[nodiscard]] Scene read_scene(TableReader& top, Reading&);
 
-/// Names that become folders, columns and command line arguments: refuses any but letters, digits, blanks, _ - .
+/// Names that become folders, columns and command line arguments: refuses any but letters, digits, blanks, _
+/// - .
 void plain_name(TableReader&, std::string_view key, const std::string& name);
 
 /// Names that refer to each other, and rules between keys: after everything is read.
 /// @param runs the forms that the scene is run in
 void check_scene(const Scene&, const std::vector<Mode>& runs, const Reading&);
 
-/// The name of a table of an array for paths and messages: its `name` key if that is a text, else its number from 1.
+/// The name of a table of an array for paths and messages: its `name` key if that is a text, else its number
+/// from 1.
 [[nodiscard]] std::string entry_name(const TomlNode&, std::size_t number);
 
 }  // namespace tripoint

@@ -12,11 +12,13 @@
 #include "scene/sample.hpp"
 #include "tables/expression.hpp"
 
-/// Particles of a scene at time 0: places on the lattice, mass rho0 dx^3, velocity and temperature by their fields.
+/// Particles of a scene at time 0: places on the lattice, mass rho0 dx^3, velocity and temperature by their
+/// fields.
 namespace tripoint {
 namespace {
 
-constexpr std::size_t max_particles = 20'000'000;  // about 2 GB here; far beyond the particles that one machine steps
+// About 2 GB here; far beyond the particles that one machine steps
+constexpr std::size_t max_particles = 20'000'000;
 
 /// Fields with their expressions compiled once.
 class TemperatureAt {
@@ -61,7 +63,8 @@ class VelocityAt {
       }
       case VelocityField::Kind::taylor_green: {
         const double k = 2.0 * std::numbers::pi / field_.wavelength;
-        return {-field_.speed * std::cos(k * r.x) * std::sin(k * r.y), field_.speed * std::sin(k * r.x) * std::cos(k * r.y), 0.0};
+        return {-field_.speed * std::cos(k * r.x) * std::sin(k * r.y),
+                field_.speed * std::sin(k * r.x) * std::cos(k * r.y), 0.0};
       }
       case VelocityField::Kind::expression:
         return {expressions_[0](r), expressions_[1](r), expressions_[2](r)};
@@ -74,7 +77,8 @@ class VelocityAt {
   std::vector<Expression> expressions_;
 };
 
-/// Velocity of each particle of a body: its field and its spin about the centre of mass, or its prescribed motion.
+/// Velocity of each particle of a body: its field and its spin about the centre of mass, or its prescribed
+/// motion.
 std::vector<Vec3> velocities(const Body& b, const std::vector<Vec3>& centres) {
   std::vector<Vec3> out(centres.size());
   if (b.motion == Motion::fixed) return out;
@@ -88,42 +92,51 @@ std::vector<Vec3> velocities(const Body& b, const std::vector<Vec3>& centres) {
     const Vec3 own = b.keyframes.empty() ? field(centres[i]) : start.velocity;
     out[i] = own + cross(start.angular_velocity, centres[i] - centre);
     if (!finite(out[i]))
-      throw InputError(b.place, fmt::format("body \"{}\": its velocity is not finite at ({}, {}, {}) m", b.name, centres[i].x,
-                                            centres[i].y, centres[i].z));
+      throw InputError(b.place, fmt::format("body \"{}\": its velocity is not finite at ({}, {}, {}) m",
+                                            b.name, centres[i].x, centres[i].y, centres[i].z));
   }
   return out;
 }
 
-/// A spin that moves no particle would be lost in silence: of one particle, or about the line that all of a body lie on.
+/// A spin that moves no particle would be lost in silence: of one particle, or about the line that all of a
+/// body lie on.
 void refuse_lost_spin(const Scene& s, const Body& b, const std::vector<Vec3>& centres) {
   if (b.motion != Motion::free || b.angular_velocity == Vec3{}) return;
   const double w = norm(b.angular_velocity);
   const Vec3 line = centres.back() - centres.front();
-  const auto off_line = [&](const Vec3& r) { return norm(cross(r - centres.front(), line)) > 1e-6 * s.spacing * norm(line); };
-  if (norm(line) > 0.0 &&
-      (std::any_of(centres.begin(), centres.end(), off_line) || std::abs(dot(b.angular_velocity, line)) <= 1e-9 * w * norm(line)))
+  const auto off_line = [&](const Vec3& r) {
+    return norm(cross(r - centres.front(), line)) > 1e-6 * s.spacing * norm(line);
+  };
+  if (norm(line) > 0.0 && (std::any_of(centres.begin(), centres.end(), off_line) ||
+                           std::abs(dot(b.angular_velocity, line)) <= 1e-9 * w * norm(line)))
     return;
   if (centres.size() == 1)
-    throw InputError(
-        b.place,
-        fmt::format("body \"{}\" is one particle, which cannot spin: remove angular_velocity, or refine scene.spacing", b.name));
-  throw InputError(b.place, fmt::format("body \"{}\" is a line of {} particles, and a spin about its own axis moves none of "
-                                        "them: leave out that part of angular_velocity, or make the body wider than one spacing",
-                                        b.name, centres.size()));
+    throw InputError(b.place, fmt::format("body \"{}\" is one particle, which cannot spin: remove "
+                                          "angular_velocity, or refine scene.spacing",
+                                          b.name));
+  throw InputError(
+      b.place,
+      fmt::format("body \"{}\" is a line of {} particles, and a spin about its own axis moves none of "
+                  "them: leave out that part of angular_velocity, or make the body wider than one spacing",
+                  b.name, centres.size()));
 }
 
 void check_temperatures(const Scene& s) {
-  const auto heated = std::find_if(s.bodies.begin(), s.bodies.end(), [](const Body& b) { return b.temperature.has_value(); });
+  const auto heated =
+      std::find_if(s.bodies.begin(), s.bodies.end(), [](const Body& b) { return b.temperature.has_value(); });
   if (heated == s.bodies.end()) return;
   for (const auto& b : s.bodies)
     if (!b.temperature)
-      throw InputError(b.place,
-                       fmt::format("body \"{}\" has no temperature, but \"{}\" has: give every body one, or none; a body that "
-                                   "takes up no heat has a temperature too, and a material of conductivity 1e-12 W/m/K",
-                                   b.name, heated->name));
+      throw InputError(
+          b.place,
+          fmt::format(
+              "body \"{}\" has no temperature, but \"{}\" has: give every body one, or none; a body that "
+              "takes up no heat has a temperature too, and a material of conductivity 1e-12 W/m/K",
+              b.name, heated->name));
 }
 
-/// Shifts each particle at random. A body that keyframes lead keeps its centre, which is where they begin: it would jump there.
+/// Shifts each particle at random. A body that keyframes lead keeps its centre, which is where they begin: it
+/// would jump there.
 /// @param first number of the body's first particle, on which the shifts depend
 void disturb(const Scene& s, const Body& b, std::size_t first, std::vector<Vec3>& centres) {
   Vec3 mean;
@@ -145,13 +158,13 @@ InitialState laid(const Scene& s) {
   const auto rows = body_rows(s);
   for (std::size_t n = 0; n < s.bodies.size(); ++n) {
     const Body& b = s.bodies[n];
-    const auto material =
-        std::find_if(s.materials.begin(), s.materials.end(), [&](const Material& m) { return m.name == b.material; });
+    const auto material = std::find_if(s.materials.begin(), s.materials.end(),
+                                       [&](const Material& m) { return m.name == b.material; });
     const double mass = s.material(b.material).density * s.spacing * s.spacing * s.spacing;
     auto centres = fill(s, b);
     if (out.size() + centres.size() > max_particles)
-      throw InputError(b.place,
-                       fmt::format("more than {} particles by body \"{}\": coarsen scene.spacing", max_particles, b.name));
+      throw InputError(b.place, fmt::format("more than {} particles by body \"{}\": coarsen scene.spacing",
+                                            max_particles, b.name));
     refuse_lost_spin(s, b, centres);
     if (s.jitter > 0.0 && b.jitters) disturb(s, b, out.size(), centres);
     const auto velocity = velocities(b, centres);
@@ -168,8 +181,10 @@ InitialState laid(const Scene& s) {
       if (!temperature) continue;
       const double T = (*temperature)(centres[i]);
       if (!std::isfinite(T) || T <= 0.0)
-        throw InputError(b.place, fmt::format("body \"{}\": its temperature is {} K at ({}, {}, {}) m: it must be above 0 K",
-                                              b.name, T, centres[i].x, centres[i].y, centres[i].z));
+        throw InputError(
+            b.place,
+            fmt::format("body \"{}\": its temperature is {} K at ({}, {}, {}) m: it must be above 0 K",
+                        b.name, T, centres[i].x, centres[i].y, centres[i].z));
       out.temperature.push_back(T);
     }
   }

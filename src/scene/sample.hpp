@@ -9,21 +9,23 @@ namespace tripoint {
 
 struct Mesh;
 
-/// Particles of the scene, row = id, bodies in order: on its lattice, and then let down into equilibrium where the scene says
-/// `settle`.
+/// Particles of the scene, row = id, bodies in order: on its lattice, and then let down into equilibrium
+/// where the scene says `settle`.
 /// @throws InputError (no particles, mesh not closed, nothing to settle with, ...)
 [[nodiscard]] InitialState sample(const Scene&);
 
-/// How sample() lets liquids down. The program that has a solver sets it, once, before it samples: this room and the judge know
-/// none.
+/// How sample() lets liquids down. The program that has a solver sets it, once, before it samples: this room
+/// and the judge know none.
 using Settler = InitialState (*)(const Scene&, InitialState);
 void set_settler(Settler) noexcept;
 
 /// Row in /particles/bodies of each [[body]]; -1 for a liquid.
 [[nodiscard]] std::vector<int> body_rows(const Scene&);
 
-/// Mass, centre, principal moments (ascending) and axes of the given particles; moments at round-off become 0.
-[[nodiscard]] MassProperties mass_properties(const std::vector<Vec3>& position, const std::vector<double>& mass);
+/// Mass, centre, principal moments (ascending) and axes of the given particles; moments at round-off become
+/// 0.
+[[nodiscard]] MassProperties mass_properties(const std::vector<Vec3>& position,
+                                             const std::vector<double>& mass);
 
 /// Mass, centre and moments of the body that the mesh encloses, filled with one density.
 [[nodiscard]] MassProperties mass_properties(const Mesh&, double density);

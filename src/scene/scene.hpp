@@ -14,7 +14,8 @@
 #include "core/vec3.hpp"
 #include "scene/term.hpp"
 
-/// The checked scene: the content of a case file, in SI, with every default filled in. It contains no physics.
+/// The checked scene: the content of a case file, in SI, with every default filled in. It contains no
+/// physics.
 namespace tripoint {
 
 enum class Phase : int { liquid = 0, elastic = 1, rigid = 2 };
@@ -32,7 +33,8 @@ enum class GuardName;                             ///< scene/guard_name.hpp
 [[nodiscard]] Motion motion_from(std::string_view);
 [[nodiscard]] Mode mode_from(std::string_view);
 
-/// Numbers of the case file whose keys an effect brings and that have no member here, in SI, by the key's name.
+/// Numbers of the case file whose keys an effect brings and that have no member here, in SI, by the key's
+/// name.
 using EffectValues = std::map<std::string, double, std::less<>>;
 /// 0 where the key has no value: of a scene that no reader made.
 [[nodiscard]] inline double value_of(const EffectValues& values, std::string_view key) {
@@ -48,8 +50,9 @@ struct Material {
   std::optional<double> young_modulus, poisson_ratio;  ///< [Pa], [1]
   std::optional<double> conductivity,
       heat_capacity;  ///< of the liquid, and of the solid too where it has none of its own [W/m/K], [J/kg/K]
-  std::optional<double> solid_conductivity, solid_heat_capacity;  ///< of the solid where they differ; not as printed
-  std::optional<double> t_melt, t_solid, latent_heat;             ///< [K], [K], [J/kg]
+  /// Of the solid where they differ; not as printed
+  std::optional<double> solid_conductivity, solid_heat_capacity;
+  std::optional<double> t_melt, t_solid, latent_heat;  ///< [K], [K], [J/kg]
   SolidKind solid = SolidKind::elastic;
   bool softens = false;
   std::optional<double> elastic_limit, plastic_limit;  ///< strain [1]
@@ -68,9 +71,10 @@ struct Shape {
   double radius = 0.0;          ///< sphere, cylinder [m]
   Vec3 point, normal{0, 0, 1};  ///< half_space: inside where (r - point).normal <= 0
   std::vector<Shape> of;
-  std::string file;     ///< mesh: absolute path after reading
-  double scale = 1.0;   ///< mesh
-  Quaternion rotation;  ///< about the centre of the bounding box of the shape that is not turned; not of a sphere or half space
+  std::string file;    ///< mesh: absolute path after reading
+  double scale = 1.0;  ///< mesh
+  /// About the centre of the bounding box of the shape that is not turned; not of a sphere or half space
+  Quaternion rotation;
 };
 
 /// Temperature as a function of place [K].
@@ -141,8 +145,9 @@ struct Inflow {
 
 /// Laws of contact of a pair of materials, [[contact]]. A pair that no table names has neither.
 struct ContactLaw {
-  std::vector<std::string> materials;           ///< two; the same one twice for bodies of one material
-  std::optional<double> friction, restitution;  ///< Coulomb's coefficient, ratio of speeds after and before a hit [1]
+  std::vector<std::string> materials;  ///< two; the same one twice for bodies of one material
+  /// Coulomb's coefficient, ratio of speeds after and before a hit [1]
+  std::optional<double> friction, restitution;
   SourcePlace place;
 };
 
@@ -154,8 +159,8 @@ struct AppliedForce {
   SourcePlace place;
 };
 
-/// Support radius h/dx where a file says nothing. Where every term is as printed it is that of the paper, about 40 neighbours by
-/// volume. Else it is that of the Wendland kernel, about 74.
+/// Support radius h/dx where a file says nothing. Where every term is as printed it is that of the paper,
+/// about 40 neighbours by volume. Else it is that of the Wendland kernel, about 74.
 inline constexpr double printed_support = 2.12, corrected_support = 2.6;
 /// Reach over nearest and diagonal neighbours of the lattice [spacings].
 inline constexpr double lattice_reach = 1.5;
@@ -169,7 +174,8 @@ struct Scene {
   double spacing = 0.0;                      ///< dx [m]
   double support_ratio = corrected_support;  ///< h/dx
   Mode mode = Mode::corrected;
-  TermModes modes;        ///< resolved for every term; a scene that no reader made is corrected where it has none
+  /// Resolved for every term; a scene that no reader made is corrected where it has none
+  TermModes modes;
   TermModes modes_given;  ///< as the case file says, term by term
   TermForms forms;        ///< of corrected terms whose form another effect brings (model.hpp), by its word
   bool support_ratio_given = false;
@@ -185,8 +191,9 @@ struct Scene {
   double merge_distance = lattice_reach;  ///< [spacings]
   bool merge_distance_given = false;
   double contact_viscosity = 0.0;
-  bool contact = true;               ///< false: solids pass through each other (contact = "none")
-  bool recovers = false;             ///< a guard that trips sends the run back to a good state, with half the step
+  bool contact = true;  ///< false: solids pass through each other (contact = "none")
+  /// a guard that trips sends the run back to a good state, with half the step
+  bool recovers = false;
   std::vector<GuardName> unguarded;  ///< guards that are off
   EffectValues values;               ///< of keys that effects bring (scene/effect_rule.hpp)
   std::vector<Material> materials;
@@ -202,9 +209,13 @@ struct Scene {
     return at != modes.end() ? at->second : mode_of_unresolved(t);
   }
   /// Whether another effect brings the form of a term: its own effect then leaves the term to that one.
-  [[nodiscard]] bool has_brought_form(const Term& t) const { return forms.contains(t) && mode_of(t) == Mode::corrected; }
+  [[nodiscard]] bool has_brought_form(const Term& t) const {
+    return forms.contains(t) && mode_of(t) == Mode::corrected;
+  }
   /// Whether it is the form of that word.
-  [[nodiscard]] bool takes_form(const Term& t, std::string_view word) const { return has_brought_form(t) && forms.at(t) == word; }
+  [[nodiscard]] bool takes_form(const Term& t, std::string_view word) const {
+    return has_brought_form(t) && forms.at(t) == word;
+  }
   /// Whether pressure (9) below zero counts as zero. The paper prints no clamp: it is a correction.
   [[nodiscard]] bool clamps() const;
   /// Whether every term that has printed equations is as printed.
@@ -213,7 +224,9 @@ struct Scene {
   void resolve_modes();
   /// Every term in one form.
   void set_all_modes(Mode);
-  [[nodiscard]] double default_support_ratio() const { return all_printed() ? printed_support : corrected_support; }
+  [[nodiscard]] double default_support_ratio() const {
+    return all_printed() ? printed_support : corrected_support;
+  }
   /// @throws InputError when no material (body) of that name is there
   [[nodiscard]] const Material& material(std::string_view name) const;
   [[nodiscard]] const Body& body(std::string_view name) const;

@@ -8,7 +8,9 @@
 
 namespace tripoint {
 
-double default_merge_distance(const Scene& s) { return s.mode_of(term::phase) == Mode::paper ? bond_reach(s) : lattice_reach; }
+double default_merge_distance(const Scene& s) {
+  return s.mode_of(term::phase) == Mode::paper ? bond_reach(s) : lattice_reach;
+}
 
 Scene scene_for(Scene s, const RunChoice& choice) {
   if (choice.mode) s.mode = *choice.mode;

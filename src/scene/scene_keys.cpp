@@ -17,20 +17,22 @@ using enum Range;
 
 constexpr auto top_keys = std::to_array<Key>({
     {"", "scene", table, "", any, "!", "", "scene", "the simulated scene"},
-    {"", "model", table, "", any, "=", "the forms that scene.mode says", "model", "form of each term of the model"},
+    {"", "model", table, "", any, "=", "the forms that scene.mode says", "model",
+     "form of each term of the model"},
     {"", "material", tables, "", any, "=", "materials of the library serve by name", "material", "matter"},
     {"", "body", tables, "", any, "!", "", "body", "bodies, in the order of their rows"},
     {"", "event", tables, "", any, "=", "nothing happens on the way", "event", "what happens at a time"},
     {"", "inflow", tables, "", any, "=", "nothing flows in", "inflow", "liquid that flows in"},
-    {"", "contact", tables, "", any, "=", "no friction; restitution as each engine's preset has it", "contact",
-     "friction and restitution by pairs of materials"},
+    {"", "contact", tables, "", any, "=", "no friction; restitution as each engine's preset has it",
+     "contact", "friction and restitution by pairs of materials"},
     {"", "force", tables, "", any, "=", "gravity alone", "force", "constant forces on rigid bodies"},
 });
 
 constexpr auto tables_of_scene = std::to_array<TableInfo>({
     {"scene", "[scene]", "The simulated scene."},
     {"model", "[model]",
-     "The form of each term of the model, by a word that holds in every mode: `viscosity = \"morris\"`; paper: as the "
+     "The form of each term of the model, by a word that holds in every mode: `viscosity = \"morris\"`; "
+     "paper: as the "
      "paper prints it. `mode`, `modes`, `clamp` and numbers of [scene] fill what is not given here."},
     {"material", "[[material]]", "A material. Names of the library bring the library's values."},
     {"body", "[[body]]", "A body."},
@@ -81,7 +83,8 @@ std::vector<Key> all_keys() {
   add_rows(list, record<AppliedForce>);
   for (const EffectRule& rule : effect_rules()) {
     for (const EffectKey& key : rule.keys) {
-      const auto last = std::find_if(list.rbegin(), list.rend(), [&](const Key& k) { return k.table == key.row.table; });
+      const auto last =
+          std::find_if(list.rbegin(), list.rend(), [&](const Key& k) { return k.table == key.row.table; });
       list.insert(last.base(), key.row);
     }
   }

@@ -4,8 +4,8 @@
 #include "scene/scene.hpp"
 #include "tables/record.hpp"
 
-/// The keys of [scene], materials, bodies, events and inflows, each beside the member that keeps it. Effects bring more
-/// (effect_rule.hpp).
+/// The keys of [scene], materials, bodies, events and inflows, each beside the member that keeps it. Effects
+/// bring more (effect_rule.hpp).
 namespace tripoint {
 namespace records {
 using enum ValueType;
@@ -13,67 +13,77 @@ using enum Range;
 
 inline constexpr auto of_scene = std::make_tuple(
     kept(&Scene::end_time, {"scene", "end_time", number, "s", positive, "!", "", "", "simulated time"}),
-    kept(&Scene::gravity, {"scene", "gravity", vector, "m/s2", any, "[0, 0, 0]", "free space: a case says when bodies fall", "",
-                           "acceleration of every free particle"}),
-    kept(&Scene::spacing, {"scene", "spacing", number, "m", positive, "=", "a tenth of the smallest extent of a body", "",
-                           "distance dx of the particles, the same in the whole scene"}),
+    kept(&Scene::gravity,
+         {"scene", "gravity", vector, "m/s2", any, "[0, 0, 0]", "free space: a case says when bodies fall",
+          "", "acceleration of every free particle"}),
+    kept(&Scene::spacing,
+         {"scene", "spacing", number, "m", positive, "=", "a tenth of the smallest extent of a body", "",
+          "distance dx of the particles, the same in the whole scene"}),
     kept(&Scene::support_ratio, {"scene", "support_ratio", number, "", above_one, "=",
                                  "2.12 where every term is paper, else 2.6 (about 40 and 74 neighbours)", "",
                                  "support radius of the kernel divided by the spacing, h/dx"}),
-    kept(&Scene::mode, {"scene", "mode", word, "", any, "\"corrected\"", "the best known form of each term", "corrected paper",
-                        "form of every term of the model"}),
-    Key{"scene", "modes", table, "", any, "=", "every term as `mode` says", "modes", "form of single terms of the model"},
+    kept(&Scene::mode, {"scene", "mode", word, "", any, "\"corrected\"", "the best known form of each term",
+                        "corrected paper", "form of every term of the model"}),
+    Key{"scene", "modes", table, "", any, "=", "every term as `mode` says", "modes",
+        "form of single terms of the model"},
     Key{"scene", "clamp", flag, "", any, "=",
-        "true where modes.clamp is corrected, as negative pressure would glue bodies together", "", "no negative pressure"},
+        "true where modes.clamp is corrected, as negative pressure would glue bodies together", "",
+        "no negative pressure"},
     kept(&Scene::time_step, {"scene", "time_step", number_or_auto, "s", positive, "\"auto\"",
                              "the least bound of the effects that are on", "", "time step, or \"auto\""}),
-    kept(&Scene::seed, {"scene", "seed", integer, "", not_negative, "1", "any number serves; kept so that runs repeat", "",
-                        "seed of jitter and walkers"}),
-    kept(&Scene::jitter, {"scene", "jitter", number, "", fraction, "0", "an undisturbed lattice", "",
-                          "random shift of each particle, uniform in +-jitter in each direction, in spacings"}),
-    kept(&Scene::min,
-         {"scene", "min", vector, "m", any, "", "no bounds: no direction is periodic", "", "lower corner of the domain"}),
-    kept(&Scene::max,
-         {"scene", "max", vector, "m", any, "", "no bounds: no direction is periodic", "", "upper corner of the domain"}),
-    kept(&Scene::periodic,
-         {"scene", "periodic", words, "", any, "[]", "open in every direction", "x y z", "periodic directions of the domain"}),
-    kept(&Scene::output_interval,
-         {"scene", "output_interval", number, "s", positive, "=", "a twentieth of end_time", "", "time between frames"}),
+    kept(&Scene::seed, {"scene", "seed", integer, "", not_negative, "1",
+                        "any number serves; kept so that runs repeat", "", "seed of jitter and walkers"}),
+    kept(&Scene::jitter,
+         {"scene", "jitter", number, "", fraction, "0", "an undisturbed lattice", "",
+          "random shift of each particle, uniform in +-jitter in each direction, in spacings"}),
+    kept(&Scene::min, {"scene", "min", vector, "m", any, "", "no bounds: no direction is periodic", "",
+                       "lower corner of the domain"}),
+    kept(&Scene::max, {"scene", "max", vector, "m", any, "", "no bounds: no direction is periodic", "",
+                       "upper corner of the domain"}),
+    kept(&Scene::periodic, {"scene", "periodic", words, "", any, "[]", "open in every direction", "x y z",
+                            "periodic directions of the domain"}),
+    kept(&Scene::output_interval, {"scene", "output_interval", number, "s", positive, "=",
+                                   "a twentieth of end_time", "", "time between frames"}),
     kept(&Scene::settle, {"scene", "settle", flag, "", any, "false", "liquids start on a lattice", "",
                           "liquids settle under gravity before time 0, between solids at rest"}),
     kept(&Scene::merge_distance,
          {"scene", "merge_distance", number, "", positive, "=",
-          "1.5, nearest and diagonal neighbours of the lattice; where phase is paper 2.12, the reach of its bonds", "",
-          "distance within which a freezing particle joins, in spacings"},
+          "1.5, nearest and diagonal neighbours of the lattice; where phase is paper 2.12, the reach of its "
+          "bonds",
+          "", "distance within which a freezing particle joins, in spacings"},
          {.later = true}),
     kept(&Scene::contact,
-         {"scene", "contact", word, "", any, "\"auto\"", "solids meet wherever their paths can cross", "auto none",
-          "none: solids pass through each other; not in a scene with liquid"},
+         {"scene", "contact", word, "", any, "\"auto\"", "solids meet wherever their paths can cross",
+          "auto none", "none: solids pass through each other; not in a scene with liquid"},
          {.yes = "auto"}),
     kept(&Scene::recovers,
-         {"scene", "on_failure", word, "", any, "\"stop\"", "a run that has gone wrong is no result", "stop recover",
-          "action of a guard that trips. stop: exit code 7. recover: back to the last good state and on with half the step"},
+         {"scene", "on_failure", word, "", any, "\"stop\"", "a run that has gone wrong is no result",
+          "stop recover",
+          "action of a guard that trips. stop: exit code 7. recover: back to the last good state and on with "
+          "half the step"},
          {.yes = "recover"}),
-    kept(&Scene::unguarded, {"scene", "unguarded", words, "", any, "[]", "every guard is on", words_of_optional_guards,
-                             "guards that are off: det F <= 0, more than two coinciding layers, a particle outside min..max, "
-                             "energy of the scheme, a collapsing time step"}));
+    kept(&Scene::unguarded,
+         {"scene", "unguarded", words, "", any, "[]", "every guard is on", words_of_optional_guards,
+          "guards that are off: det F <= 0, more than two coinciding layers, a particle outside min..max, "
+          "energy of the scheme, a collapsing time step"}));
 
-inline constexpr auto of_material =
-    std::make_tuple(kept(&Material::name, {"material", "name", text, "", any, "!", "", "",
-                                           "its name; a name of the library brings values, which keys here replace"}),
-                    kept(&Material::density,
-                         {"material", "density", number, "kg/m3", positive, "!", "", "", "rest density, one for both phases"}),
-                    kept(&Material::solid,
-                         {"material", "solid", word, "", any, "=", "elastic where young_modulus is given, else rigid",
-                          "elastic rigid", "kind of the solid"},
-                         {.later = true}),
-                    Key{"material", "source", text, "", any, "", "the case's own values", "", "where the values come from"});
+inline constexpr auto of_material = std::make_tuple(
+    kept(&Material::name, {"material", "name", text, "", any, "!", "", "",
+                           "its name; a name of the library brings values, which keys here replace"}),
+    kept(&Material::density, {"material", "density", number, "kg/m3", positive, "!", "", "",
+                              "rest density, one for both phases"}),
+    kept(&Material::solid,
+         {"material", "solid", word, "", any, "=", "elastic where young_modulus is given, else rigid",
+          "elastic rigid", "kind of the solid"},
+         {.later = true}),
+    Key{"material", "source", text, "", any, "", "the case's own values", "", "where the values come from"});
 
 inline constexpr auto of_body = std::make_tuple(
     kept(&Body::name, {"body", "name", text, "", any, "!", "", "", "name of the body"}),
-    kept(&Body::material, {"body", "material", text, "", any, "!", "", "", "name of a [[material]], or of one of the library"}),
-    kept(&Body::phase, {"body", "phase", word, "", any, "=", "from the material and the temperature", "liquid elastic rigid",
-                        "phase at the start"}),
+    kept(&Body::material, {"body", "material", text, "", any, "!", "", "",
+                           "name of a [[material]], or of one of the library"}),
+    kept(&Body::phase, {"body", "phase", word, "", any, "=", "from the material and the temperature",
+                        "liquid elastic rigid", "phase at the start"}),
     kept(&Body::shape, {"body", "shape", shape, "", any, "!", "", "", "region that the body fills"}),
     Key{"body", "rotation", numbers, "", any, "", "not turned", "",
         "turns shape and particles at the start: (w, x, y, z) about the centre of the shape's bounding box"},
@@ -84,14 +94,17 @@ inline constexpr auto of_body = std::make_tuple(
     kept(&Body::angular_velocity,
          {"body", "angular_velocity", vector, "rad/s", any, "[0, 0, 0]", "no spin", "",
           "angular velocity at the start about the centre of mass, in the world frame; for liquids too"}),
-    kept(&Body::temperature,
-         {"body", "temperature", temperature, "K", positive, "", "its heat is not followed", "", "temperature at the start"}),
-    kept(&Body::temperature_held, {"body", "temperature_held", flag, "", any, "false", "free to warm and cool", "",
-                                   "true: the temperature of the body never changes"}),
-    kept(&Body::motion, {"body", "motion", word, "", any, "\"free\"", "bodies move by their forces", "free fixed prescribed",
-                         "free: moved by forces; fixed: at rest; prescribed: moved by keyframes or constant velocities"}),
-    kept(&Body::keyframes, {"body", "keyframes", tables, "", any, "[]", "prescribed: constant velocity and angular_velocity",
-                            "keyframe", "motion of a prescribed body"}),
+    kept(&Body::temperature, {"body", "temperature", temperature, "K", positive, "",
+                              "its heat is not followed", "", "temperature at the start"}),
+    kept(&Body::temperature_held,
+         {"body", "temperature_held", flag, "", any, "false", "free to warm and cool", "",
+          "true: the temperature of the body never changes"}),
+    kept(&Body::motion,
+         {"body", "motion", word, "", any, "\"free\"", "bodies move by their forces", "free fixed prescribed",
+          "free: moved by forces; fixed: at rest; prescribed: moved by keyframes or constant velocities"}),
+    kept(&Body::keyframes,
+         {"body", "keyframes", tables, "", any, "[]", "prescribed: constant velocity and angular_velocity",
+          "keyframe", "motion of a prescribed body"}),
     kept(&Body::free_slip,
          {"body", "slip", word, "", any, "\"no\"", "liquid sticks to solids", "no free",
           "no: liquid sticks to the body; free: liquid glides along it"},
@@ -104,52 +117,65 @@ inline constexpr auto of_body = std::make_tuple(
                             "bodies that the body is bonded to from the start"}));
 
 inline constexpr auto of_keyframe = std::make_tuple(
-    kept(&Keyframe::time,
-         {"keyframe", "time", number, "s", not_negative, "!", "", "", "time of the keyframe; keyframes are in rising order"}),
-    kept(&Keyframe::position,
-         {"keyframe", "position", vector, "m", any, "!", "", "", "position of the centre of mass; linear between keyframes"}),
-    kept(&Keyframe::rotation, {"keyframe", "rotation", numbers, "", any, "[1, 0, 0, 0]", "not turned", "",
-                               "rotation (w, x, y, z) since the start; slerp, less than half a turn between keyframes"}));
+    kept(&Keyframe::time, {"keyframe", "time", number, "s", not_negative, "!", "", "",
+                           "time of the keyframe; keyframes are in rising order"}),
+    kept(&Keyframe::position, {"keyframe", "position", vector, "m", any, "!", "", "",
+                               "position of the centre of mass; linear between keyframes"}),
+    kept(&Keyframe::rotation,
+         {"keyframe", "rotation", numbers, "", any, "[1, 0, 0, 0]", "not turned", "",
+          "rotation (w, x, y, z) since the start; slerp, less than half a turn between keyframes"}));
 
 inline constexpr auto of_event = std::make_tuple(
-    kept(&Event::time, {"event", "time", number, "s", not_negative, "!", "", "", "time at which the event begins"}),
+    kept(&Event::time,
+         {"event", "time", number, "s", not_negative, "!", "", "", "time at which the event begins"}),
     kept(&Event::kind,
          {"event", "kind", word, "", any, "!", "", "merge split release heat hold grip",
-          "`merge`: bodies[0] absorbs the rest. `split`: members in region become body `name`. `heat`: holds `temperature` until "
+          "`merge`: bodies[0] absorbs the rest. `split`: members in region become body `name`. `heat`: holds "
+          "`temperature` until "
           "`until`. `hold`: pauses bodies. `grip`: moves solids in region by keyframes until release"}),
-    kept(&Event::name, {"event", "name", text, "", any, "=", "none", "", "name of the new body, or of the grip"}),
-    kept(&Event::bodies, {"event", "bodies", texts, "", any, "[]", "all in the region", "", "bodies that the event acts on"}),
-    kept(&Event::region, {"event", "region", shape, "", any, "", "everywhere", "", "region that the event acts in"}),
-    kept(&Event::temperature, {"event", "temperature", number, "K", positive, "", "none", "", "temperature that is held"}),
-    kept(&Event::until, {"event", "until", number, "s", positive, "", "to the end", "", "time at which the event ends"}),
-    kept(&Event::keyframes, {"event", "keyframes", tables, "", any, "[]", "none", "keyframe", "motion of the grip"}));
+    kept(&Event::name,
+         {"event", "name", text, "", any, "=", "none", "", "name of the new body, or of the grip"}),
+    kept(&Event::bodies,
+         {"event", "bodies", texts, "", any, "[]", "all in the region", "", "bodies that the event acts on"}),
+    kept(&Event::region,
+         {"event", "region", shape, "", any, "", "everywhere", "", "region that the event acts in"}),
+    kept(&Event::temperature,
+         {"event", "temperature", number, "K", positive, "", "none", "", "temperature that is held"}),
+    kept(&Event::until,
+         {"event", "until", number, "s", positive, "", "to the end", "", "time at which the event ends"}),
+    kept(&Event::keyframes,
+         {"event", "keyframes", tables, "", any, "[]", "none", "keyframe", "motion of the grip"}));
 
 inline constexpr auto of_inflow = std::make_tuple(
-    kept(&Inflow::material, {"inflow", "material", text, "", any, "!", "", "", "name of the material that flows in"}),
+    kept(&Inflow::material,
+         {"inflow", "material", text, "", any, "!", "", "", "name of the material that flows in"}),
     kept(&Inflow::shape, {"inflow", "shape", shape, "", any, "!", "", "", "region through which it enters"}),
-    kept(&Inflow::velocity,
-         {"inflow", "velocity", vector, "m/s", any, "!", "", "", "velocity of the liquid that enters, along an axis"}),
-    kept(&Inflow::temperature, {"inflow", "temperature", number, "K", positive, "", "its heat is not followed", "",
-                                "temperature of the liquid that enters"}),
-    kept(&Inflow::start,
-         {"inflow", "start", number, "s", not_negative, "0", "from the start", "", "time at which the inflow begins"}),
-    kept(&Inflow::stop, {"inflow", "stop", number, "s", positive, "=", "end_time", "", "time at which the inflow ends"}),
+    kept(&Inflow::velocity, {"inflow", "velocity", vector, "m/s", any, "!", "", "",
+                             "velocity of the liquid that enters, along an axis"}),
+    kept(&Inflow::temperature, {"inflow", "temperature", number, "K", positive, "",
+                                "its heat is not followed", "", "temperature of the liquid that enters"}),
+    kept(&Inflow::start, {"inflow", "start", number, "s", not_negative, "0", "from the start", "",
+                          "time at which the inflow begins"}),
+    kept(&Inflow::stop,
+         {"inflow", "stop", number, "s", positive, "=", "end_time", "", "time at which the inflow ends"}),
     kept(&Inflow::rate, {"inflow", "rate", number, "m3/s", positive, "", "by the speed", "",
                          "volume per second; replaces the magnitude of velocity"}));
 
 inline constexpr auto of_contact_law = std::make_tuple(
-    kept(&ContactLaw::materials, {"contact", "materials", texts, "", any, "!", "", "", "the two materials that meet"}),
-    kept(&ContactLaw::friction,
-         {"contact", "friction", number, "", not_negative, "", "none", "", "Coulomb's coefficient of friction"}),
+    kept(&ContactLaw::materials,
+         {"contact", "materials", texts, "", any, "!", "", "", "the two materials that meet"}),
+    kept(&ContactLaw::friction, {"contact", "friction", number, "", not_negative, "", "none", "",
+                                 "Coulomb's coefficient of friction"}),
     kept(&ContactLaw::restitution, {"contact", "restitution", number, "", fraction, "", "none", "",
                                     "normal speed after a hit divided by the speed before it"}));
 
 inline constexpr auto of_force = std::make_tuple(
     kept(&AppliedForce::body, {"force", "body", text, "", any, "!", "", "", "name of a free rigid body"}),
-    kept(&AppliedForce::value,
-         {"force", "value", vector, "N", any, "!", "", "", "constant force in the world frame, from the start to the end"}),
-    kept(&AppliedForce::point, {"force", "place", vector, "m", any, "", "the centre of mass", "",
-                                "point of the body that it acts on, where it is at the start; it moves with the body"}));
+    kept(&AppliedForce::value, {"force", "value", vector, "N", any, "!", "", "",
+                                "constant force in the world frame, from the start to the end"}),
+    kept(&AppliedForce::point,
+         {"force", "place", vector, "m", any, "", "the centre of mass", "",
+          "point of the body that it acts on, where it is at the start; it moves with the body"}));
 
 }  // namespace records
 

@@ -29,7 +29,8 @@ double to_box(const Shape& s, const Vec3& r) {
 
 double to_cylinder(const Shape& s, const Vec3& r) {
   const Vec3 d = r - s.base;
-  const double along = dot(d, s.axis), ends = std::max(-along, along - s.length), side = norm(d - along * s.axis) - s.radius;
+  const double along = dot(d, s.axis), ends = std::max(-along, along - s.length),
+               side = norm(d - along * s.axis) - s.radius;
   return ends > 0.0 && side > 0.0 ? std::hypot(ends, side) : std::max(ends, side);
 }
 
@@ -49,21 +50,26 @@ std::optional<Filled> by_formula(const Shape& s) {
   const double V = volume(s).value_or(0.0);
   if (s.kind == Kind::box) {
     const Vec3 L = s.max - s.min;
-    return Filled{V, 0.5 * (s.min + s.max), V / 12.0 * Vec3{L.y * L.y + L.z * L.z, L.z * L.z + L.x * L.x, L.x * L.x + L.y * L.y}};
+    return Filled{V, 0.5 * (s.min + s.max),
+                  V / 12.0 * Vec3{L.y * L.y + L.z * L.z, L.z * L.z + L.x * L.x, L.x * L.x + L.y * L.y}};
   }
   if (s.kind == Kind::sphere) return Filled{V, s.centre, 0.4 * V * s.radius * s.radius * Vec3{1, 1, 1}};
   if (s.kind != Kind::cylinder) return {};
-  const double along = 0.5 * V * s.radius * s.radius, across = V * (3.0 * s.radius * s.radius + s.length * s.length) / 12.0;
+  const double along = 0.5 * V * s.radius * s.radius,
+               across = V * (3.0 * s.radius * s.radius + s.length * s.length) / 12.0;
   return Filled{V, s.base + 0.5 * s.length * s.axis, {along, across, across}};
 }
 
-constexpr double cells_across = 64.0;  // of a sum over a shape's bounds; its error is of second order in their size
+// Of a sum over a shape's bounds; its error is of second order in their size
+constexpr double cells_across = 64.0;
 
 /// The sum over cells, each with its filled share at its centre.
 MassProperties by_cells(const Shape& s, double density, double spacing, const Bounds& b) {
   const Vec3 L = b.extent();
   const double side = std::max({L.x, L.y, L.z}) / cells_across;
-  const auto count = [&](double length) { return std::max(1L, static_cast<long>(std::ceil(length / side - 1e-9))); };
+  const auto count = [&](double length) {
+    return std::max(1L, static_cast<long>(std::ceil(length / side - 1e-9)));
+  };
   const auto share = filled_share(s, side, spacing);
   std::vector<Vec3> place;
   std::vector<double> mass;
@@ -108,9 +114,8 @@ PlaceFunction distance_of(const Shape& s, double spacing) {
     case Kind::difference:
       return [parts = parts_of(s, spacing)](const Vec3& r) { return std::max(parts[0](r), -parts[1](r)); };
     case Kind::mesh:
-      return [interior = std::make_shared<MeshInterior>(read_mesh(s.file, s.scale), 0.5 * spacing, s.file)](const Vec3& r) {
-        return interior->distance(r);
-      };
+      return [interior = std::make_shared<MeshInterior>(read_mesh(s.file, s.scale), 0.5 * spacing, s.file)](
+                 const Vec3& r) { return interior->distance(r); };
   }
   return {};
 }
@@ -118,10 +123,13 @@ PlaceFunction distance_of(const Shape& s, double spacing) {
 PlaceFunction filled_share(const Shape& s, double side, double spacing) {
   if (is_turned(s)) return turned(s, filled_share(not_turned(s), side, spacing));
   if (s.kind != Kind::unite && s.kind != Kind::difference)
-    return [d = distance_of(s, spacing), side](const Vec3& r) { return std::clamp(0.5 - d(r) / side, 0.0, 1.0); };
+    return [d = distance_of(s, spacing), side](const Vec3& r) {
+      return std::clamp(0.5 - d(r) / side, 0.0, 1.0);
+    };
   std::vector<PlaceFunction> parts;
   for (const Shape& part : s.of) parts.push_back(filled_share(part, side, spacing));
-  if (s.kind == Kind::difference) return [parts](const Vec3& r) { return std::max(0.0, parts[0](r) - parts[1](r)); };
+  if (s.kind == Kind::difference)
+    return [parts](const Vec3& r) { return std::max(0.0, parts[0](r) - parts[1](r)); };
   return [parts](const Vec3& r) {  // parts that touch fill a cell together
     double sum = 0.0;
     for (const auto& part : parts) sum += part(r);

@@ -10,15 +10,18 @@ namespace tripoint {
 
 using PlaceFunction = std::function<double(const Vec3&)>;
 
-/// Signed distance to the shape's surface, below zero inside [m]. Exact for boxes, spheres, cylinders and half spaces; of a union
-/// or difference never too large in size; of a mesh its field, to which distances beyond 1.5 spacings are alike.
+/// Signed distance to the shape's surface, below zero inside [m]. Exact for boxes, spheres, cylinders and
+/// half spaces; of a union or difference never too large in size; of a mesh its field, to which distances
+/// beyond 1.5 spacings are alike.
 [[nodiscard]] PlaceFunction distance_of(const Shape&, double spacing);
 
-/// Share of a cell (a cube about the place) that the shape fills, 0 to 1; exact where a plane face along the axes cuts the cell.
+/// Share of a cell (a cube about the place) that the shape fills, 0 to 1; exact where a plane face along the
+/// axes cuts the cell.
 /// @param side of the cell [m] @param spacing as for distance_of
 [[nodiscard]] PlaceFunction filled_share(const Shape&, double side, double spacing);
 
-/// Mass, centre and moments of the shape, filled with one density; empty where the shape has no finite bounds.
+/// Mass, centre and moments of the shape, filled with one density; empty where the shape has no finite
+/// bounds.
 [[nodiscard]] std::optional<MassProperties> mass_of_shape(const Shape&, double density, double spacing);
 
 }  // namespace tripoint

@@ -38,7 +38,8 @@ TemperatureRange temperatures_of(const Scene& s) {
   for (const auto& b : s.bodies)
     if (b.temperature) add(range, *b.temperature);
   for (const auto& b : s.bodies)
-    if (const double held = value_of(s.material(b.material).values, "surface_temperature"); held > 0.0) add(range, held);
+    if (const double held = value_of(s.material(b.material).values, "surface_temperature"); held > 0.0)
+      add(range, held);
   for (const auto& f : s.inflows)
     if (f.temperature) add(range, *f.temperature);
   for (const auto& e : s.events)
@@ -52,9 +53,10 @@ std::optional<double> equal_temperature(const Scene& s) {
   const TemperatureRange range = temperatures_of(s);
   if (range.least != range.greatest || !(range.least > 0.0))
     return {};  // 0 K and below: a scene built without a file, whose particles have their own
-  const bool bodies = std::ranges::all_of(s.bodies, [&](const Body& b) { return has_heat(b, s.material(b.material)); });
-  const bool inflows =
-      std::ranges::all_of(s.inflows, [&](const Inflow& f) { return f.temperature && conducts(s.material(f.material)); });
+  const bool bodies =
+      std::ranges::all_of(s.bodies, [&](const Body& b) { return has_heat(b, s.material(b.material)); });
+  const bool inflows = std::ranges::all_of(
+      s.inflows, [&](const Inflow& f) { return f.temperature && conducts(s.material(f.material)); });
   if (!bodies || !inflows) return {};
   if (calls_for(s, &EffectRule::changes_temperatures)) return {};
   return range.least;

@@ -8,8 +8,8 @@
 
 #include "core/field.hpp"
 
-/// Terms of the model that have a printed and a corrected form are typed keys, as fields and accounts are. The effect that a term
-/// is of declares it in its rule (effect_rule.hpp).
+/// Terms of the model that have a printed and a corrected form are typed keys, as fields and accounts are.
+/// The effect that a term is of declares it in its rule (effect_rule.hpp).
 namespace tripoint {
 
 enum class Mode { corrected, paper };
@@ -29,7 +29,8 @@ using TermForms = std::map<Term, std::string>;
 /// A term was asked for that no effect has declared: a fault of the program, so it says the term by name.
 class UndeclaredTerm : public std::logic_error {
  public:
-  explicit UndeclaredTerm(std::string_view name) : std::logic_error("no effect has declared the term " + std::string(name)) {}
+  explicit UndeclaredTerm(std::string_view name)
+      : std::logic_error("no effect has declared the term " + std::string(name)) {}
 };
 
 }  // namespace tripoint

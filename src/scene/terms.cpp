@@ -67,15 +67,17 @@ bool reads_term(const EffectRule& rule, const Term& t) {
 }
 
 Mode Scene::mode_of_unresolved(const Term& t) {
-  if (std::ranges::find(declared_terms(), t, &DeclaredTerm::term) == declared_terms().end()) throw UndeclaredTerm(t.name);
+  if (std::ranges::find(declared_terms(), t, &DeclaredTerm::term) == declared_terms().end())
+    throw UndeclaredTerm(t.name);
   return Mode::corrected;
 }
 
 bool Scene::clamps() const { return mode_of(term::clamp) == Mode::corrected; }
 
 bool Scene::all_printed() const {
-  return std::ranges::all_of(declared_terms(),
-                             [&](const DeclaredTerm& one) { return !one.has_equation || mode_of(one.term) == Mode::paper; });
+  return std::ranges::all_of(declared_terms(), [&](const DeclaredTerm& one) {
+    return !one.has_equation || mode_of(one.term) == Mode::paper;
+  });
 }
 
 void Scene::resolve_modes() {

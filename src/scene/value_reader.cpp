@@ -38,7 +38,9 @@ bool ValueReader::operator()(const Key& key, bool& value, std::string_view yes) 
   return false;
 }
 
-bool ValueReader::operator()(const Key& key, std::string& value) { return keep(value, in_.maybe_text(key.name)); }
+bool ValueReader::operator()(const Key& key, std::string& value) {
+  return keep(value, in_.maybe_text(key.name));
+}
 
 bool ValueReader::operator()(const Key& key, Vec3& value) {
   value = in_.vector(key.name);
@@ -54,7 +56,8 @@ Quaternion unit_quaternion(const TableReader& in, std::string_view key, const st
   if (q.size() != 4) in.refuse(key, "write the quaternion [w, x, y, z]");
   const Quaternion given{q[0], q[1], q[2], q[3]};
   if (!(std::abs(norm(given) - 1.0) < 1e-3))
-    in.refuse(key, fmt::format("the quaternion has length {}: write one of length 1 (w = cos(angle/2))", norm(given)));
+    in.refuse(key, fmt::format("the quaternion has length {}: write one of length 1 (w = cos(angle/2))",
+                               norm(given)));
   return normalised(given);
 }
 
@@ -88,8 +91,10 @@ bool ValueReader::operator()(const Key& key, std::array<std::string, 3>& value) 
 
 bool ValueReader::operator()(const Key& key, std::array<Vec3, 3>& value) {
   const auto rows = in_.tables(key.name);
-  if (rows.size() != 3) in_.refuse(key.name, "write three rows of three numbers: [[0, 0, 0], [0, 0, 0], [0, 0, 0]]");
-  for (std::size_t i = 0; i < 3; ++i) value[i] = vector_of(*rows[i], key, fmt::format("{}.{}", path_of(key), i + 1));
+  if (rows.size() != 3)
+    in_.refuse(key.name, "write three rows of three numbers: [[0, 0, 0], [0, 0, 0], [0, 0, 0]]");
+  for (std::size_t i = 0; i < 3; ++i)
+    value[i] = vector_of(*rows[i], key, fmt::format("{}.{}", path_of(key), i + 1));
   in_.given(key.name, to_toml(*in_.composite(key.name)));
   return false;
 }

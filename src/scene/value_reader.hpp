@@ -16,11 +16,14 @@
 /// Reads the values of a record, each by the type of its member.
 namespace tripoint {
 
-/// A rotation (w, x, y, z), normalised. @throws InputError where it has not four numbers, or its length is not 1 within 1e-3
-[[nodiscard]] Quaternion unit_quaternion(const TableReader&, std::string_view key, const std::vector<double>& q);
+/// A rotation (w, x, y, z), normalised. @throws InputError where it has not four numbers, or its length is
+/// not 1 within 1e-3
+[[nodiscard]] Quaternion unit_quaternion(const TableReader&, std::string_view key,
+                                         const std::vector<double>& q);
 
-/// Reads a key of a table into what keeps it. A key that is not given, and whose fallback is a rule ("="), leaves the value as it
-/// is and no decision. @throws InputError as TableReader does, and where the value is none of its type
+/// Reads a key of a table into what keeps it. A key that is not given, and whose fallback is a rule ("="),
+/// leaves the value as it is and no decision. @throws InputError as TableReader does, and where the value is
+/// none of its type
 /// @return whether there is no value: a rule is to say it, or nothing is
 class ValueReader {
  public:
@@ -103,7 +106,8 @@ class RecordReader {
   /// Reads all keys that have not been read, but for those whose fallback is a rule.
   void rest() {
     each_kept_of(owner_, [&](const auto& entry) {
-      if (entry.key.fallback != "=" && std::find(done_.begin(), done_.end(), entry.key.name) == done_.end()) read(entry);
+      if (entry.key.fallback != "=" && std::find(done_.begin(), done_.end(), entry.key.name) == done_.end())
+        read(entry);
     });
   }
 

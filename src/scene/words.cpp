@@ -17,7 +17,8 @@ template <class E, std::size_t n>
 E from_word(std::string_view word, const std::array<const char*, n>& words, const char* what) {
   for (std::size_t i = 0; i < n; ++i)
     if (word == words[i]) return static_cast<E>(i);
-  throw InputError("`" + printable(word) + "` is no " + what + suggestion(word, {words.begin(), words.end()}));
+  throw InputError("`" + printable(word) + "` is no " + what +
+                   suggestion(word, {words.begin(), words.end()}));
 }
 
 template <class T>
@@ -27,7 +28,8 @@ const T& by_name(const std::vector<T>& list, std::string_view name, const char* 
   std::vector<std::string> names;
   names.reserve(list.size());
   for (const auto& t : list) names.push_back(t.name);
-  throw InputError(std::string("no ") + what + " is named `" + printable(name) + "`" + suggestion(name, names));
+  throw InputError(std::string("no ") + what + " is named `" + printable(name) + "`" +
+                   suggestion(name, names));
 }
 
 }  // namespace

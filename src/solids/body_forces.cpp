@@ -12,7 +12,8 @@ namespace {
 bool moves(const World& world, std::size_t b) {
   const Columns& t = world.bodies;
   if (!is_rigid(world, b)) return false;
-  const bool free = t[field::body_alive][b] != 0 && t[field::body_motion][b] == static_cast<int>(Motion::free);
+  const bool free =
+      t[field::body_alive][b] != 0 && t[field::body_motion][b] == static_cast<int>(Motion::free);
   return free || t[field::body_velocity][b] != Vec3{} || t[field::body_angular_velocity][b] != Vec3{};
 }
 
@@ -41,10 +42,12 @@ BodyForces no_forces(const World& world) {
   return none;
 }
 
-/// Calls visit(row, body, arm from its centre [m]) for each member of asked bodies that is this process's own.
+/// Calls visit(row, body, arm from its centre [m]) for each member of asked bodies that is this process's
+/// own.
 /// @param ids of those that may be members, in this order; empty: of all particles
 template <class Visit>
-void each_member(const World& world, const std::vector<char>& asked, std::span<const std::uint32_t> ids, Visit visit) {
+void each_member(const World& world, const std::vector<char>& asked, std::span<const std::uint32_t> ids,
+                 Visit visit) {
   const Particles& p = world.particles;
   const auto body = p[field::body];
   const auto centre = world.bodies[field::body_centre];
@@ -80,27 +83,32 @@ void put(std::vector<double>& to, const Vec3& force, const Vec3& torque) {
 }
 
 /// Records of the bodies that are wanted. @param width of a record, of which the second number is the body
-std::vector<double> records_of(const std::vector<double>& records, const std::vector<char>& wanted, std::ptrdiff_t width) {
+std::vector<double> records_of(const std::vector<double>& records, const std::vector<char>& wanted,
+                               std::ptrdiff_t width) {
   std::vector<double> some;
   for (auto record = records.begin(); record != records.end(); record += width)
     if (wanted[static_cast<std::size_t>(record[1])]) some.insert(some.end(), record, record + width);
   return some;
 }
 
-/// Data that a process sends to others for each own member that feels a force: number, body, and each force with its torque.
-/// It sends only their sums by body above `most_told` members. Where bodies have owners these are members of one body, and the
-/// sum is told of a body that no other process has members of, too: it has the order of one process.
+/// Data that a process sends to others for each own member that feels a force: number, body, and each force
+/// with its torque. It sends only their sums by body above `most_told` members. Where bodies have owners
+/// these are members of one body, and the sum is told of a body that no other process has members of, too: it
+/// has the order of one process.
 constexpr std::size_t most_told = 1024;
 constexpr double sum_of_process = std::numeric_limits<double>::max();  ///< in place of a number
 
 void put_sum(const std::vector<Felt>& felt, std::size_t b, const BodyForces& sum, std::vector<double>& told) {
-  const auto is_zero = [&](const Felt& f) { return sum.forces[f.number] == Vec3{} && sum.torques[f.number] == Vec3{}; };
+  const auto is_zero = [&](const Felt& f) {
+    return sum.forces[f.number] == Vec3{} && sum.torques[f.number] == Vec3{};
+  };
   if (std::ranges::all_of(felt, is_zero)) return;
   told.insert(told.end(), {sum_of_process, static_cast<double>(b)});
   for (const Felt& f : felt) put(told, sum.forces[f.number], sum.torques[f.number]);
 }
 
-std::vector<double> told_members(const World& world, const std::vector<char>& asked, const std::vector<BodyForces>& sums) {
+std::vector<double> told_members(const World& world, const std::vector<char>& asked,
+                                 const std::vector<BodyForces>& sums) {
   const Particles& p = world.particles;
   const BodyOwners& owners = world.body_owners;
   const std::vector<Felt> felt = felt_forces(world);
@@ -113,8 +121,11 @@ std::vector<double> told_members(const World& world, const std::vector<char>& as
 
   std::vector<double> told;
   each_member(world, one_by_one, owners.members(), [&](std::size_t i, std::size_t b, const Vec3& arm) {
-    if (std::ranges::all_of(felt, [&](const Felt& f) { return f.force.at(i) == Vec3{}; }) || ++count_of(b) > most_told) return;
-    told.insert(told.end(), {static_cast<double>(number[static_cast<std::size_t>(p[field::id][i])]), static_cast<double>(b)});
+    if (std::ranges::all_of(felt, [&](const Felt& f) { return f.force.at(i) == Vec3{}; }) ||
+        ++count_of(b) > most_told)
+      return;
+    told.insert(told.end(), {static_cast<double>(number[static_cast<std::size_t>(p[field::id][i])]),
+                             static_cast<double>(b)});
     for (const Felt& f : felt) put(told, f.force.at(i), cross(arm, f.force.at(i)));
   });
   if (std::ranges::any_of(counts, [](std::size_t count) { return count > most_told; })) {
@@ -140,14 +151,16 @@ void take_sum(const std::vector<Felt>& felt, BodyForces& sum, const double* from
   }
 }
 
-/// The sums of all processes, in the order of one: members by their numbers, and what feels nothing adds nothing.
+/// The sums of all processes, in the order of one: members by their numbers, and what feels nothing adds
+/// nothing.
 void add_over_halo(const World& world, const std::vector<char>& asked, std::vector<BodyForces>& sums) {
   if (!world.halo || sums.empty()) return;
   const std::vector<Felt> felt = felt_forces(world);
   const auto width = static_cast<std::size_t>(width_of(felt));
   const std::vector<double> told = brought(world, told_members(world, asked, sums), width);
   each_kept_body(world, [&](std::size_t b) { sums[b] = no_forces(world); });
-  for (const double* from : records_in_order(told, width)) take_sum(felt, sums[static_cast<std::size_t>(from[1])], from + 2);
+  for (const double* from : records_in_order(told, width))
+    take_sum(felt, sums[static_cast<std::size_t>(from[1])], from + 2);
   if (!world.body_owners.any()) return;
   world.body_owners.to_keepers(
       world, width - 2,

@@ -11,7 +11,8 @@
 namespace tripoint::solid {
 namespace {
 
-/// Which bodies are connected, by rows of the table: a deformable one with itself and with those that it is joined to.
+/// Which bodies are connected, by rows of the table: a deformable one with itself and with those that it is
+/// joined to.
 class Joins {
  public:
   explicit Joins(const World& world) : count_(world.bodies.size()), joined_(count_ * count_, 0) {
@@ -19,7 +20,8 @@ class Joins {
       if (!is_rigid(world, b)) set(b, b);
       const auto source = static_cast<std::size_t>(world.bodies[field::body_source][b]);
       for (const std::string& name : world.scene.bodies[source].joined_to) {
-        const auto other = static_cast<std::size_t>(std::ranges::find(world.body_names, name) - world.body_names.begin());
+        const auto other =
+            static_cast<std::size_t>(std::ranges::find(world.body_names, name) - world.body_names.begin());
         if (other == count_)
           throw InputError("the body " + world.body_names[b] + " is joined to " + name +
                            ", which is liquid: bonds need two solids");
@@ -27,14 +29,18 @@ class Joins {
       }
     }
   }
-  [[nodiscard]] bool any(std::size_t b) const { return std::find(row(b), row(b) + count_, 1) != row(b) + count_; }
+  [[nodiscard]] bool any(std::size_t b) const {
+    return std::find(row(b), row(b) + count_, 1) != row(b) + count_;
+  }
   [[nodiscard]] bool operator()(int a, int b) const {
     return joined_[static_cast<std::size_t>(a) * count_ + static_cast<std::size_t>(b)] != 0;
   }
 
  private:
   using Row = std::vector<char>::const_iterator;
-  [[nodiscard]] Row row(std::size_t b) const { return joined_.begin() + static_cast<std::ptrdiff_t>(b * count_); }
+  [[nodiscard]] Row row(std::size_t b) const {
+    return joined_.begin() + static_cast<std::ptrdiff_t>(b * count_);
+  }
   void set(std::size_t a, std::size_t b) { joined_[a * count_ + b] = joined_[b * count_ + a] = 1; }
   std::size_t count_;
   std::vector<char> joined_;
@@ -55,7 +61,8 @@ Candidates candidates_of(const World& world, const Joins& joined) {
     if (b >= 0 && joined.any(static_cast<std::size_t>(b))) found.ids.push_back(id);
   }
   found.places = Particles(found.ids.size(), common_fields(world.box.any()));
-  for (std::size_t n = 0; n < found.ids.size(); ++n) positions(found.places).set(n, p.position(p.row(found.ids[n])));
+  for (std::size_t n = 0; n < found.ids.size(); ++n)
+    positions(found.places).set(n, p.position(p.row(found.ids[n])));
   return found;
 }
 
@@ -67,16 +74,17 @@ void refuse_narrow_box(const World& world) {
   const double least = 2.0 * most_stretch * bond_reach(world.scene) * world.scene.spacing;
   for (std::size_t a = 0; a < 3; ++a) {
     if (!world.box.periodic[a] || world.box.width[a] >= least) continue;
-    throw InputError(std::string("the periodic direction ") + "xyz"[a] + " is " + std::to_string(world.box.width[a]) +
-                     " m wide, and bonds of elastic bodies need " + std::to_string(least) +
+    throw InputError(std::string("the periodic direction ") + "xyz"[a] + " is " +
+                     std::to_string(world.box.width[a]) + " m wide, and bonds of elastic bodies need " +
+                     std::to_string(least) +
                      " m to be told apart: make the domain wider or the spacing smaller");
   }
 }
 
-/// Which candidates are members of rigid bodies with a particle of a deformable body within reach. These own strain energy, and
-/// need their mates for it.
-std::vector<char> joints_of(const World& world, const Joins& joined, const Candidates& found, const Neighbours& near,
-                            double reach) {
+/// Which candidates are members of rigid bodies with a particle of a deformable body within reach. These own
+/// strain energy, and need their mates for it.
+std::vector<char> joints_of(const World& world, const Joins& joined, const Candidates& found,
+                            const Neighbours& near, double reach) {
   std::vector<char> at_joint(found.ids.size(), 0);
   const ElasticParticles is_elastic(world);
   const auto body = world.particles[field::body];
@@ -96,14 +104,17 @@ void set_twins(Bonds& bonds, std::span<const std::uint32_t> ids) {
   for (const std::uint32_t id : ids) {
     for (Bond& b : bonds.edit(id)) {
       const auto list = std::as_const(bonds).of(b.other);
-      b.twin = static_cast<std::uint32_t>(std::ranges::lower_bound(list, id, {}, &Bond::other) - list.begin());
+      b.twin =
+          static_cast<std::uint32_t>(std::ranges::lower_bound(list, id, {}, &Bond::other) - list.begin());
     }
   }
 }
 
 }  // namespace
 
-ElasticityKernel bond_kernel(const Scene& scene) { return ElasticityKernel(bond_reach(scene) * scene.spacing); }
+ElasticityKernel bond_kernel(const Scene& scene) {
+  return ElasticityKernel(bond_reach(scene) * scene.spacing);
+}
 
 Bond bond_of(const ElasticityKernel& kernel, const Vec3& x) {
   const double r = norm(x);
@@ -114,11 +125,15 @@ Bond bond_of(const ElasticityKernel& kernel, const Vec3& x) {
   return b;
 }
 
-double own_weight(const Scene& scene, double distance) { return WendlandC2(scene.support_ratio * scene.spacing).value(distance); }
+double own_weight(const Scene& scene, double distance) {
+  return WendlandC2(scene.support_ratio * scene.spacing).value(distance);
+}
 
 Vec3 separation(const World& world, std::size_t i, std::size_t j, double back) {
   const Particles& p = world.particles;
-  const auto place = [&](std::size_t row) { return back == 0.0 ? p.position(row) : p.position(row) - back * p.velocity(row); };
+  const auto place = [&](std::size_t row) {
+    return back == 0.0 ? p.position(row) : p.position(row) - back * p.velocity(row);
+  };
   return nearest_image(world.box, place(j) - place(i));
 }
 
@@ -128,7 +143,8 @@ void connect_solids(World& world) {
   Candidates found = candidates_of(world, joined);
   if (found.ids.empty()) return;
   refuse_narrow_box(world);
-  const bool meets = world.particles.has(field::force_x.name);  // without pressure own pairs have nothing to be kept from
+  // Without pressure own pairs have nothing to be kept from
+  const bool meets = world.particles.has(field::force_x.name);
   const bool paper = world.scene.mode_of(term::density) == Mode::paper;
   const double reach = bond_reach(world.scene) * world.scene.spacing,
                search = meets && !paper ? std::max(reach, world.support()) : reach;
@@ -154,7 +170,8 @@ void connect_solids(World& world) {
         bonds.push_back(bond_of(kernel, x));
         bonds.back().other = found.ids[other];
       }
-      if (meets && !mates && (bonded || !paper)) own.push_back({found.ids[other], paper ? 0.0 : own_weight(world.scene, r)});
+      if (meets && !mates && (bonded || !paper))
+        own.push_back({found.ids[other], paper ? 0.0 : own_weight(world.scene, r)});
     }
     std::ranges::sort(bonds, {}, &Bond::other);
     std::ranges::sort(own, {}, &OwnPair::other);

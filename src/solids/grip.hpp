@@ -4,8 +4,9 @@
 
 namespace tripoint {
 
-/// Where a grip has brought a place by `time`, how fast the place moves [m/s], and how the grip has turned [rad/s]. The keyframes
-/// of the grip move a frame, and all that it took moves with that frame. @param place as the grip took it [m]
+/// Where a grip has brought a place by `time`, how fast the place moves [m/s], and how the grip has turned
+/// [rad/s]. The keyframes of the grip move a frame, and all that it took moves with that frame. @param place
+/// as the grip took it [m]
 [[nodiscard]] inline PrescribedState carried(const Event& grip, const Vec3& place, double time) {
   const Keyframe& from = grip.keyframes.front();
   PrescribedState s = prescribed_state(grip.keyframes, {}, {}, {}, time);

@@ -15,7 +15,8 @@ namespace {
 constexpr std::uint32_t no_node = ~std::uint32_t{0};
 
 bool is_driven(const World& world, int body) {
-  return body >= 0 && world.bodies[field::body_motion][static_cast<std::size_t>(body)] != static_cast<int>(Motion::free);
+  return body >= 0 &&
+         world.bodies[field::body_motion][static_cast<std::size_t>(body)] != static_cast<int>(Motion::free);
 }
 
 /// A member of a changed body, or a particle that froze.
@@ -70,7 +71,9 @@ class Grouping {
   void assign_rows();
   void end_pairs(const BeforeRelisting& before);
   void record_change();
-  [[nodiscard]] bool same_body_or_new(const Node& a, const Node& b) const { return a.body == b.body || a.body < 0 || b.body < 0; }
+  [[nodiscard]] bool same_body_or_new(const Node& a, const Node& b) const {
+    return a.body == b.body || a.body < 0 || b.body < 0;
+  }
   [[nodiscard]] std::map<std::pair<int, int>, std::uint32_t> blocks_that_never_melt() const;
   [[nodiscard]] int new_row(std::size_t component);
   /// Component that the particle with this id belongs to, or below -1 its unchanged body; -1 for liquids.
@@ -78,9 +81,10 @@ class Grouping {
 
   World& world_;
   std::vector<std::size_t> rows_;
-  std::vector<Node> nodes_;                          ///< ascending by id
-  std::vector<std::uint32_t> node_;                  ///< by id
-  std::vector<std::uint32_t> component_;             ///< of a node; components are in order of their lowest id
+  std::vector<Node> nodes_;          ///< ascending by id
+  std::vector<std::uint32_t> node_;  ///< by id
+  /// Of a node; components are in order of their lowest id
+  std::vector<std::uint32_t> component_;
   std::vector<std::vector<std::uint32_t>> members_;  ///< nodes of a component
   std::vector<int> row_;                             ///< body of a component
 };
@@ -92,15 +96,18 @@ void Grouping::collect(const std::vector<std::uint32_t>& frozen) {
   for (const std::size_t b : rows_) is_changed[b] = 1;
   std::vector<std::uint32_t> ids = frozen;
   for (std::size_t i = 0; i < body.size(); ++i)
-    if (body[i] >= 0 && is_changed[static_cast<std::size_t>(body[i])]) ids.push_back(static_cast<std::uint32_t>(p[field::id][i]));
+    if (body[i] >= 0 && is_changed[static_cast<std::size_t>(body[i])])
+      ids.push_back(static_cast<std::uint32_t>(p[field::id][i]));
   sort_once(ids);
   node_.assign(p.size(), no_node);
   for (const std::uint32_t id : ids) {
     const std::size_t i = p.row(id);
     const int b = body[i];
-    const bool rigid = b >= 0 ? is_rigid(world_, static_cast<std::size_t>(b)) : phase[i] == static_cast<int>(Phase::rigid);
+    const bool rigid =
+        b >= 0 ? is_rigid(world_, static_cast<std::size_t>(b)) : phase[i] == static_cast<int>(Phase::rigid);
     node_[id] = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.push_back({id, b, rigid, b >= 0 && world_.bodies[field::body_source][static_cast<std::size_t>(b)] == source[i]});
+    nodes_.push_back({id, b, rigid,
+                      b >= 0 && world_.bodies[field::body_source][static_cast<std::size_t>(b)] == source[i]});
   }
 }
 
@@ -169,7 +176,8 @@ void Grouping::assign_rows() {
   for (const auto& [body, kept] : keeper) {
     const std::size_t c = kept.second;
     const Claim& claim = has[c].at(body);
-    if (row_[c] >= 0 && std::pair(claim.driven, claim.share) <= std::pair(best[c].driven, best[c].share)) continue;
+    if (row_[c] >= 0 && std::pair(claim.driven, claim.share) <= std::pair(best[c].driven, best[c].share))
+      continue;
     row_[c] = body;
     best[c] = claim;
   }
@@ -181,17 +189,20 @@ int Grouping::new_row(std::size_t component) {
   const std::vector<std::uint32_t>& group = members_[component];
   const std::size_t first = world_.particles.row(nodes_[group.front()].id);
   const auto phase = world_.particles[field::phase];
-  const bool deformable = std::ranges::all_of(
-      group, [&](std::uint32_t n) { return phase[world_.particles.row(nodes_[n].id)] == static_cast<int>(Phase::elastic); });
+  const bool deformable = std::ranges::all_of(group, [&](std::uint32_t n) {
+    return phase[world_.particles.row(nodes_[n].id)] == static_cast<int>(Phase::elastic);
+  });
   std::map<int, std::size_t> parts;
   for (const std::uint32_t n : group)
     if (nodes_[n].body >= 0) ++parts[nodes_[n].body];
   const auto most = std::ranges::max_element(parts, {}, [](const auto& part) { return part.second; });
-  const std::string parent =
-      most != parts.end() ? world_.body_names[static_cast<std::size_t>(most->first)] : world_.material_of(first).name;
+  const std::string parent = most != parts.end() ? world_.body_names[static_cast<std::size_t>(most->first)]
+                                                 : world_.material_of(first).name;
   std::size_t n = 1;
-  while (std::ranges::find(world_.body_names, parent + "." + std::to_string(n)) != world_.body_names.end()) ++n;
-  return static_cast<int>(add_body(world_, parent + "." + std::to_string(n), deformable ? Phase::elastic : Phase::rigid));
+  while (std::ranges::find(world_.body_names, parent + "." + std::to_string(n)) != world_.body_names.end())
+    ++n;
+  return static_cast<int>(
+      add_body(world_, parent + "." + std::to_string(n), deformable ? Phase::elastic : Phase::rigid));
 }
 
 int Grouping::holder(std::uint32_t id) const {
@@ -225,7 +236,8 @@ void Grouping::end_pairs(const BeforeRelisting& before) {
   for (const auto& [i, j] : across) losers.insert(losers.end(), {i, j});
   sort_once(losers);
   if (before) std::ranges::for_each(losers, before);
-  for (const auto& [i, j] : across) disconnect(world_.bonds, i, [&, j = j](const Bond& b) { return b.other == j; });
+  for (const auto& [i, j] : across)
+    disconnect(world_.bonds, i, [&, j = j](const Bond& b) { return b.other == j; });
   Change& change = world_.change;
   change.relisted.insert(change.relisted.end(), losers.begin(), losers.end());
   for (const Node& node : nodes_) {
@@ -264,7 +276,9 @@ void Grouping::record_change() {
 
 }  // namespace
 
-void regroup(World& world, const ChangedBodies& changed, const BeforeRelisting& before) { Grouping(world, changed).run(before); }
+void regroup(World& world, const ChangedBodies& changed, const BeforeRelisting& before) {
+  Grouping(world, changed).run(before);
+}
 
 namespace {
 
@@ -290,8 +304,8 @@ Held held_here(const World& world) {
   return held;
 }
 
-/// In a shared scene each process tells which bodies it has seen, and which of them hold together. For a chain of bodies it does
-/// not tell each pair, but one less than there are bodies.
+/// In a shared scene each process tells which bodies it has seen, and which of them hold together. For a
+/// chain of bodies it does not tell each pair, but one less than there are bodies.
 void add_over_halo(const World& world, Held& held) {
   if (!world.halo) return;
   Sets here(std::vector<int>(world.bodies.size(), -1));

@@ -16,10 +16,11 @@
 namespace tripoint::solid {
 namespace {
 
-constexpr int no_energy_rank = 3;  ///< members of rigid bodies without energy: their lists need no special form
+/// Members of rigid bodies without energy: their lists need no special form
+constexpr int no_energy_rank = 3;
 
-/// Which material's constants a particle's energy has, and how many times. They are its own; a member of a rigid body has those
-/// of the elastic partner with the lowest id.
+/// Which material's constants a particle's energy has, and how many times. They are its own; a member of a
+/// rigid body has those of the elastic partner with the lowest id.
 void set_stiffness(World& world, const ElasticParticles& is_elastic, std::uint32_t id) {
   Particles& p = world.particles;
   const std::size_t i = p.row(id);
@@ -34,7 +35,8 @@ void set_stiffness(World& world, const ElasticParticles& is_elastic, std::uint32
   p[field::solid_stiffness][i] = joint_stiffness;
 }
 
-/// v_i [m3]: m/rho0; printed (11) m_i / sum_j m_j W(x_ij), for particles that have all their body neighbours in the list.
+/// v_i [m3]: m/rho0; printed (11) m_i / sum_j m_j W(x_ij), for particles that have all their body neighbours
+/// in the list.
 double volume_of(const World& world, bool paper, bool owns, std::uint32_t id) {
   const std::size_t i = world.particles.row(id);
   const auto m = world.particles[field::mass];
@@ -48,7 +50,8 @@ double volume_of(const World& world, bool paper, bool owns, std::uint32_t id) {
 Symmetric moment_of(const World& world, std::uint32_t id) {
   const auto volume = world.particles[field::solid_volume];
   Symmetric M;
-  for (const Bond& b : world.bonds.of(id)) M = M + symmetric_part(-volume[world.particles.row(b.other)] * outer(b.gradient, b.x));
+  for (const Bond& b : world.bonds.of(id))
+    M = M + symmetric_part(-volume[world.particles.row(b.other)] * outer(b.gradient, b.x));
   return M;
 }
 
@@ -67,9 +70,12 @@ void set_kernel_gradients(World& world, const ElasticityKernel& kernel, std::uin
 }
 
 /// At a surface: grad W + M_i c_ij/v_j, so that d_ij = v_j A_i of it has the correction c_ij.
-void correct_for_bending(World& world, std::uint32_t id, double share, const Symmetric& moment, const Symmetric& A) {
+void correct_for_bending(World& world, std::uint32_t id, double share, const Symmetric& moment,
+                         const Symmetric& A) {
   const auto list = std::as_const(world.bonds).of(id);
-  const auto volume_of = [&](const Bond& b) { return world.particles[field::solid_volume][world.particles.row(b.other)]; };
+  const auto volume_of = [&](const Bond& b) {
+    return world.particles[field::solid_volume][world.particles.row(b.other)];
+  };
   std::vector<GradientPoint> points;
   for (const Bond& b : list) points.push_back({-b.x, -volume_of(b) * dot(b.gradient, b.x) / dot(b.x, b.x)});
   if (!at_surface(points)) return;
@@ -83,7 +89,8 @@ void correct_for_bending(World& world, std::uint32_t id, double share, const Sym
 bool is_regular(const World& world, std::uint32_t id) {
   const auto rank = world.particles[field::shape_rank];
   if (rank[world.particles.row(id)] != 3) return false;
-  return std::ranges::all_of(world.bonds.of(id), [&](const Bond& b) { return rank[world.particles.row(b.other)] == 3; });
+  return std::ranges::all_of(world.bonds.of(id),
+                             [&](const Bond& b) { return rank[world.particles.row(b.other)] == 3; });
 }
 
 /// Part of one energy U_k in K_ii, with d = d_ki: v_k (mu |d|^2 + (lambda + mu) d d^T).
@@ -92,8 +99,8 @@ Symmetric stiffness(double volume, const ElasticConstants& c, const Vec3& d) {
   return (volume * (c.lambda + c.mu)) * square(d) + Symmetric{isotropic, isotropic, isotropic, 0.0, 0.0, 0.0};
 }
 
-/// lambda_max(K_ii)/m_i [1/s2]: how fast a particle swings while its neighbours stay, by its own energy and those of its
-/// partners.
+/// lambda_max(K_ii)/m_i [1/s2]: how fast a particle swings while its neighbours stay, by its own energy and
+/// those of its partners.
 double frequency_of(const World& world, const ElasticForms& forms, std::uint32_t id) {
   const Particles& p = world.particles;
   const EnergyOwners owns(world);
@@ -106,14 +113,16 @@ double frequency_of(const World& world, const ElasticForms& forms, std::uint32_t
   for (const Bond& b : world.bonds.of(id)) {
     const std::size_t j = p.row(b.other);
     const auto spring = [&](std::size_t k, const Bond& of) {
-      return 0.5 * forms.hourglass() * forms.constants(world, k).young * volume[i] * volume[j] * of.weight / dot(of.x, of.x);
+      return 0.5 * forms.hourglass() * forms.constants(world, k).young * volume[i] * volume[j] * of.weight /
+             dot(of.x, of.x);
     };
     own += volume[j] * (A * b.gradient);
     if (owns(i)) springs += spring(i, b);
     if (!owns(j)) continue;
     const Bond& twin = world.bonds.of(b.other)[b.twin];
     springs += spring(j, twin);
-    K = K + stiffness(volume[j], forms.constants(world, j), volume[i] * (shape_inverse_of(p, j) * twin.gradient));
+    K = K +
+        stiffness(volume[j], forms.constants(world, j), volume[i] * (shape_inverse_of(p, j) * twin.gradient));
   }
   if (owns(i)) K = K + stiffness(volume[i], forms.constants(world, i), own);
   return (largest_eigenvalue(K) + springs) / p[field::mass][i];
@@ -148,35 +157,45 @@ bool softens(const Scene& scene, const Material& m) {
 
 ElasticForms::ElasticForms(const Scene& scene)
     : paper_(scene.mode_of(term::elastic) == Mode::paper),
-      hourglass_(scene.mode_of(term::hourglass) == Mode::paper ? 0.0 : kept_number(scene.values, key_row("scene", "hourglass"))),
+      hourglass_(scene.mode_of(term::hourglass) == Mode::paper
+                     ? 0.0
+                     : kept_number(scene.values, key_row("scene", "hourglass"))),
       bending_(paper_ ? 0.0 : kept_number(scene.values, key_row("scene", "bending"))),
       factor_(paper_ ? 2.0 : 1.0) {
   for (const Material& m : scene.materials) {
-    constants_.push_back(m.young_modulus && m.poisson_ratio ? elastic_constants(*m.young_modulus, *m.poisson_ratio)
-                                                            : ElasticConstants{});
+    constants_.push_back(m.young_modulus && m.poisson_ratio
+                             ? elastic_constants(*m.young_modulus, *m.poisson_ratio)
+                             : ElasticConstants{});
     softens_.push_back(softens(scene, m));
-    squared_limits_.push_back(m.elastic_limit ? *m.elastic_limit * *m.elastic_limit : std::numeric_limits<double>::infinity());
+    squared_limits_.push_back(m.elastic_limit ? *m.elastic_limit * *m.elastic_limit
+                                              : std::numeric_limits<double>::infinity());
   }
 }
 
 ElasticForms::Constants::Constants(const ElasticForms& forms, const World& world)
-    : forms_(forms), stiffness_(world.particles[field::solid_stiffness]), material_(world.particles[field::solid_material]) {
+    : forms_(forms),
+      stiffness_(world.particles[field::solid_stiffness]),
+      material_(world.particles[field::solid_material]) {
   if (world.particles.has(field::stiffness_share.name)) share_ = world.particles[field::stiffness_share];
 }
 
 ElasticConstants ElasticForms::Constants::operator()(std::size_t row) const {
   const auto m = static_cast<std::size_t>(material_[row]);
-  return (forms_.softens_[m] && !share_.empty() ? stiffness_[row] * share_[row] : stiffness_[row]) * forms_.constants_[m];
+  return (forms_.softens_[m] && !share_.empty() ? stiffness_[row] * share_[row] : stiffness_[row]) *
+         forms_.constants_[m];
 }
 
-Symmetric ElasticForms::projector(const Symmetric& shape_inverse, int rank) const { return range_projector(shape_inverse, rank); }
+Symmetric ElasticForms::projector(const Symmetric& shape_inverse, int rank) const {
+  return range_projector(shape_inverse, rank);
+}
 
 Symmetric ElasticForms::strain(const Matrix3& F, const Symmetric& P, int rank) const {
   const Symmetric eps = paper_ ? strain_paper(F) : green_strain(F);
   return rank == 3 ? eps : between(P, eps);
 }
 
-Symmetric ElasticForms::stress(const Symmetric& elastic_strain, const Symmetric& P, int rank, const ElasticConstants& c) const {
+Symmetric ElasticForms::stress(const Symmetric& elastic_strain, const Symmetric& P, int rank,
+                               const ElasticConstants& c) const {
   return solid::stress(elastic_strain, P, rank, c);
 }
 
@@ -187,7 +206,8 @@ void refresh_shapes(World& world, std::span<const std::uint32_t> ids, bool first
   const EnergyOwners owns(world);
   const ElasticityKernel kernel = bond_kernel(world.scene);
   for (const std::uint32_t id : ids) set_stiffness(world, is_elastic, id);
-  for (const std::uint32_t id : ids) p[field::solid_volume][p.row(id)] = volume_of(world, forms.paper(), owns(p.row(id)), id);
+  for (const std::uint32_t id : ids)
+    p[field::solid_volume][p.row(id)] = volume_of(world, forms.paper(), owns(p.row(id)), id);
   for (const std::uint32_t id : ids) {
     const std::size_t i = p.row(id);
     ShapeInverse shape{{}, owns(i) || world.bonds.of(id).empty() ? 0 : no_energy_rank};
@@ -196,7 +216,8 @@ void refresh_shapes(World& world, std::span<const std::uint32_t> ids, bool first
       if (forms.bending() != 0.0) set_kernel_gradients(world, kernel, id);
       const Symmetric moment = moment_of(world, id);
       shape = shape_inverse(moment);
-      if (forms.bending() != 0.0 && shape.rank == 3) correct_for_bending(world, id, forms.bending(), moment, shape.inverse);
+      if (forms.bending() != 0.0 && shape.rank == 3)
+        correct_for_bending(world, id, forms.bending(), moment, shape.inverse);
     }
     shape_inverses(p).set(i, shape.inverse);
     p[field::shape_rank][i] = shape.rank;
@@ -228,9 +249,12 @@ Deformation deformation_of(const World& world, const ElasticForms& forms, std::u
   return d;
 }
 
-Deformation deformation_of(const World& world, std::uint32_t id) { return deformation_of(world, ElasticForms(world.scene), id); }
+Deformation deformation_of(const World& world, std::uint32_t id) {
+  return deformation_of(world, ElasticForms(world.scene), id);
+}
 
-DeformationEnergy deformation_energy(const World& world, const ElasticForms& forms, std::uint32_t id, double back) {
+DeformationEnergy deformation_energy(const World& world, const ElasticForms& forms, std::uint32_t id,
+                                     double back) {
   const Particles& p = world.particles;
   const std::size_t i = p.row(id);
   if (!EnergyOwners(world)(i)) return {};
@@ -238,7 +262,8 @@ DeformationEnergy deformation_energy(const World& world, const ElasticForms& for
   const auto volume = p[field::solid_volume];
   const ElasticConstants c = forms.constants(world, i);
   const Symmetric elastic = between(d.P, d.strain - plastic_strain_of(p, i));
-  DeformationEnergy energy{0.5 * volume[i] * contraction(elastic, forms.stress(elastic, d.P, d.rank, c)), 0.0};
+  DeformationEnergy energy{0.5 * volume[i] * contraction(elastic, forms.stress(elastic, d.P, d.rank, c)),
+                           0.0};
   if (forms.hourglass() == 0.0) return energy;
   for (const Bond& b : world.bonds.of(id)) {
     const std::size_t j = p.row(b.other);
@@ -265,11 +290,13 @@ Quaternion orientation_of(const World& world, std::size_t body) {
     const Deformation d = deformation_of(world, forms, static_cast<std::uint32_t>(id));
     const Matrix3 m = world.particles[field::mass][i] * rotation_of(d.F, d.P, d.rank);
     const int number = world.halo ? world.halo->numbers()[static_cast<std::size_t>(id)] : id;
-    parts.insert(parts.end(), {static_cast<double>(number), m.xx, m.xy, m.xz, m.yx, m.yy, m.yz, m.zx, m.zy, m.zz});
+    parts.insert(parts.end(),
+                 {static_cast<double>(number), m.xx, m.xy, m.xz, m.yx, m.yy, m.yz, m.zx, m.zy, m.zz});
   }
   if (world.halo) parts = world.halo->all_of(parts);
   Matrix3 sum;
-  for (const double* n : records_in_order(parts, 10)) sum = sum + Matrix3{n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9]};
+  for (const double* n : records_in_order(parts, 10))
+    sum = sum + Matrix3{n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9]};
   return quaternion_of(rotation_of(sum, {1.0, 1.0, 1.0, 0.0, 0.0, 0.0}, 3));
 }
 

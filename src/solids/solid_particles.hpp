@@ -8,15 +8,16 @@
 #include "sph/solid.hpp"
 #include "world/body_table.hpp"
 
-/// Parts that elasticity, plasticity, fracture and change of phase share: bonds and own pairs of a world, and how its particles
-/// are deformed. Particles are named by id.
+/// Parts that elasticity, plasticity, fracture and change of phase share: bonds and own pairs of a world, and
+/// how its particles are deformed. Particles are named by id.
 namespace tripoint::solid {
 
 /// A bond with this reference vector x_ij = r_i - r_j [m] and its kernel (17); connect() sets its partner.
 [[nodiscard]] Bond bond_of(const ElasticityKernel&, const Vec3& x_ij);
 /// The kernel (17), with the support scene.bond_reach dx [m].
 [[nodiscard]] ElasticityKernel bond_kernel(const Scene&);
-/// W of the density kernel: the weight of an own pair [1/m3] (model 8.2). @param distance of its reference places [m]
+/// W of the density kernel: the weight of an own pair [1/m3] (model 8.2). @param distance of its reference
+/// places [m]
 [[nodiscard]] double own_weight(const Scene&, double distance);
 /// A difference of places [m] as the nearest images have it.
 [[nodiscard]] inline Vec3 nearest_image(const PeriodicBox& box, Vec3 d) {
@@ -43,14 +44,14 @@ class ElasticParticles {
   RigidMembers is_rigid_;
 };
 
-/// Stiffness of a member of a rigid body over that of the elastic partner that it is bonded to [1]. Such members own strain
-/// energy too, since the stress on both sides of a cut carries the force. Without theirs the joint bears twice the strain, and
-/// gives way as 2.5 spacings more of the bar would. With 1 it gives way as 0.9 spacings would, with 4 as 0.2, with 10 as none. A
-/// stiffer joint needs a shorter time step.
+/// Stiffness of a member of a rigid body over that of the elastic partner that it is bonded to [1]. Such
+/// members own strain energy too, since the stress on both sides of a cut carries the force. Without theirs
+/// the joint bears twice the strain, and gives way as 2.5 spacings more of the bar would. With 1 it gives way
+/// as 0.9 spacings would, with 4 as 0.2, with 10 as none. A stiffer joint needs a shorter time step.
 inline constexpr double joint_stiffness = 4.0;
 
-/// Tells of rows whether they own strain energy: particles of deformable bodies, and members of rigid ones that are bonded to
-/// such. Valid as the lists were when shapes were last refreshed.
+/// Tells of rows whether they own strain energy: particles of deformable bodies, and members of rigid ones
+/// that are bonded to such. Valid as the lists were when shapes were last refreshed.
 class EnergyOwners {
  public:
   explicit EnergyOwners(const World& world) : stiffness_(world.particles[field::solid_stiffness]) {}
@@ -60,9 +61,10 @@ class EnergyOwners {
   std::span<const double> stiffness_;
 };
 
-/// Sets the columns that follow from the lists and bodies of these particles (model 8.7). They are volume [m3] and, zero where
-/// they own no strain energy, stiffness [1], A_i [1] and rank. For them and their partners it also sets which are regular and,
-/// where the scene can freeze, the square of the frequency of each [1/s2].
+/// Sets the columns that follow from the lists and bodies of these particles (model 8.7). They are volume
+/// [m3] and, zero where they own no strain energy, stiffness [1], A_i [1] and rank. For them and their
+/// partners it also sets which are regular and, where the scene can freeze, the square of the frequency of
+/// each [1/s2].
 /// @param first lists are those of the start: no frequency is needed
 void refresh_shapes(World&, std::span<const std::uint32_t> ids, bool first = false);
 
@@ -74,10 +76,12 @@ struct Deformation {
   int rank = 0;           ///< of P: 3 solid, 2 sheet, 1 chain, 0 without neighbours
 };
 
-/// Whether the stiffness of this material falls as it melts: marked so, or, printed (Fig. 5), between t_solid and t_melt.
+/// Whether the stiffness of this material falls as it melts: marked so, or, printed (Fig. 5), between t_solid
+/// and t_melt.
 [[nodiscard]] bool softens(const Scene&, const Material&);
 
-/// The scene's forms of elasticity, prepared once. Functions of one particle; `of` reads no column but bonds, volumes and A_i.
+/// The scene's forms of elasticity, prepared once. Functions of one particle; `of` reads no column but bonds,
+/// volumes and A_i.
 class ElasticForms {
  public:
   explicit ElasticForms(const Scene&);
@@ -86,13 +90,14 @@ class ElasticForms {
   [[nodiscard]] double hourglass() const noexcept { return hourglass_; }
   /// Share of the correction for bending that gradients at surfaces have [1], 0 = none.
   [[nodiscard]] double bending() const noexcept { return bending_; }
-  /// Constants of particles by rows [Pa], softened where their material softens; zero where they own no strain energy.
+  /// Constants of particles by rows [Pa], softened where their material softens; zero where they own no
+  /// strain energy.
   class Constants {
    public:
     [[nodiscard]] ElasticConstants operator()(std::size_t row) const;
-    /// Whether its matter may flow by this elastic strain. Of a solid: whether |dev e| passes the elastic limit, and by round-off
-    /// at most where it does not. Of a sheet or chain: whether there is a limit. It is never false for matter that flows (model
-    /// 8.8).
+    /// Whether its matter may flow by this elastic strain. Of a solid: whether |dev e| passes the elastic
+    /// limit, and by round-off at most where it does not. Of a sheet or chain: whether there is a limit. It
+    /// is never false for matter that flows (model 8.8).
     [[nodiscard]] bool may_flow(std::size_t row, int rank, const Symmetric& elastic) const;
 
    private:
@@ -103,13 +108,16 @@ class ElasticForms {
     std::span<const int> material_;
   };
   [[nodiscard]] Constants constants(const World& world) const { return {*this, world}; }
-  [[nodiscard]] ElasticConstants constants(const World& world, std::size_t row) const { return constants(world)(row); }
+  [[nodiscard]] ElasticConstants constants(const World& world, std::size_t row) const {
+    return constants(world)(row);
+  }
   /// P of the scene's form [1]. @param shape_inverse A_i [1]   @param rank of it
   [[nodiscard]] Symmetric projector(const Symmetric& shape_inverse, int rank) const;
   /// Strain within P [1] of a particle with this F, green_strain() or strain_paper().
   [[nodiscard]] Symmetric strain(const Matrix3& F, const Symmetric& P, int rank) const;
   /// S [Pa] of the elastic strain P (eps - eps_p) P [1].
-  [[nodiscard]] Symmetric stress(const Symmetric& elastic_strain, const Symmetric& P, int rank, const ElasticConstants&) const;
+  [[nodiscard]] Symmetric stress(const Symmetric& elastic_strain, const Symmetric& P, int rank,
+                                 const ElasticConstants&) const;
   /// Factor of v F S d_ij in (12) [1]: 1, printed 2.
   [[nodiscard]] double force_factor() const noexcept { return factor_; }
 
@@ -117,7 +125,8 @@ class ElasticForms {
   bool paper_;
   double hourglass_, bending_, factor_;
   std::vector<ElasticConstants> constants_;  ///< of each material
-  std::vector<double> squared_limits_;       ///< elastic limit squared, infinite where nothing flows; of each material
+  /// Elastic limit squared, infinite where nothing flows; of each material
+  std::vector<double> squared_limits_;
   std::vector<char> softens_;
 };
 
@@ -155,7 +164,8 @@ void set_plastic_strain(Particles&, std::size_t row, const Symmetric&);
 [[nodiscard]] Symmetric strain_of(const Particles&, std::size_t row);
 
 /// F, P and strain of one particle by (14). @param back as separation() has it [s]
-[[nodiscard]] Deformation deformation_of(const World&, const ElasticForms&, std::uint32_t id, double back = 0.0);
+[[nodiscard]] Deformation deformation_of(const World&, const ElasticForms&, std::uint32_t id,
+                                         double back = 0.0);
 [[nodiscard]] Deformation deformation_of(const World&, std::uint32_t id);
 
 /// Energy that one particle stores by its deformation.
@@ -163,13 +173,14 @@ struct DeformationEnergy {
   double elastic = 0.0, hourglass = 0.0;  ///< [J]
   [[nodiscard]] double total() const noexcept { return elastic + hourglass; }
 };
-/// U_i (10) and the hourglass energy of a particle [J] (model 8.7); zero unless it owns some. @param back as separation() has it
-/// [s]
-[[nodiscard]] DeformationEnergy deformation_energy(const World&, const ElasticForms&, std::uint32_t id, double back = 0.0);
+/// U_i (10) and the hourglass energy of a particle [J] (model 8.7); zero unless it owns some. @param back as
+/// separation() has it [s]
+[[nodiscard]] DeformationEnergy deformation_energy(const World&, const ElasticForms&, std::uint32_t id,
+                                                   double back = 0.0);
 [[nodiscard]] DeformationEnergy deformation_energy(const World&, std::uint32_t id);
 
-/// Orientation of a deformable body: the rotation of the sum of its particles' rotations, weighted by mass. It starts at the
-/// identity, and again for a list that freezing has turned into the present frame.
+/// Orientation of a deformable body: the rotation of the sum of its particles' rotations, weighted by mass.
+/// It starts at the identity, and again for a list that freezing has turned into the present frame.
 [[nodiscard]] Quaternion orientation_of(const World&, std::size_t body);
 
 }  // namespace tripoint::solid

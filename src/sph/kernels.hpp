@@ -4,20 +4,26 @@
 #include <cmath>
 #include <numbers>
 
-/// Smoothing kernels in three dimensions. h is the support radius, h > 0 [m]: W = 0 for r >= h. r is a distance, r >= 0 [m]. Each
-/// integrates to 1 over space: tests/sph/kernels_test.cpp. Constants are formed once, so that a pair pass only multiplies.
-/// `..._inside` is for r <= h alone, where no check is needed that r is within the support. A pass leaves out the pairs beyond it
-/// in one place. Such a function has the unit of the one without `_inside`.
+/// Smoothing kernels in three dimensions. h is the support radius, h > 0 [m]: W = 0 for r >= h. r is a
+/// distance, r >= 0 [m]. Each integrates to 1 over space: tests/sph/kernels_test.cpp. Constants are formed
+/// once, so that a pair pass only multiplies.
+/// `..._inside` is for r <= h alone, where no check is needed that r is within the support. A pass leaves out
+/// the pairs beyond it in one place. Such a function has the unit of the one without `_inside`.
 namespace tripoint {
 
-/// poly6 [Mueller, Charypar, Gross 2003, (20)], the paper's density kernel (4): W(r) = 315/(64 pi h^9) (h^2 - r^2)^3.
+/// poly6 [Mueller, Charypar, Gross 2003, (20)], the paper's density kernel (4): W(r) = 315/(64 pi h^9) (h^2 -
+/// r^2)^3.
 class Poly6 {
  public:
-  explicit Poly6(double h) noexcept : h_(h), c_(315.0 / (64.0 * std::numbers::pi * std::pow(h, 9))) { assert(h > 0.0); }
+  explicit Poly6(double h) noexcept : h_(h), c_(315.0 / (64.0 * std::numbers::pi * std::pow(h, 9))) {
+    assert(h > 0.0);
+  }
   /// W(r) [1/m3]
   [[nodiscard]] double value(double r) const noexcept { return value_of_square(r * r); }
   /// W of r^2 [m2], which needs no root [1/m3]
-  [[nodiscard]] double value_of_square(double r2) const noexcept { return r2 < h_ * h_ ? value_of_square_inside(r2) : 0.0; }
+  [[nodiscard]] double value_of_square(double r2) const noexcept {
+    return r2 < h_ * h_ ? value_of_square_inside(r2) : 0.0;
+  }
   template <class V>
   [[nodiscard]] V value_of_square_inside(V r2) const noexcept {
     const V q = h_ * h_ - r2;
@@ -28,10 +34,13 @@ class Poly6 {
   double h_, c_;
 };
 
-/// spiky [Mueller, Charypar, Gross 2003, (21)], the paper's pressure kernel (7): W(r) = 15/(pi h^6) (h - r)^3.
+/// spiky [Mueller, Charypar, Gross 2003, (21)], the paper's pressure kernel (7): W(r) = 15/(pi h^6) (h -
+/// r)^3.
 class Spiky {
  public:
-  explicit Spiky(double h) noexcept : h_(h), c_(15.0 / (std::numbers::pi * std::pow(h, 6))) { assert(h > 0.0); }
+  explicit Spiky(double h) noexcept : h_(h), c_(15.0 / (std::numbers::pi * std::pow(h, 6))) {
+    assert(h > 0.0);
+  }
   /// W(r) [1/m3]
   template <class V>
   [[nodiscard]] V value(V r) const noexcept {
@@ -60,7 +69,9 @@ class Spiky {
 /// W(r) = 15/(2 pi h^3) (-q^3/2 + q^2 + 1/(2q) - 1), q = r/h.
 class ViscosityKernel {
  public:
-  explicit ViscosityKernel(double h) noexcept : h_(h), c_(45.0 / (std::numbers::pi * std::pow(h, 6))) { assert(h > 0.0); }
+  explicit ViscosityKernel(double h) noexcept : h_(h), c_(45.0 / (std::numbers::pi * std::pow(h, 6))) {
+    assert(h > 0.0);
+  }
   /// W(r) [1/m3]; infinite at r = 0
   [[nodiscard]] double value(double r) const noexcept {
     if (r >= h_) return 0.0;
@@ -110,7 +121,10 @@ class ElasticityKernel {
 class WendlandC2 {
  public:
   explicit WendlandC2(double h) noexcept
-      : h_(h), per_h_(1.0 / h), c_(21.0 / (2.0 * std::numbers::pi * h * h * h)), g_(210.0 / (std::numbers::pi * std::pow(h, 5))) {
+      : h_(h),
+        per_h_(1.0 / h),
+        c_(21.0 / (2.0 * std::numbers::pi * h * h * h)),
+        g_(210.0 / (std::numbers::pi * std::pow(h, 5))) {
     assert(h > 0.0);
   }
   /// W(r) [1/m3]
@@ -143,22 +157,26 @@ class WendlandC2 {
   double h_, per_h_, c_, g_;
 };
 
-/// Core of pairs that exert pressure on each other (model 8.3): energy 1/2 kappa (reach - r)^2 for r < reach. It keeps particles
-/// apart where the clamped pressure leaves no repulsion.
+/// Core of pairs that exert pressure on each other (model 8.3): energy 1/2 kappa (reach - r)^2 for r < reach.
+/// It keeps particles apart where the clamped pressure leaves no repulsion.
 struct Core {
   double stiffness = 0.0;  ///< kappa [N/m]
   double reach = 0.0;      ///< scene.core_reach times dx [m]
-  /// Repulsion over r, kappa (reach/r - 1) [N/m]; finite at r = 0, so that its product with r is 0. @param r [m]
+  /// Repulsion over r, kappa (reach/r - 1) [N/m]; finite at r = 0, so that its product with r is 0. @param r
+  /// [m]
   /// @param per_r2 1/r^2, finite at r = 0 [1/m2]
   template <class V>
   [[nodiscard]] V force_over_r(V r, V per_r2) const noexcept {
     return r < reach ? stiffness * (reach * (r * per_r2) - 1.0) : 0.0;
   }
   /// Energy of one pair [J]. @param r [m]
-  [[nodiscard]] double energy(double r) const noexcept { return r < reach ? 0.5 * stiffness * (reach - r) * (reach - r) : 0.0; }
+  [[nodiscard]] double energy(double r) const noexcept {
+    return r < reach ? 0.5 * stiffness * (reach - r) * (reach - r) : 0.0;
+  }
 };
 
-/// Weight constant + square r^2 of a pair in `central` viscosity (model 8.5): 1 unless the scene asks for isotropic shear.
+/// Weight constant + square r^2 of a pair in `central` viscosity (model 8.5): 1 unless the scene asks for
+/// isotropic shear.
 struct ShearWeight {
   double constant = 1.0, square = 0.0;  ///< [1], [1/m2]
   [[nodiscard]] bool even() const noexcept { return square == 0.0; }
@@ -172,7 +190,8 @@ struct ShearWeight {
 /// The kernels at one support radius, and the scene's numbers that pair terms share, handed to every pair.
 struct PairKernels {
   /// @param support radius h [m]
-  explicit PairKernels(double support) noexcept : poly6(support), spiky(support), viscosity(support), wendland(support) {}
+  explicit PairKernels(double support) noexcept
+      : poly6(support), spiky(support), viscosity(support), wendland(support) {}
   Poly6 poly6;
   Spiky spiky;
   ViscosityKernel viscosity;

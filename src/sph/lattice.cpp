@@ -76,7 +76,8 @@ ShearModuli shear_moduli(double q, const ShearWeight& weight) {
   ShearModuli sums;
   for_lattice(q, [&](const Vec3& d) {
     const double r2 = dot(d, d), K = -5.0 * weight.weighted(kernel.derivative_over_r(std::sqrt(r2)), r2) / r2;
-    const double across = 0.5 * (d.x * d.x - d.y * d.y);  // product of the coordinates along the two diagonals
+    // Product of the coordinates along the two diagonals
+    const double across = 0.5 * (d.x * d.x - d.y * d.y);
     sums.axes += K * (d.x * d.x) * (d.y * d.y);
     sums.diagonals += K * across * across;
   });
@@ -84,19 +85,21 @@ ShearModuli shear_moduli(double q, const ShearWeight& weight) {
   return {sums.axes / moment, sums.diagonals / moment};
 }
 
-/// Moduli are linear in the weight: c + s r^2 makes them equal where c (their difference by 1) = s (that by r^2). Their mean over
-/// all directions is 3/5 axes + 2/5 diagonals.
+/// Moduli are linear in the weight: c + s r^2 makes them equal where c (their difference by 1) = s (that by
+/// r^2). Their mean over all directions is 3/5 axes + 2/5 diagonals.
 ShearWeight isotropic_shear(double q) {
   const ShearModuli by_one = shear_moduli(q, {1.0, 0.0}), by_square = shear_moduli(q, {0.0, 1.0});
   const auto mean = [](const ShearModuli& m) { return 0.6 * m.axes + 0.4 * m.diagonals; };
-  const double ratio = (by_square.axes - by_square.diagonals) / (by_one.diagonals - by_one.axes), c_over_s = std::max(0.0, ratio);
+  const double ratio = (by_square.axes - by_square.diagonals) / (by_one.diagonals - by_one.axes),
+               c_over_s = std::max(0.0, ratio);
   const double s = 1.0 / (mean(by_square) + c_over_s * mean(by_one));
   return {c_over_s * s, s};
 }
 
 namespace {
 
-/// Weight of a layer a from the interface that the energy of unlike pairs with the kernel K gives, times 2/(rho - rho') [1/m].
+/// Weight of a layer a from the interface that the energy of unlike pairs with the kernel K gives, times
+/// 2/(rho - rho') [1/m].
 double lifted(double q, double a, const InterfaceKernel& K) {
   const WendlandC2 W(q);
   double sum = 0.0;
@@ -122,8 +125,8 @@ double missing(double q, double a) {
 /// Two linear equations, one for each layer.
 InterfaceKernel interface_kernel(double q) {
   const InterfaceKernel by_one{1.0, 0.0}, by_square{0.0, 1.0};
-  const double first = lifted(q, 0.5, by_one), first_square = lifted(q, 0.5, by_square), second = lifted(q, 1.5, by_one),
-               second_square = lifted(q, 1.5, by_square);
+  const double first = lifted(q, 0.5, by_one), first_square = lifted(q, 0.5, by_square),
+               second = lifted(q, 1.5, by_one), second_square = lifted(q, 1.5, by_square);
   const double determinant = first * second_square - first_square * second;
   if (determinant == 0.0) return {missing(q, 0.5) / first, 0.0};
   return {(missing(q, 0.5) * second_square - first_square * missing(q, 1.5)) / determinant,

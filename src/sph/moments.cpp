@@ -14,10 +14,12 @@ Eigen::Matrix3d matrix_of(const Symmetric& m) {
   return a;
 }
 
-/// Whether no eigenvalue of a positive semidefinite matrix is below cut times the largest, by a bound without a decomposition.
-/// The largest is at most g, the greatest sum of a row's magnitudes. So the smallest is at least det/g^2.
+/// Whether no eigenvalue of a positive semidefinite matrix is below cut times the largest, by a bound without
+/// a decomposition. The largest is at most g, the greatest sum of a row's magnitudes. So the smallest is at
+/// least det/g^2.
 bool is_regular(const Symmetric& m, double det, double cut) {
-  const double g = std::max({std::abs(m.xx) + std::abs(m.xy) + std::abs(m.xz), std::abs(m.xy) + std::abs(m.yy) + std::abs(m.yz),
+  const double g = std::max({std::abs(m.xx) + std::abs(m.xy) + std::abs(m.xz),
+                             std::abs(m.xy) + std::abs(m.yy) + std::abs(m.yz),
                              std::abs(m.xz) + std::abs(m.yz) + std::abs(m.zz)});
   return m.xx > 0.0 && det > cut * g * g * g;
 }
@@ -25,7 +27,8 @@ bool is_regular(const Symmetric& m, double det, double cut) {
 }  // namespace
 
 double largest_eigenvalue(const Symmetric& m) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix_of(m), Eigen::EigenvaluesOnly).eigenvalues()(2);
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix_of(m), Eigen::EigenvaluesOnly)
+      .eigenvalues()(2);
 }
 
 Symmetric pseudo_inverse(const Symmetric& m, double cut) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The state that a run continues from. Columns and bookings are taken generically, so that a new field or entry is kept without a
-// line here. Derived state (neighbour lists) is rebuilt from its own earlier input, never from the present state.
+// The state that a run continues from. Columns and bookings are taken generically, so that a new field or
+// entry is kept without a line here. Derived state (neighbour lists) is rebuilt from its own earlier input,
+// never from the present state.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -24,7 +25,8 @@ std::vector<double> plain(std::span<const T> values) {
 std::vector<double> plain(std::span<const OwnPair> list) {
   static_assert(std::endian::native == std::endian::little && sizeof(OwnPair) == 2 * sizeof(double));
   std::vector<double> out;
-  for (const OwnPair& pair : list) out.insert(out.end(), {std::bit_cast<double>(std::uint64_t{pair.other}), pair.weight});
+  for (const OwnPair& pair : list)
+    out.insert(out.end(), {std::bit_cast<double>(std::uint64_t{pair.other}), pair.weight});
   return out;
 }
 template <class T>
@@ -40,7 +42,8 @@ std::vector<T> in_order(std::span<const T> values, std::span<const std::uint32_t
 }
 
 /// @param order of the rows; empty: as they are
-void save(const Columns& columns, const std::string& group, Checkpoint& kept, std::span<const std::uint32_t> order = {}) {
+void save(const Columns& columns, const std::string& group, Checkpoint& kept,
+          std::span<const std::uint32_t> order = {}) {
   columns.for_each([&]<class T>(const FieldInfo& field, std::span<const T> values) {
     const std::string name = group + std::string(field.name);
     const std::vector<T> ordered = in_order(values, order);
@@ -58,8 +61,8 @@ const Values& take(const std::map<std::string, Values>& arrays, const std::strin
   const auto at = arrays.find(name);
   if (at == arrays.end()) throw InputError("the checkpoint has no " + name);
   if (at->second.size() != length)
-    throw InputError("the checkpoint holds " + std::to_string(at->second.size()) + " numbers of " + name + ", expected " +
-                     std::to_string(length));
+    throw InputError("the checkpoint holds " + std::to_string(at->second.size()) + " numbers of " + name +
+                     ", expected " + std::to_string(length));
   return at->second;
 }
 
@@ -69,7 +72,8 @@ void restore_columns(Columns& columns, const std::string& group, const Checkpoin
     if constexpr (std::is_same_v<T, int>) {
       const auto& from = take(kept.whole, name, values.size());
       for (std::size_t i = 0; i < values.size(); ++i) {
-        if (!std::in_range<int>(from[i])) throw InputError("the checkpoint's " + name + " has a number beyond all bounds");
+        if (!std::in_range<int>(from[i]))
+          throw InputError("the checkpoint's " + name + " has a number beyond all bounds");
         values[i] = static_cast<int>(from[i]);
       }
     } else {
@@ -79,8 +83,9 @@ void restore_columns(Columns& columns, const std::string& group, const Checkpoin
   });
 }
 
-/// Lists of partners in order of id up to the last that has any, as plain numbers; nothing where all are empty. How many empty
-/// ones follow tells of the run's past, of which bonds had been where all are gone, and not of its state.
+/// Lists of partners in order of id up to the last that has any, as plain numbers; nothing where all are
+/// empty. How many empty ones follow tells of the run's past, of which bonds had been where all are gone, and
+/// not of its state.
 template <class Pair>
 void save(const PairLists<Pair>& lists, const std::string& name, Checkpoint& kept) {
   static_assert(std::is_trivially_copyable_v<Pair> && sizeof(Pair) % sizeof(double) == 0);
@@ -104,7 +109,8 @@ void restore_pairs(PairLists<Pair>& lists, const std::string& name, const Checkp
   constexpr std::int64_t longest = 1 << 20;  // of a list: beyond it the sum could overflow
   std::int64_t pairs = 0;
   for (const std::int64_t n : counts->second) {
-    if (n < 0 || n > longest) throw InputError("the checkpoint's " + name + " has a list of length " + std::to_string(n));
+    if (n < 0 || n > longest)
+      throw InputError("the checkpoint's " + name + " has a list of length " + std::to_string(n));
     pairs += n;
   }
   const std::vector<double>& flat =
@@ -126,7 +132,8 @@ std::vector<std::uint32_t> row_order(const Checkpoint& kept, std::size_t particl
   std::vector<bool> seen(particles, false);
   for (const std::int64_t id : take(kept.whole, "particles/id", particles)) {
     const auto n = static_cast<std::size_t>(id);
-    if (id < 0 || n >= particles || seen[n]) throw InputError("the checkpoint's particles are not each there once");
+    if (id < 0 || n >= particles || seen[n])
+      throw InputError("the checkpoint's particles are not each there once");
     seen[n] = true;
     order.push_back(static_cast<std::uint32_t>(n));
   }
@@ -139,7 +146,8 @@ void restore_lists(World& world, const Checkpoint& kept, const std::vector<std::
   const std::vector<double>& from = take(kept.real, "neighbours/build_positions", 3 * n);
   std::vector<Vec3> built(n);
   for (std::size_t i = 0; i < n; ++i) built[i] = {from[3 * i], from[3 * i + 1], from[3 * i + 2]};
-  world.neighbours->rebuild_from(world.particles, built, world.time, take(kept.whole, "neighbours/rebuilds", 1)[0]);
+  world.neighbours->rebuild_from(world.particles, built, world.time,
+                                 take(kept.whole, "neighbours/rebuilds", 1)[0]);
   const auto id = world.particles[field::id];
   for (std::size_t i = 0; i < n; ++i) {
     if (static_cast<std::uint32_t>(id[i]) != order[i])
@@ -165,7 +173,8 @@ void refuse_another_layout(const Checkpoint& kept, const std::vector<std::string
   };
   std::size_t n = 0;
   while (n + 1 < here.size() && !differs(n)) ++n;
-  throw InputError("the checkpoint was written by a solver of another layout: it lacks or changes \"" + here[n] + "\"");
+  throw InputError("the checkpoint was written by a solver of another layout: it lacks or changes \"" +
+                   here[n] + "\"");
 }
 
 void restore_booked(Bookings& booked, const Checkpoint& kept) {
@@ -178,7 +187,8 @@ void restore_all_pairs(World& world, const Checkpoint& kept) {
   restore_pairs(world.bonds, "bonds", kept);
   restore_pairs(world.own, "own_pairs", kept);
   const std::vector<std::int64_t>& pairs = take(kept.whole, "step/pairs", 2);
-  if (pairs[0] != static_cast<std::int64_t>(world.bonds.pairs()) || pairs[1] != static_cast<std::int64_t>(world.own.pairs()))
+  if (pairs[0] != static_cast<std::int64_t>(world.bonds.pairs()) ||
+      pairs[1] != static_cast<std::int64_t>(world.own.pairs()))
     throw InputError("the checkpoint lacks some of its bonds or own pairs");
   refuse_strange_pairs(world);
 }
@@ -190,14 +200,16 @@ std::vector<std::string> Simulation::layout() const {
   std::vector<std::string> lines;
   const auto add = [&](const Columns& columns) {
     for (const FieldInfo& f : columns.fields())
-      lines.push_back(std::string(to_string(f.per)) + " " + std::string(f.name) + " [" + std::string(f.unit) + "] " +
-                      std::to_string(f.bytes) + " bytes");
+      lines.push_back(std::string(to_string(f.per)) + " " + std::string(f.name) + " [" + std::string(f.unit) +
+                      "] " + std::to_string(f.bytes) + " bytes");
   };
   add(world_.particles);
   add(world_.bodies);
-  for (const Active& a : effects_) lines.push_back("effect " + a.name + " " + std::string(to_string(a.spec.mode)));
+  for (const Active& a : effects_)
+    lines.push_back("effect " + a.name + " " + std::string(to_string(a.spec.mode)));
   for (const std::string_view name : world_.booked.names()) lines.push_back("account " + std::string(name));
-  for (const StepNumber& one : world_.step_numbers.declared()) lines.push_back("step number " + std::string(one.name));
+  for (const StepNumber& one : world_.step_numbers.declared())
+    lines.push_back("step number " + std::string(one.name));
   return lines;
 }
 
@@ -217,21 +229,23 @@ Checkpoint Simulation::state_of(const World& world) const {
   Checkpoint kept;
   kept.text["step/layout"] = layout();
   const bool sleeps = world.particles.moving() < world.particles.size();
+  // As if nothing slept
   const std::vector<std::uint32_t> order =
-      sleeps ? world.neighbours->rows_in_order(world.particles) : std::vector<std::uint32_t>{};  // as if nothing slept
+      sleeps ? world.neighbours->rows_in_order(world.particles) : std::vector<std::uint32_t>{};
   save(world.particles, "particles/", kept, order);
   save(world.bodies, "bodies/", kept);
   kept.text["bodies/name"] = world.body_names;
   save(world.bonds, "bonds", kept);
   save(world.own, "own_pairs", kept);
-  kept.whole["step/pairs"] = {static_cast<std::int64_t>(world.bonds.pairs()), static_cast<std::int64_t>(world.own.pairs())};
+  kept.whole["step/pairs"] = {static_cast<std::int64_t>(world.bonds.pairs()),
+                              static_cast<std::int64_t>(world.own.pairs())};
   kept.real["step/booked"] = plain(world.booked.values());
   kept.real["step/undelivered_spin"] = plain(world.booked.undelivered_spin);
   const Schedule::Stretch& stretch = schedule_.stretch();
   kept.real["step/time"] = {world.time, world.next_time, dt_, pairs_, bound_.dt, stretch.start, stretch.end};
   kept.text["step/bound"] = {bound_.name};
-  kept.whole["step/count"] = {steps_, static_cast<std::int64_t>(schedule_.moments_past()), stretch.count, stretch.done,
-                              world.moved ? 1 : 0};
+  kept.whole["step/count"] = {steps_, static_cast<std::int64_t>(schedule_.moments_past()), stretch.count,
+                              stretch.done, world.moved ? 1 : 0};
   kept.real["step/numbers"].assign(world.step_numbers.values().begin(), world.step_numbers.values().end());
   kept.real["step/guards"] = {guards_.turned_over, guards_.first_step};
   if (world.neighbours) {
@@ -246,7 +260,8 @@ Checkpoint Simulation::state_of(const World& world) const {
 void Simulation::restore(const Checkpoint& kept) {
   refuse_another_layout(kept, layout());
   const std::vector<double>& t = take(kept.real, "step/time", 7);
-  if (!std::ranges::all_of(t, [](double x) { return !std::isnan(x); })) throw InputError("the checkpoint's times are no numbers");
+  if (!std::ranges::all_of(t, [](double x) { return !std::isnan(x); }))
+    throw InputError("the checkpoint's times are no numbers");
   world_.time = t[0];
   world_.next_time = t[1];
   dt_ = t[2];
@@ -258,8 +273,9 @@ void Simulation::restore(const Checkpoint& kept) {
   world_.moved = n[4] != 0;
   schedule_.restore(static_cast<std::size_t>(n[1]), {t[5], t[6], n[2], n[3]});
   restore_booked(world_.booked, kept);
+  // Particles that had flowed in
   if (const auto ids = kept.whole.find("particles/id"); ids != kept.whole.end())
-    while (world_.particles.size() < ids->second.size()) world_.particles.append();  // particles that had flowed in
+    while (world_.particles.size() < ids->second.size()) world_.particles.append();
   const std::vector<std::uint32_t> order = row_order(kept, world_.particles.size());
   world_.particles.permute(order);  // rows were in order of id
   restore_all_pairs(world_, kept);

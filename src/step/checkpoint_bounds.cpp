@@ -11,9 +11,13 @@
 namespace tripoint {
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) { throw InputError("no run can go on from this checkpoint: " + what); }
+[[noreturn]] void refuse(const std::string& what) {
+  throw InputError("no run can go on from this checkpoint: " + what);
+}
 
-const Columns& table_of(const World& world, Per per) { return per == Per::body ? world.bodies : world.particles; }
+const Columns& table_of(const World& world, Per per) {
+  return per == Per::body ? world.bodies : world.particles;
+}
 
 void hold(const World& world, const Bounded& bounded) {
   const Field<int>& field = bounded.field;
@@ -22,7 +26,8 @@ void hold(const World& world, const Bounded& bounded) {
   for (std::size_t row = 0; row < values.size(); ++row) {
     const long value = values[row];
     if (value >= bounded.least && value < end) continue;
-    refuse(fmt::format("{} of row {} is {}, not one of {} to {}", field.name, row, value, bounded.least, end - 1));
+    refuse(fmt::format("{} of row {} is {}, not one of {} to {}", field.name, row, value, bounded.least,
+                       end - 1));
   }
 }
 
@@ -41,7 +46,8 @@ void hold_partners(const PairLists<Pair>& lists, const std::string& name, std::s
   for (std::size_t id = 0; id < lists.particles(); ++id)
     for (const Pair& pair : lists.of(id))
       if (pair.other >= particles)
-        refuse(fmt::format("{} of particle {} lead to particle {}, and there are {}", name, id, pair.other, particles));
+        refuse(fmt::format("{} of particle {} lead to particle {}, and there are {}", name, id, pair.other,
+                           particles));
 }
 
 /// Whether a bond stands in the list of its partner, where it says.
@@ -59,7 +65,8 @@ void refuse_strange_pairs(const World& world) {
   for (std::size_t id = 0; id < world.bonds.particles(); ++id)
     for (const Bond& bond : world.bonds.of(id))
       if (!has_twin(world.bonds, id, bond))
-        refuse(fmt::format("the bond of particle {} with {} is not in the list of {}", id, bond.other, bond.other));
+        refuse(fmt::format("the bond of particle {} with {} is not in the list of {}", id, bond.other,
+                           bond.other));
 }
 
 void refuse_strange_columns(const World& world) {

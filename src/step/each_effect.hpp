@@ -7,7 +7,8 @@
 
 namespace tripoint {
 
-/// Visits the effects of a scene in the order of the one list; each sees the columns that it has declared, and no other.
+/// Visits the effects of a scene in the order of the one list; each sees the columns that it has declared,
+/// and no other.
 /// @param visit called as visit(Effect&)
 template <class Visit>
 void for_each_effect(const World& world, const std::vector<Active>& effects, Visit visit) {
@@ -19,8 +20,8 @@ void for_each_effect(const World& world, const std::vector<Active>& effects, Vis
 
 /// The same for a stage whose sums the copies of other processes take (EffectSpec::own_sums).
 template <class Visit>
-void for_each_effect(World& world, const std::vector<Active>& effects, std::vector<const Field<double>*> OwnSums::*sums,
-                     Visit visit) {
+void for_each_effect(World& world, const std::vector<Active>& effects,
+                     std::vector<const Field<double>*> OwnSums::*sums, Visit visit) {
   for (const Active& a : effects) {
     {
       const DeclaredView view(world, a);

@@ -13,26 +13,30 @@
 namespace tripoint {
 namespace {
 
-/// Share of the energy that the mass would have at one spacing a step, below which nothing is told apart from round-off [1]. A
-/// choice, far above the round-off of sums over particles.
+/// Share of the energy that the mass would have at one spacing a step, below which nothing is told apart from
+/// round-off [1]. A choice, far above the round-off of sums over particles.
 constexpr double round_off_share = 1e-10;
-/// Share of the turned-over energy that the scheme may make or lose [1]: more is no error of integration any more.
+/// Share of the turned-over energy that the scheme may make or lose [1]: more is no error of integration any
+/// more.
 constexpr double most_made = 0.5;
 /// Share of the first step that a step may shrink to [1]: a choice. Such a run would go on for ever.
 constexpr double least_step_share = 1e-5;
 
-/// Whether test(from, to) holds for all rows, shared among threads where there are enough: a team costs more than a short column.
+/// Whether test(from, to) holds for all rows, shared among threads where there are enough: a team costs more
+/// than a short column.
 template <class Test>
 bool holds_for_all(std::size_t rows, int threads, Test test) {
   if (threads == 1 || rows < worth_threads) return test(0, rows);
   const auto parts = static_cast<std::size_t>(threads);
   bool holds = true;
 #pragma omp parallel for schedule(static) num_threads(threads) reduction(&& : holds)
-  for (std::size_t part = 0; part < parts; ++part) holds = test(rows * part / parts, rows * (part + 1) / parts) && holds;
+  for (std::size_t part = 0; part < parts; ++part)
+    holds = test(rows * part / parts, rows * (part + 1) / parts) && holds;
   return holds;
 }
 
-/// The sum of a column times zero is not finite when one of its values is not. So the loop needs no branch, and the sum no order.
+/// The sum of a column times zero is not finite when one of its values is not. So the loop needs no branch,
+/// and the sum no order.
 bool all_finite(std::span<const double> values, int threads) {
   return holds_for_all(values.size(), threads, [&](std::size_t from, std::size_t to) {
     double zero = 0.0;
@@ -67,8 +71,8 @@ class Movable {
   }
   bool operator()(std::size_t row) const {
     if (!driven_.empty() && driven_[row] != 0) return false;
-    return body_[row] < 0 ||
-           world_.bodies[field::body_motion][static_cast<std::size_t>(body_[row])] == static_cast<int>(Motion::free);
+    return body_[row] < 0 || world_.bodies[field::body_motion][static_cast<std::size_t>(body_[row])] ==
+                                 static_cast<int>(Motion::free);
   }
 
  private:
@@ -95,10 +99,10 @@ double entry_of(const Ledger& ledger, std::string_view name) {
   return found == ledger.energy.end() ? 0.0 : found->second;
 }
 
-/// The largest energy that the scheme has made [J], lost where negative, and what made it. Effects declare which of their entries
-/// mean energy from nowhere where they fall below 0 (EntryRole). The driver of a wall pays for it in the entry `walls`. The
-/// printed pressure has no energy behind it: it makes some in every column at rest, which is its known defect, and contacts store
-/// some.
+/// The largest energy that the scheme has made [J], lost where negative, and what made it. Effects declare
+/// which of their entries mean energy from nowhere where they fall below 0 (EntryRole). The driver of a wall
+/// pays for it in the entry `walls`. The printed pressure has no energy behind it: it makes some in every
+/// column at rest, which is its known defect, and contacts store some.
 struct Made {
   double energy = 0.0;
   std::string_view by;
@@ -140,7 +144,8 @@ void check_finite(const World& world) {
     if (all_finite(values, world.threads)) continue;
     for (std::size_t id = 0; id < p.size(); ++id)
       if (const std::size_t i = p.row(id); i < values.size() && !std::isfinite(values[i]))
-        fail(world, GuardName::finite, i, g.name, to_string(g.written), fmt::format("has no finite {}", g.name));
+        fail(world, GuardName::finite, i, g.name, to_string(g.written),
+             fmt::format("has no finite {}", g.name));
   }
   for (const Guarded& g : world.guarded)
     if (!g.not_positive.empty()) refuse_not_positive(world, g);
@@ -166,58 +171,66 @@ void check_escape(const World& world, const Enclosure& domain) {
     const double low = domain.box.min[a], high = domain.box.max[a];
     for (std::size_t i = 0; i < world.particles.moving(); ++i) {
       if ((r[a][i] >= low && r[a][i] <= high) || !movable(i)) continue;
-      const std::string where = domain.given ? fmt::format("{:.6g} m .. {:.6g} m", (*s.min)[a], (*s.max)[a])
-                                             : fmt::format(
-                                                   "{:.6g} m .. {:.6g} m, which was made from the scene: give scene.min and "
-                                                   "scene.max where it may, or unguarded = [\"escape\"]",
-                                                   low, high);
+      const std::string where =
+          domain.given ? fmt::format("{:.6g} m .. {:.6g} m", (*s.min)[a], (*s.max)[a])
+                       : fmt::format(
+                             "{:.6g} m .. {:.6g} m, which was made from the scene: give scene.min and "
+                             "scene.max where it may, or unguarded = [\"escape\"]",
+                             low, high);
       fail(world, GuardName::escape, i, "position", "drift",
            fmt::format("has left the domain: {} = {:.6g} m is outside {}", "xyz"[a], r[a][i], where));
     }
   }
 }
 
-void check_energy(const World& world, const Ledger& ledger, double start_potential, double dt, GuardMemory& memory) {
-  if (ledger.energy.count(ledger_entry::time_integration) == 0 || is_off(world.scene, GuardName::ledger)) return;
+void check_energy(const World& world, const Ledger& ledger, double start_potential, double dt,
+                  GuardMemory& memory) {
+  if (ledger.energy.count(ledger_entry::time_integration) == 0 || is_off(world.scene, GuardName::ledger))
+    return;
   const Made made = made_by_scheme(ledger, world.guarded_entries, memory.still);
   memory.turned_over = std::max(memory.turned_over, turnover(ledger, world.guarded_entries, start_potential));
-  const double grid_speed = world.scene.spacing / dt, least = round_off_share * ledger.mass * grid_speed * grid_speed;
+  const double grid_speed = world.scene.spacing / dt,
+               least = round_off_share * ledger.mass * grid_speed * grid_speed;
   if (std::abs(made.energy) <= most_made * std::max(memory.turned_over, least)) return;
   const std::size_t i = fastest(world);
   fail(world, GuardName::ledger, i, "energy", "kick",
-       fmt::format(
-           "moves fastest ({:.4g} m/s) where the scheme itself has {} {:.4g} J by {}, {:.2g} of all the energy that the "
-           "scene has turned over: {}",
-           norm(world.particles.velocity(i)), made.energy > 0.0 ? "made" : "lost", std::abs(made.energy), made.by,
-           std::abs(made.energy) / memory.turned_over,
-           made.by_steps ? "a smaller time step" : "the corrected forms, a smaller time step, or a greater speed of sound"));
+       fmt::format("moves fastest ({:.4g} m/s) where the scheme itself has {} {:.4g} J by {}, {:.2g} of all "
+                   "the energy that the "
+                   "scene has turned over: {}",
+                   norm(world.particles.velocity(i)), made.energy > 0.0 ? "made" : "lost",
+                   std::abs(made.energy), made.by, std::abs(made.energy) / memory.turned_over,
+                   made.by_steps ? "a smaller time step"
+                                 : "the corrected forms, a smaller time step, or a greater speed of sound"));
 }
 
 void check_step(const World& world, const TimeStepBound& bound, GuardMemory& memory) {
   if (memory.first_step == 0.0 && std::isfinite(bound.dt)) memory.first_step = bound.dt;
-  if (bound.dt >= least_step_share * memory.first_step || (is_off(world.scene, GuardName::time_step) && bound.dt > 0.0)) return;
+  if (bound.dt >= least_step_share * memory.first_step ||
+      (is_off(world.scene, GuardName::time_step) && bound.dt > 0.0))
+    return;
   const std::size_t i = fastest(world);
-  fail(
-      world, GuardName::time_step, i, "time_step", "bound",
-      fmt::format("moves fastest ({:.4g} m/s) where the bound of {} has shrunk the time step to {:.3g} s, from {:.3g} s at first",
-                  norm(world.particles.velocity(i)), bound.name, bound.dt, memory.first_step));
+  fail(world, GuardName::time_step, i, "time_step", "bound",
+       fmt::format("moves fastest ({:.4g} m/s) where the bound of {} has shrunk the time step to {:.3g} s, "
+                   "from {:.3g} s at first",
+                   norm(world.particles.velocity(i)), bound.name, bound.dt, memory.first_step));
 }
 
 void refuse_small_step(const World& world, double dt, double length, const std::string& name) {
   const std::size_t i = fastest(world);
   fail(world, GuardName::time_step, i, "time_step", "bound",
-       fmt::format(
-           "moves fastest ({:.4g} m/s) where a time step of {:.3g} s, set by {}, would need {:.3g} steps to the next output",
-           norm(world.particles.velocity(i)), dt, name, length / dt));
+       fmt::format("moves fastest ({:.4g} m/s) where a time step of {:.3g} s, set by {}, would need {:.3g} "
+                   "steps to the next output",
+                   norm(world.particles.velocity(i)), dt, name, length / dt));
 }
 
 void refuse_step(const World& world, double dt, double bound, const std::string& name) {
   const std::size_t i = fastest(world);
   fail(world, GuardName::time_step, i, "time_step", "bound",
-       fmt::format(
-           "moves fastest ({:.4g} m/s) where the scene's time_step, {:.4g} s, has come to lie above the bound of {}, {:.4g} s: "
-           "make it smaller, or run all the same with [engines.tripoint] settings = {{ force_time_step = true }}",
-           norm(world.particles.velocity(i)), dt, name, bound));
+       fmt::format("moves fastest ({:.4g} m/s) where the scene's time_step, {:.4g} s, has come to lie above "
+                   "the bound of {}, {:.4g} s: "
+                   "make it smaller, or run all the same with [engines.tripoint] settings = {{ "
+                   "force_time_step = true }}",
+                   norm(world.particles.velocity(i)), dt, name, bound));
 }
 
 }  // namespace tripoint

@@ -21,7 +21,8 @@ namespace {
 void add_entries_of_others(const World& world, Ledger& sum) {
   std::vector<std::string> entries;
   for (const Force& f : world.forces)
-    if (f.stored && f.stored->released && !f.stored->released_to.empty()) entries.emplace_back(f.stored->released_to);
+    if (f.stored && f.stored->released && !f.stored->released_to.empty())
+      entries.emplace_back(f.stored->released_to);
   std::vector<double> there;
   for (const std::string& entry : entries) there.push_back(sum.energy.contains(entry) ? 1.0 : 0.0);
   world.halo->add(there);
@@ -36,7 +37,8 @@ Ledger ledger_of_all(const World& world, const std::vector<Active>& effects) {
   if (!world.halo) return sum;
   add_entries_of_others(world, sum);
   std::vector<double> numbers{sum.mass};
-  for (const Vec3* v : {&sum.momentum, &sum.angular_momentum}) numbers.insert(numbers.end(), {v->x, v->y, v->z});
+  for (const Vec3* v : {&sum.momentum, &sum.angular_momentum})
+    numbers.insert(numbers.end(), {v->x, v->y, v->z});
   for (const auto& [entry, energy] : sum.energy) numbers.push_back(energy);
   world.halo->add(numbers);
   sum.mass = numbers[0];

@@ -68,7 +68,8 @@ void Recovery::save(Checkpoint& kept) const {
 void Recovery::restore(const Checkpoint& kept) {
   const auto step = kept.real.find("good/step");
   const auto last = kept.text.find("good/last");
-  if (step == kept.real.end() || step->second.size() != 4 || last == kept.text.end() || last->second.size() != 1)
+  if (step == kept.real.end() || step->second.size() != 4 || last == kept.text.end() ||
+      last->second.size() != 1)
     throw InputError("the checkpoint lacks the good states of a scene that recovers");
   share_ = step->second[0];
   failed_at_ = step->second[1];

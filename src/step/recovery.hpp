@@ -10,9 +10,10 @@ namespace tripoint {
 
 /// Good states that a run can go back to when a guard trips, and how short its steps are since.
 ///
-/// Two states are kept, every 128 steps a new one. A failure goes back to the older one, so that at least 128 steps lie between
-/// the state and the failure. Each failure halves the steps. They double again, up to the full step, once 2^count good states lie
-/// past the last failure. A step that fails again and again is thus tried ever more seldom.
+/// Two states are kept, every 128 steps a new one. A failure goes back to the older one, so that at least 128
+/// steps lie between the state and the failure. Each failure halves the steps. They double again, up to the
+/// full step, once 2^count good states lie past the last failure. A step that fails again and again is thus
+/// tried ever more seldom.
 class Recovery {
  public:
   static constexpr long steps_between_states = 128;
@@ -20,12 +21,14 @@ class Recovery {
 
   /// A state that all guards have passed. @param time of it [s]
   void keep(Checkpoint state, double time);
-  /// The state to go on from, with half the steps. @throws Diverged, the failure with the attempts, after most_halvings in a row
+  /// The state to go on from, with half the steps. @throws Diverged, the failure with the attempts, after
+  /// most_halvings in a row
   [[nodiscard]] const Checkpoint& go_back(const Diverged& failure);
 
   [[nodiscard]] double share() const noexcept { return share_; }  ///< of the full step
   [[nodiscard]] long count() const noexcept { return count_; }
-  [[nodiscard]] const std::string& last() const noexcept { return last_; }  ///< guard that tripped last; empty = none did
+  /// Guard that tripped last; empty = none did
+  [[nodiscard]] const std::string& last() const noexcept { return last_; }
 
   /// Into and out of a run's checkpoint, so that a run that was cut goes back to the same states.
   void save(Checkpoint&) const;

@@ -12,7 +12,8 @@ Resting fixed_bodies(const World& world, double beyond) {
   for (std::size_t b = 0; b < rest.bodies.size(); ++b) {
     if (!is_alive(world, b) || !is_rigid(world, b)) continue;
     rest.bodies[b] = world.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed);
-    if (!rest.bodies[b] && !world.placed) return {};  // as it moves for the first time, all are put to their places
+    // As it moves for the first time, all are put to their places
+    if (!rest.bodies[b] && !world.placed) return {};
   }
   if (std::ranges::find(rest.bodies, 1) == rest.bodies.end()) return {};
   return rest;

@@ -8,7 +8,8 @@
 namespace tripoint {
 namespace {
 
-constexpr long steps_between_bounds = 32;  ///< a step that changes more often would break the time symmetry of kick-drift-kick
+/// a step that changes more often would break the time symmetry of kick-drift-kick
+constexpr long steps_between_bounds = 32;
 
 }  // namespace
 
@@ -24,7 +25,9 @@ const Schedule::Moment* Schedule::next_until(double time) {
   return has_moments_left() && moments_[next_].time <= time ? &moments_[next_++] : nullptr;
 }
 
-double Schedule::stop_before(double time) const { return has_moments_left() ? std::min(time, moments_[next_].time) : time; }
+double Schedule::stop_before(double time) const {
+  return has_moments_left() ? std::min(time, moments_[next_].time) : time;
+}
 
 bool Schedule::needs_plan(double stop) const {
   return stretch_.done == stretch_.count || stretch_.end != stop || stretch_.done % steps_between_bounds == 0;
@@ -41,7 +44,8 @@ double Schedule::next_end(double dt) const {
 }
 
 void Schedule::restore(std::size_t moments_past, const Stretch& stretch) {
-  if (moments_past > moments_.size()) throw InputError("the checkpoint has seen more events than the scene has");
+  if (moments_past > moments_.size())
+    throw InputError("the checkpoint has seen more events than the scene has");
   next_ = moments_past;
   stretch_ = stretch;
 }

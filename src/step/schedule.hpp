@@ -7,8 +7,9 @@
 
 namespace tripoint {
 
-/// When things happen: the begins and ends of the scene's events, and the equal steps towards the next of them or the next
-/// output. Steps are planned when a stretch begins, so that a continued run keeps to the plan that it was cut in.
+/// When things happen: the begins and ends of the scene's events, and the equal steps towards the next of
+/// them or the next output. Steps are planned when a stretch begins, so that a continued run keeps to the
+/// plan that it was cut in.
 class Schedule {
  public:
   /// An event's begin or end.
@@ -26,17 +27,20 @@ class Schedule {
   Schedule() = default;
   explicit Schedule(const std::vector<Event>&);
 
-  /// The next begin or end of an event that is not later than `time` [s], which is then past; null where there is none.
+  /// The next begin or end of an event that is not later than `time` [s], which is then past; null where
+  /// there is none.
   const Moment* next_until(double time);
   [[nodiscard]] bool has_moments_left() const noexcept { return next_ < moments_.size(); }
   /// Where steps towards `time` [s] must stop: there, or at an event on the way [s].
   [[nodiscard]] double stop_before(double time) const;
 
-  /// Whether steps must be planned anew: the stretch is done, or leads elsewhere, or its bound is 32 steps old.
+  /// Whether steps must be planned anew: the stretch is done, or leads elsewhere, or its bound is 32 steps
+  /// old.
   [[nodiscard]] bool needs_plan(double stop) const;
   /// Equal steps from `now` to `stop` [s]. @return the length of one [s]
   double plan(double now, double stop, long count);
-  /// End of the step that is next, the last one exactly where the stretch ends [s]. @param dt length of a step [s]
+  /// End of the step that is next, the last one exactly where the stretch ends [s]. @param dt length of a
+  /// step [s]
   [[nodiscard]] double next_end(double dt) const;
   void count_step() { ++stretch_.done; }
   /// Steps are planned anew before the next one.

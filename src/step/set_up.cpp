@@ -26,14 +26,17 @@ PeriodicBox box_of(const Scene& scene) {
 bool is_static(const Scene& scene, const InitialState& initial) {
   const auto at_rest = [](const Vec3& v) { return v == Vec3{}; };
   if (!scene.inflows.empty()) return false;
-  if (std::ranges::any_of(scene.bodies, [](const Body& b) { return b.phase == Phase::liquid && b.motion != Motion::fixed; }))
+  if (std::ranges::any_of(
+          scene.bodies, [](const Body& b) { return b.phase == Phase::liquid && b.motion != Motion::fixed; }))
     return false;
   if (calls_for(scene, &EffectRule::frees_particles)) return false;
-  const bool all_fixed = std::ranges::all_of(scene.bodies, [](const Body& b) { return b.motion == Motion::fixed; });
+  const bool all_fixed =
+      std::ranges::all_of(scene.bodies, [](const Body& b) { return b.motion == Motion::fixed; });
   if (all_fixed) return scene.events.empty();
-  const bool none_prescribed = std::ranges::none_of(scene.bodies, [](const Body& b) { return b.motion == Motion::prescribed; });
-  return none_prescribed && at_rest(scene.gravity) && std::ranges::all_of(initial.velocity, at_rest) && scene.events.empty() &&
-         scene.forces.empty();
+  const bool none_prescribed =
+      std::ranges::none_of(scene.bodies, [](const Body& b) { return b.motion == Motion::prescribed; });
+  return none_prescribed && at_rest(scene.gravity) && std::ranges::all_of(initial.velocity, at_rest) &&
+         scene.events.empty() && scene.forces.empty();
 }
 
 /// Whether the scene has only liquids and fixed bodies, laid at rest.
@@ -65,7 +68,8 @@ void Simulation::set_up(const Scene& scene, const InitialState& initial) {
   load(initial);
   enclosure_ = enclosure_of(scene, initial);
   if (passes_.needed())
-    world_.neighbours.emplace(world_.support(), is_static(scene, initial) ? 0.0 : options_.skin * world_.support(), world_.box,
+    world_.neighbours.emplace(world_.support(),
+                              is_static(scene, initial) ? 0.0 : options_.skin * world_.support(), world_.box,
                               options_.threads, passes_.lanes());
   schedule_ = Schedule(scene.events);
 }

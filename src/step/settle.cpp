@@ -18,7 +18,8 @@ bool is_stopped() noexcept { return stop_wanted && stop_wanted(); }
 constexpr double rest = 2e-3;                 ///< of sqrt(g H), rms: a tenth of the limit for still water
 constexpr double shaken = 0.05;               ///< spacings, to either side
 constexpr long most_settling_steps = 20'000;  ///< tanks 5 to 10 across take 4,000 to 10,000
-constexpr int calm_cycles = 5;                ///< one after the other below `rest`: single low peaks come of the fastest swings
+/// One after the other below `rest`: single low peaks come of the fastest swings
+constexpr int calm_cycles = 5;
 
 /// The scene of the relaxation: solids stand, nothing happens, no heat flows, liquids have no viscosity.
 Scene still_scene(Scene s) {
@@ -69,16 +70,19 @@ double mean_square_speed(const World& world, const InitialState& at) {
   return sum / mass;
 }
 
-/// Shifts the liquids at random: an undisturbed lattice is a saddle of the energy, which a relaxation takes long to leave.
+/// Shifts the liquids at random: an undisturbed lattice is a saddle of the energy, which a relaxation takes
+/// long to leave.
 void shake(const Scene& s, InitialState& at) {
   for (std::size_t id = 0; id < at.size(); ++id) {
     if (at.body[id] >= 0) continue;
-    for (std::size_t a = 0; a < 3; ++a) at.position[id][a] += shaken * s.spacing * counter_noise(s.seed, id, a);
+    for (std::size_t a = 0; a < 3; ++a)
+      at.position[id][a] += shaken * s.spacing * counter_noise(s.seed, id, a);
     at.position[id] = wrapped(s, at.position[id]);
   }
 }
 
-/// Steps until the kinetic energy has passed a peak; moves the liquids of `at` there and returns the peak's rms speed [m/s].
+/// Steps until the kinetic energy has passed a peak; moves the liquids of `at` there and returns the peak's
+/// rms speed [m/s].
 double swing(const Scene& scene, InitialState& at, long& steps) {
   Simulation simulation(scene, at);
   double peak = 0.0;
@@ -91,7 +95,8 @@ double swing(const Scene& scene, InitialState& at, long& steps) {
   if (is_stopped()) throw SettlingStopped();
   for (std::size_t id = 0; id < at.size(); ++id)
     if (at.body[id] < 0)
-      at.position[id] = simulation.world().particles.position(simulation.world().particles.row(static_cast<std::uint32_t>(id)));
+      at.position[id] = simulation.world().particles.position(
+          simulation.world().particles.row(static_cast<std::uint32_t>(id)));
   return std::sqrt(peak);
 }
 
@@ -102,7 +107,8 @@ void stop_settling_when(bool (*wanted)() noexcept) noexcept { stop_wanted = want
 InitialState settled(const Scene& scene, InitialState initial, Settling* how) {
   if (scene.gravity == Vec3{})
     throw InputError("settle = true needs something that pulls: give scene.gravity, or leave settle out");
-  if (std::ranges::all_of(initial.body, [](int body) { return body >= 0; })) throw InputError("settle = true needs a liquid");
+  if (std::ranges::all_of(initial.body, [](int body) { return body >= 0; }))
+    throw InputError("settle = true needs a liquid");
   Scene still = still_scene(scene);
   const double H = depth(scene, initial), pull = norm(scene.gravity);
   still.end_time = 1e4 * std::sqrt(H / pull);  // far more than most_settling_steps take

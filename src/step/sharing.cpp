@@ -37,8 +37,8 @@ void set_body_sums(World& world, std::vector<std::vector<double>> sums) {
   }
 }
 
-/// Positions of the particles when the present lists were made, by number, for each process that holds a part of them. Where a
-/// process has no lists, some particles are missing.
+/// Positions of the particles when the present lists were made, by number, for each process that holds a part
+/// of them. Where a process has no lists, some particles are missing.
 std::vector<Vec3> gather_built(const World& world) {
   const std::span<const Vec3> built = world.neighbours->build_positions();
   const std::span<const int> number = world.halo->numbers();
@@ -49,7 +49,8 @@ std::vector<Vec3> gather_built(const World& world) {
   }
   const std::vector<double> all = world.halo->all_of(own);
   std::vector<Vec3> places(all.size() / 4);
-  for (std::size_t k = 0; k < all.size(); k += 4) places[static_cast<std::size_t>(all[k])] = {all[k + 1], all[k + 2], all[k + 3]};
+  for (std::size_t k = 0; k < all.size(); k += 4)
+    places[static_cast<std::size_t>(all[k])] = {all[k + 1], all[k + 2], all[k + 3]};
   return places;
 }
 
@@ -69,7 +70,8 @@ std::vector<double> by_id(const World& world, const std::vector<double>& by_row)
 std::vector<Vec3> built_here(const World& world, const std::vector<Vec3>& built) {
   const std::span<const int> number = world.halo->numbers();
   std::vector<Vec3> here(number.size());
-  for (std::size_t id = 0; id < here.size(); ++id) here[world.particles.row(id)] = built[static_cast<std::size_t>(number[id])];
+  for (std::size_t id = 0; id < here.size(); ++id)
+    here[world.particles.row(id)] = built[static_cast<std::size_t>(number[id])];
   return here;
 }
 
@@ -237,7 +239,8 @@ void Sharing::share_out(World& world, const Passes& passes) {
 /// Whether each process can go on with the part that it had, and with its lists. All find the same.
 bool Sharing::can_take_back(const World& world) const {
   return part_ && part_->neighbours && world.particles.size() == count_ &&
-         world.neighbours->rebuilds() == part_->neighbours->rebuilds() + 1 && !world.neighbours->outdated(world.particles);
+         world.neighbours->rebuilds() == part_->neighbours->rebuilds() + 1 &&
+         !world.neighbours->outdated(world.particles);
 }
 
 /// Every particle of the part takes what was decided of it.
@@ -247,13 +250,15 @@ void Sharing::take_back(World& world) {
   const auto ids = world.particles[field::id];
   const std::vector<int> id(ids.begin(), ids.end());
   std::vector<std::uint32_t> rows;
-  for (const int one : id) rows.push_back(static_cast<std::uint32_t>(whole.row(static_cast<std::size_t>(number[one]))));
+  for (const int one : id)
+    rows.push_back(static_cast<std::uint32_t>(whole.row(static_cast<std::size_t>(number[one]))));
   world.particles.copy(whole, rows);
   std::ranges::copy(id, world.particles[field::id].begin());
   const long rebuilds = world.neighbours->rebuilds();
   world.neighbours = std::move(part_->neighbours);
   world.neighbours->renew(rebuilds + 1);
-  if (gathered_ != std::array{world.bonds.changes(), world.own.changes()}) return halo_->share_lists(world.bonds, world.own);
+  if (gathered_ != std::array{world.bonds.changes(), world.own.changes()})
+    return halo_->share_lists(world.bonds, world.own);
   world.bonds = std::move(part_->bonds);
   world.own = std::move(part_->own);
 }
@@ -261,7 +266,8 @@ void Sharing::take_back(World& world) {
 /// Lists that are not outdated stay. A part then has the lists that one process has of the whole.
 void Sharing::share_particles(World& world, const Passes& passes) {
   const bool keeps = world.neighbours && !world.neighbours->outdated(world.particles);
-  const std::vector<Vec3> built = keeps ? by_id(world.particles, world.neighbours->build_positions()) : std::vector<Vec3>{};
+  const std::vector<Vec3> built =
+      keeps ? by_id(world.particles, world.neighbours->build_positions()) : std::vector<Vec3>{};
   const bool are_new = count_ != world.particles.size();
   count_ = world.particles.size();
   halo_->share_out(world.particles, world.bonds, world.own, world.box, built,
@@ -278,13 +284,15 @@ void Sharing::follow(World& world, const std::vector<Active>& effects, const Pas
   if (!world.halo) {
     share_out(world, passes);
   } else if (!is_part(world) && world.particles.size() != count_) {
-    share_particles(world, passes);  // one rank holds the whole always: lists may know inflowing particles already
+    // One rank holds the whole always: lists may know inflowing particles already
+    share_particles(world, passes);
   } else {
     ++steps_;
     if (!any(outdated(world))) return;
     look_together(world, [&] { refuse_lost(world); });
     steps_a_list_ = 0.5 * (steps_a_list_ + static_cast<double>(std::exchange(steps_, 0)));
-    world.halo->migrate(world.particles, world.bonds, world.own, world.box, by_id(world, passes.cost(world, steps_a_list_)));
+    world.halo->migrate(world.particles, world.bonds, world.own, world.box,
+                        by_id(world, passes.cost(world, steps_a_list_)));
     if (world.neighbours && is_part(world))
       world.neighbours->drop_lists(whole_of(world, places_now(world.particles), count_));
     else if (world.neighbours)

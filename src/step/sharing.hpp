@@ -10,8 +10,8 @@
 
 namespace tripoint {
 
-/// Shares a scene's particles out among the processes that hold it, and brings them together again where something is decided of
-/// the whole (decision 030). Without other processes it does nothing.
+/// Shares a scene's particles out among the processes that hold it, and brings them together again where
+/// something is decided of the whole (decision 030). Without other processes it does nothing.
 class Sharing {
  public:
   /// @param skin how far a particle may move before it is shared out again, twice over and in support radii
@@ -21,23 +21,24 @@ class Sharing {
   [[nodiscard]] bool is_part(const World&) const;
   /// The next whole is shared out as at the start.
   void begin_anew();
-  /// Where the scene recovers, a failure that one process meets in `look` is thrown by all. Else, or where this process holds the
-  /// whole, it is thrown where it is met. All call it. @throws Diverged
+  /// Where the scene recovers, a failure that one process meets in `look` is thrown by all. Else, or where
+  /// this process holds the whole, it is thrown where it is met. All call it. @throws Diverged
   template <class Look>
   void look_together(const World&, Look look) const;
-  /// The failure of the lowest particle, of those that processes have met. @param here met by this process; none: nothing. All
-  /// call it. @pre the scene is shared out
+  /// The failure of the lowest particle, of those that processes have met. @param here met by this process;
+  /// none: nothing. All call it. @pre the scene is shared out
   [[nodiscard]] std::optional<Diverged> first_failure(const std::optional<Diverged>& here) const;
   /// Whether one of the processes says so. All call it. @pre the scene is shared out
   [[nodiscard]] bool any(bool here) const;
-  /// Each process holds the whole scene, with the lists that a single process has. All then make the same changes and stay equal.
-  /// Bookings made meanwhile stand with the first process alone. Nothing where this process holds all already.
+  /// Each process holds the whole scene, with the lists that a single process has. All then make the same
+  /// changes and stay equal. Bookings made meanwhile stand with the first process alone. Nothing where this
+  /// process holds all already.
   void gather(World&, const std::vector<Active>&);
   /// The scene as one process would hold it between two steps, with all that processes have booked.
   [[nodiscard]] World whole(const World&) const;
-  /// Shares out what this process holds all of, with the lists that it has where they are not outdated. Else, where the lists of
-  /// one process are outdated, particles go to the process that has their place now, and all make new lists. All call it. @pre
-  /// there is a halo
+  /// Shares out what this process holds all of, with the lists that it has where they are not outdated. Else,
+  /// where the lists of one process are outdated, particles go to the process that has their place now, and
+  /// all make new lists. All call it. @pre there is a halo
   void follow(World&, const std::vector<Active>&, const Passes&);
 
  private:
@@ -62,13 +63,16 @@ class Sharing {
 
   double skin_;
   Halo* halo_;
-  std::size_t count_ = 0;                               ///< particles of the scene, as last shared out
-  std::optional<Booked> booked_;                        ///< none: nothing yet
-  std::optional<Part> part_;                            ///< while this process holds the whole, after it held a part
-  std::array<std::uint64_t, 2> gathered_{};             ///< changes of the whole's bonds and own pairs, as it was gathered
+  std::size_t count_ = 0;         ///< particles of the scene, as last shared out
+  std::optional<Booked> booked_;  ///< none: nothing yet
+  /// While this process holds the whole, after it held a part
+  std::optional<Part> part_;
+  /// Changes of the whole's bonds and own pairs, as it was gathered
+  std::array<std::uint64_t, 2> gathered_{};
   long steps_ = 0;                                      ///< since particles changed hands
   double steps_a_list_ = ParticleCost::guess_of_steps;  ///< how often they do, of late
-  std::vector<Vec3> shared_at_;  ///< by row: where particles were when last shared out [m]; of scenes without neighbour lists
+  /// By row: where particles were when last shared out [m]; of scenes without neighbour lists
+  std::vector<Vec3> shared_at_;
 };
 
 template <class Look>

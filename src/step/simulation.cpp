@@ -65,11 +65,13 @@ void Simulation::use_threads(int threads) {
   if (world_.neighbours) world_.neighbours->use_threads(threads);
 }
 
-/// Asks for the bound of the present state. @throws InputError, Diverged where the scene's own step is above it
+/// Asks for the bound of the present state. @throws InputError, Diverged where the scene's own step is above
+/// it
 void Simulation::set_bound() {
   bound_ = least_bound(world_, effects_);
   const auto& given = world_.scene.time_step;
-  if (given && !options_.force_time_step) refuse_above_bound(world_, recovery_.share() * *given, bound_, steps_ > 0);
+  if (given && !options_.force_time_step)
+    refuse_above_bound(world_, recovery_.share() * *given, bound_, steps_ > 0);
 }
 
 /// Bodies that can sleep as neighbours are listed anew.

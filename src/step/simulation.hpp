@@ -25,30 +25,38 @@ struct SimulationOptions {
   bool gives_way = false;        ///< takes one thread while other work fills the machine; it changes no bit
   bool force_time_step = false;  ///< run with the scene's time step though it is above a bound
   double skin = 0.1;             ///< of the neighbour lists, in support radii; static scenes need none
-  int lanes = 0;          ///< particles that a pair pass works on at once, 1, 4 or 8; 0 = the fastest here. It changes no bit
+  /// Particles that a pair pass works on at once, 1, 4 or 8; 0 = the fastest here. It changes no bit
+  int lanes = 0;
   bool sums_all = false;  ///< pair passes sum also where nothing meets; it changes no bit
-  std::optional<std::array<std::size_t, 3>> axis_order{};  ///< rotation by NO_SQUISH in this order instead of the better default
-  Halo* halo = nullptr;                   ///< those that hold the rest of the scene; it must outlive the simulation
-  StageSeconds* stage_seconds = nullptr;  ///< where to add the time of each stage; it must outlive the simulation
+  /// Rotation by NO_SQUISH in this order instead of the better default
+  std::optional<std::array<std::size_t, 3>> axis_order{};
+  /// Those that hold the rest of the scene; it must outlive the simulation
+  Halo* halo = nullptr;
+  /// Where to add the time of each stage; it must outlive the simulation
+  StageSeconds* stage_seconds = nullptr;
 };
 
 /// A scene in motion: kick, drift, kick, with the effects that it calls for. The step itself is in step.cpp.
 class Simulation {
  public:
-  /// @throws InputError when an effect is missing, a bound forbids the scene's time step, or the scene lacks what an effect needs
+  /// @throws InputError when an effect is missing, a bound forbids the scene's time step, or the scene lacks
+  /// what an effect needs
   Simulation(const Scene&, const InitialState&, const SimulationOptions& = {});
 
-  /// Goes on from what checkpoint() gave, with the same bits as the run that it was taken from, whatever the threads.
-  /// @throws InputError naming what differs when the checkpoint is of another scene or another layout of fields
+  /// Goes on from what checkpoint() gave, with the same bits as the run that it was taken from, whatever the
+  /// threads.
+  /// @throws InputError naming what differs when the checkpoint is of another scene or another layout of
+  /// fields
   Simulation(const Scene&, const InitialState&, const SimulationOptions&, const Checkpoint&);
 
-  /// Steps until `time` [s], which is met exactly; events on the way happen at their time, those at `time` before it returns.
+  /// Steps until `time` [s], which is met exactly; events on the way happen at their time, those at `time`
+  /// before it returns.
   /// @param go_on asked after every step, when the state is whole: false stops there, short of `time`
   /// @return whether `time` was reached
   /// @throws Diverged with particle, field, stage and time
   bool advance_to(double time, const std::function<bool()>& go_on = {});
-  /// All that a continued run needs. Asking computes what no step reads (form_fixed), and changes no bit of the steps that
-  /// follow.
+  /// All that a continued run needs. Asking computes what no step reads (form_fixed), and changes no bit of
+  /// the steps that follow.
   [[nodiscard]] Checkpoint checkpoint();
   /// How often a guard sent the run back, and why the last time.
   [[nodiscard]] const Recovery& recovery() const noexcept { return recovery_; }
@@ -56,8 +64,9 @@ class Simulation {
   /// Threads of the steps that follow. They change no bit.
   void use_threads(int);
   [[nodiscard]] const World& world() const noexcept { return world_; }
-  /// Of all processes that share the scene, which all call it. Asking computes: pair passes over what no step reads (form_fixed),
-  /// once a state, then sums over all particles and bonds. It changes no bit of the steps that follow.
+  /// Of all processes that share the scene, which all call it. Asking computes: pair passes over what no step
+  /// reads (form_fixed), once a state, then sums over all particles and bonds. It changes no bit of the steps
+  /// that follow.
   [[nodiscard]] Ledger ledger();
   /// Brings bodies that only other processes keep up to date. All processes that share the scene call it.
   void complete_bodies() { world_.body_owners.complete(world_); }
@@ -65,8 +74,8 @@ class Simulation {
   [[nodiscard]] double pairs() const noexcept { return pairs_; }  ///< directed pairs visited by rate passes
   [[nodiscard]] double time_step() const noexcept { return dt_; }
   [[nodiscard]] const TimeStepBound& bound() const noexcept { return bound_; }
-  /// Name of the bound that set the step: that of the least bound, "scene" where the scene gives it, "output" where nothing
-  /// bounds it.
+  /// Name of the bound that set the step: that of the least bound, "scene" where the scene gives it, "output"
+  /// where nothing bounds it.
   [[nodiscard]] std::string time_step_set_by() const;
 
  private:

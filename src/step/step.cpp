@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The step: kick, drift, kick (docs/model.md, chapter 9). What a stage does is in the effects; here is the order.
+// The step: kick, drift, kick (docs/model.md, chapter 9). What a stage does is in the effects; here is the
+// order.
 #include "scene/shared_terms.hpp"
 #include "step/each_effect.hpp"
 #include "step/guard.hpp"
@@ -13,7 +14,8 @@ namespace tripoint {
 void Simulation::step(double end) {
   world_.next_time = end;
   if (!leaves_out_first_kick()) kick(0.5 * dt_);  // v of particles, v and L of rigid bodies (18)
-  drift(dt_);                                     // r; rotation (19), (20); prescribed motion; T or H by its rate (21)
+  // r; rotation (19), (20); prescribed motion; T or H by its rate (21)
+  drift(dt_);
   world_.time = end;
   form_rates();
   correct();        // second stage of heat
@@ -24,7 +26,8 @@ void Simulation::step(double end) {
 
 /// All rates of the present state: forces, torques and flows of heat.
 void Simulation::form_rates() {
-  change();                                   // Fig. 5: melt, solidify, merge, split, fracture, before any rate of the new time
+  // Fig. 5: melt, solidify, merge, split, fracture, before any rate of the new time
+  change();
   find_neighbours();                          // lists, where a particle has moved by half the skin
   if (world_.moved) pass(PassName::density);  // (4), moments: of places only
   form_states();                              // (9), walls; strain and stress (11), (14), (15), plastic flow
@@ -34,8 +37,8 @@ void Simulation::form_rates() {
   world_.fixed_formed = world_.particles.moving() == world_.particles.size();
 }
 
-/// What no step reads of fixed particles, at the present time: the forces on them, and densities behind the faces of walls. It is
-/// formed where somebody asks (decision 028).
+/// What no step reads of fixed particles, at the present time: the forces on them, and densities behind the
+/// faces of walls. It is formed where somebody asks (decision 028).
 void Simulation::form_fixed() {
   if (world_.fixed_formed) return;
   world_.fixed_formed = world_.forms_fixed = true;
@@ -87,7 +90,8 @@ inline void Simulation::drift(double dt) {
 }
 
 inline void Simulation::form_states() {
-  if (world_.moved) each_effect(Stage::state, &OwnSums::densities, [&](Effect& effect) { effect.densities(world_); });
+  if (world_.moved)
+    each_effect(Stage::state, &OwnSums::densities, [&](Effect& effect) { effect.densities(world_); });
   each_effect(Stage::state, &OwnSums::state, [&](Effect& effect) { effect.state(world_); });
   each_effect(Stage::state, [&](Effect& effect) { effect.after_states(world_); });
 }
@@ -124,8 +128,8 @@ void Simulation::change() {
   world_.moved = true;
 }
 
-/// Whether an effect has something to decide, in any of the processes that share the scene. Each then holds the whole of it until
-/// it is shared out again, with the lists.
+/// Whether an effect has something to decide, in any of the processes that share the scene. Each then holds
+/// the whole of it until it is shared out again, with the lists.
 bool Simulation::wants_change(const Active& a) {
   bool wants = false;
   {
@@ -157,7 +161,8 @@ void Simulation::correct() {
   if (again && passes_.needed()) sum(PassName::again);
 }
 
-/// Guards, none of which changes anything; energy is summed over all particles and bonds, so only now and then.
+/// Guards, none of which changes anything; energy is summed over all particles and bonds, so only now and
+/// then.
 void Simulation::check() {
   constexpr long steps_between_ledgers = 128;
   const StageTimer timer(options_.stage_seconds, Stage::check);
@@ -176,7 +181,9 @@ void Simulation::check_particles() {
 }
 
 /// The paper's leapfrog starts a run so.
-bool Simulation::leaves_out_first_kick() const { return steps_ == 0 && world_.scene.mode_of(term::time) == Mode::paper; }
+bool Simulation::leaves_out_first_kick() const {
+  return steps_ == 0 && world_.scene.mode_of(term::time) == Mode::paper;
+}
 
 /// Events of the present time, between two steps: the state is whole, and rates are then formed anew.
 void Simulation::happen_until_now() {

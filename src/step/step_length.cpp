@@ -13,7 +13,8 @@
 namespace tripoint {
 namespace {
 
-/// Share of a step that counts as round-off [1]: a choice, far above the 1e-16 of a division and far below any real change.
+/// Share of a step that counts as round-off [1]: a choice, far above the 1e-16 of a division and far below
+/// any real change.
 constexpr double rounding = 1e-9;
 
 }  // namespace
@@ -38,19 +39,20 @@ long steps_to(const World& world, double time, const TimeStepBound& bound, doubl
 void refuse_above_bound(const World& world, double step, const TimeStepBound& bound, bool begun) {
   if (step <= bound.dt * (1.0 + rounding)) return;
   if (begun) refuse_step(world, step, bound.dt, bound.name);
-  throw InputError(
-      fmt::format("time_step {:.4g} s is above the bound of {}, {:.4g} s: make it smaller, or run all the same with "
-                  "[engines.tripoint] settings = {{ force_time_step = true }}",
-                  step, bound.name, bound.dt));
+  throw InputError(fmt::format(
+      "time_step {:.4g} s is above the bound of {}, {:.4g} s: make it smaller, or run all the same with "
+      "[engines.tripoint] settings = {{ force_time_step = true }}",
+      step, bound.name, bound.dt));
 }
 
 void refuse_endless_run(const Scene& scene, const TimeStepBound& first) {
   const double step = scene.time_step.value_or(first.dt);
   if (scene.end_time <= most_steps * step) return;
-  throw InputError(
-      fmt::format("the run would take {:.3g} steps: its first step is {:.3g} s, set by {}, and it ends at {:.3g} s; at most "
-                  "{:.0e} can be made",
-                  scene.end_time / step, step, scene.time_step ? "the scene" : first.name, scene.end_time, most_steps));
+  throw InputError(fmt::format(
+      "the run would take {:.3g} steps: its first step is {:.3g} s, set by {}, and it ends at {:.3g} s; at "
+      "most "
+      "{:.0e} can be made",
+      scene.end_time / step, step, scene.time_step ? "the scene" : first.name, scene.end_time, most_steps));
 }
 
 }  // namespace tripoint

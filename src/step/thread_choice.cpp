@@ -9,8 +9,8 @@ namespace tripoint {
 namespace {
 
 constexpr double least_patience = 1.0, most_patience = 16.0;  ///< [s]
-constexpr double busy =
-    20.0;  ///< times a second that a thread is pushed aside on a machine that has other work; alone it is a few
+/// Times a second that a thread is pushed aside on a machine that has other work; alone it is a few
+constexpr double busy = 20.0;
 constexpr double much_less = 0.9;  ///< a change must save a tenth
 
 /// How often threads of this process lost their core to others until now.

@@ -4,16 +4,17 @@
 
 namespace tripoint {
 
-/// How many threads the next step takes: all that are given, or one while other work fills the machine. Several threads would
-/// then wait for each other longer than they work. It measures: where threads are pushed aside it tries one, keeps the faster
-/// choice, and looks again later. Threads do not change a bit of a run, so they can change between two steps.
+/// How many threads the next step takes: all that are given, or one while other work fills the machine.
+/// Several threads would then wait for each other longer than they work. It measures: where threads are
+/// pushed aside it tries one, keeps the faster choice, and looks again later. Threads do not change a bit of
+/// a run, so they can change between two steps.
 class ThreadChoice {
  public:
   explicit ThreadChoice(int most) : most_(most), now_(most) {}
   [[nodiscard]] int now() const noexcept { return now_; }
   /// After a step.
-  /// @param seconds wall time that it took   @param pushed_aside how often a thread of this process lost its core to others
-  /// meanwhile
+  /// @param seconds wall time that it took   @param pushed_aside how often a thread of this process lost its
+  /// core to others meanwhile
   void took(double seconds, long pushed_aside);
   /// The same, measured from begin_step() to end_step().
   void begin_step() { begin_ = Clock::now(); }

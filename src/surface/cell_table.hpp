@@ -10,19 +10,22 @@ namespace tripoint {
 /// A cell of an unbounded grid, counted from the cell at its origin.
 using CellIndex = std::array<std::int32_t, 3>;
 
-/// Numbers for the occupied cells of an unbounded grid. Memory follows their number, not the room they lie in: a drop that has
-/// flown far costs no more than one that has not.
+/// Numbers for the occupied cells of an unbounded grid. Memory follows their number, not the room they lie
+/// in: a drop that has flown far costs no more than one that has not.
 class CellTable {
  public:
   static constexpr std::uint32_t none = ~std::uint32_t{0};
-  static constexpr std::int32_t most = 1 << 20;  ///< cells are numbered from -most to most - 1 along each axis
+  /// Cells are numbered from -most to most - 1 along each axis
+  static constexpr std::int32_t most = 1 << 20;
 
   /// @param cells that it has room for without growing
   explicit CellTable(std::size_t cells) : slots_(std::bit_ceil(2 * cells + 2)) {}
 
   /// 21 bits a component, in the order of x, y, z.
   [[nodiscard]] static std::uint64_t key(const CellIndex& c) noexcept {
-    const auto part = [&](std::size_t a) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(c[a] + most)); };
+    const auto part = [&](std::size_t a) {
+      return static_cast<std::uint64_t>(static_cast<std::uint32_t>(c[a] + most));
+    };
     return part(0) << 42 | part(1) << 21 | part(2);
   }
   [[nodiscard]] static CellIndex cell(std::uint64_t key) noexcept {

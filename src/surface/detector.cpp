@@ -28,8 +28,10 @@ double largest_eigenvalue(const Matrix3& a) noexcept {
     return third + 2.0 * size * std::cos(angle / 3.0);
   }
   const double root = std::sqrt(discriminant);
-  const double u = std::cbrt(half > 0.0 ? -half - root : -half + root);  // of the two the one that is not a difference
-  const double t = u - slope / u;                                        // the real root; the pair's real part is -t/2
+  // Of the two the one that is not a difference
+  const double u = std::cbrt(half > 0.0 ? -half - root : -half + root);
+  // The real root; the pair's real part is -t/2
+  const double t = u - slope / u;
   return third + std::max(t, -0.5 * t);
 }
 

@@ -10,11 +10,13 @@
 namespace tripoint {
 namespace {
 
-constexpr double cells_per_radius = 2.0;  // finer cells look at fewer particles in vain, and cost more to gather
+// Finer cells look at fewer particles in vain, and cost more to gather
+constexpr double cells_per_radius = 2.0;
 
 const SurfaceOptions& checked(const SurfaceOptions& o) {
   if (!(o.influence_radius > 0.0)) throw InputError("the influence radius of a surface is a positive length");
-  if (!(o.distance > 0.0)) throw InputError("the distance of a surface from its particles is a positive length");
+  if (!(o.distance > 0.0))
+    throw InputError("the distance of a surface from its particles is a positive length");
   if (!(o.limits.t_low < o.limits.t_high)) throw InputError("t_low of (26) lies below t_high");
   return o;
 }
@@ -50,7 +52,8 @@ std::optional<Box> ImplicitSurface::empty_box(const Vec3& r) const noexcept {
   };
   const CellIndex c{along(0), along(1), along(2)};
   if (near_.find(CellTable::key(c)) != CellTable::none) return {};
-  const Vec3 low = origin_ + ir * Vec3{static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])};
+  const Vec3 low =
+      origin_ + ir * Vec3{static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])};
   return Box{low, low + Vec3{ir, ir, ir}};
 }
 

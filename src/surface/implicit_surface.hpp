@@ -17,7 +17,8 @@ struct SurfaceOptions {
   bool detector = true;           ///< false: f = 1, the surface of [Zhu & Bridson 2005], (22)
   DetectorLimits limits;
 
-  /// Values used where nobody says otherwise: the paper gives neither length (docs/surface.md says why these).
+  /// Values used where nobody says otherwise: the paper gives neither length (docs/surface.md says why
+  /// these).
   /// @param spacing of the particles [m]
   [[nodiscard]] static SurfaceOptions for_spacing(double spacing) noexcept {
     SurfaceOptions o;
@@ -25,9 +26,9 @@ struct SurfaceOptions {
     o.distance = distance_per_influence_radius * o.influence_radius;
     return o;
   }
-  /// R/ir at which a flat surface lies half a layer outside the last layer of a cubic lattice. At an ir of 2.4 spacings it is
-  /// 0.284, 0.273, 0.267 on its planes (100), (110), (111), and 0.2598 in the continuum. The value is a little more, because
-  /// balls of ten spacings then have their volume best.
+  /// R/ir at which a flat surface lies half a layer outside the last layer of a cubic lattice. At an ir
+  /// of 2.4 spacings it is 0.284, 0.273, 0.267 on its planes (100), (110), (111), and 0.2598 in the
+  /// continuum. The value is a little more, because balls of ten spacings then have their volume best.
   static constexpr double distance_per_influence_radius = 0.28;
 };
 
@@ -52,8 +53,8 @@ class ImplicitSurface {
   [[nodiscard]] Box bounds() const noexcept { return grown(cells_.box(), options_.influence_radius); }
   /// A box around a place in which no place is within ir of a particle; nothing where there is none such.
   [[nodiscard]] std::optional<Box> empty_box(const Vec3&) const noexcept;
-  /// Ascending keys of the cubic cells of side ir that may hold a place within ir of a particle. They are counted from the lower
-  /// corner of bounds().
+  /// Ascending keys of the cubic cells of side ir that may hold a place within ir of a particle. They are
+  /// counted from the lower corner of bounds().
   [[nodiscard]] std::span<const std::uint64_t> near_cells() const noexcept { return near_keys_; }
 
  private:
@@ -64,8 +65,8 @@ class ImplicitSurface {
   std::vector<std::uint64_t> near_keys_;
 };
 
-/// One thread's view of a surface: keeps the lists of the places that it was asked about last. The values do not depend on
-/// earlier calls.
+/// One thread's view of a surface: keeps the lists of the places that it was asked about last. The values do
+/// not depend on earlier calls.
 class SurfaceProbe {
  public:
   /// @param surface must outlive it
@@ -75,7 +76,8 @@ class SurfaceProbe {
   [[nodiscard]] SurfaceValue value(const Vec3& r);
   /// (23) [m]
   [[nodiscard]] double phi(const Vec3& r) { return value(r).phi; }
-  /// grad phi [1] by central differences over a fiftieth of ir: its own formula would need the second derivatives of rbar.
+  /// grad phi [1] by central differences over a fiftieth of ir: its own formula would need the second
+  /// derivatives of rbar.
   [[nodiscard]] Vec3 gradient(const Vec3& r);
   /// Distance to the nearest particle [m]; nothing where none is within ir of the place's cell.
   [[nodiscard]] std::optional<double> nearest(const Vec3& r);

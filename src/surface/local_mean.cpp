@@ -11,7 +11,8 @@ MeanSumsFunction mean_sums_for<Avx2>();
 
 LocalMean local_mean(const NearPoints& points, const Vec3& r, double ir) noexcept {
   static const MeanSumsFunction sums_of = machine_has_avx2() ? mean_sums_for<Avx2>() : &mean_sums<Any>;
-  const MeanSums s = sums_of({points.x.data(), points.y.data(), points.z.data(), points.x.size()}, r, 1.0 / ir);
+  const MeanSums s =
+      sums_of({points.x.data(), points.y.data(), points.z.data(), points.x.size()}, r, 1.0 / ir);
   LocalMean m;
   m.weight = s.w;
   if (!(s.w > 0.0)) return m;

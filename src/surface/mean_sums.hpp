@@ -8,7 +8,8 @@
 
 namespace tripoint {
 
-/// The sums behind (24) and its gradient, y = (r_j - r)/ir, t = max(0, 1 - y^2): of t^3, t^3 y, t^2 y, t^2 y y^T.
+/// The sums behind (24) and its gradient, y = (r_j - r)/ir, t = max(0, 1 - y^2): of t^3, t^3 y, t^2 y, t^2 y
+/// y^T.
 struct MeanSums {
   double w = 0.0;
   Vec3 wy, uy;
@@ -31,7 +32,8 @@ template <class ForUnit>
   using V = Lanes<4>::Real;
   V w{}, wx{}, wy{}, wz{}, ux{}, uy{}, uz{}, uxx{}, uyy{}, uzz{}, uyz{}, uxz{}, uxy{};
   for (std::size_t k = 0; k < places.size; k += 4) {
-    const V x = (load_lanes<4>(places.x + k) - r.x) * per_ir, y = (load_lanes<4>(places.y + k) - r.y) * per_ir,
+    const V x = (load_lanes<4>(places.x + k) - r.x) * per_ir,
+            y = (load_lanes<4>(places.y + k) - r.y) * per_ir,
             z = (load_lanes<4>(places.z + k) - r.z) * per_ir;
     const V inside = 1.0 - ((x * x + y * y) + z * z);
     const V t = where<V>(inside > 0.0, inside);
@@ -55,7 +57,8 @@ template <class ForUnit>
   s.w = sum_of_lanes(w);
   s.wy = {sum_of_lanes(wx), sum_of_lanes(wy), sum_of_lanes(wz)};
   s.uy = {sum_of_lanes(ux), sum_of_lanes(uy), sum_of_lanes(uz)};
-  s.uyy = {sum_of_lanes(uxx), sum_of_lanes(uyy), sum_of_lanes(uzz), sum_of_lanes(uyz), sum_of_lanes(uxz), sum_of_lanes(uxy)};
+  s.uyy = {sum_of_lanes(uxx), sum_of_lanes(uyy), sum_of_lanes(uzz),
+           sum_of_lanes(uyz), sum_of_lanes(uxz), sum_of_lanes(uxy)};
   return s;
 }
 

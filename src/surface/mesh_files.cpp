@@ -35,9 +35,11 @@ void write_ply(const std::string& path, const std::vector<SurfacePart>& parts) {
     triangles += p.mesh.triangles.size();
   }
   std::string bytes = fmt::format(
-      "ply\nformat binary_{}_endian 1.0\ncomment phi = 0 of particles; x y z in m, temperature in K; phase 0 liquid, 1 elastic, "
+      "ply\nformat binary_{}_endian 1.0\ncomment phi = 0 of particles; x y z in m, temperature in K; phase 0 "
+      "liquid, 1 elastic, "
       "2 rigid\n"
-      "element vertex {}\nproperty double x\nproperty double y\nproperty double z\nproperty float temperature\nproperty int "
+      "element vertex {}\nproperty double x\nproperty double y\nproperty double z\nproperty float "
+      "temperature\nproperty int "
       "phase\nproperty int body\nproperty int part\n"
       "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
       std::endian::native == std::endian::little ? "little" : "big", corners, triangles);
@@ -71,7 +73,8 @@ void write_obj(const std::string& path, const std::vector<SurfacePart>& parts) {
       if (c == ' ') c = '_';
     text += fmt::format("o {}\n", name);
     for (const Vec3& r : p.mesh.points) text += fmt::format("v {} {} {}\n", r.x, r.y, r.z);
-    for (const auto& t : p.mesh.triangles) text += fmt::format("f {} {} {}\n", first + t[0], first + t[1], first + t[2]);
+    for (const auto& t : p.mesh.triangles)
+      text += fmt::format("f {} {} {}\n", first + t[0], first + t[1], first + t[2]);
     first += static_cast<std::uint32_t>(p.mesh.points.size());
   }
   save(path, text);

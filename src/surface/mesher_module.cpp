@@ -40,7 +40,8 @@ struct Module {
 
 Mesh sign_changes(const std::vector<std::int32_t>& corners, const std::vector<float>& values, float outside) {
   static const Module loaded;
-  if (!loaded.failure.empty()) throw EngineError("the part of the program that makes meshes cannot be loaded: " + loaded.failure);
+  if (!loaded.failure.empty())
+    throw EngineError("the part of the program that makes meshes cannot be loaded: " + loaded.failure);
   const std::unique_ptr<TripointTriangles, decltype(loaded.free)> made(
       loaded.make(corners.data(), values.data(), corners.size() / 3, outside), loaded.free);
   if (!made) throw EngineError("OpenVDB made no mesh of the surface (not enough memory?)");
@@ -50,7 +51,8 @@ Mesh sign_changes(const std::vector<std::int32_t>& corners, const std::vector<fl
   for (std::size_t i = 0; i < made->point_count; ++i)
     mesh.points.push_back({made->points[3 * i], made->points[3 * i + 1], made->points[3 * i + 2]});
   for (std::size_t i = 0; i < made->triangle_count; ++i)
-    mesh.triangles.push_back({made->triangles[3 * i], made->triangles[3 * i + 1], made->triangles[3 * i + 2]});
+    mesh.triangles.push_back(
+        {made->triangles[3 * i], made->triangles[3 * i + 1], made->triangles[3 * i + 2]});
   return mesh;
 }
 

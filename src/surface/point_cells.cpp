@@ -31,7 +31,8 @@ Box box_around(std::span<const Vec3> points) noexcept {
   return b;
 }
 
-PointCells::PointCells(std::span<const Vec3> points, double side) : side_(side), box_(box_around(points)), table_(points.size()) {
+PointCells::PointCells(std::span<const Vec3> points, double side)
+    : side_(side), box_(box_around(points)), table_(points.size()) {
   if (!std::ranges::all_of(points, [](const Vec3& r) { return finite(r); }))
     throw InputError("a surface is asked of a particle whose place is not finite");
   origin_ = points.empty() ? Vec3{} : box_.low;
@@ -39,7 +40,8 @@ PointCells::PointCells(std::span<const Vec3> points, double side) : side_(side),
     if (!points.empty() && !((box_.high[a] - box_.low[a]) / side < CellTable::most - 8))
       throw InputError("particles lie too far apart for a surface: leave out those that have flown away");
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) order[i] = {CellTable::key(cell_of(points[i])), static_cast<std::uint32_t>(i)};
+  for (std::size_t i = 0; i < points.size(); ++i)
+    order[i] = {CellTable::key(cell_of(points[i])), static_cast<std::uint32_t>(i)};
   std::ranges::sort(order);
   for (const auto& [key, row] : order) {
     if (keys_.empty() || keys_.back() != key) {
@@ -63,7 +65,8 @@ CellIndex PointCells::cell_of(const Vec3& r) const noexcept {
 }
 
 Box PointCells::box_of(const CellIndex& c) const noexcept {
-  const Vec3 low = origin_ + side_ * Vec3{static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])};
+  const Vec3 low =
+      origin_ + side_ * Vec3{static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])};
   return {low, low + Vec3{side_, side_, side_}};
 }
 

@@ -18,20 +18,23 @@ struct Box {
 };
 
 /// The box grown by d on every side.
-[[nodiscard]] inline Box grown(const Box& b, double d) noexcept { return {b.low - Vec3{d, d, d}, b.high + Vec3{d, d, d}}; }
+[[nodiscard]] inline Box grown(const Box& b, double d) noexcept {
+  return {b.low - Vec3{d, d, d}, b.high + Vec3{d, d, d}};
+}
 
 /// The least box around points; low above high where there is none.
 [[nodiscard]] Box box_around(std::span<const Vec3> points) noexcept;
 
-/// Points that may be near to any place of a cell, ready for whole vectors: padded with places too far away to count.
+/// Points that may be near to any place of a cell, ready for whole vectors: padded with places too far away
+/// to count.
 struct NearPoints {
   std::vector<double> x, y, z;     ///< [m]
   std::vector<std::uint32_t> row;  ///< of the points, without the padding
   [[nodiscard]] bool empty() const noexcept { return row.empty(); }
 };
 
-/// Points sorted into cubic cells, to be asked about any place. `Neighbours` lists pairs of particles that move. This is built
-/// once for points that stay, and takes places where no particle is.
+/// Points sorted into cubic cells, to be asked about any place. `Neighbours` lists pairs of particles that
+/// move. This is built once for points that stay, and takes places where no particle is.
 class PointCells {
  public:
   /// @param side of a cell [m]

@@ -41,7 +41,9 @@ Samples blocks_of(const ImplicitSurface& surface, double voxel) {
   for (const std::uint64_t key : surface.near_cells()) {
     const CellIndex c = CellTable::cell(key);
     const auto first = [&](std::size_t a) { return static_cast<std::int32_t>(std::floor(c[a] * ir / side)); };
-    const auto last = [&](std::size_t a) { return static_cast<std::int32_t>(std::floor((c[a] + 1) * ir / side)); };
+    const auto last = [&](std::size_t a) {
+      return static_cast<std::int32_t>(std::floor((c[a] + 1) * ir / side));
+    };
     for (int i = first(0); i <= last(0); ++i)
       for (int j = first(1); j <= last(1); ++j)
         for (int k = first(2); k <= last(2); ++k)
@@ -115,8 +117,8 @@ Mesh surface_mesh(const ImplicitSurface& surface, double voxel, int threads) {
   return mesh;
 }
 
-std::vector<double> mean_at(const ImplicitSurface& surface, std::span<const Vec3> places, std::span<const double> values,
-                            int threads) {
+std::vector<double> mean_at(const ImplicitSurface& surface, std::span<const Vec3> places,
+                            std::span<const double> values, int threads) {
   std::vector<double> out(places.size(), not_a_number);
 #pragma omp parallel num_threads(threads)
   {
@@ -136,8 +138,8 @@ std::vector<double> mean_at(const ImplicitSurface& surface, std::span<const Vec3
   return out;
 }
 
-std::vector<int> label_at(const ImplicitSurface& surface, std::span<const Vec3> places, std::span<const int> labels,
-                          int threads) {
+std::vector<int> label_at(const ImplicitSurface& surface, std::span<const Vec3> places,
+                          std::span<const int> labels, int threads) {
   std::vector<int> out(places.size(), -1);
 #pragma omp parallel num_threads(threads)
   {

@@ -39,18 +39,20 @@ constexpr std::array functions{Function{"sin", Op::sine, 1},
                                Function{"max", Op::greatest, 2}};
 constexpr long most_terms = 10000;  ///< of a sum
 
-/// sum = product {(+|-) product}; product = signed {(*|/) signed}; signed = [-|+] signed | power; power = atom [^ signed].
+/// sum = product {(+|-) product}; product = signed {(*|/) signed}; signed = [-|+] signed | power; power =
+/// atom [^ signed].
 class Compiler {
  public:
-  Compiler(std::string_view text, Expression::Time time, std::vector<Expression::Step>& steps, std::vector<Expression::Sum>& sums)
+  Compiler(std::string_view text, Expression::Time time, std::vector<Expression::Step>& steps,
+           std::vector<Expression::Sum>& sums)
       : text_(text), time_(time), steps_(&steps), sums_(sums) {}
 
   void compile() {
     if (text_.size() > 1000) throw InputError("the expression is longer than 1000 bytes: shorten it");
     sum();
     if (!ends())
-      refuse(
-          fmt::format("`{}` does not belong here: remove it, or write an operator before it", printable(text_.substr(at_, 12))));
+      refuse(fmt::format("`{}` does not belong here: remove it, or write an operator before it",
+                         printable(text_.substr(at_, 12))));
   }
 
  private:
@@ -135,7 +137,8 @@ class Compiler {
   void number() {
     double value = 0.0;
     const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
-    if (error != std::errc{} || !std::isfinite(value)) refuse("this is no finite number: write a smaller one");
+    if (error != std::errc{} || !std::isfinite(value))
+      refuse("this is no finite number: write a smaller one");
     at_ = static_cast<std::size_t>(end - text_.data());
     emit(Op::number, value);
   }
@@ -180,13 +183,15 @@ class Compiler {
       refuse("a sum begins with the name of its index: sum(n, 1, 40, ...)");
     index_ = word();
     for (const std::string_view taken : {"x", "y", "z", "t", "pi", "sum"})
-      if (index_ == taken) refuse(fmt::format("`{}` has a meaning already: give the index of the sum another name", taken));
+      if (index_ == taken)
+        refuse(fmt::format("`{}` has a meaning already: give the index of the sum another name", taken));
     expect(',');
     Expression::Sum series{whole(), 0, {}};
     expect(',');
     series.last = whole();
     if (series.last < series.first || series.last - series.first >= most_terms)
-      refuse(fmt::format("the sum runs from {} to {}: at least 1 and at most {} terms", series.first, series.last, most_terms));
+      refuse(fmt::format("the sum runs from {} to {}: at least 1 and at most {} terms", series.first,
+                         series.last, most_terms));
     expect(',');
     auto* outer = std::exchange(steps_, &series.steps);
     sum();
@@ -198,8 +203,9 @@ class Compiler {
   }
   std::string word() {
     const auto begin = at_;
-    while (at_ < text_.size() && ((text_[at_] >= 'a' && text_[at_] <= 'z') || (text_[at_] >= 'A' && text_[at_] <= 'Z') ||
-                                  (text_[at_] >= '0' && text_[at_] <= '9') || text_[at_] == '_'))
+    while (at_ < text_.size() &&
+           ((text_[at_] >= 'a' && text_[at_] <= 'z') || (text_[at_] >= 'A' && text_[at_] <= 'Z') ||
+            (text_[at_] >= '0' && text_[at_] <= '9') || text_[at_] == '_'))
       ++at_;
     return std::string(text_.substr(begin, at_ - begin));
   }

@@ -28,8 +28,12 @@ constexpr std::array type_texts{"number",
                                 "number or table",
                                 "[x, y, z] or table",
                                 "limit, or table"};
-constexpr std::array range_texts{
-    "", "greater than 0", "0 or greater", "from 0 to 1", "greater than -1 and less than 0.5", "greater than 1"};
+constexpr std::array range_texts{"",
+                                 "greater than 0",
+                                 "0 or greater",
+                                 "from 0 to 1",
+                                 "greater than -1 and less than 0.5",
+                                 "greater than 1"};
 
 }  // namespace
 
@@ -47,7 +51,8 @@ std::vector<std::string> KeyTable::names(std::string_view table) const {
 }
 
 const Key& KeyTable::row(std::string_view table, std::string_view name) const {
-  const auto found = std::find_if(rows_.begin(), rows_.end(), [&](const Key& k) { return k.table == table && k.name == name; });
+  const auto found = std::find_if(rows_.begin(), rows_.end(),
+                                  [&](const Key& k) { return k.table == table && k.name == name; });
   assert(found != rows_.end());
   return *found;
 }

@@ -37,10 +37,11 @@ struct Key {
   ValueType type;
   std::string_view unit;  ///< SI; "" = plain number
   Range range;
-  std::string_view fallback;  ///< "!" required, "" absent = not set, "=" by a rule of the reader, else the value as TOML text
-  std::string_view note;      ///< reason of the fallback (or, where nothing is set, what that means)
-  std::string_view words;     ///< allowed words, separated by blanks; of a table: its name in this list
-  std::string_view meaning;   ///< one line
+  /// "!" required, "" absent = not set, "=" by a rule of the reader, else the value as TOML text
+  std::string_view fallback;
+  std::string_view note;     ///< reason of the fallback (or, where nothing is set, what that means)
+  std::string_view words;    ///< allowed words, separated by blanks; of a table: its name in this list
+  std::string_view meaning;  ///< one line
 
   [[nodiscard]] bool required() const { return fallback == "!"; }
 };
@@ -53,7 +54,8 @@ struct TableInfo {
 /// Tables and their keys, in the order of the reference page.
 class KeyTable {
  public:
-  KeyTable(std::vector<Key> rows, std::vector<TableInfo> tables) : rows_(std::move(rows)), tables_(std::move(tables)) {}
+  KeyTable(std::vector<Key> rows, std::vector<TableInfo> tables)
+      : rows_(std::move(rows)), tables_(std::move(tables)) {}
   [[nodiscard]] const std::vector<Key>& rows() const { return rows_; }
   [[nodiscard]] const std::vector<TableInfo>& tables() const { return tables_; }
   /// Rows of one table. Empty = no such table.

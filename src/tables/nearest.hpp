@@ -6,7 +6,8 @@
 
 namespace tripoint {
 
-/// The known word with the fewest letters to insert, drop, change or swap; empty when none is near (over half its length away).
+/// The known word with the fewest letters to insert, drop, change or swap; empty when none is near (over half
+/// its length away).
 [[nodiscard]] std::string nearest(std::string_view word, const std::vector<std::string>& known);
 
 /// " (did you mean `x`?)", or " (known: a, b, c)" when none is near: the tail of a refusal.

@@ -6,8 +6,9 @@
 
 #include "tables/key_table.hpp"
 
-/// A key of a scene and the member that keeps its value, written once. The reader of case files, both directions of a job's JSON,
-/// the schema and the reference page go by it (decision 025). The lists stand in scene_records.hpp and place_records.hpp.
+/// A key of a scene and the member that keeps its value, written once. The reader of case files, both
+/// directions of a job's JSON, the schema and the reference page go by it (decision 025). The lists stand in
+/// scene_records.hpp and place_records.hpp.
 namespace tripoint {
 
 template <class Owner, class T>
@@ -35,7 +36,8 @@ inline constexpr bool is_kept = false;
 template <class Owner, class T>
 inline constexpr bool is_kept<Kept<Owner, T>> = true;
 
-/// The record of a table: its keys in the order of the reference page. A plain Key has no member; its reader has a rule.
+/// The record of a table: its keys in the order of the reference page. A plain Key has no member; its reader
+/// has a rule.
 template <class Owner>
 inline constexpr auto record = std::make_tuple();
 
@@ -66,7 +68,8 @@ constexpr void each_kept(const Record& list, Visit visit) {
 /// The same for the keys that this Owner has: those of its kind where it has kinds.
 template <class Owner, class Visit>
 constexpr void each_kept_of(const Owner& owner, Visit visit) {
-  if constexpr (requires { owner.kind; } && std::tuple_size_v < std::remove_cvref_t < decltype(kinds<Owner>) >>> 0) {
+  if constexpr (requires { owner.kind; } &&
+                std::tuple_size_v < std::remove_cvref_t < decltype(kinds<Owner>) >>> 0) {
     const auto one = [&](const auto& of) {
       if (of.kind == owner.kind) each_kept(of.record, visit);
     };

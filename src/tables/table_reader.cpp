@@ -61,23 +61,29 @@ struct Absent {
 const std::vector<Absent> not_simulated{
     {{"surface_tension", "cohesion", "contact_angle", "wetting"}, "surface tension is not simulated"},
     {{"joint", "hinge", "slider", "constraint", "revolute", "prismatic", "ball_socket"},
-     "joints are not simulated; joined_to bonds bodies to each other, and motion = \"prescribed\" with keyframes or an "
+     "joints are not simulated; joined_to bonds bodies to each other, and motion = \"prescribed\" with "
+     "keyframes or an "
      "angular_velocity leads a body about an axis"},
     {{"spring", "tendon", "muscle"},
      "springs are not simulated; an elastic body between two others, bonded by joined_to, is one"},
     {{"rope", "cable", "chain", "cloth", "shell"},
-     "ropes and sheets are not simulated as such; an elastic body of three particles or more across is the thinnest"},
+     "ropes and sheets are not simulated as such; an elastic body of three particles or more across is the "
+     "thinnest"},
     {{"motor", "actuator", "controller"},
-     "motors are not simulated; motion = \"prescribed\" with keyframes leads a body, an event of kind \"grip\" moves those in a "
+     "motors are not simulated; motion = \"prescribed\" with keyframes leads a body, an event of kind "
+     "\"grip\" moves those in a "
      "region"},
     {{"external_force", "body_force", "thrust", "applied_force", "force", "applied_load", "torque"},
-     "a [[force]] pushes a rigid body by a constant force, and scene.gravity acts on all that is free; other forces from "
+     "a [[force]] pushes a rigid body by a constant force, and scene.gravity acts on all that is free; other "
+     "forces from "
      "outside are not simulated; motion = \"prescribed\" leads a body"},
     {{"wind", "drag", "air_density", "atmosphere"},
      "air is not simulated; a liquid body of its density and viscosity is the nearest to it"},
-    {{"turbulence", "k_epsilon", "smagorinsky"}, "no model of turbulence is there: what the particles resolve is simulated"},
+    {{"turbulence", "k_epsilon", "smagorinsky"},
+     "no model of turbulence is there: what the particles resolve is simulated"},
     {{"radiation", "emissivity", "convection", "heat_flux", "heat_source"},
-     "radiation and given heat flows are not simulated; temperature_held and events of kind \"heat\" hold a temperature"},
+     "radiation and given heat flows are not simulated; temperature_held and events of kind \"heat\" hold a "
+     "temperature"},
     {{"thermal_expansion"}, "thermal expansion is not simulated: densities do not depend on temperature"},
     {{"magnet", "electric", "charge"}, "electric and magnetic fields are not simulated"}};
 
@@ -85,15 +91,20 @@ const std::vector<Absent> not_simulated{
 std::string what_there_is_instead(std::string_view key) {
   const auto holds = [&](std::string_view word) { return key.find(word) != key.npos; };
   if (holds("friction"))
-    return "engines that have Coulomb's law take it from [[contact]], by pairs of materials; in the particle solver "
-           "solids meet by pressure and viscosity alone, there is no law of Coulomb; scene.contact_viscosity [Pa s] brakes "
+    return "engines that have Coulomb's law take it from [[contact]], by pairs of materials; in the particle "
+           "solver "
+           "solids meet by pressure and viscosity alone, there is no law of Coulomb; scene.contact_viscosity "
+           "[Pa s] brakes "
            "solids that slide on each other, joined_to bonds them";
   if (holds("restitution"))
-    return "engines that have it take it from [[contact]], by pairs of materials; in the particle solver contact is "
-           "elastic by its energy, and nothing sets what a hit gives back; scene.contact_viscosity [Pa s] takes energy from a "
+    return "engines that have it take it from [[contact]], by pairs of materials; in the particle solver "
+           "contact is "
+           "elastic by its energy, and nothing sets what a hit gives back; scene.contact_viscosity [Pa s] "
+           "takes energy from a "
            "contact";
   if (holds("damping"))
-    return "no term damps a motion; scene.contact_viscosity [Pa s] takes energy where solids touch, viscosity [Pa s] in a liquid";
+    return "no term damps a motion; scene.contact_viscosity [Pa s] takes energy where solids touch, "
+           "viscosity [Pa s] in a liquid";
   for (const auto& [words, answer] : not_simulated)
     if (std::ranges::any_of(words, holds)) return std::string(answer);
   return {};
@@ -112,11 +123,19 @@ std::string expected(const Key& row) {
 std::string show(double v) { return fmt::format("{}", v); }
 std::string show(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
 std::string show(const std::vector<double>& v) { return fmt::format("[{}]", fmt::join(v, ", ")); }
-std::string show(const std::vector<std::string>& v) { return v.empty() ? "[]" : fmt::format("[\"{}\"]", fmt::join(v, "\", \"")); }
+std::string show(const std::vector<std::string>& v) {
+  return v.empty() ? "[]" : fmt::format("[\"{}\"]", fmt::join(v, "\", \""));
+}
 
-TableReader::TableReader(const TomlNode& node, std::string_view table, std::string path, std::vector<Decision>& decisions,
-                         const KeyTable& keys, std::vector<std::string> extra)
-    : node_(node), keys_(keys), table_(table), path_(std::move(path)), decisions_(decisions), first_(decisions.size()) {
+TableReader::TableReader(const TomlNode& node, std::string_view table, std::string path,
+                         std::vector<Decision>& decisions, const KeyTable& keys,
+                         std::vector<std::string> extra)
+    : node_(node),
+      keys_(keys),
+      table_(table),
+      path_(std::move(path)),
+      decisions_(decisions),
+      first_(decisions.size()) {
   if (node.kind != Kind::table)
     throw InputError(node.place, fmt::format("`{}` must be a table, not {}", path_, kind_name(node.kind)));
   auto known = keys.names(table);
@@ -124,9 +143,10 @@ TableReader::TableReader(const TomlNode& node, std::string_view table, std::stri
   for (const auto& [key, value] : node.members)
     if (std::find(known.begin(), known.end(), key) == known.end()) {
       const auto taught = what_there_is_instead(key);
-      throw InputError(value.key_place, fmt::format("unknown key `{}`{}{}", printable(key),
-                                                    path_.empty() ? "" : fmt::format(" in `{}`", printable(path_)),
-                                                    taught.empty() ? suggestion(key, known) : ": " + taught));
+      throw InputError(value.key_place,
+                       fmt::format("unknown key `{}`{}{}", printable(key),
+                                   path_.empty() ? "" : fmt::format(" in `{}`", printable(path_)),
+                                   taught.empty() ? suggestion(key, known) : ": " + taught));
     }
 }
 
@@ -141,7 +161,8 @@ SourcePlace TableReader::place(std::string_view key) const {
 }
 
 void TableReader::refuse(std::string_view key, const std::string& what) const {
-  throw InputError(place(key), fmt::format("`{}`: {}", printable(key.empty() ? path_ : path_of(key), 120), what));
+  throw InputError(place(key),
+                   fmt::format("`{}`: {}", printable(key.empty() ? path_ : path_of(key), 120), what));
 }
 
 TableReader::Found TableReader::find(std::string_view key) const {
@@ -151,8 +172,9 @@ TableReader::Found TableReader::find(std::string_view key) const {
   f.from_case = f.value != nullptr;
   if (!f.value && library_) f.value = library_->find(key);
   if (!f.value && f.row->required()) {
-    const auto what = fmt::format("`{}` lacks the key `{}` ({}): {}", path_.empty() ? "the case" : printable(path_), key,
-                                  expected(*f.row), f.row->meaning);
+    const auto what =
+        fmt::format("`{}` lacks the key `{}` ({}): {}", path_.empty() ? "the case" : printable(path_), key,
+                    expected(*f.row), f.row->meaning);
     throw InputError(node_.place, what);
   }
   return f;
@@ -174,7 +196,8 @@ void TableReader::record(const Found& f, std::string value) {
 void TableReader::ruled(std::string_view key, std::string value, std::string reason) {
   Decision d{path_of(key), std::move(value), std::move(reason), false, {}};
   for (std::size_t i = first_; i < decisions_.size(); ++i)
-    if (decisions_[i].key == d.key && !decisions_[i].given) return static_cast<void>(decisions_[i] = std::move(d));
+    if (decisions_[i].key == d.key && !decisions_[i].given)
+      return static_cast<void>(decisions_[i] = std::move(d));
   decisions_.push_back(std::move(d));
 }
 
@@ -185,8 +208,8 @@ void TableReader::given(std::string_view key, std::string value) {
 namespace {
 
 [[noreturn]] void wrong_type(const TomlNode& v, const Key& row, const std::string& path) {
-  throw InputError(v.place, fmt::format("`{}` must be {}, not {} ({})", printable(path, 120), expected(row), kind_name(v.kind),
-                                        printable(to_toml(v))));
+  throw InputError(v.place, fmt::format("`{}` must be {}, not {} ({})", printable(path, 120), expected(row),
+                                        kind_name(v.kind), printable(to_toml(v))));
 }
 
 double raw_number(const TomlNode& v, const Key& row, const std::string& path) {
@@ -207,13 +230,15 @@ double number_of(const TomlNode& v, const Key& row, const std::string& path) {
   const auto refuse = [&](const std::string& why) {
     throw InputError(v.place, fmt::format("`{}` = {}{}", printable(path, 120), value, why));
   };
-  if (!std::isfinite(value)) refuse(fmt::format(": write a finite number{}{}", row.unit.empty() ? "" : " in ", row.unit));
+  if (!std::isfinite(value))
+    refuse(fmt::format(": write a finite number{}{}", row.unit.empty() ? "" : " in ", row.unit));
   if (!row.unit.empty() && std::abs(value) > most_of_any_unit)
-    refuse(fmt::format(" {}: products of such numbers are not finite; write a number of size up to {:.0e}", row.unit,
-                       most_of_any_unit));
+    refuse(fmt::format(" {}: products of such numbers are not finite; write a number of size up to {:.0e}",
+                       row.unit, most_of_any_unit));
   if (row.range == Range::poisson && value >= 0.5)
     refuse(
-        ": at 0.5 the solid is incompressible and its stiffness infinite, so no time step is short enough; write less than 0.5 "
+        ": at 0.5 the solid is incompressible and its stiffness infinite, so no time step is short enough; "
+        "write less than 0.5 "
         "(0.45 serves for rubber)");
   if (!in_range(row.range, value))
     refuse(fmt::format(" must be {}{}{}", range_text(row.range), row.unit.empty() ? "" : " ", row.unit));
@@ -230,7 +255,8 @@ std::vector<double> numbers_of(const TomlNode& v, const Key& row, const std::str
 Vec3 vector_of(const TomlNode& v, const Key& row, const std::string& path) {
   const auto c = numbers_of(v, row, path);
   if (c.size() != 3)
-    throw InputError(v.place, fmt::format("`{}` has {} components: write [x, y, z]", printable(path, 120), c.size()));
+    throw InputError(v.place,
+                     fmt::format("`{}` has {} components: write [x, y, z]", printable(path, 120), c.size()));
   return {c[0], c[1], c[2]};
 }
 
@@ -254,8 +280,8 @@ std::optional<double> TableReader::maybe_number(std::string_view key) {
 
 double TableReader::number(std::string_view key) {
   const Found f = find(key);
-  const double value =
-      f.value ? number_of(*f.value, *f.row, path_of(key)) : number_of(fallback_value(*f.row), *f.row, path_of(key));
+  const double value = f.value ? number_of(*f.value, *f.row, path_of(key))
+                               : number_of(fallback_value(*f.row), *f.row, path_of(key));
   record(f, show(value));
   return value;
 }
@@ -265,7 +291,8 @@ long TableReader::integer(std::string_view key) {
   const TomlNode v = f.value ? *f.value : fallback_value(*f.row);
   if (v.kind != Kind::integer) wrong_type(v, *f.row, path_of(key));
   if (!in_range(f.row->range, static_cast<double>(v.integer)))
-    throw InputError(v.place, fmt::format("`{}` = {} must be {}", path_of(key), v.integer, range_text(f.row->range)));
+    throw InputError(v.place,
+                     fmt::format("`{}` = {} must be {}", path_of(key), v.integer, range_text(f.row->range)));
   record(f, std::to_string(v.integer));
   return v.integer;
 }
@@ -289,13 +316,14 @@ std::optional<std::string> TableReader::maybe_text(std::string_view key) {
   }
   const TomlNode v = f.value ? *f.value : fallback_value(*f.row);
   if (v.kind != Kind::text) wrong_type(v, *f.row, path_of(key));
-  if (v.text.size() > 4096) throw InputError(v.place, fmt::format("`{}` is longer than 4096 bytes: shorten it", path_of(key)));
+  if (v.text.size() > 4096)
+    throw InputError(v.place, fmt::format("`{}` is longer than 4096 bytes: shorten it", path_of(key)));
   if (f.value && f.row->type == ValueType::word) {
     const auto known = split_words(f.row->words);
     if (std::find(known.begin(), known.end(), v.text) == known.end())
-      throw InputError(v.place,
-                       fmt::format("`{}` = \"{}\" is none of: {}{}", printable(path_of(key), 120), printable(v.text),
-                                   fmt::join(known, ", "), nearest(v.text, known).empty() ? "" : suggestion(v.text, known)));
+      throw InputError(v.place, fmt::format("`{}` = \"{}\" is none of: {}{}", printable(path_of(key), 120),
+                                            printable(v.text), fmt::join(known, ", "),
+                                            nearest(v.text, known).empty() ? "" : suggestion(v.text, known)));
   }
   record(f, "\"" + v.text + "\"");
   return v.text;
@@ -352,11 +380,12 @@ std::vector<std::string> TableReader::texts(std::string_view key, Repeats repeat
       if (f.row->type == ValueType::words) {
         const auto known = split_words(f.row->words);
         if (std::find(known.begin(), known.end(), item.text) == known.end())
-          throw InputError(
-              item.place, fmt::format("`{}`: \"{}\" is none of: {}", path_of(key), printable(item.text), fmt::join(known, ", ")));
+          throw InputError(item.place, fmt::format("`{}`: \"{}\" is none of: {}", path_of(key),
+                                                   printable(item.text), fmt::join(known, ", ")));
       }
       if (repeats == Repeats::refused && std::find(out.begin(), out.end(), item.text) != out.end())
-        throw InputError(item.place, fmt::format("`{}` names \"{}\" twice: remove one", path_of(key), printable(item.text)));
+        throw InputError(item.place, fmt::format("`{}` names \"{}\" twice: remove one", path_of(key),
+                                                 printable(item.text)));
       out.push_back(item.text);
     }
   }
@@ -389,8 +418,10 @@ Settings TableReader::settings(std::string_view key) {
         out[name] = numbers_of(v, plain, path_of(key) + "." + name);
         break;
       default:
-        throw InputError(v.place, fmt::format("`{}.{}` must be a number, a text, true or false, or an array of numbers, not {}",
-                                              path_of(key), printable(name), kind_name(v.kind)));
+        throw InputError(
+            v.place,
+            fmt::format("`{}.{}` must be a number, a text, true or false, or an array of numbers, not {}",
+                        path_of(key), printable(name), kind_name(v.kind)));
     }
     decisions_.push_back({path_of(key) + "." + name, to_toml(v), "given", true, v.place});
   }
@@ -405,7 +436,8 @@ std::vector<const TomlNode*> TableReader::tables(std::string_view key) const {
   if (!f.value) return out;
   if (f.value->kind != Kind::array) wrong_type(*f.value, *f.row, path_of(key));
   if (f.value->items.size() > 10000)
-    throw InputError(f.value->place, fmt::format("`{}` has {} entries; at most 10000 are read", key, f.value->items.size()));
+    throw InputError(f.value->place,
+                     fmt::format("`{}` has {} entries; at most 10000 are read", key, f.value->items.size()));
   for (const auto& item : f.value->items) out.push_back(&item);
   return out;
 }

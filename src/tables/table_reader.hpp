@@ -16,15 +16,15 @@ namespace tripoint {
 /// Whether an array may hold a text more than once: names may not, components of a vector may.
 enum class Repeats { refused, allowed };
 
-/// One table of a case file, read by its rows of the key table. Every value is checked for type, unit, range and words. Every
-/// key, given or by default, leaves a Decision. Refuses unknown keys when it is made. All functions throw InputError with the
-/// place of the value and what to write instead.
+/// One table of a case file, read by its rows of the key table. Every value is checked for type, unit, range
+/// and words. Every key, given or by default, leaves a Decision. Refuses unknown keys when it is made. All
+/// functions throw InputError with the place of the value and what to write instead.
 class TableReader {
  public:
   /// @param table name in the key table   @param path how decisions and messages name it: "body.block"
   /// @param keys the list that has the table   @param extra keys that are allowed besides: "kind" of a shape
-  TableReader(const TomlNode& node, std::string_view table, std::string path, std::vector<Decision>& decisions,
-              const KeyTable& keys, std::vector<std::string> extra = {});
+  TableReader(const TomlNode& node, std::string_view table, std::string path,
+              std::vector<Decision>& decisions, const KeyTable& keys, std::vector<std::string> extra = {});
 
   /// Values for keys that the case does not give, with the reason to print (the material library).
   void fall_back_on(const TomlNode& library, std::string reason);
@@ -43,8 +43,8 @@ class TableReader {
   [[nodiscard]] std::vector<double> numbers_in(std::string_view unit,
                                                std::string_view key);  ///< where another key decides the unit
   [[nodiscard]] std::optional<std::vector<double>> maybe_numbers(std::string_view key);
-  [[nodiscard]] std::vector<std::string> texts(
-      std::string_view key, Repeats = Repeats::refused);  ///< array of texts or words; a single text where the row allows it
+  /// Array of texts or words; a single text where the row allows it
+  [[nodiscard]] std::vector<std::string> texts(std::string_view key, Repeats = Repeats::refused);
   [[nodiscard]] Settings settings(std::string_view key);
   /// The raw value of a key of a composite type; null when absent. Leaves no decision.
   [[nodiscard]] const TomlNode* composite(std::string_view key) const;

@@ -8,7 +8,9 @@
 namespace tripoint {
 namespace {
 
-std::string markdown_line(const TextTable::Cells& cells) { return "| " + fmt::format("{}", fmt::join(cells, " | ")) + " |\n"; }
+std::string markdown_line(const TextTable::Cells& cells) {
+  return "| " + fmt::format("{}", fmt::join(cells, " | ")) + " |\n";
+}
 
 TextTable::Cells titles_of(const std::vector<Column>& columns) {
   TextTable::Cells titles;
@@ -25,7 +27,8 @@ void TextTable::add(Cells cells) {
 
 std::string TextTable::markdown() const {
   std::string text, rule = "|";
-  for (const auto& column : columns_) text += column.title.empty() ? "| " : fmt::format("| {} ", column.title);
+  for (const auto& column : columns_)
+    text += column.title.empty() ? "| " : fmt::format("| {} ", column.title);
   text += "|\n";
   for (const auto& column : columns_) rule += column.is_number ? "---:|" : "---|";
   text += rule + "\n";

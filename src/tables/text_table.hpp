@@ -9,11 +9,13 @@ namespace tripoint {
 /// A column of a table: its title, and its place in a terminal and in Markdown.
 struct Column {
   std::string title;
-  int width = 0;           ///< characters in a terminal, below 0 where text ends on the right; 0 = as wide as its text
+  /// Characters in a terminal, below 0 where text ends on the right; 0 = as wide as its text
+  int width = 0;
   bool is_number = false;  ///< Markdown: text ends on the right
 };
 
-/// A table that is written row by row, for Markdown or for a terminal. Cells are text that is safe where it is written.
+/// A table that is written row by row, for Markdown or for a terminal. Cells are text that is safe where it
+/// is written.
 class TextTable {
  public:
   using Cells = std::vector<std::string>;

@@ -5,8 +5,9 @@
 
 #include "tables/toml_node.hpp"
 
-/// toml++ 3.3 aborts on `[,]` and `v=[1,}` and overflows the stack on a 400 kB dotted key: bounds come before it. A dotted key
-/// nests as deep as brackets do, so both count together. The document is walked by recursion, here and by its readers.
+/// toml++ 3.3 aborts on `[,]` and `v=[1,}` and overflows the stack on a 400 kB dotted key: bounds come before
+/// it. A dotted key nests as deep as brackets do, so both count together. The document is walked by
+/// recursion, here and by its readers.
 namespace tripoint {
 namespace {
 
@@ -39,7 +40,8 @@ class Scanner {
     const bool line_end = c == '\n' || (c == '\r' && at_ + 1 < text_.size() && text_[at_ + 1] == '\n');
     if ((byte < 32 && c != '\t' && !line_end) || byte == 127)
       refuse(fmt::format("control byte 0x{:02x}: a case file is plain UTF-8 text", byte));
-    if (at_ - line_start_ > max_line) refuse(fmt::format("the line is longer than {} bytes: break it", max_line));
+    if (at_ - line_start_ > max_line)
+      refuse(fmt::format("the line is longer than {} bytes: break it", max_line));
   }
 
   void newline() {
@@ -82,7 +84,8 @@ class Scanner {
       case '.':
         if (++dots_ > max_dots)
           refuse(
-              fmt::format("more than {} dots in one key or value: a dotted key is at most three names long, and numbers have a "
+              fmt::format("more than {} dots in one key or value: a dotted key is at most three names long, "
+                          "and numbers have a "
                           "comma between them",
                           max_dots));
         break;
@@ -127,7 +130,8 @@ class Scanner {
 
   void open(char c) {
     const int inside = depth() + 1;
-    if (inside > max_nesting) refuse(fmt::format("brackets nested deeper than {}: flatten the value", max_nesting));
+    if (inside > max_nesting)
+      refuse(fmt::format("brackets nested deeper than {}: flatten the value", max_nesting));
     open_.push_back({c, inside});
     forget_key();
   }
@@ -162,7 +166,8 @@ class Scanner {
 void check_size(std::size_t bytes, const std::string& file) {
   if (bytes > max_file)
     throw InputError({file, 0, 0},
-                     fmt::format("{} bytes; a case file has at most {}: put data into a file of its own", bytes, max_file));
+                     fmt::format("{} bytes; a case file has at most {}: put data into a file of its own",
+                                 bytes, max_file));
 }
 
 void check_text(std::string_view text, const std::string& file) {

@@ -49,20 +49,23 @@ inline TomlNode::~TomlNode() = default;
 
 /// A copy of this process reads the text first, so that no text can end us.
 /// @param limit wall clock of the copy [s]; then it is killed
-/// @throws InputError (file, line, column) when the text breaks a bound of check_text, is no TOML, or kills or holds up the copy
+/// @throws InputError (file, line, column) when the text breaks a bound of check_text, is no TOML, or kills
+/// or holds up the copy
 /// @throws std::system_error when there is no process to spare for the copy
 [[nodiscard]] TomlNode parse_toml(const std::string& text, const std::string& file, double limit = 30.0);
 
-/// One copy of this process tries many files before they are read, where each would have a copy of its own (1 ms). Says nothing
-/// of what is wrong in them; where the copy does not survive them all, each has its own as before.
+/// One copy of this process tries many files before they are read, where each would have a copy of its own (1
+/// ms). Says nothing of what is wrong in them; where the copy does not survive them all, each has its own as
+/// before.
 /// @throws std::system_error as parse_toml
 void try_toml_files(const std::vector<std::string>& files, double limit = 30.0);
 
 /// @throws InputError also when the file is not there, no regular file, empty or above the bound
 [[nodiscard]] TomlNode read_toml(const std::string& file);
 
-/// Bounds on third-party text before a parser sees it: size, line length, control bytes, length of dotted keys. Also nesting by
-/// brackets and dots together, and a comma where a value belongs. @throws InputError with line and column
+/// Bounds on third-party text before a parser sees it: size, line length, control bytes, length of dotted
+/// keys. Also nesting by brackets and dots together, and a comma where a value belongs. @throws InputError
+/// with line and column
 void check_size(std::size_t bytes, const std::string& file);
 void check_text(std::string_view text, const std::string& file);
 

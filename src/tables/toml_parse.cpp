@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// toml++ header-only, in this file alone. Its asserts become exceptions, so that no text can abort the program.
+// toml++ header-only, in this file alone. Its asserts become exceptions, so that no text can abort the
+// program.
 #include <stdexcept>
 namespace tripoint {
 [[noreturn]] inline void toml_assertion_failed() { throw std::logic_error("the parser lost its way here"); }
@@ -35,7 +36,9 @@ SourcePlace place_of(const toml::source_region& region, const std::string& file)
   return {file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
 }
 
-bool before(const SourcePlace& a, const SourcePlace& b) { return a.line != b.line ? a.line < b.line : a.column < b.column; }
+bool before(const SourcePlace& a, const SourcePlace& b) {
+  return a.line != b.line ? a.line < b.line : a.column < b.column;
+}
 
 TomlNode convert(const toml::node& from, const std::string& file);
 
@@ -46,8 +49,9 @@ TomlNode convert_table(const toml::table& table, const std::string& file) {
     member.key_place = place_of(key.source(), file);
     to.members.emplace_back(std::string(key.str()), std::move(member));
   }
-  std::stable_sort(to.members.begin(), to.members.end(),
-                   [](const auto& a, const auto& b) { return before(a.second.key_place, b.second.key_place); });
+  std::stable_sort(to.members.begin(), to.members.end(), [](const auto& a, const auto& b) {
+    return before(a.second.key_place, b.second.key_place);
+  });
   return to;
 }
 
@@ -119,8 +123,9 @@ Survived& survived() {
 
 constexpr rlim_t room_of_child = rlim_t{2} << 30;  // [bytes]
 
-/// Whether a child process makes a document of the text, and frees it, without dying. That is a pure function of the text: where
-/// the child survives, the parent survives. (Upstream has an open report of unreachable points that are reached.)
+/// Whether a child process makes a document of the text, and frees it, without dying. That is a pure function
+/// of the text: where the child survives, the parent survives. (Upstream has an open report of unreachable
+/// points that are reached.)
 /// @throws std::system_error where there is no process to spare: no fault of the text, which is not read then
 /// @throws InputError where the child takes longer than the limit
 bool child_survives(const std::string& text, const std::string& file, double limit) {
@@ -132,7 +137,8 @@ bool child_survives(const std::string& text, const std::string& file, double lim
   };
   switch (read_in_confined_copy(read, bounds).how) {
     case CopyEnd::How::late:
-      throw InputError({file, 0, 0}, fmt::format("could not be read within {:g} s: simplify its brackets and keys", limit));
+      throw InputError({file, 0, 0},
+                       fmt::format("could not be read within {:g} s: simplify its brackets and keys", limit));
     case CopyEnd::How::read:
     case CopyEnd::How::refused:  // it is worded where it counts
       survived().add(text);
@@ -149,7 +155,9 @@ const TomlNode* TomlNode::find(std::string_view key) const {
     if (name == key) return &value;
   return nullptr;
 }
-TomlNode* TomlNode::find(std::string_view key) { return const_cast<TomlNode*>(std::as_const(*this).find(key)); }
+TomlNode* TomlNode::find(std::string_view key) {
+  return const_cast<TomlNode*>(std::as_const(*this).find(key));
+}
 
 std::string_view kind_name(TomlNode::Kind kind) {
   static constexpr std::array<std::string_view, 7> names{"true or false", "an integer", "a number", "a text",
@@ -192,7 +200,8 @@ std::string to_toml(const TomlNode& n) {
       for (const auto& item : n.items) out += (out.empty() ? "" : ", ") + to_toml(item);
       return "[" + out + "]";
     case TomlNode::Kind::table:
-      for (const auto& [key, value] : n.members) out += (out.empty() ? "" : ", ") + key + " = " + to_toml(value);
+      for (const auto& [key, value] : n.members)
+        out += (out.empty() ? "" : ", ") + key + " = " + to_toml(value);
       return "{" + out + "}";
   }
   return out;
@@ -216,9 +225,10 @@ bool loses_parser(const std::string& text, const std::string& file, double limit
 /// First line with which the text up to its end loses the parser, by bisection: 20 parses of a million lines.
 int line_that_loses_parser(const std::string& text, const std::string& file, double limit) {
   std::vector<std::size_t> ends;
-  for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1)) ends.push_back(at + 1);
-  const auto first =
-      std::ranges::partition_point(ends, [&](std::size_t end) { return !loses_parser(text.substr(0, end), file, limit); });
+  for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1))
+    ends.push_back(at + 1);
+  const auto first = std::ranges::partition_point(
+      ends, [&](std::size_t end) { return !loses_parser(text.substr(0, end), file, limit); });
   return static_cast<int>(first - ends.begin()) + 1;
 }
 
@@ -227,7 +237,8 @@ int line_that_loses_parser(const std::string& text, const std::string& file, dou
 TomlNode parse_toml(const std::string& text, const std::string& file, double limit) {
   check_text(text, file);
   if (!child_survives(text, file, limit))
-    throw InputError({file, 0, 0}, "the TOML parser could not read this text and stopped: simplify its brackets and keys");
+    throw InputError({file, 0, 0},
+                     "the TOML parser could not read this text and stopped: simplify its brackets and keys");
   try {
     return document_of(text, file);
   } catch (const toml::parse_error& error) {
@@ -235,8 +246,9 @@ TomlNode parse_toml(const std::string& text, const std::string& file, double lim
                      fmt::format("no valid TOML: {}; write key = value, texts in quotes, [a, b] for lists",
                                  printable(error.description(), 300)));
   } catch (const std::exception& error) {
-    throw InputError({file, line_that_loses_parser(text, file, limit), 0},
-                     fmt::format("no valid TOML: {}; write key = value, texts in quotes, [a, b] for lists", error.what()));
+    throw InputError(
+        {file, line_that_loses_parser(text, file, limit), 0},
+        fmt::format("no valid TOML: {}; write key = value, texts in quotes, [a, b] for lists", error.what()));
   }
 }
 
@@ -245,9 +257,12 @@ namespace {
 /// @throws InputError where it is no file that a reader of TOML takes
 std::string text_of_file(const std::string& file) {
   struct stat info {};
-  if (stat(file.c_str(), &info) != 0) throw InputError({file, 0, 0}, fmt::format("cannot be read: {}", std::strerror(errno)));
-  if (!S_ISREG(info.st_mode)) throw InputError({file, 0, 0}, "is no regular file: give the path of a case file (*.toml)");
-  if (info.st_size == 0) throw InputError({file, 0, 0}, "the file is empty: `tripoint new NAME` writes a case to start from");
+  if (stat(file.c_str(), &info) != 0)
+    throw InputError({file, 0, 0}, fmt::format("cannot be read: {}", std::strerror(errno)));
+  if (!S_ISREG(info.st_mode))
+    throw InputError({file, 0, 0}, "is no regular file: give the path of a case file (*.toml)");
+  if (info.st_size == 0)
+    throw InputError({file, 0, 0}, "the file is empty: `tripoint new NAME` writes a case to start from");
   check_size(static_cast<std::size_t>(info.st_size), file);
   std::ifstream in(file, std::ios::binary);
   std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());

@@ -48,19 +48,21 @@ struct Prefix {
   std::string_view name;
   double numerator, denominator;
 };
-constexpr std::array prefixes{Prefix{"n", 1, 1e9}, Prefix{"u", 1, 1e6}, Prefix{"\u00b5", 1, 1e6}, Prefix{"m", 1, 1e3},
-                              Prefix{"c", 1, 1e2}, Prefix{"d", 1, 10},  Prefix{"h", 1e2, 1},      Prefix{"k", 1e3, 1},
-                              Prefix{"M", 1e6, 1}, Prefix{"G", 1e9, 1}};
+constexpr std::array prefixes{Prefix{"n", 1, 1e9}, Prefix{"u", 1, 1e6}, Prefix{"\u00b5", 1, 1e6},
+                              Prefix{"m", 1, 1e3}, Prefix{"c", 1, 1e2}, Prefix{"d", 1, 10},
+                              Prefix{"h", 1e2, 1}, Prefix{"k", 1e3, 1}, Prefix{"M", 1e6, 1},
+                              Prefix{"G", 1e9, 1}};
 
 Unit named(std::string_view name) {
   for (const auto& u : named_units)
     if (u.name == name) return {u.numerator, u.denominator, 0.0, u.dimension};
   for (const auto& p : prefixes)
     for (const auto& u : named_units)
-      if (u.prefixes && name.size() == p.name.size() + u.name.size() && name.starts_with(p.name) && name.ends_with(u.name))
+      if (u.prefixes && name.size() == p.name.size() + u.name.size() && name.starts_with(p.name) &&
+          name.ends_with(u.name))
         return {p.numerator * u.numerator, p.denominator * u.denominator, 0.0, u.dimension};
-  throw std::invalid_argument(
-      fmt::format("`{}` is no known unit (known: {}; with prefixes n u m c d h k M G)", printable(name), known_units()));
+  throw std::invalid_argument(fmt::format(
+      "`{}` is no known unit (known: {}; with prefixes n u m c d h k M G)", printable(name), known_units()));
 }
 
 void multiply(Unit& into, Unit factor, int power) {
@@ -72,7 +74,8 @@ void multiply(Unit& into, Unit factor, int power) {
   for (std::size_t i = 0; i < 4; ++i) into.dimension[i] += power * factor.dimension[i];
 }
 
-/// unit = factor {("*" | "/" | " ") factor};  factor = NAME [["^"] [-] DIGIT] | "1" | "(" unit ")", one level deep.
+/// unit = factor {("*" | "/" | " ") factor};  factor = NAME [["^"] [-] DIGIT] | "1" | "(" unit ")", one level
+/// deep.
 class UnitReader {
  public:
   explicit UnitReader(std::string_view text) : text_(text) {}
@@ -80,7 +83,8 @@ class UnitReader {
   Unit read() {
     Unit unit = product(true);
     if (at_ < text_.size())
-      throw std::invalid_argument(fmt::format("`{}` is no unit: write one like m, kg/m3, W/m/K", printable(text_)));
+      throw std::invalid_argument(
+          fmt::format("`{}` is no unit: write one like m, kg/m3, W/m/K", printable(text_)));
     return unit;
   }
 
@@ -109,16 +113,20 @@ class UnitReader {
   Unit factor(bool outer) {
     if (outer && take('(')) {
       const Unit inner = product(false);
-      if (!take(')')) throw std::invalid_argument(fmt::format("`{}` lacks a `)`: write it", printable(text_)));
+      if (!take(')'))
+        throw std::invalid_argument(fmt::format("`{}` lacks a `)`: write it", printable(text_)));
       return inner;
     }
     spaces();
     const auto begin = at_;
-    while (at_ < text_.size() && std::string_view(" */^()-+.0123456789").find(text_[at_]) == std::string_view::npos) ++at_;
+    while (at_ < text_.size() &&
+           std::string_view(" */^()-+.0123456789").find(text_[at_]) == std::string_view::npos)
+      ++at_;
     const auto name = text_.substr(begin, at_ - begin);
     if (name.empty()) {
       if (take('1')) return {};
-      throw std::invalid_argument(fmt::format("`{}` is no unit: write one like m, kg/m3, W/m/K", printable(text_)));
+      throw std::invalid_argument(
+          fmt::format("`{}` is no unit: write one like m, kg/m3, W/m/K", printable(text_)));
     }
     Unit unit;
     multiply(unit, named(name), power());
@@ -135,7 +143,8 @@ class UnitReader {
       return minus ? -digit : digit;
     }
     if (caret || minus)
-      throw std::invalid_argument(fmt::format("`{}` lacks an exponent: write one digit, as in s^-2", printable(text_)));
+      throw std::invalid_argument(
+          fmt::format("`{}` lacks an exponent: write one digit, as in s^-2", printable(text_)));
     return 1;
   }
 
@@ -169,24 +178,29 @@ double parse_quantity(std::string_view text, std::string_view expected) {
   double value = 0.0;
   const char* first = text.data() + (text.starts_with('+') ? 1 : 0);
   const auto [end, error] = std::from_chars(first, text.data() + text.size(), value);
-  const auto want = expected.empty() ? std::string("a plain number") : fmt::format("a number in {}", expected);
+  const auto want =
+      expected.empty() ? std::string("a plain number") : fmt::format("a number in {}", expected);
   if (error != std::errc{} || !std::isfinite(value))
-    throw std::invalid_argument(fmt::format("`{}` is not a finite number with a unit: write {}", printable(text), want));
+    throw std::invalid_argument(
+        fmt::format("`{}` is not a finite number with a unit: write {}", printable(text), want));
   auto name = text.substr(static_cast<std::size_t>(end - text.data()));
   while (!name.empty() && name.front() == ' ') name.remove_prefix(1);
   const Unit target = parse_unit(expected);
   if (name.empty())
-    throw std::invalid_argument(expected.empty() ? fmt::format("`{}` is a text: write the number without quotes", printable(text))
-                                                 : fmt::format("`{}` is a text without a unit: write {} or \"{} {}\"",
-                                                               printable(text), printable(text), printable(text), expected));
+    throw std::invalid_argument(
+        expected.empty() ? fmt::format("`{}` is a text: write the number without quotes", printable(text))
+                         : fmt::format("`{}` is a text without a unit: write {} or \"{} {}\"",
+                                       printable(text), printable(text), printable(text), expected));
   const Unit unit = parse_unit(name);
   if (unit.dimension != target.dimension)
     throw std::invalid_argument(
         fmt::format("`{}` is in {}, but {} is expected{}", printable(text), to_string(unit.dimension), want,
-                    expected.empty() ? ": write it without unit and quotes" : fmt::format(" (write 3 or \"3 {}\")", expected)));
+                    expected.empty() ? ": write it without unit and quotes"
+                                     : fmt::format(" (write 3 or \"3 {}\")", expected)));
   const double si = value * unit.numerator / unit.denominator + unit.offset;
   if (!std::isfinite(si))
-    throw std::invalid_argument(fmt::format("`{}` is too large for a number in SI: write a smaller one", printable(text)));
+    throw std::invalid_argument(
+        fmt::format("`{}` is too large for a number in SI: write a smaller one", printable(text)));
   return si;
 }
 

@@ -14,7 +14,8 @@
 #include "core/errors.hpp"
 #include "tables/nearest.hpp"
 
-/// Enumerations that files and messages know by words: one table an enumeration, and both directions made from it.
+/// Enumerations that files and messages know by words: one table an enumeration, and both directions made
+/// from it.
 namespace tripoint {
 
 /// The words of an enumeration, in the order of its values.
@@ -61,7 +62,8 @@ template <HasWords E>
 [[nodiscard]] E from_word(std::string_view word) {
   if (const auto found = find_word<E>(word)) return *found;
   constexpr auto table = word_table(E{});
-  throw InputError("`" + printable(word) + "` is no " + table.what + suggestion(word, {table.words.begin(), table.words.end()}));
+  throw InputError("`" + printable(word) + "` is no " + table.what +
+                   suggestion(word, {table.words.begin(), table.words.end()}));
 }
 
 /// The words in one line, separated by blanks, as a row of the key table has them.

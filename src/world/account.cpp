@@ -6,8 +6,9 @@
 namespace tripoint {
 
 Bookings::Bookings() {
-  for (const Account& a : {account::gravity_work, account::start_potential, account::driven_potential, account::rotation_drift,
-                           account::deformation_released, account::inflow, account::merging, account::walls})
+  for (const Account& a :
+       {account::gravity_work, account::start_potential, account::driven_potential, account::rotation_drift,
+        account::deformation_released, account::inflow, account::merging, account::walls})
     open(a);
 }
 

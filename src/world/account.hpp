@@ -11,10 +11,12 @@
 #include "core/field.hpp"
 #include "core/vec3.hpp"
 
-/// Energies that a run sums as it goes. Accounts are typed keys, as fields are: an effect declares its own in its folder.
+/// Energies that a run sums as it goes. Accounts are typed keys, as fields are: an effect declares its own in
+/// its folder.
 namespace tripoint {
 
-/// A sum of energy over the run [J]: the work of a force, energy that an event has let go, energy stored at time 0.
+/// A sum of energy over the run [J]: the work of a force, energy that an event has let go, energy stored at
+/// time 0.
 struct Account {
   std::string_view name;
   std::uint64_t key = key_of(name);
@@ -25,17 +27,21 @@ struct Account {
 namespace account {
 inline constexpr Account gravity_work{"gravity_work"};  ///< done by gravity on liquids and free bodies
 inline constexpr Account start_potential{"start_potential"};
-inline constexpr Account driven_potential{"driven_potential"};  ///< change of the potential energy of driven bodies
+/// Change of the potential energy of driven bodies
+inline constexpr Account driven_potential{"driven_potential"};
 inline constexpr Account rotation_drift{
-    "rotation_drift"};  ///< change of kinetic energy by the free rotation of bodies, which a scheme does not keep exactly
+    /// Change of kinetic energy by the free rotation of bodies, which a scheme does not keep exactly
+    "rotation_drift"};
 inline constexpr Account deformation_released{
-    "deformation_released"};  ///< elastic and hourglass energy that events turned into heat, plastic or fracture entries
+    /// Elastic and hourglass energy that events turned into heat, plastic or fracture entries
+    "deformation_released"};
 inline constexpr Account inflow{"inflow"};    ///< kinetic, potential and thermal energy that flowed in
 inline constexpr Account merging{"merging"};  ///< kinetic energy lost as bodies became one
 inline constexpr Account walls{"walls"};      ///< taken by bodies held, fixed or prescribed from outside
 }  // namespace account
 
-/// An account was asked for that no effect of this scene has declared: a fault of the program, so it says the account by name.
+/// An account was asked for that no effect of this scene has declared: a fault of the program, so it says the
+/// account by name.
 class MissingAccount : public std::logic_error {
  public:
   explicit MissingAccount(std::string_view name)
@@ -67,7 +73,8 @@ class Bookings {
   Vec3 undelivered_spin;  ///< angular momentum about truncated axes that a split could not hand on [kg m2/s]
 
  private:
-  static constexpr std::size_t places = 128;  ///< several times as many as there are accounts: few keys share a place
+  /// Several times as many as there are accounts: few keys share a place
+  static constexpr std::size_t places = 128;
   [[nodiscard]] int find(std::uint64_t key) const noexcept {
     for (std::size_t s = key % places;; s = (s + 1) % places) {
       if (number_[s] == 0) return -1;
@@ -83,7 +90,8 @@ class Bookings {
   std::vector<std::string_view> names_;
   std::vector<std::uint64_t> keys_;
   std::vector<double> values_;
-  std::array<std::uint8_t, places> number_{};  ///< open addressing: 1 + the account whose key has, or shares, this place
+  /// Open addressing: 1 + the account whose key has, or shares, this place
+  std::array<std::uint8_t, places> number_{};
 };
 
 }  // namespace tripoint

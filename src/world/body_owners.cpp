@@ -12,14 +12,16 @@ namespace tripoint {
 namespace {
 
 bool can_move(const World& world, std::size_t b) {
-  return is_alive(world, b) && is_rigid(world, b) && world.bodies[field::body_motion][b] != static_cast<int>(Motion::fixed);
+  return is_alive(world, b) && is_rigid(world, b) &&
+         world.bodies[field::body_motion][b] != static_cast<int>(Motion::fixed);
 }
 
 /// Calls visit(value) for each column that the motion of a rigid body changes.
 template <class Visit>
 void each_of_motion(Columns& t, std::size_t b, Visit visit) {
-  for (const Field<Vec3>* f : {&field::body_centre, &field::body_velocity, &field::body_acceleration,
-                               &field::body_angular_velocity, &field::body_angular_acceleration, &field::body_angular_momentum})
+  for (const Field<Vec3>* f :
+       {&field::body_centre, &field::body_velocity, &field::body_acceleration, &field::body_angular_velocity,
+        &field::body_angular_acceleration, &field::body_angular_momentum})
     visit(t[*f][b]);
   visit(t[field::body_orientation][b]);
 }
@@ -53,7 +55,9 @@ std::size_t BodyOwners::owner(std::size_t body) const {
 
 /// Body by body, in the order in which they come in memory.
 void BodyOwners::find_members(const World& world) {
-  const auto body_of = [&, body = world.particles[field::body]](std::uint32_t id) { return body[world.particles.row(id)]; };
+  const auto body_of = [&, body = world.particles[field::body]](std::uint32_t id) {
+    return body[world.particles.row(id)];
+  };
   std::vector<std::uint32_t> own, counts(world.bodies.size()), ends(world.bodies.size());
   Bodies order;
   for (std::uint32_t id = 0; id < world.halo->owned(); ++id) {
@@ -73,7 +77,8 @@ void BodyOwners::find_members(const World& world) {
   for (const std::size_t b : order) {
     has_own_[b] = 1;
     const auto end = members_.begin() + ends[b];
-    std::ranges::sort(end - counts[b], end, {}, [number = world.halo->numbers()](std::uint32_t id) { return number[id]; });
+    std::ranges::sort(end - counts[b], end, {},
+                      [number = world.halo->numbers()](std::uint32_t id) { return number[id]; });
   }
 }
 
@@ -89,7 +94,8 @@ void BodyOwners::find_kept(const World& world) {
   }
 }
 
-/// Owners hear who keeps which of their bodies, and who has members of them. @return bodies that a process has begun to keep
+/// Owners hear who keeps which of their bodies, and who has members of them. @return bodies that a process
+/// has begun to keep
 std::vector<BodyOwners::Bodies> BodyOwners::ask(const World& world, const std::vector<Bodies>& begun) {
   std::vector<std::vector<double>> questions(asked_.size());
   for (std::size_t process = 0; process < asked_.size(); ++process)
@@ -127,7 +133,8 @@ void BodyOwners::share(World& world) {
     if (before.any() && !std::ranges::binary_search(before.kept_, b)) begun[owner(b)].push_back(b);
   const std::vector<Bodies> begun_there = ask(world, begun);
   tell(
-      world, keepers_, asked_, 1, [&](std::size_t b, std::vector<double>& to) { to.push_back(holders_[b] == 1 ? 1.0 : 0.0); },
+      world, keepers_, asked_, 1,
+      [&](std::size_t b, std::vector<double>& to) { to.push_back(holders_[b] == 1 ? 1.0 : 0.0); },
       [&](std::size_t b, const double* from) { is_alone_[b] = *from > 0.0 ? 1 : 0; });
   tell(
       world, begun_there, begun, numbers_of_motion,
@@ -148,14 +155,16 @@ void BodyOwners::complete(World& world) const {
     each_of_motion(world.bodies, static_cast<std::size_t>(all[k]), TakeMotion{&all[k + 1]});
 }
 
-std::vector<double> BodyOwners::to_owners(const World& world, const std::vector<double>& records, std::size_t width) const {
+std::vector<double> BodyOwners::to_owners(const World& world, const std::vector<double>& records,
+                                          std::size_t width) const {
   std::vector<std::vector<double>> to(keepers_.size());
   for (auto record = records.begin(); record != records.end(); record += static_cast<std::ptrdiff_t>(width)) {
     std::vector<double>& there = to[owner(static_cast<std::size_t>(record[1]))];
     there.insert(there.end(), record, record + static_cast<std::ptrdiff_t>(width));
   }
   std::vector<double> here;
-  for (const std::vector<double>& from : world.halo->exchange(to)) here.insert(here.end(), from.begin(), from.end());
+  for (const std::vector<double>& from : world.halo->exchange(to))
+    here.insert(here.end(), from.begin(), from.end());
   return here;
 }
 
@@ -163,9 +172,10 @@ void BodyOwners::to_keepers(const World& world, std::size_t width, const Put& pu
   tell(world, keepers_, asked_, width, put, take);
 }
 
-/// @param there for each process bodies of which it is told   @param here for each process bodies of which it tells this one
-void BodyOwners::tell(const World& world, const std::vector<Bodies>& there, const std::vector<Bodies>& here, std::size_t width,
-                      const Put& put, const Take& take) {
+/// @param there for each process bodies of which it is told   @param here for each process bodies of which it
+/// tells this one
+void BodyOwners::tell(const World& world, const std::vector<Bodies>& there, const std::vector<Bodies>& here,
+                      std::size_t width, const Put& put, const Take& take) {
   std::vector<std::vector<double>> to(there.size());
   for (std::size_t process = 0; process < to.size(); ++process) {
     to[process].reserve(there[process].size() * width);

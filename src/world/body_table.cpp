@@ -45,7 +45,8 @@ std::vector<Bounded> body_table_bounds() {
 }
 
 bool can_have_bodies(const Scene& scene) {
-  const bool solid = std::ranges::any_of(scene.bodies, [](const Body& b) { return b.phase != Phase::liquid; });
+  const bool solid =
+      std::ranges::any_of(scene.bodies, [](const Body& b) { return b.phase != Phase::liquid; });
   return solid || calls_for(scene, &EffectRule::makes_bodies);
 }
 
@@ -106,7 +107,8 @@ std::size_t body_row(const World& world, std::string_view name) {
   return row;
 }
 
-WholeMotion whole_motion(std::span<const Vec3> place, std::span<const Vec3> velocity, const std::vector<double>& mass) {
+WholeMotion whole_motion(std::span<const Vec3> place, std::span<const Vec3> velocity,
+                         const std::vector<double>& mass) {
   WholeMotion whole;
   if (place.empty()) return whole;
   Vec3 P, moment;

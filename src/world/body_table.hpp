@@ -7,7 +7,8 @@
 
 #include "world/world.hpp"
 
-/// The table of solid bodies, one row for each that ever existed: rigid ones move as one, deformable ones by their particles.
+/// The table of solid bodies, one row for each that ever existed: rigid ones move as one, deformable ones by
+/// their particles.
 namespace tripoint {
 
 /// Columns that every scene with solids has.
@@ -24,7 +25,9 @@ namespace tripoint {
 [[nodiscard]] std::vector<std::size_t> members(const World&, std::size_t body);
 /// The same of every body.
 [[nodiscard]] std::vector<std::vector<std::size_t>> members_of_all(const World&);
-[[nodiscard]] inline bool is_alive(const World& world, std::size_t body) { return world.bodies[field::body_alive][body] != 0; }
+[[nodiscard]] inline bool is_alive(const World& world, std::size_t body) {
+  return world.bodies[field::body_alive][body] != 0;
+}
 /// Whether its particles move as one: a rigid body, or any that is fixed or prescribed.
 [[nodiscard]] inline bool is_rigid(const World& world, std::size_t body) {
   return world.bodies[field::body_phase][body] == static_cast<int>(Phase::rigid);
@@ -47,8 +50,8 @@ void add_scene_bodies(World&);
 /// Row of the body with this name. @throws InputError when there is none, or it is gone
 [[nodiscard]] std::size_t body_row(const World&, std::string_view name);
 
-/// Tells of rows of particles whether they are members of rigid bodies; all others move by the forces on them alone. Valid until
-/// bodies are added or particles sorted anew.
+/// Tells of rows of particles whether they are members of rigid bodies; all others move by the forces on them
+/// alone. Valid until bodies are added or particles sorted anew.
 class RigidMembers {
  public:
   explicit RigidMembers(const World& world) : body_(world.particles[field::body]) {
@@ -58,8 +61,8 @@ class RigidMembers {
   [[nodiscard]] bool operator()(std::size_t row) const {
     return body_[row] >= 0 && phase_[static_cast<std::size_t>(body_[row])] == static_cast<int>(Phase::rigid);
   }
-  /// Calls member(row) for each of the rows from..to-1 that is, and others(from, to) for each run of those that are not, in
-  /// order.
+  /// Calls member(row) for each of the rows from..to-1 that is, and others(from, to) for each run of those
+  /// that are not, in order.
   template <class Member, class Others>
   void each_run(std::size_t from, std::size_t to, Member member, Others others) const {
     if (!any_) return others(from, to);

@@ -7,13 +7,14 @@
 
 namespace tripoint {
 
-Diverged failure_of(const World& world, GuardName guard, std::size_t row, std::string_view field, std::string_view stage,
-                    const std::string& what) {
+Diverged failure_of(const World& world, GuardName guard, std::size_t row, std::string_view field,
+                    std::string_view stage, const std::string& what) {
   const Particles& p = world.particles;
   const int body = p[field::body][row], here = p[field::id][row];
   const int id = world.halo ? world.halo->numbers()[static_cast<std::size_t>(here)] : here;
   const std::string whose =
-      body < 0 ? " (liquid)" : fmt::format(" of body \"{}\"", world.body_names[static_cast<std::size_t>(body)]);
+      body < 0 ? " (liquid)"
+               : fmt::format(" of body \"{}\"", world.body_names[static_cast<std::size_t>(body)]);
   return {id,
           body,
           std::string(field),
@@ -23,11 +24,13 @@ Diverged failure_of(const World& world, GuardName guard, std::size_t row, std::s
           std::string(to_string(guard))};
 }
 
-void fail(const World& world, GuardName guard, std::size_t row, std::string_view field, std::string_view stage,
-          const std::string& what) {
+void fail(const World& world, GuardName guard, std::size_t row, std::string_view field,
+          std::string_view stage, const std::string& what) {
   throw failure_of(world, guard, row, field, stage, what);
 }
 
-bool is_off(const Scene& scene, GuardName guard) { return std::ranges::find(scene.unguarded, guard) != scene.unguarded.end(); }
+bool is_off(const Scene& scene, GuardName guard) {
+  return std::ranges::find(scene.unguarded, guard) != scene.unguarded.end();
+}
 
 }  // namespace tripoint

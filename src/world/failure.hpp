@@ -12,12 +12,12 @@
 namespace tripoint {
 
 /// "particle 7 of body "beam" is ...": who it is in the whole scene, and at which time.
-[[nodiscard]] Diverged failure_of(const World&, GuardName guard, std::size_t row, std::string_view field, std::string_view stage,
-                                  const std::string& what);
+[[nodiscard]] Diverged failure_of(const World&, GuardName guard, std::size_t row, std::string_view field,
+                                  std::string_view stage, const std::string& what);
 
 /// @throws Diverged, always
-[[noreturn]] void fail(const World&, GuardName guard, std::size_t row, std::string_view field, std::string_view stage,
-                       const std::string& what);
+[[noreturn]] void fail(const World&, GuardName guard, std::size_t row, std::string_view field,
+                       std::string_view stage, const std::string& what);
 
 /// Whether the scene has switched this guard off.
 [[nodiscard]] bool is_off(const Scene&, GuardName);

@@ -30,8 +30,8 @@ class FieldList : public std::vector<FieldInfo> {
 
 }  // namespace tripoint
 
-/// Fields that are read together, for the declaration of an effect: components of one quantity, and the fields that a shared
-/// function reads.
+/// Fields that are read together, for the declaration of an effect: components of one quantity, and the
+/// fields that a shared function reads.
 namespace tripoint::fields {
 
 using List = FieldList;
@@ -53,14 +53,19 @@ using List = FieldList;
 
 /// solid::deformation_of() and solid::deformation_energy() of owners of strain energy, beside the position.
 [[nodiscard]] inline List deformation() {
-  return joined({shape_inverse(), {field::shape_rank, field::solid_volume, field::solid_material, field::solid_stiffness}});
+  return joined({shape_inverse(),
+                 {field::shape_rank, field::solid_volume, field::solid_material, field::solid_stiffness}});
 }
 /// The same where a scene has them.
-[[nodiscard]] inline List deformation_if_there() { return joined({plastic_strain(), {field::stiffness_share}}); }
+[[nodiscard]] inline List deformation_if_there() {
+  return joined({plastic_strain(), {field::stiffness_share}});
+}
 /// solid::refresh_shapes(), beside deformation(), mass, body and material.
 [[nodiscard]] inline List shapes() { return {field::regular_bonds}; }
 [[nodiscard]] inline List shapes_if_there() { return {field::bond_frequency}; }
 /// regroup(): which particles are one body.
-[[nodiscard]] inline List grouping() { return {field::id, field::body, field::phase, field::source, field::material}; }
+[[nodiscard]] inline List grouping() {
+  return {field::id, field::body, field::phase, field::source, field::material};
+}
 
 }  // namespace tripoint::fields

@@ -10,8 +10,8 @@
 /// Description of a force by the effect that makes it. Motion, rigid bodies and the ledger do the rest.
 namespace tripoint {
 
-/// The energy whose gradient a force is. The difference that finite steps leave between it and the work of the force is the entry
-/// `time_integration`.
+/// The energy whose gradient a force is. The difference that finite steps leave between it and the work of
+/// the force is the entry `time_integration`.
 struct StoredEnergy {
   std::vector<std::string_view> entries;  ///< of the ledger, which the effect tells in add_to()
   Account at_start;                       ///< their sum at time 0
@@ -19,22 +19,24 @@ struct StoredEnergy {
   std::string_view released_to{};         ///< entry that has the energy they let go; "" where others tell it
 };
 
-/// Particles that feel a force. all: rigid bodies too, by the sum over their members; particles: only what moves by the forces on
-/// its own particles.
+/// Particles that feel a force. all: rigid bodies too, by the sum over their members; particles: only what
+/// moves by the forces on its own particles.
 enum class Feels { all, particles };
 
 struct Force {
-  Field<double> x, y, z;                    ///< columns that the effect owns [N]
-  Account work;                             ///< done on what moves by forces
-  std::optional<Account> work_on_driven{};  ///< done on bodies that the scene moves, which pay for it; none: it stands with the
-                                            ///< other
+  Field<double> x, y, z;  ///< columns that the effect owns [N]
+  Account work;           ///< done on what moves by forces
+  /// Done on bodies that the scene moves, which pay for it; none: it stands with the other
+  std::optional<Account> work_on_driven{};
   std::optional<StoredEnergy> stored{};
   std::string_view entry{};  ///< of the ledger, that takes the work of a force which no energy stores
   Feels feels = Feels::all;
 };
 
 /// Where the work on bodies that the scene moves is booked.
-[[nodiscard]] inline const Account& work_on_driven(const Force& f) { return f.work_on_driven ? *f.work_on_driven : f.work; }
+[[nodiscard]] inline const Account& work_on_driven(const Force& f) {
+  return f.work_on_driven ? *f.work_on_driven : f.work;
+}
 
 /// Most forces that a scene may have: their sums are kept side by side in arrays of this length.
 inline constexpr std::size_t most_forces = 6;

@@ -10,16 +10,17 @@
 #include "core/vec3.hpp"
 #include "world/force.hpp"
 
-/// Loops over particles that forces alone move, (18). They are compiled for each vector unit; the bits are those of one particle
-/// after the other.
+/// Loops over particles that forces alone move, (18). They are compiled for each vector unit; the bits are
+/// those of one particle after the other.
 namespace tripoint {
 
 /// What such loops read, as plain memory: code compiled for one vector unit shares nothing with the rest.
 struct FreeRows {
-  std::array<const double*, 3 * most_forces> force{};  ///< columns of each force, x, y, z after one another [N]
-  std::size_t forces = 0;                              ///< how many there are
-  const double* m = nullptr;                           ///< [kg]
-  std::array<double, 3> g{};                           ///< [m/s2]
+  /// Columns of each force, x, y, z after one another [N]
+  std::array<const double*, 3 * most_forces> force{};
+  std::size_t forces = 0;     ///< how many there are
+  const double* m = nullptr;  ///< [kg]
+  std::array<double, 3> g{};  ///< [m/s2]
 
   /// One of the forces on a particle [N].
   [[nodiscard]] Vec3 force_on(std::size_t row, std::size_t k) const {
@@ -32,11 +33,13 @@ inline constexpr std::size_t gravity_work = most_forces;
 
 /// The loops of a scene with that many forces, over rows from..to-1.
 struct FreeLoops {
-  /// v += dt (F/m + g). Adds to work[k] that of force k, dt F.(v- + v+)/2, and to work[gravity_work] that of gravity [J].
-  void (*kick)(const FreeRows&, const std::array<double*, 3>& v, double dt, std::size_t from, std::size_t to, double* work);
+  /// v += dt (F/m + g). Adds to work[k] that of force k, dt F.(v- + v+)/2, and to work[gravity_work] that of
+  /// gravity [J].
+  void (*kick)(const FreeRows&, const std::array<double*, 3>& v, double dt, std::size_t from, std::size_t to,
+               double* work);
   /// seen = v + ahead (g + F/m) [m/s]
-  void (*predict)(const FreeRows&, const std::array<const double*, 3>& v, const std::array<double*, 3>& seen, double ahead,
-                  std::size_t from, std::size_t to);
+  void (*predict)(const FreeRows&, const std::array<const double*, 3>& v, const std::array<double*, 3>& seen,
+                  double ahead, std::size_t from, std::size_t to);
   /// Square of the greatest acceleration [m2/s4]
   double (*greatest_acceleration2)(const FreeRows&, std::size_t from, std::size_t to);
   /// Square of the greatest speed [m2/s2]
@@ -60,7 +63,8 @@ template <int L, class ForUnit, class Visit>
 
 /// Component a of the sum of the forces on particles [N].
 template <int L, class ForUnit, std::size_t n>
-[[gnu::always_inline]] inline typename Lanes<L>::Real total(const FreeRows& rows, std::size_t a, std::size_t i) {
+[[gnu::always_inline]] inline typename Lanes<L>::Real total(const FreeRows& rows, std::size_t a,
+                                                            std::size_t i) {
   typename Lanes<L>::Real sum{};
   for (std::size_t k = 0; k < n; ++k) sum += load_lanes<L>(rows.force[3 * k + a] + i);
   return sum;
@@ -68,8 +72,8 @@ template <int L, class ForUnit, std::size_t n>
 
 /// The works are formed for some particles side by side, and then added up in the order of rows.
 template <int L, class ForUnit, std::size_t n>
-[[gnu::flatten]] void kick(const FreeRows& rows, const std::array<double*, 3>& v, double dt, std::size_t from, std::size_t to,
-                           double* work) {
+[[gnu::flatten]] void kick(const FreeRows& rows, const std::array<double*, 3>& v, double dt, std::size_t from,
+                           std::size_t to, double* work) {
   constexpr std::size_t chunk = 128;
   std::array<double, n + 1> sum;
   for (std::size_t k = 0; k < n; ++k) sum[k] = work[k];
@@ -83,7 +87,8 @@ template <int L, class ForUnit, std::size_t n>
       const V m = load_lanes<W>(rows.m + i), per_mass = dt / m;
       V way[3];
       for (std::size_t a = 0; a < 3; ++a) {
-        const V before = load_lanes<W>(v[a] + i), after = before + per_mass * total<W, ForUnit, n>(rows, a, i) + dt * g[a];
+        const V before = load_lanes<W>(v[a] + i),
+                after = before + per_mass * total<W, ForUnit, n>(rows, a, i) + dt * g[a];
         way[a] = (0.5 * dt) * (before + after);
         store_lanes<W>(v[a] + i, after);
       }
@@ -101,12 +106,14 @@ template <int L, class ForUnit, std::size_t n>
 }
 
 template <int L, class ForUnit, std::size_t n>
-[[gnu::flatten]] void predict(const FreeRows& rows, const std::array<const double*, 3>& v, const std::array<double*, 3>& seen,
-                              double ahead, std::size_t from, std::size_t to) {
+[[gnu::flatten]] void predict(const FreeRows& rows, const std::array<const double*, 3>& v,
+                              const std::array<double*, 3>& seen, double ahead, std::size_t from,
+                              std::size_t to) {
   side_by_side<L, ForUnit>(from, to, [&]<int W>(std::size_t i) {
     const auto m = load_lanes<W>(rows.m + i);
     for (std::size_t a = 0; a < 3; ++a)
-      store_lanes<W>(seen[a] + i, load_lanes<W>(v[a] + i) + ahead * (rows.g[a] + total<W, ForUnit, n>(rows, a, i) / m));
+      store_lanes<W>(seen[a] + i,
+                     load_lanes<W>(v[a] + i) + ahead * (rows.g[a] + total<W, ForUnit, n>(rows, a, i) / m));
   });
 }
 
@@ -143,7 +150,8 @@ template <int L, class ForUnit, std::size_t n>
 }
 
 template <int L, class ForUnit>
-[[gnu::flatten]] double greatest_speed2(const std::array<const double*, 3>& v, std::size_t from, std::size_t to) {
+[[gnu::flatten]] double greatest_speed2(const std::array<const double*, 3>& v, std::size_t from,
+                                        std::size_t to) {
   return greatest_of<L, ForUnit>(from, to, [&]<int W>(std::size_t i) {
     const auto x = load_lanes<W>(v[0] + i), y = load_lanes<W>(v[1] + i), z = load_lanes<W>(v[2] + i);
     return x * x + y * y + z * z;
@@ -160,7 +168,8 @@ template <class Visit>
 void each_block(std::size_t rows, int threads, Visit visit) {
   const std::size_t blocks = (rows + detail::free_block - 1) / detail::free_block;
 #pragma omp parallel for schedule(static) num_threads(threads) if (blocks > 1)
-  for (std::size_t b = 0; b < blocks; ++b) visit(b * detail::free_block, std::min(rows, (b + 1) * detail::free_block));
+  for (std::size_t b = 0; b < blocks; ++b)
+    visit(b * detail::free_block, std::min(rows, (b + 1) * detail::free_block));
 }
 /// Greatest of find(from, to), which is not negative, over the same blocks.
 template <class Find>

@@ -8,7 +8,9 @@
 namespace tripoint {
 namespace {
 
-double paid_by_drivers(const Bookings& booked, const Force& f) { return f.work_on_driven ? booked[*f.work_on_driven] : 0.0; }
+double paid_by_drivers(const Bookings& booked, const Force& f) {
+  return f.work_on_driven ? booked[*f.work_on_driven] : 0.0;
+}
 
 double stored_now(const Ledger& ledger, const StoredEnergy& stored) {
   double sum = 0.0;
@@ -21,10 +23,12 @@ double stored_now(const Ledger& ledger, const StoredEnergy& stored) {
 void tell_common_entries(const World& world, Ledger& sum) {
   for (const EffectRule& rule : effect_rules())
     if (rule.always_told)
-      for (const std::string_view entry : rule.always_told(world.scene)) sum.energy.try_emplace(std::string(entry), 0.0);
+      for (const std::string_view entry : rule.always_told(world.scene))
+        sum.energy.try_emplace(std::string(entry), 0.0);
 }
 
-/// Energy left by finite steps for one force: 0 to round-off where its work equals the energy taken from its store.
+/// Energy left by finite steps for one force: 0 to round-off where its work equals the energy taken from its
+/// store.
 double by_finite_steps(const World& world, const Force& f, const Ledger& sum) {
   const StoredEnergy& stored = *f.stored;
   const double change = stored_now(sum, stored) - world.booked[stored.at_start];
@@ -53,12 +57,13 @@ void close_ledger(const World& world, Ledger& sum) {
         made -= by_finite_steps(world, f, sum);
       else
         sum.energy[std::string(f.entry)] -= booked[f.work] + paid_by_drivers(booked, f);
-      if (f.stored && f.stored->released && !f.stored->released_to.empty() && booked[*f.stored->released] != 0.0)
+      if (f.stored && f.stored->released && !f.stored->released_to.empty() &&
+          booked[*f.stored->released] != 0.0)
         sum.energy[std::string(f.stored->released_to)] += booked[*f.stored->released];
     }
     sum.energy["walls"] += on_driven;
-    const double potential =
-        sum.energy[ledger_entry::potential] - booked[account::start_potential] - booked[account::driven_potential];
+    const double potential = sum.energy[ledger_entry::potential] - booked[account::start_potential] -
+                             booked[account::driven_potential];
     sum.energy[ledger_entry::time_integration] =
         made - (potential + booked[account::gravity_work]) - booked[account::rotation_drift];
   }

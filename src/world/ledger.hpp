@@ -20,8 +20,8 @@ struct Ledger {
 /// Keeps the energy stored at time 0, which later ledgers are compared with.
 void book_start(World&, const Ledger&);
 
-/// Tells the work of all forces (model 8.11). For forces that store energy, it tells also the difference by finite steps between
-/// work and store.
+/// Tells the work of all forces (model 8.11). For forces that store energy, it tells also the difference by
+/// finite steps between work and store.
 /// @param sum what effects tell of themselves
 void close_ledger(const World&, Ledger& sum);
 

@@ -12,7 +12,8 @@ namespace detail {
 
 /// Adds rows from..to-1: by add.rows(from, to, sums) where it has that, else one after the other.
 template <std::size_t n, class Add>
-[[gnu::always_inline]] inline void add_rows(const Add& add, std::size_t from, std::size_t to, std::array<double, n>& sums) {
+[[gnu::always_inline]] inline void add_rows(const Add& add, std::size_t from, std::size_t to,
+                                            std::array<double, n>& sums) {
   if constexpr (requires { add.rows(from, to, sums); })
     add.rows(from, to, sums);
   else
@@ -30,11 +31,12 @@ std::array<double, n> total_of(const std::vector<std::array<double, n>>& blocks)
 
 }  // namespace detail
 
-/// Sums of add(i, sums) over i = 0..count-1 in fixed blocks, and then block after block: the same bits whatever the threads.
+/// Sums of add(i, sums) over i = 0..count-1 in fixed blocks, and then block after block: the same bits
+/// whatever the threads.
 /// @param blocks memory that is used again from call to call
 template <std::size_t n, class Add>
-[[nodiscard]] std::array<double, n> ordered_sums(std::size_t count, int threads, std::vector<std::array<double, n>>& blocks,
-                                                 Add add) {
+[[nodiscard]] std::array<double, n> ordered_sums(std::size_t count, int threads,
+                                                 std::vector<std::array<double, n>>& blocks, Add add) {
   constexpr std::size_t block = 1024;
   blocks.assign((count + block - 1) / block, {});
 #pragma omp parallel for schedule(static) num_threads(threads) if (blocks.size() > 1)
@@ -50,10 +52,11 @@ template <std::size_t n, class Add>
 
 namespace detail {
 
-/// add() works on every row, copies too, and of these its sums are left out: they are their owners'. Rows go by runs of one kind,
-/// so that the loop over each asks nothing of a row.
+/// add() works on every row, copies too, and of these its sums are left out: they are their owners'. Rows go
+/// by runs of one kind, so that the loop over each asks nothing of a row.
 template <std::size_t n, class Add>
-[[nodiscard]] std::array<double, n> ordered_sums_of_own(const World& world, std::vector<std::array<double, n>>& blocks, Add add) {
+[[nodiscard]] std::array<double, n> ordered_sums_of_own(const World& world,
+                                                        std::vector<std::array<double, n>>& blocks, Add add) {
   constexpr std::size_t block = 1024;
   const std::size_t count = world.particles.size();
   blocks.assign((count + block - 1) / block, {});
@@ -78,7 +81,8 @@ template <std::size_t n, class Add>
 
 /// The same over the rows that move, with the bits of a sum over all: fixed rows must add zeros.
 template <std::size_t n, class Add>
-[[nodiscard]] std::array<double, n> ordered_sums(const World& world, std::vector<std::array<double, n>>& blocks, Add add) {
+[[nodiscard]] std::array<double, n> ordered_sums(const World& world,
+                                                 std::vector<std::array<double, n>>& blocks, Add add) {
   const Particles& p = world.particles;
   if (!world.copies.empty()) return detail::ordered_sums_of_own(world, blocks, add);
   if (p.moving() == p.size()) return ordered_sums(p.size(), world.threads, blocks, add);
@@ -96,12 +100,14 @@ template <std::size_t n, class Add>
 
 /// The same over all rows, fixed ones too.
 template <std::size_t n, class Add>
-[[nodiscard]] std::array<double, n> ordered_sums_of_all(const World& world, std::vector<std::array<double, n>>& blocks, Add add) {
+[[nodiscard]] std::array<double, n> ordered_sums_of_all(const World& world,
+                                                        std::vector<std::array<double, n>>& blocks, Add add) {
   const Particles& p = world.particles;
   if (!world.copies.empty()) return detail::ordered_sums_of_own(world, blocks, add);
   if (p.moving() == p.size()) return ordered_sums(p.size(), world.threads, blocks, add);
   const std::vector<std::uint32_t> rows = world.neighbours->rows_in_order(p);
-  return ordered_sums(rows.size(), world.threads, blocks, [&](std::size_t k, std::array<double, n>& sum) { add(rows[k], sum); });
+  return ordered_sums(rows.size(), world.threads, blocks,
+                      [&](std::size_t k, std::array<double, n>& sum) { add(rows[k], sum); });
 }
 
 }  // namespace tripoint

@@ -6,8 +6,9 @@
 
 namespace tripoint {
 
-/// body(i) for i = 0..count-1, shared among threads where there are enough. The thread library is not called for a team of one.
-/// It would take memory at every call, a sixth of the instructions of a small scene's step.
+/// body(i) for i = 0..count-1, shared among threads where there are enough. The thread library is not called
+/// for a team of one. It would take memory at every call, a sixth of the instructions of a small scene's
+/// step.
 template <class Body>
 void for_rows(std::size_t count, int threads, Body body) {
   if (threads == 1 || count <= worth_threads) {

@@ -10,14 +10,15 @@
 
 #include "core/field.hpp"
 
-/// Numbers that a step needs of those before it, beside the columns. Each is a typed key, as a field is: an effect declares its
-/// own in its folder, and a checkpoint keeps them all.
+/// Numbers that a step needs of those before it, beside the columns. Each is a typed key, as a field is: an
+/// effect declares its own in its folder, and a checkpoint keeps them all.
 namespace tripoint {
 
 struct StepNumber {
   std::string_view name;
-  double at_start;                  ///< in the unit that its declaration says
-  bool least_of_processes = false;  ///< where processes share a scene, each has its own, and the least is that of the whole
+  double at_start;  ///< in the unit that its declaration says
+  /// Where processes share a scene, each has its own, and the least is that of the whole
+  bool least_of_processes = false;
   std::uint64_t key = key_of(name);
   bool operator==(const StepNumber& other) const noexcept { return key == other.key; }
 };

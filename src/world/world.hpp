@@ -20,17 +20,21 @@
 
 namespace tripoint {
 
-/// Particles whose phase, body or lists changed in this step. Phase change and fracture write it, and all effects follow it. Ids,
-/// each once, ascending; in a shared scene those of the whole scene.
+/// Particles whose phase, body or lists changed in this step. Phase change and fracture write it, and all
+/// effects follow it. Ids, each once, ascending; in a shared scene those of the whole scene.
 struct Change {
   std::vector<std::uint32_t> born;  ///< flowed in: new particles, whose columns are still zero
   std::vector<std::uint32_t> melted, frozen;
-  std::vector<std::uint32_t> regrouped;        ///< of another phase or body than before
-  std::vector<std::uint32_t> relisted;         ///< with other bonds or own pairs than before
-  std::map<std::uint32_t, int> came_from;      ///< regrouped by phase change: row of the body before, -1 for liquid
-  std::vector<std::size_t> bodies;             ///< rows of bodies that gained or lost members, ascending
-  std::map<std::size_t, double> kinetic_lost;  ///< body row -> kinetic energy that joining cost [J], as the rigid effect finds it
-  [[nodiscard]] bool empty() const { return born.empty() && regrouped.empty() && relisted.empty() && bodies.empty(); }
+  std::vector<std::uint32_t> regrouped;  ///< of another phase or body than before
+  std::vector<std::uint32_t> relisted;   ///< with other bonds or own pairs than before
+  /// Regrouped by phase change: row of the body before, -1 for liquid
+  std::map<std::uint32_t, int> came_from;
+  std::vector<std::size_t> bodies;  ///< rows of bodies that gained or lost members, ascending
+  /// Body row -> kinetic energy that joining cost [J], as the rigid effect finds it
+  std::map<std::size_t, double> kinetic_lost;
+  [[nodiscard]] bool empty() const {
+    return born.empty() && regrouped.empty() && relisted.empty() && bodies.empty();
+  }
   /// Forgets all, and keeps the memory of the lists.
   void clear() {
     for (auto* list : {&born, &melted, &frozen, &regrouped, &relisted}) list->clear();
@@ -58,30 +62,41 @@ struct World {
   Change change;                         ///< of this step
   std::optional<Neighbours> neighbours;  ///< none where no effect has pairs
   Bookings booked;
-  std::vector<Force> forces;                  ///< that the effects make, in the order in which they are summed
-  std::vector<Account> numerical;             ///< energy that numerical terms dissipate on purpose: not a time-integration error
-  std::vector<Guarded> guarded;               ///< columns that are checked after every step, in the order in which it writes them
-  std::vector<Bounded> bounded;               ///< columns whose whole numbers a checkpoint is held to
-  std::vector<Field<double>> positive;        ///< columns whose values a checkpoint must have above 0
-  std::vector<GuardedEntry> guarded_entries;  ///< entries of the ledger that the guard of energy takes by a rule of their own
-  std::vector<Field<double>> body_sums;       ///< columns of bodies that are sums over this process's own particles
-  StepNumbers step_numbers;                   ///< that effects keep from step to step
-  double time = 0.0;                          ///< [s]
-  double next_time = 0.0;                     ///< end of the step that is being taken, exactly as the loop will set it [s]
+  /// That the effects make, in the order in which they are summed
+  std::vector<Force> forces;
+  /// Energy that numerical terms dissipate on purpose: not a time-integration error
+  std::vector<Account> numerical;
+  /// Columns that are checked after every step, in the order in which it writes them
+  std::vector<Guarded> guarded;
+  std::vector<Bounded> bounded;         ///< columns whose whole numbers a checkpoint is held to
+  std::vector<Field<double>> positive;  ///< columns whose values a checkpoint must have above 0
+  /// Entries of the ledger that the guard of energy takes by a rule of their own
+  std::vector<GuardedEntry> guarded_entries;
+  /// Columns of bodies that are sums over this process's own particles
+  std::vector<Field<double>> body_sums;
+  StepNumbers step_numbers;  ///< that effects keep from step to step
+  double time = 0.0;         ///< [s]
+  /// End of the step that is being taken, exactly as the loop will set it [s]
+  double next_time = 0.0;
   int threads = 1;
-  std::optional<std::array<std::size_t, 3>> axis_order;  ///< rotation by NO_SQUISH in this order, to compare with
+  /// Rotation by NO_SQUISH in this order, to compare with
+  std::optional<std::array<std::size_t, 3>> axis_order;
   bool placed = false;  ///< members of all rigid bodies have been put to their places by the poses of these
   bool moved = true;    ///< positions differ from those of the last rates
 
-  /// By id, 1 where a step reads only the place of a fixed particle, as behind the face of a wall; empty: all is read.
+  /// By id, 1 where a step reads only the place of a fixed particle, as behind the face of a wall; empty: all
+  /// is read.
   std::vector<char> unread;
-  bool fixed_formed = true;  ///< true when the values of fixed particles that no step needs (forces, densities behind walls) are
-                             ///< up to date
+  /// True when the values of fixed particles that no step needs (forces, densities behind walls) are up to
+  /// date
+  bool fixed_formed = true;
   bool forms_fixed = false;  ///< these values are being formed now, because somebody asks for them
 
-  Halo* halo = nullptr;      ///< those that hold the rest of the scene; null: this process holds all, if only for now
-  BodyOwners body_owners;    ///< none where this process holds all
-  std::vector<char> copies;  ///< of each row, 1 where it is a copy of another's particle; empty where this process holds all
+  /// Those that hold the rest of the scene; null: this process holds all, if only for now
+  Halo* halo = nullptr;
+  BodyOwners body_owners;  ///< none where this process holds all
+  /// Of each row, 1 where it is a copy of another's particle; empty where this process holds all
+  std::vector<char> copies;
 
   [[nodiscard]] double support() const { return scene.support_ratio * scene.spacing; }
   /// Whether a row is this process's own: sums over particles are sums over these.
@@ -89,7 +104,9 @@ struct World {
   /// Whether this process reports values that all hold alike.
   [[nodiscard]] bool is_first() const { return !halo || halo->is_first(); }
   /// Whether this process, among those that keep the body, reports its energies.
-  [[nodiscard]] bool tells_of(std::size_t body) const { return body_owners.any() ? body_owners.is_here(body) : is_first(); }
+  [[nodiscard]] bool tells_of(std::size_t body) const {
+    return body_owners.any() ? body_owners.is_here(body) : is_first();
+  }
   /// Rows whose forces are formed now: moving ones, or fixed ones where forms_fixed says so.
   [[nodiscard]] Rows formed() const {
     return forms_fixed ? Rows{particles.moving(), particles.size()} : Rows{0, particles.moving()};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bullet's own error is part of every row that it fills: these tests state it, and that the adapter adds none.
+// Bullet's own error is part of every row that it fills: these tests state it, and that the adapter adds
+// none.
 #include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
 #include <gtest/gtest.h>
 
@@ -34,8 +35,10 @@ TEST(Bullet, FallsAsSemiImplicitEulerDoes) {
   const Vec3 g{0.3, 0.0, -9.81}, v{1.0, 0.0, 5.0};
   const Prepared p = test::block({v, {}}, g, 1.0, 4, dt);
   for (const Snapshot& s : fly(p)) {
-    const Vec3 exact = s.time * v + (0.5 * s.time * (s.time + dt)) * g;  // the velocity is stepped first: a lag of g dt t/2
-    EXPECT_LT(norm(s.bodies[0].position - p.job.bodies[0].properties.centre - exact), 1e-13) << "round-off of 100 steps";
+    // The velocity is stepped first: a lag of g dt t/2
+    const Vec3 exact = s.time * v + (0.5 * s.time * (s.time + dt)) * g;
+    EXPECT_LT(norm(s.bodies[0].position - p.job.bodies[0].properties.centre - exact), 1e-13)
+        << "round-off of 100 steps";
     EXPECT_LT(norm(s.bodies[0].velocity - v - s.time * g), 1e-13);
   }
 }
@@ -52,7 +55,8 @@ double torque_free_error(double dt) {
   const Vec3 w{1, 2, 3};
   const Prepared p = test::block({{}, w}, {}, 2.0, 1, dt);
   const auto& m = p.job.bodies[0].properties;
-  return angle_between(fly(p).back().bodies[0].orientation, TorqueFree(m.principal_inertia, m.principal_axes, w).rotation(2.0));
+  return angle_between(fly(p).back().bodies[0].orientation,
+                       TorqueFree(m.principal_inertia, m.principal_axes, w).rotation(2.0));
 }
 
 TEST(Bullet, TurnsAnAsymmetricBodyToFirstOrder) {
@@ -92,9 +96,11 @@ TEST(Bullet, ImpactPresetIsExactForACentralHitAtAnyStep) {
   for (const double e : {0.0, 0.5, 1.0})
     for (const double dt : {1.0 / 60.0, 1e-3}) {
       const Prepared p = head_on(e, dt);
-      const double m1 = p.job.bodies[0].properties.mass, m2 = p.job.bodies[1].properties.mass, mean = (m1 - 0.5 * m2) / (m1 + m2);
+      const double m1 = p.job.bodies[0].properties.mass, m2 = p.job.bodies[1].properties.mass,
+                   mean = (m1 - 0.5 * m2) / (m1 + m2);
       const Snapshot after = fly(p).back();
-      EXPECT_NEAR(after.bodies[0].velocity.x, mean - e * 1.5 * m2 / (m1 + m2), 1e-12) << "e = " << e << ", dt = " << dt;
+      EXPECT_NEAR(after.bodies[0].velocity.x, mean - e * 1.5 * m2 / (m1 + m2), 1e-12)
+          << "e = " << e << ", dt = " << dt;
       EXPECT_NEAR(after.bodies[1].velocity.x, mean + e * 1.5 * m1 / (m1 + m2), 1e-12);
     }
 }
@@ -103,8 +109,9 @@ Prepared two_tumbling() {
   Scene s;
   s.spacing = 0.1;
   s.materials = {test::material(15.625)};
-  s.bodies = {test::rigid("cube", test::box({-0.2, -0.2, -0.2}, {0.2, 0.2, 0.2}), {{1, 0, 0}, {1, 2, 0}}),
-              test::rigid("bar", test::box({0.8, -0.1, -0.25}, {1.1, 0.2, 0.25}), {{-1, 0.2, 0}, {0, -1, 3}})};
+  s.bodies = {
+      test::rigid("cube", test::box({-0.2, -0.2, -0.2}, {0.2, 0.2, 0.2}), {{1, 0, 0}, {1, 2, 0}}),
+      test::rigid("bar", test::box({0.8, -0.1, -0.25}, {1.1, 0.2, 0.25}), {{-1, 0.2, 0}, {0, -1, 3}})};
   return test::prepare(s, 0.02, 2);
 }
 
@@ -124,7 +131,8 @@ TEST(Bullet, MergesWithTheMomentaOfBoth) {
   EXPECT_LT(norm(after.angular_momentum - before.angular_momentum), 1e-14);
   EXPECT_LT(energy(after), 0.2 * energy(before));
   EXPECT_TRUE(std::isnan(after.bodies[1].mass));
-  for (std::size_t i = 0; i < p.initial.size(); ++i) EXPECT_LT(norm(after.position[i] - before.position[i]), 1e-14);
+  for (std::size_t i = 0; i < p.initial.size(); ++i)
+    EXPECT_LT(norm(after.position[i] - before.position[i]), 1e-14);
 }
 
 TEST(Bullet, SplitsWithoutLosingMomentumOrEnergy) {
@@ -148,7 +156,8 @@ TEST(Bullet, SplitsWithoutLosingMomentumOrEnergy) {
   EXPECT_LT(norm(after.angular_momentum - before.angular_momentum), 1e-14);
   EXPECT_NEAR(energy(after), energy(before), 1e-14);
   EXPECT_LT(angle_between(after.bodies[1].orientation, {}), 1e-15) << "(1,0,0,0) at birth";
-  for (std::size_t i = 0; i < p.initial.size(); ++i) EXPECT_LT(norm(after.velocity[i] - before.velocity[i]), 1e-13);
+  for (std::size_t i = 0; i < p.initial.size(); ++i)
+    EXPECT_LT(norm(after.velocity[i] - before.velocity[i]), 1e-13);
 }
 
 TEST(Bullet, PutsAPrescribedBodyWhereItsKeyframesSay) {
@@ -159,10 +168,12 @@ TEST(Bullet, PutsAPrescribedBodyWhereItsKeyframesSay) {
   s.bodies[0].keyframes = {{0.0, {}, {}}, {1.0, {0.5, 0, 0.2}, from_rotation_vector({0, 0.7, 0})}};
   const Prepared p = test::prepare(s, 1.0, 3);
   for (const Snapshot& f : fly(p)) {
-    const auto expected = prescribed_state(s.bodies[0].keyframes, p.job.bodies[0].properties.centre, {}, {}, f.time);
+    const auto expected =
+        prescribed_state(s.bodies[0].keyframes, p.job.bodies[0].properties.centre, {}, {}, f.time);
     EXPECT_LT(norm(f.bodies[0].position - expected.position), 1e-14);
     EXPECT_LT(angle_between(f.bodies[0].orientation, expected.rotation), 1e-12);
-    EXPECT_LT(norm(f.bodies[0].angular_velocity - expected.angular_velocity), 1e-9) << "Bullet's own difference over a step";
+    EXPECT_LT(norm(f.bodies[0].angular_velocity - expected.angular_velocity), 1e-9)
+        << "Bullet's own difference over a step";
   }
 }
 
@@ -200,7 +211,8 @@ TEST(Bullet, BrakesABlockByFriction) {
 }
 
 TEST(Bullet, HoldsABlockOnASlopeThatIsNotSteeperThanItsFriction) {
-  const Vec3 g{9.81 * std::sin(0.349066), 0, -9.81 * std::cos(0.349066)};  // 20 degrees, whose tangent is 0.364
+  // 20 degrees, whose tangent is 0.364
+  const Vec3 g{9.81 * std::sin(0.349066), 0, -9.81 * std::cos(0.349066)};
   EXPECT_LT(std::abs(fly(on_floor(0.38, {}, g)).back().bodies[0].velocity.x), 1e-6);
   EXPECT_NEAR(fly(on_floor(0.35, {}, g)).back().bodies[0].velocity.x, 0.5 * (g.x + 0.35 * g.z), 1e-3);
 }
@@ -266,16 +278,22 @@ TEST(Bullet, SaysWhyItRefuses) {
     change(job);
     return engine.refusal(job);
   };
-  EXPECT_NE(reason([](Job& j) { j.bodies[0].phase = Phase::liquid; }).find("rigid bodies only"), std::string::npos);
-  EXPECT_NE(reason([](Job& j) { j.scene.bodies[0].temperature = TemperatureField{}; }).find("heat"), std::string::npos);
+  EXPECT_NE(reason([](Job& j) { j.bodies[0].phase = Phase::liquid; }).find("rigid bodies only"),
+            std::string::npos);
+  EXPECT_NE(reason([](Job& j) { j.scene.bodies[0].temperature = TemperatureField{}; }).find("heat"),
+            std::string::npos);
   EXPECT_NE(reason([](Job& j) { j.scene.mode = Mode::paper; }).find("paper"), std::string::npos);
   EXPECT_NE(reason([](Job& j) { j.scene.periodic[1] = true; }).find("periodic"), std::string::npos);
   EXPECT_NE(reason([](Job& j) { j.preset = "soft"; }).find("no preset 'soft'"), std::string::npos);
-  EXPECT_NE(reason([](Job& j) { j.settings["gyro"] = std::string("maybe"); }).find("gyro"), std::string::npos);
+  EXPECT_NE(reason([](Job& j) { j.settings["gyro"] = std::string("maybe"); }).find("gyro"),
+            std::string::npos);
   for (const char* key : {"rolling_friction", "spinning_friction"})
     EXPECT_NE(reason([&](Job& j) { j.settings[key] = 0.5; }).find("no setting"), std::string::npos) << key;
   EXPECT_NE(reason([](Job& j) { j.settings["friction"] = -0.5; }).find("0 or more"), std::string::npos);
-  EXPECT_NE(reason([](Job& j) { j.bodies[0].angular_velocity = {0, 0, 100}; }).find("pi/4"), std::string::npos);
+  EXPECT_NE(reason([](Job& j) {
+              j.bodies[0].angular_velocity = {0, 0, 100};
+            }).find("pi/4"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -5,7 +5,8 @@
 #include "adapters/scenes.hpp"
 #include "scene/shared_terms.hpp"
 
-/// Scenes in which bonds, bodies, phases or particles change, in the middle and elsewhere along x: what is decided of the whole.
+/// Scenes in which bonds, bodies, phases or particles change, in the middle and elsewhere along x: what is
+/// decided of the whole.
 namespace tripoint::test {
 
 /// A brittle bar with a neck, whose ends fly apart as it flies along x; one has a rigid cap.
@@ -39,8 +40,8 @@ inline Prepared brittle_bar(bool flows, Mode mode) {
   return p;
 }
 
-/// A bar that flies along x, and rings at one end at a step beyond its bound, which is forced: guards send it back, early and
-/// past the middle.
+/// A bar that flies along x, and rings at one end at a step beyond its bound, which is forced: guards send it
+/// back, early and past the middle.
 inline Prepared ringing_bar() {
   Scene s;
   s.spacing = 1.0;
@@ -60,7 +61,8 @@ inline Prepared ringing_bar() {
   for (std::size_t i = 0; i < p.initial.size(); ++i) {
     const Vec3 r = p.initial.position[i] - Vec3{9.0, 2.0, 2.0};
     const double rings = r.x > 0.0 ? 1.0 : 0.0;
-    p.initial.velocity[i] = {5.0 + rings * (0.4 * r.x + 0.1 * r.y), rings * (0.1 * r.z - 0.3 * r.y), -0.1 * rings * r.z};
+    p.initial.velocity[i] = {5.0 + rings * (0.4 * r.x + 0.1 * r.y), rings * (0.1 * r.z - 0.3 * r.y),
+                             -0.1 * rings * r.z};
   }
   p.job.settings["force_time_step"] = true;
   return p;
@@ -84,8 +86,8 @@ inline TemperatureField constant(double T) {
   return field;
 }
 
-/// Two blocks that tumble past a film of liquid, which they cool: it freezes, and they are one. A third one is hot in its middle,
-/// which melts: it is two.
+/// Two blocks that tumble past a film of liquid, which they cool: it freezes, and they are one. A third one
+/// is hot in its middle, which melts: it is two.
 inline Prepared merging_and_splitting(SolidKind solid) {
   Scene s;
   s.spacing = 1e-3;
@@ -98,9 +100,11 @@ inline Prepared merging_and_splitting(SolidKind solid) {
   s.materials = {m};
   s.merge_distance = 1.5;
   const Phase phase = solid == SolidKind::elastic ? Phase::elastic : Phase::rigid;
-  Body left = rigid("left", box({-0.005, -0.002, -0.002}, {-0.001, 0.002, 0.002}), {{0.4, 0, 0}, {0, 2.0, 0}});
+  Body left =
+      rigid("left", box({-0.005, -0.002, -0.002}, {-0.001, 0.002, 0.002}), {{0.4, 0, 0}, {0, 2.0, 0}});
   Body film = rigid("film", box({-0.001, -0.001, -0.001}, {0.001, 0.001, 0.001}), {{0.4, 0, 0}, {}});
-  Body right = rigid("right", box({0.001, -0.002, -0.001}, {0.004, 0.002, 0.003}), {{0.39, 0.03, 0}, {0, 0, -3.0}});
+  Body right =
+      rigid("right", box({0.001, -0.002, -0.001}, {0.004, 0.002, 0.003}), {{0.39, 0.03, 0}, {0, 0, -3.0}});
   Body bar = rigid("bar", box({-0.004, 0.006, 0}, {0.005, 0.009, 0.003}), {{0.4, 0, 0}, {0, 0, 5.0}});
   left.phase = right.phase = bar.phase = phase;
   film.phase = Phase::liquid;
@@ -136,7 +140,8 @@ inline Prepared warm_rubber() {
   bar.temperature = constant(330.0);
   s.bodies = {bar};
   Prepared p = prepare(s, 0.02, 1);
-  for (std::size_t i = 0; i < p.initial.size(); ++i) p.initial.temperature[i] = 300.0 + 400.0 * p.initial.position[i].x;
+  for (std::size_t i = 0; i < p.initial.size(); ++i)
+    p.initial.temperature[i] = 300.0 + 400.0 * p.initial.position[i].x;
   return p;
 }
 
@@ -176,8 +181,9 @@ inline Prepared eventful() {
     e.bodies = std::move(bodies);
     return e;
   };
-  Event unite = event(Event::Kind::merge, 0.01, {"one", "two"}), hold = event(Event::Kind::hold, 0.02, {"drop"}),
-        warm = event(Event::Kind::heat, 0.025, {"one"}), part = event(Event::Kind::split, 0.04, {"one"});
+  Event unite = event(Event::Kind::merge, 0.01, {"one", "two"}),
+        hold = event(Event::Kind::hold, 0.02, {"drop"}), warm = event(Event::Kind::heat, 0.025, {"one"}),
+        part = event(Event::Kind::split, 0.04, {"one"});
   hold.until = 0.03;
   warm.until = 0.035;
   warm.temperature = 400.0;

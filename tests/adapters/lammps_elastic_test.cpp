@@ -49,7 +49,8 @@ TEST(LammpsElastic, SwingsLikeAThinBar) {
   std::vector<double> amplitude;
   for (const Snapshot& now : out.trajectory.frames) {
     double sum = 0.0;
-    for (std::size_t i = 0; i < p.initial.size(); ++i) sum += now.velocity[i].x * std::cos(pi * p.initial.position[i].x / 0.1);
+    for (std::size_t i = 0; i < p.initial.size(); ++i)
+      sum += now.velocity[i].x * std::cos(pi * p.initial.position[i].x / 0.1);
     amplitude.push_back(sum);
   }
   std::vector<double> zeros;
@@ -87,10 +88,12 @@ TEST(LammpsElastic, FollowsDrivenEndsAndKeepsHeldOnes) {
   NEEDS_THE_WHEEL();
   Scene s = bar();
   s.bodies.push_back(test::rigid("foot", test::box({-0.015, 0, 0}, {0, 0.02, 0.02}), {}, Motion::fixed));
-  s.bodies.push_back(test::rigid("grip", test::box({0.1, 0, 0}, {0.115, 0.02, 0.02}), {}, Motion::prescribed));
+  s.bodies.push_back(
+      test::rigid("grip", test::box({0.1, 0, 0}, {0.115, 0.02, 0.02}), {}, Motion::prescribed));
   s.bodies[0].joined_to = {"foot", "grip"};
   const Vec3 grip{0.1075, 0.01, 0.01};
-  s.bodies[2].keyframes = {{0.0, grip, {}}, {0.1, grip + Vec3{1e-3, 0, 0}, {}}, {0.2, grip + Vec3{1e-3, 0, 0}, {}}};
+  s.bodies[2].keyframes = {
+      {0.0, grip, {}}, {0.1, grip + Vec3{1e-3, 0, 0}, {}}, {0.2, grip + Vec3{1e-3, 0, 0}, {}}};
   const Outcome out = test::run(wheel, test::prepare(s, 0.2, 4));
   ASSERT_EQ(out.exit_code, 0) << out.result.message;
   const auto& frames = out.trajectory.frames;
@@ -109,10 +112,12 @@ TEST(LammpsElastic, StandsForAllLayersOfABarInPlaneStrain) {
   s.max = Vec3{0.2, 0.1, 0.02};
   s.periodic = {false, false, true};
   s.bodies.push_back(test::rigid("foot", test::box({-0.015, 0, 0}, {0, 0.02, 0.02}), {}, Motion::fixed));
-  s.bodies.push_back(test::rigid("grip", test::box({0.1, 0, 0}, {0.115, 0.02, 0.02}), {}, Motion::prescribed));
+  s.bodies.push_back(
+      test::rigid("grip", test::box({0.1, 0, 0}, {0.115, 0.02, 0.02}), {}, Motion::prescribed));
   s.bodies[0].joined_to = {"foot", "grip"};
   const Vec3 grip{0.1075, 0.01, 0.01};
-  s.bodies[2].keyframes = {{0.0, grip, {}}, {0.1, grip + Vec3{1e-3, 0, 0}, {}}, {0.2, grip + Vec3{1e-3, 0, 0}, {}}};
+  s.bodies[2].keyframes = {
+      {0.0, grip, {}}, {0.1, grip + Vec3{1e-3, 0, 0}, {}}, {0.2, grip + Vec3{1e-3, 0, 0}, {}}};
   const Prepared p = test::prepare(s, 0.2, 50);
   const Outcome out = test::run(wheel, p);
   ASSERT_EQ(out.exit_code, 0) << out.result.message;

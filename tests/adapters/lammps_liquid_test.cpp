@@ -64,7 +64,8 @@ TEST(LammpsLiquid, SwingsAtTheSpeedOfSoundOfTheScene) {
   for (const Vec3& v : half.velocity) u.push_back(v.x);
   EXPECT_NEAR(along(u, p, [](double a) { return std::cos(a); }), -0.01, 1e-4)
       << "fix sph lets sound grow at w2 dt/4: 0.5 %; half a percent off in c turns the phase by 0.02, 0.02 %";
-  EXPECT_NEAR(along(quarter.pressure, p, [](double a) { return std::sin(a); }) / (1000.0 * 10.0 * 0.01), 1.0, 0.02)
+  EXPECT_NEAR(along(quarter.pressure, p, [](double a) { return std::sin(a); }) / (1000.0 * 10.0 * 0.01), 1.0,
+              0.02)
       << "rho c U; half of that growth, c, and the pressure of the neighbours that a kernel smooths";
   EXPECT_NEAR(out.result.extra.at("sound_speed"), 10.0, 1e-12);
 }
@@ -79,7 +80,8 @@ TEST(LammpsLiquid, KeepsMomentumToRoundOff) {
   Prepared p = wave(0.05);
   for (Vec3& v : p.initial.velocity) v += Vec3{0.0, 0.3, 0.0};
   const Outcome out = test::run(wheel, p);
-  const Vec3 before = out.trajectory.frames.front().momentum, change = out.trajectory.frames.back().momentum - before;
+  const Vec3 before = out.trajectory.frames.front().momentum,
+             change = out.trajectory.frames.back().momentum - before;
   EXPECT_LT(norm(change), 1e-12 * norm(before)) << "pair forces are equal and opposite";
 }
 
@@ -110,7 +112,8 @@ TEST(LammpsLiquid, FloorCarriesTheWeightOfTheColumn) {
       count += 1.0;
     }
   EXPECT_NEAR(pressure / count / (1000.0 * 9.81 * 0.75), 1.0, 0.1)
-      << "mean over the column's swings; the lowest layer begins at 0.75 m below the surface and sinks by some hundredths";
+      << "mean over the column's swings; the lowest layer begins at 0.75 m below the surface and sinks by "
+         "some hundredths";
   EXPECT_LT(norm(out.result.readback.gravity - Vec3{0, 0, -9.81}), 1e-12) << "read from LAMMPS's forces";
 }
 

@@ -60,7 +60,9 @@ Event heat(const std::string& body, double kelvin, double from, double until) {
   return e;
 }
 
-long count(const Snapshot& s, Phase phase) { return std::count(s.phase.begin(), s.phase.end(), static_cast<int>(phase)); }
+long count(const Snapshot& s, Phase phase) {
+  return std::count(s.phase.begin(), s.phase.end(), static_cast<int>(phase));
+}
 std::size_t bodies_alive(const Snapshot& s) {
   std::set<int> rows(s.body.begin(), s.body.end());
   rows.erase(-1);
@@ -93,21 +95,24 @@ TEST(LammpsPhase, MeltsABlockOnAHotFloorAndFreezesItThere) {
   EXPECT_EQ(count(frames[6], Phase::liquid), 48) << "three layers, h2/D = 0.09 s";
   EXPECT_EQ(count(frames.back(), Phase::liquid), 0);
   for (std::size_t n = 1; n <= 6; ++n)
-    EXPECT_GE(count(frames[n], Phase::liquid), count(frames[n - 1], Phase::liquid)) << "nothing freezes while the floor is hot";
+    EXPECT_GE(count(frames[n], Phase::liquid), count(frames[n - 1], Phase::liquid))
+        << "nothing freezes while the floor is hot";
   EXPECT_EQ(bodies_alive(frames[6]), 1U) << "the floor";
   EXPECT_EQ(bodies_alive(frames.back()), 2U) << "a new body lies on it: deformable on rigid";
   EXPECT_EQ(frames.back().body[0], 2) << "born after block and floor";
   EXPECT_FALSE(finite(frames.back().bodies[0].position)) << "the row of the block stays dead";
   for (std::size_t i = 48; i < 80; ++i)
-    EXPECT_LT(norm(frames.back().position[i] - frames.front().position[i]), 1e-12) << "the floor does not move";
+    EXPECT_LT(norm(frames.back().position[i] - frames.front().position[i]), 1e-12)
+        << "the floor does not move";
 }
 
 /// Two blocks of 3 x 4 x 4 that touch, without gravity, both at a temperature for a while.
 Outcome two_blocks(double kelvin) {
   Scene s = scene();
-  s.bodies = {wax("left", test::box({}, {0.03, 0.04, 0.04})), wax("right", test::box({0.03, 0, 0}, {0.06, 0.04, 0.04}))};
-  s.events = {heat("left", kelvin, 0.0, 0.02), heat("right", kelvin, 0.0, 0.02), heat("left", 300.0, 0.02, 0.04),
-              heat("right", 300.0, 0.02, 0.04)};
+  s.bodies = {wax("left", test::box({}, {0.03, 0.04, 0.04})),
+              wax("right", test::box({0.03, 0, 0}, {0.06, 0.04, 0.04}))};
+  s.events = {heat("left", kelvin, 0.0, 0.02), heat("right", kelvin, 0.0, 0.02),
+              heat("left", 300.0, 0.02, 0.04), heat("right", 300.0, 0.02, 0.04)};
   return test::run(wheel, test::prepare(s, 0.04, 4));
 }
 
@@ -133,7 +138,8 @@ TEST(LammpsPhase, RefusesPhasesThatConductUnlikeByName) {
   s.events = {heat("bar", 360.0, 0.01, 0.02)};
   const Outcome out = test::run(wheel, test::prepare(s, 0.02, 2));
   EXPECT_EQ(out.exit_code, 4);
-  EXPECT_NE(out.result.message.find("wax conducts or holds heat otherwise when solid"), std::string::npos) << out.result.message;
+  EXPECT_NE(out.result.message.find("wax conducts or holds heat otherwise when solid"), std::string::npos)
+      << out.result.message;
 }
 
 TEST(LammpsPhase, MergesTouchingBlocksThatMeltAndFreeze) {
@@ -142,14 +148,16 @@ TEST(LammpsPhase, MergesTouchingBlocksThatMeltAndFreeze) {
   ASSERT_EQ(out.exit_code, 0) << out.result.message;
   EXPECT_EQ(bodies_alive(out.trajectory.frames[1]), 0U) << "all molten";
   EXPECT_EQ(bodies_alive(out.trajectory.frames.back()), 1U);
-  EXPECT_NEAR(out.trajectory.frames[1].energy.at("latent"), out.trajectory.frames[1].total_mass * 2e4, 1e-6) << "m L";
+  EXPECT_NEAR(out.trajectory.frames[1].energy.at("latent"), out.trajectory.frames[1].total_mass * 2e4, 1e-6)
+      << "m L";
 }
 
 TEST(LammpsPhase, SplitsABarWhoseMiddleMelts) {
   NEEDS_THE_WHEEL();
   Scene s = scene();
   s.materials[0].conductivity = 1.0;
-  s.bodies = {wax("bar", test::box({}, {0.03, 0.03, 0.03})), wax("middle", test::box({0.03, 0, 0}, {0.05, 0.03, 0.03})),
+  s.bodies = {wax("bar", test::box({}, {0.03, 0.03, 0.03})),
+              wax("middle", test::box({0.03, 0, 0}, {0.05, 0.03, 0.03})),
               wax("end", test::box({0.05, 0, 0}, {0.08, 0.03, 0.03}))};
   s.bodies[1].joined_to = {"bar", "end"};
   s.events = {heat("middle", 360.0, 0.01, 0.02)};
@@ -163,7 +171,8 @@ TEST(LammpsPhase, SplitsABarWhoseMiddleMelts) {
 TEST(LammpsPhase, KeepsHeatWhileAHeldBarMelts) {
   NEEDS_THE_WHEEL();
   Scene s = scene();
-  s.bodies = {wax("cold", test::box({}, {0.06, 0.03, 0.03})), wax("hot", test::box({0.06, 0, 0}, {0.12, 0.03, 0.03}))};
+  s.bodies = {wax("cold", test::box({}, {0.06, 0.03, 0.03})),
+              wax("hot", test::box({0.06, 0, 0}, {0.12, 0.03, 0.03}))};
   for (Body& b : s.bodies) {
     b.phase = Phase::rigid;
     b.motion = Motion::fixed;
@@ -180,7 +189,8 @@ TEST(LammpsPhase, KeepsHeatWhileAHeldBarMelts) {
   const double before = first.energy.at("thermal") + first.energy.at("latent"),
                after = last.energy.at("thermal") + last.energy.at("latent");
   EXPECT_NEAR(after / before, 1.0, 1e-12) << "pairs exchange what they lose; round-off";
-  EXPECT_GT(count(last, Phase::liquid), count(first, Phase::liquid)) << "27 particles at 400 K melt some of those at 329 K";
+  EXPECT_GT(count(last, Phase::liquid), count(first, Phase::liquid))
+      << "27 particles at 400 K melt some of those at 329 K";
   EXPECT_EQ(last.position, first.position) << "held";
 }
 
@@ -209,7 +219,8 @@ TEST(LammpsPhase, SaysWhatItCannotRun) {
         s.events[1].kind = Event::Kind::grip;
       },
       "heating only");
-  refused([](Scene& s) { s.materials[0].plastic_limit = s.materials[0].elastic_limit = 0.1; }, "yields or breaks");
+  refused([](Scene& s) { s.materials[0].plastic_limit = s.materials[0].elastic_limit = 0.1; },
+          "yields or breaks");
 }
 
 TEST(LammpsPhase, IsRefusedByABuildWithoutIt) {

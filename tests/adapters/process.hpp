@@ -31,7 +31,9 @@ class Folder {
   }
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
-  [[nodiscard]] std::string at(const std::string& name) const { return (std::filesystem::path(path_) / name).string(); }
+  [[nodiscard]] std::string at(const std::string& name) const {
+    return (std::filesystem::path(path_) / name).string();
+  }
 
  private:
   std::string path_;
@@ -60,7 +62,8 @@ struct Outcome {
 inline void expect_sums(const Snapshot& frame, const InitialState& initial) {
   double mass = 0.0, size = 0.0;
   Vec3 momentum;
-  const std::size_t count = frame.mass.empty() ? initial.size() : frame.mass.size();  // more than at first where liquid flows in
+  // More than at first where liquid flows in
+  const std::size_t count = frame.mass.empty() ? initial.size() : frame.mass.size();
   for (std::size_t i = 0; i < count && i < frame.velocity.size(); ++i) {
     const double m = i < frame.mass.size() ? frame.mass[i] : initial.mass[i];
     if (std::isnan(m)) continue;  // not there yet
@@ -85,8 +88,10 @@ inline void expect_bodies(const Snapshot& frame, const InitialState& initial) {
     }
     if (mass == 0.0) continue;
     EXPECT_NEAR(frame.bodies[b].mass, mass, 1e-9 * mass) << "body " << b << " at t = " << frame.time;
-    EXPECT_NEAR(norm(frame.bodies[b].position - moment / mass), 0.0, 1e-9) << "body " << b << " at t = " << frame.time;
-    EXPECT_NEAR(norm(frame.bodies[b].velocity - momentum / mass), 0.0, 1e-9) << "body " << b << " at t = " << frame.time;
+    EXPECT_NEAR(norm(frame.bodies[b].position - moment / mass), 0.0, 1e-9)
+        << "body " << b << " at t = " << frame.time;
+    EXPECT_NEAR(norm(frame.bodies[b].velocity - momentum / mass), 0.0, 1e-9)
+        << "body " << b << " at t = " << frame.time;
   }
 }
 
@@ -96,15 +101,18 @@ inline Outcome run(const std::string& engine, const Prepared& p, const std::stri
   write_particles(folder.at("particles.h5"), p.initial);
   write_job(folder.at("job.json"), p.job);
   Outcome out;
-  out.exit_code = shell(prefix + " '" + engine + "' --run '" + folder.at("job.json") + "' 2> '" + folder.at("stderr") + "'");
+  out.exit_code = shell(prefix + " '" + engine + "' --run '" + folder.at("job.json") + "' 2> '" +
+                        folder.at("stderr") + "'");
   out.result = read_result(folder.at("result.json"));
   out.log = text_of(folder.at("log.lammps"));
-  if (std::filesystem::exists(folder.at("trajectory.h5"))) out.trajectory = read_trajectory(folder.at("trajectory.h5"));
+  if (std::filesystem::exists(folder.at("trajectory.h5")))
+    out.trajectory = read_trajectory(folder.at("trajectory.h5"));
   if (std::filesystem::exists(folder.at("trajectory.csv")))
     out.trajectory = read_trajectory_csv(folder.at("trajectory.csv"), p.initial, p.job.bodies.size());
   std::vector<std::string> gauges;
   for (const JobGauge& gauge : p.job.gauges) gauges.push_back(gauge.metric);
-  if (std::filesystem::exists(folder.at("gauges.csv"))) read_gauges_csv(folder.at("gauges.csv"), gauges, out.trajectory);
+  if (std::filesystem::exists(folder.at("gauges.csv")))
+    read_gauges_csv(folder.at("gauges.csv"), gauges, out.trajectory);
   if (out.exit_code == 0 && std::filesystem::exists(folder.at("trajectory.h5")))
     for (const Snapshot& frame : out.trajectory.frames) {
       expect_sums(frame, p.initial);
@@ -123,14 +131,17 @@ inline void expect_commands_reach(const std::string& engine, Prepared p) {
 
 inline std::string info(const std::string& engine, const std::string& prefix = "") {
   const Folder folder;
-  return shell(prefix + " '" + engine + "' --info > '" + folder.at("info") + "'") == 0 ? text_of(folder.at("info")) : "";
+  return shell(prefix + " '" + engine + "' --info > '" + folder.at("info") + "'") == 0
+             ? text_of(folder.at("info"))
+             : "";
 }
 
 /// Exit code of a run on a job that is no job.
 inline int run_broken_job(const std::string& engine, const std::string& prefix = "") {
   const Folder folder;
   std::ofstream(folder.at("job.json")) << "{\"contract\": 1, \"case\":";
-  return shell(prefix + " '" + engine + "' --run '" + folder.at("job.json") + "' 2> '" + folder.at("stderr") + "'");
+  return shell(prefix + " '" + engine + "' --run '" + folder.at("job.json") + "' 2> '" + folder.at("stderr") +
+               "'");
 }
 
 }  // namespace tripoint::test

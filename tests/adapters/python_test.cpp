@@ -16,8 +16,8 @@ double position_error(const std::string& program) {
   const test::Prepared p = test::block({v, {}}, g, 1.0, 4, 0.01);
   double worst = 0.0;
   for (const Snapshot& s : test::run(program, p).trajectory.frames)
-    worst = std::max(worst,
-                     norm(s.bodies[0].position - p.job.bodies[0].properties.centre - s.time * v - (0.5 * s.time * s.time) * g));
+    worst = std::max(worst, norm(s.bodies[0].position - p.job.bodies[0].properties.centre - s.time * v -
+                                 (0.5 * s.time * s.time) * g));
   return worst;
 }
 
@@ -26,8 +26,8 @@ TEST(PythonEngine, FollowsTheParabola) { EXPECT_LT(position_error(engine), 1e-13
 TEST(PythonEngine, WithGravityWrongByOnePercentMissesByOnePercent) {
   const test::Folder folder;
   const std::string copy = folder.at("engine-wrong");
-  ASSERT_EQ(test::shell("sed 's/^GRAVITY_FACTOR = 1.0 /GRAVITY_FACTOR = 1.01 /' '" + engine + "' > '" + copy + "' && chmod +x '" +
-                        copy + "'"),
+  ASSERT_EQ(test::shell("sed 's/^GRAVITY_FACTOR = 1.0 /GRAVITY_FACTOR = 1.01 /' '" + engine + "' > '" + copy +
+                        "' && chmod +x '" + copy + "'"),
             0);
   EXPECT_NEAR(position_error(copy), 0.01 * 0.5 * 9.81, 1e-12);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What breaks, melts, freezes, flows in or is made to happen over MPI ranks, and checkpoints of them, beside one process.
+// What breaks, melts, freezes, flows in or is made to happen over MPI ranks, and checkpoints of them, beside
+// one process.
 #include <signal.h>
 
 #include <chrono>
@@ -25,7 +26,8 @@ Outcome expect_changes_equal(const Prepared& p, double owners_above = few_bodies
     SCOPED_TRACE(std::to_string(count) + " ranks");
     Outcome many = run_on(count, p, owners_above);
     expect_equal(one, many, count == 1 ? alone : shared);
-    EXPECT_EQ(many.result.extra.at("gatherings") > 0.0, count > 1) << "several decide of the whole, one holds it";
+    EXPECT_EQ(many.result.extra.at("gatherings") > 0.0, count > 1)
+        << "several decide of the whole, one holds it";
     if (count == 2) two = std::move(many);
   }
   return two;
@@ -75,7 +77,8 @@ TEST(Ranks, CarryDensityAsOneProcessDoes) {
   expect_changes_equal(p);
 }
 
-/// Wax flows in, and a layer is due at the time of each frame: whoever has lists of it already tells of it all the same.
+/// Wax flows in, and a layer is due at the time of each frame: whoever has lists of it already tells of it
+/// all the same.
 TEST(Ranks, TellOfALayerThatHasJustFlowedIn) {
   NEEDS_RANKS();
   Scene s = test::eventful().job.scene;
@@ -97,7 +100,8 @@ TEST(Ranks, GoBackTogetherWhereAGuardTrips) {
   EXPECT_NE(two.result.message.find("recovered"), std::string::npos) << two.result.message;
 }
 
-/// Goes on from the only checkpoint of another run, on that many ranks; 0: in one process of the engine tripoint.
+/// Goes on from the only checkpoint of another run, on that many ranks; 0: in one process of the engine
+/// tripoint.
 Outcome go_on(const test::Folder& from, Prepared p, int count) {
   namespace fs = std::filesystem;
   const test::Folder folder;
@@ -111,8 +115,8 @@ Outcome go_on(const test::Folder& from, Prepared p, int count) {
   write_particles(folder.at("particles.h5"), p.initial);
   write_job(folder.at("job.json"), p.job);
   Outcome out;
-  out.exit_code = test::shell("'" + (count > 0 ? over_ranks : one_process) + "' --run '" + folder.at("job.json") + "' 2> '" +
-                              folder.at("stderr") + "'");
+  out.exit_code = test::shell("'" + (count > 0 ? over_ranks : one_process) + "' --run '" +
+                              folder.at("job.json") + "' 2> '" + folder.at("stderr") + "'");
   out.result = read_result(folder.at("result.json"));
   if (out.exit_code == 0) out.trajectory = read_trajectory(folder.at("trajectory.h5"));
   return out;
@@ -120,8 +124,8 @@ Outcome go_on(const test::Folder& from, Prepared p, int count) {
 
 TEST(Ranks, GoOnFromACheckpointOnAnyNumberOfThem) {
   NEEDS_RANKS();
-  for (Prepared p :
-       {test::brittle_bar(true, Mode::corrected), test::merging_and_splitting(SolidKind::rigid), test::ringing_bar()}) {
+  for (Prepared p : {test::brittle_bar(true, Mode::corrected), test::merging_and_splitting(SolidKind::rigid),
+                     test::ringing_bar()}) {
     const Outcome unbroken = run_on(2, p);
     ASSERT_EQ(unbroken.exit_code, 0) << unbroken.result.message;
     p.job.settings["checkpoint_interval"] = 0.55 * p.job.scene.end_time;
@@ -129,8 +133,11 @@ TEST(Ranks, GoOnFromACheckpointOnAnyNumberOfThem) {
     const test::Folder folder;
     write_particles(folder.at("particles.h5"), p.initial);
     write_job(folder.at("job.json"), p.job);
-    ASSERT_EQ(test::shell("'" + over_ranks + "' --run '" + folder.at("job.json") + "' 2> '" + folder.at("stderr") + "'"), 0);
-    EXPECT_EQ(read_result(folder.at("result.json")).state_hash, unbroken.result.state_hash) << "a checkpoint changes no bit";
+    ASSERT_EQ(test::shell("'" + over_ranks + "' --run '" + folder.at("job.json") + "' 2> '" +
+                          folder.at("stderr") + "'"),
+              0);
+    EXPECT_EQ(read_result(folder.at("result.json")).state_hash, unbroken.result.state_hash)
+        << "a checkpoint changes no bit";
     for (const int count : {1, 2, 4}) {
       SCOPED_TRACE(std::to_string(count) + " ranks");
       const Outcome rest = go_on(folder, p, count);
@@ -141,13 +148,13 @@ TEST(Ranks, GoOnFromACheckpointOnAnyNumberOfThem) {
   }
 }
 
-/// Runs the job of that folder and sends these signals to the engine once the last rank has told that it steps. @return its exit
-/// code
+/// Runs the job of that folder and sends these signals to the engine once the last rank has told that it
+/// steps. @return its exit code
 int run_stopped(const test::Folder& folder, const std::vector<int>& signals) {
   int code = -1;
   std::thread engine([&] {
-    code = test::shell("'" + over_ranks + "' --run '" + folder.at("job.json") + "' 2> '" + folder.at("stderr") +
-                       "' & echo $! > '" + folder.at("process") + "'; wait $!");
+    code = test::shell("'" + over_ranks + "' --run '" + folder.at("job.json") + "' 2> '" +
+                       folder.at("stderr") + "' & echo $! > '" + folder.at("process") + "'; wait $!");
   });
   bool steps = false;
   for (int tries = 0; tries < 6000 && !steps; ++tries) {
@@ -200,7 +207,8 @@ TEST(Ranks, LeaveACheckpointWhereTheirTerminalCloses) {
   const Result result = read_result(folder.at("result.json"));
   EXPECT_TRUE(result.message.starts_with("interrupted at t = ")) << result.message;
   const std::string checkpoint = result.message.substr(result.message.rfind(' ') + 1);
-  EXPECT_TRUE(std::filesystem::exists(folder.at(std::filesystem::path(checkpoint).filename()))) << result.message;
+  EXPECT_TRUE(std::filesystem::exists(folder.at(std::filesystem::path(checkpoint).filename())))
+      << result.message;
 }
 
 TEST(Ranks, RefuseACheckpointOfAnotherScene) {
@@ -211,7 +219,9 @@ TEST(Ranks, RefuseACheckpointOfAnotherScene) {
   const test::Folder folder;
   write_particles(folder.at("particles.h5"), p.initial);
   write_job(folder.at("job.json"), p.job);
-  ASSERT_EQ(test::shell("'" + over_ranks + "' --run '" + folder.at("job.json") + "' 2> '" + folder.at("stderr") + "'"), 0);
+  ASSERT_EQ(test::shell("'" + over_ranks + "' --run '" + folder.at("job.json") + "' 2> '" +
+                        folder.at("stderr") + "'"),
+            0);
   p.job.scene.materials[0].density = 999.0;
   const Outcome refused = go_on(folder, p, 2);
   EXPECT_EQ(refused.exit_code, 4);

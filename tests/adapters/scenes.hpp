@@ -40,7 +40,8 @@ struct Spin {
   Vec3 velocity, angular_velocity;  ///< [m/s], [rad/s]
 };
 
-inline Body rigid(const std::string& name, const Shape& shape, const Spin& spin = {}, Motion motion = Motion::free) {
+inline Body rigid(const std::string& name, const Shape& shape, const Spin& spin = {},
+                  Motion motion = Motion::free) {
   Body b;
   b.name = name;
   b.material = "solid";
@@ -103,7 +104,8 @@ inline Prepared block(const Spin& spin, const Vec3& gravity, double end, int fra
 }
 
 /// A bar of D = 1e-6 m2/s along x, at rest, of `count` x 6 x 6 cells.
-inline Prepared bar(int count, double length, const TemperatureField& temperature, bool periodic, double end, int frames) {
+inline Prepared bar(int count, double length, const TemperatureField& temperature, bool periodic, double end,
+                    int frames) {
   Scene s;
   s.spacing = length / count;
   Material m = material(1000.0);

@@ -12,8 +12,8 @@
 namespace tripoint::architecture {
 namespace {
 
-/// room -> the rooms it may include beside itself. "effects" is what every effect is, "effects/*" each effect's folder.
-/// A room that is not here may be included by nobody it is not listed for.
+/// room -> the rooms it may include beside itself. "effects" is what every effect is, "effects/*" each
+/// effect's folder. A room that is not here may be included by nobody it is not listed for.
 const std::map<std::string, std::vector<std::string>, std::less<>> allowed{
     {"core", {}},
     {"tables", {"core"}},
@@ -29,42 +29,48 @@ const std::map<std::string, std::vector<std::string>, std::less<>> allowed{
     {"solids", {"core", "scene", "particles", "sph", "world"}},
     {"liquids", {"core", "scene", "particles", "sph", "world", "pairs"}},
     {"effects", {"core", "scene", "particles", "world", "pairs"}},
-    {"effects/*", {"core", "tables", "scene", "particles", "sph", "world", "pairs", "solids", "liquids", "effects"}},
+    {"effects/*",
+     {"core", "tables", "scene", "particles", "sph", "world", "pairs", "solids", "liquids", "effects"}},
     {"assembly", {"core", "scene", "particles", "sph", "world", "pairs", "effects", "effects/*"}},
     {"step", {"core", "scene", "particles", "world", "pairs", "solids", "effects", "assembly"}},
     {"adapters/engine", {"core", "files"}},
     {"adapters/tripoint",
-     {"core", "tables", "scene", "files", "particles", "sph", "world", "solids", "assembly", "step", "adapters/engine"}},
+     {"core", "tables", "scene", "files", "particles", "sph", "world", "solids", "assembly", "step",
+      "adapters/engine"}},
     {"adapters/bullet", {"core", "mesh", "scene", "files", "adapters/engine"}},
     {"adapters/lammps", {"core", "scene", "files", "adapters/engine"}},
     {"adapters/ranks",
-     {"core", "tables", "scene", "files", "particles", "world", "assembly", "step", "adapters/engine", "adapters/tripoint"}},
+     {"core", "tables", "scene", "files", "particles", "world", "assembly", "step", "adapters/engine",
+      "adapters/tripoint"}},
     {"validation/case", {"core", "tables", "mesh", "scene", "files"}},
     {"validation/references", {"core", "tables", "scene", "files", "validation/case"}},
-    {"validation/metrics", {"core", "tables", "mesh", "scene", "files", "validation/case", "validation/references"}},
+    {"validation/metrics",
+     {"core", "tables", "mesh", "scene", "files", "validation/case", "validation/references"}},
     {"validation/audit", {"core", "scene", "files", "validation/references", "validation/metrics"}},
     {"validation/results",
      {"core", "tables", "scene", "files", "validation/case", "validation/references", "validation/metrics"}},
     {"validation/judge", {"core", "scene", "validation/case", "validation/metrics", "validation/results"}},
     {"validation/run",
-     {"core", "tables", "scene", "files", "validation/case", "validation/references", "validation/metrics", "validation/audit",
-      "validation/results"}},
+     {"core", "tables", "scene", "files", "validation/case", "validation/references", "validation/metrics",
+      "validation/audit", "validation/results"}},
     {"validation/campaign",
-     {"core", "tables", "scene", "files", "validation/case", "validation/references", "validation/metrics", "validation/results",
-      "validation/judge", "validation/run"}},
+     {"core", "tables", "scene", "files", "validation/case", "validation/references", "validation/metrics",
+      "validation/results", "validation/judge", "validation/run"}},
     {"validation/baseline",
-     {"core", "tables", "scene", "files", "validation/case", "validation/results", "validation/judge", "validation/run",
-      "validation/campaign"}},
+     {"core", "tables", "scene", "files", "validation/case", "validation/results", "validation/judge",
+      "validation/run", "validation/campaign"}},
     {"validation/mutation",
-     {"core", "tables", "scene", "validation/case", "validation/results", "validation/judge", "validation/run",
-      "validation/campaign"}},
+     {"core", "tables", "scene", "validation/case", "validation/results", "validation/judge",
+      "validation/run", "validation/campaign"}},
     {"validation/publish",
-     {"core", "tables", "scene", "validation/case", "validation/results", "validation/judge", "validation/run",
-      "validation/campaign", "validation/baseline", "validation/mutation"}},
+     {"core", "tables", "scene", "validation/case", "validation/results", "validation/judge",
+      "validation/run", "validation/campaign", "validation/baseline", "validation/mutation"}},
     {"validation/queue",
-     {"core", "tables", "scene", "files", "validation/case", "validation/results", "validation/run", "validation/campaign"}},
+     {"core", "tables", "scene", "files", "validation/case", "validation/results", "validation/run",
+      "validation/campaign"}},
     {"adapters/exact", {"core", "scene", "files", "adapters/engine", "validation/references"}},
-    {"program/bench", {"core", "scene", "particles", "sph", "world", "pairs", "assembly", "step", "validation/case"}},
+    {"program/bench",
+     {"core", "scene", "particles", "sph", "world", "pairs", "assembly", "step", "validation/case"}},
     {"program/predict", {"core", "tables", "scene", "particles"}},
 };
 constexpr std::string_view sees_all = "program/cli";
@@ -93,7 +99,8 @@ constexpr std::array homes{
     Home{"mpi", "adapters/ranks"},
 };
 /// Seconds to compile each: only in a .cpp.
-constexpr std::array<std::string_view, 6> dear{"toml++/", "nlohmann/json.hpp", "CLI/", "boost/math/", "openvdb/", "Eigen/Eigen"};
+constexpr std::array<std::string_view, 6> dear{"toml++/",     "nlohmann/json.hpp", "CLI/",
+                                               "boost/math/", "openvdb/",          "Eigen/Eigen"};
 
 struct Include {
   std::size_t line;
@@ -126,15 +133,19 @@ std::vector<Include> includes_of(const Source& source) {
 
 /// The path from the project's root that a quoted include means; a bare name is a neighbour.
 std::string path_of(std::string_view target, std::string_view includer) {
-  if (target.find('/') == std::string_view::npos) return std::string(includer.substr(0, includer.rfind('/') + 1)).append(target);
+  if (target.find('/') == std::string_view::npos)
+    return std::string(includer.substr(0, includer.rfind('/') + 1)).append(target);
   const bool outside_src = target.starts_with("adapters/") || target.starts_with("validation/") ||
-                           target.starts_with("program/") || target.starts_with("tests/") || target.starts_with("src/");
+                           target.starts_with("program/") || target.starts_with("tests/") ||
+                           target.starts_with("src/");
   return outside_src ? std::string(target) : std::string("src/").append(target);
 }
 
 bool may_include(std::string_view from, std::string_view to) {
   if (from == to || from == sees_all) return true;
-  const auto general = [](std::string_view room) { return room.starts_with("effects/") ? std::string_view("effects/*") : room; };
+  const auto general = [](std::string_view room) {
+    return room.starts_with("effects/") ? std::string_view("effects/*") : room;
+  };
   const auto row = allowed.find(general(from));
   return row != allowed.end() && std::ranges::find(row->second, general(to)) != row->second.end();
 }
@@ -213,7 +224,8 @@ std::vector<Offence> strayed_libraries(const Source& source) {
       offend("used nowhere: one process an engine, and no MPI");
     else if (!rooms.empty() && !at_home)
       offend(fmt::format("belongs to {} only", rooms));
-    if (is_header && std::ranges::any_of(dear, is_of)) offend("seconds to compile: include it in a .cpp only");
+    if (is_header && std::ranges::any_of(dear, is_of))
+      offend("seconds to compile: include it in a .cpp only");
   }
   return found;
 }

@@ -33,7 +33,8 @@ TEST(Rooms, OfAFolderIncludeNoneOfAFolderAbove) {
   EXPECT_LT(height_of("effects/heat"), height_of("validation/judge"));
   EXPECT_LT(height_of("validation/references"), height_of("adapters/exact"));
   for (const auto& [room, others] : map_of_rooms())
-    for (const std::string& other : others) EXPECT_LE(height_of(other), height_of(room)) << room << " may include " << other;
+    for (const std::string& other : others)
+      EXPECT_LE(height_of(other), height_of(room)) << room << " may include " << other;
 }
 
 /// The first room of a circle of arrows that starts at `room`; "" where there is none.
@@ -56,29 +57,36 @@ TEST(Rooms, HaveArrowsOfOneDirection) {
 }
 
 TEST(Includes, UpTheChainAreNamedWithTheirLine) {
-  const auto found =
-      forbidden_includes(file("src/core/vec3.hpp", "#pragma once\n#include <cmath>\n#include \"sph/kernels.hpp\"\n"));
+  const auto found = forbidden_includes(
+      file("src/core/vec3.hpp", "#pragma once\n#include <cmath>\n#include \"sph/kernels.hpp\"\n"));
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].line, 3U);
-  EXPECT_EQ(found[0].message(), "src/core/vec3.hpp:3: core may not include sph\n    #include \"sph/kernels.hpp\"");
+  EXPECT_EQ(found[0].message(),
+            "src/core/vec3.hpp:3: core may not include sph\n    #include \"sph/kernels.hpp\"");
 }
 
 TEST(Includes, DownTheChainAreAllowed) {
-  EXPECT_TRUE(forbidden_includes(file("src/step/step.cpp",
-                                      "#include \"step/step.hpp\"\n#include \"assembly/plan.hpp\"\n#include \"core/vec3.hpp\"\n"))
-                  .empty());
-  EXPECT_TRUE(forbidden_includes(file("adapters/exact/exact.cpp", "#include \"validation/references/reference.hpp\"\n")).empty());
+  EXPECT_TRUE(
+      forbidden_includes(
+          file("src/step/step.cpp",
+               "#include \"step/step.hpp\"\n#include \"assembly/plan.hpp\"\n#include \"core/vec3.hpp\"\n"))
+          .empty());
   EXPECT_TRUE(forbidden_includes(
-                  file("program/cli/validate.cpp", "#include \"validation/campaign/suite.hpp\"\n#include \"step/step.hpp\"\n"))
+                  file("adapters/exact/exact.cpp", "#include \"validation/references/reference.hpp\"\n"))
                   .empty());
+  EXPECT_TRUE(
+      forbidden_includes(file("program/cli/validate.cpp",
+                              "#include \"validation/campaign/suite.hpp\"\n#include \"step/step.hpp\"\n"))
+          .empty());
 }
 
 TEST(Includes, OfTheJudgeNeverReachTheSolver) {
-  for (const auto* room : {"references", "metrics", "results", "judge", "run", "campaign", "baseline", "mutation", "publish"}) {
-    for (const auto* header :
-         {"assembly/plan.hpp", "effects/heat/heat.hpp", "step/step.hpp", "particles/columns.hpp", "sph/kernels.hpp"}) {
-      const auto found =
-          forbidden_includes(file(std::string("validation/") + room + "/a.cpp", std::string("#include \"") + header + "\"\n"));
+  for (const auto* room :
+       {"references", "metrics", "results", "judge", "run", "campaign", "baseline", "mutation", "publish"}) {
+    for (const auto* header : {"assembly/plan.hpp", "effects/heat/heat.hpp", "step/step.hpp",
+                               "particles/columns.hpp", "sph/kernels.hpp"}) {
+      const auto found = forbidden_includes(
+          file(std::string("validation/") + room + "/a.cpp", std::string("#include \"") + header + "\"\n"));
       EXPECT_EQ(found.size(), 1U) << room << " " << header;
     }
   }
@@ -93,11 +101,13 @@ TEST(Includes, OfOneEffectByAnotherAreRefusedAndTheListIsNot) {
 }
 
 TEST(Includes, OfOneEngineByAnotherAreRefused) {
-  EXPECT_EQ(forbidden_includes(file("adapters/bullet/a.cpp", "#include \"adapters/lammps/deck.hpp\"\n")).size(), 1U);
+  EXPECT_EQ(
+      forbidden_includes(file("adapters/bullet/a.cpp", "#include \"adapters/lammps/deck.hpp\"\n")).size(),
+      1U);
   EXPECT_EQ(forbidden_includes(file("adapters/bullet/a.cpp", "#  include \"step/step.hpp\"\n")).size(), 1U);
-  EXPECT_TRUE(
-      forbidden_includes(file("adapters/bullet/a.cpp", "#include \"world.hpp\"\n#include \"adapters/engine/engine.hpp\"\n"))
-          .empty());
+  EXPECT_TRUE(forbidden_includes(file("adapters/bullet/a.cpp",
+                                      "#include \"world.hpp\"\n#include \"adapters/engine/engine.hpp\"\n"))
+                  .empty());
 }
 
 TEST(Includes, FromARoomThatTheMapDoesNotKnowAreRefused) {
@@ -105,11 +115,12 @@ TEST(Includes, FromARoomThatTheMapDoesNotKnowAreRefused) {
 }
 
 TEST(Libraries, StayInTheirRooms) {
-  const std::vector<std::pair<std::string, std::string>> rooms{{"btBulletDynamicsCommon.h", "adapters/bullet"},
-                                                               {"lammps/library.h", "adapters/lammps"},
-                                                               {"hdf5.h", "src/files"},
-                                                               {"toml++/toml.h", "src/tables"},
-                                                               {"CLI/CLI.hpp", "program/cli"}};
+  const std::vector<std::pair<std::string, std::string>> rooms{
+      {"btBulletDynamicsCommon.h", "adapters/bullet"},
+      {"lammps/library.h", "adapters/lammps"},
+      {"hdf5.h", "src/files"},
+      {"toml++/toml.h", "src/tables"},
+      {"CLI/CLI.hpp", "program/cli"}};
   for (const auto& [header, room] : rooms) {
     const std::string line = "#include <" + header + ">\n";
     EXPECT_TRUE(strayed_libraries(file(room + "/a.cpp", line)).empty()) << header;
@@ -120,7 +131,8 @@ TEST(Libraries, StayInTheirRooms) {
 
 TEST(Libraries, ThatAreDearStayOutOfHeaders) {
   EXPECT_EQ(strayed_libraries(file("src/files/scene_json.hpp", "#include <nlohmann/json.hpp>\n")).size(), 1U);
-  EXPECT_TRUE(strayed_libraries(file("src/files/scene_json.hpp", "#include <nlohmann/json_fwd.hpp>\n")).empty());
+  EXPECT_TRUE(
+      strayed_libraries(file("src/files/scene_json.hpp", "#include <nlohmann/json_fwd.hpp>\n")).empty());
   EXPECT_TRUE(strayed_libraries(file("src/files/scene_json.cpp", "#include <nlohmann/json.hpp>\n")).empty());
 }
 

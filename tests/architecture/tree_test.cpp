@@ -19,18 +19,21 @@ namespace fs = std::filesystem;
 
 bool is_source(const fs::path& path) {
   constexpr std::array<std::string_view, 5> endings{".cpp", ".hpp", ".py", ".sh", ".cmake"};
-  return path.filename() == "CMakeLists.txt" || std::ranges::find(endings, path.extension().string()) != endings.end();
+  return path.filename() == "CMakeLists.txt" ||
+         std::ranges::find(endings, path.extension().string()) != endings.end();
 }
 
 std::vector<Source> read_tree() {
   const fs::path root = TRIPOINT_SOURCE_DIR;
   std::vector<Source> sources;
-  for (const auto* folder : {"src", "adapters", "validation", "program", "tests", "reports", "cmake", "tools", "python"}) {
+  for (const auto* folder :
+       {"src", "adapters", "validation", "program", "tests", "reports", "cmake", "tools", "python"}) {
     if (!fs::exists(root / folder)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
       if (!entry.is_regular_file() || !is_source(entry.path())) continue;
       std::ifstream in(entry.path(), std::ios::binary);
-      sources.push_back({fs::relative(entry.path(), root).generic_string(), {std::istreambuf_iterator<char>(in), {}}});
+      sources.push_back(
+          {fs::relative(entry.path(), root).generic_string(), {std::istreambuf_iterator<char>(in), {}}});
     }
   }
   std::ranges::sort(sources, {}, &Source::path);
@@ -84,7 +87,8 @@ TEST(ArchitecturePage, HasTheMapOfTheRooms) {
   for (const auto& [room, others] : map_of_rooms()) {
     std::string row = "| `" + room + "` | " + (others.empty() ? "nothing" : "");
     for (const std::string& other : others) row += (&other == &others.front() ? "`" : ", `") + other + "`";
-    EXPECT_NE(page.find(row + " |\n"), std::string::npos) << "docs/architecture.md should have the row\n" << row << " |";
+    EXPECT_NE(page.find(row + " |\n"), std::string::npos) << "docs/architecture.md should have the row\n"
+                                                          << row << " |";
   }
 }
 

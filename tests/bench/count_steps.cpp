@@ -19,7 +19,9 @@ void run_steps(Simulation& simulation, long steps) {
 }
 }  // namespace
 
-extern "C" [[gnu::noipa]] void counted_steps(Simulation& simulation, long steps) { run_steps(simulation, steps); }
+extern "C" [[gnu::noipa]] void counted_steps(Simulation& simulation, long steps) {
+  run_steps(simulation, steps);
+}
 
 int main(int argc, char** argv) {
   tripoint::set_settler(tripoint::settled);

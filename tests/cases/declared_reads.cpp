@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Whether the effects of cases ask for no column and tell no entry of the ledger that they have not declared: each case in all
-/// its modes, until its end or until a sum of particles and steps. The solver is that of the test build, which refuses other
-/// columns.
+/// Whether the effects of cases ask for no column and tell no entry of the ledger that they have not
+/// declared: each case in all its modes, until its end or until a sum of particles and steps. The solver is
+/// that of the test build, which refuses other columns.
 ///   declared-reads [--work PARTICLE_STEPS] CASE.toml...
 #include <fmt/format.h>
 
@@ -36,7 +36,8 @@ long run(const Case& read, Mode mode, double work) {
   choice.mode = mode;
   const Scene scene = scene_for(read, choice);
   const InitialState initial = sample(scene);
-  long steps = static_cast<long>(work / static_cast<double>(std::max<std::size_t>(1, initial.size()))) + 1, made = 0;
+  long steps = static_cast<long>(work / static_cast<double>(std::max<std::size_t>(1, initial.size()))) + 1,
+       made = 0;
   try {
     Simulation s(scene, initial, {.force_time_step = true});
     s.advance_to(scene.end_time, [&] { return ++made < steps; });

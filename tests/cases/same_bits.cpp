@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Whether cases have the same bits on any number of threads and at every vector width: a few steps of each, all columns, bonds,
-/// bookings and the order of rows compared with those of one thread that works a particle at a time, and on every pair.
+/// Whether cases have the same bits on any number of threads and at every vector width: a few steps of each,
+/// all columns, bonds, bookings and the order of rows compared with those of one thread that works a particle
+/// at a time, and on every pair.
 ///   same-bits [--steps MOST] [--budget PARTICLE-STEPS] CASE.toml...
 #include <fmt/format.h>
 
@@ -21,7 +22,8 @@ using namespace tripoint;
 
 namespace {
 
-/// Every number of threads that the project promises, and every width that this machine has, each at least once.
+/// Every number of threads that the project promises, and every width that this machine has, each at least
+/// once.
 std::vector<Way> ways() {
   std::vector<Way> list{{2, 1}, {7, 1}};
   if (machine_has_avx2()) {
@@ -37,8 +39,9 @@ std::vector<Way> ways() {
 }
 
 bool same(const std::vector<double>& a, const std::vector<double>& b) {
-  return std::ranges::equal(
-      a, b, [](double x, double y) { return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y); });
+  return std::ranges::equal(a, b, [](double x, double y) {
+    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+  });
 }
 
 /// Name of the first array in which two states differ; "" where none does.
@@ -58,7 +61,8 @@ bool agrees(const std::string& file, Mode mode, long most, double budget) {
   choice.mode = mode;
   const Scene scene = scene_for(reading.value, choice);
   const InitialState initial = sample(scene);
-  const auto afford = static_cast<long>(budget / static_cast<double>(std::max<std::size_t>(1, initial.size())));
+  const auto afford =
+      static_cast<long>(budget / static_cast<double>(std::max<std::size_t>(1, initial.size())));
   const long steps = std::clamp(afford, 2L, most);
   State oracle;
   try {
@@ -72,12 +76,12 @@ bool agrees(const std::string& file, Mode mode, long most, double budget) {
     std::string what = oracle.failure == other.failure ? difference(oracle.kept, other.kept) : "how it fails";
     if (what.empty() && oracle.pairs != other.pairs) what = "the number of pairs";
     if (what.empty()) continue;
-    fmt::print("{} {}: {} threads, {} lanes differ from 1 thread, 1 lane in {} after {} steps\n", reading.value.id,
-               to_string(mode), way.threads, way.lanes, what, steps);
+    fmt::print("{} {}: {} threads, {} lanes differ from 1 thread, 1 lane in {} after {} steps\n",
+               reading.value.id, to_string(mode), way.threads, way.lanes, what, steps);
     return false;
   }
-  fmt::print("{} {}: {} particles, {} steps, {:.0f} pairs{}\n", reading.value.id, to_string(mode), initial.size(), oracle.steps,
-             oracle.pairs, oracle.failure.empty() ? "" : ", fails alike");
+  fmt::print("{} {}: {} particles, {} steps, {:.0f} pairs{}\n", reading.value.id, to_string(mode),
+             initial.size(), oracle.steps, oracle.pairs, oracle.failure.empty() ? "" : ", fails alike");
   return true;
 }
 

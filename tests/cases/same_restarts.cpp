@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Whether cases that are cut and go on have the bits of one unbroken run: cut at the first steps, at steps in which particles
-/// melt, freeze, join, part, tear or flow in, and between; gone on with on 1, 2 and 3 threads, and from the cut of a cut.
+/// Whether cases that are cut and go on have the bits of one unbroken run: cut at the first steps, at steps
+/// in which particles melt, freeze, join, part, tear or flow in, and between; gone on with on 1, 2 and 3
+/// threads, and from the cut of a cut.
 ///   same-restarts [--budget PARTICLE-STEPS] [--every-step N] CASE.toml...
-/// --every-step N: cut after every step from 1 to N, and after every one of N steps about the first of each kind of change. A row
-/// a state says how many cuts lie in a step that melts, freezes, changes bodies, changes bonds, lets particles flow in or meets
-/// an event, and whether the run was cut after each of its steps to its end: then N and the budget have left nothing out.
+/// --every-step N: cut after every step from 1 to N, and after every one of N steps about the first of each
+/// kind of change. A row a state says how many cuts lie in a step that melts, freezes, changes bodies,
+/// changes bonds, lets particles flow in or meets an event, and whether the run was cut after each of its
+/// steps to its end: then N and the budget have left nothing out.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,8 +34,9 @@ constexpr long goes_on = 8;             ///< steps after a cut, where the run ha
 constexpr std::size_t most_turns = 12;  ///< cuts at a change, of each state
 
 bool same(const std::vector<double>& a, const std::vector<double>& b) {
-  return std::ranges::equal(
-      a, b, [](double x, double y) { return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y); });
+  return std::ranges::equal(a, b, [](double x, double y) {
+    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+  });
 }
 
 /// Name of the first array in which two states differ; "" where none does.
@@ -54,7 +57,8 @@ struct State {
   InitialState initial;
 };
 
-constexpr std::array kinds{"melts", "freezes", "bodies", "bonds", "inflow", "events"};  ///< of changes within a step
+/// Of changes within a step
+constexpr std::array kinds{"melts", "freezes", "bodies", "bonds", "inflow", "events"};
 
 /// Steps in which something changed: of any kind, and of each.
 struct Turns {
@@ -68,8 +72,10 @@ struct Counts {
   std::array<long, kinds.size()> of{};
 };
 
-/// Steps to an output, to the one after it and so on, as a run does, until go_on says no. It is told to which one the steps lead.
-/// @param output the first to step to, from 1: a run that recovers may have gone back behind one that it has written
+/// Steps to an output, to the one after it and so on, as a run does, until go_on says no. It is told to which
+/// one the steps lead.
+/// @param output the first to step to, from 1: a run that recovers may have gone back behind one that it has
+/// written
 void go(Simulation& s, const Scene& scene, long output, const std::function<bool(long)>& go_on) {
   const double every = scene.output_interval > 0.0 ? scene.output_interval : scene.end_time;
   for (;; ++output) {
@@ -83,14 +89,14 @@ void go(Simulation& s, const Scene& scene, long output, const std::function<bool
 /// Which kinds of change the last step brought, between `before` [s] and now.
 std::array<bool, kinds.size()> changes_of(const World& world, const Scene& scene, double before) {
   const Change& change = world.change;
-  const bool meets_event =
-      std::ranges::any_of(scene.events, [&](const Event& e) { return before < e.time && e.time <= world.time; });
+  const bool meets_event = std::ranges::any_of(
+      scene.events, [&](const Event& e) { return before < e.time && e.time <= world.time; });
   return {!change.melted.empty(),   !change.frozen.empty(), !change.bodies.empty(),
           !change.relisted.empty(), !change.born.empty(),   meets_event};
 }
 
-/// Steps of an unbroken run in which something changed, and how many it had. A step is counted each time that it is made: a run
-/// that recovers goes back, and makes steps of the same number again.
+/// Steps of an unbroken run in which something changed, and how many it had. A step is counted each time that
+/// it is made: a run that recovers goes back, and makes steps of the same number again.
 Turns turns_of(const State& state, long most, long& steps) {
   Turns turns;
   Simulation s(state.scene, state.initial, {.force_time_step = true});
@@ -138,7 +144,8 @@ struct Kept {
   long output = 1;
 };
 
-/// The state so many steps after a cut. @param cut_again after how many of them it is cut once more; as many: it is not
+/// The state so many steps after a cut. @param cut_again after how many of them it is cut once more; as many:
+/// it is not
 Checkpoint after(const State& state, const Kept& cut, int threads, long steps, long cut_again) {
   const SimulationOptions options{.threads = threads, .force_time_step = true};
   Simulation s(state.scene, state.initial, options, cut.state);
@@ -161,7 +168,8 @@ bool agrees(const std::string& name, const State& state, long most, Counts& coun
   long now = 0;
   go(unbroken, state.scene, 1, [&](long output) {
     ++now;
-    const bool is_goal = now == steps || cuts.contains(now - goes_on) || cuts.contains(now - goes_on - goes_on / 2);
+    const bool is_goal =
+        now == steps || cuts.contains(now - goes_on) || cuts.contains(now - goes_on - goes_on / 2);
     if (is_goal || cuts.contains(now)) at[now] = {unbroken.checkpoint(), output};
     return now < steps;
   });
@@ -173,8 +181,8 @@ bool agrees(const std::string& name, const State& state, long most, Counts& coun
       const std::string what = difference(at.at(goal).state, there);
       ++counts.restarts;
       if (what.empty()) continue;
-      fmt::print("{}: cut after step {} and gone on with on {} threads{}, {} differs at step {}\n", name, cut, threads,
-                 halfway ? ", cut again," : "", what, goal);
+      fmt::print("{}: cut after step {} and gone on with on {} threads{}, {} differs at step {}\n", name, cut,
+                 threads, halfway ? ", cut again," : "", what, goal);
       ++counts.unequal;
       return false;
     }
@@ -207,8 +215,8 @@ bool agrees(const std::string& file, Mode mode, double budget, Counts& counts) {
   const std::string name = fmt::format("{} {}", reading.value.id, to_string(mode));
   State state{scene_for(reading.value, choice), {}};
   state.initial = sample(state.scene);
-  const auto most =
-      static_cast<long>(std::clamp(budget / static_cast<double>(std::max<std::size_t>(1, state.initial.size())), 20.0, 5000.0));
+  const auto most = static_cast<long>(
+      std::clamp(budget / static_cast<double>(std::max<std::size_t>(1, state.initial.size())), 20.0, 5000.0));
   try {
     return agrees(name, state, most, counts);
   } catch (const InputError& e) {  // a scene that the solver does not take
@@ -239,16 +247,19 @@ int main(int argc, char** argv) {
         fmt::print("\n");
         continue;
       }
-      for (const Mode mode : read_case(argv[i]).value.modes) all = agrees(argv[i], mode, budget, counts) && all;
+      for (const Mode mode : read_case(argv[i]).value.modes)
+        all = agrees(argv[i], mode, budget, counts) && all;
     }
   } catch (const std::exception& e) {
     fmt::print(stderr, "same-restarts: {}\n", e.what());
     return 2;
   }
-  for (std::size_t k = 0; k < kinds.size() && counts.every_step > 0; ++k) fmt::print("{} cuts: {}\n", kinds[k], counts.of[k]);
+  for (std::size_t k = 0; k < kinds.size() && counts.every_step > 0; ++k)
+    fmt::print("{} cuts: {}\n", kinds[k], counts.of[k]);
   if (counts.every_step > 0)
-    fmt::print("{} states of {} cases cut after each of their steps to the end\n", counts.whole, counts.whole_cases.size());
-  fmt::print("{} states, {} cuts, {} of them at a change, {} restarts; {} more states with other bits\n", counts.states,
-             counts.cuts, counts.turns, counts.restarts, counts.unequal);
+    fmt::print("{} states of {} cases cut after each of their steps to the end\n", counts.whole,
+               counts.whole_cases.size());
+  fmt::print("{} states, {} cuts, {} of them at a change, {} restarts; {} more states with other bits\n",
+             counts.states, counts.cuts, counts.turns, counts.restarts, counts.unequal);
   return all && counts.states > 0 ? 0 : 1;
 }

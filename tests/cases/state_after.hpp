@@ -24,7 +24,9 @@ struct State {
 inline State state_after(const Scene& scene, const InitialState& initial, const Way& way, long steps) {
   State state;
   try {
-    Simulation s(scene, initial, {.threads = way.threads, .force_time_step = true, .lanes = way.lanes, .sums_all = way.sums_all});
+    Simulation s(
+        scene, initial,
+        {.threads = way.threads, .force_time_step = true, .lanes = way.lanes, .sums_all = way.sums_all});
     s.advance_to(scene.end_time, [&] {
       if (way.changes) s.use_threads(1 + static_cast<int>(s.steps() % 3));
       return --steps > 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Prints one hash a case and mode, of the whole state after some steps: of all columns, bonds, bookings and the order of rows.
-/// Two builds, two processors and two numbers of lanes must print the same text.
+/// Prints one hash a case and mode, of the whole state after some steps: of all columns, bonds, bookings and
+/// the order of rows. Two builds, two processors and two numbers of lanes must print the same text.
 ///   state-hashes [--steps N] [--lanes N] [--threads N] [--traps] CASE.toml...
 /// --traps: what is not a number, infinite or divided by zero ends the program by SIGFPE.
 #include <fmt/format.h>
@@ -86,7 +86,8 @@ int main(int argc, char** argv) {
           if (traps) feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
           const State state = state_after(scene, initial, way, steps);
           if (traps) fedisableexcept(FE_ALL_EXCEPT);
-          fmt::print("{} {} {} steps {:016x}\n", reading.value.id, to_string(mode), state.steps, hash_of(state));
+          fmt::print("{} {} {} steps {:016x}\n", reading.value.id, to_string(mode), state.steps,
+                     hash_of(state));
         }
       }
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// same_trajectory A.h5 B.h5: exit 0 when both show the same frames, bit for bit, else 1 with the first frame that differs.
+// same_trajectory A.h5 B.h5: exit 0 when both show the same frames, bit for bit, else 1 with the first frame
+// that differs.
 #include <cstdio>
 
 #include "files/trajectory.hpp"
@@ -18,6 +19,7 @@ int main(int argc, char** argv) {
     std::printf("frame %zu differs\n", f);
     return 1;
   }
-  if (a.frames.size() != b.frames.size()) std::printf("%zu frames against %zu\n", a.frames.size(), b.frames.size());
+  if (a.frames.size() != b.frames.size())
+    std::printf("%zu frames against %zu\n", a.frames.size(), b.frames.size());
   return a.frames.size() == b.frames.size() ? 0 : 1;
 }

@@ -115,7 +115,8 @@ using Deed = std::pair<const char*, std::function<bool()>>;
 std::vector<Deed> deeds(const char* file, pid_t parent) {
   return {{"writes a file", [=] { return ::open(file, O_WRONLY) >= 0; }},
           {"empties a file", [=] { return ::open(file, O_RDONLY | O_TRUNC) >= 0; }},
-          {"makes a file", [=] { return ::open((std::string(file) + ".new").c_str(), O_RDONLY | O_CREAT, 0600) >= 0; }},
+          {"makes a file",
+           [=] { return ::open((std::string(file) + ".new").c_str(), O_RDONLY | O_CREAT, 0600) >= 0; }},
           {"makes a file without a name", [] { return ::open("/tmp", O_RDWR | O_TMPFILE, 0600) >= 0; }},
           {"removes a file", [=] { return ::unlink(file) == 0; }},
           {"renames a file", [=] { return ::rename(file, (std::string(file) + ".other").c_str()) == 0; }},
@@ -124,12 +125,14 @@ std::vector<Deed> deeds(const char* file, pid_t parent) {
           {"starts a process", [] { return ::fork() >= 0; }},
           {"starts a program", [] { return ::execl("/bin/true", "true", nullptr) == 0; }},
           {"signals its parent", [=] { return ::kill(parent, 0) == 0; }},
-          {"has the system signal its parent", [=] { return ::fcntl(::open(folder, O_RDONLY), F_SETOWN, parent) == 0; }},
+          {"has the system signal its parent",
+           [=] { return ::fcntl(::open(folder, O_RDONLY), F_SETOWN, parent) == 0; }},
           {"chooses a signal", [] { return ::fcntl(::open(folder, O_RDONLY), F_SETSIG, SIGKILL) == 0; }},
           {"locks others out", [=] { return ::flock(::open(file, O_RDONLY), LOCK_EX | LOCK_NB) == 0; }},
           {"runs what it wrote",
            [] {
-             return ::mmap(nullptr, 4096, PROT_READ | PROT_WRITE | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) != MAP_FAILED;
+             return ::mmap(nullptr, 4096, PROT_READ | PROT_WRITE | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1,
+                           0) != MAP_FAILED;
            }},
           {"raises its limits", [] {
              const rlimit much{RLIM_INFINITY, RLIM_INFINITY};
@@ -141,14 +144,18 @@ TEST(ConfinedCopy, CanDoNothingButRead) {
   if (!is_confined_here()) GTEST_SKIP() << "this system cannot confine a reader";
   const FileOfText file;
   for (const auto& [name, deed] : deeds(file.path(), ::getpid())) {
-    const auto end = in_copy([&] { return std::string(deed() ? "worked" : errno == EPERM ? "refused" : "failed otherwise"); });
+    const auto end = in_copy([&] {
+      return std::string(deed() ? "worked" : errno == EPERM ? "refused" : "failed otherwise");
+    });
     EXPECT_EQ(end.how, How::read) << name;
     EXPECT_EQ(end.bytes, "refused") << name;
   }
 }
 
 std::string opened(const std::string& path) {
-  return ::open(path.c_str(), O_RDONLY) >= 0 ? "opened" : errno == EPERM || errno == EACCES ? "refused" : "failed otherwise";
+  return ::open(path.c_str(), O_RDONLY) >= 0 ? "opened"
+         : errno == EPERM || errno == EACCES ? "refused"
+                                             : "failed otherwise";
 }
 
 TEST(ConfinedCopy, SeesOneFolderAtMost) {
@@ -204,8 +211,9 @@ TEST(ConfinedCopy, HasNoOpenFileOfOurs) {
   const FileOfText file;
   const int ours = ::open(file.path(), O_WRONLY | O_APPEND), far = ::fcntl(ours, F_DUPFD, 500);
   ASSERT_GE(far, 500);
-  const auto end =
-      in_copy([far] { return std::string(::write(far, "x", 1) == 1 || ::fcntl(far, F_GETFD) >= 0 ? "ours" : "none"); });
+  const auto end = in_copy([far] {
+    return std::string(::write(far, "x", 1) == 1 || ::fcntl(far, F_GETFD) >= 0 ? "ours" : "none");
+  });
   EXPECT_EQ(end.bytes, "none");
   ::close(ours);
   ::close(far);

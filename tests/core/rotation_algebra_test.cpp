@@ -33,7 +33,8 @@ TEST(Quaternion, ProductAppliesTheRightFactorFirst) {
 TEST(Quaternion, AngleBetweenIsBlindToTheSign) {
   const Quaternion q = from_rotation_vector({0.1, 0.2, 0.3});
   EXPECT_NEAR(angle_between(q, {-q.w, -q.x, -q.y, -q.z}), 0.0, 1e-15);
-  EXPECT_NEAR(angle_between({}, from_rotation_vector({1e-9, 0.0, 0.0})), 1e-9, 1e-24);  // no loss at small angles
+  // No loss at small angles
+  EXPECT_NEAR(angle_between({}, from_rotation_vector({1e-9, 0.0, 0.0})), 1e-9, 1e-24);
 }
 
 TEST(Quaternion, SlerpGoesTheShorterWayAtConstantSpeed) {

@@ -26,12 +26,14 @@ std::string words_of_writing(const std::string& path) {
 
 TEST(WrittenFile, ThatCannotBeWrittenSaysTheReasonOfTheSystem) {
   EXPECT_EQ(words_of_writing("/dev/full"), "/dev/full: cannot be written: No space left on device");
-  EXPECT_EQ(words_of_writing("/no/such/folder/f"), "/no/such/folder/f: cannot be written: No such file or directory");
+  EXPECT_EQ(words_of_writing("/no/such/folder/f"),
+            "/no/such/folder/f: cannot be written: No such file or directory");
   EXPECT_EQ(words_of_writing("/"), "/: cannot be written: Is a directory");
 }
 
 TEST(WrittenFile, HoldsWhatWasAddedAndNothingOfBefore) {
-  const auto path = std::filesystem::temp_directory_path() / ("tripoint written " + std::to_string(::getpid()));
+  const auto path =
+      std::filesystem::temp_directory_path() / ("tripoint written " + std::to_string(::getpid()));
   std::ofstream(path) << "something longer than what follows";
   WrittenFile file(path);
   file.add("one ");

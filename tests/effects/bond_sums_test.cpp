@@ -56,8 +56,9 @@ struct Star {
     sum.list(lists.of(bonds, 0), lists.shapes(), places.data(), places[0], box, s);
     sum.partners(lists.of(bonds, 0), lists.shapes(), places.data(), deformed.data(), places[0], box, f);
     const Matrix3& m = r.moment;
-    return {s.displacement.x,   s.displacement.y,   s.displacement.z, s.swept.x,   s.swept.y,  s.swept.z, {m.xx, m.xy, m.xz},
-            {m.yx, m.yy, m.yz}, {m.zx, m.zy, m.zz}, r.gradient,       r.hourglass, s.residual, f.stress,  f.hourglass};
+    return {s.displacement.x, s.displacement.y,   s.displacement.z,   s.swept.x,          s.swept.y,
+            s.swept.z,        {m.xx, m.xy, m.xz}, {m.yx, m.yy, m.yz}, {m.zx, m.zy, m.zz}, r.gradient,
+            r.hourglass,      s.residual,         f.stress,           f.hourglass};
   }
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The liquid that carries its density: what its pair forms keep by construction, and that runs have the same bits.
+// The liquid that carries its density: what its pair forms keep by construction, and that runs have the same
+// bits.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -28,7 +29,9 @@ lab::Lab blob(int form, double gravity = 0.0) {
 }
 
 /// Stretched in one direction and pressed in the others, and turned.
-Vec3 strain(const Vec3& r) { return {r.x - 0.5 * r.y, 0.4 * r.x - 0.7 * r.y + 0.2 * r.z, -0.3 * r.z - 0.2 * r.y}; }
+Vec3 strain(const Vec3& r) {
+  return {r.x - 0.5 * r.y, 0.4 * r.x - 0.7 * r.y + 0.2 * r.z, -0.3 * r.z - 0.2 * r.y};
+}
 
 /// A column that presses on a floor; what is near the floor does not move.
 lab::Lab pressed(int form) {
@@ -46,7 +49,9 @@ INSTANTIATE_TEST_SUITE_P(CarriedLiquid, Forms, testing::Range(1, forms + 1));
 
 TEST_P(Forms, KeepMomentumToRoundOff) {
   lab::Lab lab = blob(GetParam());
-  lab::set_velocity(lab, [](const Vec3& r) { return Vec3{0.3, 0.1, 0.0} - strain(r - Vec3{0.4, 0.35, 0.3}); });
+  lab::set_velocity(lab, [](const Vec3& r) {
+    return Vec3{0.3, 0.1, 0.0} - strain(r - Vec3{0.4, 0.35, 0.3});
+  });
   Simulation s(lab.scene, lab.initial);
   const Vec3 before = s.ledger().momentum;
   s.advance_to(0.1);
@@ -54,11 +59,14 @@ TEST_P(Forms, KeepMomentumToRoundOff) {
   EXPECT_LT(norm(s.ledger().momentum - before), 1e-12 * norm(before));
 }
 
-/// Between renewals too: the corrections that are held make opposite forces, and a restart between two renewals goes on.
+/// Between renewals too: the corrections that are held make opposite forces, and a restart between two
+/// renewals goes on.
 TEST(CarriedLiquid, HoldsCorrectionsForThreeSteps) {
   lab::Lab lab = blob(1);
   lab.scene.time_step = 1e-3;
-  lab::set_velocity(lab, [](const Vec3& r) { return Vec3{0.3, 0.1, 0.0} - strain(r - Vec3{0.4, 0.35, 0.3}); });
+  lab::set_velocity(lab, [](const Vec3& r) {
+    return Vec3{0.3, 0.1, 0.0} - strain(r - Vec3{0.4, 0.35, 0.3});
+  });
   Simulation s(lab.scene, lab.initial);
   const Vec3 before = s.ledger().momentum;
   std::vector<double> B{s.world().particles[field::correction_xy][s.world().particles.row(5)]};
@@ -136,8 +144,8 @@ TEST(CarriedLiquid, RateIsExactForLinearVelocities) {
   EXPECT_GT(inside, 4);
 }
 
-/// A step without forces along the velocities of a turn spreads places by 1 + (omega dt)^2, and the density follows. The
-/// corrections that are held leave 1 % of it.
+/// A step without forces along the velocities of a turn spreads places by 1 + (omega dt)^2, and the density
+/// follows. The corrections that are held leave 1 % of it.
 TEST(CarriedLiquid, DensityFollowsAStepExactly) {
   lab::Lab lab = blob(4);
   lab.scene.materials[0].viscosity = 0.0;
@@ -150,19 +158,22 @@ TEST(CarriedLiquid, DensityFollowsAStepExactly) {
   for (std::size_t i = 0; i < p.size(); ++i) {
     const auto r = p.position(i) - Vec3{0.4, 0.35, 0.3};
     if (std::max({std::abs(r.x) - 0.1, std::abs(r.y) - 0.1, std::abs(r.z) - 0.05}) > 0.0) continue;
-    EXPECT_NEAR(p[field::density][i] / 1000.0, 1.0 / (1.0 + 4e-4), 1e-5);  // without the higher orders it stays 1
+    // Without the higher orders it stays 1
+    EXPECT_NEAR(p[field::density][i] / 1000.0, 1.0 / (1.0 + 4e-4), 1e-5);
   }
 }
 
 TEST_P(Forms, FallFreely) {
   lab::Lab lab = blob(GetParam(), 9.81);
   for (auto& r : lab.initial.position)
-    r = {0.1 * std::round(r.x / 0.1 - 0.5), 0.1 * std::round(r.y / 0.1 - 0.5), 0.1 * std::round(r.z / 0.1 - 0.5)};
+    r = {0.1 * std::round(r.x / 0.1 - 0.5), 0.1 * std::round(r.y / 0.1 - 0.5),
+         0.1 * std::round(r.z / 0.1 - 0.5)};
   const auto before = lab.initial.position;
   Simulation s(lab.scene, lab.initial);
   s.advance_to(0.3);
   const auto now = lab::positions_by_id(s);
-  for (std::size_t i = 0; i < now.size(); ++i) EXPECT_LT(norm(now[i] - before[i] - Vec3{0.0, 0.0, -0.5 * 9.81 * 0.09}), 1e-6);
+  for (std::size_t i = 0; i < now.size(); ++i)
+    EXPECT_LT(norm(now[i] - before[i] - Vec3{0.0, 0.0, -0.5 * 9.81 * 0.09}), 1e-6);
 }
 
 TEST_P(Forms, HaveTheSameBitsOnAnyThreads) {
@@ -180,7 +191,9 @@ TEST_P(Forms, GoOnFromACheckpointWithTheSameBits) {
   const lab::Lab lab = pressed(GetParam());
   Simulation s(lab.scene, lab.initial);
   s.advance_to(0.01);
-  s.advance_to(0.02, [&] { return s.world().step_numbers[StepNumber{"carried_steps_held", 0.0}] != 1.0 && GetParam() == 1; });
+  s.advance_to(0.02, [&] {
+    return s.world().step_numbers[StepNumber{"carried_steps_held", 0.0}] != 1.0 && GetParam() == 1;
+  });
   const Checkpoint cut = s.checkpoint();
   s.advance_to(0.02);
   Simulation again(lab.scene, lab.initial, {}, cut);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Liquid that carries its density beside solids that touch, deform, melt and freeze, and where liquid flows in.
+// Liquid that carries its density beside solids that touch, deform, melt and freeze, and where liquid flows
+// in.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -45,7 +46,8 @@ lab::Lab wet_hit() {
   std::vector<Vec3> liquid;
   for (int n = 0; n < 14 * 9 * 9; ++n) {
     const int x = n % 14, y = n / 14 % 9, z = n / 126;
-    if (!(x >= 4 && x < 10 && y >= 3 && y < 6 && z >= 3 && z < 6)) liquid.push_back(dx * Vec3{double(x), double(y), double(z)});
+    if (!(x >= 4 && x < 10 && y >= 3 && y < 6 && z >= 3 && z < 6))
+      liquid.push_back(dx * Vec3{double(x), double(y), double(z)});
   }
   lab.add_points({.name = "water", .phase = Phase::liquid}, liquid, 1000.0 * dx * dx * dx);
   add_hit(lab, {4.0 * dx, 3.0 * dx, 3.0 * dx}, 0.5);
@@ -98,7 +100,8 @@ TEST(CarriedSolids, CoverLiquidThatStartsAtTheHeadBesideThem) {
   std::vector<Vec3> liquid;
   for (int n = 0; n < 10 * 10 * 8; ++n) {
     const int x = n % 10, y = n / 10 % 10, z = n / 100;
-    if (!(z >= 6 && x >= 3 && x < 7 && y >= 3 && y < 7)) liquid.push_back(dx * Vec3{double(x), double(y), double(z)});
+    if (!(z >= 6 && x >= 3 && x < 7 && y >= 3 && y < 7))
+      liquid.push_back(dx * Vec3{double(x), double(y), double(z)});
   }
   lab.add_points({.name = "water", .phase = Phase::liquid}, liquid, 1000.0 * dx * dx * dx);
   lab.add({.name = "float", .material = 1, .corner = {3.0 * dx, 3.0 * dx, 6.0 * dx}, .count = {4, 4, 4}});
@@ -124,10 +127,15 @@ lab::Lab pool_and_block(double pool, double block) {
   std::vector<Vec3> liquid;
   for (int n = 0; n < 6 * 6 * 8; ++n) {
     const int x = n % 6, y = n / 6 % 6, z = n / 36;
-    if (!(z >= 2 && z < 4 && x >= 2 && x < 4 && y >= 2 && y < 4)) liquid.push_back(dx * Vec3{double(x), double(y), double(z)});
+    if (!(z >= 2 && z < 4 && x >= 2 && x < 4 && y >= 2 && y < 4))
+      liquid.push_back(dx * Vec3{double(x), double(y), double(z)});
   }
-  lab.add_points({.name = "pool", .phase = Phase::liquid, .temperature = lab::constant(pool)}, liquid, 1000.0 * dx * dx * dx);
-  lab.add({.name = "block", .corner = {2.0 * dx, 2.0 * dx, 2.0 * dx}, .count = {2, 2, 2}, .temperature = lab::constant(block)});
+  lab.add_points({.name = "pool", .phase = Phase::liquid, .temperature = lab::constant(pool)}, liquid,
+                 1000.0 * dx * dx * dx);
+  lab.add({.name = "block",
+           .corner = {2.0 * dx, 2.0 * dx, 2.0 * dx},
+           .count = {2, 2, 2},
+           .temperature = lab::constant(block)});
   lab.add({.name = "floor",
            .material = 1,
            .corner = {0.0, 0.0, -3.0 * dx},

@@ -6,12 +6,15 @@
 namespace tripoint {
 namespace {
 
-const Vec3& velocity_of(const Simulation& s, std::size_t body) { return s.world().bodies[field::body_velocity][body]; }
+const Vec3& velocity_of(const Simulation& s, std::size_t body) {
+  return s.world().bodies[field::body_velocity][body];
+}
 
 lab::Lab two_blocks(double stiffness, double speed, double offset) {
   lab::Lab lab = lab::liquid_lab(0.1, 1000.0, 0.0, stiffness);
   lab.add({.name = "left", .corner = {-0.55, 0.0, 0.0}, .count = {4, 4, 4}, .velocity = {speed, 0.0, 0.0}});
-  lab.add({.name = "right", .corner = {0.05, offset, 0.0}, .count = {4, 4, 4}, .velocity = {-speed, 0.0, 0.0}});
+  lab.add(
+      {.name = "right", .corner = {0.05, offset, 0.0}, .count = {4, 4, 4}, .velocity = {-speed, 0.0, 0.0}});
   return lab;
 }
 
@@ -21,7 +24,8 @@ TEST(HeadOn, EqualBlocksBounceWithTheirEnergyToOneInAThousand) {
   lab.scene.time_step = 1e-3;
   const Simulation s = lab.run(1.0);
   EXPECT_LT(velocity_of(s, 0).x, 0.0);
-  const double kinetic = dot(velocity_of(s, 0), velocity_of(s, 0)) + dot(velocity_of(s, 1), velocity_of(s, 1));
+  const double kinetic =
+      dot(velocity_of(s, 0), velocity_of(s, 0)) + dot(velocity_of(s, 1), velocity_of(s, 1));
   EXPECT_NEAR(kinetic / (2.0 * 0.25), 1.0, 1e-3);
   EXPECT_NEAR(velocity_of(s, 0).x + velocity_of(s, 1).x, 0.0, 1e-13);
 }

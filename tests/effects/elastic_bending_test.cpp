@@ -11,20 +11,24 @@ namespace {
 
 using lab::dx;
 
-lab::Lab bending_block(const std::array<int, 3>& count, double jitter = 0.1, double bending = 1.0, Mode mode = Mode::corrected) {
+lab::Lab bending_block(const std::array<int, 3>& count, double jitter = 0.1, double bending = 1.0,
+                       Mode mode = Mode::corrected) {
   lab::Lab lab = lab::elastic_lab(dx, 0.3, mode);
   lab.scene.values["bending"] = bending;
   lab.add({.count = count, .phase = Phase::elastic});
-  lab::jitter_all(lab, jitter, {count[0] > 1 ? 1.0 : 0.0, count[1] > 1 ? 1.0 : 0.0, count[2] > 1 ? 1.0 : 0.0});
+  lab::jitter_all(lab, jitter,
+                  {count[0] > 1 ? 1.0 : 0.0, count[1] > 1 ? 1.0 : 0.0, count[2] > 1 ? 1.0 : 0.0});
   return lab;
 }
 
 TEST(ElasticBending, ForcesAreMinusTheGradientOfTheEnergy) {
   for (const double bending : {1.0, 0.4})
-    for (const std::array<int, 3>& count : {std::array{5, 4, 4}, std::array{6, 2, 2}, std::array{5, 5, 1}, std::array{7, 1, 1}}) {
+    for (const std::array<int, 3>& count :
+         {std::array{5, 4, 4}, std::array{6, 2, 2}, std::array{5, 5, 1}, std::array{7, 1, 1}}) {
       lab::Deformable body(bending_block(count, 0.1, bending));
       body.place(lab::bent);
-      EXPECT_LT(worst_gradient_error(body), 1e-7) << bending << ": " << count[0] << count[1] << count[2];  // noise of differences
+      // Noise of differences
+      EXPECT_LT(worst_gradient_error(body), 1e-7) << bending << ": " << count[0] << count[1] << count[2];
     }
   lab::Lab without = bending_block({4, 4, 4});
   without.scene.values["hourglass"] = 0.0;
@@ -104,8 +108,9 @@ TEST(ElasticBending, HasTheEnergyOfABentBarWithOrderTwo) {
   double before = 0.0;
   for (const int across : {4, 6, 8, 12}) {
     const double error = energy_in_bending(across, 1.0) - 1.0, plain = energy_in_bending(across, 0.0) - 1.0;
-    EXPECT_NEAR(error * across * across, -1.0, 0.4) << across;  // layers at their middles have (n^2 - 1)/n^2 of the second moment
-    EXPECT_LT(plain, 2.0 * error) << across;                    // without it: of first order in the spacing
+    // Layers at their middles have (n^2 - 1)/n^2 of the second moment
+    EXPECT_NEAR(error * across * across, -1.0, 0.4) << across;
+    EXPECT_LT(plain, 2.0 * error) << across;  // without it: of first order in the spacing
     if (before != 0.0) {
       EXPECT_LT(std::abs(error), std::abs(before));
     }
@@ -119,13 +124,15 @@ TEST(ElasticBending, ChangesSurfacesOfSolidsAloneAndNothingAsPrinted) {
   lab::Deformable on(bending_block({7, 7, 7}, 0.0)), off(bending_block({7, 7, 7}, 0.0, 0.0));
   on.place(lab::bent);
   off.place(lab::bent);
-  EXPECT_LT(size(on.strain(171) - off.strain(171)), 1e-14);  // the middle one: round-off of sums in another order
-  EXPECT_GT(size(on.strain(24) - off.strain(24)), 1e-3);     // of a face
+  // The middle one: round-off of sums in another order
+  EXPECT_LT(size(on.strain(171) - off.strain(171)), 1e-14);
+  EXPECT_GT(size(on.strain(24) - off.strain(24)), 1e-3);  // of a face
   for (const std::array<int, 3>& count : {std::array{5, 5, 1}, std::array{7, 1, 1}}) {
     lab::Deformable flat(bending_block(count)), flat_off(bending_block(count, 0.1, 0.0));
     flat.place(lab::bent);
     flat_off.place(lab::bent);
-    for (std::size_t id = 0; id < flat.size(); ++id) EXPECT_LT(size(flat.strain(id) - flat_off.strain(id)), 1e-14);
+    for (std::size_t id = 0; id < flat.size(); ++id)
+      EXPECT_LT(size(flat.strain(id) - flat_off.strain(id)), 1e-14);
   }
   lab::Deformable printed(bending_block({4, 4, 4}, 0.1, 1.0, Mode::paper)),
       printed_off(bending_block({4, 4, 4}, 0.1, 0.0, Mode::paper));
@@ -145,7 +152,8 @@ TEST(ElasticBending, FollowsListsThatLoseBonds) {
   body.place(lab::bent);
   EXPECT_LT(worst_gradient_error(body), 1e-7);
   const Bond& side = w.bonds.of(62)[0];
-  EXPECT_GT(norm(cross(side.gradient, side.x)), 1e-3 * norm(side.gradient) * norm(side.x));  // no longer along the bond
+  // No longer along the bond
+  EXPECT_GT(norm(cross(side.gradient, side.x)), 1e-3 * norm(side.gradient) * norm(side.x));
 }
 
 }  // namespace

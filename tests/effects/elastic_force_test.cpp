@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Forces are the gradient of the stored energy, and keep momentum and angular momentum, for lists of every kind.
+// Forces are the gradient of the stored energy, and keep momentum and angular momentum, for lists of every
+// kind.
 #include <gtest/gtest.h>
 
 #include "effects/solid_lab.hpp"
@@ -12,15 +13,18 @@ using lab::dx;
 lab::Lab block(const std::array<int, 3>& count, Mode mode = Mode::corrected, double jitter = 0.1) {
   lab::Lab lab = lab::elastic_lab(dx, 0.3, mode);
   lab.add({.count = count, .phase = Phase::elastic});
-  lab::jitter_all(lab, jitter, {count[0] > 1 ? 1.0 : 0.0, count[1] > 1 ? 1.0 : 0.0, count[2] > 1 ? 1.0 : 0.0});
+  lab::jitter_all(lab, jitter,
+                  {count[0] > 1 ? 1.0 : 0.0, count[1] > 1 ? 1.0 : 0.0, count[2] > 1 ? 1.0 : 0.0});
   return lab;
 }
 
 TEST(ElasticForce, IsMinusTheGradientOfTheEnergyForSolidsSheetsAndChains) {
-  for (const std::array<int, 3>& count : {std::array{5, 4, 4}, std::array{5, 5, 1}, std::array{7, 1, 1}, std::array{2, 1, 1}}) {
+  for (const std::array<int, 3>& count :
+       {std::array{5, 4, 4}, std::array{5, 5, 1}, std::array{7, 1, 1}, std::array{2, 1, 1}}) {
     lab::Deformable body(block(count));
     body.place(lab::bent);
-    EXPECT_LT(worst_gradient_error(body), 1e-7) << count[0] << count[1] << count[2];  // noise of differences: 1e-16 U/(step f)
+    // Noise of differences: 1e-16 U/(step f)
+    EXPECT_LT(worst_gradient_error(body), 1e-7) << count[0] << count[1] << count[2];
   }
 }
 
@@ -49,7 +53,8 @@ TEST(ElasticForce, WithoutHourglassIsTheGradientToo) {
 
 TEST(ElasticForce, ReachesAsFarAsTheSceneSays) {
   for (const auto& [reach, within] :
-       {std::pair{1.2, 6U}, {1.6, 18U}, {2.12, 32U}, {2.5, 80U}}) {  // vectors of the cubic lattice that are shorter
+       // Vectors of the cubic lattice that are shorter
+       {std::pair{1.2, 6U}, {1.6, 18U}, {2.12, 32U}, {2.5, 80U}}) {
     lab::Lab lab = block({7, 7, 7}, Mode::corrected, 0.0);
     lab.scene.values["bond_reach"] = reach;
     const Simulation simulation(lab.scene, lab.initial, {.threads = 1});
@@ -109,14 +114,18 @@ TEST(ElasticForce, AcrossTheSeamOfAPeriodicBoxIsThatOfTheSameBarElsewhere) {
   const auto squeezed = [](const Vec3& r) { return Vec3{1.02 * r.x, r.y, 0.98 * r.z}; };
   here.place(squeezed);
   there.place(squeezed);
-  for (std::size_t id = 0; id < here.size(); ++id) EXPECT_NEAR(norm(here.force(id) - there.force(id)), 0.0, 1e-13 * dx * dx);
+  for (std::size_t id = 0; id < here.size(); ++id)
+    EXPECT_NEAR(norm(here.force(id) - there.force(id)), 0.0, 1e-13 * dx * dx);
   EXPECT_GT(here.greatest_force(), 1e-3 * dx * dx);
 }
 
 TEST(ElasticForce, OnTheMembersOfARigidBodyIsWhatTheirElasticPartnersGive) {
   lab::Lab lab = block({4, 4, 4});
-  lab.add(
-      {.name = "clamp", .corner = {-2.0 * dx, 0.0, 0.0}, .count = {2, 4, 4}, .phase = Phase::elastic, .motion = Motion::fixed});
+  lab.add({.name = "clamp",
+           .corner = {-2.0 * dx, 0.0, 0.0},
+           .count = {2, 4, 4},
+           .phase = Phase::elastic,
+           .motion = Motion::fixed});
   lab.scene.bodies[0].joined_to = {"clamp"};
   lab::Deformable body(lab);
   body.place(lab::bent);

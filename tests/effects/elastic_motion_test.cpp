@@ -13,13 +13,19 @@ using lab::dx;
 
 lab::Lab spinning(Mode mode, const std::array<int, 3>& count = {5, 5, 5}) {
   lab::Lab lab = lab::elastic_lab(dx, 0.3, mode);
-  lab.add({.count = count, .phase = Phase::elastic, .velocity = {0.1, 0.0, 0.0}, .angular_velocity = {0.0, 0.0, 1.0}});
+  lab.add({.count = count,
+           .phase = Phase::elastic,
+           .velocity = {0.1, 0.0, 0.0},
+           .angular_velocity = {0.0, 0.0, 1.0}});
   return lab;
 }
 
 TEST(ElasticMotion, ASpinningBlockTurnsAsARigidOneWould) {
   lab::Lab lab = lab::elastic_lab(dx);
-  lab.add({.count = {5, 5, 5}, .phase = Phase::elastic, .velocity = {0.01, 0.0, 0.0}, .angular_velocity = {0.0, 0.0, 0.2}});
+  lab.add({.count = {5, 5, 5},
+           .phase = Phase::elastic,
+           .velocity = {0.01, 0.0, 0.0},
+           .angular_velocity = {0.0, 0.0, 0.2}});
   Simulation s(lab.scene, lab.initial);
   const Ledger start = s.ledger();
   s.advance_to(15.0);
@@ -27,19 +33,25 @@ TEST(ElasticMotion, ASpinningBlockTurnsAsARigidOneWould) {
   EXPECT_NEAR(norm(end.angular_momentum - start.angular_momentum) / norm(start.angular_momentum), 0.0,
               1e-12);  // round-off of some 1000 steps
   EXPECT_NEAR(norm(end.momentum - start.momentum), 0.0, 1e-13);
-  const Vec3 corner = s.world().particles.position(s.world().particles.row(0)) - whole_motion(s.world(), 0).centre;
-  EXPECT_NEAR(std::remainder(std::atan2(corner.y, corner.x) - std::atan2(-1.0, -1.0) - 3.0, 6.283185307179586), 0.0,
-              0.02);  // it widens by rho w^2 R^2/(3 E) = 0.2 %, and turns that much twice more slowly
+  const Vec3 corner =
+      s.world().particles.position(s.world().particles.row(0)) - whole_motion(s.world(), 0).centre;
+  EXPECT_NEAR(
+      std::remainder(std::atan2(corner.y, corner.x) - std::atan2(-1.0, -1.0) - 3.0, 6.283185307179586), 0.0,
+      0.02);  // it widens by rho w^2 R^2/(3 E) = 0.2 %, and turns that much twice more slowly
 }
 
 TEST(ElasticMotion, TheWholeOfASpinningBlockMovesAsItWasStarted) {
   lab::Lab lab = lab::elastic_lab(dx);
   const Vec3 velocity{0.1, -0.2, 0.3}, spin{0.5, -0.3, 0.2};
-  lab.add(
-      {.corner = {3.0, -2.0, 1.0}, .count = {5, 4, 3}, .phase = Phase::elastic, .velocity = velocity, .angular_velocity = spin});
+  lab.add({.corner = {3.0, -2.0, 1.0},
+           .count = {5, 4, 3},
+           .phase = Phase::elastic,
+           .velocity = velocity,
+           .angular_velocity = spin});
   const WholeMotion whole = whole_motion(Simulation(lab.scene, lab.initial).world(), 0);
   EXPECT_NEAR(norm(whole.velocity - velocity), 0.0, 1e-14);
-  EXPECT_NEAR(norm(whole.spin - spin), 0.0, 1e-13);  // round-off of moments about the origin, 40 times those about the centre
+  // round-off of moments about the origin, 40 times those about the centre
+  EXPECT_NEAR(norm(whole.spin - spin), 0.0, 1e-13);
 }
 
 TEST(ElasticMotion, KeepsItsLedgerToTheSquareOfTheStep) {
@@ -78,8 +90,11 @@ TEST(ElasticMotion, HasTheSameBitsWhateverTheThreads) {
 
 TEST(ElasticMotion, GoesOnFromACheckpointWithTheSameBits) {
   lab::Lab lab = spinning(Mode::corrected, {6, 5, 4});
-  lab.add(
-      {.name = "clamp", .corner = {-2.0 * dx, 0.0, 0.0}, .count = {2, 5, 4}, .phase = Phase::elastic, .motion = Motion::fixed});
+  lab.add({.name = "clamp",
+           .corner = {-2.0 * dx, 0.0, 0.0},
+           .count = {2, 5, 4},
+           .phase = Phase::elastic,
+           .motion = Motion::fixed});
   lab.scene.bodies[0].joined_to = {"clamp"};
   Simulation whole(lab.scene, lab.initial);
   whole.advance_to(0.2);
@@ -92,16 +107,21 @@ TEST(ElasticMotion, GoesOnFromACheckpointWithTheSameBits) {
 }
 
 TEST(ElasticMotion, StaysBoundedAtItsTimeStepWhateverRingsInABlockThatIsHeld) {
-  for (const auto& [poisson, bending] : {std::pair{0.3, 0.0}, {0.45, 0.0}, {0.49, 0.0}, {0.3, 1.0}, {0.45, 1.0}, {0.49, 1.0}}) {
+  for (const auto& [poisson, bending] :
+       {std::pair{0.3, 0.0}, {0.45, 0.0}, {0.49, 0.0}, {0.3, 1.0}, {0.45, 1.0}, {0.49, 1.0}}) {
     lab::Lab lab = lab::elastic_lab(dx, poisson);
     lab.scene.values["bending"] = bending;
     lab.add({.count = {4, 4, 4}, .phase = Phase::elastic});
-    lab.add(
-        {.name = "clamp", .corner = {-2.0 * dx, 0.0, 0.0}, .count = {2, 4, 4}, .phase = Phase::elastic, .motion = Motion::fixed});
+    lab.add({.name = "clamp",
+             .corner = {-2.0 * dx, 0.0, 0.0},
+             .count = {2, 4, 4},
+             .phase = Phase::elastic,
+             .motion = Motion::fixed});
     lab.scene.bodies[0].joined_to = {"clamp"};
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> uniform(-1e-3, 1e-3);
-    for (std::size_t i = 0; i < 64; ++i) lab.initial.velocity[i] = {uniform(random), uniform(random), uniform(random)};
+    for (std::size_t i = 0; i < 64; ++i)
+      lab.initial.velocity[i] = {uniform(random), uniform(random), uniform(random)};
     Simulation s(lab.scene, lab.initial);
     const double kinetic = s.ledger().energy.at("kinetic");
     s.advance_to(500.0 * s.bound().dt);
@@ -110,8 +130,9 @@ TEST(ElasticMotion, StaysBoundedAtItsTimeStepWhateverRingsInABlockThatIsHeld) {
   }
 }
 
-/// Modes of a free bar about rest, by the forces that the solver gives: frequencies ascending and how rough each mode is, the
-/// mean square difference of nearest neighbours over the mean square of the mode; a mode that alternates has about 4 a direction.
+/// Modes of a free bar about rest, by the forces that the solver gives: frequencies ascending and how rough
+/// each mode is, the mean square difference of nearest neighbours over the mean square of the mode; a mode
+/// that alternates has about 4 a direction.
 struct Modes {
   Eigen::VectorXd squares;
   std::vector<double> roughness;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a deformation must be seen as: nothing for a rigid motion, itself for a homogeneous one, whatever the layout.
+// What a deformation must be seen as: nothing for a rigid motion, itself for a homogeneous one, whatever the
+// layout.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -27,7 +28,8 @@ std::vector<Vec3> lattice(const std::array<int, 3>& count) {
 std::vector<Vec3> jittered(std::vector<Vec3> points, const Vec3& amplitude) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> uniform(-dx, dx);
-  for (Vec3& r : points) r += {amplitude.x * uniform(random), amplitude.y * uniform(random), amplitude.z * uniform(random)};
+  for (Vec3& r : points)
+    r += {amplitude.x * uniform(random), amplitude.y * uniform(random), amplitude.z * uniform(random)};
   return points;
 }
 
@@ -37,7 +39,8 @@ std::vector<Layout> layouts() {
           {"line", lattice({3, 1, 1})},
           {"flat nine, jittered out of its plane", jittered(lattice({3, 3, 1}), {0.0, 0.0, 0.05})},
           {"sheet", lattice({4, 5, 1})},
-          {"jittered five", jittered({{0, 0, 0}, {dx, 0, 0}, {0, dx, 0}, {0, 0, dx}, {dx, dx, 0}}, {0.2, 0.2, 0.2})},
+          {"jittered five",
+           jittered({{0, 0, 0}, {dx, 0, 0}, {0, dx, 0}, {0, 0, dx}, {dx, dx, 0}}, {0.2, 0.2, 0.2})},
           {"block", lattice({5, 5, 5})},
           {"jittered block", jittered(lattice({5, 5, 5}), {0.2, 0.2, 0.2})}};
 }
@@ -51,8 +54,8 @@ lab::Deformable made(const std::vector<Vec3>& points, Mode mode = Mode::correcte
 TEST(ElasticStrain, IsNothingUnderAnyRigidMotionAndSoAreForceAndHourglass) {
   for (const Layout& layout : layouts()) {
     lab::Deformable body = made(layout.points);
-    for (const Vec3 angle :
-         {Vec3{0.1, 0.0, 0.0}, Vec3{0.0, std::numbers::pi / 2.0, 0.0}, Vec3{1.0, -2.0, 0.5}, Vec3{0.0, 0.0, std::numbers::pi}}) {
+    for (const Vec3 angle : {Vec3{0.1, 0.0, 0.0}, Vec3{0.0, std::numbers::pi / 2.0, 0.0},
+                             Vec3{1.0, -2.0, 0.5}, Vec3{0.0, 0.0, std::numbers::pi}}) {
       const Quaternion q = from_rotation_vector(angle);
       body.place([&](const Vec3& r) { return rotate(q, r) + Vec3{0.3, -0.2, 0.5}; });
       // Places are rounded to 1e-16 of 1 m: 1e-15 of a bond, over some 30 bonds of the list.
@@ -74,8 +77,8 @@ TEST(ElasticStrain, OfAHomogeneousDeformationIsItselfInEverySolid) {
       EXPECT_LT(std::sqrt(contraction(off, off)), 1e-12);  // the patch test: corners, faces and inside alike
     }
     EXPECT_LT(body.energy() / (0.5 * 125 * dx * dx * dx *
-                               contraction(expected,
-                                           solid::stress(expected, {1, 1, 1, 0, 0, 0}, 3, solid::elastic_constants(1.0, 0.3)))) -
+                               contraction(expected, solid::stress(expected, {1, 1, 1, 0, 0, 0}, 3,
+                                                                   solid::elastic_constants(1.0, 0.3)))) -
                   1.0,
               1e-12);
   }
@@ -85,7 +88,8 @@ TEST(ElasticStrain, OfAPrintedBlockIsWrongUnderRotationAsPredicted) {
   lab::Deformable block = made(lattice({10, 10, 10}), Mode::paper);
   const Quaternion quarter = from_rotation_vector({0.0, 0.0, std::numbers::pi / 2.0});
   block.place([&](const Vec3& r) { return rotate(quarter, r); });
-  EXPECT_NEAR(0.5 * block.greatest_strain(), 0.40, 0.08);  // 0.40 in Green's measure, half of the printed one; within 20 %
+  // 0.40 in Green's measure, half of the printed one; within 20 %
+  EXPECT_NEAR(0.5 * block.greatest_strain(), 0.40, 0.08);
 }
 
 TEST(ElasticStrain, OfAStretchedChainOrSheetIsThatOfItsOwnDirectionsAlone) {
@@ -101,8 +105,10 @@ TEST(ElasticStrain, OfAStretchedChainOrSheetIsThatOfItsOwnDirectionsAlone) {
     }
   }
   const double v = dx * dx * dx;
-  EXPECT_NEAR(chain.energy(), 9 * 0.5 * v * green * green, 1e-12 * v);                  // E eps^2/2: a chain has no sides to hold
-  EXPECT_NEAR(sheet.energy(), 36 * 0.5 * v * green * green / (1.0 - 0.09), 1e-12 * v);  // held in y, free across: E/(1 - nu^2)
+  // E eps^2/2: a chain has no sides to hold
+  EXPECT_NEAR(chain.energy(), 9 * 0.5 * v * green * green, 1e-12 * v);
+  // Held in y, free across: E/(1 - nu^2)
+  EXPECT_NEAR(sheet.energy(), 36 * 0.5 * v * green * green / (1.0 - 0.09), 1e-12 * v);
 }
 
 }  // namespace

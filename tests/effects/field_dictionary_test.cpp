@@ -36,7 +36,8 @@ std::string text_of(const fs::path& path) {
 std::pair<std::string, std::string> split(const std::string& name) {
   static const std::regex component("(.*)\\.(x|y|z|xx|yy|zz|yz|xz|xy|yx|zx|zy)");
   std::smatch found;
-  return std::regex_match(name, found, component) ? std::pair{found[1].str(), found[2].str()} : std::pair{name, std::string("1")};
+  return std::regex_match(name, found, component) ? std::pair{found[1].str(), found[2].str()}
+                                                  : std::pair{name, std::string("1")};
 }
 
 std::string joined(const std::set<std::string>& words) {
@@ -52,27 +53,34 @@ std::map<std::string, std::set<std::string>> owners() {
     if (entry.path().extension() != ".toml" || entry.path().parent_path().filename() == "materials") continue;
     const Case value = read_case(entry.path().string()).value;
     for (const Mode mode : value.modes)
-      for (const PlannedField& field :
-           plan(scene_for(value, {.mode = mode, .spacing = {}, .time_step = {}, .support_ratio = {}, .jitter = {}, .seed = {}}))
-               .fields)
+      for (const PlannedField& field : plan(scene_for(value, {.mode = mode,
+                                                             .spacing = {},
+                                                             .time_step = {},
+                                                             .support_ratio = {},
+                                                             .jitter = {},
+                                                             .seed = {}}))
+                                           .fields)
         found[field.name].insert(field.owner);
   }
   return found;
 }
 
-/// The text of every file that declares fields: those that several rooms know, those of liquids, and all files of an effect.
+/// The text of every file that declares fields: those that several rooms know, those of liquids, and all
+/// files of an effect.
 std::string declarations() {
   const fs::path src = fs::path(TRIPOINT_SOURCE_DIR) / "src";
   std::string text = text_of(src / "particles/catalogue.hpp");
   for (const char* room : {"liquids", "effects"})
     for (const auto& file : fs::recursive_directory_iterator(src / room))
-      if (file.path().extension() == ".hpp" || file.path().extension() == ".cpp") text += text_of(file.path());
+      if (file.path().extension() == ".hpp" || file.path().extension() == ".cpp")
+        text += text_of(file.path());
   return text;
 }
 
 /// The fields that they declare.
 Dictionary catalogue() {
-  static const std::regex declaration("Field<(\\w+)> ([^;]*);"), one("\\w+\\{\"([^\"]+)\", \"([^\"]+)\"(,\\s+Per::(\\w+))?\\}");
+  static const std::regex declaration("Field<(\\w+)> ([^;]*);"),
+      one("\\w+\\{\"([^\"]+)\", \"([^\"]+)\"(,\\s+Per::(\\w+))?\\}");
   const std::string text = declarations();
   const auto owned_by = owners();
   Dictionary all;
@@ -116,7 +124,8 @@ Dictionary dictionary() {
     EXPECT_EQ(cells.size(), 7U) << line;
     if (cells.size() != 7) continue;
     EXPECT_FALSE(cells[3].empty() || cells[6].empty()) << "no symbol or no meaning: " << line;
-    EXPECT_TRUE(all.try_emplace(cells[0], Entry{cells[1], cells[2], cells[4], cells[5]}).second) << "twice: " << cells[0];
+    EXPECT_TRUE(all.try_emplace(cells[0], Entry{cells[1], cells[2], cells[4], cells[5]}).second)
+        << "twice: " << cells[0];
   }
   return all;
 }
@@ -126,15 +135,17 @@ TEST(FieldDictionary, SaysOfEveryFieldWhatTheCatalogueAndTheEffectsSay) {
   ASSERT_GT(code.size(), 50U);
   for (const auto& [name, entry] : code) {
     const auto row = page.find(name);
-    const std::string right = "| `" + name + "` | " + entry.components + " | " + entry.per + " | SYMBOL | " + entry.unit + " | " +
-                              entry.owners + " | MEANING |";
+    const std::string right = "| `" + name + "` | " + entry.components + " | " + entry.per + " | SYMBOL | " +
+                              entry.unit + " | " + entry.owners + " | MEANING |";
     EXPECT_TRUE(row != page.end() && row->second == entry)
         << "docs/model.md, chapter 13, should have the row\n"
-        << right << "\nSYMBOL and MEANING stand in the fields.toml beside the declaration; make pages writes the row";
+        << right
+        << "\nSYMBOL and MEANING stand in the fields.toml beside the declaration; make pages writes the row";
     EXPECT_NE(entry.owners, "nobody") << "no effect of any case owns " << name << ": delete it";
   }
   for (const auto& [name, entry] : page)
-    EXPECT_TRUE(code.contains(name)) << "docs/model.md, chapter 13, has the row " << name << ", which is no field: make pages";
+    EXPECT_TRUE(code.contains(name)) << "docs/model.md, chapter 13, has the row " << name
+                                     << ", which is no field: make pages";
 }
 
 }  // namespace

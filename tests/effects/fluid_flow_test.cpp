@@ -16,7 +16,11 @@ lab::Lab channel(int across, double viscosity, ViscosityForm form) {
   lab.scene.viscosity_form = form;
   lab.scene.modes[term::clamp] = Mode::paper;
   lab.add({.name = "oil", .corner = {0.0, 0.0, 0.5 * dx}, .count = {4, 4, across}, .phase = Phase::liquid});
-  lab.add({.name = "floor", .corner = {0.0, 0.0, -2.5 * dx}, .count = {4, 4, 3}, .phase = Phase::rigid, .motion = Motion::fixed});
+  lab.add({.name = "floor",
+           .corner = {0.0, 0.0, -2.5 * dx},
+           .count = {4, 4, 3},
+           .phase = Phase::rigid,
+           .motion = Motion::fixed});
   lab.make_periodic({true, true, false}, {0.0, 0.0, -5.5 * dx}, {4, 4, across + 12});
   return lab;
 }
@@ -41,8 +45,11 @@ double poiseuille_error(int across) {
   constexpr double nu = 0.1;
   lab::Lab lab = channel(across, nu, ViscosityForm::laplacian);
   const double dx = lab.scene.spacing;
-  lab.add(
-      {.name = "lid", .corner = {0.0, 0.0, 1.0 + 0.5 * dx}, .count = {4, 4, 3}, .phase = Phase::rigid, .motion = Motion::fixed});
+  lab.add({.name = "lid",
+           .corner = {0.0, 0.0, 1.0 + 0.5 * dx},
+           .count = {4, 4, 3},
+           .phase = Phase::rigid,
+           .motion = Motion::fixed});
   lab.scene.gravity = {8.0 * nu, 0.0, 0.0};
   const auto exact = [](double z) { return 4.0 * z * (1.0 - z); };
   lab::jitter(lab, 0.1);
@@ -52,8 +59,12 @@ double poiseuille_error(int across) {
   return error;
 }
 
-TEST(Poiseuille, FlowBetweenPlatesIsParabolicWithinFivePercentAtTenAcross) { EXPECT_LT(poiseuille_error(10), 0.055); }
-TEST(Poiseuille, FlowBetweenPlatesIsParabolicWithinTwoPercentAtTwentyAcross) { EXPECT_LT(poiseuille_error(20), 0.02); }
+TEST(Poiseuille, FlowBetweenPlatesIsParabolicWithinFivePercentAtTenAcross) {
+  EXPECT_LT(poiseuille_error(10), 0.055);
+}
+TEST(Poiseuille, FlowBetweenPlatesIsParabolicWithinTwoPercentAtTwentyAcross) {
+  EXPECT_LT(poiseuille_error(20), 0.02);
+}
 
 TEST(Couette, FlowUnderASlidingLidIsLinear) {
   lab::Lab lab = channel(10, 0.1, ViscosityForm::laplacian);
@@ -78,11 +89,14 @@ double taylor_green_error(int n, bool transport) {
   lab.scene.viscosity_form = ViscosityForm::laplacian;
   lab.scene.modes[term::clamp] = Mode::paper;
   lab.scene.transport_velocity = transport;
-  lab.add({.name = "water", .corner = {0.5 * dx, 0.5 * dx, 0.0}, .count = {n, n, thick}, .phase = Phase::liquid});
+  lab.add(
+      {.name = "water", .corner = {0.5 * dx, 0.5 * dx, 0.0}, .count = {n, n, thick}, .phase = Phase::liquid});
   lab.make_periodic({true, true, true}, {0.5 * dx, 0.5 * dx, 0.0}, {n, n, thick});
-  lab::jitter(lab, 0.4);  // an undisturbed lattice breaks up on the way, and takes a third of the motion with it
+  // An undisturbed lattice breaks up on the way, and takes a third of the motion with it
+  lab::jitter(lab, 0.4);
   const auto exact = [&](const Vec3& r) {
-    return Vec3{-std::cos(wave * r.x) * std::sin(wave * r.y), std::sin(wave * r.x) * std::cos(wave * r.y), 0.0};
+    return Vec3{-std::cos(wave * r.x) * std::sin(wave * r.y), std::sin(wave * r.x) * std::cos(wave * r.y),
+                0.0};
   };
   lab::set_velocity(lab, exact);
   Simulation s = lab.run(time);

@@ -49,10 +49,11 @@ TEST_P(TwoLiquids, KeepMomentumToRoundOffAtAnyDensityRatio) {
   EXPECT_LT(norm(s.ledger().momentum - before), 1e-13 * motion_of(s));
 }
 INSTANTIATE_TEST_SUITE_P(Drops, TwoLiquids,
-                         testing::Values(Drop{200.0, Mode::corrected}, Drop{1.0, Mode::corrected}, Drop{200.0, Mode::paper},
-                                         Drop{1.0, Mode::paper}));
+                         testing::Values(Drop{200.0, Mode::corrected}, Drop{1.0, Mode::corrected},
+                                         Drop{200.0, Mode::paper}, Drop{1.0, Mode::paper}));
 
-/// A free ball of liquid, radius 5 spacings = 0.5 m, in rigid rotation about an axis that is none of the lattice's.
+/// A free ball of liquid, radius 5 spacings = 0.5 m, in rigid rotation about an axis that is none of the
+/// lattice's.
 lab::Lab turning_ball(Mode mode, ViscosityForm form) {
   lab::Lab lab = lab::liquid_lab(0.1, 1000.0, 100.0, 1000.0, mode);
   lab.scene.viscosity_form = form;
@@ -78,13 +79,14 @@ TEST(LiquidBall, InRigidRotationFeelsNoCentralViscousTorque) {
     lab::Lab lab = turning_ball(Mode::corrected, ViscosityForm::central);
     lab.scene.values["isotropic_shear"] = isotropic;
     const Simulation s(lab.scene, lab.initial);
-    const double scale = 100.0 * norm(Vec3{0.3, 0.5, 1.0}) * static_cast<double>(lab.initial.size()) * 1e-3;  // mu Omega V
+    // Mu Omega V
+    const double scale = 100.0 * norm(Vec3{0.3, 0.5, 1.0}) * static_cast<double>(lab.initial.size()) * 1e-3;
     EXPECT_LT(norm(viscous_torque(s)), 1e-12 * scale) << isotropic;
   }
 }
 
-/// Force on the middle of an undisturbed lattice whose velocity along `flow` is u = y^2/2, y along `across`: mu V at unit
-/// viscosity.
+/// Force on the middle of an undisturbed lattice whose velocity along `flow` is u = y^2/2, y along `across`:
+/// mu V at unit viscosity.
 double force_of_parabola(const Vec3& flow, const Vec3& across, double isotropic) {
   constexpr double dx = 0.1;
   lab::Lab lab = lab::liquid_lab(dx, 1000.0, 1.0, 1000.0, Mode::corrected);
@@ -101,8 +103,8 @@ double force_of_parabola(const Vec3& flow, const Vec3& across, double isotropic)
   return dot(lab::vectors_by_id(s, field::viscous_force)[middle], flow) / (dx * dx * dx);
 }
 
-/// The shear moduli of lattice.hpp, of the pair pass itself; what is left is the volume that the kernel's sum over the lattice
-/// gives.
+/// The shear moduli of lattice.hpp, of the pair pass itself; what is left is the volume that the kernel's sum
+/// over the lattice gives.
 TEST(CentralViscosity, ResistsShearAlikeInAllDirectionsOfTheLatticeWithIsotropicShear) {
   const double half = std::sqrt(0.5);
   const Vec3 x{1.0, 0.0, 0.0}, y{0.0, 1.0, 0.0}, up{half, half, 0.0}, down{half, -half, 0.0};
@@ -149,8 +151,8 @@ TEST(Threads, LeaveTheBitsOfLiquidBodiesAndHeatAlone) {
   for (const int threads : {2, 3}) {
     Simulation more = lab.run(0.1, threads);
     EXPECT_EQ(one.steps(), more.steps());
-    for (const Field<double>* f :
-         {&field::position_x, &field::velocity_z, &field::pressure, &field::temperature, &field::viscous_force_x})
+    for (const Field<double>* f : {&field::position_x, &field::velocity_z, &field::pressure,
+                                   &field::temperature, &field::viscous_force_x})
       EXPECT_EQ(lab::by_id(one, *f), lab::by_id(more, *f)) << f->name << " with " << threads;
     EXPECT_EQ(one.ledger().energy, more.ledger().energy);
   }

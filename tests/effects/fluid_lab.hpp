@@ -10,7 +10,8 @@
 namespace tripoint::lab {
 
 /// Material 0 is the liquid: density, viscosity, stiffness.
-inline Lab liquid_lab(double spacing, double density, double viscosity, double stiffness, Mode mode = Mode::corrected) {
+inline Lab liquid_lab(double spacing, double density, double viscosity, double stiffness,
+                      Mode mode = Mode::corrected) {
   Lab lab(spacing, mode);
   lab.scene.materials[0].density = density;
   lab.scene.materials[0].viscosity = viscosity;
@@ -27,13 +28,18 @@ inline std::size_t add_material_like(Lab& lab, double density, double viscosity)
   return lab.scene.materials.size() - 1;
 }
 
-/// A column of `width` x `width` x `depth` particles over the floor z = 0, periodic in x and y; spacing 1/depth.
-inline Lab column(int depth, int width, double viscosity, double stiffness, double gravity, Mode mode = Mode::corrected) {
+/// A column of `width` x `width` x `depth` particles over the floor z = 0, periodic in x and y; spacing
+/// 1/depth.
+inline Lab column(int depth, int width, double viscosity, double stiffness, double gravity,
+                  Mode mode = Mode::corrected) {
   const double dx = 1.0 / depth;
   Lab lab = liquid_lab(dx, 1000.0, viscosity, stiffness, mode);
   lab.scene.gravity = {0.0, 0.0, -gravity};
   lab.scene.viscosity_form = ViscosityForm::laplacian;
-  lab.add({.name = "water", .corner = {0.0, 0.0, 0.5 * dx}, .count = {width, width, depth}, .phase = Phase::liquid});
+  lab.add({.name = "water",
+           .corner = {0.0, 0.0, 0.5 * dx},
+           .count = {width, width, depth},
+           .phase = Phase::liquid});
   lab.add({.name = "floor",
            .corner = {0.0, 0.0, -2.5 * dx},
            .count = {width, width, 3},
@@ -46,9 +52,11 @@ inline Lab column(int depth, int width, double viscosity, double stiffness, doub
 /// Moves every particle of liquid by up to `amplitude` spacings.
 inline void jitter(Lab& lab, double amplitude) {
   std::mt19937_64 random(7);
-  std::uniform_real_distribution<double> uniform(-amplitude * lab.scene.spacing, amplitude * lab.scene.spacing);
+  std::uniform_real_distribution<double> uniform(-amplitude * lab.scene.spacing,
+                                                 amplitude * lab.scene.spacing);
   for (std::size_t i = 0; i < lab.initial.position.size(); ++i)
-    if (lab.initial.body[i] < 0) lab.initial.position[i] += {uniform(random), uniform(random), uniform(random)};
+    if (lab.initial.body[i] < 0)
+      lab.initial.position[i] += {uniform(random), uniform(random), uniform(random)};
 }
 
 /// Each particle's velocity from its place.

@@ -30,7 +30,8 @@ Account account(lab::Lab lab, double time, double step) {
     s.advance_to(time * n / 20);
     const Ledger now = s.ledger();
     for (const char* name : {"kinetic", "potential", "compression"})
-      if (now.energy.count(name) > 0) a.exchanged = std::max(a.exchanged, std::abs(now.energy.at(name) - start.energy.at(name)));
+      if (now.energy.count(name) > 0)
+        a.exchanged = std::max(a.exchanged, std::abs(now.energy.at(name) - start.energy.at(name)));
     drift = std::max(drift, std::abs(sum_of(now) - sum_of(start)));
     scheme = std::max(scheme, std::abs(now.energy.at("time_integration")));
   }
@@ -77,10 +78,12 @@ lab::Lab pressed_cube() {
     else
       around.push_back(r);
   }
-  std::erase_if(around,
-                [&](const Vec3& r) { return std::ranges::any_of(cube, [&](const Vec3& c) { return norm(r - c) < 0.95 * dx; }); });
-  lab.add_points({.name = "cube", .material = rubber, .phase = Phase::elastic, .angular_velocity = {0.0, 0.0, 1.0}}, cube,
-                 1000.0 * dx * dx * dx);
+  std::erase_if(around, [&](const Vec3& r) {
+    return std::ranges::any_of(cube, [&](const Vec3& c) { return norm(r - c) < 0.95 * dx; });
+  });
+  lab.add_points(
+      {.name = "cube", .material = rubber, .phase = Phase::elastic, .angular_velocity = {0.0, 0.0, 1.0}},
+      cube, 1000.0 * dx * dx * dx);
   lab.add_points({.name = "water", .phase = Phase::liquid}, around, 1000.0 * dx * dx * dx);
   lab::set_velocity(lab, [](const Vec3& r) { return -2.0 * r; });
   return lab;
@@ -91,7 +94,11 @@ lab::Lab layers() {
   lab::Lab lab = lab::column(8, 4, 5.0, 1000.0, 10.0);
   const std::size_t oil = lab::add_material_like(lab, 200.0, 5.0);
   const double dx = lab.scene.spacing;
-  lab.add({.name = "oil", .material = oil, .corner = {0.0, 0.0, 8.5 * dx}, .count = {4, 4, 4}, .phase = Phase::liquid});
+  lab.add({.name = "oil",
+           .material = oil,
+           .corner = {0.0, 0.0, 8.5 * dx},
+           .count = {4, 4, 4},
+           .phase = Phase::liquid});
   lab::jitter(lab, 0.1);
   lab.scene.values["interface_weight"] = 1.0;
   return lab;
@@ -115,9 +122,11 @@ TEST_P(FluidLedger, ClosesToRoundOffAndLeavesToTheSchemeWhatFallsWithTheSquareOf
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, FluidLedger,
-                         testing::Values(Scene_{"column", falling_column, 0.3, 1e-3}, Scene_{"block", floating_block, 0.3, 2e-3},
+                         testing::Values(Scene_{"column", falling_column, 0.3, 1e-3},
+                                         Scene_{"block", floating_block, 0.3, 2e-3},
                                          Scene_{"collision", head_on_collision, 1.0, 1e-3},
-                                         Scene_{"cube", pressed_cube, 0.1, 5e-4}, Scene_{"layers", layers, 0.3, 5e-4}),
+                                         Scene_{"cube", pressed_cube, 0.1, 5e-4},
+                                         Scene_{"layers", layers, 0.3, 5e-4}),
                          [](const auto& scene) { return std::string(scene.param.name); });
 
 /// Clamped: an unclamped one tears itself apart.
@@ -127,7 +136,8 @@ lab::Lab printed_column() {
   return lab;
 }
 
-/// No energy stands behind (7): what it does is booked as work, and nothing of it is left to the scheme, however long the step.
+/// No energy stands behind (7): what it does is booked as work, and nothing of it is left to the scheme,
+/// however long the step.
 TEST(FluidLedger, BooksThePrintedPressureAsWorkAndLeavesToTheSchemeOnlyWhatFallsWithTheSquareOfTheStep) {
   const Account coarse = account(printed_column(), 0.3, 1e-3), fine = account(printed_column(), 0.3, 5e-4);
   EXPECT_LT(coarse.residual, 1e-12);  // round-off of 300 steps
@@ -147,7 +157,8 @@ TEST(PressedCube, KeepsMomentumAndAngularMomentumToRoundOff) {
   const lab::Lab lab = pressed_cube();
   Simulation start(lab.scene, lab.initial), end = lab.run(0.1);
   double motion = 0.0;
-  for (std::size_t i = 0; i < lab.initial.position.size(); ++i) motion += lab.initial.mass[i] * norm(lab.initial.velocity[i]);
+  for (std::size_t i = 0; i < lab.initial.position.size(); ++i)
+    motion += lab.initial.mass[i] * norm(lab.initial.velocity[i]);
   EXPECT_GT(norm(end.ledger().momentum - start.ledger().momentum), 0.0);
   EXPECT_LT(norm(end.ledger().momentum - start.ledger().momentum), 1e-12 * motion);
   EXPECT_LT(norm(end.ledger().angular_momentum - start.ledger().angular_momentum), 1e-12 * motion * 0.5);

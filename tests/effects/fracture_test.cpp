@@ -17,7 +17,8 @@ lab::Lab bar_pulled_apart(double dt = 0.02) {
   lab.scene.materials[0].fracture_stretch = 1.1;
   lab.scene.time_step = dt;
   lab.add({.name = "bar", .corner = {-5.5, -0.5, -0.5}, .count = {12, 2, 2}, .phase = Phase::elastic});
-  for (std::size_t i = 0; i < lab.initial.size(); ++i) lab.initial.velocity[i] = {0.1 * lab.initial.position[i].x, 0.0, 0.0};
+  for (std::size_t i = 0; i < lab.initial.size(); ++i)
+    lab.initial.velocity[i] = {0.1 * lab.initial.position[i].x, 0.0, 0.0};
   return lab;
 }
 std::size_t bodies_alive(const Simulation& s) {
@@ -25,7 +26,8 @@ std::size_t bodies_alive(const Simulation& s) {
   return static_cast<std::size_t>(std::accumulate(alive.begin(), alive.end(), 0));
 }
 double total_energy(const Ledger& l) {
-  return std::accumulate(l.energy.begin(), l.energy.end(), 0.0, [](double sum, const auto& entry) { return sum + entry.second; });
+  return std::accumulate(l.energy.begin(), l.energy.end(), 0.0,
+                         [](double sum, const auto& entry) { return sum + entry.second; });
 }
 
 TEST(BondLimit, IsTheSameForShortAndLongBondsByStretchAndNotByDistance) {
@@ -72,7 +74,8 @@ TEST(Fracture, KeepsMomentaToRoundOff) {
   EXPECT_LT(norm(after.angular_momentum - before.angular_momentum), 1e-12 * 48.0 * 0.3 * 5.5);
 }
 
-/// What the step leaves (5.0e-4 and 1.2e-4 of the energy) falls with its square; what broken bonds let go is an entry of its own.
+/// What the step leaves (5.0e-4 and 1.2e-4 of the energy) falls with its square; what broken bonds let go is
+/// an entry of its own.
 TEST(Fracture, BooksTheEnergyThatItLetsGo) {
   double left[2] = {};
   for (const int halvings : {0, 1}) {
@@ -91,12 +94,13 @@ TEST(Fracture, BooksTheEnergyThatItLetsGo) {
 std::vector<Symmetric> elastic_strains(const World& w) {
   std::vector<Symmetric> list;
   for (std::uint32_t id = 0; id < w.particles.size(); ++id)
-    list.push_back(solid::deformation_of(w, id).strain - solid::plastic_strain_of(w.particles, w.particles.row(id)));
+    list.push_back(solid::deformation_of(w, id).strain -
+                   solid::plastic_strain_of(w.particles, w.particles.row(id)));
   return list;
 }
 
-/// Without this a bar that has flowed would see its plastic strain as elastic strain of the other sign, and gain energy by
-/// tearing.
+/// Without this a bar that has flowed would see its plastic strain as elastic strain of the other sign, and
+/// gain energy by tearing.
 TEST(Fracture, LeavesTheStressOfWhatHasFlowedAsItWas) {
   lab::Lab lab = bar_pulled_apart();
   lab.scene.materials[0].elastic_limit = 0.01;
@@ -123,7 +127,8 @@ TEST(Fracture, LeavesTheStressOfWhatHasFlowedAsItWas) {
 TEST(Fracture, GoesOnBitForBitFromACheckpoint) {
   lab::Lab lab = bar_pulled_apart(0.1);
   lab.scene.materials[0].elastic_limit = 0.01;
-  for (const double cut : {1.5, 5.0}) {  // before the first bond breaks, and with parts that have become bodies
+  // Before the first bond breaks, and with parts that have become bodies
+  for (const double cut : {1.5, 5.0}) {
     Simulation whole(lab.scene, lab.initial, {});
     whole.advance_to(cut);
     Simulation rest(lab.scene, lab.initial, {}, whole.checkpoint());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loops over free particles against the same formulas for one particle after the other: the bits must be the same in every unit.
+// Loops over free particles against the same formulas for one particle after the other: the bits must be the
+// same in every unit.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,7 +45,9 @@ struct Cloud {
     rows.m = m.data();
     rows.g = {0.3, 0.0, -9.81};
   }
-  [[nodiscard]] std::array<double*, 3> places(std::array<Column, 3>& of) { return {of[0].data(), of[1].data(), of[2].data()}; }
+  [[nodiscard]] std::array<double*, 3> places(std::array<Column, 3>& of) {
+    return {of[0].data(), of[1].data(), of[2].data()};
+  }
   [[nodiscard]] Vec3 total(std::size_t i) const {
     Vec3 sum;
     for (std::size_t k = 0; k < rows.forces; ++k) sum += rows.force_on(i, k);
@@ -62,11 +65,13 @@ std::vector<FreeLoops> loops_of_all_units(std::size_t forces) {
 }
 
 bool same_bits(const Column& a, const Column& b) {
-  return std::ranges::equal(a, b, {}, std::bit_cast<std::uint64_t, double>, std::bit_cast<std::uint64_t, double>);
+  return std::ranges::equal(a, b, {}, std::bit_cast<std::uint64_t, double>,
+                            std::bit_cast<std::uint64_t, double>);
 }
 
 constexpr double dt = 0.01;
-constexpr std::size_t from = 3, to = 300, count = 310;  // whole chunks, a part of one, and rows that must stay as they are
+// Whole chunks, a part of one, and rows that must stay as they are
+constexpr std::size_t from = 3, to = 300, count = 310;
 
 TEST(FreeRows, AreKickedWithTheBitsOfOneParticleAfterTheOther) {
   for (std::size_t forces = 0; forces <= most_forces; ++forces) {
@@ -86,7 +91,8 @@ TEST(FreeRows, AreKickedWithTheBitsOfOneParticleAfterTheOther) {
       booked.fill(1.0);
       loops.kick(cloud.rows, cloud.places(cloud.v), dt, from, to, booked.data());
       EXPECT_EQ(booked, work) << forces << " forces";
-      for (std::size_t a = 0; a < 3; ++a) EXPECT_TRUE(same_bits(cloud.v[a], one.v[a])) << forces << " forces, axis " << a;
+      for (std::size_t a = 0; a < 3; ++a)
+        EXPECT_TRUE(same_bits(cloud.v[a], one.v[a])) << forces << " forces, axis " << a;
     }
   }
 }
@@ -102,7 +108,8 @@ TEST(FreeRows, ArePredictedWithThem) {
       Cloud cloud(count, forces);
       const std::array<const double*, 3> v{cloud.v[0].data(), cloud.v[1].data(), cloud.v[2].data()};
       loops.predict(cloud.rows, v, cloud.places(cloud.seen), dt, from, to);
-      for (std::size_t a = 0; a < 3; ++a) EXPECT_TRUE(same_bits(cloud.seen[a], one.seen[a])) << forces << " forces, axis " << a;
+      for (std::size_t a = 0; a < 3; ++a)
+        EXPECT_TRUE(same_bits(cloud.seen[a], one.seen[a])) << forces << " forces, axis " << a;
     }
   }
 }

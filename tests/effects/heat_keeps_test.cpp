@@ -15,7 +15,9 @@ lab::Lab two_blocks(Mode mode, std::optional<double> held = {}) {
   const double dx = 1e-3;
   lab::Lab lab(dx, mode);
   lab.add_material(200.0, 10.0, 1000.0);
-  lab.add({.name = "a", .count = {6, 5, 5}, .motion = Motion::fixed, .temperature = [](const Vec3&) { return 300.0; }});
+  lab.add({.name = "a", .count = {6, 5, 5}, .motion = Motion::fixed, .temperature = [](const Vec3&) {
+             return 300.0;
+           }});
   lab.add({.name = "b",
            .material = 1,
            .corner = {6 * dx, 0.0, 0.0},
@@ -32,8 +34,9 @@ TEST(CorrectedHeat, KeepsTheHeatContentAcrossADensityJump) {
   const double before = s.ledger().energy.at("thermal");
   s.advance_to(2.0);
   EXPECT_GT(s.steps(), 100);
-  EXPECT_GT(lab::by_id(s, field::temperature)[5], 301.0);             // heat has crossed the face
-  EXPECT_NEAR(s.ledger().energy.at("thermal") / before, 1.0, 1e-12);  // round-off of antisymmetric sums over all steps
+  EXPECT_GT(lab::by_id(s, field::temperature)[5], 301.0);  // heat has crossed the face
+  // round-off of antisymmetric sums over all steps
+  EXPECT_NEAR(s.ledger().energy.at("thermal") / before, 1.0, 1e-12);
 }
 
 TEST(PaperHeat, LosesHeatAcrossADensityJumpAsItIsPrinted) {
@@ -41,7 +44,8 @@ TEST(PaperHeat, LosesHeatAcrossADensityJumpAsItIsPrinted) {
   Simulation s(lab.scene, lab.initial);
   const double before = s.ledger().energy.at("thermal");
   s.advance_to(2.0);
-  EXPECT_GT(std::abs(s.ledger().energy.at("thermal") / before - 1.0), 1e-3);  // a defect of the printed form, not of round-off
+  // a defect of the printed form, not of round-off
+  EXPECT_GT(std::abs(s.ledger().energy.at("thermal") / before - 1.0), 1e-3);
 }
 
 TEST(CorrectedHeat, BooksWhatHeldTemperaturesGive) {
@@ -76,7 +80,8 @@ TEST(CorrectedHeat, EventHoldsATemperatureAndLetsItGo) {
 }
 
 TEST(CorrectedHeat, LeavesASteadyBarOfTwoConductivitiesAlone) {
-  // Conductivities 10 : 1 in series between held ends: the exact profile is two straight lines that meet at T_face.
+  // Conductivities 10 : 1 in series between held ends: the exact profile is two straight lines that meet at
+  // T_face.
   const double dx = 1e-3, half = 10 * dx, T_face = 300.0 + 100.0 * 1.0 / 11.0, end = 3 * dx;
   lab::Lab lab(dx);
   lab.make_periodic({false, true, true}, {0.0, 0.0, 0.0}, {1, 3, 3});
@@ -103,7 +108,8 @@ TEST(CorrectedHeat, LeavesASteadyBarOfTwoConductivitiesAlone) {
   double worst = 0.0;
   for (std::size_t id = 0; id < T.size(); ++id)
     worst = std::max(worst, std::abs(T[id] - exact(lab.initial.position[id])) / 100.0);
-  EXPECT_LT(worst, 2e-3);  // 0.6e-3 to 1.8e-3 with the harmonic mean, 2e-2 to 6e-2 with the arithmetic one (model 8.6)
+  // 0.6e-3 to 1.8e-3 with the harmonic mean, 2e-2 to 6e-2 with the arithmetic one (model 8.6)
+  EXPECT_LT(worst, 2e-3);
 }
 
 /// Random temperatures on a jittered block: the hardest start there is.
@@ -111,9 +117,11 @@ lab::Lab noise(Mode mode) {
   lab::Lab lab(1e-3, mode);
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  lab.add(
-      {.count = {7, 7, 7}, .motion = Motion::fixed, .temperature = [&](const Vec3&) { return 300.0 + 100.0 * uniform(random); }});
-  for (Vec3& r : lab.initial.position) r += 2e-4 * Vec3{uniform(random) - 0.5, uniform(random) - 0.5, uniform(random) - 0.5};
+  lab.add({.count = {7, 7, 7}, .motion = Motion::fixed, .temperature = [&](const Vec3&) {
+             return 300.0 + 100.0 * uniform(random);
+           }});
+  for (Vec3& r : lab.initial.position)
+    r += 2e-4 * Vec3{uniform(random) - 0.5, uniform(random) - 0.5, uniform(random) - 0.5};
   return lab;
 }
 

@@ -19,21 +19,24 @@ double amplitude(const Simulation& s, double k, double phase) {
 
 /// Decay rate of cos(k x + 0.7), `across` particles a wavelength of 1 cm, over D k^2.
 double cosine_rate(int across, Mode mode, std::optional<double> time_step = {}, int thick = 3) {
-  const double wavelength = 0.01, dx = wavelength / across, k = 2.0 * std::numbers::pi / wavelength, phase = 0.7;
+  const double wavelength = 0.01, dx = wavelength / across, k = 2.0 * std::numbers::pi / wavelength,
+               phase = 0.7;
   lab::Lab lab(dx, mode);
   const std::array<int, 3> count{across, thick, thick};
   lab.make_periodic({true, true, true}, {0.5 * dx, 0.5 * dx, 0.5 * dx}, count);
   lab.scene.time_step = time_step;
-  lab.add({.corner = {0.5 * dx, 0.5 * dx, 0.5 * dx}, .count = count, .motion = Motion::fixed, .temperature = [&](const Vec3& r) {
-             return 300.0 + 10.0 * std::cos(k * r.x + phase);
-           }});
+  lab.add({.corner = {0.5 * dx, 0.5 * dx, 0.5 * dx},
+           .count = count,
+           .motion = Motion::fixed,
+           .temperature = [&](const Vec3& r) { return 300.0 + 10.0 * std::cos(k * r.x + phase); }});
   const double time = 0.5 / (lab::diffusivity * k * k);
   const Simulation s = lab.run(time, 2);
   return -std::log(amplitude(s, k, phase) / 10.0) / time / (lab::diffusivity * k * k);
 }
 
 TEST(CorrectedHeat, LosesACosineAtTheExactRateToSecondOrder) {
-  // 4.3 / 1.1 / 0.27 / 0.07 % are the kernel's fourth moment (model 8.6); the limits are those stated for the corrected form.
+  // 4.3 / 1.1 / 0.27 / 0.07 % are the kernel's fourth moment (model 8.6); the limits are those stated for the
+  // corrected form.
   const double limits[] = {0.05, 0.012, 0.004, 0.001};
   double error[4];
   for (int n = 0; n < 4; ++n) {
@@ -52,7 +55,8 @@ TEST(PaperHeat, LosesACosineAtTheRateOfItsLatticeSum) {
     const double dx = 0.01 / across, k = 200.0 * std::numbers::pi;
     const double predicted = paper_heat_rate(dx, 2.12 * dx, {k, 0.0, 0.0}) / (k * k);
     // Euler's own error, rate dt/2, is 0.02 % at this step; the floor of 7 % is what is predicted.
-    EXPECT_NEAR(cosine_rate(across, Mode::paper, 1e-3 / (lab::diffusivity * k * k)) / predicted, 1.0, 1e-3) << across;
+    EXPECT_NEAR(cosine_rate(across, Mode::paper, 1e-3 / (lab::diffusivity * k * k)) / predicted, 1.0, 1e-3)
+        << across;
     EXPECT_LT(predicted, 0.93);
   }
 }
@@ -68,7 +72,8 @@ TEST(CorrectedHeat, IsOfSecondOrderInTime) {
 /// Steps of less than dx^2/(200 D), for which rates are formed once a step (decision 040).
 TEST(CorrectedHeat, IsOfSecondOrderWhereTheRatesOfOneStageServeTheNextStep) {
   const double step = 0.99 * 1e-6 / (200.0 * lab::diffusivity);  // [s], of 10 particles a wavelength
-  const double coarse = cosine_rate(10, Mode::corrected, step), middle = cosine_rate(10, Mode::corrected, step / 2.0),
+  const double coarse = cosine_rate(10, Mode::corrected, step),
+               middle = cosine_rate(10, Mode::corrected, step / 2.0),
                fine = cosine_rate(10, Mode::corrected, step / 4.0);
   EXPECT_NEAR(std::log2((coarse - middle) / (middle - fine)), 2.0, 0.05);
 }
@@ -81,7 +86,8 @@ TEST(PaperHeat, IsOfFirstOrderInTime) {
   EXPECT_NEAR(std::log2(coarse / fine), 1.0, 0.1);
 }
 
-/// Flow through a bar `across` particles square with free sides, over that of the exact bar: half a cosine between free ends.
+/// Flow through a bar `across` particles square with free sides, over that of the exact bar: half a cosine
+/// between free ends.
 double bar_rate(int across, int length) {
   const double dx = 1e-3, k = std::numbers::pi / (length * dx);
   lab::Lab lab(dx);

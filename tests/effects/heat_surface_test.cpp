@@ -16,7 +16,10 @@ lab::Lab slab(int across, const std::function<double(const Vec3&)>& temperature)
   lab::Lab lab(dx);
   const std::array<int, 3> count{across, 3, 3};
   lab.make_periodic({false, true, true}, {0.5 * dx, 0.5 * dx, 0.5 * dx}, count);
-  lab.add({.corner = {0.5 * dx, 0.5 * dx, 0.5 * dx}, .count = count, .motion = Motion::fixed, .temperature = temperature});
+  lab.add({.corner = {0.5 * dx, 0.5 * dx, 0.5 * dx},
+           .count = count,
+           .motion = Motion::fixed,
+           .temperature = temperature});
   Body& body = lab.scene.bodies[0];
   body.shape.kind = Shape::Kind::box;
   body.shape.min = {0.0, -1.0, -1.0};
@@ -41,14 +44,16 @@ double error_of_rate(int across) {
 }
 
 TEST(HeldSurface, LosesASineBetweenItsFacesAtTheExactRateToSecondOrder) {
-  // -1.09 and -0.27 % by the eigenvalue of the sums over the lattice, computed apart from this code; the step adds less than 0.1
+  // -1.09 and -0.27 % by the eigenvalue of the sums over the lattice, computed apart from this code; the step
+  // adds less than 0.1
   // %.
   EXPECT_NEAR(error_of_rate(10), -0.01087, 1e-3);
   EXPECT_NEAR(error_of_rate(20), -0.00273, 3e-4);
 }
 
 TEST(HeldSurface, KeepsAStraightProfileAtRest) {
-  // 300 K at one face and 310 K at the other: two bodies of one matter that touch, each with a face of its own.
+  // 300 K at one face and 310 K at the other: two bodies of one matter that touch, each with a face of its
+  // own.
   const double dx = 1e-3;
   lab::Lab lab(dx);
   lab.add_material(1000.0, 1.0, 1000.0);

@@ -46,7 +46,8 @@ lab::Lab splash(Mode mode) {
   return lab;
 }
 
-/// The same scene with an event that could matter and comes after all steps: what it would do decides what is computed.
+/// The same scene with an event that could matter and comes after all steps: what it would do decides what is
+/// computed.
 lab::Lab with_event(lab::Lab lab, double time, double temperature) {
   Event e;
   e.kind = Event::Kind::heat;
@@ -59,8 +60,8 @@ lab::Lab with_event(lab::Lab lab, double time, double temperature) {
 }
 
 void expect_same_motion(const Simulation& a, const Simulation& b) {
-  for (const auto* f : {&field::position_x, &field::position_y, &field::position_z, &field::velocity_x, &field::velocity_y,
-                        &field::velocity_z, &field::density, &field::pressure})
+  for (const auto* f : {&field::position_x, &field::position_y, &field::position_z, &field::velocity_x,
+                        &field::velocity_y, &field::velocity_z, &field::density, &field::pressure})
     EXPECT_EQ(lab::by_id(a, *f), lab::by_id(b, *f)) << f->name;
 }
 
@@ -106,7 +107,8 @@ TEST(OnlyWhatIsCalledFor, OneOtherTemperatureOfBodyInflowOrEventMakesThemUnequal
   lab.scene.bodies[1].temperature->kind = TemperatureField::Kind::expression;
   EXPECT_EQ(equal_temperature(lab.scene), std::nullopt) << "anything may come of an expression";
   lab.scene.bodies[1].temperature.reset();
-  EXPECT_EQ(equal_temperature(lab.scene), std::nullopt) << "a body without a temperature is an error that heat must tell";
+  EXPECT_EQ(equal_temperature(lab.scene), std::nullopt)
+      << "a body without a temperature is an error that heat must tell";
 }
 
 TEST(OnlyWhatIsCalledFor, WhatStaysWarmerThanItFreezesHasNoPhaseCheckAndWhatIsCooledLaterHas) {
@@ -153,7 +155,8 @@ TEST(UnbrokenProof, NeverHoldsWhereABondIsBeyondItsLimitAndMostlyHoldsWhereNoneI
       ++looked;
       unbroken.set(world, least_room());
     }
-    for (std::size_t i = 0; i < n; ++i) x.set(i, x.at(i) + Vec3{0.3, 0.0, 0.0} + Vec3{kick(random), kick(random), kick(random)});
+    for (std::size_t i = 0; i < n; ++i)
+      x.set(i, x.at(i) + Vec3{0.3, 0.0, 0.0} + Vec3{kick(random), kick(random), kick(random)});
   }
   EXPECT_LT(steps, 100'000) << "a bond must have broken";
   EXPECT_FALSE(unbroken.holds(world));

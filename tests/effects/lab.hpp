@@ -52,7 +52,8 @@ struct Lab {
     scene.materials.push_back(m);
   }
   /// Domain from corner - dx/2, periodic where asked; elsewhere so wide that nothing leaves it.
-  void make_periodic(const std::array<bool, 3>& periodic, const Vec3& corner, const std::array<int, 3>& count) {
+  void make_periodic(const std::array<bool, 3>& periodic, const Vec3& corner,
+                     const std::array<int, 3>& count) {
     const double dx = scene.spacing;
     scene.periodic = periodic;
     scene.min = corner - Vec3{0.5 * dx, 0.5 * dx, 0.5 * dx};
@@ -80,7 +81,8 @@ struct Lab {
     for (const Vec3& r : points) centre += r / static_cast<double>(points.size());
     for (const Vec3& r : points) {
       initial.position.push_back(r);
-      initial.velocity.push_back(b.motion == Motion::fixed ? Vec3{} : b.velocity + cross(b.angular_velocity, r - centre));
+      initial.velocity.push_back(
+          b.motion == Motion::fixed ? Vec3{} : b.velocity + cross(b.angular_velocity, r - centre));
       initial.mass.push_back(mass);
       if (b.temperature) initial.temperature.push_back(b.temperature(r));
       initial.phase.push_back(static_cast<int>(b.phase));
@@ -93,10 +95,12 @@ struct Lab {
     std::vector<Vec3> points;
     for (int z = 0; z < b.count[2]; ++z) {
       for (int y = 0; y < b.count[1]; ++y) {
-        for (int x = 0; x < b.count[0]; ++x) points.push_back(b.corner + scene.spacing * Vec3{double(x), double(y), double(z)});
+        for (int x = 0; x < b.count[0]; ++x)
+          points.push_back(b.corner + scene.spacing * Vec3{double(x), double(y), double(z)});
       }
     }
-    add_points(b, points, scene.materials[b.material].density * scene.spacing * scene.spacing * scene.spacing);
+    add_points(b, points,
+               scene.materials[b.material].density * scene.spacing * scene.spacing * scene.spacing);
   }
   [[nodiscard]] Simulation run(double time, int threads = 1) const {
     Simulation s(scene, initial, {.threads = threads});

@@ -28,12 +28,16 @@ lab::Lab slab(int n, const Keys& keys) {
   lab.scene.values["core_reach"] = 0.0;
   lab.scene.values["mean_pressure"] = keys.mean_pressure;
   lab.scene.values["sound_damping"] = keys.sound_damping;
-  lab.add({.name = "water", .corner = {0.5 * dx, 0.5 * dx, 0.0}, .count = {n, thick, thick}, .phase = Phase::liquid});
+  lab.add({.name = "water",
+           .corner = {0.5 * dx, 0.5 * dx, 0.0},
+           .count = {n, thick, thick},
+           .phase = Phase::liquid});
   lab.make_periodic({true, true, true}, {0.5 * dx, 0.5 * dx, 0.0}, {n, thick, thick});
   return lab;
 }
 
-/// Disordered, with velocities of a wave that both compresses and shears, in a frame that moves with `stream`.
+/// Disordered, with velocities of a wave that both compresses and shears, in a frame that moves with
+/// `stream`.
 lab::Lab stirred(const Keys& keys, const Vec3& stream = {}) {
   lab::Lab lab = slab(10, keys);
   lab::jitter(lab, 0.3);
@@ -63,12 +67,14 @@ TEST(MeanPressure, AndTheDampingOfSoundDoNotFeelAStream) {
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_LT(norm(a[i] - b[i]), 1e-13 * most);
 }
 
-/// The power of its forces is -sum V q^2/(zeta rho0 c h), term by term what the divergence takes: never positive.
+/// The power of its forces is -sum V q^2/(zeta rho0 c h), term by term what the divergence takes: never
+/// positive.
 TEST(DampingOfSound, TakesWhatTheRateOfTheNumberDensitySays) {
   constexpr double zeta = 0.2, c = 10.0;
   const lab::Lab quiet = stirred({}), damped = stirred({0.0, zeta});
   const Simulation without(quiet.scene, quiet.initial), with(damped.scene, damped.initial);
-  const auto v = lab::velocities_by_id(with), damps = pressure_forces(with), presses = pressure_forces(without);
+  const auto v = lab::velocities_by_id(with), damps = pressure_forces(with),
+             presses = pressure_forces(without);
   const auto V = lab::by_id(with, field::volume), q = lab::by_id(with, field::bulk_pressure);
   double power = 0.0, taken = 0.0;
   for (std::size_t i = 0; i < v.size(); ++i) {
@@ -96,7 +102,8 @@ double smoothed(int n) {
   return std::sqrt(off / all);
 }
 
-/// 1 - (k h)^2/30 of a wave passes Wendland's C2, whose second moment is h^2/15; at 48 particles a wavelength (k h)^2 is 0.116.
+/// 1 - (k h)^2/30 of a wave passes Wendland's C2, whose second moment is h^2/15; at 48 particles a wavelength
+/// (k h)^2 is 0.116.
 TEST(MeanPressure, IsOfSecondOrderOverThreeLevels) {
   const double coarse = smoothed(12), middle = smoothed(24), fine = smoothed(48);
   EXPECT_NEAR(std::log2(middle / fine), 2.0, 0.06);

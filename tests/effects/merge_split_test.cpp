@@ -47,8 +47,10 @@ TEST(Merge, KeepsMassMomentumAndAngularMomentumAndBooksTheRest) {
   Simulation joined(lab.scene, lab.initial);
   const Ledger before = apart.ledger(), after = joined.ledger();
   expect_kept(before, after);
-  EXPECT_NEAR(after.energy.at("kinetic") / before.energy.at("kinetic"), 0.093563, 1e-6);  // an implementation apart, six digits
-  EXPECT_NEAR(after.energy.at("kinetic") + after.energy.at("merging"), before.energy.at("kinetic"), round_off);
+  // An implementation apart, six digits
+  EXPECT_NEAR(after.energy.at("kinetic") / before.energy.at("kinetic"), 0.093563, 1e-6);
+  EXPECT_NEAR(after.energy.at("kinetic") + after.energy.at("merging"), before.energy.at("kinetic"),
+              round_off);
   EXPECT_FALSE(joined.world().bodies[field::body_alive][1]);
   for (const int b : joined.world().particles[field::body]) EXPECT_EQ(b, 0);
 }
@@ -58,7 +60,8 @@ TEST(Merge, KeepsTheOrientationOfTheBodyThatStays) {
   lab.scene.events = {event(Event::Kind::merge, 0.1, {"cube", "bar"})};
   lab::Lab never = cube_and_bar();
   Simulation merged = lab.run(0.1), apart = never.run(0.1);
-  EXPECT_EQ(merged.world().bodies[field::body_orientation][0], apart.world().bodies[field::body_orientation][0]);
+  EXPECT_EQ(merged.world().bodies[field::body_orientation][0],
+            apart.world().bodies[field::body_orientation][0]);
   const auto x = positions(merged.world().particles), y = positions(apart.world().particles);
   for (std::size_t i = 0; i < lab.initial.size(); ++i) EXPECT_NEAR(norm(x.at(i) - y.at(i)), 0.0, round_off);
   Simulation later = lab.run(0.5);
@@ -85,8 +88,10 @@ TEST(Merge, WithAPrescribedBodyMovesOnWithIt) {
     return lab.run(0.3);
   }();
   for (std::size_t i = 0; i < 64; ++i) {
-    EXPECT_NEAR(norm(positions(s.world().particles).at(i) - positions(alone.world().particles).at(i)), 0.0, round_off);
-    EXPECT_NEAR(norm(velocities(s.world().particles).at(i) - velocities(alone.world().particles).at(i)), 0.0, round_off);
+    EXPECT_NEAR(norm(positions(s.world().particles).at(i) - positions(alone.world().particles).at(i)), 0.0,
+                round_off);
+    EXPECT_NEAR(norm(velocities(s.world().particles).at(i) - velocities(alone.world().particles).at(i)), 0.0,
+                round_off);
   }
   EXPECT_NEAR(s.world().bodies[field::body_mass][0], 109.0 / 64.0, round_off);
 }
@@ -130,7 +135,8 @@ TEST(Split, LetsEveryParticleLeaveWithTheVelocityThatItHad) {
   lab.scene.events = {cut(0.05)};
   const Simulation parted = lab.run(0.05);
   for (std::size_t i = 0; i < lab.initial.size(); ++i) {
-    EXPECT_NEAR(norm(velocities(parted.world().particles).at(i) - velocities(whole.world().particles).at(i)), 0.0, round_off);
+    EXPECT_NEAR(norm(velocities(parted.world().particles).at(i) - velocities(whole.world().particles).at(i)),
+                0.0, round_off);
   }
 }
 
@@ -141,7 +147,8 @@ TEST(Split, IsUndoneByAMerge) {
   Simulation again(lab.scene, lab.initial);
   expect_kept(whole.ledger(), again.ledger());
   EXPECT_NEAR(again.ledger().energy.at("merging"), 0.0, round_off);
-  EXPECT_NEAR(norm(again.world().bodies[field::body_angular_velocity][0] - Vec3{0.5, 1.0, 2.0}), 0.0, round_off);
+  EXPECT_NEAR(norm(again.world().bodies[field::body_angular_velocity][0] - Vec3{0.5, 1.0, 2.0}), 0.0,
+              round_off);
 }
 
 TEST(Split, OfATruncatedLineStaysFiniteAndBooksTheSpinThatItCannotHandOn) {
@@ -164,7 +171,10 @@ TEST(Split, OfATruncatedLineStaysFiniteAndBooksTheSpinThatItCannotHandOn) {
 TEST(Split, DownToSingleParticlesKeepsEverything) {
   lab::Lab lab(0.1);
   lab.scene.time_step = 1e-3;
-  lab.add({.name = "whole", .count = {3, 1, 1}, .velocity = {1.0, 0.0, 0.0}, .angular_velocity = {0.0, 0.0, 2.0}});
+  lab.add({.name = "whole",
+           .count = {3, 1, 1},
+           .velocity = {1.0, 0.0, 0.0},
+           .angular_velocity = {0.0, 0.0, 2.0}});
   Simulation whole(lab.scene, lab.initial);
   Event first = cut(0.0), second = cut(0.0);
   first.region->point = {0.05, 0.0, 0.0};

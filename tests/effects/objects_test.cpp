@@ -33,7 +33,8 @@ struct Line {
     }
   }
   /// A body of ids first..last, bonded within `reach`, with all of them own pairs.
-  std::size_t add(std::string_view name, std::uint32_t first, std::uint32_t last, double reach, Phase phase = Phase::elastic) {
+  std::size_t add(std::string_view name, std::uint32_t first, std::uint32_t last, double reach,
+                  Phase phase = Phase::elastic) {
     const std::size_t b = add_body(world, name, phase);
     world.bodies[field::body_source][b] = static_cast<int>(b);
     for (std::uint32_t i = first; i <= last; ++i) {
@@ -65,7 +66,9 @@ struct Line {
     world.particles[field::body][i] = -1;
     world.particles[field::phase][i] = 0;
   }
-  std::vector<int> bodies() const { return {world.particles[field::body].begin(), world.particles[field::body].end()}; }
+  std::vector<int> bodies() const {
+    return {world.particles[field::body].begin(), world.particles[field::body].end()};
+  }
   bool bonded(std::uint32_t i, std::uint32_t j) const {
     return std::ranges::any_of(world.bonds.of(i), [&](const Bond& b) { return b.other == j; });
   }
@@ -80,7 +83,8 @@ TEST(Regroup, CutsABarAtAMoltenParticleAndLongBondsDoNotBridgeIt) {
     EXPECT_TRUE(line.bonded(2, 4));  // still as before
     told.push_back(id);
   });
-  EXPECT_EQ(line.bodies(), (std::vector<int>{1, 1, 1, -1, 0, 0, 0, 0, 0}));  // five keep the row, three are new
+  // Five keep the row, three are new
+  EXPECT_EQ(line.bodies(), (std::vector<int>{1, 1, 1, -1, 0, 0, 0, 0, 0}));
   EXPECT_EQ(line.world.body_names, (std::vector<std::string>{"bar", "bar.1"}));
   EXPECT_FALSE(line.bonded(2, 4));
   EXPECT_FALSE(are_own(line.world.own, 0, 8));

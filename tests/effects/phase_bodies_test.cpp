@@ -63,12 +63,13 @@ TEST(Splitting, LetsPiecesLeaveAsTheyMoved) {
   s.advance_to(2e-3);
   ASSERT_EQ(lab::living_bodies(s), 2u);
   const Columns& t = s.world().bodies;
-  // Each piece turns as the whole did, and its centre moves with v + omega x r of the whole: no force acts, v and omega stay
-  // within dt^2.
+  // Each piece turns as the whole did, and its centre moves with v + omega x r of the whole: no force acts, v
+  // and omega stay within dt^2.
   for (const std::size_t b : {0u, 1u})
     EXPECT_NEAR(norm(t[field::body_angular_velocity][b] - t[field::body_angular_velocity][0]), 0.0, 1e-12);
   const std::vector<Vec3> parted = lab::speeds(s);
-  for (std::size_t i = 0; i < whole.size(); ++i) EXPECT_NEAR(norm(parted[i] - whole[i]), 0.0, 4e-3);  // omega^2 r dt = 2.6e-3 m/s
+  // omega^2 r dt = 2.6e-3 m/s
+  for (std::size_t i = 0; i < whole.size(); ++i) EXPECT_NEAR(norm(parted[i] - whole[i]), 0.0, 4e-3);
 }
 
 TEST(Splitting, DownToNearlyStraightPiecesAndSingleParticlesKeepsEverything) {
@@ -76,11 +77,14 @@ TEST(Splitting, DownToNearlyStraightPiecesAndSingleParticlesKeepsEverything) {
   lab.scene.time_step = 1e-3;
   std::vector<Vec3> points;
   for (int k = 0; k < 9; ++k) points.push_back({0.1 * k, k % 2 ? 1e-3 : 0.0, k % 3 ? 0.0 : 5e-4});
-  lab.add_points(
-      {.name = "line", .velocity = {0.0, 1.0, 0.0}, .angular_velocity = {30.0, 0.5, 1.0}, .temperature = constant(cold)}, points,
-      0.1);
+  lab.add_points({.name = "line",
+                  .velocity = {0.0, 1.0, 0.0},
+                  .angular_velocity = {30.0, 0.5, 1.0},
+                  .temperature = constant(cold)},
+                 points, 0.1);
   lab.scene.bodies[0].temperature->value = hot;
-  for (const std::size_t melts : {1u, 4u}) lab.initial.temperature[melts] = hot;  // pieces of 1, 2 and 4 particles
+  // Pieces of 1, 2 and 4 particles
+  for (const std::size_t melts : {1u, 4u}) lab.initial.temperature[melts] = hot;
   Simulation start(lab.scene, lab.initial);
   Simulation s = lab.run(0.01);
   EXPECT_EQ(lab::living_bodies(s), 3u);
@@ -187,9 +191,13 @@ TEST(Merging, JoinsOnlyThroughWhatFreezes) {
   lab::Lab lab = wet_lab();
   lab.scene.time_step = 1e-3;
   lab.add({.name = "left", .corner = {-0.3, 0.0, 0.0}, .count = {3, 3, 3}, .temperature = constant(cold)});
-  lab.add({.name = "right", .corner = {0.0, 0.0, 0.0}, .count = {3, 3, 3}, .temperature = constant(cold)});  // they touch
-  lab.add(
-      {.name = "far drop", .corner = {2.0, 0.0, 0.0}, .count = {1, 1, 1}, .phase = Phase::liquid, .temperature = constant(cold)});
+  // They touch
+  lab.add({.name = "right", .corner = {0.0, 0.0, 0.0}, .count = {3, 3, 3}, .temperature = constant(cold)});
+  lab.add({.name = "far drop",
+           .corner = {2.0, 0.0, 0.0},
+           .count = {1, 1, 1},
+           .phase = Phase::liquid,
+           .temperature = constant(cold)});
   lab.scene.bodies[0].temperature->value = hot;
   const Simulation s = lab.run(0.01);
   EXPECT_EQ(lab::living_bodies(s), 3u);  // the drop is a body of one
@@ -222,8 +230,11 @@ TEST(Merging, NeedsMatterThatMeltsOrABodyThatJoins) {
     lab.scene.time_step = 1e-3;
     lab.add_material(1000.0, 1e-12, 1000.0);
     lab.add({.name = "steel", .material = 1, .count = {3, 3, 1}, .temperature = constant(cold)});
-    lab.add(
-        {.name = "drop", .corner = {0.1, 0.1, 0.1}, .count = {1, 1, 1}, .phase = Phase::liquid, .temperature = constant(cold)});
+    lab.add({.name = "drop",
+             .corner = {0.1, 0.1, 0.1},
+             .count = {1, 1, 1},
+             .phase = Phase::liquid,
+             .temperature = constant(cold)});
     lab.scene.bodies[0].joins = joins;
     const Simulation s = lab.run(0.01);
     EXPECT_EQ(lab::living_bodies(s), joins ? 1u : 2u);
@@ -259,9 +270,11 @@ TEST(Merging, WithADrivenBodyTakesItsMotionAndHeatsByTheRelativeSpeed) {
 TEST(Merging, OfALineBodyHandsOnTheSpinThatItCouldNotTurnWith) {
   lab::Lab lab = wet_lab();
   lab.scene.time_step = 1e-4;
-  lab.add_points(
-      {.name = "line", .velocity = {0.1, 0.0, 0.0}, .angular_velocity = {20.0, 0.0, 0.0}, .temperature = constant(cold)},
-      {{-0.3, 1e-3, 0.0}, {-0.2, -1e-3, 0.0}, {-0.1, 1e-3, 0.0}}, 1.0);
+  lab.add_points({.name = "line",
+                  .velocity = {0.1, 0.0, 0.0},
+                  .angular_velocity = {20.0, 0.0, 0.0},
+                  .temperature = constant(cold)},
+                 {{-0.3, 1e-3, 0.0}, {-0.2, -1e-3, 0.0}, {-0.1, 1e-3, 0.0}}, 1.0);
   lab.add({.name = "block", .corner = {0.1, -0.1, -0.1}, .count = {3, 3, 3}, .temperature = constant(cold)});
   lab.add({.name = "drop", .count = {1, 1, 1}, .phase = Phase::liquid, .temperature = constant(cold)});
   lab.scene.bodies[0].temperature->value = hot;
@@ -278,8 +291,11 @@ TEST(Phase, GoesOnFromACheckpointBitForBit) {
     lab.scene.materials[0].conductivity = 5e3;
     lab.scene.materials[0].stiffness = 100.0;
     lab.scene.materials[0].latent_heat = 2e4;
-    lab.add(
-        {.name = "drop", .corner = {0.0, 0.3, 0.0}, .count = {2, 2, 2}, .phase = Phase::liquid, .temperature = constant(cold)});
+    lab.add({.name = "drop",
+             .corner = {0.0, 0.3, 0.0},
+             .count = {2, 2, 2},
+             .phase = Phase::liquid,
+             .temperature = constant(cold)});
     Simulation whole(lab.scene, lab.initial), first(lab.scene, lab.initial);
     whole.advance_to(cut);
     whole.advance_to(1e-2);

@@ -20,7 +20,11 @@ World block_and_drop(std::array<int, 3> count, const Vec3& drop) {
   lab::Lab lab = lab::melting_lab(dx, {.solid = SolidKind::elastic});
   lab.scene.materials[0].stiffness = 1e-12;
   lab.add({.name = "block", .count = count, .phase = Phase::elastic, .temperature = constant(cold)});
-  lab.add({.name = "drop", .corner = drop, .count = {1, 1, 1}, .phase = Phase::liquid, .temperature = constant(345.0)});
+  lab.add({.name = "drop",
+           .corner = drop,
+           .count = {1, 1, 1},
+           .phase = Phase::liquid,
+           .temperature = constant(345.0)});
   lab.scene.materials[0].t_solid = 340.0;
   const Simulation s(lab.scene, lab.initial);
   return s.world();
@@ -28,14 +32,16 @@ World block_and_drop(std::array<int, 3> count, const Vec3& drop) {
 
 double energy_of_all(const World& world) {
   double sum = 0.0;
-  for (std::uint32_t id = 0; id < world.particles.size(); ++id) sum += solid::deformation_energy(world, id).total();
+  for (std::uint32_t id = 0; id < world.particles.size(); ++id)
+    sum += solid::deformation_energy(world, id).total();
   return sum;
 }
 
 /// Moves every particle by a turn of 90 degrees and a stretch of 5 % along x.
 void turn_and_stretch(World& world, double stretch) {
   const auto x = positions(world.particles);
-  const Quaternion q = from_rotation_vector(0.5 * std::numbers::pi * Vec3{1.0, 2.0, -0.5} / norm(Vec3{1.0, 2.0, -0.5}));
+  const Quaternion q =
+      from_rotation_vector(0.5 * std::numbers::pi * Vec3{1.0, 2.0, -0.5} / norm(Vec3{1.0, 2.0, -0.5}));
   for (std::size_t i = 0; i < world.particles.size(); ++i) {
     Vec3 r = x.at(i);
     r.x *= 1.0 + stretch;
@@ -63,7 +69,8 @@ double jump(World world) {
   const std::uint32_t drop = static_cast<std::uint32_t>(world.particles.size() - 1);
   std::vector<phase::Joint> joints;
   for (std::uint32_t j = 0; j < drop; ++j) {
-    const Vec3 r = world.particles.position(world.particles.row(drop)) - world.particles.position(world.particles.row(j));
+    const Vec3 r = world.particles.position(world.particles.row(drop)) -
+                   world.particles.position(world.particles.row(j));
     if (norm(r) < 1.5 * dx) joints.push_back({drop, j, r, false});
   }
   EXPECT_GT(joints.size(), 0u);
@@ -86,8 +93,8 @@ TEST(Freezing, BesideATurnedAndStretchedSolidMakesNothingJump) {
 }
 
 TEST(Freezing, BesideTurnedChainsAndSheetsMakesNothingJump) {
-  for (const auto& [count, drop] :
-       {std::pair{std::array{6, 1, 1}, Vec3{0.6, 0.0, 0.0}}, std::pair{std::array{5, 5, 1}, Vec3{0.5, 0.2, 0.0}}}) {
+  for (const auto& [count, drop] : {std::pair{std::array{6, 1, 1}, Vec3{0.6, 0.0, 0.0}},
+                                    std::pair{std::array{5, 5, 1}, Vec3{0.5, 0.2, 0.0}}}) {
     World block = block_and_drop(count, drop);
     turn_and_stretch(block, 0.0);
     EXPECT_NEAR(jump(block), 0.0, 1e-12 * young * dx * dx * dx);
@@ -155,7 +162,8 @@ TEST(Melting, OfAStrainedBarGivesItsEnergyToHeatAndFreezingMakesNoStress) {
   const Ledger frozen = s.ledger();
   for (const int phase : lab::integers_by_id(s, field::phase)) EXPECT_EQ(phase, 1);
   EXPECT_EQ(lab::living_bodies(s), 1u);
-  EXPECT_LT(frozen.energy.at("elastic") + frozen.energy.at("hourglass"), 1e-3 * stored);  // what one step of motion strains
+  // What one step of motion strains
+  EXPECT_LT(frozen.energy.at("elastic") + frozen.energy.at("hourglass"), 1e-3 * stored);
   EXPECT_NEAR(lab::total_energy(frozen) / lab::total_energy(strained), 1.0, 1e-12);
   EXPECT_NEAR(norm(frozen.momentum - strained.momentum), 0.0, 1e-12 * 72.0);
 }
@@ -190,7 +198,8 @@ TEST(Melting, OfHalfABarLeavesTheBondsOfTheOtherHalf) {
     if (phase[id] == 1) continue;
     double strain = 0.0;
     for (const Bond& bond : now.bonds.of(id)) {
-      const Vec3 r = now.particles.position(now.particles.row(id)) - now.particles.position(now.particles.row(bond.other));
+      const Vec3 r = now.particles.position(now.particles.row(id)) -
+                     now.particles.position(now.particles.row(bond.other));
       strain = std::max(strain, norm(r - bond.x) / dx);
     }
     EXPECT_LT(strain, 0.01);  // moved since by at most a step's way
@@ -265,8 +274,8 @@ TEST(PrintedHeat, ALiquidThatIsSetToATemperatureTakesHeatAndNoFusion) {
   EXPECT_NEAR(lab::total_energy(s.ledger()) / lab::total_energy(before), 1.0, 1e-12);
 }
 
-/// Two rigid particles 0.1 m apart that spin by 2 rad/s, of a material of 1e5 Pa that is elastic between 320 and 360 K, at these
-/// temperatures.
+/// Two rigid particles 0.1 m apart that spin by 2 rad/s, of a material of 1e5 Pa that is elastic between 320
+/// and 360 K, at these temperatures.
 Simulation spinning_pair(double first, double second, bool softens = true) {
   lab::Lab lab = lab::melting_lab(0.1, {.t_melt = 360.0, .t_solid = 320.0, .conductivity = 1e-12});
   lab.scene.modes[term::phase] = Mode::paper;
@@ -276,7 +285,10 @@ Simulation spinning_pair(double first, double second, bool softens = true) {
   m.poisson_ratio = 0.3;
   m.softens = softens;
   const auto temperature = [=](const Vec3& r) { return r.x < 0.05 ? first : second; };
-  lab.add_points({.name = "pair", .phase = Phase::rigid, .angular_velocity = {0.0, 0.0, 2.0}, .temperature = temperature},
+  lab.add_points({.name = "pair",
+                  .phase = Phase::rigid,
+                  .angular_velocity = {0.0, 0.0, 2.0},
+                  .temperature = temperature},
                  {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}}, 1.0);
   TemperatureField& field = *lab.scene.bodies[0].temperature;
   field.kind = TemperatureField::Kind::step;

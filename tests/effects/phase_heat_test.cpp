@@ -115,13 +115,16 @@ TEST(Fusion, OfUnlikePhasesGoesRoundAClosedLoop) {
 
 /// A fixed bar that melts from a hot block on its left; 12 x 3 x 3 particles, periodic across.
 lab::Lab melting_bar(Mode mode = Mode::corrected) {
-  lab::Lab lab = lab::melting_lab(0.1, {.t_melt = 350.0, .t_solid = 345.0, .latent_heat = 2e4, .conductivity = 1000.0});
+  lab::Lab lab =
+      lab::melting_lab(0.1, {.t_melt = 350.0, .t_solid = 345.0, .latent_heat = 2e4, .conductivity = 1000.0});
   lab.set_mode(mode);
   lab.scene.support_ratio = 2.6;
   lab.add_material(1000.0, 1000.0, 1000.0);
-  lab.add({.name = "bar", .corner = {}, .count = {12, 3, 3}, .motion = Motion::fixed, .temperature = [](const Vec3&) {
-             return 348.0;
-           }});
+  lab.add({.name = "bar",
+           .corner = {},
+           .count = {12, 3, 3},
+           .motion = Motion::fixed,
+           .temperature = [](const Vec3&) { return 348.0; }});
   lab.add({.name = "hot",
            .material = 1,
            .corner = {-0.3, 0.0, 0.0},
@@ -173,7 +176,8 @@ TEST(Melting, OfUnlikePhasesConductsByThePhaseAndLosesNoHeat) {
   double between = 0.0, melted = 0.0;
   for (std::size_t i = 0; i < 108; ++i) {           // the bar, 1 kg a particle
     EXPECT_EQ(k[i], f[i] > 0.0 ? 1000.0 : 3000.0);  // what melts conducts as the liquid that it becomes
-    EXPECT_NEAR(H[i], (1.0 - f[i]) * 500.0 * T[i] + f[i] * (500.0 * 350.0 + 2e4 + 1000.0 * (T[i] - 350.0)), 1e-9 * H[i]);
+    EXPECT_NEAR(H[i], (1.0 - f[i]) * 500.0 * T[i] + f[i] * (500.0 * 350.0 + 2e4 + 1000.0 * (T[i] - 350.0)),
+                1e-9 * H[i]);
     between += f[i] > 0.0 && f[i] < 1.0 ? 1.0 : 0.0;
     melted += f[i];
   }
@@ -203,9 +207,11 @@ TEST(Heat, OfWhatHoldsABodyIsCountedBodyByBody) {
              .motion = Motion::fixed,
              .temperature = [](const Vec3&) { return 380.0; },
              .temperature_held = true});
-    lab.add({.name = "bar", .corner = {}, .count = {6, 3, 3}, .motion = Motion::fixed, .temperature = [](const Vec3&) {
-               return 340.0;
-             }});
+    lab.add({.name = "bar",
+             .corner = {},
+             .count = {6, 3, 3},
+             .motion = Motion::fixed,
+             .temperature = [](const Vec3&) { return 340.0; }});
     lab.add({.name = "cold",
              .corner = {0.6, 0.0, 0.0},
              .count = {3, 3, 3},
@@ -220,17 +226,21 @@ TEST(Heat, OfWhatHoldsABodyIsCountedBodyByBody) {
     EXPECT_GT(heat[0], 0.0);
     EXPECT_EQ(heat[1], 0.0);
     EXPECT_LT(heat[2], 0.0);
-    EXPECT_NEAR(heat[0] + heat[2], s.ledger().energy.at("thermal") - start, 1e-6 * heat[0]);  // of sums of 2e7 J
+    // Of sums of 2e7 J
+    EXPECT_NEAR(heat[0] + heat[2], s.ledger().energy.at("thermal") - start, 1e-6 * heat[0]);
     EXPECT_NEAR(heat[0] + heat[2], -s.ledger().energy.at("walls"), 1e-9 * heat[0]);
   }
 }
 
 TEST(Melting, GoesBackOverTheHysteresisAndClosesTheLedger) {
-  lab::Lab lab = lab::melting_lab(0.1, {.t_melt = 350.0, .t_solid = 340.0, .latent_heat = 2e4, .conductivity = 1000.0});
+  lab::Lab lab =
+      lab::melting_lab(0.1, {.t_melt = 350.0, .t_solid = 340.0, .latent_heat = 2e4, .conductivity = 1000.0});
   lab.scene.end_time = 400.0;
-  lab.add({.name = "bar", .corner = {}, .count = {6, 3, 3}, .motion = Motion::fixed, .temperature = [](const Vec3&) {
-             return 330.0;
-           }});
+  lab.add({.name = "bar",
+           .corner = {},
+           .count = {6, 3, 3},
+           .motion = Motion::fixed,
+           .temperature = [](const Vec3&) { return 330.0; }});
   lab.add_material(1000.0, 1000.0, 1000.0);
   lab.add({.name = "plate",
            .material = 1,

@@ -17,7 +17,8 @@ TEST(Plan, OfARigidSceneHasNoHeatColumnAndNeitherHasTheRun) {
   const Plan p = plan(lab.scene);
   ASSERT_EQ(p.effects.size(), 1u);
   EXPECT_EQ(p.effects[0].name, "rigid");
-  for (const char* f : {"temperature", "enthalpy", "heat_rate", "conductivity", "density"}) EXPECT_FALSE(lab::lists(p, f)) << f;
+  for (const char* f : {"temperature", "enthalpy", "heat_rate", "conductivity", "density"})
+    EXPECT_FALSE(lab::lists(p, f)) << f;
   const Simulation s(lab.scene, lab.initial);
   EXPECT_THROW((void)s.world().particles[field::temperature], MissingField);
   EXPECT_FALSE(s.world().neighbours.has_value()) << "a scene without pair terms needs no lists";
@@ -34,10 +35,12 @@ TEST(Plan, OfASceneWithoutDeformableSolidsHasNoneOfTheirColumnsAndNoBonds) {
   lab.scene.materials[0].stiffness = 100.0;
   lab.add({.name = "pool", .corner = {1.0, 0.0, 0.0}, .count = {4, 4, 4}, .phase = Phase::liquid});
   const Plan p = plan(lab.scene);
-  for (const char* f : {"elastic_force.x", "shape_rank", "strain.xx", "own_density", "plastic_strain.xx", "liquid_fraction"})
+  for (const char* f :
+       {"elastic_force.x", "shape_rank", "strain.xx", "own_density", "plastic_strain.xx", "liquid_fraction"})
     EXPECT_FALSE(lab::lists(p, f)) << f;
   for (const PlannedEffect& e : p.effects)
-    EXPECT_TRUE(e.name != "elastic" && e.name != "plastic" && e.name != "fracture" && e.name != "phase") << e.name;
+    EXPECT_TRUE(e.name != "elastic" && e.name != "plastic" && e.name != "fracture" && e.name != "phase")
+        << e.name;
   const Simulation s = lab.run(0.01);
   EXPECT_EQ(s.world().bonds.particles(), 0u);
   EXPECT_EQ(s.world().own.particles(), 0u);
@@ -77,7 +80,8 @@ TEST(Passes, RefuseAPairTermThatReadsAFieldWhichItsEffectDoesNotDeclare) {
     ADD_FAILURE() << "it was accepted";
   } catch (const InputError& e) {
     EXPECT_STREQ(e.what(),
-                 "a pair term of the effect heat reads or adds to the field temperature, which the effect does not declare");
+                 "a pair term of the effect heat reads or adds to the field temperature, which the effect "
+                 "does not declare");
   }
 }
 

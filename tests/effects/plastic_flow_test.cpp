@@ -45,24 +45,27 @@ TEST(PlasticFlow, DoesNothingBelowTheLimitAndNothingTwice) {
   std::mt19937 engine(3);
   const YieldLimits limits{.elastic = 0.01};
   for (int n = 0; n < 100; ++n) {
-    const Symmetric strain = random_strain(engine, 0.1), small = (0.99 * 0.01 / size(deviator(strain))) * strain;
+    const Symmetric strain = random_strain(engine, 0.1),
+                    small = (0.99 * 0.01 / size(deviator(strain))) * strain;
     EXPECT_EQ(flowed(small, {}, limits), Symmetric{});
     const Symmetric once = flowed(strain, {}, limits);
     EXPECT_EQ(flowed(strain, once, limits), once);
   }
 }
 
-/// At a strain that is held the stored energy loses that much, and mu |flow|^2 more: what is second order in a step.
+/// At a strain that is held the stored energy loses that much, and mu |flow|^2 more: what is second order in
+/// a step.
 TEST(PlasticFlow, NeverGivesEnergyAndBooksWhatTheStoredEnergyLoses) {
   std::mt19937 engine(4);
   const YieldLimits limits{.elastic = 0.01, .plastic = 0.05};
   Symmetric plastic;
   for (int n = 0; n < 1000; ++n) {
-    const Symmetric strain = random_strain(engine, 0.1), next = flowed(strain, plastic, limits), flow = next - plastic;
+    const Symmetric strain = random_strain(engine, 0.1), next = flowed(strain, plastic, limits),
+                    flow = next - plastic;
     const double lost = dissipated(stress_of(strain - next), flow);
     EXPECT_GE(lost, 0.0);
-    EXPECT_NEAR(lost + material().mu * contraction(flow, flow), stored(strain - plastic) - stored(strain - next),
-                1e-12 * stored(strain - plastic));
+    EXPECT_NEAR(lost + material().mu * contraction(flow, flow),
+                stored(strain - plastic) - stored(strain - next), 1e-12 * stored(strain - plastic));
     plastic = next;
   }
 }
@@ -79,7 +82,8 @@ TEST(PlasticFlow, StopsAtThePlasticLimitAndLeavesWhatWasLargerBefore) {
   EXPECT_NEAR(size(flowed({0.2, 0.0, 0.0, 0.0, 0.0, 0.0}, large, limits)), size(large), round_off);
 }
 
-/// Uniaxial tension of a chain: S = E eps up to sqrt(6) mu g1, and the cap on the isochoric tensor (p, -p/2, -p/2).
+/// Uniaxial tension of a chain: S = E eps up to sqrt(6) mu g1, and the cap on the isochoric tensor (p, -p/2,
+/// -p/2).
 TEST(PlasticFlow, OfAChainYieldsInTensionWhereABarDoes) {
   constexpr Symmetric P{1.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   const double sigma = yield_stress(material().mu, 0.01);

@@ -32,7 +32,9 @@ lab::Lab yielding_bar() {
   lab.scene.materials[0].stiffness = 1e-12;
   lab.scene.materials[0].elastic_limit = 0.01;
   lab.scene.time_step = 5e-4;
-  lab.add({.name = "bar", .count = {8, 3, 3}, .phase = Phase::elastic, .temperature = [](const Vec3&) { return cold; }});
+  lab.add({.name = "bar", .count = {8, 3, 3}, .phase = Phase::elastic, .temperature = [](const Vec3&) {
+             return cold;
+           }});
   lab.scene.bodies[0].temperature->value = hot;
   for (std::size_t i = 0; i < lab.initial.size(); ++i)
     lab.initial.velocity[i] = {4.0 * (lab.initial.position[i].x - 0.35), 0.0, 0.0};
@@ -80,9 +82,12 @@ TEST(PlasticFlow, LooksWhereverMatterFlowsAndNotBelowTheLimit) {
     const Symmetric shear = deviator({u(engine), u(engine), u(engine), u(engine), u(engine), u(engine)});
     const double beyond = std::pow(10.0, -1.0 - n % 16), pressure = n % 3 == 0 ? 0.0 : u(engine);
     const Symmetric volume{pressure, pressure, pressure, 0.0, 0.0, 0.0};
-    const auto strain = [&](double size) { return (size * limits.elastic / plastic::size(shear)) * shear + volume; };
+    const auto strain = [&](double size) {
+      return (size * limits.elastic / plastic::size(shear)) * shear + volume;
+    };
     const Symmetric above = strain(1.0 + beyond), below = strain(1.0 - std::max(beyond, 1e-9));
-    EXPECT_TRUE(constants.may_flow(0, 3, above) || plastic::flowed(above, {}, limits) == Symmetric{}) << beyond;
+    EXPECT_TRUE(constants.may_flow(0, 3, above) || plastic::flowed(above, {}, limits) == Symmetric{})
+        << beyond;
     EXPECT_FALSE(constants.may_flow(0, 3, below)) << beyond;
   }
   EXPECT_TRUE(constants.may_flow(0, 2, {}));
@@ -91,10 +96,13 @@ TEST(PlasticFlow, LooksWhereverMatterFlowsAndNotBelowTheLimit) {
 
 TEST(PlasticFreezing, CallsForPlasticFlowAndFractureWhereWhatFreezesCanYieldAndBreak) {
   lab::Lab lab = lab::melting_lab(dx, {.solid = SolidKind::elastic});
-  lab.add({.name = "pool", .count = {3, 3, 3}, .phase = Phase::liquid, .temperature = [](const Vec3&) { return 300.0; }});
+  lab.add({.name = "pool", .count = {3, 3, 3}, .phase = Phase::liquid, .temperature = [](const Vec3&) {
+             return 300.0;
+           }});
   lab.scene.bodies[0].temperature->value = 300.0;
   const auto calls = [&](std::string_view name) {
-    return std::ranges::any_of(called_effects(lab.scene), [&](const CalledEffect& e) { return e.name == name; });
+    return std::ranges::any_of(called_effects(lab.scene),
+                               [&](const CalledEffect& e) { return e.name == name; });
   };
   EXPECT_TRUE(calls("elastic"));
   EXPECT_FALSE(calls("plastic"));

@@ -23,7 +23,8 @@ lab::Lab jet() {
   in.temperature = 300.0;
   in.stop = 0.1;
   lab.scene.inflows.push_back(in);
-  lab.add({.corner = {0.5, 0.5, 0.5}, .phase = Phase::liquid, .temperature = [](const Vec3&) { return 300.0; }});
+  lab.add(
+      {.corner = {0.5, 0.5, 0.5}, .phase = Phase::liquid, .temperature = [](const Vec3&) { return 300.0; }});
   return lab;
 }
 
@@ -109,12 +110,14 @@ TEST(Grip, CarriesARigidBodyAsItsKeyframesSayAndLetsItFlyOn) {
   grip.region->min = {-1.0, -1.0, -1.0};
   grip.region->max = {1.0, 1.0, 1.0};
   const double angle = 0.5;  // [rad], about z in 0.4 s
-  grip.keyframes = {{0.2, {}, {}}, {0.6, {0.0, 0.0, 0.2}, {std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle)}}};
+  grip.keyframes = {{0.2, {}, {}},
+                    {0.6, {0.0, 0.0, 0.2}, {std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle)}}};
   lab.scene.events.push_back(grip);
   const auto centre_at = [&](double t) { return lab.run(t).world().bodies[field::body_centre][0]; };
   const Vec3 start{0.11, 0.01, 0.01};
   const auto turned = [&](double a) {
-    return Vec3{start.x * std::cos(a) - start.y * std::sin(a), start.x * std::sin(a) + start.y * std::cos(a), start.z};
+    return Vec3{start.x * std::cos(a) - start.y * std::sin(a), start.x * std::sin(a) + start.y * std::cos(a),
+                start.z};
   };
   EXPECT_LT(norm(centre_at(0.2) - start), 1e-12);
   EXPECT_LT(norm(centre_at(0.4) - (turned(0.25) + Vec3{0.0, 0.0, 0.1})), 1e-12);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The printed equations on two, three and four particles, with numbers worked out on paper. The support radius is 2 m and
-// neighbours are 1 m apart: poly6 is 315/(512 pi) at 0, 8505/(32768 pi) at 1 and 2520/(32768 pi) at sqrt 2; spiky' is -45/(64 pi)
-// at 1; the viscosity kernel's Laplacian 45/(64 pi).
+// The printed equations on two, three and four particles, with numbers worked out on paper. The support
+// radius is 2 m and neighbours are 1 m apart: poly6 is 315/(512 pi) at 0, 8505/(32768 pi) at 1 and
+// 2520/(32768 pi) at sqrt 2; spiky' is -45/(64 pi) at 1; the viscosity kernel's Laplacian 45/(64 pi).
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -13,8 +13,10 @@ namespace tripoint {
 namespace {
 
 constexpr double pi = std::numbers::pi, mass = 2.0, k = 100.0, mu = 3.0;
-constexpr double at_0 = 315.0 / (512.0 * pi), at_1 = 8505.0 / (32768.0 * pi), at_root_2 = 2520.0 / (32768.0 * pi);
-constexpr double spiky_slope = 45.0 / (64.0 * pi);  // of spiky at 1, towards the particle, and of the Laplacian at 1
+constexpr double at_0 = 315.0 / (512.0 * pi), at_1 = 8505.0 / (32768.0 * pi),
+                 at_root_2 = 2520.0 / (32768.0 * pi);
+// Of spiky at 1, towards the particle, and of the Laplacian at 1
+constexpr double spiky_slope = 45.0 / (64.0 * pi);
 
 /// Liquid particles of 2 kg at these places, as printed in every term, rest density 2 kg/m3.
 lab::Lab printed(const std::vector<Vec3>& places, bool heat = false) {
@@ -42,7 +44,8 @@ TEST(PrintedNumbers, TwoParticlesHaveTheDensityPressureAndForcesOfPaper) {
   lab::Lab lab = printed({{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}});
   lab.initial.velocity[1] = {0.0, 4.0, 0.0};
   lab.scene.time_step = 1e-9;
-  const Simulation s = lab.run(1e-9);                  // nothing has moved yet, and viscosity has its first velocities
+  // Nothing has moved yet, and viscosity has its first velocities
+  const Simulation s = lab.run(1e-9);
   const double rho = mass * (at_0 + at_1);             // (4), 0.5569
   const double p = k * (rho - 2.0);                    // (9), -144.3: no clamp
   const double V = mass / rho;                         // 3.591
@@ -66,7 +69,8 @@ TEST(PrintedNumbers, TwoParticlesHaveTheDensityPressureAndForcesOfPaper) {
 TEST(PrintedNumbers, OfThreeInALineTheMiddleOneIsDenserAndFeelsNothing) {
   const lab::Lab lab = printed({{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {2.0, 0.0, 0.0}});
   const Simulation s(lab.scene, lab.initial, {.threads = 1});
-  const double end = mass * (at_0 + at_1), middle = mass * (at_0 + 2.0 * at_1);  // the ends are 2 m apart: out of reach
+  // The ends are 2 m apart: out of reach
+  const double end = mass * (at_0 + at_1), middle = mass * (at_0 + 2.0 * at_1);
   EXPECT_NEAR(lab::by_id(s, field::density)[0], end, 1e-13);
   EXPECT_NEAR(lab::by_id(s, field::density)[1], middle, 1e-13);
   EXPECT_NEAR(lab::by_id(s, field::density)[2], end, 1e-13);
@@ -92,7 +96,8 @@ TEST(PrintedNumbers, HeatFlowsByTheConstantOfTheMaterialAndByTheOneOfTheScene) {
     lab.scene.values["heat_constant"] = one;
     lab.scene.time_step = 1e-6;
     const Simulation s = lab.run(1e-6);
-    const double c = one > 0.0 ? one : 5.0, V_middle = mass / (mass * (at_0 + 2.0 * at_1)), V_end = mass / (mass * (at_0 + at_1));
+    const double c = one > 0.0 ? one : 5.0, V_middle = mass / (mass * (at_0 + 2.0 * at_1)),
+                 V_end = mass / (mass * (at_0 + at_1));
     const double rate = c * V_middle * 10.0 * spiky_slope;  // (21) at the cold end [K/s]
     const auto T = lab::by_id(s, field::temperature);
     EXPECT_NEAR((T[0] - 300.0) / 1e-6, rate, 1e-5 * rate);
@@ -102,8 +107,8 @@ TEST(PrintedNumbers, HeatFlowsByTheConstantOfTheMaterialAndByTheOneOfTheScene) {
   }
 }
 
-/// A liquid particle of 3 Pa s at the origin, which moves by 4 m/s across, and a held solid one of solid_viscosity 12 Pa s beside
-/// it, at this temperature.
+/// A liquid particle of 3 Pa s at the origin, which moves by 4 m/s across, and a held solid one of
+/// solid_viscosity 12 Pa s beside it, at this temperature.
 double drag_at_solid(double temperature, double contact_viscosity) {
   lab::Lab lab = printed({});
   lab.scene.contact_viscosity = contact_viscosity;
@@ -119,8 +124,9 @@ double drag_at_solid(double temperature, double contact_viscosity) {
   if (contact_viscosity == 0.0) solid.values["solid_viscosity"] = 12.0;
   const auto at = [=](const Vec3&) { return temperature; };
   lab.add_points({.name = "drop", .phase = Phase::liquid, .temperature = at}, {{0.0, 0.0, 0.0}}, mass);
-  lab.add_points({.name = "wall", .material = 1, .phase = Phase::elastic, .motion = Motion::fixed, .temperature = at},
-                 {{1.0, 0.0, 0.0}}, mass);
+  lab.add_points(
+      {.name = "wall", .material = 1, .phase = Phase::elastic, .motion = Motion::fixed, .temperature = at},
+      {{1.0, 0.0, 0.0}}, mass);
   for (Body& body : lab.scene.bodies) body.temperature->value = temperature;
   lab.initial.velocity[0] = {0.0, 4.0, 0.0};
   lab.scene.materials[0].conductivity = 1e-12;
@@ -130,12 +136,13 @@ double drag_at_solid(double temperature, double contact_viscosity) {
 }
 
 TEST(PrintedNumbers, ASolidsOwnViscosityActsAndGoesLinearlyToThatOfTheLiquid) {
-  // V = 2/0.55691 = 3.5912 m3; V^2 (mu_i + mu_j)/2 4 m/s 45/(64 pi) = 34.6385 N at a mean of 3 Pa s, so 11.5462 N for each Pa s
-  // of it.
+  // V = 2/0.55691 = 3.5912 m3; V^2 (mu_i + mu_j)/2 4 m/s 45/(64 pi) = 34.6385 N at a mean of 3 Pa s,
+  // so 11.5462 N for each Pa s of it.
   constexpr double per_mean = 11.54617;
-  EXPECT_NEAR(drag_at_solid(300.0, 0.0), 7.5 * per_mean, 1e-3);   // (3 + 12)/2
-  EXPECT_NEAR(drag_at_solid(330.0, 0.0), 6.75 * per_mean, 1e-3);  // a quarter of the way from 12 to 6 is 10.5: (3 + 10.5)/2
-  EXPECT_NEAR(drag_at_solid(340.0, 0.0), 6.0 * per_mean, 1e-3);   // half way: (3 + 9)/2
+  EXPECT_NEAR(drag_at_solid(300.0, 0.0), 7.5 * per_mean, 1e-3);  // (3 + 12)/2
+  // a quarter of the way from 12 to 6 is 10.5: (3 + 10.5)/2
+  EXPECT_NEAR(drag_at_solid(330.0, 0.0), 6.75 * per_mean, 1e-3);
+  EXPECT_NEAR(drag_at_solid(340.0, 0.0), 6.0 * per_mean, 1e-3);  // half way: (3 + 9)/2
   EXPECT_NEAR(drag_at_solid(340.0, 5.0), 4.0 * per_mean,
               1e-3);  // without the key: the scene's contact viscosity, at any temperature
 }

@@ -29,7 +29,10 @@ TEST(RigidBody, AConstantForceAtItsCentreAddsFOverMToGravity) {
   lab::Lab lab(0.1);
   lab.scene.gravity = g;
   lab.scene.time_step = 0.01;
-  lab.add({.name = "pushed", .count = {4, 4, 4}, .velocity = {1.0, 0.0, 5.0}, .angular_velocity = {1.87, 3.74, 5.61}});
+  lab.add({.name = "pushed",
+           .count = {4, 4, 4},
+           .velocity = {1.0, 0.0, 5.0},
+           .angular_velocity = {1.87, 3.74, 5.61}});
   const Vec3 force{3.0, -200.0, 40.0};
   lab.scene.forces.push_back({"pushed", force, {}, {}});
   const Simulation s = lab.run(1.0);
@@ -60,7 +63,8 @@ double energy_drift_under_a_force_at_a_corner(double dt) {
 }
 
 TEST(RigidBody, AForceOffTheCentreKeepsKineticAndPotentialEnergyToSecondOrder) {
-  const double coarse = energy_drift_under_a_force_at_a_corner(0.01), fine = energy_drift_under_a_force_at_a_corner(0.005);
+  const double coarse = energy_drift_under_a_force_at_a_corner(0.01),
+               fine = energy_drift_under_a_force_at_a_corner(0.005);
   EXPECT_LT(coarse, 1e-3);
   EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.2);
 }
@@ -114,7 +118,8 @@ TEST(RigidBody, PrescribedIsWhereItsKeyframesSay) {
   EXPECT_NEAR(norm(b[field::body_velocity][0] - Vec3{1.0, 0.0, 0.0}), 0.0, 1e-14);
   EXPECT_NEAR(norm(b[field::body_angular_velocity][0] - Vec3{0.0, 0.0, 1.0}), 0.0, 1e-14);
   // a corner member: its place turned by half a radian, its velocity v + omega x r
-  const Vec3 lever = rotate(from_rotation_vector({0.0, 0.0, 0.5}), lab.initial.position[0] - Vec3{0.1, 0.1, 0.1});
+  const Vec3 lever =
+      rotate(from_rotation_vector({0.0, 0.0, 0.5}), lab.initial.position[0] - Vec3{0.1, 0.1, 0.1});
   const auto x = positions(s.world().particles), v = velocities(s.world().particles);
   EXPECT_NEAR(norm(x.at(0) - (Vec3{0.6, 0.1, 0.1} + lever)), 0.0, 1e-14);
   EXPECT_NEAR(norm(v.at(0) - (Vec3{1.0, 0.0, 0.0} + cross({0.0, 0.0, 1.0}, lever))), 0.0, 1e-14);
@@ -123,7 +128,10 @@ TEST(RigidBody, PrescribedIsWhereItsKeyframesSay) {
 TEST(RigidBody, ReleasedFliesOnWithTheVelocityThatItHad) {
   lab::Lab lab(0.1);
   lab.scene.time_step = 0.01;
-  lab.add({.count = {3, 3, 3}, .motion = Motion::prescribed, .velocity = {2.0, 0.0, 0.0}, .angular_velocity = {0.0, 0.0, 1.0}});
+  lab.add({.count = {3, 3, 3},
+           .motion = Motion::prescribed,
+           .velocity = {2.0, 0.0, 0.0},
+           .angular_velocity = {0.0, 0.0, 1.0}});
   Event release;
   release.kind = Event::Kind::release;
   release.time = 0.3;
@@ -161,16 +169,19 @@ TEST_P(Thin, SpinsWithoutBlowingUp) {
   s.advance_to(5.0);
   EXPECT_EQ(s.world().bodies[field::body_angular_momentum][0], L);
   EXPECT_LT(norm(s.world().bodies[field::body_angular_velocity][0]), 6.0);
-  for (std::size_t i = 0; i < lab.initial.size(); ++i) EXPECT_TRUE(finite(positions(s.world().particles).at(i)));
+  for (std::size_t i = 0; i < lab.initial.size(); ++i)
+    EXPECT_TRUE(finite(positions(s.world().particles).at(i)));
 }
 std::vector<Vec3> line(int count, double offset) {
   std::vector<Vec3> points;
-  for (int k = 0; k < count; ++k) points.push_back(0.1 * k * Vec3{0.6, 0.48, 0.64} + (k % 2 ? Vec3{0.0, 0.0, offset} : Vec3{}));
+  for (int k = 0; k < count; ++k)
+    points.push_back(0.1 * k * Vec3{0.6, 0.48, 0.64} + (k % 2 ? Vec3{0.0, 0.0, offset} : Vec3{}));
   return points;
 }
-INSTANTIATE_TEST_SUITE_P(Bodies, Thin,
-                         testing::Values(line(1, 0.0), line(2, 0.0), line(3, 0.0), line(5, 0.0), line(5, 1e-9), line(5, 1e-5),
-                                         line(5, 1e-3), std::vector<Vec3>{{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {0.1, 0.1, 0}}));
+INSTANTIATE_TEST_SUITE_P(
+    Bodies, Thin,
+    testing::Values(line(1, 0.0), line(2, 0.0), line(3, 0.0), line(5, 0.0), line(5, 1e-9), line(5, 1e-5),
+                    line(5, 1e-3), std::vector<Vec3>{{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {0.1, 0.1, 0}}));
 
 TEST(RigidBody, ThroughAPeriodicBoxTurnsAboutThatAxisOnly) {
   lab::Lab lab(0.1);
@@ -178,7 +189,9 @@ TEST(RigidBody, ThroughAPeriodicBoxTurnsAboutThatAxisOnly) {
   lab.scene.time_step = 0.01;
   lab.add({.count = {4, 6, 4}, .velocity = {0.0, 1.0, 0.0}, .angular_velocity = {0.0, 2.0, 0.0}});
   const Simulation s = lab.run(1.0);
-  EXPECT_NEAR(angle_between(s.world().bodies[field::body_orientation][0], from_rotation_vector({0.0, 2.0, 0.0})), 0.0, 1e-12);
+  EXPECT_NEAR(
+      angle_between(s.world().bodies[field::body_orientation][0], from_rotation_vector({0.0, 2.0, 0.0})), 0.0,
+      1e-12);
   EXPECT_NEAR(s.world().bodies[field::body_centre][0].y, 1.25, 1e-13);
 
   lab.initial = {};

@@ -28,7 +28,8 @@ Quaternion reference(const Vec3& w0, double time) {
   const long n = std::lround(time / 2e-4);
   const double dt = time / static_cast<double>(n);
   for (long k = 0; k < n; ++k) {
-    const auto a = rate(q), b = rate(plus(q, 0.5 * dt, a)), c = rate(plus(q, 0.5 * dt, b)), d = rate(plus(q, dt, c));
+    const auto a = rate(q), b = rate(plus(q, 0.5 * dt, a)), c = rate(plus(q, 0.5 * dt, b)),
+               d = rate(plus(q, dt, c));
     q = plus(plus(plus(plus(q, dt / 6.0, a), dt / 3.0, b), dt / 3.0, c), dt / 6.0, d);
     q = normalised(q);
   }
@@ -44,21 +45,25 @@ double error(const Vec3& w0, double dt, Step step) {
   return angle_between(q, reference(w0, end));
 }
 double error_of(const AxisOrder& order, double dt) {
-  return error({1.0, 2.0, 3.0}, dt,
-               [&](const Quaternion& q, const Vec3& L, double h) { return rotated_no_squish(q, I, L, h, order); });
+  return error({1.0, 2.0, 3.0}, dt, [&](const Quaternion& q, const Vec3& L, double h) {
+    return rotated_no_squish(q, I, L, h, order);
+  });
 }
 double corrected_error(double dt) {
-  return error({1.0, 2.0, 3.0}, dt, [](const Quaternion& q, const Vec3& L, double h) { return rotated_corrected(q, I, L, h); });
+  return error({1.0, 2.0, 3.0}, dt,
+               [](const Quaternion& q, const Vec3& L, double h) { return rotated_corrected(q, I, L, h); });
 }
 double paper_error(double dt) {
-  return error({1.0, 2.0, 3.0}, dt, [](const Quaternion& q, const Vec3& L, double h) { return rotated_paper(q, I, L, h); });
+  return error({1.0, 2.0, 3.0}, dt,
+               [](const Quaternion& q, const Vec3& L, double h) { return rotated_paper(q, I, L, h); });
 }
 
 TEST(NoSquishRotation, SpansTheKnownErrorsOverTheSixAxisOrders) {
   double least = 1.0, greatest = 0.0;
   for (const AxisOrder& order : {AxisOrder{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}) {
     const double e = error_of(order, 1e-2);
-    RecordProperty("order_" + std::to_string(order[0]) + std::to_string(order[1]) + std::to_string(order[2]), std::to_string(e));
+    RecordProperty("order_" + std::to_string(order[0]) + std::to_string(order[1]) + std::to_string(order[2]),
+                   std::to_string(e));
     std::printf("axes outer to inner %zu %zu %zu: %.3e rad\n", order[0], order[1], order[2], e);
     least = std::min(least, e);
     greatest = std::max(greatest, e);
@@ -83,7 +88,8 @@ TEST(CorrectedRotation, IsExactForABodyWithEqualMoments) {
   const Vec3 w{1.87, 3.74, 5.61}, cube{0.1, 0.1, 0.1};
   const Quaternion one_step = rotated_corrected({}, cube, 0.1 * w, 0.3);
   EXPECT_NEAR(angle_between(one_step, from_rotation_vector(0.3 * w)), 0.0, 1e-15);
-  // A symmetric top: q = exp(t L/I_t) exp(t (1/I_a - 1/I_t) L_a a), whichever of its moments is the single one.
+  // A symmetric top: q = exp(t L/I_t) exp(t (1/I_a - 1/I_t) L_a a), whichever of its moments is the single
+  // one.
   for (const Vec3& top : {Vec3{0.025, 0.065, 0.065}, Vec3{0.065, 0.065, 0.1}}) {
     const std::size_t a = top.x < top.y ? 0 : 2;
     const Vec3 L{0.3, -0.2, 0.5};

@@ -30,11 +30,14 @@ inline Lab elastic_lab(double spacing, double poisson = 0.3, Mode mode = Mode::c
 /// Moves every particle by up to `amplitude` spacings, before the solver measures reference vectors.
 inline void jitter_all(Lab& lab, double amplitude, const Vec3& along = {1.0, 1.0, 1.0}) {
   std::mt19937_64 random(11);
-  std::uniform_real_distribution<double> uniform(-amplitude * lab.scene.spacing, amplitude * lab.scene.spacing);
-  for (Vec3& r : lab.initial.position) r += {along.x * uniform(random), along.y * uniform(random), along.z * uniform(random)};
+  std::uniform_real_distribution<double> uniform(-amplitude * lab.scene.spacing,
+                                                 amplitude * lab.scene.spacing);
+  for (Vec3& r : lab.initial.position)
+    r += {along.x * uniform(random), along.y * uniform(random), along.z * uniform(random)};
 }
 
-/// The solids of a scene, put where a test wants them: strain, forces and energy as the solver finds them there.
+/// The solids of a scene, put where a test wants them: strain, forces and energy as the solver finds them
+/// there.
 class Deformable {
  public:
   explicit Deformable(const Lab& lab, int threads = 1)
@@ -51,7 +54,8 @@ class Deformable {
   /// Each particle at to(its place at the start).
   template <class Place>
   void place(Place to) {
-    for (std::size_t id = 0; id < start_.size(); ++id) positions(world_.particles).set(world_.particles.row(id), to(start_[id]));
+    for (std::size_t id = 0; id < start_.size(); ++id)
+      positions(world_.particles).set(world_.particles.row(id), to(start_[id]));
     update();
   }
   void move(std::size_t id, const Vec3& by) {
@@ -103,7 +107,8 @@ class Deformable {
 
 /// Turned by a radian and strained by some 5 %, differently everywhere.
 inline Vec3 bent(const Vec3& r) {
-  const Vec3 s = r + Vec3{0.3 * r.x * r.y + 0.05 * r.x, 0.2 * r.x * r.x - 0.04 * r.y, 0.25 * r.y * r.z + 0.1 * r.x * r.y};
+  const Vec3 s = r + Vec3{0.3 * r.x * r.y + 0.05 * r.x, 0.2 * r.x * r.x - 0.04 * r.y,
+                          0.25 * r.y * r.z + 0.1 * r.x * r.y};
   return rotate(from_rotation_vector({0.3, 0.8, -0.5}), s);
 }
 

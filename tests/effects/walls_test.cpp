@@ -25,7 +25,9 @@ lab::Lab pressed_column(ViscosityForm form = ViscosityForm::laplacian, double sc
   return lab;
 }
 
-double compression(const lab::Lab& lab) { return Simulation(lab.scene, lab.initial).ledger().energy.at("compression"); }
+double compression(const lab::Lab& lab) {
+  return Simulation(lab.scene, lab.initial).ledger().energy.at("compression");
+}
 
 void expect_gradient(const lab::Lab& lab) {
   const Simulation s(lab.scene, lab.initial);
@@ -82,8 +84,9 @@ TEST(Walls, AreShownTheForceAndDensityThatEveryStepWouldForm) {
       const std::size_t i = p.row(id), j = q.row(id);
       ASSERT_EQ(p.position(i), q.position(j));
       if (lab.initial.body[id] < 0) continue;
-      for (const Field<double>* f : {&field::force_x, &field::force_y, &field::force_z, &field::viscous_force_x,
-                                     &field::viscous_velocity_x, &field::number_density, &field::number_density_before})
+      for (const Field<double>* f :
+           {&field::force_x, &field::force_y, &field::force_z, &field::viscous_force_x,
+            &field::viscous_velocity_x, &field::number_density, &field::number_density_before})
         EXPECT_EQ(p[*f][i], q[*f][j]) << f->name << " of particle " << id << ", jitter " << jitter;
       greatest = std::max(greatest, std::abs(p[field::force_z][i]));
     }
@@ -95,11 +98,14 @@ TEST(Walls, HaveTheMeanDensityOfTheirFaceAndTheRestDensityBehindIt) {
   const lab::Lab lab = pressed_column();
   const Simulation s(lab.scene, lab.initial);
   const Particles& p = s.world().particles;
-  const auto own = [&](std::size_t id) { return p[field::mass][p.row(id)] * p[field::number_density][p.row(id)] / 1000.0; };
+  const auto own = [&](std::size_t id) {
+    return p[field::mass][p.row(id)] * p[field::number_density][p.row(id)] / 1000.0;
+  };
   double least = 1e300, most = 0.0, least_own = 1e300, most_own = 0.0;
   for (std::size_t id = 0; id < lab.initial.size(); ++id) {
     if (lab.initial.body[id] < 0) continue;
-    const double z = lab.initial.position[id].z / lab.scene.spacing, relative = p[field::density][p.row(id)] / 1000.0;
+    const double z = lab.initial.position[id].z / lab.scene.spacing,
+                 relative = p[field::density][p.row(id)] / 1000.0;
     if (z > -2.0 && z < -1.0) {
       EXPECT_EQ(relative, 1.0) << "of a particle between two layers";
     }
@@ -114,8 +120,8 @@ TEST(Walls, HaveTheMeanDensityOfTheirFaceAndTheRestDensityBehindIt) {
       << "the mean of 9 particles whose scatter is independent would have a third";
 }
 
-/// Jitter moves the layers behind a face, which press on nothing, nearer to it and farther from it. Fixed walls of a jittered
-/// scene read their lattice.
+/// Jitter moves the layers behind a face, which press on nothing, nearer to it and farther from it. Fixed
+/// walls of a jittered scene read their lattice.
 TEST(Walls, OfAJitteredSceneDoNotLookAtWhereTheJitterPutTheLayersBehindTheirFace) {
   const auto face = [](double scene_jitter, double moved, double every_second) {
     lab::Lab lab = lab::column(4, 6, 1.0, 1000.0, 10.0);
@@ -126,7 +132,8 @@ TEST(Walls, OfAJitteredSceneDoNotLookAtWhereTheJitterPutTheLayersBehindTheirFace
     const Simulation s(lab.scene, lab.initial);
     const auto rho = lab::by_id(s, field::density);
     for (std::size_t id = 0; id < rho.size(); ++id)
-      if (const double z = lab.initial.position[id].z; z < 0.0 && z > -lab.scene.spacing) return rho[id] / 1000.0;
+      if (const double z = lab.initial.position[id].z; z < 0.0 && z > -lab.scene.spacing)
+        return rho[id] / 1000.0;
     return 0.0;
   };
   EXPECT_NEAR(face(0.1, 0.1, -0.1), 1.0, 1e-6);  // what jitter adds is kept to a millionth
@@ -135,14 +142,16 @@ TEST(Walls, OfAJitteredSceneDoNotLookAtWhereTheJitterPutTheLayersBehindTheirFace
   EXPECT_NEAR(face(0.1, 0.0, 0.0), face(0.0, 0.0, 0.0), 1e-12);
 }
 
-/// Jitter puts a fixed wall off its lattice, and nothing evens that out. Liquid feels the same wall all the same: its densities
-/// and forces are those over a wall on the lattice, but for pairs about the support apart and a millionth of a spacing.
+/// Jitter puts a fixed wall off its lattice, and nothing evens that out. Liquid feels the same wall all the
+/// same: its densities and forces are those over a wall on the lattice, but for pairs about the support apart
+/// and a millionth of a spacing.
 TEST(Walls, OfAJitteredSceneAreFeltFromTheirLattice) {
   const auto over = [](double scene_jitter, double amplitude) {
     lab::Lab lab = lab::column(4, 6, 0.0, 1000.0, 10.0);
     lab.scene.jitter = scene_jitter;
     std::mt19937_64 random(5);
-    std::uniform_real_distribution<double> uniform(-amplitude * lab.scene.spacing, amplitude * lab.scene.spacing);
+    std::uniform_real_distribution<double> uniform(-amplitude * lab.scene.spacing,
+                                                   amplitude * lab.scene.spacing);
     Vec3 shift;
     bool back = false;  // every second particle goes where the one before did not: the wall as a whole stays
     for (std::size_t i = 0; i < lab.initial.size(); ++i) {
@@ -167,7 +176,8 @@ TEST(Walls, OfAJitteredSceneAreFeltFromTheirLattice) {
     for (std::size_t n = 0; n < a.size(); ++n) most = std::max(most, std::abs(a[n] - b[n]));
     return most;
   };
-  const auto lattice = over(0.1, 0.0), jittered = over(0.1, 0.05), as_it_is = over(0.0, 0.05);  // no pair has a core
+  // No pair has a core
+  const auto lattice = over(0.1, 0.0), jittered = over(0.1, 0.05), as_it_is = over(0.0, 0.05);
   ASSERT_EQ(lattice[0].size(), 36U);
   for (std::size_t column = 0; column < 2; ++column)
     EXPECT_LT(farthest(jittered[column], lattice[column]), 1e-3 * farthest(as_it_is[column], lattice[column]))
@@ -208,7 +218,8 @@ TEST(Walls, DoNoWorkWhereTheyAreFixedAndTheStepsLittle) {
     EXPECT_GE(now.energy.at("bulk_viscous"), 0.0);
     kinetic = now.energy.at("kinetic");
   }
-  EXPECT_LT(std::abs(s.ledger().energy.at("time_integration")), 1e-3 * weight);  // falls with the square of the step
+  // Falls with the square of the step
+  EXPECT_LT(std::abs(s.ledger().energy.at("time_integration")), 1e-3 * weight);
   EXPECT_LT(kinetic, 2e-3 * weight);  // what the start lets go is of the order of (g H/c)^2
 }
 

@@ -1,23 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stands between a program and the C library (LD_PRELOAD), and lets some of its calls fail: the n-th of a set of calls, as those
-// that change a file below a folder, or the n-th that asks for memory. Programs are tested as they are shipped; nothing of this
-// is in them.
+// Stands between a program and the C library (LD_PRELOAD), and lets some of its calls fail: the n-th of a set
+// of calls, as those that change a file below a folder, or the n-th that asks for memory. Programs are tested
+// as they are shipped; nothing of this is in them.
 //
-//   FAULT_PROCESS   beginning of the name of the process that is meant; others are left alone. Copies that it forks are meant too
-//   FAULT_FOLDER    calls on files below it count
-//   FAULT_AT        which call fails, from 1; 0 = none, calls are counted only. Several: "7,30", each with its kind
-//   FAULT_KIND      the name of a set and a hyphen before what happens. Without them the set is that of calls that change a file
-//                   (open, write, cut, fsync, rename). The others: name (a file or folder is removed, a folder made), read (a
-//                   file is opened for reading or read), stream (a pipe is read), and of children fork, spawn, pipe, poll, pidfd,
-//                   wait, kill, limit. What happens:
-//                   a word for an error (eio, enospc, eintr, ...): the call fails so; short: half of it is done, as may be;
-//                   before, half, after: the process is killed before the call, half way through it, after it;
-//                   lost: it is killed, and what no fsync has made durable is undone, but for a beginning whose length FAULT_SEED
-//                   draws; clock: from then on the date jumps by years at every look; memory: the n-th call for memory gives
-//                   none. With "+sticky" all later calls of the set fail too
-//   FAULT_LOG       a line a call that counts, or the one that failed: number, operation, path. Of calls for memory: their number
+//   FAULT_PROCESS   beginning of the name of the process that is meant; others are left alone. Copies that it
+//   forks are meant too FAULT_FOLDER    calls on files below it count FAULT_AT        which call fails, from
+//   1; 0 = none, calls are counted only. Several: "7,30", each with its kind FAULT_KIND      the name of a
+//   set and a hyphen before what happens. Without them the set is that of calls that change a file
+//                   (open, write, cut, fsync, rename). The others: name (a file or folder is removed, a
+//                   folder made), read (a file is opened for reading or read), stream (a pipe is read), and
+//                   of children fork, spawn, pipe, poll, pidfd, wait, kill, limit. What happens: a word for
+//                   an error (eio, enospc, eintr, ...): the call fails so; short: half of it is done, as may
+//                   be; before, half, after: the process is killed before the call, half way through it,
+//                   after it; lost: it is killed, and what no fsync has made durable is undone, but for a
+//                   beginning whose length FAULT_SEED draws; clock: from then on the date jumps by years at
+//                   every look; memory: the n-th call for memory gives none. With "+sticky" all later calls
+//                   of the set fail too
+//   FAULT_LOG       a line a call that counts, or the one that failed: number, operation, path. Of calls for
+//   memory: their number
 //                   at the end, and of the one that failed its number and the name of its stack
-//   FAULT_STACKS    how many callers make a stack of calls. Of calls for memory that are counted there is a line for each stack:
+//   FAULT_STACKS    how many callers make a stack of calls. Of calls for memory that are counted there is a
+//   line for each stack:
 //                   number of its first, of its last, name
 #include "faults/seam.hpp"
 
@@ -82,14 +85,16 @@ std::vector<Fault> faults_asked() {
     const std::string kind = kinds[n].substr(0, kinds[n].find(sticky_word));
     const size_t hyphen = kind.find('-');
     faults.push_back({std::atol(places[n].c_str()), set_of(kind.substr(0, hyphen)),
-                      hyphen == std::string::npos ? kind : kind.substr(hyphen + 1), kind.size() < kinds[n].size()});
+                      hyphen == std::string::npos ? kind : kind.substr(hyphen + 1),
+                      kind.size() < kinds[n].size()});
   }
   return faults;
 }
 
 /// Copies that a process forks count on with it, so that no two calls have one number.
 Counters& shared_counters() {
-  void* const memory = mmap(nullptr, sizeof(Counters), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  void* const memory =
+      mmap(nullptr, sizeof(Counters), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   return *new (memory) Counters{};
 }
 
@@ -125,7 +130,8 @@ namespace {
 void note(long number, const char* operation, const std::string& path) {
   if (plan().log.empty()) return;
   const std::string line = std::to_string(number) + " " + operation + " " + path + "\n";
-  const int f = static_cast<int>(raw(SYS_openat, AT_FDCWD, plan().log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
+  const int f = static_cast<int>(
+      raw(SYS_openat, AT_FDCWD, plan().log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
   if (f < 0) return;
   raw(SYS_write, f, line.data(), line.size());
   raw(SYS_close, f);
@@ -151,24 +157,27 @@ namespace {
 
 void undo(const Unsynced& u) {
   if (u.what == Unsynced::What::made) {
-    if (raw(SYS_unlinkat, AT_FDCWD, u.path.c_str(), 0) != 0) raw(SYS_unlinkat, AT_FDCWD, u.path.c_str(), AT_REMOVEDIR);
+    if (raw(SYS_unlinkat, AT_FDCWD, u.path.c_str(), 0) != 0)
+      raw(SYS_unlinkat, AT_FDCWD, u.path.c_str(), AT_REMOVEDIR);
     return;
   }
   if (u.what == Unsynced::What::removed && u.existed) {
     raw(SYS_mkdirat, AT_FDCWD, u.path.c_str(), 0755);
     return;
   }
-  if (u.what == Unsynced::What::renamed) raw(SYS_renameat, AT_FDCWD, u.path.c_str(), AT_FDCWD, u.old_path.c_str());
+  if (u.what == Unsynced::What::renamed)
+    raw(SYS_renameat, AT_FDCWD, u.path.c_str(), AT_FDCWD, u.old_path.c_str());
   if (u.what == Unsynced::What::renamed && !u.existed) return;
-  const int f = static_cast<int>(raw(SYS_openat, AT_FDCWD, u.path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644));
+  const int f =
+      static_cast<int>(raw(SYS_openat, AT_FDCWD, u.path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644));
   if (f < 0) return;
   raw(SYS_pwrite64, f, u.bytes.data(), u.bytes.size(), u.at);
   raw(SYS_ftruncate, f, u.size);
   raw(SYS_close, f);
 }
 
-/// What a rename that is undone had moved has its former name again: else the making of a file that took another's place would be
-/// undone on that other one.
+/// What a rename that is undone had moved has its former name again: else the making of a file that took
+/// another's place would be undone on that other one.
 void call_as_before(long rename) {
   for (Unsynced& u : plan().unsynced) {
     if (u.former.empty() || u.former.back().first != rename) continue;
@@ -191,7 +200,8 @@ void lose() {
 
 void remember_bytes(const std::string& path, off_t at, size_t count) {
   if (!plan().loses) return;
-  plan().unsynced.push_back({Unsynced::What::bytes, path, "", at, size_of(path), bytes_at(path, at, count), true, 0, {}});
+  plan().unsynced.push_back(
+      {Unsynced::What::bytes, path, "", at, size_of(path), bytes_at(path, at, count), true, 0, {}});
 }
 
 void remember_made(const std::string& path) {
@@ -199,16 +209,18 @@ void remember_made(const std::string& path) {
 }
 
 void made_durable(const std::string& path) {
-  std::erase_if(plan().unsynced,
-                [&](const Unsynced& u) { return u.what == Unsynced::What::bytes ? u.path == path : folder_of(u.path) == path; });
+  std::erase_if(plan().unsynced, [&](const Unsynced& u) {
+    return u.what == Unsynced::What::bytes ? u.path == path : folder_of(u.path) == path;
+  });
 }
 
 namespace {
 
 int error_named(const std::string& name) {
   static const std::pair<const char*, int> errors[] = {
-      {"eio", EIO},       {"enospc", ENOSPC}, {"erofs", EROFS},   {"edquot", EDQUOT}, {"eintr", EINTR}, {"eacces", EACCES},
-      {"eagain", EAGAIN}, {"enomem", ENOMEM}, {"emfile", EMFILE}, {"echild", ECHILD}, {"eperm", EPERM}, {"enosys", ENOSYS}};
+      {"eio", EIO},       {"enospc", ENOSPC}, {"erofs", EROFS},   {"edquot", EDQUOT},
+      {"eintr", EINTR},   {"eacces", EACCES}, {"eagain", EAGAIN}, {"enomem", ENOMEM},
+      {"emfile", EMFILE}, {"echild", ECHILD}, {"eperm", EPERM},   {"enosys", ENOSYS}};
   for (const auto& [word, error] : errors)
     if (name == word) return error;
   return EIO;

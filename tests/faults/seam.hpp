@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What the parts of the seam share: the plan of what is to fail, and what becomes of a call. seam.cpp says how a plan is told.
+// What the parts of the seam share: the plan of what is to fail, and what becomes of a call. seam.cpp says
+// how a plan is told.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/syscall.h>
@@ -32,16 +33,18 @@ long raw(long number, Words... words) {
 [[nodiscard]] bool is_meant();
 [[noreturn]] void die();
 
-/// What a loss of power would undo: a file or folder that came to be, bytes that were written or cut off, another name, a file or
-/// folder that went.
+/// What a loss of power would undo: a file or folder that came to be, bytes that were written or cut off,
+/// another name, a file or folder that went.
 struct Unsynced {
   enum class What { made, bytes, renamed, removed } what;
-  std::string path, old_path;                        ///< old_path: of a renamed file
-  off_t at = 0, size = 0;                            ///< where bytes were written; size of the file before
-  std::string bytes;                                 ///< that were there
-  bool existed = false;                              ///< what a renamed file replaced; of what was removed: a folder
-  long rename = 0;                                   ///< number of this change, where it is a rename
-  std::vector<std::pair<long, std::string>> former;  ///< renames that moved the file since, each with the name that it had before
+  std::string path, old_path;  ///< old_path: of a renamed file
+  off_t at = 0, size = 0;      ///< where bytes were written; size of the file before
+  std::string bytes;           ///< that were there
+  /// What a renamed file replaced; of what was removed: a folder
+  bool existed = false;
+  long rename = 0;  ///< number of this change, where it is a rename
+  /// Renames that moved the file since, each with the name that it had before
+  std::vector<std::pair<long, std::string>> former;
 };
 
 constexpr const char* sticky_word = "+sticky";
@@ -72,7 +75,8 @@ struct Plan {
   std::vector<Fault> faults = faults_asked();
   long seed = std::atol(said("FAULT_SEED"));
   std::string folder = said("FAULT_FOLDER"), log = said("FAULT_LOG");
-  bool meant = is_meant() && !is_about_memory();  ///< where memory is meant, this file asks for none on the program's account
+  /// Where memory is meant, this file asks for none on the program's account
+  bool meant = is_meant() && !is_about_memory();
   bool counts_only = faults.size() == 1 && faults[0].at == 0;
   bool loses = any_loses(faults);
   bool jumps = false;  ///< the date does

@@ -32,11 +32,12 @@ pid_t fork() noexcept {
   });
 }
 
-int posix_spawn(pid_t* pid, const char* path, const posix_spawn_file_actions_t* actions, const posix_spawnattr_t* attributes,
-                char* const* argv, char* const* environment) {
+int posix_spawn(pid_t* pid, const char* path, const posix_spawn_file_actions_t* actions,
+                const posix_spawnattr_t* attributes, char* const* argv, char* const* environment) {
   NEXT(posix_spawn);
   errno = 0;
-  const int result = child_by(Set::spawn, "posix_spawn", [&] { return next(pid, path, actions, attributes, argv, environment); });
+  const int result = child_by(Set::spawn, "posix_spawn",
+                              [&] { return next(pid, path, actions, attributes, argv, environment); });
   return result < 0 ? errno : result;
 }
 

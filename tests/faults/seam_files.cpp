@@ -27,7 +27,8 @@ ssize_t write_by(int fd, off_t at, size_t count, Call call) {
   return done;
 }
 
-/// A read of up to `count` bytes. It may wait, so that nothing is held meanwhile. @param call reads so many of them
+/// A read of up to `count` bytes. It may wait, so that nothing is held meanwhile. @param call reads so many
+/// of them
 template <class Call>
 ssize_t read_by(int fd, size_t count, Call call) {
   if (!plan().meant) return call(count);
@@ -68,7 +69,8 @@ int remove_by(const char* operation, const std::string& name, Call call) {
     std::string bytes = counts && is_file ? bytes_at(name, 0, static_cast<size_t>(about.st_size)) : "";
     const int result = call();
     if (counts && result == 0 && (is_file || is_folder))
-      plan().unsynced.push_back({Unsynced::What::removed, name, "", 0, about.st_size, std::move(bytes), is_folder, 0, {}});
+      plan().unsynced.push_back(
+          {Unsynced::What::removed, name, "", 0, about.st_size, std::move(bytes), is_folder, 0, {}});
     return result;
   });
 }
@@ -110,14 +112,19 @@ ssize_t pread64(int fd, void* data, size_t n, off64_t at) { return pread(fd, dat
 
 // What a build with _FORTIFY_SOURCE calls instead.
 ssize_t __read_chk(int fd, void* data, size_t n, size_t /*most*/) { return read(fd, data, n); }
-ssize_t __pread_chk(int fd, void* data, size_t n, off_t at, size_t /*most*/) { return pread(fd, data, n, at); }
-ssize_t __pread64_chk(int fd, void* data, size_t n, off64_t at, size_t /*most*/) { return pread(fd, data, n, at); }
+ssize_t __pread_chk(int fd, void* data, size_t n, off_t at, size_t /*most*/) {
+  return pread(fd, data, n, at);
+}
+ssize_t __pread64_chk(int fd, void* data, size_t n, off64_t at, size_t /*most*/) {
+  return pread(fd, data, n, at);
+}
 int __open_2(const char* path, int flags) { return open(path, flags); }
 int __open64_2(const char* path, int flags) { return open(path, flags); }
 
 ssize_t write(int fd, const void* data, size_t n) {
   NEXT(write);
-  return write_by(fd, static_cast<off_t>(raw(SYS_lseek, fd, 0, SEEK_CUR)), n, [&](size_t some) { return next(fd, data, some); });
+  return write_by(fd, static_cast<off_t>(raw(SYS_lseek, fd, 0, SEEK_CUR)), n,
+                  [&](size_t some) { return next(fd, data, some); });
 }
 
 ssize_t pwrite(int fd, const void* data, size_t n, off_t at) {

@@ -65,8 +65,8 @@ unsigned long name_of(const Stack& stack) {
     Dl_info about{};
     const bool known = dladdr(stack.frames[n], &about) != 0 && about.dli_fname;
     for (const char* c = known ? about.dli_fname : ""; *c; ++c) mix(hash, static_cast<unsigned char>(*c));
-    mix(hash,
-        reinterpret_cast<unsigned long>(stack.frames[n]) - reinterpret_cast<unsigned long>(known ? about.dli_fbase : nullptr));
+    mix(hash, reinterpret_cast<unsigned long>(stack.frames[n]) -
+                  reinterpret_cast<unsigned long>(known ? about.dli_fbase : nullptr));
   }
   return hash;
 }
@@ -85,7 +85,8 @@ void meet(long now, const void* caller) {
   const unsigned long hash = hash_of(stack);
   while (stacks_are_taken.test_and_set()) continue;
   size_t n = hash % most_stacks;
-  for (size_t looks = 0; looks < most_stacks && stacks_met[n].hash != 0 && stacks_met[n].hash != hash; ++looks)
+  for (size_t looks = 0; looks < most_stacks && stacks_met[n].hash != 0 && stacks_met[n].hash != hash;
+       ++looks)
     n = (n + 1) % most_stacks;
   Met& met = stacks_met[n];
   if (met.hash == 0) met = {hash, name_of(stack), now, now};
@@ -96,7 +97,9 @@ void meet(long now, const void* caller) {
 /// A line to the log, where no memory may be asked for.
 void note_line(const char* line, int size) {
   const char* log = said("FAULT_LOG");
-  const int f = *log ? static_cast<int>(raw(SYS_openat, AT_FDCWD, log, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644)) : -1;
+  const int f =
+      *log ? static_cast<int>(raw(SYS_openat, AT_FDCWD, log, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644))
+           : -1;
   if (f < 0) return;
   raw(SYS_write, f, line, static_cast<size_t>(size));
   raw(SYS_close, f);
@@ -110,8 +113,8 @@ void begin_memory() {
   static_cast<void>(plan());
   memory.callers = static_cast<size_t>(std::atol(said("FAULT_STACKS")));
   if (memory.callers > 0 && memory.at == 0)
-    stacks_met =
-        static_cast<Met*>(mmap(nullptr, most_stacks * sizeof(Met), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
+    stacks_met = static_cast<Met*>(
+        mmap(nullptr, most_stacks * sizeof(Met), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
   memory.state = 2;
 }
 
@@ -130,10 +133,12 @@ bool memory_is_out(const void* caller) {
   return true;
 }
 
-/// Seconds by which the date is wrong at this look, up to ten years either way; 0 as long as it does not jump.
+/// Seconds by which the date is wrong at this look, up to ten years either way; 0 as long as it does not
+/// jump.
 time_t jump() {
   if (memory.state == 0 || !plan().jumps) return 0;
-  plan().seed = static_cast<long>(static_cast<unsigned long>(plan().seed) * 6364136223846793005UL + 1442695040888963407UL);
+  plan().seed = static_cast<long>(static_cast<unsigned long>(plan().seed) * 6364136223846793005UL +
+                                  1442695040888963407UL);
   return static_cast<time_t>(plan().seed >> 33) % 300000000;
 }
 
@@ -178,8 +183,12 @@ time_t time(time_t* place) {
 }
 
 void* malloc(size_t n) { return memory_is_out(__builtin_return_address(0)) ? nullptr : __libc_malloc(n); }
-void* calloc(size_t n, size_t each) { return memory_is_out(__builtin_return_address(0)) ? nullptr : __libc_calloc(n, each); }
-void* realloc(void* old, size_t n) { return memory_is_out(__builtin_return_address(0)) ? nullptr : __libc_realloc(old, n); }
+void* calloc(size_t n, size_t each) {
+  return memory_is_out(__builtin_return_address(0)) ? nullptr : __libc_calloc(n, each);
+}
+void* realloc(void* old, size_t n) {
+  return memory_is_out(__builtin_return_address(0)) ? nullptr : __libc_realloc(old, n);
+}
 void* memalign(size_t bound, size_t n) {
   return memory_is_out(__builtin_return_address(0)) ? nullptr : __libc_memalign(bound, n);
 }

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs of the engine under faults that a seed draws: one to three calls that fail, each in a kind of its own, an interval of
-// checkpoints, and up to three attempts, of which the later ones go on from the last announced checkpoint. A process is forked a
-// run, so that hundreds of thousands can be made.
+// Runs of the engine under faults that a seed draws: one to three calls that fail, each in a kind of its own,
+// an interval of checkpoints, and up to three attempts, of which the later ones go on from the last announced
+// checkpoint. A process is forked a run, so that hundreds of thousands can be made.
 //   seeded-faults BUILD CASE.toml... [--count N | --runs N] [--seed S] [--jobs N]
-// What was announced is read from the run's stderr, which is kept apart from its files. After each attempt announced frames are
-// read back; after the last one of a seed, and for every eighth seed after each, a run without faults goes on from the last
-// announced checkpoint to its end: a checkpoint that an attempt has spoilt stays spoilt, since no later attempt can go on from it
-// and write another.
-// --runs: as many seeds as it takes for so many runs with faults. Ctrl-C ends it after the seeds that are under way, with the
-// table of those done. Exit: 0 every promise of docs/promises.md held, 1 one did not, with the seed that shows it again (--seed S
+// What was announced is read from the run's stderr, which is kept apart from its files. After each attempt
+// announced frames are read back; after the last one of a seed, and for every eighth seed after each, a run
+// without faults goes on from the last announced checkpoint to its end: a checkpoint that an attempt has
+// spoilt stays spoilt, since no later attempt can go on from it and write another.
+// --runs: as many seeds as it takes for so many runs with faults. Ctrl-C ends it after the seeds that are
+// under way, with the table of those done. Exit: 0 every promise of docs/promises.md held, 1 one did not,
+// with the seed that shows it again (--seed S
 // --count 1).
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -44,13 +45,16 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int patience = 60'000;  ///< [ms] for a run of some tens
-constexpr std::array kinds{"before", "half",  "after",  "lost",  "short",      "eintr",         "eio",
-                           "enospc", "erofs", "edquot", "clock", "eio+sticky", "enospc+sticky", "erofs+sticky"};
+constexpr std::array kinds{"before", "half",       "after",         "lost",        "short",
+                           "eintr",  "eio",        "enospc",        "erofs",       "edquot",
+                           "clock",  "eio+sticky", "enospc+sticky", "erofs+sticky"};
 constexpr std::array codes{0, 1, 2, 4, 7, 130};  ///< that the contracts know of an engine
 constexpr int most_attempts = 3;
-constexpr std::array outcomes{"whole", "died", "refused", "LOST", "WRONG", "HANG", "other"};  ///< the first three are good
+/// The first three are good
+constexpr std::array outcomes{"whole", "died", "refused", "LOST", "WRONG", "HANG", "other"};
 constexpr std::array draws{1, 1, 1, 1, 1, 1, 2, 2,
-                           2, 2, 2, 2, 3, 3, 3, 11};  ///< checkpoints of a run; eleven are one a step of the smallest scene
+                           /// Checkpoints of a run; eleven are one a step of the smallest scene
+                           2, 2, 2, 2, 3, 3, 3, 11};
 
 /// What all workers have done together: it lies in memory that they share.
 struct Table {
@@ -67,12 +71,15 @@ void on_stop_of_all(int) { table->stop = true; }
 /// Place of a word among the outcomes; those that have no column of their own are the last.
 std::size_t outcome_of(const std::string& what) {
   const std::string word = what.substr(0, what.find_first_of(": "));
-  return static_cast<std::size_t>(std::min(std::ranges::find(outcomes, word), outcomes.end() - 1) - outcomes.begin());
+  return static_cast<std::size_t>(std::min(std::ranges::find(outcomes, word), outcomes.end() - 1) -
+                                  outcomes.begin());
 }
 bool is_good(const std::string& what) { return outcome_of(what) < 3; }
 
 bool is_harmless(const std::string& kind) { return kind == "short" || kind == "eintr" || kind == "clock"; }
-bool kills(const std::string& kind) { return kind == "before" || kind == "half" || kind == "after" || kind == "lost"; }
+bool kills(const std::string& kind) {
+  return kind == "before" || kind == "half" || kind == "after" || kind == "lost";
+}
 
 struct Ended {
   int code = 0;  ///< exit code, or minus the signal
@@ -137,7 +144,8 @@ std::vector<std::string> hashes_of(const Trajectory& t) {
   return found;
 }
 
-std::string write_job_file(const Reference& of, const fs::path& folder, double interval, const std::string& resume) {
+std::string write_job_file(const Reference& of, const fs::path& folder, double interval,
+                           const std::string& resume) {
   nlohmann::json job = of.job;
   job["output"] = folder.string();
   job["particles"] = of.particles;
@@ -193,7 +201,8 @@ std::vector<std::string> words_after(const std::string& mark, const std::string&
     const std::size_t end = std::min(said.find('\n', from), said.size());
     const std::size_t word = from + mark.size();
     if (said.compare(from, mark.size(), mark) == 0)
-      if (const std::size_t space = said.find(' ', word); space < end) words.push_back(said.substr(word, space - word));
+      if (const std::size_t space = said.find(' ', word); space < end)
+        words.push_back(said.substr(word, space - word));
     from = end + 1;
   }
   return words;
@@ -202,7 +211,8 @@ std::vector<std::string> words_after(const std::string& mark, const std::string&
 /// Number of frames that this attempt announced, counted from the first of the run.
 std::size_t announced_frames(const std::string& said) {
   std::size_t most = 0;
-  for (const std::string& number : words_after("frame ", said)) most = std::max<std::size_t>(most, std::stoul(number) + 1);
+  for (const std::string& number : words_after("frame ", said))
+    most = std::max<std::size_t>(most, std::stoul(number) + 1);
   return most;
 }
 
@@ -211,19 +221,22 @@ std::string last_checkpoint(const std::string& said) {
   return all.empty() ? "" : all.back();
 }
 
-/// What is left behind, looked at without faults. @param goes_on whether a run is to go on from the checkpoint   @return "", or
-/// which promise does not hold
-std::string broken_promise(const Reference& of, const fs::path& folder, const Attempt& attempt, const std::string& checkpoint,
-                           bool goes_on) {
+/// What is left behind, looked at without faults. @param goes_on whether a run is to go on from the
+/// checkpoint   @return "", or which promise does not hold
+std::string broken_promise(const Reference& of, const fs::path& folder, const Attempt& attempt,
+                           const std::string& checkpoint, bool goes_on) {
   if (attempt.end.code == 0) return fault_of_whole(of, folder);
   if (status_of(folder) == "ok") {  // the last act: who dies after it has left all that it says
     if (attempt.end.code > 0) return "WRONG: the run did not end well, and its result says ok";
-    if (!is_whole(of, folder)) return "WRONG: killed after its result said ok, and not every frame has its bits";
+    if (!is_whole(of, folder))
+      return "WRONG: killed after its result said ok, and not every frame has its bits";
   }
   if (const std::size_t count = announced_frames(attempt.end.said); count > 0 && !attempt.loses_power()) {
     const std::vector<std::string> there = hashes_of(read_trajectory((folder / "trajectory.h5").string()));
-    if (there.size() <= count) return fmt::format("LOST: {} of {} announced frames are there", there.size() - 1, count);
-    if (there[count] != of.hashes.at(count)) return fmt::format("WRONG: the first {} announced frames have other bits", count);
+    if (there.size() <= count)
+      return fmt::format("LOST: {} of {} announced frames are there", there.size() - 1, count);
+    if (there[count] != of.hashes.at(count))
+      return fmt::format("WRONG: the first {} announced frames have other bits", count);
   }
   if (checkpoint.empty() || !goes_on) return "";
   const fs::path again = folder.string() + ".again";
@@ -234,11 +247,12 @@ std::string broken_promise(const Reference& of, const fs::path& folder, const At
 }
 
 /// In capitals what must not be; whole, died, refused what may.
-std::string judged(const Reference& of, const fs::path& folder, const Attempt& attempt, const std::string& checkpoint,
-                   bool goes_on) {
+std::string judged(const Reference& of, const fs::path& folder, const Attempt& attempt,
+                   const std::string& checkpoint, bool goes_on) {
   const Ended& end = attempt.end;
   if (end.hung) return "HANG";
-  if (end.code < 0 && !(end.code == -SIGKILL && attempt.may_be_killed())) return fmt::format("CRASH by signal {}", -end.code);
+  if (end.code < 0 && !(end.code == -SIGKILL && attempt.may_be_killed()))
+    return fmt::format("CRASH by signal {}", -end.code);
   if (end.code > 0 && attempt.is_harmless()) return "REFUSED what may be made again: " + end.said;
   if (end.code > 0 && std::ranges::find(codes, end.code) == codes.end())
     return fmt::format("CODE: exit {} means nothing", end.code);
@@ -273,9 +287,10 @@ void book(const Attempt& attempt, const std::string& what) {
   }
 }
 
-/// One seed: attempts until one ends well, or as many as there may be. @return whether every promise held; the story is of all
-/// attempts
-bool try_seed(std::vector<Reference>& references, unsigned long seed, const fs::path& scratch, std::string& story) {
+/// One seed: attempts until one ends well, or as many as there may be. @return whether every promise held;
+/// the story is of all attempts
+bool try_seed(std::vector<Reference>& references, unsigned long seed, const fs::path& scratch,
+              std::string& story) {
   std::mt19937_64 dice(seed);
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(dice() % n); };
   Reference& of = references[below(references.size())];
@@ -290,7 +305,8 @@ bool try_seed(std::vector<Reference>& references, unsigned long seed, const fs::
     for (std::size_t k = 1 + below(3); k-- > 0;) {
       attempt.kinds.emplace_back(kinds[below(kinds.size())]);
       at += (at.empty() ? "" : ",") +
-            std::to_string(1 + below(static_cast<std::size_t>(of.calls[static_cast<std::size_t>(checkpoints)])));
+            std::to_string(1 +
+                           below(static_cast<std::size_t>(of.calls[static_cast<std::size_t>(checkpoints)])));
       kind += (kind.empty() ? "" : ",") + attempt.kinds.back();
     }
     fs::create_directories(folder);
@@ -304,7 +320,8 @@ bool try_seed(std::vector<Reference>& references, unsigned long seed, const fs::
     found = judged(of, folder, attempt, checkpoint, is_last || goes_on_each_time);
     book(attempt, found);
     fs::remove_all(folder.string() + ".again");
-    story += fmt::format("  attempt {}: calls {} fail by {}: exit {}: {}\n", n, at, kind, attempt.end.code, found);
+    story +=
+        fmt::format("  attempt {}: calls {} fail by {}: exit {}: {}\n", n, at, kind, attempt.end.code, found);
     if (is_last || !is_good(found)) break;
   }
   fs::remove_all(folder);
@@ -316,8 +333,9 @@ bool try_seed(std::vector<Reference>& references, unsigned long seed, const fs::
 /// @param program that writes the job of a case; @param file of the case
 Reference reference_of(const fs::path& program, const fs::path& file, const fs::path& scratch) {
   const fs::path from = scratch / file.stem();
-  if (std::system(fmt::format("{} run {} --quiet --out {} >/dev/null", program.string(), file.string(), from.string()).c_str()) !=
-      0)
+  if (std::system(
+          fmt::format("{} run {} --quiet --out {} >/dev/null", program.string(), file.string(), from.string())
+              .c_str()) != 0)
     throw std::runtime_error(file.string() + " does not run");
   Reference of;
   std::ifstream in(from / "job.json");
@@ -330,12 +348,14 @@ Reference reference_of(const fs::path& program, const fs::path& file, const fs::
     if (of.calls[static_cast<std::size_t>(checkpoints)] > 0) continue;
     const fs::path folder = scratch / fmt::format("reference-{}-{}", file.stem().string(), checkpoints);
     fs::create_directories(folder);
-    const std::string job = write_job_file(of, folder, of.interval(checkpoints), ""), log = folder.string() + ".log";
+    const std::string job = write_job_file(of, folder, of.interval(checkpoints), ""),
+                      log = folder.string() + ".log";
     const Ended end = in_child([&] {
       set_plan(folder.string(), "0", "files", 0, log);
       return serve_job(job);
     });
-    if (end.code != 0) throw std::runtime_error(from.string() + ": the undisturbed run ends with " + end.said);
+    if (end.code != 0)
+      throw std::runtime_error(from.string() + ": the undisturbed run ends with " + end.said);
     of.hashes = hashes_of(read_trajectory((folder / "trajectory.h5").string()));
     std::ifstream calls(log);
     for (std::string line; std::getline(calls, line);) ++of.calls[static_cast<std::size_t>(checkpoints)];
@@ -344,7 +364,8 @@ Reference reference_of(const fs::path& program, const fs::path& file, const fs::
 }
 
 /// Takes seeds until there are none left. @return whether every promise held
-bool work_on(std::vector<Reference>& references, unsigned long end, unsigned long runs, const fs::path& scratch) {
+bool work_on(std::vector<Reference>& references, unsigned long end, unsigned long runs,
+             const fs::path& scratch) {
   bool good = true;
   while (!table->stop && table->runs < runs) {
     const unsigned long seed = table->next_seed++;
@@ -376,8 +397,9 @@ void print_table() {
 
 }  // namespace
 
-// The linker hands calls of read_particles to this one (--wrap): the file of particles lies outside the folder in which calls
-// fail, and reading eight particles took as long as all steps and frames of a run. Who reads it is the parent, once.
+// The linker hands calls of read_particles to this one (--wrap): the file of particles lies outside the
+// folder in which calls fail, and reading eight particles took as long as all steps and frames of a run. Who
+// reads it is the parent, once.
 tripoint::InitialState particles_kept(const std::string& path) asm(
     "__wrap__ZN8tripoint14read_particlesERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEE");
 tripoint::InitialState particles_from_file(const std::string& path) asm(
@@ -402,12 +424,15 @@ int main(int argc, char** argv) {
       paths.emplace_back(word);
   }
   if (paths.size() < 2) {
-    fmt::print(stderr, "usage: seeded-faults BUILD CASE.toml... [--count N | --runs N] [--seed S] [--jobs N]\n");
+    fmt::print(stderr,
+               "usage: seeded-faults BUILD CASE.toml... [--count N | --runs N] [--seed S] [--jobs N]\n");
     return 2;
   }
-  const fs::path scratch = fs::path(fs::exists("/dev/shm") ? "/dev/shm" : "/tmp") / fmt::format("tripoint-seeded-{}", getpid());
+  const fs::path scratch =
+      fs::path(fs::exists("/dev/shm") ? "/dev/shm" : "/tmp") / fmt::format("tripoint-seeded-{}", getpid());
   fs::create_directories(scratch);
-  table = new (mmap(nullptr, sizeof(Table), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)) Table{};
+  table =
+      new (mmap(nullptr, sizeof(Table), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)) Table{};
   table->next_seed = first;
   const unsigned long most = std::numeric_limits<unsigned long>::max(), end = runs > 0 ? most : first + count;
   std::vector<Reference> references;
@@ -435,8 +460,8 @@ int main(int argc, char** argv) {
   }
   fs::remove_all(scratch);
   print_table();
-  fmt::print("{} runs with {} faults, of {} seeds from {} on: {}; --seed {} goes on\n", table->runs.load(), table->faults.load(),
-             table->seeds.load(), first, good ? "every promise held" : "a promise was broken",
-             std::min(table->next_seed.load(), end));
+  fmt::print("{} runs with {} faults, of {} seeds from {} on: {}; --seed {} goes on\n", table->runs.load(),
+             table->faults.load(), table->seeds.load(), first,
+             good ? "every promise held" : "a promise was broken", std::min(table->next_seed.load(), end));
   return good ? 0 : 1;
 }

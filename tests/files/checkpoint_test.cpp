@@ -19,7 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct CheckpointFile : ::testing::Test {
-  CheckpointFile() : folder(fs::temp_directory_path() / ("tripoint checkpoints " + std::to_string(::getpid()))) {
+  CheckpointFile()
+      : folder(fs::temp_directory_path() / ("tripoint checkpoints " + std::to_string(::getpid()))) {
     fs::create_directories(folder);
   }
   ~CheckpointFile() override { fs::remove_all(folder); }
@@ -29,8 +30,10 @@ struct CheckpointFile : ::testing::Test {
 
 Checkpoint example_checkpoint(std::size_t rows = 200, double scale = 1.0) {
   Checkpoint c;
-  for (std::size_t i = 0; i < rows; ++i) c.real["particles/position.x"].push_back(scale * std::sqrt(static_cast<double>(i)));
-  c.real["step/time"] = {0.1, -0.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 5e-324};
+  for (std::size_t i = 0; i < rows; ++i)
+    c.real["particles/position.x"].push_back(scale * std::sqrt(static_cast<double>(i)));
+  c.real["step/time"] = {0.1, -0.0, std::numeric_limits<double>::quiet_NaN(),
+                         std::numeric_limits<double>::infinity(), 5e-324};
   c.real["step/none"] = {};
   c.real["good/older/particles/mass"] = {1.0, 2.0};  // a state within the state
   c.whole["particles/id"] = {0, -1, std::numeric_limits<std::int64_t>::max()};
@@ -42,7 +45,9 @@ std::string bytes_of(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
-void put(const std::string& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+void put(const std::string& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
 
 TEST_F(CheckpointFile, ReadsBackBitForBit) {
   write_checkpoint(path("c.h5"), example_checkpoint());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A process may be killed between any two calls that change its trajectory: the calls are recorded here, and what the file held
-// after each is looked at.
+// A process may be killed between any two calls that change its trajectory: the calls are recorded here, and
+// what the file held after each is looked at.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/syscall.h>
@@ -58,8 +58,12 @@ int recorded_length(int file, off_t size) {
 }  // namespace
 
 extern "C" {  // in place of the C library's, for libhdf5 too
-ssize_t pwrite(int file, const void* data, size_t size, off_t at) { return recorded_write(file, data, size, at); }
-ssize_t pwrite64(int file, const void* data, size_t size, off64_t at) { return recorded_write(file, data, size, at); }
+ssize_t pwrite(int file, const void* data, size_t size, off_t at) {
+  return recorded_write(file, data, size, at);
+}
+ssize_t pwrite64(int file, const void* data, size_t size, off64_t at) {
+  return recorded_write(file, data, size, at);
+}
 int ftruncate(int file, off_t size) noexcept { return recorded_length(file, size); }
 int ftruncate64(int file, off64_t size) noexcept { return recorded_length(file, size); }
 }
@@ -121,7 +125,8 @@ std::size_t whole_positions(const std::string& path, std::size_t announced) {
   const h5::Handle file = h5::open_for_reading(path);
   const std::vector<double> there = h5::read_real(file.get(), "/particles/all/position/value", path).real;
   std::size_t whole = 0;
-  while (whole < announced && 6 * whole + 4 < there.size() && there[6 * whole] == 1.0 * static_cast<double>(whole) &&
+  while (whole < announced && 6 * whole + 4 < there.size() &&
+         there[6 * whole] == 1.0 * static_cast<double>(whole) &&
          there[6 * whole + 4] == 0.25 * static_cast<double>(whole))
     ++whole;
   return whole;
@@ -129,10 +134,10 @@ std::size_t whole_positions(const std::string& path, std::size_t announced) {
 
 using WholeFrames = std::size_t(const std::string& path, std::size_t announced);
 
-/// Looks at the file after each change of what it held before, from when `first` frames are announced until `last` are. @return
-/// how often it looked
-int look_after_each_change(const std::string& path, const Recorded& written, std::size_t first, std::size_t last,
-                           WholeFrames& whole) {
+/// Looks at the file after each change of what it held before, from when `first` frames are announced until
+/// `last` are. @return how often it looked
+int look_after_each_change(const std::string& path, const Recorded& written, std::size_t first,
+                           std::size_t last, WholeFrames& whole) {
   const int file = ::open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
   std::size_t announced = 0;
   int looked = 0;
@@ -141,7 +146,8 @@ int look_after_each_change(const std::string& path, const Recorded& written, std
     const Change& change = written.all[k];
     apply(file, change);
     const bool is_addition = !change.is_length && change.at >= length;
-    length = change.is_length ? change.at : std::max<off_t>(length, change.at + static_cast<off_t>(change.bytes.size()));
+    length = change.is_length ? change.at
+                              : std::max<off_t>(length, change.at + static_cast<off_t>(change.bytes.size()));
     while (announced < written.after.size() && written.after[announced] <= k + 1) ++announced;
     if (announced < first) continue;
     if (announced >= last) break;
@@ -157,7 +163,8 @@ int look_after_each_change(const std::string& path, const Recorded& written, std
 }
 
 struct DeathInAWrite : ::testing::Test {
-  DeathInAWrite() : folder(std::filesystem::temp_directory_path() / ("tripoint death " + std::to_string(::getpid()))) {
+  DeathInAWrite()
+      : folder(std::filesystem::temp_directory_path() / ("tripoint death " + std::to_string(::getpid()))) {
     std::filesystem::create_directories(folder);
   }
   ~DeathInAWrite() override { std::filesystem::remove_all(folder); }
@@ -169,7 +176,8 @@ TEST_F(DeathInAWrite, TakesNoAnnouncedFrameOfTheFirst) {
   EXPECT_GT(look_after_each_change(folder / "torn.h5", written, 1, 4, whole_frames), 20);
 }
 
-// The index of a dataset's chunks holds 64 of them in a node: the 65th frame splits it, and later ones every 57 frames.
+// The index of a dataset's chunks holds 64 of them in a node: the 65th frame splits it, and later ones every
+// 57 frames.
 TEST_F(DeathInAWrite, TakesNoAnnouncedFrameWhileAnIndexIsSplit) {
   const Recorded written = recorded(folder / "written.h5", 124);
   EXPECT_GT(look_after_each_change(folder / "torn.h5", written, 63, 67, whole_frames), 40);

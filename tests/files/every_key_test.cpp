@@ -12,7 +12,8 @@
 namespace tripoint {
 namespace {
 
-// --- another value than the default, by type ---------------------------------------------------------------------------
+// --- another value than the default, by type
+// ---------------------------------------------------------------------------
 
 void change(double& v) { v += 0.625; }
 void change(std::uint64_t& v) { v += 5; }
@@ -58,14 +59,16 @@ void change_all(Owner& owner) {
   each_kept_of(owner, [&](const auto& entry) { change(owner.*entry.member); });
 }
 
-// --- the same value, by type ------------------------------------------------------------------------------------------
+// --- the same value, by type
+// ------------------------------------------------------------------------------------------
 
 template <class Owner>
 std::string different(const Owner& a, const Owner& b);
 
 template <class T>
 bool is_same(const T& a, const T& b) {
-  if constexpr (std::is_same_v<T, Shape> || std::is_same_v<T, TemperatureField> || std::is_same_v<T, VelocityField>)
+  if constexpr (std::is_same_v<T, Shape> || std::is_same_v<T, TemperatureField> ||
+                std::is_same_v<T, VelocityField>)
     return a.kind == b.kind && different(a, b).empty();
   else if constexpr (std::is_same_v<T, Keyframe>)
     return different(a, b).empty();
@@ -136,7 +139,8 @@ std::vector<Body> one_a_kind(T Body::*member) {
     Owner owner;
     owner.kind = kind.kind;
     change_all(owner);
-    if constexpr (std::is_same_v<Owner, Shape>)  // others turn about the centre of parts or of a file, which are not here
+    // Others turn about the centre of parts or of a file, which are not here
+    if constexpr (std::is_same_v<Owner, Shape>)
       if (owner.kind != Shape::Kind::box && owner.kind != Shape::Kind::cylinder) owner.rotation = {};
     Body& b = bodies.emplace_back();
     b.name = kind.word;
@@ -147,12 +151,14 @@ std::vector<Body> one_a_kind(T Body::*member) {
 }
 
 TEST(EveryKey, OfEachKindGoesIntoAJobAndComesBack) {
-  for (const auto& bodies : {one_a_kind<Shape>(&Body::shape), one_a_kind<TemperatureField>(&Body::temperature),
-                             one_a_kind<VelocityField>(&Body::velocity)}) {
+  for (const auto& bodies :
+       {one_a_kind<Shape>(&Body::shape), one_a_kind<TemperatureField>(&Body::temperature),
+        one_a_kind<VelocityField>(&Body::velocity)}) {
     Scene sent;
     sent.bodies = bodies;
     const Scene received = sent_and_received(sent);
-    for (std::size_t k = 0; k < bodies.size(); ++k) EXPECT_EQ(different(bodies[k], received.bodies.at(k)), "") << bodies[k].name;
+    for (std::size_t k = 0; k < bodies.size(); ++k)
+      EXPECT_EQ(different(bodies[k], received.bodies.at(k)), "") << bodies[k].name;
   }
 }
 

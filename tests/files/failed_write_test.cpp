@@ -21,7 +21,9 @@ namespace {
 constexpr std::array reasons{ENOSPC, EIO, EROFS, EDQUOT};
 
 struct FailedWrite : ::testing::Test {
-  FailedWrite() : folder(std::filesystem::temp_directory_path() / ("tripoint errno = 1 " + std::to_string(::getpid()))) {
+  FailedWrite()
+      : folder(std::filesystem::temp_directory_path() /
+               ("tripoint errno = 1 " + std::to_string(::getpid()))) {
     std::filesystem::create_directories(folder);
   }
   ~FailedWrite() override {

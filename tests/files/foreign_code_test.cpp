@@ -15,11 +15,13 @@
 namespace tripoint {
 namespace {
 
-constexpr const char* mark = "TRIPOINT_FOREIGN_FILTER";  // tests/files/foreign_filter.cpp sets it as it is loaded
+// tests/files/foreign_filter.cpp sets it as it is loaded
+constexpr const char* mark = "TRIPOINT_FOREIGN_FILTER";
 constexpr const char* position = "/particles/all/position/value";
 
 struct ForeignFile : ::testing::Test {
-  ForeignFile() : folder(std::filesystem::temp_directory_path() / ("tripoint foreign " + std::to_string(::getpid()))) {
+  ForeignFile()
+      : folder(std::filesystem::temp_directory_path() / ("tripoint foreign " + std::to_string(::getpid()))) {
     std::filesystem::create_directories(folder);
   }
   ~ForeignFile() override { std::filesystem::remove_all(folder); }
@@ -45,11 +47,12 @@ struct ForeignFile : ::testing::Test {
     const hsize_t shape[3] = {1, 1, 3};
     const h5::Handle space(H5Screate_simple(3, shape, nullptr), H5Sclose, path);
     {
-      const h5::Handle dataset(
-          H5Dcreate2(file.get(), position, H5T_NATIVE_DOUBLE, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT), H5Dclose,
-          path);
+      const h5::Handle dataset(H5Dcreate2(file.get(), position, H5T_NATIVE_DOUBLE, space.get(), H5P_DEFAULT,
+                                          properties.get(), H5P_DEFAULT),
+                               H5Dclose, path);
       const double values[3] = {7.0, 8.0, 9.0};
-      if (write) h5::check(H5Dwrite(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), path);
+      if (write)
+        h5::check(H5Dwrite(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), path);
       h5::write_text_attribute(dataset.get(), "unit", "m");
     }
     file.close(path);
@@ -69,10 +72,13 @@ struct ForeignFile : ::testing::Test {
   std::filesystem::path folder;
 };
 
-std::size_t unchanged(unsigned, std::size_t, const unsigned*, std::size_t bytes, std::size_t*, void**) { return bytes; }
+std::size_t unchanged(unsigned, std::size_t, const unsigned*, std::size_t bytes, std::size_t*, void**) {
+  return bytes;
+}
 
-/// Puts positions there that only the foreign filter can read. In another process, so that the library knows no such filter here:
-/// to forget one again it looks at every file, also at those that other tests left half closed.
+/// Puts positions there that only the foreign filter can read. In another process, so that the library knows
+/// no such filter here: to forget one again it looks at every file, also at those that other tests left half
+/// closed.
 void write_filtered(const std::string& file) {
   const pid_t child = ::fork();
   if (child == 0) {
@@ -94,7 +100,8 @@ TEST_F(ForeignFile, AFilterThatIsNotBuiltInIsNotLoadedFromAPlugin) {
   const std::string file = whole("filtered.h5");
   write_filtered(file);
 
-  ASSERT_GE(H5PLset_loading_state(H5PL_ALL_PLUGIN), 0);  // as the library starts, or as another user of it leaves it
+  // As the library starts, or as another user of it leaves it
+  ASSERT_GE(H5PLset_loading_state(H5PL_ALL_PLUGIN), 0);
   ASSERT_GE(H5PLprepend(FOREIGN_FILTERS), 0);
   EXPECT_NE(refusal(file).find("cannot be read"), std::string::npos) << refusal(file);
   EXPECT_EQ(::getenv(mark), nullptr) << "a file had the library load and run a shared object";
@@ -137,17 +144,20 @@ TEST_F(ForeignFile, DataThatLieInAnotherFileAreRefused) {
   const h5::Handle space(H5Screate_simple(3, shape, nullptr), H5Sclose, pieced);
   ASSERT_GE(H5Pset_virtual(pieces.get(), space.get(), other.c_str(), position, space.get()), 0);
   replace_position(pieced, pieces, false);
-  EXPECT_NE(refusal(pieced).find("keeps its data in another file; refused"), std::string::npos) << refusal(pieced);
+  EXPECT_NE(refusal(pieced).find("keeps its data in another file; refused"), std::string::npos)
+      << refusal(pieced);
 }
 
 TEST_F(ForeignFile, NoLinkOpensAnotherFile) {
-  // A group `elsewhere` that is /particles of other.h5 beside it; the library that refuses such links makes none either.
+  // A group `elsewhere` that is /particles of other.h5 beside it; the library that refuses such links makes
+  // none either.
   std::filesystem::copy_file(std::string(FOREIGN_FILES) + "/linked-elsewhere.h5", path("linked.h5"));
   ASSERT_EQ(refusal(whole("other.h5")), "");
   const h5::Handle file = h5::open_for_reading(path("linked.h5"));
   EXPECT_TRUE(h5::has(file.get(), "/elsewhere"));
   EXPECT_FALSE(h5::has(file.get(), "/elsewhere/all")) << "a link was followed into another file";
-  EXPECT_THROW(static_cast<void>(h5::shape(file.get(), "/elsewhere/all/position/value", "linked.h5")), InputError);
+  EXPECT_THROW(static_cast<void>(h5::shape(file.get(), "/elsewhere/all/position/value", "linked.h5")),
+               InputError);
 }
 
 }  // namespace

@@ -62,7 +62,10 @@ Job example_job() {
   job.bodies.push_back(j);
   job.particles = "particles.h5";
   job.resolution = {0.1, 2.6, 0.01, {}, {}};
-  job.settings = {{"walkers", 1e5}, {"form", std::string("brownian")}, {"quick", true}, {"list", std::vector<double>{1, 2}}};
+  job.settings = {{"walkers", 1e5},
+                  {"form", std::string("brownian")},
+                  {"quick", true},
+                  {"list", std::vector<double>{1, 2}}};
   job.reference.function = "cosine_mode";
   job.times = {0.0, 0.1, 1.0 / 3.0};
   job.output = "out";
@@ -115,7 +118,8 @@ TEST(Result, AStatusThatIsNotAnEnginesOwnIsRefusedByName) {
       (void)read_result(path);
       ADD_FAILURE() << word;
     } catch (const InputError& e) {
-      EXPECT_NE(std::string(e.what()).find("status: `" + word + "` is none that an engine may give"), std::string::npos)
+      EXPECT_NE(std::string(e.what()).find("status: `" + word + "` is none that an engine may give"),
+                std::string::npos)
           << e.what();
     }
   }

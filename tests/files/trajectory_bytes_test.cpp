@@ -22,12 +22,15 @@ Trajectory some_trajectory() {
     for (int i = 0; i < 4 + frame; ++i) {
       s.position.push_back(place());
       s.velocity.push_back(place());
-      for (auto* column : {&s.temperature, &s.temperature_error, &s.density, &s.pressure, &s.liquid_fraction, &s.mass})
+      for (auto* column :
+           {&s.temperature, &s.temperature_error, &s.density, &s.pressure, &s.liquid_fraction, &s.mass})
         column->push_back(next());
-      for (auto* column : {&s.id, &s.phase, &s.body, &s.material}) column->push_back(static_cast<int>(next()));
+      for (auto* column : {&s.id, &s.phase, &s.body, &s.material})
+        column->push_back(static_cast<int>(next()));
     }
     s.position[1].y = -std::numeric_limits<double>::quiet_NaN();
-    s.bodies.push_back({place(), place(), place(), {next(), next(), next(), next()}, next(), place(), place()});
+    s.bodies.push_back(
+        {place(), place(), place(), {next(), next(), next(), next()}, next(), place(), place()});
     s.total_mass = next();
     s.momentum = place();
     s.angular_momentum = place();
@@ -55,7 +58,8 @@ TEST(TrajectoryBytes, ComeBackWithTheirBits) {
 
 TEST(TrajectoryBytes, NothingThatIsCutIsWhole) {
   const std::string bytes = packed(some_trajectory());
-  for (std::size_t n = 0; n < bytes.size(); ++n) EXPECT_THROW(static_cast<void>(unpacked(bytes.substr(0, n))), InputError) << n;
+  for (std::size_t n = 0; n < bytes.size(); ++n)
+    EXPECT_THROW(static_cast<void>(unpacked(bytes.substr(0, n))), InputError) << n;
   EXPECT_THROW(static_cast<void>(unpacked(bytes + "x")), InputError);
 }
 

@@ -38,8 +38,13 @@ Snapshot frame_at(double time, int particles, int bodies) {
     s.material.push_back(0);
   }
   for (int b = 0; b < bodies; ++b)
-    s.bodies.push_back(
-        {{time, 0, 0}, {0, 1, 0}, {0, 0, 2}, {std::cos(time), 0, 0, std::sin(time)}, 0.5 * particles, {}, {0, 0, 1}});
+    s.bodies.push_back({{time, 0, 0},
+                        {0, 1, 0},
+                        {0, 0, 2},
+                        {std::cos(time), 0, 0, std::sin(time)},
+                        0.5 * particles,
+                        {},
+                        {0, 0, 1}});
   s.total_mass = 0.5 * particles;
   s.energy["kinetic"] = 1.0 + time;
   s.heat_given["hot plate"] = 7.0 * time;
@@ -85,7 +90,8 @@ TEST_F(Io, ACsvWithTwoRowsForOneBodyOrParticleAtATimeIsRefused) {
   EXPECT_NE(refusal("time,body,x,y,z,vx,vy,vz\n0,0,0.5,0,0,0,0,0\n0,0,9.5,0,0,0,0,0\n")
                 .find("trajectory.csv:3: body 0 has a row already"),
             std::string::npos);
-  EXPECT_NE(refusal("time,id,x,y,z,vx,vy,vz\n0,0,0.5,0,0,0,0,0\n0,0,9.5,0,0,0,0,0\n").find("particle 0 has a row already"),
+  EXPECT_NE(refusal("time,id,x,y,z,vx,vy,vz\n0,0,0.5,0,0,0,0,0\n0,0,9.5,0,0,0,0,0\n")
+                .find("particle 0 has a row already"),
             std::string::npos);
 }
 
@@ -227,8 +233,9 @@ TEST_F(Io, RowsOfABodyPlaceItsParticles) {
   start.phase = {2, 2};
   start.body = {0, 0};
   start.material = {0, 0};
-  std::ofstream(path("trajectory.csv")) << "time,body,x,y,z,vx,vy,vz,qw,qx,qy,qz,wx,wy,wz\n0,0,0,0,0,0,0,0,1,0,0,0,0,0,2\n"
-                                           "1,0,5,0,0,1,0,0,0.7071067811865476,0,0,0.7071067811865476,0,0,2\n";
+  std::ofstream(path("trajectory.csv"))
+      << "time,body,x,y,z,vx,vy,vz,qw,qx,qy,qz,wx,wy,wz\n0,0,0,0,0,0,0,0,1,0,0,0,0,0,2\n"
+         "1,0,5,0,0,1,0,0,0.7071067811865476,0,0,0.7071067811865476,0,0,2\n";
   const Trajectory t = read_trajectory_csv(path("trajectory.csv"), start, 1);
   ASSERT_EQ(t.frames.size(), 2U);
   EXPECT_NEAR(t.frames[1].position[1].y, 1.0, 1e-15);        // a quarter turn takes x to y

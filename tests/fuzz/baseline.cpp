@@ -10,7 +10,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const fuzz::Folder folder;
   if (fuzz::parser_has_no_child() && !fuzz::is_ascii(data, size)) return 0;
   try {
-    const std::string once = baseline_text(read_baseline(folder.write("once.toml", fuzz::text_of(data, size))));
+    const std::string once =
+        baseline_text(read_baseline(folder.write("once.toml", fuzz::text_of(data, size))));
     const Baseline again = read_baseline(folder.write("again.toml", once));
     fuzz::expect(again.sealed, "a baseline that was written is sealed");
     fuzz::expect(baseline_text(again) == once, "a baseline that was read is written and read as the same");

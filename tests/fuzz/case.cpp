@@ -17,7 +17,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const Scene scene = scene_for(reading.value, {});
     static_cast<void>(called_effects(scene));
     static_cast<void>(idle_effects(scene));
-    if (scene.bodies.size() > 4 || !(scene.spacing > 0.05)) return 0;  // how long a large scene takes is not what is asked here
+    // How long a large scene takes is not what is asked here
+    if (scene.bodies.size() > 4 || !(scene.spacing > 0.05)) return 0;
     const InitialState initial = sample(scene);
     if (initial.size() < 3000) static_cast<void>(preflight(reading.value, scene, initial));
   } catch (const InputError&) {

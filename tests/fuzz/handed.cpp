@@ -13,7 +13,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::expect(read.frames.size() <= most_frames, "there are no more frames than there can be");
     for (const Snapshot& s : read.frames)
       for (const auto* column : {&s.temperature, &s.density, &s.mass})
-        fuzz::expect(column->empty() || s.position.empty() || column->size() == s.position.size(), "columns have one length");
+        fuzz::expect(column->empty() || s.position.empty() || column->size() == s.position.size(),
+                     "columns have one length");
     const std::string bytes = packed(read);
     fuzz::expect(packed(unpacked(bytes)) == bytes, "what was read is packed and read as the same");
   } catch (const InputError&) {

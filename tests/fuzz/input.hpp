@@ -20,7 +20,8 @@ inline void expect(bool holds, const char* what) {
   std::abort();
 }
 
-/// Under the fuzzer toml++ runs without the child that takes its known faults, which need a letter beyond ASCII (docs/fuzz.md).
+/// Under the fuzzer toml++ runs without the child that takes its known faults, which need a letter beyond
+/// ASCII (docs/fuzz.md).
 inline constexpr bool parser_has_no_child() {
 #if defined(FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION)
   return true;
@@ -32,7 +33,9 @@ inline bool is_ascii(const std::uint8_t* data, std::size_t size) {
   return std::all_of(data, data + size, [](std::uint8_t c) { return c < 128; });
 }
 
-inline std::string text_of(const std::uint8_t* data, std::size_t size) { return {reinterpret_cast<const char*>(data), size}; }
+inline std::string text_of(const std::uint8_t* data, std::size_t size) {
+  return {reinterpret_cast<const char*>(data), size};
+}
 
 /// A folder for the input as a file, gone at the end.
 class Folder {

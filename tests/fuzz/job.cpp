@@ -18,7 +18,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::expect(job_text(read_job(folder.write("again.json", once))) == once,
                  "a job that was read is written and read as the same");
   } catch (const InputError&) {  // a number that is not finite is written as null, which no reader takes
-    fuzz::expect(once.find("null") != std::string::npos, "a job that was read and is all numbers can be read again");
+    fuzz::expect(once.find("null") != std::string::npos,
+                 "a job that was read and is all numbers can be read again");
   }
   return 0;
 }

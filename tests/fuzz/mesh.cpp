@@ -17,7 +17,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static_cast<void>(obj ? parse_obj(text, "mesh.obj") : parse_stl(text, "mesh.stl"));
     const Mesh mesh = read_mesh(folder.write(obj ? "mesh.obj" : "mesh.stl", text), 1.0);
     for (const auto& triangle : mesh.triangles)
-      fuzz::expect(std::all_of(triangle.begin(), triangle.end(), [&](auto corner) { return corner < mesh.points.size(); }),
+      fuzz::expect(std::all_of(triangle.begin(), triangle.end(),
+                               [&](auto corner) { return corner < mesh.points.size(); }),
                    "every corner of a mesh that is read is there");
     static_cast<void>(volume(mesh));
   } catch (const InputError&) {

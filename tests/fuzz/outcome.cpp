@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The record of a run that has ended, as a folder of somebody else's may hold it. In the input, the word FILES stands for the
-// hash of the files that are there.
+// The record of a run that has ended, as a folder of somebody else's may hold it. In the input, the word
+// FILES stands for the hash of the files that are there.
 #include <sys/stat.h>
 
 #include <cmath>
@@ -63,12 +63,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const EndedRun run;
   std::string text = fuzz::text_of(data, size);
   constexpr const char* word = "FILES";
-  if (const std::size_t at = text.find(word); at != std::string::npos) text.replace(at, std::strlen(word), run.hash);
+  if (const std::size_t at = text.find(word); at != std::string::npos)
+    text.replace(at, std::strlen(word), run.hash);
   run.write_record(text);
 
   if (const auto kept = finished_run(run.request, this_run)) {
     fuzz::expect(kept->kept, "what was not run again says so");
-    fuzz::expect(kept->status == Status::diverged, "a record makes no other status than the result that was left");
+    fuzz::expect(kept->status == Status::diverged,
+                 "a record makes no other status than the result that was left");
     fuzz::expect(!kept->reason.empty(), "a run that did not end well has a reason");
     fuzz::expect(!std::isnan(kept->cost.cpu_s) && !std::isnan(kept->cost.wall_s), "a cost is a number");
     fuzz::expect(text.find(this_run) != std::string::npos || text.find('\\') != std::string::npos,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measured data and tables beside a case, CASE.ref.csv of anybody. The lowest bit of the first byte chooses which of the two; the
-// second puts the right hash below the data, without which nothing behind it would be reached.
+// Measured data and tables beside a case, CASE.ref.csv of anybody. The lowest bit of the first byte chooses
+// which of the two; the second puts the right hash below the data, without which nothing behind it would be
+// reached.
 #include <cmath>
 
 #include "core/errors.hpp"
@@ -11,7 +12,9 @@ using namespace tripoint;
 
 namespace {
 
-std::string with_hash(const std::string& text, const std::string& hash) { return text + "# hash: " + hash + "\n"; }
+std::string with_hash(const std::string& text, const std::string& hash) {
+  return text + "# hash: " + hash + "\n";
+}
 
 void expect_whole(const ExperimentFile& file) {
   fuzz::expect(!file.source.empty(), "data that are read say where they come from");
@@ -22,7 +25,8 @@ void expect_whole(const ExperimentFile& file) {
                  "columns are of one length");
     fuzz::expect(file.uncertainty.count(name) == 1, "a curve says how well it is known");
     for (std::size_t k = 0; k < curve.time.size(); ++k) {
-      fuzz::expect(!std::isnan(curve.value[k]) && !std::isnan(curve.time[k]), "what was measured is a number");
+      fuzz::expect(!std::isnan(curve.value[k]) && !std::isnan(curve.time[k]),
+                   "what was measured is a number");
       fuzz::expect(curve.uncertainty[k] >= 0.0, "an uncertainty is not below 0");
       fuzz::expect(k == 0 || curve.time[k - 1] <= curve.time[k], "the first column rises");
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The targets without a fuzzer, in every build: one call for each file of the folder. A crash is a crash.
-//   replay-NAME FOLDER [MUTANTS FIRST]   then so many mutants of these files by chance, from seed FIRST on: without clang, and
-//   blind, but of any build
+//   replay-NAME FOLDER [MUTANTS FIRST]   then so many mutants of these files by chance, from seed FIRST on:
+//   without clang, and blind, but of any build
 #include <algorithm>
 #include <iterator>
 #include <random>
@@ -29,16 +29,20 @@ std::vector<Input> inputs_in(const char* folder, bool say) {
   return inputs;
 }
 
-/// One of the inputs with one to eight changes: a byte, a bit, a piece cut out, doubled, or taken from another input.
+/// One of the inputs with one to eight changes: a byte, a bit, a piece cut out, doubled, or taken from
+/// another input.
 Input mutant(const std::vector<Input>& inputs, unsigned seed) {
   std::mt19937 chance(seed);
-  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(chance()) % std::max<std::size_t>(n, 1); };
+  const auto below = [&](std::size_t n) {
+    return static_cast<std::size_t>(chance()) % std::max<std::size_t>(n, 1);
+  };
   Input made = inputs[below(inputs.size())];
   for (std::size_t changes = 1 + below(8); changes > 0 && !made.empty(); --changes) {
     const auto at = static_cast<std::ptrdiff_t>(below(made.size()));
-    const auto length =
-        static_cast<std::ptrdiff_t>(1 + below(std::min<std::size_t>(made.size() - static_cast<std::size_t>(at), 32)));
-    const Input piece(made.begin() + at, made.begin() + std::min(at + length, static_cast<std::ptrdiff_t>(made.size())));
+    const auto length = static_cast<std::ptrdiff_t>(
+        1 + below(std::min<std::size_t>(made.size() - static_cast<std::size_t>(at), 32)));
+    const Input piece(made.begin() + at,
+                      made.begin() + std::min(at + length, static_cast<std::ptrdiff_t>(made.size())));
     const Input& other = inputs[below(inputs.size())];
     switch (below(5)) {
       case 0:
@@ -54,7 +58,8 @@ Input mutant(const std::vector<Input>& inputs, unsigned seed) {
         made.insert(made.begin() + at, piece.begin(), piece.end());
         break;
       default:
-        made.insert(made.begin() + at, other.begin() + static_cast<std::ptrdiff_t>(below(other.size())), other.end());
+        made.insert(made.begin() + at, other.begin() + static_cast<std::ptrdiff_t>(below(other.size())),
+                    other.end());
         break;
     }
     if (made.size() > 65536) made.resize(65536);

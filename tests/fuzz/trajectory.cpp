@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// trajectory.h5 as a file whose datasets have any shapes, types and values: what the library reads soundly, and our reader must
-// bear. Files that the library itself does not bear are read in a child of the harness (docs/promises.md).
+// trajectory.h5 as a file whose datasets have any shapes, types and values: what the library reads soundly,
+// and our reader must bear. Files that the library itself does not bear are read in a child of the harness
+// (docs/promises.md).
 #include <hdf5.h>
 
 #include <array>
@@ -52,18 +53,19 @@ void write_unit(hid_t dataset, const char* unit) {
 }
 
 /// A dataset of this shape (a hostile input bends it), filled from the input.
-void write_dataset(fuzz::Bytes& bytes, hid_t file, const std::string& name, int rank, std::array<hsize_t, 4> shape, bool whole,
-                   const char* unit) {
+void write_dataset(fuzz::Bytes& bytes, hid_t file, const std::string& name, int rank,
+                   std::array<hsize_t, 4> shape, bool whole, const char* unit) {
   if (bytes.one_of(16) == 0) rank = static_cast<int>(bytes.one_of(5));
   if (bytes.one_of(8) == 0) shape[bytes.one_of(4)] = bytes.one_of(6);
   if (bytes.one_of(16) == 0) whole = !whole;
   hsize_t count = 1;
   for (int k = 0; k < rank; ++k) count *= shape[static_cast<std::size_t>(k)];
-  const hid_t space = rank > 0 ? H5Screate_simple(rank, shape.data(), nullptr) : H5Screate(bytes.flag() ? H5S_SCALAR : H5S_NULL);
+  const hid_t space = rank > 0 ? H5Screate_simple(rank, shape.data(), nullptr)
+                               : H5Screate(bytes.flag() ? H5S_SCALAR : H5S_NULL);
   const hid_t links = H5Pcreate(H5P_LINK_CREATE);
   H5Pset_create_intermediate_group(links, 1);
-  const hid_t dataset =
-      H5Dcreate2(file, name.c_str(), whole ? H5T_STD_I32LE : H5T_IEEE_F64LE, space, links, H5P_DEFAULT, H5P_DEFAULT);
+  const hid_t dataset = H5Dcreate2(file, name.c_str(), whole ? H5T_STD_I32LE : H5T_IEEE_F64LE, space, links,
+                                   H5P_DEFAULT, H5P_DEFAULT);
   std::vector<double> values(count);
   for (double& v : values) v = whole ? bytes.byte() - 4 : bytes.real();
   if (dataset >= 0 && H5Sget_simple_extent_npoints(space) == static_cast<hssize_t>(count))
@@ -81,7 +83,9 @@ void write_file(fuzz::Bytes& bytes, const std::string& path) {
   for (const Element& e : elements) {
     if (bytes.one_of(8) == 0) continue;
     const std::string name = e.name;
-    const hsize_t n = name.starts_with("particles/all") ? rows : name.starts_with("particles/bodies") ? bodies : e.width;
+    const hsize_t n = name.starts_with("particles/all")      ? rows
+                      : name.starts_with("particles/bodies") ? bodies
+                                                             : e.width;
     const int rank = e.width == 1 || name.starts_with("observables") ? 2 : 3;
     write_dataset(bytes, file, "/" + name + "/value", rank, {frames, n, e.width, 1}, e.whole, e.unit);
     write_dataset(bytes, file, "/" + name + "/time", 1, {frames, 1, 1, 1}, false, nullptr);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The judge, on a case of any runs, values and gates: PASS only where an independent reading of the gates, written again here,
-// says so; and what gets worse is never judged better.
+// The judge, on a case of any runs, values and gates: PASS only where an independent reading of the gates,
+// written again here, says so; and what gets worse is never judged better.
 #include <cmath>
 #include <optional>
 
@@ -12,8 +12,9 @@ using namespace tripoint;
 
 namespace {
 
-constexpr Status states[] = {Status::ok,       Status::ok,     Status::ok,      Status::ok,    Status::refused, Status::missing,
-                             Status::diverged, Status::killed, Status::timeout, Status::error, Status::error};
+constexpr Status states[] = {Status::ok,      Status::ok,      Status::ok,       Status::ok,
+                             Status::refused, Status::missing, Status::diverged, Status::killed,
+                             Status::timeout, Status::error,   Status::error};
 constexpr JudgedMode modes[] = {JudgedMode::corrected, JudgedMode::paper, JudgedMode::none};
 
 Gate made_gate(fuzz::Bytes& bytes) {
@@ -36,7 +37,8 @@ RunRow made_run(fuzz::Bytes& bytes, unsigned k) {
   run.status = states[bytes.one_of(11)];
   run.comparable = bytes.one_of(8) != 0;
   run.knobs.mode = modes[bytes.one_of(3)];
-  if (bytes.one_of(8) != 0) run.metrics["error"] = {bytes.real(), {0.0, bytes.flag() ? bytes.real() : 0.0, 0.0, 0.0}, {}, {}, {}};
+  if (bytes.one_of(8) != 0)
+    run.metrics["error"] = {bytes.real(), {0.0, bytes.flag() ? bytes.real() : 0.0, 0.0, 0.0}, {}, {}, {}};
   return run;
 }
 
@@ -57,7 +59,8 @@ CaseResult made_case(fuzz::Bytes& bytes) {
   return c;
 }
 
-/// The gate by its words: the value, widened by twice its uncertainty, is within everything that is set, and all of it is finite.
+/// The gate by its words: the value, widened by twice its uncertainty, is within everything that is set, and
+/// all of it is finite.
 bool holds(const Gate& g, double value, double u) {
   if (!std::isfinite(value) || !std::isfinite(u) || u < 0.0) return false;
   bool within = g.limit || g.at_least || g.band;
@@ -78,7 +81,8 @@ void check_one_value(fuzz::Bytes& bytes) {
   if (!gate.limit || gate.at_least || gate.band || !std::isfinite(u) || u < 0.0) return;
   const double farther = value * (1.0 + bytes.byte() / 16.0);
   if (std::isfinite(farther))
-    fuzz::expect(badness(verdict_of(gate, farther, u)) >= badness(verdict), "a greater error is judged no better");
+    fuzz::expect(badness(verdict_of(gate, farther, u)) >= badness(verdict),
+                 "a greater error is judged no better");
   fuzz::expect(verdict != Verdict::fail || verdict_of(gate, value, 0.0) == Verdict::fail,
                "what fails with its uncertainty fails without");
 }
@@ -95,7 +99,8 @@ bool all_hold(const CaseResult& c) {
 }
 
 bool is_broken(const RunRow& run) {
-  return run.status == Status::killed || run.status == Status::timeout || run.status == Status::error || !run.comparable;
+  return run.status == Status::killed || run.status == Status::timeout || run.status == Status::error ||
+         !run.comparable;
 }
 
 void check_case(fuzz::Bytes& bytes) {
@@ -103,12 +108,14 @@ void check_case(fuzz::Bytes& bytes) {
   judge(c, false);
   if (c.verdict == CaseVerdict::pass) {
     fuzz::expect(c.exit_code == 0, "PASS ends with 0");
-    fuzz::expect(all_hold(c), "a case passes where each of its gates has a finite value that holds, and at least one has");
+    fuzz::expect(all_hold(c),
+                 "a case passes where each of its gates has a finite value that holds, and at least one has");
     for (const auto& engine : c.engines)
       for (const auto& run : engine.runs) {
         fuzz::expect(run.comparable, "a case with a run of another scene does not pass");
         fuzz::expect(run.status != Status::diverged, "a case with a run that diverged does not pass");
-        fuzz::expect(!engine.required || run.status == Status::ok, "a required engine that did not end well does not pass");
+        fuzz::expect(!engine.required || run.status == Status::ok,
+                     "a required engine that did not end well does not pass");
       }
   }
   if (c.verdict != CaseVerdict::pass || c.gates.empty()) return;
@@ -121,10 +128,12 @@ void check_case(fuzz::Bytes& bytes) {
         changed.metrics["error"].value = std::nan("");
         judge(worse, false);
         const bool looked_at = std::any_of(c.gates.begin(), c.gates.end(), [&](const Gate& g) {
-          return g.metric == "error" && (g.engine.empty() || g.engine == engine.name) && fits_mode(g, run.knobs.mode);
+          return g.metric == "error" && (g.engine.empty() || g.engine == engine.name) &&
+                 fits_mode(g, run.knobs.mode);
         });
-        fuzz::expect(!looked_at || is_broken(run) || run.status != Status::ok || worse.verdict != CaseVerdict::pass,
-                     "a value that is not finite does not pass");
+        fuzz::expect(
+            !looked_at || is_broken(run) || run.status != Status::ok || worse.verdict != CaseVerdict::pass,
+            "a value that is not finite does not pass");
       }
 }
 

@@ -101,18 +101,22 @@ TEST(AcceptanceOrder, OfRoundOffIsNoneAndHoldsForEveryEngineAlone) {
   EXPECT_EQ(exit_of(r), exit_fail);
 }
 
-/// An inertia that is 1 % off: the errors fall to a floor, and a power law through what is above it has the order 4.
+/// An inertia that is 1 % off: the errors fall to a floor, and a power law through what is above it has the
+/// order 4.
 std::vector<double> floored() { return {0.0376231689, 0.0376231639, 0.0376231636, 0.0376231636}; }
 
 TEST(AcceptanceOrder, OfAnErrorThatEndsOnAFloorIsNone) {
-  for (const auto& errors :
-       {floored(), {0.108, 0.081, 0.074, 0.072}, {0.54, 0.29, 0.165, 0.1025}, {0.52, 0.27, 0.2075, 0.191875}}) {
+  for (const auto& errors : {floored(),
+                             {0.108, 0.081, 0.074, 0.072},
+                             {0.54, 0.29, 0.165, 0.1025},
+                             {0.52, 0.27, 0.2075, 0.191875}}) {
     auto r = study_of(errors);
     r.cases[0].gates[0].at_least = 0.8;
     judge(r);
     EXPECT_EQ(engine(r).gates.at(0).fit_class, FitClass::plateau) << errors[0];
     EXPECT_EQ(r.exit_code, exit_fail) << errors[0];
-    EXPECT_NE(engine(r).gates[0].why.find("does not fall to the truth"), std::string::npos) << engine(r).gates[0].why;
+    EXPECT_NE(engine(r).gates[0].why.find("does not fall to the truth"), std::string::npos)
+        << engine(r).gates[0].why;
     EXPECT_TRUE(std::isnan(engine(r).gates[0].used));
   }
 }
@@ -146,7 +150,8 @@ TEST(LimitOfTheLadder, IsHeldByASchemeAndBrokenByAConstant) {
   EXPECT_EQ(ending({0.4, 0.2, 0.1, 0.05}, 0.01).exit_code, exit_pass);
   EXPECT_EQ(ending({0.4, 0.1, 0.025, 0.00625}, 0.01).exit_code, exit_pass);
   EXPECT_EQ(ending(floored(), 0.01).exit_code, exit_fail);
-  EXPECT_EQ(ending({0.43, 0.23, 0.13, 0.08}, 0.01).exit_code, exit_fail);         // 0.03 beneath a first order
+  // 0.03 beneath a first order
+  EXPECT_EQ(ending({0.43, 0.23, 0.13, 0.08}, 0.01).exit_code, exit_fail);
   EXPECT_EQ(ending({0.43, 0.13, 0.055, 0.03625}, 0.01).exit_code, exit_fail);     // beneath a second
   EXPECT_EQ(ending({0.5, 0.31, 0.22, 0.05}, 0.01).exit_code, exit_inconclusive);  // it tells nothing
 }
@@ -295,7 +300,8 @@ TEST(Cause, IsTheSizeOfARegisteredDefectWhereItsSmallestIsKnown) {
   inertia.killed_by = {"error"};
   known.defects = {inertia};
   judge(r);
-  EXPECT_EQ(of(scorecard_of(r, {known}, {}), "stone").cause, "error 0.3: as of rigid.inertia off by about 0.02 of itself");
+  EXPECT_EQ(of(scorecard_of(r, {known}, {}), "stone").cause,
+            "error 0.3: as of rigid.inertia off by about 0.02 of itself");
   known.defects[0].killed_by = {"energy"};
   EXPECT_EQ(of(scorecard_of(r, {known}, {}), "stone").cause, "");
 }
@@ -345,7 +351,8 @@ TEST(Refusal, OfACaseByAllThatWereChosenIsNoFailureUnlessItIsOfEveryCase) {
   EXPECT_EQ(r.exit_code, exit_missing);  // it ran no case at all
   EXPECT_EQ(r.verdict, CaseVerdict::refused);
   ASSERT_EQ(r.problems.size(), 1U);
-  EXPECT_NE(r.problems[0].find("refuses the one case, and nothing of it is judged"), std::string::npos) << r.problems[0];
+  EXPECT_NE(r.problems[0].find("refuses the one case, and nothing of it is judged"), std::string::npos)
+      << r.problems[0];
   EXPECT_NE(r.problems[0].find("knows no heat"), std::string::npos) << r.problems[0];
   EXPECT_EQ(verdict_word(exit_missing, r, verdict_remarks(r)), "REFUSED");
   auto other = green().cases[0];
@@ -362,7 +369,8 @@ TEST(Refusal, OfACaseByAllThatWereChosenIsNoFailureUnlessItIsOfEveryCase) {
   EXPECT_EQ(r.verdict, CaseVerdict::missing);
 }
 
-/// `green()` beside a second engine of whom the case says that it refuses, "no heat" being part of its reason.
+/// `green()` beside a second engine of whom the case says that it refuses, "no heat" being part of its
+/// reason.
 Results expected_to_refuse(Status status, const std::string& reason) {
   auto r = with(0.05);
   auto& stone = r.cases[0].engines[1];
@@ -377,7 +385,8 @@ TEST(ExpectedRefusal, HoldsWhereTheEngineRefusesForThatReason) {
   EXPECT_EQ(exit_of(r), exit_pass);
   EXPECT_EQ(of(card_of(r), "stone").verdict, Score::refused);
   EXPECT_EQ(of(card_of(r), "stone").reason, "as expected: it knows no heat");
-  EXPECT_NE(scorecard_text(card_of(r), {"stone"}).find("refused, as expected: it knows no heat"), std::string::npos);
+  EXPECT_NE(scorecard_text(card_of(r), {"stone"}).find("refused, as expected: it knows no heat"),
+            std::string::npos);
 }
 
 TEST(ExpectedRefusal, OfWhoTakesTheCaseIsRedThoughEveryLimitHolds) {
@@ -390,7 +399,8 @@ TEST(ExpectedRefusal, OfWhoTakesTheCaseIsRedThoughEveryLimitHolds) {
 
 TEST(ExpectedRefusal, ForAnotherReasonIsRed) {
   EXPECT_EQ(exit_of(expected_to_refuse(Status::refused, "it knows no liquid")), exit_fail);
-  EXPECT_EQ(of(card_of(expected_to_refuse(Status::refused, "it knows no liquid")), "stone").verdict, Score::fail);
+  EXPECT_EQ(of(card_of(expected_to_refuse(Status::refused, "it knows no liquid")), "stone").verdict,
+            Score::fail);
 }
 
 TEST(ExpectedRefusal, OfWhoIsNotHereIsNoFailure) {

@@ -33,7 +33,8 @@ TEST(Front, APowerLawIsPredictedOnTheLineAndBeyondIt) {
   for (const double h : {0.08, 0.03, 0.00625}) {
     EXPECT_NEAR(predicted_error(ladders[0], h).value, 16.0 * h * h, 1e-9);
     EXPECT_NEAR(predicted_cpu(ladders[0], h).value / (1e-6 * std::pow(h, -5.0)), 1.0, 1e-9);
-    EXPECT_EQ(predicted_error(ladders[0], h).factor, 1.1);  // no curvature: what seconds and lines are ever known to
+    // No curvature: what seconds and lines are ever known to
+    EXPECT_EQ(predicted_error(ladders[0], h).factor, 1.1);
   }
 }
 
@@ -87,15 +88,18 @@ TEST(Uncertainty, OfTheGridCountsAgainstAnExperimentAndNotAgainstTheTruth) {
   EXPECT_EQ(engine(r).gates.back().uncertainty, 0.0);
   c.reference.kind = ReferenceKind::experiment;
   judge(r);
-  EXPECT_NEAR(engine(r).gates.back().budget.numerical, 0.5 * 1.25 * 2.5e-3, 1e-8);  // second order to a limit of 0
-  c.gates[0].limit = 3.0e-3;                                                        // the finest is 2.5e-3 + 2 * 1.56e-3
+  // Second order to a limit of 0
+  EXPECT_NEAR(engine(r).gates.back().budget.numerical, 0.5 * 1.25 * 2.5e-3, 1e-8);
+  // The finest is 2.5e-3 + 2 * 1.56e-3
+  c.gates[0].limit = 3.0e-3;
   judge(r);
   EXPECT_EQ(engine(r).gates.back().verdict, Verdict::inconclusive);
 }
 
 TEST(Uncertainty, OfAnInputIsHalfOfWhatItsEndsMove) {
   auto r = green();
-  for (const auto& [end, v] : {std::pair{"material.stuff.density=990", 0.047}, std::pair{"material.stuff.density=1010", 0.055}}) {
+  for (const auto& [end, v] :
+       {std::pair{"material.stuff.density=990", 0.047}, std::pair{"material.stuff.density=1010", 0.055}}) {
     auto run = run_with({{"error", value(v)}});
     run.base = false;
     run.input = end;
@@ -115,14 +119,16 @@ TEST(Uncertainty, OfAnInputIsHalfOfWhatItsEndsMove) {
 TEST(Uncertainty, OfAnInputOfACaseIsMeasuredByTwoMoreRuns) {
   const TestFolder folder;
   const auto value = read_flight_case(
-      folder, "[[input]]\nkey = \"body.cube.velocity\"\nlow = \"[0.99, 0.0, 2.0]\"\nhigh = \"[1.01, 0.0, 2.0]\"\n");
+      folder,
+      "[[input]]\nkey = \"body.cube.velocity\"\nlow = \"[0.99, 0.0, 2.0]\"\nhigh = \"[1.01, 0.0, 2.0]\"\n");
   SuiteOptions options;
   options.out = folder / "out";
   options.selection.engines = {"fake"};
   const auto result = run_suite({value}, {ask_engine(fake_engine(folder, "nothing"))}, options).cases.at(0);
   ASSERT_EQ(result.engines.at(0).runs.size(), 3u);
   EXPECT_EQ(result.engines[0].status, Status::ok) << result.engines[0].reason;
-  EXPECT_LT(result.engines[0].gates.at(0).budget.input, 1e-12);  // against the truth of its own scene an input moves nothing
+  // Against the truth of its own scene an input moves nothing
+  EXPECT_LT(result.engines[0].gates.at(0).budget.input, 1e-12);
 }
 
 }  // namespace

@@ -45,8 +45,9 @@ TEST(Adopt, RoundOffMayBecomeSmaller) {
 
 TEST(Adopt, NoiseAboveTheValueIsSaidAndNotGivenAsRoom) {
   EXPECT_EQ(noise_exceeds_value("angle", {{0.04, 0.041, 0.039}}, round_off), "");
-  EXPECT_NE(noise_exceeds_value("angle", {{0.04, 0.09, 0.0}}, round_off).find("noise of angle exceeds its value"),
-            std::string::npos);
+  EXPECT_NE(
+      noise_exceeds_value("angle", {{0.04, 0.09, 0.0}}, round_off).find("noise of angle exceeds its value"),
+      std::string::npos);
   EXPECT_NE(noise_exceeds_value("angle", {{0.04, 0.04}, 0.03}, round_off), "");  // stated by the run itself
   EXPECT_NE(noise_exceeds_value("angle", {{-0.04, 0.04}}, round_off), "");       // a mean of zero has no size
   EXPECT_EQ(noise_exceeds_value("angle", {{1e-14, 3e-14}}, round_off), "");      // round-off
@@ -127,12 +128,14 @@ std::string text_of(const AdoptedCase& c, const std::string& despite = {}) {
 
 TEST(Adopt, TheWrittenCaseKeepsTheSceneWhole) {
   const auto text = text_of(adopted());
-  for (const char* kept : {"# A throw onto a floor.", "id = \"rigid/throw\"", "[scene]", "end_time = 1.0", "name = \"position\"",
-                           "name = \"heat\"", "[engines.all]", "friction = 0.3", "restitution = 0.5", "[engines.stone]",
-                           "iterations = 40.0", "required = true", "adopted = true", "preset = [\"default\", \"fine\"]",
-                           "axis = \"time_step\"", "axis = \"spacing\"", "level = 0.01", "band = [0.0266667, 0.06]"})
+  for (const char* kept :
+       {"# A throw onto a floor.", "id = \"rigid/throw\"", "[scene]", "end_time = 1.0", "name = \"position\"",
+        "name = \"heat\"", "[engines.all]", "friction = 0.3", "restitution = 0.5", "[engines.stone]",
+        "iterations = 40.0", "required = true", "adopted = true", "preset = [\"default\", \"fine\"]",
+        "axis = \"time_step\"", "axis = \"spacing\"", "level = 0.01", "band = [0.0266667, 0.06]"})
     EXPECT_NE(text.find(kept), std::string::npos) << kept << "\n" << text;
-  for (const char* gone : {"bullet", "modes", "ours is exact", "rigid.gravity", "of any", "not paper", "acceptance", "refuses"})
+  for (const char* gone :
+       {"bullet", "modes", "ours is exact", "rigid.gravity", "of any", "not paper", "acceptance", "refuses"})
     EXPECT_EQ(text.find(gone), std::string::npos) << gone << "\n" << text;
 }
 
@@ -153,12 +156,14 @@ TEST(Adopt, TheReasonToAdoptWhatFailsStandsInTheCase) {
   c.rows[0].findings.push_back({1, "position fails a limit", true});
   const auto text = text_of(c, "the next release\x1b[2J has it");
   EXPECT_NE(text.find("# Despite: position fails a limit"), std::string::npos) << text;
-  EXPECT_NE(text.find("adopted despite what it fails: the next release?[2J has it"), std::string::npos) << text;
+  EXPECT_NE(text.find("adopted despite what it fails: the next release?[2J has it"), std::string::npos)
+      << text;
 }
 
 TEST(Adopt, FilesThatTheCaseNamesGoWithIt) {
-  const auto document =
-      parse_toml("body = [{ shape = { kind = \"mesh\", file = \"a.obj\" } }]\nreference.file = \"b.ref.csv\"\n", "x.toml");
+  const auto document = parse_toml(
+      "body = [{ shape = { kind = \"mesh\", file = \"a.obj\" } }]\nreference.file = \"b.ref.csv\"\n",
+      "x.toml");
   EXPECT_EQ(files_named_in(document), (std::set<std::string>{"a.obj", "b.ref.csv"}));
 }
 

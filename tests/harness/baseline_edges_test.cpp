@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Accepted figures at the edges: how far a value, a cost and a limit may move, and the words that are said beyond.
+// Accepted figures at the edges: how far a value, a cost and a limit may move, and the words that are said
+// beyond.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,8 +38,9 @@ TEST(BaselineEdges, LooseningsAddUpAsLogarithms) {
   Kept k;
   ASSERT_EQ(k.b.gates.size(), 1u);
   for (const auto& [before, now, earlier, sum] :
-       {std::tuple{0.05, 0.1, 0.25, 0.25 + std::log(2.0)}, std::tuple{0.1, 0.1, 0.25, 0.25}, std::tuple{0.2, 0.1, 0.25, 0.25},
-        std::tuple{0.0, 0.1, 0.25, 0.25}, std::tuple{0.05, 0.1, 0.0, std::log(2.0)}}) {
+       {std::tuple{0.05, 0.1, 0.25, 0.25 + std::log(2.0)}, std::tuple{0.1, 0.1, 0.25, 0.25},
+        std::tuple{0.2, 0.1, 0.25, 0.25}, std::tuple{0.0, 0.1, 0.25, 0.25},
+        std::tuple{0.05, 0.1, 0.0, std::log(2.0)}}) {
     auto old = k.b;
     old.gates[0].room = before;
     old.gates[0].loosened = earlier;
@@ -57,10 +59,11 @@ TEST(BaselineEdges, LooseningsAddUpAsLogarithms) {
 }
 
 TEST(BaselineEdges, ACostMayGrowByOneInAHundred) {
-  for (const auto& [pairs, steps, says] : {std::tuple{1000.0, 200.0, ""}, std::tuple{1009.0, 201.0, ""},
-                                           std::tuple{1011.0, 200.0, "1011 pairs, accepted were 1000 (+1.1 %)"},
-                                           std::tuple{1000.0, 203.0, "203 steps, accepted were 200 (+1.5 %)"},
-                                           std::tuple{500.0, 100.0, ""}, std::tuple{0.0, 200.0, ""}}) {
+  for (const auto& [pairs, steps, says] :
+       {std::tuple{1000.0, 200.0, ""}, std::tuple{1009.0, 201.0, ""},
+        std::tuple{1011.0, 200.0, "1011 pairs, accepted were 1000 (+1.1 %)"},
+        std::tuple{1000.0, 203.0, "203 steps, accepted were 200 (+1.5 %)"}, std::tuple{500.0, 100.0, ""},
+        std::tuple{0.0, 200.0, ""}}) {
     Kept k;
     engine(k.r).runs[0].cost.pairs = pairs;
     engine(k.r).runs[0].cost.steps = steps;
@@ -88,19 +91,38 @@ TEST(BaselineEdges, AValueMayMoveByATenthOrByItsDrift) {
   };
   for (const Row& row :
        {Row{0.055, 0.0, {}, 0.05, ""},
-        Row{0.0551, 0.0, {}, 0.05, "0.0551 is worse than the accepted value 0.05: it uses 0.551 of the limit, then 0.5"},
+        Row{0.0551,
+            0.0,
+            {},
+            0.05,
+            "0.0551 is worse than the accepted value 0.05: it uses 0.551 of the limit, then 0.5"},
         // The judged run has no word in its own noise.
-        Row{0.0551, 0.0001, {}, 0.05, "0.0551 is worse than the accepted value 0.05: it uses 0.551 of the limit, then 0.5"},
-        Row{-0.0551, 0.0, {}, 0.05, "-0.0551 is worse than the accepted value 0.05: it uses 0.551 of the limit, then 0.5"},
+        Row{0.0551,
+            0.0001,
+            {},
+            0.05,
+            "0.0551 is worse than the accepted value 0.05: it uses 0.551 of the limit, then 0.5"},
+        Row{-0.0551,
+            0.0,
+            {},
+            0.05,
+            "-0.0551 is worse than the accepted value 0.05: it uses 0.551 of the limit, then 0.5"},
         Row{0.04, 0.0, {}, 0.05, ""},
-        Row{0.052, 0.0, {}, 0.04, "0.052 is worse than the first value 0.04: it uses 0.52 of the limit, then 0.4"},
+        Row{0.052,
+            0.0,
+            {},
+            0.04,
+            "0.052 is worse than the first value 0.04: it uses 0.52 of the limit, then 0.4"},
         Row{0.0509, 0.0, 0.02, 0.01, ""},
         Row{0.0511, 0.0, 0.02, 0.05,
-            "0.0511 has moved from the accepted value 0.05 by more than the share of 0.02 that the gate allows"},
+            "0.0511 has moved from the accepted value 0.05 by more than the share of 0.02 that the gate "
+            "allows"},
         Row{0.0489, 0.0, 0.02, 0.05,
-            "0.0489 has moved from the accepted value 0.05 by more than the share of 0.02 that the gate allows"},
+            "0.0489 has moved from the accepted value 0.05 by more than the share of 0.02 that the gate "
+            "allows"},
         Row{0.0511, 0.0001, 0.02, 0.05,
-            "0.0511 has moved from the accepted value 0.05 by more than the share of 0.02 that the gate allows"}}) {
+            "0.0511 has moved from the accepted value 0.05 by more than the share of 0.02 that the gate "
+            "allows"}}) {
     Kept k;
     k.b.gates[0].first_value = row.first;
     k.b.gates[0].drift = row.drift;
@@ -113,7 +135,8 @@ TEST(BaselineEdges, AValueMayMoveByATenthOrByItsDrift) {
     EXPECT_EQ(list[0].error, row.drift.has_value());
     EXPECT_EQ(list[0].code, row.drift ? exit_fail : 0);
     EXPECT_EQ(list[0].place.line, 7);
-    EXPECT_NEAR(list[0].excess, row.drift ? std::abs(row.now) / 0.05 : std::abs(row.now) / 0.1, 1e-12);  // the limit is 0.1
+    // The limit is 0.1
+    EXPECT_NEAR(list[0].excess, row.drift ? std::abs(row.now) / 0.05 : std::abs(row.now) / 0.1, 1e-12);
   }
 }
 
@@ -164,10 +187,12 @@ TEST(BaselineEdges, AnEdgeOfWordsIsFoundWhereverItStands) {
     g.allows = allows;
     return g;
   };
-  EXPECT_EQ(looser_edge(words("at least 0.5, limit 3"), words("at least 0.5, limit 2")), "its upper edge has moved from 2 to 3");
+  EXPECT_EQ(looser_edge(words("at least 0.5, limit 3"), words("at least 0.5, limit 2")),
+            "its upper edge has moved from 2 to 3");
   EXPECT_EQ(looser_edge(words("limit 3, at least 0.25"), words("limit 3, at least 0.5")),
             "its lower edge has moved from 0.5 to 0.25");
-  EXPECT_EQ(looser_edge(words("limit 3"), words("limit 3, band 0.5 to 2")), "its upper edge has moved from 2 to 3");
+  EXPECT_EQ(looser_edge(words("limit 3"), words("limit 3, band 0.5 to 2")),
+            "its upper edge has moved from 2 to 3");
   EXPECT_EQ(looser_edge(words("no limit"), words("limit 3")), "its upper edge, 3, is gone");
 }
 

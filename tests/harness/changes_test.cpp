@@ -55,7 +55,8 @@ TEST(Changes, WhatABandAndALeastValueUseRisesTowardsTheirEdges) {
   EXPECT_NEAR(share_of_limit(g, 1.0), 1.5, 1e-12);
   EXPECT_NEAR(share_of_limit(g, 4.0), 0.5, 1e-12);
   g = limit("error", 0.0);
-  EXPECT_NEAR(share_of_limit(g, -2.0), 3.0, 1e-12);  // a limit of nothing leaves no room: beyond it the metric's own unit counts
+  // a limit of nothing leaves no room: beyond it the metric's own unit counts
+  EXPECT_NEAR(share_of_limit(g, -2.0), 3.0, 1e-12);
   EXPECT_TRUE(std::isnan(share_of_limit({}, 1.0)));
   EXPECT_TRUE(std::isnan(share_of_limit(g, std::nan(""))));
 }
@@ -77,7 +78,8 @@ TEST(Changes, ABandAroundZeroIsBestAtZeroWhereverItsMiddleLies) {
 }
 
 TEST(Changes, ShareIsOneAtEachEdgeThatTheVerdictKnows) {
-  for (const auto& [low, high] : {std::pair{-0.2, 0.5}, std::pair{0.2, 0.5}, std::pair{-0.5, -0.2}, std::pair{0.0, 0.5}}) {
+  for (const auto& [low, high] :
+       {std::pair{-0.2, 0.5}, std::pair{0.2, 0.5}, std::pair{-0.5, -0.2}, std::pair{0.0, 0.5}}) {
     Gate g;
     g.band = {low, high};
     for (double v = -1.0; v <= 1.0; v += 0.001) {
@@ -97,8 +99,10 @@ TEST(Changes, TheJudgedRunHasNoWordInItsOwnNoise) {
   };
   EXPECT_EQ(only(compare_results(with(0.0, 0.0), with(0.003, 0.0), "base")).trend, Trend::worse);
   EXPECT_EQ(only(compare_results(with(0.0, 0.0), with(0.003, 0.003), "base")).trend, Trend::worse);
-  EXPECT_EQ(only(compare_results(with(0.0, 0.003), with(0.003, 0.0), "base")).trend, Trend::same);  // it was accepted with that
-  EXPECT_EQ(only(compare_results(with(0.0, 0.003), with(0.003, 0.0), "base")).noise_from, "stated by the base");
+  // It was accepted with that
+  EXPECT_EQ(only(compare_results(with(0.0, 0.003), with(0.003, 0.0), "base")).trend, Trend::same);
+  EXPECT_EQ(only(compare_results(with(0.0, 0.003), with(0.003, 0.0), "base")).noise_from,
+            "stated by the base");
 }
 
 TEST(Changes, ManySeedsOfTheJudgedRunHideNothingEither) {
@@ -108,7 +112,8 @@ TEST(Changes, ManySeedsOfTheJudgedRunHideNothingEither) {
 }
 
 TEST(Changes, WithinTheScatterOfSeedsNothingHasChanged) {
-  const auto base = measured_as({0.03, 0.04, 0.05}), head = measured_as({0.04, 0.05, 0.06});  // deviation 0.01, of a mean 0.0058
+  // Deviation 0.01, of a mean 0.0058
+  const auto base = measured_as({0.03, 0.04, 0.05}), head = measured_as({0.04, 0.05, 0.06});
   auto c = only(compare_results(base, head, "base"));
   EXPECT_NEAR(c.change, 0.1, 1e-12);
   EXPECT_NEAR(c.noise, 2.0 * std::sqrt(2.0) * 0.01 / std::sqrt(3.0) / 0.1, 1e-9);
@@ -152,7 +157,8 @@ TEST(Changes, WorseWithinTheLimitIsSaidAndRedOnlyWhenAsked) {
   EXPECT_FALSE(change_remarks(all, false)[0].error);
   EXPECT_TRUE(change_remarks(all, true)[0].error);
   EXPECT_NE(change_remarks(all, false)[0].text.find("+0.3"), std::string::npos);
-  EXPECT_TRUE(change_remarks(compare_results(measured_as({0.05}), measured_as({0.02}), "base"), true).empty());
+  EXPECT_TRUE(
+      change_remarks(compare_results(measured_as({0.05}), measured_as({0.02}), "base"), true).empty());
   EXPECT_TRUE(change_remarks(compare_results(measured_as({0.05}), measured_as({0.5}), "base"), false).empty())
       << "a red gate is the judge's";
 }
@@ -177,7 +183,8 @@ TEST(Changes, ShowMetricsThatNoGateJudgesToo) {
   ASSERT_EQ(all.changes.size(), 2U);
   EXPECT_NEAR(all.changes[1].change, 0.25, 1e-12);
   EXPECT_EQ(all.changes[1].trend, Trend::same);  // without a limit nobody can say better or worse
-  EXPECT_NE(changes_table(all).find("mass: 2 -> 2.5, - -> - of no limit"), std::string::npos) << changes_table(all);
+  EXPECT_NE(changes_table(all).find("mass: 2 -> 2.5, - -> - of no limit"), std::string::npos)
+      << changes_table(all);
 }
 
 TEST(Changes, AValueThatIsNoneAnyMoreIsWorseThanAny) {
@@ -198,14 +205,16 @@ TEST(Comment, BeginsWithItsMarkAndHoldsTheTenMostChanged) {
     r->cases[0].gates.clear();
     for (int k = 0; k < 15; ++k) {
       r->cases[0].gates.push_back(limit("m" + std::to_string(k), 1.0));
-      r->cases[0].engines[0].runs[0].metrics["m" + std::to_string(k)] = value(r == &base ? 0.1 : 0.1 + 0.01 * k);
+      r->cases[0].engines[0].runs[0].metrics["m" + std::to_string(k)] =
+          value(r == &base ? 0.1 : 0.1 + 0.01 * k);
     }
     judge(*r);
   }
   const auto all = compare_results(base, head, "base");
   const auto text = comment_markdown(head, verdict_of(head), &all, {});
   EXPECT_TRUE(text.starts_with("<!-- tripoint: accuracy -->\n## Accuracy: PASS\n")) << text;
-  EXPECT_NE(text.find("| **worse** | +0.14 | test/one | tripoint m14 | 0.1 -> 0.24 | 0.1 -> 0.24 of limit 1 | none known |"),
+  EXPECT_NE(text.find("| **worse** | +0.14 | test/one | tripoint m14 | 0.1 -> 0.24 | 0.1 -> 0.24 of limit 1 "
+                      "| none known |"),
             std::string::npos)
       << text;
   EXPECT_NE(text.find("m5 "), std::string::npos);
@@ -219,7 +228,8 @@ TEST(Comment, LinksCaseFilesWithTheirLine) {
   CommentOptions o;
   o.links = "https://host/o/p/blob/abc";
   const auto all = compare_results(base, head, "base");
-  EXPECT_NE(comment_markdown(head, verdict_of(head), &all, o).find("[test/one](https://host/o/p/blob/abc/cases/a%20b.toml#L12)"),
+  EXPECT_NE(comment_markdown(head, verdict_of(head), &all, o)
+                .find("[test/one](https://host/o/p/blob/abc/cases/a%20b.toml#L12)"),
             std::string::npos);
   head.cases[0].gates[0].place = {"../../etc/passwd", 12, 0};
   judge(head);

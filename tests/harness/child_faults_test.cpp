@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What can happen to a child process, as its parent sees it: each becomes a row with its reason, and none a pass
-// (docs/promises.md, "Faults of a child").
+// What can happen to a child process, as its parent sees it: each becomes a row with its reason, and none a
+// pass (docs/promises.md, "Faults of a child").
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -57,8 +57,8 @@ F* next(const char* name) {
 
 // These stand before the C library's own in this program.
 extern "C" {
-int posix_spawn(pid_t* pid, const char* path, const posix_spawn_file_actions_t* actions, const posix_spawnattr_t* attributes,
-                char* const* argv, char* const* environment) {
+int posix_spawn(pid_t* pid, const char* path, const posix_spawn_file_actions_t* actions,
+                const posix_spawnattr_t* attributes, char* const* argv, char* const* environment) {
   if (spawns.fails()) return spawns.error;
   return next<decltype(posix_spawn)>("posix_spawn")(pid, path, actions, attributes, argv, environment);
 }
@@ -127,43 +127,48 @@ TEST_P(ChildFaults, AreARowThatSaysWhyAndNeverAPass) {
 
 INSTANTIATE_TEST_SUITE_P(
     Ends, ChildFaults,
-    ::testing::Values(ChildFault{"dies at info", Status::missing, "--info was killed by signal 9"},
-                      ChildFault{"dies at check", Status::error, "--check was killed by signal 9"},
-                      ChildFault{"dies at once", Status::killed, "was killed by signal 9"},
-                      ChildFault{"leaves half a result", Status::error, "result.json"},
-                      ChildFault{"dies after its result", Status::error, "says ok but was killed by signal 9"},
-                      ChildFault{"stops itself", Status::timeout, "was stopped after 1 s", 1.0},
-                      ChildFault{"hides among its parents and hangs", Status::timeout, "was stopped after 1 s", 1.0}));
+    ::testing::Values(
+        ChildFault{"dies at info", Status::missing, "--info was killed by signal 9"},
+        ChildFault{"dies at check", Status::error, "--check was killed by signal 9"},
+        ChildFault{"dies at once", Status::killed, "was killed by signal 9"},
+        ChildFault{"leaves half a result", Status::error, "result.json"},
+        ChildFault{"dies after its result", Status::error, "says ok but was killed by signal 9"},
+        ChildFault{"stops itself", Status::timeout, "was stopped after 1 s", 1.0},
+        ChildFault{"hides among its parents and hangs", Status::timeout, "was stopped after 1 s", 1.0}));
+
+INSTANTIATE_TEST_SUITE_P(Lies, ChildFaults,
+                         ::testing::Values(ChildFault{"says OK", Status::error, "OK"},
+                                           ChildFault{"speaks contract 2", Status::error,
+                                                      "is not of contract 1"},
+                                           ChildFault{"ends at no time", Status::error, "result.json"},
+                                           ChildFault{"says that it diverged", Status::diverged,
+                                                      "it gives no place", 60.0, exit_diverged},
+                                           ChildFault{"floods its answer", Status::refused,
+                                                      "--check did not print {can, reason}"}));
 
 INSTANTIATE_TEST_SUITE_P(
-    Lies, ChildFaults,
-    ::testing::Values(ChildFault{"says OK", Status::error, "OK"},
-                      ChildFault{"speaks contract 2", Status::error, "is not of contract 1"},
-                      ChildFault{"ends at no time", Status::error, "result.json"},
-                      ChildFault{"says that it diverged", Status::diverged, "it gives no place", 60.0, exit_diverged},
-                      ChildFault{"floods its answer", Status::refused, "--check did not print {can, reason}"}));
-
-INSTANTIATE_TEST_SUITE_P(Files, ChildFaults,
-                         ::testing::Values(ChildFault{"leaves half a line", Status::error, "cells, the header has"},
-                                           ChildFault{"leaves half of an H5MD file", Status::error, "trajectory.h5"},
-                                           ChildFault{"leaves a folder as result", Status::error, "no regular file"},
-                                           ChildFault{"leaves a result alone", Status::error, "trajectory.csv: cannot be read"},
-                                           ChildFault{"leaves a frame out", Status::error, "no frame at t = 0.25"},
-                                           ChildFault{"one value is not a number", Status::error, "not finite"},
-                                           ChildFault{"one value is infinite", Status::error, "not finite"},
-                                           ChildFault{"a time is not a number", Status::error, "the time is not finite"},
-                                           ChildFault{"names a body that is not there", Status::error, "is not one of"},
-                                           ChildFault{"names a body below the first", Status::error, "is not one of"},
-                                           ChildFault{"shows no frame", Status::error, "has no frame"},
-                                           ChildFault{"names half a body", Status::error, "is not one of"},
-                                           ChildFault{"numbers its particles past the last", Status::error, "is not one of"}));
+    Files, ChildFaults,
+    ::testing::Values(ChildFault{"leaves half a line", Status::error, "cells, the header has"},
+                      ChildFault{"leaves half of an H5MD file", Status::error, "trajectory.h5"},
+                      ChildFault{"leaves a folder as result", Status::error, "no regular file"},
+                      ChildFault{"leaves a result alone", Status::error, "trajectory.csv: cannot be read"},
+                      ChildFault{"leaves a frame out", Status::error, "no frame at t = 0.25"},
+                      ChildFault{"one value is not a number", Status::error, "not finite"},
+                      ChildFault{"one value is infinite", Status::error, "not finite"},
+                      ChildFault{"a time is not a number", Status::error, "the time is not finite"},
+                      ChildFault{"names a body that is not there", Status::error, "is not one of"},
+                      ChildFault{"names a body below the first", Status::error, "is not one of"},
+                      ChildFault{"shows no frame", Status::error, "has no frame"},
+                      ChildFault{"names half a body", Status::error, "is not one of"},
+                      ChildFault{"numbers its particles past the last", Status::error, "is not one of"}));
 
 /// What is no fault of the engine's result does not cost it its pass.
 TEST(HarmlessChildEvents, LeaveAGoodResultGood) {
   for (const char* what : {"closes its streams", "leaves files of other years"}) {
     const TestFolder folder;
     const auto c = fly(folder, what, required);
-    EXPECT_EQ(c.exit_code, exit_pass) << what << ": " << c.engines.at(0).status << " " << c.engines.at(0).reason;
+    EXPECT_EQ(c.exit_code, exit_pass)
+        << what << ": " << c.engines.at(0).status << " " << c.engines.at(0).reason;
   }
 }
 
@@ -181,7 +186,8 @@ struct Moment {
   int start;
   Status status;
 };
-constexpr Moment moments[] = {{1, Status::missing}, {2, Status::error}, {3, Status::error}};  // --info, --check, --run
+// --info, --check, --run
+constexpr Moment moments[] = {{1, Status::missing}, {2, Status::error}, {3, Status::error}};
 
 TEST(Starts, AChildThatCannotBeStartedIsARowWithTheSystemsWords) {
   for (const int error : {EAGAIN, ENOMEM, ENOEXEC})
@@ -192,7 +198,8 @@ TEST(Starts, AChildThatCannotBeStartedIsARowWithTheSystemsWords) {
       spawns.plan(0, 0);
       EXPECT_EQ(c.exit_code, exit_missing) << start;
       EXPECT_EQ(c.engines.at(0).status, status) << start;
-      EXPECT_NE(c.engines.at(0).reason.find(std::string("could not be started: ") + std::strerror(error)), std::string::npos)
+      EXPECT_NE(c.engines.at(0).reason.find(std::string("could not be started: ") + std::strerror(error)),
+                std::string::npos)
           << c.engines.at(0).reason;
     }
 }
@@ -205,7 +212,8 @@ TEST(Starts, AChildWithoutAPipeIsNotStarted) {
     pipes.plan(0, 0);
     EXPECT_EQ(c.exit_code, exit_missing) << which;
     EXPECT_EQ(c.engines.at(0).status, moments[(which - 1) / 2].status) << which;
-    EXPECT_NE(c.engines.at(0).reason.find(std::strerror(EMFILE)), std::string::npos) << c.engines.at(0).reason;
+    EXPECT_NE(c.engines.at(0).reason.find(std::strerror(EMFILE)), std::string::npos)
+        << c.engines.at(0).reason;
   }
 }
 
@@ -282,7 +290,9 @@ TEST(Waits, AnEndThatNobodyTellsIsADeathAndIsKnownAtOnce) {
   waits.plan(0, 0);
   EXPECT_EQ(c.exit_code, exit_missing);
   EXPECT_EQ(c.engines.at(0).status, Status::missing);
-  EXPECT_NE(c.engines.at(0).reason.find("was killed by signal 9"), std::string::npos) << c.engines.at(0).reason;  // not a timeout
+  // Not a timeout
+  EXPECT_NE(c.engines.at(0).reason.find("was killed by signal 9"), std::string::npos)
+      << c.engines.at(0).reason;
 }
 
 TEST(Waits, ASignalThatComesMeanwhileChangesNothing) {
@@ -310,7 +320,8 @@ TEST(Waits, WhatAChildSaysComesWholeWhereNothingCanBeWaitedFor) {
   EXPECT_EQ(end.output.size(), 300000u);
 }
 
-/// A shell that starts us with `trap '' CHLD` hands that down: the system then throws the ends of children away.
+/// A shell that starts us with `trap '' CHLD` hands that down: the system then throws the ends of children
+/// away.
 class EndsThrownAway : public ::testing::Test {
  protected:
   EndsThrownAway() { before_ = ::signal(SIGCHLD, SIG_IGN); }
@@ -345,7 +356,8 @@ TEST(ForkStorm, EndsWithItsRun) {
                "    time.sleep(300)\n"};
   const auto end = run_process(spec);
   EXPECT_EQ(describe(end), "exited with code 0");
-  spec.argv = {"/bin/sh", "-c", "cat /proc/[0-9]*/cmdline 2>/dev/null | tr '\\0' ' ' | grep -c 'os.fork() and n % [2]'"};
+  spec.argv = {"/bin/sh", "-c",
+               "cat /proc/[0-9]*/cmdline 2>/dev/null | tr '\\0' ' ' | grep -c 'os.fork() and n % [2]'"};
   EXPECT_EQ(run_process(spec).output, "0\n");
 }
 

@@ -97,16 +97,17 @@ TEST(Engines, OneEngineThatFailsDoesNotStopTheOthers) {
   options.out = folder / "out";
   options.jobs = 2;
   options.selection.engines = {"good", "bad"};
-  const auto c =
-      run_suite({value},
-                {ask_engine(fake_engine(folder, "is killed", "bad")), ask_engine(fake_engine(folder, "nothing", "good"))},
-                options)
-          .cases.at(0);
+  const auto c = run_suite({value},
+                           {ask_engine(fake_engine(folder, "is killed", "bad")),
+                            ask_engine(fake_engine(folder, "nothing", "good"))},
+                           options)
+                     .cases.at(0);
   ASSERT_EQ(c.engines.size(), 2u);
   EXPECT_EQ(fmt::format("{} {}", c.engines[0].name, c.engines[0].status), "good ok");
   EXPECT_EQ(fmt::format("{} {}", c.engines[1].name, c.engines[1].status), "bad killed");
   EXPECT_EQ(c.exit_code, exit_missing);  // the gate is for every engine, and one of them broke off
-  EXPECT_EQ(fmt::format("{} {}", c.engines[0].gates.at(0).verdict, c.engines[1].gates.at(0).verdict), "pass missing");
+  EXPECT_EQ(fmt::format("{} {}", c.engines[0].gates.at(0).verdict, c.engines[1].gates.at(0).verdict),
+            "pass missing");
 }
 
 TEST(Engines, AnEngineThatHoldsAnotherSceneIsNotComparable) {
@@ -115,7 +116,8 @@ TEST(Engines, AnEngineThatHoldsAnotherSceneIsNotComparable) {
     const TestFolder folder;
     const auto c = fly(folder, wrong);
     EXPECT_EQ(c.exit_code, exit_missing);
-    EXPECT_NE(c.engines.at(0).reason.find(std::string("not comparable: ") + word), std::string::npos) << c.engines.at(0).reason;
+    EXPECT_NE(c.engines.at(0).reason.find(std::string("not comparable: ") + word), std::string::npos)
+        << c.engines.at(0).reason;
   }
 }
 

@@ -15,7 +15,8 @@ namespace tripoint {
 namespace {
 
 constexpr const char* hostile =
-    "x\n::error file=a.toml::forged\r\nverdict PASS exit 0\n| a | b |\n<script>alert(1)</script>\x1b[2J ##[error]old @team #1 "
+    "x\n::error file=a.toml::forged\r\nverdict PASS exit 0\n| a | b |\n<script>alert(1)</script>\x1b[2J "
+    "##[error]old @team #1 "
     "[t](https://e) `c`";
 
 /// Results in which every name and reason that others write is hostile; red, so that all of them are printed.
@@ -60,7 +61,8 @@ std::vector<std::string> forged(const std::string& text) {
 }
 
 TEST(ForeignText, OnOneLineNothingBeginsALineTurnsOrHides) {
-  EXPECT_EQ(one_line("plain \xc3\xbc \xe2\x82\xac \xf0\x9f\x99\x82"), "plain \xc3\xbc \xe2\x82\xac \xf0\x9f\x99\x82");
+  EXPECT_EQ(one_line("plain \xc3\xbc \xe2\x82\xac \xf0\x9f\x99\x82"),
+            "plain \xc3\xbc \xe2\x82\xac \xf0\x9f\x99\x82");
   EXPECT_EQ(one_line("a\r\nb\tc\vd\xe2\x80\xa8"
                      "e\xc2\x85"
                      "f"),
@@ -123,7 +125,8 @@ TEST(ForeignText, TheSummaryHoldsNoTagAndNoRowOfOthers) {
   EXPECT_EQ(text.find('\x1b'), text.npos) << text;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
-    EXPECT_TRUE(line.empty() || line[0] == '#' || line[0] == '|' || line.starts_with("- ") || line.starts_with("1 case, "))
+    EXPECT_TRUE(line.empty() || line[0] == '#' || line[0] == '|' || line.starts_with("- ") ||
+                line.starts_with("1 case, "))
         << line;
     const auto bars = std::count(line.begin(), line.end(), '|');
     EXPECT_EQ(bars, line.starts_with("|") ? 6 : 0) << line;

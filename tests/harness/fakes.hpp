@@ -37,10 +37,11 @@ inline void write_text(const std::string& path, const std::string& text) {
 }
 
 /// An executable that runs tests/harness/fake/engine.py with this fault.
-inline std::string fake_engine(const TestFolder& folder, const std::string& wrong, const std::string& name = "fake") {
+inline std::string fake_engine(const TestFolder& folder, const std::string& wrong,
+                               const std::string& name = "fake") {
   const auto path = folder / ("engine-" + name);
-  write_text(path,
-             "#!/bin/sh\nFAKE='" + wrong + "' FAKE_NAME='" + name + "' exec /usr/bin/python3 " TRIPOINT_FAKE_ENGINE " \"$@\"\n");
+  write_text(path, "#!/bin/sh\nFAKE='" + wrong + "' FAKE_NAME='" + name +
+                       "' exec /usr/bin/python3 " TRIPOINT_FAKE_ENGINE " \"$@\"\n");
   std::filesystem::permissions(path, std::filesystem::perms::owner_all);
   return path;
 }

@@ -113,7 +113,8 @@ TEST(FolderLock, WritesIntoNoFileOfSomebodyElse) {
   const TestFolder folder;
   write_text(folder / "victim", "precious");
   const auto expect_refused = [&](const char* what) {
-    EXPECT_NE(refusal(folder / "").find(".lock: is no plain file"), std::string::npos) << what << ": " << refusal(folder / "");
+    EXPECT_NE(refusal(folder / "").find(".lock: is no plain file"), std::string::npos)
+        << what << ": " << refusal(folder / "");
     EXPECT_EQ(text_of(folder / "victim"), "precious") << what;
     fs::remove(folder / ".lock");
   };

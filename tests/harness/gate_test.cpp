@@ -36,7 +36,9 @@ TEST(Remarks, PointAtTheLineOfTheLimitInTheCaseFile) {
   error(r).value = 0.3;
   r.cases[0].gates[0].place = {"cases/test/one.toml", 17, 9};
   const auto text = annotations_text(verdict_remarks(judged(r)));
-  EXPECT_EQ(text.rfind("::error file=cases/test/one.toml,line=17,title=test/one tripoint error::fail: 0.3", 0), 0u) << text;
+  EXPECT_EQ(
+      text.rfind("::error file=cases/test/one.toml,line=17,title=test/one tripoint error::fail: 0.3", 0), 0u)
+      << text;
 }
 
 TEST(Remarks, TheTenWorstAreAnnotatedAndTheLastSaysHowManyMoreThereAre) {
@@ -141,7 +143,8 @@ TEST(GateVerdict, SaysWhereTheResultsAreOfAnotherCommit) {
     r.tool.commit = commit;
     const auto remarks = gate_verdict(judged(r)).remarks;
     return std::any_of(remarks.begin(), remarks.end(), [](const Remark& remark) {
-      return remark.text.find("were made by commit") != std::string::npos && !remark.error && remark.code == 0;
+      return remark.text.find("were made by commit") != std::string::npos && !remark.error &&
+             remark.code == 0;
     });
   };
   EXPECT_TRUE(says("another"));
@@ -203,7 +206,8 @@ TEST(Baselines, AreAcceptedWithANoteForAnEngineThatTheCaseDoesNotName) {
   for (const auto& [engines, notes] : {std::pair{"", true}, {"\n[engines.tripoint]\n", false}}) {
     write_text(kept.folder / "cases/test/one.toml", flight_case() + engines);
     const auto said = kept.accept_all();
-    EXPECT_EQ(said.find("test/one tripoint: note: the case names no such engine") != std::string::npos, notes) << said;
+    EXPECT_EQ(said.find("test/one tripoint: note: the case names no such engine") != std::string::npos, notes)
+        << said;
     EXPECT_EQ(read_baseline(kept.folder / "baselines/test/one.toml").engines.size(), 1u);
   }
 }
@@ -214,7 +218,8 @@ TEST(Baselines, OfTheSuiteHoldNoEngineThatTheirCaseDoesNotName) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(suite / "baselines")) {
     if (entry.path().extension() != ".toml") continue;
     ++files;
-    const auto hashes = case_hashes(suite / "cases" / std::filesystem::relative(entry.path(), suite / "baselines"));
+    const auto hashes =
+        case_hashes(suite / "cases" / std::filesystem::relative(entry.path(), suite / "baselines"));
     ASSERT_TRUE(hashes) << entry.path();
     for (const auto& g : read_baseline(entry.path()).gates)
       EXPECT_TRUE(hashes->required.contains(g.engine)) << entry.path() << ": " << g.engine;
@@ -256,8 +261,8 @@ TEST(Baselines, WhatIsAcceptedIsReadBackAsItWas) {
   judge(kept.r);
   (void)kept.accept_all();
   const auto b = read_baseline(kept.folder / "baselines/test/one.toml");
-  EXPECT_EQ(baseline_text(b),
-            baseline_text(accepted_from(kept.r.cases[0], kept.r.tool, kept.r.seed, nullptr, {"2026-11-21", "abc", "a test"})));
+  EXPECT_EQ(baseline_text(b), baseline_text(accepted_from(kept.r.cases[0], kept.r.tool, kept.r.seed, nullptr,
+                                                          {"2026-11-21", "abc", "a test"})));
   EXPECT_EQ(std::ranges::count(b.gates, std::optional(0.125), &AcceptedGate::drift), 1);
   EXPECT_TRUE(baseline_remarks(kept.r).empty());
 }
@@ -369,7 +374,8 @@ TEST(Baselines, GatesAtLevelsFindTheirOwn) {
   gates[1].limit = 0.2;  // the finer one alone is loosened
   judge(kept.r);
   const auto remarks = baseline_remarks(kept.r);
-  ASSERT_EQ(std::count_if(remarks.begin(), remarks.end(), [](const Remark& remark) { return remark.error; }), 1);
+  ASSERT_EQ(std::count_if(remarks.begin(), remarks.end(), [](const Remark& remark) { return remark.error; }),
+            1);
 }
 
 TEST(Baselines, AreAcceptedByIdsThatTheResultsHold) {
@@ -378,7 +384,8 @@ TEST(Baselines, AreAcceptedByIdsThatTheResultsHold) {
   EXPECT_THROW((void)accept(kept.r, {"test/other"}, words), InputError);
   EXPECT_EQ(accept(kept.r, {"test/one"}, words).find("nobody can build again"), std::string::npos);
   const std::string said = accept(kept.r, {"test/one"}, {words.date, "abc-dirty", words.reason});
-  EXPECT_NE(said.find("note: measured by a tripoint of changed sources (abc-dirty)"), std::string::npos) << said;
+  EXPECT_NE(said.find("note: measured by a tripoint of changed sources (abc-dirty)"), std::string::npos)
+      << said;
 }
 
 TEST(Baselines, AProposalCountsTheLimitsThatWereLoosened) {

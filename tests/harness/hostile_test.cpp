@@ -35,7 +35,8 @@ INSTANTIATE_TEST_SUITE_P(All, HostileEngine,
                                            Hostile{"leaves an endless trajectory", "no regular file"},
                                            Hostile{"leaves a trajectory of 10 GB", "more than the"},
                                            Hostile{"leaves a deep result", "nests deeper"},
-                                           Hostile{"leaves a trajectory that is broken within", "cannot be read"},
+                                           Hostile{"leaves a trajectory that is broken within",
+                                                   "cannot be read"},
                                            Hostile{"names a column twice", "twice"},
                                            Hostile{"takes all runs away", "changed while it ran"}));
 

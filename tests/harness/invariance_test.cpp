@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Changes that physics does not feel: each is undone exactly, is refused where it is no symmetry, and is felt by a solver that
-// has an axis, an order or a unit of its own.
+// Changes that physics does not feel: each is undone exactly, is refused where it is no symmetry, and is felt
+// by a solver that has an axis, an order or a unit of its own.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -74,10 +74,12 @@ TEST(Invariance, TheStartOfAChangedSceneTakenBackIsTheStart) {
     EXPECT_EQ(now.body, truth.body) << change.name;
     EXPECT_EQ(now.mass, truth.mass) << change.name;
     for (std::size_t i = 0; i < truth.position.size(); ++i) {
-      EXPECT_LE(difference(now.position[i], truth.position[i]), 1e-15) << change.name;  // a unit in the last place of 1 m
+      // a unit in the last place of 1 m
+      EXPECT_LE(difference(now.position[i], truth.position[i]), 1e-15) << change.name;
       EXPECT_LE(difference(now.velocity[i], truth.velocity[i]), 1e-14) << change.name;
     }
-    EXPECT_LE(difference(now.momentum, truth.momentum), 1e-12) << change.name;  // sums of 7 terms of 100 kg m/s
+    // Sums of 7 terms of 100 kg m/s
+    EXPECT_LE(difference(now.momentum, truth.momentum), 1e-12) << change.name;
     EXPECT_LE(difference(now.angular_momentum, truth.angular_momentum), 1e-12) << change.name;
     EXPECT_NEAR(now.energy.at("kinetic"), truth.energy.at("kinetic"), 1e-11) << change.name;
   }
@@ -88,7 +90,9 @@ TEST(Invariance, AChangeChangesWhatTheEngineIsGiven) {
     const auto before = lopsided();
     auto changed = before;
     change.apply(changed);
-    EXPECT_TRUE(state_hash(changed.initial) != state_hash(before.initial) || changed.threads != before.threads) << change.name;
+    EXPECT_TRUE(state_hash(changed.initial) != state_hash(before.initial) ||
+                changed.threads != before.threads)
+        << change.name;
   }
 }
 
@@ -115,7 +119,8 @@ TEST(Invariance, ASpinIsAnAxialVector) {
   invariance_change("mirror").take_back(before, run);
   EXPECT_EQ(run.frames[0].bodies[0].angular_velocity, (Vec3{1.0, -2.0, -3.0}));
   const Vec3 r{0.3, -0.4, 0.5},
-      turned = rotate(s.bodies[0].orientation, r);  // mirror, turn by the mirrored rotation, mirror: the turn itself
+      // Mirror, turn by the mirrored rotation, mirror: the turn itself
+      turned = rotate(s.bodies[0].orientation, r);
   const Vec3 way_round = rotate(run.frames[0].bodies[0].orientation, {-r.x, r.y, r.z});
   EXPECT_LE(difference({-way_round.x, way_round.y, way_round.z}, turned), 1e-15);
 }
@@ -131,7 +136,8 @@ TEST(Invariance, IsRefusedWhereItIsNoSymmetry) {
   EXPECT_NE(invariance_change("boost").refusal(c.scene), "");
   EXPECT_EQ(invariance_change("mirror").refusal(c.scene), "");
   c.scene.inflows.resize(1);
-  for (const char* name : {"mirror", "rotation", "units"}) EXPECT_NE(invariance_change(name).refusal(c.scene), "") << name;
+  for (const char* name : {"mirror", "rotation", "units"})
+    EXPECT_NE(invariance_change(name).refusal(c.scene), "") << name;
 }
 
 TEST(Invariance, AnUnknownChangeIsRefusedAsTheFileIsReadWithTheAllowedWords) {
@@ -148,7 +154,8 @@ TEST(Invariance, AnUnknownChangeIsRefusedAsTheFileIsReadWithTheAllowedWords) {
 TEST(Invariance, EveryWordOfTheCaseFileIsAChange) {
   const TestFolder folder;
   std::string all;
-  for (const auto& change : invariance_changes()) all += "[[harmless]]\nname = \"" + std::string(change.name) + "\"\n";
+  for (const auto& change : invariance_changes())
+    all += "[[harmless]]\nname = \"" + std::string(change.name) + "\"\n";
   const auto value = read_flight_case(folder, all);
   ASSERT_EQ(value.harmless.size(), invariance_changes().size());
   for (const auto& name : value.harmless) EXPECT_EQ(invariance_change(name).name, name);
@@ -198,7 +205,8 @@ TEST(Invariance, AFlightBearsWhatItsSceneAllowsAndTheBoostOfWhatFallsIsRefused) 
   ASSERT_TRUE(engine.available) << engine.reason;
   const TestFolder folder;
   std::string names;
-  for (const auto& change : invariance_changes()) names += "[[harmless]]\nname = \"" + std::string(change.name) + "\"\n";
+  for (const auto& change : invariance_changes())
+    names += "[[harmless]]\nname = \"" + std::string(change.name) + "\"\n";
   SelftestOptions options;
   options.out = folder / "out";
   for (const auto& row : try_invariance(read_flight_case(folder, names), engine, options))
@@ -211,17 +219,20 @@ TEST(Invariance, ASolverWithAnAxisOfItsOwnFeelsTheRotation) {
   options.out = folder / "out";
   auto biased = ask_engine(fake_engine(folder, "knows which way is up", "tripoint"));
   ASSERT_TRUE(biased.available) << biased.reason;
-  const auto rows = try_invariance(read_flight_case(folder, "[[harmless]]\nname = \"rotation\"\n"), biased, options);
+  const auto rows =
+      try_invariance(read_flight_case(folder, "[[harmless]]\nname = \"rotation\"\n"), biased, options);
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_FALSE(rows[0].borne);
-  EXPECT_NEAR(rows[0].greatest, 0.5 * 0.01 * 9.81 * 0.5 * 0.5, 1e-9) << rows[0].found;  // its error along z, gone along x
+  // Its error along z, gone along x
+  EXPECT_NEAR(rows[0].greatest, 0.5 * 0.01 * 9.81 * 0.5 * 0.5, 1e-9) << rows[0].found;
 }
 
 TEST(Invariance, RunsOfOneStartHaveFilesOfTheirOwn) {
   const TestFolder folder;
   const auto value = read_flight_case(
       folder,
-      "[[study]]\naxis = \"time_step\"\nlevels = [0.02, 0.01, 0.005]\nmetric = \"position\"\n");  // other steps, one start
+      // Other steps, one start
+      "[[study]]\naxis = \"time_step\"\nlevels = [0.02, 0.01, 0.005]\nmetric = \"position\"\n");
   EngineEntry ours;
   ours.name = "tripoint";
   ours.available = true;

@@ -14,7 +14,8 @@
 namespace tripoint {
 namespace {
 
-// --- who was asked for --------------------------------------------------------------------------------------------------------
+// --- who was asked for
+// --------------------------------------------------------------------------------------------------------
 
 EngineRow stone(Status status, std::vector<Status> runs = {}, bool judged = false) {
   EngineRow e;
@@ -52,16 +53,20 @@ std::string answer(const std::vector<EngineRow>& rows, const std::string& shard 
 TEST(JudgeAsked, EachEndOfAnEngineHasItsSentence) {
   const auto ok = stone(Status::ok, {Status::ok}, true), unjudged = stone(Status::ok, {Status::ok}),
              missing = stone(Status::missing), refused = stone(Status::refused, {Status::refused});
-  const std::string
-      asked = "stone was asked for",
-      no_gate = ", and is not judged: no gate names it, and none is for every engine ([[gate]] engine = \"stone\", or none)",
-      leave = ", and nothing of it is judged: leave it out, or ask for a case that it takes; refused in a: its reason";
+  const std::string asked = "stone was asked for",
+                    no_gate =
+                        ", and is not judged: no gate names it, and none is for every engine ([[gate]] "
+                        "engine = \"stone\", or none)",
+                    leave =
+                        ", and nothing of it is judged: leave it out, or ask for a case that it takes; "
+                        "refused in a: its reason";
   EXPECT_EQ(answer({ok}), "");
   EXPECT_EQ(answer({}), asked + " and is not there");
   EXPECT_EQ(answer({missing, missing}), asked + " and is not there; missing in a: its reason");
   EXPECT_EQ(answer({missing, ok}), "");
   for (const auto& [status, word] :
-       {std::pair{Status::killed, "killed"}, std::pair{Status::timeout, "timeout"}, std::pair{Status::error, "error"}})
+       {std::pair{Status::killed, "killed"}, std::pair{Status::timeout, "timeout"},
+        std::pair{Status::error, "error"}})
     EXPECT_EQ(answer({ok, stone(status, {status})}), asked + " and is " + word + " in b: its reason") << word;
   EXPECT_EQ(answer({ok, stone(Status::diverged, {Status::diverged})}), "");
   EXPECT_EQ(answer({stone(Status::killed, {Status::killed}), stone(Status::error, {Status::error})}),
@@ -109,7 +114,8 @@ TEST(JudgeAsked, TheStatusesThatAreNoProperEnd) {
   }
 }
 
-// --- one gate on one engine ---------------------------------------------------------------------------------------------------
+// --- one gate on one engine
+// ---------------------------------------------------------------------------------------------------
 
 struct Tried {
   Applied applied;
@@ -141,15 +147,20 @@ TEST(JudgeGate, ARunThatGaveNothingIsARowUnlessItsEngineMayStayAway) {
     EXPECT_TRUE(of(status, false).rows.empty()) << to_string(status);
   }
   for (const auto& [status, required, comparable, verdict] :
-       {std::tuple{Status::refused, true, true, Verdict::missing}, std::tuple{Status::refused, false, false, Verdict::missing},
-        std::tuple{Status::ok, false, false, Verdict::missing}, std::tuple{Status::killed, false, true, Verdict::missing},
-        std::tuple{Status::timeout, false, true, Verdict::missing}, std::tuple{Status::error, false, true, Verdict::missing},
-        std::tuple{Status::diverged, false, true, Verdict::diverged}, std::tuple{Status::ok, false, true, Verdict::pass}}) {
+       {std::tuple{Status::refused, true, true, Verdict::missing},
+        std::tuple{Status::refused, false, false, Verdict::missing},
+        std::tuple{Status::ok, false, false, Verdict::missing},
+        std::tuple{Status::killed, false, true, Verdict::missing},
+        std::tuple{Status::timeout, false, true, Verdict::missing},
+        std::tuple{Status::error, false, true, Verdict::missing},
+        std::tuple{Status::diverged, false, true, Verdict::diverged},
+        std::tuple{Status::ok, false, true, Verdict::pass}}) {
     const auto t = of(status, required, comparable);
     EXPECT_EQ(t.applied, Applied::judged) << to_string(status);
     ASSERT_EQ(t.rows.size(), 1u) << to_string(status);
     EXPECT_EQ(t.rows[0].verdict, verdict) << to_string(status);
-    EXPECT_EQ(t.rows[0].why, verdict == Verdict::pass ? "" : std::string(to_string(status))) << to_string(status);
+    EXPECT_EQ(t.rows[0].why, verdict == Verdict::pass ? "" : std::string(to_string(status)))
+        << to_string(status);
   }
   const auto told = tried([](EngineRow&, RunRow& r, Gate&) {
     r.status = Status::killed;
@@ -188,10 +199,15 @@ TEST(JudgeGate, LooksAtTheRunsOfItsModeAndLevel) {
   EXPECT_EQ(at(0.1, 0.1).rows.at(0).level, 0.1);
   EXPECT_EQ(at(0.1, 0.2).applied, Applied::not_applicable);
   EXPECT_FALSE(tried([](EngineRow&, RunRow&, Gate&) {}).rows.at(0).level.has_value());
-  const auto two = tried([](EngineRow&, RunRow& r, Gate&) { r.levels = {{{Axis::spacing}, 0.1}, {{Axis::time_step}, 0.2}}; });
+  const auto two = tried([](EngineRow&, RunRow& r, Gate&) {
+    r.levels = {{{Axis::spacing}, 0.1}, {{Axis::time_step}, 0.2}};
+  });
   EXPECT_FALSE(two.rows.at(0).level.has_value());
-  EXPECT_EQ(tried([](EngineRow&, RunRow&, Gate& g) { g.mode = JudgedMode::paper; }).applied, Applied::not_applicable);
-  EXPECT_EQ(tried([](EngineRow&, RunRow& r, Gate& g) { g.mode = r.knobs.mode = JudgedMode::paper; }).rows.at(0).mode,
+  EXPECT_EQ(tried([](EngineRow&, RunRow&, Gate& g) { g.mode = JudgedMode::paper; }).applied,
+            Applied::not_applicable);
+  EXPECT_EQ(tried([](EngineRow&, RunRow& r, Gate& g) { g.mode = r.knobs.mode = JudgedMode::paper; })
+                .rows.at(0)
+                .mode,
             JudgedMode::paper);
   EXPECT_EQ(tried([](EngineRow& e, RunRow&, Gate&) { e.runs.clear(); }).applied, Applied::absent);
   EXPECT_EQ(tried([](EngineRow&, RunRow& r, Gate&) { r.input = "k=1"; }).applied, Applied::not_applicable);
@@ -250,7 +266,8 @@ TEST(JudgeOrder, HoldsWithItsIntervalOrIsExact) {
   const auto exact = order_of(0.0, 0.0, 0.0, FitClass::roundoff);
   EXPECT_EQ(tried_order(exact, none).rows.at(0).verdict, Verdict::pass);
   for (const auto& change : std::vector<std::function<void(CaseResult&, EngineRow&, Gate&)>>{
-           [](CaseResult&, EngineRow&, Gate& g) { g.engine = "stone"; }, [](CaseResult&, EngineRow&, Gate& g) { g.limit = 3.0; },
+           [](CaseResult&, EngineRow&, Gate& g) { g.engine = "stone"; },
+           [](CaseResult&, EngineRow&, Gate& g) { g.limit = 3.0; },
            [](CaseResult&, EngineRow&, Gate& g) {
              g.band = {1.5, 2.5};
            }})
@@ -269,20 +286,28 @@ TEST(JudgeOrder, ThatCouldNotBeFittedIsMissingWhereAStudyOwesIt) {
   const auto due = without([](CaseResult&, EngineRow&, Gate&) {});
   EXPECT_EQ(due.rows.at(0).why, "nothing could be fitted: a level is missing or not finite");
   EXPECT_EQ(due.rows.at(0).verdict, Verdict::missing);
-  EXPECT_EQ(without([](CaseResult& c, EngineRow&, Gate&) { c.studies.clear(); }).applied, Applied::not_applicable);
-  EXPECT_EQ(without([](CaseResult&, EngineRow& e, Gate&) { e.name = "exact"; }).applied, Applied::not_applicable);
-  EXPECT_EQ(without([](CaseResult& c, EngineRow&, Gate&) { c.studies[0].engine = "other"; }).applied, Applied::not_applicable);
-  EXPECT_EQ(without([](CaseResult& c, EngineRow&, Gate&) { c.studies[0].engine = "stone"; }).applied, Applied::judged);
+  EXPECT_EQ(without([](CaseResult& c, EngineRow&, Gate&) { c.studies.clear(); }).applied,
+            Applied::not_applicable);
+  EXPECT_EQ(without([](CaseResult&, EngineRow& e, Gate&) { e.name = "exact"; }).applied,
+            Applied::not_applicable);
+  EXPECT_EQ(without([](CaseResult& c, EngineRow&, Gate&) { c.studies[0].engine = "other"; }).applied,
+            Applied::not_applicable);
+  EXPECT_EQ(without([](CaseResult& c, EngineRow&, Gate&) { c.studies[0].engine = "stone"; }).applied,
+            Applied::judged);
   EXPECT_EQ(without([](CaseResult&, EngineRow&, Gate& g) { g.level = 0.05; }).applied, Applied::judged);
-  EXPECT_EQ(without([](CaseResult&, EngineRow&, Gate& g) { g.level = 0.2; }).applied, Applied::not_applicable);
-  EXPECT_EQ(without([](CaseResult&, EngineRow& e, Gate&) { e.runs[0].status = Status::refused; }).applied, Applied::absent);
-  EXPECT_EQ(without([](CaseResult&, EngineRow& e, Gate&) { e.runs[0].comparable = false; }).applied, Applied::absent);
+  EXPECT_EQ(without([](CaseResult&, EngineRow&, Gate& g) { g.level = 0.2; }).applied,
+            Applied::not_applicable);
+  EXPECT_EQ(without([](CaseResult&, EngineRow& e, Gate&) { e.runs[0].status = Status::refused; }).applied,
+            Applied::absent);
+  EXPECT_EQ(without([](CaseResult&, EngineRow& e, Gate&) { e.runs[0].comparable = false; }).applied,
+            Applied::absent);
   EXPECT_EQ(without([](CaseResult&, EngineRow& e, Gate&) {
               e.runs[0].status = Status::refused;
               e.required = true;
             }).applied,
             Applied::judged);
-  EXPECT_EQ(without([](CaseResult&, EngineRow& e, Gate&) { e.runs[0].status = Status::killed; }).applied, Applied::judged);
+  EXPECT_EQ(without([](CaseResult&, EngineRow& e, Gate&) { e.runs[0].status = Status::killed; }).applied,
+            Applied::judged);
 }
 
 // --- a case and a suite
@@ -295,8 +320,10 @@ TEST(JudgeCase, SaysWhatIsWrongWithItAndOfWhich) {
   };
   for (const auto& row : std::vector<Row>{
            {"tripoint: the results hold no run of it", [](Results& r) { engine(r).runs.clear(); }},
-           {"tripoint is required and is error: the results hold no run of it", [](Results& r) { engine(r).runs.clear(); }},
-           {"tripoint is required and is refused: refused", [](Results& r) { engine(r).runs[0].status = Status::refused; }},
+           {"tripoint is required and is error: the results hold no run of it",
+            [](Results& r) { engine(r).runs.clear(); }},
+           {"tripoint is required and is refused: refused",
+            [](Results& r) { engine(r).runs[0].status = Status::refused; }},
            {"tripoint is not comparable: another mass",
             [](Results& r) {
               engine(r).runs[0].comparable = false;
@@ -318,7 +345,8 @@ TEST(JudgeCase, SaysWhatIsWrongWithItAndOfWhich) {
               r.cases[0].gates[0].place = {"one.toml", 7, 3};
             }},
            {"no gate judges this case", [](Results& r) { r.cases[0].gates.clear(); }},
-           {"tripoint is required, and no gate of the case judges it", [](Results& r) { r.cases[0].gates.clear(); }},
+           {"tripoint is required, and no gate of the case judges it",
+            [](Results& r) { r.cases[0].gates.clear(); }},
            {"declares a defect, which only a gate with band or at_least can measure, and has none",
             [](Results& r) { r.cases[0].expect = Expect::defect; }},
            {"is declared to diverge, and no run did",
@@ -326,13 +354,15 @@ TEST(JudgeCase, SaysWhatIsWrongWithItAndOfWhich) {
               r.cases[0].expect = Expect::diverges;
               r.cases[0].engines.clear();
             }},
-           {"tripoint is declared to diverge, and no run of it did", [](Results& r) { r.cases[0].expect = Expect::diverges; }},
+           {"tripoint is declared to diverge, and no run of it did",
+            [](Results& r) { r.cases[0].expect = Expect::diverges; }},
            {"no engine ran this case", [](Results& r) { r.cases[0].engines.clear(); }}}) {
     auto r = green();
     row.change(r);
     judge(r);
     const auto& list = r.cases[0].problems;
-    EXPECT_EQ(std::count(list.begin(), list.end(), row.says), 1) << row.says << " / " << (list.empty() ? "" : list[0]);
+    EXPECT_EQ(std::count(list.begin(), list.end(), row.says), 1)
+        << row.says << " / " << (list.empty() ? "" : list[0]);
     EXPECT_NE(r.exit_code, exit_pass) << row.says;
   }
 }
@@ -353,7 +383,8 @@ TEST(JudgeSuite, HoldsEachPlannedCaseOnce) {
                 },
                 exit_missing),
             "the results hold no case");
-  EXPECT_EQ(problems([](Results& r) { r.cases.push_back(r.cases[0]); }, exit_missing), "test/one: two cases have this id");
+  EXPECT_EQ(problems([](Results& r) { r.cases.push_back(r.cases[0]); }, exit_missing),
+            "test/one: two cases have this id");
   EXPECT_EQ(problems([](Results& r) { r.planned.push_back("test/two"); }, exit_missing),
             "test/two: was planned and is not in the results");
   EXPECT_EQ(problems(
@@ -376,7 +407,8 @@ TEST(JudgeSuite, HoldsEachPlannedCaseOnce) {
 
 TEST(SlackEdges, WarnsAboveThreeAndFailsAboveTen) {
   const auto remark = [](
-                          double most, const std::function<void(Results&)>& change = [](Results&) {}) -> std::string {
+                          double most,
+                          const std::function<void(Results&)>& change = [](Results&) {}) -> std::string {
     auto r = green();
     error(r).value = 0.125;
     r.cases[0].gates[0].limit = most;

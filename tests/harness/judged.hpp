@@ -8,7 +8,9 @@
 
 namespace tripoint {
 
-inline MetricValue value(double v, double statistical = 0.0) { return {v, {0.0, statistical, 0.0, 0.0}, {}, {}, {}}; }
+inline MetricValue value(double v, double statistical = 0.0) {
+  return {v, {0.0, statistical, 0.0, 0.0}, {}, {}, {}};
+}
 
 inline Gate limit(const std::string& metric, double most) {
   Gate g;

@@ -22,7 +22,9 @@ struct Kept {
     engine(r).runs[0].folder = "runs/test/one/tripoint/corrected";
     judge(r);
   }
-  std::string accept_all(const Lacking& lacking = {}) { return accept(r, {}, {"2026-11-21", "abc", "a test"}, lacking); }
+  std::string accept_all(const Lacking& lacking = {}) {
+    return accept(r, {}, {"2026-11-21", "abc", "a test"}, lacking);
+  }
 };
 
 }  // namespace tripoint

@@ -16,7 +16,9 @@ namespace {
 /// A small fast scene with very many frames: nearly all of its time is spent in writing.
 Case many_frames(const TestFolder& folder) {
   auto text = flight_case();
-  const auto replace = [&](const std::string& from, const std::string& to) { text.replace(text.find(from), from.size(), to); };
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
   replace("end_time = 0.5", "end_time = 50.0");
   replace("output_interval = 0.05", "output_interval = 0.01");
   write_text(folder / "cases/test/flight.toml", text);

@@ -34,7 +34,8 @@ TEST(Baselines, AreNotAcceptedWithoutAnEngineThatTheyHold) {
     FAIL() << "the rows of the other engine went without a word";
   } catch (const InputError& e) {
     const std::string said = e.what();
-    for (const char* part : {"test/one: the results lack what was accepted of other (error)", "--drop-missing", "--keep-missing"})
+    for (const char* part : {"test/one: the results lack what was accepted of other (error)",
+                             "--drop-missing", "--keep-missing"})
       EXPECT_NE(said.find(part), std::string::npos) << said;
   }
   EXPECT_EQ(baseline_text(kept.accepted()), before);
@@ -90,8 +91,9 @@ TEST(Baselines, SayWhatElseIsAnotherWhenTheyAreAccepted) {
   auto& run = engine(kept.r).runs[0];
   run.folder = "runs/test/one/tripoint/elsewhere";
   const auto said = kept.accept_all();
-  for (const char* part : {"RENAMED, it was test/one", "seed 1 -> 7", "LEAVES the profile commit", "tripoint is REQUIRED NO MORE",
-                           "tripoint/corrected: REMOVED, there is no such run"})
+  for (const char* part :
+       {"RENAMED, it was test/one", "seed 1 -> 7", "LEAVES the profile commit",
+        "tripoint is REQUIRED NO MORE", "tripoint/corrected: REMOVED, there is no such run"})
     EXPECT_NE(said.find(part), std::string::npos) << part << " is not in\n" << said;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A limit, a band and an order at their edges: exactly on it, one step of double precision beyond it, and with what is no number.
+// A limit, a band and an order at their edges: exactly on it, one step of double precision beyond it, and
+// with what is no number.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -93,10 +94,12 @@ TEST(Limits, TwoEnginesAreEqualWithinTheMarginOnly) {
   EXPECT_EQ(equivalence(-1.25, 0.125, 1.0), Equivalence::unresolved);
   EXPECT_EQ(equivalence(over(1.25), 0.125, 1.0), Equivalence::different);
   EXPECT_EQ(equivalence(-over(1.25), 0.125, 1.0), Equivalence::different);
-  for (const double margin : {0.0, -1.0, nan}) EXPECT_EQ(equivalence(0.0, 0.0, margin), Equivalence::unresolved);
+  for (const double margin : {0.0, -1.0, nan})
+    EXPECT_EQ(equivalence(0.0, 0.0, margin), Equivalence::unresolved);
 }
 
-Gate gate_of(std::optional<double> limit, std::optional<double> at_least, std::optional<std::array<double, 2>> band) {
+Gate gate_of(std::optional<double> limit, std::optional<double> at_least,
+             std::optional<std::array<double, 2>> band) {
   Gate g;
   g.limit = limit;
   g.at_least = at_least;
@@ -115,7 +118,9 @@ TEST(GateEdges, TheWorstOfWhatAGateAsksIsItsVerdict) {
   EXPECT_EQ(verdict_of(gate_of({}, {}, std::array{0.25, 0.4}), 0.5, 0.0), Verdict::fail);
 }
 
-Order interval(double low, double value, double high) { return {value, low, high, FitClass::asymptotic, 0.0, 0.0}; }
+Order interval(double low, double value, double high) {
+  return {value, low, high, FitClass::asymptotic, 0.0, 0.0};
+}
 
 TEST(GateEdges, AnOrderPassesWithItsWholeInterval) {
   const auto least = gate_of({}, 1.5, {});
@@ -127,15 +132,18 @@ TEST(GateEdges, AnOrderPassesWithItsWholeInterval) {
   EXPECT_EQ(verdict_of(gate_of(2.5, {}, {}), interval(2.5, 2.5, 3.0)), Verdict::inconclusive);
   EXPECT_EQ(verdict_of(gate_of(2.5, {}, {}), interval(above(2.5), 2.75, 3.0)), Verdict::fail);
   EXPECT_EQ(verdict_of(gate_of({}, {}, std::array{1.5, 2.5}), interval(1.5, 1.5, 2.5)), Verdict::pass);
-  EXPECT_EQ(verdict_of(gate_of({}, {}, std::array{1.5, 2.5}), interval(1.5, 2.5, above(2.5))), Verdict::inconclusive);
+  EXPECT_EQ(verdict_of(gate_of({}, {}, std::array{1.5, 2.5}), interval(1.5, 2.5, above(2.5))),
+            Verdict::inconclusive);
   EXPECT_EQ(verdict_of(gate_of({}, {}, {}), interval(1.0, 1.0, 1.0)), Verdict::missing);
   EXPECT_EQ(verdict_of(gate_of(3.0, 2.2, {}), interval(1.5, 2.0, 2.1)), Verdict::fail);
 }
 
 TEST(GateEdges, AnIntervalThatIsNoneFails) {
-  for (const auto& order : {interval(2.5, 2.0, 3.0), interval(1.0, 2.0, 1.5), interval(nan, 2.0, 3.0), interval(1.0, nan, 3.0),
-                            interval(1.9, 2.0, infinity), interval(-infinity, 2.0, 2.5)})
-    EXPECT_EQ(verdict_of(gate_of({}, -100.0, {}), order), Verdict::fail) << order.low << " " << order.value << " " << order.high;
+  for (const auto& order :
+       {interval(2.5, 2.0, 3.0), interval(1.0, 2.0, 1.5), interval(nan, 2.0, 3.0), interval(1.0, nan, 3.0),
+        interval(1.9, 2.0, infinity), interval(-infinity, 2.0, 2.5)})
+    EXPECT_EQ(verdict_of(gate_of({}, -100.0, {}), order), Verdict::fail)
+        << order.low << " " << order.value << " " << order.high;
   EXPECT_EQ(verdict_of(gate_of(100.0, {}, {}), interval(-infinity, 2.0, 2.5)), Verdict::fail);
 }
 
@@ -149,7 +157,8 @@ TEST(GateEdges, ADescriptionHoldsEachFigure) {
 
 TEST(GateEdges, AModeFitsByNameAndNotPaperFitsAllOthers) {
   Gate g;
-  EXPECT_TRUE(fits_mode(g, JudgedMode::paper) && fits_mode(g, JudgedMode::corrected) && fits_mode(g, JudgedMode::none));
+  EXPECT_TRUE(fits_mode(g, JudgedMode::paper) && fits_mode(g, JudgedMode::corrected) &&
+              fits_mode(g, JudgedMode::none));
   g.mode = JudgedMode::paper;
   EXPECT_TRUE(fits_mode(g, JudgedMode::paper));
   EXPECT_FALSE(fits_mode(g, JudgedMode::corrected));
@@ -195,8 +204,9 @@ TEST(ExitCodes, EachHasItsWord) {
   for (const auto& [code, word] : words) EXPECT_EQ(verdict_word(code), word);
   EXPECT_EQ(first_of({1, 2, 3, 4, 5, 6, 7, exit_interrupted}), exit_interrupted);
   for (const auto& [verdict, word] :
-       {std::pair{Verdict::pass, "pass"}, std::pair{Verdict::fail, "fail"}, std::pair{Verdict::inconclusive, "inconclusive"},
-        std::pair{Verdict::missing, "missing"}, std::pair{Verdict::diverged, "diverged"}})
+       {std::pair{Verdict::pass, "pass"}, std::pair{Verdict::fail, "fail"},
+        std::pair{Verdict::inconclusive, "inconclusive"}, std::pair{Verdict::missing, "missing"},
+        std::pair{Verdict::diverged, "diverged"}})
     EXPECT_EQ(to_string(verdict), word);
 }
 
@@ -211,11 +221,14 @@ GateRow passed(double value, double u, const Gate& gate) {
 }
 
 TEST(SlackEdges, IsTheLimitOverWhatIsUsedAndWhatIsUsedOverTheLeast) {
-  const auto of = [](double value, double u, const Gate& gate) { return headroom_of({}, passed(value, u, gate)).value_or(-1.0); };
+  const auto of = [](double value, double u, const Gate& gate) {
+    return headroom_of({}, passed(value, u, gate)).value_or(-1.0);
+  };
   EXPECT_DOUBLE_EQ(of(-0.25, 0.125, gate_of(2.0, {}, {})), 4.0);
   EXPECT_EQ(of(0.0, 0.0, gate_of(2.0, {}, {})), infinity);
   EXPECT_DOUBLE_EQ(of(3.0, 0.5, gate_of({}, 0.5, {})), 8.0);
-  EXPECT_DOUBLE_EQ(of(0.5, 0.0, gate_of({}, {}, std::array{-4.0, 1.0})), 2.0);  // the edge on the value's side
+  // The edge on the value's side
+  EXPECT_DOUBLE_EQ(of(0.5, 0.0, gate_of({}, {}, std::array{-4.0, 1.0})), 2.0);
   EXPECT_DOUBLE_EQ(of(-0.5, 0.0, gate_of(2.0, {}, std::array{-4.0, 1.0})), 4.0);
   EXPECT_DOUBLE_EQ(of(0.5, 0.0, gate_of({}, {}, std::array{0.25, 0.75})), 2.0);
   EXPECT_DOUBLE_EQ(of(2.0, 0.0, gate_of(3.0, 0.25, std::array{0.5, 2.5})), 4.0);
@@ -233,7 +246,8 @@ TEST(SlackEdges, ACountUsesAHalfAtLeastUnlessItIsScaled) {
   c.metrics.resize(1);
   c.metrics[0].name = "error";
   const auto row = passed(0.0, 0.0, gate_of(2.0, {}, {}));
-  for (const char* count : {"body_count", "bonded_objects", "object_count", "phase_count", "event_count", "toggles"}) {
+  for (const char* count :
+       {"body_count", "bonded_objects", "object_count", "phase_count", "event_count", "toggles"}) {
     c.metrics[0].quantity = count;
     c.metrics[0].scale = 1.0;
     EXPECT_EQ(headroom_of(c, row), 4.0) << count;
@@ -246,8 +260,8 @@ TEST(SlackEdges, ACountUsesAHalfAtLeastUnlessItIsScaled) {
   EXPECT_EQ(headroom_of(c, row), infinity);
 }
 
-AcceptedGate accepted(std::optional<double> limit, std::optional<double> at_least, std::optional<std::array<double, 2>> band,
-                      std::optional<double> drift = {}) {
+AcceptedGate accepted(std::optional<double> limit, std::optional<double> at_least,
+                      std::optional<std::array<double, 2>> band, std::optional<double> drift = {}) {
   AcceptedGate g;
   g.limit = limit;
   g.at_least = at_least;
@@ -265,18 +279,22 @@ AcceptedGate in_words(const std::string& allows) {
 TEST(LooserEdges, AreNamedWithBothFigures) {
   EXPECT_EQ(looser_edge(accepted(0.25, {}, {}), accepted(0.25, {}, {})), "");
   EXPECT_EQ(looser_edge(accepted(0.125, {}, {}), accepted(0.25, {}, {})), "");
-  EXPECT_EQ(looser_edge(accepted(0.5, {}, {}), accepted(0.25, {}, {})), "its upper edge has moved from 0.25 to 0.5");
+  EXPECT_EQ(looser_edge(accepted(0.5, {}, {}), accepted(0.25, {}, {})),
+            "its upper edge has moved from 0.25 to 0.5");
   EXPECT_EQ(looser_edge(accepted({}, 1.0, {}), accepted(0.25, {}, {})), "its upper edge, 0.25, is gone");
-  EXPECT_EQ(looser_edge(accepted({}, 1.0, {}), accepted({}, 1.5, {})), "its lower edge has moved from 1.5 to 1");
+  EXPECT_EQ(looser_edge(accepted({}, 1.0, {}), accepted({}, 1.5, {})),
+            "its lower edge has moved from 1.5 to 1");
   EXPECT_EQ(looser_edge(accepted({}, 2.0, {}), accepted({}, 1.5, {})), "");
   EXPECT_EQ(looser_edge(accepted({}, {}, std::array{-1.0, 2.0}), accepted({}, {}, std::array{-0.5, 2.0})),
             "its lower edge has moved from -0.5 to -1");
-  EXPECT_EQ(looser_edge(accepted({}, {}, std::array{-0.25, 1.0}), accepted({}, {}, std::array{-0.5, 2.0})), "");
+  EXPECT_EQ(looser_edge(accepted({}, {}, std::array{-0.25, 1.0}), accepted({}, {}, std::array{-0.5, 2.0})),
+            "");
   EXPECT_EQ(looser_edge(accepted(2.0, {}, {}), accepted({}, {}, std::array{-0.5, 2.0})),
             "its lower edge has moved from -0.5 to -2");
   EXPECT_EQ(looser_edge(accepted(1.0, -2.0, {}), accepted(1.0, {}, {})),
             "");  // a limit is a lower edge too, and the nearer one counts
-  EXPECT_EQ(looser_edge(accepted(1.0, {}, {}), accepted(1.0, -0.5, {})), "its lower edge has moved from -0.5 to -1");
+  EXPECT_EQ(looser_edge(accepted(1.0, {}, {}), accepted(1.0, -0.5, {})),
+            "its lower edge has moved from -0.5 to -1");
   EXPECT_EQ(looser_edge(accepted(1.0, {}, {}), accepted(1.0, {}, std::array{-3.0, 0.5})),
             "its upper edge has moved from 0.5 to 1");
   EXPECT_EQ(looser_edge(accepted(1.0 + 0.9e-9, {}, {}), accepted(1.0, {}, {})), "");
@@ -285,15 +303,18 @@ TEST(LooserEdges, AreNamedWithBothFigures) {
 
 TEST(LooserEdges, ADriftThatGrowsOrIsGoneIsLooser) {
   EXPECT_EQ(looser_edge(accepted(1.0, {}, {}, 0.5), accepted(1.0, {}, {}, 0.5)), "");
-  EXPECT_EQ(looser_edge(accepted(1.0, {}, {}, 0.5), accepted(1.0, {}, {}, 0.25)), "the drift that it allows was 0.25 and is 0.5");
+  EXPECT_EQ(looser_edge(accepted(1.0, {}, {}, 0.5), accepted(1.0, {}, {}, 0.25)),
+            "the drift that it allows was 0.25 and is 0.5");
   EXPECT_EQ(looser_edge(accepted(1.0, {}, {}), accepted(1.0, {}, {}, 0.25)),
             "the drift that it allows was 0.25 and is not bounded");
   EXPECT_EQ(looser_edge(accepted(1.0, {}, {}, 0.25), accepted(1.0, {}, {})), "");
 }
 
 TEST(LooserEdges, OfWordsAreReadFromThem) {
-  EXPECT_EQ(looser_edge(accepted(0.5, {}, {}), in_words("limit 0.25")), "its upper edge has moved from 0.25 to 0.5");
-  EXPECT_EQ(looser_edge(accepted({}, 1.0, {}), in_words("at least 1.5")), "its lower edge has moved from 1.5 to 1");
+  EXPECT_EQ(looser_edge(accepted(0.5, {}, {}), in_words("limit 0.25")),
+            "its upper edge has moved from 0.25 to 0.5");
+  EXPECT_EQ(looser_edge(accepted({}, 1.0, {}), in_words("at least 1.5")),
+            "its lower edge has moved from 1.5 to 1");
   EXPECT_EQ(looser_edge(accepted({}, {}, std::array{-1.0, 2.0}), in_words("limit 9, band -0.5 to 2")),
             "its lower edge has moved from -0.5 to -1");
   EXPECT_EQ(looser_edge(accepted({}, {}, std::array{-0.5, 2.0}), in_words("limit 9, band -0.5 to 2")), "");

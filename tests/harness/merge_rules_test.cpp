@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a change may not do to the suite that judges it, from results made by hand. tests/cli/merge_walk_test.py walks the same
-// with git and an engine.
+// What a change may not do to the suite that judges it, from results made by hand.
+// tests/cli/merge_walk_test.py walks the same with git and an engine.
 #include <gtest/gtest.h>
 
 #include "fakes.hpp"
@@ -34,15 +34,16 @@ TEST(MergeRules, ABandMayMoveTowardTheTruthAndNoOtherWay) {
   EXPECT_TRUE(is_nearer_truth(ceiling(1e-10), band(0.02, 0.04)));
   EXPECT_FALSE(is_nearer_truth(band(0.0, 0.04), band(0.02, 0.04))) << "wider";
   EXPECT_FALSE(is_nearer_truth(band(0.03, 0.045), band(0.02, 0.04))) << "its upper edge allows more";
-  EXPECT_FALSE(is_nearer_truth(band(-0.03, -0.02), band(0.02, 0.04))) << "an error of the other sign as large";
+  EXPECT_FALSE(is_nearer_truth(band(-0.03, -0.02), band(0.02, 0.04)))
+      << "an error of the other sign as large";
   EXPECT_FALSE(is_nearer_truth(band(0.01, 0.02), band(-0.02, 0.04))) << "a band about zero has no side";
   EXPECT_FALSE(is_nearer_truth(ceiling(0.01), ceiling(0.02))) << "a limit is compared by its edges alone";
 }
 
 TEST(MergeRules, ADateIsADayThatHasBeen) {
   for (const char* day : {"2026-11-22", "2024-02-29"}) EXPECT_TRUE(is_date(day)) << day;
-  for (const char* word :
-       {"tomorrow", "2026-11-31", "2025-02-29", "2026-1-2", "22.11.2026", "2026-11-22T00:00", "2026-11-2x", ""})
+  for (const char* word : {"tomorrow", "2026-11-31", "2025-02-29", "2026-1-2", "22.11.2026",
+                           "2026-11-22T00:00", "2026-11-2x", ""})
     EXPECT_FALSE(is_date(word)) << word;
   EXPECT_FALSE(is_in_the_future("2020-01-01"));
   EXPECT_TRUE(is_in_the_future("9999-12-31"));
@@ -87,8 +88,9 @@ struct Adopted {
     keep(folder / "cases/../baselines");
   }
   void keep(const std::string& root) {
-    write_text(baseline_file(r.cases[0].file, root),
-               baseline_text(accepted_from(r.cases[0], r.tool, r.seed, nullptr, {"2026-01-01", "abc", "it is so"})));
+    write_text(
+        baseline_file(r.cases[0].file, root),
+        baseline_text(accepted_from(r.cases[0], r.tool, r.seed, nullptr, {"2026-01-01", "abc", "it is so"})));
   }
   std::vector<Remark> engines() {
     judge(r);
@@ -97,8 +99,9 @@ struct Adopted {
 };
 
 TEST(MergeRules, AVersionThatFallsIsNamed) {
-  for (const auto& [now, falls] : {std::pair{"1.9", true}, std::pair{"1.10.0", false}, std::pair{"1.11", false},
-                                   std::pair{"0.99.9", true}, std::pair{"22 Jul 2025", false}, std::pair{"v1.2", true}}) {
+  for (const auto& [now, falls] :
+       {std::pair{"1.9", true}, std::pair{"1.10.0", false}, std::pair{"1.11", false},
+        std::pair{"0.99.9", true}, std::pair{"22 Jul 2025", false}, std::pair{"v1.2", true}}) {
     Adopted a;
     engine(a.r).version = now;
     const auto list = a.engines();
@@ -129,7 +132,8 @@ TEST(MergeRules, ACaseThatIsRenamedInPlaceIsSeen) {
   judge(a.r);
   const auto list = baseline_remarks(a.r);
   ASSERT_FALSE(list.empty());
-  EXPECT_NE(list[0].text.find("its id was test/one when its figures were accepted"), std::string::npos) << list[0].text;
+  EXPECT_NE(list[0].text.find("its id was test/one when its figures were accepted"), std::string::npos)
+      << list[0].text;
 }
 
 TEST(MergeRules, ABaselineThatIsGoneHereAndNotThereIsRed) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shards come from other machines, and other hands: what is in them is taken as files and folders, or not at all.
+// Shards come from other machines, and other hands: what is in them is taken as files and folders, or not at
+// all.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 

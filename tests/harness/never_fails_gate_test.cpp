@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ways in which a change of cases, baselines or files went green without a word; each one must be red, with a name.
+// Ways in which a change of cases, baselines or files went green without a word; each one must be red, with a
+// name.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,7 +35,8 @@ class Accepted {
   Results run(const std::string& wrong) {
     SuiteOptions options;
     options.out = folder / "out";
-    Results results = run_suite({read_case(file()).value}, {ask_engine(fake_engine(folder, wrong, "tripoint"))}, options);
+    Results results =
+        run_suite({read_case(file()).value}, {ask_engine(fake_engine(folder, wrong, "tripoint"))}, options);
     results.filter_known = true;
     results.what = {folder / "cases"};
     return results;
@@ -98,10 +100,10 @@ TEST(NeverFailsGate, Way22ABandOfAnOlderBaselineIsReadFromItsWords) {
 }
 
 TEST(NeverFailsGate, Way23AMetricThatMeasuresSomethingElseIsChanged) {
-  for (const auto& [from, to] :
-       {std::pair{"unit = \"m\"\n[[gate]]\nmetric = \"position\"",
-                  "unit = \"m\"\nscale = 100.0\n[[gate]]\nmetric = \"position\""},
-        std::pair{"norm = \"max\"", "norm = \"final\""}, std::pair{"norm = \"max\"", "norm = \"max\"\nwindow = [0.0, 0.1]"}}) {
+  for (const auto& [from, to] : {std::pair{"unit = \"m\"\n[[gate]]\nmetric = \"position\"",
+                                           "unit = \"m\"\nscale = 100.0\n[[gate]]\nmetric = \"position\""},
+                                 std::pair{"norm = \"max\"", "norm = \"final\""},
+                                 std::pair{"norm = \"max\"", "norm = \"max\"\nwindow = [0.0, 0.1]"}}) {
     Accepted suite;
     const auto list = suite.after(from, to);
     EXPECT_TRUE(says(list, "its metric has changed", "CHANGED")) << to << "\n" << all_of(list);
@@ -111,8 +113,8 @@ TEST(NeverFailsGate, Way23AMetricThatMeasuresSomethingElseIsChanged) {
 TEST(NeverFailsGate, Way24AnotherSceneOrReferenceIsChangedAndTextForPeopleIsNot) {
   Accepted suite;
   EXPECT_TRUE(says(suite.after("end_time = 0.5", "end_time = 0.05"), "its scene", "CHANGED"));
-  EXPECT_TRUE(
-      says(suite.after("source = \"the parabola\"", "source = \"the parabola\"\nuncertainty = 1.0"), "its reference", "CHANGED"));
+  EXPECT_TRUE(says(suite.after("source = \"the parabola\"", "source = \"the parabola\"\nuncertainty = 1.0"),
+                   "its reference", "CHANGED"));
   EXPECT_TRUE(suite.after("claims = \"it flies\"", "claims = \"it flies as ever\" # a comment").empty());
   EXPECT_TRUE(suite.after("end_time = 0.5", "end_time = \"500 ms\"").empty());
 }
@@ -133,7 +135,8 @@ TEST(NeverFailsGate, Way26ACaseThatIsDeletedOrTakenOffItsProfileIsGone) {
   std::filesystem::remove(suite.file());
   EXPECT_TRUE(says(lost_case_remarks(other), "its case", "GONE"));
   EXPECT_THROW((void)accept_removal({suite.folder / "cases/test/second.toml"}, {"", "", "why"}), InputError);
-  EXPECT_NE(accept_removal({suite.file()}, {"", "", "it was doubled"}).find("REMOVED with 1 gates"), std::string::npos);
+  EXPECT_NE(accept_removal({suite.file()}, {"", "", "it was doubled"}).find("REMOVED with 1 gates"),
+            std::string::npos);
   EXPECT_TRUE(lost_case_remarks(other).empty());
 }
 
@@ -174,18 +177,20 @@ TEST(NeverFailsGate, OnlyAWholeRunOfAProfileOwesAllItsCases) {
 
 TEST(NeverFailsGate, Way27AnotherCopyOfTheBaselinesJudgesAChangeThatBringsItsOwn) {
   Accepted suite;
-  std::filesystem::copy(suite.folder / "baselines", suite.folder / "theirs", std::filesystem::copy_options::recursive);
+  std::filesystem::copy(suite.folder / "baselines", suite.folder / "theirs",
+                        std::filesystem::copy_options::recursive);
   suite.write("", "limit = 1e-10", "limit = 1e-3");
   const auto r = suite.run("nothing");
   (void)accept(r, {}, {"2026-11-22", "abc", "their own reason"});
   EXPECT_TRUE(baseline_remarks(r).empty());
-  EXPECT_TRUE(
-      says(baseline_remarks(r, false, suite.folder / "theirs"), "its upper edge has moved from 1e-10 to 0.001", "LOOSENED"));
+  EXPECT_TRUE(says(baseline_remarks(r, false, suite.folder / "theirs"),
+                   "its upper edge has moved from 1e-10 to 0.001", "LOOSENED"));
 }
 
 TEST(NeverFailsGate, Way28AnOptionalEngineThatCrashesOrRefusesWhatItOnceRanIsRed) {
   const std::string optional =
-      "[engines.tripoint]\nrequired = false\n[[gate]]\nmetric = \"position\"\nengine = \"tripoint\"\nlimit = 1e-10\nreason = "
+      "[engines.tripoint]\nrequired = false\n[[gate]]\nmetric = \"position\"\nengine = \"tripoint\"\nlimit = "
+      "1e-10\nreason = "
       "\"round-off\"\n";
   for (const char* wrong : {"is killed", "leaves no result", "stops early"}) {
     Accepted suite(optional);
@@ -219,9 +224,11 @@ TEST(NeverFailsGate, Way29ResultsThatAreNotThoseOfTheCaseAreNotJudged) {
   red("is not in them", [](CaseResult& c) { c.metrics.pop_back(); });
   red("tripoint has no row in them", [](CaseResult& c) { c.engines[0].name = "another"; });
   red("tripoint is required", [](CaseResult& c) { c.engines[0].required = false; });
-  red("the run corrected of tripoint", [](CaseResult& c) { c.engines[0].runs[0].folder = "runs/test/flight/tripoint/other"; });
+  red("the run corrected of tripoint",
+      [](CaseResult& c) { c.engines[0].runs[0].folder = "runs/test/flight/tripoint/other"; });
   red("has no value of travelled", [](CaseResult& c) { c.engines[0].runs[0].metrics.erase("travelled"); });
-  red("is not the max of its series", [](CaseResult& c) { c.engines[0].runs[0].metrics.at("position").value = 1e-11; });
+  red("is not the max of its series",
+      [](CaseResult& c) { c.engines[0].runs[0].metrics.at("position").value = 1e-11; });
   red("the reference is another", [](CaseResult& c) { c.reference.uncertainty = 1.0; });
   red("expects", [](CaseResult& c) { c.expect = Expect::diverges; });
   auto r = suite.r;
@@ -236,7 +243,8 @@ TEST(NeverFailsGate, Way36ABaselineThatWasEditedByHandIsRed) {
   const auto path = baseline_file(suite.file());
   std::ifstream in(path);
   std::string text{std::istreambuf_iterator<char>(in), {}};
-  for (auto at = text.find("1e-10"); at != std::string::npos; at = text.find("1e-10", at + 1)) text.replace(at, 5, "1e-03");
+  for (auto at = text.find("1e-10"); at != std::string::npos; at = text.find("1e-10", at + 1))
+    text.replace(at, 5, "1e-03");
   write_text(path, text);
   EXPECT_TRUE(says(baseline_remarks(suite.r), "edited by hand", "CHANGED"));
 }
@@ -259,30 +267,33 @@ TEST(NeverFailsGate, Way37OtherDataBehindAReferenceIsAnotherReference) {
 
 /// Edited to be easier, validated and put back: limits, metrics and values are then those of the case.
 TEST(NeverFailsGate, Way53ASceneThatWasEasierWhenItRanIsSeenThoughItIsPutBack) {
-  for (const auto& [from, to] :
-       {std::pair{"end_time = 0.5", "end_time = 0.05"}, std::pair{"velocity = [1.0, 0.0, 2.0]", "velocity = [0.0, 0.0, 0.0]"},
-        std::pair{"density = 1000.0", "density = 1.0"}}) {
+  for (const auto& [from, to] : {std::pair{"end_time = 0.5", "end_time = 0.05"},
+                                 std::pair{"velocity = [1.0, 0.0, 2.0]", "velocity = [0.0, 0.0, 0.0]"},
+                                 std::pair{"density = 1000.0", "density = 1.0"}}) {
     Accepted suite;
     suite.write("", from, to);
     write_text(suite.folder / "results.json", results_text(suite.run("nothing")));
     const auto easier = read_results(suite.folder / "results.json");
     EXPECT_TRUE(recheck_remarks(easier).empty()) << all_of(recheck_remarks(easier));
     suite.write("");
-    EXPECT_TRUE(says(recheck_remarks(easier), "the scene was another", "CHANGED")) << to << "\n"
-                                                                                   << all_of(recheck_remarks(easier));
+    EXPECT_TRUE(says(recheck_remarks(easier), "the scene was another", "CHANGED"))
+        << to << "\n"
+        << all_of(recheck_remarks(easier));
   }
 }
 
 TEST(NeverFailsGate, Way54AMetricWhoseOwnReferenceWasAnotherIsSeenThoughItIsPutBack) {
   const std::string own =
-      "[[metric]]\nname = \"late\"\nquantity = \"position\"\nnorm = \"final\"\nunit = \"m\"\nreference = { kind = \"analytic\", "
+      "[[metric]]\nname = \"late\"\nquantity = \"position\"\nnorm = \"final\"\nunit = \"m\"\nreference = { "
+      "kind = \"analytic\", "
       "function = \"ballistic\", source = \"the parabola\", uncertainty = 0.0 }\n";
   Accepted suite(own);
   suite.write(own, "uncertainty = 0.0", "uncertainty = 1.0");
   write_text(suite.folder / "results.json", results_text(suite.run("nothing")));
   const auto easier = read_results(suite.folder / "results.json");
   suite.write(own);
-  EXPECT_TRUE(says(recheck_remarks(easier), "the metric late was another", "CHANGED")) << all_of(recheck_remarks(easier));
+  EXPECT_TRUE(says(recheck_remarks(easier), "the metric late was another", "CHANGED"))
+      << all_of(recheck_remarks(easier));
 }
 
 TEST(NeverFailsGate, Way34TheRedRowOfThePrintedFormDoesNotStandForTheCorrectedOne) {

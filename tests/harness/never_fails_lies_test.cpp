@@ -13,7 +13,8 @@ namespace tripoint {
 namespace {
 
 /// The flight with something of its case in other words, on one fake engine.
-CaseResult fly_as(const std::string& from, const std::string& to, const std::string& wrong = "one per cent of gravity") {
+CaseResult fly_as(const std::string& from, const std::string& to,
+                  const std::string& wrong = "one per cent of gravity") {
   const TestFolder folder;
   auto text = flight_case();
   text.replace(text.find(from), from.size(), to);
@@ -21,11 +22,14 @@ CaseResult fly_as(const std::string& from, const std::string& to, const std::str
   SuiteOptions options;
   options.out = folder / "out";
   options.selection.engines = {"fake"};
-  return run_suite({read_case(folder / "cases/test/flight.toml").value}, {ask_engine(fake_engine(folder, wrong))}, options)
+  return run_suite({read_case(folder / "cases/test/flight.toml").value},
+                   {ask_engine(fake_engine(folder, wrong))}, options)
       .cases.at(0);
 }
 
-std::string why_of(const CaseResult& c) { return c.engines.at(0).gates.empty() ? "" : c.engines.at(0).gates.at(0).why; }
+std::string why_of(const CaseResult& c) {
+  return c.engines.at(0).gates.empty() ? "" : c.engines.at(0).gates.at(0).why;
+}
 
 TEST(NeverFailsLies, Way45AWindowThatHoldsOnlyTheStartJudgesNothing) {
   for (const char* words : {"norm = \"max\"\nwindow = [0.0, 0.001]", "norm = \"Linf\"\nat = \"0\""}) {
@@ -46,16 +50,19 @@ TEST(NeverFailsLies, Way46AUnitThatTheNumberDoesNotHaveIsNoUnit) {
 TEST(NeverFailsLies, Way47ATrajectoryThatIsALinkIsNotTheEnginesOwn) {
   for (const char* wrong : {"links elsewhere", "hard link elsewhere"}) {
     const TestFolder folder;
-    const auto value = read_flight_case(folder, "[engines.a-good]\nrequired = true\n[engines.mine]\nrequired = true\n");
+    const auto value =
+        read_flight_case(folder, "[engines.a-good]\nrequired = true\n[engines.mine]\nrequired = true\n");
     SuiteOptions options;
     options.out = folder / "out";
     options.selection.engines = {"a-good", "mine"};
-    const auto c =
-        run_suite({value}, {ask_engine(fake_engine(folder, "nothing", "a-good")), ask_engine(fake_engine(folder, wrong, "mine"))},
-                  options)
-            .cases.at(0);
+    const auto c = run_suite({value},
+                             {ask_engine(fake_engine(folder, "nothing", "a-good")),
+                              ask_engine(fake_engine(folder, wrong, "mine"))},
+                             options)
+                       .cases.at(0);
     EXPECT_EQ(c.exit_code, exit_missing) << wrong;
-    EXPECT_NE(c.engines.at(1).reason.find("is a link to another file"), std::string::npos) << c.engines.at(1).reason;
+    EXPECT_NE(c.engines.at(1).reason.find("is a link to another file"), std::string::npos)
+        << c.engines.at(1).reason;
     EXPECT_EQ(c.engines.at(0).status, Status::ok) << c.engines.at(0).reason;
   }
 }
@@ -119,7 +126,9 @@ TEST(NeverFailsLies, Way51AnEngineWhoseProgramHasChangedIsRunAgainOnResume) {
   options.resume = true;
   ASSERT_EQ(run_suite({value}, {ask_engine(fake_engine(folder, "nothing"))}, options).exit_code, exit_pass);
   const TestFolder other;  // the same name and version, and another program
-  EXPECT_EQ(run_suite({value}, {ask_engine(fake_engine(other, "one per cent of gravity"))}, options).exit_code, exit_fail);
+  EXPECT_EQ(
+      run_suite({value}, {ask_engine(fake_engine(other, "one per cent of gravity"))}, options).exit_code,
+      exit_fail);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ways in which gates were seen never to fail, sixteen of them elsewhere and the others here; each one must fail.
+// The ways in which gates were seen never to fail, sixteen of them elsewhere and the others here; each one
+// must fail.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +32,8 @@ TEST(NeverFails, Way02NonFiniteSamplesAreNotDroppedBeforeTheNorm) {
   const auto c = fly(folder, "not a number");
   EXPECT_NE(c.exit_code, exit_pass);
   auto r = green();
-  error(r).uncertainty.numerical = std::nan("");  // nor is an uncertainty that could not be formed taken for none
+  // Nor is an uncertainty that could not be formed taken for none
+  error(r).uncertainty.numerical = std::nan("");
   EXPECT_NE(exit_of(r), exit_pass);
 }
 
@@ -118,7 +120,8 @@ TEST(NeverFails, Way13AReplicaIsPooledAndNotARetry) {
   engine(r).runs.push_back(engine(r).runs[0]);
   error(r).value = 0.5;  // one bad, one good: the mean is over the limit, whatever the better one says
   EXPECT_NE(exit_of(r), exit_pass);
-  EXPECT_NE(exit_of(study_of({1.6e-1, 4.0e-2})), exit_pass);  // and too little history does not switch the test off
+  // And too little history does not switch the test off
+  EXPECT_NE(exit_of(study_of({1.6e-1, 4.0e-2})), exit_pass);
 }
 
 TEST(NeverFails, Way14TheResultOfAnEarlierRunIsNotJudged) {
@@ -158,7 +161,8 @@ TEST(NeverFails, Way16AFailedRunAWrongUnitAndAShiftedTimeAxisAreSeen) {
   EXPECT_EQ(exit_of(r), exit_missing);
   r = study_of({1.6e-1, 4.0e-2, 1.0e-2, 2.5e-3});
   engine(r).runs.push_back(engine(r).runs[3]);
-  engine(r).runs[4].status = Status::killed;  // nor is a replica dropped that failed, of an engine that nobody requires
+  // Nor is a replica dropped that failed, of an engine that nobody requires
+  engine(r).runs[4].status = Status::killed;
   engine(r).required = false;
   EXPECT_EQ(exit_of(r), exit_missing);
   for (const char* wrong : {"millimetres", "shifted time axis"}) {
@@ -195,7 +199,8 @@ TEST(NeverFails, Way17AnEngineThatWasAskedForDoesNotPassUnjudged) {
 }
 
 TEST(NeverFails, Way18AnEngineThatWasAskedForAndIsNotThereOrDidNotRunDoesNotPass) {
-  for (const auto status : {Status::missing, Status::refused, Status::killed, Status::timeout, Status::error}) {
+  for (const auto status :
+       {Status::missing, Status::refused, Status::killed, Status::timeout, Status::error}) {
     auto r = with_third_party("");
     auto& mine = r.cases[0].engines[1];
     mine.status = status;

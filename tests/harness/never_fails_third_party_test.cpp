@@ -22,7 +22,8 @@ class EnginePath {
 
 TEST(NeverFailsThirdParty, Way30TheReportOfAnEarlierCallIsSetAsideBeforeAnythingIsRead) {
   const TestFolder folder;
-  for (const char* name : {"results.json", "junit.xml", "summary.md", "index.html"}) write_text(folder / name, "old");
+  for (const char* name : {"results.json", "junit.xml", "summary.md", "index.html"})
+    write_text(folder / name, "old");
   set_aside_report(folder / ".");
   for (const char* name : {"results.json", "junit.xml", "summary.md", "index.html"})
     EXPECT_FALSE(std::filesystem::exists(folder / name)) << name;
@@ -42,14 +43,17 @@ TEST(NeverFailsThirdParty, Way31ATrajectoryThatWasSwappedIsNotKeptOnResume) {
   const TestFolder other;
   ASSERT_EQ(run_suite({value}, {ask_engine(fake_engine(other, "nothing"))}, right).exit_code, exit_pass);
   const std::string below = "/runs/test/flight/fake/base/trajectory.csv";
-  std::filesystem::copy_file(right.out + below, options.out + below, std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::copy_file(right.out + below, options.out + below,
+                             std::filesystem::copy_options::overwrite_existing);
   options.resume = true;
   EXPECT_EQ(run_suite({value}, {wrong}, options).exit_code, exit_fail);
 }
 
-TEST(NeverFailsThirdParty, Way32AnEngineThatWritesIntoTheSharedParticlesIsAnErrorAndTheNextOneFindsThemWhole) {
+TEST(NeverFailsThirdParty,
+     Way32AnEngineThatWritesIntoTheSharedParticlesIsAnErrorAndTheNextOneFindsThemWhole) {
   const TestFolder folder;
-  const auto value = read_flight_case(folder, "[engines.a-bad]\nrequired = true\n[engines.good]\nrequired = true\n");
+  const auto value =
+      read_flight_case(folder, "[engines.a-bad]\nrequired = true\n[engines.good]\nrequired = true\n");
   SuiteOptions options;
   options.out = folder / "out";
   options.selection.engines = {"a-bad", "good"};
@@ -59,7 +63,8 @@ TEST(NeverFailsThirdParty, Way32AnEngineThatWritesIntoTheSharedParticlesIsAnErro
                            options)
                      .cases.at(0);
   EXPECT_EQ(c.exit_code, exit_missing);
-  EXPECT_NE(c.engines.at(0).reason.find("the particles that all engines start from were changed"), std::string::npos)
+  EXPECT_NE(c.engines.at(0).reason.find("the particles that all engines start from were changed"),
+            std::string::npos)
       << c.engines.at(0).reason;
   EXPECT_EQ(c.engines.at(1).status, Status::ok) << c.engines.at(1).reason;
 }
@@ -108,7 +113,8 @@ TEST(NeverFailsThirdParty, Way40ANameThatLeadsOutOfTheReportOrLooksLikeAnotherIs
   for (const char* name : {"../../exact", "trip\xd0\xbeint", "exact ", ""}) {
     const TestFolder folder;
     const auto path = folder / "engine-mine";
-    write_text(path, std::string("#!/bin/sh\necho '{\"contract\": 1, \"name\": \"") + name + "\", \"version\": \"1\"}'\n");
+    write_text(path, std::string("#!/bin/sh\necho '{\"contract\": 1, \"name\": \"") + name +
+                         "\", \"version\": \"1\"}'\n");
     std::filesystem::permissions(path, std::filesystem::perms::owner_all);
     const auto engine = ask_engine(path);
     EXPECT_FALSE(engine.available) << name;

@@ -95,7 +95,8 @@ TEST(Physics, StandsBesideTheVerdictInEveryFile) {
   EXPECT_NEAR(stone["gates"][0]["used"].get<double>(), 0.0, 1e-12);
   EXPECT_EQ(document["cases"][0]["physics"], "known defect");
   EXPECT_NE(junit_text(r).find("name=\"physics\" value=\"known defect soft-contact\""), std::string::npos);
-  EXPECT_NE(summary_text(r).find("| PASS | known defect soft-contact (stone) | test/one |"), std::string::npos)
+  EXPECT_NE(summary_text(r).find("| PASS | known defect soft-contact (stone) | test/one |"),
+            std::string::npos)
       << summary_text(r);
   EXPECT_NE(case_line(r.cases[0]).find("physics known defect soft-contact (stone)"), std::string::npos);
 }

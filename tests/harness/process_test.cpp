@@ -44,8 +44,8 @@ TEST(Process, MemoryIsTheChildsAndNotThatOfWhoStartedIt) {
   EXPECT_GT(small.peak_bytes, 2e5);
   EXPECT_LT(small.peak_bytes, 5e7);
   ours = {};
-  const auto large =
-      run_process(shell("exec /usr/bin/python3 -c 'import time; x = bytearray(b\"1\") * 60000000; time.sleep(0.5)'"));
+  const auto large = run_process(
+      shell("exec /usr/bin/python3 -c 'import time; x = bytearray(b\"1\") * 60000000; time.sleep(0.5)'"));
   EXPECT_GT(large.peak_bytes, 6e7);
   EXPECT_LT(large.peak_bytes, 2e8);
 }
@@ -87,7 +87,8 @@ TEST(Process, WhatAHarnessInsideARunStartedEndsWithThatRun) {
 }
 
 TEST(Process, TheGroupsCpuTimeCountsGrandchildrenThatNobodyWaitedFor) {
-  const auto end = run_process(shell("(i=0; while [ $i -lt 300000 ]; do i=$((i+1)); done; sleep 60) & sleep 1; exit 0"));
+  const auto end =
+      run_process(shell("(i=0; while [ $i -lt 300000 ]; do i=$((i+1)); done; sleep 60) & sleep 1; exit 0"));
   EXPECT_EQ(end.how, ProcessEnd::How::exited);
   EXPECT_GT(end.cpu_s, 0.05);  // the loop of the orphan; the leader itself takes a millisecond
 }
@@ -100,8 +101,9 @@ TEST(Process, AnOrphanThatHoldsThePipesDoesNotHoldUs) {
 }
 
 TEST(Process, ProgressLinesAreReported) {
-  auto spec =
-      shell("echo progress 0.25 >&2; echo noise >&2; echo progress nan >&2; echo progress -1e999 >&2; echo progress 7 >&2");
+  auto spec = shell(
+      "echo progress 0.25 >&2; echo noise >&2; echo progress nan >&2; echo progress -1e999 >&2; echo "
+      "progress 7 >&2");
   std::vector<double> seen;
   spec.progress = [&](double done) { seen.push_back(done); };
   (void)run_process(spec);
@@ -110,7 +112,8 @@ TEST(Process, ProgressLinesAreReported) {
 
 TEST(Process, StatusLinesAreReportedWithoutTheirWord) {
   auto spec = shell(
-      "echo 'status {\"time\": 1}' >&2; echo statuses >&2; { printf 'status '; head -c 5000 /dev/zero | tr '\\0' x; echo; echo "
+      "echo 'status {\"time\": 1}' >&2; echo statuses >&2; { printf 'status '; head -c 5000 /dev/zero | tr "
+      "'\\0' x; echo; echo "
       "status 2; } >&2");
   std::vector<std::string> seen;
   spec.status = [&](const std::string& status) { seen.push_back(status); };
@@ -121,7 +124,8 @@ TEST(Process, StatusLinesAreReportedWithoutTheirWord) {
 TEST(Process, NoOpenFileOfOursIsInherited) {
   const TestFolder folder;
   std::ofstream open(folder / "open");
-  EXPECT_EQ(run_process(shell("ls /proc/self/fd | wc -l")).output, "4\n");  // 0, 1, 2 and the folder that ls reads
+  // 0, 1, 2 and the folder that ls reads
+  EXPECT_EQ(run_process(shell("ls /proc/self/fd | wc -l")).output, "4\n");
 }
 
 TEST(Process, AFloodOnStdoutIsCut) {
@@ -165,9 +169,11 @@ TEST(Process, WhatPassesASumOfTheSandboxIsKilledAndNamed) {
     EXPECT_NE(describe(end).find(words), std::string::npos) << describe(end);
   };
   expect({0.0, 4, 0.0}, "for n in 1 2 3 4 5 6 7 8; do sleep 20 & done", "more than 4 processes");
-  expect({50.0 * mega, 0, 0.0}, "/usr/bin/python3 -c 'import time; x = bytearray(200 << 20); time.sleep(20)'", "MB of memory");
+  expect({50.0 * mega, 0, 0.0}, "/usr/bin/python3 -c 'import time; x = bytearray(200 << 20); time.sleep(20)'",
+         "MB of memory");
   expect({0.0, 0, 2.0 * mega}, "/bin/dd if=/dev/zero of=big bs=1M count=8 2>/dev/null", "MB of files");
-  expect({0.0, 0, 2.0 * mega}, "exec 3>gone; rm gone; /bin/dd if=/dev/zero bs=1M count=8 >&3 2>/dev/null", "MB of files");
+  expect({0.0, 0, 2.0 * mega}, "exec 3>gone; rm gone; /bin/dd if=/dev/zero bs=1M count=8 >&3 2>/dev/null",
+         "MB of files");
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ TEST(Diff, HasThreeLinesOfContextAndJoinsHunksThatMeet) {
   EXPECT_EQ(unified_diff("", "x\ny\n"), "@@ -0,0 +1,2 @@\n+x\n+y\n");
   EXPECT_EQ(unified_diff("1\n2\n3\n4\n5\n6\n7\n8\n9\n", "1\n2\n3\n4\nFIVE\n6\n7\n8\n9\n"),
             "@@ -2,7 +2,7 @@\n 2\n 3\n 4\n-5\n+FIVE\n 6\n 7\n 8\n");
-  EXPECT_EQ(unified_diff("1\n2\n3\n4\n5\n6\n", "A\n2\n3\n4\n5\nB\n"), "@@ -1,6 +1,6 @@\n-1\n+A\n 2\n 3\n 4\n 5\n-6\n+B\n");
+  EXPECT_EQ(unified_diff("1\n2\n3\n4\n5\n6\n", "A\n2\n3\n4\n5\nB\n"),
+            "@@ -1,6 +1,6 @@\n-1\n+A\n 2\n 3\n 4\n 5\n-6\n+B\n");
   EXPECT_EQ(unified_diff("1\n2\n3\n4\n5\n6\n7\n8\n9\n", "0\n1\n2\n3\n4\n5\n6\n7\n8\n"),
             "@@ -1,3 +1,4 @@\n+0\n 1\n 2\n 3\n@@ -6,4 +7,3 @@\n 6\n 7\n 8\n-9\n");
 }
@@ -77,10 +78,12 @@ TEST(Propose, ABaselineThatNobodyDecidedOnIsRed) {
 TEST(Propose, SaysTheLineThatAcceptsAndRefusesWhatIsRed) {
   const TestFolder folder;
   auto r = results_in(folder, 0.05);
-  const auto text =
-      patch_text(proposals(r, {}, {"2026-01-02", "abc", undecided_reason}), "my report/results.json", folder / "", true);
-  EXPECT_NE(text.find("# tripoint gate accept --reason 'who decided what, and why' 'my report/results.json' test/one\n"),
-            std::string::npos)
+  const auto text = patch_text(proposals(r, {}, {"2026-01-02", "abc", undecided_reason}),
+                               "my report/results.json", folder / "", true);
+  EXPECT_NE(
+      text.find(
+          "# tripoint gate accept --reason 'who decided what, and why' 'my report/results.json' test/one\n"),
+      std::string::npos)
       << text;
   r = results_in(folder, 0.5);
   EXPECT_THROW((void)proposals(r, {}, {"2026-01-02", "abc", "a reason"}), InputError);

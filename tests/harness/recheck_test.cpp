@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Results against the file of their case: one part after another is changed in the results, and each change is named, alone.
+// Results against the file of their case: one part after another is changed in the results, and each change
+// is named, alone.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -17,8 +18,10 @@ namespace {
 
 constexpr const char* more =
     "[[metric]]\nname = \"late\"\nquantity = \"velocity\"\nnorm = \"final\"\nunit = \"m/s\"\n"
-    "[[gate]]\nmetric = \"late\"\nband = [0.5, 2.0]\nmode = \"corrected\"\ndrift = 0.1\nreason = \"it flies\"\n"
-    "[[study]]\naxis = \"spacing\"\nlevels = [0.1, 0.05]\nexpect = \"plateau\"\norder = 2.0\nmetric = \"position\"\n"
+    "[[gate]]\nmetric = \"late\"\nband = [0.5, 2.0]\nmode = \"corrected\"\ndrift = 0.1\nreason = \"it "
+    "flies\"\n"
+    "[[study]]\naxis = \"spacing\"\nlevels = [0.1, 0.05]\nexpect = \"plateau\"\norder = 2.0\nmetric = "
+    "\"position\"\n"
     "[engines.other]\npreset = [\"default\", \"tuned\"]\n";
 
 /// Results as the suite writes them: a row for each engine that is planned, a run for each that it plans.
@@ -40,7 +43,8 @@ Results results_of(const Case& file) {
     for (const auto& p : plan.runs) {
       RunRow run;
       run.group = p.group;
-      run.folder = "runs/test/flight/" + plan.name + "/" + (plan.preset == "default" ? "" : plan.preset + "-") + p.label;
+      run.folder = "runs/test/flight/" + plan.name + "/" +
+                   (plan.preset == "default" ? "" : plan.preset + "-") + p.label;
       for (const auto& m : file.metrics) run.metrics[m.name] = {2.0, {}, {}, {0.0, 0.5}, {1.0, 2.0}};
       e.runs.push_back(run);
     }
@@ -56,7 +60,8 @@ struct Flown {
   Case file = read_flight_case(folder, more);
   Results r = results_of(file);
   EngineRow& row(const std::string& name) {
-    return *std::find_if(r.cases[0].engines.begin(), r.cases[0].engines.end(), [&](const auto& e) { return e.name == name; });
+    return *std::find_if(r.cases[0].engines.begin(), r.cases[0].engines.end(),
+                         [&](const auto& e) { return e.name == name; });
   }
 };
 
@@ -69,14 +74,18 @@ TEST(RecheckParts, ResultsOfTheirOwnCaseSayNothing) {
 }
 
 TEST(RecheckParts, EachPartThatIsAnotherIsNamedAlone) {
-  const std::string another = "the metric position has another quantity, norm, body, place, window, scale or unit",
+  const std::string another =
+                        "the metric position has another quantity, norm, body, place, window, scale or unit",
                     gate = "the gate on position, limit 1e-10, is not in them", held = "they hold a gate on ",
                     study = "the study over spacing is not in them", reference = "the reference is another";
   const std::vector<std::pair<std::vector<std::string>, Change>> table{
-      {{"expects \"diverges\", and the file says \"pass\""}, [](CaseResult& c) { c.expect = Expect::diverges; }},
+      {{"expects \"diverges\", and the file says \"pass\""},
+       [](CaseResult& c) { c.expect = Expect::diverges; }},
       {{"the scene was another when it was run"}, [](CaseResult& c) { c.hashes->scene += "x"; }},
-      {{"the reference, or its data, were others when it was run"}, [](CaseResult& c) { c.hashes->reference += "x"; }},
-      {{"the metric late was another when it was run"}, [](CaseResult& c) { c.hashes->metrics["late"] += "x"; }},
+      {{"the reference, or its data, were others when it was run"},
+       [](CaseResult& c) { c.hashes->reference += "x"; }},
+      {{"the metric late was another when it was run"},
+       [](CaseResult& c) { c.hashes->metrics["late"] += "x"; }},
       {{}, [](CaseResult& c) { c.hashes->metrics.clear(); }},
       {{}, [](CaseResult& c) { c.hashes.reset(); }},
       {{reference}, [](CaseResult& c) { c.reference.kind = ReferenceKind::mms; }},
@@ -99,7 +108,8 @@ TEST(RecheckParts, EachPartThatIsAnotherIsNamedAlone) {
       {{gate, held}, [](CaseResult& c) { c.gates[0].engine = "other"; }},
       {{gate, held}, [](CaseResult& c) { c.gates[0].mode = JudgedMode::paper; }},
       {{gate, held}, [](CaseResult& c) { c.gates[0].preset = "tuned"; }},
-      {{gate, held + "position, limit 1, that the file does not"}, [](CaseResult& c) { c.gates[0].limit = 1.0; }},
+      {{gate, held + "position, limit 1, that the file does not"},
+       [](CaseResult& c) { c.gates[0].limit = 1.0; }},
       {{gate, held}, [](CaseResult& c) { c.gates[0].at_least = 1.0; }},
       {{gate, held}, [](CaseResult& c) { c.gates[0].level = 0.1; }},
       {{gate, held}, [](CaseResult& c) { c.gates[0].drift = 0.1; }},
@@ -128,8 +138,10 @@ TEST(RecheckParts, EachPartThatIsAnotherIsNamedAlone) {
     const auto list = recheck_remarks(f.r);
     ASSERT_EQ(list.size(), texts.size()) << k << "\n" << remarks_text(list);
     for (std::size_t n = 0; n < texts.size(); ++n) {
-      EXPECT_EQ(list[n].text.find("the results are not of this case: " + texts[n]), 0u) << k << " " << list[n].text;
-      EXPECT_TRUE(list[n].error && list[n].code == exit_missing && list[n].word == "CHANGED" && list[n].title == "test/flight")
+      EXPECT_EQ(list[n].text.find("the results are not of this case: " + texts[n]), 0u)
+          << k << " " << list[n].text;
+      EXPECT_TRUE(list[n].error && list[n].code == exit_missing && list[n].word == "CHANGED" &&
+                  list[n].title == "test/flight")
           << k;
     }
     ++k;
@@ -176,9 +188,11 @@ TEST(RecheckParts, EnginesAndRunsThatAreNotThereAreNamed) {
     f.row("exact").preset = "its own";
     f.row("exact").status = Status::missing;
   });  // the case names no preset of it
-  only("tripoint is required, and they say that it is not", [](Flown& f) { f.row("tripoint").required = false; });
+  only("tripoint is required, and they say that it is not",
+       [](Flown& f) { f.row("tripoint").required = false; });
   only("", [](Flown& f) { f.row("exact").required = true; });
-  only("the run corrected-spacing=0.05 of tripoint is not in them", [](Flown& f) { f.row("tripoint").runs.pop_back(); });
+  only("the run corrected-spacing=0.05 of tripoint is not in them",
+       [](Flown& f) { f.row("tripoint").runs.pop_back(); });
   only("", [](Flown& f) {
     f.row("tripoint").status = Status::missing;
     f.row("tripoint").runs.clear();
@@ -215,13 +229,16 @@ TEST(RecheckParts, AValueIsTheNormOfItsSeriesToRoundOff) {
   EXPECT_EQ(remark(with("position", 2.0)), "");
   EXPECT_EQ(remark(with("position", 2.0 + 1.9e-9)), "");  // 1e-9 of the value
   EXPECT_EQ(remark(with("position", 2.0 - 1.9e-9)), "");
-  EXPECT_EQ(remark(with("position", 2.5)), "2.5 of position in tripoint corrected is not the max of its series, 2");
-  EXPECT_EQ(remark(with("position", -2.0)), "-2 of position in tripoint corrected is not the max of its series, 2");
+  EXPECT_EQ(remark(with("position", 2.5)),
+            "2.5 of position in tripoint corrected is not the max of its series, 2");
+  EXPECT_EQ(remark(with("position", -2.0)),
+            "-2 of position in tripoint corrected is not the max of its series, 2");
   EXPECT_NE(remark(with("position", 2.0 + 2.1e-9)), "");
   EXPECT_NE(remark(with("position", 2.0 - 2.1e-9)), "");
   EXPECT_EQ(remark(with("late", 2.5)), "2.5 of late in tripoint corrected is not the final of its series, 2");
   EXPECT_EQ(remark(with("position", std::nan(""))), "");  // fails by itself
-  EXPECT_EQ(remark([](RunRow& run) { run.metrics.erase("late"); }), "tripoint has no value of late in its run corrected");
+  EXPECT_EQ(remark([](RunRow& run) { run.metrics.erase("late"); }),
+            "tripoint has no value of late in its run corrected");
   EXPECT_EQ(remark([](RunRow& run) {
               run.metrics.erase("late");
               run.status = Status::killed;
@@ -281,8 +298,9 @@ TEST(GateVerdictParts, AFolderOfBaselinesMustHoldOne) {
 TEST(GateVerdictParts, PartsAndChosenCasesAreSaidAndTurnNothingRed) {
   const auto said = [](const Results& r, const std::string& text) {
     const auto list = gate_verdict(r).remarks;
-    return std::count_if(list.begin(), list.end(),
-                         [&](const Remark& m) { return m.text.find(text) != std::string::npos && !m.error && m.code == 0; });
+    return std::count_if(list.begin(), list.end(), [&](const Remark& m) {
+      return m.text.find(text) != std::string::npos && !m.error && m.code == 0;
+    });
   };
   Flown f;
   auto& r = f.r;
@@ -303,7 +321,8 @@ TEST(GateVerdictParts, PartsAndChosenCasesAreSaidAndTurnNothingRed) {
 TEST(GateVerdictParts, TheCodeIsThatOfTheWorstErrorAndNotOfAWarning) {
   GateVerdict verdict;
   Results r = green();
-  add_remarks(verdict, r, {{false, exit_diverged, {}, "a", "b", 1.0, {}}, {true, exit_cost, {}, "a", "b", 1.0, {}}});
+  add_remarks(verdict, r,
+              {{false, exit_diverged, {}, "a", "b", 1.0, {}}, {true, exit_cost, {}, "a", "b", 1.0, {}}});
   EXPECT_EQ(verdict.code, exit_cost);
   EXPECT_EQ(verdict.word, "COST REGRESSION");
   add_remarks(verdict, r, {{true, exit_fail, {}, "a", "b", 1.0, {}}});

@@ -75,7 +75,8 @@ TEST(Releases, AMetricAgainstAnotherSchemeIsNoError) {
 }
 
 TEST(Releases, AnErrorThatIsNoLongerFiniteIsWorse) {
-  const auto found = changes_between(release("1", 1e-3, 1.0), release("2", std::numeric_limits<double>::quiet_NaN(), 1.0), 1.5);
+  const auto found = changes_between(release("1", 1e-3, 1.0),
+                                     release("2", std::numeric_limits<double>::quiet_NaN(), 1.0), 1.5);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_TRUE(found[0].worse);
 }
@@ -83,8 +84,10 @@ TEST(Releases, AnErrorThatIsNoLongerFiniteIsWorse) {
 TEST(Releases, TheLastIsComparedWithTheFirst) {
   EXPECT_TRUE(is_worse(table({release("1", 1e-3, 1.0), release("2", 1e-6, 2.0), release("3", 2e-3, 1.0)})));
   EXPECT_FALSE(is_worse(table({release("1", 1e-3, 1.0), release("2", 5e-1, 0.0), release("3", 1e-3, 1.0)})));
-  EXPECT_TRUE(is_worse(table({release("1", 1e-3, 1.0), release("2", 1e-3, 1.0, Verdict::fail)}))) << "a gate turned red";
-  EXPECT_FALSE(is_worse(table({release("1", 1e-3, 1.0, Verdict::fail), release("2", 1e-3, 1.0, Verdict::fail)})))
+  EXPECT_TRUE(is_worse(table({release("1", 1e-3, 1.0), release("2", 1e-3, 1.0, Verdict::fail)})))
+      << "a gate turned red";
+  EXPECT_FALSE(
+      is_worse(table({release("1", 1e-3, 1.0, Verdict::fail), release("2", 1e-3, 1.0, Verdict::fail)})))
       << "it was red before";
   auto gone = table({release("1", 1e-3, 1.0), release("2", 1e-3, 1.0)});
   gone.releases[1].result.engines[0].status = Status::diverged;
@@ -92,7 +95,8 @@ TEST(Releases, TheLastIsComparedWithTheFirst) {
 }
 
 TEST(Releases, TheMarkdownShowsErrorAndOrderOfEachReleaseAndWhatChanged) {
-  const auto text = releases_markdown(table({release("1", 2.2e-4, 2.0), release("2", 6.5e-9, 4.0, Verdict::fail)}));
+  const auto text =
+      releases_markdown(table({release("1", 2.2e-4, 2.0), release("2", 6.5e-9, 4.0, Verdict::fail)}));
   for (const auto* wanted : {"| stone 1 | 0.00022 (2.0 too-few) |", "| stone 2 | 6.5e-09 (4.0 too-few) |",
                              "1 -> 2, RK4 angle: 0.00022 -> 6.5e-09, 3.38e+04 times better; order 2.0 -> 4.0",
                              "| stone 2 | 0 of 1 | RK4 angle: 0.2 is above limit 0.1 |"})
@@ -118,7 +122,8 @@ TEST(Releases, TheCaseIsRunOnTheOneEngineInItsPresets) {
   EXPECT_EQ(own.studies.at(0).levels, (std::vector<double>{0.02, 0.01, 0.005, 0.0025}));
   value.engines.pop_back();
   EXPECT_EQ(case_for_releases(value, engine, {}, {0.1, 0.05}).engines[0].presets, engine.presets);
-  EXPECT_EQ(case_for_releases(value, engine, {"Euler"}, {0.1, 0.05}).studies.at(0).levels, (std::vector<double>{0.1, 0.05}));
+  EXPECT_EQ(case_for_releases(value, engine, {"Euler"}, {0.1, 0.05}).studies.at(0).levels,
+            (std::vector<double>{0.1, 0.05}));
 }
 
 }  // namespace

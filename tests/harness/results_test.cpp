@@ -45,7 +45,8 @@ TEST(ResultsFile, KeepsTheLibraryOfAnEngineAndTheTagsOfACase) {
   EXPECT_EQ(stored.cases[0].tags, r.cases[0].tags);
   EXPECT_EQ(stored.cases[0].engines[0].library_path, "/lib/libx.so");
   EXPECT_EQ(stored.cases[0].engines[0].library_hash, "fnv1a64:0123");
-  EXPECT_EQ(results_text(green()).find("\"library\""), std::string::npos);  // an engine that tells none has no such key
+  // An engine that tells none has no such key
+  EXPECT_EQ(results_text(green()).find("\"library\""), std::string::npos);
 }
 
 TEST(ResultsFile, AStoredVerdictIsNotTrusted) {
@@ -75,9 +76,10 @@ TEST(ResultsFile, ARowWithoutStatusOrWithAWordForANumberDoesNotPass) {
     EXPECT_NE(at, std::string::npos) << from;
     return s.replace(at, from.size(), to);
   };
-  for (const auto& [from, to] : {std::pair<std::string, std::string>{"\"value\": 0.05", "\"value\": \"0.05\""},
-                                 {"\"numerical\": 0.0", "\"numerical\": null"},
-                                 {"\"status\": \"ok\"", "\"status\": 1"}}) {
+  for (const auto& [from, to] :
+       {std::pair<std::string, std::string>{"\"value\": 0.05", "\"value\": \"0.05\""},
+        {"\"numerical\": 0.0", "\"numerical\": null"},
+        {"\"status\": \"ok\"", "\"status\": 1"}}) {
     write_text(folder / "r/results.json", swap(text, from, to));
     auto r = read_results(folder / "r/results.json");
     judge(r);
@@ -126,7 +128,8 @@ TEST(Judge, AnEngineThatWasAskedForAndThatNoGateNamesIsToldHowManyCasesItRan) {
   judge(r);
   EXPECT_EQ(r.exit_code, exit_missing);
   ASSERT_EQ(r.problems.size(), 1u);
-  EXPECT_NE(r.problems[0].find("other was asked for, ran 1 case, and is not judged"), std::string::npos) << r.problems[0];
+  EXPECT_NE(r.problems[0].find("other was asked for, ran 1 case, and is not judged"), std::string::npos)
+      << r.problems[0];
 }
 
 TEST(Judge, ARunThatBrokeOffIsNoRefusal) {

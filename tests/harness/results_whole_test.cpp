@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each field of results.json is written and read back: no two fields of this one hold the same, and none holds what an absent one
-// is taken for.
+// Each field of results.json is written and read back: no two fields of this one hold the same, and none
+// holds what an absent one is taken for.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -55,12 +55,13 @@ Results whole_results() {
   c.repeat = "tripoint validate one";
   c.expect = Expect::defect;
   c.tags = {"x", "y"};
-  c.reference = {ReferenceKind::discrete_exact,
-                 "beam",
-                 "beam.csv",
-                 "a book",
-                 {{"a", 36.0}, {"b", true}, {"c", std::string("word")}, {"d", std::vector<double>{37.0, 38.0}}},
-                 39.0};
+  c.reference = {
+      ReferenceKind::discrete_exact,
+      "beam",
+      "beam.csv",
+      "a book",
+      {{"a", 36.0}, {"b", true}, {"c", std::string("word")}, {"d", std::vector<double>{37.0, 38.0}}},
+      39.0};
   c.metrics = {{"error", "position", "cube", "all", Norm::L2, {0.40, 0.41}, 42.0, "mm", {}, {}}};
   Study s;
   s.axes = {Axis::spacing, true, false};
@@ -179,8 +180,8 @@ TEST(WholeResults, WhatIsAbsentIsTakenForTheLeastThatItCanMean) {
   EXPECT_EQ(run.knobs.spacing + run.knobs.time_step + run.knobs.support_ratio + run.knobs.jitter, 0.0);
   EXPECT_FALSE(run.knobs.walkers || run.knobs.iterations);
   const auto& cost = run.cost;
-  EXPECT_EQ(cost.cpu_s + cost.wall_s + cost.setup_cpu_s + cost.peak_bytes + cost.pairs + cost.steps + cost.iterations +
-                cost.simulated_s + cost.particles + cost.instructions,
+  EXPECT_EQ(cost.cpu_s + cost.wall_s + cost.setup_cpu_s + cost.peak_bytes + cost.pairs + cost.steps +
+                cost.iterations + cost.simulated_s + cost.particles + cost.instructions,
             0.0);
   const auto& m = run.metrics.at("error");
   EXPECT_TRUE(std::isnan(m.value));
@@ -216,22 +217,30 @@ TEST(WholeResults, AnUnknownWordIsAnErrorThatSaysWhereItStands) {
       return std::string(e.what());
     }
   };
-  for (const auto& [cases, place] :
-       {std::pair{R"([{"engines": [{"status": "ok"}, {"status": "ok", "runs": [{"status": "ok"}, {"status": "fine"}]}]}])",
-                  "results.json: cases[0].engines[1].runs[1].status: `fine` is no status of a run"},
-        std::pair{R"([{}, {"engines": [{"status": "OK"}]}])", "results.json: cases[1].engines[0].status: `OK` is no status"},
-        std::pair{R"([{"expect": "fail"}])", "cases[0].expect: `fail` is no expectation"},
-        std::pair{R"([{"kind": "proof"}])", "cases[0].kind: `proof` is no kind of case"},
-        std::pair{R"([{"reference": {"kind": "exact"}}])", "cases[0].reference.kind: `exact` is no kind of reference"},
-        std::pair{R"([{"studies": [{"expect": "flat"}]}])", "cases[0].studies[0].expect: `flat` is no class of convergence"},
-        std::pair{R"([{"studies": [{"axis": "spacing+walkers"}]}])", "cases[0].studies[0].axis: `spacing+walkers` is no axis"},
-        std::pair{R"([{"gates": [{"mode": "printed"}]}])", "cases[0].gates[0].mode: `printed` is no mode"},
-        std::pair{R"([{"metrics": [{"norm": "L3"}]}])", "cases[0].metrics[0].norm: `L3` is no norm"},
-        std::pair{R"([{"engines": [{"runs": [{"levels": {"space": 1}}]}]}])",
-                  "cases[0].engines[0].runs[0].levels: `space` is no axis"},
-        std::pair{R"([{"equivalence": [{"verdict": "same"}]}])", "cases[0].equivalence[0].verdict: `same` is no verdict"}})
+  for (
+      const auto& [cases, place] :
+      {std::pair{
+           R"([{"engines": [{"status": "ok"}, {"status": "ok", "runs": [{"status": "ok"}, {"status": "fine"}]}]}])",
+           "results.json: cases[0].engines[1].runs[1].status: `fine` is no status of a run"},
+       std::pair{R"([{}, {"engines": [{"status": "OK"}]}])",
+                 "results.json: cases[1].engines[0].status: `OK` is no status"},
+       std::pair{R"([{"expect": "fail"}])", "cases[0].expect: `fail` is no expectation"},
+       std::pair{R"([{"kind": "proof"}])", "cases[0].kind: `proof` is no kind of case"},
+       std::pair{R"([{"reference": {"kind": "exact"}}])",
+                 "cases[0].reference.kind: `exact` is no kind of reference"},
+       std::pair{R"([{"studies": [{"expect": "flat"}]}])",
+                 "cases[0].studies[0].expect: `flat` is no class of convergence"},
+       std::pair{R"([{"studies": [{"axis": "spacing+walkers"}]}])",
+                 "cases[0].studies[0].axis: `spacing+walkers` is no axis"},
+       std::pair{R"([{"gates": [{"mode": "printed"}]}])", "cases[0].gates[0].mode: `printed` is no mode"},
+       std::pair{R"([{"metrics": [{"norm": "L3"}]}])", "cases[0].metrics[0].norm: `L3` is no norm"},
+       std::pair{R"([{"engines": [{"runs": [{"levels": {"space": 1}}]}]}])",
+                 "cases[0].engines[0].runs[0].levels: `space` is no axis"},
+       std::pair{R"([{"equivalence": [{"verdict": "same"}]}])",
+                 "cases[0].equivalence[0].verdict: `same` is no verdict"}})
     EXPECT_NE(why(cases).find(place), std::string::npos) << why(cases);
-  EXPECT_NE(why(R"([], "verdict": "GREEN")").find("verdict: `GREEN` is no verdict of a case"), std::string::npos);
+  EXPECT_NE(why(R"([], "verdict": "GREEN")").find("verdict: `GREEN` is no verdict of a case"),
+            std::string::npos);
 }
 
 TEST(WholeResults, ARefusedFileIsToldWhy) {
@@ -246,7 +255,8 @@ TEST(WholeResults, ARefusedFileIsToldWhy) {
   EXPECT_NE(why("[]").find("is not a JSON object"), std::string::npos);
   EXPECT_NE(why(R"({"format": 2, "cases": []})").find("has not \"format\": 1"), std::string::npos);
   EXPECT_NE(why(R"({"format": 1, "cases": {}})").find("has no list \"cases\""), std::string::npos);
-  EXPECT_NE(why("{\"format\": 1, \"cases\": " + std::string(5000, '[') + "}").find("nests deeper than"), std::string::npos);
+  EXPECT_NE(why("{\"format\": 1, \"cases\": " + std::string(5000, '[') + "}").find("nests deeper than"),
+            std::string::npos);
 }
 
 }  // namespace

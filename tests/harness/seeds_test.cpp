@@ -47,7 +47,8 @@ TEST(Seeds, AGateThatTurnsWithOneOfThemIsAFalseAlarm) {
 }
 
 TEST(Seeds, ADivergenceThatTheCaseDeclaresIsNoAlarmAndAnotherIs) {
-  for (const auto& [expect, code] : {std::pair{Expect::diverges, exit_pass}, std::pair{Expect::pass, exit_selftest}}) {
+  for (const auto& [expect, code] :
+       {std::pair{Expect::diverges, exit_pass}, std::pair{Expect::pass, exit_selftest}}) {
     auto r = green();
     r.cases[0].expect = expect;
     r.cases[0].gates.clear();

@@ -36,7 +36,9 @@ TEST(SmallestDefect, AGateThatIsAlwaysRedHasNone) {
 }
 
 TEST(SmallestDefect, AnIntervalIsNotLeftByANumberThatIsNotFinite) {
-  EXPECT_FALSE(smallest_visible(0.5, 1.0, [](double size) { return size > std::numeric_limits<double>::infinity(); }).found);
+  EXPECT_FALSE(smallest_visible(0.5, 1.0, [](double size) {
+                 return size > std::numeric_limits<double>::infinity();
+               }).found);
 }
 
 TEST(SmallestDefect, HasGrownWhenALimitIsLoosenedByMoreThanAQuarter) {
@@ -57,7 +59,8 @@ TEST(SmallestDefect, IsInTheTableAndTheDocumentOfTheSelfTest) {
   s.verdict = Size::grew;
   s.place = {"cases/heat/cosine-mode.toml", 7, 1};
   outcome.smallest = {s};
-  EXPECT_NE(selftest_table(outcome).find("GREW        heat.conductivity"), std::string::npos) << selftest_table(outcome);
+  EXPECT_NE(selftest_table(outcome).find("GREW        heat.conductivity"), std::string::npos)
+      << selftest_table(outcome);
   EXPECT_NE(selftest_table(outcome).find("cosine-mode.toml:7"), std::string::npos);
   EXPECT_NE(selftest_table(outcome).find("0 of 1 smallest visible sizes held"), std::string::npos);
   EXPECT_NE(selftest_json(outcome).find("\"holds\": false"), std::string::npos);

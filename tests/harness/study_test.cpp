@@ -48,10 +48,12 @@ TEST(Studies, WhatIsRefinedTogetherIsALadderOfItsOwn) {
 
 TEST(Studies, WithAnotherNumberOfCompanionsThanLevelsAreRefused) {
   const TestFolder folder;
-  EXPECT_THROW((void)read_flight_case(folder, "[[study]]\naxis = \"spacing\"\nlevels = [0.1, 0.05]\nsupport_ratios = [2.0]\n"),
+  EXPECT_THROW((void)read_flight_case(
+                   folder, "[[study]]\naxis = \"spacing\"\nlevels = [0.1, 0.05]\nsupport_ratios = [2.0]\n"),
                InputError);
   EXPECT_THROW(
-      (void)read_flight_case(folder, "[[study]]\naxis = \"support_ratio\"\nlevels = [2.0, 3.0]\nsupport_ratios = [2.0, 3.0]\n"),
+      (void)read_flight_case(
+          folder, "[[study]]\naxis = \"support_ratio\"\nlevels = [2.0, 3.0]\nsupport_ratios = [2.0, 3.0]\n"),
       InputError);
 }
 
@@ -130,18 +132,19 @@ seeds = 3
 
 TEST(Studies, OfAThousandSeedsArePlannedAtOnce) {
   const TestFolder folder;
-  const auto value =
-      read_flight_case(folder, "[[study]]\naxis = \"spacing\"\nlevels = [0.1, 0.05]\njitter = 0.1\nseeds = 1000\n");
+  const auto value = read_flight_case(
+      folder, "[[study]]\naxis = \"spacing\"\nlevels = [0.1, 0.05]\njitter = 0.1\nseeds = 1000\n");
   const auto start = std::clock();
   EXPECT_EQ(our_plan(value).runs.size(), 2001U);
-  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 2.0);  // ten seconds where each is compared with all
+  // Ten seconds where each is compared with all
+  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 2.0);
 }
 
 TEST(Studies, ThatAskForMoreRunsThanCanBePlannedAreRefusedWithTheirLine) {
   const TestFolder folder;
   const auto study = [](int number, const std::string& seeds) {
-    return "[[study]]\naxis = \"spacing\"\nlevels = [0.1, 0.09, 0.08, 0.07, 0.06]\njitter = 0.0" + std::to_string(number) +
-           "\nseeds = " + seeds + "\n";
+    return "[[study]]\naxis = \"spacing\"\nlevels = [0.1, 0.09, 0.08, 0.07, 0.06]\njitter = 0.0" +
+           std::to_string(number) + "\nseeds = " + seeds + "\n";
   };
   EXPECT_EQ(our_plan(read_flight_case(folder, study(1, "1000") + study(2, "999"))).runs.size(), 9996U);
   const auto value = read_flight_case(folder, study(1, "1000") + study(2, "1000"));
@@ -152,7 +155,8 @@ TEST(Studies, ThatAskForMoreRunsThanCanBePlannedAreRefusedWithTheirLine) {
     EXPECT_EQ(e.place().line, value.studies.at(1).place.line);
     EXPECT_GT(e.place().line, 0);
     EXPECT_NE(std::string(e.what()).find("flight.toml"), std::string::npos) << e.what();
-    EXPECT_NE(std::string(e.what()).find("more than the 10000 that can be planned"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("more than the 10000 that can be planned"), std::string::npos)
+        << e.what();
   }
 }
 

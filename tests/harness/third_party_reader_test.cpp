@@ -31,7 +31,8 @@ TEST(ThirdPartyReader, WhatEndsWellOrWithAnExceptionIsLeftToUs) {
 }
 
 TEST(ThirdPartyReader, WhatKillsTheCopyIsAnErrorOfTheFile) {
-  EXPECT_NE(words_of([] { ::raise(SIGSEGV); }).find("a file kills the library that reads it (signal 11"), std::string::npos);
+  EXPECT_NE(words_of([] { ::raise(SIGSEGV); }).find("a file kills the library that reads it (signal 11"),
+            std::string::npos);
 }
 
 TEST(ThirdPartyReader, WhatHangsIsStoppedAtTheLimit) {
@@ -53,7 +54,8 @@ TEST(ThirdPartyReader, NothingIsReadWithoutADescriptorToSpare) {
   ::setrlimit(RLIMIT_NOFILE, &none_to_spare);
   const auto told = words_of([] {});
   ::setrlimit(RLIMIT_NOFILE, &before);
-  EXPECT_EQ(told, "a file was not read: no file is to spare for what a copy of us reads: Too many open files");
+  EXPECT_EQ(told,
+            "a file was not read: no file is to spare for what a copy of us reads: Too many open files");
 }
 
 TEST(ThirdPartyReader, WhatTakesMoreThanTheMachineHasIsRefused) {

@@ -12,9 +12,11 @@ namespace tripoint {
 namespace {
 
 TEST(Timing, TheNoiseFloorIsWhatARunDiffersFromItself) {
-  EXPECT_EQ(noise_floor({{1.0, 1.0}, {2.0, 2.0}, {1.5, 1.5}}), 1.0);           // it never did
-  EXPECT_NEAR(noise_floor({{1.1, 1.0}, {1.1, 1.0}, {1.1, 1.0}}), 1.1, 1e-12);  // it always did by a tenth: round-off
-  const double s = std::log(1.2);                                              // two of +-20 %: standard error s sqrt(2)/sqrt(2)
+  EXPECT_EQ(noise_floor({{1.0, 1.0}, {2.0, 2.0}, {1.5, 1.5}}), 1.0);  // it never did
+  // It always did by a tenth: round-off
+  EXPECT_NEAR(noise_floor({{1.1, 1.0}, {1.1, 1.0}, {1.1, 1.0}}), 1.1, 1e-12);
+  // Two of +-20 %: standard error s sqrt(2)/sqrt(2)
+  const double s = std::log(1.2);
   EXPECT_NEAR(noise_floor({{1.2, 1.0}, {1.0, 1.2}}), std::exp(2.0 * s), 1e-12);
   EXPECT_TRUE(std::isnan(noise_floor({{1.0, 1.0}})));  // one round says nothing
   EXPECT_TRUE(std::isnan(noise_floor({{1.0, 0.0}, {1.0, 1.0}})));
@@ -43,7 +45,8 @@ TEST(Timing, ARatioInsideTheNoiseFloorIsNotResolved) {
   EXPECT_FALSE(timing_pairs(two(1.0, 1.04, 1.05)).at(0).resolved);
   EXPECT_FALSE(timing_pairs(two(1.04, 1.0, 1.05)).at(0).resolved);
   EXPECT_TRUE(timing_pairs(two(1.0, 1.06, 1.05)).at(0).resolved);
-  EXPECT_FALSE(timing_pairs(two(1.0, 9.0, not_a_number)).at(0).resolved);  // no floor was measured: nothing is known
+  // No floor was measured: nothing is known
+  EXPECT_FALSE(timing_pairs(two(1.0, 9.0, not_a_number)).at(0).resolved);
 }
 
 TEST(Timing, IsWrittenAndReadBackWithItsVerdicts) {

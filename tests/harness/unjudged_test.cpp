@@ -17,14 +17,17 @@ namespace fs = std::filesystem;
 
 int warnings_of(const std::string& case_file, const std::string& words) {
   const auto found = unjudged(read_case(case_file).value);
-  return static_cast<int>(std::ranges::count_if(
-      found, [&](const Finding& f) { return !f.error && f.what.find(words) != std::string::npos && f.place.line > 0; }));
+  return static_cast<int>(std::ranges::count_if(found, [&](const Finding& f) {
+    return !f.error && f.what.find(words) != std::string::npos && f.place.line > 0;
+  }));
 }
 
 TEST(Unjudged, AMetricThatNoGateJudgesIsWarnedOf) {
   const TestFolder folder;
-  const std::string metric = "\n[[metric]]\nname = \"way\"\nquantity = \"position\"\nnorm = \"max\"\nbody = \"cube\"\n";
-  for (const auto& [gates, expected] : {std::pair{"", 1}, {"gates = [{ limit = 1.0, reason = \"it flies\" }]\n", 0}}) {
+  const std::string metric =
+      "\n[[metric]]\nname = \"way\"\nquantity = \"position\"\nnorm = \"max\"\nbody = \"cube\"\n";
+  for (const auto& [gates, expected] :
+       {std::pair{"", 1}, {"gates = [{ limit = 1.0, reason = \"it flies\" }]\n", 0}}) {
     write_text(folder / "one.toml", flight_case() + metric + gates);
     EXPECT_EQ(warnings_of(folder / "one.toml", "no gate judges the metric \"way\""), expected);
   }
@@ -33,10 +36,12 @@ TEST(Unjudged, AMetricThatNoGateJudgesIsWarnedOf) {
 TEST(Unjudged, ADefectWithAFloorAndNoCeilingIsWarnedOf) {
   const TestFolder folder;
   const auto with = [&](const std::string& edges, const std::string& reason) {
-    write_text(folder / "one.toml",
-               flight_case() + "\n[[metric]]\nname = \"way\"\nquantity = \"position\"\nnorm = \"max\"\nbody = \"cube\"\n" +
-                   "gates = [{ limit = 9.0, reason = \"of any\" }, { engine = \"tripoint\", " + edges + ", reason = \"" + reason +
-                   "\" }]\n");
+    write_text(
+        folder / "one.toml",
+        flight_case() +
+            "\n[[metric]]\nname = \"way\"\nquantity = \"position\"\nnorm = \"max\"\nbody = \"cube\"\n" +
+            "gates = [{ limit = 9.0, reason = \"of any\" }, { engine = \"tripoint\", " + edges +
+            ", reason = \"" + reason + "\" }]\n");
     return warnings_of(folder / "one.toml", "is bounded from below alone");
   };
   EXPECT_EQ(with("at_least = 1.0", "known defect late: it is late"), 1);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Motion that contradicts itself: places against velocities, turns against angular velocities, gauges against particles.
+// Motion that contradicts itself: places against velocities, turns against angular velocities, gauges against
+// particles.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -52,8 +53,10 @@ TEST(AuditOfMotion, LetsTheTruthPass) {
 /// It lags by g h t/2: its way is that of its own velocities.
 TEST(AuditOfMotion, LetsSemiImplicitEulerFallBehind) {
   for (const double sign : {1.0, -1.0})
-    EXPECT_EQ(changed(flight(), [&](BodyState& b, double t) { b.position.z -= sign * 0.5 * 9.81 * step * t; }), "");
-  const auto three_steps = changed(flight(), [](BodyState& b, double t) { b.position.z -= 1.5 * 9.81 * step * t; });
+    EXPECT_EQ(
+        changed(flight(), [&](BodyState& b, double t) { b.position.z -= sign * 0.5 * 9.81 * step * t; }), "");
+  const auto three_steps =
+      changed(flight(), [](BodyState& b, double t) { b.position.z -= 1.5 * 9.81 * step * t; });
   EXPECT_TRUE(has(three_steps, "`block` moves otherwise than its velocity says")) << three_steps;
 }
 
@@ -74,7 +77,8 @@ TEST(AuditOfMotion, FindsPlacesThatAreNotThoseOfTheVelocities) {
 TEST(AuditOfMotion, FindsTurnsThatAreNotThoseOfTheSpin) {
   const std::pair<const char*, std::function<void(BodyState&, double)>> ways[] = {
       {"wrong sign", [](BodyState& b, double) { b.angular_velocity *= -1.0; }},
-      {"body frame", [](BodyState& b, double) { b.angular_velocity = rotate_back(b.orientation, b.angular_velocity); }},
+      {"body frame",
+       [](BodyState& b, double) { b.angular_velocity = rotate_back(b.orientation, b.angular_velocity); }},
       {"conjugated", [](BodyState& b, double) { b.orientation = conjugate(b.orientation); }},
       {"no turn", [](BodyState& b, double) { b.orientation = {}; }},
       {"no spin", [](BodyState& b, double) { b.angular_velocity = {}; }}};
@@ -115,7 +119,9 @@ TEST(AuditOfMotion, FindsBodiesThatChangePlaces) {
     still.shift(frame, 2, {0, 0, -0.4});
   }
   const auto why = audit(still.s.job, still.s.initial, still.run);
-  EXPECT_TRUE(has(why, "`lower` moves otherwise than its velocity says from t = 0.000000 to 0.050000 s: by 8")) << why;
+  EXPECT_TRUE(
+      has(why, "`lower` moves otherwise than its velocity says from t = 0.000000 to 0.050000 s: by 8"))
+      << why;
 }
 
 TEST(AuditOfMotion, TheFirstFrameHasTheJobsVelocitiesAndSpin) {

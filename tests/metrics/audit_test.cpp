@@ -59,8 +59,8 @@ TEST(Audit, LetsABodyLieThatKeepsARoundingOfItsSpeed) {
   }
 }
 
-/// A thrown block above a floor that it comes to rest on, or stops in the air of, after half the time; `speed` is what it says
-/// that it has then [m/s].
+/// A thrown block above a floor that it comes to rest on, or stops in the air of, after half the time;
+/// `speed` is what it says that it has then [m/s].
 Trial stopped(double floor_below, double speed, bool from_the_start = false) {
   auto s = thrown_block();
   const double lowest = std::ranges::min(s.initial.position, {}, [](const Vec3& x) { return x.z; }).z;
@@ -72,23 +72,27 @@ Trial stopped(double floor_below, double speed, bool from_the_start = false) {
     for (std::size_t i = 0; i < block; ++i)
       frames[n].position[i] = t.s.initial.position[i];  // it lies where it began, above the floor
     if (n > 0)
-      for (std::size_t i = 0; i < block; ++i) frames[n].velocity[i] = {speed * (1.0 + 1e-3 * static_cast<double>(n)), 0.0, 0.0};
+      for (std::size_t i = 0; i < block; ++i)
+        frames[n].velocity[i] = {speed * (1.0 + 1e-3 * static_cast<double>(n)), 0.0, 0.0};
   }
   return t;
 }
 
-/// Rounding of a coordinate in single precision hides a creep of nanometres a second; gravity does not move what lies.
+/// Rounding of a coordinate in single precision hides a creep of nanometres a second; gravity does not move
+/// what lies.
 TEST(Audit, LetsABodyLieThatCreepsByLessThanItsCoordinatesResolve) {
   EXPECT_EQ(stopped(0.1, 1e-9).sound().find("frozen"), std::string::npos) << stopped(0.1, 1e-9).sound();
   EXPECT_NE(stopped(0.1, 1e-3).sound().find("yet they have velocities"), std::string::npos);
 }
 
 TEST(Audit, FindsABodyThatHangsInTheAirWhateverSpeedItSays) {
-  for (const double speed : {0.0, 1e-9, 1e-3}) EXPECT_NE(stopped(1.0, speed).sound().find("frozen"), std::string::npos) << speed;
+  for (const double speed : {0.0, 1e-9, 1e-3})
+    EXPECT_NE(stopped(1.0, speed).sound().find("frozen"), std::string::npos) << speed;
   EXPECT_NE(stopped(1.0, 1e-9).sound().find("hangs in the air"), std::string::npos);
 }
 
-/// Within three spacings another body may bear it; a change of velocity by half of what gravity gives is no hanging.
+/// Within three spacings another body may bear it; a change of velocity by half of what gravity gives is no
+/// hanging.
 TEST(Audit, ABodyHangsThatNoOtherIsNearAndThatKeepsItsVelocity) {
   const auto hangs = [](const Trial& t) { return t.sound().find("hangs in the air") != std::string::npos; };
   EXPECT_FALSE(hangs(stopped(0.34, 0.0)));  // 0.29 m between the nearest particles
@@ -96,7 +100,8 @@ TEST(Audit, ABodyHangsThatNoOtherIsNearAndThatKeepsItsVelocity) {
   for (const auto& [jump, still] : {std::pair{0.48, true}, std::pair{0.50, false}}) {  // g dt/2 = 0.49 m/s
     auto t = stopped(1.0, 0.0);
     for (std::size_t n = 1; n < t.run.frames.size(); n += 2)
-      for (std::size_t i = 0; i < t.s.initial.source.size() - 400; ++i) t.run.frames[n].velocity[i] = {jump, 0, 0};
+      for (std::size_t i = 0; i < t.s.initial.source.size() - 400; ++i)
+        t.run.frames[n].velocity[i] = {jump, 0, 0};
     EXPECT_EQ(hangs(t), still) << t.sound();
   }
 }

@@ -13,10 +13,12 @@ namespace {
 
 using namespace test;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
+                 infinite = std::numeric_limits<double>::infinity();
 
 /// What the audit says of a flight whose frame in the middle is changed.
-std::string flight_with(const std::function<void(Snapshot&)>& change, const std::string& precision = "double") {
+std::string flight_with(const std::function<void(Snapshot&)>& change,
+                        const std::string& precision = "double") {
   Trial t(thrown_block(), "ballistic");
   t.s.job.scene.materials = {Material{}};
   for (auto& frame : t.run.frames) frame.bodies.at(0).mass = 1.0;
@@ -59,7 +61,8 @@ TEST(AuditOfValues, TheNormOfAQuaternionIsKnownToTheEnginesPrecision) {
 }
 
 TEST(AuditOfValues, RatesAndPlacesOfABodyAreFinite) {
-  expect_refused("angular velocity of `block` is not finite", [](Snapshot& s) { s.bodies[0].angular_velocity.z = infinite; });
+  expect_refused("angular velocity of `block` is not finite",
+                 [](Snapshot& s) { s.bodies[0].angular_velocity.z = infinite; });
   expect_refused("velocity of `block` is not finite", [](Snapshot& s) { s.bodies[0].velocity.x = nan; });
   expect_refused("position of `block` is not finite", [](Snapshot& s) { s.bodies[0].position.y = nan; });
 }
@@ -83,7 +86,8 @@ TEST(AuditOfValues, AShareOfLiquidIsWithinZeroToOne) {
 TEST(AuditOfValues, CodesAreInTheirRange) {
   expect_refused("phase of particle 7 is none of 0, 1, 2: 3", [](Snapshot& s) { s.phase[7] = 3; });
   expect_refused("body of particle 7 is no row of a body, nor -1: 1", [](Snapshot& s) { s.body[7] = 1; });
-  expect_refused("material of particle 7 is no material of the job: -1", [](Snapshot& s) { s.material[7] = -1; });
+  expect_refused("material of particle 7 is no material of the job: -1",
+                 [](Snapshot& s) { s.material[7] = -1; });
 }
 
 TEST(AuditOfValues, ATemperatureIsAboveAbsoluteZeroUnlessAWalkersErrorIsLarger) {

@@ -13,7 +13,8 @@ using test::Still;
 TEST(ContactMetrics, MeasureTheDepthOfOneBodyInAnother) {
   Still f(test::blocks());
   EXPECT_NEAR(f.stated(metric("overlap", "max")), 0.0, 1e-12);  // face to face, one spacing apart
-  for (const double depth : {0.03, 0.07, 0.13, 0.17}) {         // the last two are inside: least distances alone would not tell
+  // The last two are inside: least distances alone would not tell
+  for (const double depth : {0.03, 0.07, 0.13, 0.17}) {
     auto g = f;
     g.shift(g.run.frames.back(), 1, {-depth, 0, 0});
     EXPECT_NEAR(g.stated(metric("overlap", "final")), depth / 0.1, depth > 0.1 ? 0.3 : 1e-12)
@@ -49,10 +50,11 @@ TEST(ContactMetrics, CountNoOverlapWithinOneBody) {
 TEST(ContactMetrics, MeasureASeparation) {
   Still f(test::blocks());
   f.shift(f.run.frames.back(), 1, {0.3, 0.4, 0});
-  EXPECT_NEAR(f.stated(metric("separation", "final", "left"), {{"other", std::string("right")}, {"value", 0.4}}),
-              std::hypot(0.7, 0.4) - 0.4, 1e-12);
-  EXPECT_TRUE(std::isnan(
-      f.stated(metric("separation", "final", "left"), {{"other", std::string("right")}})));  // no value to compare with
+  EXPECT_NEAR(
+      f.stated(metric("separation", "final", "left"), {{"other", std::string("right")}, {"value", 0.4}}),
+      std::hypot(0.7, 0.4) - 0.4, 1e-12);
+  // No value to compare with
+  EXPECT_TRUE(std::isnan(f.stated(metric("separation", "final", "left"), {{"other", std::string("right")}})));
   EXPECT_THROW((void)f.stated(metric("separation", "final", "left"), {{"value", 0.4}}), InputError);
 }
 
@@ -60,7 +62,8 @@ TEST(ContactMetrics, TellBodiesThatMoveAsOneFromThoseThatDoNot) {
   Still f(test::blocks());
   const Vec3 spin{0.3, -0.2, 0.5}, drift{1, 2, 3};
   for (auto& frame : f.run.frames)
-    for (std::size_t i = 0; i < frame.velocity.size(); ++i) frame.velocity[i] = drift + cross(spin, frame.position[i]);
+    for (std::size_t i = 0; i < frame.velocity.size(); ++i)
+      frame.velocity[i] = drift + cross(spin, frame.position[i]);
   const auto choice = metric("relative_motion", "max", "left");
   EXPECT_NEAR(f.stated(choice, {{"other", std::string("right")}}), 0.0, 1e-12);
   for (std::size_t i = 0; i < f.s.initial.size(); ++i)
@@ -73,7 +76,8 @@ TEST(ContactMetrics, CountObjectsByWhatTouches) {
   EXPECT_EQ(f.stated(metric("object_count", "final"), {{"value", 1.0}}), 0.0);
   f.shift(f.run.frames.back(), 1, {0.06, 0, 0});  // 1.6 spacings: beyond the merging distance of 1.5
   EXPECT_EQ(f.stated(metric("object_count", "final"), {{"value", 1.0}}), 1.0);
-  EXPECT_EQ(f.stated(metric("object_count", "final"), {{"value", 1.0}, {"phase", std::string("liquid")}}), 0.0);
+  EXPECT_EQ(f.stated(metric("object_count", "final"), {{"value", 1.0}, {"phase", std::string("liquid")}}),
+            0.0);
 }
 
 TEST(ContactMetrics, CountTheBodiesThatACaseStates) {
@@ -82,7 +86,8 @@ TEST(ContactMetrics, CountTheBodiesThatACaseStates) {
   f.run.frames.back().bodies[1].position.x = not_a_number;
   f.run.frames.back().bodies[1].velocity.x = not_a_number;
   EXPECT_EQ(f.stated(metric("body_count", "final"), {{"value", 2.0}}), -1.0);
-  EXPECT_NEAR(f.stated(metric("event_time", "final"), {{"value", 0.7}}), 0.05, 1e-12);  // between 0.75 and 1 s
+  // Between 0.75 and 1 s
+  EXPECT_NEAR(f.stated(metric("event_time", "final"), {{"value", 0.7}}), 0.05, 1e-12);
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ inline Trajectory perfect_run(const Prepared& s, const Reference& truth) {
   return run;
 }
 
-inline MetricChoice metric(const std::string& quantity, const std::string& norm, const std::string& body = "") {
+inline MetricChoice metric(const std::string& quantity, const std::string& norm,
+                           const std::string& body = "") {
   MetricChoice choice;
   choice.name = "m";
   choice.quantity = quantity;
@@ -39,8 +40,12 @@ struct Trial {
   std::shared_ptr<const Reference> truth;
   Trajectory run;
   Trial(Prepared prepared, const std::string& name, const Settings& args = {})
-      : s(std::move(prepared)), truth(make_reference(function(name, args), s.job, s.initial)), run(perfect_run(s, *truth)) {}
-  [[nodiscard]] MetricValue value(const MetricChoice& choice) const { return evaluate(choice, s.job, s.initial, run, *truth); }
+      : s(std::move(prepared)),
+        truth(make_reference(function(name, args), s.job, s.initial)),
+        run(perfect_run(s, *truth)) {}
+  [[nodiscard]] MetricValue value(const MetricChoice& choice) const {
+    return evaluate(choice, s.job, s.initial, run, *truth);
+  }
   [[nodiscard]] std::string sound() const { return audit(s.job, s.initial, run); }
 };
 

@@ -28,7 +28,8 @@ struct Still {
       run.frames.push_back(frame);
     }
   }
-  [[nodiscard]] MetricValue of(const MetricChoice& choice, const std::string& name, const Settings& args = {}) const {
+  [[nodiscard]] MetricValue of(const MetricChoice& choice, const std::string& name,
+                               const Settings& args = {}) const {
     return evaluate(choice, s.job, s.initial, run, *make_reference(function(name, args), s.job, s.initial));
   }
   [[nodiscard]] double stated(const MetricChoice& choice, const Settings& args = {}) const {
@@ -41,7 +42,8 @@ struct Still {
   }
 };
 
-/// Two elastic blocks of 4 x 4 x 4 at a spacing of 0.1 m, their nearest layers one spacing apart, and a liquid one far away.
+/// Two elastic blocks of 4 x 4 x 4 at a spacing of 0.1 m, their nearest layers one spacing apart, and a
+/// liquid one far away.
 inline Prepared blocks() {
   Prepared s;
   s.job.scene.spacing = 0.1;

@@ -16,8 +16,9 @@ constexpr double dx = 0.1;
 /// A block of liquid, 0.4 m long, whose far end runs along x as the experiment of its name does, plus a lead.
 struct Dam {
   test::Prepared s;
-  DataFile file{test::sealed(
-      "# source: none\n# unit time: 0.1 s\n# unit front: 0.4 m\n# uncertainty front: 5 %\ntime,front\n1,1.1\n4,1.4\n8,2\n")};
+  DataFile file{
+      test::sealed("# source: none\n# unit time: 0.1 s\n# unit front: 0.4 m\n# uncertainty front: 5 "
+                   "%\ntime,front\n1,1.1\n4,1.4\n8,2\n")};
   std::shared_ptr<const Reference> truth;
   Trajectory run;
 
@@ -68,14 +69,16 @@ TEST(Front, LeadKeepsItsSignAndCarriesTheUncertaintyOfItsRow) {
   EXPECT_NEAR(lead.series[2], -0.05, 1e-12);
 }
 
-/// A block of 0.5 m that stands still: what was measured is a quarter of a metre behind it, and then as far ahead.
+/// A block of 0.5 m that stands still: what was measured is a quarter of a metre behind it, and then as far
+/// ahead.
 TEST(Front, OfTwoLeadsOfOneSizeTheFirstIsTold) {
   test::Prepared s;
   s.job.scene.spacing = 0.125;
   test::add_matter(s, "water", Phase::liquid, {{4, 4, 4}, 0.125, {}, 1.0}, {}, 1000.0);
   test::set_times(s, 1.0, 4);
-  const DataFile file(test::sealed(
-      "# source: none\n# unit time: 1 s\n# unit front: 1 m\n# uncertainty front: 10 %\ntime,front\n0.25,0.25\n0.75,0.75\n"));
+  const DataFile file(
+      test::sealed("# source: none\n# unit time: 1 s\n# unit front: 1 m\n# uncertainty front: 10 "
+                   "%\ntime,front\n0.25,0.25\n0.75,0.75\n"));
   Trajectory run;
   for (const double t : s.job.times) {
     Snapshot frame;
@@ -97,7 +100,8 @@ TEST(Front, SpeedIsThatBetweenTheFirstAndTheLastMeasuredPlace) {
   dam.move([](double t) { return 0.44 + 1.5 * (measured(t) - 0.44); });
   const auto speed = dam.value("front_speed");
   EXPECT_NEAR(speed.value, 0.5, 1e-12);
-  EXPECT_NEAR(speed.uncertainty.data, 1.5 * std::hypot(0.05 * 1.1, 0.05 * 2.0) / 0.9, 1e-12);  // both ends, over the way of 0.9
+  // Both ends, over the way of 0.9
+  EXPECT_NEAR(speed.uncertainty.data, 1.5 * std::hypot(0.05 * 1.1, 0.05 * 2.0) / 0.9, 1e-12);
 }
 
 TEST(Front, IsNotADropThatFliesAlone) {

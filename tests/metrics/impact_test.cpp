@@ -31,7 +31,8 @@ TEST(ImpactMetrics, MeasureHowDeepASurfaceSinks) {
   EXPECT_NEAR(f.stated(metric("sunk", "max", "block"), floor_at_0), 0.03, 1e-15);
   EXPECT_NEAR(f.stated(metric("sunk", "final", "block"), floor_at_0), 0.0, 1e-15);
   f.run.frames[2].bodies[0].position.z += 0.5;
-  EXPECT_NEAR(f.stated(metric("sunk", "max", "block"), floor_at_0), 0.0, 1e-15) << "above the floor nothing sinks";
+  EXPECT_NEAR(f.stated(metric("sunk", "max", "block"), floor_at_0), 0.0, 1e-15)
+      << "above the floor nothing sinks";
 }
 
 TEST(ImpactMetrics, TurnTheSurfaceWithItsBody) {
@@ -75,9 +76,11 @@ TEST(ImpactMetrics, SeeEnergyThatIsMadeAfterSomeWasLost) {
   EXPECT_NEAR(gain.value, 2.0 * 10.0 * 0.3, 1e-12);
   ASSERT_EQ(gain.series.size(), 5u);
   ASSERT_EQ(gain.times.size(), 5u);
-  for (std::size_t n = 0; n < 5; ++n) EXPECT_NEAR(gain.series[n] - gain.series[0], 2.0 * 10.0 * height[n], 1e-12) << n;
+  for (std::size_t n = 0; n < 5; ++n)
+    EXPECT_NEAR(gain.series[n] - gain.series[0], 2.0 * 10.0 * height[n], 1e-12) << n;
   for (std::size_t n = 0; n < 5; ++n) f.shift(f.run.frames[n], 1, {0, 0, -height[n]});
-  EXPECT_NEAR(f.of(metric("energy_gain", "max"), "invariant").value, 6.0, 1e-12) << "a held body has no energy to lose";
+  EXPECT_NEAR(f.of(metric("energy_gain", "max"), "invariant").value, 6.0, 1e-12)
+      << "a held body has no energy to lose";
 }
 
 /// Puts the block of `block_above_floor` to a height above its start, with a speed up.
@@ -100,7 +103,8 @@ Still bounce(double speed_after) {
 
 TEST(ImpactMetrics, CallAnElasticReboundNoGain) {
   EXPECT_NEAR(bounce(5.0).of(metric("energy_gain", "max"), "invariant").value, 0.0, 1e-12);
-  EXPECT_NEAR(bounce(6.0).of(metric("energy_gain", "max"), "invariant").value, 11.0, 1e-12) << "m (6^2 - 5^2) / 2 is made";
+  EXPECT_NEAR(bounce(6.0).of(metric("energy_gain", "max"), "invariant").value, 11.0, 1e-12)
+      << "m (6^2 - 5^2) / 2 is made";
 }
 
 TEST(ImpactMetrics, LetAnElasticBodyGiveBackWhatItStored) {

@@ -10,7 +10,8 @@ namespace tripoint::test {
 
 using Numbers = std::map<std::string, double, std::less<>>;
 
-/// A truth that is one state at all times, and what a test gives it: numbers, and what they are measured along.
+/// A truth that is one state at all times, and what a test gives it: numbers, and what they are measured
+/// along.
 class Known : public Reference {
  public:
   Known(Snapshot state, Numbers numbers, Measuring measuring = {})
@@ -32,7 +33,8 @@ class Known : public Reference {
     return deviation ? std::optional(deviation(time)) : std::nullopt;
   }
 
-  std::function<double(double)> in_time, deviation;  ///< the value as it changes, and its standard uncertainty
+  /// The value as it changes, and its standard uncertainty
+  std::function<double(double)> in_time, deviation;
 
  private:
   Snapshot state_;

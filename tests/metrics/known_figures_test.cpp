@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each quantity on a small run whose figure can be worked out by hand. Particles of the two blocks and of the pool weigh 1 kg
-// each.
+// Each quantity on a small run whose figure can be worked out by hand. Particles of the two blocks and of the
+// pool weigh 1 kg each.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,7 +24,8 @@ using test::Numbers;
 using test::still_blocks;
 using test::value;
 
-// --- of one frame ---------------------------------------------------------------------------------------------------------
+// --- of one frame
+// ---------------------------------------------------------------------------------------------------------
 
 using Change = std::function<void(Snapshot& first, Snapshot& last)>;
 
@@ -140,7 +141,11 @@ const std::vector<Figure>& figures() {
          first.velocity[3] = {0, 2, 0};
          s.velocity[4] = {0, 0, 1};
        }},
-      {"bonded_objects", "", -2.0, {{"value", 5.0}}, [](Snapshot&, Snapshot& s) { s.counts["objects"] = 3.0; }},
+      {"bonded_objects",
+       "",
+       -2.0,
+       {{"value", 5.0}},
+       [](Snapshot&, Snapshot& s) { s.counts["objects"] = 3.0; }},
       {"recoveries", "", 4.0, {}, [](Snapshot&, Snapshot& s) { s.counts["recoveries"] = 4.0; }},
       {"recoveries", "", 3.0, {{"value", 1.0}}, [](Snapshot&, Snapshot& s) { s.counts["recoveries"] = 4.0; }},
       {"axial_torque",
@@ -153,7 +158,12 @@ const std::vector<Figure>& figures() {
        2},
       // four layers from -0.35 to -0.05 m and half a spacing at both ends: 0.2 m
       {"half_length", "left", -0.1, {{"half_length", 0.3}}, [](Snapshot&, Snapshot&) {}, 0},
-      {"half_length", "left", 0.25, {{"half_length", 0.2}}, [](Snapshot&, Snapshot& s) { s.position[2].x = -0.85; }, 0},
+      {"half_length",
+       "left",
+       0.25,
+       {{"half_length", 0.2}},
+       [](Snapshot&, Snapshot& s) { s.position[2].x = -0.85; },
+       0},
       {"spin_ratio",
        "left",
        -1.5,
@@ -209,7 +219,8 @@ TEST(KnownFigures, OfDensitiesAndPressuresAreByVolume) {
   EXPECT_NEAR(of("pressure", "L2"), 2.0, 1e-12);
 }
 
-/// T = 300 + 100 x along the two blocks, which reach from -0.4 to 0.4 m: 300 K is halfway between the extremes.
+/// T = 300 + 100 x along the two blocks, which reach from -0.4 to 0.4 m: 300 K is halfway between the
+/// extremes.
 TEST(KnownFigures, OfAProfileAndItsIsotherm) {
   auto s = test::blocks();
   for (const Vec3& r : s.initial.position) s.initial.temperature.push_back(300.0 + 100.0 * r.x);
@@ -218,18 +229,21 @@ TEST(KnownFigures, OfAProfileAndItsIsotherm) {
   Snapshot truth = f.run.frames.front();
   auto& last = f.run.frames.back();
   const auto of = [&](const char* quantity, const char* norm, const char* body) {
-    return evaluate(metric(quantity, norm, body), f.s.job, f.s.initial, f.run, Known(truth, {}, along(0))).value;
+    return evaluate(metric(quantity, norm, body), f.s.job, f.s.initial, f.run, Known(truth, {}, along(0)))
+        .value;
   };
   for (double& T : last.temperature) T += 2.0;
   EXPECT_NEAR(of("front", "final", ""), -0.02, 1e-12);
   EXPECT_NEAR(of("temperature_profile", "Linf", "left"), 2.0, 1e-9);
   last.temperature = truth.temperature;
-  for (std::size_t i = 0; i < 16; ++i) last.temperature[i] += i % 2 == 0 ? 3.0 : -1.0;  // a layer of 16: its mean is 1 K off
+  // a layer of 16: its mean is 1 K off
+  for (std::size_t i = 0; i < 16; ++i) last.temperature[i] += i % 2 == 0 ? 3.0 : -1.0;
   EXPECT_NEAR(of("temperature_profile", "Linf", "left"), 1.0, 1e-9);
   EXPECT_NEAR(of("temperature_profile", "L1", "left"), 0.25, 1e-9);  // one of four layers
 }
 
-// --- of a series ----------------------------------------------------------------------------------------------------------
+// --- of a series
+// ----------------------------------------------------------------------------------------------------------
 
 /// A single number in time: so many objects at t = 0, 0.25, 0.5, 0.75 and 1 s.
 Still counted(const std::vector<double>& objects) {
@@ -250,8 +264,10 @@ TEST(KnownFigures, OfEachNormInTime) {
   const auto f = counted({3, 2, -4, 2, 1});
   EXPECT_NEAR(of_series(f, "final"), 1.0, 1e-12);
   EXPECT_NEAR(of_series(f, "max"), 4.0, 1e-12);
-  EXPECT_NEAR(of_series(f, "mean"), 0.5, 1e-12);             // trapezia of (3 + 2)/2, (2 - 4)/2, (-4 + 2)/2 and (2 + 1)/2, over 4
-  EXPECT_NEAR(of_series(f, "rms"), std::sqrt(7.25), 1e-12);  // trapezia of the squares: (13 + 20 + 20 + 5)/2/4
+  // Trapezia of (3 + 2)/2, (2 - 4)/2, (-4 + 2)/2 and (2 + 1)/2, over 4
+  EXPECT_NEAR(of_series(f, "mean"), 0.5, 1e-12);
+  // Trapezia of the squares: (13 + 20 + 20 + 5)/2/4
+  EXPECT_NEAR(of_series(f, "rms"), std::sqrt(7.25), 1e-12);
   EXPECT_NEAR(of_series(f, "mean", "", {0.25, 0.75}), -1.0, 1e-12);
   EXPECT_NEAR(of_series(f, "max", "", {0.75, 1.0}), 2.0, 1e-12);
   EXPECT_NEAR(of_series(counted({1, 2, 3, 4, 5}), "slope"), 4.0, 1e-12);
@@ -264,14 +280,17 @@ TEST(KnownFigures, OfANormInSpaceAreOfTheTimeThatIsAskedFor) {
   EXPECT_NEAR(of_series(f, "Linf", "0.25"), 2.0, 1e-12);
   EXPECT_NEAR(of_series(f, "Linf", "end"), 1.0, 1e-12);
   EXPECT_NEAR(of_series(f, "Linf", "all"), 4.0, 1e-12);
-  for (const char* at : {"0.7", "0.75 ms", "noon"}) EXPECT_THROW((void)of_series(f, "Linf", at), InputError) << at;
+  for (const char* at : {"0.7", "0.75 ms", "noon"})
+    EXPECT_THROW((void)of_series(f, "Linf", at), InputError) << at;
 }
 
-// --- of a whole run -------------------------------------------------------------------------------------------------------
+// --- of a whole run
+// -------------------------------------------------------------------------------------------------------
 
 TEST(KnownFigures, OfASwayAreOneForAnyAxisAndAnyStart) {
   auto f = still_blocks(100);
-  for (auto& frame : f.run.frames) f.shift(frame, 1, {0.3, 0.02 + 0.01 * std::sin(2.0 * pi * 3.6 * frame.time), 0.0});
+  for (auto& frame : f.run.frames)
+    f.shift(frame, 1, {0.3, 0.02 + 0.01 * std::sin(2.0 * pi * 3.6 * frame.time), 0.0});
   const auto of = [&](double stated) {
     return value(f, metric("sway_frequency", "final", "right"), {{"value", stated}}, along(1)).value;
   };
@@ -284,7 +303,8 @@ TEST(KnownFigures, OfASpinAreItsRateOfDecayWhateverTheDrift) {
   auto f = still_blocks();
   for (auto& frame : f.run.frames)
     for (std::size_t i = 0; i < frame.position.size(); ++i)
-      frame.velocity[i] = Vec3{5, -2, 1} + std::exp(-0.7 * frame.time) * cross({0, 0, 3.0}, frame.position[i]);
+      frame.velocity[i] =
+          Vec3{5, -2, 1} + std::exp(-0.7 * frame.time) * cross({0, 0, 3.0}, frame.position[i]);
   EXPECT_NEAR(value(f, metric("spin_rate", "final", "left"), {{"spin_rate", 0.5}}).value, 0.2, 1e-9);
 }
 
@@ -292,7 +312,8 @@ TEST(KnownFigures, OfASwingAreItsAmplitudeFrequencyAndSag) {
   Still f(test::beam(2.0));
   for (auto& frame : f.run.frames)
     for (std::size_t i = 0; i < f.s.initial.size(); ++i)
-      if (f.s.initial.source[i] == 0) frame.position[i].z -= 0.003 + 0.005 * std::sin(2.0 * pi * 6.0 * frame.time);
+      if (f.s.initial.source[i] == 0)
+        frame.position[i].z -= 0.003 + 0.005 * std::sin(2.0 * pi * 6.0 * frame.time);
   const Numbers numbers{{"frequency", 2.0 * pi * 5.0}, {"amplitude", 0.004}, {"deflection", 0.002}};
   Measuring bar = along(0);
   bar.bar = 0;
@@ -312,9 +333,11 @@ TEST(KnownFigures, OfTogglesCountAChangeInTheFirstIntervalToo) {
   EXPECT_EQ(value(g, metric("toggles", "final"), {{"value", 0.0}}).value, 0.0);
 }
 
-// --- means of blocks ------------------------------------------------------------------------------------------------------
+// --- means of blocks
+// ------------------------------------------------------------------------------------------------------
 
-/// 1, 1, -1, -1 again and again: the mean of n samples is known to sqrt(1/(n - 1)), that of n/2 pairs to sqrt(1/(n/2 - 1)).
+/// 1, 1, -1, -1 again and again: the mean of n samples is known to sqrt(1/(n - 1)), that of n/2 pairs to
+/// sqrt(1/(n/2 - 1)).
 TEST(KnownFigures, OfAStationaryMeanAreTheBlocksOfPairs) {
   std::vector<double> x;
   for (int n = 0; n < 16; ++n) x.push_back(n % 4 < 2 ? 1.0 : -1.0);
@@ -324,8 +347,9 @@ TEST(KnownFigures, OfAStationaryMeanAreTheBlocksOfPairs) {
   EXPECT_NEAR(even.uncertainty, std::sqrt(1.0 / 7.0), 1e-12);
   EXPECT_NEAR(even.effective, 16.0 * 7.0 / 15.0, 1e-9);
   EXPECT_FALSE(even.plateau);
-  x.push_back(0.0);  // an odd sample belongs to no pair: beyond it is memory of somebody else, which the build with the address
-                     // sanitizer sees
+  // An odd sample belongs to no pair: beyond it is memory of somebody else, which the build with the address
+  // sanitizer sees
+  x.push_back(0.0);
   const auto odd = stationary_mean(x);
   EXPECT_EQ(odd.burn_in, 0u);
   EXPECT_NEAR(odd.value, 0.0, 1e-15);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run or its truth leaves out: which of it is an error, which is a gap that no metric looks at, and the words that say so.
+// What a run or its truth leaves out: which of it is an error, which is a gap that no metric looks at, and
+// the words that say so.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,8 +46,10 @@ TEST(KnownGaps, OfParticlesAndBodiesAreToldApart) {
          r.id[3] = -1;
        }},
       {"velocity", "", "the trajectory has no velocity", [](Snapshot& r, Snapshot&) { r.velocity.clear(); }},
-      {"velocity", "", "the reference does not know the velocity", [](Snapshot&, Snapshot& t) { t.velocity.clear(); }},
-      {"velocity", "", "velocity: 136 particles against 135", [](Snapshot&, Snapshot& t) { t.velocity.pop_back(); }},
+      {"velocity", "", "the reference does not know the velocity",
+       [](Snapshot&, Snapshot& t) { t.velocity.clear(); }},
+      {"velocity", "", "velocity: 136 particles against 135",
+       [](Snapshot&, Snapshot& t) { t.velocity.pop_back(); }},
       {"temperature", "", "temperature of particle 5 is not finite or missing",
        [=](Snapshot& r, Snapshot& t) {
          warm(r);
@@ -81,7 +84,8 @@ TEST(KnownGaps, OfParticlesAndBodiesAreToldApart) {
          r.temperature_error[7] = not_a_number;
        }},
       {"orientation", "", "", [](Snapshot&, Snapshot&) {}},
-      {"orientation", "", "the reference does not know the bodies", [](Snapshot&, Snapshot& t) { t.bodies.clear(); }},
+      {"orientation", "", "the reference does not know the bodies",
+       [](Snapshot&, Snapshot& t) { t.bodies.clear(); }},
       {"orientation", "pool", "body `pool` is liquid and has no row", [](Snapshot&, Snapshot&) {}},
       {"orientation", "", "body row 1 is missing or not finite at t = 1.000000 s",
        [](Snapshot& r, Snapshot&) { r.bodies.pop_back(); }},
@@ -89,15 +93,19 @@ TEST(KnownGaps, OfParticlesAndBodiesAreToldApart) {
        [](Snapshot& r, Snapshot&) { r.bodies[1].position.x = not_a_number; }},
       {"orientation", "", "body row 1 should not exist at t = 1.000000 s",
        [](Snapshot&, Snapshot& t) { t.bodies[1].position.x = not_a_number; }},
-      {"orientation", "", "body row 1 should not exist at t = 1.000000 s", [](Snapshot&, Snapshot& t) { t.bodies.pop_back(); }},
-      {"orientation", "", "", [](Snapshot& r, Snapshot& t) { r.bodies[1].position.x = t.bodies[1].position.x = not_a_number; }},
+      {"orientation", "", "body row 1 should not exist at t = 1.000000 s",
+       [](Snapshot&, Snapshot& t) { t.bodies.pop_back(); }},
+      {"orientation", "", "",
+       [](Snapshot& r, Snapshot& t) { r.bodies[1].position.x = t.bodies[1].position.x = not_a_number; }},
       {"orientation", "right", "body row 1 is missing or not finite at t = 1.000000 s",
        [](Snapshot& r, Snapshot& t) { r.bodies[1].position.x = t.bodies[1].position.x = not_a_number; }},
       {"orientation", "left", "", [](Snapshot& r, Snapshot&) { r.bodies[1].position.x = not_a_number; }},
-      {"orientation", "", "body row 0 is not finite", [](Snapshot& r, Snapshot&) { r.bodies[0].velocity.x = not_a_number; }},
+      {"orientation", "", "body row 0 is not finite",
+       [](Snapshot& r, Snapshot&) { r.bodies[0].velocity.x = not_a_number; }},
       {"orientation", "", "body row 0 is not finite",
        [](Snapshot& r, Snapshot&) { r.bodies[0].angular_velocity.x = not_a_number; }},
-      {"orientation", "", "body row 0 is not finite", [](Snapshot& r, Snapshot&) { r.bodies[0].orientation.y = not_a_number; }},
+      {"orientation", "", "body row 0 is not finite",
+       [](Snapshot& r, Snapshot&) { r.bodies[0].orientation.y = not_a_number; }},
       {"shape", "left", "", [](Snapshot&, Snapshot&) {}},
       {"shape", "", "there is no rigid body of two particles or more", [](Snapshot&, Snapshot&) {}},
       {"shape", "pool", "there is no rigid body of two particles or more", [](Snapshot&, Snapshot&) {}},
@@ -115,26 +123,31 @@ TEST(KnownGaps, OfParticlesAndBodiesAreToldApart) {
          t.position.clear();
          t.total_mass = 136.0;
        }},
-      {"momentum", "", "the trajectory has no positions and velocities", [](Snapshot& r, Snapshot&) { r.velocity.clear(); }},
+      {"momentum", "", "the trajectory has no positions and velocities",
+       [](Snapshot& r, Snapshot&) { r.velocity.clear(); }},
       {"momentum", "", "the reference has no particles to sum the momentum of: use norm = \"drift\"",
        [](Snapshot&, Snapshot& t) { t.position.clear(); }},
-      {"angular_momentum", "", "the reference has no particles to sum the angular momentum of: use norm = \"drift\"",
+      {"angular_momentum", "",
+       "the reference has no particles to sum the angular momentum of: use norm = \"drift\"",
        [](Snapshot&, Snapshot& t) { t.velocity.clear(); }},
       {"energy", "", "the reference has no particles to sum the energy of: use norm = \"drift\"",
        [](Snapshot&, Snapshot& t) { t.velocity.clear(); }},
       {"ledger.elastic", "", "the trajectory has no ledger term `elastic`", [](Snapshot&, Snapshot&) {}},
       {"ledger.elastic", "", "the reference does not know the ledger term `elastic`: use norm = \"drift\"",
        [](Snapshot& r, Snapshot&) { r.energy["elastic"] = 1.0; }},
-      {"ledger.elastic", "", "", [](Snapshot& r, Snapshot& t) { r.energy["elastic"] = t.energy["elastic"] = 1.0; }},
+      {"ledger.elastic", "", "",
+       [](Snapshot& r, Snapshot& t) { r.energy["elastic"] = t.energy["elastic"] = 1.0; }},
       {"ledger.thermal", "", "the trajectory has no ledger term `thermal`",
        [=](Snapshot& r, Snapshot& t) {
          warm(r);
          warm(t);
        }},
-      {"energy_ratio", "", "the reference does not know the energy ratio and states no value", [](Snapshot&, Snapshot&) {}},
+      {"energy_ratio", "", "the reference does not know the energy ratio and states no value",
+       [](Snapshot&, Snapshot&) {}},
       {"object_count", "", "the trajectory has no positions, phases and bodies of all particles",
        [](Snapshot& r, Snapshot&) { r.phase.clear(); }},
-      {"object_count", "", "the reference does not know the object_count and states no value", [](Snapshot&, Snapshot&) {}},
+      {"object_count", "", "the reference does not know the object_count and states no value",
+       [](Snapshot&, Snapshot&) {}},
       {"half_length", "", "the reference knows no half length", [](Snapshot&, Snapshot&) {}},
       {"pressure_factor", "", "the trajectory has no pressure", [](Snapshot&, Snapshot&) {}},
       {"pressure_factor", "", "the reference does not know the pressure",
@@ -189,7 +202,8 @@ TEST(KnownGaps, ADifferenceInPhasesIsTheLargestOfTheThree) {
   EXPECT_EQ(value(f, metric("phase_count", "final")).value, 10.0);
 }
 
-/// 16 particles of which a quarter is liquid yet, the others of the bar are liquid: 16 x 0.75 of 1 l over 0.16 m2.
+/// 16 particles of which a quarter is liquid yet, the others of the bar are liquid: 16 x 0.75 of 1 l over
+/// 0.16 m2.
 TEST(KnownGaps, AFrontThatFreezesIsTheVolumeThatIsNoLongerLiquid) {
   auto f = still_blocks();
   auto& last = f.run.frames.back();
@@ -205,7 +219,8 @@ TEST(KnownGaps, AFrontThatFreezesIsTheVolumeThatIsNoLongerLiquid) {
   };
   EXPECT_NEAR(of("front_position", 0.1).value, -0.025, 1e-12);
   EXPECT_NEAR(of("front_ratio", 0.1).value, -0.25, 1e-12);
-  EXPECT_EQ(of("front_ratio", 0.0).note, "the front has not started: choose a window or `at` after the start");
+  EXPECT_EQ(of("front_ratio", 0.0).note,
+            "the front has not started: choose a window or `at` after the start");
   m.melts = true;
   EXPECT_NEAR(of("front_position", 0.1).value, (48.0 + 4.0) * 0.001 / 0.16 - 0.1, 1e-12);
   last.liquid_fraction.clear();
@@ -217,8 +232,8 @@ TEST(KnownGaps, AFrontThatFreezesIsTheVolumeThatIsNoLongerLiquid) {
   EXPECT_EQ(of("front_position", 0.1).note, "the reference knows no front");
 }
 
-/// The left block moves on at a speed, and its places do not change: that is a fault where its way is more than half a unit in
-/// the last of the 24 bits of a coordinate.
+/// The left block moves on at a speed, and its places do not change: that is a fault where its way is more
+/// than half a unit in the last of the 24 bits of a coordinate.
 TEST(KnownGaps, ARunIsFrozenWhereItsWayWouldShow) {
   auto s = test::blocks();
   s.job.reference.kind = ReferenceKind::invariant;
@@ -238,7 +253,8 @@ TEST(KnownGaps, ARunIsFrozenWhereItsWayWouldShow) {
     for (auto& r : f.run.frames.back().position) r.x += 1e-3;
     for (auto& b : f.run.frames.back().bodies) b.position.x += 1e-3;
     const auto says = audit(f.s.job, f.s.initial, f.run);
-    const std::string words = "frozen: no particle moves from t = 0.000000 to 0.250000 s, yet they have velocities";
+    const std::string words =
+        "frozen: no particle moves from t = 0.000000 to 0.250000 s, yet they have velocities";
     EXPECT_EQ(says == words, frozen) << share << says;
   }
 }

@@ -22,7 +22,8 @@ using test::metric;
 using test::pi;
 using test::Still;
 
-// --- norms in space -------------------------------------------------------------------------------------------------------
+// --- norms in space
+// -------------------------------------------------------------------------------------------------------
 
 FrameError two_samples(bool with_errors) {
   FrameError e;
@@ -43,11 +44,13 @@ TEST(KnownNorms, WeighTheSamplesAndTheirStandardErrors) {
   check(spatial_norm(Norm::L2raw, plain), std::sqrt(3.0), 0.0, "the same");
   check(spatial_norm(Norm::Linf, plain), 3.0, 0.0, "the first");
   // shares 1/4 and 3/4; sigma^2 1 and 1/4; noise (1 + 3/4)/4; e^2 - sigma^2 = 8 and 3/4
-  const double square = 3.0 - 0.4375, variance = (2.0 * 1.0 + 4.0 * 8.0 * 1.0) / 16.0 + 9.0 / 16.0 * (2.0 / 16.0 + 0.75),
+  const double square = 3.0 - 0.4375,
+               variance = (2.0 * 1.0 + 4.0 * 8.0 * 1.0) / 16.0 + 9.0 / 16.0 * (2.0 / 16.0 + 0.75),
                u = std::sqrt(square + std::sqrt(variance)) - std::sqrt(square);
   check(spatial_norm(Norm::L2, noisy), std::sqrt(square), u, "noise taken off");
   check(spatial_norm(Norm::L2raw, noisy), std::sqrt(3.0), u, "noise left in");
-  check(spatial_norm(Norm::L1, noisy), 1.5, std::sqrt(1.0 / 16.0 + 9.0 / 64.0 + 2.0 / pi * 0.625 * 0.625), "L1");
+  check(spatial_norm(Norm::L1, noisy), 1.5, std::sqrt(1.0 / 16.0 + 9.0 / 64.0 + 2.0 / pi * 0.625 * 0.625),
+        "L1");
   check(spatial_norm(Norm::Linf, noisy), 3.0, std::sqrt(2.0 * std::log(2.0)), "the larger of two");
   check(spatial_norm(Norm::chi, noisy), std::sqrt(6.5), 0.5, "(9 + 4)/2, 1/sqrt(2 x 2)");
   EXPECT_EQ(spatial_norm(Norm::Linf, plain).worst, 10);
@@ -93,7 +96,8 @@ TEST(KnownNorms, TheFourKindsOfUncertaintyAddInSquares) {
   EXPECT_NEAR((Uncertainty{1.0, 2.0, 4.0, 10.0}).combined(), 11.0, 1e-14);
 }
 
-// --- heat of a material -----------------------------------------------------------------------------------------------------
+// --- heat of a material
+// -----------------------------------------------------------------------------------------------------
 
 TEST(KnownHeat, OfASolidUpToItsMeltingAndOfALiquidFromThere) {
   Material water;
@@ -119,7 +123,8 @@ TEST(KnownHeat, OfASolidUpToItsMeltingAndOfALiquidFromThere) {
   EXPECT_NEAR(heat({0.25}, {0}), 0.75 * 566000.0 + 0.25 * 886000.0, 1e-6);
 }
 
-// --- a frequency --------------------------------------------------------------------------------------------------------------
+// --- a frequency
+// --------------------------------------------------------------------------------------------------------------
 
 using List = std::vector<double>;
 
@@ -135,8 +140,8 @@ DominantFrequency of_function(int n, F f) {
 }
 
 TEST(KnownFrequency, OfASineBesideAFasterSwing) {
-  const auto d =
-      of_function(64, [](double t) { return 7.0 + 3.0 * std::cos(2.0 * pi * 5.0 * t / 64.0) + 0.1 * std::cos(pi * t); });
+  const auto d = of_function(
+      64, [](double t) { return 7.0 + 3.0 * std::cos(2.0 * pi * 5.0 * t / 64.0) + 0.1 * std::cos(pi * t); });
   EXPECT_NEAR(d.frequency, 5.0 / 64.0, 1e-4);
   EXPECT_NEAR(d.amplitude, 3.0, 0.01);
   EXPECT_NEAR(d.share, 1.0 - 0.01 / 4.51, 1e-4);
@@ -145,7 +150,9 @@ TEST(KnownFrequency, OfASineBesideAFasterSwing) {
 }
 
 TEST(KnownFrequency, IsNoneOfAChangeInTheLastDigits) {
-  const auto swing = [](double size) { return of_function(16, [=](double t) { return 1.0 + size * std::sin(1.2 * t); }); };
+  const auto swing = [](double size) {
+    return of_function(16, [=](double t) { return 1.0 + size * std::sin(1.2 * t); });
+  };
   EXPECT_NE(swing(5e-13).problem.find("does not change"), std::string::npos);
   EXPECT_EQ(swing(3e-12).problem, "");
 }
@@ -171,7 +178,8 @@ TEST(KnownFrequency, ExplainsHalfOfTheVarianceAtLeast) {
   };
   EXPECT_EQ(sum(0.6).problem, "");  // 1/(1 + 0.72)
   EXPECT_NE(sum(0.8).problem.find("no single frequency"), std::string::npos);
-  EXPECT_NE(sum(0.8).problem.find("explains 4"), std::string::npos) << sum(0.8).problem;  // 1/(1 + 1.28): 44 %
+  // 1/(1 + 1.28): 44 %
+  EXPECT_NE(sum(0.8).problem.find("explains 4"), std::string::npos) << sum(0.8).problem;
 }
 
 TEST(KnownFrequency, OfASwingIsLookedForFromTwoFifthsToFiveHalves) {
@@ -190,7 +198,8 @@ TEST(KnownFrequency, OfASwingIsLookedForFromTwoFifthsToFiveHalves) {
   for (const double guess : {0.38, 2.6}) EXPECT_NE(fit_swing(t, y, guess).problem, "") << guess;
 }
 
-// --- fits over levels ---------------------------------------------------------------------------------------------------------
+// --- fits over levels
+// ---------------------------------------------------------------------------------------------------------
 
 TEST(KnownFits, StudentsFactorIsThatOfTheTables) {
   EXPECT_TRUE(std::isinf(student_95(0)));
@@ -208,8 +217,8 @@ TEST(KnownFits, AkaikesCriterionIsCorrectedWhereSamplesAreLeft) {
 }
 
 TEST(KnownFits, APowerLawHasTheIntervalOfALine) {
-  // ln e = 2 ln h + (0.1, -0.2, 0.1) at ln h = 0, -1, -2: the slope stays 2, the squares that are left are 0.06, one degree of
-  // freedom
+  // ln e = 2 ln h + (0.1, -0.2, 0.1) at ln h = 0, -1, -2: the slope stays 2, the squares that are left are
+  // 0.06, one degree of freedom
   List h, e;
   const double off[] = {0.1, -0.2, 0.1};
   for (int n = 0; n < 3; ++n) {
@@ -263,21 +272,25 @@ TEST(KnownFits, TheUncertaintyOfAGridIsAShareOfItsOwnError) {
   EXPECT_NEAR(two[0], 4.0 * two[1], 1e-12);
   // the order seen is the formal one: factor 1.25 on each level's error
   for (const List& h : {List{4.0, 2.0, 1.0}, List{8.0, 4.0, 2.0, 1.0}})
-    for (std::size_t n = 0; n < h.size(); ++n) EXPECT_NEAR(all(h, 2.0, 2.0)[n], 0.5 * 1.25 * 0.1 * h[n] * h[n], 1e-5);
+    for (std::size_t n = 0; n < h.size(); ++n)
+      EXPECT_NEAR(all(h, 2.0, 2.0)[n], 0.5 * 1.25 * 0.1 * h[n] * h[n], 1e-5);
   // above the formal one: factor 3 on that of a fixed power, which here is 2
   const List four{8.0, 4.0, 2.0, 1.0};
-  for (std::size_t n = 0; n < 4; ++n) EXPECT_NEAR(all(four, 2.0, 1.0)[n], 0.5 * 3.0 * 0.1 * four[n] * four[n], 1e-9);
+  for (std::size_t n = 0; n < 4; ++n)
+    EXPECT_NEAR(all(four, 2.0, 1.0)[n], 0.5 * 3.0 * 0.1 * four[n] * four[n], 1e-9);
   EXPECT_EQ(grid_convergence_uncertainties({4.0, 2.0, 1.0}, {5.0, 5.0, 5.0}, 2.0), (List{0.0, 0.0, 0.0}));
-  for (const auto& none :
-       {grid_convergence_uncertainties({1.0}, {1.0}, 2.0), grid_convergence_uncertainties({2.0, 1.0}, {1.0}, 2.0),
-        grid_convergence_uncertainties({2.0, 1.0}, {1.0, 2.0}, 0.0),
-        grid_convergence_uncertainties({2.0, 1.0}, {1.0, std::nan("")}, 2.0)})
+  for (const auto& none : {grid_convergence_uncertainties({1.0}, {1.0}, 2.0),
+                           grid_convergence_uncertainties({2.0, 1.0}, {1.0}, 2.0),
+                           grid_convergence_uncertainties({2.0, 1.0}, {1.0, 2.0}, 0.0),
+                           grid_convergence_uncertainties({2.0, 1.0}, {1.0, std::nan("")}, 2.0)})
     for (const double u : none) EXPECT_TRUE(std::isnan(u));
 }
 
 TEST(KnownFits, EachClassOfAnOrderBeginsAtItsEdge) {
   const List h{8.0, 4.0, 2.0, 1.0};
-  const auto of = [&](const List& e, const List& u = {}, double formal = 0.0) { return fit_order(h, e, u, formal).fit_class; };
+  const auto of = [&](const List& e, const List& u = {}, double formal = 0.0) {
+    return fit_order(h, e, u, formal).fit_class;
+  };
   EXPECT_EQ(of({64.0, 16.0, 4.0, 1.0}), FitClass::asymptotic);
   EXPECT_EQ(of({64.0, 16.0, 4.0, 1.0}, {}, 2.0), FitClass::asymptotic);
   EXPECT_EQ(of({64.0, 16.0, 4.0, 1.0}, {}, 1.4), FitClass::preasymptotic);
@@ -297,7 +310,8 @@ TEST(KnownFits, EachClassOfAnOrderBeginsAtItsEdge) {
   EXPECT_NEAR(fit_order({2.0, 1.0}, {8.0, 1.0}, {}, 0.0).value, 3.0, 1e-12);
 }
 
-// --- a stationary mean ------------------------------------------------------------------------------------------------------
+// --- a stationary mean
+// ------------------------------------------------------------------------------------------------------
 
 TEST(KnownMeans, CutWhatIsNotYetSteadyAndNoMoreThanHalf) {
   List x{9.0, 9.0, 9.0, 9.0};

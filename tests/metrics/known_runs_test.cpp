@@ -19,9 +19,11 @@ using test::Still;
 using test::still_blocks;
 using test::value;
 
-// --- boxes --------------------------------------------------------------------------------------------------------------------
+// --- boxes
+// --------------------------------------------------------------------------------------------------------------------
 
-/// A box that is no more than one particle's place holds it, and none of its six faces may be moved beyond that place.
+/// A box that is no more than one particle's place holds it, and none of its six faces may be moved beyond
+/// that place.
 TEST(KnownBoxes, HoldWhatLiesOnTheirFaces) {
   for (const char* quantity : {"mass_in_region", "mean_density"}) {
     auto f = still_blocks();
@@ -53,7 +55,9 @@ TEST(KnownBoxes, NeedTheBodyThatTheyFollow) {
   Measuring m;
   m.box = MeasuredBox{{-1, -1, -1}, {1, 1, 1}};
   m.follows = true;
-  const auto of = [&](const char* body) { return value(f, metric("mass_in_region", "final", body), {{"value", 0.0}}, m).value; };
+  const auto of = [&](const char* body) {
+    return value(f, metric("mass_in_region", "final", body), {{"value", 0.0}}, m).value;
+  };
   EXPECT_NEAR(of("left"), 128.0, 1e-12);
   EXPECT_TRUE(std::isnan(of("")));
   EXPECT_TRUE(std::isnan(of("pool")));
@@ -63,7 +67,8 @@ TEST(KnownBoxes, NeedTheBodyThatTheyFollow) {
   EXPECT_TRUE(std::isnan(of("right")));
 }
 
-// --- times ------------------------------------------------------------------------------------------------------------------
+// --- times
+// ------------------------------------------------------------------------------------------------------------------
 
 TEST(KnownTimes, AreMetWithinABillionthOfTheLast) {
   const auto position = metric("mass", "final");
@@ -116,7 +121,8 @@ TEST(KnownTimes, OfARunThatIsNoneAreNamed) {
   EXPECT_EQ(note(f).find("particles, the job"), std::string::npos);
 }
 
-// --- units --------------------------------------------------------------------------------------------------------------------
+// --- units
+// --------------------------------------------------------------------------------------------------------------------
 
 TEST(KnownUnits, OfAValueAreItsOwnOrThoseThatItsScaleGives) {
   struct Row {
@@ -124,14 +130,15 @@ TEST(KnownUnits, OfAValueAreItsOwnOrThoseThatItsScaleGives) {
     double scale;
     bool refused;
   };
-  for (const Row& row : {Row{"position", "max", "", 1.0, false}, Row{"position", "max", "m", 1.0, false},
-                         Row{"position", "max", "mm", 1.0, true}, Row{"position", "max", "mm", 1e-3, false},
-                         Row{"position", "final", "mm", 1.0, true}, Row{"position", "rms", "mm", 1.0, true},
-                         Row{"position", "mean", "mm", 1.0, true}, Row{"position", "slope", "mm", 1.0, false},
-                         Row{"position", "frequency", "mm", 1.0, false}, Row{"position", "chi", "mm", 1.0, false},
-                         Row{"temperature", "max", "degC", 1.0, false}, Row{"ledger.kinetic", "max", "J", 7.0, false},
-                         Row{"ledger.kinetic", "max", "kJ", 1.0, true}, Row{"ledger.kinetic", "max", "kJ", 1e3, false},
-                         Row{"position", "max", "spacings", 0.1, false}, Row{"position", "max", "s", 1.0, false}}) {
+  for (const Row& row :
+       {Row{"position", "max", "", 1.0, false}, Row{"position", "max", "m", 1.0, false},
+        Row{"position", "max", "mm", 1.0, true}, Row{"position", "max", "mm", 1e-3, false},
+        Row{"position", "final", "mm", 1.0, true}, Row{"position", "rms", "mm", 1.0, true},
+        Row{"position", "mean", "mm", 1.0, true}, Row{"position", "slope", "mm", 1.0, false},
+        Row{"position", "frequency", "mm", 1.0, false}, Row{"position", "chi", "mm", 1.0, false},
+        Row{"temperature", "max", "degC", 1.0, false}, Row{"ledger.kinetic", "max", "J", 7.0, false},
+        Row{"ledger.kinetic", "max", "kJ", 1.0, true}, Row{"ledger.kinetic", "max", "kJ", 1e3, false},
+        Row{"position", "max", "spacings", 0.1, false}, Row{"position", "max", "s", 1.0, false}}) {
     auto f = still_blocks();
     auto choice = metric(row.quantity, row.norm);
     choice.unit = row.unit;
@@ -148,7 +155,8 @@ TEST(KnownUnits, OfAValueAreItsOwnOrThoseThatItsScaleGives) {
   }
 }
 
-// --- uncertainties over time -----------------------------------------------------------------------------------------------
+// --- uncertainties over time
+// -----------------------------------------------------------------------------------------------
 
 /// Objects of 0, 1, 3, 0 and 1 at t = 0 to 1 s: mean 1, slope 0.4, squares left 6 - 0.1.
 TEST(KnownSeries, HaveTheUncertaintyOfTheirTrend) {
@@ -160,14 +168,16 @@ TEST(KnownSeries, HaveTheUncertaintyOfTheirTrend) {
   EXPECT_NEAR(slope.uncertainty.numerical, std::sqrt(5.9 / 3.0 / 0.625), 1e-12);
   auto scaled = metric("bonded_objects", "slope");
   scaled.scale = 0.5;
-  EXPECT_NEAR(value(f, scaled, {{"value", 0.0}}).uncertainty.numerical, 2.0 * std::sqrt(5.9 / 3.0 / 0.625), 1e-12);
+  EXPECT_NEAR(value(f, scaled, {{"value", 0.0}}).uncertainty.numerical, 2.0 * std::sqrt(5.9 / 3.0 / 0.625),
+              1e-12);
   auto two = metric("bonded_objects", "slope");
   two.window = {0.25, 0.5};
   EXPECT_NEAR(value(f, two, {{"value", 0.0}}).value, 8.0, 1e-12);
   EXPECT_TRUE(std::isnan(value(f, two, {{"value", 0.0}}).uncertainty.numerical));
   two.window = {0.25, 0.25};
   EXPECT_EQ(value(f, two, {{"value", 0.0}}).note, "a slope needs two output times or more");
-  EXPECT_NE(value(f, metric("bonded_objects", "max"), {{"value", 0.0}}).note.find("at t = 0.5"), std::string::npos);
+  EXPECT_NE(value(f, metric("bonded_objects", "max"), {{"value", 0.0}}).note.find("at t = 0.5"),
+            std::string::npos);
 }
 
 /// A speed of the same figures: the deviations change sign twice, so that four are independent.
@@ -178,16 +188,20 @@ TEST(KnownSeries, OfASpeedHaveTheUncertaintyOfTheirSwings) {
   const auto a = value(f, metric("acceleration", "final", "right"), {{"acceleration", 0.1}}, along(1));
   EXPECT_NEAR(a.value, 0.3, 1e-12);
   EXPECT_NEAR(a.uncertainty.numerical, std::sqrt(5.9 / (4.0 - 2.0) / 0.625), 1e-12);
-  EXPECT_NEAR(value(f, metric("acceleration", "final", "right"), {{"acceleration", 0.1}, {"up", -1.0}}, along(1)).value, -0.5,
-              1e-12);
+  EXPECT_NEAR(
+      value(f, metric("acceleration", "final", "right"), {{"acceleration", 0.1}, {"up", -1.0}}, along(1))
+          .value,
+      -0.5, 1e-12);
   const double touch[] = {2, 2, 2, 4, 4};
   for (std::size_t n = 0; n < 5; ++n) f.run.frames[n].bodies[1].velocity.y = touch[n];
   const auto t = value(f, metric("touch_time", "final", "right"), {{"touch_time", 0.5}}, along(1));
   EXPECT_NEAR(t.value, 0.125, 1e-12);
   EXPECT_NEAR(t.uncertainty.numerical, 0.25 / std::sqrt(12.0), 1e-12);
-  EXPECT_TRUE(std::isnan(value(f, metric("touch_time", "final", "right"), {{"touch_time", 0.5}}, along(0)).value));
+  EXPECT_TRUE(
+      std::isnan(value(f, metric("touch_time", "final", "right"), {{"touch_time", 0.5}}, along(0)).value));
   f.run.frames[2].bodies[1].velocity.y = 3.0;  // a frame at the very middle of the change
-  EXPECT_NEAR(value(f, metric("touch_time", "final", "right"), {{"touch_time", 0.5}}, along(1)).value, 0.0, 1e-12);
+  EXPECT_NEAR(value(f, metric("touch_time", "final", "right"), {{"touch_time", 0.5}}, along(1)).value, 0.0,
+              1e-12);
 }
 
 TEST(KnownSeries, TakeTheUncertaintyOfTheirDataWhereTheyTakeTheirValue) {
@@ -205,13 +219,14 @@ TEST(KnownSeries, TakeTheUncertaintyOfTheirDataWhereTheyTakeTheirValue) {
   EXPECT_EQ(of("mean", 4.0), 0.125);
 }
 
-// --- events -----------------------------------------------------------------------------------------------------------------
+// --- events
+// -----------------------------------------------------------------------------------------------------------------
 
 TEST(KnownEvents, LieBetweenTwoFrames) {
   auto f = still_blocks();
   for (std::size_t n = 3; n < 5; ++n) f.run.frames[n].bodies[1].position.x = not_a_number;
-  for (const auto& [truth, off] :
-       {std::pair{0.6, 0.0}, std::pair{0.5, 0.0}, std::pair{0.75, 0.0}, std::pair{0.4, 0.1}, std::pair{0.9, -0.15}}) {
+  for (const auto& [truth, off] : {std::pair{0.6, 0.0}, std::pair{0.5, 0.0}, std::pair{0.75, 0.0},
+                                   std::pair{0.4, 0.1}, std::pair{0.9, -0.15}}) {
     const auto v = value(f, metric("event_time", "final"), {{"value", truth}});
     EXPECT_NEAR(v.value, off, 1e-12) << truth;
     EXPECT_NEAR(v.uncertainty.numerical, 0.25 / std::sqrt(12.0), 1e-12);
@@ -234,9 +249,11 @@ TEST(KnownEvents, OfAModeThatDecaysIsItsRateWithTheErrorsOfItsWalkers) {
   }
   const auto v = value(f, metric("decay_rate", "final", "left"), {{"decay_rate", 0.5}}, m);
   EXPECT_NEAR(v.value, 0.4, 1e-9) << v.note;
-  EXPECT_NEAR(v.uncertainty.statistical, (0.5 * 0.1 / 4.0 + 0.5 * 0.1 / (4.0 * std::exp(-0.7))) / 0.5 / 0.5, 1e-9);
+  EXPECT_NEAR(v.uncertainty.statistical, (0.5 * 0.1 / 4.0 + 0.5 * 0.1 / (4.0 * std::exp(-0.7))) / 0.5 / 0.5,
+              1e-9);
   for (auto& T : f.run.frames.back().temperature) T = 600.0 - T;
-  EXPECT_NE(value(f, metric("decay_rate", "final", "left"), {{"decay_rate", 0.5}}, m).note.find("of its first sign at t = 1.0"),
+  EXPECT_NE(value(f, metric("decay_rate", "final", "left"), {{"decay_rate", 0.5}}, m)
+                .note.find("of its first sign at t = 1.0"),
             std::string::npos);
 }
 
@@ -250,12 +267,15 @@ TEST(KnownEvents, OfAModeOnAWarmingBarIsItsRateAlone) {
       frame.temperature.push_back(300.0 + 5.0 * frame.time +
                                   4.0 * std::exp(-0.7 * frame.time) * std::cos(0.5 * pi / 0.4 * r.x + 0.1));
   for (const char* body : {"left", "right", ""})
-    EXPECT_NEAR(value(f, metric("decay_rate", "final", body), {{"decay_rate", 0.5}}, m).value, 0.4, 1e-9) << body;
+    EXPECT_NEAR(value(f, metric("decay_rate", "final", body), {{"decay_rate", 0.5}}, m).value, 0.4, 1e-9)
+        << body;
 }
 
-// --- heat -------------------------------------------------------------------------------------------------------------------
+// --- heat
+// -------------------------------------------------------------------------------------------------------------------
 
-/// Layers of the left block at -0.35, -0.25, -0.15 and -0.05 m that hold 0, 4, 0, 0 K above 300 K and then 1, 2, 1, 0.
+/// Layers of the left block at -0.35, -0.25, -0.15 and -0.05 m that hold 0, 4, 0, 0 K above 300 K and then 1,
+/// 2, 1, 0.
 Still spreading(double pattern) {
   auto f = still_blocks(1);
   const double warm[2][4] = {{0, 4, 0, 0}, {1, 2, 1, 0}};
@@ -263,7 +283,8 @@ Still spreading(double pattern) {
     auto& frame = f.run.frames[n];
     frame.temperature.assign(f.s.initial.size(), 300.0);
     frame.temperature_error.assign(f.s.initial.size(), 0.0);
-    for (std::size_t i = 0; i < 64; ++i) frame.temperature[i] += warm[n][i / 16] * (1.0 + (i % 2 == 0 ? pattern : -pattern));
+    for (std::size_t i = 0; i < 64; ++i)
+      frame.temperature[i] += warm[n][i / 16] * (1.0 + (i % 2 == 0 ? pattern : -pattern));
     for (std::size_t i = 0; i < 16; ++i) frame.temperature_error[i] = n == 0 ? 0.0 : 0.1;
   }
   return f;
@@ -272,16 +293,19 @@ Still spreading(double pattern) {
 TEST(KnownHeat, SpreadsByTwiceItsDiffusivityASecond) {
   for (const double pattern : {0.0, 0.5}) {
     const auto f = spreading(pattern);
-    const auto v = value(f, metric("diffusivity", "final", "left"), {{"value", 300.0}, {"diffusivity", 0.002}}, along(0));
+    const auto v = value(f, metric("diffusivity", "final", "left"),
+                         {{"value", 300.0}, {"diffusivity", 0.002}}, along(0));
     EXPECT_NEAR(v.value, 0.5 * 0.005 - 0.002, 1e-12) << v.note;
-    // (0.1^2 - 0.005)/(64 K of particles) for each kelvin in the first layer; its 16 particles are one count, or 16
+    // (0.1^2 - 0.005)/(64 K of particles) for each kelvin in the first layer; its 16 particles are one count,
+    // or 16
     const double shared = 0.005 / 64.0 * 1.6, single = 0.005 / 64.0 * 0.4;
     EXPECT_NEAR(v.uncertainty.statistical, 0.5 * (pattern == 0.0 ? shared : single), 1e-12);
   }
   auto cold = spreading(0.0);
   for (auto& T : cold.run.frames.back().temperature) T = 300.0;
-  EXPECT_TRUE(std::isnan(
-      value(cold, metric("diffusivity", "final", "left"), {{"value", 300.0}, {"diffusivity", 0.002}}, along(0)).value));
+  EXPECT_TRUE(std::isnan(value(cold, metric("diffusivity", "final", "left"),
+                               {{"value", 300.0}, {"diffusivity", 0.002}}, along(0))
+                             .value));
 }
 
 /// Simpson's rule is exact for a cubic: the mean of 4 t^3 over 1 s is 1.
@@ -328,18 +352,22 @@ TEST(KnownHeat, OfALayerIsKnownAsItsParticlesAreOrAsTheirOneCount) {
   Snapshot steps = f.run.frames.front();
   for (std::size_t i = 0; i < steps.temperature.size(); ++i) steps.temperature[i] = last.temperature[i] - 1.0;
   const Known same(steps, {}, along(0));
-  EXPECT_NEAR(evaluate(metric("temperature_profile", "chi", "left"), f.s.job, f.s.initial, f.run, same).value, 2.0, 1e-9);
+  EXPECT_NEAR(evaluate(metric("temperature_profile", "chi", "left"), f.s.job, f.s.initial, f.run, same).value,
+              2.0, 1e-9);
 }
 
-// --- an audit -------------------------------------------------------------------------------------------------------------
+// --- an audit
+// -------------------------------------------------------------------------------------------------------------
 
 using MiddleChange = std::function<void(Still&, Snapshot& middle)>;
 
 TEST(KnownFaults, AreNamedWithParticleAndTime) {
   const std::vector<std::pair<std::string, MiddleChange>> faults{
       {"", [](Still&, Snapshot&) {}},
-      {"position of particle 3 is not finite at t = 0.500000 s", [](Still&, Snapshot& s) { s.position[3].y = not_a_number; }},
-      {"velocity of particle 5 is not finite at t = 0.500000 s", [](Still&, Snapshot& s) { s.velocity[5].z = not_a_number; }},
+      {"position of particle 3 is not finite at t = 0.500000 s",
+       [](Still&, Snapshot& s) { s.position[3].y = not_a_number; }},
+      {"velocity of particle 5 is not finite at t = 0.500000 s",
+       [](Still&, Snapshot& s) { s.velocity[5].z = not_a_number; }},
       {"temperature of particle 7 is not finite at t = 0.500000 s",
        [](Still&, Snapshot& s) {
          s.temperature.assign(136, 1.0);
@@ -360,16 +388,20 @@ TEST(KnownFaults, AreNamedWithParticleAndTime) {
          s.pressure.assign(136, 1.0);
          s.pressure[1] = not_a_number;
        }},
-      {"velocity of `right` is not finite at t = 0.500000 s", [](Still&, Snapshot& s) { s.bodies[1].velocity.x = not_a_number; }},
-      {"position of `left` is not finite at t = 0.500000 s", [](Still&, Snapshot& s) { s.bodies[0].position.x = not_a_number; }},
+      {"velocity of `right` is not finite at t = 0.500000 s",
+       [](Still&, Snapshot& s) { s.bodies[1].velocity.x = not_a_number; }},
+      {"position of `left` is not finite at t = 0.500000 s",
+       [](Still&, Snapshot& s) { s.bodies[0].position.x = not_a_number; }},
       {"particle 9 is lost at t = 0.500000 s", [](Still&, Snapshot& s) { s.id[9] = -1; }},
       {"masses are missing at t = 0.500000 s", [](Still&, Snapshot& s) { s.mass.pop_back(); }},
       {"", [](Still&, Snapshot& s) { s.mass.clear(); }},
-      {"the mass of particle 2 has changed at t = 0.500000 s", [](Still&, Snapshot& s) { s.mass[2] *= 1.0 + 1.2e-12; }},
+      {"the mass of particle 2 has changed at t = 0.500000 s",
+       [](Still&, Snapshot& s) { s.mass[2] *= 1.0 + 1.2e-12; }},
       {"", [](Still&, Snapshot& s) { s.mass[2] *= 1.0 - 0.8e-12; }},
       {"body row 1 is 0.000110 m from the centre of its particles at t = 0.500000 s",
        [](Still&, Snapshot& s) { s.bodies[1].position.z += 1.1e-4; }},
-      {"contradicts itself: `right` moves otherwise than its velocity says from t = 0.250000 to 0.500000 s: by 0.00036 m/s, "
+      {"contradicts itself: `right` moves otherwise than its velocity says from t = 0.250000 to 0.500000 s: "
+       "by 0.00036 m/s, "
        "where "
        "4e-07 m/s may be",
        [](Still&, Snapshot& s) { s.bodies[1].position.z += 0.9e-4; }},
@@ -389,7 +421,8 @@ TEST(KnownFaults, AreNamedWithParticleAndTime) {
          s.bodies[1].velocity = {0, 0, 1.07};
        }},
       {"", [](Still& f, Snapshot&) { f.run.frames[0].position[4].x += 0.9e-7; }},
-      {"the first frame is not the job's start: particle 4 is elsewhere (other units, permuted ids or a shifted time?)",
+      {"the first frame is not the job's start: particle 4 is elsewhere (other units, permuted ids or a "
+       "shifted time?)",
        [](Still& f, Snapshot&) { f.run.frames[0].position[4].x += 1.1e-7; }}};
   for (const auto& [says, change] : faults) {
     Still f(test::blocks());
@@ -420,8 +453,8 @@ TEST(KnownFaults, WhatIsNotAliveHasNeitherMassNorMotion) {
   last.id[3] = -1;
   const double height = f.s.initial.position[3].z;
   for (const auto& [quantity, figure] :
-       {std::pair{"ledger.kinetic", 0.0}, std::pair{"ledger.potential", -10.0 * height}, std::pair{"mass", -1.0},
-        std::pair{"momentum", 0.0}, std::pair{"energy", -10.0 * height}})
+       {std::pair{"ledger.kinetic", 0.0}, std::pair{"ledger.potential", -10.0 * height},
+        std::pair{"mass", -1.0}, std::pair{"momentum", 0.0}, std::pair{"energy", -10.0 * height}})
     EXPECT_NEAR(value(f, metric(quantity, "final")).value, figure, 1e-12) << quantity;
 }
 

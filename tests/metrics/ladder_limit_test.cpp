@@ -21,7 +21,8 @@ bool agrees_with_truth(const LadderLimit& l) { return std::abs(l.value) <= 2.0 *
 
 TEST(LadderLimit, OfASchemeIsTheTruthWhateverItsOrder) {
   for (const auto law : {+[](double h) { return 60.0 * h; }, +[](double h) { return 400.0 * h * h; },
-                         +[](double h) { return 60.0 * h - 900.0 * h * h; }, +[](double h) { return 1.0 - std::exp(-90.0 * h); },
+                         +[](double h) { return 60.0 * h - 900.0 * h * h; },
+                         +[](double h) { return 1.0 - std::exp(-90.0 * h); },
                          +[](double h) { return 4e3 * std::pow(h, 4); }}) {
     const auto l = ladder_limit(halves, errors(law), {});
     EXPECT_TRUE(agrees_with_truth(l)) << l.value << " " << l.uncertainty;
@@ -35,15 +36,18 @@ TEST(LadderLimit, OfAWrongConstantIsWhatTheConstantLeaves) {
   EXPECT_NEAR(flat.value, 0.03762316, 1e-8);
   EXPECT_LT(flat.uncertainty, 1e-8);
   // The same beneath the error of a scheme of first order, which is sixteen times as large.
-  const auto hidden = ladder_limit(halves, errors([](double h) { return 0.0376 + 0.65 * (1.0 - std::exp(-50.0 * h)); }), {});
+  const auto hidden =
+      ladder_limit(halves, errors([](double h) { return 0.0376 + 0.65 * (1.0 - std::exp(-50.0 * h)); }), {});
   EXPECT_NEAR(hidden.value, 0.0376, 2.0 * hidden.uncertainty);
   EXPECT_LT(hidden.uncertainty, 0.005);
 }
 
 TEST(LadderLimit, SeesThroughAChangeOfSign) {
-  // g one per cent too small: the lag of semi-implicit Euler, 4.905 h, passes through the error of the constant, -0.04905.
+  // g one per cent too small: the lag of semi-implicit Euler, 4.905 h, passes through the error of the
+  // constant, -0.04905.
   const std::vector<double> steps{0.04, 0.02, 0.01, 0.005};
-  const auto l = ladder_limit(steps, errors([](double h) { return std::abs(4.856 * h - 0.04905); }, steps), {});
+  const auto l =
+      ladder_limit(steps, errors([](double h) { return std::abs(4.856 * h - 0.04905); }, steps), {});
   EXPECT_NEAR(std::abs(l.value), 0.04905, 1e-9);
   EXPECT_LT(l.uncertainty, 1e-9);
 }
@@ -52,7 +56,8 @@ TEST(LadderLimit, IsNoSurerThanTheErrorsAndTheirFit) {
   const auto scattered = ladder_limit(halves, {0.5, 0.31, 0.22, 0.05}, {});
   EXPECT_GT(2.0 * scattered.uncertainty, std::abs(scattered.value));
   const auto sure = ladder_limit(halves, errors([](double h) { return 60.0 * h; }), {});
-  const auto unsure = ladder_limit(halves, errors([](double h) { return 60.0 * h; }), {0.01, 0.01, 0.01, 0.01});
+  const auto unsure =
+      ladder_limit(halves, errors([](double h) { return 60.0 * h; }), {0.01, 0.01, 0.01, 0.01});
   EXPECT_LT(sure.uncertainty, 1e-12);
   EXPECT_GT(unsure.uncertainty, 0.01);
 }

@@ -33,7 +33,9 @@ struct Flow {
       run.frames.push_back(frame);
     }
   }
-  [[nodiscard]] double value(const MetricChoice& choice) const { return evaluate(choice, s.job, s.initial, run, *truth).value; }
+  [[nodiscard]] double value(const MetricChoice& choice) const {
+    return evaluate(choice, s.job, s.initial, run, *truth).value;
+  }
 };
 
 TEST(LiquidMetrics, ReadTwiceThePressureAsAFactor) {
@@ -73,8 +75,9 @@ TEST(LiquidMetrics, CountAParticleAtExactlyOneSpacingFromTheInterface) {
 
 TEST(LiquidMetrics, MeanOverTimeLosesASwingAndKeepsAnOffset) {
   Flow f(test::layers(5.0), "hydrostatic");
+  // Five frames: 3 x 40 - 2 x 60 = 0
   for (std::size_t n = 0; n < f.run.frames.size(); ++n)
-    for (double& p : f.run.frames[n].pressure) p += 5.0 + (n % 2 == 0 ? 40.0 : -60.0);  // five frames: 3 x 40 - 2 x 60 = 0
+    for (double& p : f.run.frames[n].pressure) p += 5.0 + (n % 2 == 0 ? 40.0 : -60.0);
   EXPECT_NEAR(f.value(metric("pressure", "L2mean")), 5.0, 1e-9);
   EXPECT_GT(f.value(metric("pressure", "rms")), 30.0);
 }
@@ -98,9 +101,9 @@ TEST(LiquidMetrics, FindTheFrequencyOfADampedWave) {
   const double w = 0.7 * 10 * 2 * pi;
   for (auto& frame : f.run.frames)
     for (std::size_t i = 0; i < frame.velocity.size(); ++i)
-      frame.velocity[i] = {
-          0.01 * std::cos(2 * pi * f.s.initial.position[i].x + 0.7) * std::exp(-3 * frame.time) * std::cos(w * frame.time + 0.2),
-          0, 0};
+      frame.velocity[i] = {0.01 * std::cos(2 * pi * f.s.initial.position[i].x + 0.7) *
+                               std::exp(-3 * frame.time) * std::cos(w * frame.time + 0.2),
+                           0, 0};
   EXPECT_NEAR(f.value(metric("frequency_squared", "final")), 0.49 - 1.0, 1e-9);
 }
 
@@ -124,11 +127,12 @@ TEST(LiquidMetrics, AnAccelerationThatChangesWithinItsWindowIsNoSurerForMoreFram
     Flow f(s, "added_mass");
     for (auto& frame : f.run.frames)
       frame.bodies[0].velocity = {0, 0, 4.0 * frame.time + 0.5 * per_second * frame.time * frame.time};
-    return evaluate(metric("acceleration", "final", "block"), f.s.job, f.s.initial, f.run, *f.truth).uncertainty.numerical;
+    return evaluate(metric("acceleration", "final", "block"), f.s.job, f.s.initial, f.run, *f.truth)
+        .uncertainty.numerical;
   };
   EXPECT_NEAR(uncertainty(20, 0.0), 0.0, 1e-9);
-  // A parabola 1/2 b t^2 is off its line by b/2 ((t - 1/2)^2 - 1/12): squares of b^2/720 on average, and two changes of sign, so
-  // that 4 - 2 are left over 1/12.
+  // A parabola 1/2 b t^2 is off its line by b/2 ((t - 1/2)^2 - 1/12): squares of b^2/720 on average, and two
+  // changes of sign, so that 4 - 2 are left over 1/12.
   EXPECT_NEAR(uncertainty(200, -3.0), 3.0 * std::sqrt(12.0 / 720.0 / 2.0), 0.02);
   EXPECT_NEAR(uncertainty(20, -3.0), uncertainty(200, -3.0), 0.05);
 }

@@ -14,8 +14,9 @@ using test::Trial;
 
 TEST(Metric, IsNothingForThePerfectRun) {
   const Trial flight(test::thrown_block(), "torque_free"), heat(test::warm_bar(), "cosine_mode");
-  for (const char* q : {"position", "velocity", "orientation", "angular_velocity", "body_count", "phase_count", "momentum",
-                        "angular_momentum", "energy", "mass", "force", "ledger.kinetic"})
+  for (const char* q :
+       {"position", "velocity", "orientation", "angular_velocity", "body_count", "phase_count", "momentum",
+        "angular_momentum", "energy", "mass", "force", "ledger.kinetic"})
     for (const char* norm : {"max", "rms", "final"})
       EXPECT_LT(std::abs(flight.value(metric(q, norm)).value), 1e-15) << q << ' ' << norm;
   for (const char* q : {"temperature", "temperature_profile"})
@@ -27,7 +28,8 @@ TEST(Metric, IsNothingForThePerfectRun) {
 
 TEST(Metric, EachNormIsExplainedByItsOwnWord) {
   ASSERT_EQ(metric_norms().size(), all_of<Norm>().size());
-  for (const Norm norm : all_of<Norm>()) EXPECT_EQ(metric_norms()[static_cast<std::size_t>(norm)].name, to_string(norm));
+  for (const Norm norm : all_of<Norm>())
+    EXPECT_EQ(metric_norms()[static_cast<std::size_t>(norm)].name, to_string(norm));
 }
 
 TEST(Metric, MeasuresAKnownShift) {
@@ -60,7 +62,8 @@ TEST(Metric, WeighsTemperaturesByVolume) {
   EXPECT_NEAR(t.value(metric("temperature", "L1")).value, 0.1, 1e-12);
   EXPECT_NEAR(t.value(metric("temperature", "L2")).value, 0.2 / std::sqrt(2.0), 1e-12);
   EXPECT_NEAR(t.value(metric("temperature", "Linf")).value, 0.2, 1e-12);
-  for (std::size_t i = 0; i < T.size(); i += 2) t.s.initial.mass[i] *= 3.0;  // the even ones count three times
+  // The even ones count three times
+  for (std::size_t i = 0; i < T.size(); i += 2) t.s.initial.mass[i] *= 3.0;
   EXPECT_NEAR(t.value(metric("temperature", "L1")).value, 0.15, 1e-12);
 }
 
@@ -137,7 +140,8 @@ TEST(Metric, ShowsATrendOverTime) {
   EXPECT_NEAR(t.value(metric("position", "slope")).value, 0.02, 1e-12);
 }
 
-// --- walkers ------------------------------------------------------------------------------------------------------------
+// --- walkers
+// ------------------------------------------------------------------------------------------------------------
 
 Trial noisy_bar(double bias, double sigma, unsigned seed, bool by_layers) {
   Trial t(test::warm_bar(), "cosine_mode");
@@ -193,7 +197,8 @@ TEST(Metric, GivesTheFirstParticleThatFlowsInNoVolumeOfTheStart) {
   auto s = test::thrown_block();
   const auto last = s.initial.size() - 1;
   s.initial.mass.push_back(7.0);
-  s.initial.mass.pop_back();  // what lies behind the last is memory that a careless look would take for a particle
+  // What lies behind the last is memory that a careless look would take for a particle
+  s.initial.mass.pop_back();
   s.initial.material.push_back(0);
   s.initial.material.pop_back();
   const auto choice = metric("position", "max");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ways in which a gate never fails (notes on validation, section 2), as far as metrics, audit and verdicts can have them.
+// The ways in which a gate never fails (notes on validation, section 2), as far as metrics, audit and
+// verdicts can have them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +15,9 @@ namespace {
 using test::metric;
 using test::Trial;
 
-bool passes(const MetricValue& v, double limit) { return judge_limit(v.value, v.uncertainty.combined(), limit) == Verdict::pass; }
+bool passes(const MetricValue& v, double limit) {
+  return judge_limit(v.value, v.uncertainty.combined(), limit) == Verdict::pass;
+}
 
 Trial flight() { return {test::thrown_block(), "torque_free"}; }
 Trial heat() { return {test::warm_bar(), "cosine_mode"}; }
@@ -117,7 +120,8 @@ TEST(GateThatNeverFails, AFrozenSceneKeepsEverythingButIsFound) {
   EXPECT_NE(h.sound().find("frozen"), std::string::npos);
   EXPECT_FALSE(passes(h.value(metric("decay_rate", "final")), 0.5));
   auto half = flight();  // stops in mid-run
-  for (std::size_t n = 6; n < half.run.frames.size(); ++n) half.run.frames[n].position = half.run.frames[5].position;
+  for (std::size_t n = 6; n < half.run.frames.size(); ++n)
+    half.run.frames[n].position = half.run.frames[5].position;
   EXPECT_NE(half.sound().find("frozen"), std::string::npos);
 }
 
@@ -187,7 +191,8 @@ TEST(GateThatNeverFails, AParticleThatIsLostIsFoundWhereverNoMetricLooksAtIt) {
 
 TEST(GateThatNeverFails, ABodysRowThatTellsOtherwiseThanItsParticlesIsFound) {
   auto t = flight();
-  t.run.frames.back().bodies[0].position.z += 0.1;  // a metric of the body alone would see this, and one of particles the other
+  // a metric of the body alone would see this, and one of particles the other
+  t.run.frames.back().bodies[0].position.z += 0.1;
   EXPECT_NE(t.sound().find("from the centre of its particles"), std::string::npos) << t.sound();
   // An engine that leaves these columns out hides nothing either.
   for (auto& f : t.run.frames) {

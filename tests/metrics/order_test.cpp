@@ -43,7 +43,8 @@ TEST(Order, CoversTheTrueOrderInNinetyFiveOfAHundredNoisyStudies) {
   int covered = 0;
   const int studies = 2000;
   for (int n = 0; n < studies; ++n) {
-    const auto fit = fit_order(h, errors(h, [&](double x) { return x * x * std::exp(noise(random)); }), {}, 2.0);
+    const auto fit =
+        fit_order(h, errors(h, [&](double x) { return x * x * std::exp(noise(random)); }), {}, 2.0);
     if (fit.fit_class == FitClass::plateau) continue;  // the few where noise looks like a floor
     covered += fit.low <= 2.0 && 2.0 <= fit.high ? 1 : 0;
   }
@@ -52,7 +53,8 @@ TEST(Order, CoversTheTrueOrderInNinetyFiveOfAHundredNoisyStudies) {
 
 TEST(Order, ReproducesTheIntervalOfTheKnownHeatStudy) {
   // 6.58e-2, 1.63e-2, 4.06e-3, 1.02e-3: order 2.006 +- 0.009 (validation notes; three digits of data).
-  const auto fit = fit_order({1.0 / 20, 1.0 / 40, 1.0 / 80, 1.0 / 160}, {6.58e-2, 1.63e-2, 4.06e-3, 1.02e-3}, {}, 2.0);
+  const auto fit =
+      fit_order({1.0 / 20, 1.0 / 40, 1.0 / 80, 1.0 / 160}, {6.58e-2, 1.63e-2, 4.06e-3, 1.02e-3}, {}, 2.0);
   EXPECT_NEAR(fit.value, 2.004, 0.003);
   EXPECT_NEAR(fit.high - fit.value, 0.009, 0.012);
   EXPECT_EQ(fit.fit_class, FitClass::asymptotic);
@@ -64,11 +66,14 @@ TEST(Order, NamesAPlateauAndItsLevel) {
   EXPECT_EQ(fit.fit_class, FitClass::plateau);
   EXPECT_NEAR(fit.floor, -0.0714, 1e-6);
   // The printed heat operator at 10/20/40/80 a wavelength, three digits.
-  EXPECT_EQ(fit_order({0.1, 0.05, 0.025, 0.0125}, {-0.108, -0.081, -0.074, -0.072}, {}, 2.0).fit_class, FitClass::plateau);
-  // Errors that grow to a floor, and errors that change sign on their way to one.
-  EXPECT_EQ(fit_order({1. / 20, 1. / 40, 1. / 80, 1. / 160}, {2.0e-2, 3.7e-2, 4.2e-2, 4.3e-2}, {}, 2.0).fit_class,
+  EXPECT_EQ(fit_order({0.1, 0.05, 0.025, 0.0125}, {-0.108, -0.081, -0.074, -0.072}, {}, 2.0).fit_class,
             FitClass::plateau);
-  EXPECT_EQ(fit_order({0.1, 0.05, 0.025, 0.0125}, {-0.046, 0.007, 0.021, 0.025}, {}, 2.0).fit_class, FitClass::plateau);
+  // Errors that grow to a floor, and errors that change sign on their way to one.
+  EXPECT_EQ(
+      fit_order({1. / 20, 1. / 40, 1. / 80, 1. / 160}, {2.0e-2, 3.7e-2, 4.2e-2, 4.3e-2}, {}, 2.0).fit_class,
+      FitClass::plateau);
+  EXPECT_EQ(fit_order({0.1, 0.05, 0.025, 0.0125}, {-0.046, 0.007, 0.021, 0.025}, {}, 2.0).fit_class,
+            FitClass::plateau);
 }
 
 TEST(Order, DoesNotHideDivergenceBehindAMagnitude) {
@@ -86,7 +91,8 @@ TEST(Order, TellsTooFewNoiseRoundoffAndOscillation) {
   const auto h3 = levels(0.1, 3), h4 = levels(0.1, 4);
   EXPECT_EQ(fit_order(h3, {4e-2, 1e-2, 2.5e-3}, {}, 2.0).fit_class, FitClass::too_few);
   EXPECT_EQ(fit_order({0.1}, {1.0}, {}, 2.0).fit_class, FitClass::too_few);
-  EXPECT_EQ(fit_order(h4, {4e-2, 1e-2, 2.5e-3, 6e-4}, {2e-3, 2e-3, 2e-3, 2e-3}, 2.0).fit_class, FitClass::noise_limited);
+  EXPECT_EQ(fit_order(h4, {4e-2, 1e-2, 2.5e-3, 6e-4}, {2e-3, 2e-3, 2e-3, 2e-3}, 2.0).fit_class,
+            FitClass::noise_limited);
   EXPECT_EQ(fit_order(h4, {1e-15, 3e-15, 2e-15, 0.0}, {}, 2.0).fit_class, FitClass::roundoff);
   EXPECT_EQ(fit_order(h4, {1e-2, -5e-3, 4e-3, -1e-3}, {}, 2.0).fit_class, FitClass::oscillating);
   EXPECT_EQ(fit_order(h4, {1e-2, 0.0, 4e-3, 1e-3}, {}, 2.0).fit_class, FitClass::oscillating);
@@ -95,7 +101,8 @@ TEST(Order, TellsTooFewNoiseRoundoffAndOscillation) {
 TEST(Order, DoesNotCallAnotherOrderAsymptotic) {
   const auto h = levels(0.1, 4);
   EXPECT_EQ(fit_order(h, errors(h, [](double x) { return x; }), {}, 2.0).fit_class, FitClass::preasymptotic);
-  EXPECT_EQ(fit_order(h, errors(h, [](double x) { return std::pow(x, 3); }), {}, 2.0).fit_class, FitClass::preasymptotic);
+  EXPECT_EQ(fit_order(h, errors(h, [](double x) { return std::pow(x, 3); }), {}, 2.0).fit_class,
+            FitClass::preasymptotic);
   EXPECT_EQ(fit_order(h, errors(h, [](double x) { return x * x + 400 * std::pow(x, 4); }), {}, 2.0).fit_class,
             FitClass::preasymptotic);
 }
@@ -114,7 +121,8 @@ TEST(GridConvergence, BoundsTheErrorOfASecondOrderSeries) {
   const auto h = levels(0.1, 4);
   const auto value = errors(h, [](double x) { return 5.0 + 2.0 * x * x; });
   const double error = value.back() - 5.0;
-  EXPECT_NEAR(grid_convergence_uncertainty(h, value, 2.0), 0.5 * 1.25 * error, 1e-3 * error);  // Fs = 1.25, k = 2
+  // Fs = 1.25, k = 2
+  EXPECT_NEAR(grid_convergence_uncertainty(h, value, 2.0), 0.5 * 1.25 * error, 1e-3 * error);
   const auto scattered = errors(h, [](double x) { return 5.0 + 2.0 * x * x + 0.05 * std::sin(1e4 * x); });
   EXPECT_GT(grid_convergence_uncertainty(h, scattered, 2.0), 0.01);
   EXPECT_NEAR(grid_convergence_uncertainty({0.1, 0.05}, {5.02, 5.005}, 2.0), 0.5 * 3.0 * 0.015 / 3.0, 1e-12);

@@ -17,11 +17,14 @@ TEST(PhaseMetrics, CountAndWeighTheStatedPhase) {
   auto& last = f.run.frames.back();
   for (std::size_t i = 0; i < 5; ++i) last.phase[i] = 0;
   last.phase[5] = 2;
-  const auto of = [](const char* phase, double value) { return Settings{{"phase", std::string(phase)}, {"value", value}}; };
+  const auto of = [](const char* phase, double value) {
+    return Settings{{"phase", std::string(phase)}, {"value", value}};
+  };
   EXPECT_EQ(f.stated(metric("phase_count", "final"), of("liquid", 8.0)), 5.0);
   EXPECT_EQ(f.stated(metric("phase_count", "final", "left"), of("elastic", 58.0)), 0.0);
   EXPECT_EQ(f.stated(metric("phase_count", "final"), of("solid", 123.0)), 0.0);
-  EXPECT_NEAR(f.stated(metric("mass_of_phase", "final", "left"), of("liquid", 4.0)), 1.0, 1e-12);  // 1 kg a particle
+  // 1 kg a particle
+  EXPECT_NEAR(f.stated(metric("mass_of_phase", "final", "left"), of("liquid", 4.0)), 1.0, 1e-12);
   last.id[0] = -1;
   EXPECT_NEAR(f.stated(metric("mass_of_phase", "final", "left"), of("liquid", 4.0)), 0.0, 1e-12);
   EXPECT_THROW((void)f.stated(metric("phase_count", "final"), of("gas", 0.0)), InputError);
@@ -29,7 +32,8 @@ TEST(PhaseMetrics, CountAndWeighTheStatedPhase) {
 
 TEST(PhaseMetrics, WeighWhatIsInABoxOrOutsideIt) {
   Still f(test::blocks());
-  const Settings box{{"min", std::vector<double>{0, 0, 0}}, {"max", std::vector<double>{0.4, 0.4, 0.2}}, {"value", 0.0}};
+  const Settings box{
+      {"min", std::vector<double>{0, 0, 0}}, {"max", std::vector<double>{0.4, 0.4, 0.2}}, {"value", 0.0}};
   EXPECT_NEAR(f.stated(metric("mass_in_region", "final"), box), 32.0, 1e-12);
   EXPECT_NEAR(f.stated(metric("mass_in_region", "final", "left"), box), 0.0, 1e-12);
   auto rest = box;
@@ -47,9 +51,12 @@ TEST(PhaseMetrics, LetABoxMoveAndTurnWithABody) {
   last.bodies[0].orientation = turn;
   for (std::size_t i = 0; i < last.position.size(); ++i)
     if (f.s.initial.source[i] == 0)
-      last.position[i] = last.bodies[0].position + rotate(turn, f.s.initial.position[i] - f.s.job.bodies[0].properties.centre);
-  Settings lower{
-      {"min", std::vector<double>{-0.4, 0, 0}}, {"max", std::vector<double>{0, 0.4, 0.2}}, {"value", 32.0}, {"follows", true}};
+      last.position[i] = last.bodies[0].position +
+                         rotate(turn, f.s.initial.position[i] - f.s.job.bodies[0].properties.centre);
+  Settings lower{{"min", std::vector<double>{-0.4, 0, 0}},
+                 {"max", std::vector<double>{0, 0.4, 0.2}},
+                 {"value", 32.0},
+                 {"follows", true}};
   EXPECT_NEAR(f.stated(metric("mass_in_region", "final", "left"), lower), 0.0, 1e-12);
   lower["follows"] = false;
   EXPECT_NEAR(f.stated(metric("mass_in_region", "final", "left"), lower), -32.0, 1e-12);
@@ -74,7 +81,8 @@ TEST(PhaseMetrics, FindTheFrontFinerThanAParticle) {
   }
   EXPECT_NEAR(f.of(metric("front_position", "max"), "stefan").value, 0.0, 1e-12);
   EXPECT_NEAR(f.of(metric("phase_count", "max"), "stefan").value, 0.0, 1e-12);
-  EXPECT_TRUE(std::isnan(f.of(metric("front_ratio", "max"), "stefan").value));  // nothing has melted at the start
+  // Nothing has melted at the start
+  EXPECT_TRUE(std::isnan(f.of(metric("front_ratio", "max"), "stefan").value));
   auto& last = f.run.frames.back().liquid_fraction;
   for (std::size_t i = 4 * 20; i < 4 * 22; ++i) last[i] += 0.25;  // two layers, a quarter each
   const double X = *truth->number_at("front_position", 20.0);

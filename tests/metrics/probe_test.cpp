@@ -17,7 +17,8 @@ namespace {
 using test::metric;
 using test::Still;
 
-/// Blocks whose scalars are linear in place: T = 300 + 20 x - 5 z, p = 100 y, rho = 1000 + x, v = (y, 2 z, 3 x).
+/// Blocks whose scalars are linear in place: T = 300 + 20 x - 5 z, p = 100 y, rho = 1000 + x, v = (y, 2 z, 3
+/// x).
 Still linear_fields() {
   Still f(test::blocks());
   for (auto& frame : f.run.frames)
@@ -40,14 +41,17 @@ Settings at(double x, double y, double z, double value, const std::string& axis 
 TEST(Probe, ReadsALinearFieldExactlyAlsoAtASurface) {
   const Still f = linear_fields();
   for (const Vec3& r : {Vec3{0.2, 0.2, 0.2}, Vec3{0.4, 0.17, 0.33}, Vec3{-0.4, 0.0, 0.0}}) {
-    EXPECT_NEAR(f.stated(metric("temperature_at", "final"), at(r.x, r.y, r.z, 300.0 + 20.0 * r.x - 5.0 * r.z)), 0.0, 1e-9);
+    EXPECT_NEAR(
+        f.stated(metric("temperature_at", "final"), at(r.x, r.y, r.z, 300.0 + 20.0 * r.x - 5.0 * r.z)), 0.0,
+        1e-9);
     EXPECT_NEAR(f.stated(metric("pressure_at", "final"), at(r.x, r.y, r.z, 0.0)), 100.0 * r.y, 1e-9);
     EXPECT_NEAR(f.stated(metric("density_at", "final"), at(r.x, r.y, r.z, 1000.0)), r.x, 1e-9);
     EXPECT_NEAR(f.stated(metric("velocity_at", "final"), at(r.x, r.y, r.z, 0.0, "z")), 3.0 * r.x, 1e-9);
   }
 }
 
-/// A scalar that is curved is read as its weighted mean where all lies symmetrically: w = (1 - q)^2 (1 + 2 q) to 2.5 spacings.
+/// A scalar that is curved is read as its weighted mean where all lies symmetrically: w = (1 - q)^2 (1 + 2 q)
+/// to 2.5 spacings.
 TEST(Probe, WeighsWhatItSeesByDistance) {
   Still f = linear_fields();
   const Vec3 middle{0.0, 0.2, 0.2};
@@ -76,21 +80,28 @@ TEST(Probe, TakesTheNamedBodyAndTheStatedPhaseOnly) {
   EXPECT_NEAR(f.stated(metric("temperature_at", "final", "right"), at(0.0, 0.2, 0.2, 1299.0)), 0.0, 1e-9);
   auto liquid = at(0.0, 0.2, 0.2, 299.0);
   liquid["phase"] = std::string("liquid");
-  EXPECT_NE(f.of(metric("temperature_at", "final"), "stated", liquid).note.find("no particle that the metric takes"),
+  EXPECT_NE(f.of(metric("temperature_at", "final"), "stated", liquid)
+                .note.find("no particle that the metric takes"),
             std::string::npos);
 }
 
 TEST(Probe, IsComparedWithAFormulaAtItsPlaceAndItsTime) {
   const Still f = linear_fields();
-  const Settings args{{"point", std::vector<double>{0.1, 0.2, 0.3}}, {"temperature", std::string("300 + 20*x - 5*z + 8*t")}};
+  const Settings args{{"point", std::vector<double>{0.1, 0.2, 0.3}},
+                      {"temperature", std::string("300 + 20*x - 5*z + 8*t")}};
   EXPECT_NEAR(f.of(metric("temperature_at", "final"), "expression", args).value, -8.0, 1e-9);
-  EXPECT_NEAR(f.of(metric("temperature", "L2"), "expression", {{"temperature", std::string("300 + 20*x - 5*z + 8*t")}}).value,
+  EXPECT_NEAR(f.of(metric("temperature", "L2"), "expression",
+                   {{"temperature", std::string("300 + 20*x - 5*z + 8*t")}})
+                  .value,
               8.0, 1e-9);
+  EXPECT_NEAR(f.of(metric("mean_temperature", "final", "left"), "expression",
+                   {{"temperature", std::string("290 + 20*x - 5*z")}})
+                  .value,
+              10.0, 1e-9);
   EXPECT_NEAR(
-      f.of(metric("mean_temperature", "final", "left"), "expression", {{"temperature", std::string("290 + 20*x - 5*z")}}).value,
-      10.0, 1e-9);
-  EXPECT_NEAR(f.of(metric("mean_temperature", "final", "left"), "expression", {{"value", std::string("290 + 2*t")}}).value,
-              300.0 - 4.0 - 1.0 - 292.0, 1e-9);
+      f.of(metric("mean_temperature", "final", "left"), "expression", {{"value", std::string("290 + 2*t")}})
+          .value,
+      300.0 - 4.0 - 1.0 - 292.0, 1e-9);
 }
 
 TEST(Probe, SaysWhatItNeeds) {
@@ -100,9 +111,11 @@ TEST(Probe, SaysWhatItNeeds) {
   };
   EXPECT_NE(note("temperature_at", {{"value", 300.0}}).find("needs the probe's place"), std::string::npos);
   EXPECT_NE(note("velocity_at", at(0.2, 0.2, 0.2, 0.0)).find("needs its axis"), std::string::npos);
-  EXPECT_NE(note("displacement", {{"value", 0.0}}).find("needs a place at the start and an axis"), std::string::npos);
+  EXPECT_NE(note("displacement", {{"value", 0.0}}).find("needs a place at the start and an axis"),
+            std::string::npos);
   EXPECT_NE(note("centre", {{"value", 0.0}}).find("needs an axis"), std::string::npos);
-  EXPECT_NE(note("temperature_at", {{"point", std::vector<double>{0.2, 0.2, 0.2}}}).find("states no value"), std::string::npos);
+  EXPECT_NE(note("temperature_at", {{"point", std::vector<double>{0.2, 0.2, 0.2}}}).find("states no value"),
+            std::string::npos);
   EXPECT_NE(Still(test::blocks())
                 .of(metric("temperature_at", "final"), "stated", at(0.2, 0.2, 0.2, 0.0))
                 .note.find("has no temperature"),
@@ -111,7 +124,8 @@ TEST(Probe, SaysWhatItNeeds) {
 
 TEST(Mean, IsOverTheStatedBoxByVolume) {
   const Still f = linear_fields();
-  const Settings box{{"min", std::vector<double>{0, 0, 0}}, {"max", std::vector<double>{0.2, 0.4, 0.4}}, {"value", 300.0}};
+  const Settings box{
+      {"min", std::vector<double>{0, 0, 0}}, {"max", std::vector<double>{0.2, 0.4, 0.4}}, {"value", 300.0}};
   EXPECT_NEAR(f.stated(metric("mean_temperature", "final"), box), 20.0 * 0.1 - 5.0 * 0.2, 1e-9);
   auto pressed = box;
   pressed["value"] = 0.0;
@@ -121,7 +135,8 @@ TEST(Mean, IsOverTheStatedBoxByVolume) {
   EXPECT_NEAR(f.stated(metric("mean_velocity", "final"), pressed), 0.4, 1e-9);
   pressed["outside"] = true;
   EXPECT_NEAR(f.stated(metric("mean_velocity", "final", "right"), pressed), 0.4, 1e-9);
-  const Settings nowhere{{"min", std::vector<double>{7, 7, 7}}, {"max", std::vector<double>{8, 8, 8}}, {"value", 0.0}};
+  const Settings nowhere{
+      {"min", std::vector<double>{7, 7, 7}}, {"max", std::vector<double>{8, 8, 8}}, {"value", 0.0}};
   EXPECT_NE(f.of(metric("mean_temperature", "final"), "stated", nowhere)
                 .note.find("no particle that the metric takes lies in the region"),
             std::string::npos);
@@ -130,13 +145,15 @@ TEST(Mean, IsOverTheStatedBoxByVolume) {
 TEST(Displacement, FollowsAPointOfMatter) {
   Still f(test::blocks());
   auto& last = f.run.frames.back();
-  for (std::size_t i = 0; i < last.position.size(); ++i) last.position[i] += Vec3{0.1 * f.s.initial.position[i].x, 0.0, 0.02};
+  for (std::size_t i = 0; i < last.position.size(); ++i)
+    last.position[i] += Vec3{0.1 * f.s.initial.position[i].x, 0.0, 0.02};
   EXPECT_NEAR(f.stated(metric("displacement", "final", "right"), at(0.4, 0.2, 0.2, 0.03, "x")), 0.01,
               1e-12);  // the end face, half a spacing beyond the particles
   EXPECT_NEAR(f.stated(metric("displacement", "final", "right"), at(0.4, 0.2, 0.2, 0.0, "z")), 0.02, 1e-12);
-  EXPECT_NEAR(
-      f.of(metric("centre", "final", "left"), "expression", {{"axis", std::string("x")}, {"value", std::string("-0.2*t")}}).value,
-      -0.02, 1e-12);
+  EXPECT_NEAR(f.of(metric("centre", "final", "left"), "expression",
+                   {{"axis", std::string("x")}, {"value", std::string("-0.2*t")}})
+                  .value,
+              -0.02, 1e-12);
 }
 
 TEST(Frequency, OfASeriesIsThatOfItsSine) {
@@ -176,16 +193,18 @@ TEST(Frequency, IsANormOfAnySingleNumber) {
   auto prepared = test::blocks();
   test::set_times(prepared, 2.0, 200);
   Still f(std::move(prepared));
-  for (auto& frame : f.run.frames) f.shift(frame, 1, {0.0, 0.0, 0.01 * std::sin(2.0 * test::pi * 3.0 * frame.time)});
+  for (auto& frame : f.run.frames)
+    f.shift(frame, 1, {0.0, 0.0, 0.01 * std::sin(2.0 * test::pi * 3.0 * frame.time)});
   const Settings args{{"axis", std::string("z")}, {"frequency", 2.5}};
   const auto v = f.of(metric("centre", "frequency", "right"), "stated", args);
   EXPECT_NEAR(v.value, 0.5, 1e-6) << v.note;
   EXPECT_LT(v.uncertainty.numerical, 1e-6);
   EXPECT_TRUE(std::isnan(f.of(metric("position", "frequency"), "stated", args).value));
-  EXPECT_NE(
-      f.of(metric("centre", "frequency", "right"), "stated", {{"axis", std::string("z")}}).note.find("needs the true one in Hz"),
-      std::string::npos);
-  EXPECT_NE(f.of(metric("position", "frequency"), "stated", args).note.find("single number"), std::string::npos);
+  EXPECT_NE(f.of(metric("centre", "frequency", "right"), "stated", {{"axis", std::string("z")}})
+                .note.find("needs the true one in Hz"),
+            std::string::npos);
+  EXPECT_NE(f.of(metric("position", "frequency"), "stated", args).note.find("single number"),
+            std::string::npos);
 }
 
 /// A bar that warms by 2 K a second beside a held block.
@@ -212,11 +231,14 @@ TEST(HeatPower, IsThatOfTheLedgerOfTheEngineOrOfTheOnlyHeldBody) {
   EXPECT_NE(power("left", 0.0).note.find("is not the only one that brings heat"), std::string::npos);
   for (auto& frame : f.run.frames) frame.heat_given["right"] = 7.0 * frame.time * frame.time;
   EXPECT_NEAR(power("right", 0.0).value, 7.0, 1e-12);
-  EXPECT_NEAR(f.of(metric("heat_power", "final", "right"), "expression", {{"value", std::string("14*t")}}).value, 0.0, 1e-9);
+  EXPECT_NEAR(
+      f.of(metric("heat_power", "final", "right"), "expression", {{"value", std::string("14*t")}}).value, 0.0,
+      1e-9);
   EXPECT_THROW((void)f.of(metric("heat_power", "final"), "stated", {{"value", 0.0}}), InputError);
 }
 
-/// Heat at both ends of a row and in its middle: of shares a, 1 - 2 a and a the mean square distance is 2 a d^2.
+/// Heat at both ends of a row and in its middle: of shares a, 1 - 2 a and a the mean square distance is 2 a
+/// d^2.
 TEST(Diffusivity, IsHalfOfWhatTheMeanSquareDistanceOfHeatGrowsASecond) {
   Still f(test::blocks());
   double low = 1e9, high = -1e9;
@@ -225,7 +247,8 @@ TEST(Diffusivity, IsHalfOfWhatTheMeanSquareDistanceOfHeatGrowsASecond) {
       low = std::min(low, f.s.initial.position[i].x);
       high = std::max(high, f.s.initial.position[i].x);
     }
-  const auto heat = [&](Snapshot& frame, double share) {  // of the two ends; the rest at the two layers beside the middle
+  // Of the two ends; the rest at the two layers beside the middle
+  const auto heat = [&](Snapshot& frame, double share) {
     frame.temperature.assign(frame.position.size(), 300.0);
     for (std::size_t i = 0; i < frame.position.size(); ++i) {
       const double off = std::abs(frame.position[i].x - 0.5 * (low + high));
@@ -238,7 +261,8 @@ TEST(Diffusivity, IsHalfOfWhatTheMeanSquareDistanceOfHeatGrowsASecond) {
   const double end = std::pow(0.5 * (high - low), 2), inner = std::pow((high - low) / 6.0, 2);  // four layers
   const double D = 0.5 * 0.25 * (end - inner) / (f.run.frames.back().time - f.run.frames.front().time);
   const auto value = [&](double truth, const std::string& axis = "x") {
-    return f.of(metric("diffusivity", "final", "left"), "stated", {{"axis", axis}, {"value", 300.0}, {"diffusivity", truth}});
+    return f.of(metric("diffusivity", "final", "left"), "stated",
+                {{"axis", axis}, {"value", 300.0}, {"diffusivity", truth}});
   };
   EXPECT_NEAR(value(D).value, 0.0, 1e-12);
   EXPECT_NEAR(value(D / 1.02).value, 0.02 * D / 1.02, 1e-12) << "2 % are seen";
@@ -246,8 +270,9 @@ TEST(Diffusivity, IsHalfOfWhatTheMeanSquareDistanceOfHeatGrowsASecond) {
   EXPECT_EQ(value(D).uncertainty.statistical, 0.0);
   for (auto& frame : f.run.frames) frame.temperature_error.assign(frame.temperature.size(), 0.01);
   EXPECT_GT(value(D).uncertainty.statistical, 0.0);
-  EXPECT_NE(f.of(metric("diffusivity", "final", "left"), "stated", {{"value", 300.0}}).note.find("needs its axis"),
-            std::string::npos);
+  EXPECT_NE(
+      f.of(metric("diffusivity", "final", "left"), "stated", {{"value", 300.0}}).note.find("needs its axis"),
+      std::string::npos);
 }
 
 TEST(Gauge, TheEnginesOwnNumberGoesBeforeItsParticles) {
@@ -277,8 +302,8 @@ TEST(Gauge, ItsStandardErrorIsAnUncertaintyOfTheValue) {
     frame.gauges[choice.name] = 300.0;
     frame.gauges[gauge_error_key(choice.name)] = 0.5;
   }
-  const double largest =
-      std::sqrt(2.0 * std::log(2.0));  // what the largest of two samples is off in the mean: the norm takes at least two
+  // What the largest of two samples is off in the mean: the norm takes at least two
+  const double largest = std::sqrt(2.0 * std::log(2.0));
   EXPECT_NEAR(f.of(choice, "stated", at(0.2, 0.2, 0.2, 300.0)).uncertainty.statistical, 0.5 * largest, 1e-12);
 }
 
@@ -294,10 +319,13 @@ TEST(Gauge, AnEngineWithoutParticlesIsJudgedByItsGaugesAlone) {
   EXPECT_EQ(audit(f.s.job, f.s.initial, f.run), "");
   EXPECT_NEAR(f.stated(choice, at(0.0, 0.2, 0.2, 0.04, "x")), 0.06, 1e-15);
   for (const char* quantity : {"position", "velocity", "momentum", "temperature"})
-    EXPECT_NE(f.of(metric(quantity, "final"), "stated", {}).note.find("shows no particles"), std::string::npos) << quantity;
+    EXPECT_NE(f.of(metric(quantity, "final"), "stated", {}).note.find("shows no particles"),
+              std::string::npos)
+        << quantity;
   auto other = choice;
   other.name = "another";
-  EXPECT_NE(f.of(other, "stated", at(0.0, 0.2, 0.2, 0.0, "x")).note.find("no gauge of this metric"), std::string::npos);
+  EXPECT_NE(f.of(other, "stated", at(0.0, 0.2, 0.2, 0.0, "x")).note.find("no gauge of this metric"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A metric measures what its name says: the liquid and not its tank, the frame that its norm needs, the number that a case
-// states.
+// A metric measures what its name says: the liquid and not its tank, the frame that its norm needs, the
+// number that a case states.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,22 +18,24 @@ namespace {
 using test::metric;
 using test::Still;
 
-/// A column of liquid, 0.4 m along x, in a tank whose end wall stands from 2 m to 2.3 m and whose fixed floor is liquid's
-/// material.
+/// A column of liquid, 0.4 m along x, in a tank whose end wall stands from 2 m to 2.3 m and whose fixed floor
+/// is liquid's material.
 Still column_in_a_tank() {
   test::Prepared s;
   s.job.scene.spacing = 0.1;
   test::add_matter(s, "column", Phase::liquid, {{4, 4, 4}, 0.1, {}, 1.0}, {}, 1000.0);
   test::add_matter(s, "wall", Phase::rigid, {{3, 4, 4}, 0.1, {2, 0, 0}, 1.0}, {}, 1000.0, 0.0, Motion::fixed);
-  test::add_matter(s, "held liquid", Phase::liquid, {{3, 4, 4}, 0.1, {4, 0, 0}, 1.0}, {}, 1000.0, 0.0, Motion::fixed);
+  test::add_matter(s, "held liquid", Phase::liquid, {{3, 4, 4}, 0.1, {4, 0, 0}, 1.0}, {}, 1000.0, 0.0,
+                   Motion::fixed);
   test::set_times(s, 1.0, 4);
   return Still(s);
 }
 
 TEST(RightMatter, OfAFrontIsTheLiquidWhereNoBodyIsNamed) {
   const Still f = column_in_a_tank();
-  const test::DataFile file(test::sealed(
-      "# source: none\n# unit time: 1 s\n# unit front: 1 m\n# uncertainty front: 1 %\ntime,front\n0,0.3\n0.5,0.35\n1,0.4\n"));
+  const test::DataFile file(
+      test::sealed("# source: none\n# unit time: 1 s\n# unit front: 1 m\n# uncertainty front: 1 "
+                   "%\ntime,front\n0,0.3\n0.5,0.35\n1,0.4\n"));
   const auto truth = make_reference(test::experiment(file), f.s.job, f.s.initial);
   const auto lead = [&](const char* body) {
     return evaluate(metric("front_lead", "final", body), f.s.job, f.s.initial, f.run, *truth);
@@ -46,15 +48,18 @@ TEST(RightMatter, OfAFrontIsTheLiquidWhereNoBodyIsNamed) {
 
 TEST(RightMatter, OfAHalfLengthIsTheLiquid) {
   const Still f = column_in_a_tank();
-  EXPECT_NEAR(f.stated(metric("half_length", "final"), {{"axis", std::string("x")}, {"value", 0.2}}), 0.0, 1e-12);
-  EXPECT_NEAR(f.stated(metric("half_length", "final", "wall"), {{"axis", std::string("x")}, {"value", 0.2}}), -0.05, 1e-12);
+  EXPECT_NEAR(f.stated(metric("half_length", "final"), {{"axis", std::string("x")}, {"value", 0.2}}), 0.0,
+              1e-12);
+  EXPECT_NEAR(f.stated(metric("half_length", "final", "wall"), {{"axis", std::string("x")}, {"value", 0.2}}),
+              -0.05, 1e-12);
 }
 
 TEST(RightMatter, OfAnOverlapIsNotThatOfTwoWalls) {
   test::Prepared s;
   s.job.scene.spacing = 0.1;
   test::add_matter(s, "floor", Phase::rigid, {{4, 4, 4}, 0.1, {}, 1.0}, {}, 1000.0, 0.0, Motion::fixed);
-  test::add_matter(s, "wall", Phase::rigid, {{4, 4, 4}, 0.1, {0.35, 0, 0}, 1.0}, {}, 1000.0, 0.0, Motion::fixed);
+  test::add_matter(s, "wall", Phase::rigid, {{4, 4, 4}, 0.1, {0.35, 0, 0}, 1.0}, {}, 1000.0, 0.0,
+                   Motion::fixed);
   test::set_times(s, 1.0, 4);
   Still f(s);
   EXPECT_NEAR(f.stated(metric("overlap", "max"), {{"value", 0.0}}), 0.0, 1e-12);
@@ -68,15 +73,18 @@ TEST(RightMatter, OfASumIsTheNamedBody) {
     for (auto& v : frame.velocity) v = {0, 0, 2};
   EXPECT_NEAR(f.stated(metric("mass", "final", "column"), {{"value", 64.0}}), 0.0, 1e-12);
   EXPECT_NEAR(f.stated(metric("momentum", "final", "column"), {{"value", 128.0}}), 0.0, 1e-12);
-  EXPECT_NEAR(f.stated(metric("momentum", "final", "column"), {{"axis", std::string("x")}, {"value", 1.0}}), -1.0, 1e-12);
+  EXPECT_NEAR(f.stated(metric("momentum", "final", "column"), {{"axis", std::string("x")}, {"value", 1.0}}),
+              -1.0, 1e-12);
   EXPECT_NEAR(f.stated(metric("energy", "final", "column"), {{"value", 100.0}}), 28.0, 1e-12);
   EXPECT_NEAR(f.stated(metric("ledger.kinetic", "final", "column"), {{"value", 100.0}}), 28.0, 1e-12);
   f.run.frames.back().energy["elastic"] = 1.0;
-  EXPECT_TRUE(std::isnan(f.stated(metric("ledger.elastic", "final", "column"), {{"value", 1.0}}))) << "it is of the whole scene";
+  EXPECT_TRUE(std::isnan(f.stated(metric("ledger.elastic", "final", "column"), {{"value", 1.0}})))
+      << "it is of the whole scene";
   EXPECT_NEAR(f.stated(metric("ledger.elastic", "final"), {{"value", 1.0}}), 0.0, 1e-12);
 }
 
-// --- frames that a norm needs ---------------------------------------------------------------------------------------------
+// --- frames that a norm needs
+// ---------------------------------------------------------------------------------------------
 
 TEST(RightFrames, OfAFinalValueAreTheLastAlone) {
   Still f(test::stefan_bar({}));
@@ -85,7 +93,8 @@ TEST(RightFrames, OfAFinalValueAreTheLastAlone) {
     frame.liquid_fraction = truth->at(frame.time).liquid_fraction;
     frame.phase = truth->at(frame.time).phase;
   }
-  EXPECT_NEAR(f.of(metric("front_ratio", "final"), "stefan").value, 0.0, 1e-9) << "nothing has melted at the start";
+  EXPECT_NEAR(f.of(metric("front_ratio", "final"), "stefan").value, 0.0, 1e-9)
+      << "nothing has melted at the start";
   f.run.frames.back().liquid_fraction.clear();
   f.run.frames.back().phase.clear();
   EXPECT_TRUE(std::isnan(f.of(metric("front_ratio", "final"), "stefan").value));
@@ -94,11 +103,13 @@ TEST(RightFrames, OfAFinalValueAreTheLastAlone) {
 TEST(RightFrames, OfAChangeSinceTheStartIsTheFirstAlsoBesideAStatedValue) {
   Still f(test::blocks());
   f.shift(f.run.frames[2], 0, {0.3, 0, 0});
-  EXPECT_NEAR(f.stated(metric("centre", "drift", "left"), {{"axis", std::string("x")}, {"value", 7.0}}), 0.3, 1e-12);
+  EXPECT_NEAR(f.stated(metric("centre", "drift", "left"), {{"axis", std::string("x")}, {"value", 7.0}}), 0.3,
+              1e-12);
   EXPECT_NEAR(f.stated(metric("separation", "drift", "left"), {{"other", std::string("right")}}), 0.3, 1e-12);
 }
 
-// --- events at the start --------------------------------------------------------------------------------------------------
+// --- events at the start
+// --------------------------------------------------------------------------------------------------
 
 /// A block that is heated above its melting point at 0 s, and is liquid from then on.
 Still melted_at_the_start() {
@@ -112,7 +123,8 @@ Still melted_at_the_start() {
 
 TEST(RightStart, OfAnEventAtZeroMayShowEitherPhase) {
   Still f = melted_at_the_start();
-  EXPECT_EQ(f.of(metric("phase_count", "max"), "hysteresis").value, 0.0) << "the first frame is before the event";
+  EXPECT_EQ(f.of(metric("phase_count", "max"), "hysteresis").value, 0.0)
+      << "the first frame is before the event";
   f.run.frames.front().phase.assign(f.s.initial.size(), 0);
   EXPECT_EQ(f.of(metric("phase_count", "max"), "hysteresis").value, 0.0) << "the first frame is after it";
   f.run.frames[1].phase[3] = 1;
@@ -129,7 +141,8 @@ TEST(RightStart, OfAMergeAtZeroIsAnEvent) {
   EXPECT_NEAR(f.stated(metric("event_time", "max"), {{"value", 0.25}}), 0.25, 1e-12);
 }
 
-// --- numbers that a case states -------------------------------------------------------------------------------------------
+// --- numbers that a case states
+// -------------------------------------------------------------------------------------------
 
 TEST(StatedNumbers, OfABodyAreASizeOrAComponent) {
   Still f(test::blocks());

@@ -15,12 +15,14 @@ using test::Still;
 /// Moves the last layer of the beam's particles down, as a bent beam would.
 void bend(Still& f, Snapshot& frame, double by) {
   for (std::size_t i = 0; i < f.s.initial.size(); ++i)
-    if (f.s.initial.source[i] == 0) frame.position[i].z -= by * std::pow(f.s.initial.position[i].x / 0.195, 2);
+    if (f.s.initial.source[i] == 0)
+      frame.position[i].z -= by * std::pow(f.s.initial.position[i].x / 0.195, 2);
 }
 
 TEST(SolidMetrics, ReadTheDeflectionOfTheLastLayer) {
   Still f(test::beam(2.0));
-  const double truth = *make_reference(test::function("cantilever"), f.s.job, f.s.initial)->number("deflection");
+  const double truth =
+      *make_reference(test::function("cantilever"), f.s.job, f.s.initial)->number("deflection");
   bend(f, f.run.frames.back(), truth + 1e-3);
   EXPECT_NEAR(f.of(metric("deflection", "final"), "cantilever").value, 1e-3, 1e-12);
   EXPECT_TRUE(std::isnan(f.stated(metric("deflection", "final", "beam"), {{"value", 0.0}})));
@@ -29,7 +31,8 @@ TEST(SolidMetrics, ReadTheDeflectionOfTheLastLayer) {
 TEST(SolidMetrics, ReadTheDeflectionOfARigidTip) {
   Still f(test::beam(2.0, true));
   const Settings args{{"tip", std::string("tip")}};
-  const double truth = *make_reference(test::function("cantilever", args), f.s.job, f.s.initial)->number("tip_deflection");
+  const double truth =
+      *make_reference(test::function("cantilever", args), f.s.job, f.s.initial)->number("tip_deflection");
   f.run.frames.back().bodies[2].position += Vec3{0.01, 0, -truth - 2e-3};
   EXPECT_NEAR(f.of(metric("deflection", "final", "tip"), "cantilever", args).value, 2e-3, 1e-12);
 }
@@ -39,16 +42,20 @@ TEST(SolidMetrics, FindOffsetAndFrequencyOfASwing) {
   const auto truth = make_reference(test::function("cantilever"), f.s.job, f.s.initial);
   const double w = 0.93 * *truth->number("frequency"), sag = 1.08 * *truth->number("deflection");
   for (auto& frame : f.run.frames) bend(f, frame, sag * (1 - std::cos(w * frame.time)));
-  EXPECT_NEAR(f.of(metric("frequency", "final"), "cantilever").value, -0.07, 1e-8);  // golden section: square root of round-off
+  // Golden section: square root of round-off
+  EXPECT_NEAR(f.of(metric("frequency", "final"), "cantilever").value, -0.07, 1e-8);
   EXPECT_NEAR(f.of(metric("sag", "final"), "cantilever").value, 0.08, 1e-8);
-  for (auto& frame : f.run.frames) bend(f, frame, 0.03 * sag * std::cos(6.2 * w * frame.time));  // a second mode
-  EXPECT_NEAR(f.of(metric("frequency", "final"), "cantilever").value, -0.07, 2e-3);  // 3 % of another mode over two periods
+  // a second mode
+  for (auto& frame : f.run.frames) bend(f, frame, 0.03 * sag * std::cos(6.2 * w * frame.time));
+  // 3 % of another mode over two periods
+  EXPECT_NEAR(f.of(metric("frequency", "final"), "cantilever").value, -0.07, 2e-3);
   EXPECT_NEAR(f.of(metric("sag", "final"), "cantilever").value, 0.08, 5e-3);
 }
 
 TEST(SolidMetrics, RefuseASwingFarFromTheTruth) {
   Still f(test::beam(2.0));
-  const double w = 5.0 * *make_reference(test::function("cantilever"), f.s.job, f.s.initial)->number("frequency");
+  const double w =
+      5.0 * *make_reference(test::function("cantilever"), f.s.job, f.s.initial)->number("frequency");
   for (auto& frame : f.run.frames) bend(f, frame, 1e-3 * std::exp(w * frame.time / 50));
   EXPECT_TRUE(std::isnan(f.of(metric("frequency", "final"), "cantilever").value));
 }
@@ -118,7 +125,8 @@ TEST(SolidMetrics, ReadModulusAndReactionAtBothEnds) {
   for (auto& frame : f.run.frames)
     for (auto& b : frame.bodies) b.force = 0.81 * b.force;
   EXPECT_NEAR(f.of(window(metric("modulus", "mean", "held")), "tension").value, -0.19, 1e-9);
-  EXPECT_TRUE(std::isnan(f.of(metric("modulus", "mean", "held"), "tension").value));  // the first frame has no stretch
+  // The first frame has no stretch
+  EXPECT_TRUE(std::isnan(f.of(metric("modulus", "mean", "held"), "tension").value));
 }
 
 TEST(SolidMetrics, FindTheResidualStretchOfACycle) {
@@ -142,10 +150,12 @@ TEST(SolidMetrics, FindTheFrequencyOfAShearWave) {
   start.wave_vector = {10 * pi, 0, 0};
   test::set_times(s, 0.05, 100);
   Still f(s);
-  const double w = 0.9 * *make_reference(test::function("elastic_wave"), s.job, s.initial)->number("frequency");
+  const double w =
+      0.9 * *make_reference(test::function("elastic_wave"), s.job, s.initial)->number("frequency");
   for (auto& frame : f.run.frames)
     for (std::size_t i = 0; i < f.s.initial.size(); ++i)
-      frame.velocity[i] = {0.5, 0, 0.01 * std::cos(10 * pi * f.s.initial.position[i].x) * std::cos(w * frame.time)};
+      frame.velocity[i] = {0.5, 0,
+                           0.01 * std::cos(10 * pi * f.s.initial.position[i].x) * std::cos(w * frame.time)};
   EXPECT_NEAR(f.of(metric("frequency_squared", "final", "beam"), "elastic_wave").value, 0.81 - 1.0, 1e-9);
 }
 

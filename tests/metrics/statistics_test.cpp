@@ -10,7 +10,8 @@
 namespace tripoint {
 namespace {
 
-/// x[n+1] = a x[n] + noise about `mean`: the variance of the mean of n samples is (1 + a)/(1 - a) that of white noise.
+/// x[n+1] = a x[n] + noise about `mean`: the variance of the mean of n samples is (1 + a)/(1 - a) that of
+/// white noise.
 std::vector<double> correlated(std::size_t n, double a, double mean, unsigned seed) {
   std::mt19937_64 engine(seed);
   std::normal_distribution<double> noise(0.0, std::sqrt(1.0 - a * a));

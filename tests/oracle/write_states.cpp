@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// States of a scene as the solver has them, for oracle.py to compute again: the particles that it starts with, then all columns,
-/// bonds, own pairs and the ledger before the first step and around a later one, as one JSON document.
+/// States of a scene as the solver has them, for oracle.py to compute again: the particles that it starts
+/// with, then all columns, bonds, own pairs and the ledger before the first step and around a later one, as
+/// one JSON document.
 ///   write-states CASE.toml MODE STEPS [KEY=VALUE...]
 ///   write-states --terms    the name of every pair term that is compiled, one a line
 #include <nlohmann/json.hpp>
@@ -70,7 +71,8 @@ Json columns_of(const Columns& bodies) {
 
 Json step_numbers_of(const World& world) {
   Json numbers = Json::object();
-  for (const StepNumber& one : world.step_numbers.declared()) numbers[std::string(one.name)] = world.step_numbers[one];
+  for (const StepNumber& one : world.step_numbers.declared())
+    numbers[std::string(one.name)] = world.step_numbers[one];
   return numbers;
 }
 
@@ -115,7 +117,8 @@ int main(int argc, char** argv) {
       return s.steps() < steps;
     });
     if (s.steps() < steps) throw InputError("the scene ends before " + std::to_string(steps) + " steps");
-    std::cout << Json{{"scene", scene_to_json(scene, std::vector<JobBody>(scene.bodies.size()))}, {"states", states}};
+    std::cout << Json{{"scene", scene_to_json(scene, std::vector<JobBody>(scene.bodies.size()))},
+                      {"states", states}};
   } catch (const std::exception& e) {
     return std::cerr << "write-states: " << e.what() << '\n', 2;
   }

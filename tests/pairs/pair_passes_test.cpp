@@ -46,11 +46,11 @@ std::string names_of(const Wanted& terms) {
   return names;
 }
 
-constexpr PairTerm viscosities[] = {pair_term<ViscosityPaper>, pair_term<ViscosityCentral>, pair_term<ViscosityLaplacian>,
-                                    pair_term<ViscosityCentralWeighted>};
+constexpr PairTerm viscosities[] = {pair_term<ViscosityPaper>, pair_term<ViscosityCentral>,
+                                    pair_term<ViscosityLaplacian>, pair_term<ViscosityCentralWeighted>};
 
-const std::vector<Wanted> densities =
-    each_with_each({{}, {pair_term<DensityPaper>}, {pair_term<NumberDensity>}}, {{}, {pair_term<HeatMoment>}});
+const std::vector<Wanted> densities = each_with_each(
+    {{}, {pair_term<DensityPaper>}, {pair_term<NumberDensity>}}, {{}, {pair_term<HeatMoment>}});
 
 std::vector<Wanted> rates() {
   std::vector<Wanted> flows{{}};
@@ -86,8 +86,10 @@ TEST(PairPasses, SumTheTermsThatAreWantedAndNoOthers) {
     EXPECT_EQ(p.rates(some).terms.size(), some.size()) << names_of(some);
     EXPECT_EQ(p.density(some).run, nullptr) << names_of(some);
   }
-  EXPECT_EQ(p.rates(Wanted{pair_term<PressurePaper>}).terms.size(), 1U) << "where another effect brings the viscosity";
-  EXPECT_EQ(p.rates(Wanted{pair_term<ViscosityPaper>}).terms.size(), 0U) << "which is compiled together with a pressure alone";
+  EXPECT_EQ(p.rates(Wanted{pair_term<PressurePaper>}).terms.size(), 1U)
+      << "where another effect brings the viscosity";
+  EXPECT_EQ(p.rates(Wanted{pair_term<ViscosityPaper>}).terms.size(), 0U)
+      << "which is compiled together with a pressure alone";
   const auto names_term = [](const Field<double>* f) { return f->name == field::number_density.name; };
   EXPECT_TRUE(std::ranges::any_of(p.density(Wanted{pair_term<NumberDensity>}).adds(), names_term));
 }
@@ -112,8 +114,8 @@ TEST(PairPasses, AreATableOfEachFormOfEachEffectWithThoseOfTheOthers) {
   };
   using All = PassesOf<1, Mine, FirstEffect, Nothing, SecondEffect, void>;
   using Names = std::vector<std::string>;
-  EXPECT_EQ(names_in(All::density), (Names{"", " HeatMoment", " DensityPaper", " DensityPaper HeatMoment", " NumberDensity",
-                                           " NumberDensity HeatMoment"}));
+  EXPECT_EQ(names_in(All::density), (Names{"", " HeatMoment", " DensityPaper", " DensityPaper HeatMoment",
+                                           " NumberDensity", " NumberDensity HeatMoment"}));
   EXPECT_EQ(names_in(All::rates), (Names{"", " HeatFlowPaper"}));
   EXPECT_EQ(names_in(All::alone), (Names{" TransportForces"}));
   EXPECT_EQ(All::timed.run, nullptr);
@@ -152,7 +154,8 @@ TEST(PairPasses, FuseTheTermOfOneMoreEffectWithThoseOfTheOthers) {
   Particles p(100, fields);
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  for (std::size_t i = 0; i < p.size(); ++i) positions(p).set(i, {uniform(random), uniform(random), uniform(random)});
+  for (std::size_t i = 0; i < p.size(); ++i)
+    positions(p).set(i, {uniform(random), uniform(random), uniform(random)});
   for (double& m : p[field::mass]) m = 1.0 + uniform(random);
   constexpr double support = 0.4;
   Neighbours neighbours(support, 0.05, {}, 1, 1);
@@ -172,19 +175,22 @@ TEST(PairPasses, FuseTheTermOfOneMoreEffectWithThoseOfTheOthers) {
   }
 }
 
-/// A periodic cloud of liquid, walls, bodies and deformable solids with every column that a pass names, at random.
+/// A periodic cloud of liquid, walls, bodies and deformable solids with every column that a pass names, at
+/// random.
 Particles mixture(const std::set<std::string_view>& names, const std::vector<FieldInfo>& fields) {
   Particles p(500, fields);
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  for (std::size_t i = 0; i < p.size(); ++i) positions(p).set(i, {0.6 * uniform(random), 0.5 * uniform(random), uniform(random)});
+  for (std::size_t i = 0; i < p.size(); ++i)
+    positions(p).set(i, {0.6 * uniform(random), 0.5 * uniform(random), uniform(random)});
   p.for_each([&](const FieldInfo& info, auto values) {
     if constexpr (std::is_same_v<typename decltype(values)::value_type, double>) {
       if (!names.count(info.name)) return;
       for (double& v : values) {
-        v = info.name == field::group.name                                     ? std::floor(5.0 * uniform(random)) - 2.0
-            : info.name == field::solid.name || info.name == field::stick.name ? std::floor(2.0 * uniform(random))
-                                                                               : 0.5 + uniform(random);
+        v = info.name == field::group.name ? std::floor(5.0 * uniform(random)) - 2.0
+            : info.name == field::solid.name || info.name == field::stick.name
+                ? std::floor(2.0 * uniform(random))
+                : 0.5 + uniform(random);
       }
     }
   });
@@ -223,7 +229,8 @@ TEST(PairPasses, OfEveryCombinationHaveTheBitsOfTheScalarOracleAtEveryWidth) {
   std::vector<FieldInfo> fields = common_fields(true);
   for (const auto& [name, pass] : all_passes(1))
     for (const Field<double>* f : pass.fields)
-      if (names.insert(f->name).second && std::ranges::find(fields, FieldInfo(*f)) == fields.end()) fields.emplace_back(*f);
+      if (names.insert(f->name).second && std::ranges::find(fields, FieldInfo(*f)) == fields.end())
+        fields.emplace_back(*f);
   const Particles p = mixture(names, fields);
   const auto oracles = all_passes(1);
   for (const int lanes : widths) {
@@ -233,7 +240,8 @@ TEST(PairPasses, OfEveryCombinationHaveTheBitsOfTheScalarOracleAtEveryWidth) {
       if (!passes[k].second.run) continue;
       const Sums oracle = run(oracles[k].second, p, 1);
       EXPECT_TRUE(std::ranges::any_of(oracle.values, [](double v) { return v != 0.0; }));
-      EXPECT_TRUE(run(passes[k].second, p, lanes) == oracle) << passes[k].first << " at " << lanes << " lanes";
+      EXPECT_TRUE(run(passes[k].second, p, lanes) == oracle)
+          << passes[k].first << " at " << lanes << " lanes";
     }
   }
 }

@@ -39,7 +39,8 @@ enum class Of { none, first, second, both };
 template <int L>
 PassFunction function_of(Of of) {
   constexpr PassFunction table[] = {pass_of<L, Any, false>(Terms<>{}), pass_of<L, Any, false>(Terms<First>{}),
-                                    pass_of<L, Any, false>(Terms<Second>{}), pass_of<L, Any, false>(Terms<First, Second>{})};
+                                    pass_of<L, Any, false>(Terms<Second>{}),
+                                    pass_of<L, Any, false>(Terms<First, Second>{})};
   return table[static_cast<std::size_t>(of)];
 }
 
@@ -123,7 +124,8 @@ TEST_F(PassTest, ForSomeRowsLeavesTheOthersAsTheyWere) {
     neighbours.update(particles, 0.0);
     clear();
     const std::vector<std::uint32_t> rows{3, 4, 17, 250, 599};
-    run_pass_over(of(lanes, Of::both), particles, neighbours, kernels, 2, clusters_of(neighbours.clusters(), rows));
+    run_pass_over(of(lanes, Of::both), particles, neighbours, kernels, 2,
+                  clusters_of(neighbours.clusters(), rows));
     const auto some = sums();
     for (std::uint32_t i = 0; i < 600; ++i)
       EXPECT_EQ(some[i], std::ranges::count(rows, i) ? all[i] : 0.0) << lanes << " lanes, row " << i;
@@ -143,11 +145,13 @@ TEST_F(PassTest, IsTheSumOverAllPairsTriedOneByOne) {
     for (std::size_t j = 0; j < particles.size(); ++j) {
       const double r = norm(x.at(j) - x.at(i));
       if (j == i || r >= 0.25) continue;
-      heat += (particles[field::mass][j] - particles[field::mass][i]) * kernels.wendland.derivative_over_r(r) +
-              (particles[field::temperature][j] - particles[field::temperature][i]) * r;
+      heat +=
+          (particles[field::mass][j] - particles[field::mass][i]) * kernels.wendland.derivative_over_r(r) +
+          (particles[field::temperature][j] - particles[field::temperature][i]) * r;
       density += kernels.poly6.value(r);
     }
-    EXPECT_NEAR(fused[i], heat, 1e-9 * (1.0 + std::abs(heat)));  // another order of summation, sums of 40 terms of either sign
+    // Another order of summation, sums of 40 terms of either sign
+    EXPECT_NEAR(fused[i], heat, 1e-9 * (1.0 + std::abs(heat)));
     EXPECT_NEAR(fused[particles.size() + i], density, 1e-12 * density);
   }
 }

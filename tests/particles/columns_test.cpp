@@ -39,7 +39,8 @@ TEST(Columns, StartAtAVectorAndAreReadableOneVectorBeyondTheEnd) {
   for (const auto* f : {&field::mass, &field::temperature, &field::position_z}) {
     const auto column = particles[*f];
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(column.data()) % vector_bytes, 0u);
-    for (std::size_t n = column.size(); n < column.size() + vector_bytes / sizeof(double); ++n) EXPECT_EQ(column.data()[n], 0.0);
+    for (std::size_t n = column.size(); n < column.size() + vector_bytes / sizeof(double); ++n)
+      EXPECT_EQ(column.data()[n], 0.0);
   }
 }
 

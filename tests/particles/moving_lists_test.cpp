@@ -22,8 +22,9 @@ struct Chain {
   }
   /// What a process has that holds these particles. @param owned of the first of them
   [[nodiscard]] Share share(std::size_t owned, const std::vector<int>& number) const {
-    return {owned, number,
-            [this, number](std::size_t id) { return std::span<const double>(numbers[static_cast<std::size_t>(number[id])]); }};
+    return {owned, number, [this, number](std::size_t id) {
+              return std::span<const double>(numbers[static_cast<std::size_t>(number[id])]);
+            }};
   }
   Bonds bonds;
   OwnPairs own;
@@ -72,7 +73,9 @@ TEST(MovingLists, RefuseByNumberAPartnerThatIsNotThere) {
     take_lists(chain.share(2, {1, 2, 3}), bonds, own);
     FAIL() << "1 has a bond with 0, which is not there";
   } catch (const InputError& e) {
-    EXPECT_NE(std::string(e.what()).find("particle 1 of the scene has a bond with particle 0"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("particle 1 of the scene has a bond with particle 0"),
+              std::string::npos)
+        << e.what();
   }
 }
 

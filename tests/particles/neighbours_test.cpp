@@ -86,8 +86,8 @@ TEST_P(Widths, CountEveryPeriodicImageOnce) {
   n.update(p, 0.0);
   EXPECT_EQ(listed(p, n, 0.26), brute(p, 0.26, box));
 }
-// Wide; six, two and a half, two and just one support radius wide: one particle then sees another through several images, and
-// itself.
+// Wide; six, two and a half, two and just one support radius wide: one particle then sees another through
+// several images, and itself.
 INSTANTIATE_TEST_SUITE_P(Neighbours, Widths, testing::Values(1.6, 0.65, 0.52, 0.3, 0.2601));
 
 TEST(Neighbours, RefuseAPeriodicDirectionNarrowerThanTheSupport) {
@@ -143,7 +143,8 @@ TEST(Neighbours, OfARowAreTheSameInTheSameOrderWhateverTheWidthOfTheClusters) {
     Neighbours n(0.2, 0.02, box, 2, lanes);
     n.update(p, 0.0);
     EXPECT_EQ(n.entries(), oracle.entries());
-    for (std::size_t i = 0; i < p.size(); ++i) ASSERT_EQ(entries_of(n, i), entries_of(oracle, i)) << lanes << " lanes, row " << i;
+    for (std::size_t i = 0; i < p.size(); ++i)
+      ASSERT_EQ(entries_of(n, i), entries_of(oracle, i)) << lanes << " lanes, row " << i;
   }
 }
 
@@ -204,7 +205,8 @@ TEST(Neighbours, ThatAreMadeWhereSomebodyAsksAreTheSame) {
   const auto id = p[field::id];
   for (std::size_t row = 0; row < p.size(); row += 3)
     for (const Entry e : all.of(row))
-      if (e.row() % 2 == 0) make_own(own, static_cast<std::uint32_t>(id[row]), static_cast<std::uint32_t>(id[e.row()]), 1.0);
+      if (e.row() % 2 == 0)
+        make_own(own, static_cast<std::uint32_t>(id[row]), static_cast<std::uint32_t>(id[e.row()]), 1.0);
   Particles same = p;
   Neighbours asked = all.anew(box);
   asked.list_when_asked();
@@ -220,7 +222,8 @@ TEST(Neighbours, ThatAreMadeWhereSomebodyAsksAreTheSame) {
       EXPECT_EQ(entries_of(asked, row), entries_of(all, row));
     }
   }
-  EXPECT_TRUE(std::ranges::any_of(entries_of(asked, 0), [](std::uint32_t bits) { return Entry{bits}.own(); }));
+  EXPECT_TRUE(
+      std::ranges::any_of(entries_of(asked, 0), [](std::uint32_t bits) { return Entry{bits}.own(); }));
 }
 
 TEST(Neighbours, OfAParticleFarAwayDoNotAskForAMountainOfCells) {
@@ -246,7 +249,8 @@ TEST(Neighbours, OfAParticleThatIsNowhereNameIt) {
 }
 
 TEST(Neighbours, OfManyAreVisitedStripByStrip) {
-  constexpr double support = 0.05, skin = 0.005, wide = 4.0 * (support + skin);  // of a strip: 6 cells of 1/1.5 of the reach
+  // Of a strip: 6 cells of 1/1.5 of the reach
+  constexpr double support = 0.05, skin = 0.005, wide = 4.0 * (support + skin);
   Particles few = cloud(9'000, {1.0, 1.0, 1.0}, false), many = cloud(12'000, {1.0, 1.0, 1.0}, false);
   Neighbours n(support, skin, {}, 1);
   n.update(few, 0.0);
@@ -300,9 +304,10 @@ TEST(Neighbours, WhatSleepsChangesNoListNoCountAndNoOrder) {
       for (Particles* p : {&some, &all})
         for (std::size_t i = 0; i < p->size(); ++i)
           if ((*p)[field::body][i] < 0) {
-            const bool leaves =
-                (*p)[field::id][i] + 1 == static_cast<int>(p->size());  // to the side and up: there are more cells
-            positions(*p).x[i] += round < 5 ? 0.9 : -1.4;               // far at once: what slept wakes, and what woke sleeps
+            // To the side and up: there are more cells
+            const bool leaves = (*p)[field::id][i] + 1 == static_cast<int>(p->size());
+            // Far at once: what slept wakes, and what woke sleeps
+            positions(*p).x[i] += round < 5 ? 0.9 : -1.4;
             if (leaves && round > 2) {
               positions(*p).y[i] += 0.4;
               positions(*p).z[i] += 0.4;
@@ -318,15 +323,18 @@ TEST(Neighbours, WhatSleepsChangesNoListNoCountAndNoOrder) {
       for (std::size_t n = 0; n < order.size(); ++n) ASSERT_EQ(some[field::id][order[n]], all[field::id][n]);
       const Clusters& c = sleepy.clusters();
       std::vector<char> has_list(some.awake(), 0);
-      for (const std::uint32_t k : c.listed) std::fill(has_list.begin() + c.first[k], has_list.begin() + c.first[k + 1], char{1});
+      for (const std::uint32_t k : c.listed)
+        std::fill(has_list.begin() + c.first[k], has_list.begin() + c.first[k + 1], char{1});
       for (std::size_t n = 0; n < order.size(); ++n) {
         const std::size_t row = order[n];
         const std::vector<int> ids = listed_ids(all, whole, n);
-        const bool meets_mover =
-            std::ranges::any_of(ids, [&](int id) { return all[field::body][all.row(static_cast<std::size_t>(id))] < 0; });
+        const bool meets_mover = std::ranges::any_of(
+            ids, [&](int id) { return all[field::body][all.row(static_cast<std::size_t>(id))] < 0; });
         const bool listed = row < some.awake() && has_list[row] != 0;
-        EXPECT_TRUE(listed || (all[field::body][n] >= 0 && !meets_mover)) << "round " << round << ", id " << all[field::id][n];
-        EXPECT_TRUE(!listed || listed_ids(some, sleepy, row) == ids) << "round " << round << ", id " << all[field::id][n];
+        EXPECT_TRUE(listed || (all[field::body][n] >= 0 && !meets_mover))
+            << "round " << round << ", id " << all[field::id][n];
+        EXPECT_TRUE(!listed || listed_ids(some, sleepy, row) == ids)
+            << "round " << round << ", id " << all[field::id][n];
       }
     }
     EXPECT_LT(some.awake(), some.size() / 3);
@@ -388,7 +396,8 @@ TEST(Neighbours, BlocksOfRowsAreThoseOfAllRows) {
   }
 }
 
-/// A part with other ids has in the list of each particle of its own what the whole has there, in the same order.
+/// A part with other ids has in the list of each particle of its own what the whole has there, in the same
+/// order.
 TEST(Neighbours, OfAPartHaveTheOrderOfTheWhole) {
   constexpr double support = 0.15, skin = 0.02, border = 0.37;
   Particles whole = cloud(600, {1.0, 0.7, 0.4}, false);
@@ -407,7 +416,8 @@ TEST(Neighbours, OfAPartHaveTheOrderOfTheWhole) {
   known.own = number.size();
   number.insert(number.end(), copies.begin(), copies.end());
   Particles part(number.size(), common_fields(false));
-  for (std::size_t id = 0; id < number.size(); ++id) positions(part).set(id, whole.position(whole.row(number[id])));
+  for (std::size_t id = 0; id < number.size(); ++id)
+    positions(part).set(id, whole.position(whole.row(number[id])));
   known.numbers.assign(number.begin(), number.end());
   Neighbours some(support, skin, {}, 1, 4);
   some.drop_lists(known);
@@ -415,9 +425,11 @@ TEST(Neighbours, OfAPartHaveTheOrderOfTheWhole) {
   std::size_t pairs = 0;
   for (std::size_t id = 0; id < number.size(); ++id) {
     std::vector<std::size_t> here, there;
-    for (const Entry e : some.of(part.row(id))) here.push_back(number[static_cast<std::size_t>(part[field::id][e.row()])]);
+    for (const Entry e : some.of(part.row(id)))
+      here.push_back(number[static_cast<std::size_t>(part[field::id][e.row()])]);
     if (id < known.own)
-      for (const Entry e : all.of(whole.row(number[id]))) there.push_back(static_cast<std::size_t>(whole[field::id][e.row()]));
+      for (const Entry e : all.of(whole.row(number[id])))
+        there.push_back(static_cast<std::size_t>(whole[field::id][e.row()]));
     EXPECT_EQ(here, there) << "of particle " << number[id];  // a copy has no list
     EXPECT_EQ(part.row(id) < known.own, id < known.own);
     pairs += here.size();

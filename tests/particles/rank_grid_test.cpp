@@ -23,8 +23,8 @@ struct Boxes {
   [[nodiscard]] ToShareOut what() const { return {places, idle, 1.0, 2.5, {}, {}, {}}; }
 };
 
-/// The box is longest along the run. A cut across it would go through the column, or leave one rank nearly all walls; one across
-/// the height halves the work of pairs and not the rows.
+/// The box is longest along the run. A cut across it would go through the column, or leave one rank nearly
+/// all walls; one across the height halves the work of pairs and not the rows.
 TEST(RankGrid, ADamIsCutAlongItsRun) {
   Boxes dam;
   dam.add({0, 0, -3}, {64, 24, 0}, true);
@@ -42,8 +42,8 @@ TEST(RankGrid, TheSmallestFaceIsCutWhereAllCostAsMuch) {
   EXPECT_EQ(rank_grid(8, cube.what()), (std::array<int, 3>{2, 2, 2}));
 }
 
-/// A line that leaves a block by its corner: halves along two directions would each be even, and one of the quarters would have
-/// the line.
+/// A line that leaves a block by its corner: halves along two directions would each be even, and one of the
+/// quarters would have the line.
 TEST(RankGrid, WhatIsEvenInEachDirectionNeedNotBeEven) {
   Boxes block;
   block.add({0, 0, 0}, {16, 8, 8}, false);

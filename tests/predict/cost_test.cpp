@@ -18,12 +18,14 @@ Machine machine() {
   return m;
 }
 
-OneRank run(double particles, double pairs, double seconds, double bytes = 0.0) { return {particles, pairs, seconds, bytes}; }
+OneRank run(double particles, double pairs, double seconds, double bytes = 0.0) {
+  return {particles, pairs, seconds, bytes};
+}
 
 TEST(Cost, ThreeRunsGiveThreeTerms) {
   const auto cost = [](double n, double p) { return 1e-5 + 2e-7 * n + 3e-9 * p; };
-  const WorkCost w = fit_work(
-      {run(1000, 50000, cost(1000, 50000)), run(8000, 450000, cost(8000, 450000)), run(8000, 900000, cost(8000, 900000))});
+  const WorkCost w = fit_work({run(1000, 50000, cost(1000, 50000)), run(8000, 450000, cost(8000, 450000)),
+                               run(8000, 900000, cost(8000, 900000))});
   EXPECT_NEAR(w.fixed, 1e-5, 1e-11);
   EXPECT_NEAR(w.particle, 2e-7, 1e-13);
   EXPECT_NEAR(w.pair, 3e-9, 1e-15);
@@ -37,7 +39,8 @@ TEST(Cost, OneRunIsAllPairs) {
   EXPECT_NEAR(w.pair, 2e-8, 1e-18);
 }
 
-/// Twice the ranks have half the particles each: what cannot be told apart from these must not be held for fixed.
+/// Twice the ranks have half the particles each: what cannot be told apart from these must not be held for
+/// fixed.
 TEST(Cost, RunsOfOneNumberOfParticlesHaveNothingFixed) {
   const WorkCost w = fit_work({run(8000, 400000, 8e-3), run(8000, 800000, 12e-3)});
   EXPECT_EQ(w.fixed, 0.0);
@@ -68,7 +71,8 @@ TEST(Cost, RunsWithoutTimeAreRefused) {
 }
 
 TEST(Cost, MemoryOfOneRankIsWhatItTook) {
-  const Memory m = fit_memory({run(1e3, 1, 1, 40e6 + 1e3 * 1000.0), run(1e5, 1, 1, 40e6 + 1e5 * 1000.0)}, 300.0);
+  const Memory m =
+      fit_memory({run(1e3, 1, 1, 40e6 + 1e3 * 1000.0), run(1e5, 1, 1, 40e6 + 1e5 * 1000.0)}, 300.0);
   EXPECT_NEAR(m.base, 40e6, 1.0);
   EXPECT_EQ(m.scene, 300.0);
   EXPECT_NEAR(m.particle, 700.0, 1e-6);
@@ -111,7 +115,8 @@ TEST(Cost, RanksAndCoresChangeTheirOwnPart) {
   Machine fast = machine();
   fast.core_speed = 2.0;
   fast.waiting = 0.0;
-  const Prediction p = predict(s, {500000, 0, 25e6, 25e6}, {0.0, 1e-7, 1e-9, 0.0}, {}, {6, 10, 8, 0, 34}, fast);
+  const Prediction p =
+      predict(s, {500000, 0, 25e6, 25e6}, {0.0, 1e-7, 1e-9, 0.0}, {}, {6, 10, 8, 0, 34}, fast);
   EXPECT_NEAR(p.collectives, 8 * 10 * 3e-6, 1e-15);
   EXPECT_NEAR(p.work, 45e-6, 1e-15);
   EXPECT_EQ(p.waiting, 0.0);

@@ -14,7 +14,8 @@ namespace {
 struct File {
   std::string path =
       (std::filesystem::temp_directory_path() /
-       ("tripoint-machine-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".toml"))
+       ("tripoint-machine-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) +
+        ".toml"))
           .string();
   explicit File(const std::string& text) { std::ofstream(path) << text; }
   ~File() { std::remove(path.c_str()); }
@@ -33,10 +34,10 @@ TEST(Machine, AFileSaysWhatDiffersFromTheUsual) {
 }
 
 TEST(Machine, AMistakeIsNamedWithItsPlace) {
-  for (const auto& [text, word] :
-       std::vector<std::pair<std::string, std::string>>{{"cores_a_node = 64\nlatency = 2e-6\n", "bandwidth"},
-                                                        {"cores_a_node = 64\nlatencyy = 2e-6\nbandwidth = 1e9\n", "did you mean"},
-                                                        {"cores_a_node = 64\nlatency = -1\nbandwidth = 1e9\n", "above 0"}}) {
+  for (const auto& [text, word] : std::vector<std::pair<std::string, std::string>>{
+           {"cores_a_node = 64\nlatency = 2e-6\n", "bandwidth"},
+           {"cores_a_node = 64\nlatencyy = 2e-6\nbandwidth = 1e9\n", "did you mean"},
+           {"cores_a_node = 64\nlatency = -1\nbandwidth = 1e9\n", "above 0"}}) {
     const File f(text);
     try {
       static_cast<void>(read_machine(f.path));
@@ -62,7 +63,8 @@ TEST(Machine, AProbeGivesLatencyAndBandwidth) {
 TEST(Machine, AProbeOfABusyMachineStillHasARate) {
   std::string busy = probed;
   busy.replace(busy.find("1e-6"), 4, "9e-3");
-  const Machine m = machine_of_probe(busy.insert(busy.find("{\"bytes\": 8"), R"({"bytes": 65536, "seconds": 1e-4}, )"), 8);
+  const Machine m =
+      machine_of_probe(busy.insert(busy.find("{\"bytes\": 8"), R"({"bytes": 65536, "seconds": 1e-4}, )"), 8);
   EXPECT_EQ(m.latency, 1e-4);
   EXPECT_NEAR(m.bandwidth, 1048576 / 4.25288e-4, 1.0);
 }

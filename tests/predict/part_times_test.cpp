@@ -24,7 +24,8 @@ TEST(PartTimes, OfTwoRanksAreTheShortestOfTheFirst) {
   EXPECT_EQ(best.cpu(), 4 + 4.25);
 }
 
-/// Each run has one slow core, and another one: the shortest of whole parts is never fast, each core by itself is.
+/// Each run has one slow core, and another one: the shortest of whole parts is never fast, each core by
+/// itself is.
 TEST(PartTimes, UndisturbedIsEachRankAtItsBest) {
   BestTimes best;
   best.add({step(2, 2.1, 2, 2.1), step(4, 0.1, 4, 0.1)});

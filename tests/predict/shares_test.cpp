@@ -25,7 +25,8 @@ Cloud lattice(int nx, int ny, int nz, bool periodic) {
 }
 
 double total(const Shares& s, double Share::*what) {
-  return std::accumulate(s.ranks.begin(), s.ranks.end(), 0.0, [&](double sum, const Share& r) { return sum + r.*what; });
+  return std::accumulate(s.ranks.begin(), s.ranks.end(), 0.0,
+                         [&](double sum, const Share& r) { return sum + r.*what; });
 }
 
 TEST(Shares, OneRankHoldsAllAndNoCopies) {
@@ -42,8 +43,8 @@ TEST(Shares, AFreeBlockHasFewerPairsAtItsFaces) {
   EXPECT_EQ(s.ranks[0].pairs, 2.0 * (5 * 5 * 4 + 6 * 4 * 4 + 6 * 5 * 3));  // edges of the lattice, both ways
 }
 
-/// A slab of a periodic bar sees two layers on each side within 2.5, the cut lying half a cell from the next layer: 0.5, 1.5
-/// and 2.5.
+/// A slab of a periodic bar sees two layers on each side within 2.5, the cut lying half a cell from the next
+/// layer: 0.5, 1.5 and 2.5.
 TEST(Shares, ASlabHasTheLayersWithinReachOnBothSides) {
   Cloud bar = lattice(20, 4, 4, true);
   bar.reach = 2.4;  // 0.5 and 1.5 beyond the cut
@@ -89,7 +90,8 @@ TEST(Shares, ByVolumeTheShellIsThatOfTheFormula) {
     const double n = particles / 27.0, expected = std::pow(std::cbrt(n) + 2.0 * c.reach, 3) - n;
     for (const Share& r : s.ranks) {
       EXPECT_NEAR(r.own / n, 1.0, 1e-9);
-      EXPECT_NEAR(r.copies / expected, 1.0, 1e-6) << particles;  // round-off of shells that are a thousandth of the whole
+      // round-off of shells that are a thousandth of the whole
+      EXPECT_NEAR(r.copies / expected, 1.0, 1e-6) << particles;
     }
   }
 }
@@ -100,7 +102,8 @@ TEST(Shares, ByVolumeNothingIsLostHoweverManyRanks) {
     EXPECT_NEAR(total(share_volume(c, ranks, 1e7), &Share::own) / 1e7, 1.0, 1e-9) << ranks;
 }
 
-/// Of a hundred million particles a part is many layers thick, whatever the number of layers that were sampled.
+/// Of a hundred million particles a part is many layers thick, whatever the number of layers that were
+/// sampled.
 TEST(Shares, ByVolumeCutsAreNotHeldBetweenSampledLayers) {
   for (const int layers : {10, 40, 100}) {
     const Shares s = share_volume(lattice(layers, 6, 6, false), 32, 1e8);
@@ -116,7 +119,8 @@ TEST(Shares, PairsByVolumeAreThoseThatAreCounted) {
   const Shares counted = share_out(c, 8), scaled = share_volume(c, 8, 24.0 * 24.0 * 24.0);
   EXPECT_NEAR(scaled.ranks[0].pairs / counted.ranks[0].pairs, 1.0, 1e-6);
   EXPECT_NEAR(scaled.ranks[0].worked / counted.ranks[0].worked, 1.0, 1e-6);
-  EXPECT_NEAR(share_volume(c, 1, 1e9).ranks[0].pairs / share_out(c, 1).ranks[0].pairs, 1e9 / (24.0 * 24.0 * 24.0), 1e-3);
+  EXPECT_NEAR(share_volume(c, 1, 1e9).ranks[0].pairs / share_out(c, 1).ranks[0].pairs,
+              1e9 / (24.0 * 24.0 * 24.0), 1e-3);
 }
 
 /// A column in one half of a wide tank: equal parts would give one rank nearly all.
@@ -126,15 +130,18 @@ TEST(Shares, CutsMoveToWhereTheParticlesAre) {
   const Shares s = share_out(c, 4);
   const double mean = total(s, &Share::own) / 4.0;
   EXPECT_EQ(total(s, &Share::own), static_cast<double>(c.position.size()));
-  for (const Share& r : s.ranks) EXPECT_NEAR(r.own / mean, 1.0, 0.2);  // two layers of 64 of 268 cannot be cut finer
+  // Two layers of 64 of 268 cannot be cut finer
+  for (const Share& r : s.ranks) EXPECT_NEAR(r.own / mean, 1.0, 0.2);
 }
 
-/// Two layers of fixed particles under ten that move: pairs among the fixed ones have no work, and a rank has more of these.
+/// Two layers of fixed particles under ten that move: pairs among the fixed ones have no work, and a rank has
+/// more of these.
 TEST(Shares, WhatIsIdleCostsLittle) {
   Cloud c = lattice(4, 4, 12, false);
   for (const Vec3& r : c.position) c.idle.push_back(r.z < 2.0);
   const Share whole = share_out(c, 1).ranks[0];
-  EXPECT_EQ(whole.pairs - whole.worked, 2.0 * (2 * 24 + 16));  // edges within the two layers, and between them
+  // Edges within the two layers, and between them
+  EXPECT_EQ(whole.pairs - whole.worked, 2.0 * (2 * 24 + 16));
   EXPECT_EQ(share_volume(c, 1, 192.0).ranks[0].worked, whole.worked);
   const Shares two = share_out(c, 2);
   EXPECT_EQ(two.grid, (std::array<int, 3>{1, 1, 2}));

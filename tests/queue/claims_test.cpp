@@ -85,7 +85,8 @@ TEST(Claims, GoBackWhenTheyAreReleased) {
 TEST(Claims, OfAnotherMachineAreLostAfterAMinuteWithoutASign) {
   const auto queue = queue_of(1);
   const SuiteFolder folder(queue);
-  std::ofstream(folder / "workers/far.1.1.0.json") << R"({"host": "far", "machine": "another", "pid": 1, "started": "1"})";
+  std::ofstream(folder / "workers/far.1.1.0.json")
+      << R"({"host": "far", "machine": "another", "pid": 1, "started": "1"})";
   fs::rename(folder / ("todo/" + queue.jobs[0].id), folder / ("running/" + queue.jobs[0].id + ".far.1.1.0"));
   EXPECT_EQ(look(folder.dir(), queue).jobs[0].stand, Stand::running);
   const auto age_by = [&](double seconds) {

@@ -22,10 +22,13 @@ Job job_of(const std::string& id) {
 }
 
 /// Seconds of stepping: what a thousand particles cost more than none.
-double stepping(const Job& job) { return predicted_cost(job, "tripoint", 1000) - predicted_cost(job, "tripoint", 0); }
+double stepping(const Job& job) {
+  return predicted_cost(job, "tripoint", 1000) - predicted_cost(job, "tripoint", 0);
+}
 
 TEST(PredictedCost, OfWhatStandsAndConductsIsByItsHeat) {
-  Job job = job_of("hard/latent-100");  // the wax of its library has a Young's modulus, and nothing of it bends
+  // The wax of its library has a Young's modulus, and nothing of it bends
+  Job job = job_of("hard/latent-100");
   ASSERT_TRUE(calls_for(job.scene, "heat"));
   ASSERT_FALSE(calls_for(job.scene, "elastic"));
   job.scene.end_time = 1e6;

@@ -22,21 +22,27 @@ EmitOptions options() {
 
 TEST(Scripts, NameTheShardsThatAreLeft) {
   EXPECT_NE(script_for("slurm", test::queue_of(3), options()).find("--array=1-3,5,8-9\n"), std::string::npos);
-  EXPECT_NE(script_for("hyperqueue", test::queue_of(3), options()).find("--array 1-3,5,8-9 "), std::string::npos);
-  EXPECT_NE(script_for("parallel", test::queue_of(3), options()).find("::: 1 2 3 5 8 9\n"), std::string::npos);
-  EXPECT_NE(script_for("snakemake", test::queue_of(3), options()).find("k=[1, 2, 3, 5, 8, 9]"), std::string::npos);
-  EXPECT_NE(script_for("github", test::queue_of(3), options()).find("k: [1, 2, 3, 5, 8, 9]"), std::string::npos);
+  EXPECT_NE(script_for("hyperqueue", test::queue_of(3), options()).find("--array 1-3,5,8-9 "),
+            std::string::npos);
+  EXPECT_NE(script_for("parallel", test::queue_of(3), options()).find("::: 1 2 3 5 8 9\n"),
+            std::string::npos);
+  EXPECT_NE(script_for("snakemake", test::queue_of(3), options()).find("k=[1, 2, 3, 5, 8, 9]"),
+            std::string::npos);
+  EXPECT_NE(script_for("github", test::queue_of(3), options()).find("k: [1, 2, 3, 5, 8, 9]"),
+            std::string::npos);
 }
 
 TEST(Scripts, AllotFourTimesWhatIsPredicted) {
-  EXPECT_NE(script_for("slurm", test::queue_of(3), options()).find("#SBATCH --time=67\n"), std::string::npos);  // 4000 s
+  // 4000 s
+  EXPECT_NE(script_for("slurm", test::queue_of(3), options()).find("#SBATCH --time=67\n"), std::string::npos);
   auto o = options();
   o.longest = 3.0;
   EXPECT_NE(script_for("slurm", test::queue_of(3), o).find("#SBATCH --time=15\n"), std::string::npos);
 }
 
 TEST(Scripts, QuoteAFolderWhateverItIsCalled) {
-  EXPECT_NE(script_for("parallel", test::queue_of(3), options()).find(R"(DIR='it'\''s here')"), std::string::npos);
+  EXPECT_NE(script_for("parallel", test::queue_of(3), options()).find(R"(DIR='it'\''s here')"),
+            std::string::npos);
 }
 
 TEST(Scripts, AreWrittenForNamedSchedulersOnly) {

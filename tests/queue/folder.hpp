@@ -23,13 +23,15 @@ inline Queue queue_of(int jobs) {
   return queue;
 }
 
-/// A folder of a suite that is gone after the test. The first `done` jobs are done, each in 3 s; the others wait.
+/// A folder of a suite that is gone after the test. The first `done` jobs are done, each in 3 s; the others
+/// wait.
 class SuiteFolder {
  public:
   explicit SuiteFolder(const Queue& queue, int done = 0)
-      : path_(std::filesystem::temp_directory_path() / fmt::format("tripoint-queue-{}-{}", ::getpid(), count_++)) {
-    for (const char* name :
-         {state::todo, state::running, state::done, state::failed, state::lost, state::doubled, state::workers})
+      : path_(std::filesystem::temp_directory_path() /
+              fmt::format("tripoint-queue-{}-{}", ::getpid(), count_++)) {
+    for (const char* name : {state::todo, state::running, state::done, state::failed, state::lost,
+                             state::doubled, state::workers})
       std::filesystem::create_directories(path_ / name);
     std::ofstream(path_ / "suite.json") << queue_text(queue);
     for (const auto& j : queue.jobs) {

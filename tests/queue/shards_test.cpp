@@ -35,10 +35,12 @@ TEST(Shards, OfCostsThatGrowDifferByNoMoreThanOneJob) {
   for (int n = 1; n <= 100; ++n) costs.push_back(n);
   const auto jobs = jobs_of_costs(costs);
   const auto shards = balanced_shards(jobs, 4);
-  for (const auto& rows : shards) EXPECT_NEAR(cost_of(jobs, rows), 5050.0 / 4.0, 2.0);  // the least jobs are 1 to 4
+  // The least jobs are 1 to 4
+  for (const auto& rows : shards) EXPECT_NEAR(cost_of(jobs, rows), 5050.0 / 4.0, 2.0);
 }
 
-TEST(Shards, AreTheExampleOfGraham) {  // 2m + 1 jobs on m = 3: the longest shard is 4/3 - 1/(3m) = 11/9 of the best
+// 2m + 1 jobs on m = 3: the longest shard is 4/3 - 1/(3m) = 11/9 of the best
+TEST(Shards, AreTheExampleOfGraham) {
   const auto jobs = jobs_of_costs({5, 5, 4, 4, 3, 3, 3});
   double longest = 0.0;
   for (const auto& rows : balanced_shards(jobs, 3)) longest = std::max(longest, cost_of(jobs, rows));

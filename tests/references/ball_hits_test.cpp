@@ -12,8 +12,10 @@ namespace {
 
 using test::Prepared;
 
-/// Adds a ball whose particles fill its enclosing cube: its moment is m (2 R)^2/6 (1 - 1/n^2), as the job says.
-void add_ball(Prepared& s, const std::string& name, const Vec3& centre, double mass, const test::Spin& motion) {
+/// Adds a ball whose particles fill its enclosing cube: its moment is m (2 R)^2/6 (1 - 1/n^2), as the job
+/// says.
+void add_ball(Prepared& s, const std::string& name, const Vec3& centre, double mass,
+              const test::Spin& motion) {
   test::add_body(s, name, {{4, 4, 4}, 0.05, centre - Vec3{0.1, 0.1, 0.1}, mass}, motion);
   Shape& shape = s.job.scene.bodies.back().shape;
   shape = {};
@@ -83,7 +85,8 @@ TEST(BallHits, SlideByFrictionAtAFlatAngleAndRollAtASteepOne) {
   EXPECT_NEAR(a.velocity.x, -e * std::cos(flat), 1e-14);
   EXPECT_NEAR(a.velocity.y / std::sin(flat), 1.0 - mu * (1.0 + e) / std::tan(flat), 1e-14);
   EXPECT_NEAR(norm(a.angular_velocity), 0.1 * mu * (1.0 + e) * std::cos(flat) / moment, 1e-13);
-  EXPECT_NEAR(b.velocity.y / std::sin(steep), 1.0 / (1.0 + moment / 0.01), 1e-14) << "it rolls: 5/7 of a solid ball";
+  EXPECT_NEAR(b.velocity.y / std::sin(steep), 1.0 / (1.0 + moment / 0.01), 1e-14)
+      << "it rolls: 5/7 of a solid ball";
   EXPECT_NEAR(norm(b.angular_velocity) * 0.1, b.velocity.y, 1e-14);
 }
 
@@ -99,11 +102,17 @@ TEST(BallHits, RefuseWhatTheirLawsDoNotHold) {
     return std::string();
   };
   EXPECT_EQ(refused([](Prepared&) {}), "");
-  EXPECT_NE(refused([](Prepared& s) { s.job.scene.gravity = {0, 0, -9.81}; }).find("without gravity"), std::string::npos);
-  EXPECT_NE(refused([](Prepared& s) { s.job.scene.bodies[0].shape.kind = Shape::Kind::box; }).find("neither"), std::string::npos);
-  EXPECT_NE(refused([](Prepared& s) { s.job.settings["restitution"] = 1.5; }).find("from 0 to 1"), std::string::npos);
-  EXPECT_NE(refused([](Prepared& s) { s.job.bodies[0].properties.principal_inertia[2] *= 1.1; }).find("differ"),
+  EXPECT_NE(refused([](Prepared& s) {
+              s.job.scene.gravity = {0, 0, -9.81};
+            }).find("without gravity"),
             std::string::npos);
+  EXPECT_NE(refused([](Prepared& s) { s.job.scene.bodies[0].shape.kind = Shape::Kind::box; }).find("neither"),
+            std::string::npos);
+  EXPECT_NE(refused([](Prepared& s) { s.job.settings["restitution"] = 1.5; }).find("from 0 to 1"),
+            std::string::npos);
+  EXPECT_NE(
+      refused([](Prepared& s) { s.job.bodies[0].properties.principal_inertia[2] *= 1.1; }).find("differ"),
+      std::string::npos);
 }
 
 }  // namespace

@@ -14,13 +14,15 @@ using test::pi;
 
 constexpr LiquidColumn unit{1.0, 2.0, 1.0};
 
-/// Pressure in the first instant, over density gravity width: Laplace's equation with no pressure on the free sides, as a series.
+/// Pressure in the first instant, over density gravity width: Laplace's equation with no pressure on the free
+/// sides, as a series.
 double first_pressure(double x, double y) {
   double p = 0.0;
   for (int n = 0; n < 400; ++n) {
     const double k = (n + 0.5) * pi, sign = n % 2 == 0 ? 1.0 : -1.0;
     // sinh(k (h - y))/cosh(k h), written so that nothing overflows
-    p += sign * 2.0 / (k * k) * std::cos(k * x) * (std::exp(-k * y) - std::exp(-k * (2.0 * unit.height - y))) /
+    p += sign * 2.0 / (k * k) * std::cos(k * x) *
+         (std::exp(-k * y) - std::exp(-k * (2.0 * unit.height - y))) /
          (1.0 + std::exp(-2.0 * k * unit.height));
   }
   return p;
@@ -34,7 +36,8 @@ TEST(Collapse, BeginsWithThePressureOfLaplacesEquation) {
     double greatest = 0.0;
     for (int i = 0; i < mesh.cells()[0]; ++i)
       for (int j = 0; j < mesh.cells()[1]; ++j)
-        greatest = std::max(greatest, std::abs(mesh.pressure(i, j) - first_pressure((i + 0.5) / cells, (j + 0.5) / cells)));
+        greatest = std::max(
+            greatest, std::abs(mesh.pressure(i, j) - first_pressure((i + 0.5) / cells, (j + 0.5) / cells)));
     EXPECT_LT(greatest, 0.12 / cells);  // first order at the corner where the free side meets the floor
     if (coarse > 0.0) {
       EXPECT_LT(greatest, 0.7 * coarse);
@@ -51,7 +54,8 @@ TEST(Collapse, ItsTopFallsAsLaplacesEquationSays) {
   }
   CollapseMesh mesh(unit, 20);
   while (mesh.time() < 0.05) mesh.step();
-  EXPECT_NEAR((unit.height - mesh.top()) / (0.5 * mesh.time() * (mesh.time() + mesh.step_size())), gravity_left, 0.002);
+  EXPECT_NEAR((unit.height - mesh.top()) / (0.5 * mesh.time() * (mesh.time() + mesh.step_size())),
+              gravity_left, 0.002);
 }
 
 TEST(Collapse, KeepsEnergyAndEveryArea) {
@@ -67,7 +71,8 @@ TEST(Collapse, ItsTipComesToTheSpeedOfShallowWater) {
   while (mesh.time() < 4.5) mesh.step();
   const double place = mesh.front(), time = mesh.time();
   while (mesh.time() < 6.0) mesh.step();
-  EXPECT_NEAR((mesh.front() - place) / (mesh.time() - time), 2.0 * std::sqrt(unit.height), 0.02 * 2.0 * std::sqrt(unit.height));
+  EXPECT_NEAR((mesh.front() - place) / (mesh.time() - time), 2.0 * std::sqrt(unit.height),
+              0.02 * 2.0 * std::sqrt(unit.height));
 }
 
 TEST(Collapse, ItsFrontHasAllButConvergedAndTheDampingDoesNotMoveIt) {
@@ -109,7 +114,9 @@ TEST(Collapse, KnowsThePressureAtAPlaceOfTheFirstInstantAndAsTheMeshIsRefined) {
   EXPECT_LT(p.pressure[0], p.pressure[1]) << "what falls freely at first is held up by the floor later";
 }
 
-TEST(Collapse, SaysWhereTheMeshDoesNotLast) { EXPECT_THROW((void)collapse_fronts(unit, 20, {20.0}), InputError); }
+TEST(Collapse, SaysWhereTheMeshDoesNotLast) {
+  EXPECT_THROW((void)collapse_fronts(unit, 20, {20.0}), InputError);
+}
 
 }  // namespace
 }  // namespace tripoint

@@ -12,7 +12,8 @@ using test::DataFile;
 using test::sealed;
 
 const std::string head =
-    "# Free text: nobody reads this: not even here\n# source: A. Author, Journal 1 (1952) 1\n# unit time: 0.5 s\n# unit front: 2 "
+    "# Free text: nobody reads this: not even here\n# source: A. Author, Journal 1 (1952) 1\n# unit time: "
+    "0.5 s\n# unit front: 2 "
     "m\n# unit depth: 0.001 m\n"
     "# uncertainty front: 2 %\n# uncertainty depth: 3\n";
 const std::string data = head + "time,front,depth\n1,1.5,400\n2.5, -3 ,1e2\n";
@@ -49,13 +50,17 @@ TEST(Experiment, IsTheSameFileWithTheLineEndsOfWindows) {
 }
 
 TEST(Experiment, SeesAnyChangeOfNumberUnitOrSource) {
-  for (const auto& [from, to] :
-       {std::pair{"1.5", "1.6"}, {"0.5 s", "0.4 s"}, {"A. Author", "B. Author"}, {"2 %", "1 %"}, {"2.5", "2.50"}}) {
+  for (const auto& [from, to] : {std::pair{"1.5", "1.6"},
+                                 {"0.5 s", "0.4 s"},
+                                 {"A. Author", "B. Author"},
+                                 {"2 %", "1 %"},
+                                 {"2.5", "2.50"}}) {
     auto text = sealed(data);
     text.replace(text.find(from), std::string(from).size(), to);
     EXPECT_NE(refusal(text).find("they changed since they were entered"), std::string::npos) << from;
   }
-  EXPECT_NE(refusal(data).find("no line `# hash: ...`; of these data it is " + experiment_hash(data)), std::string::npos);
+  EXPECT_NE(refusal(data).find("no line `# hash: ...`; of these data it is " + experiment_hash(data)),
+            std::string::npos);
 }
 
 TEST(Experiment, SaysFileAndLineOfWhatIsWrong) {
@@ -72,11 +77,13 @@ TEST(Experiment, SaysFileAndLineOfWhatIsWrong) {
   says(head + "front,time\n1,2\n", ":9", "names the columns: `time`");
   says(head + "time,front,front\n1,2,3\n", ":9", "has no name of its own");
   says(head + "time,speed\n1,2\n", ":9", "no line `# unit speed: ...`");
-  says("# source: x\n# unit time: 1 s\n# unit front: 1 m\ntime,front\n1,2\n", ":5", "no line `# uncertainty front: ...`");
+  says("# source: x\n# unit time: 1 s\n# unit front: 1 m\ntime,front\n1,2\n", ":5",
+       "no line `# uncertainty front: ...`");
   says("# unit time: -1 s\n", ":2", "a size greater than 0");
   says("# unit time: 1\n", ":2", "the SI unit's name");
   says("# uncertainty front: 2 m\n", ":2", "write a standard uncertainty");
-  says("# unit time: 1 s\n# unit front: 1 m\n# uncertainty front: 0\ntime,front\n1,2\n", ": ", "where do the data come from?");
+  says("# unit time: 1 s\n# unit front: 1 m\n# uncertainty front: 0\ntime,front\n1,2\n", ": ",
+       "where do the data come from?");
   says(head + "time,front,depth\n", ": ", "the table has no row");
   EXPECT_THROW((void)read_experiment("/nowhere/at/all.csv"), InputError);
 }
@@ -90,8 +97,9 @@ TEST(Experiment, IsAReferenceThatKnowsWhatItsFileHoldsAndNoMore) {
   EXPECT_EQ(measured->measuring().axis, 0U);
   EXPECT_TRUE(measured->at(1.0).position.empty());
   EXPECT_THROW((void)make_reference(test::experiment(file, "w"), block.job, block.initial), InputError);
-  EXPECT_EQ(with_source_of_file(test::experiment(file)).source,
-            "A. Author, Journal 1 (1952) 1; standard uncertainty of depth: 3; standard uncertainty of front: 2 %");
+  EXPECT_EQ(
+      with_source_of_file(test::experiment(file)).source,
+      "A. Author, Journal 1 (1952) 1; standard uncertainty of depth: 3; standard uncertainty of front: 2 %");
 }
 
 TEST(Experiment, IsReadBeforeAnythingRunsAlsoWhereOnlyAMetricComparesWithIt) {

@@ -32,7 +32,9 @@ TEST(Ballistic, FollowsTheParabolaAndTurnsEveryParticleWithTheBody) {
   const Vec3 centre = s.job.bodies[0].properties.centre;
   EXPECT_LT(norm(end.bodies[0].position - (centre + Vec3{1, 0, 5 - 4.905})), 1e-14);
   EXPECT_LT(norm(end.bodies[0].velocity - Vec3{1, 0, 5 - 9.81}), 1e-14);
-  EXPECT_LT(angle_between(end.bodies[0].orientation, from_rotation_vector((7.0 / std::sqrt(14.0)) * Vec3{1, 2, 3})), 1e-14);
+  EXPECT_LT(
+      angle_between(end.bodies[0].orientation, from_rotation_vector((7.0 / std::sqrt(14.0)) * Vec3{1, 2, 3})),
+      1e-14);
   const Vec3 arm = rotate(end.bodies[0].orientation, s.initial.position[5] - centre);
   EXPECT_LT(norm(end.position[5] - end.bodies[0].position - arm), 1e-14);
 }
@@ -85,7 +87,8 @@ Prepared merging_pair() {
   Prepared s;
   s.job.scene.spacing = 0.1;
   test::add_body(s, "cube", {{4, 4, 4}, 0.1, {-0.2, -0.2, -0.2}, 1.0}, {{1, 0, 0}, {1, 2, 0}});
-  test::add_body(s, "rod", {{3, 3, 5}, 0.1, {0.45 - 0.15, 0.05 - 0.15, -0.25}, 45.0 / 64.0}, {{-1, 0.2, 0}, {0, -1, 3}});
+  test::add_body(s, "rod", {{3, 3, 5}, 0.1, {0.45 - 0.15, 0.05 - 0.15, -0.25}, 45.0 / 64.0},
+                 {{-1, 0.2, 0}, {0, -1, 3}});
   Event merge;
   merge.kind = Event::Kind::merge;
   merge.time = 0.0;
@@ -98,7 +101,8 @@ Prepared merging_pair() {
 TEST(MergeInFlight, KeepsMassMomentumAndAngularMomentumAndLosesTheKnownEnergy) {
   auto s = merging_pair();
   const auto reference = make_reference(test::function("merge_in_flight"), s.job, s.initial);
-  EXPECT_NEAR(*reference->number("energy_ratio"), 0.093563, 1e-6);  // measured with Bullet's mass properties, six digits
+  // Measured with Bullet's mass properties, six digits
+  EXPECT_NEAR(*reference->number("energy_ratio"), 0.093563, 1e-6);
   const auto end = reference->at(1.0);
   Vec3 before, after;
   for (std::size_t i = 0; i < s.initial.size(); ++i) {
@@ -109,7 +113,8 @@ TEST(MergeInFlight, KeepsMassMomentumAndAngularMomentumAndLosesTheKnownEnergy) {
   Snapshot start;
   start.position = s.initial.position;
   start.velocity = s.initial.velocity;
-  EXPECT_LT(norm(total_angular_momentum(end, s.initial.mass) - total_angular_momentum(start, s.initial.mass)), 1e-13);
+  EXPECT_LT(norm(total_angular_momentum(end, s.initial.mass) - total_angular_momentum(start, s.initial.mass)),
+            1e-13);
   EXPECT_TRUE(std::isnan(end.bodies[1].position.x));  // absorbed
   EXPECT_EQ(end.body.back(), 0);
 }
@@ -141,7 +146,8 @@ TEST(SplitInFlight, GivesEachPartTheVelocitiesOfItsParticles) {
   ASSERT_EQ(before.bodies.size(), 1U);
   ASSERT_EQ(after.bodies.size(), 2U);
   EXPECT_NEAR(after.bodies[0].mass + after.bodies[1].mass, 1.0, 1e-14);
-  for (std::size_t i = 0; i < s.initial.size(); i += 11) EXPECT_LT(norm(after.velocity[i] - before.velocity[i]), 1e-10);
+  for (std::size_t i = 0; i < s.initial.size(); i += 11)
+    EXPECT_LT(norm(after.velocity[i] - before.velocity[i]), 1e-10);
   const Vec3 L = total_angular_momentum(before, s.initial.mass);
   EXPECT_LT(norm(total_angular_momentum(end, s.initial.mass) - L), 1e-13);
   EXPECT_EQ(after.bodies[1].orientation, Quaternion{});
@@ -152,7 +158,8 @@ TEST(Flight, RefusesWhatItIsNotExactFor) {
   s.job.bodies[0].phase = Phase::liquid;
   EXPECT_THROW((void)make_reference(test::function("ballistic"), s.job, s.initial), InputError);
   EXPECT_THROW((void)make_reference(test::function("balistic"), s.job, s.initial), InputError);
-  EXPECT_THROW((void)make_reference(test::function("ballistic", {{"speed", 1.0}}), s.job, s.initial), InputError);
+  EXPECT_THROW((void)make_reference(test::function("ballistic", {{"speed", 1.0}}), s.job, s.initial),
+               InputError);
   EXPECT_THROW((void)make_reference(ReferenceChoice{}, s.job, s.initial), InputError);
 }
 
@@ -162,7 +169,8 @@ TEST(Keyframes, GoStraightBetweenPositionsAndTurnAtConstantRate) {
   test::add_body(s, "board", {}, {}, Motion::prescribed);
   const Vec3 centre = s.job.bodies[0].properties.centre;
   const Quaternion quarter = from_rotation_vector({0, 0, test::pi / 2});
-  s.job.bodies[0].keyframes = {{0.0, centre, {}}, {1.0, centre + Vec3{1, 0, 0}, quarter}, {2.0, centre, quarter}};
+  s.job.bodies[0].keyframes = {
+      {0.0, centre, {}}, {1.0, centre + Vec3{1, 0, 0}, quarter}, {2.0, centre, quarter}};
   test::set_times(s, 2.0, 20);
   const auto reference = make_reference(test::function("keyframes"), s.job, s.initial);
   const auto half = reference->at(0.5);
@@ -174,7 +182,9 @@ TEST(Keyframes, GoStraightBetweenPositionsAndTurnAtConstantRate) {
   EXPECT_EQ(reference->at(2.0).bodies[0].velocity, Vec3{});  // at rest after the last keyframe
   const double h = 1e-5;
   for (const std::size_t i : {0U, 17U, 63U})
-    EXPECT_LT(norm((reference->at(0.5 + h).position[i] - reference->at(0.5 - h).position[i]) / (2 * h) - half.velocity[i]), 1e-9);
+    EXPECT_LT(norm((reference->at(0.5 + h).position[i] - reference->at(0.5 - h).position[i]) / (2 * h) -
+                   half.velocity[i]),
+              1e-9);
 }
 
 }  // namespace

@@ -39,8 +39,10 @@ Snapshot two_places(double time) {
 
 bool is_read(const std::string& argument, const std::string& text) {
   const std::string file =
-      "[scene]\nend_time = 1\nspacing = 0.1\n[[material]]\nname = 'brick'\ndensity = 1000\n[[body]]\nname = 'cube'\nmaterial = "
-      "'brick'\nphase = 'rigid'\nshape = {kind = 'box', min = [0,0,0], max = [1,1,1]}\n[reference]\nkind = 'analytic'\nfunction "
+      "[scene]\nend_time = 1\nspacing = 0.1\n[[material]]\nname = 'brick'\ndensity = 1000\n[[body]]\nname = "
+      "'cube'\nmaterial = "
+      "'brick'\nphase = 'rigid'\nshape = {kind = 'box', min = [0,0,0], max = [1,1,1]}\n[reference]\nkind = "
+      "'analytic'\nfunction "
       "= "
       "'expression'\nargs = {" +
       argument + " = '" + text + "'}\n";
@@ -57,14 +59,16 @@ TEST(ExpressionReference, HasFormulasThatAreCheckedWhereTheCaseIsRead) {
   const auto function = std::ranges::find(reference_functions(), "expression", &ReferenceFunction::name);
   ASSERT_NE(function, reference_functions().end());
   for (const ReferenceArgument& a : function->args) {
-    if (a.type != ArgumentType::formula && a.type != ArgumentType::word && a.type != ArgumentType::axis) continue;
+    if (a.type != ArgumentType::formula && a.type != ArgumentType::word && a.type != ArgumentType::axis)
+      continue;
     EXPECT_TRUE(is_read(a.name, "t")) << a.name;
     EXPECT_EQ(is_read(a.name, "no formula ("), a.type != ArgumentType::formula) << a.name;
   }
 }
 
 TEST(ExpressionReference, IsAFieldOfPlaceAndTime) {
-  const auto truth = made("expression", {{"temperature", std::string("300 + x + 10*t")}, {"velocity_y", std::string("z*t")}});
+  const auto truth = made(
+      "expression", {{"temperature", std::string("300 + x + 10*t")}, {"velocity_y", std::string("z*t")}});
   const auto here = truth->truth_for(two_places(2.0));
   EXPECT_EQ(here.temperature, (std::vector<double>{321.0, 320.5}));
   EXPECT_EQ(here.velocity[0], (Vec3{0.0, 6.0, 0.0}));
@@ -86,21 +90,24 @@ TEST(ExpressionReference, IsANumberInTimeOrTheFieldAtItsProbe) {
 }
 
 TEST(ExpressionReference, RefusesWhatIsNoFormula) {
-  EXPECT_NE(
-      refused("expression", {{"value", std::string("3*tt")}}).find("argument `value` of reference function expression, column 3"),
-      std::string::npos);
+  EXPECT_NE(refused("expression", {{"value", std::string("3*tt")}})
+                .find("argument `value` of reference function expression, column 3"),
+            std::string::npos);
   EXPECT_NE(refused("expression", {{"axis", std::string("z")}}).find("needs a formula"), std::string::npos);
-  EXPECT_NE(refused("expression", {{"temprature", std::string("300")}}).find("did you mean `temperature`"), std::string::npos);
+  EXPECT_NE(refused("expression", {{"temprature", std::string("300")}}).find("did you mean `temperature`"),
+            std::string::npos);
   EXPECT_NE(refused("expression", {{"value", 3.0}}).find("must be a text"), std::string::npos);
   EXPECT_NE(refused("expression", {{"value", std::string("1")}, {"axis", std::string("w")}})
                 .find("argument `axis` of reference function expression"),
             std::string::npos);
-  EXPECT_NE(refused("stated", {{"min", std::vector<double>{0, 0, 0}}}).find("needs both `min` and `max`"), std::string::npos);
+  EXPECT_NE(refused("stated", {{"min", std::vector<double>{0, 0, 0}}}).find("needs both `min` and `max`"),
+            std::string::npos);
   EXPECT_NE(refused("stated", {{"frequency", -1.0}}).find("must be greater than 0"), std::string::npos);
 }
 
 const std::string in_time =
-    "# source: a page\n# unit time: 1 s\n# unit height: 0.01 m\n# uncertainty height: 2\n# unit width: 1 m\n# uncertainty width: "
+    "# source: a page\n# unit time: 1 s\n# unit height: 0.01 m\n# uncertainty height: 2\n# unit width: 1 "
+    "m\n# uncertainty width: "
     "1 %\ntime,height,width\n0,100,5\n2,300,7\n";
 const std::string in_place =
     "# source: a page\n# unit z: 0.001 m\n# unit temperature: 1 K\n# uncertainty temperature: "
@@ -108,7 +115,8 @@ const std::string in_place =
 
 TEST(TableReference, IsANumberInTimeWithTheUncertaintyOfItsFile) {
   const DataFile file(sealed(in_time));
-  const auto truth = made("table", {{"column", std::string("height")}, {"axis", std::string("x")}}, file.path());
+  const auto truth =
+      made("table", {{"column", std::string("height")}, {"axis", std::string("x")}}, file.path());
   EXPECT_DOUBLE_EQ(*truth->number_at("value", 0.5), 1.5);
   EXPECT_DOUBLE_EQ(*truth->number_at("value", 2.0), 3.0);
   EXPECT_FALSE(truth->number_at("value", 2.1));  // beyond the table nothing is known
@@ -134,10 +142,13 @@ TEST(TableReference, RefusesWhatItCannotUse) {
   const DataFile curves(sealed(in_time)), field(sealed(in_place)), changed(sealed(in_time) + "3,1,1\n");
   EXPECT_NE(refused("table", {}).find("needs the key `file`"), std::string::npos);
   EXPECT_NE(refused("table", {}, curves.path()).find("several columns"), std::string::npos);
-  EXPECT_NE(refused("table", {{"column", std::string("hight")}}, curves.path()).find("did you mean `height`"), std::string::npos);
-  EXPECT_NE(refused("table", {{"column", std::string("temperature")}}, field.path()).find("is of a table in time"),
+  EXPECT_NE(refused("table", {{"column", std::string("hight")}}, curves.path()).find("did you mean `height`"),
             std::string::npos);
-  EXPECT_NE(refused("table", {{"column", std::string("height")}}, changed.path()).find("they changed since they were entered"),
+  EXPECT_NE(
+      refused("table", {{"column", std::string("temperature")}}, field.path()).find("is of a table in time"),
+      std::string::npos);
+  EXPECT_NE(refused("table", {{"column", std::string("height")}}, changed.path())
+                .find("they changed since they were entered"),
             std::string::npos);
   std::string other = in_place;
   for (std::size_t at = other.find("temperature"); at != other.npos; at = other.find("temperature", at + 7))

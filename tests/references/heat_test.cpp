@@ -18,7 +18,8 @@ constexpr double D = 2e-6;  // of the bar's material [m2/s]
 test::Prepared cosine_bar(int n, bool periodic, double phase) {
   const double dx = 0.1 / n, k = (periodic ? 2.0 : 1.0) * pi / 0.1;
   auto s = test::bar(
-      {n, 4, 4}, dx, [&](const Vec3& r) { return 300.0 + 10.0 * std::cos(k * r.x + phase); }, 100.0, 10, periodic);
+      {n, 4, 4}, dx, [&](const Vec3& r) { return 300.0 + 10.0 * std::cos(k * r.x + phase); }, 100.0, 10,
+      periodic);
   TemperatureField field;
   field.kind = TemperatureField::Kind::cosine;
   field.mean = 300.0;
@@ -33,9 +34,11 @@ TEST(CosineMode, SolvesTheHeatEquationByItsOwnDifferences) {
   const auto s = cosine_bar(20, true, 0.7);
   const auto reference = make_reference(test::function("cosine_mode"), s.job, s.initial);
   EXPECT_NEAR(*reference->number("decay_rate"), D * std::pow(2 * pi / 0.1, 2), 1e-15);
-  // dT/dt = D d2T/dx2 by central differences of the reference itself: error (k dx)^2/12 = 0.8 % at 20 a wavelength.
+  // dT/dt = D d2T/dx2 by central differences of the reference itself: error (k dx)^2/12 = 0.8 % at 20 a
+  // wavelength.
   const double h = 0.01, dx = 0.005;
-  const auto a = reference->at(50 - h).temperature, b = reference->at(50).temperature, c = reference->at(50 + h).temperature;
+  const auto a = reference->at(50 - h).temperature, b = reference->at(50).temperature,
+             c = reference->at(50 + h).temperature;
   const std::size_t i = 16 * 5;
   const double rate = (c[i] - a[i]) / (2 * h), curvature = (b[i + 16] - 2 * b[i] + b[i - 16]) / (dx * dx);
   EXPECT_NEAR(rate / (D * curvature), 1.0, 0.01);
@@ -52,7 +55,8 @@ TEST(CosineCarried, IsTheStillDecaySeenFromAMovingFrame) {
   for (const std::size_t i : {0u, 50u, 300u}) {
     EXPECT_EQ(a.temperature[i], b.temperature[i]);
     EXPECT_NEAR(b.position[i].x - s.initial.position[i].x, 0.12, 1e-12);
-    // dT/dt + U dT/dx = D d2T/dx2 of the field at a fixed place, by differences in time: (D k^2 h)^2 and round-off below 1e-7.
+    // dT/dt + U dT/dx = D d2T/dx2 of the field at a fixed place, by differences in time: (D k^2 h)^2 and
+    // round-off below 1e-7.
     const auto field = [&](double x, double t) {
       return 300.0 + 10.0 * std::exp(-D * k * k * t) * std::cos(k * (x - 0.003 * t) + 0.7);
     };
@@ -66,7 +70,9 @@ TEST(CosineCarried, IsTheStillDecaySeenFromAMovingFrame) {
 TEST(CosineSum, SolvesTheHeatEquationInAllDirectionsByItsOwnDifferences) {
   const double L = 0.1, W = 0.02, base = 2 * pi;
   const Vec3 k1{base / L, base / W, 0}, k2{2 * base / L, -base / W, base / W};
-  const auto start = [&](const Vec3& r) { return 300.0 + 10.0 * std::cos(dot(k1, r) + 0.7) + 4.0 * std::cos(dot(k2, r) - 0.4); };
+  const auto start = [&](const Vec3& r) {
+    return 300.0 + 10.0 * std::cos(dot(k1, r) + 0.7) + 4.0 * std::cos(dot(k2, r) - 0.4);
+  };
   const auto s = test::bar({20, 4, 4}, 0.005, start, 100.0, 10, true);
   auto box = s;
   box.job.scene.min = Vec3{};
@@ -76,8 +82,8 @@ TEST(CosineSum, SolvesTheHeatEquationInAllDirectionsByItsOwnDifferences) {
   Settings args{{"mean", 300.0},  {"amplitude_1", 10.0}, {"wave_vector_1", list(k1)},
                 {"phase_1", 0.7}, {"amplitude_2", 4.0},  {"wave_vector_2", list(k2)},
                 {"phase_2", -0.4}};
-  // Differences need points that lie close: eight particles are moved there. The reference reads places only after it has checked
-  // the start.
+  // Differences need points that lie close: eight particles are moved there. The reference reads places only
+  // after it has checked the start.
   const Vec3 r{0.0123, 0.0071, 0.0045};
   const double h = 1e-5, tau = 1e-3, t = 3.0;
   auto near = box;
@@ -99,8 +105,8 @@ TEST(CosineSum, SolvesTheHeatEquationInAllDirectionsByItsOwnDifferences) {
 }
 
 TEST(CosineMode, RefusesAWaveThatDoesNotFit) {
-  EXPECT_NO_THROW(
-      (void)make_reference(test::function("cosine_mode"), cosine_bar(20, false, 0.0).job, cosine_bar(20, false, 0.0).initial));
+  EXPECT_NO_THROW((void)make_reference(test::function("cosine_mode"), cosine_bar(20, false, 0.0).job,
+                                       cosine_bar(20, false, 0.0).initial));
   const auto sloped = cosine_bar(20, false, 0.7);
   EXPECT_THROW((void)make_reference(test::function("cosine_mode"), sloped.job, sloped.initial), InputError);
   auto moving = cosine_bar(20, true, 0.7);
@@ -125,7 +131,8 @@ TEST(SineBetweenHeldEnds, AgreesWithFiniteDifferences) {
   for (std::size_t i = 0; i < s.initial.size(); ++i) {
     const double x = s.initial.position[i].x / dx;
     const int left = static_cast<int>(x);
-    EXPECT_NEAR(exact.temperature[i], T[left] + (x - left) * (T[left + 1] - T[left]), 2e-3);  // (k dx)^2/12 of 10 K, both ways
+    // (k dx)^2/12 of 10 K, both ways
+    EXPECT_NEAR(exact.temperature[i], T[left] + (x - left) * (T[left + 1] - T[left]), 2e-3);
   }
 }
 
@@ -134,7 +141,8 @@ TEST(SineBetweenHeldEnds, RefusesAWaveThatIsNotAtItsMeanAtTheEnds) {
   EXPECT_THROW((void)make_reference(test::function("sine_held_ends"), s.job, s.initial), InputError);
 }
 
-/// The operator's rate measured on a lattice with particles, not by its eigenvalue formula: dT/dt at one particle.
+/// The operator's rate measured on a lattice with particles, not by its eigenvalue formula: dT/dt at one
+/// particle.
 double measured_paper_damping(int n, double dx, double h) {
   const double k = 2 * pi / (n * dx), mass = 7.0;
   const int reach = 4;
@@ -147,7 +155,9 @@ double measured_paper_damping(int n, double dx, double h) {
           if (r < h) f(a * dx, r);
         }
   };
-  visit([&](double, double r) { rho += mass * 315.0 / (64.0 * pi * std::pow(h, 9)) * std::pow(h * h - r * r, 3); });
+  visit([&](double, double r) {
+    rho += mass * 315.0 / (64.0 * pi * std::pow(h, 9)) * std::pow(h * h - r * r, 3);
+  });
   const double x = 0.3 / k;
   visit([&](double dxj, double r) {
     rate += mass / rho * (std::cos(k * (x + dxj)) - std::cos(k * x)) * 45.0 / (pi * std::pow(h, 6)) * (h - r);
@@ -156,7 +166,8 @@ double measured_paper_damping(int n, double dx, double h) {
 }
 
 TEST(CosineModeLattice, IsTheRateOfThePaperOperatorOnTheLattice) {
-  // 0.892 0.919 0.926 0.928 at 10/20/40/80 a wavelength, support 2.12 dx: measured with prototypes, three digits.
+  // 0.892 0.919 0.926 0.928 at 10/20/40/80 a wavelength, support 2.12 dx: measured with prototypes, three
+  // digits.
   const double known[] = {0.892, 0.919, 0.926, 0.928};
   int row = 0;
   for (const int n : {10, 20, 40, 80}) {
@@ -192,20 +203,23 @@ TEST(CosineModeLattice, ServesThePeriodicLatticeOnlyAndTheFormOfTheRun) {
   const auto paper = make_reference(test::function("cosine_mode_lattice"), s.job, s.initial);
   EXPECT_NEAR(*paper->number("decay_rate") / (D * k * k), 0.919, 6e-4);
   const auto corrected = make_reference(
-      test::function("cosine_mode_lattice", {{"form", std::string("corrected")}, {"support_ratio", 2.6}}), s.job, s.initial);
+      test::function("cosine_mode_lattice", {{"form", std::string("corrected")}, {"support_ratio", 2.6}}),
+      s.job, s.initial);
   EXPECT_NEAR(*corrected->number("decay_rate") / (D * k * k), 0.989, 6e-4);
   s.job.scene.periodic[1] = false;
   EXPECT_THROW((void)make_reference(test::function("cosine_mode_lattice"), s.job, s.initial), InputError);
 }
 
-/// Cosine series of an insulated bar, or Fourier series of a periodic one: converges where images are many, and shares nothing
-/// with them.
+/// Cosine series of an insulated bar, or Fourier series of a periodic one: converges where images are many,
+/// and shares nothing with them.
 double series_of_step(const StepImages& s, double x, double time) {
   const double L = s.bar.length(), y = x - s.bar.low, a = s.place - s.bar.low;
   double sum = a / L;
   for (int n = 1; n < 4000; ++n) {
-    const double k = (s.bar.periodic ? 2.0 : 1.0) * n * pi / L, decay = std::exp(-k * k * s.diffusivity * time);
-    const double c = 2.0 * std::sin(k * a) / (k * L), d = s.bar.periodic ? 2.0 * (1.0 - std::cos(k * a)) / (k * L) : 0.0;
+    const double k = (s.bar.periodic ? 2.0 : 1.0) * n * pi / L,
+                 decay = std::exp(-k * k * s.diffusivity * time);
+    const double c = 2.0 * std::sin(k * a) / (k * L),
+                 d = s.bar.periodic ? 2.0 * (1.0 - std::cos(k * a)) / (k * L) : 0.0;
     sum += decay * (c * std::cos(k * y) + d * std::sin(k * y));
   }
   return sum;
@@ -216,7 +230,8 @@ TEST(StepInsulated, EqualsItsEigenfunctionSeriesAtEarlyAndLateTimes) {
     for (const double time : {1.0, 40.0, 2000.0}) {
       const StepImages s{{0, -0.02, 0.08, periodic}, 0.021, D};
       for (double x = -0.02; x <= 0.0801; x += 0.01)
-        EXPECT_NEAR(share_of_low_side(s, x, 0.0, time), series_of_step(s, x, time), 1e-13) << x << " at " << time;
+        EXPECT_NEAR(share_of_low_side(s, x, 0.0, time), series_of_step(s, x, time), 1e-13)
+            << x << " at " << time;
     }
 }
 
@@ -243,11 +258,13 @@ TEST(StepInsulated, TurnsWithTheNormalOfTheStep) {
   s.job.scene.bodies[0].temperature = field;
   const auto reference = make_reference(test::function("step_insulated"), s.job, s.initial);
   EXPECT_EQ(reference->at(0.0).temperature, s.initial.temperature);
-  const auto slower = make_reference(test::function("step_insulated", {{"diffusivity", 0.25 * D}}), s.job, s.initial);
+  const auto slower =
+      make_reference(test::function("step_insulated", {{"diffusivity", 0.25 * D}}), s.job, s.initial);
   const auto early = reference->at(1.0).temperature,
              late = slower->at(4.0).temperature;  // the ends are not felt yet: the error function
   for (std::size_t i = 0; i < s.initial.size(); ++i) {
-    const double expected = 350.0 - 50.0 * std::erf((s.initial.position[i].x - 0.05) / (2.0 * std::sqrt(D * 1.0)));
+    const double expected =
+        350.0 - 50.0 * std::erf((s.initial.position[i].x - 0.05) / (2.0 * std::sqrt(D * 1.0)));
     EXPECT_NEAR(early[i], expected, 1e-6);
     EXPECT_NEAR(late[i], early[i], 1e-9);  // of D t alone
   }
@@ -273,11 +290,15 @@ std::vector<double> finite_volumes(const TwoLayers& s, int n, double time, int s
   std::vector<double> k(n), c(n), T(n);
   for (int i = 0; i < n; ++i) {
     const bool low = low_end + (i + 0.5) * dx < s.interface;
-    k[i] = low ? s.effusivity_low * std::sqrt(s.diffusivity_low) : s.effusivity_high * std::sqrt(s.diffusivity_high);
-    c[i] = low ? s.effusivity_low / std::sqrt(s.diffusivity_low) : s.effusivity_high / std::sqrt(s.diffusivity_high);
+    k[i] = low ? s.effusivity_low * std::sqrt(s.diffusivity_low)
+               : s.effusivity_high * std::sqrt(s.diffusivity_high);
+    c[i] = low ? s.effusivity_low / std::sqrt(s.diffusivity_low)
+               : s.effusivity_high / std::sqrt(s.diffusivity_high);
     T[i] = low ? s.start_low : s.start_high;
   }
-  const auto G = [&](int i) { return i < 0 || i + 1 >= n ? 0.0 : 2.0 * k[i] * k[i + 1] / (k[i] + k[i + 1]) / (dx * dx); };
+  const auto G = [&](int i) {
+    return i < 0 || i + 1 >= n ? 0.0 : 2.0 * k[i] * k[i + 1] / (k[i] + k[i + 1]) / (dx * dx);
+  };
   // Four fully implicit quarter steps damp the jump's shortest waves, then Crank-Nicolson (Rannacher 1984).
   const auto step = [&](double dt, double theta) {
     std::vector<double> a(n), b(n), r(n);
@@ -304,7 +325,8 @@ TEST(TwoConductivities, AgreesWithFiniteVolumesLongAfterTheFrontsReachTheEnds) {
   const TwoLayerSolution solution(s);
   const auto T = finite_volumes(s, n, 400.0, 2000);
   double worst = 0.0;
-  for (int i = 0; i < n; ++i) worst = std::max(worst, std::abs(T[i] - solution.at((i + 0.5) * 0.1 / n, 400.0)));
+  for (int i = 0; i < n; ++i)
+    worst = std::max(worst, std::abs(T[i] - solution.at((i + 0.5) * 0.1 / n, 400.0)));
   EXPECT_LT(worst, 2e-6);  // second order in 1/1000
 }
 
@@ -320,7 +342,8 @@ TEST(TwoConductivities, TakesLayersFromTheBodies) {
   s.initial.temperature.resize(s.initial.size(), 300.0);
   const auto reference = make_reference(test::function("two_conductivities"), s.job, s.initial);
   EXPECT_EQ(reference->at(0.0).temperature, s.initial.temperature);
-  EXPECT_NEAR(*reference->number("contact_temperature"), 300.0 + 100.0 * std::sqrt(10.0) / (1.0 + std::sqrt(10.0)), 1e-12);
+  EXPECT_NEAR(*reference->number("contact_temperature"),
+              300.0 + 100.0 * std::sqrt(10.0) / (1.0 + std::sqrt(10.0)), 1e-12);
   EXPECT_LT(reference->at(20.0).temperature[39], 390.0);
   s.job.scene.materials[1].conductivity.reset();
   EXPECT_THROW((void)make_reference(test::function("two_conductivities"), s.job, s.initial), InputError);

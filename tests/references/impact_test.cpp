@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact of bodies that have Coulomb's law and Newton's law of impact: each closed form against the laws that it comes from.
+// Contact of bodies that have Coulomb's law and Newton's law of impact: each closed form against the laws
+// that it comes from.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,14 +17,15 @@ using test::Prepared;
 constexpr double g = 9.81;
 
 /// The motion again, by small steps of the laws themselves.
-CoulombMotion::State stepped(const CoulombMotion::Plane& plane, const CoulombMotion::Contact& contact, double v, double w,
-                             double time) {
+CoulombMotion::State stepped(const CoulombMotion::Plane& plane, const CoulombMotion::Contact& contact,
+                             double v, double w, double time) {
   const int steps = 200000;
   const double dt = time / steps;
   CoulombMotion::State s{0.0, v, 0.0, w};
   for (int n = 0; n < steps; ++n) {
     const double slip = s.speed - (contact.share > 0.0 ? s.spin * contact.radius : 0.0),
-                 stop = -(slip / dt + plane.pull) / (1.0 + contact.share);  // friction that ends the slip in this step
+                 // Friction that ends the slip in this step
+        stop = -(slip / dt + plane.pull) / (1.0 + contact.share);
     const double friction = std::clamp(stop, -plane.grip, plane.grip);
     s.speed += dt * (plane.pull + friction);
     s.spin -= dt * friction * contact.share / contact.radius;
@@ -36,11 +38,15 @@ CoulombMotion::State stepped(const CoulombMotion::Plane& plane, const CoulombMot
 TEST(Coulomb, MovesAsTheLawsDoStepByStep) {
   for (const double pull : {-2.0, 0.0, 1.5, 6.0})
     for (const double grip : {0.0, 1.0, 3.0})
-      for (const CoulombMotion::Contact contact : {CoulombMotion::Contact{}, CoulombMotion::Contact{2.5, 0.2}})
-        for (const auto& [v, w] : {std::pair{0.0, 0.0}, {2.0, 0.0}, {-1.0, 0.0}, {0.5, contact.share > 0.0 ? 20.0 : 0.0}}) {
-          const auto exact = CoulombMotion({pull, grip}, contact, v, w).at(1.3), seen = stepped({pull, grip}, contact, v, w, 1.3);
-          EXPECT_NEAR(exact.way, seen.way, 2e-4) << "first order in a step of 6.5 us; pull " << pull << ", grip " << grip
-                                                 << ", share " << contact.share << ", v " << v;
+      for (const CoulombMotion::Contact contact :
+           {CoulombMotion::Contact{}, CoulombMotion::Contact{2.5, 0.2}})
+        for (const auto& [v, w] :
+             {std::pair{0.0, 0.0}, {2.0, 0.0}, {-1.0, 0.0}, {0.5, contact.share > 0.0 ? 20.0 : 0.0}}) {
+          const auto exact = CoulombMotion({pull, grip}, contact, v, w).at(1.3),
+                     seen = stepped({pull, grip}, contact, v, w, 1.3);
+          EXPECT_NEAR(exact.way, seen.way, 2e-4)
+              << "first order in a step of 6.5 us; pull " << pull << ", grip " << grip << ", share "
+              << contact.share << ", v " << v;
           EXPECT_NEAR(exact.speed, seen.speed, 2e-4);
           EXPECT_NEAR(exact.spin, seen.spin, 2e-3);
           EXPECT_NEAR(exact.angle, seen.angle, 2e-3);
@@ -76,7 +82,9 @@ TEST(Sliding, TakesSlopeAndFrictionFromTheJob) {
   const auto end = make_reference(test::function("sliding"), slips.job, slips.initial)->at(1.0);
   EXPECT_NEAR(end.bodies[0].velocity.x, g * (std::sin(angle) - 0.3 * std::cos(angle)), 1e-14);
   EXPECT_NEAR(end.bodies[0].position.x - 0.2, 0.5 * g * (std::sin(angle) - 0.3 * std::cos(angle)), 1e-14);
-  EXPECT_EQ(make_reference(test::function("sliding"), sticks.job, sticks.initial)->at(1.0).bodies[0].velocity.x, 0.0)
+  EXPECT_EQ(
+      make_reference(test::function("sliding"), sticks.job, sticks.initial)->at(1.0).bodies[0].velocity.x,
+      0.0)
       << "tan 30 = 0.577 is below 0.6";
 }
 
@@ -92,9 +100,13 @@ TEST(Sliding, RefusesWhatItsLawDoesNotHold) {
     return std::string();
   };
   EXPECT_EQ(refused([](Prepared&) {}), "");
-  EXPECT_NE(refused([](Prepared& s) { s.job.bodies[0].velocity = {0, 1, 0}; }).find("one line"), std::string::npos);
+  EXPECT_NE(refused([](Prepared& s) {
+              s.job.bodies[0].velocity = {0, 1, 0};
+            }).find("one line"),
+            std::string::npos);
   EXPECT_NE(refused([](Prepared& s) { s.job.settings["friction"] = 3.0; }).find("tip"), std::string::npos);
-  EXPECT_NE(refused([](Prepared& s) { s.job.scene.bodies[0].shape.min.z += 0.01; }).find("touch"), std::string::npos);
+  EXPECT_NE(refused([](Prepared& s) { s.job.scene.bodies[0].shape.min.z += 0.01; }).find("touch"),
+            std::string::npos);
 }
 
 /// A box that tumbles, 0.4 m above a smooth floor.
@@ -113,7 +125,8 @@ double energy(const Prepared& s, const BodyState& b) {
   const auto& p = s.job.bodies[0].properties;
   const Vec3 w = rotate_back(b.orientation * p.principal_axes, b.angular_velocity);
   return 0.5 * p.mass * dot(b.velocity, b.velocity) +
-         0.5 * (p.principal_inertia.x * w.x * w.x + p.principal_inertia.y * w.y * w.y + p.principal_inertia.z * w.z * w.z) +
+         0.5 * (p.principal_inertia.x * w.x * w.x + p.principal_inertia.y * w.y * w.y +
+                p.principal_inertia.z * w.z * w.z) +
          p.mass * g * b.position.z;
 }
 
@@ -128,14 +141,16 @@ std::vector<Vec3> touching(const Prepared& s, const BodyState& b) {
   std::vector<Vec3> arms;
   const Shape& shape = s.job.scene.bodies[0].shape;
   for (int k = 0; k < 8; ++k) {
-    const Vec3 corner{k & 1 ? shape.max.x : shape.min.x, k & 2 ? shape.max.y : shape.min.y, k & 4 ? shape.max.z : shape.min.z};
+    const Vec3 corner{k & 1 ? shape.max.x : shape.min.x, k & 2 ? shape.max.y : shape.min.y,
+                      k & 4 ? shape.max.z : shape.min.z};
     const Vec3 arm = rotate(b.orientation, corner - s.job.bodies[0].properties.centre);
     if (std::abs(b.position.z + arm.z) < 1e-6) arms.push_back(arm);
   }
   return arms;
 }
 
-/// Impulse along the normal at the corners that touch, Newton's law there, and nothing else: these fix the motion after the hit.
+/// Impulse along the normal at the corners that touch, Newton's law there, and nothing else: these fix the
+/// motion after the hit.
 void expect_newtons_impact(double restitution, const Vec3& spin, std::size_t corners) {
   const auto s = tumbling(restitution, spin);
   const auto reference = make_reference(test::function("landing"), s.job, s.initial);

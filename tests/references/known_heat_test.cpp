@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exact solutions at places and times where their figures can be worked out by hand, and at the edges of what they know.
+// Exact solutions at places and times where their figures can be worked out by hand, and at the edges of what
+// they know.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +24,8 @@ using test::Prepared;
 
 using test::made;
 
-// --- heat -------------------------------------------------------------------------------------------------------------------
+// --- heat
+// -------------------------------------------------------------------------------------------------------------------
 
 TEST(KnownHeat, EachPhaseHasItsOwnValues) {
   auto s = test::stefan_bar({});
@@ -54,7 +56,8 @@ TEST(KnownHeat, ABarEndsWhereItsBodiesDo) {
   EXPECT_NEAR(both.low, 0.0, 1e-14);
   EXPECT_NEAR(both.high, 0.6, 1e-14);
   EXPECT_FALSE(both.periodic);
-  for (auto& body : s.job.scene.bodies) body.shape.kind = Shape::Kind::sphere;  // no box: the particles and half a spacing
+  // No box: the particles and half a spacing
+  for (auto& body : s.job.scene.bodies) body.shape.kind = Shape::Kind::sphere;
   EXPECT_NEAR(body_along(0, 1, s.job, s.initial).low, 0.4, 1e-14);
   EXPECT_NEAR(body_along(0, 1, s.job, s.initial).high, 0.6, 1e-14);
   EXPECT_NEAR(body_along(1, 0, s.job, s.initial).length(), 0.2, 1e-14);
@@ -89,15 +92,17 @@ TEST(KnownHeat, AWaveIsMeasuredAlongItsShortestSide) {
 TEST(KnownHeat, AStepIsSharpAtItsStartAndSharedByItsCell) {
   const StepImages step{{0, 0.0, 1.0, false}, 0.25, 1e-3};
   for (const auto& [x, cell, share] :
-       {std::tuple{0.2, 0.0, 1.0}, std::tuple{0.25, 0.0, 0.0}, std::tuple{0.3, 0.0, 0.0}, std::tuple{0.25, 0.1, 0.5},
-        std::tuple{0.275, 0.1, 0.25}, std::tuple{0.2, 0.1, 1.0}, std::tuple{0.3, 0.1, 0.0}})
+       {std::tuple{0.2, 0.0, 1.0}, std::tuple{0.25, 0.0, 0.0}, std::tuple{0.3, 0.0, 0.0},
+        std::tuple{0.25, 0.1, 0.5}, std::tuple{0.275, 0.1, 0.25}, std::tuple{0.2, 0.1, 1.0},
+        std::tuple{0.3, 0.1, 0.0}})
     EXPECT_NEAR(share_of_low_side(step, x, cell, 0.0), share, 1e-12) << x << " " << cell;
   EXPECT_NEAR(share_of_low_side(step, 0.6, 0.0, 1e4), 0.25, 1e-9);  // even in the end
   EXPECT_NEAR(share_of_low_side(step, 0.25, 0.0, 0.1), 0.5, 1e-9);  // before any end is felt
   const double early = 0.5 * std::erfc(0.05 / std::sqrt(4.0 * 1e-3 * 0.1));
   EXPECT_NEAR(share_of_low_side(step, 0.3, 0.0, 0.1), early, 1e-9);
   const StepImages ring{{0, 0.0, 1.0, true}, 0.25, 1e-3};
-  EXPECT_NEAR(share_of_low_side(ring, 0.0, 0.0, 0.1), 0.5, 1e-9);  // the second step, at the periodic boundary
+  // The second step, at the periodic boundary
+  EXPECT_NEAR(share_of_low_side(ring, 0.0, 0.0, 0.1), 0.5, 1e-9);
   EXPECT_NEAR(share_of_low_side(ring, 0.95, 0.0, 0.1), early, 1e-9);
   EXPECT_NEAR(share_of_low_side(step, 0.0, 0.0, 0.1), 1.0, 1e-9);
 }
@@ -114,10 +119,11 @@ TEST(KnownHeat, TwoLayersAreTheSameInEitherOrder) {
     s.job.bodies[1].material = "cold";
     s.initial.temperature.resize(s.initial.size(), 300.0);
     const auto contact = made(s, "two_conductivities");
-    EXPECT_NEAR(*contact->number("contact_temperature"), 300.0 + 100.0 * std::sqrt(10.0) / (1.0 + std::sqrt(10.0)), 1e-12);
+    EXPECT_NEAR(*contact->number("contact_temperature"),
+                300.0 + 100.0 * std::sqrt(10.0) / (1.0 + std::sqrt(10.0)), 1e-12);
     const auto T = contact->at(2.0).temperature;
-    const double depth = 0.0075,
-                 hot = 400.0 + (*contact->number("contact_temperature") - 400.0) * std::erfc(depth / std::sqrt(8.0 * 2e-6));
+    const double depth = 0.0075, hot = 400.0 + (*contact->number("contact_temperature") - 400.0) *
+                                                   std::erfc(depth / std::sqrt(8.0 * 2e-6));
     const std::size_t near = swapped ? 1 * 4 : 8 * 4;  // the second layer from the contact
     EXPECT_NEAR(T[near], hot, 1e-6);
     EXPECT_EQ(contact->at(0.0).temperature, s.initial.temperature);
@@ -134,7 +140,8 @@ TEST(KnownHeat, AFrontIsAtItsOwnTemperature) {
   EXPECT_NEAR(f.temperature(X * (1 + 1e-12), 7.0), 300.0, 1e-6);
   EXPECT_NEAR(f.temperature(1.0, 7.0), 280.0, 1e-9);
   // heat in - heat out = heat of the change: -T'(X-) k + 2 k T'(X+) = rho L X', by differences
-  const double h = 1e-4 * X, in = (f.temperature(X - h, 7.0) - 300.0) / h, out = 2.0 * (300.0 - f.temperature(X + h, 7.0)) / h;
+  const double h = 1e-4 * X, in = (f.temperature(X - h, 7.0) - 300.0) / h,
+               out = 2.0 * (300.0 - f.temperature(X + h, 7.0)) / h;
   EXPECT_NEAR((in - out) / (50.0 * (0.5 * X / 7.0) / 2e-6), 1.0, 1e-3);
 }
 
@@ -146,8 +153,9 @@ TEST(KnownHeat, AnEventThatOnlyReachesAThresholdChangesNothing) {
   events[2].temperature = 290.0;
   events[3].temperature = 289.9;
   const auto loop = made(s, "hysteresis");
-  for (const auto& [time, phase] : {std::pair{0.5, 1}, std::pair{1.5, 1}, std::pair{2.0, 1}, std::pair{2.5, 0}, std::pair{3.5, 0},
-                                    std::pair{4.0, 0}, std::pair{4.5, 1}}) {
+  for (const auto& [time, phase] :
+       {std::pair{0.5, 1}, std::pair{1.5, 1}, std::pair{2.0, 1}, std::pair{2.5, 0}, std::pair{3.5, 0},
+        std::pair{4.0, 0}, std::pair{4.5, 1}}) {
     EXPECT_EQ(loop->at(time).phase[3], phase) << time;
     EXPECT_EQ(loop->at(time).liquid_fraction[3], phase == 0 ? 1.0 : 0.0) << time;
   }
@@ -157,11 +165,13 @@ TEST(KnownHeat, AnEventThatOnlyReachesAThresholdChangesNothing) {
   EXPECT_EQ(made(s, "hysteresis")->at(3.5).phase[0], 2);
 }
 
-// --- bars -------------------------------------------------------------------------------------------------------------------
+// --- bars
+// -------------------------------------------------------------------------------------------------------------------
 
 TEST(KnownBars, TheModulusIsThatOfTheHeldSides) {
   for (const auto& [periodic, modulus] :
-       {std::pair{std::array{false, false, false}, 1e7}, std::pair{std::array{false, true, false}, 1e7 / 0.91},
+       {std::pair{std::array{false, false, false}, 1e7},
+        std::pair{std::array{false, true, false}, 1e7 / 0.91},
         std::pair{std::array{false, false, true}, 1e7 / 0.91},
         std::pair{std::array{false, true, true}, 1e7 * 0.7 / (1.3 * 0.4)}}) {
     const auto bar = made(test::driven_bar(1.1, periodic), "tension");
@@ -172,7 +182,8 @@ TEST(KnownBars, TheModulusIsThatOfTheHeldSides) {
     EXPECT_FALSE(bar->number("yield_stress"));
     EXPECT_FALSE(bar->number("event_time"));
   }
-  const auto gauged = made(test::driven_bar(1.1), "tension", {{"gauge", 0.25}, {"length", 0.4}, {"area", 2.0}});
+  const auto gauged =
+      made(test::driven_bar(1.1), "tension", {{"gauge", 0.25}, {"length", 0.4}, {"area", 2.0}});
   EXPECT_EQ(gauged->number("gauge"), 0.25);
   EXPECT_EQ(gauged->number("stretch_gauge"), 0.25);
   EXPECT_EQ(gauged->number("area"), 2.0);
@@ -201,8 +212,8 @@ TEST(KnownBars, SidesAreHeldByEachPeriodAcrossTheBar) {
 TEST(KnownBars, TheStretchIsThatOfTheKeyframes) {
   auto s = test::driven_bar(1.1);
   const auto bar = made(s, "tension");
-  for (const auto& [time, stretch] : {std::pair{0.0, 1.0}, std::pair{0.5, 1.05}, std::pair{1.0, 1.1}, std::pair{1.5, 1.05},
-                                      std::pair{2.0, 1.0}, std::pair{5.0, 1.0}}) {
+  for (const auto& [time, stretch] : {std::pair{0.0, 1.0}, std::pair{0.5, 1.05}, std::pair{1.0, 1.1},
+                                      std::pair{1.5, 1.05}, std::pair{2.0, 1.0}, std::pair{5.0, 1.0}}) {
     EXPECT_NEAR(*bar->number_at("stretch", time), stretch, 1e-12) << time;
     const double strain = 0.5 * (stretch * stretch - 1.0);
     EXPECT_NEAR(*bar->number_at("reaction", time), 1e7 * strain * stretch * 0.0016, 1e-6) << time;
@@ -255,13 +266,16 @@ TEST(KnownBars, FlowKeepsItsStrainWithinTheLimits) {
   const double half = std::sqrt(1.5) * 0.01 / 1.25, cap = 0.05 / std::sqrt(1.5);
   for (const double strain : {0.5 * half, 3.0 * half, -3.0 * half, 0.3, -0.3}) {
     const double stretch = std::sqrt(1.0 + 2.0 * strain),
-                 plastic = std::abs(strain) <= half ? 0.0 : std::copysign(std::min(std::abs(strain) - half, cap), strain);
+                 plastic = std::abs(strain) <= half
+                               ? 0.0
+                               : std::copysign(std::min(std::abs(strain) - half, cap), strain);
     const auto s = stretched(law, {}, stretch);
     EXPECT_NEAR(s.plastic, plastic, 1e-14) << strain;
     EXPECT_NEAR(s.force, 1000.0 * (strain - plastic) * stretch, 1e-10) << strain;
     EXPECT_NEAR(s.elastic, 500.0 * (strain - plastic) * (strain - plastic), 1e-10) << strain;
     EXPECT_NEAR(s.dissipated, law.yield_stress() * std::abs(plastic), 1e-12) << strain;
-    EXPECT_NEAR(unloaded_stretch(law, s), std::sqrt(1.0 + 2.0 * std::clamp(plastic, plastic - half, plastic + half)), 1e-9)
+    EXPECT_NEAR(unloaded_stretch(law, s),
+                std::sqrt(1.0 + 2.0 * std::clamp(plastic, plastic - half, plastic + half)), 1e-9)
         << strain;
   }
   law.sides = BarSides::confined;
@@ -271,11 +285,13 @@ TEST(KnownBars, FlowKeepsItsStrainWithinTheLimits) {
   EXPECT_NEAR(held.force, (1000.0 / 1.5 * 0.1 + 800.0 * (0.2 / 3.0 - held.plastic)) * stretch, 1e-9);
 }
 
-// --- tables -----------------------------------------------------------------------------------------------------------------
+// --- tables
+// -----------------------------------------------------------------------------------------------------------------
 
 TEST(KnownTables, AreReadBetweenTheirRowsAndNotBeyond) {
   const std::string head =
-      "# source: a test\n# unit time: 2 s\n# unit a: 10 m\n# uncertainty a: 0.5\n# unit b: 1 m\n# uncertainty b: 10 %\n";
+      "# source: a test\n# unit time: 2 s\n# unit a: 10 m\n# uncertainty a: 0.5\n# unit b: 1 m\n# "
+      "uncertainty b: 10 %\n";
   const test::DataFile file(test::sealed(head + "time,a,b\n1,1,2\n2,3,-4\n4,3,8\n")),
       one(test::sealed(head + "time,a,b\n1,1,2\n"));
   const auto of = [](const test::DataFile& data, const char* column) {
@@ -285,8 +301,8 @@ TEST(KnownTables, AreReadBetweenTheirRowsAndNotBeyond) {
     return make_reference(choice, s.job, s.initial);
   };
   const auto a = of(file, "a"), b = of(file, "b");
-  for (const auto& [time, value] :
-       {std::pair{2.0, 10.0}, std::pair{3.0, 20.0}, std::pair{4.0, 30.0}, std::pair{6.0, 30.0}, std::pair{8.0, 30.0}})
+  for (const auto& [time, value] : {std::pair{2.0, 10.0}, std::pair{3.0, 20.0}, std::pair{4.0, 30.0},
+                                    std::pair{6.0, 30.0}, std::pair{8.0, 30.0}})
     EXPECT_NEAR(*a->number_at("value", time), value, 1e-12) << time;
   EXPECT_FALSE(a->number_at("value", 1.999));
   EXPECT_FALSE(a->number_at("value", 8.001));
@@ -305,7 +321,8 @@ TEST(KnownTables, AFormulaOfOneComponentLeavesTheOthersAtRest) {
   const auto s = test::cubes();
   for (const std::size_t k : {0u, 1u, 2u}) {
     const std::string name = std::string("velocity_") + "xyz"[k];
-    const auto field = made(s, "expression", {{name, std::string("2*x + 3*y + t")}, {"density", std::string("5*z")}});
+    const auto field =
+        made(s, "expression", {{name, std::string("2*x + 3*y + t")}, {"density", std::string("5*z")}});
     Snapshot now;
     now.time = 0.5;
     now.position = {{1, 10, 100}, {2, 20, 200}, {not_a_number, 0, 0}};

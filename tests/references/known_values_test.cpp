@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exact solutions at places and times where their figures can be worked out by hand, and at the edges of what they know.
+// Exact solutions at places and times where their figures can be worked out by hand, and at the edges of what
+// they know.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +24,8 @@ void expect_near(const Vec3& a, const Vec3& b, double tolerance, const std::stri
   EXPECT_NEAR(norm(a - b), 0.0, tolerance) << what;
 }
 
-// --- places ---------------------------------------------------------------------------------------------------------------
+// --- places
+// ---------------------------------------------------------------------------------------------------------------
 
 TEST(KnownPlaces, OnTheSurfaceOfARegionAreInIt) {
   Shape box, ball, tube, half, both, hollow;
@@ -49,14 +51,15 @@ TEST(KnownPlaces, OnTheSurfaceOfARegionAreInIt) {
     Vec3 place;
     bool in;
   };
-  for (const Row& row : {Row{box, {1, 2, 3}, true},        Row{box, {2, 4, 6}, true},        Row{box, {0.999, 3, 4}, false},
-                         Row{box, {1.5, 1.999, 4}, false}, Row{box, {1.5, 3, 2.999}, false}, Row{box, {2.001, 3, 4}, false},
-                         Row{box, {1.5, 4.001, 4}, false}, Row{box, {1.5, 3, 6.001}, false}, Row{ball, {4, 4, 0}, true},
-                         Row{ball, {4, 4.001, 0}, false},  Row{tube, {4, 5, 1}, true},       Row{tube, {4, 5, 4}, true},
-                         Row{tube, {1, 1, 0.999}, false},  Row{tube, {1, 1, 4.001}, false},  Row{tube, {4, 5.001, 2}, false},
-                         Row{half, {7, 8, 1}, true},       Row{half, {7, 8, 1.001}, false},  Row{both, {-3, 0, 0}, true},
-                         Row{both, {2, 4, 6}, true},       Row{both, {-4.1, 0, 0}, false},   Row{hollow, {1.5, 3, 3.5}, false},
-                         Row{hollow, {-3, 0, 0}, true},    Row{hollow, {9, 0, 0}, false}})
+  for (const Row& row :
+       {Row{box, {1, 2, 3}, true},        Row{box, {2, 4, 6}, true},        Row{box, {0.999, 3, 4}, false},
+        Row{box, {1.5, 1.999, 4}, false}, Row{box, {1.5, 3, 2.999}, false}, Row{box, {2.001, 3, 4}, false},
+        Row{box, {1.5, 4.001, 4}, false}, Row{box, {1.5, 3, 6.001}, false}, Row{ball, {4, 4, 0}, true},
+        Row{ball, {4, 4.001, 0}, false},  Row{tube, {4, 5, 1}, true},       Row{tube, {4, 5, 4}, true},
+        Row{tube, {1, 1, 0.999}, false},  Row{tube, {1, 1, 4.001}, false},  Row{tube, {4, 5.001, 2}, false},
+        Row{half, {7, 8, 1}, true},       Row{half, {7, 8, 1.001}, false},  Row{both, {-3, 0, 0}, true},
+        Row{both, {2, 4, 6}, true},       Row{both, {-4.1, 0, 0}, false},   Row{hollow, {1.5, 3, 3.5}, false},
+        Row{hollow, {-3, 0, 0}, true},    Row{hollow, {9, 0, 0}, false}})
     EXPECT_EQ(inside(row.shape, row.place), row.in)
         << static_cast<int>(row.shape.kind) << " " << row.place.x << " " << row.place.y << " " << row.place.z;
 }
@@ -84,22 +87,23 @@ TEST(KnownPlaces, OfAPrescribedBodyAreThoseOfItsKeyframes) {
     Vec3 place, velocity;
     double turned, spin;
   };
-  for (const Row& row :
-       {Row{0.0, {}, {}, 0.0, 0.0}, Row{1.0, {}, {2, 0, 0}, 0.0, 0.25}, Row{2.0, {2, 0, 0}, {2, 0, 0}, 0.25, 0.25},
-        Row{3.0, {4, 0, 0}, {0, 1, 0}, 0.5, 0.0}, Row{3.5, {4, 0.5, 0}, {0, 1, 0}, 0.5, 0.0}, Row{4.0, {4, 1, 0}, {}, 0.5, 0.0},
-        Row{9.0, {4, 1, 0}, {}, 0.5, 0.0}}) {
+  for (const Row& row : {Row{0.0, {}, {}, 0.0, 0.0}, Row{1.0, {}, {2, 0, 0}, 0.0, 0.25},
+                         Row{2.0, {2, 0, 0}, {2, 0, 0}, 0.25, 0.25}, Row{3.0, {4, 0, 0}, {0, 1, 0}, 0.5, 0.0},
+                         Row{3.5, {4, 0.5, 0}, {0, 1, 0}, 0.5, 0.0}, Row{4.0, {4, 1, 0}, {}, 0.5, 0.0},
+                         Row{9.0, {4, 1, 0}, {}, 0.5, 0.0}}) {
     const auto s = prescribed_motion(body, row.time);
     expect_near(s.position, row.place, 1e-14, std::to_string(row.time));
     expect_near(s.velocity, row.velocity, 1e-14, std::to_string(row.time));
-    EXPECT_NEAR(angle_between(s.orientation, from_rotation_vector({0, 0, row.turned})), 0.0, 1e-7) << row.time;
+    EXPECT_NEAR(angle_between(s.orientation, from_rotation_vector({0, 0, row.turned})), 0.0, 1e-7)
+        << row.time;
     EXPECT_NEAR(s.angular_velocity.z, row.spin, 1e-14) << row.time;
     EXPECT_EQ(s.mass, 3.0);
   }
 }
 
 TEST(KnownPlaces, OfARigidBodyAreThoseOfItsParticles) {
-  // masses 1 and 3 kg at (0, 0, 0) and (4, 0, 0), the second at 2 m/s along y: centre at 3, momentum 6, spin 1 x 3 x 1.5 + 3 x 1
-  // x 0.5
+  // masses 1 and 3 kg at (0, 0, 0) and (4, 0, 0), the second at 2 m/s along y: centre at 3, momentum 6, spin
+  // 1 x 3 x 1.5 + 3 x 1 x 0.5
   const auto b = rigid_body({0, 1}, {{0, 0, 0}, {4, 0, 0}}, {{}, {0, 2, 0}}, {1.0, 3.0});
   EXPECT_EQ(b.mass, 4.0);
   expect_near(b.centre, {3, 0, 0}, 1e-15, "centre");
@@ -129,7 +133,8 @@ TEST(KnownPlaces, TheLongAxisIsTheFirstOfTheLongestThatAreOpen) {
   EXPECT_EQ(axis({2, 3, 8}, {false, false, true}), 1u);
 }
 
-// --- liquids ----------------------------------------------------------------------------------------------------------------
+// --- liquids
+// ----------------------------------------------------------------------------------------------------------------
 
 TEST(KnownLiquids, ABlockFloatsByItsDensityWhicheverWayIsUp) {
   for (const double up : {1.0, -1.0}) {
@@ -137,8 +142,9 @@ TEST(KnownLiquids, ABlockFloatsByItsDensityWhicheverWayIsUp) {
     s.job.scene.gravity.z = -9.81 * up;
     const auto rest = made(s, "archimedes");
     for (const auto& [name, figure] :
-         {std::pair{"draught", 0.14}, std::pair{"up", up}, std::pair{"floor", up > 0.0 ? 0.0 : -0.5}, std::pair{"pool_area", 1.0},
-          std::pair{"block_area", 0.16}, std::pair{"liquid_volume", 0.5}, std::pair{"keel", 0.2}})
+         {std::pair{"draught", 0.14}, std::pair{"up", up}, std::pair{"floor", up > 0.0 ? 0.0 : -0.5},
+          std::pair{"pool_area", 1.0}, std::pair{"block_area", 0.16}, std::pair{"liquid_volume", 0.5},
+          std::pair{"keel", 0.2}})
       EXPECT_NEAR(*rest->number(name), figure, 1e-12) << name << up;
     EXPECT_EQ(rest->measuring().axis, 2u);
     s.job.scene.bodies[1].shape.kind = Shape::Kind::sphere;
@@ -188,9 +194,9 @@ TEST(KnownLiquids, ADropIsPressedLeastAtItsSurface) {
   for (const double time : {0.0, 0.2}) {
     const auto now = elliptic_drop(2.0, 0.5, time);
     EXPECT_NEAR(now.a * now.b, 0.25, 1e-12);
-    const double h = 1e-4,
-                 change = (elliptic_drop(2.0, 0.5, time + h).rate - (time > 0.0 ? elliptic_drop(2.0, 0.5, time - h).rate : 2.0)) /
-                          (time > 0.0 ? 2.0 * h : h);
+    const double h = 1e-4, change = (elliptic_drop(2.0, 0.5, time + h).rate -
+                                     (time > 0.0 ? elliptic_drop(2.0, 0.5, time - h).rate : 2.0)) /
+                                    (time > 0.0 ? 2.0 * h : h);
     // along x Euler's equation is rho (A^2 - A') x = -dp/dx, and p = 0 at x = a
     const double middle = 500.0 * (now.rate * now.rate - change) * now.a * now.a;
     Snapshot frame;
@@ -278,7 +284,8 @@ TEST(KnownLiquids, ABallTurnsAsABodyAtItsStart) {
   now.time = 0.1;
   EXPECT_TRUE(made(s, "liquid_ball")->truth_for(now).velocity.empty());
   EXPECT_EQ(made(s, "liquid_ball")->number("spin_rate"), 0.0);
-  EXPECT_NEAR(*made(s, "liquid_ball", {{"form", std::string("paper")}})->number("spin_rate"), 5.0 * 0.002 / 0.25, 1e-15);
+  EXPECT_NEAR(*made(s, "liquid_ball", {{"form", std::string("paper")}})->number("spin_rate"),
+              5.0 * 0.002 / 0.25, 1e-15);
 }
 
 TEST(KnownLiquids, AColumnsFrontIsKnownAtNineteenTimes) {
@@ -299,7 +306,8 @@ TEST(KnownLiquids, AColumnsFrontIsKnownAtNineteenTimes) {
   EXPECT_EQ(column->measuring().axis, 0u);
 }
 
-// --- bodies -----------------------------------------------------------------------------------------------------------------
+// --- bodies
+// -----------------------------------------------------------------------------------------------------------------
 
 TEST(KnownBodies, ABoxBouncesWhicheverWayIsUp) {
   for (const double up : {1.0, -1.0}) {
@@ -334,7 +342,8 @@ TEST(KnownBodies, TwoCubesChangeTheirSpeedsWhereTheyTouch) {
       test::add_matter(t, "left", Phase::rigid, {{4, 4, 4}, 0.1, {-0.6, 0, 0}, 1.0}, {{1, 0, 0}, {}}, 1000.0);
     };
     const auto right = [&] {
-      test::add_matter(t, "right", Phase::rigid, {{4, 4, 4}, 0.1, {0.2, 0, 0}, 1.0}, {{-0.5, 0, 0}, {}}, 3000.0);
+      test::add_matter(t, "right", Phase::rigid, {{4, 4, 4}, 0.1, {0.2, 0, 0}, 1.0}, {{-0.5, 0, 0}, {}},
+                       3000.0);
     };
     if (swapped) {
       right();

@@ -33,8 +33,8 @@ std::vector<double> differences(const ShearFlow& f, double time, int n, int step
 }
 
 TEST(PlaneShear, IsWhatFiniteDifferencesSay) {
-  for (const ShearFlow& f :
-       {ShearFlow{1.0, 0.01, 0.08, 0, 0}, ShearFlow{1.0, 0.01, 0.0, 0.0, 1.0}, ShearFlow{0.7, 0.02, 0.05, -0.3, 1.0}}) {
+  for (const ShearFlow& f : {ShearFlow{1.0, 0.01, 0.08, 0, 0}, ShearFlow{1.0, 0.01, 0.0, 0.0, 1.0},
+                             ShearFlow{0.7, 0.02, 0.05, -0.3, 1.0}}) {
     const auto u = differences(f, 10.0, 100, 4000);
     for (const int i : {3, 40, 96})
       EXPECT_NEAR(f.speed((i + 0.5) * f.width / 100, 10.0), u[static_cast<std::size_t>(i)],
@@ -42,8 +42,8 @@ TEST(PlaneShear, IsWhatFiniteDifferencesSay) {
   }
 }
 
-/// The same flow by the method of images [Carslaw & Jaeger 1959, 2.4 and 2.9, where heat is what is momentum here]: it shares no
-/// term with the sine series.
+/// The same flow by the method of images [Carslaw & Jaeger 1959, 2.4 and 2.9, where heat is what is momentum
+/// here]: it shares no term with the sine series.
 double by_images(const ShearFlow& f, double distance, double time) {
   const double reach = 2.0 * std::sqrt(f.kinematic_viscosity * time);
   const auto twice_integrated = [](double x) {
@@ -51,11 +51,12 @@ double by_images(const ShearFlow& f, double distance, double time) {
   };
   double u = f.drive * time;
   for (int n = 0; n < 40; ++n) {
-    const double from_low = (n * f.width + distance) / reach, from_high = ((n + 1) * f.width - distance) / reach,
-                 sign = n % 2 == 0 ? 1.0 : -1.0;
+    const double from_low = (n * f.width + distance) / reach,
+                 from_high = ((n + 1) * f.width - distance) / reach, sign = n % 2 == 0 ? 1.0 : -1.0;
     u -= sign * 4.0 * f.drive * time * (twice_integrated(from_low) + twice_integrated(from_high));
     const double below = 2.0 * n * f.width, above = below + 2.0 * f.width;
-    u += f.high_speed * (std::erfc((below + f.width - distance) / reach) - std::erfc((below + f.width + distance) / reach));
+    u += f.high_speed *
+         (std::erfc((below + f.width - distance) / reach) - std::erfc((below + f.width + distance) / reach));
     u += f.low_speed * (std::erfc((below + distance) / reach) - std::erfc((above - distance) / reach));
   }
   return u;
@@ -63,19 +64,23 @@ double by_images(const ShearFlow& f, double distance, double time) {
 
 TEST(PlaneShear, IsTheSumOfImagesFromEarlyTimesOn) {
   for (const ShearFlow& f :
-       {ShearFlow{1.0, 0.01, 0.08, 0, 0}, ShearFlow{1.0, 0.01, 0.0, 0.0, 1.0}, ShearFlow{0.7, 0.02, 0.05, -0.3, 1.0}})
+       // round-off of the sums
+       {ShearFlow{1.0, 0.01, 0.08, 0, 0}, ShearFlow{1.0, 0.01, 0.0, 0.0, 1.0},
+        ShearFlow{0.7, 0.02, 0.05, -0.3, 1.0}})
     for (const double time : {0.1, 0.5, 2.0, 10.0, 40.0})
       for (const double share : {0.02, 0.21, 0.5, 0.87})
-        EXPECT_NEAR(f.speed(share * f.width, time), by_images(f, share * f.width, time), 1e-13) << time;  // round-off of the sums
+        EXPECT_NEAR(f.speed(share * f.width, time), by_images(f, share * f.width, time), 1e-13) << time;
 }
 
 TEST(PlaneShear, TakesTheChannelFromTheScene) {
   const auto s = test::channel({0.08, 0, 0}, {});
   const auto flow = make_reference(test::function("poiseuille"), s.job, s.initial);
-  EXPECT_NEAR(flow->at(1e4).velocity[4].x, 0.08 / 0.02 * 0.45 * 0.55, 1e-9);  // g s (H - s)/(2 nu), fifth layer
+  // g s (H - s)/(2 nu), fifth layer
+  EXPECT_NEAR(flow->at(1e4).velocity[4].x, 0.08 / 0.02 * 0.45 * 0.55, 1e-9);
   EXPECT_THROW((void)make_reference(test::function("couette"), s.job, s.initial), InputError);
   const auto glide = test::channel({}, {2, 0, 0});
-  EXPECT_NEAR(make_reference(test::function("couette"), glide.job, glide.initial)->at(1e4).velocity[9].x, 1.9, 1e-9);
+  EXPECT_NEAR(make_reference(test::function("couette"), glide.job, glide.initial)->at(1e4).velocity[9].x, 1.9,
+              1e-9);
 }
 
 TEST(PlaneShear, JudgesAParticleWhereItIs) {
@@ -102,8 +107,9 @@ TEST(Hydrostatic, IsTheIntegralOfTheWeightAbove) {
     EXPECT_NEAR(p[i], weight, 0.2);  // a cell of the sum: 9810 x 1e-5
   }
   EXPECT_NEAR(*rest->number("interface_pressure"), 200 * 9.81 * 0.4, 1e-9);
-  EXPECT_NEAR(make_reference(test::function("hydrostatic", {{"factor", 2.0}}), s.job, s.initial)->at(0.0).pressure[0], 2 * p[0],
-              1e-9);
+  EXPECT_NEAR(
+      make_reference(test::function("hydrostatic", {{"factor", 2.0}}), s.job, s.initial)->at(0.0).pressure[0],
+      2 * p[0], 1e-9);
 }
 
 TEST(Hydrostatic, OfACompressedLayerHasAllItsWeightAtTheFloorAndTheDensityOfItsPressure) {
@@ -119,7 +125,8 @@ TEST(Hydrostatic, OfACompressedLayerHasAllItsWeightAtTheFloorAndTheDensityOfItsP
   EXPECT_NEAR(pressure(0.0), 1000.0 * 9.81 * 0.5, 1e-9);
   for (const double z : {0.05, 0.2, 0.4}) {
     const double h = 1e-4, slope = (pressure(z + h) - pressure(z - h)) / (2.0 * h);
-    EXPECT_NEAR(slope, -9.81 * (1000.0 + pressure(z) / 40.0), 1e-3) << z;  // h^2 g^3/c^4 rho g/6 = 1e-6, and round-off over h
+    // h^2 g^3/c^4 rho g/6 = 1e-6, and round-off over h
+    EXPECT_NEAR(slope, -9.81 * (1000.0 + pressure(z) / 40.0), 1e-3) << z;
   }
   EXPECT_EQ(pressure(0.48), 0.0) << "the surface has fallen by about g H^2/(2 c^2) = 0.03";
 }
@@ -146,20 +153,24 @@ TEST(Hydrostatic, OfCompressedLayersFallsWithEachDensityAndKeepsTheWeightOfEach)
   EXPECT_LT(low, interface);
   const double h = 1e-4;
   const auto slope = [&](double z) { return (pressure(z + h) - pressure(z - h)) / (2.0 * h); };
-  for (const double z : {0.1 * low, 0.9 * low}) EXPECT_NEAR(slope(z), -9.81 * (1000.0 + pressure(z) / 40.0), 1e-3) << z;
+  for (const double z : {0.1 * low, 0.9 * low})
+    EXPECT_NEAR(slope(z), -9.81 * (1000.0 + pressure(z) / 40.0), 1e-3) << z;
   const double c2 = 5.0 * 40.0;  // a light liquid is as hard to compress: k rho_ref/rho0
-  for (const double z : {1.1 * low, 1.5 * low}) EXPECT_NEAR(slope(z), -9.81 * (200.0 + pressure(z) / c2), 1e-3) << z;
+  for (const double z : {1.1 * low, 1.5 * low})
+    EXPECT_NEAR(slope(z), -9.81 * (200.0 + pressure(z) / c2), 1e-3) << z;
 }
 
 TEST(Archimedes, IsTheBalanceOfPressureAndWeight) {
   const auto s = test::pool(350.0);
   const auto afloat = make_reference(test::function("archimedes"), s.job, s.initial);
-  const double lift = 1000.0 * 9.81 * *afloat->number("draught") * 0.16;  // pressure on the keel times its area
+  // Pressure on the keel times its area
+  const double lift = 1000.0 * 9.81 * *afloat->number("draught") * 0.16;
   EXPECT_NEAR(lift, s.job.bodies[1].properties.mass * 9.81, 1e-9 * lift);
   auto aside = s;
   for (auto* end : {&aside.job.scene.min, &aside.job.scene.max}) (*end)->x += 0.3;
   const auto beside = make_reference(test::function("archimedes"), aside.job, aside.initial);
-  EXPECT_NEAR(*beside->number("pool_area"), *afloat->number("pool_area"), 1e-12) << "an area is between two bounds";
+  EXPECT_NEAR(*beside->number("pool_area"), *afloat->number("pool_area"), 1e-12)
+      << "an area is between two bounds";
   const auto heavy = test::pool(1200.0);
   EXPECT_THROW((void)make_reference(test::function("archimedes"), heavy.job, heavy.initial), InputError);
 }
@@ -178,13 +189,16 @@ TEST(SoundWave, SolvesTheLinearEquationsByItsOwnDifferences) {
     const auto truth = wave->truth_for(now);
     return std::pair{truth.velocity[0].x, truth.pressure[0]};
   };
-  const double du_dt = (at(0, h).first - at(0, -h).first) / (2 * h), dp_dx = (at(h, 0).second - at(-h, 0).second) / (2 * h);
-  const double dp_dt = (at(0, h).second - at(0, -h).second) / (2 * h), du_dx = (at(h, 0).first - at(-h, 0).first) / (2 * h);
+  const double du_dt = (at(0, h).first - at(0, -h).first) / (2 * h),
+               dp_dx = (at(h, 0).second - at(-h, 0).second) / (2 * h);
+  const double dp_dt = (at(0, h).second - at(0, -h).second) / (2 * h),
+               du_dx = (at(h, 0).first - at(-h, 0).first) / (2 * h);
   EXPECT_NEAR(rho * du_dt, -dp_dx, 1e-5 * std::abs(dp_dx));  // differences of second order: (w h)^2/6
   EXPECT_NEAR(dp_dt, -rho * c2 * du_dx, 1e-5 * std::abs(dp_dt));
 }
 
-/// Residual of the x component of Navier-Stokes by differences of the reference itself, its terms of order 1; nu = 0.01 m2/s.
+/// Residual of the x component of Navier-Stokes by differences of the reference itself, its terms of order 1;
+/// nu = 0.01 m2/s.
 double taylor_green_residual(const test::Prepared& s, const Settings& args) {
   const auto flow = make_reference(test::function("taylor_green", args), s.job, s.initial);
   const auto at = [&](double x, double y, double t) {
@@ -199,14 +213,15 @@ double taylor_green_residual(const test::Prepared& s, const Settings& args) {
   const auto u = [&](double dx, double dy, double dt) { return at(x + dx, y + dy, t + dt).first; };
   const auto p = [&](double dx) { return at(x + dx, y, t).second.second; };
   const double w = at(x, y, t).second.first, u0 = u(0, 0, 0);
-  const double inertia =
-      (u(0, 0, h) - u(0, 0, -h)) / (2 * h) + u0 * (u(h, 0, 0) - u(-h, 0, 0)) / (2 * h) + w * (u(0, h, 0) - u(0, -h, 0)) / (2 * h);
-  const double stress =
-      nu * (u(h, 0, 0) + u(-h, 0, 0) + u(0, h, 0) + u(0, -h, 0) - 4 * u0) / (h * h) - (p(h) - p(-h)) / (2 * h) / 1000.0;
+  const double inertia = (u(0, 0, h) - u(0, 0, -h)) / (2 * h) + u0 * (u(h, 0, 0) - u(-h, 0, 0)) / (2 * h) +
+                         w * (u(0, h, 0) - u(0, -h, 0)) / (2 * h);
+  const double stress = nu * (u(h, 0, 0) + u(-h, 0, 0) + u(0, h, 0) + u(0, -h, 0) - 4 * u0) / (h * h) -
+                        (p(h) - p(-h)) / (2 * h) / 1000.0;
   return inertia - stress;
 }
 
-/// A periodic box of liquid that starts with vortices of 1 m and 1 m/s, their pattern begun elsewhere and carried along.
+/// A periodic box of liquid that starts with vortices of 1 m and 1 m/s, their pattern begun elsewhere and
+/// carried along.
 test::Prepared vortices(const Vec3& origin = {}, const Vec3& carried = {}) {
   VelocityField v;
   v.kind = VelocityField::Kind::taylor_green;
@@ -216,18 +231,21 @@ test::Prepared vortices(const Vec3& origin = {}, const Vec3& carried = {}) {
   const double k = 2 * pi;
   for (std::size_t i = 0; i < s.initial.size(); ++i) {
     const Vec3 r = s.initial.position[i] - origin;
-    s.initial.velocity[i] = carried + Vec3{-std::cos(k * r.x) * std::sin(k * r.y), std::sin(k * r.x) * std::cos(k * r.y), 0.0};
+    s.initial.velocity[i] =
+        carried + Vec3{-std::cos(k * r.x) * std::sin(k * r.y), std::sin(k * r.x) * std::cos(k * r.y), 0.0};
   }
   return s;
 }
 
 TEST(TaylorGreen, SolvesNavierStokesByItsOwnDifferences) {
-  EXPECT_NEAR(taylor_green_residual(vortices(), {}), 0.0, 1e-5);  // of terms of order 1: (k h)^2/6 and round-off over h^2
+  // Of terms of order 1: (k h)^2/6 and round-off over h^2
+  EXPECT_NEAR(taylor_green_residual(vortices(), {}), 0.0, 1e-5);
 }
 
 TEST(TaylorGreen, SolvesNavierStokesAlsoShiftedAndCarriedAlong) {
   const Vec3 origin{0.13, 0.29, 0}, carried{0.7, -0.4, 0.2};
-  const Settings args{{"origin", std::vector<double>{0.13, 0.29, 0}}, {"carried", std::vector<double>{0.7, -0.4, 0.2}}};
+  const Settings args{{"origin", std::vector<double>{0.13, 0.29, 0}},
+                      {"carried", std::vector<double>{0.7, -0.4, 0.2}}};
   EXPECT_NEAR(taylor_green_residual(vortices(origin, carried), args), 0.0, 1e-5);
   EXPECT_THROW((void)taylor_green_residual(vortices(), args), InputError)
       << "the liquid starts with other vortices than the arguments name";
@@ -240,8 +258,9 @@ TEST(CouetteCylinders, BalancesTheTorqueBetweenAnyTwoRadiiAndSticksToBothWalls) 
   s.job.bodies[1].angular_velocity = {0, 0, spin};
   s.job.scene.periodic = {false, false, true};
   const auto flow = make_reference(
-      test::function("couette_cylinders", {{"inner_radius", a}, {"outer_radius", b}, {"body", std::string("lower")}}), s.job,
-      s.initial);
+      test::function("couette_cylinders",
+                     {{"inner_radius", a}, {"outer_radius", b}, {"body", std::string("lower")}}),
+      s.job, s.initial);
   const Vec3 centre = s.job.bodies[1].properties.centre;
   const auto speed = [&](double r) {
     Snapshot now;
@@ -252,7 +271,8 @@ TEST(CouetteCylinders, BalancesTheTorqueBetweenAnyTwoRadiiAndSticksToBothWalls) 
   EXPECT_NEAR(speed(a), spin * a, 1e-12);
   EXPECT_NEAR(speed(b), 0.0, 1e-12);
   const double height = s.job.scene.max->z - s.job.scene.min->z, h = 1e-4;
-  for (const double r : {0.22, 0.3, 0.41}) {  // the torque of shear r d(u/r)/dr over a cylinder is the same at every radius
+  // The torque of shear r d(u/r)/dr over a cylinder is the same at every radius
+  for (const double r : {0.22, 0.3, 0.41}) {
     const double rate = r * (speed(r + h) / (r + h) - speed(r - h) / (r - h)) / (2 * h);
     EXPECT_NEAR(mu * rate * 2 * pi * r * r * height / *flow->number("torque"), 1.0, 1e-6);  // (h/r)^2
   }
@@ -266,11 +286,13 @@ TEST(EllipticDrop, KeepsItsEnergyAndVolume) {
                 1e-8 * A * A);  // no work is done: the surface is free
     EXPECT_NEAR(s.a * s.b, R * R, 1e-12);
   }
-  EXPECT_NEAR(elliptic_drop(A, R, 0.0076).b, 1.95, 0.02);  // Monaghan 1994: b = 1.95 at t = 0.0076, two digits
+  // Monaghan 1994: b = 1.95 at t = 0.0076, two digits
+  EXPECT_NEAR(elliptic_drop(A, R, 0.0076).b, 1.95, 0.02);
 }
 
 TEST(AddedMass, IsTheEnergyOfTheDipoleAroundTheSphere) {
-  double energy = 0.0;  // 1/2 rho int |u|^2 outside, u = grad of U R^3 cos/(2 r^2): |u|^2 = (R/r)^6 (cos^2 + sin^2/4)
+  // 1/2 rho int |u|^2 outside, u = grad of U R^3 cos/(2 r^2): |u|^2 = (R/r)^6 (cos^2 + sin^2/4)
+  double energy = 0.0;
   const int n = 400;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
@@ -280,7 +302,8 @@ TEST(AddedMass, IsTheEnergyOfTheDipoleAroundTheSphere) {
   EXPECT_NEAR(energy / (0.5 * 4.0 / 3.0 * pi), 0.5, 1e-5);
   auto s = test::pool(500.0);
   s.job.scene.bodies[1].shape.kind = Shape::Kind::sphere;
-  EXPECT_NEAR(*make_reference(test::function("added_mass"), s.job, s.initial)->number("acceleration"), 0.5 * 9.81, 1e-12);
+  EXPECT_NEAR(*make_reference(test::function("added_mass"), s.job, s.initial)->number("acceleration"),
+              0.5 * 9.81, 1e-12);
 }
 
 TEST(AddedMass, TakesLiquidInLayersOfOneDensityOnly) {
@@ -291,12 +314,13 @@ TEST(AddedMass, TakesLiquidInLayersOfOneDensityOnly) {
     return s;
   };
   const auto same = layered(1000.0), other = layered(900.0);
-  EXPECT_NEAR(*make_reference(test::function("added_mass"), same.job, same.initial)->number("acceleration"), 0.5 * 9.81, 1e-12);
+  EXPECT_NEAR(*make_reference(test::function("added_mass"), same.job, same.initial)->number("acceleration"),
+              0.5 * 9.81, 1e-12);
   EXPECT_THROW((void)make_reference(test::function("added_mass"), other.job, other.initial), InputError);
 }
 
-/// Spheres in a square array move as each other's wall: the backflow of the dipoles beside one, -R^3/2 sum 1/r^3, raises its
-/// added mass by 3/2 of it.
+/// Spheres in a square array move as each other's wall: the backflow of the dipoles beside one, -R^3/2 sum
+/// 1/r^3, raises its added mass by 3/2 of it.
 TEST(AddedMass, OfASquareArrayIsThatOfAWallAtTheDistanceOfItsLatticeSum) {
   double sum = 0.0;  // the rest beyond n is 2 pi/n by an integral
   const int n = 400;
@@ -308,7 +332,8 @@ TEST(AddedMass, OfASquareArrayIsThatOfAWallAtTheDistanceOfItsLatticeSum) {
   auto s = test::pool(500.0);
   s.job.scene.bodies[1].shape.kind = Shape::Kind::sphere;
   const double a =
-      *make_reference(test::function("added_mass", {{"radius_over_wall", 0.3306}}), s.job, s.initial)->number("acceleration");
+      *make_reference(test::function("added_mass", {{"radius_over_wall", 0.3306}}), s.job, s.initial)
+           ->number("acceleration");
   EXPECT_NEAR(a, 0.5 * 9.81 / (0.5 + 0.5 * (1.0 + 3.0 * backflow)), 1e-4 * 9.81);  // four digits of 0.3306
 }
 
@@ -360,17 +385,19 @@ TEST(Bouncing, IsTheFallStepByStepWithTheHitsTurnedRound) {
         v = -e * v;
       }
       if (n % 20000 != 0 || (e < 1.0 && t > 0.8)) continue;
-      EXPECT_NEAR(bounce->at(t).bodies[1].position.x - rest, z, 5e-4)
-          << e << " at " << t;  // three hits, each seen up to a step late: v dt of place, and 2 v dt of later times
+      // Three hits, each seen up to a step late: v dt of place, and 2 v dt of later times
+      EXPECT_NEAR(bounce->at(t).bodies[1].position.x - rest, z, 5e-4) << e << " at " << t;
     }
     EXPECT_NEAR(*bounce->number("touch_time"), std::sqrt(2 * gap / 9.81), 1e-12);
   }
-  const auto dead = make_reference(test::function("bouncing", {{"restitution", 0.5}}), s.job, s.initial)->at(5.0).bodies[1];
+  const auto dead =
+      make_reference(test::function("bouncing", {{"restitution", 0.5}}), s.job, s.initial)->at(5.0).bodies[1];
   EXPECT_EQ(dead.velocity.x, 0.0) << "hits without end come to rest in finite time, at 3 first falls";
 }
 
 TEST(LiquidBall, BrakesByThePrintedFormAsItsPairSumSays) {
-  // Torque of (8) on a homogeneous ball in rigid rotation: 1/2 mu int int lapW(r) |w x r|^2 = 1/2 mu V w^2 (2/3) int lapW r^2.
+  // Torque of (8) on a homogeneous ball in rigid rotation: 1/2 mu int int lapW(r) |w x r|^2 = 1/2 mu V w^2
+  // (2/3) int lapW r^2.
   const double h = 0.2, R = 0.5, nu = 0.005;
   double moment = 0.0;
   const int n = 4000;
@@ -385,7 +412,8 @@ TEST(LiquidBall, BrakesByThePrintedFormAsItsPairSumSays) {
   s.job.scene.bodies[0].shape.kind = Shape::Kind::sphere;
   s.job.scene.bodies[0].shape.radius = R;
   s.job.scene.bodies[0].angular_velocity = {0, 0, 1};
-  const auto ball = make_reference(test::function("liquid_ball", {{"form", std::string("paper")}}), s.job, s.initial);
+  const auto ball =
+      make_reference(test::function("liquid_ball", {{"form", std::string("paper")}}), s.job, s.initial);
   EXPECT_NEAR(*ball->number("spin_rate"), rate, 1e-5 * rate);
   EXPECT_EQ(*make_reference(test::function("liquid_ball"), s.job, s.initial)->number("spin_rate"), 0.0);
 }

@@ -6,8 +6,8 @@
 namespace tripoint::test {
 
 /// A body of its own material; a liquid has no row among the solid bodies.
-inline void add_matter(Prepared& s, const std::string& name, Phase phase, const Lattice& l, const Spin& spin, double density,
-                       double viscosity = 0.0, Motion motion = Motion::free) {
+inline void add_matter(Prepared& s, const std::string& name, Phase phase, const Lattice& l, const Spin& spin,
+                       double density, double viscosity = 0.0, Motion motion = Motion::free) {
   const auto first = s.initial.size();
   Lattice weighed = l;
   weighed.mass = density * std::pow(l.spacing, 3) * l.count[0] * l.count[1] * l.count[2];

@@ -33,7 +33,9 @@ class DataFile {
 };
 
 /// The text with its own hash as first line.
-inline std::string sealed(const std::string& text) { return "# hash: " + experiment_hash(text) + "\n" + text; }
+inline std::string sealed(const std::string& text) {
+  return "# hash: " + experiment_hash(text) + "\n" + text;
+}
 
 inline ReferenceChoice experiment(const DataFile& file, const std::string& axis = "x") {
   ReferenceChoice choice;

@@ -10,14 +10,15 @@ struct Heating {
   bool from_above = false;           ///< the wall stands at the bar's high end
 };
 
-/// A bar of 40 x 2 x 2 spacings of 1 mm along x, D = 2e-6 m2/s, L/c_p = 100 K, beside a wall of 3 layers; periodic in y and z.
+/// A bar of 40 x 2 x 2 spacings of 1 mm along x, D = 2e-6 m2/s, L/c_p = 100 K, beside a wall of 3 layers;
+/// periodic in y and z.
 inline Prepared stefan_bar(const Heating& h) {
   Prepared s;
   const double dx = 1e-3;
   s.job.scene.spacing = dx;
   add_matter(s, "bar", h.wall > h.bar ? Phase::rigid : Phase::liquid, {{40, 2, 2}, dx, {}, 1.0}, {}, 1000.0);
-  add_matter(s, "wall", Phase::rigid, {{3, 2, 2}, dx, {h.from_above ? 40 * dx : -3 * dx, 0, 0}, 1.0}, {}, 1000.0, 0.0,
-             Motion::fixed);
+  add_matter(s, "wall", Phase::rigid, {{3, 2, 2}, dx, {h.from_above ? 40 * dx : -3 * dx, 0, 0}, 1.0}, {},
+             1000.0, 0.0, Motion::fixed);
   for (auto& m : s.job.scene.materials) {
     m.conductivity = 2.0;
     m.heat_capacity = 1000.0;

@@ -19,7 +19,8 @@ TEST(Neumann, HasThePrintedSolutionsOfStefansProblem) {
 
 TEST(Neumann, BalancesTheHeatAtTheFrontByItsOwnDifferences) {
   for (const NeumannFront& f :
-       {NeumannFront{400, 300, 300, 2e-6, 100}, NeumannFront{400, 300, 250, 2e-6, 100}, NeumannFront{250, 290, 340, 2e-6, 50}}) {
+       {NeumannFront{400, 300, 300, 2e-6, 100}, NeumannFront{400, 300, 250, 2e-6, 100},
+        NeumannFront{250, 290, 340, 2e-6, 50}}) {
     const double t = 30.0, X = f.front(t), h = 1e-7, flow = f.surface > f.far ? 1.0 : -1.0;
     const double before = (f.temperature(X - h, t) - f.temperature(X - 2 * h, t)) / h,
                  after = (f.temperature(X + 2 * h, t) - f.temperature(X + h, t)) / h;
@@ -81,7 +82,8 @@ TEST(Stefan, TakesBarAndWallFromTheScene) {
   EXPECT_EQ(bar->measuring().melts, true);
   const auto end = bar->at(20.0);
   double melted = 0.0;
-  for (std::size_t i = 0; i < s.initial.size(); ++i) melted += s.initial.source[i] == 0 ? 1e-9 * end.liquid_fraction[i] : 0.0;
+  for (std::size_t i = 0; i < s.initial.size(); ++i)
+    melted += s.initial.source[i] == 0 ? 1e-9 * end.liquid_fraction[i] : 0.0;
   EXPECT_NEAR(melted / *bar->number("area"), *bar->number_at("front_position", 20.0), 1e-15);
   EXPECT_EQ(end.phase[0], 0);
   EXPECT_EQ(end.phase[4 * 39], 2);
@@ -104,7 +106,8 @@ TEST(Stefan, RefusesABarThatIsTooShort) {
   auto s = test::stefan_bar({});
   s.job.scene.end_time = 1000.0;
   EXPECT_THROW((void)make_reference(function("stefan"), s.job, s.initial), InputError);
-  const auto between = test::stefan_bar({299.0, 295.0, false});  // hotter than the bar, below the melting point
+  // Hotter than the bar, below the melting point
+  const auto between = test::stefan_bar({299.0, 295.0, false});
   EXPECT_THROW((void)make_reference(function("stefan"), between.job, between.initial), InputError);
 }
 
@@ -129,19 +132,23 @@ TEST(KnownStretch, OfASpinningRodIsTheSumOfThePullOfItsParts) {
     const double x = (i + 0.5) * 0.095 / n;
     stretch += 1000 * 9 * 0.5 * (0.1 * 0.1 - x * x) / E / n;
   }
-  EXPECT_NEAR(*make_reference(function("spinning_rod"), s.job, s.initial)->number("stretch"), 1.0 + stretch, 1e-10);
+  EXPECT_NEAR(*make_reference(function("spinning_rod"), s.job, s.initial)->number("stretch"), 1.0 + stretch,
+              1e-10);
   s.job.bodies[0].angular_velocity = {3, 0, 0};
   EXPECT_THROW((void)make_reference(function("spinning_rod"), s.job, s.initial), InputError);
 }
 
 TEST(KnownStretch, OfAPressedBlockIsWhereItsEnergyAndThePressuresWorkAreLeast) {
   auto s = test::beam(0.0);
-  const double E = 2e6, nu = 0.3975, p = 2e4, lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 + nu));
-  double e[3] = {};  // strains, relaxed one after the other: d/de_i of lambda/2 (sum e)^2 + mu sum e^2 + p sum e = 0
+  const double E = 2e6, nu = 0.3975, p = 2e4, lambda = E * nu / ((1 + nu) * (1 - 2 * nu)),
+               mu = E / (2 * (1 + nu));
+  // Strains, relaxed one after the other: d/de_i of lambda/2 (sum e)^2 + mu sum e^2 + p sum e = 0
+  double e[3] = {};
   for (int n = 0; n < 400; ++n)
     for (int i = 0; i < 3; ++i) e[i] = -(p + lambda * (e[(i + 1) % 3] + e[(i + 2) % 3])) / (lambda + 2 * mu);
-  EXPECT_NEAR(*make_reference(function("pressed_block", {{"pressure", p}}), s.job, s.initial)->number("stretch"), 1.0 + e[0],
-              1e-12);
+  EXPECT_NEAR(
+      *make_reference(function("pressed_block", {{"pressure", p}}), s.job, s.initial)->number("stretch"),
+      1.0 + e[0], 1e-12);
 }
 
 }  // namespace

@@ -29,7 +29,8 @@ struct Fault {
   Change change;
 };
 
-inline void hold(const std::string& function, const Prepared& s, const Settings& args, const std::vector<Fault>& rows) {
+inline void hold(const std::string& function, const Prepared& s, const Settings& args,
+                 const std::vector<Fault>& rows) {
   for (const auto& row : rows) {
     const auto said = refusal(s, function, args, row.change);
     if (*row.words)

@@ -14,7 +14,8 @@ using test::Prepared;
 Prepared warm(bool periodic, double phase) {
   const double k = 2.0 * test::pi / 0.1;
   auto s = test::bar(
-      {20, 4, 4}, 0.005, [&](const Vec3& r) { return 300.0 + 10.0 * std::cos(k * r.x + phase); }, 10.0, 2, periodic);
+      {20, 4, 4}, 0.005, [&](const Vec3& r) { return 300.0 + 10.0 * std::cos(k * r.x + phase); }, 10.0, 2,
+      periodic);
   TemperatureField field;
   field.kind = TemperatureField::Kind::cosine;
   field.mean = 300.0;
@@ -49,7 +50,8 @@ TEST(Refusals, OfHeat) {
          s.job.bodies[0].velocity.y = 1.0;
          s.job.bodies[0].motion = Motion::fixed;
        }},
-      {"`bar` holds its temperature", [](Prepared& s, Settings&) { s.job.bodies[0].temperature_held = true; }},
+      {"`bar` holds its temperature",
+       [](Prepared& s, Settings&) { s.job.bodies[0].temperature_held = true; }},
       {"`bar` falls",
        [](Prepared& s, Settings&) {
          s.job.scene.gravity = {0, 0, -1};
@@ -71,10 +73,13 @@ TEST(Refusals, OfHeat) {
          s.job.scene.periodic[0] = true;
          s.job.scene.max.reset();
        }},
-      {"needs conductivity and heat_capacity", [](Prepared& s, Settings&) { s.job.scene.materials[0].conductivity.reset(); }},
-      {"needs conductivity and heat_capacity", [](Prepared& s, Settings&) { s.job.scene.materials[0].heat_capacity.reset(); }},
+      {"needs conductivity and heat_capacity",
+       [](Prepared& s, Settings&) { s.job.scene.materials[0].conductivity.reset(); }},
+      {"needs conductivity and heat_capacity",
+       [](Prepared& s, Settings&) { s.job.scene.materials[0].heat_capacity.reset(); }},
       {"which the scene does not have", [](Prepared& s, Settings&) { s.job.bodies[0].material = "none"; }},
-      {"the arguments wave_vector and amplitude", [](Prepared& s, Settings&) { s.job.scene.bodies[0].temperature.reset(); }},
+      {"the arguments wave_vector and amplitude",
+       [](Prepared& s, Settings&) { s.job.scene.bodies[0].temperature.reset(); }},
       {"the arguments wave_vector and amplitude", [](Prepared&, Settings& a) { a["amplitude"] = 0.0; }}};
   hold("cosine_mode", warm(false, 0.0), {}, at_rest);
   hold("cosine_mode", warm(false, 0.0), {},
@@ -88,13 +93,16 @@ TEST(Refusals, OfHeat) {
            second_body(s, 2.0);
            s.job.scene.bodies[0].temperature->wave_vector.x = test::pi / 0.11;
          }},
-        {"not level at the insulated ends", [](Prepared& s, Settings&) { s.job.scene.bodies[0].temperature->phase = 0.1; }},
+        {"not level at the insulated ends",
+         [](Prepared& s, Settings&) { s.job.scene.bodies[0].temperature->phase = 0.1; }},
         {"not level at the insulated ends",
          [](Prepared& s, Settings&) { s.job.scene.bodies[0].temperature->wave_vector.x *= 1.01; }},
-        {"must point along", [](Prepared& s, Settings&) { s.job.scene.bodies[0].temperature->wave_vector.y = 3.0; }}});
-  hold("cosine_mode", warm(true, 0.7), {}, {as_it_is, {"no whole number of waves", [](Prepared& s, Settings&) {
-                                                         s.job.scene.bodies[0].temperature->wave_vector.x *= 1.5;
-                                                       }}});
+        {"must point along",
+         [](Prepared& s, Settings&) { s.job.scene.bodies[0].temperature->wave_vector.y = 3.0; }}});
+  hold("cosine_mode", warm(true, 0.7), {},
+       {as_it_is, {"no whole number of waves", [](Prepared& s, Settings&) {
+                     s.job.scene.bodies[0].temperature->wave_vector.x *= 1.5;
+                   }}});
   hold("cosine_carried", warm(true, 0.7), {},
        {as_it_is,
         {"", [](Prepared& s, Settings&) { s.job.bodies[0].velocity.x = 1.0; }},
@@ -118,8 +126,10 @@ TEST(Refusals, OfHeat) {
         {"\"paper\" or \"corrected\"", [](Prepared&, Settings& a) { a["form"] = std::string("other"); }},
         {"", [](Prepared&, Settings& a) { a["form"] = std::string("paper"); }},
         {"", [](Prepared&, Settings& a) { a["form"] = std::string("corrected"); }}});
-  const Settings wave{
-      {"mean", 300.0}, {"amplitude_1", 10.0}, {"phase_1", 0.7}, {"wave_vector_1", std::vector<double>{20.0 * test::pi, 0, 0}}};
+  const Settings wave{{"mean", 300.0},
+                      {"amplitude_1", 10.0},
+                      {"phase_1", 0.7},
+                      {"wave_vector_1", std::vector<double>{20.0 * test::pi, 0, 0}}};
   hold("cosine_sum", warm(true, 0.7), wave,
        {as_it_is,
         {"the argument `mean`", [](Prepared&, Settings& a) { a.erase("mean"); }},
@@ -140,7 +150,8 @@ TEST(Refusals, OfHeat) {
         {"", [](Prepared& s, Settings&) { s.initial.temperature[5] += 0.9e-8; }}});
   hold("sine_held_ends", warm(false, -0.5 * test::pi), {},
        {as_it_is,
-        {"one body whose temperature is not held", [](Prepared& s, Settings&) { s.job.bodies[0].temperature_held = true; }},
+        {"one body whose temperature is not held",
+         [](Prepared& s, Settings&) { s.job.bodies[0].temperature_held = true; }},
         {"all bodies but one", [](Prepared& s, Settings&) { second_body(s, 2.0); }},
         {"",
          [](Prepared& s, Settings&) {
@@ -152,7 +163,8 @@ TEST(Refusals, OfHeat) {
            second_body(s, 3.0);
            s.job.bodies[1].temperature_held = true;
          }},
-        {"at its mean at the held ends", [](Prepared& s, Settings&) { s.job.scene.bodies[0].temperature->phase += 1e-3; }}});
+        {"at its mean at the held ends",
+         [](Prepared& s, Settings&) { s.job.scene.bodies[0].temperature->phase += 1e-3; }}});
   hold("two_conductivities", warm(false, 0.0), {},
        {{"for two bodies", [](Prepared&, Settings&) {}},
         {"must start at one temperature", [](Prepared& s, Settings&) { second_body(s, 3.0); }},
@@ -197,48 +209,56 @@ TEST(Refusals, OfAStepOfTemperature) {
         {"", place(1e-9)},
         {"", place(0.1 - 1e-9)},
         {"kind = \"step\"",
-         [](Prepared& p, Settings&) { p.job.scene.bodies[0].temperature->kind = TemperatureField::Kind::constant; }},
+         [](Prepared& p, Settings&) {
+           p.job.scene.bodies[0].temperature->kind = TemperatureField::Kind::constant;
+         }},
         {"kind = \"step\"", [](Prepared& p, Settings&) { p.job.scene.bodies[0].temperature.reset(); }},
-        {"must point along", [](Prepared& p, Settings&) { p.job.scene.bodies[0].temperature->normal.y = 1.0; }}});
+        {"must point along",
+         [](Prepared& p, Settings&) { p.job.scene.bodies[0].temperature->normal.y = 1.0; }}});
 }
 
 TEST(Refusals, OfMelting) {
-  hold("stefan", test::stefan_bar({}), {},
-       {as_it_is,
-        {"needs a wall", [](Prepared& s, Settings&) { s.job.bodies[1].temperature_held = false; }},
-        {"several bodies hold", [](Prepared& s, Settings&) { s.job.bodies[0].temperature_held = true; }},
-        {"a material with t_melt", [](Prepared& s, Settings&) { s.job.scene.materials[0].t_melt.reset(); }},
-        {"`walls`", [](Prepared&, Settings& a) { a["wall"] = std::string("walls"); }},
-        {"",
-         [](Prepared&, Settings& a) {
-           a["wall"] = std::string("wall");
-           a["body"] = std::string("bar");
-         }},
-        {"`bar` needs one temperature", [](Prepared& s, Settings&) { s.job.scene.bodies[0].temperature.reset(); }},
-        {"`wall` needs one temperature",
-         [](Prepared& s, Settings&) { s.job.scene.bodies[1].temperature->kind = TemperatureField::Kind::step; }},
-        {"needs t_melt, heat_capacity and latent_heat",
-         [](Prepared& s, Settings&) { s.job.scene.materials[0].latent_heat.reset(); }},
-        {"needs t_melt, heat_capacity and latent_heat",
-         [](Prepared& s, Settings&) { s.job.scene.materials[0].heat_capacity.reset(); }},
-        {"",
-         [](Prepared& s, Settings& a) {
-           s.job.scene.materials[0].latent_heat.reset();
-           a["latent_heat"] = 1e5;
-         }},
-        {"must lie between", [](Prepared& s, Settings&) { s.job.scene.bodies[0].temperature->value = 310.0; }},
-        {"must lie between",
-         [](Prepared& s, Settings&) {
-           s.job.scene.bodies[1].temperature->value = 299.0;
-           s.job.scene.bodies[0].temperature->value = 280.0;
-         }},
-        {"half space", [](Prepared& s, Settings&) { test::set_times(s, 2000.0, 20); }},
-        {"every direction is periodic", [](Prepared& s, Settings&) { s.job.scene.periodic[0] = true; }}});
+  hold(
+      "stefan", test::stefan_bar({}), {},
+      {as_it_is,
+       {"needs a wall", [](Prepared& s, Settings&) { s.job.bodies[1].temperature_held = false; }},
+       {"several bodies hold", [](Prepared& s, Settings&) { s.job.bodies[0].temperature_held = true; }},
+       {"a material with t_melt", [](Prepared& s, Settings&) { s.job.scene.materials[0].t_melt.reset(); }},
+       {"`walls`", [](Prepared&, Settings& a) { a["wall"] = std::string("walls"); }},
+       {"",
+        [](Prepared&, Settings& a) {
+          a["wall"] = std::string("wall");
+          a["body"] = std::string("bar");
+        }},
+       {"`bar` needs one temperature",
+        [](Prepared& s, Settings&) { s.job.scene.bodies[0].temperature.reset(); }},
+       {"`wall` needs one temperature",
+        [](Prepared& s, Settings&) {
+          s.job.scene.bodies[1].temperature->kind = TemperatureField::Kind::step;
+        }},
+       {"needs t_melt, heat_capacity and latent_heat",
+        [](Prepared& s, Settings&) { s.job.scene.materials[0].latent_heat.reset(); }},
+       {"needs t_melt, heat_capacity and latent_heat",
+        [](Prepared& s, Settings&) { s.job.scene.materials[0].heat_capacity.reset(); }},
+       {"",
+        [](Prepared& s, Settings& a) {
+          s.job.scene.materials[0].latent_heat.reset();
+          a["latent_heat"] = 1e5;
+        }},
+       {"must lie between", [](Prepared& s, Settings&) { s.job.scene.bodies[0].temperature->value = 310.0; }},
+       {"must lie between",
+        [](Prepared& s, Settings&) {
+          s.job.scene.bodies[1].temperature->value = 299.0;
+          s.job.scene.bodies[0].temperature->value = 280.0;
+        }},
+       {"half space", [](Prepared& s, Settings&) { test::set_times(s, 2000.0, 20); }},
+       {"every direction is periodic", [](Prepared& s, Settings&) { s.job.scene.periodic[0] = true; }}});
   hold("hysteresis", test::heated_block(), {},
        {as_it_is,
         {"needs heat events", [](Prepared& s, Settings&) { s.job.scene.events.clear(); }},
         {"needs a temperature", [](Prepared& s, Settings&) { s.job.scene.events[2].temperature.reset(); }},
-        {"must hold all that can melt", [](Prepared& s, Settings&) { s.job.scene.events[1].bodies = {"other"}; }},
+        {"must hold all that can melt",
+         [](Prepared& s, Settings&) { s.job.scene.events[1].bodies = {"other"}; }},
         {"", [](Prepared& s, Settings&) { s.job.scene.events[1].bodies.clear(); }},
         {"", [](Prepared& s, Settings&) {
            s.job.scene.events[1].bodies = {"other"};
@@ -251,7 +271,8 @@ TEST(Refusals, OfBarsAndBeams) {
        {as_it_is,
         {"held at both ends",
          [](Prepared& s, Settings&) {
-           test::add_matter(s, "other", Phase::rigid, {{3, 2, 2}, 0.01, {0.2, 0, 0}, 1.0}, {}, 1000.0, 0.0, Motion::fixed);
+           test::add_matter(s, "other", Phase::rigid, {{3, 2, 2}, 0.01, {0.2, 0, 0}, 1.0}, {}, 1000.0, 0.0,
+                            Motion::fixed);
          }},
         {"holds the beam", [](Prepared& s, Settings&) { s.job.bodies[1].motion = Motion::free; }},
         {"holds the beam", [](Prepared& s, Settings&) { s.job.bodies[1].phase = Phase::liquid; }},
@@ -296,17 +317,21 @@ TEST(Refusals, OfBarsAndBeams) {
   v.kind = VelocityField::Kind::cosine;
   v.wave_vector = {test::pi / 0.2, 0, 0};
   v.amplitude = {0.1, 0, 0};
-  hold("elastic_wave", swinging, {},
-       {as_it_is,
-        {"kind = \"cosine\"", [](Prepared& s, Settings&) { s.job.scene.bodies[0].velocity.kind = VelocityField::Kind::linear; }},
-        {"kind = \"cosine\"", [](Prepared& s, Settings&) { s.job.scene.bodies[0].velocity.wave_vector = {}; }},
-        {"kind = \"cosine\"", [](Prepared& s, Settings&) { s.job.scene.bodies[0].velocity.amplitude = {}; }},
-        {"move on the mean", [](Prepared& s, Settings&) { s.job.scene.bodies[0].velocity.mean.z = 1.0; }},
-        {"must point along", [](Prepared& s, Settings&) { s.job.scene.bodies[0].velocity.wave_vector.y = 1.0; }},
-        {"along its wave vector or across", [](Prepared& s, Settings&) { s.job.scene.bodies[0].velocity.amplitude.y = 0.1; }},
-        {"", [](Prepared& s, Settings&) {
-           s.job.scene.bodies[0].velocity.amplitude = {0, 0.1, 0.1};
-         }}});
+  hold(
+      "elastic_wave", swinging, {},
+      {as_it_is,
+       {"kind = \"cosine\"",
+        [](Prepared& s, Settings&) { s.job.scene.bodies[0].velocity.kind = VelocityField::Kind::linear; }},
+       {"kind = \"cosine\"", [](Prepared& s, Settings&) { s.job.scene.bodies[0].velocity.wave_vector = {}; }},
+       {"kind = \"cosine\"", [](Prepared& s, Settings&) { s.job.scene.bodies[0].velocity.amplitude = {}; }},
+       {"move on the mean", [](Prepared& s, Settings&) { s.job.scene.bodies[0].velocity.mean.z = 1.0; }},
+       {"must point along",
+        [](Prepared& s, Settings&) { s.job.scene.bodies[0].velocity.wave_vector.y = 1.0; }},
+       {"along its wave vector or across",
+        [](Prepared& s, Settings&) { s.job.scene.bodies[0].velocity.amplitude.y = 0.1; }},
+       {"", [](Prepared& s, Settings&) {
+          s.job.scene.bodies[0].velocity.amplitude = {0, 0.1, 0.1};
+        }}});
   hold("spinning_rod", test::driven_bar(1.0), {},
        {{"across its length", [](Prepared&, Settings&) {}},
         {"across its length",
@@ -317,7 +342,8 @@ TEST(Refusals, OfBarsAndBeams) {
            s.job.bodies[0].angular_velocity = {0, 1, 1};
          }}});
   hold("pressed_block", test::driven_bar(1.0), {},
-       {{"the argument `pressure`", [](Prepared&, Settings&) {}}, {"", [](Prepared&, Settings& a) { a["pressure"] = 1e4; }}});
+       {{"the argument `pressure`", [](Prepared&, Settings&) {}},
+        {"", [](Prepared&, Settings& a) { a["pressure"] = 1e4; }}});
 }
 
 TEST(Refusals, OfWhatACaseStates) {
@@ -335,7 +361,8 @@ TEST(Refusals, OfWhatACaseStates) {
         {"must be three numbers", [](Prepared&, Settings& a) { a["point"] = 1.0; }},
         {"must be true or false", [](Prepared&, Settings& a) { a["outside"] = 1.0; }},
         {"must be a text", [](Prepared&, Settings& a) { a["phase"] = 1.0; }},
-        {"\"liquid\", \"elastic\", \"rigid\" or \"solid\"", [](Prepared&, Settings& a) { a["phase"] = std::string("gas"); }},
+        {"\"liquid\", \"elastic\", \"rigid\" or \"solid\"",
+         [](Prepared&, Settings& a) { a["phase"] = std::string("gas"); }},
         {"names body `rigt`", [](Prepared&, Settings& a) { a["other"] = std::string("rigt"); }},
         {"both `min` and `max`", [=](Prepared&, Settings& a) { a["min"] = vector(0, 0, 0); }},
         {"both `min` and `max`", [=](Prepared&, Settings& a) { a["max"] = vector(0, 0, 0); }},
@@ -356,7 +383,8 @@ TEST(Refusals, OfWhatACaseStates) {
          }},
         {"must be greater than 0", [](Prepared&, Settings& a) { a["frequency"] = 0.0; }},
         {"no argument `valu`", [](Prepared&, Settings& a) { a["valu"] = 0.0; }}});
-  hold("cosine_mod", test::cubes(), {}, {{"unknown reference function `cosine_mod`", [](Prepared&, Settings&) {}}});
+  hold("cosine_mod", test::cubes(), {},
+       {{"unknown reference function `cosine_mod`", [](Prepared&, Settings&) {}}});
   hold("", test::cubes(), {}, {{"names no function", [](Prepared&, Settings&) {}}});
   const auto s = test::cubes();
   const auto truth = make_reference(test::function("stated", {{"value", 1.0},

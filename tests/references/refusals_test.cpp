@@ -36,9 +36,12 @@ TEST(Refusals, OfBodiesThatFallLieOrSlide) {
         {"holds for one free box", [](Prepared& s, Settings&) { s.job.scene.gravity = {}; }},
         {"holds for one free box", [](Prepared& s, Settings&) { s.job.bodies.push_back(s.job.bodies[0]); }},
         {"must point along", [](Prepared& s, Settings&) { s.job.scene.gravity.x = 1.0; }},
-        {"one free and one fixed body", [](Prepared& s, Settings&) { s.job.bodies[1].motion = Motion::prescribed; }},
-        {"one free and one fixed body", [](Prepared& s, Settings&) { s.job.bodies[0].motion = Motion::fixed; }},
-        {"one free and one fixed body", [](Prepared& s, Settings&) { s.job.bodies[1].motion = Motion::free; }}});
+        {"one free and one fixed body",
+         [](Prepared& s, Settings&) { s.job.bodies[1].motion = Motion::prescribed; }},
+        {"one free and one fixed body",
+         [](Prepared& s, Settings&) { s.job.bodies[0].motion = Motion::fixed; }},
+        {"one free and one fixed body",
+         [](Prepared& s, Settings&) { s.job.bodies[1].motion = Motion::free; }}});
   hold("bouncing", falling_box(), {},
        {as_it_is,
         {"falls straight",
@@ -68,7 +71,8 @@ TEST(Refusals, OfBodiesThatFallLieOrSlide) {
         {"does not reach the floor", [](Prepared& s, Settings&) { test::set_times(s, 0.19, 4); }},
         {"without friction", [](Prepared& s, Settings&) { s.job.settings["friction"] = 0.1; }},
         {"not for a face", [](Prepared& s, Settings&) { s.job.settings["friction"] = 0.0; }},
-        {"holds for a box", [](Prepared& s, Settings&) { s.job.scene.bodies[0].shape.kind = Shape::Kind::sphere; }}});
+        {"holds for a box",
+         [](Prepared& s, Settings&) { s.job.scene.bodies[0].shape.kind = Shape::Kind::sphere; }}});
   hold("sliding", lying_box(), {{"friction", 0.5}},
        {as_it_is,
         no_gravity,
@@ -83,8 +87,10 @@ TEST(Refusals, OfBodiesThatFallLieOrSlide) {
          [](Prepared& s, Settings&) {
            s.job.bodies[1].angular_velocity = {0, 0, 1};
          }},
-        {"a box or a ball on a box", [](Prepared& s, Settings&) { s.job.scene.bodies[0].shape.kind = Shape::Kind::cylinder; }},
-        {"a box or a ball on a box", [](Prepared& s, Settings&) { s.job.scene.bodies[1].shape.kind = Shape::Kind::half_space; }},
+        {"a box or a ball on a box",
+         [](Prepared& s, Settings&) { s.job.scene.bodies[0].shape.kind = Shape::Kind::cylinder; }},
+        {"a box or a ball on a box",
+         [](Prepared& s, Settings&) { s.job.scene.bodies[1].shape.kind = Shape::Kind::half_space; }},
         {"must touch", [](Prepared& s, Settings&) { s.job.scene.bodies[0].shape.min.z -= 1e-8; }},
         {"leaves the plane", [](Prepared& s, Settings&) { s.job.bodies[0].velocity.z = 1.0; }},
         {"leaves the plane", [](Prepared& s, Settings&) { s.job.bodies[0].velocity.z = -1.0; }},
@@ -125,13 +131,14 @@ TEST(Refusals, OfFreeFlight) {
     };
   };
   for (const char* name : {"ballistic", "torque_free"})
-    hold(name, block(), {},
-         {as_it_is,
-          {"events", event(Event::Kind::merge)},
-          {"not rigid", [](Prepared& s, Settings&) { s.job.bodies[0].phase = Phase::elastic; }},
-          {"joined body", [](Prepared& s, Settings&) { s.job.scene.bodies[0].joined_to = {"floor"}; }},
-          {"inflow", [](Prepared& s, Settings&) { s.job.scene.inflows.resize(1); }},
-          {"has no particles", [](Prepared& s, Settings&) { s.initial.source.assign(s.initial.size(), 1); }}});
+    hold(
+        name, block(), {},
+        {as_it_is,
+         {"events", event(Event::Kind::merge)},
+         {"not rigid", [](Prepared& s, Settings&) { s.job.bodies[0].phase = Phase::elastic; }},
+         {"joined body", [](Prepared& s, Settings&) { s.job.scene.bodies[0].joined_to = {"floor"}; }},
+         {"inflow", [](Prepared& s, Settings&) { s.job.scene.inflows.resize(1); }},
+         {"has no particles", [](Prepared& s, Settings&) { s.initial.source.assign(s.initial.size(), 1); }}});
   hold("flip_time", test::block({0.01, 5, 0.01}, 1.0, 4), {},
        {as_it_is,
         {"without events", event(Event::Kind::merge)},
@@ -159,9 +166,12 @@ TEST(Refusals, OfFreeFlight) {
          }},
         {"for two bodies", [](Prepared& s, Settings&) { s.job.bodies.pop_back(); }},
         {"must point along", [](Prepared& s, Settings&) { s.job.bodies[0].velocity.y = 0.1; }},
-        {"body `left` must be a free rigid body", [](Prepared& s, Settings&) { s.job.bodies[0].motion = Motion::fixed; }},
-        {"body `right` must be a free rigid body", [](Prepared& s, Settings&) { s.job.bodies[1].phase = Phase::liquid; }},
-        {"body `right` must be a free rigid body", [](Prepared& s, Settings&) { s.job.bodies[1].angular_velocity.x = 1.0; }},
+        {"body `left` must be a free rigid body",
+         [](Prepared& s, Settings&) { s.job.bodies[0].motion = Motion::fixed; }},
+        {"body `right` must be a free rigid body",
+         [](Prepared& s, Settings&) { s.job.bodies[1].phase = Phase::liquid; }},
+        {"body `right` must be a free rigid body",
+         [](Prepared& s, Settings&) { s.job.bodies[1].angular_velocity.x = 1.0; }},
         {"off-centre", [](Prepared& s, Settings&) { s.job.bodies[1].properties.centre.y += 1e-9; }},
         {"off-centre", [](Prepared& s, Settings&) { s.job.bodies[1].properties.centre.z -= 1e-9; }},
         {"approach each other", [](Prepared& s, Settings&) { s.job.bodies[0].velocity.x = -1.0; }},
@@ -174,9 +184,12 @@ TEST(Refusals, OfLiquids) {
        {as_it_is,
         no_gravity,
         {"must point along", [](Prepared& s, Settings&) { s.job.scene.gravity.x = 1.0; }},
-        {"one liquid, and the scene has 0", [](Prepared& s, Settings&) { s.job.bodies[0].phase = Phase::rigid; }},
-        {"one free body, and the scene has 0", [](Prepared& s, Settings&) { s.job.bodies[1].motion = Motion::fixed; }},
-        {"floating box", [](Prepared& s, Settings&) { s.job.scene.bodies[1].shape.kind = Shape::Kind::sphere; }},
+        {"one liquid, and the scene has 0",
+         [](Prepared& s, Settings&) { s.job.bodies[0].phase = Phase::rigid; }},
+        {"one free body, and the scene has 0",
+         [](Prepared& s, Settings&) { s.job.bodies[1].motion = Motion::fixed; }},
+        {"floating box",
+         [](Prepared& s, Settings&) { s.job.scene.bodies[1].shape.kind = Shape::Kind::sphere; }},
         {"periodic across gravity", [](Prepared& s, Settings&) { s.job.scene.periodic[0] = false; }},
         {"periodic across gravity", [](Prepared& s, Settings&) { s.job.scene.periodic[1] = false; }},
         {"`block` sinks", [](Prepared& s, Settings&) { s.job.scene.materials[1].density = 1000.0; }},
@@ -193,7 +206,8 @@ TEST(Refusals, OfLiquids) {
   hold("hydrostatic", test::layers(5.0), {},
        {as_it_is,
         no_gravity,
-        {"no liquid", [](Prepared& s, Settings&) { s.job.bodies[0].phase = s.job.bodies[1].phase = Phase::rigid; }},
+        {"no liquid",
+         [](Prepared& s, Settings&) { s.job.bodies[0].phase = s.job.bodies[1].phase = Phase::rigid; }},
         {"gap or overlap", [](Prepared& s, Settings&) { s.job.scene.bodies[1].shape.min.z += 1e-6; }},
         {"gap or overlap", [](Prepared& s, Settings&) { s.job.scene.bodies[1].shape.min.z -= 1e-6; }},
         {"", [](Prepared& s, Settings&) { s.job.scene.bodies[1].shape.min.z += 1e-7; }},
@@ -225,14 +239,17 @@ TEST(Refusals, OfLiquids) {
   hold(
       "sound_wave", sound, {},
       {as_it_is,
-       {"kind = \"cosine\"", [](Prepared& s, Settings&) { s.job.scene.bodies[0].velocity.kind = VelocityField::Kind::constant; }},
+       {"kind = \"cosine\"",
+        [](Prepared& s, Settings&) { s.job.scene.bodies[0].velocity.kind = VelocityField::Kind::constant; }},
        {"kind = \"cosine\"", [](Prepared& s, Settings&) { s.job.scene.bodies[0].velocity.wave_vector = {}; }},
        {"move on the mean",
         [](Prepared& s, Settings&) {
           s.job.scene.bodies[0].velocity.mean = {0, 1, 0};
         }},
-       {"along its wave vector", [](Prepared& s, Settings&) { s.job.scene.bodies[0].velocity.amplitude.y = 0.001; }},
-       {"stiffness or a speed of sound", [](Prepared& s, Settings&) { s.job.scene.materials[0].stiffness.reset(); }},
+       {"along its wave vector",
+        [](Prepared& s, Settings&) { s.job.scene.bodies[0].velocity.amplitude.y = 0.001; }},
+       {"stiffness or a speed of sound",
+        [](Prepared& s, Settings&) { s.job.scene.materials[0].stiffness.reset(); }},
        {"", [](Prepared& s, Settings& a) {
           s.job.scene.materials[0].stiffness.reset();
           a["sound_speed"] = 10.0;
@@ -250,7 +267,8 @@ TEST(Refusals, OfLiquids) {
          }}});
   hold("liquid_ball", sound, {},
        {{"a sphere of liquid", [](Prepared&, Settings&) {}},
-        {"does not turn", [](Prepared& s, Settings&) { s.job.scene.bodies[0].shape.kind = Shape::Kind::sphere; }},
+        {"does not turn",
+         [](Prepared& s, Settings&) { s.job.scene.bodies[0].shape.kind = Shape::Kind::sphere; }},
         {"", [](Prepared& s, Settings&) {
            s.job.scene.bodies[0].shape.kind = Shape::Kind::sphere;
            s.job.scene.bodies[0].angular_velocity = {0, 0, 1};
@@ -268,7 +286,8 @@ TEST(Refusals, OfLiquids) {
         {"along the negative direction", [](Prepared& s, Settings&) { s.job.scene.gravity.z = 9.81; }},
         {"along the negative direction", [](Prepared& s, Settings&) { s.job.scene.gravity.x = -1.0; }},
         {"an axis across gravity", [](Prepared&, Settings& a) { a["axis"] = std::string("z"); }},
-        {"needs a box of liquid", [](Prepared& s, Settings&) { s.job.scene.bodies[0].shape.kind = Shape::Kind::sphere; }}});
+        {"needs a box of liquid",
+         [](Prepared& s, Settings&) { s.job.scene.bodies[0].shape.kind = Shape::Kind::sphere; }}});
 }
 
 VelocityField drawn_out() {
@@ -285,7 +304,8 @@ TEST(Refusals, OfADropThatIsNotDrawnOutByHalves) {
   s.job.scene.bodies[0].shape.radius = 0.5;
   const char* words = "needs a cylinder of liquid along z";
   const auto with = [&](std::size_t row, const Vec3& gradient) {
-    return Fault{words, [=](Prepared& p, Settings&) { p.job.scene.bodies[0].velocity.gradient[row] = gradient; }};
+    return Fault{words,
+                 [=](Prepared& p, Settings&) { p.job.scene.bodies[0].velocity.gradient[row] = gradient; }};
   };
   hold("elliptic_drop", s, {},
        {as_it_is,
@@ -299,7 +319,8 @@ TEST(Refusals, OfADropThatIsNotDrawnOutByHalves) {
            p.job.scene.bodies[0].velocity.gradient[0].x = 2;
            p.job.scene.bodies[0].velocity.gradient[1].y = -2;
          }},
-        {words, [](Prepared& p, Settings&) { p.job.scene.bodies[0].velocity.kind = VelocityField::Kind::constant; }},
+        {words,
+         [](Prepared& p, Settings&) { p.job.scene.bodies[0].velocity.kind = VelocityField::Kind::constant; }},
         {words, [](Prepared& p, Settings&) { p.job.scene.bodies[0].shape.kind = Shape::Kind::box; }}});
 }
 

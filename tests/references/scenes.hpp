@@ -33,7 +33,8 @@ struct Spin {
 };
 
 /// Adds a rigid lattice body with its particles in rigid motion.
-inline void add_body(Prepared& s, const std::string& name, const Lattice& l, const Spin& spin, Motion motion = Motion::free) {
+inline void add_body(Prepared& s, const std::string& name, const Lattice& l, const Spin& spin,
+                     Motion motion = Motion::free) {
   const int index = static_cast<int>(s.job.bodies.size());
   std::vector<std::size_t> members;
   const auto n = static_cast<double>(l.count[0] * l.count[1] * l.count[2]);
@@ -67,7 +68,8 @@ inline void add_body(Prepared& s, const std::string& name, const Lattice& l, con
   scene_body.phase = Phase::rigid;
   scene_body.motion = motion;
   scene_body.shape.min = l.first;
-  scene_body.shape.max = l.first + l.spacing * Vec3{double(l.count[0]), double(l.count[1]), double(l.count[2])};
+  scene_body.shape.max =
+      l.first + l.spacing * Vec3{double(l.count[0]), double(l.count[1]), double(l.count[2])};
   s.job.scene.bodies.push_back(scene_body);
 }
 
@@ -88,7 +90,8 @@ inline Prepared block(const Vec3& angular_velocity, double end, int frames) {
 
 /// A bar of one conducting material, count cells of one spacing, at temperatures f(position).
 template <class F>
-Prepared bar(const std::array<int, 3>& count, double spacing, F temperature, double end, int frames, bool periodic) {
+Prepared bar(const std::array<int, 3>& count, double spacing, F temperature, double end, int frames,
+             bool periodic) {
   Prepared s;
   s.job.scene.spacing = s.job.resolution.spacing = spacing;
   Material m;
@@ -97,7 +100,8 @@ Prepared bar(const std::array<int, 3>& count, double spacing, F temperature, dou
   m.conductivity = 2.0;
   m.heat_capacity = 1000.0;  // D = 2e-6 m2/s
   s.job.scene.materials.push_back(m);
-  add_body(s, "bar", {count, spacing, {}, 1000.0 * std::pow(spacing, 3) * count[0] * count[1] * count[2]}, {});
+  add_body(s, "bar", {count, spacing, {}, 1000.0 * std::pow(spacing, 3) * count[0] * count[1] * count[2]},
+           {});
   for (const auto& r : s.initial.position) s.initial.temperature.push_back(temperature(r));
   if (periodic) {
     s.job.scene.periodic = {true, true, true};
@@ -114,7 +118,8 @@ inline ReferenceChoice function(const std::string& name, const Settings& args = 
   choice.args = args;
   return choice;
 }
-inline std::unique_ptr<Reference> made(const Prepared& s, const std::string& name, const Settings& args = {}) {
+inline std::unique_ptr<Reference> made(const Prepared& s, const std::string& name,
+                                       const Settings& args = {}) {
   return make_reference(function(name, args), s.job, s.initial);
 }
 

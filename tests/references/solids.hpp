@@ -14,8 +14,8 @@ inline void make_elastic(Prepared& s, std::size_t material, const Elasticity& e)
   s.job.scene.materials.at(material).poisson_ratio = e.poisson_ratio;
 }
 
-/// A beam of 20 x 2 x 2 spacings of 0.01 m along x in plane strain (periodic in y), held at its low end, gravity along -z, a
-/// rigid tip if wished.
+/// A beam of 20 x 2 x 2 spacings of 0.01 m along x in plane strain (periodic in y), held at its low end,
+/// gravity along -z, a rigid tip if wished.
 inline Prepared beam(double gravity, bool tip = false) {
   Prepared s;
   const double dx = 0.01;
@@ -30,14 +30,16 @@ inline Prepared beam(double gravity, bool tip = false) {
   return s;
 }
 
-/// A bar of 20 x 4 x 4 spacings of 0.01 m along x between a fixed and a driven block: out to `stretch` in 1 s, back in the next.
+/// A bar of 20 x 4 x 4 spacings of 0.01 m along x between a fixed and a driven block: out to `stretch` in 1
+/// s, back in the next.
 inline Prepared driven_bar(double stretch, const std::array<bool, 3>& periodic = {}) {
   Prepared s;
   const double dx = 0.01;
   s.job.scene.spacing = dx;
   add_matter(s, "bar", Phase::elastic, {{20, 4, 4}, dx, {}, 1.0}, {}, 1000.0);
   add_matter(s, "held", Phase::rigid, {{3, 4, 4}, dx, {-3 * dx, 0, 0}, 1.0}, {}, 1000.0, 0.0, Motion::fixed);
-  add_matter(s, "pulled", Phase::rigid, {{3, 4, 4}, dx, {20 * dx, 0, 0}, 1.0}, {}, 1000.0, 0.0, Motion::prescribed);
+  add_matter(s, "pulled", Phase::rigid, {{3, 4, 4}, dx, {20 * dx, 0, 0}, 1.0}, {}, 1000.0, 0.0,
+             Motion::prescribed);
   make_elastic(s, 0, {1e7, 0.3});
   const Vec3 start = s.job.bodies[2].properties.centre, far = start + Vec3{20 * dx * (stretch - 1.0), 0, 0};
   s.job.bodies[2].keyframes = {{0.0, start, {}}, {1.0, far, {}}, {2.0, start, {}}};

@@ -18,8 +18,9 @@ using State = std::array<Real, 7>;  // spin in the principal frame, quaternion p
 /// Euler's equations and the quaternion's rate: nothing in common with the elliptic solution.
 State rate(const std::array<Real, 3>& I, const State& s) {
   const auto [w1, w2, w3, q0, q1, q2, q3] = s;
-  return {(I[1] - I[2]) / I[0] * w2 * w3,     (I[2] - I[0]) / I[1] * w3 * w1,    (I[0] - I[1]) / I[2] * w1 * w2,
-          (-q1 * w1 - q2 * w2 - q3 * w3) / 2, (q0 * w1 + q2 * w3 - q3 * w2) / 2, (q0 * w2 + q3 * w1 - q1 * w3) / 2,
+  return {(I[1] - I[2]) / I[0] * w2 * w3,    (I[2] - I[0]) / I[1] * w3 * w1,
+          (I[0] - I[1]) / I[2] * w1 * w2,    (-q1 * w1 - q2 * w2 - q3 * w3) / 2,
+          (q0 * w1 + q2 * w3 - q3 * w2) / 2, (q0 * w2 + q3 * w1 - q1 * w3) / 2,
           (q0 * w3 + q1 * w2 - q2 * w1) / 2};
 }
 
@@ -29,7 +30,8 @@ State advanced(const State& s, const State& k, Real h) {
   return out;
 }
 
-/// Classical Runge-Kutta in long double; at h = 2e-4 its error is under 1e-13 here (halving h changes nothing above that).
+/// Classical Runge-Kutta in long double; at h = 2e-4 its error is under 1e-13 here (halving h changes nothing
+/// above that).
 State integrate(const std::array<Real, 3>& I, State s, Real end, int steps) {
   const Real h = end / steps;
   for (int n = 0; n < steps; ++n) {
@@ -40,7 +42,8 @@ State integrate(const std::array<Real, 3>& I, State s, Real end, int steps) {
   return s;
 }
 
-void expect_same_motion(const Vec3& inertia, const Quaternion& axes, const Vec3& spin, double end, double tolerance) {
+void expect_same_motion(const Vec3& inertia, const Quaternion& axes, const Vec3& spin, double end,
+                        double tolerance) {
   const TorqueFree exact(inertia, axes, spin);
   const Vec3 w = rotate_back(axes, spin);
   const State start{w.x, w.y, w.z, axes.w, axes.x, axes.y, axes.z};
@@ -56,7 +59,8 @@ const Vec3 block_inertia{1.0 / 24.0, 0.095, 0.67 / 6.0};
 TEST(TorqueFree, AgreesWithLongDoubleRungeKuttaForTheBlock) {
   const Quaternion tilted = from_rotation_vector({0.3, -0.7, 1.1});
   for (const Vec3& spin : {Vec3{1, 2, 3}, Vec3{3, 0.2, 0.1}, Vec3{-1, 2, -3}, Vec3{0.5, -4, 0.4}})
-    for (const Quaternion& axes : {Quaternion{}, tilted}) expect_same_motion(block_inertia, axes, spin, 10.0, 1e-11);
+    for (const Quaternion& axes : {Quaternion{}, tilted})
+      expect_same_motion(block_inertia, axes, spin, 10.0, 1e-11);
 }
 
 TEST(TorqueFree, AgreesWithRungeKuttaForAxisymmetricAndNearlySymmetricBodies) {
@@ -72,8 +76,10 @@ TEST(TorqueFree, PrecessesAsTheClosedFormOfASymmetricBody) {
   const double It = 0.065, Iz = 0.025, t = 1000.0;
   const Vec3 w{2, 4, 6};
   const Vec3 L{It * w.x, It * w.y, Iz * w.z};
-  const Quaternion closed = from_rotation_vector((t / It) * L) * from_rotation_vector({0, 0, (1.0 - Iz / It) * w.z * t});
-  EXPECT_LT(angle_between(TorqueFree({It, It, Iz}, {}, w).rotation(t), closed), 1e-11);  // 1e4 rad at round-off 1e-15
+  const Quaternion closed =
+      from_rotation_vector((t / It) * L) * from_rotation_vector({0, 0, (1.0 - Iz / It) * w.z * t});
+  // 1e4 rad at round-off 1e-15
+  EXPECT_LT(angle_between(TorqueFree({It, It, Iz}, {}, w).rotation(t), closed), 1e-11);
 }
 
 TEST(TorqueFree, KeepsAngularMomentumAndEnergyAfterAThousandSeconds) {
@@ -110,7 +116,8 @@ TEST(TorqueFree, FlipsWhereTheSpinOfAnOdeChangesSign) {
   EXPECT_NEAR(flips[0], 4.46698263, 1e-8);
   EXPECT_NEAR(flips[1] - flips[0], 7.50785812, 1e-8);
   const auto middle = [&](Real t) {
-    return integrate({block_inertia.x, block_inertia.y, block_inertia.z}, {w.x, w.y, w.z, 1, 0, 0, 0}, t, 40000)[1];
+    return integrate({block_inertia.x, block_inertia.y, block_inertia.z}, {w.x, w.y, w.z, 1, 0, 0, 0}, t,
+                     40000)[1];
   };
   EXPECT_LT(std::abs(double(middle(flips[0]))), 1e-9);
   EXPECT_GT(double(middle(flips[0] - 1e-6) * -middle(flips[0] + 1e-6)), 0.0);
@@ -123,7 +130,8 @@ TEST(TorqueFree, CostsLittleEvenForManyOutputTimes) {
   double sum = 0.0;
   for (const double t : setup.job.times) sum += reference->at(t).bodies[0].orientation.w;
   EXPECT_TRUE(std::isfinite(sum));
-  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 5.0);  // 0.2 s alone on a core
+  // 0.2 s alone on a core
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 5.0);
 }
 
 }  // namespace

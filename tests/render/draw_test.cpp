@@ -21,7 +21,8 @@ const Colour red{0.8, 0.1, 0.1};
 
 std::vector<Vec3> ball_at(const Vec3& centre, double radius) {
   std::vector<Vec3> places;
-  for (const Vec3& r : shapes::lattice(shapes::ball(radius), dx, {0.5, 0.5, 0.5})) places.push_back(r + centre);
+  for (const Vec3& r : shapes::lattice(shapes::ball(radius), dx, {0.5, 0.5, 0.5}))
+    places.push_back(r + centre);
   return places;
 }
 
@@ -41,7 +42,8 @@ std::vector<Ray> rays_towards(const Vec3& centre, double radius, double share, i
   return rays;
 }
 
-/// The first place along a ray where phi is not positive, in steps too short to miss anything that the test asks about.
+/// The first place along a ray where phi is not positive, in steps too short to miss anything that the test
+/// asks about.
 std::optional<double> by_small_steps(const ImplicitSurface& surface, const Ray& ray, double to) {
   SurfaceProbe probe(surface);
   for (double t = 0.0; t < to; t += 0.002 * dx)
@@ -57,7 +59,8 @@ TEST(Crossing, IsTheFirstAlongTheRay) {
   SurfaceProbe probe(surface);
   int met = 0, unlike = 0;
   for (const Ray& ray : rays_towards({0, 0, 5 * dx}, 9 * dx, 0.4, 60)) {
-    const auto quick = first_crossing(surface, probe, ray, {0.0, far}), slow = by_small_steps(surface, ray, 90 * dx);
+    const auto quick = first_crossing(surface, probe, ray, {0.0, far}),
+               slow = by_small_steps(surface, ray, 90 * dx);
     if (quick.has_value() != slow.has_value()) ++unlike;  // a ray that grazes
     if (!quick || !slow) continue;
     ++met;
@@ -108,7 +111,8 @@ Display display_of(std::vector<Vec3> places, bool balls) {
   if (balls)
     display.targets.push_back(std::make_unique<SphereTarget>(places, 0.5 * dx, colours));
   else
-    display.targets.push_back(std::make_unique<SurfaceTarget>(places, SurfaceOptions::for_spacing(dx), colours));
+    display.targets.push_back(
+        std::make_unique<SurfaceTarget>(places, SurfaceOptions::for_spacing(dx), colours));
   display.ground = 0.0;
   display.size = 20 * dx;
   return display;
@@ -129,7 +133,8 @@ TEST(Picture, ShowsTheBodyItsShadowAndTheGround) {
   const Display display = display_of(places, false);
   std::vector<Vec3> shown{{0, 0, 0}};
   shown.insert(shown.end(), places.begin(), places.end());
-  const Picture p = draw(display, Camera(shown, 2.0 * dx, CameraAxes(display.up, {0.0, 25.0}), 1.0), 120, 120, 2);
+  const Picture p =
+      draw(display, Camera(shown, 2.0 * dx, CameraAxes(display.up, {0.0, 25.0}), 1.0), 120, 120, 2);
   int body = 0, shadow = 0, lit = 0;
   for (int y = 0; y < p.height; ++y)
     for (int x = 0; x < p.width; ++x) {
@@ -148,15 +153,18 @@ TEST(Picture, ShowsTheBodyItsShadowAndTheGround) {
 TEST(Camera, HasAllPlacesInThePictureAndSomeAtItsEdges) {
   const Vec3 low{-1, -2, 0}, high{3, 1, 4};
   std::vector<Vec3> corners;
-  for (unsigned c = 0; c < 8; ++c) corners.push_back({c & 1U ? high.x : low.x, c & 2U ? high.y : low.y, c & 4U ? high.z : low.z});
+  for (unsigned c = 0; c < 8; ++c)
+    corners.push_back({c & 1U ? high.x : low.x, c & 2U ? high.y : low.y, c & 4U ? high.z : low.z});
   for (const Vec3& up : {Vec3{0, 0, 1}, Vec3{0, 1, 0}, Vec3{-1, 0, 0}})
     for (const double azimuth : {-120.0, 0.0, 30.0, 90.0}) {
       const CameraAxes axes(up, {azimuth, 20.0});
       const Camera camera(corners, 0.0, axes, 4.0 / 3.0);
       EXPECT_NEAR(dot(axes.right, up), 0.0, 1e-12);
       EXPECT_GT(dot(axes.upward, up), 0.9);
-      const double widest = dot(camera.ray(1, 0).along, axes.right) / dot(camera.ray(1, 0).along, axes.forward);
-      const double highest = dot(camera.ray(0, 1).along, axes.upward) / dot(camera.ray(0, 1).along, axes.forward);
+      const double widest =
+          dot(camera.ray(1, 0).along, axes.right) / dot(camera.ray(1, 0).along, axes.forward);
+      const double highest =
+          dot(camera.ray(0, 1).along, axes.upward) / dot(camera.ray(0, 1).along, axes.forward);
       double across = 0.0, upwards_ = 0.0;
       for (const Vec3& r : corners) {
         const Vec3 d = r - camera.eye();

@@ -16,8 +16,8 @@ namespace tripoint::test {
 class Folder {
  public:
   Folder() {
-    std::string path =
-        (std::filesystem::temp_directory_path() / "tripoint a b \u00fc XXXXXX").string();  // users have such folders
+    // Users have such folders
+    std::string path = (std::filesystem::temp_directory_path() / "tripoint a b \u00fc XXXXXX").string();
     path_ = mkdtemp(path.data());
   }
   ~Folder() { std::filesystem::remove_all(path_); }

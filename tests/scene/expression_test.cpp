@@ -41,8 +41,9 @@ TEST(Expression, SumsASeries) {
   EXPECT_EQ(at("sum(n, 1, 10, n)"), 55.0);
   EXPECT_EQ(at("1 + 2*sum(k, -1, 2, k*x)"), 9.0);
   EXPECT_NEAR(at("4*sum(n, 0, 9999, (-1)^n/(2*n + 1))"), std::numbers::pi, 1.1e-4);
-  for (const char* text : {"sum(1, 1, 2, 3)", "sum(x, 1, 2, x)", "sum(n, 2, 1, n)", "sum(n, 1, 20000, n)", "sum(n, 1, 2)",
-                           "sum(n, 1, y, n)", "sum(n, 1, 2, sum(m, 1, 2, m))", "sum(n, 1, 2, n) + n"})
+  for (const char* text :
+       {"sum(1, 1, 2, 3)", "sum(x, 1, 2, x)", "sum(n, 2, 1, n)", "sum(n, 1, 20000, n)", "sum(n, 1, 2)",
+        "sum(n, 1, y, n)", "sum(n, 1, 2, sum(m, 1, 2, m))", "sum(n, 1, 2, n) + n"})
     EXPECT_THROW(Expression{text}, InputError) << text;
 }
 
@@ -63,7 +64,8 @@ TEST(Expression, RefusesWithTheColumn) {
   };
   EXPECT_NE(refused("1 + cso(x)").find("column 5"), std::string::npos);
   EXPECT_NE(refused("1 + cso(x)").find("did you mean `cos`"), std::string::npos);
-  for (const char* text : {"", "1 +", "(1", "1)", "1 2", "x y", "min(1)", "sin x", "1 ** 2", "a", "1e999", "$", "nan", "inf"})
+  for (const char* text :
+       {"", "1 +", "(1", "1)", "1 2", "x y", "min(1)", "sin x", "1 ** 2", "a", "1e999", "$", "nan", "inf"})
     EXPECT_NE(refused(text), "accepted") << text;
 }
 

@@ -77,7 +77,8 @@ class Extends : public ::testing::Test {
       static_cast<void>(variant(text, base));
       return "";
     } catch (const InputError& e) {
-      return fs::path(e.place().file).filename().string() + ":" + std::to_string(e.place().line) + ": " + e.what();
+      return fs::path(e.place().file).filename().string() + ":" + std::to_string(e.place().line) + ": " +
+             e.what();
     }
   }
   Folder folder_;
@@ -94,7 +95,8 @@ TEST_F(Extends, TakesFromTheOtherCaseWhatItDoesNotSay) {
 
 TEST_F(Extends, MergesTablesKeyByKey) {
   const auto r = variant(
-      "[scene]\nend_time = 2.0\n[scene.modes]\nheat = \"paper\"\n[engines.bullet]\nrequired = true\n[case]\ntitle = "
+      "[scene]\nend_time = 2.0\n[scene.modes]\nheat = \"paper\"\n[engines.bullet]\nrequired = "
+      "true\n[case]\ntitle = "
       "\"Another\"\n");
   EXPECT_EQ(r.value.scene.end_time, 2.0);
   EXPECT_EQ(r.value.scene.jitter, 0.1);
@@ -107,7 +109,8 @@ TEST_F(Extends, MergesTablesKeyByKey) {
 
 TEST_F(Extends, ReplacesWholeWhatIsOfAnotherKind) {
   const auto r = variant(
-      "[[body]]\nname = \"block\"\nshape = { kind = \"sphere\", centre = [0.2, 0.2, 0.2], radius = 0.2 }\n[reference]\nkind = "
+      "[[body]]\nname = \"block\"\nshape = { kind = \"sphere\", centre = [0.2, 0.2, 0.2], radius = 0.2 "
+      "}\n[reference]\nkind = "
       "\"invariant\"\n");
   EXPECT_EQ(r.value.scene.bodies[0].shape.kind, Shape::Kind::sphere);
   EXPECT_EQ(r.value.scene.bodies[0].material, "steel");
@@ -117,7 +120,8 @@ TEST_F(Extends, ReplacesWholeWhatIsOfAnotherKind) {
 
 TEST_F(Extends, MergesTablesOfAnArrayByName) {
   const auto r = variant(
-      "[[body]]\nname = \"third\"\nmaterial = \"steel\"\nshape = { kind = \"sphere\", centre = [3, 0, 0], radius = 0.2 "
+      "[[body]]\nname = \"third\"\nmaterial = \"steel\"\nshape = { kind = \"sphere\", centre = [3, 0, 0], "
+      "radius = 0.2 "
       "}\n[[body]]\nname = \"block\"\nvelocity = [0, 2, 0]\n");
   ASSERT_EQ(r.value.scene.bodies.size(), 3U);
   EXPECT_EQ(r.value.scene.bodies[0].name, "block");
@@ -127,7 +131,8 @@ TEST_F(Extends, MergesTablesOfAnArrayByName) {
 
 TEST_F(Extends, MergesGatesByWhatTheyJudgeAndABoundReplacesABound) {
   const auto r = variant(
-      "[[metric]]\nname = \"place\"\ngates = [{ engine = \"tripoint\", limit = 0.3 }, { engine = \"bullet\", limit = 0.4, reason "
+      "[[metric]]\nname = \"place\"\ngates = [{ engine = \"tripoint\", limit = 0.3 }, { engine = \"bullet\", "
+      "limit = 0.4, reason "
       "= \"its own\" }]\n");
   ASSERT_EQ(r.value.gates.size(), 3U);
   EXPECT_EQ(r.value.gates[0].limit, 0.3);
@@ -138,7 +143,8 @@ TEST_F(Extends, MergesGatesByWhatTheyJudgeAndABoundReplacesABound) {
 }
 
 TEST_F(Extends, RemovesWhatDoesNotHold) {
-  const auto r = variant("remove = [\"scene.jitter\", \"engines.bullet\", \"metric.count\", \"study\", \"body.lid\"]\n");
+  const auto r =
+      variant("remove = [\"scene.jitter\", \"engines.bullet\", \"metric.count\", \"study\", \"body.lid\"]\n");
   EXPECT_EQ(r.value.scene.jitter, 0.0);
   EXPECT_EQ(r.value.engines.size(), 1U);
   EXPECT_EQ(r.value.metrics.size(), 1U);
@@ -149,33 +155,40 @@ TEST_F(Extends, RemovesWhatDoesNotHold) {
   EXPECT_EQ(variant("remove = [\"gate.place\"]\n").value.gates.size(), 1U);
   EXPECT_TRUE(variant("remove = [\"study\", \"metric\"]\n").value.gates.empty());
   EXPECT_TRUE(variant("remove = [\"study\", \"metric\", \"gate\"]\n").value.gates.empty());
-  for (const char* wrong :
-       {"scene.jittr", "engines.lammps", "metric.speed", "study.1", "inflow", "scene.jitter.x", "format.x", ".", "x."})
-    EXPECT_NE(refusal_of(std::string("remove = [\n\"") + wrong + "\"]\n").find("case.toml:3: "), std::string::npos) << wrong;
+  for (const char* wrong : {"scene.jittr", "engines.lammps", "metric.speed", "study.1", "inflow",
+                            "scene.jitter.x", "format.x", ".", "x."})
+    EXPECT_NE(refusal_of(std::string("remove = [\n\"") + wrong + "\"]\n").find("case.toml:3: "),
+              std::string::npos)
+        << wrong;
   EXPECT_NE(refusal("remove = [\"study\"]\n" + base_text).find("extends nothing"), std::string::npos);
 }
 
 TEST_F(Extends, NamesTheFileAndTheLineWhereTheWrongKeyStands) {
   EXPECT_EQ(refusal_of("[scene]\nend_tme = 1.0\n").find("case.toml:3: "), 0U);
   EXPECT_EQ(refusal_of("[scene]\nseed = 2\n", base_text + "[[gate]]\nmetrc = \"place\"\n")
-                .find("base.toml:" + std::to_string(std::count(base_text.begin(), base_text.end(), '\n') + 2) + ": "),
+                .find("base.toml:" +
+                      std::to_string(std::count(base_text.begin(), base_text.end(), '\n') + 2) + ": "),
             0U);
   EXPECT_EQ(refusal_of("[[body]]\nname = \"block\"\nmaterial = \"steal\"\n").find("case.toml:4: "), 0U);
-  EXPECT_EQ(refusal_of("[[body]]\nname = \"block\"\nvelocity = [0, 0, 1]\n", "extends = \"none.toml\"\n").find("base.toml:1: "),
+  EXPECT_EQ(refusal_of("[[body]]\nname = \"block\"\nvelocity = [0, 0, 1]\n", "extends = \"none.toml\"\n")
+                .find("base.toml:1: "),
             0U);
-  const auto r = variant("[[metric]]\nname = \"place\"\ngates = [\n{ engine = \"tripoint\", limit = 0.3 },\n]\n");
+  const auto r =
+      variant("[[metric]]\nname = \"place\"\ngates = [\n{ engine = \"tripoint\", limit = 0.3 },\n]\n");
   EXPECT_EQ(fs::path(r.value.gates[0].place.file).filename(), "case.toml");
   EXPECT_EQ(r.value.gates[0].place.line, 5);
   EXPECT_EQ(fs::path(r.value.gates[1].place.file).filename(), "base.toml");
 }
 
 TEST_F(Extends, RefusesWhatMeetsMoreThanOne) {
-  const std::string twice = base_text + "[[gate]]\nmetric = \"place\"\nengine = \"tripoint\"\nat_least = 0.1\nreason = \"r\"\n";
-  EXPECT_NE(
-      refusal_of("[[gate]]\nmetric = \"place\"\nengine = \"tripoint\"\nlimit = 0.1\n", twice).find("more than one such table"),
-      std::string::npos);
-  EXPECT_NE(refusal_of("[[body]]\nname = \"lid\"\n[[body]]\nname = \"lid\"\n").find("more than one such table"),
+  const std::string twice =
+      base_text + "[[gate]]\nmetric = \"place\"\nengine = \"tripoint\"\nat_least = 0.1\nreason = \"r\"\n";
+  EXPECT_NE(refusal_of("[[gate]]\nmetric = \"place\"\nengine = \"tripoint\"\nlimit = 0.1\n", twice)
+                .find("more than one such table"),
             std::string::npos);
+  EXPECT_NE(
+      refusal_of("[[body]]\nname = \"lid\"\n[[body]]\nname = \"lid\"\n").find("more than one such table"),
+      std::string::npos);
 }
 
 TEST_F(Extends, RefusesACircleByName) {
@@ -188,8 +201,9 @@ TEST_F(Extends, RefusesACircleByName) {
 TEST_F(Extends, FollowsAChainOfEightFilesAndNoLonger) {
   static_cast<void>(folder_.write("1.toml", base_text));
   for (int n = 2; n <= 9; ++n)
-    static_cast<void>(folder_.write(std::to_string(n) + ".toml", "extends = \"" + std::to_string(n - 1) +
-                                                                     ".toml\"\n[scene]\nseed = " + std::to_string(n) + "\n"));
+    static_cast<void>(folder_.write(
+        std::to_string(n) + ".toml",
+        "extends = \"" + std::to_string(n - 1) + ".toml\"\n[scene]\nseed = " + std::to_string(n) + "\n"));
   EXPECT_EQ(read_case(folder_.path() + "/8.toml").value.scene.seed, 8U);
   EXPECT_THROW(static_cast<void>(read_case(folder_.path() + "/9.toml")), InputError);
 }
@@ -206,9 +220,9 @@ TEST_F(Extends, ReadsNoFileThatIsNoCaseBesideIt) {
   static_cast<void>(folder_.write("plain.txt", base_text));
   fs::create_symlink(folder_.path() + "/other/far.toml", folder_.path() + "/link.toml");
   fs::create_symlink("/etc/passwd", folder_.path() + "/users.toml");
-  for (const std::string name :
-       {"/etc/passwd", "../../../../../etc/passwd", "other/far.toml", "link.toml", "users.toml", "token.toml", "login.toml",
-        "text.toml", "plain.txt", "plain", "cases", "cases/a/deep.toml", "absent.toml", "", "."}) {
+  for (const std::string name : {"/etc/passwd", "../../../../../etc/passwd", "other/far.toml", "link.toml",
+                                 "users.toml", "token.toml", "login.toml", "text.toml", "plain.txt", "plain",
+                                 "cases", "cases/a/deep.toml", "absent.toml", "", "."}) {
     ASSERT_NO_THROW(static_cast<void>(read("extends = \"good.toml\"\n")));
     const auto what = refusal("extends = \"" + name + "\"\n");
     EXPECT_FALSE(what.empty()) << name;
@@ -242,9 +256,10 @@ TEST_F(Extends, FindsTheDataOfTheOtherCaseBesideThat) {
   fs::create_directories(folder_.path() + "/cases/a");
   fs::create_directories(folder_.path() + "/cases/b");
   static_cast<void>(folder_.write("cases/a/cube.obj", "# a mesh\n"));
-  static_cast<void>(folder_.write("cases/a/base.toml",
-                                  "[scene]\nend_time = 1\nspacing = 0.1\n[[body]]\nname = \"b\"\nmaterial = \"steel\"\nshape = { "
-                                  "kind = \"mesh\", file = \"cube.obj\" }\n"));
+  static_cast<void>(folder_.write(
+      "cases/a/base.toml",
+      "[scene]\nend_time = 1\nspacing = 0.1\n[[body]]\nname = \"b\"\nmaterial = \"steel\"\nshape = { "
+      "kind = \"mesh\", file = \"cube.obj\" }\n"));
   const auto file = folder_.write("cases/b/case.toml", "extends = \"a/base\"\n");
   try {
     const auto r = read_case(file);
@@ -258,16 +273,17 @@ TEST_F(Extends, ChangesByTheCommandLineGoOverAll) {
   static_cast<void>(folder_.write("base.toml", base_text));
   const auto file = folder_.write("case.toml", "extends = \"base.toml\"\n[scene]\nend_time = 2\n");
   EXPECT_EQ(read_case(file, {"scene.end_time=3", "gate.1.band=[0, 9]"}).value.scene.end_time, 3.0);
-  for (const char* set : {"extends=\"other.toml\"", "remove=[\"study\"]", "invariants.ledger=1", "metric.place.gates=[]",
-                          "metric.place.reason=\"r\"", "gate.1.limits={1=2}"})
+  for (const char* set : {"extends=\"other.toml\"", "remove=[\"study\"]", "invariants.ledger=1",
+                          "metric.place.gates=[]", "metric.place.reason=\"r\"", "gate.1.limits={1=2}"})
     EXPECT_THROW(static_cast<void>(read_case(file, {set})), InputError) << set;
 }
 
 TEST_F(Extends, TheResolvedCaseIsTheSameCase) {
   static_cast<void>(folder_.write("base.toml", base_text));
-  const auto r = read_case(folder_.write("case.toml",
-                                         "extends = \"base.toml\"\n[invariants]\nmomentum = { limit = 1e-12, engine = "
-                                         "\"tripoint\" }\n[case]\nclaims = \"a \\\"quoted\\\" \\\\ text\"\n"));
+  const auto r =
+      read_case(folder_.write("case.toml",
+                              "extends = \"base.toml\"\n[invariants]\nmomentum = { limit = 1e-12, engine = "
+                              "\"tripoint\" }\n[case]\nclaims = \"a \\\"quoted\\\" \\\\ text\"\n"));
   const auto again = read_case(folder_.write("case.toml", resolved_case(r)));
   std::string before = decisions_of(r), after = decisions_of(again);
   EXPECT_NE(before.find("metric.momentum.quantity = \"momentum\" given"), std::string::npos);

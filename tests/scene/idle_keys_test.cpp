@@ -11,15 +11,19 @@ namespace tripoint::test {
 namespace {
 
 constexpr const char* brick = "[[material]]\nname = 'brick'\ndensity = 1000\n";
-constexpr const char* jelly = "[[material]]\nname = 'jelly'\ndensity = 1000\nyoung_modulus = 1e5\npoisson_ratio = 0.3\n";
+constexpr const char* jelly =
+    "[[material]]\nname = 'jelly'\ndensity = 1000\nyoung_modulus = 1e5\npoisson_ratio = 0.3\n";
 constexpr const char* ink = "[[material]]\nname = 'ink'\ndensity = 1000\nviscosity = 1\nsound_speed = 20\n";
 
-std::string scene(const std::string& keys = "") { return "[scene]\nend_time = 1\nspacing = 0.1\n" + keys + "\n"; }
+std::string scene(const std::string& keys = "") {
+  return "[scene]\nend_time = 1\nspacing = 0.1\n" + keys + "\n";
+}
 std::string body(const std::string& name, const std::string& material, const std::string& phase, double x,
                  const std::string& more = "") {
   const auto corner = [](double a) { return "[" + std::to_string(a) + ",0,0]"; };
   return "[[body]]\nname = '" + name + "'\nmaterial = '" + material + "'\nphase = '" + phase +
-         "'\nshape = {kind = 'box', min = " + corner(x) + ", max = [" + std::to_string(x + 0.3) + ",0.3,0.3]}\n" + more + "\n";
+         "'\nshape = {kind = 'box', min = " + corner(x) + ", max = [" + std::to_string(x + 0.3) +
+         ",0.3,0.3]}\n" + more + "\n";
 }
 std::string event(const std::string& keys) { return "[[event]]\n" + keys + "\n"; }
 std::string box(double from, double to) {
@@ -49,86 +53,119 @@ bool silent(const std::string& text) {
 std::string cube(const std::string& more = "") { return brick + body("cube", "brick", "rigid", 0.0, more); }
 std::string grip(double from, double to, double time = 0.0) {
   const auto t = std::to_string(time);
-  return event("kind = 'grip'\nname = 'hand'\ntime = " + t + "\nregion = " + box(from, to) + "\nkeyframes = [{time = " + t +
-               ", position = [0,0,0]}, {time = 1, position = [0,0,1]}]");
+  return event("kind = 'grip'\nname = 'hand'\ntime = " + t + "\nregion = " + box(from, to) +
+               "\nkeyframes = [{time = " + t + ", position = [0,0,0]}, {time = 1, position = [0,0,1]}]");
 }
 
-TEST(IdleKeys, FindNothingInASoundScene) { EXPECT_TRUE(silent(scene("gravity = [0,0,-9.81]") + cube() + grip(-1, 1))); }
+TEST(IdleKeys, FindNothingInASoundScene) {
+  EXPECT_TRUE(silent(scene("gravity = [0,0,-9.81]") + cube() + grip(-1, 1)));
+}
 
 TEST(IdleKeys, FindARegionWithNothingInIt) {
   EXPECT_EQ(found(scene() + cube() + grip(5, 6), "in the region of this event"), "error") << "at the start";
-  EXPECT_EQ(found(scene() + cube("motion = 'fixed'") + grip(5, 6, 0.5), "in the region of this event"), "error")
+  EXPECT_EQ(found(scene() + cube("motion = 'fixed'") + grip(5, 6, 0.5), "in the region of this event"),
+            "error")
       << "nothing moves there";
-  EXPECT_EQ(found(scene() + cube("velocity = [10,0,0]") + grip(5, 6, 0.5), "in the region of this event"), "warning")
+  EXPECT_EQ(found(scene() + cube("velocity = [10,0,0]") + grip(5, 6, 0.5), "in the region of this event"),
+            "warning")
       << "it may fly there";
-  EXPECT_EQ(found(scene() + cube() + grip(0.2, 6), "more than half"), "error") << "a third of a rigid body is not enough";
-  EXPECT_EQ(found(scene() + jelly + body("block", "jelly", "elastic", 0.0) + grip(0.2, 6), "in the region"), "")
+  EXPECT_EQ(found(scene() + cube() + grip(0.2, 6), "more than half"), "error")
+      << "a third of a rigid body is not enough";
+  EXPECT_EQ(found(scene() + jelly + body("block", "jelly", "elastic", 0.0) + grip(0.2, 6), "in the region"),
+            "")
       << "a third of an elastic one is";
-  const auto warm =
-      brick + std::string("conductivity = 1\nheat_capacity = 1000\n") + body("cube", "brick", "rigid", 0.0, "temperature = 300");
+  const auto warm = brick + std::string("conductivity = 1\nheat_capacity = 1000\n") +
+                    body("cube", "brick", "rigid", 0.0, "temperature = 300");
   EXPECT_EQ(found(scene() + warm + event("kind = 'heat'\ntime = 0\ntemperature = 400\nregion = " + box(5, 6)),
                   "no particle lies in the region"),
             "error");
-  EXPECT_EQ(found(scene() + warm + event("kind = 'heat'\ntime = 0\ntemperature = 400\nregion = " + box(0.2, 6)), "in the region"),
-            "");
+  EXPECT_EQ(
+      found(scene() + warm + event("kind = 'heat'\ntime = 0\ntemperature = 400\nregion = " + box(0.2, 6)),
+            "in the region"),
+      "");
 }
 
 TEST(IdleKeys, FindAReleaseOfWhatIsFreeAndAHoldOfWhatIsFixed) {
   const auto release = event("kind = 'release'\ntime = 0.5\nbodies = ['cube']");
-  const auto hold = [](const std::string& until) { return event("kind = 'hold'\ntime = 0.1\nbodies = ['cube']" + until); };
+  const auto hold = [](const std::string& until) {
+    return event("kind = 'hold'\ntime = 0.1\nbodies = ['cube']" + until);
+  };
   EXPECT_EQ(found(scene() + cube() + release, "is not held"), "error");
   EXPECT_EQ(found(scene() + cube() + hold("") + release, "is not held"), "");
-  EXPECT_EQ(found(scene() + cube() + hold("\nuntil = 0.2") + release, "is not held"), "error") << "the hold has ended";
+  EXPECT_EQ(found(scene() + cube() + hold("\nuntil = 0.2") + release, "is not held"), "error")
+      << "the hold has ended";
   EXPECT_EQ(found(scene() + cube("motion = 'fixed'") + release, "is not held"), "");
-  EXPECT_EQ(found(scene() + cube("motion = 'fixed'") + release + event("kind = 'release'\ntime = 0.7\nbodies = ['cube']"),
+  EXPECT_EQ(found(scene() + cube("motion = 'fixed'") + release +
+                      event("kind = 'release'\ntime = 0.7\nbodies = ['cube']"),
                   "is not held at 0.7 s"),
             "error");
-  EXPECT_EQ(found(scene() + cube() + grip(-1, 1) + event("kind = 'release'\ntime = 0.5\nbodies = ['hand']"), "is not held"), "");
+  EXPECT_EQ(found(scene() + cube() + grip(-1, 1) + event("kind = 'release'\ntime = 0.5\nbodies = ['hand']"),
+                  "is not held"),
+            "");
   EXPECT_EQ(found(scene() + cube("motion = 'fixed'") + hold(""), "changes nothing"), "error");
 }
 
 TEST(IdleKeys, FindKeyframesAfterTheEnd) {
-  const auto led = [](const std::string& frames) { return cube("motion = 'prescribed'\nkeyframes = " + frames); };
-  EXPECT_EQ(found(scene() + led("[{time = 0, position = [0.15,0.15,0.15]}, {time = 5, position = [1,0.15,0.15]}]"),
-                  "on its way to that of 5 s"),
-            "warning");
-  EXPECT_EQ(found(scene() + led("[{time = 0, position = [0.15,0.15,0.15]}, {time = 1, position = [1,0.15,0.15]}, {time = 5, "
+  const auto led = [](const std::string& frames) {
+    return cube("motion = 'prescribed'\nkeyframes = " + frames);
+  };
+  EXPECT_EQ(
+      found(scene() + led("[{time = 0, position = [0.15,0.15,0.15]}, {time = 5, position = [1,0.15,0.15]}]"),
+            "on its way to that of 5 s"),
+      "warning");
+  EXPECT_EQ(found(scene() + led("[{time = 0, position = [0.15,0.15,0.15]}, {time = 1, position = "
+                                "[1,0.15,0.15]}, {time = 5, "
                                 "position = [2,0.15,0.15]}]"),
                   "never followed"),
             "warning");
   EXPECT_EQ(
-      found(scene() + led("[{time = 3, position = [0.15,0.15,0.15]}, {time = 5, position = [1,0.15,0.15]}]"), "stands still"),
+      found(scene() + led("[{time = 3, position = [0.15,0.15,0.15]}, {time = 5, position = [1,0.15,0.15]}]"),
+            "stands still"),
       "warning");
-  EXPECT_TRUE(silent(scene() + led("[{time = 0, position = [0.15,0.15,0.15]}, {time = 1, position = [1,0.15,0.15]}]")));
-  EXPECT_TRUE(silent(scene() + led("[{time = 0, position = [0.15,0.15,0.15]}, {time = 0.5, position = [1,0.15,0.15]}, {time = 5, "
-                                   "position = [1,0.15,0.15]}]")))
+  EXPECT_TRUE(silent(scene() +
+                     led("[{time = 0, position = [0.15,0.15,0.15]}, {time = 1, position = [1,0.15,0.15]}]")));
+  EXPECT_TRUE(silent(
+      scene() +
+      led("[{time = 0, position = [0.15,0.15,0.15]}, {time = 0.5, position = [1,0.15,0.15]}, {time = 5, "
+          "position = [1,0.15,0.15]}]")))
       << "it stays there";
 }
 
 TEST(IdleKeys, FindMatterThatTheSceneCannotSee) {
   const std::string domain = "min = [-1,-1,-1]\nmax = [1,1,1]";
-  EXPECT_EQ(found(scene(domain) + cube() + body("far", "brick", "rigid", 3.0, "motion = 'fixed'"), "wholly outside"), "error");
-  EXPECT_EQ(found(scene(domain) + cube() + body("near", "brick", "rigid", 0.5, "motion = 'fixed'"), "wholly outside"), "");
+  EXPECT_EQ(found(scene(domain) + cube() + body("far", "brick", "rigid", 3.0, "motion = 'fixed'"),
+                  "wholly outside"),
+            "error");
+  EXPECT_EQ(found(scene(domain) + cube() + body("near", "brick", "rigid", 0.5, "motion = 'fixed'"),
+                  "wholly outside"),
+            "");
   EXPECT_EQ(found(scene() + cube() + "[[material]]\nname = 'spare'\ndensity = 5\n", "\"spare\""), "warning");
   const auto inflow = [](const std::string& low, const std::string& high, const std::string& more = "") {
-    return "[[inflow]]\nmaterial = 'ink'\nshape = {kind = 'box', min = " + low + ", max = " + high + "}\nvelocity = [0,0,-1]\n" +
-           more;
+    return "[[inflow]]\nmaterial = 'ink'\nshape = {kind = 'box', min = " + low + ", max = " + high +
+           "}\nvelocity = [0,0,-1]\n" + more;
   };
   const auto pool = ink + body("pool", "ink", "liquid", 0.0);
   EXPECT_TRUE(silent(scene(domain) + pool + inflow("[0,0,0.5]", "[0.3,0.3,0.8]")));
-  EXPECT_EQ(found(scene(domain) + pool + inflow("[0,0,5]", "[0.3,0.3,5.3]"), "the inflow lies wholly outside"), "error");
+  EXPECT_EQ(
+      found(scene(domain) + pool + inflow("[0,0,5]", "[0.3,0.3,5.3]"), "the inflow lies wholly outside"),
+      "error");
   EXPECT_EQ(found(scene() + pool + inflow("[0,0,0.5]", "[0.001,0.001,0.501]"), "holds no particle"), "error");
-  EXPECT_EQ(found(scene() + pool + inflow("[0,0,0.5]", "[0.3,0.3,0.8]", "temperature = 300\n"), "is not followed"), "error");
+  EXPECT_EQ(
+      found(scene() + pool + inflow("[0,0,0.5]", "[0.3,0.3,0.8]", "temperature = 300\n"), "is not followed"),
+      "error");
 }
 
 TEST(IdleKeys, FindJointsThatJoinNothing) {
-  EXPECT_EQ(found(scene() + jelly + body("a", "jelly", "elastic", 0.0, "joined_to = ['b']") + body("b", "jelly", "elastic", 0.3),
+  EXPECT_EQ(found(scene() + jelly + body("a", "jelly", "elastic", 0.0, "joined_to = ['b']") +
+                      body("b", "jelly", "elastic", 0.3),
                   "joins"),
             "");
-  EXPECT_EQ(found(scene() + jelly + body("a", "jelly", "elastic", 0.0, "joined_to = ['b']") + body("b", "jelly", "elastic", 2.0),
+  EXPECT_EQ(found(scene() + jelly + body("a", "jelly", "elastic", 0.0, "joined_to = ['b']") +
+                      body("b", "jelly", "elastic", 2.0),
                   "nothing joins them"),
             "error");
-  EXPECT_EQ(found(scene() + brick + body("a", "brick", "rigid", 0.0, "joined_to = ['b']") + body("b", "brick", "rigid", 0.3),
+  EXPECT_EQ(found(scene() + brick + body("a", "brick", "rigid", 0.0, "joined_to = ['b']") +
+                      body("b", "brick", "rigid", 0.3),
                   "neither is elastic"),
             "error");
 }
@@ -141,7 +178,9 @@ TEST(IdleKeys, FindLimitsOfTheFormThatDoesNotRun) {
   EXPECT_EQ(found(torn("fracture_stretch = 1.5\n", "mode = 'paper'"), "never breaks"), "error");
   EXPECT_EQ(found(torn("fracture_stretch = 1.5\n"), "never breaks"), "");
   EXPECT_EQ(found(torn("fracture_distance = 2.5\n", "mode = 'paper'"), "never breaks"), "");
-  EXPECT_EQ(found(scene() + brick + "elastic_limit = 0.1\n" + body("cube", "brick", "rigid", 0.0), "never acts"), "warning");
+  EXPECT_EQ(
+      found(scene() + brick + "elastic_limit = 0.1\n" + body("cube", "brick", "rigid", 0.0), "never acts"),
+      "warning");
 }
 
 TEST(IdleKeys, FindKeysOfTheSceneThatNoEffectReads) {
@@ -170,7 +209,8 @@ TEST(IdleKeys, FindKeysOfTheSceneThatNoEffectReads) {
   for (const char* key : {"viscosity_form = 'laplacian'", "clamp = false", "modes.walls = 'paper'"})
     EXPECT_EQ(found(scene(key) + pool, "changes nothing"), "") << key;
   for (const char* key : {"viscosity_form = 'laplacian'", "transport_velocity = true"})
-    EXPECT_EQ(found(scene(std::string("mode = 'paper'\n") + key) + pool, "changes nothing"), "warning") << key;
+    EXPECT_EQ(found(scene(std::string("mode = 'paper'\n") + key) + pool, "changes nothing"), "warning")
+        << key;
   for (const std::string key : {"mean_pressure = 1", "sound_damping = 0.2"}) {
     EXPECT_EQ(found(scene(key) + pool, "changes nothing"), "warning") << key;
     const std::string moved = key + "\ntransport_velocity = true\nclamp = false";
@@ -179,18 +219,24 @@ TEST(IdleKeys, FindKeysOfTheSceneThatNoEffectReads) {
   }
   EXPECT_EQ(found(scene("bulk_viscosity = 0.1") + pool, "changes nothing"), "");
   for (const char* key : {"mode = 'paper'", "clamp = false", "modes.pressure = 'paper'"})
-    EXPECT_EQ(found(scene(std::string("bulk_viscosity = 0.1\n") + key) + pool, "changes nothing"), "warning") << key;
+    EXPECT_EQ(found(scene(std::string("bulk_viscosity = 0.1\n") + key) + pool, "changes nothing"), "warning")
+        << key;
   EXPECT_EQ(found(scene("surface_weight = 0.4\ngravity = [0, 0, -9.81]") + pool, "changes nothing"), "");
   EXPECT_EQ(found(scene("surface_weight = 0.4") + pool, "changes nothing"), "warning");
-  EXPECT_EQ(found(scene("surface_weight = 0.4\ngravity = [0, 0, -9.81]\nclamp = false") + pool, "changes nothing"), "warning");
+  EXPECT_EQ(
+      found(scene("surface_weight = 0.4\ngravity = [0, 0, -9.81]\nclamp = false") + pool, "changes nothing"),
+      "warning");
   EXPECT_EQ(found(scene("contact_stiffness = 3") + pool, "changes nothing"), "warning");
-  EXPECT_EQ(found(scene("contact_stiffness = 3") + pool + brick + body("block", "brick", "rigid", 0.5), "changes nothing"), "");
+  EXPECT_EQ(found(scene("contact_stiffness = 3") + pool + brick + body("block", "brick", "rigid", 0.5),
+                  "changes nothing"),
+            "");
   const auto hit = pool + brick + body("block", "brick", "rigid", 0.5);
   EXPECT_EQ(found(scene("contact_step = 0.3") + hit, "changes nothing"), "");
   EXPECT_EQ(found(scene("contact_step = 0.3") + pool, "changes nothing"), "warning");
-  for (const char* key :
-       {"time_step = 1e-3", "clamp = false", "modes.density = 'paper'", "modes.pressure = 'paper'", "modes.state = 'paper'"})
-    EXPECT_EQ(found(scene(std::string("contact_step = 0.3\n") + key) + hit, "changes nothing"), "warning") << key;
+  for (const char* key : {"time_step = 1e-3", "clamp = false", "modes.density = 'paper'",
+                          "modes.pressure = 'paper'", "modes.state = 'paper'"})
+    EXPECT_EQ(found(scene(std::string("contact_step = 0.3\n") + key) + hit, "changes nothing"), "warning")
+        << key;
   EXPECT_EQ(found(scene("core_reach = 0.6") + pool, "changes nothing"), "");
   EXPECT_EQ(found(scene("core_reach = 0.6\nmode = 'paper'") + pool, "changes nothing"), "warning");
   EXPECT_EQ(found(scene("isotropic_shear = 1") + pool, "changes nothing"), "");
@@ -198,50 +244,68 @@ TEST(IdleKeys, FindKeysOfTheSceneThatNoEffectReads) {
   EXPECT_EQ(found(scene("face_pressure = 1") + pool + block, "changes nothing"), "");
   EXPECT_EQ(found(scene("face_pressure = 1") + pool, "changes nothing"), "warning");
   for (const char* term : {"density", "pressure", "state", "elastic"})
-    EXPECT_EQ(found(scene("face_pressure = 1\nmodes." + std::string(term) + " = 'paper'") + pool + block, "changes nothing"),
+    EXPECT_EQ(found(scene("face_pressure = 1\nmodes." + std::string(term) + " = 'paper'") + pool + block,
+                    "changes nothing"),
               "warning")
         << term;
-  EXPECT_EQ(found(scene("face_pressure = 1") + pool + jelly + "fracture_stretch = 1.5\n" + body("block", "jelly", "elastic", 0.5),
+  EXPECT_EQ(found(scene("face_pressure = 1") + pool + jelly + "fracture_stretch = 1.5\n" +
+                      body("block", "jelly", "elastic", 0.5),
                   "changes nothing"),
             "warning");
   const auto oil = "[[material]]\nname = 'oil'\ndensity = 800\n" + body("oil", "oil", "liquid", 0.5);
-  EXPECT_EQ(found(scene("interface_weight = 1\ngravity = [0, 0, -9.81]") + pool + oil, "changes nothing"), "");
+  EXPECT_EQ(found(scene("interface_weight = 1\ngravity = [0, 0, -9.81]") + pool + oil, "changes nothing"),
+            "");
   EXPECT_EQ(found(scene("interface_weight = 1") + pool + oil, "changes nothing"), "warning");
-  EXPECT_EQ(found(scene("interface_weight = 1\ngravity = [0, 0, -9.81]") + pool, "changes nothing"), "warning");
-  EXPECT_EQ(found(scene("interface_weight = 1\ngravity = [0, 0, -9.81]\nclamp = false") + pool + oil, "changes nothing"),
+  EXPECT_EQ(found(scene("interface_weight = 1\ngravity = [0, 0, -9.81]") + pool, "changes nothing"),
+            "warning");
+  EXPECT_EQ(found(scene("interface_weight = 1\ngravity = [0, 0, -9.81]\nclamp = false") + pool + oil,
+                  "changes nothing"),
             "warning");
   for (const char* key : {"mode = 'paper'", "viscosity_form = 'laplacian'"})
-    EXPECT_EQ(found(scene(std::string("isotropic_shear = 1\n") + key) + pool, "changes nothing"), "warning") << key;
-  EXPECT_EQ(found(scene("hourglass = 5") + jelly + body("block", "jelly", "elastic", 0.0), "changes nothing"), "");
-  EXPECT_EQ(found(scene("bending = 1") + jelly + body("block", "jelly", "elastic", 0.0), "changes nothing"), "");
+    EXPECT_EQ(found(scene(std::string("isotropic_shear = 1\n") + key) + pool, "changes nothing"), "warning")
+        << key;
+  EXPECT_EQ(found(scene("hourglass = 5") + jelly + body("block", "jelly", "elastic", 0.0), "changes nothing"),
+            "");
+  EXPECT_EQ(found(scene("bending = 1") + jelly + body("block", "jelly", "elastic", 0.0), "changes nothing"),
+            "");
   EXPECT_EQ(
-      found(scene("bending = 1\nmodes.elastic = 'paper'") + jelly + body("block", "jelly", "elastic", 0.0), "changes nothing"),
+      found(scene("bending = 1\nmodes.elastic = 'paper'") + jelly + body("block", "jelly", "elastic", 0.0),
+            "changes nothing"),
       "warning");
-  EXPECT_EQ(found(scene("hourglass = 5\nmodes.hourglass = 'paper'") + jelly + body("block", "jelly", "elastic", 0.0),
+  EXPECT_EQ(found(scene("hourglass = 5\nmodes.hourglass = 'paper'") + jelly +
+                      body("block", "jelly", "elastic", 0.0),
                   "changes nothing"),
             "warning");
   const std::string near = "merge_distance = 1.2", two = cube() + body("other", "brick", "rigid", 0.5);
-  EXPECT_EQ(found(scene(near) + two + event("kind = 'merge'\ntime = 0.5\nbodies = ['cube', 'other']"), "changes nothing"), "");
-  EXPECT_EQ(found(scene(near) + jelly + "fracture_stretch = 1.5\n" + body("block", "jelly", "elastic", 0.0), "changes nothing"),
+  EXPECT_EQ(found(scene(near) + two + event("kind = 'merge'\ntime = 0.5\nbodies = ['cube', 'other']"),
+                  "changes nothing"),
             "");
-  EXPECT_EQ(
-      found(scene(near) + jelly + body("a", "jelly", "elastic", 0.0, "joined_to = ['b']") + body("b", "jelly", "elastic", 0.3),
-            "changes nothing"),
-      "");
+  EXPECT_EQ(found(scene(near) + jelly + "fracture_stretch = 1.5\n" + body("block", "jelly", "elastic", 0.0),
+                  "changes nothing"),
+            "");
+  EXPECT_EQ(found(scene(near) + jelly + body("a", "jelly", "elastic", 0.0, "joined_to = ['b']") +
+                      body("b", "jelly", "elastic", 0.3),
+                  "changes nothing"),
+            "");
   EXPECT_EQ(found(scene() + cube("slip = 'free'"), "slip"), "warning");
   EXPECT_EQ(found(scene() + cube("joins = true"), "joins"), "warning");
 }
 
 TEST(IdleKeys, FindWhatTheJudgeDoesNotRead) {
-  const auto metric = [](const std::string& more) { return "[[metric]]\nname = 'm'\nquantity = 'position'\n" + more + "\n"; };
+  const auto metric = [](const std::string& more) {
+    return "[[metric]]\nname = 'm'\nquantity = 'position'\n" + more + "\n";
+  };
   const std::string truth = "[reference]\nkind = 'analytic'\nfunction = 'ballistic'\n";
-  EXPECT_EQ(found(scene() + cube() + truth + metric("reference = {kind = 'analytic', function = 'ballistic'}"),
-                  "compared with nothing"),
-            "warning");
+  EXPECT_EQ(
+      found(scene() + cube() + truth + metric("reference = {kind = 'analytic', function = 'ballistic'}"),
+            "compared with nothing"),
+      "warning");
   EXPECT_EQ(found(scene() + cube() + truth + metric(""), "compared with nothing"), "");
   EXPECT_EQ(found(scene() + cube() + truth + metric("norm = 'max'\nat = '0.5'"), "reads no `at`"), "warning");
-  EXPECT_EQ(found(scene() + cube() + truth + metric("norm = 'L2'\nwindow = [0.1, 0.5]"), "reads no window"), "warning");
-  EXPECT_EQ(found(scene() + cube() + truth + metric("") + "[[study]]\naxis = 'time_step'\nlevels = [0.2, 0.1]\nseeds = 3\n",
+  EXPECT_EQ(found(scene() + cube() + truth + metric("norm = 'L2'\nwindow = [0.1, 0.5]"), "reads no window"),
+            "warning");
+  EXPECT_EQ(found(scene() + cube() + truth + metric("") +
+                      "[[study]]\naxis = 'time_step'\nlevels = [0.2, 0.1]\nseeds = 3\n",
                   "nothing is random"),
             "warning");
   EXPECT_EQ(found(scene() + cube() + truth + metric("") +
@@ -252,30 +316,36 @@ TEST(IdleKeys, FindWhatTheJudgeDoesNotRead) {
 
 TEST(IdleKeys, FindLimitsThatCannotFailOrCannotPass) {
   const auto judged = [](const std::string& norm, const std::string& limit) {
-    return scene() + cube() + "[[metric]]\nname = 'm'\nquantity = 'position'\nnorm = '" + norm + "'\n[[gate]]\nmetric = 'm'\n" +
-           limit + "\nreason = 'a test'\n";
+    return scene() + cube() + "[[metric]]\nname = 'm'\nquantity = 'position'\nnorm = '" + norm +
+           "'\n[[gate]]\nmetric = 'm'\n" + limit + "\nreason = 'a test'\n";
   };
   EXPECT_EQ(found(judged("max", "limit = -1"), "nothing can pass"), "error");
   EXPECT_EQ(found(judged("max", "at_least = -5"), "passes anything"), "error");
   EXPECT_EQ(found(judged("L2", "at_least = 0"), "passes anything"), "error");
-  EXPECT_EQ(found(judged("final", "at_least = -5"), "passes anything"), "") << "a single number keeps its sign";
+  EXPECT_EQ(found(judged("final", "at_least = -5"), "passes anything"), "")
+      << "a single number keeps its sign";
   EXPECT_EQ(found(judged("max", "at_least = 0\nlimit = 1"), "passes anything"), "");
 }
 
-// --- refused by the reader --------------------------------------------------------------------------------------------------
+// --- refused by the reader
+// --------------------------------------------------------------------------------------------------
 
 TEST(Refusals, OfKeysThatAnEventOfThisKindDoesNotRead) {
   const auto two = cube() + body("other", "brick", "rigid", 1.0);
-  for (const char* keys : {"kind = 'merge'\nbodies = ['cube', 'other']\nuntil = 0.9",
-                           "kind = 'merge'\nbodies = ['cube', 'other']\nregion = {kind = 'sphere', centre = [0,0,0], radius = 1}",
-                           "kind = 'hold'\nbodies = ['cube']\ntemperature = 300",
-                           "kind = 'release'\nbodies = ['cube']\nregion = {kind = 'sphere', centre = [0,0,0], radius = 1}",
-                           "kind = 'grip'\nname = 'hand'\nbodies = ['cube']\nregion = {kind = 'sphere', centre = [0,0,0], radius "
-                           "= 1}\nkeyframes = [{time = 0.5, position = [0,0,0]}]"})
-    EXPECT_NE(refusal(scene() + two + event(std::string("time = 0.5\n") + keys)).find("event does not read it"),
-              std::string::npos)
+  for (
+      const char* keys :
+      {"kind = 'merge'\nbodies = ['cube', 'other']\nuntil = 0.9",
+       "kind = 'merge'\nbodies = ['cube', 'other']\nregion = {kind = 'sphere', centre = [0,0,0], radius = 1}",
+       "kind = 'hold'\nbodies = ['cube']\ntemperature = 300",
+       "kind = 'release'\nbodies = ['cube']\nregion = {kind = 'sphere', centre = [0,0,0], radius = 1}",
+       "kind = 'grip'\nname = 'hand'\nbodies = ['cube']\nregion = {kind = 'sphere', centre = [0,0,0], radius "
+       "= 1}\nkeyframes = [{time = 0.5, position = [0,0,0]}]"})
+    EXPECT_NE(
+        refusal(scene() + two + event(std::string("time = 0.5\n") + keys)).find("event does not read it"),
+        std::string::npos)
         << keys;
-  EXPECT_NE(refusal(scene() + two + event("time = 0.5\nkind = 'release'")).find("needs the key `bodies`"), std::string::npos);
+  EXPECT_NE(refusal(scene() + two + event("time = 0.5\nkind = 'release'")).find("needs the key `bodies`"),
+            std::string::npos);
 }
 
 TEST(Refusals, OfEventsThatWouldDoAnotherThingThanTheySay) {
@@ -292,16 +362,20 @@ TEST(Refusals, OfEventsThatWouldDoAnotherThingThanTheySay) {
                           "\nkeyframes = [{time = 0, position = [0,0,0]}, {time = 1, position = [0,0,1]}]"))
                 .find("would jump"),
             std::string::npos);
-  EXPECT_NE(refusal(scene() + cube("motion = 'prescribed'\nvelocity = [1,0,0]\nkeyframes = [{time = 0, position = [0,0,0]}, "
-                                   "{time = 1, position = [0,0,1]}]"))
-                .find("give its velocities"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal(scene() +
+              cube("motion = 'prescribed'\nvelocity = [1,0,0]\nkeyframes = [{time = 0, position = [0,0,0]}, "
+                   "{time = 1, position = [0,0,1]}]"))
+          .find("give its velocities"),
+      std::string::npos);
 }
 
 TEST(Refusals, OfAKernelOfAnotherFormThanTheTermsHave) {
   const auto pool = ink + body("pool", "ink", "liquid", 0.0);
-  EXPECT_NE(refusal(scene("modes.kernel = 'paper'") + pool).find("brings the kernel of its form"), std::string::npos);
-  EXPECT_NE(refusal(scene("mode = 'paper'\nmodes.kernel = 'corrected'") + pool).find("brings the kernel of its form"),
+  EXPECT_NE(refusal(scene("modes.kernel = 'paper'") + pool).find("brings the kernel of its form"),
+            std::string::npos);
+  EXPECT_NE(refusal(scene("mode = 'paper'\nmodes.kernel = 'corrected'") + pool)
+                .find("brings the kernel of its form"),
             std::string::npos);
   EXPECT_EQ(refusal(scene("modes.kernel = 'corrected'") + pool), "");
   EXPECT_NE(refusal("[case]\nmodes = ['corrected', 'paper']\n" + scene("modes.kernel = 'corrected'") + pool)
@@ -312,8 +386,9 @@ TEST(Refusals, OfAKernelOfAnotherFormThanTheTermsHave) {
 TEST(Refusals, OfDataThatNobodyReads) {
   const Folder folder;
   const auto data = folder.write("x.csv", "time,value\n0,1\n");
-  const auto file =
-      folder.write("case.toml", scene() + cube() + "[reference]\nkind = 'analytic'\nfunction = 'ballistic'\nfile = 'x.csv'\n");
+  const auto file = folder.write(
+      "case.toml",
+      scene() + cube() + "[reference]\nkind = 'analytic'\nfunction = 'ballistic'\nfile = 'x.csv'\n");
   EXPECT_THROW(static_cast<void>(read_case(file)), InputError);
 }
 

@@ -14,7 +14,9 @@ std::vector<Vec3> lattice(int nx, int ny, int nz, double dx) {
   return r;
 }
 
-MassProperties of(const std::vector<Vec3>& r, double m = 1.0) { return mass_properties(r, std::vector<double>(r.size(), m)); }
+MassProperties of(const std::vector<Vec3>& r, double m = 1.0) {
+  return mass_properties(r, std::vector<double>(r.size(), m));
+}
 
 std::vector<Vec3> turned(std::vector<Vec3> r, const Quaternion& q, const Vec3& shift) {
   for (auto& p : r) p = rotate(q, p) + shift;
@@ -28,8 +30,8 @@ double tensor_error(const std::vector<Vec3>& r, const MassProperties& p) {
     Vec3 L;
     for (const auto& x : r) L += cross(x - p.centre, cross(w, x - p.centre));
     const Vec3 b = rotate_back(p.principal_axes, w);
-    const Vec3 mine =
-        rotate(p.principal_axes, {b.x * p.principal_inertia.x, b.y * p.principal_inertia.y, b.z * p.principal_inertia.z});
+    const Vec3 mine = rotate(p.principal_axes, {b.x * p.principal_inertia.x, b.y * p.principal_inertia.y,
+                                                b.z * p.principal_inertia.z});
     worst = std::max(worst, norm(mine - L));
   }
   return worst;
@@ -48,8 +50,8 @@ TEST(MassProperties, OfALatticeCubeAreThoseOfTheCubeTimesOneMinusOneOverNSquared
 
 TEST(MassProperties, AscendInAProperFrameThatGivesTheTensorBack) {
   const auto block = lattice(6, 4, 2, 0.1);
-  for (const auto& q :
-       {Quaternion{}, normalised({0.3, -0.5, 0.7, 0.1}), normalised({-0.2, 0.9, 0.1, 0.4}), normalised({1, 1, 1, 1})}) {
+  for (const auto& q : {Quaternion{}, normalised({0.3, -0.5, 0.7, 0.1}), normalised({-0.2, 0.9, 0.1, 0.4}),
+                        normalised({1, 1, 1, 1})}) {
     const auto r = turned(block, q, {3.0, -2.0, 0.5});
     const auto p = of(r);
     EXPECT_LT(p.principal_inertia.x, p.principal_inertia.y);
@@ -60,7 +62,8 @@ TEST(MassProperties, AscendInAProperFrameThatGivesTheTensorBack) {
 }
 
 TEST(MassProperties, AreTheSameBitsWhereverTheLatticeStands) {
-  const auto a = of(lattice(4, 4, 8, 0.125)), b = of(turned(lattice(4, 4, 8, 0.125), {}, {16.0, -8.0, 4.0}));  // exact in binary
+  // Exact in binary
+  const auto a = of(lattice(4, 4, 8, 0.125)), b = of(turned(lattice(4, 4, 8, 0.125), {}, {16.0, -8.0, 4.0}));
   EXPECT_EQ(a.principal_inertia, b.principal_inertia);
   EXPECT_EQ(a.principal_axes, b.principal_axes);
 }

@@ -23,7 +23,8 @@ const char* const cube_faces = "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 
 std::string cube_obj(const std::string& faces = cube_faces) {
   std::string text;
   for (int i = 0; i < 8; ++i)
-    text += "v " + std::to_string(i & 1) + " " + std::to_string(i >> 1 & 1) + " " + std::to_string(i >> 2 & 1) + "\n";
+    text += "v " + std::to_string(i & 1) + " " + std::to_string(i >> 1 & 1) + " " +
+            std::to_string(i >> 2 & 1) + "\n";
   return text + faces;
 }
 
@@ -33,12 +34,13 @@ std::string sphere_obj(int rings, int sectors) {
   for (int i = 1; i < rings; ++i)
     for (int j = 0; j < sectors; ++j) {
       const double a = pi * i / rings, b = 2 * pi * j / sectors;
-      text += "v " + std::to_string(std::sin(a) * std::cos(b)) + " " + std::to_string(std::sin(a) * std::sin(b)) + " " +
-              std::to_string(std::cos(a)) + "\n";
+      text += "v " + std::to_string(std::sin(a) * std::cos(b)) + " " +
+              std::to_string(std::sin(a) * std::sin(b)) + " " + std::to_string(std::cos(a)) + "\n";
     }
   const auto at = [&](int i, int j) { return std::to_string(3 + (i - 1) * sectors + j % sectors); };
   for (int j = 0; j < sectors; ++j) {
-    text += "f 1 " + at(1, j) + " " + at(1, j + 1) + "\nf 2 " + at(rings - 1, j + 1) + " " + at(rings - 1, j) + "\n";
+    text += "f 1 " + at(1, j) + " " + at(1, j + 1) + "\nf 2 " + at(rings - 1, j + 1) + " " +
+            at(rings - 1, j) + "\n";
     for (int i = 1; i + 1 < rings; ++i)
       text += "f " + at(i, j) + " " + at(i + 1, j) + " " + at(i + 1, j + 1) + " " + at(i, j + 1) + "\n";
   }
@@ -58,7 +60,8 @@ std::string as_stl(const Mesh& m, bool binary) {
       if (binary)
         text.append(reinterpret_cast<const char*>(xyz), 12);
       else
-        text += "vertex " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
+        text +=
+            "vertex " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
     }
     if (binary)
       text.append(2, '\0');
@@ -94,7 +97,8 @@ TEST(Mesh, ThatIsOpenIsRefusedWithItsOpenEdges) {
   EXPECT_NE(open.find("4 open edges"), std::string::npos) << open;
   EXPECT_NE(open.find("open.obj"), std::string::npos);
   EXPECT_NE(open.find("(0, 0, 0) to (1, 0, 0)"), std::string::npos) << open;
-  const auto flipped = refused(folder, "flipped.obj", cube_obj("f 2 4 3 1\n" + faces.substr(faces.find('\n') + 1)));
+  const auto flipped =
+      refused(folder, "flipped.obj", cube_obj("f 2 4 3 1\n" + faces.substr(faces.find('\n') + 1)));
   EXPECT_NE(flipped.find("some of the mesh's faces turn inward"), std::string::npos) << flipped;
   EXPECT_NE(flipped.find("4 edges between them"), std::string::npos) << flipped;
   EXPECT_EQ(flipped.find("hole"), std::string::npos) << "a false reason: " << flipped;
@@ -102,7 +106,8 @@ TEST(Mesh, ThatIsOpenIsRefusedWithItsOpenEdges) {
 
 TEST(Mesh, ThatTurnsInwardIsRefused) {
   const Folder folder;
-  EXPECT_NE(refused(folder, "in.obj", cube_obj("f 2 4 3 1\nf 7 8 6 5\nf 5 6 2 1\nf 4 8 7 3\nf 3 7 5 1\nf 6 8 4 2\n"))
+  EXPECT_NE(refused(folder, "in.obj",
+                    cube_obj("f 2 4 3 1\nf 7 8 6 5\nf 5 6 2 1\nf 4 8 7 3\nf 3 7 5 1\nf 6 8 4 2\n"))
                 .find("turn inward"),
             std::string::npos);
 }
@@ -137,7 +142,8 @@ TEST(Mesh, WithACornerThatIsNoNumberIsRefusedByItsLine) {
   for (const char* faces : {"f 1 3 x 2\n", "f 1 3\n", "f 1 3 0 2\n", "f 1/a 3/2 4/2\n"})
     EXPECT_NE(refused(folder, "face.obj", cube_obj(faces)).find("face.obj:9: "), std::string::npos) << faces;
   EXPECT_EQ(refused(folder, "textured.obj",
-                    cube_obj("vt 0 0\nvn 0 0 1\nf 1/1 3/1 4/1 2/1\nf 5//1 6//1 8//1 7//1\nf 1/1/1 2/1/1 6/1/1 5/1/1\nf 3 7 8 "
+                    cube_obj("vt 0 0\nvn 0 0 1\nf 1/1 3/1 4/1 2/1\nf 5//1 6//1 8//1 7//1\nf 1/1/1 2/1/1 "
+                             "6/1/1 5/1/1\nf 3 7 8 "
                              "4\nf 1 5 7 3\nf 2 4 8 6\n")),
             "");
 }
@@ -154,7 +160,8 @@ TEST(Mesh, WithCornersThatDifferByRoundOffIsClosed) {
         std::ostringstream line;
         line.precision(17);
         const double off = noise * (++n % 3 - 1);
-        line << "vertex " << cube.points[c].x + off << ' ' << cube.points[c].y - off << ' ' << cube.points[c].z << '\n';
+        line << "vertex " << cube.points[c].x + off << ' ' << cube.points[c].y - off << ' '
+             << cube.points[c].z << '\n';
         text += line.str();
       }
       text += "endloop\nendfacet\n";
@@ -169,7 +176,8 @@ TEST(Mesh, WhoseEdgesAreUsedTwiceEachWayIsClosed) {
   const Folder folder;
   std::string two = cube_obj();  // a second cube at (1, 1, 0): both share the edge at x = y = 1
   for (int i = 0; i < 8; ++i)
-    two += "v " + std::to_string(1 + (i & 1)) + " " + std::to_string(1 + (i >> 1 & 1)) + " " + std::to_string(i >> 2 & 1) + "\n";
+    two += "v " + std::to_string(1 + (i & 1)) + " " + std::to_string(1 + (i >> 1 & 1)) + " " +
+           std::to_string(i >> 2 & 1) + "\n";
   two += "f 9 11 12 10\nf 13 14 16 15\nf 9 10 14 13\nf 11 15 16 12\nf 9 13 15 11\nf 10 12 16 14\n";
   EXPECT_DOUBLE_EQ(volume(read_mesh(folder.write("two.obj", two), 1.0)), 2.0);
   const auto twice = refused(folder, "twice.obj", cube_obj(std::string(cube_faces) + cube_faces));
@@ -178,11 +186,14 @@ TEST(Mesh, WhoseEdgesAreUsedTwiceEachWayIsClosed) {
 
 TEST(Mesh, AsObjMayBeWrittenInEveryValidWay) {
   const Folder folder;
-  const auto volume_of = [&](const std::string& text) { return volume(read_mesh(folder.write("way.obj", text), 1.0)); };
+  const auto volume_of = [&](const std::string& text) {
+    return volume(read_mesh(folder.write("way.obj", text), 1.0));
+  };
   const std::string rest = "f 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
-  for (const char* first : {"f 1/ 3/ 4/ 2/\n", "f 1// 3// 4// 2//\n", "f 1 3 \\\n4 2\n", "f 1 3 \\\r\n4 \\\r\n2\r\n",
-                            "f -8 -6 -5 -7\n", "  f\t1 3 4 2 # base\n", "f 1/7/7 3/7/7 4/7/7 2/7/7\n",
-                            "g base\nusemtl x\ns off\nf 1 3 4 2\n", "f 1 3 4 2\nl 1 2\nf 1 1 2\n"})
+  for (const char* first :
+       {"f 1/ 3/ 4/ 2/\n", "f 1// 3// 4// 2//\n", "f 1 3 \\\n4 2\n", "f 1 3 \\\r\n4 \\\r\n2\r\n",
+        "f -8 -6 -5 -7\n", "  f\t1 3 4 2 # base\n", "f 1/7/7 3/7/7 4/7/7 2/7/7\n",
+        "g base\nusemtl x\ns off\nf 1 3 4 2\n", "f 1 3 4 2\nl 1 2\nf 1 1 2\n"})
     EXPECT_DOUBLE_EQ(volume_of(cube_obj(first + rest)), 1.0) << first;
   std::string mac = cube_obj();
   std::ranges::replace(mac, '\n', '\r');
@@ -210,7 +221,9 @@ TEST(Mesh, IsRefusedForItsTrueReason) {
 TEST(Mesh, AsStlMayBeWrittenInEveryValidWay) {
   const Folder folder;
   const auto cube = read_mesh(folder.write("cube.obj", cube_obj()), 1.0);
-  const auto volume_of = [&](const std::string& bytes) { return volume(read_mesh(folder.write("way.stl", bytes), 1.0)); };
+  const auto volume_of = [&](const std::string& bytes) {
+    return volume(read_mesh(folder.write("way.stl", bytes), 1.0));
+  };
   std::string zeros = as_stl(cube, true);
   const float minus = -0.0F;
   for (std::size_t t = 0; t < 12; t += 2)
@@ -226,7 +239,8 @@ TEST(Mesh, AsStlMayBeWrittenInEveryValidWay) {
   header.replace(0, 11, "solid facet");
   EXPECT_DOUBLE_EQ(volume_of(header), 1.0) << "binary whose header begins as a text";
   std::string text = as_stl(cube, false);
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   EXPECT_DOUBLE_EQ(volume_of("\r\n " + text), 1.0) << "in capitals, after blanks";
 }
 
@@ -244,7 +258,8 @@ TEST(Mesh, WithAFaceOfVeryManyCornersIsRefused) {
   const Folder folder;
   std::string face = "f";
   for (int n = 0; n < 1001; ++n) face += " 1";
-  EXPECT_NE(refused(folder, "round.obj", cube_obj(face + "\n")).find("round.obj:9: a face of 1001 corners"), std::string::npos)
+  EXPECT_NE(refused(folder, "round.obj", cube_obj(face + "\n")).find("round.obj:9: a face of 1001 corners"),
+            std::string::npos)
       << refused(folder, "round.obj", cube_obj(face + "\n"));
 }
 
@@ -255,7 +270,8 @@ TEST(Mesh, AsStlWithACornerThatIsNoNumberIsRefusedByItsPlace) {
   const auto first = text.find("vertex");
   for (const char* line : {"vertex nan 0 0", "vertex 0 0", "vertex 0 0 0x", "vertex 0 0 0 7"}) {
     std::string broken = text;
-    EXPECT_NE(refused(folder, "text.stl", broken.replace(first, text.find('\n', first) - first, line)).find("text.stl:4: "),
+    EXPECT_NE(refused(folder, "text.stl", broken.replace(first, text.find('\n', first) - first, line))
+                  .find("text.stl:4: "),
               std::string::npos)
         << line;
   }
@@ -268,9 +284,9 @@ TEST(Mesh, AsStlWithACornerThatIsNoNumberIsRefusedByItsPlace) {
 TEST(MeshInterior, OfACubeHoldsJustItsLattice) {
   const Folder folder;
   static_cast<void>(folder.write("cube.obj", cube_obj()));
-  const auto file = folder.write(
-      "case.toml",
-      "[scene]\nend_time=1\nspacing=0.2\n[[body]]\nname='b'\nmaterial='steel'\nshape={kind='mesh',file='cube.obj',scale=2}\n");
+  const auto file = folder.write("case.toml",
+                                 "[scene]\nend_time=1\nspacing=0.2\n[[body]]\nname='b'\nmaterial='steel'"
+                                 "\nshape={kind='mesh',file='cube.obj',scale=2}\n");
   const auto scene = scene_for(read_case(file).value, {});
   const auto s = sample(scene);
   EXPECT_EQ(s.size(), 1000U);
@@ -284,7 +300,8 @@ TEST(MeshInterior, OfASphereTendsToItsVolume) {
   double inside = 0.0;
   for (double x = -0.975; x < 1.0; x += 0.05)
     for (double y = -0.975; y < 1.0; y += 0.05)
-      for (double z = -0.975; z < 1.0; z += 0.05) inside += interior.holds({x, y, z}) ? 0.05 * 0.05 * 0.05 : 0.0;
+      for (double z = -0.975; z < 1.0; z += 0.05)
+        inside += interior.holds({x, y, z}) ? 0.05 * 0.05 * 0.05 : 0.0;
   EXPECT_NEAR(inside / volume(mesh), 1.0, 0.01);  // lattice point discrepancy of a ball of 20 spacings
 }
 

@@ -23,7 +23,8 @@ const ModelTerm& term_named(std::string_view name) {
 
 /// A pool beside an elastic block, so that most terms act.
 std::string pool(const std::string& keys = "", const std::string& model = "") {
-  return "[scene]\nend_time = 1\nspacing = 0.1\ngravity = [0, 0, -9.81]\n" + keys + "\n[model]\n" + model + R"(
+  return "[scene]\nend_time = 1\nspacing = 0.1\ngravity = [0, 0, -9.81]\n" + keys + "\n[model]\n" + model +
+         R"(
 [[material]]
 name = 'ink'
 density = 1000
@@ -57,7 +58,8 @@ TEST(Model, GivesEachTermEachOfItsFormsByItsWord) {
 
 TEST(Model, SaysWhatTheKeysOfTheSceneSay) {
   const auto same = [](const std::string& keys, const std::string& model) {
-    const Scene by_keys = scene_for(read_text(pool(keys)).value, {}), by_words = scene_for(read_text(pool("", model)).value, {});
+    const Scene by_keys = scene_for(read_text(pool(keys)).value, {}),
+                by_words = scene_for(read_text(pool("", model)).value, {});
     for (const ModelTerm& t : model_terms())
       EXPECT_EQ(word_in(by_keys, t.name), word_in(by_words, t.name)) << t.name << ": " << model;
     EXPECT_EQ(by_keys.values, by_words.values) << model;
@@ -101,9 +103,11 @@ TEST(Model, IsFilledByModeAndExplained) {
 }
 
 TEST(Model, RefusesAFormThatIsGivenTwiceAndAWordThatIsNone) {
-  expect_refused(pool("modes.viscosity = 'paper'", "viscosity = 'morris'"), {"model.viscosity", "scene.modes.viscosity"});
+  expect_refused(pool("modes.viscosity = 'paper'", "viscosity = 'morris'"),
+                 {"model.viscosity", "scene.modes.viscosity"});
   expect_refused(pool("clamp = true", "clamp = 'paper'"), {"model.clamp", "scene.clamp"});
-  expect_refused(pool("viscosity_form = 'central'", "viscosity = 'morris'"), {"model.viscosity", "scene.viscosity_form"});
+  expect_refused(pool("viscosity_form = 'central'", "viscosity = 'morris'"),
+                 {"model.viscosity", "scene.viscosity_form"});
   expect_refused(pool("core_reach = 0", "core = 'none'"), {"model.core", "scene.core_reach"});
   expect_refused(pool("", "viscosity = 'moris'"), {"case.toml:", "model.viscosity", "morris"});
   expect_refused(pool("", "viscositi = 'morris'"), {"viscositi", "viscosity"});

@@ -10,7 +10,8 @@ namespace {
 
 using std::numbers::pi;
 const Quaternion quarter_about_z = from_rotation_vector({0, 0, pi / 2});
-const std::vector<Keyframe> frames{{0.0, {0, 0, 0}, {}}, {2.0, {4, 0, 0}, quarter_about_z}, {3.0, {4, 1, 0}, quarter_about_z}};
+const std::vector<Keyframe> frames{
+    {0.0, {0, 0, 0}, {}}, {2.0, {4, 0, 0}, quarter_about_z}, {3.0, {4, 1, 0}, quarter_about_z}};
 
 TEST(PrescribedMotion, RunsStraightAndTurnsEvenlyBetweenKeyframes) {
   const auto p = prescribed_state(frames, {}, {}, {}, 1.0);
@@ -22,13 +23,15 @@ TEST(PrescribedMotion, RunsStraightAndTurnsEvenlyBetweenKeyframes) {
 
 TEST(PrescribedMotion, HasTheDerivativeOfItsPlaceAsVelocity) {
   const Quaternion tilted = normalised({0.9, 0.2, -0.3, 0.1});
-  const std::vector<Keyframe> two{{0.5, {1, 2, 3}, tilted}, {2.5, {2, 0, 1}, normalised({0.5, 0.6, 0.1, -0.4})}};
+  const std::vector<Keyframe> two{{0.5, {1, 2, 3}, tilted},
+                                  {2.5, {2, 0, 1}, normalised({0.5, 0.6, 0.1, -0.4})}};
   const double t = 1.3, e = 1e-5;
   const auto a = prescribed_state(two, {}, {}, {}, t - e), b = prescribed_state(two, {}, {}, {}, t + e),
              p = prescribed_state(two, {}, {}, {}, t);
   EXPECT_LT(norm((b.position - a.position) / (2 * e) - p.velocity), 1e-9);
-  const Quaternion d = b.rotation * conjugate(a.rotation);              // world frame
-  EXPECT_LT(norm(Vec3{d.x, d.y, d.z} / e - p.angular_velocity), 1e-8);  // central difference: error e^2 and round-off/e
+  const Quaternion d = b.rotation * conjugate(a.rotation);  // world frame
+  // Central difference: error e^2 and round-off/e
+  EXPECT_LT(norm(Vec3{d.x, d.y, d.z} / e - p.angular_velocity), 1e-8);
 }
 
 TEST(PrescribedMotion, RestsBeforeTheFirstAndAfterTheLastKeyframe) {

@@ -12,18 +12,22 @@
 #include "tables/toml_node.hpp"
 #include "validation/case/schema.hpp"
 
-/// third-party files reach the reader: whatever is in them, it refuses with line and remedy, or shows what it understood.
+/// third-party files reach the reader: whatever is in them, it refuses with line and remedy, or shows what it
+/// understood.
 namespace tripoint::test {
 namespace {
 
-const std::vector<std::string> sources{full_case, cosine_case, torque_free_case, board_case, six_lines, new_case_text("my/case")};
+const std::vector<std::string> sources{full_case,  cosine_case, torque_free_case,
+                                       board_case, six_lines,   new_case_text("my/case")};
 
 /// The document's meaning: tables sorted by key, numbers by value.
 std::string canonical(const TomlNode& n) {
   if (n.kind == TomlNode::Kind::integer) return to_toml(n) + ".";
-  if (n.kind == TomlNode::Kind::real && n.real == static_cast<double>(static_cast<long>(std::clamp(n.real, -1e15, 1e15))))
+  if (n.kind == TomlNode::Kind::real &&
+      n.real == static_cast<double>(static_cast<long>(std::clamp(n.real, -1e15, 1e15))))
     return std::to_string(static_cast<long>(n.real)) + ".";
-  if (n.kind == TomlNode::Kind::text && !n.text.empty() && n.text[0] >= '0' && n.text[0] <= '9') {  // "3 mm" is "3mm"
+  // "3 mm" is "3mm"
+  if (n.kind == TomlNode::Kind::text && !n.text.empty() && n.text[0] >= '0' && n.text[0] <= '9') {
     std::string text = n.text;
     text.erase(std::remove(text.begin(), text.end(), ' '), text.end());
     return text;
@@ -44,8 +48,10 @@ std::string canonical(const TomlNode& n) {
 
 bool has_remedy(const std::string& what) {
   static const std::regex remedy(
-      "did you mean|\\(known|one of|none of: |write |give |remove|rename|close |must |lacks the key|lower |raise "
-      "|shorten|lengthen|choose|flatten|break |at most|at least|needs |begin with |start from|plain UTF-8|enlarge|in s\\b");
+      "did you mean|\\(known|one of|none of: |write |give |remove|rename|close |must |lacks the key|lower "
+      "|raise "
+      "|shorten|lengthen|choose|flatten|break |at most|at least|needs |begin with |start from|plain "
+      "UTF-8|enlarge|in s\\b");
   return std::regex_search(what, remedy);
 }
 
@@ -60,12 +66,15 @@ void judge(const Mutant& m, const std::string& source, Tally& tally) {
   const auto begin = std::chrono::steady_clock::now();
   try {
     const auto r = read_case(file);
-    if (!source.empty() && canonical(read_toml(file)) == canonical(read_toml(folder.write("source.toml", source)))) {
+    if (!source.empty() &&
+        canonical(read_toml(file)) == canonical(read_toml(folder.write("source.toml", source)))) {
       ++tally.neutral;  // the change lies in a comment, a blank or the order of keys
     } else {
       ++tally.shown;
-      const auto original = source.empty() ? std::string() : decisions_of(read_case(folder.write("mutant.toml", source)));
-      EXPECT_TRUE(decisions_of(r) != original) << m.what << "\n was accepted and changes nothing that is shown";
+      const auto original =
+          source.empty() ? std::string() : decisions_of(read_case(folder.write("mutant.toml", source)));
+      EXPECT_TRUE(decisions_of(r) != original)
+          << m.what << "\n was accepted and changes nothing that is shown";
     }
   } catch (const InputError& e) {
     ++tally.refused;
@@ -136,9 +145,9 @@ int depth_of(const TomlNode& n) {
 
 TEST(DottedKeys, AreBoundedWhereverTheyStand) {
   const std::string longer = names(14);
-  for (const std::string& text :
-       {longer + " = 1", "[" + longer + "]", "[[" + longer + "]]", "v = {" + longer + " = 1}", "v = {b = 1, " + longer + " = 1}",
-        "v = [1.5, {" + longer + " = 1}]", "v = {b = [{" + longer + " = 1}]}"}) {
+  for (const std::string& text : {longer + " = 1", "[" + longer + "]", "[[" + longer + "]]",
+                                  "v = {" + longer + " = 1}", "v = {b = 1, " + longer + " = 1}",
+                                  "v = [1.5, {" + longer + " = 1}]", "v = {b = [{" + longer + " = 1}]}"}) {
     const auto told = refusal_of_toml("w = 1\n" + text + "\n");
     EXPECT_NE(told.find("file.toml:2:"), std::string::npos) << text << "\n" << told;
     EXPECT_NE(told.find("more than 12 dots"), std::string::npos) << text << "\n" << told;
@@ -156,7 +165,8 @@ TEST(DottedKeys, AndBracketsAreCountedTogether) {
     return "v = " + begin + end + "\n";
   };
   EXPECT_EQ(refusal_of_toml(nested(2)), "");  // twice nine dots and two brackets are 22 of 24
-  EXPECT_NE(refusal_of_toml(nested(3)).find("nested deeper than 24"), std::string::npos) << refusal_of_toml(nested(3));
+  EXPECT_NE(refusal_of_toml(nested(3)).find("nested deeper than 24"), std::string::npos)
+      << refusal_of_toml(nested(3));
 }
 
 TEST(DottedKeys, OfTablesThatExtendTheSamePathStayAsShallow) {
@@ -166,8 +176,8 @@ TEST(DottedKeys, OfTablesThatExtendTheSamePathStayAsShallow) {
     text += "[" + names(12) + ".b" + std::to_string(k) + "]\n";
     text += names(13) + " = " + value + "\n";
   }
-  // The root, 13 names of the table, 13 of its key, 11 lists in the first of them, and 12 names: all bounds together allow no
-  // more.
+  // The root, 13 names of the table, 13 of its key, 11 lists in the first of them, and 12 names: all bounds
+  // together allow no more.
   EXPECT_EQ(depth_of(parse_toml(text, "file.toml")), 50);
 }
 
@@ -175,8 +185,12 @@ TEST(DottedKeys, ArePutUpWithWhereTheyAreShort) {
   std::string numbers = "1.5";
   for (int k = 0; k < 40; ++k) numbers += k % 8 == 7 ? ",\n  1.5" : ", 1.5";
   EXPECT_EQ(refusal_of_toml("v = [" + numbers + "]\n"), "");
-  EXPECT_EQ(refusal_of_toml("v = {a.b.c = 1.5, d.e.f = 1.5, g.h.i = [1.5, {j.k.l = 1.5}], m.n.o = 1.5, p.q.r = 1.5}\n"), "");
-  EXPECT_EQ(refusal_of_toml("[a.b.c]\nd.e.f = [" + numbers + "]\n[[a.b.g]]\nh.i = \"x.x.x.x.x.x.x.x.x.x.x.x.x.x.x\"\n"), "");
+  EXPECT_EQ(refusal_of_toml(
+                "v = {a.b.c = 1.5, d.e.f = 1.5, g.h.i = [1.5, {j.k.l = 1.5}], m.n.o = 1.5, p.q.r = 1.5}\n"),
+            "");
+  EXPECT_EQ(refusal_of_toml("[a.b.c]\nd.e.f = [" + numbers +
+                            "]\n[[a.b.g]]\nh.i = \"x.x.x.x.x.x.x.x.x.x.x.x.x.x.x\"\n"),
+            "");
 }
 
 TEST(Mutants, AreTheSameForTheSameSeed) {

@@ -189,8 +189,8 @@ Mutant other_value(const std::string& text, Dice& dice) {
 
 /// One number of the file becomes another.
 Mutant other_number(std::string text, Dice& dice) {
-  static constexpr std::array<std::string_view, 12> numbers{"nan", "inf",   "-3.5", "0.0",    "1e29", "1e-300",
-                                                            "7",   "-1e-9", "1e9",  "0.4999", "0.5",  "1..2"};
+  static constexpr std::array<std::string_view, 12> numbers{
+      "nan", "inf", "-3.5", "0.0", "1e29", "1e-300", "7", "-1e-9", "1e9", "0.4999", "0.5", "1..2"};
   std::vector<std::pair<std::size_t, std::size_t>> found;
   const auto digits = places(text, "0123456789");
   for (std::size_t k = 0; k < digits.size(); ++k) {
@@ -201,7 +201,8 @@ Mutant other_number(std::string text, Dice& dice) {
   }
   const auto [at, length] = found[dice.below(found.size())];
   const auto number = dice.of(numbers);
-  const std::string what = "number at byte " + std::to_string(at) + ": " + text.substr(at, length) + " -> " + std::string(number);
+  const std::string what =
+      "number at byte " + std::to_string(at) + ": " + text.substr(at, length) + " -> " + std::string(number);
   return {text.replace(at, length, number), what};
 }
 
@@ -217,7 +218,8 @@ Mutant other_word(std::string text, Dice& dice) {
     word += "zz";
   else
     word.erase(dice.below(word.size()), 1);
-  return {text.replace(begin, length, word), "word at byte " + std::to_string(begin) + ": " + before + " -> " + word};
+  return {text.replace(begin, length, word),
+          "word at byte " + std::to_string(begin) + ": " + before + " -> " + word};
 }
 
 using Change = std::function<Mutant(const std::string&, Dice&)>;
@@ -225,15 +227,18 @@ using Change = std::function<Mutant(const std::string&, Dice&)>;
 }  // namespace
 
 std::vector<Mutant> mutants(const std::vector<std::string>& sources, std::size_t count, std::uint64_t seed) {
-  const std::array<Change, 8> grammar{drop, twice, insert, swap_bytes, cut, drop_line, repeat_line, move_line};
+  const std::array<Change, 8> grammar{drop, twice,     insert,      swap_bytes,
+                                      cut,  drop_line, repeat_line, move_line};
   const std::array<Change, 4> values{misspell, other_value, other_number, other_word};
   Dice dice(seed);
   std::vector<Mutant> out;
   for (std::size_t n = 0; n < count; ++n) {
     const auto& source = sources[n % sources.size()];
-    const auto& change = (n / sources.size()) % 2 == 0 ? grammar[dice.below(grammar.size())] : values[dice.below(values.size())];
+    const auto& change = (n / sources.size()) % 2 == 0 ? grammar[dice.below(grammar.size())]
+                                                       : values[dice.below(values.size())];
     auto m = change(source, dice);
-    m.what = "mutant " + std::to_string(n) + " of source " + std::to_string(n % sources.size()) + ": " + m.what;
+    m.what =
+        "mutant " + std::to_string(n) + " of source " + std::to_string(n % sources.size()) + ": " + m.what;
     out.push_back(std::move(m));
   }
   return out;
@@ -247,41 +252,43 @@ std::vector<Mutant> parser_breakers() {
   };
   const std::string scene = "[scene]\nend_time = 1\n";
   const std::string path = many("a.", 6000) + "a";  // 12 kB, so that a line holds it
-  return {{"[,]\n", "[,]"},
-          {"v = [,]\n", "v = [,]"},
-          {"v=[1,}\n", "v=[1,}"},
-          {"v={a=1,}\n", "v={a=1,}"},
-          {"v=[1,,2]\n", "v=[1,,2]"},
-          {scene + "v = " + many("[", 100000) + "\n", "100000 open brackets"},
-          {scene + "v = " + many("[", 20) + many("]", 20) + "\n", "20 empty brackets"},
-          {scene + "v = " + many("{a=", 2000) + "1" + many("}", 2000) + "\n", "2000 nested tables"},
-          {many("a.", 200000) + "b = 1\n", "a dotted key of 400 kB"},
-          {"[" + many("a.", 200000) + "b]\n", "a dotted table of 400 kB"},
-          {"v = {" + path + " = [\n{" + path + " = [\n]}]}\n", "two dotted keys of 6000 names in each other"},
-          {"v = " + many("{" + path + " = [\n", 8) + many("]}", 8) + "\n", "eight dotted keys of 6000 names in each other"},
-          {"v = [\n{" + path + " = 1},\n{" + path + " = 1}]\n", "dotted keys of 6000 names beside each other"},
-          {"[" + path + "]\n" + path + " = 1\n", "a dotted table of 6000 names, and a key in it"},
-          {many("[[" + path + "]]\nb = 1\n", 8), "a dotted array of tables of 6000 names, eight times"},
-          {many("[[a]]\n", 20000), "20000 tables"},
-          {many("a", 400000) + " = 1\n", "a key of 400 kB"},
-          {"v = \"" + many("a", 400000) + "\"\n", "a text of 400 kB"},
-          {"v = " + many("9", 10000) + "\n", "a number of 10000 digits"},
-          {"v = \"\"\"" + many("\\", 999) + "\n", "an open text of backslashes"},
-          {"v = '''\n" + many("'", 2000) + "\n", "an open text of quotes"},
-          {std::string("\0\0\0\0", 4), "zeros"},
-          {"\xef\xbb\xbf", "a byte order mark alone"},
-          {"\xff\xfe\xfd = 1\n", "no UTF-8"},
-          {many("#\n", 400000), "800 kB of comments"},
-          {many("\n", 2000000), "2 MB of nothing"},
-          {"a = 1\r\nb = 2\rc = 3\n", "a lone carriage return"},
-          {"a = 0x\n", "a prefix without digits"},
-          {"a = 1e\n", "an exponent without digits"},
-          {"a = \"\\u12\"\n", "half an escape"},
-          {"a = 2026-13-45T99:99:99Z\n", "no date"},
-          {"[a]\n[a]\n", "a table twice"},
-          {"a = {b = 1}\n[a]\nc = 2\n", "a closed table reopened"},
-          {"a = [1]\n[[a]]\n", "a closed array extended"},
-          {"", "nothing"}};
+  return {
+      {"[,]\n", "[,]"},
+      {"v = [,]\n", "v = [,]"},
+      {"v=[1,}\n", "v=[1,}"},
+      {"v={a=1,}\n", "v={a=1,}"},
+      {"v=[1,,2]\n", "v=[1,,2]"},
+      {scene + "v = " + many("[", 100000) + "\n", "100000 open brackets"},
+      {scene + "v = " + many("[", 20) + many("]", 20) + "\n", "20 empty brackets"},
+      {scene + "v = " + many("{a=", 2000) + "1" + many("}", 2000) + "\n", "2000 nested tables"},
+      {many("a.", 200000) + "b = 1\n", "a dotted key of 400 kB"},
+      {"[" + many("a.", 200000) + "b]\n", "a dotted table of 400 kB"},
+      {"v = {" + path + " = [\n{" + path + " = [\n]}]}\n", "two dotted keys of 6000 names in each other"},
+      {"v = " + many("{" + path + " = [\n", 8) + many("]}", 8) + "\n",
+       "eight dotted keys of 6000 names in each other"},
+      {"v = [\n{" + path + " = 1},\n{" + path + " = 1}]\n", "dotted keys of 6000 names beside each other"},
+      {"[" + path + "]\n" + path + " = 1\n", "a dotted table of 6000 names, and a key in it"},
+      {many("[[" + path + "]]\nb = 1\n", 8), "a dotted array of tables of 6000 names, eight times"},
+      {many("[[a]]\n", 20000), "20000 tables"},
+      {many("a", 400000) + " = 1\n", "a key of 400 kB"},
+      {"v = \"" + many("a", 400000) + "\"\n", "a text of 400 kB"},
+      {"v = " + many("9", 10000) + "\n", "a number of 10000 digits"},
+      {"v = \"\"\"" + many("\\", 999) + "\n", "an open text of backslashes"},
+      {"v = '''\n" + many("'", 2000) + "\n", "an open text of quotes"},
+      {std::string("\0\0\0\0", 4), "zeros"},
+      {"\xef\xbb\xbf", "a byte order mark alone"},
+      {"\xff\xfe\xfd = 1\n", "no UTF-8"},
+      {many("#\n", 400000), "800 kB of comments"},
+      {many("\n", 2000000), "2 MB of nothing"},
+      {"a = 1\r\nb = 2\rc = 3\n", "a lone carriage return"},
+      {"a = 0x\n", "a prefix without digits"},
+      {"a = 1e\n", "an exponent without digits"},
+      {"a = \"\\u12\"\n", "half an escape"},
+      {"a = 2026-13-45T99:99:99Z\n", "no date"},
+      {"[a]\n[a]\n", "a table twice"},
+      {"a = {b = 1}\n[a]\nc = 2\n", "a closed table reopened"},
+      {"a = [1]\n[[a]]\n", "a closed array extended"},
+      {"", "nothing"}};
 }
 
 }  // namespace tripoint::test

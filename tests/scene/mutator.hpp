@@ -13,7 +13,8 @@ struct Mutant {
 };
 
 /// @param sources texts of sound case files   @param count half of them spoil the grammar, half the values
-[[nodiscard]] std::vector<Mutant> mutants(const std::vector<std::string>& sources, std::size_t count, std::uint64_t seed);
+[[nodiscard]] std::vector<Mutant> mutants(const std::vector<std::string>& sources, std::size_t count,
+                                          std::uint64_t seed);
 
 /// Texts that are known to break TOML libraries: `[,]`, `v=[1,}`, deep nesting, a 400 kB dotted key ...
 [[nodiscard]] std::vector<Mutant> parser_breakers();

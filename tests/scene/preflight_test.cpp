@@ -26,8 +26,10 @@ std::string told(const std::string& text, const std::string& part) {
 std::string scene_with(const std::string& bodies, const std::string& scene = "") {
   return "[scene]\nend_time = 1\nspacing = 0.1\n" + scene + "\n" + bodies;
 }
-std::string steel_box(const std::string& name, const std::string& min, const std::string& max, const std::string& more = "") {
-  return "[[body]]\nname='" + name + "'\nmaterial='steel'\nshape={kind='box',min=" + min + ",max=" + max + "}\n" + more + "\n";
+std::string steel_box(const std::string& name, const std::string& min, const std::string& max,
+                      const std::string& more = "") {
+  return "[[body]]\nname='" + name + "'\nmaterial='steel'\nshape={kind='box',min=" + min + ",max=" + max +
+         "}\n" + more + "\n";
 }
 
 TEST(Preflight, FindsNothingInASoundScene) { EXPECT_TRUE(findings(six_lines).empty()); }
@@ -37,9 +39,11 @@ TEST(Preflight, FindsBodiesThatOverlap) {
   EXPECT_EQ(told(scene_with(a + steel_box("b", "[0.5,0,0]", "[1,0.5,0.5]")), "overlap"), "") << "they touch";
   EXPECT_EQ(told(scene_with(a + steel_box("b", "[0.4,0,0]", "[1,0.5,0.5]")), "overlap"), "error");
   EXPECT_EQ(told(scene_with(a + steel_box("b", "[0.47,0.03,0.02]", "[1,0.5,0.5]")), "share room"), "error");
-  EXPECT_EQ(told(scene_with(a + steel_box("b", "[0.45,0,0]", "[0.95,0.5,0.5]")), "share room up to 0.05 m"), "error")
+  EXPECT_EQ(told(scene_with(a + steel_box("b", "[0.45,0,0]", "[0.95,0.5,0.5]")), "share room up to 0.05 m"),
+            "error")
       << "half a lattice";
-  EXPECT_EQ(told(scene_with(a + steel_box("b", "[0.49999999999999994,0,0]", "[1,0.5,0.5]")), "overlap"), "") << "round-off";
+  EXPECT_EQ(told(scene_with(a + steel_box("b", "[0.49999999999999994,0,0]", "[1,0.5,0.5]")), "overlap"), "")
+      << "round-off";
 }
 
 std::string body(const std::string& name, const std::string& shape) {
@@ -57,24 +61,26 @@ TEST(Preflight, FindsTheOverlapOfEveryPairOfKinds) {
       "{kind='box',min=[0,0,0],max=[1,1,1]}",
       "{kind='sphere',centre=[0.5,0.5,0.5],radius=0.5}",
       "{kind='cylinder',base=[0.5,0.5,0],axis=[0,0,1],length=1,radius=0.5}",
-      "{kind='difference',from={kind='box',min=[0,0,0],max=[1,1,2]},minus={kind='half_space',point=[0,0,1],normal=[0,0,-1]}}",
+      "{kind='difference',from={kind='box',min=[0,0,0],max=[1,1,2]},minus={kind='half_space',point=[0,0,1],"
+      "normal=[0,0,-1]}}",
       "{kind='union',of=[{kind='box',min=[0,0,0],max=[1,1,0.5]},{kind='box',min=[0,0,0.5],max=[1,1,1]}]}",
       "{kind='mesh',file='cube.obj'}"};
   const auto above = [](int kind, double low) {
     const auto z = [&](double height) { return std::to_string(low + height); };
-    const std::string shapes[]{"{kind='box',min=[0,0," + z(0) + "],max=[1,1," + z(1) + "]}",
-                               "{kind='sphere',centre=[0.5,0.5," + z(0.5) + "],radius=0.5}",
-                               "{kind='cylinder',base=[0,0.5," + z(0.5) + "],axis=[1,0,0],length=1,radius=0.5}",
-                               "{kind='difference',from={kind='box',min=[0,0,0],max=[1,1," + z(1) +
-                                   "]},minus={kind='box',min=[-1,-1,-1],max=[2,2," + z(0) + "]}}",
-                               "{kind='union',of=[{kind='box',min=[0,0," + z(0) + "],max=[1,1," + z(0.5) +
-                                   "]},{kind='sphere',centre=[0.5,0.5," + z(0.5) + "],radius=0.5}]}",
-                               "{kind='half_space',point=[0,0," + z(0) + "],normal=[0,0,-1]}"};
+    const std::string shapes[]{
+        "{kind='box',min=[0,0," + z(0) + "],max=[1,1," + z(1) + "]}",
+        "{kind='sphere',centre=[0.5,0.5," + z(0.5) + "],radius=0.5}",
+        "{kind='cylinder',base=[0,0.5," + z(0.5) + "],axis=[1,0,0],length=1,radius=0.5}",
+        "{kind='difference',from={kind='box',min=[0,0,0],max=[1,1," + z(1) +
+            "]},minus={kind='box',min=[-1,-1,-1],max=[2,2," + z(0) + "]}}",
+        "{kind='union',of=[{kind='box',min=[0,0," + z(0) + "],max=[1,1," + z(0.5) +
+            "]},{kind='sphere',centre=[0.5,0.5," + z(0.5) + "],radius=0.5}]}",
+        "{kind='half_space',point=[0,0," + z(0) + "],normal=[0,0,-1]}"};
     return shapes[kind];
   };
   const auto told_of = [&](const std::string& a, const std::string& b) {
-    const auto file =
-        folder.write("case.toml", scene_with(body("a", a) + body("b", b), "min=[-0.5,-0.5,-0.5]\nmax=[1.5,1.5,2.5]\n"));
+    const auto file = folder.write(
+        "case.toml", scene_with(body("a", a) + body("b", b), "min=[-0.5,-0.5,-0.5]\nmax=[1.5,1.5,2.5]\n"));
     const auto c = read_case(file).value;
     const auto scene = scene_for(c, {});
     std::string text;
@@ -84,18 +90,21 @@ TEST(Preflight, FindsTheOverlapOfEveryPairOfKinds) {
   };
   for (const auto& a : below)
     for (int kind = 0; kind < 6; ++kind) {
-      EXPECT_EQ(told_of(a, above(kind, 1.0)).find("share room"), std::string::npos) << a << " touches " << above(kind, 1.0);
-      EXPECT_NE(told_of(a, above(kind, 0.95)).find("share room"), std::string::npos) << a << " meets " << above(kind, 0.95);
+      EXPECT_EQ(told_of(a, above(kind, 1.0)).find("share room"), std::string::npos)
+          << a << " touches " << above(kind, 1.0);
+      EXPECT_NE(told_of(a, above(kind, 0.95)).find("share room"), std::string::npos)
+          << a << " meets " << above(kind, 0.95);
     }
 }
 
-/// A ball that is cut out of a pool shares no room with it; off the pool's lattice its particles stand too near, and a shift
-/// helps.
+/// A ball that is cut out of a pool shares no room with it; off the pool's lattice its particles stand too
+/// near, and a shift helps.
 TEST(Preflight, NamesTheShiftThatPutsACutOutBodyOnTheLattice) {
   const auto scene = [](double z) {
     const std::string ball = "{kind='sphere',centre=[0.6,0.6," + std::to_string(z) + "],radius=0.3}";
     return scene_with(
-        "[[body]]\nname='pool'\nmaterial='water'\nshape={kind='difference',from={kind='box',min=[0,0,0],max=[1.2,1.2,"
+        "[[body]]\nname='pool'\nmaterial='water'\nshape={kind='difference',from={kind='box',min=[0,0,0],max=["
+        "1.2,1.2,"
         "1]},minus=" +
             ball + "}\n" + body("ball", ball),
         "gravity=[0,0,-9.81]");
@@ -110,29 +119,35 @@ TEST(Preflight, NamesTheShiftThatPutsACutOutBodyOnTheLattice) {
 
 TEST(Preflight, FindsOverlapAcrossAPeriodicSide) {
   const std::string domain = "min=[0,0,0]\nmax=[1,1,1]\nperiodic=['x']";
-  EXPECT_EQ(
-      told(scene_with(steel_box("a", "[0,0,0]", "[0.3,0.3,0.3]") + steel_box("b", "[0.7,0.03,0.03]", "[1.0,0.33,0.33]"), domain),
-           "overlap"),
-      "");
-  const auto c =
-      read_text(scene_with(steel_box("a", "[0,0,0]", "[0.3,0.3,0.3]") + steel_box("b", "[0.7,0,0]", "[1.0,0.3,0.3]"), domain))
-          .value;
+  EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[0.3,0.3,0.3]") +
+                                steel_box("b", "[0.7,0.03,0.03]", "[1.0,0.33,0.33]"),
+                            domain),
+                 "overlap"),
+            "");
+  const auto c = read_text(scene_with(steel_box("a", "[0,0,0]", "[0.3,0.3,0.3]") +
+                                          steel_box("b", "[0.7,0,0]", "[1.0,0.3,0.3]"),
+                                      domain))
+                     .value;
   auto scene = scene_for(c, {});
   auto state = sample(scene);
   for (std::size_t i = 0; i < state.size(); ++i)
     state.position[i].x += state.source[i] == 1 ? 0.03 : -0.03;  // 0.04 m apart across the periodic boundary
   const auto all = preflight(c, scene, state);
-  EXPECT_TRUE(std::any_of(all.begin(), all.end(),
-                          [](const Finding& f) { return f.error && f.what.find("overlap") != std::string::npos; }));
+  EXPECT_TRUE(std::any_of(all.begin(), all.end(), [](const Finding& f) {
+    return f.error && f.what.find("overlap") != std::string::npos;
+  }));
 }
 
 TEST(Preflight, WarnsOfRowsThatStandTooNear) {
-  const std::string liquid = "[[body]]\nname='pool'\nmaterial='water'\nshape={kind='box',min=[0,0,0],max=[0.5,0.5,0.5]}\n";
-  EXPECT_EQ(told(scene_with(liquid + steel_box("wall", "[-0.36,0,0]", "[0,0.5,0.5]", "motion='fixed'"), "gravity=[0,0,-9.81]"),
+  const std::string liquid =
+      "[[body]]\nname='pool'\nmaterial='water'\nshape={kind='box',min=[0,0,0],max=[0.5,0.5,0.5]}\n";
+  EXPECT_EQ(told(scene_with(liquid + steel_box("wall", "[-0.36,0,0]", "[0,0.5,0.5]", "motion='fixed'"),
+                            "gravity=[0,0,-9.81]"),
                  "of a spacing"),
             "warning")
       << "3.6 spacings thick: 0.6 from the first liquid row";
-  EXPECT_EQ(told(scene_with(liquid + steel_box("wall", "[-0.3,0,0]", "[0,0.5,0.5]", "motion='fixed'"), "gravity=[0,0,-9.81]"),
+  EXPECT_EQ(told(scene_with(liquid + steel_box("wall", "[-0.3,0,0]", "[0,0.5,0.5]", "motion='fixed'"),
+                            "gravity=[0,0,-9.81]"),
                  "of a spacing"),
             "");
   EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[0.5,0.5,0.5]", "motion='fixed'") +
@@ -144,9 +159,10 @@ TEST(Preflight, WarnsOfRowsThatStandTooNear) {
 
 TEST(Preflight, WarnsOfPiecesThatNothingKeepsApart) {
   const auto bar = [](const std::string& more, const std::string& scene = "") {
-    return scene_with("[[material]]\nname='glue'\ndensity=1000\nyoung_modulus=1e6\npoisson_ratio=0.3\n" + more +
-                          "[[body]]\nname='bar'\nmaterial='glue'\nshape={kind='box',min=[0,0,0],max=[0.5,0.5,0.5]}\n",
-                      scene);
+    return scene_with(
+        "[[material]]\nname='glue'\ndensity=1000\nyoung_modulus=1e6\npoisson_ratio=0.3\n" + more +
+            "[[body]]\nname='bar'\nmaterial='glue'\nshape={kind='box',min=[0,0,0],max=[0.5,0.5,0.5]}\n",
+        scene);
   };
   EXPECT_EQ(told(bar("fracture_stretch=1.1\n"), "pass through each other"), "warning");
   EXPECT_EQ(told(bar("fracture_stretch=1.1\nsound_speed=10\n"), "pass through each other"), "");
@@ -155,36 +171,46 @@ TEST(Preflight, WarnsOfPiecesThatNothingKeepsApart) {
 }
 
 TEST(Preflight, FindsBodiesTooCoarseOrOfWrongMass) {
-  EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[0.5,0.5,0.2]")), "2 particles across along z"), "warning");
+  EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[0.5,0.5,0.2]")), "2 particles across along z"),
+            "warning");
   EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[0.5,0.5,0.3]")), "across"), "");
-  EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[0.396,0.5,0.5]")), "its particles weigh"), "warning") << "1.01 %";
-  EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[0.397,0.5,0.5]")), "its particles weigh"), "") << "0.8 %";
+  EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[0.396,0.5,0.5]")), "its particles weigh"), "warning")
+      << "1.01 %";
+  EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[0.397,0.5,0.5]")), "its particles weigh"), "")
+      << "0.8 %";
   EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[0.34,0.34,0.34]")), "(-31.3 %)"), "warning");
 }
 
 /// Mass, moments and centre of particles that fit the lattice are right but for the moments of so few.
 TEST(Preflight, FindsMomentsAndCentresThatAreNotThoseOfTheShape) {
-  EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[0.5,0.5,0.5]")), "moments"), "") << "it fills its shape";
+  EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[0.5,0.5,0.5]")), "moments"), "")
+      << "it fills its shape";
   const auto note = [](const std::string& text) -> std::string {
     const auto scene = scene_for(read_text(text).value, {});
     const auto notes = moment_notes(scene, sample(scene));
     return notes.empty() ? "" : notes.front().what;
   };
-  EXPECT_NE(note(scene_with(steel_box("a", "[0,0,0]", "[0.5,0.5,0.5]"))).find("-4.0 % off"), std::string::npos) << "(1/5)^2 low";
+  EXPECT_NE(note(scene_with(steel_box("a", "[0,0,0]", "[0.5,0.5,0.5]"))).find("-4.0 % off"),
+            std::string::npos)
+      << "(1/5)^2 low";
   EXPECT_EQ(note(scene_with(steel_box("a", "[0,0,0]", "[1.2,1.2,1.2]"))), "") << "12 across";
-  EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[1.23,1.2,1.2]")), "centre of mass is 0.015 m off"), "warning");
-  EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[1.23,1.2,1.2]", "motion='fixed'")), "its particles weigh"), "")
+  EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[1.23,1.2,1.2]")), "centre of mass is 0.015 m off"),
+            "warning");
+  EXPECT_EQ(
+      told(scene_with(steel_box("a", "[0,0,0]", "[1.23,1.2,1.2]", "motion='fixed'")), "its particles weigh"),
+      "")
       << "a wall has no use for them";
   const std::string tube =
-      "{kind='difference',from={kind='box',min=[0,0,0],max=[1.2,1.2,1.2]},minus={kind='box',min=[0.4,0.4,-1],max=[0.8,"
+      "{kind='difference',from={kind='box',min=[0,0,0],max=[1.2,1.2,1.2]},minus={kind='box',min=[0.4,0.4,-1],"
+      "max=[0.8,"
       "0.8,2]}}";
   EXPECT_EQ(told(scene_with(body("a", tube)), "weigh"), "");
-  EXPECT_EQ(
-      told(scene_with(body("a",
-                           "{kind='union',of=[{kind='box',min=[0,0,0],max=[1.2,0.6,1.2]},{kind='box',min=[0,0.6,0],max=[1.2,"
-                           "1.2,1.2]}]}")),
-           "weigh"),
-      "");
+  EXPECT_EQ(told(scene_with(body("a",
+                                 "{kind='union',of=[{kind='box',min=[0,0,0],max=[1.2,0.6,1.2]},{kind='box',"
+                                 "min=[0,0.6,0],max=[1.2,"
+                                 "1.2,1.2]}]}")),
+                 "weigh"),
+            "");
 }
 
 TEST(Preflight, FindsATimeStepAboveTheBoundOfHeat) {
@@ -210,15 +236,17 @@ TEST(Preflight, FindsATimeStepAboveTheBoundOfRotation) {
   const auto spin = steel_box("a", "[0,0,0]", "[0.5,0.5,0.5]", "angular_velocity=[0,0,10]");
   EXPECT_EQ(told(scene_with(spin, "time_step=0.051"), "rotation of body \"a\""), "error");
   EXPECT_EQ(told(scene_with(spin, "time_step=0.049"), "rotation of body \"a\""), "");
-  EXPECT_EQ(told("[case]\nexpect='diverges'\n" + scene_with(spin, "time_step=0.051"), "rotation of body \"a\""), "warning")
+  EXPECT_EQ(
+      told("[case]\nexpect='diverges'\n" + scene_with(spin, "time_step=0.051"), "rotation of body \"a\""),
+      "warning")
       << "a case may be meant to diverge";
 }
 
 TEST(Preflight, FindsKeyframesThatTurnTooFarOrJump) {
   const auto board = [](const std::string& first, const std::string& rotation) {
-    return scene_with(steel_box(
-        "a", "[0,0,0]", "[0.5,0.5,0.5]",
-        "motion='prescribed'\nkeyframes=[{time=0,position=" + first + "},{time=1,position=[1,1,1],rotation=" + rotation + "}]"));
+    return scene_with(steel_box("a", "[0,0,0]", "[0.5,0.5,0.5]",
+                                "motion='prescribed'\nkeyframes=[{time=0,position=" + first +
+                                    "},{time=1,position=[1,1,1],rotation=" + rotation + "}]"));
   };
   EXPECT_EQ(told(board("[0.25,0.25,0.25]", "[0.1,0,0,0.99498743710662]"), "half a turn"), "");
   EXPECT_EQ(told(board("[0.25,0.25,0.25]", "[0,0,0,1]"), "half a turn"), "error");
@@ -227,7 +255,8 @@ TEST(Preflight, FindsKeyframesThatTurnTooFarOrJump) {
   EXPECT_EQ(told(board("[0.26,0.25,0.25]", "[1,0,0,0]"), "jumps"), "warning");
   EXPECT_EQ(told(board("[1,0.25,0.25]", "[1,0,0,0]"), "jumps"), "error");
   const std::string turned =
-      "motion='prescribed'\nkeyframes=[{time=0,position=[0.25,0.25,0.25],rotation=[0.6,0.8,0,0]},{time=1,position=[1,1,1],"
+      "motion='prescribed'\nkeyframes=[{time=0,position=[0.25,0.25,0.25],rotation=[0.6,0.8,0,0]},{time=1,"
+      "position=[1,1,1],"
       "rotation=[0.6,0.8,0,0]}]";
   EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[0.5,0.5,0.5]", turned)), "laid unturned"), "error");
 }
@@ -242,20 +271,22 @@ TEST(CalledEffects, FollowFromWhatTheBodiesAre) {
     return list;
   };
   const auto one = [](const std::string& material, const std::string& more = "") {
-    return "[scene]\nend_time=1\n[[body]]\nname='b'\nmaterial='" + material + "'\nshape={kind='box',min=[0,0,0],max=[1,1,1]}\n" +
-           more;
+    return "[scene]\nend_time=1\n[[body]]\nname='b'\nmaterial='" + material +
+           "'\nshape={kind='box',min=[0,0,0],max=[1,1,1]}\n" + more;
   };
   EXPECT_EQ(names(one("steel")), "rigid");
-  EXPECT_EQ(names(one("steel", "motion='fixed'\ntemperature=300")), "heat") << "what is held in place only conducts";
+  EXPECT_EQ(names(one("steel", "motion='fixed'\ntemperature=300")), "heat")
+      << "what is held in place only conducts";
   EXPECT_EQ(names(one("steel", "temperature=300")), "rigid heat");
   EXPECT_EQ(names(one("water")), "fluid");
   EXPECT_EQ(names(one("water", "temperature=300")), "fluid heat");
   EXPECT_EQ(names(one("rubber")), "elastic");
-  EXPECT_EQ(names(one("ice", "temperature=250\nmotion='fixed'")), "heat") << "nothing in the scene is above its melting point";
-  EXPECT_EQ(
-      names(one("ice",
-                "temperature={kind='step',point=[0.5,0,0],normal=[1,0,0],behind=250,ahead=290}\nmotion='fixed'\nphase='rigid'")),
-      "heat phase");
+  EXPECT_EQ(names(one("ice", "temperature=250\nmotion='fixed'")), "heat")
+      << "nothing in the scene is above its melting point";
+  EXPECT_EQ(names(one("ice",
+                      "temperature={kind='step',point=[0.5,0,0],normal=[1,0,0],behind=250,ahead=290}\nmotion="
+                      "'fixed'\nphase='rigid'")),
+            "heat phase");
 }
 
 }  // namespace

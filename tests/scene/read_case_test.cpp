@@ -24,7 +24,8 @@ TEST(ReadCase, SixLinesRunOnDefaultsAndEachDefaultHasItsReason) {
     EXPECT_FALSE(d.reason.empty()) << d.key;
     EXPECT_TRUE(!d.given || d.place.line > 0) << d.key;
   }
-  EXPECT_NE(decision(r, "scene.spacing")->reason.find("a tenth of the smallest extent, 0.4 m of body block"), std::string::npos);
+  EXPECT_NE(decision(r, "scene.spacing")->reason.find("a tenth of the smallest extent, 0.4 m of body block"),
+            std::string::npos);
   EXPECT_EQ(sample(scene_for(r.value, {})).size(), 1000U);
 }
 
@@ -60,7 +61,9 @@ TEST(ReadCase, ReadsEveryKeyOfTheContract) {
 }
 
 TEST(ReadCase, PressureIsClampedWhereItsTermIsCorrectedAndWhereverTheCaseSaysSo) {
-  const auto clamps = [](const std::string& scene) { return read_text(six_lines, {scene}).value.scene.clamps(); };
+  const auto clamps = [](const std::string& scene) {
+    return read_text(six_lines, {scene}).value.scene.clamps();
+  };
   EXPECT_TRUE(clamps("scene.mode=\"corrected\""));
   EXPECT_FALSE(clamps("scene.mode=\"paper\"")) << "the paper prints none";
   EXPECT_FALSE(clamps("scene.clamp=false"));
@@ -75,7 +78,8 @@ TEST(ReadCase, PressureIsClampedWhereItsTermIsCorrectedAndWhereverTheCaseSaysSo)
 }
 
 TEST(ReadCase, NamesFileLineColumnAndTheNearestKey) {
-  expect_refused("[scene]\nend_tme = 1.0\n", {"case.toml:2:1: unknown key `end_tme`", "did you mean `end_time`"});
+  expect_refused("[scene]\nend_tme = 1.0\n",
+                 {"case.toml:2:1: unknown key `end_tme`", "did you mean `end_time`"});
   expect_refused("[scene]\nend_time = 1.0\ngravty = [0,0,0]\n", {"case.toml:3:1", "`gravity`"});
   expect_refused("[scne]\nend_time = 1.0\n", {"case.toml:1:", "did you mean `scene`"});
   expect_refused(six_lines + "phse = \"rigid\"\n", {"case.toml:7:1", "`phase`"});
@@ -86,18 +90,22 @@ TEST(ReadCase, RefusesWhatIsNoNumberOrOutOfRangeSayingWhy) {
   expect_refused("[scene]\nend_time = nan\n", {"case.toml:2:12", "finite number"});
   expect_refused("[scene]\nend_time = inf\n", {"case.toml:2:12", "finite number"});
   expect_refused("[scene]\nend_time = -1.0\n", {"greater than 0"});
-  expect_refused("[scene]\nend_time = \"3 kg\"\n", {"case.toml:2:12", "in kg, but a number in s is expected"});
+  expect_refused("[scene]\nend_time = \"3 kg\"\n",
+                 {"case.toml:2:12", "in kg, but a number in s is expected"});
   expect_refused("[[material]]\nname='a'\ndensity=-1\n", {"case.toml:3:9", "greater than 0"});
   expect_refused("[[material]]\nname='a'\ndensity=1000\nyoung_modulus=1e6\npoisson_ratio=0.5\n",
                  {"case.toml:5:15", "stiffness infinite"});
   expect_refused("[scene]\nend_time = true\n", {"must be number in s, not true or false"});
   expect_refused(six_lines + "velocity = [1, 2]\n", {"2 components", "[x, y, z]"});
-  expect_refused(six_lines + "motion = \"fxed\"\n", {"none of: free, fixed, prescribed", "did you mean `fixed`"});
+  expect_refused(six_lines + "motion = \"fxed\"\n",
+                 {"none of: free, fixed, prescribed", "did you mean `fixed`"});
 }
 
 TEST(ReadCase, RefusesNamesThatReferToNothing) {
-  expect_refused("[scene]\nend_time=1\n[[body]]\nname='b'\nmaterial='steal'\nshape={kind='sphere',centre=[0,0,0],radius=1}\n",
-                 {"case.toml:5:10", "did you mean `steel`"});
+  expect_refused(
+      "[scene]\nend_time=1\n[[body]]\nname='b'\nmaterial='steal'\nshape={kind='sphere',centre=[0,0,0],radius="
+      "1}\n",
+      {"case.toml:5:10", "did you mean `steel`"});
   expect_refused(six_lines + "joined_to = [\"blok\"]\n", {"case.toml:7", "did you mean `block`"});
   const std::string metric = six_lines + "[[metric]]\nname='speed'\nquantity='velocity'\n";
   EXPECT_EQ(refusal(metric), "");
@@ -106,51 +114,68 @@ TEST(ReadCase, RefusesNamesThatReferToNothing) {
   EXPECT_EQ(refusal(metric + "[[gate]]\nmetric='speed.statistical'\nlimit=1\nreason='r'\n"), "");
   expect_refused(metric + "[[gate]]\nmetric='sped.statistical'\nlimit=1\nreason='r'\n",
                  {"case.toml:11:8", "no [[metric]] is named"});
-  expect_refused(metric + "[[gate]]\nmetric='speed'\nreason='r'\n", {"case.toml:10", "no limit and would pass anything"});
+  expect_refused(metric + "[[gate]]\nmetric='speed'\nreason='r'\n",
+                 {"case.toml:10", "no limit and would pass anything"});
   expect_refused(metric + "[[gate]]\nmetric='speed'\nlimit=1\n", {"lacks the key `reason`"});
   expect_refused(metric + "[[gate]]\nmetric='speed.order'\nlimit=1\nreason='r'\n", {"needs a [[study]]"});
-  expect_refused(metric + "[[gate]]\nmetric='speed'\nlimit=1\nlevel=0.1\nreason='r'\n", {"no [[study]] has this level"});
-  expect_refused(metric + "[[gate]]\nmetric='speed'\nlimit=1\nmode='paper'\nreason='r'\n", {"does not run mode \"paper\""});
+  expect_refused(metric + "[[gate]]\nmetric='speed'\nlimit=1\nlevel=0.1\nreason='r'\n",
+                 {"no [[study]] has this level"});
+  expect_refused(metric + "[[gate]]\nmetric='speed'\nlimit=1\nmode='paper'\nreason='r'\n",
+                 {"does not run mode \"paper\""});
   expect_refused(metric + "[engines.bullet]\n[[gate]]\nmetric='speed'\nlimit=1\nengine='bulet'\nreason='r'\n",
                  {"did you mean `bullet`"});
-  expect_refused(six_lines + "[[body]]\nname='block'\nmaterial='steel'\nshape={kind='sphere',centre=[9,0,0],radius=1}\n",
-                 {"two tables [[body]] are named \"block\""});
+  expect_refused(
+      six_lines + "[[body]]\nname='block'\nmaterial='steel'\nshape={kind='sphere',centre=[9,0,0],radius=1}\n",
+      {"two tables [[body]] are named \"block\""});
 }
 
 TEST(ReadCase, RefusesWhatCannotBeMeant) {
-  expect_refused(six_lines + "temperature = \"20 degC\"\ntemperature_held = true\nmotion = \"fixed\"\nvelocity = [1,0,0]\n",
-                 {"a fixed body does not move"});
-  expect_refused(six_lines + "keyframes = [{time = 0, position = [0,0,0]}]\n", {"only a prescribed body follows keyframes"});
+  expect_refused(
+      six_lines +
+          "temperature = \"20 degC\"\ntemperature_held = true\nmotion = \"fixed\"\nvelocity = [1,0,0]\n",
+      {"a fixed body does not move"});
+  expect_refused(six_lines + "keyframes = [{time = 0, position = [0,0,0]}]\n",
+                 {"only a prescribed body follows keyframes"});
   expect_refused(six_lines + "temperature = -3.0\n", {"case.toml:7", "greater than 0"});
   expect_refused(
-      "[scene]\nend_time=1\nperiodic=['x']\n[[body]]\nname='b'\nmaterial='steel'\nshape={kind='sphere',centre=[0,0,0],radius=1}"
+      "[scene]\nend_time=1\nperiodic=['x']\n[[body]]\nname='b'\nmaterial='steel'\nshape={kind='sphere',"
+      "centre=[0,0,0],radius=1}"
       "\n",
       {"case.toml:3", "give scene.min and scene.max"});
-  expect_refused("[scene]\nend_time=1\n[[body]]\nname='b'\nmaterial='steel'\nshape={kind='box',min=[0,0,0],max=[1,0,1]}\n",
-                 {"no extent along y"});
-  expect_refused("[scene]\nend_time=1\n[[material]]\nname='m'\ndensity=1\nt_melt=300\nt_solid=310\n", {"above t_melt"});
   expect_refused(
-      "[scene]\nend_time=1\n[[material]]\nname='m'\ndensity=1\n[[body]]\nname='b'\nmaterial='m'\ntemperature=300\nshape={kind='"
+      "[scene]\nend_time=1\n[[body]]\nname='b'\nmaterial='steel'\nshape={kind='box',min=[0,0,0],max=[1,0,1]}"
+      "\n",
+      {"no extent along y"});
+  expect_refused("[scene]\nend_time=1\n[[material]]\nname='m'\ndensity=1\nt_melt=300\nt_solid=310\n",
+                 {"above t_melt"});
+  expect_refused(
+      "[scene]\nend_time=1\n[[material]]\nname='m'\ndensity=1\n[[body]]\nname='b'\nmaterial='m'\ntemperature="
+      "300\nshape={kind='"
       "sphere',centre=[0,0,0],radius=1}\n",
       {"lacks conductivity"});
 }
 
 TEST(ReadCase, RefusesAWordThatTheJudgeDoesNotKnow) {
   const std::string metric = six_lines + "[[metric]]\nname='way'\nquantity='position'\n";
-  expect_refused(metric + "norm='L3'\n", {"case.toml:10", "metric.way.norm", "\"L3\" is none of: L1, L2, L2raw, Linf"});
-  expect_refused(metric + "[[study]]\naxis='space'\nlevels=[2,1]\n", {"case.toml:11", "study.1.axis", "\"space\" is none of"});
-  expect_refused(metric + "[[study]]\naxis='spacing'\nlevels=[2,1]\nmode='printed'\n",
-                 {"case.toml:13", "study.1.mode", "unknown mode \"printed\": write corrected, paper or \"not paper\""});
+  expect_refused(metric + "norm='L3'\n",
+                 {"case.toml:10", "metric.way.norm", "\"L3\" is none of: L1, L2, L2raw, Linf"});
+  expect_refused(metric + "[[study]]\naxis='space'\nlevels=[2,1]\n",
+                 {"case.toml:11", "study.1.axis", "\"space\" is none of"});
+  expect_refused(
+      metric + "[[study]]\naxis='spacing'\nlevels=[2,1]\nmode='printed'\n",
+      {"case.toml:13", "study.1.mode", "unknown mode \"printed\": write corrected, paper or \"not paper\""});
   expect_refused(metric + "[[gate]]\nmetric='way'\nlimit=1\nreason='r'\nmode='not printed'\n",
                  {"case.toml:14", "gate.1.mode", "unknown mode \"not printed\""});
-  const auto r = read_text(metric + "norm='L2'\n[[study]]\naxis='spacing'\nlevels=[2,1]\ntime_steps=[2,1]\nmode='not paper'\n");
+  const auto r = read_text(
+      metric + "norm='L2'\n[[study]]\naxis='spacing'\nlevels=[2,1]\ntime_steps=[2,1]\nmode='not paper'\n");
   EXPECT_EQ(r.value.metrics.at(0).norm, Norm::L2);
   EXPECT_EQ(r.value.studies.at(0).mode, JudgedMode::not_paper);
   EXPECT_EQ(to_string(r.value.studies[0].axes), "spacing+time_step");
 }
 
 TEST(ReadCase, TheJudgesWordsForModesAreThoseOfTheScene) {
-  for (const Mode mode : {Mode::corrected, Mode::paper}) EXPECT_TRUE(find_word<JudgedMode>(to_string(mode))) << to_string(mode);
+  for (const Mode mode : {Mode::corrected, Mode::paper})
+    EXPECT_TRUE(find_word<JudgedMode>(to_string(mode))) << to_string(mode);
   for (const Axis axis : all_of<Axis>())
     for (const bool both : {false, true}) {
       const StudyAxes axes{axis, both, !both};
@@ -160,21 +185,29 @@ TEST(ReadCase, TheJudgesWordsForModesAreThoseOfTheScene) {
 
 TEST(ReadCase, RefusesATruthThatIsNoFormulaAndATableWithoutAFile) {
   const std::string metric = six_lines + "[[metric]]\nname='speed'\nquantity='velocity_at'\n";
-  EXPECT_EQ(refusal(metric + "reference={function='expression',args={value='3*t',axis='x',point=[0,0,0]}}\n"), "");
+  EXPECT_EQ(refusal(metric + "reference={function='expression',args={value='3*t',axis='x',point=[0,0,0]}}\n"),
+            "");
   expect_refused(metric + "reference={function='expression',args={value='3*tt',axis='x'}}\n",
                  {"case.toml:10", "column 3 of the expression", "`tt` is unknown"});
   expect_refused(metric + "reference={function='table'}\n", {"case.toml:10", "needs the key `file`"});
-  expect_refused(metric + "reference={function='table',file='no.csv'}\n", {"case.toml:10", "no file `no.csv` beside the case"});
+  expect_refused(metric + "reference={function='table',file='no.csv'}\n",
+                 {"case.toml:10", "no file `no.csv` beside the case"});
 }
 
 TEST(ReadCase, RefusesPhasesThatCannotDiffer) {
-  const std::string melts = "[scene]\nend_time=1\n[[material]]\nname='m'\ndensity=1\nconductivity=1\nheat_capacity=1000\n";
+  const std::string melts =
+      "[scene]\nend_time=1\n[[material]]\nname='m'\ndensity=1\nconductivity=1\nheat_capacity=1000\n";
   const std::string body =
-      "[[body]]\nname='b'\nmaterial='m'\nphase='rigid'\ntemperature=280\nshape={kind='sphere',centre=[0,0,0],radius=1}\n";
-  EXPECT_EQ(refusal(melts + "t_melt=300\nlatent_heat=1000\nsolid_conductivity=2\nsolid_heat_capacity=500\n" + body), "");
-  expect_refused(melts + "solid_conductivity=2\n" + body, {"case.toml:8", "without t_melt the material has one phase"});
-  expect_refused("[scene]\nend_time=1\n[[material]]\nname='m'\ndensity=1\nt_melt=300\nsolid_heat_capacity=2\n",
-                 {"case.toml:7", "heat_capacity is missing"});
+      "[[body]]\nname='b'\nmaterial='m'\nphase='rigid'\ntemperature=280\nshape={kind='sphere',centre=[0,0,0],"
+      "radius=1}\n";
+  EXPECT_EQ(
+      refusal(melts + "t_melt=300\nlatent_heat=1000\nsolid_conductivity=2\nsolid_heat_capacity=500\n" + body),
+      "");
+  expect_refused(melts + "solid_conductivity=2\n" + body,
+                 {"case.toml:8", "without t_melt the material has one phase"});
+  expect_refused(
+      "[scene]\nend_time=1\n[[material]]\nname='m'\ndensity=1\nt_melt=300\nsolid_heat_capacity=2\n",
+      {"case.toml:7", "heat_capacity is missing"});
   expect_refused(melts + "t_melt=300\nt_solid=290\nlatent_heat=1000\nsolid_heat_capacity=500\n" + body,
                  {"case.toml:11", "would take up heat, 4000 J/kg"});
   const std::string unlike = melts + "t_melt=300\nlatent_heat=1000\nsolid_conductivity=2\n" + body;
@@ -185,7 +218,8 @@ TEST(ReadCase, RefusesPhasesThatCannotDiffer) {
 
 TEST(ReadCase, TakesNoSolidOfTheLibraryBesideAValueOfItsOwn) {
   const std::string ice =
-      "[scene]\nend_time=1\n[[material]]\nname='ice'\n%s[[body]]\nname='b'\nmaterial='ice'\nshape={kind='sphere',centre=[0,0,0],"
+      "[scene]\nend_time=1\n[[material]]\nname='ice'\n%s[[body]]\nname='b'\nmaterial='ice'\nshape={kind='"
+      "sphere',centre=[0,0,0],"
       "radius=1}\n";
   const auto with = [&](const std::string& line) {
     auto text = ice;
@@ -200,7 +234,8 @@ TEST(ReadCase, TakesNoSolidOfTheLibraryBesideAValueOfItsOwn) {
 
 TEST(ReadCase, RefusesHalfADomain) {
   expect_refused(
-      "[scene]\nend_time=1\nmin=[0,0,0]\n[[body]]\nname='b'\nmaterial='steel'\nshape={kind='sphere',centre=[0,0,0],radius=1}\n",
+      "[scene]\nend_time=1\nmin=[0,0,0]\n[[body]]\nname='b'\nmaterial='steel'\nshape={kind='sphere',centre=["
+      "0,0,0],radius=1}\n",
       {"case.toml:3", "give scene.max too"});
 }
 
@@ -229,15 +264,17 @@ TEST(ReadCase, SurvivesFilesThatBreakParsers) {
 }
 
 TEST(Overrides, ReplaceAnyKeyByTheSameChecks) {
-  const auto r = read_text(six_lines, {"scene.spacing=0.1", "body.block.velocity=[1, 2, 3]", "material.steel.density=8000",
-                                       "scene.gravity=[0,0,-9.81]", "scene.modes.heat='paper'"});
+  const auto r = read_text(
+      six_lines, {"scene.spacing=0.1", "body.block.velocity=[1, 2, 3]", "material.steel.density=8000",
+                  "scene.gravity=[0,0,-9.81]", "scene.modes.heat='paper'"});
   EXPECT_EQ(r.value.scene.spacing, 0.1);
   EXPECT_EQ(r.value.scene.bodies[0].velocity.value, (Vec3{1, 2, 3}));
   EXPECT_EQ(r.value.scene.material("steel").density, 8000.0);
   EXPECT_EQ(r.value.scene.modes_given.at(term::heat), Mode::paper);
   EXPECT_TRUE(decision(r, "scene.spacing")->given);
   EXPECT_EQ(decision(r, "scene.spacing")->place.file, "--set scene.spacing=0.1");
-  EXPECT_EQ(read_text(six_lines, {"scene.mode=paper"}).value.scene.mode, Mode::paper) << "the shell eats quotes";
+  EXPECT_EQ(read_text(six_lines, {"scene.mode=paper"}).value.scene.mode, Mode::paper)
+      << "the shell eats quotes";
   EXPECT_EQ(read_text(six_lines, {"scene.spacing=2 cm"}).value.scene.spacing, 0.02);
   EXPECT_EQ(read_text(full_case, {"study.1.levels=[0.1, 0.05]"}).value.studies[0].levels.size(), 2U);
 }
@@ -255,14 +292,16 @@ TEST(Overrides, RefuseWhatTheyCannotPlace) {
   EXPECT_NE(refused("body.blok.velocity=[1,2,3]").find("did you mean `block`"), std::string::npos);
   EXPECT_NE(refused("scene.end_time=nan").find("finite"), std::string::npos);
   EXPECT_NE(refused("scene.end_time=-1").find("greater than 0"), std::string::npos);
-  for (const char* set : {"", "=", "scene.spacing", "scene.spacing=", "=1", "scene.spacing=[1,}", "scene.spacing=1\nx=2",
-                          "scene..spacing=1", "a.b.c.d.e.f.g.h.i=1", "scene.end_time.x=1", "gate.1.limit=3"})
+  for (const char* set :
+       {"", "=", "scene.spacing", "scene.spacing=", "=1", "scene.spacing=[1,}", "scene.spacing=1\nx=2",
+        "scene..spacing=1", "a.b.c.d.e.f.g.h.i=1", "scene.end_time.x=1", "gate.1.limit=3"})
     EXPECT_NE(refused(set), "") << set;
 }
 
 TEST(Library, GivesSourcesAndYieldsToTheCase) {
   const auto r = read_text(
-      "[scene]\nend_time=1\n[[material]]\nname='water'\ndensity=1025\n[[body]]\nname='b'\nmaterial='water'\nshape={kind='sphere',"
+      "[scene]\nend_time=1\n[[material]]\nname='water'\ndensity=1025\n[[body]]\nname='b'\nmaterial='water'"
+      "\nshape={kind='sphere',"
       "centre=[0,0,0],radius=1}\n");
   EXPECT_EQ(r.value.scene.material("water").density, 1025.0);
   EXPECT_DOUBLE_EQ(r.value.scene.material("water").viscosity, 1.0016e-3);

@@ -2,7 +2,8 @@
 #pragma once
 #include <string>
 
-/// Cases as users write them, to be mutated: kept here as they were, so that the mutants stay the same when the cases change.
+/// Cases as users write them, to be mutated: kept here as they were, so that the mutants stay the same when
+/// the cases change.
 namespace tripoint::test {
 
 inline const std::string cosine_case =

@@ -37,7 +37,8 @@ long compare(const auto& owner) {
       if (!has_default(entry.key)) return;
       ++count;
       if constexpr (std::is_same_v<T, bool>)
-        EXPECT_EQ(read_of_nothing(entry.key, own, entry.yes), own) << entry.key.table << "." << entry.key.name;
+        EXPECT_EQ(read_of_nothing(entry.key, own, entry.yes), own)
+            << entry.key.table << "." << entry.key.name;
       else
         EXPECT_TRUE(read_of_nothing(entry.key, own) == own) << entry.key.table << "." << entry.key.name;
     }
@@ -62,7 +63,8 @@ long compare_effect_keys(const auto& owner, std::string_view table) {
   each_effect_key(owner, table, [&](const Key& key, const auto& own) {
     if (!has_default(key)) return;
     ++count;
-    EXPECT_TRUE(read_of_nothing(key, std::remove_cvref_t<decltype(own)>(own)) == own) << key.table << "." << key.name;
+    EXPECT_TRUE(read_of_nothing(key, std::remove_cvref_t<decltype(own)>(own)) == own)
+        << key.table << "." << key.name;
   });
   return count;
 }
@@ -76,10 +78,13 @@ TEST(Records, ADefaultOfAMemberIsThatOfItsKey) {
 }
 
 TEST(Records, RowsSayTheDefaultsThatFollowFromTheFormOfATerm) {
-  const std::string note(key_row("scene", "support_ratio").note), merge(key_row("scene", "merge_distance").note);
-  EXPECT_NE(note.find(show(printed_support) + " where every term is paper, else " + show(corrected_support)), std::string::npos);
+  const std::string note(key_row("scene", "support_ratio").note),
+      merge(key_row("scene", "merge_distance").note);
+  EXPECT_NE(note.find(show(printed_support) + " where every term is paper, else " + show(corrected_support)),
+            std::string::npos);
   EXPECT_EQ(merge.find(show(lattice_reach) + ","), 0u);
-  EXPECT_NE(merge.find("where phase is paper " + show(bond_reach(Scene())) + ", the reach of its bonds"), std::string::npos);
+  EXPECT_NE(merge.find("where phase is paper " + show(bond_reach(Scene())) + ", the reach of its bonds"),
+            std::string::npos);
   EXPECT_EQ(bond_reach(Scene()), printed_support);
 }
 

@@ -16,8 +16,9 @@ namespace fs = std::filesystem;
 
 std::string decisions_and_id(const CaseReading& r) {
   std::string text;
+  // The resolved text says it
   for (const auto& d : r.decisions)
-    if (d.key != "case.id") text += d.key + " = " + d.value + (d.given ? " given\n" : "\n");  // the resolved text says it
+    if (d.key != "case.id") text += d.key + " = " + d.value + (d.given ? " given\n" : "\n");
   return text + r.value.id;
 }
 

@@ -15,12 +15,12 @@ namespace {
 using std::numbers::pi;
 
 Scene scene_of(const std::string& body, const std::string& scene = "") {
-  return scene_for(
-      read_text("[scene]\nend_time = 1\nspacing = 0.1\n" + scene +
-                "\n[[material]]\nname='m'\ndensity=1000\nconductivity=1\nheat_capacity=1\n[[body]]\nname='b'\nmaterial='m'\n" +
-                body)
-          .value,
-      {});
+  return scene_for(read_text("[scene]\nend_time = 1\nspacing = 0.1\n" + scene +
+                             "\n[[material]]\nname='m'\ndensity=1000\nconductivity=1\nheat_capacity=1\n[["
+                             "body]]\nname='b'\nmaterial='m'\n" +
+                             body)
+                       .value,
+                   {});
 }
 
 TEST(Sample, FillsABoxWithParticlesHalfASpacingInside) {
@@ -38,13 +38,15 @@ TEST(Sample, FillsABoxWithParticlesHalfASpacingInside) {
 TEST(Sample, LaysNothingWhereRoundOffIsMoreThanThePlaceOfAParticle) {
   const auto at = [](const std::string& x, const std::string& scene = "") {
     try {
-      return std::to_string(sample(scene_of("shape={kind='box',min=[" + x + ",0,0],max=[" + x + ".4,0.3,0.2]}", scene)).size());
+      return std::to_string(
+          sample(scene_of("shape={kind='box',min=[" + x + ",0,0],max=[" + x + ".4,0.3,0.2]}", scene)).size());
     } catch (const InputError& e) {
       return std::string(e.what());
     }
   };
   EXPECT_EQ(at("90000000"), "24");  // 9e8 spacings
-  EXPECT_NE(at("110000000").find("1.1e+09 spacings from x = 0 m, where a number cannot tell"), std::string::npos)
+  EXPECT_NE(at("110000000").find("1.1e+09 spacings from x = 0 m, where a number cannot tell"),
+            std::string::npos)
       << at("110000000");
   const auto wide = at("0", "min=[-1e20,0,0]\nmax=[0.5,1,1]\nperiodic=['x']");
   EXPECT_NE(wide.find("1e+21 spacings from x = -1e+20 m"), std::string::npos) << wide;
@@ -59,12 +61,14 @@ TEST(Sample, GivesEachParticleTheMassOfItsCell) {
 
 TEST(Sample, LaysASphereSymmetricallyAboutItsCentre) {
   for (const double radius : {0.35, 0.5, 0.52}) {
-    const auto s = sample(scene_of("shape={kind='sphere',centre=[0.123,-0.4,7],radius=" + std::to_string(radius) + "}"));
+    const auto s =
+        sample(scene_of("shape={kind='sphere',centre=[0.123,-0.4,7],radius=" + std::to_string(radius) + "}"));
     Vec3 mean;
     for (const auto& r : s.position) mean += r;
     EXPECT_LT(norm(mean / static_cast<double>(s.size()) - Vec3{0.123, -0.4, 7}), 1e-13) << radius;
     const auto p = mass_properties(s.position, s.mass);
-    EXPECT_NEAR(p.principal_inertia.x / p.principal_inertia.z, 1.0, 1e-12) << "a lattice ball has the symmetry of the cube";
+    EXPECT_NEAR(p.principal_inertia.x / p.principal_inertia.z, 1.0, 1e-12)
+        << "a lattice ball has the symmetry of the cube";
   }
 }
 
@@ -78,7 +82,8 @@ TEST(Sample, OfASphereTendsToItsVolume) {
 
 TEST(Sample, OfTouchingBodiesShareOneLattice) {
   const auto s =
-      sample(scene_of("shape={kind='box',min=[0.2,0,0],max=[0.5,0.1,0.1]}\n[[body]]\nname='c'\nmaterial='m'\nshape={kind='box',"
+      sample(scene_of("shape={kind='box',min=[0.2,0,0],max=[0.5,0.1,0.1]}\n[[body]]\nname='c'\nmaterial='m'"
+                      "\nshape={kind='box',"
                       "min=[0.5,0,0],max=[0.9,0.1,0.1]}"));
   ASSERT_EQ(s.size(), 7U);
   for (std::size_t i = 1; i < 7; ++i) EXPECT_NEAR(s.position[i].x - s.position[i - 1].x, 0.1, 1e-15);
@@ -91,16 +96,17 @@ TEST(Sample, OfAPeriodicDirectionFitsTheDomain) {
   const auto s = sample(scene_of("shape={kind='box',min=[-0.33,0,0],max=[0.67,0.1,0.1]}", domain));
   ASSERT_EQ(s.size(), 10U);
   EXPECT_NEAR(s.position[0].x - (-0.33), 0.67 - s.position[9].x, 1e-15);
-  EXPECT_THROW(static_cast<void>(sample(
-                   scene_of("shape={kind='box',min=[0,0,0],max=[0.55,0.1,0.1]}", "min=[0,0,0]\nmax=[0.55,1,1]\nperiodic=['x']"))),
+  EXPECT_THROW(static_cast<void>(sample(scene_of("shape={kind='box',min=[0,0,0],max=[0.55,0.1,0.1]}",
+                                                 "min=[0,0,0]\nmax=[0.55,1,1]\nperiodic=['x']"))),
                InputError);
 }
 
 TEST(Sample, JitterLeavesABodyThatIsLedWhereItsKeyframesBegin) {
-  const auto s = sample(
-      scene_of("phase='rigid'\nmotion='prescribed'\nkeyframes=[{time=0,position=[0.2,0.1,0.3]},{time=1,position=[0.3,0.1,0.3]}]\n"
-               "shape={kind='box',min=[0,0,0],max=[0.4,0.2,0.6]}",
-               "jitter=0.2"));
+  const auto s =
+      sample(scene_of("phase='rigid'\nmotion='prescribed'\nkeyframes=[{time=0,position=[0.2,0.1,0.3]},{time="
+                      "1,position=[0.3,0.1,0.3]}]\n"
+                      "shape={kind='box',min=[0,0,0],max=[0.4,0.2,0.6]}",
+                      "jitter=0.2"));
   Vec3 mean;
   for (const auto& r : s.position) mean += r / static_cast<double>(s.size());
   EXPECT_LT(norm(mean - Vec3{0.2, 0.1, 0.3}), 1e-15);
@@ -114,8 +120,8 @@ TEST(Sample, ABodyThatDoesNotJitterStaysOnItsLattice) {
 
 TEST(Sample, JitterIsBoundedHasNoDriftAndFollowsTheSeed) {
   const std::string box = "shape={kind='box',min=[0,0,0],max=[2,2,2]}";
-  const auto a = sample(scene_of(box)), b = sample(scene_of(box, "jitter=0.2")), same = sample(scene_of(box, "jitter=0.2")),
-             other = sample(scene_of(box, "jitter=0.2\nseed=2"));
+  const auto a = sample(scene_of(box)), b = sample(scene_of(box, "jitter=0.2")),
+             same = sample(scene_of(box, "jitter=0.2")), other = sample(scene_of(box, "jitter=0.2\nseed=2"));
   EXPECT_EQ(b.position, same.position);
   EXPECT_NE(b.position, other.position);
   Vec3 mean;
@@ -133,58 +139,77 @@ TEST(Sample, JitterIsBoundedHasNoDriftAndFollowsTheSeed) {
 }
 
 TEST(Sample, SpinsABodyAboutItsCentreOfMassAndKeepsFixedOnesStill) {
-  const auto s = sample(scene_of("velocity=[1,0,0]\nangular_velocity=[0,0,2]\nshape={kind='box',min=[5,5,5],max=[5.4,5.2,5.2]}"));
+  const auto s = sample(scene_of(
+      "velocity=[1,0,0]\nangular_velocity=[0,0,2]\nshape={kind='box',min=[5,5,5],max=[5.4,5.2,5.2]}"));
   for (std::size_t i = 0; i < s.size(); ++i) {
     const Vec3 v = Vec3{1, 0, 0} + cross({0, 0, 2}, s.position[i] - Vec3{5.2, 5.1, 5.1});
     EXPECT_LT(norm(s.velocity[i] - v), 1e-13);
   }
-  for (const auto& v : sample(scene_of("motion='fixed'\nshape={kind='box',min=[0,0,0],max=[0.4,0.2,0.2]}")).velocity)
+  for (const auto& v :
+       sample(scene_of("motion='fixed'\nshape={kind='box',min=[0,0,0],max=[0.4,0.2,0.2]}")).velocity)
     EXPECT_EQ(v, (Vec3{}));
 }
 
 TEST(Sample, EvaluatesTemperatureFields) {
   const std::string box = "shape={kind='box',min=[0,0,0],max=[1,0.1,0.1]}\n";
-  const auto cosine =
-      sample(scene_of(box + "temperature={kind='cosine',mean=300,amplitude=10,wave_vector=[6.283185307179586,0,0],phase=0.5}"));
-  const auto formula = sample(scene_of(box + "temperature={kind='expression',value='300 + 10*cos(2*pi*x + 0.5)'}"));
-  const auto step = sample(scene_of(box + "temperature={kind='step',point=[0.5,0,0],normal=[2,0,0],behind=300,ahead=400}"));
+  const auto cosine = sample(scene_of(
+      box +
+      "temperature={kind='cosine',mean=300,amplitude=10,wave_vector=[6.283185307179586,0,0],phase=0.5}"));
+  const auto formula =
+      sample(scene_of(box + "temperature={kind='expression',value='300 + 10*cos(2*pi*x + 0.5)'}"));
+  const auto step =
+      sample(scene_of(box + "temperature={kind='step',point=[0.5,0,0],normal=[2,0,0],behind=300,ahead=400}"));
   for (std::size_t i = 0; i < 10; ++i) {
-    EXPECT_NEAR(cosine.temperature[i], 300 + 10 * std::cos(2 * pi * (0.1 * static_cast<double>(i) + 0.05) + 0.5), 1e-12);
+    EXPECT_NEAR(cosine.temperature[i],
+                300 + 10 * std::cos(2 * pi * (0.1 * static_cast<double>(i) + 0.05) + 0.5), 1e-12);
     EXPECT_NEAR(formula.temperature[i], cosine.temperature[i], 1e-12);
     EXPECT_EQ(step.temperature[i], i < 5 ? 300.0 : 400.0);
   }
   EXPECT_TRUE(sample(scene_of(box)).temperature.empty());
-  EXPECT_THROW(static_cast<void>(sample(scene_of(box + "temperature={kind='expression',value='300/(x-0.05)'}"))), InputError)
+  EXPECT_THROW(
+      static_cast<void>(sample(scene_of(box + "temperature={kind='expression',value='300/(x-0.05)'}"))),
+      InputError)
       << "not finite at the first particle";
-  EXPECT_THROW(static_cast<void>(sample(scene_of(box + "temperature={kind='expression',value='1-x*10'}"))), InputError)
+  EXPECT_THROW(static_cast<void>(sample(scene_of(box + "temperature={kind='expression',value='1-x*10'}"))),
+               InputError)
       << "below 0 K";
 }
 
 TEST(Sample, EvaluatesVelocityFields) {
   const std::string head = "phase='liquid'\nshape={kind='box',min=[0,0,0],max=[0.3,0.2,0.1]}\n";
-  const auto linear = sample(scene_of(head + "velocity={kind='linear',centre=[0.1,0,0],gradient=[[0,1,0],[2,0,0],[0,0,3]]}"));
-  EXPECT_NO_THROW(static_cast<void>(sample(scene_of(head + "velocity={kind='expression',value=['0','0','3*z']}"))));
+  const auto linear =
+      sample(scene_of(head + "velocity={kind='linear',centre=[0.1,0,0],gradient=[[0,1,0],[2,0,0],[0,0,3]]}"));
+  EXPECT_NO_THROW(
+      static_cast<void>(sample(scene_of(head + "velocity={kind='expression',value=['0','0','3*z']}"))));
   const auto formula = sample(scene_of(head + "velocity={kind='expression',value=['y','2*(x-0.1)','3*z']}"));
-  for (std::size_t i = 0; i < linear.size(); ++i) EXPECT_LT(norm(linear.velocity[i] - formula.velocity[i]), 1e-15);
+  for (std::size_t i = 0; i < linear.size(); ++i)
+    EXPECT_LT(norm(linear.velocity[i] - formula.velocity[i]), 1e-15);
   const auto vortex = sample(scene_of(head + "velocity={kind='taylor_green',speed=2,wavelength=1}"));
   EXPECT_NEAR(vortex.velocity[0].x, -2 * std::cos(2 * pi * 0.05) * std::sin(2 * pi * 0.05), 1e-15);
   EXPECT_NEAR(vortex.velocity[0].y, 2 * std::sin(2 * pi * 0.05) * std::cos(2 * pi * 0.05), 1e-15);
 }
 
 TEST(Sample, RefusesBodiesWithoutParticlesOrWithoutEnd) {
-  EXPECT_THROW(static_cast<void>(sample(scene_of("shape={kind='sphere',centre=[0.05,0.05,0.05],radius=0.001}\n[[body]]\nname='c'"
-                                                 "\nmaterial='m'\nshape={kind='box',min=[0,0,0],max=[0.01,1,1]}"))),
+  EXPECT_THROW(static_cast<void>(sample(
+                   scene_of("shape={kind='sphere',centre=[0.05,0.05,0.05],radius=0.001}\n[[body]]\nname='c'"
+                            "\nmaterial='m'\nshape={kind='box',min=[0,0,0],max=[0.01,1,1]}"))),
                InputError);
-  EXPECT_THROW(static_cast<void>(sample(scene_of("shape={kind='half_space',point=[0,0,0],normal=[0,0,1]}"))), InputError);
-  EXPECT_EQ(sample(scene_of("shape={kind='half_space',point=[0,0,0.2],normal=[0,0,1]}", "min=[0,0,0]\nmax=[1,1,1]")).size(), 200U)
+  EXPECT_THROW(static_cast<void>(sample(scene_of("shape={kind='half_space',point=[0,0,0],normal=[0,0,1]}"))),
+               InputError);
+  EXPECT_EQ(
+      sample(scene_of("shape={kind='half_space',point=[0,0,0.2],normal=[0,0,1]}", "min=[0,0,0]\nmax=[1,1,1]"))
+          .size(),
+      200U)
       << "a half space fills the domain";
-  EXPECT_THROW(static_cast<void>(sample(scene_of("shape={kind='box',min=[0,0,0],max=[1000,1000,1000]}"))), InputError)
+  EXPECT_THROW(static_cast<void>(sample(scene_of("shape={kind='box',min=[0,0,0],max=[1000,1000,1000]}"))),
+               InputError)
       << "1e12 cells";
 }
 
 TEST(Sample, NumbersSolidBodiesInTheOrderOfTheFile) {
   const auto scene = scene_of(
-      "phase='liquid'\nshape={kind='box',min=[0,0,0],max=[0.1,0.1,0.1]}\n[[body]]\nname='c'\nmaterial='m'\nphase='rigid'\nshape={"
+      "phase='liquid'\nshape={kind='box',min=[0,0,0],max=[0.1,0.1,0.1]}\n[[body]]\nname='c'\nmaterial='m'"
+      "\nphase='rigid'\nshape={"
       "kind='box',min=[1,0,0],max=[1.1,0.1,0.1]}");
   EXPECT_EQ(body_rows(scene), (std::vector<int>{-1, 0}));
   const auto s = sample(scene);

@@ -19,7 +19,8 @@ using json = nlohmann::json;
 TEST(KeyTable, NamesEveryKeyOnceWithAMeaningAndAReasonForItsDefault) {
   std::set<std::string> seen;
   for (const auto& k : case_keys().rows()) {
-    EXPECT_TRUE(seen.insert(std::string(k.table) + "." + std::string(k.name)).second) << k.table << "." << k.name;
+    EXPECT_TRUE(seen.insert(std::string(k.table) + "." + std::string(k.name)).second)
+        << k.table << "." << k.name;
     EXPECT_FALSE(k.meaning.empty()) << k.name;
     EXPECT_TRUE(k.required() || !k.note.empty()) << k.table << "." << k.name;
   }

@@ -11,7 +11,8 @@ namespace {
 
 std::string with(const std::string& scene, const std::string& more = "") {
   return "[scene]\nend_time = 1.0\nspacing = 0.1\n" + scene +
-         "\n[[material]]\nname='stone'\ndensity=1000\n[[body]]\nname='block'\nmaterial='stone'\nshape={kind='box',min=[0,0,0],"
+         "\n[[material]]\nname='stone'\ndensity=1000\n[[body]]\nname='block'\nmaterial='stone'\nshape={kind='"
+         "box',min=[0,0,0],"
          "max=[0.4,0.4,0.4]}\n" +
          more;
 }
@@ -28,12 +29,14 @@ std::string refused_sample(const std::string& text) {
 TEST(StrangeCase, WithMoreStepsThanCanBeMadeIsRefused) {
   expect_refused(with("time_step = 1e-20"), {"case.toml:4", "scene.time_step", "1e+20 steps"});
   EXPECT_EQ(refusal(with("time_step = 1e-11")), "");
-  expect_refused(with("", "[[study]]\naxis='time_step'\nlevels=[1e-2,1e-21]\n"), {"study.1.levels", "1e+21 steps"});
+  expect_refused(with("", "[[study]]\naxis='time_step'\nlevels=[1e-2,1e-21]\n"),
+                 {"study.1.levels", "1e+21 steps"});
 }
 
 TEST(StrangeCase, WithNumbersWhoseProductsAreNotFiniteIsRefused) {
   expect_refused(with("gravity = [0.0, 0.0, -1e300]"), {"scene.gravity", "up to 1e+30"});
-  expect_refused("[scene]\nend_time=1\n[[material]]\nname='stone'\ndensity=1e308\n", {"material.stone.density", "up to 1e+30"});
+  expect_refused("[scene]\nend_time=1\n[[material]]\nname='stone'\ndensity=1e308\n",
+                 {"material.stone.density", "up to 1e+30"});
   EXPECT_EQ(refusal(with("gravity = [0.0, 0.0, -1e30]")), "");
 }
 
@@ -45,7 +48,8 @@ TEST(StrangeCase, WithAWallLimitThatIsNoNumberIsRefused) {
 }
 
 TEST(StrangeCase, AskingForFrictionLearnsWhatThereIs) {
-  expect_refused(with("", "friction = 0.3\n"), {"unknown key `friction`", "no law of Coulomb", "scene.contact_viscosity"});
+  expect_refused(with("", "friction = 0.3\n"),
+                 {"unknown key `friction`", "no law of Coulomb", "scene.contact_viscosity"});
   expect_refused(with("restitution = 0.3"), {"unknown key `restitution`", "scene.contact_viscosity"});
   for (const auto& [table, answer] :
        std::vector<std::pair<std::string, std::string>>{{"joint", "joints are not simulated"},
@@ -61,13 +65,17 @@ TEST(StrangeCase, AskingForFrictionLearnsWhatThereIs) {
 
 TEST(StrangeCase, WithSomeTemperaturesLearnsOfAnInsulatingBody) {
   const std::string head =
-      "[scene]\nend_time=1\nspacing=0.1\n[[material]]\nname='iron'\ndensity=1000\nconductivity=1\nheat_capacity=1\n[[material]]"
+      "[scene]\nend_time=1\nspacing=0.1\n[[material]]\nname='iron'\ndensity=1000\nconductivity=1\nheat_"
+      "capacity=1\n[[material]]"
       "\nname='cork'\ndensity=1000\n";
   const std::string hot =
-      "[[body]]\nname='hot'\nmaterial='iron'\nmotion='fixed'\ntemperature=400\nshape={kind='box',min=[0,0,0],max=[0.4,0.4,0.4]}"
+      "[[body]]\nname='hot'\nmaterial='iron'\nmotion='fixed'\ntemperature=400\nshape={kind='box',min=[0,0,0],"
+      "max=[0.4,0.4,0.4]}"
       "\n";
   const auto cork = [](const std::string& more) {
-    return "[[body]]\nname='cork'\nmaterial='cork'\nmotion='fixed'\nshape={kind='box',min=[0.4,0,0],max=[0.8,0.4,0.4]}\n" + more;
+    return "[[body]]\nname='cork'\nmaterial='cork'\nmotion='fixed'\nshape={kind='box',min=[0.4,0,0],max=[0.8,"
+           "0.4,0.4]}\n" +
+           more;
   };
   EXPECT_NE(refused_sample(head + hot + cork("")).find("conductivity 1e-12"), std::string::npos);
   expect_refused(head + hot + cork("temperature=300\n"), {"lacks conductivity", "1e-12 W/m/K insulates"});
@@ -78,35 +86,41 @@ TEST(StrangeCase, WithSomeTemperaturesLearnsOfAnInsulatingBody) {
 TEST(StrangeCase, WithAnEventThatCannotHappenIsRefused) {
   const auto two = [](const std::string& later) {
     return with("",
-                "[[body]]\nname='other'\nmaterial='stone'\nshape={kind='box',min=[1,0,0],max=[1.4,0.4,0.4]}\n[[event]]\nkind='"
+                "[[body]]\nname='other'\nmaterial='stone'\nshape={kind='box',min=[1,0,0],max=[1.4,0.4,0.4]}"
+                "\n[[event]]\nkind='"
                 "merge'\ntime=0.1\nbodies=['block','other']\n" +
                     later);
   };
   EXPECT_EQ(refusal(two("")), "");
-  expect_refused(two("[[event]]\nkind='hold'\ntime=0.2\nbodies=['other']\n"), {"body \"other\" is absorbed by a merge at 0.1 s"});
+  expect_refused(two("[[event]]\nkind='hold'\ntime=0.2\nbodies=['other']\n"),
+                 {"body \"other\" is absorbed by a merge at 0.1 s"});
   expect_refused(with("", "[[event]]\nkind='heat'\ntime=0.1\ntemperature=400\nbodies=['block']\n"),
                  {"no body has a temperature"});
-  expect_refused(
-      with("",
-           "[[inflow]]\nmaterial='stone'\nvelocity=[1,0,0]\nstart=5\nstop=6\nshape={kind='box',min=[1,0,0],max=[1.1,0.4,0.4]}\n"),
-      {"nothing flows in before end_time"});
+  expect_refused(with("",
+                      "[[inflow]]\nmaterial='stone'\nvelocity=[1,0,0]\nstart=5\nstop=6\nshape={kind='box',"
+                      "min=[1,0,0],max=[1.1,0.4,0.4]}\n"),
+                 {"nothing flows in before end_time"});
 }
 
 TEST(StrangeCase, WithASpinThatMovesNoParticleIsRefused) {
   const auto chain = [](const std::string& max, const std::string& spin) {
-    return "[scene]\nend_time=1\nspacing=0.1\n[[material]]\nname='stone'\ndensity=1000\n[[body]]\nname='chain'\nmaterial='stone'"
+    return "[scene]\nend_time=1\nspacing=0.1\n[[material]]\nname='stone'\ndensity=1000\n[[body]]\nname='"
+           "chain'\nmaterial='stone'"
            "\nangular_velocity=" +
            spin + "\nshape={kind='box',min=[0,0,0],max=" + max + "}\n";
   };
-  EXPECT_NE(refused_sample(chain("[0.5,0.1,0.1]", "[1,0,2]")).find("spin about its own axis"), std::string::npos);
+  EXPECT_NE(refused_sample(chain("[0.5,0.1,0.1]", "[1,0,2]")).find("spin about its own axis"),
+            std::string::npos);
   EXPECT_EQ(refused_sample(chain("[0.5,0.1,0.1]", "[0,1,2]")), "");
   EXPECT_EQ(refused_sample(chain("[0.5,0.2,0.1]", "[1,0,2]")), "");
   EXPECT_NE(refused_sample(chain("[0.1,0.1,0.1]", "[0,0,1]")).find("one particle"), std::string::npos);
 }
 
 TEST(LibraryValues, AreToldOnceWhereATableBearsTheName) {
-  const std::string body = "[[body]]\nname='b'\nmaterial='water'\nshape={kind='box',min=[0,0,0],max=[1,1,1]}\n";
-  const auto own = library_values(read_text("[scene]\nend_time=1\n[[material]]\nname='water'\ndensity=900\n" + body));
+  const std::string body =
+      "[[body]]\nname='b'\nmaterial='water'\nshape={kind='box',min=[0,0,0],max=[1,1,1]}\n";
+  const auto own =
+      library_values(read_text("[scene]\nend_time=1\n[[material]]\nname='water'\ndensity=900\n" + body));
   ASSERT_EQ(own.size(), 1U);
   EXPECT_NE(own[0].what.find("viscosity = 0.001"), std::string::npos) << own[0].what;
   EXPECT_EQ(own[0].what.find("density"), std::string::npos) << "that it gives itself: " << own[0].what;

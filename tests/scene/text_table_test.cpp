@@ -15,11 +15,13 @@ TextTable engines() {
 }
 
 TEST(TextTables, ForMarkdownHaveTitlesARuleAndALineARow) {
-  EXPECT_EQ(engines().markdown(), "| engine | error | |\n|---|---:|---|\n| bullet | 0.5 | soft |\n| a longer one | 12 |  |\n");
+  EXPECT_EQ(engines().markdown(),
+            "| engine | error | |\n|---|---:|---|\n| bullet | 0.5 | soft |\n| a longer one | 12 |  |\n");
 }
 
 TEST(TextTables, ForATerminalKeepTheWidthsOfTheirColumnsAndTheirNotes) {
-  EXPECT_EQ(engines().text("  "), "  engine   error \n  bullet     0.5 soft\n   it refuses ropes\n  a longer one     12 \n");
+  EXPECT_EQ(engines().text("  "),
+            "  engine   error \n  bullet     0.5 soft\n   it refuses ropes\n  a longer one     12 \n");
 }
 
 TEST(TextTables, WithoutARowAreEmpty) {

@@ -16,8 +16,9 @@ namespace {
 using std::numbers::pi;
 
 std::string turned_text(const std::string& body, const std::string& more = "") {
-  return "[scene]\nend_time = 1\nspacing = 0.1\n[[material]]\nname='m'\ndensity=1000\n[[body]]\nname='b'\nmaterial='m'\n" + body +
-         "\n" + more;
+  return "[scene]\nend_time = 1\nspacing = "
+         "0.1\n[[material]]\nname='m'\ndensity=1000\n[[body]]\nname='b'\nmaterial='m'\n" +
+         body + "\n" + more;
 }
 
 Scene turned_scene(const std::string& body, const std::string& more = "") {
@@ -26,8 +27,9 @@ Scene turned_scene(const std::string& body, const std::string& more = "") {
 
 constexpr const char* ingot = "shape={kind='box',min=[1,2,3],max=[1.6,2.4,3.2]}";
 // 90 degrees about z, and 0.7 rad about (1, 2, 2)/3.
-constexpr const char *quarter = "rotation=[0.7071067811865476,0,0,0.7071067811865476]",
-                     *askew = "rotation=[0.9393727128473789,0.11429926915020388,0.22859853830040776,0.22859853830040776]";
+constexpr const char
+    *quarter = "rotation=[0.7071067811865476,0,0,0.7071067811865476]",
+    *askew = "rotation=[0.9393727128473789,0.11429926915020388,0.22859853830040776,0.22859853830040776]";
 
 TEST(Turned, ABoxByAQuarterTurnChangesItsSidesAboutItsCentre) {
   const auto s = turned_scene(std::string(ingot) + "\n" + quarter);
@@ -37,9 +39,11 @@ TEST(Turned, ABoxByAQuarterTurnChangesItsSidesAboutItsCentre) {
 }
 
 TEST(Turned, ABodyKeepsItsParticlesMassAndMomentsAtAnyAngle) {
-  const auto upright = sample(turned_scene(ingot)), turned = sample(turned_scene(std::string(ingot) + "\n" + askew));
+  const auto upright = sample(turned_scene(ingot)),
+             turned = sample(turned_scene(std::string(ingot) + "\n" + askew));
   ASSERT_EQ(upright.size(), turned.size());
-  const auto a = mass_properties(upright.position, upright.mass), b = mass_properties(turned.position, turned.mass);
+  const auto a = mass_properties(upright.position, upright.mass),
+             b = mass_properties(turned.position, turned.mass);
   EXPECT_LT(norm(a.centre - b.centre), 1e-12);
   EXPECT_LT(norm(a.principal_inertia - b.principal_inertia), 1e-10 * norm(a.principal_inertia));
 }
@@ -64,20 +68,26 @@ TEST(Turned, ABodyCanBeCutOutOfAnotherWithTheSameRotation) {
 }
 
 TEST(Turned, ARotationThatIsNoneIsRefusedByName) {
-  expect_refused(turned_text(std::string(ingot) + "\nrotation=[0,0,0,0]"), {"body.b.rotation", "the quaternion has length 0"});
-  expect_refused(turned_text(std::string(ingot) + "\nrotation=[1,0,0]"), {"rotation", "write the quaternion [w, x, y, z]"});
-  expect_refused(turned_text("shape={kind='box',min=[1,2,3],max=[1.6,2.4,3.2]," + std::string(askew) + "}\n" + quarter),
-                 {"its shape has a rotation too"});
+  expect_refused(turned_text(std::string(ingot) + "\nrotation=[0,0,0,0]"),
+                 {"body.b.rotation", "the quaternion has length 0"});
+  expect_refused(turned_text(std::string(ingot) + "\nrotation=[1,0,0]"),
+                 {"rotation", "write the quaternion [w, x, y, z]"});
+  expect_refused(
+      turned_text("shape={kind='box',min=[1,2,3],max=[1.6,2.4,3.2]," + std::string(askew) + "}\n" + quarter),
+      {"its shape has a rotation too"});
 }
 
 const std::string three_bodies =
-    "[scene]\nend_time=1\nspacing=0.1\n[[material]]\nname='slick'\ndensity=900\n[[material]]\nname='steel'\ndensity=7800\n"
-    "[[body]]\nname='floor'\nmaterial='steel'\nmotion='fixed'\nphase='rigid'\nshape={kind='box',min=[0,0,-0.2],max=[2,2,0]}\n"
+    "[scene]\nend_time=1\nspacing=0.1\n[[material]]\nname='slick'\ndensity=900\n[[material]]\nname='steel'"
+    "\ndensity=7800\n"
+    "[[body]]\nname='floor'\nmaterial='steel'\nmotion='fixed'\nphase='rigid'\nshape={kind='box',min=[0,0,-0."
+    "2],max=[2,2,0]}\n"
     "[[body]]\nname='a'\nmaterial='slick'\nphase='rigid'\nshape={kind='box',min=[0,0,0],max=[0.2,0.2,0.2]}\n"
     "[[body]]\nname='c'\nmaterial='slick'\nphase='rigid'\nshape={kind='box',min=[1,0,0],max=[1.2,0.2,0.2]}\n";
 
 TEST(ContactLaw, IsOfAPairInEitherOrder) {
-  const auto s = read_text(three_bodies + "[[contact]]\nmaterials=['steel','slick']\nfriction=0.02\n").value.scene;
+  const auto s =
+      read_text(three_bodies + "[[contact]]\nmaterials=['steel','slick']\nfriction=0.02\n").value.scene;
   ASSERT_NE(contact_law_of(s, "slick", "steel"), nullptr);
   EXPECT_EQ(contact_law_of(s, "steel", "slick")->friction, 0.02);
   EXPECT_EQ(contact_law_of(s, "slick", "slick"), nullptr);
@@ -88,7 +98,8 @@ TEST(ContactLaw, IsCommonOnlyWhereAllPairsThatCanMeetHaveIt) {
   const auto some = common_contact(read_text(three_bodies + steel_on_ice).value.scene);
   EXPECT_TRUE(some.differs) << "ice on ice has none";
   const auto all = common_contact(
-      read_text(three_bodies + steel_on_ice + "[[contact]]\nmaterials=['slick','slick']\nfriction=0.02\n").value.scene);
+      read_text(three_bodies + steel_on_ice + "[[contact]]\nmaterials=['slick','slick']\nfriction=0.02\n")
+          .value.scene);
   EXPECT_FALSE(all.differs);
   EXPECT_EQ(all.friction, 0.02);
   EXPECT_FALSE(common_contact(read_text(three_bodies).value.scene).friction);
@@ -98,14 +109,18 @@ TEST(ContactLaw, OfNoMaterialOrWrittenTwiceIsRefused) {
   const std::string law = "[[contact]]\nmaterials=['steel','slick']\nfriction=0.02\n";
   expect_refused(three_bodies + "[[contact]]\nmaterials=['steel','slickk']\nfriction=0.1\n",
                  {"no material is named \"slickk\"", "slick"});
-  expect_refused(three_bodies + law + "[[contact]]\nmaterials=['slick','steel']\nfriction=0.3\n", {"have a [[contact]] already"});
-  expect_refused(three_bodies + "[[contact]]\nmaterials=['steel','slick']\n", {"give the friction or the restitution"});
-  expect_refused(three_bodies + "[[contact]]\nmaterials=['steel','slick']\nrestitution=1.2\n", {"from 0 to 1"});
+  expect_refused(three_bodies + law + "[[contact]]\nmaterials=['slick','steel']\nfriction=0.3\n",
+                 {"have a [[contact]] already"});
+  expect_refused(three_bodies + "[[contact]]\nmaterials=['steel','slick']\n",
+                 {"give the friction or the restitution"});
+  expect_refused(three_bodies + "[[contact]]\nmaterials=['steel','slick']\nrestitution=1.2\n",
+                 {"from 0 to 1"});
 }
 
 TEST(Force, ActsOnAFreeRigidBodyThatStaysOne) {
   EXPECT_EQ(refusal(three_bodies + "[[force]]\nbody='a'\nvalue=[1,0,0]\n"), "");
-  expect_refused(three_bodies + "[[force]]\nbody='floor'\nvalue=[1,0,0]\n", {"\"floor\" is fixed", "free rigid body"});
+  expect_refused(three_bodies + "[[force]]\nbody='floor'\nvalue=[1,0,0]\n",
+                 {"\"floor\" is fixed", "free rigid body"});
   expect_refused(three_bodies + "[[force]]\nbody='b'\nvalue=[1,0,0]\n", {"body"});
 }
 

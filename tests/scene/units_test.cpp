@@ -33,7 +33,8 @@ TEST(Units, TurnAnglesIntoRadians) {
 
 TEST(Units, CountCelsiusFromTheIcePoint) {
   EXPECT_DOUBLE_EQ(parse_quantity("20 degC", "K"), 293.15);
-  EXPECT_THROW(static_cast<void>(parse_quantity("20 degC/m", "K/m")), std::invalid_argument);  // a difference is in K
+  // a difference is in K
+  EXPECT_THROW(static_cast<void>(parse_quantity("20 degC/m", "K/m")), std::invalid_argument);
 }
 
 TEST(Units, RefuseAnotherDimensionSayingWhichIsExpected) {
@@ -41,13 +42,14 @@ TEST(Units, RefuseAnotherDimensionSayingWhichIsExpected) {
     static_cast<void>(parse_quantity("3 kg", "s"));
     FAIL();
   } catch (const std::invalid_argument& e) {
-    EXPECT_NE(std::string(e.what()).find("in kg, but a number in s is expected"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("in kg, but a number in s is expected"), std::string::npos)
+        << e.what();
   }
 }
 
 TEST(Units, RefuseWhatIsNoFiniteNumberWithAUnit) {
-  for (const char* text : {"", "12", "m", "3 parsec", "nan m", "inf", "1e400 m", "3 m^", "3 (m", "3 m)", "3 m//s", "3 m 4",
-                           "1e308 km", "--3 m", "3 ((m))"})
+  for (const char* text : {"", "12", "m", "3 parsec", "nan m", "inf", "1e400 m", "3 m^", "3 (m", "3 m)",
+                           "3 m//s", "3 m 4", "1e308 km", "--3 m", "3 ((m))"})
     EXPECT_THROW(static_cast<void>(parse_quantity(text, "m")), std::invalid_argument) << text;
 }
 

@@ -7,8 +7,9 @@
 #include "mutator.hpp"
 #include "real_cases.hpp"
 
-/// write-mutants FOLDER COUNT SEED: the mutated case files of the reader's test as files, for tests of the whole program.
-/// Beside mutant-N.toml lies its sound source as source-N.toml; breaker-N.toml are texts that every reader must refuse.
+/// write-mutants FOLDER COUNT SEED: the mutated case files of the reader's test as files, for tests of the
+/// whole program. Beside mutant-N.toml lies its sound source as source-N.toml; breaker-N.toml are texts that
+/// every reader must refuse.
 int main(int argc, char** argv) {
   using namespace tripoint::test;
   if (argc != 4) {

@@ -10,10 +10,13 @@ namespace {
 
 constexpr double h = 0.37;  ///< any support radius [m]
 
-/// Integral of f from 0 to h by Gauss-Legendre, 5 points on each of 4000 intervals: exact to round-off for these kernels.
+/// Integral of f from 0 to h by Gauss-Legendre, 5 points on each of 4000 intervals: exact to round-off for
+/// these kernels.
 double integral(const std::function<double(double)>& f) {
-  constexpr double x[] = {0.0, 0.5384693101056831, -0.5384693101056831, 0.9061798459386640, -0.9061798459386640};
-  constexpr double w[] = {0.5688888888888889, 0.4786286704993665, 0.4786286704993665, 0.2369268850561891, 0.2369268850561891};
+  constexpr double x[] = {0.0, 0.5384693101056831, -0.5384693101056831, 0.9061798459386640,
+                          -0.9061798459386640};
+  constexpr double w[] = {0.5688888888888889, 0.4786286704993665, 0.4786286704993665, 0.2369268850561891,
+                          0.2369268850561891};
   constexpr int intervals = 4000;
   const double half = 0.5 * h / intervals;
   double sum = 0.0;
@@ -37,13 +40,17 @@ TEST(Kernels, IntegrateToOneOverSpace) {
 
 TEST(Kernels, HaveASecondMomentOfTheLaplacianOfOne) {
   // 1/6 int r^2 lap W dV = 1: the operator of (8) and (21) is exact for a parabola
-  EXPECT_NEAR(over_space([](double r) { return r * r / 6.0 * ViscosityKernel(h).laplacian(r); }), 1.0, quadrature);
-  EXPECT_NEAR(over_space([](double r) { return r * r / 6.0 * -2.0 * WendlandC2(h).derivative_over_r(r); }), 1.0, quadrature);
+  EXPECT_NEAR(over_space([](double r) { return r * r / 6.0 * ViscosityKernel(h).laplacian(r); }), 1.0,
+              quadrature);
+  EXPECT_NEAR(over_space([](double r) { return r * r / 6.0 * -2.0 * WendlandC2(h).derivative_over_r(r); }),
+              1.0, quadrature);
 }
 
 TEST(Kernels, HaveDerivativesThatAreThoseOfTheirValues) {
   constexpr double d = 1e-6 * h;
-  const auto slope = [](const auto& kernel, double r) { return (kernel.value(r + d) - kernel.value(r - d)) / (2.0 * d); };
+  const auto slope = [](const auto& kernel, double r) {
+    return (kernel.value(r + d) - kernel.value(r - d)) / (2.0 * d);
+  };
   for (const double q : {0.1, 0.35, 0.6, 0.9}) {
     const double r = q * h, scale = 1.0 / (h * h * h * h);
     EXPECT_NEAR(slope(Spiky(h), r), Spiky(h).derivative(r), 1e-8 * scale);

@@ -13,13 +13,16 @@ namespace {
 struct Row {
   double q;
   int neighbours;
-  double density_poly6, density_elastic, density_wendland, gradient_spiky, gradient_elastic, gradient_wendland, laplacian;
+  double density_poly6, density_elastic, density_wendland, gradient_spiky, gradient_elastic,
+      gradient_wendland, laplacian;
 };
-constexpr Row table[] = {
-    {1.5, 18, 0.949, 1.126, 1.260, 0.681, 0.960, 0.665, 1.060},  {2.0, 26, 1.010, 1.072, 1.034, 0.956, 0.985, 0.982, 0.988},
-    {2.12, 32, 1.015, 1.056, 1.027, 0.959, 0.952, 1.000, 0.943}, {2.3, 56, 1.008, 1.026, 1.021, 0.943, 0.934, 0.994, 0.928},
-    {2.5, 80, 0.995, 1.012, 1.013, 0.950, 1.001, 0.979, 1.021},  {3.0, 92, 1.002, 1.014, 1.003, 0.990, 0.967, 1.001, 0.956},
-    {4.0, 250, 1.000, 1.0045, 1.001, 0.997, 1.005, 0.999, 1.008}};
+constexpr Row table[] = {{1.5, 18, 0.949, 1.126, 1.260, 0.681, 0.960, 0.665, 1.060},
+                         {2.0, 26, 1.010, 1.072, 1.034, 0.956, 0.985, 0.982, 0.988},
+                         {2.12, 32, 1.015, 1.056, 1.027, 0.959, 0.952, 1.000, 0.943},
+                         {2.3, 56, 1.008, 1.026, 1.021, 0.943, 0.934, 0.994, 0.928},
+                         {2.5, 80, 0.995, 1.012, 1.013, 0.950, 1.001, 0.979, 1.021},
+                         {3.0, 92, 1.002, 1.014, 1.003, 0.990, 0.967, 1.001, 0.956},
+                         {4.0, 250, 1.000, 1.0045, 1.001, 0.997, 1.005, 0.999, 1.008}};
 constexpr double three_digits = 5.01e-4;
 
 struct Lattice : testing::TestWithParam<Row> {};
@@ -38,13 +41,15 @@ INSTANTIATE_TEST_SUITE_P(Supports, Lattice, testing::ValuesIn(table));
 
 TEST(Lattice, PaperHeatRateTendsToItsFloorForLongWaves) {
   const double q = 2.12, k = 1e-3;
-  EXPECT_NEAR(paper_heat_rate(1.0, q, {k, 0.0, 0.0}) / (k * k), viscosity_moments(q).laplacian / poly6_moments(q).density, 1e-6);
+  EXPECT_NEAR(paper_heat_rate(1.0, q, {k, 0.0, 0.0}) / (k * k),
+              viscosity_moments(q).laplacian / poly6_moments(q).density, 1e-6);
 }
 
 TEST(Lattice, PaperHeatRateIsTheMeasuredOneAtTenParticlesAWave) {
   const double k = 2.0 * std::numbers::pi / 10.0;
   EXPECT_NEAR(paper_heat_rate(1.0, 2.12, {k, 0.0, 0.0}) / (k * k), 0.892, three_digits);
-  EXPECT_NEAR(paper_heat_rate(0.01, 0.025, {100.0 * k, 0.0, 0.0}) / (1e4 * k * k), 0.954, three_digits);  // any unit of length
+  // Any unit of length
+  EXPECT_NEAR(paper_heat_rate(0.01, 0.025, {100.0 * k, 0.0, 0.0}) / (1e4 * k * k), 0.954, three_digits);
 }
 
 /// Sums in NumPy.
@@ -82,8 +87,8 @@ TEST(Lattice, HasTheKernelOfAnInterface) {
   EXPECT_EQ(interface_kernel(2.0).square, 0.0) << "a second layer sees nothing of the other liquid";
 }
 
-/// Layers at -2.5 .. 2.5 of liquids of densities 5 below 0 and 1 above it, at their exact pressures: what pairs give each layer
-/// is its weight, with the energy of unlike pairs.
+/// Layers at -2.5 .. 2.5 of liquids of densities 5 below 0 and 1 above it, at their exact pressures: what
+/// pairs give each layer is its weight, with the energy of unlike pairs.
 TEST(Lattice, LeavesTheLayersBesideAnInterfaceAtRest) {
   for (const double q : {2.05, 2.3, 2.6, 3.0}) {
     const WendlandC2 W(q);
@@ -103,7 +108,8 @@ TEST(Lattice, LeavesTheLayersBesideAnInterfaceAtRest) {
           }
       EXPECT_NEAR(plain + force, density(z), 1e-12) << q << " " << z;
       if (std::abs(z) < 1.0) {
-        EXPECT_GT(std::abs(plain - density(z)), 0.9) << q << " " << z;  // a quarter of the difference of densities
+        // a quarter of the difference of densities
+        EXPECT_GT(std::abs(plain - density(z)), 0.9) << q << " " << z;
       }
     }
   }

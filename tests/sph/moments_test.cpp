@@ -19,8 +19,8 @@ void expect_near(const Symmetric& a, const Symmetric& b, double tolerance) {
 
 TEST(PseudoInverse, IsTheInverseOfARegularMatrix) {
   // [[2,1,0],[1,2,0],[0,0,4]]^-1 = [[2,-1,0],[-1,2,0],[0,0,0.75]]/3
-  expect_near(pseudo_inverse({2.0, 2.0, 4.0, 0.0, 0.0, 1.0}, 0.05), {2.0 / 3.0, 2.0 / 3.0, 0.25, 0.0, 0.0, -1.0 / 3.0},
-              round_off);
+  expect_near(pseudo_inverse({2.0, 2.0, 4.0, 0.0, 0.0, 1.0}, 0.05),
+              {2.0 / 3.0, 2.0 / 3.0, 0.25, 0.0, 0.0, -1.0 / 3.0}, round_off);
 }
 
 TEST(PseudoInverse, OfAFullMatrixTimesItIsOne) {
@@ -30,13 +30,16 @@ TEST(PseudoInverse, OfAFullMatrixTimesItIsOne) {
 }
 
 TEST(PseudoInverse, LeavesOutDirectionsBelowTheCut) {
-  expect_near(pseudo_inverse({1.0, 0.049, 0.0, 0.0, 0.0, 0.0}, 0.05), {1.0, 0.0, 0.0, 0.0, 0.0, 0.0}, round_off);
-  expect_near(pseudo_inverse({1.0, 0.051, 0.0, 0.0, 0.0, 0.0}, 0.05), {1.0, 1.0 / 0.051, 0.0, 0.0, 0.0, 0.0}, 100 * round_off);
+  expect_near(pseudo_inverse({1.0, 0.049, 0.0, 0.0, 0.0, 0.0}, 0.05), {1.0, 0.0, 0.0, 0.0, 0.0, 0.0},
+              round_off);
+  expect_near(pseudo_inverse({1.0, 0.051, 0.0, 0.0, 0.0, 0.0}, 0.05), {1.0, 1.0 / 0.051, 0.0, 0.0, 0.0, 0.0},
+              100 * round_off);
 }
 
 TEST(PseudoInverse, OfALineIsAlongTheLine) {
   // M = 3 e e^T with e = (1,1,0)/sqrt 2: the pseudo-inverse is e e^T/3
-  expect_near(pseudo_inverse({1.5, 1.5, 0.0, 0.0, 0.0, 1.5}, 0.05), {1.0 / 6.0, 1.0 / 6.0, 0.0, 0.0, 0.0, 1.0 / 6.0}, round_off);
+  expect_near(pseudo_inverse({1.5, 1.5, 0.0, 0.0, 0.0, 1.5}, 0.05),
+              {1.0 / 6.0, 1.0 / 6.0, 0.0, 0.0, 0.0, 1.0 / 6.0}, round_off);
 }
 
 TEST(PseudoInverse, OfZeroIsZero) { expect_near(pseudo_inverse({}, 0.05), {}, 0.0); }

@@ -40,8 +40,10 @@ TEST(ShapeInverse, CutsWhatIsBelowAFifthOfTheLargestAndInvertsTheRest) {
 TEST(RangeProjector, KeepsTheDirectionsOfTheInverseAndNoOther) {
   const Matrix3 R = rotation(angle);
   EXPECT_EQ(range_projector(turned(R, {1.0, 2.0, 3.0, 0, 0, 0}), 3), all);
-  EXPECT_LT(size(range_projector(turned(R, {1.0, 2.0, 0.0, 0, 0, 0}), 2) - turned(R, {1, 1, 0, 0, 0, 0})), 1e-14);
-  EXPECT_LT(size(range_projector(turned(R, {0.0, 0.0, 5.0, 0, 0, 0}), 1) - turned(R, {0, 0, 1, 0, 0, 0})), 1e-14);
+  EXPECT_LT(size(range_projector(turned(R, {1.0, 2.0, 0.0, 0, 0, 0}), 2) - turned(R, {1, 1, 0, 0, 0, 0})),
+            1e-14);
+  EXPECT_LT(size(range_projector(turned(R, {0.0, 0.0, 5.0, 0, 0, 0}), 1) - turned(R, {0, 0, 1, 0, 0, 0})),
+            1e-14);
   EXPECT_EQ(range_projector({}, 0), Symmetric{});
 }
 
@@ -58,7 +60,8 @@ TEST(Stress, OfAFreeBarIsItsYoungsModulusInSolidsSheetsAndChains) {
   EXPECT_NEAR(stress({e, -nu * e, -nu * e, 0, 0, 0}, all, 3, c).xx, E * e, 1e-15);
   EXPECT_NEAR(stress({e, -nu * e, -nu * e, 0, 0, 0}, all, 3, c).yy, 0.0, 1e-15);
   const Symmetric plane{1, 1, 0, 0, 0, 0}, line{1, 0, 0, 0, 0, 0};
-  EXPECT_NEAR(stress({e, -nu * e, 0, 0, 0, 0}, plane, 2, c).xx, E * e, 1e-15);  // contracts in its plane, nothing across
+  // Contracts in its plane, nothing across
+  EXPECT_NEAR(stress({e, -nu * e, 0, 0, 0, 0}, plane, 2, c).xx, E * e, 1e-15);
   EXPECT_NEAR(stress({e, -nu * e, 0, 0, 0, 0}, plane, 2, c).yy, 0.0, 1e-15);
   EXPECT_NEAR(stress({e, 0, 0, 0, 0, 0}, line, 1, c).xx, E * e, 1e-15);
   EXPECT_NEAR(stress({0, 0, 0, 0, 0, e}, all, 3, c).xy, E / (1.0 + nu) * e, 1e-15);  // 2 mu e
@@ -67,7 +70,8 @@ TEST(Stress, OfAFreeBarIsItsYoungsModulusInSolidsSheetsAndChains) {
 TEST(Rotation, IsFoundAgainBeneathAStretch) {
   const Matrix3 R = rotation(angle), stretch{1.2, 0.1, 0.0, 0.1, 0.9, 0.05, 0.0, 0.05, 1.1};
   EXPECT_LT(size(rotation_of(R * stretch, all, 3) - R), 1e-14);
-  const Matrix3 in_plane{1.2, 0.1, 0.0, 0.1, 0.9, 0.0, 0.0, 0.0, 1.0};  // F of a sheet keeps the normal: only F P tells
+  // F of a sheet keeps the normal: only F P tells
+  const Matrix3 in_plane{1.2, 0.1, 0.0, 0.1, 0.9, 0.0, 0.0, 0.0, 1.0};
   const Symmetric plane{1, 1, 0, 0, 0, 0};
   const Matrix3 sheet = identity3 + (R * in_plane - identity3) * plane;
   EXPECT_LT(size(rotation_of(sheet, plane, 2) - R), 1e-14);

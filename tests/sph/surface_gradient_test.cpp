@@ -23,9 +23,11 @@ std::vector<GradientPoint> lattice(const std::function<bool(const Vec3&)>& there
   for (int z = -2; z <= 2; ++z)
     for (int y = -2; y <= 2; ++y)
       for (int x = -2; x <= 2; ++x) {
-        const Vec3 place{double(x), double(y), double(z)}, moved = place + Vec3{shift(random), shift(random), shift(random)};
+        const Vec3 place{double(x), double(y), double(z)},
+            moved = place + Vec3{shift(random), shift(random), shift(random)};
         const double r = norm(moved);
-        if ((x != 0 || y != 0 || z != 0) && there(place) && r < 2.12) points.push_back({moved, -kernel.derivative(r) / r});
+        if ((x != 0 || y != 0 || z != 0) && there(place) && r < 2.12)
+          points.push_back({moved, -kernel.derivative(r) / r});
       }
   return points;
 }
@@ -42,7 +44,8 @@ Symmetric moment_of(const std::vector<GradientPoint>& points) {
 }
 
 /// The gradient of a displacement at the origin, where it is zero.
-Vec3 gradient_of(const std::vector<GradientPoint>& points, bool corrected, const std::function<double(const Vec3&)>& u) {
+Vec3 gradient_of(const std::vector<GradientPoint>& points, bool corrected,
+                 const std::function<double(const Vec3&)>& u) {
   const Symmetric A = shape_inverse(moment_of(points)).inverse;
   const std::vector<Vec3> c = curvature_correction(points, A);
   Vec3 sum;
@@ -66,7 +69,8 @@ TEST(SurfaceGradient, IsLookedForWhereNoPartnerLiesOutward) {
 TEST(SurfaceGradient, SeesALinearDisplacementAsBefore) {
   for (const auto& there : {below, in_an_edge, in_a_corner}) {
     for (const double jitter : {0.0, 0.2}) {
-      const Vec3 g = gradient_of(lattice(there, jitter), true, [](const Vec3& r) { return 0.3 * r.x - 0.7 * r.y + 1.1 * r.z; });
+      const Vec3 g = gradient_of(lattice(there, jitter), true,
+                                 [](const Vec3& r) { return 0.3 * r.x - 0.7 * r.y + 1.1 * r.z; });
       EXPECT_LT(norm(g - Vec3{0.3, -0.7, 1.1}), 1e-14);  // round-off of some 30 terms
     }
   }
@@ -74,11 +78,14 @@ TEST(SurfaceGradient, SeesALinearDisplacementAsBefore) {
 
 TEST(SurfaceGradient, IsBlindToTheCurvaturesOfABentBar) {
   const std::vector<GradientPoint> points = lattice(below);
-  const auto along = [](const Vec3& r) { return r.x * r.y; };  // what bends stretches along x in proportion to y
-  const auto across = [](const Vec3& r) { return 0.5 * (r.x * r.x - 0.3 * r.z * r.z); };  // and moves across, anticlastic
+  // What bends stretches along x in proportion to y
+  const auto along = [](const Vec3& r) { return r.x * r.y; };
+  // And moves across, anticlastic
+  const auto across = [](const Vec3& r) { return 0.5 * (r.x * r.x - 0.3 * r.z * r.z); };
   EXPECT_LT(norm(gradient_of(points, true, along)), 1e-14);
   EXPECT_LT(norm(gradient_of(points, true, [](const Vec3& r) { return r.y * r.z; })), 1e-14);
-  EXPECT_NEAR(gradient_of(points, false, along).x, -0.2956, 0.0001);  // strain is that of 0.3 spacings further in
+  // Strain is that of 0.3 spacings further in
+  EXPECT_NEAR(gradient_of(points, false, along).x, -0.2956, 0.0001);
   EXPECT_GT(norm(gradient_of(points, false, across)), 0.15);
   EXPECT_LT(norm(gradient_of(points, true, across)), 0.25 * norm(gradient_of(points, false, across)));
 }
@@ -101,8 +108,10 @@ TEST(SurfaceGradient, GrowsLittleWhateverTheClusterIsLike) {
     std::vector<GradientPoint> points;
     while (points.size() < 4 + static_cast<std::size_t>(trial % 10)) {
       const Vec3 x{uniform(random), uniform(random), uniform(random)};
-      const bool free = std::ranges::none_of(points, [&](const GradientPoint& p) { return norm(p.x - x) < 0.6; });
-      if (norm(x) > 0.7 && norm(x) < 2.0 && free) points.push_back({x, -kernel.derivative(norm(x)) / norm(x)});
+      const bool free =
+          std::ranges::none_of(points, [&](const GradientPoint& p) { return norm(p.x - x) < 0.6; });
+      if (norm(x) > 0.7 && norm(x) < 2.0 && free)
+        points.push_back({x, -kernel.derivative(norm(x)) / norm(x)});
     }
     const ShapeInverse shape = shape_inverse(moment_of(points));
     if (shape.rank != 3) continue;

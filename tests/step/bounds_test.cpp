@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bounds that guard accuracy, not stability, from both sides: rotation and acceleration (model 8.10). Those of sound,
-// viscosity, heat and elastic waves, which guard stability, have their frontiers in stability_map_test.cpp.
+// The bounds that guard accuracy, not stability, from both sides: rotation and acceleration (model 8.10).
+// Those of sound, viscosity, heat and elastic waves, which guard stability, have their frontiers in
+// stability_map_test.cpp.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,7 +30,8 @@ double spin_error(double angle) {
 }
 
 /// The splitting stays bounded at any angle: its bound is one of accuracy.
-TEST(RotationBound, AtHalfARadianAStepASpinKeepsItsEnergyToAThousandthAndAtFourTimesThatItErrsTenTimesAsMuch) {
+TEST(RotationBound,
+     AtHalfARadianAStepASpinKeepsItsEnergyToAThousandthAndAtFourTimesThatItErrsTenTimesAsMuch) {
   const double at = spin_error(0.5), beyond = spin_error(2.0);
   EXPECT_LT(at, 1e-3);
   EXPECT_GT(beyond, 10.0 * at);
@@ -46,8 +48,8 @@ struct Fall {
 
 constexpr double weight = 0.3;  // [m/s2], in units of c2 per spacing
 
-/// A plate that falls half a spacing onto a floor, so heavily that its weight presses it in by a third of c2 per support: the
-/// acceleration sets the step, and with the speed the bounds change all the time.
+/// A plate that falls half a spacing onto a floor, so heavily that its weight presses it in by a third of c2
+/// per support: the acceleration sets the step, and with the speed the bounds change all the time.
 lab::Lab plate_over_floor() {
   lab::Lab lab = lab::liquid_lab(1.0, 1.0, 0.0, 1.0);
   lab.scene.gravity = {0.0, 0.0, -weight};
@@ -73,7 +75,8 @@ Fall heavy_fall(double share) {
   Fall fall{0.0, probe.bound().name == "acceleration"};
   while (s.world().time < 30.0) {
     s.advance_to(s.world().time + *lab.scene.time_step);
-    fall.error = std::max(fall.error, std::abs(mechanical(s) - first) / (16.0 * weight));  // 16 kg fall by a spacing
+    // 16 kg fall by a spacing
+    fall.error = std::max(fall.error, std::abs(mechanical(s) - first) / (16.0 * weight));
   }
   return fall;
 }
@@ -89,7 +92,8 @@ TEST(AccelerationBound, WithinItTheErrorFallsWithTheSquareOfTheStep) {
   EXPECT_NEAR(heavy_fall(0.5).error / heavy_fall(0.25).error, 4.0, 1.5);
 }
 
-/// A plate of two layers that falls onto a floor from four spacings above it, nine times as stiff as sound says.
+/// A plate of two layers that falls onto a floor from four spacings above it, nine times as stiff as sound
+/// says.
 lab::Lab plate_that_falls(double contact_step) {
   lab::Lab lab = lab::liquid_lab(1.0, 1.0, 0.0, 1.0);
   lab.scene.values["contact_stiffness"] = 8.0;
@@ -111,7 +115,8 @@ TEST(ContactBound, HoldsInEveryStepWhereNothingSaysOtherwise) {
   EXPECT_NEAR(s.bound().dt, sound_step / 3.05, 1e-12);
 }
 
-/// The first steps are short: nothing is known yet of how densities grow. It touches at 80 dx/c, and leaves at about 84.
+/// The first steps are short: nothing is known yet of how densities grow. It touches at 80 dx/c, and leaves
+/// at about 84.
 TEST(ContactBound, WithAContactStepHoldsNearATouchAloneAndAsShortAsTheKeySays) {
   const lab::Lab lab = plate_that_falls(0.5);
   Simulation s(lab.scene, lab.initial);

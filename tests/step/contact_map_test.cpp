@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact has no limit of the step of its own. What it has is an accuracy: of a head-on hit of two equal cubes, whose exact end
-// is that they have changed velocities, over the step and the speed. validation/stability/contact.csv is what was accepted;
-// TRIPOINT_CONTACT_MAP=PATH writes it anew.
+// Contact has no limit of the step of its own. What it has is an accuracy: of a head-on hit of two equal
+// cubes, whose exact end is that they have changed velocities, over the step and the speed.
+// validation/stability/contact.csv is what was accepted; TRIPOINT_CONTACT_MAP=PATH writes it anew.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,8 @@
 namespace tripoint {
 namespace {
 
-constexpr double gap = 1.5;  // between the outer layers at the start [spacings]; they press on each other from 1 on
+// Between the outer layers at the start [spacings]; they press on each other from 1 on
+constexpr double gap = 1.5;
 
 struct Hit {
   double speed;          ///< of approach, over that of sound
@@ -28,7 +29,8 @@ struct Hit {
 
 std::string name_of(const Hit& h) { return fmt::format("{:g},{:g}", h.speed, h.step); }
 
-/// Cubes of 4 x 4 x 4, spacing 1, sound 1: one flies at the other, and the run ends when they are apart again.
+/// Cubes of 4 x 4 x 4, spacing 1, sound 1: one flies at the other, and the run ends when they are apart
+/// again.
 Hit hit(double speed, double share) {
   lab::Lab lab = lab::liquid_lab(1.0, 1.0, 0.0, 1.0);
   lab.add({.name = "left", .count = {4, 4, 4}, .velocity = {speed, 0.0, 0.0}});
@@ -40,7 +42,8 @@ Hit hit(double speed, double share) {
   const auto v = [&](std::size_t body) { return s.world().bodies[field::body_velocity][body]; };
   Hit h{speed, share};
   const double first = x(1) - x(0) - gap;
-  for (double distance = gap; distance > -8.0 && (distance < 1.2 || v(1).x <= v(0).x);) {  // apart again, or right through
+  // Apart again, or right through
+  for (double distance = gap; distance > -8.0 && (distance < 1.2 || v(1).x <= v(0).x);) {
     s.advance_to(s.world().time + *lab.scene.time_step);
     distance = x(1) - x(0) - first;
     h.overlap = std::max(h.overlap, 1.0 - distance);

@@ -14,7 +14,9 @@ namespace {
 
 lab::Lab warm() {
   lab::Lab lab(1e-3);
-  lab.add({.count = {4, 4, 4}, .motion = Motion::fixed, .temperature = [](const Vec3& r) { return 300.0 + 1e4 * r.x; }});
+  lab.add({.count = {4, 4, 4}, .motion = Motion::fixed, .temperature = [](const Vec3& r) {
+             return 300.0 + 1e4 * r.x;
+           }});
   return lab;
 }
 
@@ -62,7 +64,9 @@ Diverged tripped(Act act) {
   return {-1, -1, "", "", 0.0, "", ""};
 }
 
-Simulation forced(const lab::Lab& lab) { return Simulation(lab.scene, lab.initial, {.force_time_step = true}); }
+Simulation forced(const lab::Lab& lab) {
+  return Simulation(lab.scene, lab.initial, {.force_time_step = true});
+}
 
 TEST(Guard, NamesTheParticleThatIsColderThanAbsoluteZero) {
   const lab::Lab lab = warm();
@@ -73,13 +77,15 @@ TEST(Guard, NamesTheParticleThatIsColderThanAbsoluteZero) {
   EXPECT_EQ(e.particle, 17);
 }
 
-/// A cube of 5 that each step turns inside out along x about its middle plane, but for particle 62, the middle one, in which F is
-/// least: it is the only one whose neighbours on both sides all change places in full.
+/// A cube of 5 that each step turns inside out along x about its middle plane, but for particle 62, the
+/// middle one, in which F is least: it is the only one whose neighbours on both sides all change places in
+/// full.
 TEST(Guard, NamesASolidThatIsTurnedInsideOut) {
   lab::Lab lab = lab::elastic_lab(1.0);
   lab.add({.corner = {-2.0, -2.0, -2.0}, .count = {5, 5, 5}, .phase = Phase::elastic});
   lab.scene.time_step = 1.0;
-  for (std::size_t i = 0; i < lab.initial.size(); ++i) lab.initial.velocity[i].x = -1.5 * lab.initial.position[i].x;
+  for (std::size_t i = 0; i < lab.initial.size(); ++i)
+    lab.initial.velocity[i].x = -1.5 * lab.initial.position[i].x;
   Simulation s = forced(lab);
   const Diverged e = tripped([&] { s.advance_to(1.0); });
   EXPECT_EQ(e.guard, "inversion");
@@ -101,7 +107,8 @@ TEST(Guard, NamesBodiesThatOverlapByMoreThanASpacing) {
   const Diverged e = tripped([&] { s.advance_to(1.0); });
   EXPECT_EQ(e.guard, "overlap");
   EXPECT_EQ(e.field, "density");
-  EXPECT_NE(std::string(e.what()).find(e.body == 0 ? "\"left\"" : "\"right\""), std::string::npos) << e.what();
+  EXPECT_NE(std::string(e.what()).find(e.body == 0 ? "\"left\"" : "\"right\""), std::string::npos)
+      << e.what();
   EXPECT_GT(e.time, 0.2) << "their faces touch at 0.2 s";
   EXPECT_LT(e.time, 0.45) << "coincide by one layer at 0.3 s, and steps are 0.1 s";
 }
@@ -116,7 +123,11 @@ TEST(Guard, BodiesThatTouchOverlapByNothing) {
 TEST(Guard, NamesTheParticleThatLeavesTheDomainAndLetsWallsStandOutsideIt) {
   lab::Lab lab = lab::liquid_lab(0.1, 1000.0, 0.0, 1.0);
   lab.add({.name = "wall", .corner = {-1.0, 0.0, 0.0}, .count = {1, 3, 3}, .motion = Motion::fixed});
-  lab.add({.name = "drop", .corner = {0.5, 0.5, 0.5}, .count = {3, 1, 1}, .phase = Phase::liquid, .velocity = {0.1, 0.0, 0.0}});
+  lab.add({.name = "drop",
+           .corner = {0.5, 0.5, 0.5},
+           .count = {3, 1, 1},
+           .phase = Phase::liquid,
+           .velocity = {0.1, 0.0, 0.0}});
   lab.make_periodic({false, false, false}, {0.0, 0.0, 0.0}, {10, 10, 10});
   lab.scene.min = Vec3{0.0, 0.0, 0.0};
   lab.scene.max = Vec3{1.0, 1.0, 1.0};
@@ -142,11 +153,13 @@ TEST(Guard, NamesEnergyThatTheSchemeMakes) {
   EXPECT_NO_THROW(check_energy(s.world(), ledger, s.world().booked[account::start_potential], dt, memory));
   EXPECT_DOUBLE_EQ(memory.turned_over, kinetic);
   ledger.energy["time_integration"] = 0.6 * kinetic;
-  const Diverged e = tripped([&] { check_energy(s.world(), ledger, s.world().booked[account::start_potential], dt, memory); });
+  const Diverged e = tripped(
+      [&] { check_energy(s.world(), ledger, s.world().booked[account::start_potential], dt, memory); });
   EXPECT_EQ(e.guard, "ledger");
   EXPECT_EQ(e.particle, 21) << "the fastest";
   ledger.energy["thermal"] = 1e9;
-  EXPECT_THROW(check_energy(s.world(), ledger, s.world().booked[account::start_potential], dt, memory), Diverged)
+  EXPECT_THROW(check_energy(s.world(), ledger, s.world().booked[account::start_potential], dt, memory),
+               Diverged)
       << "heat hides no energy of motion";
 }
 
@@ -158,20 +171,24 @@ TEST(Guard, CountsWhatForcesMakeAsMadeByTheScheme) {
   Ledger ledger = s.ledger();
   ASSERT_EQ(ledger.energy.count("viscous"), 1u);
   GuardMemory memory;
-  const auto check = [&] { check_energy(s.world(), ledger, s.world().booked[account::start_potential], s.bound().dt, memory); };
+  const auto check = [&] {
+    check_energy(s.world(), ledger, s.world().booked[account::start_potential], s.bound().dt, memory);
+  };
   ledger.energy["kinetic"] = 100.0;
   ledger.energy["viscous"] = -40.0;
   EXPECT_NO_THROW(check());
   ledger.energy["viscous"] = -60.0;
   const Diverged viscous = tripped(check);
   EXPECT_EQ(viscous.guard, "ledger");
-  EXPECT_NE(std::string(viscous.what()).find("made 60 J by viscous forces"), std::string::npos) << viscous.what();
+  EXPECT_NE(std::string(viscous.what()).find("made 60 J by viscous forces"), std::string::npos)
+      << viscous.what();
   ledger.energy["viscous"] = 10.0;
   ledger.energy["pressure_work"] = -90.0;
   EXPECT_NO_THROW(check()) << "bodies that move give energy to the printed pressure, and take it again";
   memory.still = true;
   const Diverged printed = tripped(check);
-  EXPECT_NE(std::string(printed.what()).find("made 80 J by the printed pressure"), std::string::npos) << printed.what();
+  EXPECT_NE(std::string(printed.what()).find("made 80 J by the printed pressure"), std::string::npos)
+      << printed.what();
   EXPECT_NE(std::string(printed.what()).find("the corrected forms"), std::string::npos) << printed.what();
   ledger.energy["viscous"] = 50.0;
   EXPECT_NO_THROW(check()) << "viscosity has taken half of it again";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is decided of a whole scene, while it is shared out: what breaks, melts, freezes, flows in or is made to happen.
+// What is decided of a whole scene, while it is shared out: what breaks, melts, freezes, flows in or is made
+// to happen.
 #include <gtest/gtest.h>
 
 #include "adapters/changing_scenes.hpp"
@@ -14,8 +15,9 @@ using test::brittle_bar, test::eventful, test::merging_and_splitting;
 /// Over one slab, two and four. @return of two
 Seen expect_same_shared(const test::Prepared& p, const Seen& whole, double border) {
   Seen two;
-  for (const std::vector<double>& planes :
-       {std::vector<double>{-far, far}, {-far, border, far}, {-far, border - 0.021, border - 0.004, border + 0.02, far}}) {
+  for (const std::vector<double>& planes : {std::vector<double>{-far, far},
+                                            {-far, border, far},
+                                            {-far, border - 0.021, border - 0.004, border + 0.02, far}}) {
     SCOPED_TRACE(std::to_string(planes.size() - 1) + " slabs");
     Seen shared = seen_shared(p, planes);
     expect_same(whole, shared);
@@ -74,12 +76,14 @@ TEST(Halo, EventsAndInflowDoTheSameWhereTheSceneIsShared) {
 
 /// A run that is cut over two slabs goes on in one process, over two slabs and over four.
 TEST(Halo, ACheckpointOfASharedSceneIsOneOfTheWhole) {
-  for (const test::Prepared& p : {brittle_bar(true, Mode::corrected), merging_and_splitting(SolidKind::elastic), eventful()}) {
+  for (const test::Prepared& p :
+       {brittle_bar(true, Mode::corrected), merging_and_splitting(SolidKind::elastic), eventful()}) {
     const Seen whole = seen_whole(p);
     const double border = p.job.scene.inflows.empty() ? 0.0036 : 0.22;
     const Seen cut = seen_shared(p, {-far, border, far});
     ASSERT_FALSE(cut.kept.real.empty());
-    for (const auto& [name, values] : whole.kept.real) EXPECT_EQ(cut.kept.real.at(name).size(), values.size()) << name;
+    for (const auto& [name, values] : whole.kept.real)
+      EXPECT_EQ(cut.kept.real.at(name).size(), values.size()) << name;
     expect_same(whole, seen_whole(p, &cut.kept));
     expect_same(whole, seen_shared(p, {-far, border, far}, "", &cut.kept));
     expect_same(whole, seen_shared(p, {-far, border - 0.003, border, border + 0.004, far}, "", &cut.kept));

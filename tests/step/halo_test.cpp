@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene that is shared out: simulations that each hold a slab of it, as threads of one process, against the simulation that
-// holds all.
+// A scene that is shared out: simulations that each hold a slab of it, as threads of one process, against the
+// simulation that holds all.
 #include <gtest/gtest.h>
 
 #include "scene/guard_name.hpp"
@@ -60,17 +60,20 @@ TEST_P(Splash, MovesSharedAsTheWholeDoes) {
     SCOPED_TRACE(std::to_string(planes.size() - 1) + " slabs");
     const Seen shared = seen_shared(p, planes);
     EXPECT_GT(shared.migrations, 3);
-    EXPECT_EQ(greatest_difference(whole.position, shared.position), 0.0) << "every sum that moves something has its order";
+    EXPECT_EQ(greatest_difference(whole.position, shared.position), 0.0)
+        << "every sum that moves something has its order";
     EXPECT_EQ(greatest_difference(whole.velocity, shared.velocity), 0.0);
     ASSERT_EQ(whole.ledger.energy.size(), shared.ledger.energy.size());
-    for (const auto& [entry, joule] : whole.ledger.energy) EXPECT_NEAR(joule, shared.ledger.energy.at(entry), 1e-11) << entry;
+    for (const auto& [entry, joule] : whole.ledger.energy)
+      EXPECT_NEAR(joule, shared.ledger.energy.at(entry), 1e-11) << entry;
     EXPECT_NEAR(norm(whole.ledger.momentum - shared.ledger.momentum), 0.0, 1e-11);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Halo, Splash, testing::Bool());
 
-/// The block is held for a while, for which each gathers the whole: lists of the liquid stay those of before, as in one process.
+/// The block is held for a while, for which each gathers the whole: lists of the liquid stay those of before,
+/// as in one process.
 TEST(Halo, ListsOutliveWhatIsDecidedOfTheWhole) {
   test::Prepared p = splash();
   Event hold;
@@ -128,8 +131,8 @@ TEST(Halo, TheHeatThatABodyWasGivenIsTheSumOverAllSlabs) {
   EXPECT_NEAR(shared[1] / whole[1], 1.0, 1e-11) << "round-off of sums in another order";
 }
 
-/// A soft bar that is thrown along x and swings, of elastic or of ductile matter, and a block of the same that it meets, if there
-/// is to be one.
+/// A soft bar that is thrown along x and swings, of elastic or of ductile matter, and a block of the same
+/// that it meets, if there is to be one.
 test::Prepared thrown_bar(bool flows, bool meets, double spin, double bending) {
   Scene s;
   s.spacing = 0.01;
@@ -166,14 +169,16 @@ TEST(Halo, ElasticBodiesThatAreSharedMoveAsTheWholeDoes) {
       EXPECT_EQ(greatest_difference(whole.position, shared.position), 0.0);
       EXPECT_EQ(greatest_difference(whole.velocity, shared.velocity), 0.0);
       ASSERT_EQ(whole.ledger.energy.size(), shared.ledger.energy.size());
-      for (const auto& [entry, joule] : whole.ledger.energy) EXPECT_NEAR(joule, shared.ledger.energy.at(entry), 1e-11) << entry;
+      for (const auto& [entry, joule] : whole.ledger.energy)
+        EXPECT_NEAR(joule, shared.ledger.energy.at(entry), 1e-11) << entry;
       EXPECT_NEAR(norm(whole.ledger.momentum - shared.ledger.momentum), 0.0, 1e-11);
       EXPECT_NEAR(norm(whole.ledger.angular_momentum - shared.ledger.angular_momentum), 0.0, 1e-11);
     }
   }
 }
 
-/// Without contact there are no neighbour lists: what is torn apart by the defect flies on, and no guard ends it.
+/// Without contact there are no neighbour lists: what is torn apart by the defect flies on, and no guard ends
+/// it.
 TEST(Halo, WhatAnElasticParticleDoesNotBringAlongIsSeen) {
   const test::Prepared p = thrown_bar(true, false, 40.0, 0.0);
   const Seen whole = seen_whole(p);

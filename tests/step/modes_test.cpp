@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each key `modes.TERM` of the case file does something: with it a run has other bits, or the case is refused.
+// Each key `modes.TERM` of the case file does something: with it a run has other bits, or the case is
+// refused.
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
@@ -17,7 +18,8 @@
 namespace tripoint {
 namespace {
 
-/// Water on a floor, a jelly that spins and melts, and a rod that tumbles: every term acts within the first steps.
+/// Water on a floor, a jelly that spins and melts, and a rod that tumbles: every term acts within the first
+/// steps.
 constexpr const char* every_term = R"(
 [scene]
 end_time = 0.02
@@ -87,7 +89,8 @@ std::uint64_t bits_with(const std::string& set) {
   std::ofstream(file) << every_term;
   Case value;
   try {
-    value = read_case(file.string(), set.empty() ? std::vector<std::string>{} : std::vector<std::string>{set}).value;
+    value = read_case(file.string(), set.empty() ? std::vector<std::string>{} : std::vector<std::string>{set})
+                .value;
   } catch (...) {
     std::filesystem::remove_all(folder);
     throw;
@@ -122,7 +125,8 @@ TEST(Modes, EachTermChangesTheRunOrIsRefused) {
     } catch (const InputError& refusal) {
       EXPECT_EQ(one.term.name, "kernel") << refusal.what();
     } catch (const Diverged& stopped) {
-      EXPECT_EQ(one.term.name, "clamp") << stopped.what();  // pressure that pulls tears the scene: a guard stops it
+      // Pressure that pulls tears the scene: a guard stops it
+      EXPECT_EQ(one.term.name, "clamp") << stopped.what();
     }
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run that is cut and continued must be the run that was never cut. Each cut is compared with ONE unbroken run, in every number
-// of its whole state; a second run that sets up anew on both sides would hide what is wrong with the first.
+// A run that is cut and continued must be the run that was never cut. Each cut is compared with ONE unbroken
+// run, in every number of its whole state; a second run that sets up anew on both sides would hide what is
+// wrong with the first.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -49,7 +50,8 @@ Course unbroken(const Journey& j, int threads, const std::vector<long>& cut_at =
   return follow(s, j.times, cut_at);
 }
 
-Course continued(const Journey& j, int threads, const Checkpoint& from, const std::vector<long>& cut_at = {}) {
+Course continued(const Journey& j, int threads, const Checkpoint& from,
+                 const std::vector<long>& cut_at = {}) {
   Simulation s(j.lab.scene, j.lab.initial, {.threads = threads}, from);
   return follow(s, j.times, cut_at);
 }
@@ -69,7 +71,8 @@ std::string differences(const Checkpoint& a, const Checkpoint& b) {
   std::string names;
   const auto compare = [&](const auto& x, const auto& y) {
     for (const auto& [name, values] : x)
-      if (!y.count(name) || std::memcmp(values.data(), y.at(name).data(), values.size() * sizeof(values[0])) != 0)
+      if (!y.count(name) ||
+          std::memcmp(values.data(), y.at(name).data(), values.size() * sizeof(values[0])) != 0)
         names += name + " ";
   };
   compare(a.real, b.real);
@@ -77,7 +80,8 @@ std::string differences(const Checkpoint& a, const Checkpoint& b) {
   return names;
 }
 
-/// Two blocks that spin and conduct past each other in a periodic box, merge, and split again; one end is heated for a while.
+/// Two blocks that spin and conduct past each other in a periodic box, merge, and split again; one end is
+/// heated for a while.
 Journey flight_with_events(Mode mode) {
   lab::Lab lab(1e-3, mode);
   lab.scene.gravity = {0.0, 0.0, -1e-3};
@@ -154,7 +158,11 @@ Journey liquid_with_body(ViscosityForm form = ViscosityForm::central, bool with_
   lab.add({.name = "water", .count = {6, 6, 8}, .phase = Phase::liquid, .velocity = {0.6, 0.0, 0.0}});
   lab.add({.name = "floor", .corner = {0.0, 0.0, -0.15}, .count = {6, 6, 3}, .motion = Motion::fixed});
   if (with_body)
-    lab.add({.name = "float", .material = 1, .corner = {0.1, 0.1, 0.45}, .count = {2, 2, 2}, .velocity = {0.0, 0.0, -0.5}});
+    lab.add({.name = "float",
+             .material = 1,
+             .corner = {0.1, 0.1, 0.45},
+             .count = {2, 2, 2},
+             .velocity = {0.0, 0.0, -0.5}});
   return {lab, {0.03, 0.1, 0.16}};
 }
 
@@ -166,7 +174,8 @@ Journey two_liquids_with_a_soft_cube() {
   lab.scene.materials[1].young_modulus = 1e4;
   lab.scene.materials[1].poisson_ratio = 0.3;
   lab.scene.materials[1].solid = SolidKind::elastic;
-  lab.add({.name = "oil", .material = 1, .corner = {0.0, 0.0, 0.4}, .count = {6, 6, 3}, .phase = Phase::liquid});
+  lab.add(
+      {.name = "oil", .material = 1, .corner = {0.0, 0.0, 0.4}, .count = {6, 6, 3}, .phase = Phase::liquid});
   lab.add({.name = "cube",
            .material = 1,
            .corner = {0.06, 0.06, 0.54},
@@ -187,7 +196,9 @@ Journey melting_of_unlike_phases() {
   m.t_melt = m.t_solid = 350.0;
   m.latent_heat = 2e4;
   lab.add_material(1000.0, 1000.0, 1000.0);
-  lab.add({.name = "bar", .count = {6, 3, 3}, .motion = Motion::fixed, .temperature = [](const Vec3&) { return 345.0; }});
+  lab.add({.name = "bar", .count = {6, 3, 3}, .motion = Motion::fixed, .temperature = [](const Vec3&) {
+             return 345.0;
+           }});
   lab.add({.name = "hot",
            .material = 1,
            .corner = {-0.3, 0.0, 0.0},
@@ -207,7 +218,8 @@ Journey hit() {
   lab.scene.materials[0].conductivity.reset();
   lab.scene.values["contact_stiffness"] = 24.0;
   lab.scene.values["contact_step"] = 0.5;
-  lab.add({.name = "left", .count = {3, 3, 3}, .velocity = {1.5, 0.0, 0.0}, .angular_velocity = {0.0, 0.5, 0.0}});
+  lab.add(
+      {.name = "left", .count = {3, 3, 3}, .velocity = {1.5, 0.0, 0.0}, .angular_velocity = {0.0, 0.5, 0.0}});
   lab.add({.name = "right", .corner = {0.8, 0.0, 0.03}, .count = {3, 3, 3}, .velocity = {-1.5, 0.0, 0.0}});
   return {lab, {0.3, 0.5}};
 }
@@ -268,14 +280,16 @@ TEST(Restart, OfAHitInStepsThatAreShortAtATouchIsTheUnbrokenRun) {
   const Journey j = hit();
   Journey everywhere = j;
   everywhere.lab.scene.values["contact_step"] = 0.0;
-  EXPECT_LT(unbroken(j, 1).steps, unbroken(everywhere, 1).steps / 2) << "steps must be long elsewhere for this to prove anything";
+  EXPECT_LT(unbroken(j, 1).steps, unbroken(everywhere, 1).steps / 2)
+      << "steps must be long elsewhere for this to prove anything";
   expect_same_bits(j, 9);
 }
 
 TEST(Restart, OfMeltingWithUnlikePhasesIsTheUnbrokenRun) {
   const Journey j = melting_of_unlike_phases();
   const auto f = unbroken(j, 1).end.real.at("particles/liquid_fraction");
-  EXPECT_TRUE(std::ranges::any_of(f, [](double x) { return x > 0.0; })) << "something must melt for this to prove anything";
+  EXPECT_TRUE(std::ranges::any_of(f, [](double x) { return x > 0.0; }))
+      << "something must melt for this to prove anything";
   expect_same_bits(j, 7);
 }
 
@@ -304,7 +318,8 @@ TEST(Restart, AtEveryStepOfAShortRunIsTheUnbrokenRun) {
   for (long step = 1; step <= last; ++step) all.push_back(step);
   const Course whole = unbroken(j, 2, all);
   for (const auto& [step, checkpoint] : whole.cuts)
-    EXPECT_TRUE(same_bits(continued(j, 2, checkpoint).end, whole.end)) << "cut at step " << step << " of " << last;
+    EXPECT_TRUE(same_bits(continued(j, 2, checkpoint).end, whole.end))
+        << "cut at step " << step << " of " << last;
 }
 
 TEST(Restart, KeepsAParticleThatARoundingErrorPutOnTheUpperEdgeOfThePeriodicBox) {
@@ -321,7 +336,8 @@ TEST(Restart, KeepsAParticleThatARoundingErrorPutOnTheUpperEdgeOfThePeriodicBox)
 }
 
 TEST(Restart, TakesNoCheckpointOfAnotherLayoutOrScene) {
-  const Journey warm = flight_with_events(Mode::corrected), printed = flight_with_events(Mode::paper), other = bodies_only();
+  const Journey warm = flight_with_events(Mode::corrected), printed = flight_with_events(Mode::paper),
+                other = bodies_only();
   const Checkpoint kept = unbroken(warm, 1, {5}).cuts.at(5);
   for (const Journey* j : {&printed, &other}) EXPECT_THROW(continued(*j, 1, kept), InputError);
   Checkpoint twice = kept;
@@ -386,7 +402,8 @@ TEST(Restart, RefusesWhatAnEffectSaysThatItsColumnsCannotHold) {
   EXPECT_THAT(said_of("particles/driven", 3), testing::EndsWith(" is 3, not one of -1 to 2"));
   EXPECT_THAT(said_of("particles/driven", -2), testing::HasSubstr(": driven of row "));
   EXPECT_THAT(said_of("particles/shape_rank", 4), testing::EndsWith(" is 4, not one of 0 to 3"));
-  EXPECT_EQ(said_of("bodies/body.grip", 2), "no run can go on from this checkpoint: body.grip of row 1 is 2, not one of 0 to 1");
+  EXPECT_EQ(said_of("bodies/body.grip", 2),
+            "no run can go on from this checkpoint: body.grip of row 1 is 2, not one of 0 to 1");
   Checkpoint empty = kept;
   empty.real.at("particles/density").back() = 0.0;
   EXPECT_THAT(refusal_of(j, empty), testing::EndsWith(" is 0 kg/m3"));
@@ -398,11 +415,15 @@ TEST(Restart, RefusesWhatAnEffectSaysThatItsColumnsCannotHold) {
   }
 }
 
-/// How many empty lists follow the last bond tells what had been, not what is: a run whose bonds have all gone keeps them, and
-/// one that goes on from there has none.
+/// How many empty lists follow the last bond tells what had been, not what is: a run whose bonds have all
+/// gone keeps them, and one that goes on from there has none.
 TEST(Restart, KeepsNoListsOfBondsThatAreNoMore) {
   Journey j = two_liquids_with_a_soft_cube();
-  j.lab.add({.name = "drop", .material = 1, .corner = {0.06, 0.06, 1.0}, .count = {2, 2, 2}, .phase = Phase::liquid});
+  j.lab.add({.name = "drop",
+             .material = 1,
+             .corner = {0.06, 0.06, 1.0},
+             .count = {2, 2, 2},
+             .phase = Phase::liquid});
   const Checkpoint kept = unbroken(j, 1, {5}).cuts.at(5);
   for (const char* lists : {"bonds/count", "own_pairs/count"}) {
     EXPECT_GT(kept.whole.at(lists).back(), 0) << lists;

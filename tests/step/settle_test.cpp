@@ -24,9 +24,13 @@ lab::Lab pond(double jitter = 0.1) {
   lab.scene.materials[0].stiffness = 100.0 * 2.0 * g * deep * dx;
   lab.make_periodic({true, true, false}, {}, {across, across, 1});
   lab.add({.name = "water", .count = {across, across, deep}, .phase = Phase::liquid});
-  lab.add({.name = "floor", .corner = {0.0, 0.0, -3.0 * dx}, .count = {across, across, 3}, .motion = Motion::fixed});
+  lab.add({.name = "floor",
+           .corner = {0.0, 0.0, -3.0 * dx},
+           .count = {across, across, 3},
+           .motion = Motion::fixed});
   for (std::size_t i = 0; i < lab.initial.size(); ++i)
-    if (lab.initial.body[i] < 0) lab.initial.position[i].x += jitter * dx * std::sin(7.0 * static_cast<double>(i));
+    if (lab.initial.body[i] < 0)
+      lab.initial.position[i].x += jitter * dx * std::sin(7.0 * static_cast<double>(i));
   return lab;
 }
 

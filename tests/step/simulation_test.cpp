@@ -29,7 +29,8 @@ std::uint64_t hash_of(const Simulation& s) {
     if (p.has("temperature")) add(p[field::temperature][i]);
   }
   for (std::size_t b = 0; b < s.world().bodies.size(); ++b) {
-    for (const Vec3& v : {s.world().bodies[field::body_centre][b], s.world().bodies[field::body_angular_momentum][b]}) {
+    for (const Vec3& v :
+         {s.world().bodies[field::body_centre][b], s.world().bodies[field::body_angular_momentum][b]}) {
       add(v.x);
       add(v.y);
       add(v.z);
@@ -38,7 +39,8 @@ std::uint64_t hash_of(const Simulation& s) {
   return hash;
 }
 
-/// Two hot and cold blocks that fly past each other in a periodic box, spinning: everything that this build has at once.
+/// Two hot and cold blocks that fly past each other in a periodic box, spinning: everything that this build
+/// has at once.
 lab::Lab everything(Mode mode) {
   lab::Lab lab(1e-3, mode);
   lab.scene.gravity = {0.0, 0.0, -1e-3};
@@ -63,19 +65,23 @@ TEST(Simulation, GivesTheSameBitsOnAnyNumberOfThreads) {
     const lab::Lab lab = everything(mode);
     const Simulation one = lab.run(0.5, 1);
     EXPECT_GT(one.steps(), 20);
-    EXPECT_GT(one.world().neighbours->rebuilds(), 3) << "the lists must have been built anew for this to prove anything";
-    for (const int threads : {2, 3, 7}) EXPECT_EQ(hash_of(lab.run(0.5, threads)), hash_of(one)) << threads << " threads";
+    EXPECT_GT(one.world().neighbours->rebuilds(), 3)
+        << "the lists must have been built anew for this to prove anything";
+    for (const int threads : {2, 3, 7})
+      EXPECT_EQ(hash_of(lab.run(0.5, threads)), hash_of(one)) << threads << " threads";
   }
 }
 
-/// With one particle a cluster there are enough of them for strips (Clusters::visits), with four there are not.
+/// With one particle a cluster there are enough of them for strips (Clusters::visits), with four there are
+/// not.
 TEST(Simulation, GivesTheSameBitsWhereClustersAreVisitedInAnotherOrder) {
   if (!machine_has_avx2()) GTEST_SKIP() << "no clusters of four";
   for (const bool conducts : {false, true}) {
     lab::Lab lab(1e-3);
     lab.scene.gravity = {0.0, 0.0, -10.0};
     lab.scene.materials[0].stiffness = 4.0;
-    lab::Block water{.name = "water", .count = {24, 24, 18}, .phase = Phase::liquid, .velocity = {0.3, 0.2, 0.0}};
+    lab::Block water{
+        .name = "water", .count = {24, 24, 18}, .phase = Phase::liquid, .velocity = {0.3, 0.2, 0.0}};
     if (conducts) water.temperature = [](const Vec3& r) { return 300.0 + 1e4 * r.x; };
     lab.add(water);
     lab.add({.name = "floor",
@@ -143,7 +149,9 @@ TEST(Simulation, NamesTheEffectWhoseBoundSetsTheStep) {
   spinning.scene.gravity = {0.0, 0.0, -1e4};
   EXPECT_EQ(Simulation(spinning.scene, spinning.initial).time_step_set_by(), "acceleration");
   lab::Lab warm(1e-3);
-  warm.add({.count = {4, 4, 4}, .motion = Motion::fixed, .temperature = [](const Vec3& r) { return 300.0 + r.x; }});
+  warm.add({.count = {4, 4, 4}, .motion = Motion::fixed, .temperature = [](const Vec3& r) {
+              return 300.0 + r.x;
+            }});
   EXPECT_EQ(Simulation(warm.scene, warm.initial).time_step_set_by(), "heat");
 }
 
@@ -158,12 +166,15 @@ TEST(Simulation, RefusesAStepAboveABoundUnlessToldToForceIt) {
 
 TEST(Simulation, OfAStaticSceneBuildsItsListsOnce) {
   lab::Lab lab(1e-3);
-  lab.add({.count = {6, 6, 6}, .motion = Motion::fixed, .temperature = [](const Vec3& r) { return 300.0 + 1e3 * r.x; }});
+  lab.add({.count = {6, 6, 6}, .motion = Motion::fixed, .temperature = [](const Vec3& r) {
+             return 300.0 + 1e3 * r.x;
+           }});
   const Simulation s = lab.run(5.0);
   EXPECT_GT(s.steps(), 10);
   EXPECT_EQ(s.world().neighbours->rebuilds(), 1);
   const auto x = positions(s.world().particles);
-  for (std::size_t id = 0; id < lab.initial.size(); ++id) EXPECT_EQ(x.at(s.world().particles.row(id)), lab.initial.position[id]);
+  for (std::size_t id = 0; id < lab.initial.size(); ++id)
+    EXPECT_EQ(x.at(s.world().particles.row(id)), lab.initial.position[id]);
 }
 
 }  // namespace

@@ -15,7 +15,8 @@
 #include "solids/objects.hpp"
 #include "step/simulation.hpp"
 
-/// A scene that is shared out: simulations that each hold a slab of it, as threads of one process, and the one that holds all.
+/// A scene that is shared out: simulations that each hold a slab of it, as threads of one process, and the
+/// one that holds all.
 namespace tripoint::lab {
 
 /// Where threads meet: each leaves numbers, and takes those of all.
@@ -38,14 +39,18 @@ class Meeting {
 /// Slabs along x between given planes. Every number goes to everybody; who needs it picks it out.
 class SlabHalo : public Halo {
  public:
-  /// @param forgets a column that neither copies are handed nor a particle keeps on its way, or bonds, or deformation, as a
-  /// defect; empty: none
+  /// @param forgets a column that neither copies are handed nor a particle keeps on its way, or bonds, or
+  /// deformation, as a defect; empty: none
   SlabHalo(Meeting& meeting, std::size_t rank, std::vector<double> planes, double reach, std::string forgets)
-      : meeting_(meeting), rank_(rank), planes_(std::move(planes)), reach_(reach), forgets_(std::move(forgets)) {}
+      : meeting_(meeting),
+        rank_(rank),
+        planes_(std::move(planes)),
+        reach_(reach),
+        forgets_(std::move(forgets)) {}
 
   /// At first all is the first rank's.
-  void share_out(Particles& p, Bonds& bonds, OwnPairs& pairs, const PeriodicBox& box, std::span<const Vec3> places,
-                 std::span<const double>) override {
+  void share_out(Particles& p, Bonds& bonds, OwnPairs& pairs, const PeriodicBox& box,
+                 std::span<const Vec3> places, std::span<const double>) override {
     places_ = places;
     ++shares;
     numbers_.clear();
@@ -67,13 +72,15 @@ class SlabHalo : public Halo {
     bonds = {};
     pairs = {};
     if (longest_list_ > 0)
-      take_lists({owned_, numbers_, [this](std::size_t id) { return std::span<const double>(lists_[id]); }}, bonds, pairs);
+      take_lists({owned_, numbers_, [this](std::size_t id) { return std::span<const double>(lists_[id]); }},
+                 bonds, pairs);
   }
   WholeScene gather(const Particles& p, const Bonds&, const OwnPairs&) override {
     std::vector<Row> rows;
     for (const std::vector<double>& of : meeting_.exchange(rank_, own_rows(p)))
       for (std::size_t at = 0; at < of.size(); at += width(p))
-        rows.emplace_back(of.begin() + static_cast<std::ptrdiff_t>(at), of.begin() + static_cast<std::ptrdiff_t>(at + width(p)));
+        rows.emplace_back(of.begin() + static_cast<std::ptrdiff_t>(at),
+                          of.begin() + static_cast<std::ptrdiff_t>(at + width(p)));
     std::ranges::sort(rows, {}, [](const Row& row) { return row[0]; });
     WholeScene whole;
     whole.particles = particles_of(rows, p.fields());
@@ -83,16 +90,19 @@ class SlabHalo : public Halo {
     ++gatherings;
     return whole;
   }
-  void migrate(Particles& p, Bonds& bonds, OwnPairs& pairs, const PeriodicBox&, std::span<const double>) override {
+  void migrate(Particles& p, Bonds& bonds, OwnPairs& pairs, const PeriodicBox&,
+               std::span<const double>) override {
     std::vector<Row> own, near;
-    double reach = std::max(reach_, longest_bond(p, bonds, owned_, {}) + (places_.empty() ? 0.0 : reach_));  // amply
+    // amply
+    double reach = std::max(reach_, longest_bond(p, bonds, owned_, {}) + (places_.empty() ? 0.0 : reach_));
     for (const auto& of : meeting_.exchange(rank_, {reach})) reach = std::max(reach, of[0]);
     for (const auto& of : meeting_.exchange(rank_, own_rows(p))) {
       for (std::size_t at = 0; at < of.size(); at += width(p)) {
         const double x = places_.empty() ? of[at + 1] : places_[static_cast<std::size_t>(of[at])].x;
         if (x < planes_[rank_] - reach || x >= planes_[rank_ + 1] + reach) continue;
         (x >= planes_[rank_] && x < planes_[rank_ + 1] ? own : near)
-            .emplace_back(of.begin() + static_cast<std::ptrdiff_t>(at), of.begin() + static_cast<std::ptrdiff_t>(at + width(p)));
+            .emplace_back(of.begin() + static_cast<std::ptrdiff_t>(at),
+                          of.begin() + static_cast<std::ptrdiff_t>(at + width(p)));
       }
     }
     owned_ = own.size();
@@ -107,7 +117,8 @@ class SlabHalo : public Halo {
     bonds = {};
     pairs = {};
     if (longest_list_ > 0)
-      take_lists({owned_, numbers_, [this](std::size_t id) { return std::span<const double>(lists_[id]); }}, bonds, pairs);
+      take_lists({owned_, numbers_, [this](std::size_t id) { return std::span<const double>(lists_[id]); }},
+                 bonds, pairs);
     ++migrations;
   }
   [[nodiscard]] std::array<bool, 3> splits() const override { return {true, false, false}; }
@@ -133,7 +144,8 @@ class SlabHalo : public Halo {
     for (const auto& of : all)
       for (std::size_t at = 0; at < of.size(); at += each + 1) known[static_cast<int>(of[at])] = &of[at + 1];
     if (forgets_ == "deformation" && each > 1) return;
-    for (std::size_t id = owned_; id < numbers_.size(); ++id) std::copy_n(known.at(numbers_[id]), each, &by_id[id * each]);
+    for (std::size_t id = owned_; id < numbers_.size(); ++id)
+      std::copy_n(known.at(numbers_[id]), each, &by_id[id * each]);
   }
   void add(std::span<double> numbers) override {
     const auto all = meeting_.exchange(rank_, {numbers.begin(), numbers.end()});
@@ -149,7 +161,8 @@ class SlabHalo : public Halo {
     for (const auto& of : meeting_.exchange(rank_, own)) all.insert(all.end(), of.begin(), of.end());
     return all;
   }
-  [[nodiscard]] std::vector<std::vector<double>> exchange(const std::vector<std::vector<double>>& to) override {
+  [[nodiscard]] std::vector<std::vector<double>> exchange(
+      const std::vector<std::vector<double>>& to) override {
     std::vector<double> sent;  // for each rank how many numbers, and these
     for (const std::vector<double>& one : to) {
       sent.push_back(static_cast<double>(one.size()));
@@ -229,10 +242,11 @@ class SlabHalo : public Halo {
 struct Seen {
   std::vector<Vec3> position, velocity;
   std::vector<int> body, phase;
-  std::vector<std::string> names;        ///< of bodies
-  std::vector<int> alive;                ///< likewise
-  std::vector<Vec3> centre, spin;        ///< likewise, as the first process has them [m], [rad/s]
-  std::vector<std::size_t> kept_bodies;  ///< how many each process keeps, where bodies have owners; in no order
+  std::vector<std::string> names;  ///< of bodies
+  std::vector<int> alive;          ///< likewise
+  std::vector<Vec3> centre, spin;  ///< likewise, as the first process has them [m], [rad/s]
+  /// How many each process keeps, where bodies have owners; in no order
+  std::vector<std::size_t> kept_bodies;
   std::size_t objects = 0;
   Ledger ledger;
   Checkpoint kept;  ///< at half time, where one was asked for
@@ -264,7 +278,8 @@ inline void see_bodies(Seen& seen, const World& world) {
 
 /// @param from a checkpoint to go on from; null: none
 inline Seen seen_whole(const test::Prepared& p, const Checkpoint* from = nullptr) {
-  Simulation whole = from ? Simulation(p.job.scene, p.initial, {}, *from) : Simulation(p.job.scene, p.initial);
+  Simulation whole =
+      from ? Simulation(p.job.scene, p.initial, {}, *from) : Simulation(p.job.scene, p.initial);
   Seen seen;
   if (!from) {
     whole.advance_to(0.5 * p.job.scene.end_time);
@@ -272,7 +287,8 @@ inline Seen seen_whole(const test::Prepared& p, const Checkpoint* from = nullptr
   }
   whole.advance_to(p.job.scene.end_time);
   const World& world = whole.world();
-  for (std::size_t id = 0; id < world.particles.size(); ++id) see_particle(seen, id, world, world.particles.row(id));
+  for (std::size_t id = 0; id < world.particles.size(); ++id)
+    see_particle(seen, id, world, world.particles.row(id));
   see_bodies(seen, world);
   seen.objects = count_objects(world);
   seen.ledger = whole.ledger();
@@ -280,8 +296,9 @@ inline Seen seen_whole(const test::Prepared& p, const Checkpoint* from = nullptr
 }
 
 /// @param forgets,from,owners_above as of SlabHalo, seen_whole() and Halo
-inline Seen seen_shared(const test::Prepared& p, const std::vector<double>& planes, const std::string& forgets = "",
-                        const Checkpoint* from = nullptr, std::size_t owners_above = 1000) {
+inline Seen seen_shared(const test::Prepared& p, const std::vector<double>& planes,
+                        const std::string& forgets = "", const Checkpoint* from = nullptr,
+                        std::size_t owners_above = 1000) {
   const std::size_t count = planes.size() - 1;
   Meeting meeting(count);
   Seen seen;
@@ -289,11 +306,13 @@ inline Seen seen_shared(const test::Prepared& p, const std::vector<double>& plan
   std::vector<std::thread> threads;
   for (std::size_t rank = 0; rank < count; ++rank) {
     threads.emplace_back([&, rank] {
-      SlabHalo halo(meeting, rank, planes, 1.1 * (1.0 + 1e-9) * p.job.scene.support_ratio * p.job.scene.spacing, forgets);
+      SlabHalo halo(meeting, rank, planes,
+                    1.1 * (1.0 + 1e-9) * p.job.scene.support_ratio * p.job.scene.spacing, forgets);
       halo.bodies_of_all = owners_above;
       SimulationOptions options;
       options.halo = &halo;
-      Simulation part = from ? Simulation(p.job.scene, p.initial, options, *from) : Simulation(p.job.scene, p.initial, options);
+      Simulation part = from ? Simulation(p.job.scene, p.initial, options, *from)
+                             : Simulation(p.job.scene, p.initial, options);
       if (!from) part.advance_to(0.5 * p.job.scene.end_time);
       const Checkpoint kept = part.checkpoint();
       part.advance_to(p.job.scene.end_time);
@@ -312,7 +331,8 @@ inline Seen seen_shared(const test::Prepared& p, const std::vector<double>& plan
         see_bodies(seen, part.world());
       }
       for (std::size_t id = 0; id < halo.owned(); ++id)
-        see_particle(seen, static_cast<std::size_t>(halo.numbers()[id]), part.world(), part.world().particles.row(id));
+        see_particle(seen, static_cast<std::size_t>(halo.numbers()[id]), part.world(),
+                     part.world().particles.row(id));
     });
   }
   for (std::thread& t : threads) t.join();
@@ -325,12 +345,14 @@ inline double greatest_difference(const std::vector<Vec3>& a, const std::vector<
   return most;
 }
 
-inline constexpr double rounding = 1e-10;  ///< of sums of the ledger, in another order; of 1 in the scenes' own units
+/// Of sums of the ledger, in another order; of 1 in the scenes' own units
+inline constexpr double rounding = 1e-10;
 
 inline void expect_same(const Seen& whole, const Seen& shared) {
   ASSERT_EQ(whole.position.size(), shared.position.size());
   ASSERT_EQ(whole.centre.size(), shared.centre.size());
-  EXPECT_EQ(greatest_difference(whole.position, shared.position), 0.0) << "every sum that moves something has its order";
+  EXPECT_EQ(greatest_difference(whole.position, shared.position), 0.0)
+      << "every sum that moves something has its order";
   EXPECT_EQ(greatest_difference(whole.velocity, shared.velocity), 0.0);
   EXPECT_EQ(whole.phase, shared.phase);
   EXPECT_EQ(whole.body, shared.body);

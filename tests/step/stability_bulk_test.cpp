@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The numerical bulk viscosity acts on velocities of half a step before: it narrows what is stable, and must leave the step to
-// sound (model 8.10).
+// The numerical bulk viscosity acts on velocities of half a step before: it narrows what is stable, and must
+// leave the step to sound (model 8.10).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,8 +18,8 @@ using lab::Lab;
 
 enum class Place { layers, mixed };
 
-/// A periodic sea, pressed by 0.6 %, of a light liquid and one `ratio` times as dense, in two layers or particle by particle at
-/// random.
+/// A periodic sea, pressed by 0.6 %, of a light liquid and one `ratio` times as dense, in two layers or
+/// particle by particle at random.
 Lab pressed_sea(double ratio, Place place) {
   Lab lab = lab::liquid_lab(1.0, 1.0, 0.0, 1.0);
   const std::size_t heavy = lab::add_material_like(lab, ratio, 0.0);
@@ -62,7 +62,8 @@ TEST(BulkViscosity, HasTheFrontierOfAWaveThatItDampsByFrequencySquared) {
   const Lab lab = pressed_sea(1.0, Place::layers);
   Lab elastic = lab;
   elastic.scene.modes[term::clamp] = Mode::paper;
-  const double w = 2.0 / oscillation_limit(elastic, false), damped = w * w * 0.2 * lab.scene.support_ratio;  // zeta h/c, c = 1
+  // Zeta h/c, c = 1
+  const double w = 2.0 / oscillation_limit(elastic, false), damped = w * w * 0.2 * lab.scene.support_ratio;
   EXPECT_NEAR(frontier(lab) * (w * w) / (std::sqrt(damped * damped + 4.0 * w * w) - damped), 1.0, 0.05);
 }
 
@@ -72,7 +73,8 @@ TEST(BulkViscosity, IsStableAtTheStepOfSoundWhateverLiquidsMix) {
     for (const double ratio : {1.0, 2.0, 4.0, 10.0, 1000.0}) {
       const Lab lab = pressed_sea(ratio, place);
       EXPECT_EQ(Simulation(lab.scene, lab.initial).bound().name, "sound");
-      EXPECT_LT(own_step(lab) / frontier(lab), 0.82) << (place == Place::mixed ? "mixed" : "layers") << ", ratio " << ratio;
+      EXPECT_LT(own_step(lab) / frontier(lab), 0.82)
+          << (place == Place::mixed ? "mixed" : "layers") << ", ratio " << ratio;
     }
   }
 }
@@ -85,13 +87,15 @@ TEST(BulkViscosity, IsStableAtItsOwnStepWhateverTheSceneAsks) {
     for (const double ratio : {1.0, 10.0}) {
       Lab lab = pressed_sea(ratio, Place::mixed);
       ask_for(lab, zeta);
-      EXPECT_EQ(Simulation(lab.scene, lab.initial).bound().name, zeta > 0.2 ? "bulk viscosity" : "sound") << zeta;
+      EXPECT_EQ(Simulation(lab.scene, lab.initial).bound().name, zeta > 0.2 ? "bulk viscosity" : "sound")
+          << zeta;
       EXPECT_LT(own_step(lab) / frontier(lab), 0.82) << "zeta " << zeta << ", ratio " << ratio;
     }
   }
 }
 
-/// What it takes of a pressed sea in some steps, over the kinetic energy there; nothing where the ledger has no such entry.
+/// What it takes of a pressed sea in some steps, over the kinetic energy there; nothing where the ledger has
+/// no such entry.
 std::optional<double> taken(std::optional<double> zeta) {
   Lab lab = pressed_sea(1.0, Place::layers);
   if (zeta) ask_for(lab, *zeta);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Light beside heavy. What a contact swings with follows from the lighter body, and so does the speed of sound that sets the
-// step: mass ratio brings no limit of its own.
+// Light beside heavy. What a contact swings with follows from the lighter body, and so does the speed of
+// sound that sets the step: mass ratio brings no limit of its own.
 #include "scene/shared_terms.hpp"
 #include "step/stability_lab.hpp"
 
@@ -15,11 +15,13 @@ using lab::Lab;
 
 Lab quiet() {
   Lab lab = lab::liquid_lab(1.0, 1.0, 0.0, 1.0);
-  lab.scene.modes[term::clamp] = Mode::paper;  // a contact that also pulls is a spring: its frontier is 2/omega
+  // a contact that also pulls is a spring: its frontier is 2/omega
+  lab.scene.modes[term::clamp] = Mode::paper;
   return lab;
 }
 
-/// Cubes of 2 x 2 x 2 particles that fill a periodic box, face on face, every second one `density` times as dense.
+/// Cubes of 2 x 2 x 2 particles that fill a periodic box, face on face, every second one `density` times as
+/// dense.
 Point cubes(double density) {
   Lab lab = quiet();
   const std::size_t heavy = lab::add_material_like(lab, density, 0.0);
@@ -62,7 +64,8 @@ Point cube(double density) {
   const double speed = 1e-7 / std::sqrt(std::min(1.0, density));
   for (std::size_t i = 0; i < s.size(); ++i)
     if (s.body[i] < 0)
-      s.velocity[i] = speed * Vec3{std::sin(7.0 * double(i)), std::sin(11.0 * double(i)), std::sin(13.0 * double(i))};
+      s.velocity[i] =
+          speed * Vec3{std::sin(7.0 * double(i)), std::sin(11.0 * double(i)), std::sin(13.0 * double(i))};
   return {"afloat",
           "corrected",
           "density ratio",

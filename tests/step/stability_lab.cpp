@@ -29,7 +29,8 @@ double size_of(const std::vector<Vec3>& u) {
   return std::sqrt(sum);
 }
 
-/// The growth of one application of a linear map whose values are all of one sign, after so many that only its greatest is left.
+/// The growth of one application of a linear map whose values are all of one sign, after so many that only
+/// its greatest is left.
 template <class Map>
 double greatest_value(std::vector<Vec3> u, int times, Map map) {
   double value = 0.0;
@@ -119,14 +120,17 @@ double oscillation_limit(const Lab& lab, bool turns) {
 
 double conduction_limit(const Lab& lab) {
   std::vector<Vec3> start = random_vectors(lab.initial.size(), 9);
-  return 2.0 / greatest_value(start, 80, [&](const std::vector<Vec3>& u) {  // three fields of temperature at once
+  // Three fields of temperature at once
+  return 2.0 / greatest_value(start, 80, [&](const std::vector<Vec3>& u) {
            std::vector<Vec3> rate(u.size());
            for (std::size_t axis = 0; axis < 3; ++axis) {
              InitialState warmed = lab.initial;
              for (std::size_t i = 0; i < u.size(); ++i) warmed.temperature[i] = 1000.0 + u[i][axis];
              const Simulation s(lab.scene, warmed);
-             const bool printed = lab.scene.mode_of(term::heat) == Mode::paper;  // [K/s]; corrected [W], of particles of 1 J/K
-             const std::vector<double> rates = lab::by_id(s, printed ? field::temperature_rate : field::heat_rate);
+             // [K/s]; corrected [W], of particles of 1 J/K
+             const bool printed = lab.scene.mode_of(term::heat) == Mode::paper;
+             const std::vector<double> rates =
+                 lab::by_id(s, printed ? field::temperature_rate : field::heat_rate);
              for (std::size_t i = 0; i < u.size(); ++i) rate[i][axis] = -rates[i];
            }
            return rate;
@@ -151,7 +155,8 @@ double elastic_limit(const Lab& lab, lab::Deformable d) {
     std::size_t at = 0;
     d.place([&](const Vec3& r) { return r + e * u[at++]; });
     std::vector<Vec3> a(u.size());
-    for (std::size_t i = 0; i < u.size(); ++i) a[i] = (-1.0 / (e * lab.initial.mass[i])) * (d.force(i) - rest[i]);
+    for (std::size_t i = 0; i < u.size(); ++i)
+      a[i] = (-1.0 / (e * lab.initial.mass[i])) * (d.force(i) - rest[i]);
     return a;
   });
   return 2.0 / std::sqrt(w2);

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-/// Where explicit steps stop being stable: measured by bisection in scenes of a few particles, beside what the linear modes of
-/// the same operators predict.
+/// Where explicit steps stop being stable: measured by bisection in scenes of a few particles, beside what
+/// the linear modes of the same operators predict.
 namespace tripoint::stability {
 
 /// One point of a map.

@@ -31,13 +31,15 @@ Point heat(Mode mode, const char* parameter, double ratio, double jitter) {
   lab.add_material(1.0, ratio, 1.0);
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  add_two(lab, {.motion = Motion::fixed, .temperature = [&](const Vec3&) { return 1000.0 + uniform(random); }});
+  add_two(lab,
+          {.motion = Motion::fixed, .temperature = [&](const Vec3&) { return 1000.0 + uniform(random); }});
   lab::jitter_all(lab, jitter);
   const auto spread = [](const Simulation& s) {
     const auto T = s.world().particles[field::temperature];
     return *std::ranges::max_element(T) - *std::ranges::min_element(T);
   };
-  return {"heat", std::string(to_string(mode)), parameter, ratio, conduction_limit(lab), own_step(lab), stays(lab, spread, 3.0)};
+  return {"heat",        std::string(to_string(mode)), parameter, ratio, conduction_limit(lab),
+          own_step(lab), stays(lab, spread, 3.0)};
 }
 
 /// Viscosities 1 : ratio, jittered, with next to no pressure.
@@ -49,7 +51,8 @@ Point mixed_viscosity(ViscosityForm form, double ratio) {
   lab::add_material_like(lab, 1.0, ratio);
   add_two(lab, {.phase = Phase::liquid});
   lab::jitter_all(lab, 0.1);
-  const double limit = 0.5 * friction_limit(lab);  // lambda dt < 1, as velocities are predicted to the full step
+  // Lambda dt < 1, as velocities are predicted to the full step
+  const double limit = 0.5 * friction_limit(lab);
   disturb(lab, 1e-5);
   return {central ? "viscosity central" : "viscosity laplacian",
           "corrected",
@@ -87,13 +90,17 @@ Point joined(double ratio) {
   stiff.young_modulus = ratio;
   lab.scene.materials.push_back(stiff);
   lab.add({.name = "soft", .count = {side, side, side}, .phase = Phase::elastic});
-  lab.add(
-      {.name = "stiff", .material = 1, .corner = {0.0, 0.0, double(side)}, .count = {side, side, side}, .phase = Phase::elastic});
+  lab.add({.name = "stiff",
+           .material = 1,
+           .corner = {0.0, 0.0, double(side)},
+           .count = {side, side, side},
+           .phase = Phase::elastic});
   lab.scene.bodies[1].joined_to = {"soft"};
   return elastic("stiffness ratio in one object", ratio, lab);
 }
 
-/// A jittered liquid that is cooled and freezes at once: bonds are what they were found as, and the bound is local.
+/// A jittered liquid that is cooled and freezes at once: bonds are what they were found as, and the bound is
+/// local.
 Point frozen(double jitter) {
   Lab lab = lab::melting_lab(1.0, {.t_solid = 340.0, .solid = SolidKind::elastic});
   Material& m = lab.scene.materials[0];
@@ -102,7 +109,9 @@ Point frozen(double jitter) {
   m.stiffness = 1e-16;
   m.viscosity = 0.0;
   m.heat_capacity = 1.0;
-  lab.add({.count = {side, side, side}, .phase = Phase::liquid, .temperature = [](const Vec3&) { return 345.0; }});
+  lab.add({.count = {side, side, side}, .phase = Phase::liquid, .temperature = [](const Vec3&) {
+             return 345.0;
+           }});
   lab::jitter_all(lab, jitter);
   Event cool;
   cool.kind = Event::Kind::heat;
@@ -127,8 +136,10 @@ Point frozen(double jitter) {
 }  // namespace
 
 void add_mixed_points(std::vector<Point>& list) {
-  for (const double ratio : {1.0, 10.0, 1000.0}) list.push_back(heat(Mode::corrected, "conductivity ratio", ratio, 0.2));
-  for (const double ratio : {1.0, 10.0, 1000.0}) list.push_back(heat(Mode::paper, "conductivity ratio", ratio, 0.0));
+  for (const double ratio : {1.0, 10.0, 1000.0})
+    list.push_back(heat(Mode::corrected, "conductivity ratio", ratio, 0.2));
+  for (const double ratio : {1.0, 10.0, 1000.0})
+    list.push_back(heat(Mode::paper, "conductivity ratio", ratio, 0.0));
   for (const double ratio : {1.0, 100.0}) list.push_back(mixed_viscosity(ViscosityForm::laplacian, ratio));
   for (const double ratio : {1.0, 100.0}) list.push_back(mixed_viscosity(ViscosityForm::central, ratio));
   for (const double a : {0.0, 1.0, 4.0}) list.push_back(hourglass(a));

@@ -48,12 +48,13 @@ struct Poly6Slope {
 template <class Kernel>
 Vec3 slope(const Kernel& w, double q, const Vec3& k) {
   Vec3 sum;
-  around(q, k, [&](const Vec3& r, double kr) { sum += (w.derivative(norm(r)) / norm(r) * std::sin(kr)) * r; });
+  around(q, k,
+         [&](const Vec3& r, double kr) { sum += (w.derivative(norm(r)) / norm(r) * std::sin(kr)) * r; });
   return sum;
 }
 
-/// The fastest wave of sound that the box holds, spacing 1: omega^2 = k G^2/(S0 M) corrected, k V^2 G_poly6 . G_spiky/2 as
-/// printed.
+/// The fastest wave of sound that the box holds, spacing 1: omega^2 = k G^2/(S0 M) corrected, k V^2 G_poly6 .
+/// G_spiky/2 as printed.
 struct Wave {
   Vec3 k, along;
   double limit = 0.0;  ///< 2/omega [s]
@@ -65,8 +66,9 @@ Wave fastest_wave(Mode mode, double q, double stiffness) {
     const LatticeMoments m = wendland_moments(q);
     const double volume = 1.0 / poly6_moments(q).density;
     const Vec3 g = mode == Mode::paper ? slope(Spiky(q), q, k) : slope(WendlandC2(q), q, k);
-    const double w2 = mode == Mode::paper ? stiffness * volume * volume * 0.5 * dot(slope(Poly6Slope{q}, q, k), g)
-                                          : stiffness * dot(g, g) / (m.density * m.gradient);
+    const double w2 = mode == Mode::paper
+                          ? stiffness * volume * volume * 0.5 * dot(slope(Poly6Slope{q}, q, k), g)
+                          : stiffness * dot(g, g) / (m.density * m.gradient);
     if (w2 > most) {
       most = w2;
       wave = {k, g / norm(g), 2.0 / std::sqrt(w2)};
@@ -76,7 +78,8 @@ Wave fastest_wave(Mode mode, double q, double stiffness) {
   return wave;
 }
 
-/// 2/lambda of the fastest decay [s] of an explicit step: `weight` times sum -W'/r (1 - cos k.r), of r r^T/r^2 where `along`.
+/// 2/lambda of the fastest decay [s] of an explicit step: `weight` times sum -W'/r (1 - cos k.r), of r
+/// r^T/r^2 where `along`.
 double decay_limit(double q, double weight, bool along) {
   const WendlandC2 w(q);
   return 2.0 / greatest([&](const Vec3& k) {
@@ -119,12 +122,15 @@ Lab sea(Mode mode, double q, double stiffness, double viscosity, double ratio = 
 
 Point sound(Mode mode, const char* parameter, double value, double q, double stiffness, double ratio = 1.0) {
   Lab lab = sea(mode, q, stiffness, 0.0, ratio);
-  // One wave alone: on an undisturbed lattice it stays so, and what else the printed form makes grow has no start.
+  // One wave alone: on an undisturbed lattice it stays so, and what else the printed form makes grow has no
+  // start.
   const Wave wave = fastest_wave(mode, q, stiffness * ratio);
   for (std::size_t i = 0; i < lab.initial.size(); ++i)
-    lab.initial.velocity[i] = (1e-7 * std::sqrt(stiffness * ratio) * std::cos(dot(wave.k, lab.initial.position[i]))) * wave.along;
+    lab.initial.velocity[i] =
+        (1e-7 * std::sqrt(stiffness * ratio) * std::cos(dot(wave.k, lab.initial.position[i]))) * wave.along;
   const double first = kinetic(Simulation(lab.scene, lab.initial));
-  return {"sound", std::string(to_string(mode)), parameter, value, wave.limit, own_step(lab), stays(lab, kinetic, 1e3 * first)};
+  return {"sound",       std::string(to_string(mode)),    parameter, value, wave.limit,
+          own_step(lab), stays(lab, kinetic, 1e3 * first)};
 }
 
 Point viscosity(ViscosityForm form, double q) {
@@ -133,8 +139,8 @@ Point viscosity(ViscosityForm form, double q) {
   disturb(lab, 1e-7);
   const bool central = form == ViscosityForm::central;
   const double weight = (central ? 10.0 : 2.0) / wendland_moments(q).gradient;
-  // The velocity that viscous pairs see is predicted to the full step by the last forces: then lambda dt < 1 is what is stable,
-  // not 2.
+  // The velocity that viscous pairs see is predicted to the full step by the last forces: then lambda dt < 1
+  // is what is stable, not 2.
   return {central ? "viscosity central" : "viscosity laplacian",
           "corrected",
           "h/dx",
@@ -157,15 +163,17 @@ Point heat(const char* parameter, double value, double q, double latent) {
   }
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  lab.add({.name = "block", .count = {side, side, side}, .motion = Motion::fixed, .temperature = [&](const Vec3&) {
-             return 1000.0 + uniform(random);
-           }});
+  lab.add({.name = "block",
+           .count = {side, side, side},
+           .motion = Motion::fixed,
+           .temperature = [&](const Vec3&) { return 1000.0 + uniform(random); }});
   lab.make_periodic({true, true, true}, {}, {side, side, side});
   const auto spread = [](const Simulation& s) {
     const auto T = s.world().particles[field::temperature];
     return *std::ranges::max_element(T) - *std::ranges::min_element(T);
   };
-  // At the lattice the second moments are the gradient moment times the unit matrix: G = V^2 k K/M, K = -2 W'/r.
+  // At the lattice the second moments are the gradient moment times the unit matrix: G = V^2 k K/M, K = -2
+  // W'/r.
   return {"heat",
           "corrected",
           parameter,
@@ -198,7 +206,8 @@ std::vector<Point> all_points() {
   for (const double k : {1.0, 1e4}) list.push_back(sound(Mode::paper, "stiffness", k, 2.12, k));
   for (const double q : {2.2, 2.6, 3.0}) list.push_back(sound(Mode::corrected, "h/dx", q, q, 1.0));
   for (const double q : {2.12, 2.6}) list.push_back(sound(Mode::paper, "h/dx", q, q, 1.0));
-  for (const double ratio : {10.0, 1000.0}) list.push_back(sound(Mode::corrected, "density ratio", ratio, 2.6, 1.0, ratio));
+  for (const double ratio : {10.0, 1000.0})
+    list.push_back(sound(Mode::corrected, "density ratio", ratio, 2.6, 1.0, ratio));
   for (const double q : {2.2, 2.6, 3.0}) list.push_back(viscosity(ViscosityForm::laplacian, q));
   for (const double q : {2.2, 2.6, 3.0}) list.push_back(viscosity(ViscosityForm::central, q));
   for (const double q : {2.2, 2.6, 3.0}) list.push_back(heat("h/dx", q, q, -1.0));

@@ -8,7 +8,8 @@
 namespace tripoint {
 namespace {
 
-/// A machine on which a step takes so long with so many threads [s], and threads are pushed aside so often [1/s].
+/// A machine on which a step takes so long with so many threads [s], and threads are pushed aside so often
+/// [1/s].
 struct Machine {
   std::function<double(int threads)> step;
   double pushed_aside;
@@ -28,8 +29,10 @@ double share_of_all(ThreadChoice& choice, int most, const Machine& machine, doub
 }
 
 const Machine quiet{[](int threads) { return 0.008 / threads; }, 0.0};
-const Machine crowded{[](int threads) { return threads == 1 ? 0.03 : 0.3; }, 200.0};    // threads wait for each other
-const Machine shared{[](int threads) { return threads == 1 ? 0.016 : 0.009; }, 200.0};  // busy, and two are still worth it
+// Threads wait for each other
+const Machine crowded{[](int threads) { return threads == 1 ? 0.03 : 0.3; }, 200.0};
+// Busy, and two are still worth it
+const Machine shared{[](int threads) { return threads == 1 ? 0.016 : 0.009; }, 200.0};
 
 TEST(ThreadChoice, TakesAllThreadsWhereNobodyElseWorks) {
   ThreadChoice choice(2);

@@ -24,7 +24,8 @@ SurfaceOptions options(bool detector = true) {
 /// Distance from `from` along a unit vector at which phi becomes positive, by halving.
 double leaves(SurfaceProbe& probe, const Vec3& from, const Vec3& along, double most) {
   double in = 0.0, out = most;
-  for (int n = 0; n < 50; ++n) (probe.phi(from + 0.5 * (in + out) * along) < 0.0 ? in : out) = 0.5 * (in + out);
+  for (int n = 0; n < 50; ++n)
+    (probe.phi(from + 0.5 * (in + out) * along) < 0.0 ? in : out) = 0.5 * (in + out);
   return in;
 }
 
@@ -39,29 +40,32 @@ TEST(ImplicitSurface, OfOneParticleIsABallOfTheRadiusR) {
   EXPECT_FALSE(probe.value({0.3, 0.2, 0.1 + 1.01 * options().influence_radius}).near);
 }
 
-/// A half space of particles, many to the influence radius: R/ir that puts phi = 0 at its face. For poly6 the mean of half a ball
-/// lies 63/256 of its radius from the face, and f there is that of EV = 1.
+/// A half space of particles, many to the influence radius: R/ir that puts phi = 0 at its face. For poly6 the
+/// mean of half a ball lies 63/256 of its radius from the face, and f there is that of EV = 1.
 TEST(ImplicitSurface, OfAFlatFaceLiesWhereTheContinuumSays) {
   std::vector<Vec3> places;
   constexpr int n = 14, depth = 14;
   for (int i = -n; i <= n; ++i)
     for (int j = -n; j <= n; ++j)
-      for (int k = 0; k < depth; ++k) places.push_back(dx * Vec3{static_cast<double>(i), static_cast<double>(j), -k - 0.5});
+      for (int k = 0; k < depth; ++k)
+        places.push_back(dx * Vec3{static_cast<double>(i), static_cast<double>(j), -k - 0.5});
   SurfaceOptions o;
   o.influence_radius = 12.0 * dx;
   o.distance = 63.0 / 256.0 / detector_factor(1.0) * o.influence_radius;
   const ImplicitSurface surface(places, o);
   SurfaceProbe probe(surface);
   const SurfaceValue at_face = probe.value({0.0, 0.0, 0.0});
-  EXPECT_NEAR(at_face.phi / o.influence_radius, 0.0, 1.5e-3);  // the lattice: (dx/ir)^2 = 7e-3, of which a fifth
-  EXPECT_NEAR(at_face.eigenvalue, 1.0, 5e-3);                  // along the face rbar moves as r does
+  // The lattice: (dx/ir)^2 = 7e-3, of which a fifth
+  EXPECT_NEAR(at_face.phi / o.influence_radius, 0.0, 1.5e-3);
+  EXPECT_NEAR(at_face.eigenvalue, 1.0, 5e-3);  // along the face rbar moves as r does
 }
 
 TEST(ImplicitSurface, HasTheFlatFaceOfALatticeHalfASpacingOutsideOfIt) {
   std::vector<Vec3> places;
   for (int i = -5; i <= 5; ++i)
     for (int j = -5; j <= 5; ++j)
-      for (int k = 0; k < 6; ++k) places.push_back(dx * Vec3{static_cast<double>(i), static_cast<double>(j), -k - 0.5});
+      for (int k = 0; k < 6; ++k)
+        places.push_back(dx * Vec3{static_cast<double>(i), static_cast<double>(j), -k - 0.5});
   const ImplicitSurface surface(places, options());
   SurfaceProbe probe(surface);
   for (const Vec3& at : {Vec3{0, 0, -dx}, Vec3{0.5 * dx, 0, -dx}, Vec3{0.3 * dx, 0.4 * dx, -dx}})
@@ -99,8 +103,8 @@ TEST(ImplicitSurface, TurnsWithItsParticles) {
   EXPECT_GT(near, 1000);
 }
 
-/// Two balls, their surfaces a gap apart. The mean of what is near then jumps from one to the other between them, and (22) has a
-/// film there.
+/// Two balls, their surfaces a gap apart. The mean of what is near then jumps from one to the other between
+/// them, and (22) has a film there.
 struct Between {
   double least = 1.0;  ///< of phi on the plane between them, within a ball's radius of the axis [spacings]
   explicit Between(double gap, bool detector) {
@@ -112,13 +116,15 @@ struct Between {
     }
     const ImplicitSurface surface(places, options(detector));
     SurfaceProbe probe(surface);
-    for (double x = 0.0; x < 5 * dx; x += 0.1 * dx) least = std::min(least, probe.phi({x, 0.13 * x, 0.0}) / dx);
+    for (double x = 0.0; x < 5 * dx; x += 0.1 * dx)
+      least = std::min(least, probe.phi({x, 0.13 * x, 0.0}) / dx);
   }
 };
 
 TEST(Detector, KeepsTwoNearBallsApartWhereTheUncorrectedSurfaceJoinsThem) {
   for (const double gap : {1.5, 2.0, 2.5}) {
-    EXPECT_LT(Between(gap * dx, false).least, -0.1) << "without f a film lies between balls " << gap << " spacings apart";
+    EXPECT_LT(Between(gap * dx, false).least, -0.1)
+        << "without f a film lies between balls " << gap << " spacings apart";
     EXPECT_GE(Between(gap * dx, true).least, 0.0)
         << "with f they are two, " << gap << " spacings apart";  // 0 where f is 0 and rbar is r: a point
   }

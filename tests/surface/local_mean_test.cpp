@@ -62,12 +62,15 @@ TEST(LocalMean, HasTheGradientOfTheMean) {
   const Vec3 r{-0.4, 0.5, 0.2};
   const Matrix3 J = local_mean(near_of(places), r, ir).gradient;
   const double d = 1e-5, tolerance = 1e-8;  // of central differences: d^2 and round-off/d
-  const auto column = [&](const Vec3& step) { return (plain_mean(places, r + step) - plain_mean(places, r - step)) / (2.0 * d); };
+  const auto column = [&](const Vec3& step) {
+    return (plain_mean(places, r + step) - plain_mean(places, r - step)) / (2.0 * d);
+  };
   const Vec3 x = column({d, 0, 0}), y = column({0, d, 0}), z = column({0, 0, d});
   EXPECT_LT(norm(Vec3{J.xx, J.yx, J.zx} - x), tolerance);
   EXPECT_LT(norm(Vec3{J.xy, J.yy, J.zy} - y), tolerance);
   EXPECT_LT(norm(Vec3{J.xz, J.yz, J.zz} - z), tolerance);
-  EXPECT_GT(std::abs(J.xy - J.yx), 1e-4) << "not symmetric in general: a transposed gradient would not be seen";
+  EXPECT_GT(std::abs(J.xy - J.yx), 1e-4)
+      << "not symmetric in general: a transposed gradient would not be seen";
 }
 
 TEST(LocalMean, OfOneParticleIsThatParticleWhereverOneLooks) {

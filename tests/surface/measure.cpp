@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The figures of docs/surface.md: surface-measure [ball|torus|slab|times]; the plot of (25) in docs/gallery.md: surface-measure
-// factor
+// The figures of docs/surface.md: surface-measure [ball|torus|slab|times]; the plot of (25) in
+// docs/gallery.md: surface-measure factor
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -28,8 +28,9 @@ void ladder(const shapes::ExactBody& body, const std::vector<double>& counts, bo
     const auto order = [&](double a, double b) {
       return spacing_before > 0.0 ? std::log(a / b) / std::log(spacing_before / dx) : std::nan("");
     };
-    std::printf("| %g | %.2g %% | %.2f | %.2g %% | %.2f | %.2f | %.2f |\n", n, 100 * e.volume, order(before.volume, e.volume),
-                100 * e.area, order(before.area, e.area), e.hausdorff / dx, order(before.hausdorff, e.hausdorff));
+    std::printf("| %g | %.2g %% | %.2f | %.2g %% | %.2f | %.2f | %.2f |\n", n, 100 * e.volume,
+                order(before.volume, e.volume), 100 * e.area, order(before.area, e.area), e.hausdorff / dx,
+                order(before.hausdorff, e.hausdorff));
     before = e;
     spacing_before = dx;
   }
@@ -40,13 +41,14 @@ void times(int across) {
   std::vector<Vec3> places;
   for (int i = 0; i < across; ++i)
     for (int j = 0; j < across; ++j)
-      for (int k = 0; k < across; ++k) places.push_back({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
+      for (int k = 0; k < across; ++k)
+        places.push_back({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
   const double start = cpu();
   const ImplicitSurface surface(places, SurfaceOptions::for_spacing(1.0));
   const double built = cpu();
   const Mesh mesh = surface_mesh(surface, 0.5, 2);
-  std::printf("%zu particles: cells %.2f CPU s, mesh %.2f CPU s, %zu triangles\n", places.size(), built - start, cpu() - built,
-              mesh.triangles.size());
+  std::printf("%zu particles: cells %.2f CPU s, mesh %.2f CPU s, %zu triangles\n", places.size(),
+              built - start, cpu() - built, mesh.triangles.size());
 }
 
 }  // namespace

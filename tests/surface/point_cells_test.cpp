@@ -47,7 +47,8 @@ TEST(PointCells, GiveWholeVectorsWithRowsOfTheirOwn) {
   ASSERT_GT(near.row.size(), 3U);
   EXPECT_EQ(near.x.size() % 4, 0U);
   EXPECT_LT(near.x.size() - near.row.size(), 4U);
-  for (std::size_t k = 0; k < near.row.size(); ++k) EXPECT_EQ((Vec3{near.x[k], near.y[k], near.z[k]}), places[near.row[k]]);
+  for (std::size_t k = 0; k < near.row.size(); ++k)
+    EXPECT_EQ((Vec3{near.x[k], near.y[k], near.z[k]}), places[near.row[k]]);
 }
 
 TEST(PointCells, TakeMemoryForPointsAndNotForTheRoomBetween) {
@@ -62,7 +63,8 @@ TEST(PointCells, TakeMemoryForPointsAndNotForTheRoomBetween) {
 
 TEST(PointCells, RefuseWhatCannotBeNumbered) {
   EXPECT_THROW(PointCells(std::vector<Vec3>{{0, 0, 0}, {1e9, 0, 0}}, 0.1), InputError);
-  EXPECT_THROW(PointCells(std::vector<Vec3>{{std::numeric_limits<double>::quiet_NaN(), 0, 0}}, 0.1), InputError);
+  EXPECT_THROW(PointCells(std::vector<Vec3>{{std::numeric_limits<double>::quiet_NaN(), 0, 0}}, 0.1),
+               InputError);
   EXPECT_EQ(PointCells(std::vector<Vec3>{}, 0.1).size(), 0U);
 }
 

@@ -19,7 +19,8 @@ const std::vector<Vec3> any_lattice{{0.5, 0.5, 0.5}, {0.0, 0.0, 0.0}, {0.21, 0.3
 std::vector<Vec3> directions(int n) {
   std::vector<Vec3> list;
   for (int k = 0; k < n; ++k) {
-    const double z = 1.0 - (2.0 * k + 1.0) / n, r = std::sqrt(1.0 - z * z), turn = pi * (3.0 - std::sqrt(5.0)) * k;
+    const double z = 1.0 - (2.0 * k + 1.0) / n, r = std::sqrt(1.0 - z * z),
+                 turn = pi * (3.0 - std::sqrt(5.0)) * k;
     list.push_back({r * std::cos(turn), r * std::sin(turn), z});
   }
   return list;
@@ -28,7 +29,8 @@ std::vector<Vec3> directions(int n) {
 /// Corners and middles of triangles.
 std::vector<Vec3> places_on(const Mesh& mesh) {
   std::vector<Vec3> places = mesh.points;
-  for (const auto& t : mesh.triangles) places.push_back((mesh.points[t[0]] + mesh.points[t[1]] + mesh.points[t[2]]) / 3.0);
+  for (const auto& t : mesh.triangles)
+    places.push_back((mesh.points[t[0]] + mesh.points[t[1]] + mesh.points[t[2]]) / 3.0);
   return places;
 }
 
@@ -69,7 +71,8 @@ ExactBody torus(double ring, double tube) {
 
 ExactBody slab(double width, double height) {
   const Vec3 half{0.5 * width, 0.5 * width, 0.5 * height};
-  ExactBody b{"slab", width * width * height, 2.0 * width * width + 4.0 * width * height, height, {-half, half}, {},
+  ExactBody b{"slab", width * width * height, 2.0 * width * width + 4.0 * width * height,
+              height, {-half, half},          {},
               {},     {{0.5, 0.5, 0.5}}};
   b.distance = [half](const Vec3& r) {
     const Vec3 q{std::abs(r.x) - half.x, std::abs(r.y) - half.y, std::abs(r.z) - half.z};
@@ -92,12 +95,17 @@ ExactBody slab(double width, double height) {
 
 std::vector<Vec3> lattice(const ExactBody& body, double spacing, const Vec3& offset) {
   std::vector<Vec3> places;
-  const auto first = [&](std::size_t a) { return static_cast<int>(std::floor(body.box.low[a] / spacing - offset[a])) - 1; };
-  const auto last = [&](std::size_t a) { return static_cast<int>(std::ceil(body.box.high[a] / spacing - offset[a])) + 1; };
+  const auto first = [&](std::size_t a) {
+    return static_cast<int>(std::floor(body.box.low[a] / spacing - offset[a])) - 1;
+  };
+  const auto last = [&](std::size_t a) {
+    return static_cast<int>(std::ceil(body.box.high[a] / spacing - offset[a])) + 1;
+  };
   for (int i = first(0); i <= last(0); ++i)
     for (int j = first(1); j <= last(1); ++j)
       for (int k = first(2); k <= last(2); ++k) {
-        const Vec3 r = spacing * (Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)} + offset);
+        const Vec3 r =
+            spacing * (Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)} + offset);
         if (body.distance(r) < 0.0) places.push_back(r);
       }
   return places;
@@ -114,7 +122,8 @@ SurfaceErrors errors_of(const Mesh& mesh, const ExactBody& body, double spacing)
   for (const Vec3& r : body.surface) {
     const NearPoints& near = cache.around(r);
     double least = 3.0 * spacing;
-    for (std::size_t k = 0; k < near.row.size(); ++k) least = std::min(least, norm(Vec3{near.x[k], near.y[k], near.z[k]} - r));
+    for (std::size_t k = 0; k < near.row.size(); ++k)
+      least = std::min(least, norm(Vec3{near.x[k], near.y[k], near.z[k]} - r));
     e.hausdorff = std::max(e.hausdorff, least);
   }
   return e;
@@ -125,8 +134,8 @@ SurfaceErrors errors_at(const ExactBody& body, double spacing, bool detector) {
   for (const Vec3& offset : body.offsets) {
     SurfaceOptions o = SurfaceOptions::for_spacing(spacing);
     o.detector = detector;
-    const SurfaceErrors e =
-        errors_of(surface_mesh(ImplicitSurface(lattice(body, spacing, offset), o), 0.5 * spacing, 2), body, spacing);
+    const SurfaceErrors e = errors_of(
+        surface_mesh(ImplicitSurface(lattice(body, spacing, offset), o), 0.5 * spacing, 2), body, spacing);
     sum.volume += e.volume * e.volume;
     sum.area += e.area * e.area;
     sum.hausdorff += e.hausdorff * e.hausdorff;

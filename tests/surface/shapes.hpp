@@ -8,7 +8,8 @@
 #include "mesh/mesh.hpp"
 #include "surface/implicit_surface.hpp"
 
-/// Bodies whose volume, area and distance are known exactly, as particles on a lattice, and what their surfaces are off by.
+/// Bodies whose volume, area and distance are known exactly, as particles on a lattice, and what their
+/// surfaces are off by.
 namespace tripoint::shapes {
 
 struct ExactBody {
@@ -23,8 +24,8 @@ struct ExactBody {
 [[nodiscard]] ExactBody ball(double radius);
 /// About the z axis. @param ring radius of the circle in the middle   @param tube radius of the tube [m]
 [[nodiscard]] ExactBody torus(double ring, double tube);
-/// A box with its faces along the axes, whose lattice fits it: else the particles themselves would fill another one. @param width
-/// in x and y   @param height in z [m]
+/// A box with its faces along the axes, whose lattice fits it: else the particles themselves would fill
+/// another one. @param width in x and y   @param height in z [m]
 [[nodiscard]] ExactBody slab(double width, double height);
 
 /// Centres of the cubic lattice that lie inside. @param offset of the lattice in spacings
@@ -35,7 +36,8 @@ struct SurfaceErrors {
   double hausdorff = 0.0;           ///< the greatest distance of one surface from the other, either way [m]
 };
 [[nodiscard]] SurfaceErrors errors_of(const Mesh&, const ExactBody&, double spacing);
-/// Root mean square over the body's offsets, with the lengths of for_spacing. @param detector whether f is that of (25), else 1
+/// Root mean square over the body's offsets, with the lengths of for_spacing. @param detector whether f is
+/// that of (25), else 1
 [[nodiscard]] SurfaceErrors errors_at(const ExactBody&, double spacing, bool detector = true);
 
 }  // namespace tripoint::shapes

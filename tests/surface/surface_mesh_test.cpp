@@ -19,7 +19,8 @@ namespace {
 
 constexpr double spacing = 0.01;
 
-Mesh mesh_of(const std::vector<Vec3>& places, bool detector = true, int threads = 2, double voxel = 0.5 * spacing) {
+Mesh mesh_of(const std::vector<Vec3>& places, bool detector = true, int threads = 2,
+             double voxel = 0.5 * spacing) {
   SurfaceOptions o = SurfaceOptions::for_spacing(spacing);
   o.detector = detector;
   return surface_mesh(ImplicitSurface(places, o), voxel, threads);
@@ -33,24 +34,28 @@ TEST(SurfaceMesh, OfABallConvergesInVolumeAndPlace) {
              twenty = shapes::errors_at(body, 1.0 / 20);
   EXPECT_LT(ten.volume, 0.02);
   EXPECT_GT(order(five.volume, twenty.volume) / 2.0, 1.0);
-  EXPECT_GT(order(five.hausdorff, twenty.hausdorff) / 2.0, 0.7);  // the lattice's own steps: half a spacing, order 1
+  // The lattice's own steps: half a spacing, order 1
+  EXPECT_GT(order(five.hausdorff, twenty.hausdorff) / 2.0, 0.7);
   EXPECT_LT(twenty.hausdorff, 0.6 / 20);
 }
 
 TEST(SurfaceMesh, OfATorusAndASlabConverges) {
   for (const auto& body : {shapes::torus(2.0, 1.0), shapes::slab(4.0, 1.0)}) {
-    const auto coarse = shapes::errors_at(body, body.size / 4), fine = shapes::errors_at(body, body.size / 12);
+    const auto coarse = shapes::errors_at(body, body.size / 4),
+               fine = shapes::errors_at(body, body.size / 12);
     EXPECT_GT(order(coarse.volume, fine.volume) / std::log2(3.0), 0.9) << body.name;
     EXPECT_GT(order(coarse.hausdorff, fine.hausdorff) / std::log2(3.0), 0.8) << body.name;
   }
 }
 
 TEST(SurfaceMesh, IsClosedAndHasTheGenusOfItsBody) {
-  const auto ball = measures_of(mesh_of(shapes::lattice(shapes::ball(8 * spacing), spacing, {0.5, 0.5, 0.5})));
+  const auto ball =
+      measures_of(mesh_of(shapes::lattice(shapes::ball(8 * spacing), spacing, {0.5, 0.5, 0.5})));
   EXPECT_EQ(ball.open_edges, 0U);
   EXPECT_EQ(ball.euler, 2);
   EXPECT_EQ(ball.pieces, 1U);
-  const auto torus = measures_of(mesh_of(shapes::lattice(shapes::torus(8 * spacing, 4 * spacing), spacing, {0.21, 0.37, 0.11})));
+  const auto torus = measures_of(
+      mesh_of(shapes::lattice(shapes::torus(8 * spacing, 4 * spacing), spacing, {0.21, 0.37, 0.11})));
   EXPECT_EQ(torus.open_edges, 0U);
   EXPECT_EQ(torus.euler, 0);
   EXPECT_EQ(torus.pieces, 1U);
@@ -104,10 +109,12 @@ TEST(SurfaceMesh, OfASplashIsClosed) {
   std::vector<Vec3> places;
   std::uint64_t state = 5;
   const auto random = [&] {
-    return static_cast<double>((state = state * 6364136223846793005ULL + 1442695040888963407ULL) >> 11) / 9007199254740992.0;
+    return static_cast<double>((state = state * 6364136223846793005ULL + 1442695040888963407ULL) >> 11) /
+           9007199254740992.0;
   };
   for (int n = 0; n < 1500; ++n) places.push_back(16 * spacing * Vec3{random(), random(), random()});
-  for (const bool detector : {true, false}) EXPECT_EQ(measures_of(mesh_of(places, detector)).open_edges, 0U) << detector;
+  for (const bool detector : {true, false})
+    EXPECT_EQ(measures_of(mesh_of(places, detector)).open_edges, 0U) << detector;
 }
 
 TEST(SurfaceMesh, OfNothingIsEmptyAndOfABadVoxelRefused) {
@@ -117,7 +124,8 @@ TEST(SurfaceMesh, OfNothingIsEmptyAndOfABadVoxelRefused) {
 }
 
 TEST(SurfaceMesh, KnowsWhatItsParticlesKnow) {
-  std::vector<Vec3> places = shapes::lattice(shapes::slab(12 * spacing, 6 * spacing), spacing, {0.5, 0.5, 0.5});
+  std::vector<Vec3> places =
+      shapes::lattice(shapes::slab(12 * spacing, 6 * spacing), spacing, {0.5, 0.5, 0.5});
   std::vector<double> T;
   std::vector<int> body;
   for (const Vec3& r : places) {
@@ -136,7 +144,8 @@ TEST(SurfaceMesh, KnowsWhatItsParticlesKnow) {
 
 class MeshFiles : public testing::Test {
  protected:
-  std::filesystem::path folder = std::filesystem::temp_directory_path() / ("tripoint-mesh-" + std::to_string(::getpid()));
+  std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("tripoint-mesh-" + std::to_string(::getpid()));
   std::vector<SurfacePart> parts;
   void SetUp() override {
     std::filesystem::create_directories(folder);

@@ -30,7 +30,8 @@ double Audited::step(double interval) const {
 
 const JobBody* body_of(const Audited& run, std::size_t particle) {
   const auto& source = run.initial.source;
-  const auto row = particle < source.size() ? static_cast<std::size_t>(source[particle]) : run.job.bodies.size();
+  const auto row =
+      particle < source.size() ? static_cast<std::size_t>(source[particle]) : run.job.bodies.size();
   return row < run.job.bodies.size() ? &run.job.bodies[row] : nullptr;
 }
 
@@ -45,7 +46,8 @@ bool keeps_bodies(const Job& job) {
                                                   [](const Material& m) { return m.t_melt.has_value(); });
 }
 
-std::string audit(const Job& job, const InitialState& initial, const Trajectory& trajectory, const Readback& held) {
+std::string audit(const Job& job, const InitialState& initial, const Trajectory& trajectory,
+                  const Readback& held) {
   const auto frames = frames_of_job(job, initial, trajectory);
   if (!frames.problem.empty()) return frames.problem;
   const Audited run{job, initial, held, trajectory, frames.list};

@@ -11,7 +11,8 @@ namespace {
 struct Sum {
   double mass = 0.0, fastest = 0.0;
   Vec3 off, momentum;
-  bool wraps = false;  ///< it reaches so far along a periodic direction that its centre depends on where one begins
+  /// It reaches so far along a periodic direction that its centre depends on where one begins
+  bool wraps = false;
 };
 
 /// Whether a body's arm is so long along a periodic direction that its nearest image is not sure.
@@ -27,7 +28,8 @@ const std::vector<int>* rows_of(const Audited& run, const Snapshot& s) {
   return of.size() == s.position.size() && s.velocity.size() == s.position.size() ? &of : nullptr;
 }
 
-std::vector<Sum> sums_of(const Audited& run, const Snapshot& s, const std::vector<int>& of, const std::vector<double>& mass) {
+std::vector<Sum> sums_of(const Audited& run, const Snapshot& s, const std::vector<int>& of,
+                         const std::vector<double>& mass) {
   std::vector<Sum> sums(s.bodies.size());
   for (std::size_t i = 0; i < s.position.size(); ++i) {
     if (of[i] < 0 || static_cast<std::size_t>(of[i]) >= sums.size() || dead(s, i)) continue;
@@ -45,17 +47,20 @@ std::vector<Sum> sums_of(const Audited& run, const Snapshot& s, const std::vecto
 std::string apart_from_the_mean(const Audited& run, const Snapshot& s, const std::vector<Sum>& sums) {
   for (std::size_t b = 0; b < sums.size(); ++b) {
     if (!(sums[b].mass > 0.0) || sums[b].wraps || !is_there(s.bodies[b])) continue;
-    const double off = norm(sums[b].off) / sums[b].mass, faster = norm(s.bodies[b].velocity - sums[b].momentum / sums[b].mass);
+    const double off = norm(sums[b].off) / sums[b].mass,
+                 faster = norm(s.bodies[b].velocity - sums[b].momentum / sums[b].mass);
     if (off > 1e-3 * run.job.scene.spacing)
-      return "body row " + std::to_string(b) + " is " + std::to_string(off) + " m from the centre of its particles" + at_time(s);
+      return "body row " + std::to_string(b) + " is " + std::to_string(off) +
+             " m from the centre of its particles" + at_time(s);
     if (faster > 1e-3 * std::max(sums[b].fastest, norm(s.bodies[b].velocity)))
-      return "body row " + std::to_string(b) + " moves otherwise than its particles, by " + std::to_string(faster) + " m/s" +
-             at_time(s);
+      return "body row " + std::to_string(b) + " moves otherwise than its particles, by " +
+             std::to_string(faster) + " m/s" + at_time(s);
   }
   return {};
 }
 
-/// A rigid body's particles stand around its centre as its orientation says, and turn by its angular velocity.
+/// A rigid body's particles stand around its centre as its orientation says, and turn by its angular
+/// velocity.
 std::string apart_from_its_turn(const Audited& run, const Snapshot& s, const std::vector<Sum>& sums) {
   const auto& initial = run.initial;
   for (std::size_t i = 0; i < std::min(initial.size(), s.position.size()); ++i) {
@@ -67,12 +72,12 @@ std::string apart_from_its_turn(const Audited& run, const Snapshot& s, const std
     const Vec3 arm = rotate(b.orientation, initial.position[i] - body->properties.centre);
     const double off = norm(displacement(run.job.scene, s.position[i], b.position) - arm);
     if (off > 2e-3 * (run.job.scene.spacing + norm(arm)))
-      return row_name(run, row) + " is turned otherwise than its particles: number " + std::to_string(i) + " is " +
-             std::to_string(off) + " m from where the orientation places it" + at_time(s);
+      return row_name(run, row) + " is turned otherwise than its particles: number " + std::to_string(i) +
+             " is " + std::to_string(off) + " m from where the orientation places it" + at_time(s);
     const double faster = norm(s.velocity[i] - b.velocity - cross(b.angular_velocity, arm));
     if (faster > 2e-3 * std::max(sums[row].fastest, norm(b.velocity) + norm(b.angular_velocity) * norm(arm)))
-      return row_name(run, row) + " turns otherwise than its particles: number " + std::to_string(i) + " is faster by " +
-             std::to_string(faster) + " m/s than the angular velocity says" + at_time(s);
+      return row_name(run, row) + " turns otherwise than its particles: number " + std::to_string(i) +
+             " is faster by " + std::to_string(faster) + " m/s than the angular velocity says" + at_time(s);
   }
   return {};
 }

@@ -19,7 +19,8 @@ std::vector<double> shown_by_particles(const Audited& run, const JobGauge& gauge
   nothing.args = gauge.where;
   nothing.args["value"] = 0.0;
   try {
-    const auto value = evaluate(choice, run.job, run.initial, run.trajectory, *make_reference(nothing, run.job, run.initial));
+    const auto value = evaluate(choice, run.job, run.initial, run.trajectory,
+                                *make_reference(nothing, run.job, run.initial));
     return value.times.size() == run.frames.size() ? value.series : std::vector<double>{};
   } catch (const InputError&) {
     return {};
@@ -48,7 +49,8 @@ double spread_of_temperature(const Snapshot& s) {
   return *high - *low;
 }
 
-/// A tenth of what the quantity has room for: particles are one spacing apart, and a field's own value is finer.
+/// A tenth of what the quantity has room for: particles are one spacing apart, and a field's own value is
+/// finer.
 double room_of_gauge(const Audited& run, const JobGauge& gauge, const std::vector<double>& shown) {
   const auto is_of = [&](const char* what) { return gauge.quantity.find(what) != std::string::npos; };
   double most = 0.0;
@@ -66,14 +68,16 @@ std::string gauge_contradicts(const Audited& run, const JobGauge& gauge, const s
   for (std::size_t n = 0; n < run.frames.size(); ++n) {
     const auto own = run.frames[n]->gauges.find(gauge.metric);
     if (own == run.frames[n]->gauges.end() || std::abs(own->second - shown[n]) <= allowed) continue;
-    return "contradicts itself: the gauge `" + gauge.metric + "` says " + figure(own->second) + ", the particles " +
-           figure(shown[n]) + at_time(*run.frames[n]) + ", where they may differ by " + figure(allowed);
+    return "contradicts itself: the gauge `" + gauge.metric + "` says " + figure(own->second) +
+           ", the particles " + figure(shown[n]) + at_time(*run.frames[n]) + ", where they may differ by " +
+           figure(allowed);
   }
   return {};
 }
 
 bool is_answered(const Audited& run, const JobGauge& gauge) {
-  return std::any_of(run.frames.begin(), run.frames.end(), [&](const Snapshot* s) { return s->gauges.contains(gauge.metric); });
+  return std::any_of(run.frames.begin(), run.frames.end(),
+                     [&](const Snapshot* s) { return s->gauges.contains(gauge.metric); });
 }
 
 }  // namespace

@@ -32,27 +32,31 @@ WayDifference way_difference(const Audited& run, const Track& track, std::size_t
   if (!v.known() || !finite(from) || !finite(to)) return {};
   const double time = run.frames[n + 1]->time - run.frames[n]->time, size = std::max(norm(from), norm(to));
   const Vec3 off = (1.0 / time) * displacement(run.job.scene, to, from + time * v.mean());
-  return {norm(without_lag(off, largest_lag(run, v, time))), allowed_difference(v, contact.touches) +
-                                                                 rounding_rate(run, size, 1e-6 * run.job.scene.spacing, time) +
-                                                                 contact.hidden_speed};
+  return {norm(without_lag(off, largest_lag(run, v, time))),
+          allowed_difference(v, contact.touches) +
+              rounding_rate(run, size, 1e-6 * run.job.scene.spacing, time) + contact.hidden_speed};
 }
 
 std::string told(const Audited& run, const std::string& name, std::size_t n, const WayDifference& d) {
-  return "contradicts itself: " + name + " moves otherwise than its velocity says" + between(*run.frames[n], *run.frames[n + 1]) +
-         ": by " + figure(d.found) + " m/s, where " + figure(d.allowed) + " m/s may be";
+  return "contradicts itself: " + name + " moves otherwise than its velocity says" +
+         between(*run.frames[n], *run.frames[n + 1]) + ": by " + figure(d.found) + " m/s, where " +
+         figure(d.allowed) + " m/s may be";
 }
 
 /// Whether the particle is of a rigid body whose row is looked at in its place.
 bool has_row(const Audited& run, std::size_t particle) {
   const auto* body = body_of(run, particle);
-  return body && body->phase == Phase::rigid && body->index >= 0 && !run.frames.front()->bodies.empty() && keeps_bodies(run.job);
+  return body && body->phase == Phase::rigid && body->index >= 0 && !run.frames.front()->bodies.empty() &&
+         keeps_bodies(run.job);
 }
 
-/// The transport velocity, or the shift of liquid that carries its density, moves liquid otherwise than its velocity.
+/// The transport velocity, or the shift of liquid that carries its density, moves liquid otherwise than its
+/// velocity.
 bool is_carried(const Audited& run, std::size_t particle) {
   const auto* body = body_of(run, particle);
   const Scene& scene = run.job.scene;
-  return (scene.transport_velocity || scene.has_brought_form(term::pressure)) && (!body || body->phase == Phase::liquid);
+  return (scene.transport_velocity || scene.has_brought_form(term::pressure)) &&
+         (!body || body->phase == Phase::liquid);
 }
 
 Track track_of_particle(const Audited& run, std::size_t i) {
@@ -115,9 +119,10 @@ struct Squares {
 /// Elastic matter vibrates faster than frames show: as a share of its speed.
 constexpr double vibrates = 1e-2;
 
-/// One particle among many may be thrown between two frames; all of a body together may not. So one has three times the room,
-/// and the largest speed of all.
-std::string particle_contradicts(const Audited& run, std::size_t i, const Intervals& intervals, Squares& sums) {
+/// One particle among many may be thrown between two frames; all of a body together may not. So one has three
+/// times the room, and the largest speed of all.
+std::string particle_contradicts(const Audited& run, std::size_t i, const Intervals& intervals,
+                                 Squares& sums) {
   const Track track = track_of_particle(run, i);
   sums.speed += greatest_speed(track) * greatest_speed(track);
   for (std::size_t n = 0; n + 1 < run.frames.size(); ++n) {
@@ -131,7 +136,8 @@ std::string particle_contradicts(const Audited& run, std::size_t i, const Interv
   return {};
 }
 
-/// Matter may vibrate faster than frames show. What it is allowed in its roughest interval it is allowed in all.
+/// Matter may vibrate faster than frames show. What it is allowed in its roughest interval it is allowed in
+/// all.
 std::string mean_contradicts(const Audited& run, const JobBody& body, const Squares& sums) {
   const std::string& name = body.name;
   const double vibration = body.phase == Phase::elastic ? vibrates * vibrates * sums.speed : 0.0;
@@ -176,20 +182,23 @@ bool same_mass(const Audited& run, std::size_t row, std::size_t n) {
 /// Contact of a row. One that is no body of the start has come of others, which may be near it.
 Contact contact_of_row(const Audited& run, std::size_t row, std::size_t n) {
   for (std::size_t b = 0; b < run.job.bodies.size(); ++b)
-    if (run.job.bodies[b].index == static_cast<int>(row) && keeps_bodies(run.job)) return contact_of(run, b, n);
+    if (run.job.bodies[b].index == static_cast<int>(row) && keeps_bodies(run.job))
+      return contact_of(run, b, n);
   return {true, fastest(*run.frames[n]) + fastest(*run.frames[n + 1])};
 }
 
 /// Whether a keyframe within the interval gives the body another velocity, which no frame shows.
 bool is_led_otherwise(const Audited& run, std::size_t row, std::size_t n) {
   return std::any_of(run.job.bodies.begin(), run.job.bodies.end(), [&](const JobBody& b) {
-    return b.index == static_cast<int>(row) && std::any_of(b.keyframes.begin(), b.keyframes.end(), [&](const Keyframe& k) {
+    return b.index == static_cast<int>(row) &&
+           std::any_of(b.keyframes.begin(), b.keyframes.end(), [&](const Keyframe& k) {
              return k.time >= run.frames[n]->time && k.time <= run.frames[n + 1]->time;
            });
   });
 }
 
-/// An engine may push a body out of another by places alone, which no velocity shows: as a share of its speed before a hit.
+/// An engine may push a body out of another by places alone, which no velocity shows: as a share of its speed
+/// before a hit.
 constexpr double pushed_out = 1e-3;
 
 /// A body may bounce between two frames, to and fro at the speed that it has about them.
@@ -204,7 +213,8 @@ std::string bodies_contradict(const Audited& run) {
   for (std::size_t row = 0; row < run.frames.back()->bodies.size(); ++row) {
     const Track track = track_of_row(run, row);
     for (std::size_t n = 0; n + 1 < run.frames.size(); ++n) {
-      if (is_interrupted(run.job, *run.frames[n], *run.frames[n + 1]) || is_led_otherwise(run, row, n) || !same_mass(run, row, n))
+      if (is_interrupted(run.job, *run.frames[n], *run.frames[n + 1]) || is_led_otherwise(run, row, n) ||
+          !same_mass(run, row, n))
         continue;
       if (const auto free = way_difference(run, track, n, {}); free.found <= free.allowed) continue;
       const Contact contact = contact_of_row(run, row, n);

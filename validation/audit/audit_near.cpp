@@ -42,7 +42,8 @@ bool meet(const Box& box, const Shape& half_space, double room) {
 std::vector<Box> boxes_in(const Audited& run, const Snapshot& s) {
   std::vector<Box> boxes(run.job.bodies.size());
   for (std::size_t i = 0; i < std::min(s.position.size(), run.initial.source.size()); ++i)
-    if (const auto source = static_cast<std::size_t>(run.initial.source[i]); source < boxes.size() && !dead(s, i))
+    if (const auto source = static_cast<std::size_t>(run.initial.source[i]);
+        source < boxes.size() && !dead(s, i))
       take(boxes[source], s.position[i]);
   return boxes;
 }
@@ -61,7 +62,8 @@ const BodyState* row_of(const JobBody& body, const Snapshot& s) {
 /// Largest speed of a body's matter beside a velocity, at one time [m/s].
 double fastest_beside(const Audited& run, std::size_t other, const Snapshot& s, const Vec3& velocity) {
   double most = 0.0;
-  if (const auto* row = row_of(run.job.bodies[other], s); row && run.job.bodies[other].phase == Phase::rigid) {
+  if (const auto* row = row_of(run.job.bodies[other], s);
+      row && run.job.bodies[other].phase == Phase::rigid) {
     const Box& box = run.boxes.front()[other];
     return norm(row->velocity - velocity) + norm(row->angular_velocity) * norm(box.high - box.low);
   }
@@ -80,7 +82,8 @@ std::vector<std::size_t> near_bodies(const Audited& run, std::size_t body, std::
   std::vector<std::size_t> near;
   for (std::size_t b = 0; b < run.job.bodies.size(); ++b) {
     const bool is_plane = b < scene.bodies.size() && scene.bodies[b].shape.kind == Shape::Kind::half_space;
-    const bool meets = meet(own, swept(run, b, interval), room) || (is_plane && meet(own, scene.bodies[b].shape, room));
+    const bool meets =
+        meet(own, swept(run, b, interval), room) || (is_plane && meet(own, scene.bodies[b].shape, room));
     if (b != body && (unknown || meets)) near.push_back(b);
   }
   return near;
@@ -101,7 +104,8 @@ Contact contact_of(const Audited& run, std::size_t body, std::size_t interval) {
   double pushed = 0.0;  // what stands still gives no speed
   for (const std::size_t other : near)
     for (const auto* s : {&a, &b})
-      if (run.job.bodies[other].motion != Motion::fixed) pushed = std::max(pushed, fastest_beside(run, other, *s, velocity(*s)));
+      if (run.job.bodies[other].motion != Motion::fixed)
+        pushed = std::max(pushed, fastest_beside(run, other, *s, velocity(*s)));
   contact.hidden_speed += pushed;
   return contact;
 }

@@ -9,7 +9,8 @@
 #include "validation/metrics/frames.hpp"
 #include "validation/metrics/near_pairs.hpp"
 
-/// The checks of an audit, one a file. Each returns an empty text where the run is sound, else what is wrong, where and when.
+/// The checks of an audit, one a file. Each returns an empty text where the run is sound, else what is wrong,
+/// where and when.
 namespace tripoint {
 
 /// Box that holds all places of a body; empty where it has none.
@@ -26,14 +27,16 @@ struct Audited {
   const Trajectory& trajectory;
   const Frames& frames;  ///< of the trajectory, at the job's times
 
-  mutable std::vector<std::vector<Box>> boxes = {};  ///< of each body in each frame, made when first asked for
+  /// Of each body in each frame, made when first asked for
+  mutable std::vector<std::vector<Box>> boxes = {};
 
   [[nodiscard]] bool is_single() const { return held.precision == "single"; }
   /// Time step of the engine, at most the interval: the larger of the job's and of what it read back [s].
   [[nodiscard]] double step(double interval) const;
 };
 
-/// Values outside their set: not finite, no unit quaternion, a mass or density that is not positive, a code out of range.
+/// Values outside their set: not finite, no unit quaternion, a mass or density that is not positive, a code
+/// out of range.
 [[nodiscard]] std::string values_outside_their_set(const Audited&, const Snapshot&);
 /// Particles that are lost or have changed their mass.
 [[nodiscard]] std::string lost_matter(const Audited&, const Snapshot&);
@@ -49,7 +52,8 @@ struct Audited {
 [[nodiscard]] std::string turns_against_its_spin(const Audited&);
 /// A gauge that says something else than the particles of the same run.
 [[nodiscard]] std::string gauges_against_particles(const Audited&);
-/// Sums that the engine states (mass, momentum, angular momentum, kinetic energy) and the same of its particles.
+/// Sums that the engine states (mass, momentum, angular momentum, kinetic energy) and the same of its
+/// particles.
 [[nodiscard]] std::string sums_against_particles(const Audited&);
 
 /// A number for a message, to six digits.
@@ -59,7 +63,9 @@ template <class T>
   text << value;
   return text.str();
 }
-[[nodiscard]] inline std::string at_time(const Snapshot& s) { return " at t = " + std::to_string(s.time) + " s"; }
+[[nodiscard]] inline std::string at_time(const Snapshot& s) {
+  return " at t = " + std::to_string(s.time) + " s";
+}
 [[nodiscard]] inline std::string between(const Snapshot& a, const Snapshot& b) {
   return " from t = " + std::to_string(a.time) + " to " + std::to_string(b.time) + " s";
 }
@@ -70,7 +76,8 @@ template <class T>
 /// Name of a row of /particles/bodies, for messages.
 [[nodiscard]] std::string row_name(const Audited&, std::size_t row);
 
-/// Whether each particle belongs to the body of the start in every frame: nothing unites, parts, melts or freezes.
+/// Whether each particle belongs to the body of the start in every frame: nothing unites, parts, melts or
+/// freezes.
 [[nodiscard]] bool keeps_bodies(const Job&);
 
 }  // namespace tripoint

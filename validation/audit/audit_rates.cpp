@@ -8,7 +8,8 @@ namespace tripoint {
 namespace {
 
 constexpr Vec3 no_value{not_a_number, not_a_number, not_a_number};
-/// A smooth rate asks for 1/12 of its second difference, a jump within the interval for 1/2 of it. Contact jumps several times.
+/// A smooth rate asks for 1/12 of its second difference, a jump within the interval for 1/2 of it. Contact
+/// jumps several times.
 constexpr double rough_share = 0.75, rough_share_in_contact = 4.0;
 constexpr double five_digits = 1e-5;
 
@@ -38,7 +39,8 @@ bool is_interrupted(const Job& job, const Snapshot& a, const Snapshot& b) {
 }
 
 double allowed_difference(const Rates& rates, bool touches) {
-  return (touches ? rough_share_in_contact : rough_share) * rates.roughness() + five_digits * rates.greatest();
+  return (touches ? rough_share_in_contact : rough_share) * rates.roughness() +
+         five_digits * rates.greatest();
 }
 
 Vec3 largest_lag(const Audited& run, const Rates& rates, double interval) {
@@ -47,7 +49,8 @@ Vec3 largest_lag(const Audited& run, const Rates& rates, double interval) {
 
 double rounding_rate(const Audited& run, double size, double output, double interval) {
   const double step = run.step(interval), steps = 2.0 + (step > 0.0 ? interval / step : 1.0);
-  const double last_digit = run.is_single() ? 4.8e-7 : 2.3e-16;  // engines of single precision have four substeps a step
+  // Engines of single precision have four substeps a step
+  const double last_digit = run.is_single() ? 4.8e-7 : 2.3e-16;
   return (steps * last_digit * size + output) / interval;
 }
 

@@ -4,10 +4,12 @@
 
 #include "validation/audit/audit_parts.hpp"
 
-/// How far a change may be from what its rate says. Places with velocities, and orientations with angular velocities, share it.
+/// How far a change may be from what its rate says. Places with velocities, and orientations with angular
+/// velocities, share it.
 namespace tripoint {
 
-/// A rate at the two ends of an interval between frames, and at the frames before and after it; NaN where there is none.
+/// A rate at the two ends of an interval between frames, and at the frames before and after it; NaN where
+/// there is none.
 struct Rates {
   Vec3 before, first, last, after;
 
@@ -15,29 +17,33 @@ struct Rates {
   [[nodiscard]] Vec3 mean() const { return 0.5 * (first + last); }
   [[nodiscard]] Vec3 change() const { return last - first; }
   [[nodiscard]] double greatest() const;
-  /// Largest second difference at the two ends: what the trapezoidal rule over the frames does not see. Of two frames alone,
-  /// their difference.
+  /// Largest second difference at the two ends: what the trapezoidal rule over the frames does not see. Of
+  /// two frames alone, their difference.
   [[nodiscard]] double roughness() const;
 };
 [[nodiscard]] Rates rates_at(const std::vector<Vec3>& in_time, std::size_t interval);
 
-/// Whether an event takes hold of bodies between two frames: what is held, gripped, united or parted does not move by its rate.
+/// Whether an event takes hold of bodies between two frames: what is held, gripped, united or parted does not
+/// move by its rate.
 [[nodiscard]] bool is_interrupted(const Job&, const Snapshot& a, const Snapshot& b);
 
-/// Whether a body may touch another one in an interval between frames: the boxes that they sweep come within three spacings.
+/// Whether a body may touch another one in an interval between frames: the boxes that they sweep come within
+/// three spacings.
 struct Contact {
   bool touches = false;
-  double hidden_speed = 0.0;  ///< that contact may give and take again, unseen by the frames: gravity's, and that of others [m/s]
+  /// That contact may give and take again, unseen by the frames: gravity's, and that of others [m/s]
+  double hidden_speed = 0.0;
 };
 [[nodiscard]] Contact contact_of(const Audited&, std::size_t body, std::size_t interval);
 
-/// Largest difference between a mean rate over an interval and the mean of its ends: the error of the trapezoidal rule where the
-/// rate bends or jumps in between, and five digits.
+/// Largest difference between a mean rate over an interval and the mean of its ends: the error of the
+/// trapezoidal rule where the rate bends or jumps in between, and five digits.
 /// @param touches whether contact may act: it jumps more than once in an interval
 [[nodiscard]] double allowed_difference(const Rates&, bool touches);
 /// Largest lag of an engine of first order with steps h, as a rate: h/2 of the change of the rate.
 [[nodiscard]] Vec3 largest_lag(const Audited&, const Rates&, double interval);
-/// Roundings of a coordinate of this size over the steps of an interval, and of six digits in an output, as a rate.
+/// Roundings of a coordinate of this size over the steps of an interval, and of six digits in an output, as a
+/// rate.
 [[nodiscard]] double rounding_rate(const Audited&, double size, double output, double interval);
 
 }  // namespace tripoint

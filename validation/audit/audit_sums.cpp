@@ -40,11 +40,13 @@ bool states_sums(const Audited& run) {
 }
 
 bool has_rigid_matter(const Audited& run) {
-  return std::any_of(run.frames.begin(), run.frames.end(), [](const Snapshot* s) { return std::ranges::count(s->phase, 2) > 0; });
+  return std::any_of(run.frames.begin(), run.frames.end(),
+                     [](const Snapshot* s) { return std::ranges::count(s->phase, 2) > 0; });
 }
 
-/// Shares by which sound sums may differ from those of the particles. A rigid body may turn with moments that are not those of
-/// its particles, as metrics then show; a place that was wrapped says nothing of the moment of its momentum.
+/// Shares by which sound sums may differ from those of the particles. A rigid body may turn with moments that
+/// are not those of its particles, as metrics then show; a place that was wrapped says nothing of the moment
+/// of its momentum.
 struct Room {
   double sums, kinetic, angular;
 };
@@ -57,8 +59,8 @@ Room room_of(const Audited& run) {
 }
 
 std::string differ(const Snapshot& s, const char* what, double stated, double shown) {
-  return "contradicts itself: the sum `" + std::string(what) + "` says " + figure(stated) + ", the particles " + figure(shown) +
-         at_time(s);
+  return "contradicts itself: the sum `" + std::string(what) + "` says " + figure(stated) +
+         ", the particles " + figure(shown) + at_time(s);
 }
 
 std::string differ(const Snapshot& s, const char* what, const Vec3& stated, const Vec3& shown) {
@@ -82,18 +84,22 @@ std::string sums_against_particles(const Audited& run) {
     most.momentum_size = std::max(most.momentum_size, sum.momentum_size);
     most.angular_size = std::max(most.angular_size, sum.angular_size);
   }
-  const auto apart = [](double distance, double size, double share) { return share < unbounded && !(distance <= share * size); };
+  const auto apart = [](double distance, double size, double share) {
+    return share < unbounded && !(distance <= share * size);
+  };
   for (std::size_t n = 0; n < run.frames.size(); ++n) {
     const Snapshot& s = *run.frames[n];
     const Sums& of = shown[n];
-    if (apart(std::abs(s.total_mass - of.mass), most.mass, room.sums)) return differ(s, "mass", s.total_mass, of.mass);
+    if (apart(std::abs(s.total_mass - of.mass), most.mass, room.sums))
+      return differ(s, "mass", s.total_mass, of.mass);
     if (s.velocity.empty()) continue;
     if (apart(norm(s.momentum - of.momentum), most.momentum_size, room.sums))
       return differ(s, "momentum", s.momentum, of.momentum);
     if (apart(norm(s.angular_momentum - of.angular_momentum), most.angular_size, room.angular))
       return differ(s, "angular_momentum", s.angular_momentum, of.angular_momentum);
     const auto kinetic = s.energy.find("kinetic");
-    if (kinetic != s.energy.end() && apart(std::abs(kinetic->second - of.kinetic), most.kinetic, room.kinetic))
+    if (kinetic != s.energy.end() &&
+        apart(std::abs(kinetic->second - of.kinetic), most.kinetic, room.kinetic))
       return differ(s, "energy_kinetic", kinetic->second, of.kinetic);
   }
   return {};

@@ -22,8 +22,8 @@ struct TurnDifference {
   [[nodiscard]] bool too_large() const { return found > allowed; }
 };
 
-/// Where frames are so coarse that a linear change of the angular velocity says less than this, a body that nothing touches must
-/// turn as a free one [rad].
+/// Where frames are so coarse that a linear change of the angular velocity says less than this, a body that
+/// nothing touches must turn as a free one [rad].
 constexpr double freely_at_most = 0.25;
 
 /// Turn in an interval whose angular velocity changes linearly.
@@ -44,23 +44,25 @@ double scheme_error(const Audited& run, double rate, double time) {
 }
 
 /// Radius at which contact turns the body: its least radius of gyration [m].
-double radius(const JobBody& b) { return std::sqrt(std::max(b.properties.principal_inertia.x, 0.0) / b.properties.mass); }
+double radius(const JobBody& b) {
+  return std::sqrt(std::max(b.properties.principal_inertia.x, 0.0) / b.properties.mass);
+}
 
 TurnDifference by_linear_change(const Audited& run, const Spin& spin, std::size_t n, const Quaternion& turn,
                                 const Contact& contact) {
   const Rates w = rates_at(spin.angular_velocity, n);
   const double time = run.frames[n + 1]->time - run.frames[n]->time, rate = w.greatest();
   const double of_contact = contact.touches ? contact.hidden_speed / radius(spin.body) : 0.0;
-  const double of_rates =
-      allowed_difference(w, contact.touches) + norm(largest_lag(run, w, time)) + rounding_rate(run, 1.0, 1e-6, time) + of_contact;
+  const double of_rates = allowed_difference(w, contact.touches) + norm(largest_lag(run, w, time)) +
+                          rounding_rate(run, 1.0, 1e-6, time) + of_contact;
   const double most = contact.touches ? std::numeric_limits<double>::infinity() : freely_at_most;
   const double of_direction = norm(cross(w.first, w.last)) * time * time / 12.0;
   return {angle_between(linear_turn(w.first, w.last, time), turn),
           std::min(of_rates * time + of_direction, most) + scheme_error(run, rate, time)};
 }
 
-/// Beside the free motion from the interval's start: where the engine's own angular velocity at the end is near that of the free
-/// motion, so must its turn be.
+/// Beside the free motion from the interval's start: where the engine's own angular velocity at the end is
+/// near that of the free motion, so must its turn be.
 TurnDifference by_free_motion(const Audited& run, const Spin& spin, std::size_t n, const Quaternion& turn) {
   const Rates w = rates_at(spin.angular_velocity, n);
   const double time = run.frames[n + 1]->time - run.frames[n]->time, rate = w.greatest();
@@ -69,7 +71,8 @@ TurnDifference by_free_motion(const Audited& run, const Spin& spin, std::size_t 
   const double apart = norm(free.angular_velocity(time) - w.last);
   const double most = 3.0 * rate * rate * time * run.step(time);
   const double rest = (1e-4 * rate + rounding_rate(run, 1.0, 1e-6, time)) * time;
-  return {angle_between(free.rotation(time), turn), std::min(3.0 * apart * time, most) + scheme_error(run, rate, time) + rest};
+  return {angle_between(free.rotation(time), turn),
+          std::min(3.0 * apart * time, most) + scheme_error(run, rate, time) + rest};
 }
 
 bool turns_freely(const Audited& run, const Spin& spin, std::size_t n, const Quaternion& turn) {
@@ -87,8 +90,8 @@ std::string turn_contradicts(const Audited& run, const Spin& spin, std::size_t n
   const TurnDifference linear = by_linear_change(run, spin, n, turn, contact_of(run, row, n));
   if (!linear.too_large() || turns_freely(run, spin, n, turn)) return {};
   return "contradicts itself: `" + spin.body.name + "` turns otherwise than its angular velocity says" +
-         between(*run.frames[n], *run.frames[n + 1]) + ": by " + figure(linear.found) + " rad, where " + figure(linear.allowed) +
-         " rad may be";
+         between(*run.frames[n], *run.frames[n + 1]) + ": by " + figure(linear.found) + " rad, where " +
+         figure(linear.allowed) + " rad may be";
 }
 
 /// A body that is rigid, free and whole in every frame.

@@ -14,7 +14,8 @@ bool is_positive(double v) { return std::isfinite(v) && v > 0.0; }
 
 /// The first value of a column of particles that is not finite, or outside its set.
 template <class T, class Inside>
-std::string outside(const Snapshot& s, const std::vector<T>& column, const char* name, const char* set, Inside inside) {
+std::string outside(const Snapshot& s, const std::vector<T>& column, const char* name, const char* set,
+                    Inside inside) {
   for (std::size_t i = 0; i < column.size(); ++i) {
     if (dead(s, i) || (is_finite(column[i]) && inside(column[i]))) continue;
     const std::string of = std::string(name) + " of particle " + std::to_string(i) + " is ";
@@ -26,7 +27,8 @@ std::string outside(const Snapshot& s, const std::vector<T>& column, const char*
 
 /// The first text that is not empty.
 std::string first_fault(std::initializer_list<std::string> texts) {
-  const auto found = std::find_if(texts.begin(), texts.end(), [](const std::string& t) { return !t.empty(); });
+  const auto found =
+      std::find_if(texts.begin(), texts.end(), [](const std::string& t) { return !t.empty(); });
   return found == texts.end() ? "" : *found;
 }
 
@@ -36,18 +38,22 @@ std::string wrong_columns(const Snapshot& s) {
       {outside(s, s.position, "position", "", any), outside(s, s.velocity, "velocity", "", any),
        outside(s, s.temperature, "temperature", "", any), outside(s, s.pressure, "pressure", "", any),
        outside(s, s.temperature_error, "temperature_error", "below 0", [](double e) { return e >= 0.0; }),
-       outside(s, s.density, "density", "not positive", is_positive), outside(s, s.mass, "mass", "not positive", is_positive),
-       outside(s, s.liquid_fraction, "liquid_fraction", "not in 0 to 1", [](double f) { return f >= 0.0 && f <= 1.0; })});
+       outside(s, s.density, "density", "not positive", is_positive),
+       outside(s, s.mass, "mass", "not positive", is_positive),
+       outside(s, s.liquid_fraction, "liquid_fraction", "not in 0 to 1",
+               [](double f) { return f >= 0.0 && f <= 1.0; })});
 }
 
-/// Of walkers a temperature is known to its standard error alone. Scenes that count from another zero are left alone.
+/// Of walkers a temperature is known to its standard error alone. Scenes that count from another zero are
+/// left alone.
 std::string below_absolute_zero(const Audited& run, const Snapshot& s) {
   const auto& start = run.initial.temperature;
   if (std::any_of(start.begin(), start.end(), [](double T) { return !(T > 0.0); })) return {};
   for (std::size_t i = 0; i < s.temperature.size(); ++i) {
     const double error = i < s.temperature_error.size() ? s.temperature_error[i] : 0.0;
     if (!dead(s, i) && s.temperature[i] + 6.0 * error <= 0.0)
-      return "temperature of particle " + std::to_string(i) + " is not above 0 K: " + figure(s.temperature[i]) + at_time(s);
+      return "temperature of particle " + std::to_string(i) +
+             " is not above 0 K: " + figure(s.temperature[i]) + at_time(s);
   }
   return {};
 }
@@ -57,16 +63,19 @@ std::string wrong_codes(const Audited& run, const Snapshot& s) {
     return [low, end](int code) { return code >= low && code < static_cast<int>(end); };
   };
   const auto& materials = run.job.scene.materials;
-  return first_fault(
-      {outside(s, s.phase, "phase", "none of 0, 1, 2", within(0, 3)),
-       outside(s, s.body, "body", "no row of a body, nor -1", within(-1, s.bodies.empty() ? 1u << 30 : s.bodies.size())),
-       materials.empty() ? "" : outside(s, s.material, "material", "no material of the job", within(0, materials.size()))});
+  return first_fault({outside(s, s.phase, "phase", "none of 0, 1, 2", within(0, 3)),
+                      outside(s, s.body, "body", "no row of a body, nor -1",
+                              within(-1, s.bodies.empty() ? 1u << 30 : s.bodies.size())),
+                      materials.empty() ? ""
+                                        : outside(s, s.material, "material", "no material of the job",
+                                                  within(0, materials.size()))});
 }
 
 /// An engine that knows a body by its matter alone writes no number for its turning, in no frame.
 bool states_turning(const Audited& run, std::size_t row) {
-  return std::any_of(run.frames.begin(), run.frames.end(),
-                     [row](const Snapshot* s) { return row < s->bodies.size() && finite(s->bodies[row].angular_velocity); });
+  return std::any_of(run.frames.begin(), run.frames.end(), [row](const Snapshot* s) {
+    return row < s->bodies.size() && finite(s->bodies[row].angular_velocity);
+  });
 }
 
 /// Room of a norm of 1: roundings of an engine's own precision, over all its steps.
@@ -79,8 +88,8 @@ std::string wrong_body(const Audited& run, const Snapshot& s, std::size_t row) {
   const bool turns = states_turning(run, row);
   if (turns && !finite(b.angular_velocity)) return "angular velocity" + of + "not finite" + at_time(s);
   if ((turns || std::isfinite(norm(q))) && !(std::abs(norm(q) - 1.0) <= (run.is_single() ? 1e-4 : 1e-6)))
-    return "orientation" + of + "no unit quaternion: (" + figure(q.w) + ", " + figure(q.x) + ", " + figure(q.y) + ", " +
-           figure(q.z) + ")" + at_time(s);
+    return "orientation" + of + "no unit quaternion: (" + figure(q.w) + ", " + figure(q.x) + ", " +
+           figure(q.y) + ", " + figure(q.z) + ")" + at_time(s);
   if (!is_positive(b.mass)) return "mass" + of + "not positive: " + figure(b.mass) + at_time(s);
   return {};
 }
@@ -88,7 +97,9 @@ std::string wrong_body(const Audited& run, const Snapshot& s, std::size_t row) {
 }  // namespace
 
 std::string values_outside_their_set(const Audited& run, const Snapshot& s) {
-  if (auto why = first_fault({wrong_columns(s), below_absolute_zero(run, s), wrong_codes(run, s)}); !why.empty()) return why;
+  if (auto why = first_fault({wrong_columns(s), below_absolute_zero(run, s), wrong_codes(run, s)});
+      !why.empty())
+    return why;
   for (std::size_t row = 0; row < s.bodies.size(); ++row)
     if (auto why = wrong_body(run, s, row); !why.empty()) return why;
   return {};

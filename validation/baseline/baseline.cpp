@@ -9,7 +9,8 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Place {
-  fs::path baselines, below, cases;  ///< the folder of the suite's baselines, the file below it, the folder of its cases
+  /// The folder of the suite's baselines, the file below it, the folder of its cases
+  fs::path baselines, below, cases;
 };
 
 Place place_of(const std::string& case_file) {

@@ -61,14 +61,17 @@ Baseline accepted_from(const CaseResult& c, const Tool& tool, std::uint64_t seed
 
 namespace {
 
-/// Runs that count more than 1 % more or fewer pairs or steps: a gate would compare them with the new figures.
+/// Runs that count more than 1 % more or fewer pairs or steps: a gate would compare them with the new
+/// figures.
 std::string changes_of_cost(const Baseline& before, const Baseline& after) {
   constexpr double seen = 0.01;
   std::string text;
   for (const auto& now : after.cost) {
-    const auto old = std::find_if(before.cost.begin(), before.cost.end(), [&](const auto& o) { return o.run == now.run; });
+    const auto old =
+        std::find_if(before.cost.begin(), before.cost.end(), [&](const auto& o) { return o.run == now.run; });
     if (old == before.cost.end()) continue;
-    for (const auto& [what, is, was] : {std::tuple{"pairs", now.pairs, old->pairs}, std::tuple{"steps", now.steps, old->steps}})
+    for (const auto& [what, is, was] :
+         {std::tuple{"pairs", now.pairs, old->pairs}, std::tuple{"steps", now.steps, old->steps}})
       if (std::abs(is - was) > seen * was)
         text += one_line(fmt::format("{} {}: {} {:.6g} -> {:.6g}", after.id, now.run, what, was, is)) + "\n";
   }
@@ -84,9 +87,11 @@ std::string changes_of_question(const Baseline& before, const Baseline& after) {
   if (!before.scene.empty() && before.scene != after.scene) say("another scene, study or setting");
   if (!before.reference.empty() && before.reference != after.reference) say("another reference");
   for (const auto& profile : before.profiles)
-    if (std::ranges::find(after.profiles, profile) == after.profiles.end()) say("LEAVES the profile " + profile);
+    if (std::ranges::find(after.profiles, profile) == after.profiles.end())
+      say("LEAVES the profile " + profile);
   for (const auto& engine : before.required)
-    if (std::ranges::find(after.required, engine) == after.required.end()) say(engine + " is REQUIRED NO MORE");
+    if (std::ranges::find(after.required, engine) == after.required.end())
+      say(engine + " is REQUIRED NO MORE");
   return text;
 }
 
@@ -97,8 +102,9 @@ std::string changes(const Baseline* before, const Baseline& after) {
   for (std::size_t k = 0; k < after.gates.size(); ++k) {
     const auto& now = after.gates[k];
     const auto* old = counterpart(after.gates, k, before->gates);
-    const std::string name = one_line(fmt::format("{} {}{} {}{}", after.id, now.engine, after_blank(now.mode), now.metric,
-                                                  now.level ? fmt::format(" at {:g}", *now.level) : ""));
+    const std::string name =
+        one_line(fmt::format("{} {}{} {}{}", after.id, now.engine, after_blank(now.mode), now.metric,
+                             now.level ? fmt::format(" at {:g}", *now.level) : ""));
     if (!old) {
       text += fmt::format("{}: new, {}\n", name, now.allows);
       continue;
@@ -107,7 +113,8 @@ std::string changes(const Baseline* before, const Baseline& after) {
     const auto edge = looser_edge(now, *old);
     if (has_edges_alike(now, *old) && std::abs(now.room / old->room - 1.0) > 1e-9)
       text += fmt::format("{}: {} -> {}, {} by a factor {:.3g}\n", name, old->allows, now.allows,
-                          now.room > old->room ? "LOOSER" : "tighter", std::max(now.room / old->room, old->room / now.room));
+                          now.room > old->room ? "LOOSER" : "tighter",
+                          std::max(now.room / old->room, old->room / now.room));
     else if (!edge.empty())
       text += fmt::format("{}: {} -> {}, LOOSER: {}\n", name, old->allows, now.allows, edge);
     else if (now.allows != old->allows)
@@ -135,36 +142,40 @@ void check_reason(const Acceptance& acceptance) {
 /// A line of warning where the sources of the program that measured are in no commit; else nothing.
 std::string unreproducible(const std::string& commit) {
   if (!commit.ends_with("-dirty")) return "";
-  return one_line(
-             fmt::format("note: measured by a tripoint of changed sources ({}), which nobody can build again: commit, build and "
-                         "validate before you accept what others rely on",
-                         commit)) +
+  return one_line(fmt::format("note: measured by a tripoint of changed sources ({}), which nobody can build "
+                              "again: commit, build and "
+                              "validate before you accept what others rely on",
+                              commit)) +
          "\n";
 }
 
 void check_acceptable(const CaseResult& c) {
   if (c.exit_code != exit_pass)
-    throw InputError(fmt::format("{}: is {} and cannot be accepted; what is measured must be green first", c.id, c.verdict));
+    throw InputError(fmt::format("{}: is {} and cannot be accepted; what is measured must be green first",
+                                 c.id, c.verdict));
 }
 
-/// A note for each accepted engine that the case does not name: a run that is not told of it lacks what was accepted.
+/// A note for each accepted engine that the case does not name: a run that is not told of it lacks what was
+/// accepted.
 std::string unnamed_engines(const CaseResult& c, const Baseline& after) {
   const auto hashes = case_hashes(c.file);
   if (!hashes) return "";
   std::string text;
   for (const auto& e : after.engines)
     if (!hashes->required.contains(e.name))
-      text += one_line(fmt::format("{} {}: note: the case names no such engine, so that each run without --engines {} lacks its "
-                                   "gates and is red: add [engines.{}], or accept results without it",
-                                   c.id, e.name, e.name, e.name)) +
-              "\n";
+      text +=
+          one_line(fmt::format(
+              "{} {}: note: the case names no such engine, so that each run without --engines {} lacks its "
+              "gates and is red: add [engines.{}], or accept results without it",
+              c.id, e.name, e.name, e.name)) +
+          "\n";
   return text;
 }
 
 }  // namespace
 
-std::vector<Proposal> proposals(const Results& results, const std::vector<std::string>& ids, const Acceptance& acceptance,
-                                const Lacking& lacking) {
+std::vector<Proposal> proposals(const Results& results, const std::vector<std::string>& ids,
+                                const Acceptance& acceptance, const Lacking& lacking) {
   check_reason(acceptance);
   const bool engines_were_chosen = !results.only_engines.empty();
   std::vector<const CaseResult*> chosen;
@@ -211,7 +222,8 @@ std::string accept(const Results& results, const std::vector<std::string>& ids, 
   }
   text += unreproducible(acceptance.commit);
   return text + fmt::format(
-                    "{} cases accepted; since the first baseline {} limits were loosened, in all by a factor {:.4g} (sum of ln "
+                    "{} cases accepted; since the first baseline {} limits were loosened, in all by a factor "
+                    "{:.4g} (sum of ln "
                     "new/old {:.3g}), and {} were removed\n",
                     list.size(), count, std::exp(sum), sum, removed);
 }
@@ -227,7 +239,8 @@ std::string accept_removal(const std::vector<std::string>& ids, const Acceptance
     if (fs::exists(of)) throw InputError(of + ": the case is still there, and its baseline stays");
     const auto b = read_baseline(file);
     fs::remove(file);
-    text += one_line(fmt::format("{}: REMOVED with {} gates: {}", b.id, b.gates.size(), acceptance.reason)) + "\n";
+    text += one_line(fmt::format("{}: REMOVED with {} gates: {}", b.id, b.gates.size(), acceptance.reason)) +
+            "\n";
   }
   return text;
 }

@@ -35,8 +35,8 @@ std::vector<fs::path> files_below(const fs::path& folder) {
   return files;
 }
 
-/// The case of a baseline: in the folder of the cases. As both may share one folder `baselines`, it may also be beside the folder
-/// `cases` or below it.
+/// The case of a baseline: in the folder of the cases. As both may share one folder `baselines`, it may also
+/// be beside the folder `cases` or below it.
 fs::path case_of(const fs::path& baseline, const Suite& suite) {
   const auto below = fs::relative(baseline, suite.baselines);
   const fs::path folder(suite.cases);
@@ -45,14 +45,19 @@ fs::path case_of(const fs::path& baseline, const Suite& suite) {
 }
 
 Remark lost(const Baseline& b, const fs::path& file, const std::string& what) {
-  return {true,     exit_missing, {file.string(), 1, 0}, b.id, what + ": tripoint gate accept --reason says who decided and why",
-          infinity, "GONE"};
+  return {true,
+          exit_missing,
+          {file.string(), 1, 0},
+          b.id,
+          what + ": tripoint gate accept --reason says who decided and why",
+          infinity,
+          "GONE"};
 }
 
 /// A case that the whole profile was to run is judged, not only there.
 bool was_due(const Results& results, const Baseline& b) {
-  const bool whole =
-      results.filter_known && results.what.empty() && results.tag.empty() && results.shard.empty() && !results.profile.empty();
+  const bool whole = results.filter_known && results.what.empty() && results.tag.empty() &&
+                     results.shard.empty() && !results.profile.empty();
   return whole && std::find(b.profiles.begin(), b.profiles.end(), results.profile) != b.profiles.end();
 }
 
@@ -65,8 +70,9 @@ std::vector<Remark> lost_case_remarks(const Results& results, const std::string&
       const auto b = read_baseline(file.string());
       const auto of = case_of(file, suite);
       if (!fs::exists(of)) {
-        list.push_back(
-            lost(b, file, fmt::format("has a baseline of {} gates, and its case {} is no more", b.gates.size(), of.string())));
+        list.push_back(lost(b, file,
+                            fmt::format("has a baseline of {} gates, and its case {} is no more",
+                                        b.gates.size(), of.string())));
         continue;
       }
       const auto hashes = case_hashes(of.string());
@@ -76,13 +82,15 @@ std::vector<Remark> lost_case_remarks(const Results& results, const std::string&
       }
       for (const auto& profile : b.profiles)
         if (std::find(hashes->profiles.begin(), hashes->profiles.end(), profile) == hashes->profiles.end())
-          list.push_back(
-              lost(b, file, fmt::format("was accepted in the profile {}, and its case is not in it any more", profile)));
-      if (was_due(results, b) &&
-          std::none_of(results.cases.begin(), results.cases.end(), [&](const auto& c) { return c.id == b.id; }))
+          list.push_back(lost(
+              b, file,
+              fmt::format("was accepted in the profile {}, and its case is not in it any more", profile)));
+      if (was_due(results, b) && std::none_of(results.cases.begin(), results.cases.end(),
+                                              [&](const auto& c) { return c.id == b.id; }))
         list.push_back(
             lost(b, file,
-                 fmt::format("was accepted in the profile {}, and the results of that profile do not hold it", results.profile)));
+                 fmt::format("was accepted in the profile {}, and the results of that profile do not hold it",
+                             results.profile)));
     }
   return list;
 }

@@ -29,7 +29,9 @@ double room_of(const Gate& gate) {
 
 namespace {
 
-std::string class_word(const AcceptedGate& g) { return g.fit_class ? std::string(to_string(*g.fit_class)) : std::string(); }
+std::string class_word(const AcceptedGate& g) {
+  return g.fit_class ? std::string(to_string(*g.fit_class)) : std::string();
+}
 
 constexpr double change_seen = 0.1, cost_seen = 0.01;
 constexpr const char* decide = ": tripoint gate accept --reason says who decided and why";
@@ -39,23 +41,29 @@ std::string title_of(const CaseResult& c, const AcceptedGate& g) {
 }
 
 /// Compares the limits and the metric of a gate with the accepted ones.
-void compare_limits(const CaseResult& c, const AcceptedGate& now, const SourcePlace& place, const AcceptedGate& old,
-                    bool less_is_better, std::vector<Remark>& list) {
+void compare_limits(const CaseResult& c, const AcceptedGate& now, const SourcePlace& place,
+                    const AcceptedGate& old, bool less_is_better, std::vector<Remark>& list) {
   const auto title = title_of(c, now);
-  if (const auto edge = looser_edge(now, old); !edge.empty() && !(less_is_better && is_nearer_truth(now, old)))
+  if (const auto edge = looser_edge(now, old);
+      !edge.empty() && !(less_is_better && is_nearer_truth(now, old)))
     list.push_back({true, exit_missing, place, title,
-                    fmt::format("loosened: {} is looser than what was accepted, {} ({}){}", now.allows, old.allows, edge, decide),
+                    fmt::format("loosened: {} is looser than what was accepted, {} ({}){}", now.allows,
+                                old.allows, edge, decide),
                     old.room > 0.0 ? now.room / old.room : infinity, "LOOSENED"});
   if (!old.measures.empty() && now.measures != old.measures)
-    list.push_back(
-        {true, exit_missing, place, title,
-         fmt::format(
-             "its metric has changed since it was accepted (quantity, norm, body, place, window, scale, unit or reference){}",
-             decide),
-         infinity, "CHANGED"});
+    list.push_back({true, exit_missing, place, title,
+                    fmt::format("its metric has changed since it was accepted (quantity, norm, body, place, "
+                                "window, scale, unit or reference){}",
+                                decide),
+                    infinity, "CHANGED"});
   if (now.fit_class != old.fit_class)
-    list.push_back(
-        {false, 0, place, title, fmt::format("converges as {}, accepted was {}", class_word(now), class_word(old)), 1.0, {}});
+    list.push_back({false,
+                    0,
+                    place,
+                    title,
+                    fmt::format("converges as {}, accepted was {}", class_word(now), class_word(old)),
+                    1.0,
+                    {}});
 }
 
 /// Share of its limit that a value uses.
@@ -67,62 +75,70 @@ double used_by(const AcceptedGate& g, double value) {
   return share_of_limit(gate, value);
 }
 
-/// Two standard uncertainties of a difference, by what was accepted: the judged run has no word in its own noise.
-double accepted_noise(const AcceptedGate& old) { return 2.0 * std::sqrt(2.0) * old.uncertainty + roundoff_limit; }
-
-void compare_drift(const CaseResult& c, const AcceptedGate& now, const SourcePlace& place, const AcceptedGate& old,
-                   std::vector<Remark>& list) {
-  if (std::abs(now.value - old.value) <= *now.drift * std::abs(old.value) + accepted_noise(old)) return;
-  list.push_back(
-      {true,
-       exit_fail,
-       place,
-       title_of(c, now),
-       fmt::format("{:.6g} has moved from the accepted value {:.6g} by more than the share of {:g} that the gate allows",
-                   now.value, old.value, *now.drift),
-       std::abs(now.value / old.value),
-       {}});
+/// Two standard uncertainties of a difference, by what was accepted: the judged run has no word in its own
+/// noise.
+double accepted_noise(const AcceptedGate& old) {
+  return 2.0 * std::sqrt(2.0) * old.uncertainty + roundoff_limit;
 }
 
-/// Worse is what uses more of the limit: by a tenth of what was used, or of half the width of a band that states a figure.
+void compare_drift(const CaseResult& c, const AcceptedGate& now, const SourcePlace& place,
+                   const AcceptedGate& old, std::vector<Remark>& list) {
+  if (std::abs(now.value - old.value) <= *now.drift * std::abs(old.value) + accepted_noise(old)) return;
+  list.push_back({true,
+                  exit_fail,
+                  place,
+                  title_of(c, now),
+                  fmt::format("{:.6g} has moved from the accepted value {:.6g} by more than the share of "
+                              "{:g} that the gate allows",
+                              now.value, old.value, *now.drift),
+                  std::abs(now.value / old.value),
+                  {}});
+}
+
+/// Worse is what uses more of the limit: by a tenth of what was used, or of half the width of a band that
+/// states a figure.
 bool is_worse(const AcceptedGate& now, double was, double noise) {
   const bool figure = now.band && ((*now.band)[0] > 0.0 || (*now.band)[1] < 0.0);
   const double before = used_by(now, was), grown = used_by(now, now.value) - before;
   return grown > change_seen * (figure ? 1.0 : before) && std::abs(now.value - was) > noise;
 }
 
-void compare_value(const CaseResult& c, const AcceptedGate& now, const SourcePlace& place, const AcceptedGate& old,
-                   std::vector<Remark>& list) {
+void compare_value(const CaseResult& c, const AcceptedGate& now, const SourcePlace& place,
+                   const AcceptedGate& old, std::vector<Remark>& list) {
   if (is_of_ladder(now.metric) || now.fit_class) return;
   if (now.drift) return compare_drift(c, now, place, old, list);
   for (const auto& [word, was] : {std::pair{"accepted", old.value}, std::pair{"first", old.first_value}}) {
     if (!is_worse(now, was, accepted_noise(old))) continue;
-    list.push_back({false,
-                    0,
-                    place,
-                    title_of(c, now),
-                    fmt::format("{:.4g} is worse than the {} value {:.4g}: it uses {:.3g} of the limit, then {:.3g}", now.value,
-                                word, was, used_by(now, now.value), used_by(now, was)),
-                    used_by(now, now.value),
-                    {}});
+    list.push_back(
+        {false,
+         0,
+         place,
+         title_of(c, now),
+         fmt::format("{:.4g} is worse than the {} value {:.4g}: it uses {:.3g} of the limit, then {:.3g}",
+                     now.value, word, was, used_by(now, now.value), used_by(now, was)),
+         used_by(now, now.value),
+         {}});
     return;
   }
 }
 
 void compare_cost(const CaseResult& c, const Tool& tool, const Baseline& b, std::vector<Remark>& list) {
   for (const auto& now : costs_of(c, tool)) {
-    const auto old = std::find_if(b.cost.begin(), b.cost.end(), [&](const auto& o) { return o.run == now.run; });
+    const auto old =
+        std::find_if(b.cost.begin(), b.cost.end(), [&](const auto& o) { return o.run == now.run; });
     if (old == b.cost.end()) continue;
-    const double counted =
-        now.counted_on == old->counted_on ? old->instructions : 0.0;  // another machine takes other vectors, and another count
-    for (const auto& [what, is, was] : {std::tuple{"pairs", now.pairs, old->pairs}, std::tuple{"steps", now.steps, old->steps},
-                                        std::tuple{"instructions", now.instructions, counted}})
+    // Another machine takes other vectors, and another count
+    const double counted = now.counted_on == old->counted_on ? old->instructions : 0.0;
+    for (const auto& [what, is, was] :
+         {std::tuple{"pairs", now.pairs, old->pairs}, std::tuple{"steps", now.steps, old->steps},
+          std::tuple{"instructions", now.instructions, counted}})
       if (is > 0.0 && was > 0.0 && is > (1.0 + cost_seen) * was)
         list.push_back({true,
                         exit_cost,
                         {c.file, 1, 0},
                         c.id + " " + now.run,
-                        fmt::format("{:.4g} {}, accepted were {:.4g} ({:+.1f} %)", is, what, was, 100.0 * (is / was - 1.0)),
+                        fmt::format("{:.4g} {}, accepted were {:.4g} ({:+.1f} %)", is, what, was,
+                                    100.0 * (is / was - 1.0)),
                         is / was,
                         {}});
   }
@@ -138,14 +154,16 @@ void compare_ends(const CaseResult& c, const Baseline& b, std::vector<Remark>& l
                       exit_missing,
                       {c.file, 1, 0},
                       c.id + " " + run_name(e, r),
-                      fmt::format("the run is {}, and ran to its end when it was accepted{}", to_string(r.status), decide),
+                      fmt::format("the run is {}, and ran to its end when it was accepted{}",
+                                  to_string(r.status), decide),
                       infinity,
                       "GONE"});
     }
 }
 
 /// Compares the scene, the reference and the required engines with the accepted ones.
-void compare_question(const CaseResult& c, const Baseline& b, const std::optional<CaseHashes>& now, std::vector<Remark>& list) {
+void compare_question(const CaseResult& c, const Baseline& b, const std::optional<CaseHashes>& now,
+                      std::vector<Remark>& list) {
   const auto say = [&](const std::string& what) {
     list.push_back({true, exit_missing, {c.file, 1, 0}, c.id, what + decide, infinity, "CHANGED"});
   };
@@ -156,11 +174,19 @@ void compare_question(const CaseResult& c, const Baseline& b, const std::optiona
     say("its baseline was proposed, and nobody has accepted it");
   if (b.scene.empty()) {  // accepted by an older version, which kept a hash of the text alone
     if (b.case_hash != hash_of_file(c))
-      list.push_back({false, 0, {c.file, 1, 0}, c.id, "the case file has changed since its figures were accepted", 1.0, {}});
+      list.push_back({false,
+                      0,
+                      {c.file, 1, 0},
+                      c.id,
+                      "the case file has changed since its figures were accepted",
+                      1.0,
+                      {}});
     return;
   }
-  if (!now) return say("the case file cannot be read again, and what was accepted cannot be compared with it");
-  if (now->scene != b.scene) say("its scene, a study, or a setting of an engine has changed since its figures were accepted");
+  if (!now)
+    return say("the case file cannot be read again, and what was accepted cannot be compared with it");
+  if (now->scene != b.scene)
+    say("its scene, a study, or a setting of an engine has changed since its figures were accepted");
   if (now->reference != b.reference) say("its reference has changed since its figures were accepted");
   for (const auto& name : b.required) {
     const auto at = now->required.find(name);
@@ -172,10 +198,12 @@ void compare_question(const CaseResult& c, const Baseline& b, const std::optiona
 /// Whether less of a value is better: it is an error to a truth, or a limit on it was accepted too.
 bool less_is_better(const CaseResult& c, const Baseline& b, const AcceptedGate& g) {
   if (std::any_of(b.gates.begin(), b.gates.end(), [&](const auto& other) {
-        return other.metric == g.metric && other.engine == g.engine && other.preset == g.preset && other.limit;
+        return other.metric == g.metric && other.engine == g.engine && other.preset == g.preset &&
+               other.limit;
       }))
     return true;
-  const auto m = std::find_if(c.metrics.begin(), c.metrics.end(), [&](const auto& choice) { return choice.name == g.metric; });
+  const auto m = std::find_if(c.metrics.begin(), c.metrics.end(),
+                              [&](const auto& choice) { return choice.name == g.metric; });
   if (m == c.metrics.end() || m->norm == Norm::drift) return false;
   const auto kind = (m->reference ? *m->reference : c.reference).kind;
   return kind == ReferenceKind::analytic || kind == ReferenceKind::mms || kind == ReferenceKind::experiment;
@@ -190,7 +218,8 @@ void compare_case(const Results& results, const CaseResult& c, const Baseline& b
   for (const auto& e : c.engines)
     for (const auto& row : e.gates) {
       const auto* old = counterpart(all, k, b.gates);
-      if (old && std::isfinite(row.value)) compare_limits(c, all[k], row.gate.place, *old, less_is_better(c, b, *old), list);
+      if (old && std::isfinite(row.value))
+        compare_limits(c, all[k], row.gate.place, *old, less_is_better(c, b, *old), list);
       if (old && is_accepted(row)) compare_value(c, all[k], row.gate.place, *old, list);
       ++k;
     }
@@ -210,8 +239,8 @@ void compare_case(const Results& results, const CaseResult& c, const Baseline& b
 /// One sentence for all: a suite that begins to keep baselines is not told a hundred times.
 Remark none_yet(const std::vector<const CaseResult*>& cases) {
   constexpr std::size_t named = 5;
-  std::string text =
-      fmt::format("{} cases have no baseline yet (tripoint gate accept --reason TEXT RESULTS.json ID): ", cases.size());
+  std::string text = fmt::format(
+      "{} cases have no baseline yet (tripoint gate accept --reason TEXT RESULTS.json ID): ", cases.size());
   for (std::size_t k = 0; k < std::min(named, cases.size()); ++k) text += (k > 0 ? ", " : "") + cases[k]->id;
   if (cases.size() > named) text += fmt::format(" and {} more", cases.size() - named);
   return {false, 0, {}, "baselines", text, 1.0, {}};
@@ -225,7 +254,8 @@ std::vector<Remark> baseline_remarks(const Results& results, bool required, cons
   for (const auto& c : results.cases) {
     if (!required && root.empty() && !keeps_baselines(c.file)) continue;
     auto file = baseline_file(c.file, root);
-    if (!root.empty() && !fs::exists(file)) file = baseline_file(c.file);  // new here: judged by what it brings
+    // New here: judged by what it brings
+    if (!root.empty() && !fs::exists(file)) file = baseline_file(c.file);
     if (fs::exists(file))
       compare_case(results, c, read_baseline(file), list);
     else if (required)

@@ -25,7 +25,8 @@ Edges edges_of_words(const std::string& allows) {
   Edges e;
   e.precision = 1e-5;
   double a = 0.0, b = 0.0;
-  if (const auto at = allows.find("limit "); at != std::string::npos && std::sscanf(allows.c_str() + at, "limit %lf", &a) == 1)
+  if (const auto at = allows.find("limit ");
+      at != std::string::npos && std::sscanf(allows.c_str() + at, "limit %lf", &a) == 1)
     narrow(e, -a, a);
   if (const auto at = allows.find("at least ");
       at != std::string::npos && std::sscanf(allows.c_str() + at, "at least %lf", &a) == 1)
@@ -45,8 +46,8 @@ Edges accepted_edges(const AcceptedGate& g) {
   return e;
 }
 
-std::string edge(const char* name, const std::optional<double>& now, const std::optional<double>& old, double sign,
-                 double precision) {
+std::string edge(const char* name, const std::optional<double>& now, const std::optional<double>& old,
+                 double sign, double precision) {
   if (!old) return {};
   if (!now) return fmt::format("its {} edge, {:g}, is gone", name, *old);
   if (sign * (*now - *old) <= precision * std::abs(*old)) return {};

@@ -15,7 +15,9 @@
 namespace tripoint {
 namespace {
 
-std::string with_preset(const AcceptedGate& g) { return g.preset.empty() ? g.engine : g.engine + " " + g.preset; }
+std::string with_preset(const AcceptedGate& g) {
+  return g.preset.empty() ? g.engine : g.engine + " " + g.preset;
+}
 
 std::string engine_of(const AcceptedCost& cost) { return cost.run.substr(0, cost.run.find('/')); }
 
@@ -23,15 +25,18 @@ std::string engine_of(const AcceptedCost& cost) { return cost.run.substr(0, cost
 struct Missing {
   std::set<std::string> engines;
   std::vector<const AcceptedGate*> absent, gone;
-  std::map<const AcceptedCost*, Status> runs;  ///< of engines that did run: ended early now, or (ok) no run at all
+  /// Of engines that did run: ended early now, or (ok) no run at all
+  std::map<const AcceptedCost*, Status> runs;
 };
 
 /// Accepted runs of engines that are there, and that the results do not have as whole runs.
-std::map<const AcceptedCost*, Status> runs_missing_from(const CaseResult& c, const Baseline& before, const Baseline& after,
+std::map<const AcceptedCost*, Status> runs_missing_from(const CaseResult& c, const Baseline& before,
+                                                        const Baseline& after,
                                                         const std::set<std::string>& absent) {
   std::map<const AcceptedCost*, Status> list;
   for (const auto& run : before.cost)
-    if (!absent.contains(engine_of(run)) && std::ranges::find(after.cost, run.run, &AcceptedCost::run) == after.cost.end())
+    if (!absent.contains(engine_of(run)) &&
+        std::ranges::find(after.cost, run.run, &AcceptedCost::run) == after.cost.end())
       list[&run] = Status::ok;
   for (const auto& e : c.engines)
     for (const auto& r : e.runs)
@@ -40,7 +45,8 @@ std::map<const AcceptedCost*, Status> runs_missing_from(const CaseResult& c, con
   return list;
 }
 
-Missing missing_from(const CaseResult& c, const Baseline& before, const Baseline& after, bool engines_were_chosen) {
+Missing missing_from(const CaseResult& c, const Baseline& before, const Baseline& after,
+                     bool engines_were_chosen) {
   Missing m;
   m.gone = gone(c, gates_of(c, {}), before, engines_were_chosen);
   for (const auto& g : before.gates)
@@ -71,7 +77,8 @@ std::string names_of(const Missing& m, bool with_absent) {
   for (const auto* g : m.gone) metrics[with_preset(*g)].insert(g->metric);
   for (const auto& [run, status] : m.runs)
     if (status != Status::ok)
-      metrics[engine_of(*run)].insert(fmt::format("{}: {}", run->run.substr(run->run.find('/') + 1), to_string(status)));
+      metrics[engine_of(*run)].insert(
+          fmt::format("{}: {}", run->run.substr(run->run.find('/') + 1), to_string(status)));
   if (with_absent)
     for (const auto* g : m.absent) metrics[g->engine].insert(g->metric);
   std::string text;
@@ -83,12 +90,13 @@ std::string names_of(const Missing& m, bool with_absent) {
 
 void refuse(const Baseline& before, const Missing& m, bool kept, bool same_scene) {
   throw InputError(one_line(fmt::format(
-      "{}: the results lack what was accepted of {}: validate with all of them (tripoint engines lists those that are here), or "
+      "{}: the results lack what was accepted of {}: validate with all of them (tripoint engines lists those "
+      "that are here), or "
       "say --drop-missing and, in --reason, why it goes{}",
       before.id, names_of(m, !kept),
       kept || m.engines.empty() ? ""
-      : same_scene              ? "; --keep-missing leaves the rows of engines that did not run as they were accepted"
-                                : "; --keep-missing cannot help, since scene or reference have changed")));
+      : same_scene ? "; --keep-missing leaves the rows of engines that did not run as they were accepted"
+                   : "; --keep-missing cannot help, since scene or reference have changed")));
 }
 
 void keep(const Baseline& before, const Missing& m, Baseline& after) {
@@ -102,8 +110,8 @@ void keep(const Baseline& before, const Missing& m, Baseline& after) {
 std::string removed_gates(const Baseline& before, const std::vector<const AcceptedGate*>& gates) {
   std::string text;
   for (const auto* g : gates)
-    text += one_line(fmt::format("{} {}{} {}: REMOVED, it was {}", before.id, with_preset(*g), after_blank(g->mode), g->metric,
-                                 g->allows)) +
+    text += one_line(fmt::format("{} {}{} {}: REMOVED, it was {}", before.id, with_preset(*g),
+                                 after_blank(g->mode), g->metric, g->allows)) +
             "\n";
   return text;
 }
@@ -133,7 +141,8 @@ std::string carry_over(const CaseResult& c, const Baseline& before, Baseline& af
     return text;
   }
   after.removed += static_cast<int>(m.absent.size());
-  for (const auto& name : m.engines) text += one_line(fmt::format("{} {}: REMOVED with its runs", before.id, name)) + "\n";
+  for (const auto& name : m.engines)
+    text += one_line(fmt::format("{} {}: REMOVED with its runs", before.id, name)) + "\n";
   return text + removed_gates(before, m.absent);
 }
 

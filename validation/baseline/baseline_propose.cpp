@@ -48,11 +48,14 @@ std::vector<Line> aligned(const std::vector<std::string>& a, const std::vector<s
   return list;
 }
 
-std::string range(std::size_t first, std::size_t count) { return fmt::format("{},{}", count == 0 ? first : first + 1, count); }
+std::string range(std::size_t first, std::size_t count) {
+  return fmt::format("{},{}", count == 0 ? first : first + 1, count);
+}
 
 std::string hunk(const std::vector<Line>& list, std::size_t from, std::size_t to) {
   const auto count = [&](std::size_t begin, std::size_t end, char other) {
-    return static_cast<std::size_t>(std::count_if(list.begin() + static_cast<long>(begin), list.begin() + static_cast<long>(end),
+    return static_cast<std::size_t>(std::count_if(list.begin() + static_cast<long>(begin),
+                                                  list.begin() + static_cast<long>(end),
                                                   [&](const Line& l) { return l.sign != other; }));
   };
   std::string text = fmt::format("@@ -{} +{} @@\n", range(count(0, from, '+'), count(from, to, '+')),
@@ -64,15 +67,16 @@ std::string hunk(const std::vector<Line>& list, std::size_t from, std::size_t to
 std::string file_patch(const Proposal& p, const std::string& root) {
   const auto path = fs::path(p.file).lexically_relative(root).generic_string();
   const std::string from = p.before.empty() ? "/dev/null" : "a/" + path;
-  return fmt::format("diff --git a/{0} b/{0}\n{1}--- {2}\n+++ b/{0}\n{3}", path, p.before.empty() ? "new file mode 100644\n" : "",
-                     from, unified_diff(p.before, p.after));
+  return fmt::format("diff --git a/{0} b/{0}\n{1}--- {2}\n+++ b/{0}\n{3}", path,
+                     p.before.empty() ? "new file mode 100644\n" : "", from, unified_diff(p.before, p.after));
 }
 
 /// A word of a shell's command line.
 std::string word(const std::string& text) {
   const bool plain =
       !text.empty() &&
-      text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./") == std::string::npos;
+      text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./") ==
+          std::string::npos;
   if (plain) return text;
   std::string quoted = "'";
   for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -115,8 +119,8 @@ std::string patch_root(const std::string& baseline) {
   return file.parent_path().string();
 }
 
-std::string patch_text(const std::vector<Proposal>& list, const std::string& results_file, const std::string& root,
-                       bool undecided) {
+std::string patch_text(const std::vector<Proposal>& list, const std::string& results_file,
+                       const std::string& root, bool undecided) {
   std::string ids, changes, patch;
   int count = 0;
   for (const auto& p : list) {
@@ -129,7 +133,8 @@ std::string patch_text(const std::vector<Proposal>& list, const std::string& res
   }
   if (count == 0) return "# No baseline would change: nothing is proposed.\n";
   std::string text = fmt::format(
-      "Proposed by tripoint gate propose: {} baseline{}. This file accepts nothing{}\nTo accept, decide and call:\ntripoint gate "
+      "Proposed by tripoint gate propose: {} baseline{}. This file accepts nothing{}\nTo accept, decide and "
+      "call:\ntripoint gate "
       "accept --reason 'who decided what, and why' {}{}\n",
       count, count == 1 ? "" : "s",
       undecided ? ", and applied as it comes it is red: its reason says that nobody has decided."

@@ -17,9 +17,10 @@ namespace tripoint {
 namespace {
 
 bool same_gate(const AcceptedGate& a, const AcceptedGate& b) {
-  const bool same_place =
-      a.level.has_value() == b.level.has_value() && (!a.level || std::abs(*a.level - *b.level) <= 1e-9 * std::abs(*b.level));
-  return a.metric == b.metric && a.engine == b.engine && a.preset == b.preset && a.mode == b.mode && same_place;
+  const bool same_place = a.level.has_value() == b.level.has_value() &&
+                          (!a.level || std::abs(*a.level - *b.level) <= 1e-9 * std::abs(*b.level));
+  return a.metric == b.metric && a.engine == b.engine && a.preset == b.preset && a.mode == b.mode &&
+         same_place;
 }
 
 AcceptedGate gate_of(const EngineRow& e, const GateRow& row, const std::optional<CaseHashes>& hashes) {
@@ -39,14 +40,16 @@ AcceptedGate gate_of(const EngineRow& e, const GateRow& row, const std::optional
   g.band = row.gate.band;
   g.drift = row.gate.drift;
   if (!hashes) return g;
-  if (const auto at = hashes->metrics.find(metric_of_gate(fitted_metric(row.metric))); at != hashes->metrics.end())
+  if (const auto at = hashes->metrics.find(metric_of_gate(fitted_metric(row.metric)));
+      at != hashes->metrics.end())
     g.measures = at->second;
   return g;
 }
 
 std::string counted_on(const Tool& tool, const RunRow& r) {
-  return r.cost.instructions > 0.0 ? fmt::format("{}; {}; {}; {}", r.cost.counted_by, tool.cpu, tool.compiler, tool.flags)
-                                   : std::string();
+  return r.cost.instructions > 0.0
+             ? fmt::format("{}; {}; {}; {}", r.cost.counted_by, tool.cpu, tool.compiler, tool.flags)
+             : std::string();
 }
 
 }  // namespace
@@ -83,7 +86,8 @@ std::vector<AcceptedCost> costs_of(const CaseResult& c, const Tool& tool) {
   for (const auto& e : c.engines)
     for (const auto& r : e.runs)
       if (r.status == Status::ok && (r.cost.pairs > 0.0 || r.cost.steps > 0.0))
-        list.push_back({run_name(e, r), r.cost.pairs, r.cost.steps, r.cost.instructions, counted_on(tool, r)});
+        list.push_back(
+            {run_name(e, r), r.cost.pairs, r.cost.steps, r.cost.instructions, counted_on(tool, r)});
   return list;
 }
 
@@ -97,7 +101,8 @@ std::vector<AcceptedEngine> engines_of(const CaseResult& c) {
   return list;
 }
 
-const AcceptedGate* counterpart(const std::vector<AcceptedGate>& own, std::size_t index, const std::vector<AcceptedGate>& other) {
+const AcceptedGate* counterpart(const std::vector<AcceptedGate>& own, std::size_t index,
+                                const std::vector<AcceptedGate>& other) {
   std::size_t before = 0;
   for (std::size_t k = 0; k < index; ++k) before += same_gate(own[k], own[index]);
   for (const auto& g : other)
@@ -106,20 +111,23 @@ const AcceptedGate* counterpart(const std::vector<AcceptedGate>& own, std::size_
 }
 
 bool is_absent(const CaseResult& c, const AcceptedGate& g, bool engines_were_chosen) {
-  const auto row = std::find_if(c.engines.begin(), c.engines.end(),
-                                [&](const auto& e) { return e.name == g.engine && preset_unless_default(e.preset) == g.preset; });
+  const auto row = std::find_if(c.engines.begin(), c.engines.end(), [&](const auto& e) {
+    return e.name == g.engine && preset_unless_default(e.preset) == g.preset;
+  });
   if (row != c.engines.end()) return row->status == Status::missing;
-  const auto of_name = std::find_if(c.engines.begin(), c.engines.end(), [&](const auto& e) { return e.name == g.engine; });
-  if (of_name != c.engines.end())
-    return of_name->status == Status::missing;  // an engine that is not there has not said which presets it has
+  const auto of_name =
+      std::find_if(c.engines.begin(), c.engines.end(), [&](const auto& e) { return e.name == g.engine; });
+  // An engine that is not there has not said which presets it has
+  if (of_name != c.engines.end()) return of_name->status == Status::missing;
   return engines_were_chosen;
 }
 
-std::vector<const AcceptedGate*> gone(const CaseResult& c, const std::vector<AcceptedGate>& now, const Baseline& b,
-                                      bool engines_were_chosen) {
+std::vector<const AcceptedGate*> gone(const CaseResult& c, const std::vector<AcceptedGate>& now,
+                                      const Baseline& b, bool engines_were_chosen) {
   std::vector<const AcceptedGate*> list;
   for (std::size_t k = 0; k < b.gates.size(); ++k)
-    if (!is_absent(c, b.gates[k], engines_were_chosen) && !counterpart(b.gates, k, now)) list.push_back(&b.gates[k]);
+    if (!is_absent(c, b.gates[k], engines_were_chosen) && !counterpart(b.gates, k, now))
+      list.push_back(&b.gates[k]);
   return list;
 }
 

@@ -25,13 +25,13 @@ namespace tripoint {
 [[nodiscard]] const AcceptedGate* counterpart(const std::vector<AcceptedGate>& own, std::size_t index,
                                               const std::vector<AcceptedGate>& other);
 
-/// Whether the engine of an accepted gate is missing on this machine, or was left out by name (--engines): then the gate cannot
-/// be judged.
+/// Whether the engine of an accepted gate is missing on this machine, or was left out by name (--engines):
+/// then the gate cannot be judged.
 [[nodiscard]] bool is_absent(const CaseResult&, const AcceptedGate&, bool engines_were_chosen);
 
-/// Accepted gates that judge nothing any more. They are of engines that have run, refused or ended before their time, and of
-/// those that the case no longer names.
-[[nodiscard]] std::vector<const AcceptedGate*> gone(const CaseResult&, const std::vector<AcceptedGate>& now, const Baseline&,
-                                                    bool engines_were_chosen);
+/// Accepted gates that judge nothing any more. They are of engines that have run, refused or ended before
+/// their time, and of those that the case no longer names.
+[[nodiscard]] std::vector<const AcceptedGate*> gone(const CaseResult&, const std::vector<AcceptedGate>& now,
+                                                    const Baseline&, bool engines_were_chosen);
 
 }  // namespace tripoint

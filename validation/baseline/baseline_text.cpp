@@ -28,7 +28,9 @@ std::string toml(double value) {
 }
 
 std::string toml(std::integral auto value) { return fmt::format("{}", value); }
-std::string toml(const std::array<double, 2>& pair) { return fmt::format("[{}, {}]", toml(pair[0]), toml(pair[1])); }
+std::string toml(const std::array<double, 2>& pair) {
+  return fmt::format("[{}, {}]", toml(pair[0]), toml(pair[1]));
+}
 
 std::string toml(const std::vector<std::string>& words) {
   std::string list;
@@ -83,7 +85,8 @@ class Writer {
 
  private:
   void add(std::string_view key, const std::string& value) {
-    text_ += fmt::format("{}{} = {}{}", is_row_ && !text_.empty() ? ", " : "", key, value, is_row_ ? "" : "\n");
+    text_ +=
+        fmt::format("{}{} = {}{}", is_row_ && !text_.empty() ? ", " : "", key, value, is_row_ ? "" : "\n");
   }
   std::string text_;
   bool is_row_;
@@ -124,7 +127,9 @@ class Reader {
     std::string word;
     (*this)(key, word);
     const auto found = find_word<E>(word);
-    if (!found) throw InputError(from_.place, fmt::format("{}: `{}` is no {}", key, printable(word), word_table(E{}).what));
+    if (!found)
+      throw InputError(from_.place,
+                       fmt::format("{}: `{}` is no {}", key, printable(word), word_table(E{}).what));
     to = *found;
   }
   template <HasWords E>
@@ -207,7 +212,8 @@ std::string baseline_text(const Baseline& b) {
   Writer writer;
   fields(writer, b);
   const std::string out =
-      "# Accepted figures. `tripoint gate accept --reason TEXT` writes this file; nothing else does.\nformat = 1\n" +
+      "# Accepted figures. `tripoint gate accept --reason TEXT` writes this file; nothing else does.\nformat "
+      "= 1\n" +
       writer.text();
   const auto after = out.find("\nseed = ") + 1;
   return out.substr(0, after) + fmt::format("seal = {}\n", toml(text_hash(out))) + out.substr(after);

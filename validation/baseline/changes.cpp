@@ -32,7 +32,8 @@ struct ComparedRow {
 std::string unit_of(const CaseResult& c, const std::string& metric) {
   if (is_order(metric)) return "";
   const auto name = metric_of_gate(metric);
-  const auto at = std::find_if(c.metrics.begin(), c.metrics.end(), [&](const auto& m) { return m.name == name; });
+  const auto at =
+      std::find_if(c.metrics.begin(), c.metrics.end(), [&](const auto& m) { return m.name == name; });
   return at == c.metrics.end() ? "" : at->unit;
 }
 
@@ -52,9 +53,9 @@ int seeds_of(const EngineRow& e, const GateRow& g) {
   std::map<std::string, int> groups;
   int most = 1;
   for (const auto& run : e.runs) {
-    const bool at_level =
-        g.level ? std::any_of(run.levels.begin(), run.levels.end(), [&](const auto& l) { return same_level(l.second, *g.level); })
-                : run.levels.empty() || run.base;
+    const bool at_level = g.level ? std::any_of(run.levels.begin(), run.levels.end(),
+                                                [&](const auto& l) { return same_level(l.second, *g.level); })
+                                  : run.levels.empty() || run.base;
     if (run.knobs.mode == g.mode && run.input.empty() && at_level && !run.group.empty())
       most = std::max(most, ++groups[run.group]);
   }
@@ -73,8 +74,8 @@ ComparedRow row_of(const CaseResult& c, const EngineRow& e, const GateRow& g) {
   s.seeds = seeds_of(e, g);
   s.allows = g.expect ? fmt::format("class {}", *g.expect) : describe(g.gate);
   s.used = g.used;
-  s.noise =
-      g.low && g.high ? 0.25 * (*g.high - *g.low) : g.budget.statistical;  // a 95 % interval is four standard deviations wide
+  // a 95 % interval is four standard deviations wide
+  s.noise = g.low && g.high ? 0.25 * (*g.high - *g.low) : g.budget.statistical;
   return row;
 }
 
@@ -83,8 +84,9 @@ void add_unjudged(const CaseResult& c, const EngineRow& e, std::vector<ComparedR
   for (const auto& run : e.runs) {
     if (!run.base || !run.input.empty() || run.status != Status::ok) continue;
     for (const auto& [name, value] : run.metrics) {
-      const bool judged = std::any_of(e.gates.begin(), e.gates.end(),
-                                      [&](const auto& g) { return g.metric == name && g.mode == run.knobs.mode; });
+      const bool judged = std::any_of(e.gates.begin(), e.gates.end(), [&](const auto& g) {
+        return g.metric == name && g.mode == run.knobs.mode;
+      });
       if (judged) continue;
       auto row = new_row(c, e, run.knobs.mode, name);
       row.standing.value = value.value;
@@ -126,14 +128,18 @@ std::string source_of_noise(const MetricStanding& base, bool is_order, double ag
   return base.seeds > 1 ? fmt::format("{} seeds", base.seeds) : "stated by the base";
 }
 
-/// Noise of head less base, in the metric's unit. The base tells how much two runs of one code differ: by the chance that was
-/// accepted with it, or by what it differed from itself when it ran again. The judged run has no word in it.
-double noise_between(const MetricStanding& base, double again) { return std::max(chance_between(base), again); }
+/// Noise of head less base, in the metric's unit. The base tells how much two runs of one code differ: by the
+/// chance that was accepted with it, or by what it differed from itself when it ran again. The judged run has
+/// no word in it.
+double noise_between(const MetricStanding& base, double again) {
+  return std::max(chance_between(base), again);
+}
 
 /// The most that this noise moves the share of the limit that a value uses.
 double noise_of_share(const Gate& gate, double value, double noise) {
   const double here = share_of_limit(gate, value);
-  return std::max(std::abs(share_of_limit(gate, value + noise) - here), std::abs(share_of_limit(gate, value - noise) - here));
+  return std::max(std::abs(share_of_limit(gate, value + noise) - here),
+                  std::abs(share_of_limit(gate, value - noise) - here));
 }
 
 void settle_class(MetricChange& c) {
@@ -150,14 +156,16 @@ void settle_unlimited(MetricChange& c, double again) {
   c.noise_from = source_of_noise(*c.base, false, again);
 }
 
-/// @param again how far the same code was seen to differ from itself (A/A), in the metric's unit; 0 = not tried
+/// @param again how far the same code was seen to differ from itself (A/A), in the metric's unit; 0 = not
+/// tried
 void settle(MetricChange& c, const Gate& base_gate, const Gate& head_gate, double again) {
   if (!c.base || !c.head) return static_cast<void>(c.trend = c.head ? Trend::appeared : Trend::gone);
   c.limit_changed = c.base->allows != c.head->allows;
-  c.looser = c.limit_changed && (c.head->allows.empty() || room_of(head_gate) > room_of(base_gate) * (1.0 + 1e-9));
+  c.looser =
+      c.limit_changed && (c.head->allows.empty() || room_of(head_gate) > room_of(base_gate) * (1.0 + 1e-9));
   if (c.base->fit_class && std::isnan(c.base->used) && std::isnan(c.head->used)) return settle_class(c);
-  const Gate& gate =
-      c.base->allows.empty() ? head_gate : base_gate;  // a change that loosens a limit is measured by the limit that was there
+  // a change that loosens a limit is measured by the limit that was there
+  const Gate& gate = c.base->allows.empty() ? head_gate : base_gate;
   if (!gate.limit && !gate.band && !gate.at_least) return settle_unlimited(c, again);
   const double before = share_of_limit(gate, c.base->value), now = share_of_limit(gate, c.head->value);
   if (!std::isfinite(before) || !std::isfinite(now)) {
@@ -172,7 +180,8 @@ void settle(MetricChange& c, const Gate& base_gate, const Gate& head_gate, doubl
       c.noise_from = "round-off";
     }
   }
-  if (std::abs(c.change) > std::max(c.noise, least_change)) c.trend = c.change > 0.0 ? Trend::worse : Trend::better;
+  if (std::abs(c.change) > std::max(c.noise, least_change))
+    c.trend = c.change > 0.0 ? Trend::worse : Trend::better;
 }
 
 /// Worse and better first, by their size; then unchanged ones; then new, then gone.
@@ -189,7 +198,9 @@ bool goes_before(const MetricChange& a, const MetricChange& b) {
 std::vector<std::string> remarks_on(const Results& base, const Results& head) {
   std::vector<std::string> list;
   const auto differ = [&](const char* what, const std::string& b, const std::string& h) {
-    if (b != h) list.push_back(fmt::format("{} of the base: {}; here: {}", what, b.empty() ? "none" : b, h.empty() ? "none" : h));
+    if (b != h)
+      list.push_back(
+          fmt::format("{} of the base: {}; here: {}", what, b.empty() ? "none" : b, h.empty() ? "none" : h));
   };
   const auto profile = [](const Results& r) { return r.profile.empty() ? std::string("any") : r.profile; };
   differ("profile", profile(base), profile(head));
@@ -203,10 +214,12 @@ std::vector<std::string> remarks_on(const Results& base, const Results& head) {
 }  // namespace
 
 int Comparison::count(Trend trend) const {
-  return static_cast<int>(std::count_if(changes.begin(), changes.end(), [&](const auto& c) { return c.trend == trend; }));
+  return static_cast<int>(
+      std::count_if(changes.begin(), changes.end(), [&](const auto& c) { return c.trend == trend; }));
 }
 
-Comparison compare_results(const Results& base, const Results& head, const std::string& base_name, const Results* repeat) {
+Comparison compare_results(const Results& base, const Results& head, const std::string& base_name,
+                           const Results* repeat) {
   Comparison all;
   all.base_name = base_name;
   all.remarks = remarks_on(base, head);
@@ -247,15 +260,18 @@ std::vector<Remark> change_remarks(const Comparison& all, bool no_worse) {
   for (const auto& c : all.changes) {
     if (c.trend == Trend::worse && c.head->verdict == Verdict::pass)
       say(c, exit_fail,
-          fmt::format("is worse than the base by {} of its limit, and within it: {}, {} of {}; noise {}", change_text(c),
-                      values_text(c), used_text(c), c.base->allows, noise_text(c)),
+          fmt::format("is worse than the base by {} of its limit, and within it: {}, {} of {}; noise {}",
+                      change_text(c), values_text(c), used_text(c), c.base->allows, noise_text(c)),
           "WORSE");
-    if (c.trend == Trend::gone) say(c, exit_missing, fmt::format("is in the base ({}) and not here", values_text(c)), "GONE");
+    if (c.trend == Trend::gone)
+      say(c, exit_missing, fmt::format("is in the base ({}) and not here", values_text(c)), "GONE");
     if (c.limit_changed && !c.base->allows.empty())
-      list.push_back({no_worse && c.looser, no_worse && c.looser ? exit_missing : 0, c.place, c.case_id + " " + name_of(c),
-                      fmt::format("its limit has changed: {} -> {}{}", c.base->allows,
-                                  c.head->allows.empty() ? "none" : c.head->allows, c.looser ? ", looser" : ""),
-                      1.0, no_worse && c.looser ? "LOOSENED" : ""});
+      list.push_back(
+          {no_worse && c.looser, no_worse && c.looser ? exit_missing : 0, c.place,
+           c.case_id + " " + name_of(c),
+           fmt::format("its limit has changed: {} -> {}{}", c.base->allows,
+                       c.head->allows.empty() ? "none" : c.head->allows, c.looser ? ", looser" : ""),
+           1.0, no_worse && c.looser ? "LOOSENED" : ""});
   }
   return list;
 }

@@ -7,11 +7,12 @@
 #include "validation/judge/remarks.hpp"
 #include "validation/results/results.hpp"
 
-/// Results beside those of a base, metric by metric. They show the effect of a change to an engine, in units of each limit, and
-/// whether noise can explain it.
+/// Results beside those of a base, metric by metric. They show the effect of a change to an engine, in units
+/// of each limit, and whether noise can explain it.
 namespace tripoint {
 
-/// A change of less than this share of its limit is none, however small the noise: another compiler or processor does as much.
+/// A change of less than this share of its limit is none, however small the noise: another compiler or
+/// processor does as much.
 inline constexpr double least_change = 1e-3;
 
 enum class Trend { better, worse, same, appeared, gone };
@@ -34,10 +35,13 @@ struct MetricChange {
   std::optional<double> level;
   SourcePlace place;  ///< of the limit; of the case file where there is none
   std::optional<MetricStanding> base, head;
-  double change =
-      0.0;  ///< head less base in units of the limit, above 0 = worse; without a limit as a share of the base, of no sign
-  double noise = 0.0;      ///< of that difference, in the same unit: of the base and of A/A, never by the word of the judged run
-  std::string noise_from;  ///< "5 seeds", "A/A", "stated by the base", "round-off", "interval of the fit", "none known"
+  /// Head less base in units of the limit, above 0 = worse; without a limit as a share of the base, of no
+  /// sign
+  double change = 0.0;
+  /// Of that difference, in the same unit: of the base and of A/A, never by the word of the judged run
+  double noise = 0.0;
+  /// "5 seeds", "A/A", "stated by the base", "round-off", "interval of the fit", "none known"
+  std::string noise_from;
   Trend trend = Trend::same;
   bool limit_changed = false, looser = false;
 };
@@ -45,25 +49,25 @@ struct MetricChange {
 struct Comparison {
   std::string base_name;
   std::vector<MetricChange> changes;  ///< most changed first, then new and lost ones
-  std::vector<std::string>
-      remarks;  ///< why the two may not be comparable: another profile, other seeds, another version of the program
+  /// Why the two may not be comparable: another profile, other seeds, another version of the program
+  std::vector<std::string> remarks;
   [[nodiscard]] int count(Trend) const;
 };
 
-/// @param repeat the base once more (A/A): the difference between the two is noise of its own, the larger one counts @pre both
-/// are judged
-[[nodiscard]] Comparison compare_results(const Results& base, const Results& head, const std::string& base_name,
-                                         const Results* repeat = nullptr);
+/// @param repeat the base once more (A/A): the difference between the two is noise of its own, the larger one
+/// counts @pre both are judged
+[[nodiscard]] Comparison compare_results(const Results& base, const Results& head,
+                                         const std::string& base_name, const Results* repeat = nullptr);
 
-/// Warnings for values that got worse by more than their noise and are within their limit, for values that are gone, and for
-/// changed limits.
+/// Warnings for values that got worse by more than their noise and are within their limit, for values that
+/// are gone, and for changed limits.
 /// @param no_worse errors instead: worse is exit 1, gone or looser exit 4
 [[nodiscard]] std::vector<Remark> change_remarks(const Comparison&, bool no_worse);
 
 /// "2 better, 1 worse, 9 unchanged, 1 new, 0 gone"
 [[nodiscard]] std::string counts_text(const Comparison&);
-/// "0.0049 -> 0.0025 m", "0.82 -> 0.41", "0.004, 5 seeds": base beside head, the same in units of the limit, and the noise in
-/// that unit.
+/// "0.0049 -> 0.0025 m", "0.82 -> 0.41", "0.004, 5 seeds": base beside head, the same in units of the limit,
+/// and the noise in that unit.
 [[nodiscard]] std::string values_text(const MetricChange&);
 [[nodiscard]] std::string used_text(const MetricChange&);
 [[nodiscard]] std::string noise_text(const MetricChange&);

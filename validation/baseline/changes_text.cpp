@@ -10,12 +10,17 @@
 namespace tripoint {
 namespace {
 
-std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("no value"); }
-std::string share(double value) { return std::isnan(value) ? std::string("-") : fmt::format("{:.3g}", value); }
+std::string number(double value) {
+  return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("no value");
+}
+std::string share(double value) {
+  return std::isnan(value) ? std::string("-") : fmt::format("{:.3g}", value);
+}
 
 std::string value_of(const MetricStanding& s) {
   if (!s.fit_class) return number(s.value);
-  return std::isfinite(s.value) ? fmt::format("{} {}", number(s.value), *s.fit_class) : std::string(to_string(*s.fit_class));
+  return std::isfinite(s.value) ? fmt::format("{} {}", number(s.value), *s.fit_class)
+                                : std::string(to_string(*s.fit_class));
 }
 
 /// Base beside head; one alone where the other has none; one where both read the same.
@@ -44,7 +49,8 @@ std::string word_of(Trend trend) {
 }
 
 std::string name_of(const MetricChange& c) {
-  return fmt::format("{}{} {}{}", c.engine, after_blank(c.mode), c.metric, c.level ? fmt::format(" at {:g}", *c.level) : "");
+  return fmt::format("{}{} {}{}", c.engine, after_blank(c.mode), c.metric,
+                     c.level ? fmt::format(" at {:g}", *c.level) : "");
 }
 
 std::string values_text(const MetricChange& c) {
@@ -56,7 +62,8 @@ std::string used_text(const MetricChange& c) {
 }
 
 std::string change_text(const MetricChange& c) {
-  if (!c.base || !c.head || (std::isnan(c.base->used) && std::isnan(c.head->used) && c.change == 0.0)) return "-";
+  if (!c.base || !c.head || (std::isnan(c.base->used) && std::isnan(c.head->used) && c.change == 0.0))
+    return "-";
   if (std::isinf(c.change)) return c.change > 0.0 ? "+inf" : "-inf";
   if (std::isnan(c.base->used) && std::isnan(c.head->used)) return fmt::format("{:.2g} %", 100.0 * c.change);
   return std::abs(c.change) < 0.5 * least_change ? std::string("0") : fmt::format("{:+.3g}", c.change);
@@ -69,22 +76,24 @@ std::string noise_text(const MetricChange& c) {
 }
 
 std::string counts_text(const Comparison& all) {
-  return fmt::format("{} better, {} worse, {} unchanged, {} new, {} gone", all.count(Trend::better), all.count(Trend::worse),
-                     all.count(Trend::same), all.count(Trend::appeared), all.count(Trend::gone));
+  return fmt::format("{} better, {} worse, {} unchanged, {} new, {} gone", all.count(Trend::better),
+                     all.count(Trend::worse), all.count(Trend::same), all.count(Trend::appeared),
+                     all.count(Trend::gone));
 }
 
 std::string changes_table(const Comparison& all) {
-  std::string text =
-      one_line(fmt::format("against {}: {}; changes in units of the limit, above 0 is worse", all.base_name, counts_text(all))) +
-      "\n";
+  std::string text = one_line(fmt::format("against {}: {}; changes in units of the limit, above 0 is worse",
+                                          all.base_name, counts_text(all))) +
+                     "\n";
   for (const auto& remark : all.remarks) text += "note: " + one_line(remark) + "\n";
   for (const auto& c : all.changes) {
     const auto allows = c.base && !c.base->allows.empty()   ? c.base->allows
                         : c.head && !c.head->allows.empty() ? c.head->allows
                                                             : "no limit";
-    text += one_line(fmt::format("{:7}{:>9}  {} {}: {}, {} of {}; noise {}", word_of(c.trend), change_text(c), c.case_id,
-                                 name_of(c), values_text(c), used_text(c), allows, noise_text(c))) +
-            "\n";
+    text +=
+        one_line(fmt::format("{:7}{:>9}  {} {}: {}, {} of {}; noise {}", word_of(c.trend), change_text(c),
+                             c.case_id, name_of(c), values_text(c), used_text(c), allows, noise_text(c))) +
+        "\n";
   }
   return text;
 }

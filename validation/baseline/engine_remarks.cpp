@@ -23,7 +23,8 @@ std::optional<std::vector<long>> numbers_of(const std::string& version) {
   std::vector<long> numbers;
   std::istringstream in(version.starts_with("v") ? version.substr(1) : version);
   for (std::string part; std::getline(in, part, '.');) {
-    if (part.empty() || part.size() > 9 || part.find_first_not_of("0123456789") != std::string::npos) return {};
+    if (part.empty() || part.size() > 9 || part.find_first_not_of("0123456789") != std::string::npos)
+      return {};
     numbers.push_back(std::stol(part));
   }
   if (numbers.empty()) return {};
@@ -46,16 +47,20 @@ void compare_programs(const Results& results, std::vector<Remark>& list) {
   std::error_code none;
   for (const auto& c : results.cases)
     for (const auto& e : c.engines) {
-      if (e.executable.empty() || !fs::is_regular_file(e.executable, none) || !named.insert(e.executable).second) continue;
+      if (e.executable.empty() || !fs::is_regular_file(e.executable, none) ||
+          !named.insert(e.executable).second)
+        continue;
       if (program_hash(e.executable) == e.executable_hash) continue;
-      list.push_back({true,
-                      exit_missing,
-                      {},
-                      e.name,
-                      fmt::format("the results are not of this engine: {} has changed since they were made; validate again",
-                                  one_line(e.executable)),
-                      infinity,
-                      "CHANGED"});
+      list.push_back(
+          {true,
+           exit_missing,
+           {},
+           e.name,
+           fmt::format(
+               "the results are not of this engine: {} has changed since they were made; validate again",
+               one_line(e.executable)),
+           infinity,
+           "CHANGED"});
     }
 }
 
@@ -69,7 +74,8 @@ void name_untrue_flags(const Results& results, std::vector<Remark>& list) {
 }
 
 const AcceptedEngine* accepted(const Baseline& b, const std::string& name) {
-  const auto at = std::find_if(b.engines.begin(), b.engines.end(), [&](const auto& e) { return e.name == name; });
+  const auto at =
+      std::find_if(b.engines.begin(), b.engines.end(), [&](const auto& e) { return e.name == name; });
   return at == b.engines.end() ? nullptr : &*at;
 }
 
@@ -77,8 +83,9 @@ const AcceptedEngine* accepted(const Baseline& b, const std::string& name) {
 std::string belied(const CaseResult& c, const EngineRow& e, const Baseline& b) {
   const auto now = gates_of(c, {});
   for (std::size_t k = 0; k < now.size(); ++k) {
-    const auto* old =
-        now[k].engine == e.name && now[k].preset == preset_unless_default(e.preset) ? counterpart(now, k, b.gates) : nullptr;
+    const auto* old = now[k].engine == e.name && now[k].preset == preset_unless_default(e.preset)
+                          ? counterpart(now, k, b.gates)
+                          : nullptr;
     if (old && old->value != now[k].value)
       return fmt::format("{} was {:.9g} and is {:.9g}", now[k].metric, old->value, now[k].value);
   }
@@ -90,16 +97,17 @@ void compare_engine(const Results& results, const CaseResult& c, const EngineRow
   const auto* old = accepted(b, e.name);
   if (!old) return;
   if (is_lower(e.version, old->version))
-    list.push_back(warning(
-        c, e.name,
-        fmt::format("its version has fallen from {}, which was accepted, to {}", one_line(old->version), one_line(e.version))));
+    list.push_back(warning(c, e.name,
+                           fmt::format("its version has fallen from {}, which was accepted, to {}",
+                                       one_line(old->version), one_line(e.version))));
   const auto hashes = case_hashes(c.file);
-  if (!e.deterministic || old->executable.empty() || old->executable != e.executable_hash || results.seed != b.seed || !hashes ||
-      hashes->scene != b.scene)
+  if (!e.deterministic || old->executable.empty() || old->executable != e.executable_hash ||
+      results.seed != b.seed || !hashes || hashes->scene != b.scene)
     return;
   if (const auto how = belied(c, e, b); !how.empty())
-    list.push_back(
-        warning(c, e.name, "says that it is deterministic, and the same program gave another value than was accepted: " + how));
+    list.push_back(warning(
+        c, e.name,
+        "says that it is deterministic, and the same program gave another value than was accepted: " + how));
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 bool holds_baselines(const std::string& folder) {
-  for (const auto& entry : fs::recursive_directory_iterator(folder, fs::directory_options::follow_directory_symlink))
+  for (const auto& entry :
+       fs::recursive_directory_iterator(folder, fs::directory_options::follow_directory_symlink))
     if (entry.path().extension() == ".toml") return true;
   return false;
 }
@@ -24,46 +25,53 @@ bool holds_baselines(const std::string& folder) {
 }  // namespace
 
 GateVerdict gate_verdict(const Results& results, const std::string& baselines, bool require_baselines) {
-  if (!baselines.empty() && !fs::is_directory(baselines)) throw InputError("--baselines " + baselines + ": is no folder");
+  if (!baselines.empty() && !fs::is_directory(baselines))
+    throw InputError("--baselines " + baselines + ": is no folder");
   if (!baselines.empty() && !holds_baselines(baselines))
-    throw InputError("--baselines " + baselines + ": holds no baseline (SUBJECT/CASE.toml), and nothing would be judged by it");
+    throw InputError("--baselines " + baselines +
+                     ": holds no baseline (SUBJECT/CASE.toml), and nothing would be judged by it");
   GateVerdict verdict;
   auto remarks = verdict_remarks(results);
-  for (const auto& list : {recheck_remarks(results), headroom_remarks(results),
-                           baseline_remarks(results, require_baselines, baselines), lost_case_remarks(results, baselines),
-                           suite_remarks(results, require_baselines, baselines), engine_remarks(results, baselines)})
+  for (const auto& list :
+       {recheck_remarks(results), headroom_remarks(results),
+        baseline_remarks(results, require_baselines, baselines), lost_case_remarks(results, baselines),
+        suite_remarks(results, require_baselines, baselines), engine_remarks(results, baselines)})
     remarks.insert(remarks.end(), list.begin(), list.end());
   if (const auto commit = this_tool().commit; results.tool.commit != commit)
-    remarks.push_back({false,
-                       0,
-                       {},
-                       "the results",
-                       fmt::format("were made by commit {}, and this program is of {}: validate again to judge what is here",
-                                   results.tool.commit, commit),
-                       1.0,
-                       {}});
+    remarks.push_back(
+        {false,
+         0,
+         {},
+         "the results",
+         fmt::format(
+             "were made by commit {}, and this program is of {}: validate again to judge what is here",
+             results.tool.commit, commit),
+         1.0,
+         {}});
   if (!results.shard.empty() && !results.shard.ends_with("/1"))
     remarks.push_back(
         {false,
          0,
          {},
          "the results",
-         fmt::format("are part {} of a suite: tripoint merge joins the parts, and the whole is judged", results.shard),
+         fmt::format("are part {} of a suite: tripoint merge joins the parts, and the whole is judged",
+                     results.shard),
          1.0,
          {}});
   if (!results.filter_known && !results.cases.empty())
-    remarks.push_back(
-        {false,
-         0,
-         {},
-         "the results",
-         "are of chosen cases (-k, --last-failed, or another command than validate): what was left out is not judged here",
-         1.0,
-         {}});
+    remarks.push_back({false,
+                       0,
+                       {},
+                       "the results",
+                       "are of chosen cases (-k, --last-failed, or another command than validate): what was "
+                       "left out is not judged here",
+                       1.0,
+                       {}});
   add_remarks(verdict, results, std::move(remarks));
   for (const auto& [name, count] : accepted_but_absent(results, baselines))
-    verdict.absent +=
-        fmt::format("{}{} of {}", verdict.absent.empty() ? "; accepted gates that are not judged here: " : ", ", count, name);
+    verdict.absent += fmt::format(
+        "{}{} of {}", verdict.absent.empty() ? "; accepted gates that are not judged here: " : ", ", count,
+        name);
   return verdict;
 }
 

@@ -45,13 +45,14 @@ Json costs_of(const CaseResult& c) {
   for (const auto& e : c.engines)
     for (const auto& r : e.runs)
       if (r.status == Status::ok)
-        list.push_back({{"engine", e.name},
-                        {"run", r.group},
-                        {"seed", r.knobs.seed},
-                        {"pairs", r.cost.pairs},
-                        {"steps", r.cost.steps},
-                        {"instructions", r.cost.instructions > 0.0 ? Json(r.cost.instructions) : Json(nullptr)},
-                        {"cpu_s", r.cost.cpu_s}});
+        list.push_back(
+            {{"engine", e.name},
+             {"run", r.group},
+             {"seed", r.knobs.seed},
+             {"pairs", r.cost.pairs},
+             {"steps", r.cost.steps},
+             {"instructions", r.cost.instructions > 0.0 ? Json(r.cost.instructions) : Json(nullptr)},
+             {"cpu_s", r.cost.cpu_s}});
   return list;
 }
 
@@ -84,14 +85,16 @@ std::string acceptance_lines(const Results& r, const std::vector<std::string>& i
   std::string text;
   for (const auto& c : r.cases)
     if (ids.empty() || std::find(ids.begin(), ids.end(), c.id) != ids.end())
-      text += line({{"format", 1}, {"case", c.id}, {"date", r.date}, {"commit", a.commit}, {"accepted", a.reason}});
+      text += line(
+          {{"format", 1}, {"case", c.id}, {"date", r.date}, {"commit", a.commit}, {"accepted", a.reason}});
   return text;
 }
 
 void append_history(const std::string& file, const std::string& lines) {
   if (const auto folder = fs::path(file).parent_path(); !folder.empty()) fs::create_directories(folder);
   // No link is followed and no pipe waited for: anyone who could write in the folder may have left one.
-  const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0644);
+  const int fd =
+      ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0644);
   const bool good = fd >= 0 && ::write(fd, lines.data(), lines.size()) == static_cast<ssize_t>(lines.size());
   const int error = errno;
   if (fd >= 0) ::close(fd);

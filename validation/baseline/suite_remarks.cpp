@@ -14,7 +14,8 @@ namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
 
-Remark remark(const fs::path& file, const std::string& title, const std::string& text, const std::string& word) {
+Remark remark(const fs::path& file, const std::string& title, const std::string& text,
+              const std::string& word) {
   return {true, exit_missing, {file.string(), 1, 0}, title, text, infinity, word};
 }
 
@@ -23,8 +24,8 @@ bool is_link(const fs::path& path) {
   return fs::is_symlink(path, none);
 }
 
-/// Folders and files of cases and baselines that the results are of. The program's own cases may lie behind a link: nobody
-/// proposes those.
+/// Folders and files of cases and baselines that the results are of. The program's own cases may lie behind a
+/// link: nobody proposes those.
 std::set<fs::path> places_of(const Results& results) {
   std::set<fs::path> places;
   std::error_code none;
@@ -58,22 +59,24 @@ void name_links(const Results& results, std::vector<Remark>& list) {
   std::set<fs::path> links;
   for (const auto& place : places_of(results)) add_links(place, links);
   for (const auto& link : links)
-    list.push_back(
-        remark(link, link.filename().string(),
-               "is a link, and could lead to an easier case than the one that was accepted: a case and its baseline are "
-               "files of their own",
-               "CHANGED"));
+    list.push_back(remark(link, link.filename().string(),
+                          "is a link, and could lead to an easier case than the one that was accepted: a "
+                          "case and its baseline are "
+                          "files of their own",
+                          "CHANGED"));
 }
 
 void name_lost_baselines(const Results& results, const std::string& root, std::vector<Remark>& list) {
   for (const auto& c : results.cases) {
     const auto here = baseline_file(c.file), there = baseline_file(c.file, root);
     if (fs::exists(there) && !fs::exists(here))
-      list.push_back(remark(c.file, c.id,
-                            fmt::format("its baseline {} is gone, and {} has it: tripoint gate accept --reason says who decided "
-                                        "and why",
-                                        fs::path(here).lexically_relative(fs::current_path()).string(), there),
-                            "GONE"));
+      list.push_back(
+          remark(c.file, c.id,
+                 fmt::format(
+                     "its baseline {} is gone, and {} has it: tripoint gate accept --reason says who decided "
+                     "and why",
+                     fs::path(here).lexically_relative(fs::current_path()).string(), there),
+                 "GONE"));
   }
 }
 
@@ -84,13 +87,15 @@ void name_unjudged(const Results& results, const std::string& root, std::vector<
   for (const auto& entry : fs::recursive_directory_iterator(root)) {
     if (!entry.is_regular_file() || entry.path().extension() != ".toml") continue;
     const auto b = read_baseline(entry.path().string());
-    const bool due =
-        results.profile.empty() || std::find(b.profiles.begin(), b.profiles.end(), results.profile) != b.profiles.end();
-    const bool judged = std::any_of(results.cases.begin(), results.cases.end(),
-                                    [&](const auto& c) { return fs::path(baseline_file(c.file, root)) == entry.path(); });
+    const bool due = results.profile.empty() ||
+                     std::find(b.profiles.begin(), b.profiles.end(), results.profile) != b.profiles.end();
+    const bool judged = std::any_of(results.cases.begin(), results.cases.end(), [&](const auto& c) {
+      return fs::path(baseline_file(c.file, root)) == entry.path();
+    });
     if (due && !judged && fs::exists(cases / fs::relative(entry.path(), root)))
-      list.push_back(remark(entry.path(), b.id,
-                            "has accepted figures, and is not among these results: run the whole folder of cases", "GONE"));
+      list.push_back(remark(
+          entry.path(), b.id,
+          "has accepted figures, and is not among these results: run the whole folder of cases", "GONE"));
   }
 }
 

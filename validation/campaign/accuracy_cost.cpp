@@ -14,7 +14,8 @@ namespace tripoint {
 namespace {
 
 /// Replicas of one level as one point: mean value with its uncertainty, mean seconds.
-std::optional<LadderPoint> point_of(const std::vector<const RunRow*>& runs, Axis axis, double level, const std::string& metric) {
+std::optional<LadderPoint> point_of(const std::vector<const RunRow*>& runs, Axis axis, double level,
+                                    const std::string& metric) {
   std::vector<MetricValue> values;
   LadderPoint point;
   for (const auto* run : runs) {
@@ -32,11 +33,13 @@ std::optional<LadderPoint> point_of(const std::vector<const RunRow*>& runs, Axis
   return point;
 }
 
-/// Runs that differ from the finest of an axis in nothing else: a level of another axis is not of this ladder.
+/// Runs that differ from the finest of an axis in nothing else: a level of another axis is not of this
+/// ladder.
 bool only_along(const RunRow& run, const StudyAxes& axes, const EngineRow& engine) {
   if (run.levels.size() == 1) return true;
   return run.base || std::all_of(run.levels.begin(), run.levels.end(), [&](const auto& l) {
-           return l.first == axes || std::any_of(engine.runs.begin(), engine.runs.end(), [&](const RunRow& b) {
+           return l.first == axes ||
+                  std::any_of(engine.runs.begin(), engine.runs.end(), [&](const RunRow& b) {
                     const auto at = b.levels.find(l.first);
                     return b.base && at != b.levels.end() && same_level(at->second, l.second);
                   });
@@ -50,7 +53,9 @@ struct Line {
 
 Line line_at(const Ladder& ladder, double step, const std::function<double(const LadderPoint&)>& y) {
   const auto& p = ladder.points;
-  const auto slope = [&](std::size_t i) { return std::log(y(p[i]) / y(p[i + 1])) / std::log(p[i].step / p[i + 1].step); };
+  const auto slope = [&](std::size_t i) {
+    return std::log(y(p[i]) / y(p[i + 1])) / std::log(p[i].step / p[i + 1].step);
+  };
   std::size_t i = 0;
   while (i + 2 < p.size() && step < p[i + 1].step) ++i;
   double change = 0.0;
@@ -64,7 +69,8 @@ Line line_at(const Ladder& ladder, double step, const std::function<double(const
 Prediction predict(const Ladder& ladder, double step, const std::function<double(const LadderPoint&)>& y) {
   const auto line = line_at(ladder, step, y);
   const double away = std::abs(std::log(step / line.a->step));
-  return {y(*line.a) * std::pow(step / line.a->step, line.slope), std::max(1.1, std::exp(line.change * away))};
+  return {y(*line.a) * std::pow(step / line.a->step, line.slope),
+          std::max(1.1, std::exp(line.change * away))};
 }
 
 /// Lengths that every level must divide: edges of boxes, of the domain, of cylinders along their axis.
@@ -120,14 +126,17 @@ std::vector<double> possible_levels(const Scene& scene, const Ladder& ladder) {
     else {
       for (const auto& b : scene.bodies) lengths_of(b.shape, lengths);
       if (scene.min && scene.max)
-        for (const double l : {scene.max->x - scene.min->x, scene.max->y - scene.min->y, scene.max->z - scene.min->z})
+        for (const double l :
+             {scene.max->x - scene.min->x, scene.max->y - scene.min->y, scene.max->z - scene.min->z})
           lengths.push_back(l);
     }
     std::erase_if(lengths, [&](double l) {
       return !std::isfinite(l) || !divides(ladder.points.back().level, l);
     });  // lengths that the measured ones do not divide are no demand
-    const double whole = lengths.empty() ? coarsest * 60.0 : *std::max_element(lengths.begin(), lengths.end());
-    for (double n = std::max(1.0, std::ceil(whole / coarsest - 1e-9)); whole / n >= finest && n < 1e7; n += 1.0)
+    const double whole =
+        lengths.empty() ? coarsest * 60.0 : *std::max_element(lengths.begin(), lengths.end());
+    for (double n = std::max(1.0, std::ceil(whole / coarsest - 1e-9)); whole / n >= finest && n < 1e7;
+         n += 1.0)
       if (std::all_of(lengths.begin(), lengths.end(), [&](double l) { return divides(whole / n, l); }))
         levels.push_back(whole / n);
   } else {
@@ -142,7 +151,8 @@ namespace {
 
 /// The setting that is possible, good enough and least by `measure`; none = there is none.
 template <class Enough, class Measure>
-std::optional<Recommendation> least(const Scene& scene, const std::vector<Ladder>& ladders, Enough enough, Measure measure) {
+std::optional<Recommendation> least(const Scene& scene, const std::vector<Ladder>& ladders, Enough enough,
+                                    Measure measure) {
   std::optional<Recommendation> best;
   for (const auto& ladder : ladders)
     for (const double level : possible_levels(scene, ladder)) {
@@ -155,16 +165,19 @@ std::optional<Recommendation> least(const Scene& scene, const std::vector<Ladder
 
 }  // namespace
 
-std::optional<Recommendation> cheapest_for_error(const Scene& scene, const std::vector<Ladder>& ladders, double error) {
+std::optional<Recommendation> cheapest_for_error(const Scene& scene, const std::vector<Ladder>& ladders,
+                                                 double error) {
   const auto enough = [&](const Recommendation& r) {
     const bool is_measured = std::any_of(r.ladder->points.begin(), r.ladder->points.end(),
                                          [&](const auto& p) { return same_level(p.level, r.level); });
-    return r.error.value * (is_measured ? 1.0 : 1.05) <= error;  // between levels the line is known to some per cent
+    // Between levels the line is known to some per cent
+    return r.error.value * (is_measured ? 1.0 : 1.05) <= error;
   };
   return least(scene, ladders, enough, [](const Recommendation& r) { return r.cpu_s.value; });
 }
 
-std::optional<Recommendation> best_within(const Scene& scene, const std::vector<Ladder>& ladders, double cpu_s) {
+std::optional<Recommendation> best_within(const Scene& scene, const std::vector<Ladder>& ladders,
+                                          double cpu_s) {
   return least(
       scene, ladders, [&](const Recommendation& r) { return r.cpu_s.value <= cpu_s; },
       [](const Recommendation& r) { return r.error.value; });

@@ -6,8 +6,8 @@
 
 #include "validation/results/results.hpp"
 
-/// Cost of accuracy, from runs that were made: error and CPU seconds along one knob of one engine, and the cheapest settings for
-/// a wish.
+/// Cost of accuracy, from runs that were made: error and CPU seconds along one knob of one engine, and the
+/// cheapest settings for a wish.
 namespace tripoint {
 
 struct Scene;
@@ -36,8 +36,9 @@ struct Prediction {
   double value = 0.0, factor = 1.0;
 };
 
-/// Along straight lines in log-log between neighbouring levels; outside them along the outermost line. The factor is what the
-/// slope's own change between neighbouring intervals would make of it, and 1.1 at least (seconds are never better known).
+/// Along straight lines in log-log between neighbouring levels; outside them along the outermost line. The
+/// factor is what the slope's own change between neighbouring intervals would make of it, and 1.1 at least
+/// (seconds are never better known).
 [[nodiscard]] Prediction predicted_error(const Ladder&, double step);
 [[nodiscard]] Prediction predicted_cpu(const Ladder&, double step);
 
@@ -48,14 +49,16 @@ struct Recommendation {
   Prediction error, cpu_s;
 };
 
-/// Levels that a scene takes. A spacing divides all lengths that the measured ones divide, a time step divides the output
-/// interval, walkers and iterations are whole. Within twice beyond the measured ones at the fine end, and not beyond the
-/// coarsest.
+/// Levels that a scene takes. A spacing divides all lengths that the measured ones divide, a time step
+/// divides the output interval, walkers and iterations are whole. Within twice beyond the measured ones at
+/// the fine end, and not beyond the coarsest.
 [[nodiscard]] std::vector<double> possible_levels(const Scene&, const Ladder&);
 
 /// The cheapest level of any ladder whose predicted error is at most this; empty when none is.
-[[nodiscard]] std::optional<Recommendation> cheapest_for_error(const Scene&, const std::vector<Ladder>&, double error);
+[[nodiscard]] std::optional<Recommendation> cheapest_for_error(const Scene&, const std::vector<Ladder>&,
+                                                               double error);
 /// The level of any ladder with the least predicted error whose predicted CPU seconds are at most these.
-[[nodiscard]] std::optional<Recommendation> best_within(const Scene&, const std::vector<Ladder>&, double cpu_s);
+[[nodiscard]] std::optional<Recommendation> best_within(const Scene&, const std::vector<Ladder>&,
+                                                        double cpu_s);
 
 }  // namespace tripoint

@@ -39,10 +39,12 @@ std::string nearest_case(std::string what) {
 std::vector<std::string> shipped_ids() {
   std::vector<std::string> ids;
   std::error_code none;
-  for (fs::recursive_directory_iterator at(shipped(), fs::directory_options::follow_directory_symlink, none), end; at != end;
-       at.increment(none)) {
+  for (fs::recursive_directory_iterator at(shipped(), fs::directory_options::follow_directory_symlink, none),
+       end;
+       at != end; at.increment(none)) {
     const auto id = fs::path(at->path()).replace_extension().lexically_relative(shipped()).string();
-    if (at->path().extension() == ".toml" && id.find(".ref") == std::string::npos && !id.starts_with("materials/"))
+    if (at->path().extension() == ".toml" && id.find(".ref") == std::string::npos &&
+        !id.starts_with("materials/"))
       ids.push_back(id);
   }
   std::sort(ids.begin(), ids.end());
@@ -56,14 +58,15 @@ std::string case_file(const std::string& path_or_id) {
   if (fs::is_regular_file(by_id, none)) return by_id.string();
   if (fs::is_regular_file(path_or_id + ".toml", none)) return path_or_id + ".toml";
   if (fs::is_directory(path_or_id, none) || !subject_folder(path_or_id).empty())
-    throw InputError(path_or_id + ": is a folder of cases, and one case is wanted (tripoint list prints the ids)");
+    throw InputError(path_or_id +
+                     ": is a folder of cases, and one case is wanted (tripoint list prints the ids)");
   throw InputError(no_such_case(path_or_id));
 }
 
 std::string subject_folder(const std::string& subject) {
   std::error_code none;
-  const bool plain =
-      !subject.empty() && subject.front() != '/' && subject.find("..") == std::string::npos && subject != "materials";
+  const bool plain = !subject.empty() && subject.front() != '/' && subject.find("..") == std::string::npos &&
+                     subject != "materials";
   const auto folder = shipped() / subject;
   return plain && fs::is_directory(folder, none) ? folder.string() : "";
 }

@@ -9,7 +9,8 @@ namespace tripoint {
 /// Ids of the shipped cases, in alphabetical order; no file is opened.
 [[nodiscard]] std::vector<std::string> shipped_ids();
 
-/// The file of a case that is given as a path, with or without its .toml, or an id. @throws InputError with the nearest id
+/// The file of a case that is given as a path, with or without its .toml, or an id. @throws InputError with
+/// the nearest id
 [[nodiscard]] std::string case_file(const std::string& path_or_id);
 
 /// The folder of a subject of the shipped cases ("heat"); empty when there is none of this name.

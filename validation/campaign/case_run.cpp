@@ -41,7 +41,8 @@ class Sampler {
   Sample make(const Scene& scene, const std::string& key) {
     const std::string file = (folder_ / (key + ".h5")).string();
     const Sample made{state_of(scene, file), file, std::make_shared<std::string>()};
-    if (options_.plans_alone || (options_.made && options_.are_all_made && fs::exists(made.file))) return made;
+    if (options_.plans_alone || (options_.made && options_.are_all_made && fs::exists(made.file)))
+      return made;
     fs::create_directories(folder_);
     const std::lock_guard lock(no_spawn_mutex());  // Debian's HDF5 is not thread-safe either
     fs::remove(made.file);
@@ -62,16 +63,21 @@ class Sampler {
 
 double wall_limit(const EnginePlan& engine, const SuiteOptions& options) {
   const auto at = engine.settings.find("wall_limit");
-  return at != engine.settings.end() && std::holds_alternative<double>(at->second) ? std::get<double>(at->second)
-                                                                                   : options.wall_limit;
+  return at != engine.settings.end() && std::holds_alternative<double>(at->second)
+             ? std::get<double>(at->second)
+             : options.wall_limit;
 }
 
 Knobs knobs_of(const CaseRun& run, const Result& result) {
   const auto& r = run.job.resolution;
-  return {r.spacing,           result.readback.time_step > 0.0 ? result.readback.time_step : r.time_step.value_or(0.0),
-          r.support_ratio,     r.walkers,
-          r.iterations,        run.plan.mode,
-          run.job.threads,     run.job.seed,
+  return {r.spacing,
+          result.readback.time_step > 0.0 ? result.readback.time_step : r.time_step.value_or(0.0),
+          r.support_ratio,
+          r.walkers,
+          r.iterations,
+          run.plan.mode,
+          run.job.threads,
+          run.job.seed,
           run.job.scene.jitter};
 }
 
@@ -93,7 +99,8 @@ EngineRow row_of(const EnginePlan& plan) {
   }
   if (!plan.entry) {
     row.status = Status::missing;
-    row.reason = fmt::format("there is no engine-{} beside the program or in TRIPOINT_ENGINE_PATH", plan.name);
+    row.reason =
+        fmt::format("there is no engine-{} beside the program or in TRIPOINT_ENGINE_PATH", plan.name);
   } else if (!plan.entry->available) {
     row.status = Status::missing;
     row.reason = plan.entry->reason;
@@ -105,12 +112,14 @@ std::string repeat_command(const Case& value, const SuiteOptions& options) {
   std::string command = "tripoint validate " + value.file;
   const auto& asked = options.selection.asked;
   if (!asked.empty())
-    command += fmt::format(" --engines {}{}", options.selection.engines.empty() ? "all," : "", fmt::join(asked, ","));
+    command += fmt::format(" --engines {}{}", options.selection.engines.empty() ? "all," : "",
+                           fmt::join(asked, ","));
   if (options.selection.seed) command += fmt::format(" --seed {}", *options.selection.seed);
   return command;
 }
 
-/// @param number of the run: runs of one start have files of their own, since HDF5 writes the second of the day into each
+/// @param number of the run: runs of one start have files of their own, since HDF5 writes the second of the
+/// day into each
 std::shared_ptr<const ChangedRun> changed_run(const Case& value, const EnginePlan& engine, const CaseRun& run,
                                               const InvarianceChange& change, std::size_t number) {
   ChangedScene changed{run.job.scene, *run.initial, run.job.threads};
@@ -118,7 +127,8 @@ std::shared_ptr<const ChangedRun> changed_run(const Case& value, const EnginePla
   auto made = std::make_shared<ChangedRun>();
   made->job = make_job(value, engine, run.plan, changed.scene, changed.initial);
   made->job.threads = changed.threads;
-  made->particles = fs::path(run.particles).replace_extension(fmt::format("{}-{}.h5", change.name, number)).string();
+  made->particles =
+      fs::path(run.particles).replace_extension(fmt::format("{}-{}.h5", change.name, number)).string();
   made->initial = std::move(changed.initial);
   const std::lock_guard lock(no_spawn_mutex());
   fs::remove(made->particles);
@@ -128,7 +138,8 @@ std::shared_ptr<const ChangedRun> changed_run(const Case& value, const EnginePla
 }
 
 /// The frames as the unchanged scene would have made them.
-std::shared_ptr<const Trajectory> taken_back(const CaseRun& run, const InvarianceChange& change, const Trajectory& frames) {
+std::shared_ptr<const Trajectory> taken_back(const CaseRun& run, const InvarianceChange& change,
+                                             const Trajectory& frames) {
   auto back = std::make_shared<Trajectory>(frames);
   change.take_back({run.job.scene, *run.initial, run.job.threads}, *back);
   return back;
@@ -153,8 +164,8 @@ std::size_t number_of_runs(const CaseRuns& all, const SuiteOptions& options) {
   std::size_t n = 0;
   for (const auto& engine : all.engines)
     if (engine.entry)
-      n += static_cast<std::size_t>(
-          std::ranges::count_if(engine.runs, [&](const RunPlan& plan) { return is_wanted(engine, plan, options); }));
+      n += static_cast<std::size_t>(std::ranges::count_if(
+          engine.runs, [&](const RunPlan& plan) { return is_wanted(engine, plan, options); }));
   return n;
 }
 
@@ -225,18 +236,21 @@ void describe_run(CaseRun& run, const Result& result, const SuiteOptions& option
   row.folder = fs::relative(run.folder, options.out).string();
 }
 
-/// Whether compare_engines() can come to look at the frames of the run: it compares two engines, and never the exact one.
+/// Whether compare_engines() can come to look at the frames of the run: it compares two engines, and never
+/// the exact one.
 bool is_compared(const CaseRuns& all, const CaseRun& run) {
   const auto counts = [&](const CaseRun& r) { return r.plan.base && !is_exact(all.engines[r.engine].name); };
-  return counts(run) && std::ranges::any_of(all.runs, [&](const CaseRun& r) { return counts(r) && r.engine != run.engine; });
+  return counts(run) &&
+         std::ranges::any_of(all.runs, [&](const CaseRun& r) { return counts(r) && r.engine != run.engine; });
 }
 
 /// Whether the run is made twice: the case was adopted for this engine, which says that it is deterministic.
 bool is_repeated(const CaseRuns& all, const CaseRun& run) {
   const auto& engine = all.engines[run.engine];
-  const bool adopted = std::ranges::any_of(all.value->engines, [&](const auto& e) { return e.adopted && e.name == engine.name; });
-  return adopted && run.plan.base && !run.kept && run.row.status == Status::ok && engine.entry->deterministic &&
-         !belongs_to_us(engine.entry->executable);
+  const bool adopted = std::ranges::any_of(all.value->engines,
+                                           [&](const auto& e) { return e.adopted && e.name == engine.name; });
+  return adopted && run.plan.base && !run.kept && run.row.status == Status::ok &&
+         engine.entry->deterministic && !belongs_to_us(engine.entry->executable);
 }
 
 /// What a repeat of the run gives otherwise; empty = nothing.
@@ -253,7 +267,8 @@ std::string difference_of_repeat(const CaseRuns& all, const CaseRun& run, const 
   for (const auto& [name, value] : evaluate_all(*all.value, run.job, *run.initial, *again.trajectory)) {
     const auto first = run.row.metrics.find(name);
     if (first != run.row.metrics.end() && first->second.value != value.value && std::isfinite(value.value))
-      return fmt::format("{} is {:.9g} in one run and {:.9g} in its repeat", name, first->second.value, value.value);
+      return fmt::format("{} is {:.9g} in one run and {:.9g} in its repeat", name, first->second.value,
+                         value.value);
   }
   return {};
 }
@@ -290,9 +305,11 @@ void give_up(CaseRun& run, Status status, const std::string& reason, const Suite
 }
 
 void make_run(const CaseRuns& all, CaseRun& run, const SuiteOptions& options) {
-  if (auto made = options.made ? options.made(all, run) : std::nullopt) return take_made(all, run, std::move(*made), options);
+  if (auto made = options.made ? options.made(all, run) : std::nullopt)
+    return take_made(all, run, std::move(*made), options);
   auto outcome = run_one(request_of(all, run, options));
-  if (run.changed && outcome.trajectory) outcome.trajectory = taken_back(run, *options.change, *outcome.trajectory);
+  if (run.changed && outcome.trajectory)
+    outcome.trajectory = taken_back(run, *options.change, *outcome.trajectory);
   run.kept = outcome.kept;
   describe_run(run, outcome.result, options);
   auto& row = run.row;
@@ -304,7 +321,8 @@ void make_run(const CaseRuns& all, CaseRun& run, const SuiteOptions& options) {
   row.time_step_bound = outcome.result.time_step_bound;
   if (outcome.trajectory) row.metrics = evaluate_all(*all.value, run.job, *run.initial, *outcome.trajectory);
   if (is_repeated(all, run))
-    if (const auto how = difference_of_repeat(all, run, options); !how.empty()) row.reason = untrue_flag + (": " + how);
+    if (const auto how = difference_of_repeat(all, run, options); !how.empty())
+      row.reason = untrue_flag + (": " + how);
   if (!run.plan.base || !outcome.trajectory) return;
   run.trajectory = outcome.trajectory;
   if (is_own_solver(all.engines[run.engine].name)) run.ledger = ledger_of(*run.trajectory);

@@ -53,13 +53,16 @@ struct CaseRuns {
 /// Number of the runs that the plan wants.
 [[nodiscard]] std::size_t number_of_runs(const CaseRuns&, const SuiteOptions&);
 
-/// Samples the runs that are wanted and adds them, ready to be made. @throws InputError when a scene cannot be sampled
+/// Samples the runs that are wanted and adds them, ready to be made. @throws InputError when a scene cannot
+/// be sampled
 void add_runs(CaseRuns&, const SuiteOptions&);
 
-/// Plans a case, samples each of its scenes once and writes the particles. @throws InputError when a scene cannot be sampled
+/// Plans a case, samples each of its scenes once and writes the particles. @throws InputError when a scene
+/// cannot be sampled
 [[nodiscard]] CaseRuns prepare_case(const Case&, const std::vector<EngineEntry>&, const SuiteOptions&);
 
-/// Identity of a run of a case among all runs of all cases: its place in the report and all that makes it. 16 hex digits.
+/// Identity of a run of a case among all runs of all cases: its place in the report and all that makes it. 16
+/// hex digits.
 [[nodiscard]] std::string run_id(const CaseRuns&, const CaseRun&, const SuiteOptions&);
 
 /// A row for a run that could not be made: its knobs, with a status and a reason.
@@ -71,7 +74,8 @@ void make_run(const CaseRuns&, CaseRun&, const SuiteOptions&);
 /// Puts the runs into rows, compares the engines, adds up the ledger and judges.
 [[nodiscard]] CaseResult finish_case(const CaseRuns&, const SuiteOptions&);
 
-/// Differences between the engines' own trajectories, in each metric that compares states; both errors to truth beside it.
+/// Differences between the engines' own trajectories, in each metric that compares states; both errors to
+/// truth beside it.
 [[nodiscard]] std::vector<EquivalenceRow> compare_engines(const CaseRuns&);
 
 /// Change of each energy of the ledger over a run, and their sum, the residual [J].

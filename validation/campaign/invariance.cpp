@@ -15,10 +15,12 @@ namespace tripoint {
 namespace {
 
 constexpr SignedAxes mirror_x{{0, 1, 2}, {-1.0, 1.0, 1.0}, -1.0};
-constexpr SignedAxes next_axis{{2, 0, 1}, {1.0, 1.0, 1.0}, 1.0};  // x to y, y to z, z to x: a third of a turn about (1, 1, 1)
+// x to y, y to z, z to x: a third of a turn about (1, 1, 1)
+constexpr SignedAxes next_axis{{2, 0, 1}, {1.0, 1.0, 1.0}, 1.0};
 constexpr Units other_units{1024.0, 16.0, 4096.0};
 
-// --- who refuses what -----------------------------------------------------------------------------------------------------
+// --- who refuses what
+// -----------------------------------------------------------------------------------------------------
 
 std::string always(const Scene&) { return {}; }
 
@@ -36,7 +38,8 @@ std::string has_places(const Scene& s) {
 std::string is_not_closed(const Scene& s) {
   for (const auto& b : s.bodies)
     if (b.motion != Motion::free) return "body `" + b.name + "` is held or driven from outside";
-  if (s.periodic[0] || s.periodic[1] || s.periodic[2]) return "the scene is periodic: places could not be taken back";
+  if (s.periodic[0] || s.periodic[1] || s.periodic[2])
+    return "the scene is periodic: places could not be taken back";
   if (!s.time_step) return "the time step follows the fastest speed: give scene.time_step";
   if (norm(s.gravity) > 0.0) return "gravity does work on what moves: its entry is the observer's";
   for (const auto& e : s.events)
@@ -51,7 +54,8 @@ std::string has_other_numbers(const Scene& s) {
   return {};
 }
 
-// --- order, threads, ulp --------------------------------------------------------------------------------------------------
+// --- order, threads, ulp
+// --------------------------------------------------------------------------------------------------
 
 void as_it_is(const ChangedScene&, Trajectory&) {}
 
@@ -121,7 +125,8 @@ void nudge(ChangedScene& changed) {
     for (std::size_t a = 0; a < 3; ++a) r[a] = std::nextafter(r[a], mixed(n++) % 2 ? INFINITY : -INFINITY);
 }
 
-// --- space, time and units ------------------------------------------------------------------------------------------------
+// --- space, time and units
+// ------------------------------------------------------------------------------------------------
 
 void mirror(ChangedScene& changed) { turn(mirror_x, changed); }
 void mirror_back(const ChangedScene&, Trajectory& run) {
@@ -151,27 +156,33 @@ void ride_along(const ChangedScene& before, Trajectory& run) {
 
 void other_measures(ChangedScene& changed) { measure_in(other_units, changed); }
 void own_measures(const ChangedScene&, Trajectory& run) {
-  for (auto& s : run.frames) measure_in({1.0 / other_units.length, 1.0 / other_units.time, 1.0 / other_units.mass}, s);
+  for (auto& s : run.frames)
+    measure_in({1.0 / other_units.length, 1.0 / other_units.time, 1.0 / other_units.mass}, s);
 }
 
 }  // namespace
 
 const std::vector<InvarianceChange>& invariance_changes() {
-  constexpr std::string_view sums = "sums in another order: round-off, grown over the steps of a run that is not chaotic";
+  constexpr std::string_view sums =
+      "sums in another order: round-off, grown over the steps of a run that is not chaotic";
   static const std::vector<InvarianceChange> list{
-      {"threads", "2 threads instead of 1", 0.0, "every sum has a fixed order: the same bits", always, two_threads, as_it_is},
+      {"threads", "2 threads instead of 1", 0.0, "every sum has a fixed order: the same bits", always,
+       two_threads, as_it_is},
       {"order", "the particles in another order", 1e-10, sums, always, shuffle, sort_back},
       {"ulp", "each coordinate one unit in the last place up or down", 1e-10,
        "round-off of the start, grown over the steps of a run that is not chaotic", always, nudge, as_it_is},
       {"boost", "every velocity plus one constant, seen from the moving frame", 1e-10,
        "round-off of places that lie further out, grown over the steps", is_not_closed, boost, ride_along},
-      {"mirror", "the scene, its gravity and its domain mirrored in x", 1e-10, sums, has_places, mirror, mirror_back},
-      {"rotation", "the scene, its gravity and its domain turned, x to y to z to x", 1e-10, sums, has_places, rotate_axes,
-       rotate_back_axes},
+      {"mirror", "the scene, its gravity and its domain mirrored in x", 1e-10, sums, has_places, mirror,
+       mirror_back},
+      {"rotation", "the scene, its gravity and its domain turned, x to y to z to x", 1e-10, sums, has_places,
+       rotate_axes, rotate_back_axes},
       {"units",
-       "length, time and mass in units of 1/1024 m, 1/16 s, 1/4096 kg: powers of 2, so that only a number with a unit in the "
+       "length, time and mass in units of 1/1024 m, 1/16 s, 1/4096 kg: powers of 2, so that only a number "
+       "with a unit in the "
        "code shows",
-       1e-12, "library functions whose last bit depends on the exponent", has_other_numbers, other_measures, own_measures}};
+       1e-12, "library functions whose last bit depends on the exponent", has_other_numbers, other_measures,
+       own_measures}};
   return list;
 }
 
@@ -181,7 +192,8 @@ const InvarianceChange& invariance_change(std::string_view name) {
   if (at != all.end()) return *at;
   std::vector<std::string_view> words;
   for (const auto& c : all) words.push_back(c.name);
-  throw InputError(fmt::format("no harmless change is named \"{}\": write one of {}", name, fmt::join(words, " ")));
+  throw InputError(
+      fmt::format("no harmless change is named \"{}\": write one of {}", name, fmt::join(words, " ")));
 }
 
 }  // namespace tripoint

@@ -7,8 +7,9 @@
 #include "files/trajectory.hpp"
 #include "scene/scene.hpp"
 
-/// Changes of a scene that physics does not feel: symmetries, and changes below the last digit. The run of the changed scene,
-/// taken back, must agree with the run of the scene itself. [[harmless]] of a case names those that it must bear.
+/// Changes of a scene that physics does not feel: symmetries, and changes below the last digit. The run of
+/// the changed scene, taken back, must agree with the run of the scene itself. [[harmless]] of a case names
+/// those that it must bear.
 namespace tripoint {
 
 /// A scene and its particles, before or after a change.
@@ -26,7 +27,8 @@ struct InvarianceChange {
   /// Why it is no symmetry of this scene; empty = it is one.
   std::string (*refusal)(const Scene&);
   void (*apply)(ChangedScene&);
-  /// Takes the frames of the changed run back to the scene that they began as (given as it was before the change).
+  /// Takes the frames of the changed run back to the scene that they began as (given as it was before the
+  /// change).
   void (*take_back)(const ChangedScene& before, Trajectory&);
 };
 

@@ -27,7 +27,8 @@ void measure_in(const Units& u, Material& m) {
   scale(m.values, "solid_viscosity", pressure * u.time);
   scale(m.stiffness, speed * speed);
   scale(m.young_modulus, pressure);
-  for (auto* k : {&m.conductivity, &m.solid_conductivity}) scale(*k, u.mass * u.length / (u.time * u.time * u.time));
+  for (auto* k : {&m.conductivity, &m.solid_conductivity})
+    scale(*k, u.mass * u.length / (u.time * u.time * u.time));
   for (auto* c : {&m.heat_capacity, &m.solid_heat_capacity, &m.latent_heat}) scale(*c, speed * speed);
 }
 
@@ -106,7 +107,8 @@ void measure_in(const Units& u, ChangedScene& changed) {
 }
 
 void measure_in(const Units& u, Snapshot& s) {
-  const double speed = u.length / u.time, force = u.mass * speed / u.time, pressure = force / (u.length * u.length);
+  const double speed = u.length / u.time, force = u.mass * speed / u.time,
+               pressure = force / (u.length * u.length);
   s.time *= u.time;
   scale(s.position, u.length);
   scale(s.velocity, speed);

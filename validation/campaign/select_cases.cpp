@@ -31,7 +31,8 @@ bool is_case(const fs::path& file) {
 
 std::vector<Found> files_below(const fs::path& folder) {
   std::vector<Found> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder, fs::directory_options::follow_directory_symlink))
+  for (const auto& entry :
+       fs::recursive_directory_iterator(folder, fs::directory_options::follow_directory_symlink))
     if (entry.is_regular_file() && is_case(entry.path())) files.push_back({entry.path().string(), false});
   return files;
 }
@@ -41,8 +42,8 @@ std::vector<Found> files_for(const std::string& what) {
   const auto subject = subject_folder(what);
   if (fs::is_directory(what, none)) {
     auto files = files_below(what);
-    return files.empty() && !subject.empty() ? files_below(subject)
-                                             : files;  // a folder of runs that has a subject's name is not meant
+    // a folder of runs that has a subject's name is not meant
+    return files.empty() && !subject.empty() ? files_below(subject) : files;
   }
   const bool is_file = fs::exists(what, none) || fs::is_regular_file(what + ".toml", none);
   if (!is_file && !subject.empty()) return files_below(subject);
@@ -52,7 +53,8 @@ std::vector<Found> files_for(const std::string& what) {
 std::vector<Found> all_files(const std::vector<std::string>& what) {
   const fs::path own = fs::path(share_folder()) / "cases";
   if (what.empty())
-    return fs::is_directory(own) ? files_below(own) : throw InputError(own.string() + ": the folder of cases is missing");
+    return fs::is_directory(own) ? files_below(own)
+                                 : throw InputError(own.string() + ": the folder of cases is missing");
   std::vector<Found> files;
   for (const auto& w : what)
     for (auto& f : files_for(w)) files.push_back(std::move(f));
@@ -76,7 +78,8 @@ bool matches(const CaseFilter& filter, const Case& value, bool by_name) {
 }
 
 std::string describe(const CaseFilter& filter) {
-  std::string text = filter.what.empty() ? "the cases beside the program" : fmt::format("{}", fmt::join(filter.what, ", "));
+  std::string text =
+      filter.what.empty() ? "the cases beside the program" : fmt::format("{}", fmt::join(filter.what, ", "));
   if (!filter.profile.empty()) text += ", profile " + filter.profile;
   if (!filter.tag.empty()) text += ", tag " + filter.tag;
   if (!filter.substring.empty()) text += ", an id with \"" + filter.substring + "\" in it";
@@ -105,7 +108,8 @@ std::vector<Case> select_cases(const CaseFilter& filter) {
     if (!matches(filter, value, file.by_name)) continue;
     const auto [at, is_new] = by_id.emplace(value.id, value);
     if (!is_new && at->second.file != value.file)
-      throw InputError(fmt::format("{}: the id {} is already that of {}", value.file, value.id, at->second.file));
+      throw InputError(
+          fmt::format("{}: the id {} is already that of {}", value.file, value.id, at->second.file));
   }
   const bool no_such_tag = !filter.tag.empty() && tags.count(filter.tag) == 0;
   if (by_id.empty())

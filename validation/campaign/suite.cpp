@@ -23,13 +23,16 @@
 namespace tripoint {
 namespace {
 
-/// Workers prepare the cases in order and make their runs, no more of either at a time than there are jobs. A case is prepared
-/// when the waiting runs are fewer than the jobs. So the particles of a few cases are held and not those of all. Results keep the
-/// order of the cases whatever ends first.
+/// Workers prepare the cases in order and make their runs, no more of either at a time than there are jobs. A
+/// case is prepared when the waiting runs are fewer than the jobs. So the particles of a few cases are held
+/// and not those of all. Results keep the order of the cases whatever ends first.
 class Suite {
  public:
   Suite(const std::vector<Case>& cases, const std::vector<EngineEntry>& engines, const SuiteOptions& options)
-      : cases_(cases), options_(options), jobs_(static_cast<std::size_t>(std::max(1, options.jobs))), slots_(cases.size()) {
+      : cases_(cases),
+        options_(options),
+        jobs_(static_cast<std::size_t>(std::max(1, options.jobs))),
+        slots_(cases.size()) {
     for (std::size_t c = 0; c < cases.size(); ++c) {
       slots_[c].runs = std::make_unique<CaseRuns>(plan_case(cases[c], engines, options));
       all_runs_ += number_of_runs(*slots_[c].runs, options);
@@ -57,7 +60,9 @@ class Suite {
     std::size_t slot, run;
   };
 
-  [[nodiscard]] bool wants_a_case() const { return !preparing_ && prepared_ < cases_.size() && queue_.size() < jobs_; }
+  [[nodiscard]] bool wants_a_case() const {
+    return !preparing_ && prepared_ < cases_.size() && queue_.size() < jobs_;
+  }
   [[nodiscard]] bool is_over() const {
     return given_up_ || interrupted() || (!preparing_ && prepared_ == cases_.size() && queue_.empty());
   }
@@ -89,7 +94,8 @@ class Suite {
     preparing_ = false;
     ++prepared_;
     if (failure) {
-      if (!interrupted()) give_up(failure);  // a suite stopped half-way is no failure: the complete cases are reported
+      // a suite stopped half-way is no failure: the complete cases are reported
+      if (!interrupted()) give_up(failure);
       given_up_ = true;
     } else {
       slots_[c].left = n;
@@ -147,9 +153,10 @@ class Suite {
     ++done_;
     if (run.taken && !options_.are_all_made) return;  // it was reported when it was made
     const double left = elapsed / static_cast<double>(done_) * static_cast<double>(all_runs_ - done_);
-    options_.say(fmt::format("[{:3}/{}  {:.0f} s, about {:.0f} s left] {} {} {}: {}{}{} ({:.2f} CPU s)", done_, all_runs_,
-                             elapsed, left, all.value->id, all.engines[run.engine].name, run.plan.label, run.kept ? "kept, " : "",
-                             run.row.status, run.row.reason.empty() ? "" : ", " + run.row.reason, run.row.cost.cpu_s));
+    options_.say(fmt::format("[{:3}/{}  {:.0f} s, about {:.0f} s left] {} {} {}: {}{}{} ({:.2f} CPU s)",
+                             done_, all_runs_, elapsed, left, all.value->id, all.engines[run.engine].name,
+                             run.plan.label, run.kept ? "kept, " : "", run.row.status,
+                             run.row.reason.empty() ? "" : ", " + run.row.reason, run.row.cost.cpu_s));
   }
 
   const std::vector<Case>& cases_;
@@ -171,17 +178,19 @@ class Suite {
 
 namespace {
 
-/// Third-party runs, which end before those begin whose results are the truth that they are judged by, or that they could copy.
-/// In a sandbox an engine sees neither.
+/// Third-party runs, which end before those begin whose results are the truth that they are judged by, or
+/// that they could copy. In a sandbox an engine sees neither.
 class ThirdPartiesFirst {
  public:
-  ThirdPartiesFirst(const std::vector<Case>& cases, const std::vector<EngineEntry>& engines, const SuiteOptions& options)
+  ThirdPartiesFirst(const std::vector<Case>& cases, const std::vector<EngineEntry>& engines,
+                    const SuiteOptions& options)
       : cases_(cases), engines_(engines), options_(options) {}
 
   std::vector<CaseResult> run() {
     const bool third_parties = has_runs(true), others = has_runs(false);
     SuiteOptions options = options_;
-    if (third_parties) options.before_third_party = [this] { std::call_once(hidden_, [this] { hide_answers(); }); };
+    if (third_parties)
+      options.before_third_party = [this] { std::call_once(hidden_, [this] { hide_answers(); }); };
     if (!third_parties || !others) return Suite(cases_, engines_, options).run();
     options.settled = std::make_shared<std::map<std::string, std::shared_ptr<const InitialState>>>();
     make_third_party_runs(options);
@@ -205,7 +214,8 @@ class ThirdPartiesFirst {
 
   [[nodiscard]] std::function<bool(const EnginePlan&, const RunPlan&)> only(bool third_parties) const {
     return [this, third_parties](const EnginePlan& engine, const RunPlan& plan) {
-      return belongs_to_us(engine.entry->executable) != third_parties && (!options_.wanted || options_.wanted(engine, plan));
+      return belongs_to_us(engine.entry->executable) != third_parties &&
+             (!options_.wanted || options_.wanted(engine, plan));
     };
   }
 
@@ -224,15 +234,18 @@ class ThirdPartiesFirst {
     return at == made_.end() ? std::optional<MadeRun>() : at->second;
   }
 
-  /// Results of earlier calls that lie in the folder of this one, but for those of third parties, which --resume may keep.
+  /// Results of earlier calls that lie in the folder of this one, but for those of third parties, which
+  /// --resume may keep.
   void hide_answers() const {
     std::set<std::string> third_parties;
     for (const EngineEntry& e : engines_)
       if (!belongs_to_us(e.executable)) third_parties.insert(e.name);
-    const auto removed = remove_answers((std::filesystem::path(options_.out) / "runs").string(), third_parties);
+    const auto removed =
+        remove_answers((std::filesystem::path(options_.out) / "runs").string(), third_parties);
     if (removed > 0 && options_.say)
       options_.say(
-          fmt::format("{} files of earlier runs were removed from {}/runs: an engine of somebody else runs without --sandbox",
+          fmt::format("{} files of earlier runs were removed from {}/runs: an engine of somebody else runs "
+                      "without --sandbox",
                       removed, options_.out));
   }
 
@@ -246,13 +259,15 @@ class ThirdPartiesFirst {
 
 std::vector<CaseResult> results_of(const std::vector<Case>& cases, const std::vector<EngineEntry>& engines,
                                    const SuiteOptions& options) {
-  if (third_parties_are_sandboxed() || options.made || options.plans_alone) return Suite(cases, engines, options).run();
+  if (third_parties_are_sandboxed() || options.made || options.plans_alone)
+    return Suite(cases, engines, options).run();
   return ThirdPartiesFirst(cases, engines, options).run();
 }
 
 }  // namespace
 
-Results run_suite(const std::vector<Case>& cases, const std::vector<EngineEntry>& engines, const SuiteOptions& options) {
+Results run_suite(const std::vector<Case>& cases, const std::vector<EngineEntry>& engines,
+                  const SuiteOptions& options) {
   Results results;
   results.tool = this_tool();
   results.seed = options.selection.seed.value_or(1);

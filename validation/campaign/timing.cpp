@@ -37,7 +37,8 @@ std::vector<Timed> timed_runs(CaseRuns& all, CaseResult& result) {
   std::vector<std::size_t> paired;
   for (auto& run : all.runs) {
     auto* row = row_of(result, all.engines[run.engine], run.plan);
-    const bool is_paired = run.plan.base && std::find(paired.begin(), paired.end(), run.engine) == paired.end();
+    const bool is_paired =
+        run.plan.base && std::find(paired.begin(), paired.end(), run.engine) == paired.end();
     list.push_back({&run, row, is_paired ? Timed::Part::first : Timed::Part::single});
     if (!is_paired) continue;
     paired.push_back(run.engine);
@@ -49,8 +50,8 @@ std::vector<Timed> timed_runs(CaseRuns& all, CaseResult& result) {
 
 }  // namespace
 
-void time_case(const Case& value, const std::vector<EngineEntry>& found, int rounds, const SuiteOptions& options,
-               CaseResult& result) {
+void time_case(const Case& value, const std::vector<EngineEntry>& found, int rounds,
+               const SuiteOptions& options, CaseResult& result) {
   auto alone = options;
   alone.out = (fs::path(options.out) / "timing").string();
   alone.jobs = 1;
@@ -62,15 +63,19 @@ void time_case(const Case& value, const std::vector<EngineEntry>& found, int rou
   };
   auto all = prepare_case(value, found, alone);
   auto runs = timed_runs(all, result);
-  std::map<std::size_t, std::vector<std::pair<double, double>>> twice;  // engine -> the same run, twice a round
+  // Engine -> the same run, twice a round
+  std::map<std::size_t, std::vector<std::pair<double, double>>> twice;
   for (int round = 0; round < rounds && !interrupted(); ++round) {
-    if (options.say) options.say(fmt::format("timing {}: round {} of {}, {} runs", value.id, round + 1, rounds, runs.size()));
+    if (options.say)
+      options.say(
+          fmt::format("timing {}: round {} of {}, {} runs", value.id, round + 1, rounds, runs.size()));
     std::map<std::size_t, std::pair<double, double>> of_round;
     for (auto& timed : runs) {
       const std::string bits = timed.row->state_hash;
       make_run(all, *timed.run, alone);
-      const bool same = timed.run->row.status == Status::ok &&
-                        (timed.run->row.state_hash == bits || !all.engines[timed.run->engine].entry->deterministic);
+      const bool same =
+          timed.run->row.status == Status::ok &&
+          (timed.run->row.state_hash == bits || !all.engines[timed.run->engine].entry->deterministic);
       const double seconds = same ? timed.run->row.cost.cpu_s : not_a_number;
       if (timed.part != Timed::Part::second) timed.row->cost.repeats.push_back(seconds);
       if (timed.part == Timed::Part::first) of_round[timed.run->engine].first = seconds;
@@ -80,7 +85,8 @@ void time_case(const Case& value, const std::vector<EngineEntry>& found, int rou
     std::reverse(runs.begin(), runs.end());
   }
   for (const auto& timed : runs)
-    if (std::any_of(timed.row->cost.repeats.begin(), timed.row->cost.repeats.end(), [](double s) { return !(s > 0.0); }))
+    if (std::any_of(timed.row->cost.repeats.begin(), timed.row->cost.repeats.end(),
+                    [](double s) { return !(s > 0.0); }))
       timed.row->cost.repeats.clear();
   result.timing_rounds = rounds;
   result.timing_floor = not_a_number;

@@ -43,8 +43,9 @@ Case corrected(Case value) {
   value.modes = {Mode::corrected};
   value.scene.mode = Mode::corrected;
   // A scene with the transport velocity cannot clamp, and would not run with it.
-  std::erase_if(value.scene.modes_given,
-                [&](const auto& given) { return !(value.scene.transport_velocity && given.first == term::clamp); });
+  std::erase_if(value.scene.modes_given, [&](const auto& given) {
+    return !(value.scene.transport_velocity && given.first == term::clamp);
+  });
   value.studies.clear();
   value.gates.clear();
   value.inputs.clear();

@@ -11,17 +11,19 @@ namespace tripoint {
 
 /// A row of `tripoint ablate`: a term that is put back to a form with less.
 struct Correction {
-  std::string name;  ///< of the term: without its correction; "TERM=WORD": in its default form, where a scene has a better one
+  /// Of the term: without its correction; "TERM=WORD": in its default form, where a scene has a better one
+  std::string name;
   const ModelTerm* of;
   const ModelForm* form;
 };
 
 /// Of every term of [model], in its order.
 [[nodiscard]] std::vector<Correction> corrections();
-/// Whether it can act in the scene. A correction that acts nowhere has no row: its runs have the bits of the corrected ones.
+/// Whether it can act in the scene. A correction that acts nowhere has no row: its runs have the bits of the
+/// corrected ones.
 [[nodiscard]] bool can_act(const Correction&, const Scene&);
-/// The case at its own resolution, fully corrected, without studies and gates. With the transport velocity it clamps as the file
-/// says.
+/// The case at its own resolution, fully corrected, without studies and gates. With the transport velocity it
+/// clamps as the file says.
 [[nodiscard]] Case corrected(Case);
 [[nodiscard]] Case without(const Correction&, Case);
 

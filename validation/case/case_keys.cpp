@@ -20,14 +20,16 @@ constexpr auto keys_before = std::to_array<Key>({
     {"", "extends", text, "", any, "", "the case stands on its own", "",
      "case that supplies the keys missing here: a file of this folder, \"other.toml\", or a case's name"},
     {"", "remove", texts, "", any, "", "all of it holds", "",
-     "keys and tables of the extended case that are removed: \"scene.jitter\", \"metric.overlap\" (and its gates), \"study\""},
+     "keys and tables of the extended case that are removed: \"scene.jitter\", \"metric.overlap\" (and its "
+     "gates), \"study\""},
     {"", "case", table, "", any, "=", "id from the file's place", "case", "claim and judgement"},
 });
 
 constexpr auto tables_of_judgement = std::to_array<Key>({
     {"", "engines", table, "", any, "=", "every engine that can", "engines",
      "engines of this case, one table for each: [engines.NAME]"},
-    {"", "reference", table, "", any, "=", "only the invariants are known", "reference", "the truth, where it is known"},
+    {"", "reference", table, "", any, "=", "only the invariants are known", "reference",
+     "the truth, where it is known"},
     {"", "metric", tables, "", any, "=", "nothing is measured", "metric", "numbers computed from each run"},
     {"", "invariants", table, "", any, "", "nothing but the metrics", "invariants",
      "quantities that every run must keep: a metric and its gate on one line"},
@@ -38,17 +40,17 @@ constexpr auto tables_of_judgement = std::to_array<Key>({
     {"", "harmless", tables, "", any, "=", "none", "harmless", "changes that must not change any metric"},
 });
 
-constexpr Key harmless_name{
-    "harmless",
-    "name",
-    word,
-    "",
-    any,
-    "!",
-    "",
-    "threads order ulp boost mirror rotation units",
-    "`threads`: 2 instead of 1. `order`: of the particles. `ulp`: of each coordinate. `boost`: a velocity added to all. "
-    "`mirror`: in x. `rotation`: x to y to z to x. `units`: powers of 2"};
+constexpr Key harmless_name{"harmless",
+                            "name",
+                            word,
+                            "",
+                            any,
+                            "!",
+                            "",
+                            "threads order ulp boost mirror rotation units",
+                            "`threads`: 2 instead of 1. `order`: of the particles. `ulp`: of each "
+                            "coordinate. `boost`: a velocity added to all. "
+                            "`mirror`: in x. `rotation`: x to y to z to x. `units`: powers of 2"};
 
 constexpr auto tables_before = std::to_array<TableInfo>({
     {"", "(top)", "The file. Numbers are SI, or texts with a unit: \"3 mm\", \"1.2 g/cm3\", \"20 degC\"."},
@@ -56,24 +58,30 @@ constexpr auto tables_before = std::to_array<TableInfo>({
 });
 constexpr auto tables_behind = std::to_array<TableInfo>({
     {"engines", "[engines.NAME]",
-     "Each engine and preset is one row of the results. Settings of [engines.all] go to every engine: `friction` (Coulomb's "
+     "Each engine and preset is one row of the results. Settings of [engines.all] go to every engine: "
+     "`friction` (Coulomb's "
      "coefficient) and `restitution` of every pair of bodies. An engine's own settings go before them."},
     {"reference", "[reference]", "The truth that metrics are compared with."},
     {"metric", "[[metric]]", "A number computed from each run."},
     {"gates", "[[metric]] gates = [{...}]",
-     "A gate within its metric, with the keys of [[gate]]. `metric` only says NAME.order, NAME.limit or NAME.statistical."},
-    {"invariants", "[invariants]", "Quantities that a run must keep, each by its name: `ledger = 1e-9`, or a table."},
+     "A gate within its metric, with the keys of [[gate]]. `metric` only says NAME.order, NAME.limit or "
+     "NAME.statistical."},
+    {"invariants", "[invariants]",
+     "Quantities that a run must keep, each by its name: `ledger = 1e-9`, or a table."},
     {"invariant", "[invariants.NAME]",
-     "A quantity that a run must keep. It has the keys of [[metric]], without quantity and limits, and those of [[gate]]. reason "
+     "A quantity that a run must keep. It has the keys of [[metric]], without quantity and limits, and those "
+     "of [[gate]]. reason "
      "is required where the limit is not round-off."},
     {"study", "[[study]]", "Runs at several levels of one axis: a convergence study."},
     {"gate", "[[gate]]", "A limit that decides between pass and fail."},
     {"input", "[[input]]",
-     "An uncertain number. The run is repeated with the number at both ends; half the difference of a metric is its input "
+     "An uncertain number. The run is repeated with the number at both ends; half the difference of a metric "
+     "is its input "
      "uncertainty."},
     {"defect", "[[defect]]", "A fault that this case must catch."},
     {"harmless", "[[harmless]]",
-     "An invariance test: a change without physical effect. `tripoint gate selftest` runs the changed scene; no verdict or "
+     "An invariance test: a change without physical effect. `tripoint gate selftest` runs the changed scene; "
+     "no verdict or "
      "metric may change."},
 });
 
@@ -123,8 +131,8 @@ void add_rows(std::vector<Key>& list, const auto&... records) {
 /// Behind the scene's keys.
 std::vector<Key> keys_behind() {
   std::vector<Key> list(tables_of_judgement.begin(), tables_of_judgement.end());
-  add_rows(list, record<Case>, record<EngineChoice>, record<ReferenceChoice>, record<MetricChoice>, record<Study>, record<Gate>,
-           record<UncertainInput>, record<Defect>);
+  add_rows(list, record<Case>, record<EngineChoice>, record<ReferenceChoice>, record<MetricChoice>,
+           record<Study>, record<Gate>, record<UncertainInput>, record<Defect>);
   list.push_back(harmless_name);
   return list;
 }

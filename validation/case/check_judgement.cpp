@@ -53,22 +53,24 @@ class JudgementChecker : NameChecks {
     if (name.empty() || case_.engines.empty()) return;  // no [engines]: whatever engine is there runs
     const auto known = names_of(case_.engines);
     if (!holds(known, name))
-      throw InputError(place(key, table), fmt::format("`{}`: this case runs no engine \"{}\"{}; add [engines.{}]", key,
-                                                      printable(name), suggestion(name, known), printable(name)));
+      throw InputError(place(key, table),
+                       fmt::format("`{}`: this case runs no engine \"{}\"{}; add [engines.{}]", key,
+                                   printable(name), suggestion(name, known), printable(name)));
   }
 
   void known_metric(const std::string& name, const std::string& key, const SourcePlace& table) const {
     const auto known = names_of(case_.metrics);
     if (holds(known, name) || holds(known, metric_of_gate(fitted_metric(name)))) return;
-    throw InputError(place(key, table),
-                     fmt::format("`{}`: no [[metric]] is named \"{}\"{}", key, printable(name), suggestion(name, known)));
+    throw InputError(place(key, table), fmt::format("`{}`: no [[metric]] is named \"{}\"{}", key,
+                                                    printable(name), suggestion(name, known)));
   }
 
   void known_mode(JudgedMode mode, const std::string& key, const SourcePlace& table) const {
     if (mode == JudgedMode::none || mode == JudgedMode::not_paper) return;
     if (std::find(case_.modes.begin(), case_.modes.end(), mode_from(to_string(mode))) == case_.modes.end())
-      throw InputError(place(key, table),
-                       fmt::format("`{}`: this case does not run mode \"{}\": add it to case.modes", key, mode));
+      throw InputError(
+          place(key, table),
+          fmt::format("`{}`: this case does not run mode \"{}\": add it to case.modes", key, mode));
   }
 
   /// The case's own run stands in a study over one axis too, at the value that the scene has there.
@@ -87,30 +89,36 @@ class JudgementChecker : NameChecks {
     known_mode(g.mode, path + ".mode", g.place);
     known_defect(g, path);
     if (is_of_ladder(g.metric) && case_.studies.empty() && !holds(names_of(case_.metrics), g.metric))
-      throw InputError(place(path + ".metric", g.place),
-                       fmt::format("`{}.metric`: \"{}\" needs a [[study]] to find it with", path, printable(g.metric)));
+      throw InputError(
+          place(path + ".metric", g.place),
+          fmt::format("`{}.metric`: \"{}\" needs a [[study]] to find it with", path, printable(g.metric)));
     if (!g.level) return;
     for (const auto& s : case_.studies)
-      if (is_own_level(s.axes, *g.level) ||
-          std::any_of(s.levels.begin(), s.levels.end(), [&](double l) { return std::abs(l - *g.level) <= 1e-9 * l; }))
+      if (is_own_level(s.axes, *g.level) || std::any_of(s.levels.begin(), s.levels.end(), [&](double l) {
+            return std::abs(l - *g.level) <= 1e-9 * l;
+          }))
         return;
     throw InputError(
         place(path + ".level", g.place),
-        fmt::format("`{}.level` = {}: no [[study]] has this level: write one of its levels, or remove it", path, *g.level));
+        fmt::format("`{}.level` = {}: no [[study]] has this level: write one of its levels, or remove it",
+                    path, *g.level));
   }
 
-  /// "known defect NAME: ..." declares a defect of the engine. It is that of a named engine, is measured from below too, and
-  /// excuses from a limit that is there.
+  /// "known defect NAME: ..." declares a defect of the engine. It is that of a named engine, is measured from
+  /// below too, and excuses from a limit that is there.
   void known_defect(const Gate& g, const std::string& path) const {
     if (tripoint::known_defect(g).empty()) return;
     const auto refuse = [&](const std::string& what) {
       throw InputError(place(path + ".reason", g.place), fmt::format("`{}.reason`: {}", path, what));
     };
     if (g.engine.empty() || !(g.band || g.at_least || g.expect))
-      refuse("a known defect is that of a named engine, and measured from below too: give engine, and band or at_least");
+      refuse(
+          "a known defect is that of a named engine, and measured from below too: give engine, and band or "
+          "at_least");
     if (std::none_of(case_.gates.begin(), case_.gates.end(),
                      [&](const Gate& a) { return a.engine.empty() && a.metric == g.metric; }))
-      refuse(fmt::format("no gate without engine is on \"{}\": there is no limit to be excused from", printable(g.metric)));
+      refuse(fmt::format("no gate without engine is on \"{}\": there is no limit to be excused from",
+                         printable(g.metric)));
   }
 
   const Case& case_;

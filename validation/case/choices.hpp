@@ -11,14 +11,15 @@
 #include "validation/case/case_words.hpp"
 #include "validation/case/study_axes.hpp"
 
-/// What a case file says beside its scene: engines, metrics, studies, gates, inputs and defects. SI, with every default filled
-/// in.
+/// What a case file says beside its scene: engines, metrics, studies, gates, inputs and defects. SI, with
+/// every default filled in.
 namespace tripoint {
 
 struct EngineChoice {
   std::string name;
   bool required = false;
-  bool adopted = false;              ///< `gate adopt` wrote it: no validation may leave the engine out by --engines
+  /// `gate adopt` wrote it: no validation may leave the engine out by --engines
+  bool adopted = false;
   std::vector<std::string> presets;  ///< one row of the results each; empty = "default"
   Settings settings;
 };
@@ -35,8 +36,9 @@ struct MetricChoice {
 
 struct Study {
   StudyAxes axes;
-  std::vector<double> levels;                      ///< coarse to fine
-  std::vector<double> support_ratios, time_steps;  ///< refined together with the levels, one for each; empty = the case's own
+  std::vector<double> levels;  ///< coarse to fine
+  /// Refined together with the levels, one for each; empty = the case's own
+  std::vector<double> support_ratios, time_steps;
   double jitter = 0.0;
   int seeds = 1;
   std::string engine;  ///< empty = all
@@ -54,14 +56,16 @@ struct Gate {
   std::optional<double> limit, at_least;
   std::optional<std::array<double, 2>> band;
   std::optional<double> level;  ///< of the study's axis; empty = every run
-  std::optional<double>
-      drift;  ///< share by which the value may move from its baseline before that turns red; empty = a tenth, and it warns
-  std::optional<FitClass> expect;  ///< class of convergence that an order must have; empty = any that falls to the truth
+  /// Share by which the value may move from its baseline before that turns red; empty = a tenth, and it warns
+  std::optional<double> drift;
+  /// Class of convergence that an order must have; empty = any that falls to the truth
+  std::optional<FitClass> expect;
   std::string reason, by, date;
   SourcePlace place;
 };
 
-/// A number that the scene takes from a measurement, at one standard uncertainty below and above the case's value.
+/// A number that the scene takes from a measurement, at one standard uncertainty below and above the case's
+/// value.
 struct UncertainInput {
   std::string key;        ///< as of --set: material.water.viscosity
   std::string low, high;  ///< TOML values, or numbers with a unit

@@ -19,7 +19,8 @@ bool has_the_form(const std::string& text) {
 }
 
 chrono::year_month_day day_of(const std::string& text) {
-  return {chrono::year(std::stoi(text.substr(0, 4))), chrono::month(static_cast<unsigned>(std::stoi(text.substr(5, 2)))),
+  return {chrono::year(std::stoi(text.substr(0, 4))),
+          chrono::month(static_cast<unsigned>(std::stoi(text.substr(5, 2)))),
           chrono::day(static_cast<unsigned>(std::stoi(text.substr(8, 2))))};
 }
 

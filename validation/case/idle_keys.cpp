@@ -41,24 +41,32 @@ bool IdleSearch::outside(const Bounds& box) const {
   return false;
 }
 
-void IdleSearch::keyframes(const std::vector<Keyframe>& frames, const std::string& whose, const SourcePlace& place) {
+void IdleSearch::keyframes(const std::vector<Keyframe>& frames, const std::string& whose,
+                           const SourcePlace& place) {
   const double end = scene.end_time;
-  const auto after = std::ranges::count_if(frames, [&](const Keyframe& k) { return k.time > end * (1.0 + 1e-9); });
+  const auto after =
+      std::ranges::count_if(frames, [&](const Keyframe& k) { return k.time > end * (1.0 + 1e-9); });
   if (after == 0) return;
   if (after == std::ssize(frames))
-    return warn(place, fmt::format("{}: its first keyframe is at {} s, after end_time = {} s: it stands still for the whole run",
-                                   whose, frames.front().time, end));
+    return warn(
+        place,
+        fmt::format(
+            "{}: its first keyframe is at {} s, after end_time = {} s: it stands still for the whole run",
+            whose, frames.front().time, end));
   const auto& last = frames[frames.size() - static_cast<std::size_t>(after) - 1];
   const auto stands = [&](const Keyframe& k) {
-    return k.time <= last.time || (k.position == last.position && angle_between(k.rotation, last.rotation) < 1e-9);
+    return k.time <= last.time ||
+           (k.position == last.position && angle_between(k.rotation, last.rotation) < 1e-9);
   };
   if (std::ranges::all_of(frames, stands)) return;  // it only stays where it has come to
   const bool under_way = last.time < end * (1.0 - 1e-9);
-  warn(place, fmt::format("{}: {} of its {} keyframes come after end_time = {} s{}: lengthen the run, or shorten the keyframes",
-                          whose, after, frames.size(), end,
-                          under_way ? fmt::format(" and it is on its way to that of {} s when the run ends",
-                                                  frames[frames.size() - static_cast<std::size_t>(after)].time)
-                                    : " and are never followed"));
+  warn(place,
+       fmt::format("{}: {} of its {} keyframes come after end_time = {} s{}: lengthen the run, or shorten "
+                   "the keyframes",
+                   whose, after, frames.size(), end,
+                   under_way ? fmt::format(" and it is on its way to that of {} s when the run ends",
+                                           frames[frames.size() - static_cast<std::size_t>(after)].time)
+                             : " and are never followed"));
 }
 
 std::vector<Finding> idle_keys(const CaseReading& reading, const Scene& scene, const InitialState& state) {

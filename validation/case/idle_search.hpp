@@ -17,8 +17,12 @@ namespace tripoint {
 struct IdleSearch {
   IdleSearch(const CaseReading&, const Scene&, const InitialState&);
 
-  void error(const SourcePlace& place, std::string what) { findings.push_back({true, std::move(what), place}); }
-  void warn(const SourcePlace& place, std::string what) { findings.push_back({false, std::move(what), place}); }
+  void error(const SourcePlace& place, std::string what) {
+    findings.push_back({true, std::move(what), place});
+  }
+  void warn(const SourcePlace& place, std::string what) {
+    findings.push_back({false, std::move(what), place});
+  }
 
   /// Where the file says this key; a place without file where it does not.
   [[nodiscard]] SourcePlace given(const std::string& key) const;
@@ -40,7 +44,8 @@ struct IdleSearch {
 
 /// Events whose region is empty, releases of free bodies, holds of fixed bodies.
 void find_idle_events(IdleSearch&);
-/// Bodies and inflows out of the domain, joints of bodies that cannot be joined, keys of a body for effects that are off.
+/// Bodies and inflows out of the domain, joints of bodies that cannot be joined, keys of a body for effects
+/// that are off.
 void find_idle_bodies(IdleSearch&);
 /// Keys of materials and of the scene that no effect reads.
 void find_idle_effect_keys(IdleSearch&);

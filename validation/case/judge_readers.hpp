@@ -6,14 +6,15 @@
 #include "validation/case/case_keys.hpp"
 #include "validation/case/choices.hpp"
 
-/// The parts of the case reader that say how a scene is judged, one function a table. All throw InputError with the place and
-/// what to write instead.
+/// The parts of the case reader that say how a scene is judged, one function a table. All throw InputError
+/// with the place and what to write instead.
 namespace tripoint {
 
 struct Case;
 
 /// A table of the case file, be it the scene's or the judge's.
-[[nodiscard]] inline TableReader case_table(const TomlNode& node, std::string_view table, std::string path, Reading& reading) {
+[[nodiscard]] inline TableReader case_table(const TomlNode& node, std::string_view table, std::string path,
+                                            Reading& reading) {
   return {node, table, std::move(path), reading.decisions, case_keys()};
 }
 

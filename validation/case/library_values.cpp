@@ -23,7 +23,8 @@ std::vector<Finding> library_values(const CaseReading& reading) {
     }
     if (is_table && !taken.empty())
       found.push_back({false,
-                       "material \"" + m.name + "\" takes what it does not give from the library's material of that name: " +
+                       "material \"" + m.name +
+                           "\" takes what it does not give from the library's material of that name: " +
                            taken + "; name it otherwise to have none of these",
                        place});
   }

@@ -10,7 +10,8 @@
 #include "validation/case/case_keys.hpp"
 #include "validation/case/gated_metric.hpp"
 
-/// How a case changes the one that it extends: its own values replace those of the base, and values that it removes go.
+/// How a case changes the one that it extends: its own values replace those of the base, and values that it
+/// removes go.
 namespace tripoint {
 namespace {
 
@@ -26,7 +27,8 @@ std::string word_at(const TomlNode& item, std::string_view key) {
 
 /// Keys that tell the tables of an array apart; empty for arrays whose tables have none.
 std::vector<std::string_view> identity_keys(std::string_view array) {
-  if (array == "material" || array == "body" || array == "metric" || array == "defect" || array == "harmless") return {"name"};
+  if (array == "material" || array == "body" || array == "metric" || array == "defect" || array == "harmless")
+    return {"name"};
   if (array == "gate") return {"metric", "engine", "mode", "preset", "level"};
   if (array == "study") return {"axis", "engine", "mode", "metric"};
   if (array == "input") return {"key"};
@@ -36,7 +38,8 @@ std::vector<std::string_view> identity_keys(std::string_view array) {
 std::string identity(const TomlNode& item, std::string_view array) {
   std::string text;
   for (const auto key : identity_keys(array))
-    text += (text.empty() ? "" : ", ") + (item.find(key) ? fmt::format("{} = {}", key, word_at(item, key)) : "");
+    text +=
+        (text.empty() ? "" : ", ") + (item.find(key) ? fmt::format("{} = {}", key, word_at(item, key)) : "");
   return text;
 }
 
@@ -76,15 +79,18 @@ void merge_items(TomlNode& base, TomlNode own, const std::string& array) {
     const auto same = std::count(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(inherited), name);
     const bool again = std::find(seen.begin(), seen.end(), name) != seen.end();
     if (same > 1 || (same == 1 && again))
-      throw InputError(item.place, fmt::format("[[{}]] with {}: more than one such table meets, so that none tells which is "
-                                               "meant: remove those of the extended case (key `remove`), and give all",
-                                               array, printable(name, 120)));
+      throw InputError(
+          item.place,
+          fmt::format("[[{}]] with {}: more than one such table meets, so that none tells which is "
+                      "meant: remove those of the extended case (key `remove`), and give all",
+                      array, printable(name, 120)));
     seen.push_back(name);
     if (same == 0)
       base.items.push_back(std::move(item));
     else
-      merge_table(base.items[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())],
-                  std::move(item), array);
+      merge_table(
+          base.items[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())],
+          std::move(item), array);
   }
   base.place = own.place;
   base.key_place = own.key_place;
@@ -102,13 +108,16 @@ void merge_value(TomlNode& base, TomlNode own, const std::string& path) {
 }
 
 [[noreturn]] void not_there(const TomlNode& path, const std::string& part) {
-  throw InputError(path.place,
-                   fmt::format("`remove`: the extended case has no `{}`: write a key, scene.jitter, a table by its name, "
-                               "engines.lammps or metric.overlap (and the gates on it), or all of a kind, study",
-                               printable(part)));
+  throw InputError(
+      path.place,
+      fmt::format("`remove`: the extended case has no `{}`: write a key, scene.jitter, a table by its name, "
+                  "engines.lammps or metric.overlap (and the gates on it), or all of a kind, study",
+                  printable(part)));
 }
 
-bool judges(const TomlNode& gate, const std::string& metric) { return judges_metric(word_at(gate, "metric"), metric); }
+bool judges(const TomlNode& gate, const std::string& metric) {
+  return judges_metric(word_at(gate, "metric"), metric);
+}
 
 void remove_gates(TomlNode& document, const std::string& metric) {
   if (auto* gates = document.find("gate"); gates && gates->kind == Kind::array)
@@ -128,7 +137,8 @@ bool remove_item_key(TomlNode& list, const std::string& path) {
   return false;
 }
 
-void remove_item(TomlNode& document, const std::string& array, const std::string& name, const TomlNode& path) {
+void remove_item(TomlNode& document, const std::string& array, const std::string& name,
+                 const TomlNode& path) {
   TomlNode& list = *document.find(array);
   const auto before = list.items.size();
   if (array != "gate" && remove_item_key(list, name)) return;
@@ -148,13 +158,16 @@ void merge_case(TomlNode& base, TomlNode own) { merge_table(base, std::move(own)
 
 void remove_keys(TomlNode& document, const TomlNode& remove) {
   if (remove.kind != Kind::array)
-    throw InputError(remove.place, "`remove` is an array of texts: write [\"scene.jitter\", \"engines.lammps\"]");
+    throw InputError(remove.place,
+                     "`remove` is an array of texts: write [\"scene.jitter\", \"engines.lammps\"]");
   for (const auto& path : remove.items) {
     if (path.kind != Kind::text || path.text.empty())
-      throw InputError(path.place, "`remove` is an array of texts: write [\"scene.jitter\", \"engines.lammps\"]");
+      throw InputError(path.place,
+                       "`remove` is an array of texts: write [\"scene.jitter\", \"engines.lammps\"]");
     TomlNode* at = &document;
     std::string rest = path.text;
-    for (auto dot = rest.find('.'); dot != std::string::npos && at->kind == Kind::table; dot = rest.find('.')) {
+    for (auto dot = rest.find('.'); dot != std::string::npos && at->kind == Kind::table;
+         dot = rest.find('.')) {
       const std::string part = rest.substr(0, dot);
       TomlNode* next = at->find(part);
       if (!next || (next->kind != Kind::table && at != &document)) not_there(path, path.text);
@@ -171,7 +184,8 @@ void remove_keys(TomlNode& document, const TomlNode& remove) {
     erase(*at, rest);
   }
   const auto& all = remove.items;
-  const bool no_metric = std::any_of(all.begin(), all.end(), [](const auto& path) { return path.text == "metric"; });
+  const bool no_metric =
+      std::any_of(all.begin(), all.end(), [](const auto& path) { return path.text == "metric"; });
   if (no_metric && document.find("gate")) erase(document, "gate");  // each gate is on one of them
 }
 

@@ -16,13 +16,14 @@ std::vector<Finding> old_keys(const CaseReading& reading) {
     const ModelForm* form = form_in(reading.value.scene, t);
     for (const Decision& d : reading.decisions) {
       const auto sets = [&](const auto& one) {
-        return d.given && d.key == fmt::format("scene.{}", one.first) && key_row("scene", one.first).type == ValueType::number;
+        return d.given && d.key == fmt::format("scene.{}", one.first) &&
+               key_row("scene", one.first).type == ValueType::number;
       };
       if (form && std::ranges::any_of(form->values, sets))
-        found.push_back(
-            {false,
-             fmt::format("{} = {} is read for one more version: write model.{} = \"{}\"", d.key, d.value, t.name, form->word),
-             d.place});
+        found.push_back({false,
+                         fmt::format("{} = {} is read for one more version: write model.{} = \"{}\"", d.key,
+                                     d.value, t.name, form->word),
+                         d.place});
     }
   }
   return found;

@@ -12,7 +12,8 @@ namespace {
 
 using Cell = std::array<long, 3>;
 
-/// Particles sorted by cells of one `near` or somewhat more; periodic directions hold a whole number of cells.
+/// Particles sorted by cells of one `near` or somewhat more; periodic directions hold a whole number of
+/// cells.
 class Cells {
  public:
   Cells(const Scene& s, const InitialState& state, double near) : scene_(s) {
@@ -80,12 +81,14 @@ std::vector<Overlap> find_overlaps(const Scene& s, const InitialState& state, do
       if (state.source[j] <= state.source[i]) return;  // each pair once
       const double r = distance(s, state.position[i] - state.position[j]);
       if (!(r < near)) return;
-      auto& o =
-          found
-              .try_emplace(
-                  {state.source[i], state.source[j]},
-                  Overlap{static_cast<std::size_t>(state.source[i]), static_cast<std::size_t>(state.source[j]), 0, INFINITY, {}})
-              .first->second;
+      auto& o = found
+                    .try_emplace({state.source[i], state.source[j]},
+                                 Overlap{static_cast<std::size_t>(state.source[i]),
+                                         static_cast<std::size_t>(state.source[j]),
+                                         0,
+                                         INFINITY,
+                                         {}})
+                    .first->second;
       ++o.pairs;
       if (r < o.nearest) o.difference = state.position[i] - state.position[j];
       o.nearest = std::min(o.nearest, r);

@@ -52,8 +52,9 @@ TomlNode parse_value(const std::string& text, const std::string& set) {
     value = std::move(document.members.front().second);
   } catch (const InputError& e) {
     // The shell eats quotes: a bare word or "3 mm" is a text.
-    const bool bare = text.find_first_of("\"'[]{}=,#\\") == std::string::npos &&
-                      std::none_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 32; });
+    const bool bare =
+        text.find_first_of("\"'[]{}=,#\\") == std::string::npos &&
+        std::none_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 32; });
     if (!bare) refuse(set, fmt::format("the value is no TOML value ({})", e.what()));
     value.kind = Kind::text;
     value.text = text;
@@ -73,7 +74,8 @@ TomlNode& entry(TomlNode& array, const std::string& part, const std::string& tab
   const bool digits = part.find_first_not_of("0123456789") == std::string::npos && part.size() < 6;
   const auto number = digits ? static_cast<std::size_t>(std::stoul(part)) : 0;
   if (number >= 1 && number <= array.items.size()) return array.items[number - 1];
-  if (table == "material" && !library_file(part).empty()) {  // a material of the library that the case takes as it is
+  // a material of the library that the case takes as it is
+  if (table == "material" && !library_file(part).empty()) {
     TomlNode fresh, name;
     name.kind = Kind::text;
     name.text = part;
@@ -82,16 +84,18 @@ TomlNode& entry(TomlNode& array, const std::string& part, const std::string& tab
     array.items.push_back(std::move(fresh));
     return array.items.back();
   }
-  refuse(set, fmt::format("no {} is `{}`{}", table, printable(part),
-                          names.empty() ? fmt::format(": it has {} entries, counted from 1", array.items.size())
-                                        : suggestion(part, names)));
+  refuse(set,
+         fmt::format("no {} is `{}`{}", table, printable(part),
+                     names.empty() ? fmt::format(": it has {} entries, counted from 1", array.items.size())
+                                   : suggestion(part, names)));
 }
 
 }  // namespace
 
 void apply_override(TomlNode& document, const std::string& set) {
   const auto equals = set.find('=');
-  if (equals == std::string::npos || equals == 0) refuse(set, "write a.b=VALUE, for example scene.spacing=0.01");
+  if (equals == std::string::npos || equals == 0)
+    refuse(set, "write a.b=VALUE, for example scene.spacing=0.01");
   std::string path = set.substr(0, equals);
   while (!path.empty() && path.back() == ' ') path.pop_back();
   auto text = set.substr(equals + 1);
@@ -117,7 +121,8 @@ void apply_override(TomlNode& document, const std::string& set) {
       if (i + 1 >= parts.size()) return static_cast<void>(*next = std::move(value));
     }
     if (next->kind != Kind::table)
-      refuse(set, fmt::format("`{}` is {} and has no keys: give the whole value", printable(parts[i]), kind_name(next->kind)));
+      refuse(set, fmt::format("`{}` is {} and has no keys: give the whole value", printable(parts[i]),
+                              kind_name(next->kind)));
     at = next;
   }
   if (auto* there = at->find(parts.back()))

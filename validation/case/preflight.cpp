@@ -41,25 +41,30 @@ class Preflight {
   }
 
  private:
-  void error(const SourcePlace& place, std::string what) { findings_.push_back({true, std::move(what), place}); }
-  void warn(const SourcePlace& place, std::string what) { findings_.push_back({false, std::move(what), place}); }
+  void error(const SourcePlace& place, std::string what) {
+    findings_.push_back({true, std::move(what), place});
+  }
+  void warn(const SourcePlace& place, std::string what) {
+    findings_.push_back({false, std::move(what), place});
+  }
 
   /// A date silences a rule: that of a day to come would silence it now.
   void dates() {
     for (const auto& g : case_.gates)
       if (!g.date.empty() && is_in_the_future(g.date))
-        error(g.place,
-              fmt::format("the gate on \"{}\" is dated {}, which is in the future: write the day on which its limit was accepted",
-                          printable(g.metric), g.date));
+        error(g.place, fmt::format("the gate on \"{}\" is dated {}, which is in the future: write the day on "
+                                   "which its limit was accepted",
+                                   printable(g.metric), g.date));
   }
 
   void overlaps() {
     for (const auto& o : shared_rooms(scene_, state_)) {
       overlapping_.insert({o.a, o.b});
-      error(scene_.bodies[o.b].place,
-            fmt::format("bodies \"{}\" and \"{}\" overlap: their shapes share room up to {:.3g} m thick, at ({:.4g}, {:.4g}, "
-                        "{:.4g}) m; move them apart or cut one by a difference",
-                        scene_.bodies[o.a].name, scene_.bodies[o.b].name, o.thickness, o.place.x, o.place.y, o.place.z));
+      error(scene_.bodies[o.b].place, fmt::format("bodies \"{}\" and \"{}\" overlap: their shapes share room "
+                                                  "up to {:.3g} m thick, at ({:.4g}, {:.4g}, "
+                                                  "{:.4g}) m; move them apart or cut one by a difference",
+                                                  scene_.bodies[o.a].name, scene_.bodies[o.b].name,
+                                                  o.thickness, o.place.x, o.place.y, o.place.z));
     }
     const double near = least_distance(0.45) * scene_.spacing;
     if (!(near > 0.0)) return;
@@ -68,16 +73,18 @@ class Preflight {
   }
 
   /// A share of the spacing, or less: neighbours of one lattice come as near as 1 - 2 jitter by themselves.
-  [[nodiscard]] double least_distance(double share) const { return std::min(share, 0.99 * (1.0 - 2.0 * scene_.jitter)); }
+  [[nodiscard]] double least_distance(double share) const {
+    return std::min(share, 0.99 * (1.0 - 2.0 * scene_.jitter));
+  }
 
   /// Shapes that share no room, and particles that do: their lattices do not fit.
   void stand_too_near(const Overlap& o, double near) {
     const auto& a = scene_.bodies[o.a];
     const auto& b = scene_.bodies[o.b];
-    error(b.place,
-          fmt::format("the shapes of bodies \"{}\" and \"{}\" do not overlap, but {} pairs of their particles are nearer "
-                      "than {:.3g} m, the nearest {:.3g} m: {}",
-                      a.name, b.name, o.pairs, near, o.nearest, shift_that_helps(a, b, o)));
+    error(b.place, fmt::format("the shapes of bodies \"{}\" and \"{}\" do not overlap, but {} pairs of their "
+                               "particles are nearer "
+                               "than {:.3g} m, the nearest {:.3g} m: {}",
+                               a.name, b.name, o.pairs, near, o.nearest, shift_that_helps(a, b, o)));
   }
 
   /// How far the second body's lattice is from the first one's.
@@ -89,13 +96,15 @@ class Preflight {
     }
     if (shift == Vec3{}) return "move them apart";
     return fmt::format(
-        "move \"{}\", and what is cut out for it alike, by ({:.4g}, {:.4g}, {:.4g}) m, so that it shares the lattice of \"{}\"",
+        "move \"{}\", and what is cut out for it alike, by ({:.4g}, {:.4g}, {:.4g}) m, so that it shares the "
+        "lattice of \"{}\"",
         b.name, shift.x, shift.y, shift.z, a.name);
   }
 
   [[nodiscard]] bool presses() const { return calls_for(scene_, &EffectRule::has_pressure); }
 
-  /// Finds rows of two bodies that are nearer than rows of one body. Such matter is compressed from the start, and flies apart.
+  /// Finds rows of two bodies that are nearer than rows of one body. Such matter is compressed from the
+  /// start, and flies apart.
   void gaps() {
     const double overlap = least_distance(0.45), near = least_distance(0.8);
     if (!(near > overlap) || !presses()) return;
@@ -105,17 +114,21 @@ class Preflight {
     for (const auto& o : find_overlaps(scene_, state_, near * scene_.spacing)) {
       const auto& a = scene_.bodies[o.a];
       const auto& b = scene_.bodies[o.b];
-      const bool both_driven =
-          a.motion != Motion::free && b.motion != Motion::free && a.phase != Phase::liquid && b.phase != Phase::liquid;
+      const bool both_driven = a.motion != Motion::free && b.motion != Motion::free &&
+                               a.phase != Phase::liquid && b.phase != Phase::liquid;
       if (o.nearest < overlap * scene_.spacing || both_driven || joined(a, b) || joined(b, a) ||
           overlapping_.contains({o.a, o.b}))
         continue;
-      warn(b.place, fmt::format("bodies \"{}\" and \"{}\": their nearest particles are {:.3g} m apart, {:.2g} of a spacing ({} "
-                                "pairs below {:.2g}): as if compressed, and they fly apart at the start; "
-                                "put the faces where they touch on multiples of scene.spacing = {:g} m (a wall's thickness too), "
-                                "so that rows are one spacing apart; or {}",
-                                a.name, b.name, o.nearest, o.nearest / scene_.spacing, o.pairs, near, scene_.spacing,
-                                shift_that_helps(a, b, o)));
+      warn(
+          b.place,
+          fmt::format(
+              "bodies \"{}\" and \"{}\": their nearest particles are {:.3g} m apart, {:.2g} of a spacing ({} "
+              "pairs below {:.2g}): as if compressed, and they fly apart at the start; "
+              "put the faces where they touch on multiples of scene.spacing = {:g} m (a wall's thickness "
+              "too), "
+              "so that rows are one spacing apart; or {}",
+              a.name, b.name, o.nearest, o.nearest / scene_.spacing, o.pairs, near, scene_.spacing,
+              shift_that_helps(a, b, o)));
     }
   }
 
@@ -124,10 +137,14 @@ class Preflight {
     if (presses() || !scene_.contact) return;
     for (const auto& b : scene_.bodies) {
       const Material& m = scene_.material(b.material);
-      if (b.phase != Phase::elastic || b.motion == Motion::fixed || !(m.fracture_stretch || m.fracture_distance)) continue;
-      warn(b.place, fmt::format("body \"{}\" can break, and its pieces would pass through each other: give material \"{}\" a "
-                                "sound_speed, or say so by scene.contact = \"none\"",
-                                b.name, m.name));
+      if (b.phase != Phase::elastic || b.motion == Motion::fixed ||
+          !(m.fracture_stretch || m.fracture_distance))
+        continue;
+      warn(b.place,
+           fmt::format(
+               "body \"{}\" can break, and its pieces would pass through each other: give material \"{}\" a "
+               "sound_speed, or say so by scene.contact = \"none\"",
+               b.name, m.name));
     }
   }
 
@@ -143,11 +160,14 @@ class Preflight {
     }
     for (std::size_t a = 0; a < 3; ++a) {
       const long across = std::lround((high[a] - low[a]) / scene_.spacing) + 1;
-      if (scene_.periodic[a] && static_cast<double>(across) * scene_.spacing >= 0.999 * ((*scene_.max)[a] - (*scene_.min)[a]))
+      if (scene_.periodic[a] &&
+          static_cast<double>(across) * scene_.spacing >= 0.999 * ((*scene_.max)[a] - (*scene_.min)[a]))
         continue;  // endless
       if (across < 3)
-        warn(b.place, fmt::format("body \"{}\" is {} particle{} across along {}: at least 3 resolve it; refine scene.spacing",
-                                  b.name, across, across == 1 ? "" : "s", "xyz"[a]));
+        warn(b.place,
+             fmt::format(
+                 "body \"{}\" is {} particle{} across along {}: at least 3 resolve it; refine scene.spacing",
+                 b.name, across, across == 1 ? "" : "s", "xyz"[a]));
     }
   }
 
@@ -165,23 +185,30 @@ class Preflight {
     const double jump = norm(b.keyframes.front().position - centre);
     if (jump > 1e-6 * scene_.spacing) {
       auto what = fmt::format(
-          "body \"{}\": its first keyframe is at ({}, {}, {}) m, its centre of mass at ({}, {}, {}) m: it jumps there at the "
+          "body \"{}\": its first keyframe is at ({}, {}, {}) m, its centre of mass at ({}, {}, {}) m: it "
+          "jumps there at the "
           "start",
-          b.name, b.keyframes.front().position.x, b.keyframes.front().position.y, b.keyframes.front().position.z, centre.x,
-          centre.y, centre.z);
+          b.name, b.keyframes.front().position.x, b.keyframes.front().position.y,
+          b.keyframes.front().position.z, centre.x, centre.y, centre.z);
       findings_.push_back({jump > 0.5 * scene_.spacing, std::move(what), b.place});
     }
     if (const double turn = angle_between({}, b.keyframes.front().rotation); turn > 1e-9)
-      error(b.place, fmt::format("body \"{}\": its first keyframe is turned by {:.3g} rad, but its particles are laid unturned: "
-                                 "begin with rotation = [1, 0, 0, 0], rotations count from the start",
-                                 b.name, turn));
+      error(
+          b.place,
+          fmt::format(
+              "body \"{}\": its first keyframe is turned by {:.3g} rad, but its particles are laid unturned: "
+              "begin with rotation = [1, 0, 0, 0], rotations count from the start",
+              b.name, turn));
     for (std::size_t k = 1; k < b.keyframes.size(); ++k) {
       const auto& from = b.keyframes[k - 1].rotation;
       const auto& to = b.keyframes[k].rotation;
       if ((conjugate(from) * to).w > 1e-9) continue;
-      error(b.place, fmt::format("body \"{}\": keyframe {} is half a turn or more from the one before it, as written; the body "
-                                 "takes the shorter way: add a keyframe between them (or flip the quaternion's sign)",
-                                 b.name, k + 1));
+      error(
+          b.place,
+          fmt::format(
+              "body \"{}\": keyframe {} is half a turn or more from the one before it, as written; the body "
+              "takes the shorter way: add a keyframe between them (or flip the quaternion's sign)",
+              b.name, k + 1));
     }
   }
 
@@ -190,27 +217,30 @@ class Preflight {
     std::map<int, long> lost;
     for (std::size_t i = 0; i < state_.size(); ++i)
       for (std::size_t a = 0; a < 3; ++a)
-        if (!scene_.periodic[a] && (state_.position[i][a] < (*scene_.min)[a] || state_.position[i][a] > (*scene_.max)[a])) {
+        if (!scene_.periodic[a] &&
+            (state_.position[i][a] < (*scene_.min)[a] || state_.position[i][a] > (*scene_.max)[a])) {
           ++lost[state_.source[i]];
           break;
         }
     for (const auto& [source, count] : lost)
       warn(scene_.bodies[static_cast<std::size_t>(source)].place,
-           fmt::format("{} particles of body \"{}\" lie outside scene.min and scene.max: enlarge the domain", count,
-                       scene_.bodies[static_cast<std::size_t>(source)].name));
+           fmt::format("{} particles of body \"{}\" lie outside scene.min and scene.max: enlarge the domain",
+                       count, scene_.bodies[static_cast<std::size_t>(source)].name));
   }
 
-  /// Stability bound of explicit conduction on the lattice [s]: 0.075 h^2/a corrected, 0.130 h^2/a paper, a = k/(rho c). The
-  /// factors follow from the largest eigenvalue measured on the lattice at h/dx = 2.6 and 2.12. Matter held at a temperature
-  /// bounds no step.
+  /// Stability bound of explicit conduction on the lattice [s]: 0.075 h^2/a corrected, 0.130 h^2/a paper, a =
+  /// k/(rho c). The factors follow from the largest eigenvalue measured on the lattice at h/dx = 2.6
+  /// and 2.12. Matter held at a temperature bounds no step.
   [[nodiscard]] double heat_bound(std::string& which) const {
     double least = INFINITY;
-    const double h = scene_.support_ratio * scene_.spacing, c = scene_.mode_of(term::heat) == Mode::paper ? 0.130 : 0.075;
+    const double h = scene_.support_ratio * scene_.spacing,
+                 c = scene_.mode_of(term::heat) == Mode::paper ? 0.130 : 0.075;
     for (const auto& b : scene_.bodies) {
       const Material& m = scene_.material(b.material);
       if (!b.temperature || b.temperature_held || !m.conductivity || !m.heat_capacity) continue;
       const double capacity = std::min(heat_capacity_of(m, Phase::rigid), heat_capacity_of(m, Phase::liquid)),
-                   conductivity = std::max(conductivity_of(m, Phase::rigid), conductivity_of(m, Phase::liquid));
+                   conductivity =
+                       std::max(conductivity_of(m, Phase::rigid), conductivity_of(m, Phase::liquid));
       const double bound = c * h * h * m.density * capacity / conductivity;
       if (bound < least) {
         least = bound;
@@ -232,17 +262,19 @@ class Preflight {
       }
     }
     if (scene_.time_step && *scene_.time_step > bound) {
-      auto what = fmt::format("time_step = {} s is above the bound of {} {:.4g} s: shorten it, or write \"auto\"",
-                              *scene_.time_step, which, bound);
+      auto what =
+          fmt::format("time_step = {} s is above the bound of {} {:.4g} s: shorten it, or write \"auto\"",
+                      *scene_.time_step, which, bound);
       findings_.push_back({case_.expect != Expect::diverges, std::move(what), {case_.file, 0, 0}});
     }
     for (const auto& study : case_.studies)
       if (study.axes.axis == Axis::time_step && study.levels.front() > bound)
-        warn(study.place, fmt::format("the study's first time step {} s is above the bound of {} {:.4g} s: leave it out",
-                                      study.levels.front(), which, bound));
+        warn(study.place,
+             fmt::format("the study's first time step {} s is above the bound of {} {:.4g} s: leave it out",
+                         study.levels.front(), which, bound));
     if (scene_.time_step && scene_.end_time / *scene_.time_step > 1e8)
-      warn({case_.file, 0, 0},
-           fmt::format("{:.3g} steps to end_time: lengthen scene.time_step", scene_.end_time / *scene_.time_step));
+      warn({case_.file, 0, 0}, fmt::format("{:.3g} steps to end_time: lengthen scene.time_step",
+                                           scene_.end_time / *scene_.time_step));
   }
 
   const Case& case_;
@@ -254,6 +286,8 @@ class Preflight {
 
 }  // namespace
 
-std::vector<Finding> preflight(const Case& c, const Scene& s, const InitialState& state) { return Preflight(c, s, state).run(); }
+std::vector<Finding> preflight(const Case& c, const Scene& s, const InitialState& state) {
+  return Preflight(c, s, state).run();
+}
 
 }  // namespace tripoint

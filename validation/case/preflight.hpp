@@ -18,11 +18,12 @@ struct Finding {
   std::string what;    ///< with what to do
   SourcePlace place;
 };
-/// Overlaps and gaps, bodies under-resolved or of wrong mass, spins that move nothing, a time step above a bound: without running
-/// anything.
+/// Overlaps and gaps, bodies under-resolved or of wrong mass, spins that move nothing, a time step above a
+/// bound: without running anything.
 [[nodiscard]] std::vector<Finding> preflight(const Case&, const Scene&, const InitialState&);
 
-/// One warning for each [[material]] of the case that bears the name of one of the library and takes values from it.
+/// One warning for each [[material]] of the case that bears the name of one of the library and takes values
+/// from it.
 [[nodiscard]] std::vector<Finding> library_values(const CaseReading&);
 
 /// One note for each number of [scene] that a word of [model] says.

@@ -31,10 +31,13 @@ void read_head(const TomlNode& node, Case& c, Reading& reading) {
     c.id = *id;
   else
     in.ruled("id", "\"" + (c.id = id_from(c.file)) + "\"", "folder and name of the file");
-  const bool plain = !c.id.empty() && c.id.size() <= 128 && c.id.front() != '/' && c.id.find("..") == std::string::npos &&
+  const bool plain = !c.id.empty() && c.id.size() <= 128 && c.id.front() != '/' &&
+                     c.id.find("..") == std::string::npos &&
                      c.id.find_first_of("\\\"\n\r\t:*?<>|") == std::string::npos;
   if (!plain)
-    in.refuse("id", "an id is a path like subject/case without .. or any of \\ \" : * ? < > |: it names folders of the report");
+    in.refuse("id",
+              "an id is a path like subject/case without .. or any of \\ \" : * ? < > |: it names folders of "
+              "the report");
   if (const auto title = in.maybe_text("title"))
     c.title = *title;
   else
@@ -48,7 +51,8 @@ void read_head(const TomlNode& node, Case& c, Reading& reading) {
 
 void read_judgement(TableReader& top, Case& c, Reading& reading) {
   if (const auto* engines = top.composite("engines")) {
-    if (engines->kind != TomlNode::Kind::table) top.refuse("engines", "write one table an engine: [engines.NAME]");
+    if (engines->kind != TomlNode::Kind::table)
+      top.refuse("engines", "write one table an engine: [engines.NAME]");
     for (const auto& [name, node] : engines->members) c.engines.push_back(read_engine(node, name, reading));
   }
   if (const auto* reference = top.composite("reference")) {
@@ -59,7 +63,8 @@ void read_judgement(TableReader& top, Case& c, Reading& reading) {
   }
   for (const auto* node : top.tables("metric")) c.metrics.push_back(read_metric(*node, reading));
   std::size_t n = 0;
-  for (const auto* node : top.tables("study")) c.studies.push_back(read_study(*node, ++n, c.scene.end_time, reading));
+  for (const auto* node : top.tables("study"))
+    c.studies.push_back(read_study(*node, ++n, c.scene.end_time, reading));
   n = 0;
   for (const auto* node : top.tables("gate")) c.gates.push_back(read_gate(*node, ++n, reading));
   n = 0;
@@ -68,7 +73,8 @@ void read_judgement(TableReader& top, Case& c, Reading& reading) {
   for (const auto* node : top.tables("defect")) c.defects.push_back(read_defect(*node, ++n, reading));
   n = 0;
   for (const auto* node : top.tables("harmless"))
-    c.harmless.push_back(case_table(*node, "harmless", fmt::format("harmless.{}", ++n), reading).text("name"));
+    c.harmless.push_back(
+        case_table(*node, "harmless", fmt::format("harmless.{}", ++n), reading).text("name"));
 }
 
 /// In the order of the reference page, whatever order the rules asked for.
@@ -77,7 +83,8 @@ void sort_by_table(std::vector<Decision>& decisions) {
   const auto rank = [&](const Decision& d) {
     return std::find(tables.begin(), tables.end(), d.key.substr(0, d.key.find('.'))) - tables.begin();
   };
-  std::stable_sort(decisions.begin(), decisions.end(), [&](const Decision& a, const Decision& b) { return rank(a) < rank(b); });
+  std::stable_sort(decisions.begin(), decisions.end(),
+                   [&](const Decision& a, const Decision& b) { return rank(a) < rank(b); });
 }
 
 /// The case as one document, with the replacements of --set.
@@ -127,7 +134,8 @@ CaseReading read_case(const std::string& path, const std::vector<std::string>& s
   c.scene = read_scene(top, reading);
   if (!(head && head->find("modes"))) {
     c.modes = {c.scene.mode};
-    reading.decisions.push_back({"case.modes", fmt::format("[\"{}\"]", to_string(c.scene.mode)), "the scene's mode", false, {}});
+    reading.decisions.push_back(
+        {"case.modes", fmt::format("[\"{}\"]", to_string(c.scene.mode)), "the scene's mode", false, {}});
   }
   read_judgement(top, c, reading);
   check_scene(c.scene, c.modes, reading);

@@ -20,10 +20,12 @@ struct CaseReading {
 [[nodiscard]] CaseReading read_case(const std::string& path, const std::vector<std::string>& set = {});
 
 /// The scene of one run of the case.
-[[nodiscard]] inline Scene scene_for(const Case& c, const RunChoice& choice) { return scene_for(c.scene, choice); }
+[[nodiscard]] inline Scene scene_for(const Case& c, const RunChoice& choice) {
+  return scene_for(c.scene, choice);
+}
 
-/// Path of a case that is given as a path or as the id of a shipped case ("heat/cosine"). A path that is no file comes back as it
-/// is.
+/// Path of a case that is given as a path or as the id of a shipped case ("heat/cosine"). A path that is no
+/// file comes back as it is.
 [[nodiscard]] std::string case_path(const std::string& path_or_id);
 
 }  // namespace tripoint

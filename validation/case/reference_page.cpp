@@ -23,7 +23,8 @@ std::string cell(std::string_view text) {
 std::string code(std::string_view name) { return fmt::format("`{}`", name); }
 
 std::string type_words(const Key& k) {
-  std::string text(k.type == ValueType::tables && k.words.empty() ? "three rows of three numbers" : type_text(k.type));
+  std::string text(k.type == ValueType::tables && k.words.empty() ? "three rows of three numbers"
+                                                                  : type_text(k.type));
   if (!k.unit.empty()) text += fmt::format(", {}", k.unit);
   if (k.range != Range::any) text += fmt::format(", {}", range_text(k.range));
   if (k.required()) text += ", **required**";
@@ -48,7 +49,8 @@ std::string begun(std::string_view meaning) {
   return text;
 }
 
-/// Keys that are not printed: tables of the file, which have a part of their own; names and keys that another part lists.
+/// Keys that are not printed: tables of the file, which have a part of their own; names and keys that another
+/// part lists.
 bool is_elsewhere(const Key& k) {
   if (k.table.empty()) return k.type == ValueType::table || k.type == ValueType::tables;
   return k.table == "invariants" || k.table == "gates" || (k.table == "invariant" && k.name != "value");
@@ -58,7 +60,8 @@ std::string table_page(const TableInfo& t) {
   std::string out = fmt::format("## `{}`\n\n{}\n\n", t.written, t.meaning), rows;
   for (const auto* k : case_keys().of(t.name))
     if (!is_elsewhere(*k))
-      rows += fmt::format("- `{}`: {}. {}.{}\n", k->name, type_words(*k), begun(k->meaning), default_words(*k));
+      rows +=
+          fmt::format("- `{}`: {}. {}.{}\n", k->name, type_words(*k), begun(k->meaning), default_words(*k));
   return out + (rows.empty() ? "" : rows + "\n");
 }
 
@@ -124,7 +127,8 @@ std::string invariants_page() {
 std::string ledger_page() {
   TextTable table({{"TERM"}, {"holds"}});
   for (const LedgerEntry& one : ledger_entries()) table.add({code(one.name), cell(one.holds)});
-  return "Terms of the ledger of energy, of `ledger.TERM` and of `/observables/energy_TERM` in `trajectory.h5`:\n\n" +
+  return "Terms of the ledger of energy, of `ledger.TERM` and of `/observables/energy_TERM` in "
+         "`trajectory.h5`:\n\n" +
          table.markdown() + "\n";
 }
 
@@ -132,13 +136,16 @@ std::string ledger_page() {
 
 std::string case_reference_page() {
   std::string out = fmt::format(
-      "# The case file\n\nWritten by `tripoint schema --page` from the table that the reader checks by. TOML, format 1: "
-      "`cases/<subject>/<case>.toml`. The reader refuses an unknown key, a wrong unit or a number out of range with file, line, "
+      "# The case file\n\nWritten by `tripoint schema --page` from the table that the reader checks by. "
+      "TOML, format 1: "
+      "`cases/<subject>/<case>.toml`. The reader refuses an unknown key, a wrong unit or a number out of "
+      "range with file, line, "
       "column and the nearest known key.\n\nUnits: `{}`, with the usual prefixes n u m c d h k M G, "
       "combined as `kg/m3`, `W/m/K`, `J/(kg K)`, `m s^-2`.\n\n"
       "`run`, `check`, `explain` and `predict` take `--set a.b=VALUE` for any key: `scene.spacing=0.01`, "
       "`body.NAME.velocity=[1,0,0]`, `study.1.levels=[0.1,0.05]`. Tables without a name count from 1.\n\n"
-      "Each key has its type, unit, range, meaning and default. `[scene]` and `[[body]]` are required; other tables may be left "
+      "Each key has its type, unit, range, meaning and default. `[scene]` and `[[body]]` are required; other "
+      "tables may be left "
       "out.\n\n",
       known_units());
   out += short_forms;

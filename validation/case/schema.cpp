@@ -88,7 +88,8 @@ json value_schema(const Key& k) {
     case ValueType::words:
       return array_of({{"enum", split_words(k.words)}});
     case ValueType::table:
-      if (k.words == "engines") return {{"type", "object"}, {"additionalProperties", reference_to("engines")}};
+      if (k.words == "engines")
+        return {{"type", "object"}, {"additionalProperties", reference_to("engines")}};
       return reference_to(k.words);
     case ValueType::tables:
       if (k.words == "shape") return array_of(kinds_of("shape"));
@@ -115,7 +116,8 @@ json key_schema(const Key& k) {
   if (k.required())
     text += "; required";
   else if (!k.note.empty())
-    text += "; default: " + std::string(k.fallback.empty() || k.fallback == "=" ? "" : std::string(k.fallback) + ", ") +
+    text += "; default: " +
+            std::string(k.fallback.empty() || k.fallback == "=" ? "" : std::string(k.fallback) + ", ") +
             std::string(k.note);
   s["description"] = text;
   return s;
@@ -131,7 +133,9 @@ json required_keys(std::string_view name) {
   return list;
 }
 
-bool can_be_partial(const Key& k) { return (k.type == ValueType::table || k.type == ValueType::tables) && !k.words.empty(); }
+bool can_be_partial(const Key& k) {
+  return (k.type == ValueType::table || k.type == ValueType::tables) && !k.words.empty();
+}
 
 /// Tables of a case that extends another may leave required keys to that one.
 json rule_of_whole_cases() {
@@ -147,8 +151,8 @@ json rule_of_whole_cases() {
 
 bool is_always_whole(std::string_view name) {
   const auto top = case_keys().of("");
-  const bool of_the_top =
-      std::any_of(top.begin(), top.end(), [&](const Key* k) { return can_be_partial(*k) && k->words == name; });
+  const bool of_the_top = std::any_of(top.begin(), top.end(),
+                                      [&](const Key* k) { return can_be_partial(*k) && k->words == name; });
   return !name.empty() && !of_the_top && name != "gates" && name != "invariant";
 }
 

@@ -40,20 +40,24 @@ double moments_off(const MassProperties& particles, const MassProperties& shape,
 }
 
 Difference difference(const MassProperties& particles, const MassProperties& shape, double spacing) {
-  return {particles.mass / shape.mass - 1.0, norm(particles.centre - shape.centre), moments_off(particles, shape, 0.0),
+  return {particles.mass / shape.mass - 1.0, norm(particles.centre - shape.centre),
+          moments_off(particles, shape, 0.0),
           moments_off(particles, shape, particles.mass * spacing * spacing / 6.0)};
 }
 
 /// In words; empty where the particles fill their shape.
-std::string in_words(const Difference& d, const MassProperties& particles, const MassProperties& shape, double least_extent) {
-  const bool light = std::abs(d.mass) > most, aside = d.centre > most * least_extent, other = std::abs(d.of_cells) > most;
+std::string in_words(const Difference& d, const MassProperties& particles, const MassProperties& shape,
+                     double least_extent) {
+  const bool light = std::abs(d.mass) > most, aside = d.centre > most * least_extent,
+             other = std::abs(d.of_cells) > most;
   if (!light && !aside && !other) return {};
   std::string text;
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
   if (light)
-    add(fmt::format("its particles weigh {:.4g} kg, its shape {:.4g} kg ({:+.1f} %)", particles.mass, shape.mass,
-                    100.0 * d.mass));
-  if (std::abs(d.moments) > most) add(fmt::format("its moments of inertia are {:+.1f} % off", 100.0 * d.moments));
+    add(fmt::format("its particles weigh {:.4g} kg, its shape {:.4g} kg ({:+.1f} %)", particles.mass,
+                    shape.mass, 100.0 * d.mass));
+  if (std::abs(d.moments) > most)
+    add(fmt::format("its moments of inertia are {:+.1f} % off", 100.0 * d.moments));
   if (aside) add(fmt::format("its centre of mass is {:.3g} m off", d.centre));
   return text;
 }
@@ -76,12 +80,14 @@ bool crosses_periodic_side(const Scene& s, const Bounds& b) {
 }
 
 std::size_t triangles_of(const Shape& shape) {
-  std::size_t count = shape.kind == Shape::Kind::mesh ? read_mesh(shape.file, shape.scale).triangles.size() : 0;
+  std::size_t count =
+      shape.kind == Shape::Kind::mesh ? read_mesh(shape.file, shape.scale).triangles.size() : 0;
   for (const Shape& part : shape.of) count += triangles_of(part);
   return count;
 }
 
-/// Calls f(body, particles, shape) for each body that moves and has a shape of finite bounds. Of a wall no number counts.
+/// Calls f(body, particles, shape) for each body that moves and has a shape of finite bounds. Of a wall no
+/// number counts.
 template <class F>
 void for_each_free(const Scene& s, const InitialState& state, F f) {
   std::vector<Sampled> bodies(s.bodies.size());
@@ -105,7 +111,8 @@ std::vector<MeshBody> mesh_bodies(const Scene& s, const InitialState& state) {
   for (std::size_t n = 0; n < s.bodies.size(); ++n) {
     const Body& b = s.bodies[n];
     const auto triangles = triangles_of(b.shape);
-    const auto shape = triangles > 0 ? mass_of_shape(b.shape, s.material(b.material).density, s.spacing) : std::nullopt;
+    const auto shape =
+        triangles > 0 ? mass_of_shape(b.shape, s.material(b.material).density, s.spacing) : std::nullopt;
     if (!shape) continue;
     MeshBody m{n, triangles, bounds(b.shape).extent(), *shape, 0.0};
     for (std::size_t i = 0; i < state.size(); ++i)
@@ -122,9 +129,12 @@ std::vector<Finding> mesh_notes(const Scene& s, const InitialState& state) {
     const double density = s.material(b.material).density;
     notes.push_back(
         {false,
-         fmt::format("body \"{}\" is a mesh of {} triangles, {:.4g} x {:.4g} x {:.4g} m, {:.4g} m3: {:.6g} kg by its shape, "
-                     "{:.6g} kg by its particles; where its file is not in metres, shape.scale puts that right",
-                     b.name, m.triangles, m.extent.x, m.extent.y, m.extent.z, m.shape.mass / density, m.shape.mass, m.particles),
+         fmt::format(
+             "body \"{}\" is a mesh of {} triangles, {:.4g} x {:.4g} x {:.4g} m, {:.4g} m3: {:.6g} kg by its "
+             "shape, "
+             "{:.6g} kg by its particles; where its file is not in metres, shape.scale puts that right",
+             b.name, m.triangles, m.extent.x, m.extent.y, m.extent.z, m.shape.mass / density, m.shape.mass,
+             m.particles),
          b.place});
   }
   return notes;
@@ -139,7 +149,8 @@ std::vector<Finding> unlike_their_shapes(const Scene& s, const InitialState& sta
     if (b.phase == Phase::liquid || crosses_periodic_side(s, reach)) d = {d.mass, 0.0, 0.0, 0.0};
     const auto what = in_words(d, particles, shape, std::min({extent.x, extent.y, extent.z}));
     if (!what.empty())
-      findings.push_back({false, fmt::format("body \"{}\": {}: {}", b.name, what, help(b.shape, s.spacing)), b.place});
+      findings.push_back(
+          {false, fmt::format("body \"{}\": {}: {}", b.name, what, help(b.shape, s.spacing)), b.place});
   });
   return findings;
 }
@@ -148,12 +159,16 @@ std::vector<Finding> moment_notes(const Scene& s, const InitialState& state) {
   std::vector<Finding> notes;
   for_each_free(s, state, [&](const Body& b, const MassProperties& particles, const MassProperties& shape) {
     const Difference d = difference(particles, shape, s.spacing);
-    if (b.phase != Phase::rigid || std::abs(d.moments) <= most || std::abs(d.of_cells) > most || std::abs(d.mass) > most) return;
-    notes.push_back({false,
-                     fmt::format("body \"{}\" has so few particles that their moments of inertia are {:+.1f} % off those of its "
-                                 "shape; every engine gets those of the particles",
-                                 b.name, 100.0 * d.moments),
-                     b.place});
+    if (b.phase != Phase::rigid || std::abs(d.moments) <= most || std::abs(d.of_cells) > most ||
+        std::abs(d.mass) > most)
+      return;
+    notes.push_back(
+        {false,
+         fmt::format(
+             "body \"{}\" has so few particles that their moments of inertia are {:+.1f} % off those of its "
+             "shape; every engine gets those of the particles",
+             b.name, 100.0 * d.moments),
+         b.place});
   });
   return notes;
 }

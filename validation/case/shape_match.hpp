@@ -5,11 +5,12 @@
 
 namespace tripoint {
 
-/// A warning for each free body whose particles differ from its shape by more than 1 % in mass or, of a solid, in moments of
-/// inertia or the place of its centre (of its least extent). Each particle counts with the moment of its cell here.
+/// A warning for each free body whose particles differ from its shape by more than 1 % in mass or, of a
+/// solid, in moments of inertia or the place of its centre (of its least extent). Each particle counts with
+/// the moment of its cell here.
 [[nodiscard]] std::vector<Finding> unlike_their_shapes(const Scene&, const InitialState&);
-/// A note for each rigid body that fills its shape, and whose particles are so few that their moments alone are more than 1 %
-/// off.
+/// A note for each rigid body that fills its shape, and whose particles are so few that their moments alone
+/// are more than 1 % off.
 [[nodiscard]] std::vector<Finding> moment_notes(const Scene&, const InitialState&);
 
 /// What a body of a mesh is: its file says no unit, so that size and mass are the first sight of a wrong one.

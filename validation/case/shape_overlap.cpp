@@ -12,17 +12,22 @@
 namespace tripoint {
 namespace {
 
-constexpr std::size_t most_starts = 5000;  // of each body of a pair: room that is shared along a face is found from far fewer
+// Of each body of a pair: room that is shared along a face is found from far fewer
+constexpr std::size_t most_starts = 5000;
 
 bool has_mesh(const Shape& s) {
-  return s.kind == Shape::Kind::mesh || std::ranges::any_of(s.of, [](const Shape& part) { return has_mesh(part); });
+  return s.kind == Shape::Kind::mesh ||
+         std::ranges::any_of(s.of, [](const Shape& part) { return has_mesh(part); });
 }
 
 /// A body's shape with its images in periodic directions.
 class Room {
  public:
   Room(const Scene& s, const Body& b)
-      : spacing_(s.spacing), distance_(distance_of(b.shape, s.spacing)), bounds_(bounds(b.shape)), is_mesh(has_mesh(b.shape)) {
+      : spacing_(s.spacing),
+        distance_(distance_of(b.shape, s.spacing)),
+        bounds_(bounds(b.shape)),
+        is_mesh(has_mesh(b.shape)) {
     for (std::size_t a = 0; a < 3; ++a) {
       bounds_.min[a] -= spacing_;
       bounds_.max[a] += spacing_;
@@ -32,7 +37,9 @@ class Room {
   /// False where the bounds are apart; periodic images may meet anywhere.
   [[nodiscard]] bool may_meet(const Room& other) const {
     for (std::size_t a = 0; a < 3; ++a)
-      if (!(width_[a] > 0.0) && (bounds_.max[a] < other.bounds_.min[a] || other.bounds_.max[a] < bounds_.min[a])) return false;
+      if (!(width_[a] > 0.0) &&
+          (bounds_.max[a] < other.bounds_.min[a] || other.bounds_.max[a] < bounds_.min[a]))
+        return false;
     return true;
   }
   /// Signed distance to the nearest image; a spacing where the place is farther from all of them.
@@ -73,7 +80,8 @@ std::vector<Vec3> directions() {
   return list;
 }
 
-/// Goes from a place to where the nearer of both surfaces is deepest: steps that are halved where none of them helps.
+/// Goes from a place to where the nearer of both surfaces is deepest: steps that are halved where none of
+/// them helps.
 double deepest(const Room& a, const Room& b, Vec3& place, double spacing) {
   static const auto ways = directions();
   const auto depth = [&](const Vec3& r) { return -std::max(a(r), b(r)); };
@@ -122,7 +130,8 @@ std::vector<SharedRoom> shared_rooms(const Scene& s, const InitialState& state) 
       if (!rooms[a].may_meet(rooms[b])) continue;
       const double thin = (rooms[a].is_mesh || rooms[b].is_mesh ? 0.25 : 0.02) * s.spacing;
       SharedRoom room{a, b, 0.0, {}};
-      for (const auto& list : {starts(particles[a], rooms[b], s.spacing), starts(particles[b], rooms[a], s.spacing)})
+      for (const auto& list :
+           {starts(particles[a], rooms[b], s.spacing), starts(particles[b], rooms[a], s.spacing)})
         for (Vec3 place : list)
           if (const double d = 2.0 * deepest(rooms[a], rooms[b], place, s.spacing); d > room.thickness) {
             room.thickness = d;

@@ -15,8 +15,9 @@ struct SharedRoom {
   Vec3 place;              ///< there [m]
 };
 
-/// Found from the shapes alone, of every pair of kinds; the particles only say where to look. Faces that touch share no room:
-/// what is thinner than a fiftieth of a spacing (a quarter of one beside a mesh, whose field is no finer) does not count.
+/// Found from the shapes alone, of every pair of kinds; the particles only say where to look. Faces that
+/// touch share no room: what is thinner than a fiftieth of a spacing (a quarter of one beside a mesh, whose
+/// field is no finer) does not count.
 [[nodiscard]] std::vector<SharedRoom> shared_rooms(const Scene&, const InitialState&);
 
 }  // namespace tripoint

@@ -25,7 +25,8 @@ TomlNode text_node(std::string_view text, const SourcePlace& place) {
 }
 
 std::optional<TomlNode> take(TomlNode& table, std::string_view key) {
-  const auto at = std::find_if(table.members.begin(), table.members.end(), [&](const auto& m) { return m.first == key; });
+  const auto at =
+      std::find_if(table.members.begin(), table.members.end(), [&](const auto& m) { return m.first == key; });
   if (at == table.members.end()) return {};
   TomlNode value = std::move(at->second);
   table.members.erase(at);
@@ -41,7 +42,8 @@ TomlNode& array_of(TomlNode& document, std::string_view key, const SourcePlace& 
 }
 
 /// The levels of `limits`, each with its limit. A bare 0.05 is a dotted key to TOML: { 0 = { 05 = ... } }.
-void collect_levels(const TomlNode& limits, const std::string& head, std::vector<std::pair<TomlNode, TomlNode>>& levels) {
+void collect_levels(const TomlNode& limits, const std::string& head,
+                    std::vector<std::pair<TomlNode, TomlNode>>& levels) {
   for (const auto& [key, value] : limits.members) {
     const std::string name = head.empty() ? key : head + "." + key;
     if (value.kind == Kind::table && head.empty()) {
@@ -52,11 +54,11 @@ void collect_levels(const TomlNode& limits, const std::string& head, std::vector
     level.kind = Kind::real;
     level.place = level.key_place = value.key_place;
     const auto end = name.data() + name.size();
-    if (const auto read = std::from_chars(name.data(), end, level.real); read.ec != std::errc() || read.ptr != end)
-      throw InputError(
-          value.key_place,
-          fmt::format("`limits`: `{}` is no number: write {{ LEVEL = LIMIT, ... }}, LEVEL in the unit of the study's axis",
-                      printable(name)));
+    if (const auto read = std::from_chars(name.data(), end, level.real);
+        read.ec != std::errc() || read.ptr != end)
+      throw InputError(value.key_place, fmt::format("`limits`: `{}` is no number: write {{ LEVEL = LIMIT, "
+                                                    "... }}, LEVEL in the unit of the study's axis",
+                                                    printable(name)));
     levels.emplace_back(std::move(level), value);
   }
 }
@@ -66,11 +68,14 @@ std::vector<TomlNode> by_level(TomlNode gate) {
   const auto limits = gate.kind == Kind::table ? take(gate, "limits") : std::nullopt;
   if (!limits) return {gate};
   if (limits->kind != Kind::table || limits->members.empty())
-    throw InputError(limits->place, "`limits`: write { LEVEL = LIMIT, ... }, LEVEL in the unit of the study's axis");
+    throw InputError(limits->place,
+                     "`limits`: write { LEVEL = LIMIT, ... }, LEVEL in the unit of the study's axis");
   for (const char* key : {"limit", "at_least", "band", "level"})
     if (const auto* other = gate.find(key))
-      throw InputError(other->key_place,
-                       fmt::format("`{}` beside `limits`: each of its levels has a limit already; remove one of them", key));
+      throw InputError(
+          other->key_place,
+          fmt::format("`{}` beside `limits`: each of its levels has a limit already; remove one of them",
+                      key));
   std::vector<std::pair<TomlNode, TomlNode>> levels;
   collect_levels(*limits, "", levels);
   std::vector<TomlNode> gates;
@@ -85,18 +90,22 @@ std::vector<TomlNode> by_level(TomlNode gate) {
 /// The metric that a gate within a metric judges: that one, or its order or statistical part.
 void name_metric(TomlNode& gate, const std::string& metric, const SourcePlace& place) {
   if (gate.kind != Kind::table)
-    throw InputError(gate.place,
-                     fmt::format("a gate of metric \"{}\" must be a table, not {}: write {{ limit = 1e-3, reason = \"...\" }}",
-                                 printable(metric), kind_name(gate.kind)));
+    throw InputError(
+        gate.place,
+        fmt::format(
+            "a gate of metric \"{}\" must be a table, not {}: write {{ limit = 1e-3, reason = \"...\" }}",
+            printable(metric), kind_name(gate.kind)));
   const auto* given = gate.find("metric");
   if (!given) {
     gate.members.insert(gate.members.begin(), {"metric", text_node(metric, place)});
     return;
   }
   if (given->kind != Kind::text || !judges_metric(given->text, metric))
-    throw InputError(given->place, fmt::format("a gate within metric \"{0}\" judges \"{0}\", \"{0}.order\", \"{0}.limit\" or "
-                                               "\"{0}.statistical\": write one of these, or remove the key",
-                                               printable(metric)));
+    throw InputError(
+        given->place,
+        fmt::format("a gate within metric \"{0}\" judges \"{0}\", \"{0}.order\", \"{0}.limit\" or "
+                    "\"{0}.statistical\": write one of these, or remove the key",
+                    printable(metric)));
 }
 
 /// The gates that a metric carries, taken out of it.
@@ -107,17 +116,19 @@ std::vector<TomlNode> gates_of(TomlNode& metric) {
   auto reason = take(metric, "reason");
   if (!gates && !limits && !reason) return list;
   const auto* name = metric.find("name");
-  if (!name || name->kind != Kind::text) throw InputError(metric.place, "a metric with gates needs its `name` here: give it");
+  if (!name || name->kind != Kind::text)
+    throw InputError(metric.place, "a metric with gates needs its `name` here: give it");
   if (gates && gates->kind != Kind::array)
-    throw InputError(gates->place,
-                     fmt::format("`gates` must be an array of tables, not {}: write [{{ limit = 1e-3, reason = \"...\" }}]",
-                                 kind_name(gates->kind)));
-  if (limits.has_value() != reason.has_value())
     throw InputError(
-        (limits ? limits : reason)->key_place,
-        limits
-            ? "`limits` of a metric need its key `reason`: write where the numbers come from"
-            : "`reason` of a metric is that of its `limits`, and there are none: give `limits`, or write the reason into a gate");
+        gates->place,
+        fmt::format(
+            "`gates` must be an array of tables, not {}: write [{{ limit = 1e-3, reason = \"...\" }}]",
+            kind_name(gates->kind)));
+  if (limits.has_value() != reason.has_value())
+    throw InputError((limits ? limits : reason)->key_place,
+                     limits ? "`limits` of a metric need its key `reason`: write where the numbers come from"
+                            : "`reason` of a metric is that of its `limits`, and there are none: give "
+                              "`limits`, or write the reason into a gate");
   if (limits) {
     TomlNode gate;
     gate.place = limits->place;
@@ -147,7 +158,8 @@ void spell_out(TomlNode& document) {
   auto* given = document.find("invariants");
   if (!given) return;
   if (given->kind != Kind::table)
-    throw InputError(given->place, "`invariants` is a table: write [invariants] with lines like ledger = 1e-9");
+    throw InputError(given->place,
+                     "`invariants` is a table: write [invariants] with lines like ledger = 1e-9");
   for (auto& [name, value] : given->members) {
     if (value.kind == Kind::table) continue;
     TomlNode entry;
@@ -164,7 +176,8 @@ const Invariant& invariant_named(const std::string& name, const SourcePlace& pla
     if (one.name == name) return one;
     known.emplace_back(one.name);
   }
-  throw InputError(place, fmt::format("no invariant is named `{}`{}", printable(name), suggestion(name, known)));
+  throw InputError(place,
+                   fmt::format("no invariant is named `{}`{}", printable(name), suggestion(name, known)));
 }
 
 /// { kind = "bound", function = "stated", args = { value = ... } }
@@ -180,14 +193,17 @@ TomlNode stated(TomlNode value) {
 }
 
 void add_reference(TomlNode& metric, std::optional<TomlNode> value, const Invariant& what) {
-  if (value && metric.find("reference")) throw InputError(value->key_place, "`value` beside `reference`: remove one of them");
+  if (value && metric.find("reference"))
+    throw InputError(value->key_place, "`value` beside `reference`: remove one of them");
   if (value && what.value.empty())
     throw InputError(
         value->key_place,
-        fmt::format("`value`: `{}` is compared with the start of the run, not with a value: remove the key", what.name));
+        fmt::format("`value`: `{}` is compared with the start of the run, not with a value: remove the key",
+                    what.name));
   if (metric.find("reference") || what.value.empty()) return;
   if (!value && what.value == "!")
-    throw InputError(metric.place, fmt::format("`invariants.{}` lacks the key `value`: {}", what.name, what.meaning));
+    throw InputError(metric.place,
+                     fmt::format("`invariants.{}` lacks the key `value`: {}", what.name, what.meaning));
   if (!value) {
     value.emplace();
     value->kind = Kind::real;
@@ -215,19 +231,21 @@ TomlNode metric_of(const std::string& name, TomlNode entry) {
       auto known = metric_keys;
       known.insert(known.end(), gate_keys.begin(), gate_keys.end());
       std::erase_if(known, [](const auto& k) { return k == "quantity" || k == "metric"; });
-      throw InputError(given.key_place,
-                       fmt::format("unknown key `{}` in `invariants.{}`{}", printable(key), name, suggestion(key, known)));
+      throw InputError(given.key_place, fmt::format("unknown key `{}` in `invariants.{}`{}", printable(key),
+                                                    name, suggestion(key, known)));
     }
     (of_gate ? gate : metric).members.emplace_back(key, std::move(given));
   }
-  if (!metric.find("name")) metric.members.insert(metric.members.begin(), {"name", text_node(what.name, place)});
+  if (!metric.find("name"))
+    metric.members.insert(metric.members.begin(), {"name", text_node(what.name, place)});
   metric.members.emplace_back("quantity", text_node(what.quantity, place));
   if (!metric.find("norm")) metric.members.emplace_back("norm", text_node(to_string(what.norm), place));
   add_reference(metric, std::move(value), what);
   auto* gates = metric.find("gates");
   if (gates && !gate.members.empty())
-    throw InputError(gate.members.front().second.key_place,
-                     fmt::format("`{}` beside `gates`: write it into one of them", gate.members.front().first));
+    throw InputError(
+        gate.members.front().second.key_place,
+        fmt::format("`{}` beside `gates`: write it into one of them", gate.members.front().first));
   if (!gates) {
     TomlNode one;
     one.kind = Kind::array;
@@ -237,7 +255,8 @@ TomlNode metric_of(const std::string& name, TomlNode entry) {
   }
   if (gates->kind == Kind::array && !what.reason.empty())
     for (auto& g : gates->items)
-      if (g.kind == Kind::table && !g.find("reason")) g.members.emplace_back("reason", text_node(what.reason, g.place));
+      if (g.kind == Kind::table && !g.find("reason"))
+        g.members.emplace_back("reason", text_node(what.reason, g.place));
   return metric;
 }
 
@@ -294,7 +313,8 @@ bool has_short_forms(const TomlNode& document) { return first_short_form(documen
 void check_written_out(const TomlNode& document) {
   if (const auto* found = first_short_form(document))
     throw InputError(found->place,
-                     "that is a short form, and --set changes the whole case, in which it is written out: give metric.NAME or "
+                     "that is a short form, and --set changes the whole case, in which it is written out: "
+                     "give metric.NAME or "
                      "gate.NUMBER, as `tripoint explain --resolved` prints them");
 }
 
@@ -303,12 +323,16 @@ const std::vector<Invariant>& invariants() {
       {"mass", "mass", Norm::drift, "", "round-off", "no mass is made or lost"},
       {"momentum", "momentum", Norm::drift, "", "round-off", "forces come in pairs that sum to zero"},
       {"angular_momentum", "angular_momentum", Norm::drift, "", "round-off", "forces of pairs turn nothing"},
-      {"ledger", "ledger.residual", Norm::drift, "", "round-off", "all entries of the ledger of energy sum to zero"},
-      {"time_integration", "ledger.time_integration", Norm::drift, "", "", "energy that the time step alone makes"},
+      {"ledger", "ledger.residual", Norm::drift, "", "round-off",
+       "all entries of the ledger of energy sum to zero"},
+      {"time_integration", "ledger.time_integration", Norm::drift, "", "",
+       "energy that the time step alone makes"},
       {"energy_gain", "energy_gain", Norm::max, "", "", "free bodies only lose kinetic and potential energy"},
       {"overlap", "overlap", Norm::max, "0", "", "depth of a solid in another [spacings], above `value`"},
-      {"body_count", "body_count", Norm::final, "!", "", "number of solid bodies alive at the end, from `value`"},
-      {"toggles", "toggles", Norm::final, "0", "", "returns of a particle to a phase that it had left, above `value`"},
+      {"body_count", "body_count", Norm::final, "!", "",
+       "number of solid bodies alive at the end, from `value`"},
+      {"toggles", "toggles", Norm::final, "0", "",
+       "returns of a particle to a phase that it had left, above `value`"},
   };
   return list;
 }

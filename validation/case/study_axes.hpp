@@ -18,9 +18,12 @@ namespace tripoint {
 }
 
 /// The number that falls with refinement. @param level in the axis's own unit, > 0
-[[nodiscard]] constexpr double step_of(Axis axis, double level) { return refines_upward(axis) ? 1.0 / level : level; }
+[[nodiscard]] constexpr double step_of(Axis axis, double level) {
+  return refines_upward(axis) ? 1.0 / level : level;
+}
 
-/// Axis of the levels of a study, and the numbers refined together with it: "spacing+support_ratio" is a ladder of its own.
+/// Axis of the levels of a study, and the numbers refined together with it: "spacing+support_ratio" is a
+/// ladder of its own.
 struct StudyAxes {
   Axis axis = Axis::spacing;
   bool support_ratio = false, time_step = false;  ///< refined together with the axis
@@ -31,6 +34,8 @@ struct StudyAxes {
 /// Inverse of to_string. @throws InputError naming the word
 [[nodiscard]] StudyAxes study_axes_from(std::string_view text);
 /// In the order of their words, as results.json has them.
-[[nodiscard]] inline bool operator<(const StudyAxes& a, const StudyAxes& b) { return to_string(a) < to_string(b); }
+[[nodiscard]] inline bool operator<(const StudyAxes& a, const StudyAxes& b) {
+  return to_string(a) < to_string(b);
+}
 
 }  // namespace tripoint

@@ -15,7 +15,8 @@ namespace tripoint {
 namespace {
 
 bool is_at_level(const RunRow& run, const std::optional<double>& level) {
-  return !level || std::any_of(run.levels.begin(), run.levels.end(), [&](const auto& l) { return same_level(l.second, *level); });
+  return !level || std::any_of(run.levels.begin(), run.levels.end(),
+                               [&](const auto& l) { return same_level(l.second, *level); });
 }
 
 /// Runs that differ by seed only, in the order in which they were planned.
@@ -69,12 +70,14 @@ void judge_value(GateRow& row, const MetricValue& metric) {
   if (!std::isfinite(row.value))
     row.why = "not finite" + (metric.note.empty() ? std::string() : ": " + metric.note);
   else
-    row.why = fmt::format("{:.4g} with standard uncertainty {:.2g}, {}", row.value, row.uncertainty, describe(row.gate));
+    row.why = fmt::format("{:.4g} with standard uncertainty {:.2g}, {}", row.value, row.uncertainty,
+                          describe(row.gate));
 }
 
 /// An engine may refuse a run, but not one seed of it: nobody would judge the results of the other seeds.
 bool any_ok(const Group& group) {
-  return std::any_of(group.runs.begin(), group.runs.end(), [](const auto* run) { return run->status == Status::ok; });
+  return std::any_of(group.runs.begin(), group.runs.end(),
+                     [](const auto* run) { return run->status == Status::ok; });
 }
 
 /// @return false when the group gives no row: its run failed, and the engine's row says so
@@ -84,7 +87,8 @@ bool judge_group(const CaseResult& result, const Gate& gate, const Group& group,
   std::vector<MetricValue> values;
   for (const auto* run : group.runs) {
     if (run->status != Status::ok || !run->comparable) {
-      if (!engine.required && !any_ok(group) && run->comparable && run->status != Status::diverged && !crashed(*run))
+      if (!engine.required && !any_ok(group) && run->comparable && run->status != Status::diverged &&
+          !crashed(*run))
         return false;
       row.verdict = run->status == Status::diverged ? Verdict::diverged : Verdict::missing;
       row.why = run->reason.empty() ? std::string(to_string(run->status)) : run->reason;
@@ -100,7 +104,8 @@ bool judge_group(const CaseResult& result, const Gate& gate, const Group& group,
     }
     value->uncertainty.numerical =
         std::max(value->uncertainty.numerical, numerical_uncertainty(result, engine, *run, gate.metric));
-    value->uncertainty.input = std::max(value->uncertainty.input, input_uncertainty(engine, *run, gate.metric));
+    value->uncertainty.input =
+        std::max(value->uncertainty.input, input_uncertainty(engine, *run, gate.metric));
     values.push_back(*value);
   }
   judge_value(row, pooled(values));
@@ -110,12 +115,14 @@ bool judge_group(const CaseResult& result, const Gate& gate, const Group& group,
 
 bool has_mode(const EngineRow& engine, const Gate& gate) {
   return gate.mode == JudgedMode::none ||
-         std::any_of(engine.runs.begin(), engine.runs.end(), [&](const auto& r) { return fits_mode(gate, r.knobs.mode); });
+         std::any_of(engine.runs.begin(), engine.runs.end(),
+                     [&](const auto& r) { return fits_mode(gate, r.knobs.mode); });
 }
 
 /// Runs that the engine refused, and none that it broke off: then it owes no order.
 bool declined(const EngineRow& engine) {
-  if (std::any_of(engine.runs.begin(), engine.runs.end(), [](const auto& r) { return crashed(r); })) return false;
+  if (std::any_of(engine.runs.begin(), engine.runs.end(), [](const auto& r) { return crashed(r); }))
+    return false;
   return std::any_of(engine.runs.begin(), engine.runs.end(),
                      [](const auto& r) { return r.status != Status::ok || !r.comparable; });
 }
@@ -125,13 +132,16 @@ bool level_is_due(const CaseResult& result, const Gate& gate, const EngineRow& e
   return std::any_of(result.studies.begin(), result.studies.end(), [&](const Study& s) {
     if (is_exact(engine.name) || (!s.engine.empty() && s.engine != engine.name)) return false;
     if (s.mode != JudgedMode::none && !fits_mode(gate, s.mode)) return false;
-    return !gate.level || std::any_of(s.levels.begin(), s.levels.end(), [&](double l) { return same_level(l, *gate.level); });
+    return !gate.level || std::any_of(s.levels.begin(), s.levels.end(),
+                                      [&](double l) { return same_level(l, *gate.level); });
   });
 }
 
-/// An engine that is exact has no order to show: where any engine is asked for one at least, errors of round-off will do.
+/// An engine that is exact has no order to show: where any engine is asked for one at least, errors of
+/// round-off will do.
 bool needs_no_order(const Gate& gate, const Order& order) {
-  return gate.engine.empty() && gate.at_least && !gate.band && !gate.limit && order.fit_class == FitClass::roundoff;
+  return gate.engine.empty() && gate.at_least && !gate.band && !gate.limit &&
+         order.fit_class == FitClass::roundoff;
 }
 
 void judge_order(GateRow& row, const Order& order) {
@@ -141,8 +151,8 @@ void judge_order(GateRow& row, const Order& order) {
   row.fit_class = order.fit_class;
   row.verdict = needs_no_order(row.gate, order) ? Verdict::pass : verdict_of(row.gate, order);
   if (row.verdict == Verdict::pass) return;
-  row.why = fmt::format("order {:.3g}, 95 % interval {:.3g} to {:.3g}, {}, {}", row.value, *row.low, *row.high, *row.fit_class,
-                        describe(row.gate));
+  row.why = fmt::format("order {:.3g}, 95 % interval {:.3g} to {:.3g}, {}, {}", row.value, *row.low,
+                        *row.high, *row.fit_class, describe(row.gate));
   if (order.fit_class == FitClass::plateau && !row.gate.expect)
     row.why += fmt::format("; the error does not fall to the truth: it ends at {:.3g}", order.floor);
 }
@@ -214,12 +224,16 @@ Applied apply_expected_class(const CaseResult& result, const Study& study, Engin
     row.expect = study.expect;
     row.fit_class = order.order.fit_class;
     row.verdict = row.fit_class == study.expect ? Verdict::pass : Verdict::fail;
-    if (row.fit_class != study.expect) row.why = fmt::format("converges as {}, declared is {}", *row.fit_class, *study.expect);
+    if (row.fit_class != study.expect)
+      row.why = fmt::format("converges as {}, declared is {}", *row.fit_class, *study.expect);
     engine.gates.push_back(row);
     applied = Applied::judged;
   }
-  if (applied == Applied::judged || engine.runs.empty() || !(study.engine.empty() || study.engine == engine.name)) return applied;
-  if (is_exact(engine.name) || !has_mode(engine, gate) || (declined(engine) && !engine.required)) return Applied::absent;
+  if (applied == Applied::judged || engine.runs.empty() ||
+      !(study.engine.empty() || study.engine == engine.name))
+    return applied;
+  if (is_exact(engine.name) || !has_mode(engine, gate) || (declined(engine) && !engine.required))
+    return Applied::absent;
   auto row = missing_row(gate, "no order could be fitted: a level is missing or not finite");
   row.expect = study.expect;
   engine.gates.push_back(row);

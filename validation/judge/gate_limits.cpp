@@ -7,7 +7,8 @@
 
 #include "validation/judge/apply_gate.hpp"
 
-/// A value against the edges of a gate: the verdict, the share of the room that is used, and the edges in words.
+/// A value against the edges of a gate: the verdict, the share of the room that is used, and the edges in
+/// words.
 namespace tripoint {
 namespace {
 
@@ -23,20 +24,22 @@ bool limits_something(const Gate& gate) { return gate.limit || gate.at_least || 
 
 /// Verdict of an interval against [lowest, highest].
 Verdict interval_within(const Order& order, double lowest, double highest) {
-  if (!(order.low <= order.value && order.value <= order.high) || !std::isfinite(order.low) || !std::isfinite(order.high))
+  if (!(order.low <= order.value && order.value <= order.high) || !std::isfinite(order.low) ||
+      !std::isfinite(order.high))
     return Verdict::fail;
   if (order.low >= lowest && order.high <= highest) return Verdict::pass;
   return order.high < lowest || order.low > highest ? Verdict::fail : Verdict::inconclusive;
 }
 
-/// Distance from zero in units of the edge on that side: 1 at the edge. An edge at zero leaves no room, and what is beyond it
-/// counts in the metric's own unit.
+/// Distance from zero in units of the edge on that side: 1 at the edge. An edge at zero leaves no room, and
+/// what is beyond it counts in the metric's own unit.
 double share_of_edge(double value, double edge) {
   if (value == 0.0 || edge * value < 0.0) return 0.0;
   return edge != 0.0 ? value / edge : 1.0 + std::abs(value);
 }
 
-/// A band around zero bounds an error, which is best at zero. Any other states a figure, which is best in the middle.
+/// A band around zero bounds an error, which is best at zero. Any other states a figure, which is best in the
+/// middle.
 double share_of_band(double value, double low, double high) {
   if (low <= 0.0 && high >= 0.0) return share_of_edge(value, value > 0.0 ? high : low);
   const double half = 0.5 * (high - low), off = std::abs(value - 0.5 * (low + high));
@@ -61,7 +64,8 @@ Verdict verdict_of(const Gate& gate, double value, double u) {
 }
 
 Verdict verdict_of(const Gate& gate, const Order& order) {
-  if (gate.expect ? order.fit_class != *gate.expect : order.fit_class == FitClass::plateau) return Verdict::fail;
+  if (gate.expect ? order.fit_class != *gate.expect : order.fit_class == FitClass::plateau)
+    return Verdict::fail;
   if (!limits_something(gate)) return gate.expect ? Verdict::pass : Verdict::missing;
   auto verdict = Verdict::pass;
   if (gate.limit) verdict = worse(verdict, interval_within(order, -unbounded, *gate.limit));

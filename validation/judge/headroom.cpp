@@ -20,8 +20,10 @@ namespace {
 bool is_count(const CaseResult& c, const std::string& metric) {
   static constexpr std::array<std::string_view, 6> counts{"body_count",  "bonded_objects", "object_count",
                                                           "phase_count", "event_count",    "toggles"};
-  const auto at = std::find_if(c.metrics.begin(), c.metrics.end(), [&](const MetricChoice& m) { return m.name == metric; });
-  return at != c.metrics.end() && at->scale == 1.0 && std::find(counts.begin(), counts.end(), at->quantity) != counts.end();
+  const auto at = std::find_if(c.metrics.begin(), c.metrics.end(),
+                               [&](const MetricChoice& m) { return m.name == metric; });
+  return at != c.metrics.end() && at->scale == 1.0 &&
+         std::find(counts.begin(), counts.end(), at->quantity) != counts.end();
 }
 
 /// The value farthest from zero that the gate lets pass; infinite where it has no ceiling.
@@ -33,7 +35,8 @@ double ceiling(const Gate& g) {
 
 bool states_a_figure(const Gate& g) { return g.band && ((*g.band)[0] > 0.0 || (*g.band)[1] < 0.0); }
 
-/// How many times wider a band around a figure is than what was measured: at its middle it uses none of its room.
+/// How many times wider a band around a figure is than what was measured: at its middle it uses none of its
+/// room.
 double headroom_of_figure(const Gate& g, double value, double u) {
   const double low = std::abs((*g.band)[0]), high = std::abs((*g.band)[1]), least = std::min(low, high);
   const double size = std::abs(value);
@@ -46,10 +49,12 @@ std::string key_of(const CaseResult& c, const Gate& g) {
                      g.level.value_or(0.0));
 }
 
-/// A limit that every engine must hold may be used by one that is not here: how loose it is then is not known.
+/// A limit that every engine must hold may be used by one that is not here: how loose it is then is not
+/// known.
 bool some_engine_is_absent(const CaseResult& c, const Gate& g) {
-  return g.engine.empty() && std::any_of(c.engines.begin(), c.engines.end(),
-                                         [](const auto& e) { return !is_exact(e.name) && e.status != Status::ok; });
+  return g.engine.empty() && std::any_of(c.engines.begin(), c.engines.end(), [](const auto& e) {
+           return !is_exact(e.name) && e.status != Status::ok;
+         });
 }
 
 /// A date in the future silences nothing.
@@ -63,11 +68,12 @@ Remark remark_on(const CaseResult& c, const GateRow& row, double headroom, bool 
   r.place = row.gate.place;
   r.excess = headroom;
   r.title = fmt::format("{}: the limit of {} is loose", c.id, row.metric);
-  r.text = fmt::format("{} is asked, {:.3g} with standard uncertainty {:.2g} was measured: room by a factor of {:.3g}{}",
-                       describe(row.gate), row.value, row.uncertainty, headroom,
-                       r.error               ? "; tighten it, or give the reason a date"
-                       : !is_dated(row.gate) ? ""
-                                             : " (dated " + row.gate.date + ")");
+  r.text = fmt::format(
+      "{} is asked, {:.3g} with standard uncertainty {:.2g} was measured: room by a factor of {:.3g}{}",
+      describe(row.gate), row.value, row.uncertainty, headroom,
+      r.error               ? "; tighten it, or give the reason a date"
+      : !is_dated(row.gate) ? ""
+                            : " (dated " + row.gate.date + ")");
   return r;
 }
 
@@ -75,7 +81,8 @@ Remark remark_on(const CaseResult& c, const GateRow& row, double headroom, bool 
 
 std::optional<double> headroom_of(const CaseResult& c, const GateRow& row) {
   const Gate& g = row.gate;
-  if (row.verdict != Verdict::pass || row.expect || is_of_ladder(row.metric) || !std::isfinite(row.value)) return {};
+  if (row.verdict != Verdict::pass || row.expect || is_of_ladder(row.metric) || !std::isfinite(row.value))
+    return {};
   if (ceiling(g) <= roundoff_limit || (!g.limit && !g.band && g.at_least.value_or(0.0) <= 0.0)) return {};
   if (states_a_figure(g)) return headroom_of_figure(g, row.value, row.uncertainty);
   double size = std::abs(row.value) + 2.0 * row.uncertainty;
@@ -91,11 +98,12 @@ bool is_tight(const CaseResult& c, const GateRow& row) {
   return ceiling(row.gate) <= roundoff_limit || headroom_of(c, row).value_or(infinity) <= headroom_warns;
 }
 
-/// A wide limit, such as one that holds for any engine, lets nothing pass where another gate holds the same value.
+/// A wide limit, such as one that holds for any engine, lets nothing pass where another gate holds the same
+/// value.
 bool is_held_by_another(const CaseResult& c, const EngineRow& e, const GateRow& row) {
   return std::any_of(e.gates.begin(), e.gates.end(), [&](const GateRow& other) {
-    return &other != &row && other.metric == row.metric && other.mode == row.mode && other.level == row.level &&
-           is_tight(c, other);
+    return &other != &row && other.metric == row.metric && other.mode == row.mode &&
+           other.level == row.level && is_tight(c, other);
   });
 }
 
@@ -108,15 +116,17 @@ std::vector<Remark> headroom_remarks(const Results& results) {
     for (const auto& e : c.engines)
       for (const auto& row : e.gates) {
         const auto headroom = headroom_of(c, row);
-        const double s =
-            is_held_by_another(c, e, row) ? 0.0 : headroom.value_or(0.0);  // a row whose limit is not too wide settles the gate
+        // a row whose limit is not too wide settles the gate
+        const double s = is_held_by_another(c, e, row) ? 0.0 : headroom.value_or(0.0);
         const auto [at, is_new] = tightest.try_emplace(key_of(c, row.gate), s, &row);
         if (!is_new && s < at->second.first) at->second = {s, &row};
       }
     for (const auto& [key, found] : tightest)
-      if (found.first > headroom_warns) list.push_back(remark_on(c, *found.second, found.first, !results.only_engines.empty()));
+      if (found.first > headroom_warns)
+        list.push_back(remark_on(c, *found.second, found.first, !results.only_engines.empty()));
   }
-  std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.excess > b.excess; });
+  std::stable_sort(list.begin(), list.end(),
+                   [](const auto& a, const auto& b) { return a.excess > b.excess; });
   return list;
 }
 

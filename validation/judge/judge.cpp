@@ -40,44 +40,56 @@ void settle_status(const CaseResult& result, EngineRow& engine, Findings& findin
     if (run.status == Status::diverged && !may_diverge(result, run.knobs.mode))
       findings.add(exit_diverged, fmt::format("{}{} diverged: {}", label_of(engine.name, engine.preset),
                                               after_blank(run.knobs.mode), run.reason));
-    if (!run.comparable) findings.add(exit_missing, label_of(engine.name, engine.preset) + " is not comparable: " + run.reason);
+    if (!run.comparable)
+      findings.add(exit_missing, label_of(engine.name, engine.preset) + " is not comparable: " + run.reason);
   }
-  const auto bad =
-      std::find_if(engine.runs.begin(), engine.runs.end(), [](const auto& r) { return r.status != Status::ok || !r.comparable; });
+  const auto bad = std::find_if(engine.runs.begin(), engine.runs.end(),
+                                [](const auto& r) { return r.status != Status::ok || !r.comparable; });
   if (!engine.runs.empty()) {
-    engine.status = bad == engine.runs.end() ? Status::ok : bad->status == Status::ok ? Status::error : bad->status;
-    engine.reason = bad == engine.runs.end() ? "" : bad->reason.empty() ? std::string(to_string(bad->status)) : bad->reason;
+    engine.status = bad == engine.runs.end()    ? Status::ok
+                    : bad->status == Status::ok ? Status::error
+                                                : bad->status;
+    engine.reason = bad == engine.runs.end() ? ""
+                    : bad->reason.empty()    ? std::string(to_string(bad->status))
+                                             : bad->reason;
   }
   if (const auto broken = broken_refusal(engine); !broken.empty())
     findings.add(exit_fail, label_of(engine.name, engine.preset) + " " + broken);
   if (engine.required && engine.status != Status::ok && engine.status != Status::diverged)
     findings.add(exit_missing,
-                 fmt::format("{} is required and is {}: {}", label_of(engine.name, engine.preset), engine.status, engine.reason));
+                 fmt::format("{} is required and is {}: {}", label_of(engine.name, engine.preset),
+                             engine.status, engine.reason));
 }
 
-bool same_preset(const Gate& gate, const EngineRow& engine) { return gate.preset.empty() || gate.preset == engine.preset; }
+bool same_preset(const Gate& gate, const EngineRow& engine) {
+  return gate.preset.empty() || gate.preset == engine.preset;
+}
 
 bool names(const Gate& gate, const EngineRow& engine) {
   if (!same_preset(gate, engine)) return false;
   return gate.engine.empty() ? !is_exact(engine.name) : gate.engine == engine.name;
 }
 
-/// The gate by which the case declares that an engine does not hold an acceptance limit; nullptr where it declares none.
+/// The gate by which the case declares that an engine does not hold an acceptance limit; nullptr where it
+/// declares none.
 const Gate* declared_failure(const CaseResult& result, const Gate& acceptance, const EngineRow& engine) {
   if (!acceptance.engine.empty()) return nullptr;
   const auto at = std::find_if(result.gates.begin(), result.gates.end(), [&](const Gate& g) {
-    return !known_defect(g).empty() && g.metric == acceptance.metric && g.engine == engine.name && same_preset(g, engine);
+    return !known_defect(g).empty() && g.metric == acceptance.metric && g.engine == engine.name &&
+           same_preset(g, engine);
   });
   return at == result.gates.end() ? nullptr : &*at;
 }
 
-/// An engine that is excused must fail: a declaration that is no longer true turns red, so that it is taken away.
+/// An engine that is excused must fail: a declaration that is no longer true turns red, so that it is taken
+/// away.
 Applied apply_excused(const CaseResult& result, const Gate& gate, const Gate& declared, EngineRow& engine) {
   auto tried = engine;
   tried.gates.clear();
   const auto applied = apply_gate(result, gate, tried);
-  const bool holds = !tried.gates.empty() && std::all_of(tried.gates.begin(), tried.gates.end(),
-                                                         [](const GateRow& row) { return row.verdict == Verdict::pass; });
+  const bool holds =
+      !tried.gates.empty() && std::all_of(tried.gates.begin(), tried.gates.end(),
+                                          [](const GateRow& row) { return row.verdict == Verdict::pass; });
   for (auto& row : tried.gates) {
     if (!holds) continue;
     row.verdict = Verdict::fail;
@@ -91,32 +103,37 @@ Applied apply_excused(const CaseResult& result, const Gate& gate, const Gate& de
 
 void apply_to_all(CaseResult& result, const Gate& gate, bool engines_were_chosen, Findings& findings) {
   if (gate.reason.empty())
-    findings.add(exit_missing,
-                 fmt::format("{}: the gate on {} gives no reason for its limit", to_string(gate.place), gate.metric));
+    findings.add(exit_missing, fmt::format("{}: the gate on {} gives no reason for its limit",
+                                           to_string(gate.place), gate.metric));
   int named = 0, judged = 0, absent = 0;
   for (auto& engine : result.engines) {
     if (!names(gate, engine)) continue;
     ++named;
     const auto* declared = declared_failure(result, gate, engine);
-    const auto applied = declared ? apply_excused(result, gate, *declared, engine) : apply_gate(result, gate, engine);
+    const auto applied =
+        declared ? apply_excused(result, gate, *declared, engine) : apply_gate(result, gate, engine);
     judged += applied == Applied::judged;
     absent += applied == Applied::absent;
   }
-  const bool left_out =
-      engines_were_chosen && !gate.engine.empty() &&
-      std::none_of(result.engines.begin(), result.engines.end(), [&](const auto& e) { return e.name == gate.engine; });
+  const bool left_out = engines_were_chosen && !gate.engine.empty() &&
+                        std::none_of(result.engines.begin(), result.engines.end(),
+                                     [&](const auto& e) { return e.name == gate.engine; });
   if (judged > 0 || absent > 0 || (named == 0 && left_out)) return;
-  findings.add(exit_missing, fmt::format("{}: the gate on {} judges nothing: no engine, mode or level of the case fits it",
-                                         to_string(gate.place), gate.metric));
+  findings.add(exit_missing,
+               fmt::format("{}: the gate on {} judges nothing: no engine, mode or level of the case fits it",
+                           to_string(gate.place), gate.metric));
 }
 
-/// Every engine that was chosen refuses the case, and none is required: it is no case of theirs. An engine that ran no case at
-/// all is reported by the whole (unanswered).
+/// Every engine that was chosen refuses the case, and none is required: it is no case of theirs. An engine
+/// that ran no case at all is reported by the whole (unanswered).
 bool is_refused(const CaseResult& result, bool engines_were_chosen) {
-  const auto is_judge = [](const EngineRow& e) { return is_exact(e.name); };  // the truth is no engine that could take the case
-  if (!engines_were_chosen || std::all_of(result.engines.begin(), result.engines.end(), is_judge)) return false;
-  return std::all_of(result.engines.begin(), result.engines.end(),
-                     [&](const EngineRow& e) { return is_judge(e) || (e.status == Status::refused && !e.required); });
+  // The truth is no engine that could take the case
+  const auto is_judge = [](const EngineRow& e) { return is_exact(e.name); };
+  if (!engines_were_chosen || std::all_of(result.engines.begin(), result.engines.end(), is_judge))
+    return false;
+  return std::all_of(result.engines.begin(), result.engines.end(), [&](const EngineRow& e) {
+    return is_judge(e) || (e.status == Status::refused && !e.required);
+  });
 }
 
 void count_gates(CaseResult& result, Findings& findings) {
@@ -134,27 +151,33 @@ void count_gates(CaseResult& result, Findings& findings) {
       else if (row.verdict != Verdict::pass)
         findings.codes.insert(exit_missing);
     }
-  if (judged == 0 && result.expect != Expect::diverges) findings.add(exit_missing, "no gate judges this case");
+  if (judged == 0 && result.expect != Expect::diverges)
+    findings.add(exit_missing, "no gate judges this case");
   if (result.expect == Expect::defect && two_sided == 0)
-    findings.add(exit_missing, "declares a defect, which only a gate with band or at_least can measure, and has none");
+    findings.add(exit_missing,
+                 "declares a defect, which only a gate with band or at_least can measure, and has none");
 }
 
-/// Each engine that the case requires must diverge, and where it requires none each that ran: another's word does not stand for
-/// it.
+/// Each engine that the case requires must diverge, and where it requires none each that ran: another's word
+/// does not stand for it.
 void check_divergence(const CaseResult& result, Findings& findings) {
   if (!may_diverge(result, JudgedMode::paper)) return;
-  const bool some_required = std::any_of(result.engines.begin(), result.engines.end(), [](const auto& e) { return e.required; });
+  const bool some_required =
+      std::any_of(result.engines.begin(), result.engines.end(), [](const auto& e) { return e.required; });
   int asked = 0;
   for (const auto& engine : result.engines) {
     const auto due = [&](const RunRow& run) {
-      return may_diverge(result, run.knobs.mode) && (run.status == Status::ok || run.status == Status::diverged);
+      return may_diverge(result, run.knobs.mode) &&
+             (run.status == Status::ok || run.status == Status::diverged);
     };
-    if ((some_required ? !engine.required : is_exact(engine.name)) || std::none_of(engine.runs.begin(), engine.runs.end(), due))
+    if ((some_required ? !engine.required : is_exact(engine.name)) ||
+        std::none_of(engine.runs.begin(), engine.runs.end(), due))
       continue;
     ++asked;
     if (std::none_of(engine.runs.begin(), engine.runs.end(),
                      [&](const RunRow& run) { return due(run) && run.status == Status::diverged; }))
-      findings.add(exit_fail, label_of(engine.name, engine.preset) + " is declared to diverge, and no run of it did");
+      findings.add(exit_fail,
+                   label_of(engine.name, engine.preset) + " is declared to diverge, and no run of it did");
   }
   if (asked == 0) findings.add(exit_fail, "is declared to diverge, and no run did");
 }
@@ -169,8 +192,8 @@ void check_planned(const Results& results, std::vector<std::string>& problems, s
   for (const auto& c : results.cases)
     if (!seen.insert(c.id).second) say(c.id + ": two cases have this id");
   if (results.interrupted) {
-    problems.push_back(fmt::format("stopped by {}: {} of {} planned cases are complete", name_of_stop(stopped_by()), seen.size(),
-                                   results.planned.size()));
+    problems.push_back(fmt::format("stopped by {}: {} of {} planned cases are complete",
+                                   name_of_stop(stopped_by()), seen.size(), results.planned.size()));
     codes.insert(exit_interrupted);
     return;
   }
@@ -197,16 +220,21 @@ void judge(CaseResult& result, bool engines_were_chosen) {
       for (auto& engine : result.engines) apply_expected_class(result, study, engine);
   for (const auto& engine : result.engines)
     if (engine.required && is_unjudged(engine) && result.expect != Expect::diverges)
-      findings.add(exit_missing, label_of(engine.name, engine.preset) + " is required, and no gate of the case judges it");
+      findings.add(exit_missing,
+                   label_of(engine.name, engine.preset) + " is required, and no gate of the case judges it");
   for (const auto& name : result.adopted)
-    if (std::none_of(result.engines.begin(), result.engines.end(), [&](const auto& e) { return e.name == name; }))
-      findings.add(exit_missing, fmt::format("{} was adopted by this case, and was left out by --engines: name it there", name));
+    if (std::none_of(result.engines.begin(), result.engines.end(),
+                     [&](const auto& e) { return e.name == name; }))
+      findings.add(
+          exit_missing,
+          fmt::format("{} was adopted by this case, and was left out by --engines: name it there", name));
   settle_physics(result);
   const bool refused = is_refused(result, engines_were_chosen);
   if (!refused) count_gates(result, findings);
   check_divergence(result, findings);
   result.exit_code = first_of(findings.codes);
-  result.verdict = refused && result.exit_code == exit_pass ? CaseVerdict::refused : verdict_of(result.exit_code);
+  result.verdict =
+      refused && result.exit_code == exit_pass ? CaseVerdict::refused : verdict_of(result.exit_code);
 }
 
 void judge(Results& results) {
@@ -217,10 +245,11 @@ void judge(Results& results) {
     codes.insert(c.exit_code);
   }
   check_planned(results, results.problems, codes);
-  // The only fault is that the chosen engines take no case: none passes unjudged, and nothing is missing either.
-  const bool all_refused =
-      codes == std::set<int>{exit_pass} &&
-      std::all_of(results.cases.begin(), results.cases.end(), [](const auto& c) { return c.verdict == CaseVerdict::refused; });
+  // The only fault is that the chosen engines take no case: none passes unjudged, and nothing is missing
+  // either.
+  const bool all_refused = codes == std::set<int>{exit_pass} &&
+                           std::all_of(results.cases.begin(), results.cases.end(),
+                                       [](const auto& c) { return c.verdict == CaseVerdict::refused; });
   for (const auto& what : unanswered(results)) {
     results.problems.push_back(what);
     codes.insert(exit_missing);

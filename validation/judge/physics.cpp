@@ -20,7 +20,8 @@ std::string declared(const CaseResult& result, const Gate& gate) {
   return result.expect == Expect::defect && (gate.band || gate.at_least) ? "declared-by-the-case" : "";
 }
 
-/// The value meets the acceptance limit from which the engine is excused: the declaration is out of date, not the value.
+/// The value meets the acceptance limit from which the engine is excused: the declaration is out of date, not
+/// the value.
 bool meets_acceptance(const EngineRow& engine, const GateRow& row) {
   return std::any_of(engine.gates.begin(), engine.gates.end(), [&](const GateRow& other) {
     return other.excused && other.metric == row.metric && other.mode == row.mode && other.level == row.level;
@@ -98,7 +99,8 @@ std::string physics_text(Physics physics, const std::vector<std::string>& defect
 }
 
 std::string physics_text(const CaseResult& result) {
-  if (result.physics == Physics::right || result.physics == Physics::unknown) return std::string(to_string(result.physics));
+  if (result.physics == Physics::right || result.physics == Physics::unknown)
+    return std::string(to_string(result.physics));
   std::vector<std::pair<std::string, std::vector<std::string>>> said;
   for (const auto& e : result.engines) {
     if (e.physics != Physics::wrong && e.physics != Physics::known_defect) continue;
@@ -117,7 +119,8 @@ std::string physics_text(const CaseResult& result) {
 
 std::string physics_counts(const Results& results) {
   const auto count = [&](Physics p) {
-    return std::count_if(results.cases.begin(), results.cases.end(), [&](const auto& c) { return c.physics == p; });
+    return std::count_if(results.cases.begin(), results.cases.end(),
+                         [&](const auto& c) { return c.physics == p; });
   };
   std::string text = fmt::format("physics: {} right", count(Physics::right));
   if (const auto n = count(Physics::known_defect); n > 0) text += fmt::format(", {} with known defects", n);

@@ -23,8 +23,8 @@ Remark remark_on(const CaseResult& c, const EngineRow& e, const GateRow& row) {
   remark.code = code_of(row.verdict);
   remark.place = row.gate.place;
   remark.excess = std::isfinite(row.used) ? row.used : infinity;
-  remark.title = fmt::format("{} {}{} {}{}", c.id, label_of(e.name, e.preset), after_blank(row.mode), row.metric,
-                             row.level ? fmt::format(" at {:g}", *row.level) : "");
+  remark.title = fmt::format("{} {}{} {}{}", c.id, label_of(e.name, e.preset), after_blank(row.mode),
+                             row.metric, row.level ? fmt::format(" at {:g}", *row.level) : "");
   remark.text = fmt::format("{}: {}; the limit is there because: {}", row.verdict, row.why, row.gate.reason);
   return remark;
 }
@@ -36,8 +36,8 @@ std::string command(const Remark& r, std::size_t more) {
   else
     place = " ";
   const std::string rest = more > 0 ? fmt::format(" (and {} more, which results.json lists)", more) : "";
-  return fmt::format("::{}{}title={}::{}\n", r.error ? "error" : "warning", place, command_text(r.title, true),
-                     command_text(r.text + rest, false));
+  return fmt::format("::{}{}title={}::{}\n", r.error ? "error" : "warning", place,
+                     command_text(r.title, true), command_text(r.text + rest, false));
 }
 
 }  // namespace
@@ -45,13 +45,16 @@ std::string command(const Remark& r, std::size_t more) {
 std::vector<Remark> verdict_remarks(const Results& results) {
   std::vector<Remark> list;
   for (const auto& c : results.cases) {
-    for (const auto& p : c.problems) list.push_back({true, c.exit_code, {c.file, 1, 0}, c.id, p, infinity, {}});
+    for (const auto& p : c.problems)
+      list.push_back({true, c.exit_code, {c.file, 1, 0}, c.id, p, infinity, {}});
     for (const auto& e : c.engines)
       for (const auto& row : e.gates)
         if (row.verdict != Verdict::pass) list.push_back(remark_on(c, e, row));
   }
-  for (const auto& p : results.problems) list.push_back({true, results.exit_code, {}, "the results", p, infinity, {}});
-  std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.excess > b.excess; });
+  for (const auto& p : results.problems)
+    list.push_back({true, results.exit_code, {}, "the results", p, infinity, {}});
+  std::stable_sort(list.begin(), list.end(),
+                   [](const auto& a, const auto& b) { return a.excess > b.excess; });
   return list;
 }
 

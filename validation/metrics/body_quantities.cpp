@@ -10,15 +10,18 @@ namespace {
 bool alive(const BodyState& b) { return finite(b.position); }
 bool whole(const BodyState& b) {
   const auto& q = b.orientation;
-  return finite(b.position) && finite(b.velocity) && finite(b.angular_velocity) && std::isfinite(q.w + q.x + q.y + q.z);
+  return finite(b.position) && finite(b.velocity) && finite(b.angular_velocity) &&
+         std::isfinite(q.w + q.x + q.y + q.z);
 }
 
-/// One sample for each body that is alive, or for the metric's body alone. A body that only one side has is an error, not a gap.
+/// One sample for each body that is alive, or for the metric's body alone. A body that only one side has is
+/// an error, not a gap.
 template <class F>
 FrameError over_bodies(const FramePair& f, F difference) {
   if (f.truth.bodies.empty()) return problem("the reference does not know the bodies");
   const long only = body_row(f.in);
-  if (only < 0 && !f.in.choice.body.empty()) return problem("body `" + f.in.choice.body + "` is liquid and has no row");
+  if (only < 0 && !f.in.choice.body.empty())
+    return problem("body `" + f.in.choice.body + "` is liquid and has no row");
   FrameError out;
   const std::size_t rows = std::max(f.now.bodies.size(), f.truth.bodies.size());
   for (std::size_t b = 0; b < rows; ++b) {
@@ -27,7 +30,8 @@ FrameError over_bodies(const FramePair& f, F difference) {
                truth = b < f.truth.bodies.size() && alive(f.truth.bodies[b]);
     if (!run && !truth && only < 0) continue;
     if (run != truth || !run)
-      return problem("body row " + std::to_string(b) + (run ? " should not exist" : " is missing or not finite") +
+      return problem("body row " + std::to_string(b) +
+                     (run ? " should not exist" : " is missing or not finite") +
                      " at t = " + std::to_string(f.now.time) + " s");
     if (!whole(f.now.bodies[b])) return problem("body row " + std::to_string(b) + " is not finite");
     out.add(difference(f.now.bodies[b], f.truth.bodies[b]), 1.0, static_cast<long>(b));
@@ -43,13 +47,16 @@ const BodyState* row_of(const FramePair& f) {
   return whole(b) ? &b : nullptr;
 }
 
-/// A vector of the named body against a number that the case states: its component along the stated axis, else its length.
+/// A vector of the named body against a number that the case states: its component along the stated axis,
+/// else its length.
 FrameError stated_vector(const FramePair& f, Vec3 BodyState::*what, const char* name) {
   const auto axis = f.in.reference.measuring().axis;
   if (!truth_of(f.in, name, f.now.time))
     return problem(std::string("the reference does not know the bodies: name one, and state its ") + name +
-                   ": reference = {function = \"stated\", args = {value = ...}}, with an axis for the component along it");
-  if (f.in.choice.body.empty()) return problem(std::string("a stated ") + name + " is that of one solid body: name it");
+                   ": reference = {function = \"stated\", args = {value = ...}}, with an axis for the "
+                   "component along it");
+  if (f.in.choice.body.empty())
+    return problem(std::string("a stated ") + name + " is that of one solid body: name it");
   const auto* body = row_of(f);
   if (!body) return problem("the trajectory does not have the body");
   if (what == &BodyState::position && !axis)
@@ -59,19 +66,21 @@ FrameError stated_vector(const FramePair& f, Vec3 BodyState::*what, const char* 
 
 /// A vector of bodies against those of the reference, else against the number that the case states.
 Quantity vector_of_bodies(const char* name, const char* unit, const char* meaning, Vec3 BodyState::*what) {
-  return {
-      {name, unit, meaning}, [=](const FramePair& f) {
-        if (f.truth.bodies.empty()) return stated_vector(f, what, name);
-        return over_bodies(f, [&](const BodyState& a, const BodyState& b) {
-          return norm(what == &BodyState::position ? displacement(f.in.job.scene, a.position, b.position) : a.*what - b.*what);
-        });
-      }};
+  return {{name, unit, meaning}, [=](const FramePair& f) {
+            if (f.truth.bodies.empty()) return stated_vector(f, what, name);
+            return over_bodies(f, [&](const BodyState& a, const BodyState& b) {
+              return norm(what == &BodyState::position ? displacement(f.in.job.scene, a.position, b.position)
+                                                       : a.*what - b.*what);
+            });
+          }};
 }
 
-/// Against the orientation of the reference, else the angle turned since the start against the number that the case states.
+/// Against the orientation of the reference, else the angle turned since the start against the number that
+/// the case states.
 FrameError orientation(const FramePair& f) {
   if (!f.truth.bodies.empty())
-    return over_bodies(f, [](const auto& a, const auto& b) { return angle_between(a.orientation, b.orientation); });
+    return over_bodies(
+        f, [](const auto& a, const auto& b) { return angle_between(a.orientation, b.orientation); });
   if (f.in.choice.body.empty() || !truth_of(f.in, "orientation", f.now.time))
     return problem("the reference does not know the bodies");
   const auto* body = row_of(f);
@@ -79,15 +88,17 @@ FrameError orientation(const FramePair& f) {
               : problem("the trajectory does not have the body");
 }
 
-double alive_count(const Snapshot& s) { return static_cast<double>(std::count_if(s.bodies.begin(), s.bodies.end(), alive)); }
+double alive_count(const Snapshot& s) {
+  return static_cast<double>(std::count_if(s.bodies.begin(), s.bodies.end(), alive));
+}
 
 FrameError body_count(const FramePair& f) {
   if (f.truth.bodies.empty()) return against_truth(f, "body_count", alive_count(f.now));
   return single(alive_count(f.now) - alive_count(f.truth));
 }
 
-/// Largest relative change of the distances to four members far apart, which fix the shape of all; pairs in one body now and then
-/// only.
+/// Largest relative change of the distances to four members far apart, which fix the shape of all; pairs in
+/// one body now and then only.
 double stretch(const FramePair& f, const std::vector<std::size_t>& members) {
   const auto& start = f.in.initial.position;
   std::vector<std::size_t> anchors{members.front()};
@@ -97,14 +108,16 @@ double stretch(const FramePair& f, const std::vector<std::size_t>& members) {
       for (const auto a : anchors) least = std::min(least, norm(start[i] - start[a]));
       return least;
     };
-    anchors.push_back(*std::max_element(members.begin(), members.end(), [&](auto i, auto j) { return reach(i) < reach(j); }));
+    anchors.push_back(*std::max_element(members.begin(), members.end(),
+                                        [&](auto i, auto j) { return reach(i) < reach(j); }));
   }
   double worst = 0.0;
   for (const auto a : anchors)
     for (const auto i : members) {
       if (i == a || f.now.body[i] != f.now.body[a]) continue;
       const double before = norm(start[i] - start[a]);
-      const double change = norm(displacement(f.in.job.scene, f.now.position[i], f.now.position[a])) / before - 1.0;
+      const double change =
+          norm(displacement(f.in.job.scene, f.now.position[i], f.now.position[a])) / before - 1.0;
       if (!std::isfinite(change)) return not_a_number;
       worst = std::max(worst, std::abs(change));
     }
@@ -117,8 +130,9 @@ FrameError shape(const FramePair& f) {
   FrameError out;
   for (std::size_t b = 0; b < f.in.job.bodies.size(); ++b) {
     const auto& body = f.in.job.bodies[b];
-    const bool meant =
-        f.in.choice.body.empty() ? body.phase == Phase::rigid : body.phase != Phase::liquid && f.in.choice.body == body.name;
+    const bool meant = f.in.choice.body.empty()
+                           ? body.phase == Phase::rigid
+                           : body.phase != Phase::liquid && f.in.choice.body == body.name;
     if (!meant) continue;
     std::vector<std::size_t> members;
     for (std::size_t i = 0; i < f.in.initial.size(); ++i)
@@ -135,21 +149,25 @@ const std::vector<Quantity>& body_quantities() {
       vector_of_bodies("position", "m", "", &BodyState::position),
       vector_of_bodies("velocity", "m/s", "", &BodyState::velocity),
       {{"orientation", "rad",
-        "angle between the orientations of bodies, 0 to pi; of a named body the angle since the start minus the stated value"},
+        "angle between the orientations of bodies, 0 to pi; of a named body the angle since the start minus "
+        "the stated value"},
        orientation},
-      vector_of_bodies(
-          "angular_velocity", "rad/s",
-          "difference of angular velocities of bodies, world frame; of a named body its size (component) minus the stated value",
-          &BodyState::angular_velocity),
-      vector_of_bodies(
-          "force", "N",
-          "difference of the forces on bodies from all others; of a named body its size (component) minus the stated value",
-          &BodyState::force),
-      vector_of_bodies("torque", "N m", "difference of the torques on bodies from all others; of a named body as for `force`",
+      vector_of_bodies("angular_velocity", "rad/s",
+                       "difference of angular velocities of bodies, world frame; of a named body its size "
+                       "(component) minus the stated value",
+                       &BodyState::angular_velocity),
+      vector_of_bodies("force", "N",
+                       "difference of the forces on bodies from all others; of a named body its size "
+                       "(component) minus the stated value",
+                       &BodyState::force),
+      vector_of_bodies("torque", "N m",
+                       "difference of the torques on bodies from all others; of a named body as for `force`",
                        &BodyState::torque),
-      {{"body_count", "1", "difference in the number of solid bodies alive, or from the stated value"}, body_count},
+      {{"body_count", "1", "difference in the number of solid bodies alive, or from the stated value"},
+       body_count},
       {{"shape", "1",
-        "largest relative change of distances inside a rigid body, or an elastic one that is named, since the start; needs no "
+        "largest relative change of distances inside a rigid body, or an elastic one that is named, since "
+        "the start; needs no "
         "reference"},
        shape}};
   return list;

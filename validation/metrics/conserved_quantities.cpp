@@ -10,9 +10,13 @@ namespace {
 using Real = long double;  // sums of 1e5 terms stay below 1e-15 of the whole
 
 /// Masses, places and velocities of living particles; empty when the frame does not have them all.
-bool has_motion(const Snapshot& s, std::size_t n) { return s.position.size() >= n && s.velocity.size() >= n && n > 0; }
+bool has_motion(const Snapshot& s, std::size_t n) {
+  return s.position.size() >= n && s.velocity.size() >= n && n > 0;
+}
 /// A sum is of all particles that are alive, or of those of the metric's body.
-bool left_out(const MetricInput& in, const Snapshot& s, std::size_t i) { return !is_alive(s, i) || !takes(in, i); }
+bool left_out(const MetricInput& in, const Snapshot& s, std::size_t i) {
+  return !is_alive(s, i) || !takes(in, i);
+}
 double mass_of(const MetricInput& in, const Snapshot& s, std::size_t i) {
   if (i < s.mass.size()) return s.mass[i];
   return i < in.initial.size() ? in.initial.mass[i] : not_a_number;
@@ -46,8 +50,9 @@ Vec3 angular_momentum(const MetricInput& in, const Snapshot& s) {
   const double M = total_mass(in, s);
   const Vec3 centre = vector_sum(in, s, [&](std::size_t i) { return mass_of(in, s, i) * s.position[i]; }) / M;
   const Vec3 drift = momentum(in, s) / M;
-  return vector_sum(in, s,
-                    [&](std::size_t i) { return mass_of(in, s, i) * cross(s.position[i] - centre, s.velocity[i] - drift); });
+  return vector_sum(in, s, [&](std::size_t i) {
+    return mass_of(in, s, i) * cross(s.position[i] - centre, s.velocity[i] - drift);
+  });
 }
 
 double kinetic(const MetricInput& in, const Snapshot& s) {
@@ -77,7 +82,8 @@ std::optional<double> thermal(const MetricInput& in, const Snapshot& s) {
   return double(sum);
 }
 
-/// A ledger term of a frame [J]: kinetic, potential and thermal from the particles themselves, the rest as the engine keeps it.
+/// A ledger term of a frame [J]: kinetic, potential and thermal from the particles themselves, the rest as
+/// the engine keeps it.
 std::optional<double> term_of(const MetricInput& in, const Snapshot& s, const std::string& term) {
   const bool moves = has_motion(s, in.initial.size());
   if (term == "kinetic") return moves ? std::optional(kinetic(in, s)) : std::nullopt;
@@ -97,24 +103,29 @@ std::optional<double> term_of(const MetricInput& in, const Snapshot& s, const st
 FrameError ledger(const FramePair& f) {
   const std::string term = f.in.choice.quantity.substr(std::string("ledger.").size());
   const auto now = term_of(f.in, f.now, term);
-  if (!now && !f.in.choice.body.empty()) return problem("the ledger term `" + term + "` is of the whole scene: leave out `body`");
+  if (!now && !f.in.choice.body.empty())
+    return problem("the ledger term `" + term + "` is of the whole scene: leave out `body`");
   if (!now) return problem("the trajectory has no ledger term `" + term + "`");
   auto truth = term_of(f.in, term == "residual" ? f.first : f.truth, term);
   if (!truth && term == "kinetic" && f.in.choice.body.empty())
     truth = f.in.reference.number("kinetic_energy");  // a law of conservation knows it without particles
   if (const auto stated = f.in.reference.number("value"); !truth && stated) return single(*now - *stated);
-  if (!truth) return problem("the reference does not know the ledger term `" + term + "`: use norm = \"drift\"");
+  if (!truth)
+    return problem("the reference does not know the ledger term `" + term + "`: use norm = \"drift\"");
   return single(*now - *truth);
 }
 
-/// A sum over all particles, by its component along the stated axis, else by its length, less the number that the case states.
+/// A sum over all particles, by its component along the stated axis, else by its length, less the number that
+/// the case states.
 FrameError stated_sum(const FramePair& f, const char* name, const Vec3& sum) {
   const auto axis = f.in.reference.measuring().axis;
   return against_truth(f, name, axis ? sum[*axis] : norm(sum));
 }
 
 /// Whether the case states a number where the reference has no particles.
-bool is_stated(const FramePair& f) { return f.truth.position.empty() && f.in.reference.number_at("value", f.now.time); }
+bool is_stated(const FramePair& f) {
+  return f.truth.position.empty() && f.in.reference.number_at("value", f.now.time);
+}
 
 template <class F>
 FrameError vector_change(const FramePair& f, F quantity, const char* name) {
@@ -122,7 +133,8 @@ FrameError vector_change(const FramePair& f, F quantity, const char* name) {
   if (!has_motion(f.now, n)) return problem("the trajectory has no positions and velocities");
   if (is_stated(f)) return stated_sum(f, name, quantity(f.in, f.now));
   if (!has_motion(f.truth, n))
-    return problem(std::string("the reference has no particles to sum the ") + name + " of: use norm = \"drift\"");
+    return problem(std::string("the reference has no particles to sum the ") + name +
+                   " of: use norm = \"drift\"");
   const Vec3 d = quantity(f.in, f.now) - quantity(f.in, f.truth);
   return finite(d) ? single(norm(d)) : problem(std::string(name) + " is not finite");
 }
@@ -130,8 +142,10 @@ FrameError vector_change(const FramePair& f, F quantity, const char* name) {
 FrameError momentum_change(const FramePair& f) {
   if (is_stated(f) || !f.in.choice.body.empty() || !f.truth.position.empty() || f.truth.total_mass <= 0.0)
     return vector_change(f, momentum, "momentum");
-  if (!has_motion(f.now, f.in.initial.size())) return problem("the trajectory has no positions and velocities");
-  return single(norm(momentum(f.in, f.now) - f.truth.momentum));  // a law of conservation knows it without particles
+  if (!has_motion(f.now, f.in.initial.size()))
+    return problem("the trajectory has no positions and velocities");
+  // a law of conservation knows it without particles
+  return single(norm(momentum(f.in, f.now) - f.truth.momentum));
 }
 
 FrameError mass_change(const FramePair& f) {
@@ -148,7 +162,8 @@ FrameError energy_change(const FramePair& f) {
   if (!has_motion(f.now, n)) return problem("the trajectory has no positions and velocities");
   const auto of = [&](const Snapshot& s) { return kinetic(f.in, s) + potential(f.in, s); };
   if (is_stated(f)) return against_truth(f, "energy", of(f.now));
-  if (!has_motion(f.truth, n)) return problem("the reference has no particles to sum the energy of: use norm = \"drift\"");
+  if (!has_motion(f.truth, n))
+    return problem("the reference has no particles to sum the energy of: use norm = \"drift\"");
   return single(of(f.now) - of(f.truth));
 }
 
@@ -156,14 +171,17 @@ FrameError energy_ratio(const FramePair& f) {
   const auto ratio = truth_of(f.in, "energy_ratio", f.now.time);
   if (!ratio) return problem("the reference does not know the energy ratio and states no value");
   const auto n = f.in.initial.size();
-  if (!has_motion(f.now, n) || !has_motion(f.first, n)) return problem("the trajectory has no positions and velocities");
+  if (!has_motion(f.now, n) || !has_motion(f.first, n))
+    return problem("the trajectory has no positions and velocities");
   return single(kinetic(f.in, f.now) / kinetic(f.in, f.first) - *ratio);
 }
 
 FrameError bonded_objects(const FramePair& f) {
   const auto count = f.now.counts.find("objects");
   if (count == f.now.counts.end())
-    return problem("the run counts no objects: nothing in its scene melts, freezes or breaks, or its engine has no bonds");
+    return problem(
+        "the run counts no objects: nothing in its scene melts, freezes or breaks, or its engine has no "
+        "bonds");
   return against_truth(f, "bonded_objects", count->second);
 }
 
@@ -180,16 +198,22 @@ const std::vector<Quantity>& conserved_quantities() {
   static const std::vector<Quantity> list{
       {{"mass", "kg", "difference of the total mass (or the body's, as for all sums below)"}, mass_change},
       {{"momentum", "kg m/s", "length of the difference of the total momentum"}, momentum_change},
-      {{"angular_momentum", "kg m2/s", "length of the difference of the angular momentum about the centre of mass"},
+      {{"angular_momentum", "kg m2/s",
+        "length of the difference of the angular momentum about the centre of mass"},
        [](const FramePair& f) { return vector_change(f, angular_momentum, "angular momentum"); }},
       {{"energy", "J", "difference of kinetic and potential energy, from the particles"}, energy_change},
-      {{"energy_ratio", "1", "kinetic energy over that of the first frame, minus the reference's energy_ratio"}, energy_ratio},
+      {{"energy_ratio", "1",
+        "kinetic energy over that of the first frame, minus the reference's energy_ratio"},
+       energy_ratio},
       {{"bonded_objects", "1",
-        "solid objects that bonds hold together, as the engine counts them, minus the stated value; what only touches is two"},
+        "solid objects that bonds hold together, as the engine counts them, minus the stated value; what "
+        "only touches is two"},
        bonded_objects},
-      {{"recoveries", "1", "how often a guard sent the run back to a good state, minus the stated value"}, recoveries},
+      {{"recoveries", "1", "how often a guard sent the run back to a good state, minus the stated value"},
+       recoveries},
       {{"ledger.TERM", "J",
-        "difference of a ledger term, from the particles or as the engine keeps it; residual is the change of their sum"},
+        "difference of a ledger term, from the particles or as the engine keeps it; residual is the change "
+        "of their sum"},
        ledger}};
   return list;
 }

@@ -56,7 +56,8 @@ DominantFrequency dominant_frequency(const std::vector<double>& time, const std:
     variance += y.back() * y.back();
   }
   if (!std::isfinite(variance)) return none("the quantity is not finite at all output times of the window");
-  if (!(variance > 1e-24 * largest * largest * count)) return none("the quantity does not change: it has no frequency");
+  if (!(variance > 1e-24 * largest * largest * count))
+    return none("the quantity does not change: it has no frequency");
   if (!(highest > lowest)) return none("the window has too few output times for a frequency");
   const double step = 1.0 / (steps_a_period * length);
   const auto steps = static_cast<int>((highest - lowest) / step);
@@ -69,7 +70,8 @@ DominantFrequency dominant_frequency(const std::vector<double>& time, const std:
     }
   if (best == 0 || best == steps)
     return none(
-        "the quantity swings less than one and a half times in the window, or too fast for its output times: lengthen the window "
+        "the quantity swings less than one and a half times in the window, or too fast for its output times: "
+        "lengthen the window "
         "or shorten output_interval");
   double low = lowest + (best - 1) * step, high = lowest + (best + 1) * step;
   const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
@@ -88,7 +90,8 @@ DominantFrequency dominant_frequency(const std::vector<double>& time, const std:
   if (d.share < least_share)
     return none("no single frequency stands out: the best sine explains " + std::to_string(100.0 * d.share) +
                 " % of the variance");
-  d.uncertainty = std::sqrt(6.0 / count) * std::sqrt(fit.rest / (count - 4.0)) / (std::numbers::pi * length * d.amplitude);
+  d.uncertainty = std::sqrt(6.0 / count) * std::sqrt(fit.rest / (count - 4.0)) /
+                  (std::numbers::pi * length * d.amplitude);
   return d;
 }
 

@@ -13,8 +13,9 @@ struct DominantFrequency {
   std::string problem;                  ///< why there is none
 };
 
-/// By least squares, scanned from one and a half periods in the series to a quarter of the rate of samples, then refined. For a
-/// signal that is no sine the first harmonic counts. @param time rising [s]
-[[nodiscard]] DominantFrequency dominant_frequency(const std::vector<double>& time, const std::vector<double>& value);
+/// By least squares, scanned from one and a half periods in the series to a quarter of the rate of samples,
+/// then refined. For a signal that is no sine the first harmonic counts. @param time rising [s]
+[[nodiscard]] DominantFrequency dominant_frequency(const std::vector<double>& time,
+                                                   const std::vector<double>& value);
 
 }  // namespace tripoint

@@ -78,7 +78,8 @@ struct Quantity {
 [[nodiscard]] const std::vector<Quantity>& phase_quantities();
 [[nodiscard]] const std::vector<Quantity>& probe_quantities();
 
-/// A quantity that needs the whole run: decay_rate, event_time, event_count. The value is signed, run minus truth, in SI.
+/// A quantity that needs the whole run: decay_rate, event_time, event_count. The value is signed, run minus
+/// truth, in SI.
 struct RunQuantity {
   MetricWord word;
   std::function<MetricValue(const MetricInput&, const std::vector<const Snapshot*>& frames)> value;
@@ -96,8 +97,8 @@ struct RunQuantity {
 [[nodiscard]] double rest_volume(const MetricInput&, std::size_t particle);
 /// Whether the metric takes a particle: all, or those of its body as sampled.
 [[nodiscard]] bool takes(const MetricInput&, std::size_t particle);
-/// Row of the metric's body in /particles/bodies, or -1 when it names none. @throws InputError for a name that the job does not
-/// have
+/// Row of the metric's body in /particles/bodies, or -1 when it names none. @throws InputError for a name
+/// that the job does not have
 [[nodiscard]] long body_row(const MetricInput&);
 
 }  // namespace tripoint

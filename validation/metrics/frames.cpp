@@ -11,10 +11,11 @@ namespace {
 
 std::string wrong_rows(const Snapshot& frame, const Job& job, const InitialState& initial) {
   if (frame.gauges_only()) return {};
-  const std::size_t n = initial.size(), rows = frame.position.empty() ? frame.temperature.size() : frame.position.size();
+  const std::size_t n = initial.size(),
+                    rows = frame.position.empty() ? frame.temperature.size() : frame.position.size();
   if (rows != n && (job.scene.inflows.empty() || rows < n))
-    return "the frame at t = " + std::to_string(frame.time) + " s has " + std::to_string(rows) + " particles, the job " +
-           std::to_string(n);
+    return "the frame at t = " + std::to_string(frame.time) + " s has " + std::to_string(rows) +
+           " particles, the job " + std::to_string(n);
   for (std::size_t i = 0; i < frame.id.size(); ++i)
     if (frame.id[i] != static_cast<int>(i) && frame.id[i] != -1)
       return "ids are permuted: row " + std::to_string(i) + " holds particle " + std::to_string(frame.id[i]) +
@@ -24,14 +25,17 @@ std::string wrong_rows(const Snapshot& frame, const Job& job, const InitialState
 
 }  // namespace
 
-double time_tolerance(const Job& job) { return 1e-9 * (job.times.empty() ? job.scene.end_time : std::abs(job.times.back())); }
+double time_tolerance(const Job& job) {
+  return 1e-9 * (job.times.empty() ? job.scene.end_time : std::abs(job.times.back()));
+}
 
 JobFrames frames_of_job(const Job& job, const InitialState& initial, const Trajectory& run) {
   JobFrames out;
   if (run.frames.empty()) return {{}, "the trajectory is empty"};
   if (job.times.empty()) return {{}, "the job has no output times"};
   for (std::size_t n = 1; n < run.frames.size(); ++n)
-    if (!(run.frames[n].time > run.frames[n - 1].time)) return {{}, "times do not increase at frame " + std::to_string(n)};
+    if (!(run.frames[n].time > run.frames[n - 1].time))
+      return {{}, "times do not increase at frame " + std::to_string(n)};
   std::size_t at = 0;
   for (const double time : job.times) {
     while (at < run.frames.size() && run.frames[at].time < time - time_tolerance(job)) ++at;
@@ -61,7 +65,8 @@ Frames chosen_frames(const MetricChoice& choice, const Job& job, const Frames& f
   const auto [stop, error] = std::from_chars(first, last, time);
   const std::string unit(stop, last);
   if (error != std::errc() || (!unit.empty() && unit != " s" && unit != "s"))
-    throw InputError(choice.place, "metric `" + choice.name + "`: `at` must be \"end\", \"all\" or a time in seconds");
+    throw InputError(choice.place,
+                     "metric `" + choice.name + "`: `at` must be \"end\", \"all\" or a time in seconds");
   for (const auto* f : frames)
     if (std::abs(f->time - time) <= time_tolerance(job)) return {f};
   throw InputError(choice.place, "metric `" + choice.name + "`: `at` is no output time of the scene");

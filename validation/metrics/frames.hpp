@@ -13,14 +13,16 @@ struct Trajectory;
 
 using Frames = std::vector<const Snapshot*>;
 
-/// The run's frames at the job's times, one for each; `problem` when one is missing or a frame does not hold the job's particles.
+/// The run's frames at the job's times, one for each; `problem` when one is missing or a frame does not hold
+/// the job's particles.
 struct JobFrames {
   Frames list;
   std::string problem;
 };
 [[nodiscard]] JobFrames frames_of_job(const Job&, const InitialState&, const Trajectory&);
 
-/// Frames that a metric looks at. For a norm in space: by `at` ("end", "all" or a time in s). For one in time: by `window`.
+/// Frames that a metric looks at. For a norm in space: by `at` ("end", "all" or a time in s). For one in
+/// time: by `window`.
 /// @throws InputError when `at` is none of these or no output time of the job
 [[nodiscard]] Frames chosen_frames(const MetricChoice&, const Job&, const Frames&);
 [[nodiscard]] Frames frames_in_window(const MetricChoice&, const Job&, const Frames&);

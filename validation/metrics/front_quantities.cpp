@@ -14,17 +14,20 @@ namespace {
 bool belongs_to_the_liquid(const MetricInput& in, const Snapshot& s, std::size_t particle) {
   int companions = 0;
   for (std::size_t j = 0; j < s.position.size() && companions < 2; ++j)
-    companions += j != particle && takes_liquid(in, s, j) &&
-                  norm(displacement(in.job.scene, s.position[j], s.position[particle])) < 1.5 * in.job.scene.spacing;
+    companions +=
+        j != particle && takes_liquid(in, s, j) &&
+        norm(displacement(in.job.scene, s.position[j], s.position[particle])) < 1.5 * in.job.scene.spacing;
   return companions == 2;
 }
 
-/// Place of the foremost particle of the liquid that is no lone drop, half a spacing added [m]; NaN where there is none.
+/// Place of the foremost particle of the liquid that is no lone drop, half a spacing added [m]; NaN where
+/// there is none.
 double front_of(const MetricInput& in, const Snapshot& s, std::size_t axis) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < s.position.size(); ++i)
     if (takes_liquid(in, s, i) && finite(s.position[i])) order.push_back(i);
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return s.position[a][axis] > s.position[b][axis]; });
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return s.position[a][axis] > s.position[b][axis]; });
   for (const auto i : order)
     if (belongs_to_the_liquid(in, s, i)) return s.position[i][axis] + 0.5 * in.job.scene.spacing;
   return std::numeric_limits<double>::quiet_NaN();
@@ -37,7 +40,8 @@ struct Fronts {
 };
 
 /// The front at a time, by a straight line between two frames; none beyond the first and the last.
-std::optional<double> front_at(const MetricInput& in, const std::vector<double>& t, const std::vector<double>& x, double time) {
+std::optional<double> front_at(const MetricInput& in, const std::vector<double>& t,
+                               const std::vector<double>& x, double time) {
   const auto next = std::lower_bound(t.begin(), t.end(), time - time_tolerance(in.job));
   if (next == t.end()) return {};
   const auto k = static_cast<std::size_t>(next - t.begin());
@@ -50,7 +54,8 @@ std::optional<double> front_at(const MetricInput& in, const std::vector<double>&
 Fronts fronts(const MetricInput& in, const std::vector<const Snapshot*>& frames) {
   const auto axis = in.reference.measuring().axis;
   const auto* curve = in.reference.measured("front");
-  if (!axis || !curve) return {{}, {}, {}, {}, "the reference has no measured front, or names no axis along which it runs"};
+  if (!axis || !curve)
+    return {{}, {}, {}, {}, "the reference has no measured front, or names no axis along which it runs"};
   std::vector<double> t, x;
   for (const auto* s : frames) {
     t.push_back(s->time);
@@ -64,7 +69,8 @@ Fronts fronts(const MetricInput& in, const std::vector<const Snapshot*>& frames)
               {},
               {},
               {},
-              "a front was measured at t = " + std::to_string(curve->time[n]) + " s, which the run's frames do not enclose"};
+              "a front was measured at t = " + std::to_string(curve->time[n]) +
+                  " s, which the run's frames do not enclose"};
     f.time.push_back(curve->time[n]);
     f.run.push_back(*run);
     f.measured.push_back(curve->value[n]);
@@ -74,7 +80,8 @@ Fronts fronts(const MetricInput& in, const std::vector<const Snapshot*>& frames)
               {},
               {},
               {},
-              (in.choice.body.empty() ? std::string("no liquid") : "body `" + in.choice.body + "` has no liquid that") +
+              (in.choice.body.empty() ? std::string("no liquid")
+                                      : "body `" + in.choice.body + "` has no liquid that") +
                   " has a front at t = " + std::to_string(f.time.back()) + " s"};
   }
   return f;
@@ -115,9 +122,11 @@ MetricValue front_speed(const MetricInput& in, const std::vector<const Snapshot*
 const std::vector<RunQuantity>& front_quantities() {
   static const std::vector<RunQuantity> list{
       {{"front_lead", "m",
-        "front of the liquid (or body) minus the measured one, where the difference is largest; its uncertainty is the data's"},
+        "front of the liquid (or body) minus the measured one, where the difference is largest; its "
+        "uncertainty is the data's"},
        front_lead},
-      {{"front_speed", "1", "mean speed of the front from the first measured place to the last over the measured one, minus 1"},
+      {{"front_speed", "1",
+        "mean speed of the front from the first measured place to the last over the measured one, minus 1"},
        front_speed}};
   return list;
 }

@@ -39,7 +39,8 @@ double observed_order(const List& h, const List& value) {
   };
   if (h.size() < 3) return std::numeric_limits<double>::quiet_NaN();
   double best = 0.1;
-  const auto exact = [&](double p) {  // three levels: no residual of freedom is left, so minimise the sum itself
+  // Three levels: no residual of freedom is left, so minimise the sum itself
+  const auto exact = [&](double p) {
     const auto fit = expand(h, value, {p});
     return h.size() > 3 ? fit.deviation : std::abs(fit.residual.back());
   };
@@ -60,14 +61,16 @@ List grid_convergence_uncertainties(const List& step, const List& value, double 
   const auto [least, greatest] = std::minmax_element(value.begin(), value.end());
   if (*least == *greatest) return List(n, 0.0);
   if (n == 2) {  // Roache's factor 3 for two grids
-    const double ratio = std::pow(step[0] / step[1], formal), fine = 0.5 * 3.0 * std::abs(value[1] - value[0]) / (ratio - 1.0);
+    const double ratio = std::pow(step[0] / step[1], formal),
+                 fine = 0.5 * 3.0 * std::abs(value[1] - value[0]) / (ratio - 1.0);
     return {ratio * fine, fine};
   }
   const double p = observed_order(step, value);
   const bool good = p >= 0.5 && p < 1.05 * formal;
   Expansion fit = expand(step, value, {p});
   if (!good) {  // fixed powers; the one with the least deviation
-    const std::vector<List> models = n > 3 ? std::vector<List>{{1.0}, {2.0}, {1.0, 2.0}} : std::vector<List>{{1.0}, {2.0}};
+    const std::vector<List> models =
+        n > 3 ? std::vector<List>{{1.0}, {2.0}, {1.0, 2.0}} : std::vector<List>{{1.0}, {2.0}};
     fit = expand(step, value, models.front());
     for (const auto& powers : models)
       if (auto other = expand(step, value, powers); other.deviation < fit.deviation) fit = std::move(other);

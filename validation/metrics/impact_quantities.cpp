@@ -13,7 +13,8 @@
 namespace tripoint {
 namespace {
 
-// --- energy ---------------------------------------------------------------------------------------------------------------
+// --- energy
+// ---------------------------------------------------------------------------------------------------------------
 
 /// Kinetic and potential energy of the particles of free bodies that the metric takes [J].
 double free_energy(const MetricInput& in, const Snapshot& s) {
@@ -21,7 +22,8 @@ double free_energy(const MetricInput& in, const Snapshot& s) {
   for (std::size_t i = 0; i < in.initial.size(); ++i) {
     if (!takes(in, i) || !is_alive(s, i) || is_driven(in, i)) continue;
     const double m = particle_mass(in, s, i);
-    sum += static_cast<long double>(m) * (0.5 * dot(s.velocity[i], s.velocity[i]) - dot(in.job.scene.gravity, s.position[i]));
+    sum += static_cast<long double>(m) *
+           (0.5 * dot(s.velocity[i], s.velocity[i]) - dot(in.job.scene.gravity, s.position[i]));
   }
   return double(sum);
 }
@@ -40,7 +42,8 @@ std::map<int, Vec3> mean_velocities(const MetricInput& in, const Snapshot& s) {
   return sum;
 }
 
-/// Whether nothing pushes harder than a floor with friction does between two frames. A hit pushes harder, and stores energy.
+/// Whether nothing pushes harder than a floor with friction does between two frames. A hit pushes harder, and
+/// stores energy.
 bool is_quiet(const MetricInput& in, const Snapshot& before, const Snapshot& now) {
   constexpr double floor_with_friction = 1.5;  // sqrt(1 + mu^2) with mu = 1, in units of the weight
   const double dt = now.time - before.time;
@@ -48,14 +51,15 @@ bool is_quiet(const MetricInput& in, const Snapshot& before, const Snapshot& now
   for (const auto& [body, v] : mean_velocities(in, now)) {
     const auto old = then.find(body);
     if (old == then.end()) continue;
-    const double push = norm(v - old->second - dt * in.job.scene.gravity), round_off = 1e-6 * norm(old->second);
+    const double push = norm(v - old->second - dt * in.job.scene.gravity),
+                 round_off = 1e-6 * norm(old->second);
     if (push > floor_with_friction * dt * norm(in.job.scene.gravity) + round_off) return false;
   }
   return true;
 }
 
-/// Frames whose energy is a bound for all later ones. In a hit a contact stores energy, and gives it back; so does an elastic
-/// body at any time after the start.
+/// Frames whose energy is a bound for all later ones. In a hit a contact stores energy, and gives it back; so
+/// does an elastic body at any time after the start.
 std::vector<bool> bounds_later(const MetricInput& in, const Frames& frames) {
   std::vector<bool> bounds(frames.size(), true);
   bool stores = false;
@@ -69,7 +73,8 @@ std::vector<bool> bounds_later(const MetricInput& in, const Frames& frames) {
   return bounds;
 }
 
-/// Gravity and hits can only take energy. An excess of a frame over all bounds before it is made by the engine.
+/// Gravity and hits can only take energy. An excess of a frame over all bounds before it is made by the
+/// engine.
 MetricValue energy_gain(const MetricInput& in, const Frames& frames) {
   if (frames.size() < 2) return not_formed("an energy gain needs two output times or more");
   for (const auto* s : frames)
@@ -81,7 +86,8 @@ MetricValue energy_gain(const MetricInput& in, const Frames& frames) {
   double least = INFINITY;
   for (std::size_t n = 0; n < frames.size(); ++n) {
     const double now = free_energy(in, *frames[n]), time = frames[n]->time;
-    if (!std::isfinite(now)) return not_formed("the energy is not finite at t = " + std::to_string(time) + " s");
+    if (!std::isfinite(now))
+      return not_formed("the energy is not finite at t = " + std::to_string(time) + " s");
     if (now - least > v.value) {
       v.value = now - least;
       v.note = "most at t = " + std::to_string(time) + " s";
@@ -93,7 +99,8 @@ MetricValue energy_gain(const MetricInput& in, const Frames& frames) {
   return v;
 }
 
-// --- depth ----------------------------------------------------------------------------------------------------------------
+// --- depth
+// ----------------------------------------------------------------------------------------------------------------
 
 double lowest(const Shape& shape, const Vec3& centre, const BodyState& at, const Vec3& up);
 
@@ -104,10 +111,13 @@ double lowest_of_turned(const Shape& shape, const Vec3& centre, BodyState at, co
   return lowest(not_turned(shape), middle + rotate_back(shape.rotation, centre - middle), at, up);
 }
 
-/// Least height of the shape's surface along a unit vector, the shape being turned about `centre` and put to `at`. [m]
+/// Least height of the shape's surface along a unit vector, the shape being turned about `centre` and put to
+/// `at`. [m]
 double lowest(const Shape& shape, const Vec3& centre, const BodyState& at, const Vec3& up) {
   if (is_turned(shape)) return lowest_of_turned(shape, centre, at, up);
-  const auto height = [&](const Vec3& x) { return dot(at.position + rotate(at.orientation, x - centre), up); };
+  const auto height = [&](const Vec3& x) {
+    return dot(at.position + rotate(at.orientation, x - centre), up);
+  };
   double least = INFINITY;
   switch (shape.kind) {
     case Shape::Kind::sphere:
@@ -137,7 +147,8 @@ FrameError sunk(const FramePair& f) {
   const auto axis = f.in.reference.measuring().axis;
   const auto level = f.in.reference.number_at("value", f.now.time);
   if (!axis || !level)
-    return problem("sunk needs the floor: reference = {function = \"stated\", args = {axis = \"z\", value = 0.0}}");
+    return problem(
+        "sunk needs the floor: reference = {function = \"stated\", args = {axis = \"z\", value = 0.0}}");
   const auto body = job_body(f.in);
   const long row = body_row(f.in);
   if (row < 0 || static_cast<std::size_t>(row) >= f.now.bodies.size() ||
@@ -146,8 +157,9 @@ FrameError sunk(const FramePair& f) {
   Vec3 up;
   up[*axis] = f.in.job.scene.gravity[*axis] > 0.0 ? -1.0 : 1.0;
   const double floor = *level * up[*axis];
-  const double depth = floor - lowest(f.in.job.scene.body(f.in.choice.body).shape, f.in.job.bodies[body].properties.centre,
-                                      f.now.bodies[static_cast<std::size_t>(row)], up);
+  const double depth =
+      floor - lowest(f.in.job.scene.body(f.in.choice.body).shape, f.in.job.bodies[body].properties.centre,
+                     f.now.bodies[static_cast<std::size_t>(row)], up);
   return std::isfinite(depth) ? single(std::max(0.0, depth))
                               : problem("sunk knows boxes, spheres, cylinders, meshes and unions of them");
 }
@@ -155,19 +167,19 @@ FrameError sunk(const FramePair& f) {
 }  // namespace
 
 const std::vector<Quantity>& impact_quantities() {
-  static const std::vector<Quantity> list{
-      {{"sunk", "m",
-        "depth of the lowest point of the body's own shape below the stated place along the stated axis; 0 above it"},
-       sunk}};
+  static const std::vector<Quantity> list{{{"sunk", "m",
+                                            "depth of the lowest point of the body's own shape below the "
+                                            "stated place along the stated axis; 0 above it"},
+                                           sunk}};
   return list;
 }
 
 const std::vector<RunQuantity>& impact_run_quantities() {
-  static const std::vector<RunQuantity> list{
-      {{"energy_gain", "J",
-        "largest rise of the kinetic and potential energy of free bodies over the least of earlier frames outside hits. Of "
-        "elastic bodies, over the start. It needs no reference"},
-       energy_gain}};
+  static const std::vector<RunQuantity> list{{{"energy_gain", "J",
+                                               "largest rise of the kinetic and potential energy of free "
+                                               "bodies over the least of earlier frames outside hits. Of "
+                                               "elastic bodies, over the start. It needs no reference"},
+                                              energy_gain}};
   return list;
 }
 

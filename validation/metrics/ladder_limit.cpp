@@ -14,11 +14,13 @@ using List = std::vector<double>;
 
 struct Fit {
   double limit = 0.0, standard_error = 0.0;
-  double deviation = std::numeric_limits<double>::infinity();  ///< of the weighted residuals, a degree of freedom
-  Eigen::VectorXd shares;                                      ///< weight of each error in the limit
+  /// Of the weighted residuals, a degree of freedom
+  double deviation = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd shares;  ///< weight of each error in the limit
 };
 
-/// Weighted least squares of limit + sum of a_p h^p. The truncated terms grow with h, and so does the distrust of a level.
+/// Weighted least squares of limit + sum of a_p h^p. The truncated terms grow with h, and so does the
+/// distrust of a level.
 Fit fit_model(const List& h, const Eigen::VectorXd& error, const List& powers) {
   const auto n = static_cast<Eigen::Index>(h.size()), m = static_cast<Eigen::Index>(powers.size()) + 1;
   Eigen::MatrixXd A(n, m);
@@ -71,8 +73,10 @@ Fit best_sign(const List& h, Eigen::VectorXd error) {
 
 LadderLimit ladder_limit(const List& step, const List& error, const List& uncertainty) {
   const auto finite = [](double x) { return std::isfinite(x); };
-  if (step.size() < 3 || step.size() != error.size() || !std::all_of(error.begin(), error.end(), finite)) return {};
-  const auto fit = best_sign(step, Eigen::Map<const Eigen::VectorXd>(error.data(), static_cast<Eigen::Index>(error.size())));
+  if (step.size() < 3 || step.size() != error.size() || !std::all_of(error.begin(), error.end(), finite))
+    return {};
+  const auto fit = best_sign(
+      step, Eigen::Map<const Eigen::VectorXd>(error.data(), static_cast<Eigen::Index>(error.size())));
   double variance = fit.standard_error * fit.standard_error;
   for (std::size_t i = 0; i < uncertainty.size(); ++i)
     variance += std::pow(fit.shares[static_cast<Eigen::Index>(i)] * uncertainty[i], 2);

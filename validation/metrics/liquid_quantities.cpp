@@ -14,7 +14,8 @@ std::string no_pressure(const FramePair& f) {
   return {};
 }
 
-/// Least-squares factor of the run's pressures on the true ones, minus 1: deep particles count most, noise about zero cancels.
+/// Least-squares factor of the run's pressures on the true ones, minus 1: deep particles count most, noise
+/// about zero cancels.
 FrameError pressure_factor(const FramePair& f) {
   if (auto why = no_pressure(f); !why.empty()) return problem(why);
   long double product = 0, square = 0;
@@ -24,14 +25,16 @@ FrameError pressure_factor(const FramePair& f) {
     product += static_cast<long double>(w) * f.now.pressure[i] * f.truth.pressure[i];
     square += static_cast<long double>(w) * f.truth.pressure[i] * f.truth.pressure[i];
   }
-  return square > 0 ? single(double(product / square) - 1.0) : problem("the true pressure is zero everywhere");
+  return square > 0 ? single(double(product / square) - 1.0)
+                    : problem("the true pressure is zero everywhere");
 }
 
 /// Mean error of a column over the particles that began within one spacing of the interface.
 FrameError at_interface(const FramePair& f, std::vector<double> Snapshot::*column, const char* what) {
   const auto &run = f.now.*column, &truth = f.truth.*column;
   if (run.size() < f.in.initial.size()) return problem(std::string("the trajectory has no ") + what);
-  if (truth.size() < f.in.initial.size()) return problem(std::string("the reference does not know the ") + what);
+  if (truth.size() < f.in.initial.size())
+    return problem(std::string("the reference does not know the ") + what);
   const auto axis = f.in.reference.measuring().axis;
   const auto place = f.in.reference.number("interface");
   if (!axis || !place) return problem("the reference knows no interface");
@@ -42,19 +45,22 @@ FrameError at_interface(const FramePair& f, std::vector<double> Snapshot::*colum
     sum += run[i] - truth[i];
     count += 1.0;
   }
-  return count > 0.0 ? single(sum / count) : problem("no particle of the metric's body begins at the interface");
+  return count > 0.0 ? single(sum / count)
+                     : problem("no particle of the metric's body begins at the interface");
 }
 FrameError interface_pressure(const FramePair& f) { return at_interface(f, &Snapshot::pressure, "pressure"); }
 FrameError interface_density(const FramePair& f) { return at_interface(f, &Snapshot::density, "density"); }
 
-/// Depth of a floating body's keel below the level that the liquid's volume gives: volume = pool (level - floor) - block (level -
-/// keel). (The top layer of particles is no measure: it lies up to 0.2 dx low.)
+/// Depth of a floating body's keel below the level that the liquid's volume gives: volume = pool (level -
+/// floor) - block (level - keel). (The top layer of particles is no measure: it lies up to 0.2 dx low.)
 FrameError draught(const FramePair& f) {
   const auto number = [&](const char* name) { return f.in.reference.number(name); };
   const auto axis = f.in.reference.measuring().axis;
-  const auto truth = number("draught"), up = number("up"), floor = number("floor"), pool = number("pool_area"),
-             block = number("block_area"), volume = number("liquid_volume"), below = number("keel");
-  if (!truth || !axis || !up || !floor || !pool || !block || !volume || !below) return problem("the reference knows no draught");
+  const auto truth = number("draught"), up = number("up"), floor = number("floor"),
+             pool = number("pool_area"), block = number("block_area"), volume = number("liquid_volume"),
+             below = number("keel");
+  if (!truth || !axis || !up || !floor || !pool || !block || !volume || !below)
+    return problem("the reference knows no draught");
   const long row = body_row(f.in);
   if (row < 0 || static_cast<std::size_t>(row) >= f.now.bodies.size())
     return problem("draught: the metric must name the floating body");
@@ -76,7 +82,8 @@ FrameError axial_torque(const FramePair& f) {
   return single(f.now.bodies[static_cast<std::size_t>(row)].torque[*axis] - *truth);
 }
 
-/// Half the extent of the liquid along the axis, half a spacing included at each end, minus the true half length.
+/// Half the extent of the liquid along the axis, half a spacing included at each end, minus the true half
+/// length.
 FrameError half_length(const FramePair& f) {
   const auto truth = number_or_value(f.in, "half_length");
   const auto axis = f.in.reference.measuring().axis;
@@ -97,14 +104,19 @@ FrameError half_length(const FramePair& f) {
 
 const std::vector<Quantity>& liquid_quantities() {
   static const std::vector<Quantity> list{
-      {{"pressure_factor", "1", "least-squares factor of the pressures on the true ones, minus 1"}, pressure_factor},
+      {{"pressure_factor", "1", "least-squares factor of the pressures on the true ones, minus 1"},
+       pressure_factor},
       {{"interface_pressure", "Pa",
         "mean error of pressure of the particles that began within a spacing of the reference's interface"},
        interface_pressure},
       {{"interface_density", "kg/m3", "mean error of density of the same particles"}, interface_density},
-      {{"draught", "m", "depth of the floating body's keel below the level by volume, minus the true draught"}, draught},
-      {{"axial_torque", "N m", "torque on the body about the reference's axis minus the true one"}, axial_torque},
-      {{"half_length", "m", "half the extent of the liquid (or of the body) along the reference's axis minus the true one"},
+      {{"draught", "m",
+        "depth of the floating body's keel below the level by volume, minus the true draught"},
+       draught},
+      {{"axial_torque", "N m", "torque on the body about the reference's axis minus the true one"},
+       axial_torque},
+      {{"half_length", "m",
+        "half the extent of the liquid (or of the body) along the reference's axis minus the true one"},
        half_length}};
   return list;
 }

@@ -4,7 +4,8 @@
 namespace tripoint {
 
 std::optional<double> truth_of(const MetricInput& in, const char* quantity, double time) {
-  const auto norm = in.choice.norm;  // a frequency and a change since the start do not depend on where from they are counted
+  // a frequency and a change since the start do not depend on where from they are counted
+  const auto norm = in.choice.norm;
   if (norm == Norm::frequency || norm == Norm::drift) return 0.0;
   const auto named = in.reference.number_at(quantity, time);
   return named ? named : in.reference.number_at("value", time);
@@ -17,7 +18,8 @@ std::optional<double> number_or_value(const MetricInput& in, const char* quantit
 
 FrameError against_truth(const FramePair& f, const char* quantity, double measured) {
   const auto truth = truth_of(f.in, quantity, f.now.time);
-  if (!truth) return problem(std::string("the reference does not know the ") + quantity + " and states no value");
+  if (!truth)
+    return problem(std::string("the reference does not know the ") + quantity + " and states no value");
   return single(measured - *truth);
 }
 
@@ -29,7 +31,9 @@ bool is_driven(const MetricInput& in, std::size_t i) {
   return body < in.job.bodies.size() && in.job.bodies[body].motion != Motion::free;
 }
 
-bool takes_free(const MetricInput& in, std::size_t i) { return takes(in, i) && !(in.choice.body.empty() && is_driven(in, i)); }
+bool takes_free(const MetricInput& in, std::size_t i) {
+  return takes(in, i) && !(in.choice.body.empty() && is_driven(in, i));
+}
 
 bool takes_liquid(const MetricInput& in, const Snapshot& s, std::size_t i) {
   if (!takes_free(in, i) || !is_alive(s, i)) return false;
@@ -50,11 +54,15 @@ double particle_mass(const MetricInput& in, const Snapshot& s, std::size_t i) {
 long double heat_per_mass(const Material& m, const Snapshot& s, std::size_t i) {
   const bool melts = i < s.liquid_fraction.size();
   const double L = m.latent_heat.value_or(0.0), T = s.temperature[i];
-  if (!m.solid_heat_capacity) return static_cast<long double>(*m.heat_capacity) * T + (melts ? L * s.liquid_fraction[i] : 0.0);
+  if (!m.solid_heat_capacity)
+    return static_cast<long double>(*m.heat_capacity) * T + (melts ? L * s.liquid_fraction[i] : 0.0);
   if (!melts)
-    return static_cast<long double>(i < s.phase.size() && s.phase[i] == 0 ? *m.heat_capacity : *m.solid_heat_capacity) * T;
-  const long double f = s.liquid_fraction[i], liquid = static_cast<long double>(*m.solid_heat_capacity) * *m.t_melt + L +
-                                                       static_cast<long double>(*m.heat_capacity) * (T - *m.t_melt);
+    return static_cast<long double>(i < s.phase.size() && s.phase[i] == 0 ? *m.heat_capacity
+                                                                          : *m.solid_heat_capacity) *
+           T;
+  const long double f = s.liquid_fraction[i],
+                    liquid = static_cast<long double>(*m.solid_heat_capacity) * *m.t_melt + L +
+                             static_cast<long double>(*m.heat_capacity) * (T - *m.t_melt);
   return (1 - f) * *m.solid_heat_capacity * T + f * liquid;
 }
 
@@ -76,7 +84,8 @@ std::size_t other_body(const MetricInput& in) {
   if (!other)
     throw InputError(
         in.choice.place,
-        "metric `" + in.choice.name + "` needs a second body: reference = {function = \"stated\", args = {other = \"NAME\"}}");
+        "metric `" + in.choice.name +
+            "` needs a second body: reference = {function = \"stated\", args = {other = \"NAME\"}}");
   return *other;
 }
 
@@ -86,7 +95,8 @@ RigidBody motion_of(const MetricInput& in, const Snapshot& s, const std::vector<
   std::vector<double> mass;
   for (const auto i : members)
     if (is_alive(s, i)) alive.push_back(i);
-  if (alive.empty()) throw InputError(in.choice.place, "metric `" + in.choice.name + "`: its body has no particles left");
+  if (alive.empty())
+    throw InputError(in.choice.place, "metric `" + in.choice.name + "`: its body has no particles left");
   const Vec3 first = s.position[alive.front()];
   for (const auto i : alive) {
     rows.push_back(rows.size());

@@ -15,8 +15,9 @@ namespace {
 struct Line {
   double slope = not_a_number, error = 0.0;
 };
-/// Neighbours in time deviate from the line alike. The number of independent deviations follows from the changes of sign: n
-/// independent ones change sign at half of the steps. Frames in between then add no certainty.
+/// Neighbours in time deviate from the line alike. The number of independent deviations follows from the
+/// changes of sign: n independent ones change sign at half of the steps. Frames in between then add no
+/// certainty.
 Line fit(const std::vector<double>& t, const std::vector<double>& y) {
   const double n = static_cast<double>(t.size());
   double t0 = 0.0, y0 = 0.0, tt = 0.0, ty = 0.0, rest = 0.0, last = 0.0;
@@ -38,16 +39,19 @@ Line fit(const std::vector<double>& t, const std::vector<double>& y) {
   return {ty / tt, n > 2.0 ? std::sqrt(rest / (std::clamp(independent, 3.0, n) - 2.0) / tt) : 0.0};
 }
 
-// --- a body's motion along an axis ----------------------------------------------------------------------------------------
+// --- a body's motion along an axis
+// ----------------------------------------------------------------------------------------
 
 /// Speeds of the metric's body along the reference's axis; the reason why there are none, or an empty text.
-std::string speeds(const MetricInput& in, const Frames& frames, std::vector<double>& t, std::vector<double>& v) {
+std::string speeds(const MetricInput& in, const Frames& frames, std::vector<double>& t,
+                   std::vector<double>& v) {
   const auto axis = in.reference.measuring().axis;
   const long row = body_row(in);
   if (!axis) return "the reference names no axis";
   if (row < 0) return "the metric must name a solid body";
   for (const auto* s : frames) {
-    if (static_cast<std::size_t>(row) >= s->bodies.size() || !finite(s->bodies[static_cast<std::size_t>(row)].velocity))
+    if (static_cast<std::size_t>(row) >= s->bodies.size() ||
+        !finite(s->bodies[static_cast<std::size_t>(row)].velocity))
       return "the trajectory does not have the body";
     t.push_back(s->time);
     v.push_back(s->bodies[static_cast<std::size_t>(row)].velocity[*axis]);
@@ -85,7 +89,8 @@ MetricValue touch_time(const MetricInput& in, const Frames& frames) {
   return unformed("the body's speed never passes the middle of its change");
 }
 
-// --- a standing wave ------------------------------------------------------------------------------------------------------
+// --- a standing wave
+// ------------------------------------------------------------------------------------------------------
 
 /// Which way the particles of a standing wave swing: as the reference says, else along the wave vector.
 Vec3 swing_direction(const MetricInput& in, const Vec3& k) {
@@ -106,8 +111,9 @@ double mode_amplitude(const MetricInput& in, const Snapshot& s, const Vec3& k, d
   return double(product / square);
 }
 
-/// Square of the mode's frequency over the true one, minus 1. A damped swing a(t) at equal times follows a[n+1] + q a[n-1] = 2
-/// sqrt(q) cos(w dt) a[n] (Prony's method). Both coefficients are found by least squares.
+/// Square of the mode's frequency over the true one, minus 1. A damped swing a(t) at equal times follows
+/// a[n+1] + q a[n-1] = 2 sqrt(q) cos(w dt) a[n] (Prony's method). Both coefficients are found by least
+/// squares.
 MetricValue frequency_squared(const MetricInput& in, const Frames& frames) {
   const auto truth = in.reference.number("frequency");
   const auto wave = in.reference.measuring().wave;
@@ -123,7 +129,8 @@ MetricValue frequency_squared(const MetricInput& in, const Frames& frames) {
     sn += a[n] * a[n + 1];
     pn += a[n - 1] * a[n + 1];
   }
-  const double determinant = ss * pp - sp * sp, b = (sn * pp - pn * sp) / determinant, q = -(pn * ss - sn * sp) / determinant;
+  const double determinant = ss * pp - sp * sp, b = (sn * pp - pn * sp) / determinant,
+               q = -(pn * ss - sn * sp) / determinant;
   const double cosine = 0.5 * b / std::sqrt(q),
                step = (frames.back()->time - frames.front()->time) / static_cast<double>(frames.size() - 1);
   if (!(q > 0.0) || !(std::abs(cosine) < 1.0)) return unformed("the mode does not swing");
@@ -135,7 +142,8 @@ MetricValue frequency_squared(const MetricInput& in, const Frames& frames) {
   return v;
 }
 
-// --- a spinning liquid ----------------------------------------------------------------------------------------------------
+// --- a spinning liquid
+// ----------------------------------------------------------------------------------------------------
 
 double spin_of(const MetricInput& in, const Snapshot& s) {
   double mass = 0.0;
@@ -167,7 +175,8 @@ MetricValue spin_rate(const MetricInput& in, const Frames& frames) {
   return v;
 }
 
-/// Frequency of the centre of mass of the metric's body along the stated axis: a sine about an offset by least squares.
+/// Frequency of the centre of mass of the metric's body along the stated axis: a sine about an offset by
+/// least squares.
 MetricValue sway_frequency(const MetricInput& in, const Frames& frames) {
   const auto axis = in.reference.measuring().axis;
   const auto truth = in.reference.number("value");
@@ -179,7 +188,8 @@ MetricValue sway_frequency(const MetricInput& in, const Frames& frames) {
     for (std::size_t i = 0; i < in.initial.size(); ++i)
       if (takes(in, i)) {
         mass += in.initial.mass[i];
-        moment += in.initial.mass[i] * displacement(in.job.scene, s->position[i], in.initial.position[i])[*axis];
+        moment +=
+            in.initial.mass[i] * displacement(in.job.scene, s->position[i], in.initial.position[i])[*axis];
       }
     t.push_back(s->time);
     y.push_back(moment / mass);
@@ -188,8 +198,8 @@ MetricValue sway_frequency(const MetricInput& in, const Frames& frames) {
   if (!swing.problem.empty()) return unformed(swing.problem);
   MetricValue v;
   v.value = swing.frequency / (2.0 * std::numbers::pi * *truth) - 1.0;
-  v.note = std::to_string(swing.frequency / (2.0 * std::numbers::pi)) + " Hz against " + std::to_string(*truth) + ", amplitude " +
-           std::to_string(swing.amplitude) + " m";
+  v.note = std::to_string(swing.frequency / (2.0 * std::numbers::pi)) + " Hz against " +
+           std::to_string(*truth) + ", amplitude " + std::to_string(swing.amplitude) + " m";
   return v;
 }
 
@@ -198,15 +208,21 @@ MetricValue sway_frequency(const MetricInput& in, const Frames& frames) {
 const std::vector<RunQuantity>& motion_quantities() {
   static const std::vector<RunQuantity> list{
       {{"acceleration", "m/s2",
-        "acceleration of the body against gravity or along the stated axis, by least squares over the window, minus the true "
+        "acceleration of the body against gravity or along the stated axis, by least squares over the "
+        "window, minus the true "
         "one"},
        acceleration},
-      {{"touch_time", "s", "time at which the body's speed has made half of its change minus the true time of touch"},
+      {{"touch_time", "s",
+        "time at which the body's speed has made half of its change minus the true time of touch"},
        touch_time},
-      {{"frequency_squared", "1", "square of the standing wave's frequency over the true one, minus 1"}, frequency_squared},
-      {{"spin_rate", "1/s", "rate at which the angular momentum about the centre of mass falls, minus the true one"}, spin_rate},
+      {{"frequency_squared", "1", "square of the standing wave's frequency over the true one, minus 1"},
+       frequency_squared},
+      {{"spin_rate", "1/s",
+        "rate at which the angular momentum about the centre of mass falls, minus the true one"},
+       spin_rate},
       {{"sway_frequency", "1",
-        "frequency of the body's centre along the stated axis, by a fitted sine, over the stated value in Hz, minus 1"},
+        "frequency of the body's centre along the stated axis, by a fitted sine, over the stated value in "
+        "Hz, minus 1"},
        sway_frequency}};
   return list;
 }

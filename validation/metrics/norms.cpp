@@ -34,7 +34,8 @@ NormValue l2(const FrameError& e) {
   const double square = std::max(mean_square(e) - noise, 0.0), W = sum_of(e.weight);
   Real variance = 0;
   for (std::size_t n = 0; n < e.error.size(); ++n) {
-    const double share = e.weight[n] / W, s2 = e.sigma[n] * e.sigma[n], b2 = std::max(e.error[n] * e.error[n] - s2, 0.0);
+    const double share = e.weight[n] / W, s2 = e.sigma[n] * e.sigma[n],
+                 b2 = std::max(e.error[n] * e.error[n] - s2, 0.0);
     variance += Real(share) * share * (2.0 * s2 * s2 + 4.0 * b2 * s2);
   }
   return {std::sqrt(square), std::sqrt(square + std::sqrt(double(variance))) - std::sqrt(square), -1};
@@ -48,8 +49,8 @@ NormValue l2_raw(const FrameError& e) {
 NormValue l1(const FrameError& e) {
   NormValue v{mean_of(e, [&](std::size_t n) { return std::abs(e.error[n]); }), 0.0, -1};
   if (e.sigma.empty()) return v;
-  const double W = sum_of(e.weight),
-               bias = std::sqrt(2.0 / std::numbers::pi) * mean_of(e, [&](std::size_t n) { return e.sigma[n]; });
+  const double W = sum_of(e.weight), bias = std::sqrt(2.0 / std::numbers::pi) *
+                                            mean_of(e, [&](std::size_t n) { return e.sigma[n]; });
   Real variance = 0;
   for (std::size_t n = 0; n < e.sigma.size(); ++n)
     variance += Real(e.weight[n] / W) * (e.weight[n] / W) * e.sigma[n] * e.sigma[n];
@@ -57,7 +58,8 @@ NormValue l1(const FrameError& e) {
   return v;
 }
 
-/// Keeps the sign of a single number, so that a mean or a trend over frames can show it; lengths and many samples are positive.
+/// Keeps the sign of a single number, so that a mean or a trend over frames can show it; lengths and many
+/// samples are positive.
 NormValue linf(const FrameError& e) {
   std::size_t k = 0;
   for (std::size_t n = 1; n < e.error.size(); ++n) k = std::abs(e.error[n]) > std::abs(e.error[k]) ? n : k;
@@ -70,10 +72,12 @@ NormValue linf(const FrameError& e) {
 }
 
 NormValue chi(const FrameError& e) {
-  const bool stated = !e.sigma.empty() && std::all_of(e.sigma.begin(), e.sigma.end(), [](double s) { return s > 0.0; });
+  const bool stated =
+      !e.sigma.empty() && std::all_of(e.sigma.begin(), e.sigma.end(), [](double s) { return s > 0.0; });
   if (!stated) return {not_a_number, 0.0, -1};
   Real sum = 0;
-  for (std::size_t n = 0; n < e.error.size(); ++n) sum += Real(e.error[n] / e.sigma[n]) * (e.error[n] / e.sigma[n]);
+  for (std::size_t n = 0; n < e.error.size(); ++n)
+    sum += Real(e.error[n] / e.sigma[n]) * (e.error[n] / e.sigma[n]);
   const double count = static_cast<double>(e.error.size());
   return {std::sqrt(double(sum) / count), 1.0 / std::sqrt(2.0 * count), -1};
 }
@@ -81,7 +85,8 @@ NormValue chi(const FrameError& e) {
 }  // namespace
 
 NormValue spatial_norm(Norm norm, const FrameError& e) {
-  const bool finite_samples = std::all_of(e.error.begin(), e.error.end(), [](double x) { return std::isfinite(x); });
+  const bool finite_samples =
+      std::all_of(e.error.begin(), e.error.end(), [](double x) { return std::isfinite(x); });
   if (e.error.empty() || !finite_samples || !(sum_of(e.weight) > 0.0)) return {not_a_number, 0.0, -1};
   if (norm == Norm::L1) return l1(e);
   if (norm == Norm::L2) return l2(e);

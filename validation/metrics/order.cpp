@@ -18,7 +18,8 @@ using List = std::vector<double>;
 /// Slope between neighbouring levels; negative where refinement makes it worse.
 List local_slopes(const List& h, const List& e) {
   List slopes;
-  for (std::size_t i = 1; i < h.size(); ++i) slopes.push_back(std::log(std::abs(e[i - 1] / e[i])) / std::log(h[i - 1] / h[i]));
+  for (std::size_t i = 1; i < h.size(); ++i)
+    slopes.push_back(std::log(std::abs(e[i - 1] / e[i])) / std::log(h[i - 1] / h[i]));
   return slopes;
 }
 
@@ -60,8 +61,8 @@ bool asymptotic(const Order& fit, const List& h, const List& e, double formal) {
   return settled && steady && meets && !(fit.low <= formal - 1.0 && formal - 1.0 <= fit.high);
 }
 
-/// The floored law is taken when it explains the data better. Its floor must not be zero at 95 % and must make up a quarter of
-/// the finest error.
+/// The floored law is taken when it explains the data better. Its floor must not be zero at 95 % and must
+/// make up a quarter of the finest error.
 bool has_floor(const FlooredPowerLaw& floored, const PowerLaw& plain, const List& e) {
   if (!floored.found || floored.floor.low * floored.floor.high <= 0.0) return false;
   if (std::abs(floored.floor.value) < 0.25 * std::abs(e.back())) return false;
@@ -99,9 +100,10 @@ Order fit_order(const List& step, const List& error, const List& uncertainty, do
   if (lost_in_noise(error, uncertainty)) return with(FitClass::noise_limited);
   const auto floored = fit_floored_power_law(step, error);
   if (has_floor(floored, plain, error))
-    return sized(FitClass::plateau, floored.order.value, floored.order.low, floored.order.high, floored.coefficient,
-                 floored.floor.value);
-  if (plain.order.high < 0.0 || (plain.order.value < 0.0 && monotone(error))) return with(FitClass::diverging);
+    return sized(FitClass::plateau, floored.order.value, floored.order.low, floored.order.high,
+                 floored.coefficient, floored.floor.value);
+  if (plain.order.high < 0.0 || (plain.order.value < 0.0 && monotone(error)))
+    return with(FitClass::diverging);
   if (changes_sign(error) || !monotone(error)) return with(FitClass::oscillating);
   const Order fit = with(FitClass::asymptotic);
   return asymptotic(fit, step, error, formal) ? fit : with(FitClass::preasymptotic);

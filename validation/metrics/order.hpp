@@ -21,20 +21,21 @@ struct Order {
                               const std::vector<double>& uncertainty, double formal);
 
 /// Grid convergence index by least squares [Eca & Hoekstra 2014]: standard uncertainty of the finest value.
-[[nodiscard]] double grid_convergence_uncertainty(const std::vector<double>& step, const std::vector<double>& value,
-                                                  double formal);
-/// The same for every level, coarse to fine. NaN throughout where it cannot be formed (fewer than two levels, no formal order, a
-/// value that is not finite).
+[[nodiscard]] double grid_convergence_uncertainty(const std::vector<double>& step,
+                                                  const std::vector<double>& value, double formal);
+/// The same for every level, coarse to fine. NaN throughout where it cannot be formed (fewer than two levels,
+/// no formal order, a value that is not finite).
 [[nodiscard]] std::vector<double> grid_convergence_uncertainties(const std::vector<double>& step,
-                                                                 const std::vector<double>& value, double formal);
+                                                                 const std::vector<double>& value,
+                                                                 double formal);
 
 enum class Verdict { pass, fail, inconclusive, missing, diverged };
 constexpr WordTable<5> word_table(Verdict) {
   return {"verdict of a gate", {"pass", "fail", "inconclusive", "missing", "diverged"}};
 }
 
-/// Against a limit on |value|: pass iff |value| + k u <= limit, fail iff |value| - k u > limit, else inconclusive; a non-finite
-/// value fails.
+/// Against a limit on |value|: pass iff |value| + k u <= limit, fail iff |value| - k u > limit, else
+/// inconclusive; a non-finite value fails.
 [[nodiscard]] Verdict judge_limit(double value, double u, double limit, double k = 2.0);
 /// value >= least, likewise. band: low <= value <= high, likewise.
 [[nodiscard]] Verdict judge_at_least(double value, double u, double least, double k = 2.0);
@@ -43,7 +44,8 @@ constexpr WordTable<5> word_table(Verdict) {
 /// Relation of two engines by the margin that the case sets for their difference.
 enum class Equivalence { equivalent, different, negligible, unresolved, no_margin };
 constexpr WordTable<5> word_table(Equivalence) {
-  return {"verdict on two engines", {"equivalent", "different", "negligible but real", "unresolved", "no margin is set"}};
+  return {"verdict on two engines",
+          {"equivalent", "different", "negligible but real", "unresolved", "no margin is set"}};
 }
 
 /// Two engines' difference against a margin; unresolved where one of the three is no number.

@@ -11,7 +11,8 @@ namespace {
 
 using Columns = std::vector<double> Snapshot::*;
 
-/// Fault of sample i, or an empty text; `absent` when it is in neither. A value that is not finite is never dropped.
+/// Fault of sample i, or an empty text; `absent` when it is in neither. A value that is not finite is never
+/// dropped.
 enum class Sample { good, absent, bad };
 Sample look(const Snapshot& now, std::size_t i, bool run_finite, bool truth_finite) {
   if (run_finite && truth_finite) return Sample::good;
@@ -29,11 +30,13 @@ std::string unequal(const std::vector<T>& run, const std::vector<T>& truth, cons
   if (truth.empty()) return std::string("the reference does not know the ") + what;
   if (run.empty()) return std::string("the trajectory has no ") + what;
   if (run.size() != truth.size())
-    return std::string(what) + ": " + std::to_string(run.size()) + " particles against " + std::to_string(truth.size());
+    return std::string(what) + ": " + std::to_string(run.size()) + " particles against " +
+           std::to_string(truth.size());
   return {};
 }
 
-FrameError vector_error(const FramePair& f, std::vector<Vec3> Snapshot::*column, const char* what, bool wrap) {
+FrameError vector_error(const FramePair& f, std::vector<Vec3> Snapshot::*column, const char* what,
+                        bool wrap) {
   const auto &run = f.now.*column, &truth = f.truth.*column;
   if (auto why = unequal(run, truth, what); !why.empty()) return problem(why);
   FrameError out;
@@ -42,8 +45,8 @@ FrameError vector_error(const FramePair& f, std::vector<Vec3> Snapshot::*column,
     const auto state = look(f.now, i, finite(run[i]), finite(truth[i]));
     if (state == Sample::bad) return problem(bad_sample(what, i, finite(run[i])));
     if (state == Sample::absent) continue;
-    out.add(norm(wrap ? displacement(f.in.job.scene, run[i], truth[i]) : run[i] - truth[i]), rest_volume(f.in, i),
-            static_cast<long>(i));
+    out.add(norm(wrap ? displacement(f.in.job.scene, run[i], truth[i]) : run[i] - truth[i]),
+            rest_volume(f.in, i), static_cast<long>(i));
   }
   return out;
 }
@@ -52,7 +55,8 @@ FrameError vector_error(const FramePair& f, std::vector<Vec3> Snapshot::*column,
 FrameError scalar_error(const FramePair& f, Columns column, const char* what) {
   const auto& run = f.now.*column;
   const auto stated = f.in.reference.number_at("value", f.now.time);
-  const auto truth = (f.truth.*column).empty() && stated ? std::vector<double>(run.size(), *stated) : f.truth.*column;
+  const auto truth =
+      (f.truth.*column).empty() && stated ? std::vector<double>(run.size(), *stated) : f.truth.*column;
   if (auto why = unequal(run, truth, what); !why.empty()) return problem(why);
   FrameError out;
   for (std::size_t i = 0; i < run.size(); ++i) {
@@ -73,14 +77,15 @@ double sigma_of(const FramePair& f, long i) {
   return std::hypot(of(f.now.temperature_error), of(f.truth.temperature_error));
 }
 
-/// Particles that share one count of walkers (same temperature, same standard error) are one sample, not many independent ones.
+/// Particles that share one count of walkers (same temperature, same standard error) are one sample, not many
+/// independent ones.
 FrameError pooled(const FramePair& f, const FrameError& all) {
   FrameError out;
   std::map<std::tuple<double, double, double>, std::size_t> group;
   for (std::size_t n = 0; n < all.error.size(); ++n) {
     const double sigma = sigma_of(f, all.row[n]);
-    const auto [at, fresh] =
-        group.try_emplace({f.now.temperature[static_cast<std::size_t>(all.row[n])], sigma, all.error[n]}, out.error.size());
+    const auto [at, fresh] = group.try_emplace(
+        {f.now.temperature[static_cast<std::size_t>(all.row[n])], sigma, all.error[n]}, out.error.size());
     if (fresh) {
       out.add(all.error[n], all.weight[n], all.row[n]);
       out.sigma.push_back(sigma);
@@ -102,7 +107,8 @@ FrameError temperature_difference(const FramePair& f) {
 
 /// The standard error itself: no truth is needed, 0 is best.
 FrameError temperature_standard_error(const FramePair& f) {
-  if (f.now.temperature_error.size() != f.in.initial.size()) return problem("the trajectory has no temperature_error");
+  if (f.now.temperature_error.size() != f.in.initial.size())
+    return problem("the trajectory has no temperature_error");
   FrameError out;
   for (std::size_t i = 0; i < f.now.temperature_error.size(); ++i) {
     if (!takes(f.in, i)) continue;
@@ -127,7 +133,8 @@ FrameError phase_count(const FramePair& f) {
   double count[3] = {0, 0, 0};
   for (std::size_t i = 0; i < f.now.phase.size(); ++i) {
     if (!takes(f.in, i)) continue;
-    for (int p = 0; p < 3; ++p) count[p] += (f.now.phase[i] == p ? 1.0 : 0.0) - (f.truth.phase[i] == p ? 1.0 : 0.0);
+    for (int p = 0; p < 3; ++p)
+      count[p] += (f.now.phase[i] == p ? 1.0 : 0.0) - (f.truth.phase[i] == p ? 1.0 : 0.0);
   }
   double worst = 0.0;
   for (const double c : count) worst = std::abs(c) > std::abs(worst) ? c : worst;
@@ -149,7 +156,8 @@ Vec3 displacement(const Scene& scene, const Vec3& r, const Vec3& r0) {
 double rest_volume(const MetricInput& in, std::size_t i) {
   if (i >= in.initial.size()) return 0.0;
   const auto material = static_cast<std::size_t>(in.initial.material[i]);
-  const bool known = material < in.job.scene.materials.size() && in.job.scene.materials[material].density > 0.0;
+  const bool known =
+      material < in.job.scene.materials.size() && in.job.scene.materials[material].density > 0.0;
   return in.initial.mass[i] / (known ? in.job.scene.materials[material].density : 1.0);
 }
 
@@ -167,30 +175,35 @@ long body_row(const MetricInput& in) {
     if (b.name == in.choice.body) return b.index;
     names.push_back(b.name);
   }
-  throw InputError(in.choice.place, "metric `" + in.choice.name + "` names body `" + printable(in.choice.body) + "`" +
-                                        suggestion(in.choice.body, names));
+  throw InputError(in.choice.place, "metric `" + in.choice.name + "` names body `" +
+                                        printable(in.choice.body) + "`" + suggestion(in.choice.body, names));
 }
 
 const std::vector<Quantity>& particle_quantities() {
   static const std::vector<Quantity> list{
       {{"position", "m",
-        "distance of particles from their true positions; with `body` of its centre of mass, or along an axis minus a stated "
+        "distance of particles from their true positions; with `body` of its centre of mass, or along an "
+        "axis minus a stated "
         "value"},
        [](const FramePair& f) { return vector_error(f, &Snapshot::position, "position", true); }},
       {{"velocity", "m/s",
-        "difference of velocities of particles; with `body` of its centre of mass, or its size (component) minus the stated "
+        "difference of velocities of particles; with `body` of its centre of mass, or its size (component) "
+        "minus the stated "
         "value"},
        [](const FramePair& f) { return vector_error(f, &Snapshot::velocity, "velocity", false); }},
       {{"temperature", "K",
-        "difference of temperatures (from the reference's field, else from the stated value), weighted by rest volume"},
+        "difference of temperatures (from the reference's field, else from the stated value), weighted by "
+        "rest volume"},
        temperature_difference},
-      {{"temperature_error", "K", "the run's own standard error of temperature (walkers)"}, temperature_standard_error},
+      {{"temperature_error", "K", "the run's own standard error of temperature (walkers)"},
+       temperature_standard_error},
       {{"pressure", "Pa", "difference of pressures, likewise"},
        [](const FramePair& f) { return scalar_error(f, &Snapshot::pressure, "pressure"); }},
       {{"density", "kg/m3", "difference of densities, likewise"},
        [](const FramePair& f) { return scalar_error(f, &Snapshot::density, "density"); }},
       {{"phase_count", "1",
-        "largest difference in the number of liquid, elastic or rigid particles; of the stated phase, from the stated value"},
+        "largest difference in the number of liquid, elastic or rigid particles; of the stated phase, from "
+        "the stated value"},
        phase_count}};
   return list;
 }

@@ -16,7 +16,8 @@ template <class Keep>
 double mass_where(const FramePair& f, Keep keep) {
   long double sum = 0;
   for (std::size_t i = 0; i < f.now.phase.size(); ++i)
-    if (is_alive(f.now, i) && of_stated_phase(f.in, f.now, i) && keep(i)) sum += particle_mass(f.in, f.now, i);
+    if (is_alive(f.now, i) && of_stated_phase(f.in, f.now, i) && keep(i))
+      sum += particle_mass(f.in, f.now, i);
   return double(sum);
 }
 
@@ -25,7 +26,8 @@ FrameError mass_of_phase(const FramePair& f) {
   return against_truth(f, "mass_of_phase", mass_where(f, [&](std::size_t i) { return takes(f.in, i); }));
 }
 
-// --- mass in a box --------------------------------------------------------------------------------------------------------
+// --- mass in a box
+// --------------------------------------------------------------------------------------------------------
 
 /// A box at rest, or one that moves and turns with a body from where that body began.
 struct Box {
@@ -41,7 +43,9 @@ struct Box {
 /// Reason why there is no box, or an empty text.
 std::string box_of(const FramePair& f, Box& box) {
   const auto measuring = f.in.reference.measuring();
-  if (!measuring.box) return "mass_in_region needs a box: reference = {function = \"stated\", args = {min = [...], max = [...]}}";
+  if (!measuring.box)
+    return "mass_in_region needs a box: reference = {function = \"stated\", args = {min = [...], max = "
+           "[...]}}";
   box.low = measuring.box->low;
   box.high = measuring.box->high;
   if (!measuring.follows) return {};
@@ -64,17 +68,22 @@ FrameError mass_in_region(const FramePair& f) {
                        }));
 }
 
-// --- a front --------------------------------------------------------------------------------------------------------------
+// --- a front
+// --------------------------------------------------------------------------------------------------------------
 
-/// Volume that has changed phase over the bar's cross-section: finer than a particle where it holds a liquid fraction.
+/// Volume that has changed phase over the bar's cross-section: finer than a particle where it holds a liquid
+/// fraction.
 std::string front(const FramePair& f, double& place, double& truth) {
   const auto [bar, melts] = std::pair{f.in.reference.measuring().bar, f.in.reference.measuring().melts};
-  const auto area = f.in.reference.number("area"), exact = f.in.reference.number_at("front_position", f.now.time);
+  const auto area = f.in.reference.number("area"),
+             exact = f.in.reference.number_at("front_position", f.now.time);
   if (!bar || !area || !melts || !exact) return "the reference knows no front";
   if (auto why = no_phases(f.now); !why.empty() && f.now.liquid_fraction.empty()) return why;
   long double volume = 0;
   for (const auto i : sampled(f.in, *bar)) {
-    const double liquid = i < f.now.liquid_fraction.size() ? f.now.liquid_fraction[i] : f.now.phase[i] == 0 ? 1.0 : 0.0;
+    const double liquid = i < f.now.liquid_fraction.size() ? f.now.liquid_fraction[i]
+                          : f.now.phase[i] == 0            ? 1.0
+                                                           : 0.0;
     volume += static_cast<long double>(rest_volume(f.in, i)) * (*melts ? liquid : 1.0 - liquid);
   }
   place = double(volume) / *area;
@@ -95,7 +104,8 @@ FrameError front_ratio(const FramePair& f) {
                      : problem("the front has not started: choose a window or `at` after the start");
 }
 
-// --- back and forth -------------------------------------------------------------------------------------------------------
+// --- back and forth
+// -------------------------------------------------------------------------------------------------------
 
 /// How often each particle changes between liquid and solid; empty when a frame has no phases.
 std::vector<long> changes(const MetricInput& in, const std::vector<std::vector<int>>& phases) {
@@ -108,8 +118,8 @@ std::vector<long> changes(const MetricInput& in, const std::vector<std::vector<i
   return count;
 }
 
-/// Changes beyond a particle's first one, the most of any particle: less the stated value, else those of the truth's phases, else
-/// none.
+/// Changes beyond a particle's first one, the most of any particle: less the stated value, else those of the
+/// truth's phases, else none.
 MetricValue toggles(const MetricInput& in, const Frames& frames) {
   std::vector<std::vector<int>> run, true_phases;
   for (const auto* s : frames) {
@@ -125,8 +135,8 @@ MetricValue toggles(const MetricInput& in, const Frames& frames) {
   const auto worst = std::max_element(count.begin(), count.end());
   MetricValue v;
   v.value = static_cast<double>(returns(count)) - (stated ? *stated : static_cast<double>(returns(truth)));
-  v.note =
-      "particle " + std::to_string(worst - count.begin()) + " changed " + std::to_string(*worst) + " times, seen at output times";
+  v.note = "particle " + std::to_string(worst - count.begin()) + " changed " + std::to_string(*worst) +
+           " times, seen at output times";
   return v;
 }
 
@@ -134,19 +144,23 @@ MetricValue toggles(const MetricInput& in, const Frames& frames) {
 
 const std::vector<Quantity>& phase_quantities() {
   static const std::vector<Quantity> list{
-      {{"mass_of_phase", "kg", "mass of the particles of the stated phase minus the stated value"}, mass_of_phase},
-      {{"mass_in_region", "kg", "mass (of the stated phase) in the stated box, or outside it, minus the stated value"},
+      {{"mass_of_phase", "kg", "mass of the particles of the stated phase minus the stated value"},
+       mass_of_phase},
+      {{"mass_in_region", "kg",
+        "mass (of the stated phase) in the stated box, or outside it, minus the stated value"},
        mass_in_region},
-      {{"front_position", "m", "volume that has melted (frozen) over the bar's cross-section, minus the true place of the front"},
+      {{"front_position", "m",
+        "volume that has melted (frozen) over the bar's cross-section, minus the true place of the front"},
        front_position},
       {{"front_ratio", "1", "the same over the true place, minus 1"}, front_ratio}};
   return list;
 }
 
 const std::vector<RunQuantity>& phase_run_quantities() {
-  static const std::vector<RunQuantity> list{
-      {{"toggles", "1", "most returns of a particle to a phase that it had left, seen at output times, minus the true number"},
-       toggles}};
+  static const std::vector<RunQuantity> list{{{"toggles", "1",
+                                               "most returns of a particle to a phase that it had left, seen "
+                                               "at output times, minus the true number"},
+                                              toggles}};
   return list;
 }
 

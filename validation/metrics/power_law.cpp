@@ -47,10 +47,12 @@ std::pair<double, double> standard_errors(const LinearPart& fit, double p, const
     J.row(i) << weight, weight * power, weight * scale * power * std::log(h[i] / h[0]);
   }
   const Eigen::Vector3d size = J.colwise().norm().cwiseMax(1e-300);
-  const Eigen::Matrix3d normal = (J * size.cwiseInverse().asDiagonal()).transpose() * (J * size.cwiseInverse().asDiagonal());
+  const Eigen::Matrix3d normal =
+      (J * size.cwiseInverse().asDiagonal()).transpose() * (J * size.cwiseInverse().asDiagonal());
   const Eigen::Matrix3d covariance =
       normal.completeOrthogonalDecomposition().pseudoInverse() * (fit.residual / static_cast<double>(n - 3));
-  return {std::sqrt(std::max(covariance(0, 0), 0.0)) / size[0], std::sqrt(std::max(covariance(2, 2), 0.0)) / size[2]};
+  return {std::sqrt(std::max(covariance(0, 0), 0.0)) / size[0],
+          std::sqrt(std::max(covariance(2, 2), 0.0)) / size[2]};
 }
 
 }  // namespace
@@ -63,7 +65,8 @@ double student_95(int degrees_of_freedom) {
 double akaike(double residual, std::size_t n, std::size_t parameters) {
   const double count = static_cast<double>(n), k = static_cast<double>(parameters);
   const double correction = count - k - 1.0 > 0.0 ? 2.0 * k * (k + 1.0) / (count - k - 1.0) : 0.0;
-  return count * std::log(std::max(residual, 1e-26) / count) + 2.0 * k + correction;  // 1e-26: round-off of double
+  // 1e-26: round-off of double
+  return count * std::log(std::max(residual, 1e-26) / count) + 2.0 * k + correction;
 }
 
 PowerLaw fit_power_law(const std::vector<double>& h, const std::vector<double>& e) {

@@ -17,17 +17,20 @@ struct PowerLaw {
 };
 [[nodiscard]] PowerLaw fit_power_law(const std::vector<double>& h, const std::vector<double>& e);
 
-/// e = floor + C h^p, signed, least squares of the residuals relative to |e|: p by a scan, floor and C by linear least squares.
+/// e = floor + C h^p, signed, least squares of the residuals relative to |e|: p by a scan, floor and C by
+/// linear least squares.
 struct FlooredPowerLaw {
   Estimate order, floor;
   double coefficient = 0.0;
   double residual = 0.0;  ///< sum of squared relative residuals
-  bool found = false;     ///< at least four levels and a least sum away from the ends of the scan, p in 0.2..8
+  /// At least four levels and a least sum away from the ends of the scan, p in 0.2..8
+  bool found = false;
 };
-[[nodiscard]] FlooredPowerLaw fit_floored_power_law(const std::vector<double>& h, const std::vector<double>& e);
+[[nodiscard]] FlooredPowerLaw fit_floored_power_law(const std::vector<double>& h,
+                                                    const std::vector<double>& e);
 
-/// Corrected Akaike criterion of a fit with `parameters`; where n - parameters - 1 <= 0 the correction does not exist and is left
-/// out.
+/// Corrected Akaike criterion of a fit with `parameters`; where n - parameters - 1 <= 0 the correction does
+/// not exist and is left out.
 [[nodiscard]] double akaike(double residual, std::size_t n, std::size_t parameters);
 
 /// Student's t of a two-sided 95 % interval; infinite without degrees of freedom.

@@ -22,14 +22,17 @@ enum class Of { temperature, pressure, density, velocity };
 
 Column column_of(const MetricInput& in, const Snapshot& s, Of what) {
   const auto given = [&](const std::vector<double>& column, const char* name) {
-    return column.size() == s.position.size() ? Column{column, ""} : Column{{}, std::string("the trajectory has no ") + name};
+    return column.size() == s.position.size() ? Column{column, ""}
+                                              : Column{{}, std::string("the trajectory has no ") + name};
   };
   if (what == Of::temperature) return given(s.temperature, "temperature");
   if (what == Of::pressure) return given(s.pressure, "pressure");
   if (what == Of::density) return given(s.density, "density");
   const auto axis = in.reference.measuring().axis;
   if (!axis)
-    return {{}, "a component of velocity needs its axis: reference = {function = \"stated\", args = {axis = \"x\", ...}}"};
+    return {{},
+            "a component of velocity needs its axis: reference = {function = \"stated\", args = {axis = "
+            "\"x\", ...}}"};
   if (s.velocity.size() != s.position.size()) return {{}, "the trajectory has no velocity"};
   Column out;
   for (const Vec3& v : s.velocity) out.value.push_back(v[*axis]);
@@ -40,10 +43,11 @@ bool counts(const MetricInput& in, const Snapshot& s, std::size_t i) {
   return takes(in, i) && is_alive(s, i) && (s.phase.empty() || of_stated_phase(in, s, i));
 }
 
-/// Value and slope of a scalar at a point, by least squares over the particles near it. They are exact where the scalar is
-/// linear, also beside a surface.
-Column at_point(const MetricInput& in, const std::vector<Vec3>& place, const std::vector<std::size_t>& particles,
-                const std::vector<double>& value, const Vec3& point) {
+/// Value and slope of a scalar at a point, by least squares over the particles near it. They are exact where
+/// the scalar is linear, also beside a surface.
+Column at_point(const MetricInput& in, const std::vector<Vec3>& place,
+                const std::vector<std::size_t>& particles, const std::vector<double>& value,
+                const Vec3& point) {
   const double reach = probe_reach * in.job.scene.spacing;
   Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
   Eigen::Vector4d b = Eigen::Vector4d::Zero();
@@ -52,7 +56,8 @@ Column at_point(const MetricInput& in, const std::vector<Vec3>& place, const std
     const Vec3 d = (1.0 / in.job.scene.spacing) * displacement(in.job.scene, place[i], point);
     const double q = norm(d) / probe_reach;
     if (!(q < 1.0)) continue;
-    if (!std::isfinite(value[i])) return {{}, "particle " + std::to_string(i) + " beside the probe has no finite value"};
+    if (!std::isfinite(value[i]))
+      return {{}, "particle " + std::to_string(i) + " beside the probe has no finite value"};
     const double w = (1.0 - q) * (1.0 - q) * (1.0 + 2.0 * q);
     const Eigen::Vector4d basis(1.0, d.x, d.y, d.z);
     A += w * basis * basis.transpose();
@@ -60,14 +65,16 @@ Column at_point(const MetricInput& in, const std::vector<Vec3>& place, const std
     ++seen;
   }
   if (seen == 0)
-    return {{}, "no particle that the metric takes lies within " + std::to_string(reach) + " m of the probe's point"};
+    return {
+        {},
+        "no particle that the metric takes lies within " + std::to_string(reach) + " m of the probe's point"};
   // directions in which all that is seen lies in one layer have no slope: the least solution leaves it out
   const Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix4d> solver(A);
   return {{solver.solve(b)[0]}, ""};
 }
 
-/// A number read off the run, less the value of the reference. Without such a value, less the same number read off the true field
-/// at the run's places.
+/// A number read off the run, less the value of the reference. Without such a value, less the same number
+/// read off the true field at the run's places.
 template <class Read>
 FrameError against_stated_or_field(const FramePair& f, const char* quantity, Read read) {
   const Column measured = read(f.now);
@@ -76,15 +83,17 @@ FrameError against_stated_or_field(const FramePair& f, const char* quantity, Rea
   Snapshot truth = f.truth;
   truth.position = f.now.position;
   const Column known = read(truth);
-  return known.problem.empty() ? single(measured.value[0] - known.value[0])
-                               : problem(std::string("the reference does not know the ") + quantity + " and states no value");
+  return known.problem.empty()
+             ? single(measured.value[0] - known.value[0])
+             : problem(std::string("the reference does not know the ") + quantity + " and states no value");
 }
 
 FrameError probe(const FramePair& f, Of what, const char* quantity) {
   const auto point = f.in.reference.measuring().point;
   if (!point)
     return problem(std::string(quantity) +
-                   " needs the probe's place: reference = {function = \"stated\", args = {point = [x, y, z], value = ...}}");
+                   " needs the probe's place: reference = {function = \"stated\", args = {point = [x, y, z], "
+                   "value = ...}}");
   std::vector<std::size_t> particles;
   for (std::size_t i = 0; i < f.now.position.size(); ++i)
     if (counts(f.in, f.now, i)) particles.push_back(i);
@@ -95,7 +104,8 @@ FrameError probe(const FramePair& f, Of what, const char* quantity) {
   return against_stated_or_field(f, quantity, read);
 }
 
-// --- means ----------------------------------------------------------------------------------------------------------------
+// --- means
+// ----------------------------------------------------------------------------------------------------------------
 
 /// Whether a place is in the stated box; everywhere is where none is stated.
 bool in_region(const MetricInput& in, const Vec3& r) {
@@ -111,13 +121,15 @@ FrameError mean(const FramePair& f, Of what, const char* quantity) {
   std::vector<std::size_t> particles;
   for (std::size_t i = 0; i < f.now.position.size(); ++i)
     if (counts(f.in, f.now, i) && in_region(f.in, f.now.position[i])) particles.push_back(i);
-  if (particles.empty()) return problem(std::string("no particle that the metric takes lies in the region of ") + quantity);
+  if (particles.empty())
+    return problem(std::string("no particle that the metric takes lies in the region of ") + quantity);
   const auto read = [&](const Snapshot& s) -> Column {
     Column column = column_of(f.in, s, what);
     if (!column.problem.empty()) return column;
     long double sum = 0, volume = 0;
     for (const auto i : particles) {
-      if (!std::isfinite(column.value[i])) return {{}, "particle " + std::to_string(i) + " of the region has no finite value"};
+      if (!std::isfinite(column.value[i]))
+        return {{}, "particle " + std::to_string(i) + " of the region has no finite value"};
       const long double v = i < f.in.initial.size() ? rest_volume(f.in, i) : particle_mass(f.in, f.now, i);
       sum += v * column.value[i];
       volume += v;
@@ -127,15 +139,18 @@ FrameError mean(const FramePair& f, Of what, const char* quantity) {
   return against_stated_or_field(f, quantity, read);
 }
 
-// --- places ---------------------------------------------------------------------------------------------------------------
+// --- places
+// ---------------------------------------------------------------------------------------------------------------
 
-/// Way of a point of matter since the start, along the stated axis: read from the particles that began around it.
+/// Way of a point of matter since the start, along the stated axis: read from the particles that began around
+/// it.
 FrameError displacement_of_point(const FramePair& f) {
   const auto point = f.in.reference.measuring().point;
   const auto axis = f.in.reference.measuring().axis;
   if (!point || !axis)
     return problem(
-        "displacement needs a place at the start and an axis: reference = {function = \"stated\", args = {point = [x, y, z], "
+        "displacement needs a place at the start and an axis: reference = {function = \"stated\", args = "
+        "{point = [x, y, z], "
         "axis = \"x\", value = ...}}");
   const std::size_t along = *axis;
   std::vector<std::size_t> particles;
@@ -146,12 +161,15 @@ FrameError displacement_of_point(const FramePair& f) {
     way[i] = displacement(f.in.job.scene, f.now.position[i], f.in.initial.position[i])[along];
   }
   const Column measured = at_point(f.in, f.in.initial.position, particles, way, *point);
-  return measured.problem.empty() ? against_truth(f, "displacement", measured.value[0]) : problem(measured.problem);
+  return measured.problem.empty() ? against_truth(f, "displacement", measured.value[0])
+                                  : problem(measured.problem);
 }
 
 FrameError centre(const FramePair& f) {
   const auto axis = f.in.reference.measuring().axis;
-  if (!axis) return problem("centre needs an axis: reference = {function = \"stated\", args = {axis = \"z\", value = ...}}");
+  if (!axis)
+    return problem(
+        "centre needs an axis: reference = {function = \"stated\", args = {axis = \"z\", value = ...}}");
   long double sum = 0, mass = 0;
   for (std::size_t i = 0; i < f.now.position.size(); ++i) {
     if (!counts(f.in, f.now, i)) continue;
@@ -174,21 +192,31 @@ const std::vector<Quantity>& probe_quantities() {
   };
   static const std::vector<Quantity> list{
       at("temperature_at", "K",
-         "temperature at the stated point, by a linear fit to particles within 2.5 spacings, minus the true one",
+         "temperature at the stated point, by a linear fit to particles within 2.5 spacings, minus the true "
+         "one",
          Of::temperature),
-      at("pressure_at", "Pa", "pressure at the stated point, by the same fit, minus the true one", Of::pressure),
-      at("density_at", "kg/m3", "density at the stated point, by the same fit, minus the true one", Of::density),
+      at("pressure_at", "Pa", "pressure at the stated point, by the same fit, minus the true one",
+         Of::pressure),
+      at("density_at", "kg/m3", "density at the stated point, by the same fit, minus the true one",
+         Of::density),
       at("velocity_at", "m/s",
-         "component of velocity along the stated axis at the stated point, by the same fit, minus the true one", Of::velocity),
+         "component of velocity along the stated axis at the stated point, by the same fit, minus the true "
+         "one",
+         Of::velocity),
       over("mean_temperature", "K",
-           "mean temperature by volume (of the body, phase or box), minus the stated value or the true mean", Of::temperature),
+           "mean temperature by volume (of the body, phase or box), minus the stated value or the true mean",
+           Of::temperature),
       over("mean_pressure", "Pa", "mean pressure there, minus the true one", Of::pressure),
       over("mean_density", "kg/m3", "mean density there, minus the true one", Of::density),
-      over("mean_velocity", "m/s", "mean component of velocity along the stated axis there, minus the true one", Of::velocity),
+      over("mean_velocity", "m/s",
+           "mean component of velocity along the stated axis there, minus the true one", Of::velocity),
       {{"displacement", "m",
-        "displacement along the stated axis of the matter that began at the stated point, minus the true one"},
+        "displacement along the stated axis of the matter that began at the stated point, minus the true "
+        "one"},
        displacement_of_point},
-      {{"centre", "m", "place of the centre of mass of the body (or all, or a phase) along the stated axis, minus the true one"},
+      {{"centre", "m",
+        "place of the centre of mass of the body (or all, or a phase) along the stated axis, minus the true "
+        "one"},
        centre}};
   return list;
 }

@@ -24,7 +24,8 @@ std::map<long, Layer> layers(const FramePair& f, std::size_t axis) {
   for (std::size_t i = 0; i < start.size(); ++i) {
     if (!takes(f.in, i)) continue;
     auto& layer = list[static_cast<long>(std::floor(start[i][axis] / f.in.job.scene.spacing + 1e-9))];
-    const double w = rest_volume(f.in, i), sigma = i < f.now.temperature_error.size() ? f.now.temperature_error[i] : 0.0;
+    const double w = rest_volume(f.in, i),
+                 sigma = i < f.now.temperature_error.size() ? f.now.temperature_error[i] : 0.0;
     if (layer.weight == 0.0) layer.first = f.now.temperature[i];
     if (f.now.temperature[i] != layer.first) layer.one_count = false;
     layer.weight += w;
@@ -38,8 +39,8 @@ std::map<long, Layer> layers(const FramePair& f, std::size_t axis) {
     layer.place /= layer.weight;
     layer.run /= layer.weight;
     layer.truth /= layer.weight;
-    layer.variance =
-        layer.one_count ? layer.greatest_sigma * layer.greatest_sigma : layer.variance / (layer.weight * layer.weight);
+    layer.variance = layer.one_count ? layer.greatest_sigma * layer.greatest_sigma
+                                     : layer.variance / (layer.weight * layer.weight);
   }
   return list;
 }
@@ -50,7 +51,8 @@ std::string missing(const FramePair& f) {
   if (f.truth.temperature.size() != n) return "the reference does not know the temperature";
   if (f.now.temperature.size() != n) return "the trajectory has no temperature";
   for (std::size_t i = 0; i < n; ++i)
-    if (!std::isfinite(f.now.temperature[i])) return "temperature of particle " + std::to_string(i) + " is not finite";
+    if (!std::isfinite(f.now.temperature[i]))
+      return "temperature of particle " + std::to_string(i) + " is not finite";
   return {};
 }
 
@@ -68,7 +70,8 @@ FrameError profile(const FramePair& f) {
 std::optional<double> crossing(const std::map<long, Layer>& list, double level, double Layer::*value) {
   const Layer* before = nullptr;
   for (const auto& [row, layer] : list) {
-    if (before && (before->*value - level) * (layer.*value - level) <= 0.0 && before->*value != layer.*value) {
+    if (before && (before->*value - level) * (layer.*value - level) <= 0.0 &&
+        before->*value != layer.*value) {
       const double s = (level - before->*value) / (layer.*value - before->*value);
       return before->place + s * (layer.place - before->place);
     }
@@ -100,7 +103,8 @@ const std::vector<Quantity>& profile_quantities() {
       {{"temperature_profile", "K",
         "difference of the mean temperatures of layers one spacing thick, across the reference's axis"},
        profile},
-      {{"front", "m", "difference in place of the isotherm halfway between the first extremes, along the reference's axis"},
+      {{"front", "m",
+        "difference in place of the isotherm halfway between the first extremes, along the reference's axis"},
        front}};
   return list;
 }

@@ -8,7 +8,8 @@
 namespace tripoint {
 namespace {
 
-// --- decay rate ---------------------------------------------------------------------------------------------------------
+// --- decay rate
+// ---------------------------------------------------------------------------------------------------------
 
 /// Amplitude of the mode in one frame [K], least squares with volume weights, and its standard error.
 struct Amplitude {
@@ -37,13 +38,14 @@ Amplitude project(const MetricInput& in, const Snapshot& s, const std::vector<do
     product += static_cast<long double>(w) * shape[i] * s.temperature[i];
     square += static_cast<long double>(w) * shape[i] * shape[i];
     // Standard errors are taken as fully correlated here (layers share one count): an upper bound.
-    if (!s.temperature_error.empty()) variance += static_cast<long double>(w) * std::abs(shape[i]) * s.temperature_error[i];
+    if (!s.temperature_error.empty())
+      variance += static_cast<long double>(w) * std::abs(shape[i]) * s.temperature_error[i];
   }
   return {double(product / square), double(variance / square)};
 }
 
-/// Rate of ln amplitude over time by least squares. The frames of one run of walkers are correlated, so their standard errors are
-/// added by size, not in squares: an upper bound.
+/// Rate of ln amplitude over time by least squares. The frames of one run of walkers are correlated, so their
+/// standard errors are added by size, not in squares: an upper bound.
 MetricValue decay_rate(const MetricInput& in, const Frames& frames) {
   const auto rate = in.reference.number("decay_rate");
   const auto wave = in.reference.measuring().wave;
@@ -53,7 +55,8 @@ MetricValue decay_rate(const MetricInput& in, const Frames& frames) {
   std::vector<double> t, y, u;
   double sign = 1.0;  // of the first amplitude
   for (const auto* s : frames) {
-    if (s->temperature.size() != in.initial.size()) return unformed("the trajectory has no temperature of all particles");
+    if (s->temperature.size() != in.initial.size())
+      return unformed("the trajectory has no temperature of all particles");
     const auto a = project(in, *s, shape);
     if (y.empty() && a.value < 0.0) sign = -1.0;
     if (!(sign * a.value > 0.0))
@@ -76,14 +79,16 @@ MetricValue decay_rate(const MetricInput& in, const Frames& frames) {
   return v;
 }
 
-// --- events -------------------------------------------------------------------------------------------------------------
+// --- events
+// -------------------------------------------------------------------------------------------------------------
 
 /// Spin of a body along its middle principal axis and its rate by Euler's equation.
 struct MiddleSpin {
   double w, rate;
 };
 MiddleSpin middle_spin(const BodyState& b, const MassProperties& p) {
-  const Vec3 w = rotate_back(p.principal_axes, rotate_back(b.orientation, b.angular_velocity)), I = p.principal_inertia;
+  const Vec3 w = rotate_back(p.principal_axes, rotate_back(b.orientation, b.angular_velocity)),
+             I = p.principal_inertia;
   return {w.y, (I.z - I.x) / I.y * w.z * w.x};
 }
 
@@ -91,8 +96,8 @@ MiddleSpin middle_spin(const BodyState& b, const MassProperties& p) {
 double hermite_root(const MiddleSpin& a, const MiddleSpin& b, double t0, double t1) {
   const double h = t1 - t0;
   const auto value = [&](double s) {
-    return (1 + 2 * s) * (1 - s) * (1 - s) * a.w + s * (1 - s) * (1 - s) * h * a.rate + s * s * (3 - 2 * s) * b.w +
-           s * s * (s - 1) * h * b.rate;
+    return (1 + 2 * s) * (1 - s) * (1 - s) * a.w + s * (1 - s) * (1 - s) * h * a.rate +
+           s * s * (3 - 2 * s) * b.w + s * s * (s - 1) * h * b.rate;
   };
   double low = 0.0, high = 1.0;
   for (int n = 0; n < 60; ++n) {
@@ -103,7 +108,8 @@ double hermite_root(const MiddleSpin& a, const MiddleSpin& b, double t0, double 
 }
 
 /// Times at which a run's body flips; empty text or what hinders.
-std::string find_flips(const MetricInput& in, const Frames& frames, std::size_t row, std::vector<double>& times) {
+std::string find_flips(const MetricInput& in, const Frames& frames, std::size_t row,
+                       std::vector<double>& times) {
   const JobBody* body = nullptr;
   for (const auto& b : in.job.bodies)
     if (b.index == static_cast<int>(row)) body = &b;
@@ -112,7 +118,8 @@ std::string find_flips(const MetricInput& in, const Frames& frames, std::size_t 
   for (std::size_t n = 0; n < frames.size(); ++n) {
     if (row >= frames[n]->bodies.size()) return "the trajectory does not have the body";
     const auto now = middle_spin(frames[n]->bodies[row], body->properties);
-    if (!std::isfinite(now.w)) return "the body's spin is not finite at t = " + std::to_string(frames[n]->time) + " s";
+    if (!std::isfinite(now.w))
+      return "the body's spin is not finite at t = " + std::to_string(frames[n]->time) + " s";
     if (now.w == 0.0) continue;
     if (sign * now.w < 0.0) {
       const auto before = middle_spin(frames[n - 1]->bodies[row], body->properties);
@@ -128,10 +135,12 @@ std::size_t bodies_alive(const Snapshot& s) {
       std::count_if(s.bodies.begin(), s.bodies.end(), [](const BodyState& b) { return finite(b.position); }));
 }
 
-/// Bodies before the first frame: of the job where that frame is the start, in which an event at 0 s may have happened already.
+/// Bodies before the first frame: of the job where that frame is the start, in which an event at 0 s may have
+/// happened already.
 std::size_t bodies_before(const MetricInput& in, const Snapshot& first) {
   if (first.time > in.job.times.front() + time_tolerance(in.job)) return bodies_alive(first);
-  return static_cast<std::size_t>(std::ranges::count_if(in.job.bodies, [](const JobBody& b) { return b.index >= 0; }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(in.job.bodies, [](const JobBody& b) { return b.index >= 0; }));
 }
 
 /// A merge or split shows between two frames: the error is the distance of the true time from that interval.
@@ -179,7 +188,8 @@ MetricValue event_count(const MetricInput& in, const Frames& frames) {
 
 const std::vector<RunQuantity>& run_quantities() {
   static const std::vector<RunQuantity> list{
-      {{"decay_rate", "1", "rate at which the reference's mode decays, over the true rate, minus 1"}, decay_rate},
+      {{"decay_rate", "1", "rate at which the reference's mode decays, over the true rate, minus 1"},
+       decay_rate},
       {{"event_time", "s", "time of the first event (flip, merge, split) minus the true one"}, event_time},
       {{"event_count", "1", "number of flips in the run minus the true one"}, event_count}};
   return list;

@@ -17,7 +17,8 @@ struct Extent {
 
 Extent extent_of(const MetricInput& in) {
   const auto measuring = in.reference.measuring();
-  if (!measuring.axis) throw InputError(in.choice.place, "metric `" + in.choice.name + "`: its reference names no axis");
+  if (!measuring.axis)
+    throw InputError(in.choice.place, "metric `" + in.choice.name + "`: its reference names no axis");
   Extent e{measuring.bar ? *measuring.bar : job_body(in), *measuring.axis, 1e300, -1e300};
   const double half = 0.5 * in.job.scene.spacing;
   for (const auto i : sampled(in, e.bar)) {
@@ -55,7 +56,8 @@ Vec3 mean_start(const MetricInput& in, const std::vector<std::size_t>& particles
 Measured unknown(const std::string& why) { return {not_a_number, why, false}; }
 
 /// Least squares of offset, cosine and sine at one frequency: the three coefficients and the residual.
-std::pair<Eigen::Vector3d, double> at_frequency(const std::vector<double>& t, const std::vector<double>& y, double w) {
+std::pair<Eigen::Vector3d, double> at_frequency(const std::vector<double>& t, const std::vector<double>& y,
+                                                double w) {
   const auto n = static_cast<Eigen::Index>(t.size());
   Eigen::MatrixX3d A(n, 3);
   Eigen::VectorXd b(n);
@@ -76,7 +78,8 @@ Measured deflection(const MetricInput& in, const Snapshot& s) {
   const Vec3 direction = *measuring.direction;
   const long row = body_row(in);
   if (row >= 0 && in.job.bodies[job_body(in)].phase == Phase::rigid) {
-    if (static_cast<std::size_t>(row) >= s.bodies.size() || !finite(s.bodies[static_cast<std::size_t>(row)].position))
+    if (static_cast<std::size_t>(row) >= s.bodies.size() ||
+        !finite(s.bodies[static_cast<std::size_t>(row)].position))
       return unknown("the trajectory does not have the body");
     return {dot(direction, displacement(in.job.scene, s.bodies[static_cast<std::size_t>(row)].position,
                                         in.job.bodies[job_body(in)].properties.centre)),
@@ -85,7 +88,8 @@ Measured deflection(const MetricInput& in, const Snapshot& s) {
   if (!measuring.free_end_is_high) return unknown("the reference knows no free end");
   const auto e = extent_of(in);
   const double dx = in.job.scene.spacing;
-  const auto last = *measuring.free_end_is_high ? layer(in, e, e.high - dx, e.high) : layer(in, e, e.low, e.low + dx);
+  const auto last =
+      *measuring.free_end_is_high ? layer(in, e, e.high - dx, e.high) : layer(in, e, e.low, e.low + dx);
   return last.empty() ? unknown("the bar has no particles at its free end")
                       : Measured{dot(direction, moved(in, s, last)), "", false};
 }
@@ -93,24 +97,31 @@ Measured deflection(const MetricInput& in, const Snapshot& s) {
 Measured stretch(const MetricInput& in, const Snapshot& s, double gauge) {
   const auto e = extent_of(in);
   const double dx = in.job.scene.spacing, cut = 0.5 * (1.0 - gauge) * (e.high - e.low);
-  const auto low = layer(in, e, e.low + cut, e.low + cut + dx), high = layer(in, e, e.high - cut - dx, e.high - cut);
+  const auto low = layer(in, e, e.low + cut, e.low + cut + dx),
+             high = layer(in, e, e.high - cut - dx, e.high - cut);
   if (low.empty() || high.empty()) return unknown("the body has no particles at the ends of the gauge");
-  const Vec3 start = mean_start(in, high) - mean_start(in, low), now = start + moved(in, s, high) - moved(in, s, low);
-  return norm(start) > 0.0 ? Measured{norm(now) / norm(start), "", false} : unknown("the gauge is shorter than two layers");
+  const Vec3 start = mean_start(in, high) - mean_start(in, low),
+             now = start + moved(in, s, high) - moved(in, s, low);
+  return norm(start) > 0.0 ? Measured{norm(now) / norm(start), "", false}
+                           : unknown("the gauge is shorter than two layers");
 }
 
 Measured reaction(const MetricInput& in, const Snapshot& s) {
   const long row = body_row(in);
-  if (row < 0 || static_cast<std::size_t>(row) >= s.bodies.size()) return unknown("reaction: the metric must name the held body");
+  if (row < 0 || static_cast<std::size_t>(row) >= s.bodies.size())
+    return unknown("reaction: the metric must name the held body");
   const auto measuring = in.reference.measuring();
   if ((measuring.bar ? *measuring.bar : job_body(in)) == job_body(in))
     return unknown(
-        "reaction: the metric must name the body that holds the bar, and the reference the bar: with a stated value that is "
+        "reaction: the metric must name the body that holds the bar, and the reference the bar: with a "
+        "stated value that is "
         "the quantity `force` along an axis");
   const auto e = extent_of(in);
-  const double side = in.job.bodies[job_body(in)].properties.centre[e.axis] < 0.5 * (e.low + e.high) ? 1.0 : -1.0;
+  const double side =
+      in.job.bodies[job_body(in)].properties.centre[e.axis] < 0.5 * (e.low + e.high) ? 1.0 : -1.0;
   const double force = s.bodies[static_cast<std::size_t>(row)].force[e.axis];
-  return std::isfinite(force) ? Measured{side * force, "", false} : unknown("the trajectory has no force on the body");
+  return std::isfinite(force) ? Measured{side * force, "", false}
+                              : unknown("the trajectory has no force on the body");
 }
 
 Swing fit_swing(const std::vector<double>& t, const std::vector<double>& y, double guess) {
@@ -124,7 +135,8 @@ Swing fit_swing(const std::vector<double>& t, const std::vector<double>& y, doub
       least = r;
       best = n;
     }
-  if (best == 0 || best == count) return {0, 0, 0, "the swing's frequency is not between 0.4 and 2.5 of the true one"};
+  if (best == 0 || best == count)
+    return {0, 0, 0, "the swing's frequency is not between 0.4 and 2.5 of the true one"};
   double low = place(best - 1), high = place(best + 1);
   const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
   for (int n = 0; n < 50; ++n) {

@@ -5,7 +5,8 @@
 
 #include "validation/metrics/members.hpp"
 
-/// Motion of a bar or beam in one frame. The reference names the bar (row in the job's bodies), its axis, and which end is free.
+/// Motion of a bar or beam in one frame. The reference names the bar (row in the job's bodies), its axis, and
+/// which end is free.
 namespace tripoint {
 
 struct Measured {
@@ -14,8 +15,8 @@ struct Measured {
   bool of_tip = false;  ///< of a rigid body at the end, not of the bar's own last layer
 };
 
-/// Displacement along the reference's direction [m]: of the named rigid body's centre, else a mean. The mean is over the bar's
-/// particles that began within one spacing of its free end.
+/// Displacement along the reference's direction [m]: of the named rigid body's centre, else a mean. The mean
+/// is over the bar's particles that began within one spacing of its free end.
 [[nodiscard]] Measured deflection(const MetricInput&, const Snapshot&);
 
 /// Distance of two layers, one spacing thick, over their distance at the start [1].
@@ -31,6 +32,7 @@ struct Swing {
   std::string problem;
 };
 /// @param guess frequency, the fit looks from 0.4 to 2.5 of it [rad/s]
-[[nodiscard]] Swing fit_swing(const std::vector<double>& time, const std::vector<double>& value, double guess);
+[[nodiscard]] Swing fit_swing(const std::vector<double>& time, const std::vector<double>& value,
+                              double guess);
 
 }  // namespace tripoint

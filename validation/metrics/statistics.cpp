@@ -13,7 +13,8 @@ using List = std::vector<double>;
 constexpr std::size_t least_blocks = 8;
 
 double mean(const List& x, std::size_t from) {
-  return std::accumulate(x.begin() + static_cast<std::ptrdiff_t>(from), x.end(), 0.0) / static_cast<double>(x.size() - from);
+  return std::accumulate(x.begin() + static_cast<std::ptrdiff_t>(from), x.end(), 0.0) /
+         static_cast<double>(x.size() - from);
 }
 
 double squares(const List& x, std::size_t from, double about) {
@@ -54,7 +55,8 @@ List errors_of_blocks(List x) {
 StationaryMean stationary_mean(const List& series) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   StationaryMean m;
-  if (series.size() < least_blocks || !std::all_of(series.begin(), series.end(), [](double v) { return std::isfinite(v); }))
+  if (series.size() < least_blocks ||
+      !std::all_of(series.begin(), series.end(), [](double v) { return std::isfinite(v); }))
     return {nan, nan, 0, 0.0, false};
   m.burn_in = burn_in_of(series);
   const List steady(series.begin() + static_cast<std::ptrdiff_t>(m.burn_in), series.end());
@@ -63,9 +65,11 @@ StationaryMean stationary_mean(const List& series) {
   m.uncertainty = *std::max_element(errors.begin(), errors.end());
   const double blocks = static_cast<double>(steady.size() >> (errors.size() - 1));
   // An error from n blocks is itself known to 1/sqrt(2(n-1)): a rise within that is no rise.
-  m.plateau = errors.size() > 1 && errors.back() <= errors[errors.size() - 2] * (1.0 + 1.0 / std::sqrt(2.0 * (blocks - 1.0)));
-  m.effective = m.uncertainty > 0.0 ? std::pow(errors.front() / m.uncertainty, 2) * static_cast<double>(steady.size())
-                                    : static_cast<double>(steady.size());
+  m.plateau = errors.size() > 1 &&
+              errors.back() <= errors[errors.size() - 2] * (1.0 + 1.0 / std::sqrt(2.0 * (blocks - 1.0)));
+  m.effective = m.uncertainty > 0.0
+                    ? std::pow(errors.front() / m.uncertainty, 2) * static_cast<double>(steady.size())
+                    : static_cast<double>(steady.size());
   return m;
 }
 

@@ -15,10 +15,10 @@ struct StationaryMean {
   bool plateau = false;      ///< the error has stopped rising with the length of the blocks
 };
 
-/// Burn-in: the cut, of at most half the series, that gives the remaining mean the least error [White 1997, marginal standard
-/// error rule]. Error: from means of blocks of 1, 2, 4, ... samples while there are eight of them [Flyvbjerg & Petersen 1989].
-/// The largest counts. Unless the last has stopped rising within its own scatter there is no plateau: the series is too short to
-/// say.
+/// Burn-in: the cut, of at most half the series, that gives the remaining mean the least error [White 1997,
+/// marginal standard error rule]. Error: from means of blocks of 1, 2, 4, ... samples while there are eight
+/// of them [Flyvbjerg & Petersen 1989]. The largest counts. Unless the last has stopped rising within its own
+/// scatter there is no plateau: the series is too short to say.
 /// @param series equally spaced samples; fewer than 8 give NaN
 [[nodiscard]] StationaryMean stationary_mean(const std::vector<double>& series);
 

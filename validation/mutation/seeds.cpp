@@ -23,16 +23,17 @@ namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::uint64_t seeds_apart = 1000;  // from the case's own seed, beyond those of its studies' replicas
+// From the case's own seed, beyond those of its studies' replicas
+constexpr std::uint64_t seeds_apart = 1000;
 
-/// @param taken places in all.gates that this seed has filled: gates of the same level of two studies are told apart by their
-/// order
+/// @param taken places in all.gates that this seed has filled: gates of the same level of two studies are
+/// told apart by their order
 SeedOutcome& outcome_for(const CaseResult& c, const EngineRow& e, const GateRow& row, SeedsOutcome& all,
                          std::set<const SeedOutcome*>& taken) {
   const auto allows = row.expect ? fmt::format("class {}", *row.expect) : describe(row.gate);
   for (auto& g : all.gates)
-    if (!taken.count(&g) && g.case_id == c.id && g.engine == label_of(e.name, e.preset) && g.mode == row.mode &&
-        g.metric == row.metric && g.level == row.level && g.allows == allows) {
+    if (!taken.count(&g) && g.case_id == c.id && g.engine == label_of(e.name, e.preset) &&
+        g.mode == row.mode && g.metric == row.metric && g.level == row.level && g.allows == allows) {
       taken.insert(&g);
       return g;
     }
@@ -68,7 +69,8 @@ std::string room_of(const SeedOutcome& g) {
 
 bool depends_on_seed(const Case& value, const EnginePlan& engine, const RunPlan& run) {
   if (is_exact(engine.name)) return false;
-  return run.walkers.has_value() || (engine.entry && !engine.entry->deterministic) || scene_of(value, run).jitter > 0.0;
+  return run.walkers.has_value() || (engine.entry && !engine.entry->deterministic) ||
+         scene_of(value, run).jitter > 0.0;
 }
 
 void add_seed(const CaseResult& c, std::uint64_t seed, SeedsOutcome& all) {
@@ -77,8 +79,8 @@ void add_seed(const CaseResult& c, std::uint64_t seed, SeedsOutcome& all) {
     for (const auto& run : e.runs)
       if (run.status != Status::ok && run.status != Status::refused && run.status != Status::missing &&
           !(run.status == Status::diverged && may_diverge(c, run.knobs.mode)))
-        all.problems.push_back(
-            fmt::format("{} {} seed {}: {} {}", c.id, label_of(e.name, e.preset), seed, run.status, run.reason));
+        all.problems.push_back(fmt::format("{} {} seed {}: {} {}", c.id, label_of(e.name, e.preset), seed,
+                                           run.status, run.reason));
     for (const auto& row : e.gates) {
       if (row.verdict == Verdict::missing) continue;  // a level that chance has no hand in
       auto& g = outcome_for(c, e, row, all, taken);
@@ -110,7 +112,8 @@ SeedsOutcome try_seeds(const std::vector<Case>& cases, const std::vector<EngineE
   for (const auto& value : cases) {
     const auto plans = plan_runs(value, engines, {});
     const auto chance = [&](const EnginePlan& e) {
-      return e.entry && std::any_of(e.runs.begin(), e.runs.end(), [&](const RunPlan& r) { return depends_on_seed(value, e, r); });
+      return e.entry && std::any_of(e.runs.begin(), e.runs.end(),
+                                    [&](const RunPlan& r) { return depends_on_seed(value, e, r); });
     };
     if (std::none_of(plans.begin(), plans.end(), chance)) continue;
     all.cases.push_back(value.id);
@@ -126,7 +129,8 @@ SeedsOutcome try_seeds(const std::vector<Case>& cases, const std::vector<EngineE
       const auto results = run_suite({value}, engines, suite);
       if (results.cases.empty()) throw EngineError("interrupted");
       add_seed(results.cases.front(), *suite.selection.seed, all);
-      fs::remove_all(fs::path(suite.out) / "runs" / value.id);  // twenty times the trajectories would be kept for nothing
+      // Twenty times the trajectories would be kept for nothing
+      fs::remove_all(fs::path(suite.out) / "runs" / value.id);
     }
   }
   if (all.cases.empty()) throw InputError("no case depends on a seed: nothing was proven");
@@ -136,24 +140,26 @@ SeedsOutcome try_seeds(const std::vector<Case>& cases, const std::vector<EngineE
 
 std::string seeds_table(const SeedsOutcome& all) {
   std::string text = fmt::format(
-      "{} other seeds; `room` is from the mean to the nearest edge of what is allowed, in standard deviations over seeds\n",
+      "{} other seeds; `room` is from the mean to the nearest edge of what is allowed, in standard "
+      "deviations over seeds\n",
       all.seeds);
-  text += fmt::format("{:6} {:24} {:18} {:10} {:24} {:>10} {:>9} {:>6}  {}\n", "", "case", "engine", "mode", "metric", "mean",
-                      "deviation", "room", "allowed");
+  text += fmt::format("{:6} {:24} {:18} {:10} {:24} {:>10} {:>9} {:>6}  {}\n", "", "case", "engine", "mode",
+                      "metric", "mean", "deviation", "room", "allowed");
   std::size_t alarms = 0;
   for (const auto& g : all.gates) {
     alarms += g.alarms.size();
-    text += one_line(fmt::format("{:6} {:24} {:18} {:10} {:24} {:10.4g} {:9.2g} {:>6}  {}{}{}",
-                                 g.alarms.empty() ? "quiet" : "ALARM", g.case_id, g.engine, g.mode, g.metric, g.mean, g.deviation,
-                                 room_of(g), g.allows, g.level ? fmt::format(" at {:g}", *g.level) : "",
-                                 g.alarms.empty() ? ""
-                                                  : fmt::format("  {} of {}: seeds {} ({})", g.alarms.size(), g.values.size(),
-                                                                fmt::join(g.alarms, ", "), to_string(g.gate.place)))) +
+    text += one_line(fmt::format(
+                "{:6} {:24} {:18} {:10} {:24} {:10.4g} {:9.2g} {:>6}  {}{}{}",
+                g.alarms.empty() ? "quiet" : "ALARM", g.case_id, g.engine, g.mode, g.metric, g.mean,
+                g.deviation, room_of(g), g.allows, g.level ? fmt::format(" at {:g}", *g.level) : "",
+                g.alarms.empty() ? ""
+                                 : fmt::format("  {} of {}: seeds {} ({})", g.alarms.size(), g.values.size(),
+                                               fmt::join(g.alarms, ", "), to_string(g.gate.place)))) +
             "\n";
   }
   for (const auto& p : all.problems) text += "PROBLEM " + one_line(p) + "\n";
-  return text + fmt::format("{} cases, {} gates, {} seeds: {} false alarms, exit {}\n", all.cases.size(), all.gates.size(),
-                            all.seeds, alarms, all.exit_code);
+  return text + fmt::format("{} cases, {} gates, {} seeds: {} false alarms, exit {}\n", all.cases.size(),
+                            all.gates.size(), all.seeds, alarms, all.exit_code);
 }
 
 std::string seeds_json(const SeedsOutcome& all) {

@@ -29,11 +29,12 @@ struct SeedsOutcome {
   int seeds = 0, exit_code = 0;              ///< 0 or 5
 };
 
-/// Whether another seed makes another run: jittered particles, walkers, or an engine that says that it is not deterministic.
+/// Whether another seed makes another run: jittered particles, walkers, or an engine that says that it is not
+/// deterministic.
 [[nodiscard]] bool depends_on_seed(const Case&, const EnginePlan&, const RunPlan&);
 
-/// Runs the engines whose results depend on a seed with `count` seeds from `first` on (never the cases' own). Collects every gate
-/// that is judged.
+/// Runs the engines whose results depend on a seed with `count` seeds from `first` on (never the cases' own).
+/// Collects every gate that is judged.
 /// @throws InputError where no case depends on a seed
 [[nodiscard]] SeedsOutcome try_seeds(const std::vector<Case>&, const std::vector<EngineEntry>&, int count,
                                      const SelftestOptions&);

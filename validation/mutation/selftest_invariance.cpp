@@ -39,10 +39,12 @@ void compare_metrics(const RunRow& a, const RunRow& b, InvarianceOutcome& outcom
   for (const auto& [name, before] : a.metrics) {
     const auto at = b.metrics.find(name);
     const double after = at == b.metrics.end() ? not_a_number : at->second.value;
-    if (!std::isfinite(before.value) && !std::isfinite(after)) continue;  // a metric that this mode does not have
+    // a metric that this mode does not have
+    if (!std::isfinite(before.value) && !std::isfinite(after)) continue;
     const double change = std::abs(after - before.value);
     if (!std::isfinite(change))
-      blame(outcome, fmt::format("{}{} is {:.3g} without and {:.3g} with", mode_of(a), name, before.value, after));
+      blame(outcome,
+            fmt::format("{}{} is {:.3g} without and {:.3g} with", mode_of(a), name, before.value, after));
     else if (most.metric.empty() || change > most.change)
       most = {change, mode_of(a) + name};
   }
@@ -60,7 +62,8 @@ void compare_gates(const EngineRow& engine, const char* when, InvarianceOutcome&
 
 }  // namespace
 
-InvarianceOutcome judge_invariance(const InvarianceChange& change, const CaseResult& without, const CaseResult& with) {
+InvarianceOutcome judge_invariance(const InvarianceChange& change, const CaseResult& without,
+                                   const CaseResult& with) {
   InvarianceOutcome outcome{std::string(change.name), without.id, true, 0.0, change.tolerance, {}};
   Greatest most;
   int judged = 0;
@@ -71,7 +74,8 @@ InvarianceOutcome judge_invariance(const InvarianceChange& change, const CaseRes
         const auto* changed = same_run(other, run);
         if (run.status != Status::ok || !changed || changed->status != Status::ok)
           blame(outcome, fmt::format("{}run is {} without and {} with{}", mode_of(run), run.status,
-                                     changed ? changed->status : Status::missing, changed ? " " + changed->reason : ""));
+                                     changed ? changed->status : Status::missing,
+                                     changed ? " " + changed->reason : ""));
         else
           compare_metrics(run, *changed, outcome, most);
         if (changed && change.tolerance == 0.0 && run.state_hash != changed->state_hash)
@@ -84,13 +88,15 @@ InvarianceOutcome judge_invariance(const InvarianceChange& change, const CaseRes
   if (most.metric.empty()) blame(outcome, "no metric was formed");
   outcome.greatest = most.change;
   if (most.change > change.tolerance)
-    blame(outcome, fmt::format("{} changes by {:.3g}, allowed {:.0e}", most.metric, most.change, change.tolerance));
+    blame(outcome,
+          fmt::format("{} changes by {:.3g}, allowed {:.0e}", most.metric, most.change, change.tolerance));
   else if (outcome.borne)
     outcome.found = fmt::format("most: {}, allowed {:.0e}: {}", most.metric, change.tolerance, change.why);
   return outcome;
 }
 
-std::vector<InvarianceOutcome> try_invariance(const Case& value, const EngineEntry& engine, const SelftestOptions& o) {
+std::vector<InvarianceOutcome> try_invariance(const Case& value, const EngineEntry& engine,
+                                              const SelftestOptions& o) {
   const auto run = [&](const InvarianceChange* change) {
     SuiteOptions suite;
     suite.selection.engines = {engine_name::solver};
@@ -98,7 +104,9 @@ std::vector<InvarianceOutcome> try_invariance(const Case& value, const EngineEnt
     suite.jobs = o.jobs;
     suite.say = o.say;
     suite.change = change;
-    suite.out = (std::filesystem::path(o.out) / (change ? "harmless-" + std::string(change->name) : "no-change")).string();
+    suite.out =
+        (std::filesystem::path(o.out) / (change ? "harmless-" + std::string(change->name) : "no-change"))
+            .string();
     suite.wanted = [](const EnginePlan&, const RunPlan& plan) { return plan.base; };
     auto results = run_suite({value}, {engine}, suite);
     if (results.cases.empty()) throw EngineError("interrupted");
@@ -109,7 +117,8 @@ std::vector<InvarianceOutcome> try_invariance(const Case& value, const EngineEnt
   for (const auto& name : value.harmless) {
     const auto& change = invariance_change(name);
     if (const auto why = change.refusal(value.scene); !why.empty()) {
-      rows.push_back({name, value.id, false, not_a_number, change.tolerance, "it is no symmetry of this scene: " + why});
+      rows.push_back(
+          {name, value.id, false, not_a_number, change.tolerance, "it is no symmetry of this scene: " + why});
       continue;
     }
     if (!without) without = run(nullptr);

@@ -18,14 +18,16 @@ using Json = nlohmann::ordered_json;
 std::string smallest_table(const std::vector<SmallestOutcome>& rows) {
   if (rows.empty()) return {};
   std::string text = fmt::format(
-      "\nSmallest visible defects: the gate is red at `size`, of either sign, and green at `hidden`, of one; red here where size "
+      "\nSmallest visible defects: the gate is red at `size`, of either sign, and green at `hidden`, of one; "
+      "red here where size "
       "is above {:g} times the stored one\n",
       smallest_growth);
-  text += fmt::format("{:11} {:24} {:>9} {:>9} {:>9}  {:26} {}\n", "", "defect", "size", "hidden", "stored", "case",
-                      "metric; what the size is of");
+  text += fmt::format("{:11} {:24} {:>9} {:>9} {:>9}  {:26} {}\n", "", "defect", "size", "hidden", "stored",
+                      "case", "metric; what the size is of");
   for (const auto& s : rows)
-    text += fmt::format("{:11} {:24} {:9.3g} {:9.3g} {:9.3g}  {:26} {}; {}{}\n", s.verdict, s.defect, s.size, s.hidden, s.stored,
-                        s.case_id, s.metric, s.what, s.holds() ? "" : "  (" + to_string(s.place) + ")");
+    text += fmt::format("{:11} {:24} {:9.3g} {:9.3g} {:9.3g}  {:26} {}; {}{}\n", s.verdict, s.defect, s.size,
+                        s.hidden, s.stored, s.case_id, s.metric, s.what,
+                        s.holds() ? "" : "  (" + to_string(s.place) + ")");
   return text + "\n";
 }
 
@@ -38,21 +40,26 @@ std::string selftest_table(const SelftestOutcome& outcome) {
                                  !d.tried   ? "not tried"
                                  : d.killed ? "killed"
                                             : "SURVIVES",
-                                 d.defect, d.size, d.case_id, d.found, d.killed ? "" : "  (" + to_string(d.place) + ")")) +
+                                 d.defect, d.size, d.case_id, d.found,
+                                 d.killed ? "" : "  (" + to_string(d.place) + ")")) +
             "\n";
   for (const auto& p : outcome.problems) text += "PROBLEM   " + one_line(p) + "\n";
   for (const auto& h : outcome.harmless)
-    text += one_line(fmt::format("{:9} {:24} {:<9.2g} {:26} {}", h.borne ? "borne" : "FELT", h.change, h.greatest, h.case_id,
-                                 h.found)) +
+    text += one_line(fmt::format("{:9} {:24} {:<9.2g} {:26} {}", h.borne ? "borne" : "FELT", h.change,
+                                 h.greatest, h.case_id, h.found)) +
             "\n";
   text += smallest_table(outcome.smallest);
-  const auto borne = std::count_if(outcome.harmless.begin(), outcome.harmless.end(), [](const auto& h) { return h.borne; });
-  const auto killed = std::count_if(outcome.defects.begin(), outcome.defects.end(), [](const auto& d) { return d.killed; });
-  const auto held = std::count_if(outcome.smallest.begin(), outcome.smallest.end(), [](const auto& s) { return s.holds(); });
-  return text +
-         fmt::format("{} of {} defects killed, {} of {} harmless changes borne, {} of {} smallest visible sizes held, exit {}\n",
-                     killed, outcome.defects.size(), borne, outcome.harmless.size(), held, outcome.smallest.size(),
-                     outcome.exit_code);
+  const auto borne =
+      std::count_if(outcome.harmless.begin(), outcome.harmless.end(), [](const auto& h) { return h.borne; });
+  const auto killed =
+      std::count_if(outcome.defects.begin(), outcome.defects.end(), [](const auto& d) { return d.killed; });
+  const auto held = std::count_if(outcome.smallest.begin(), outcome.smallest.end(),
+                                  [](const auto& s) { return s.holds(); });
+  return text + fmt::format(
+                    "{} of {} defects killed, {} of {} harmless changes borne, {} of {} smallest visible "
+                    "sizes held, exit {}\n",
+                    killed, outcome.defects.size(), borne, outcome.harmless.size(), held,
+                    outcome.smallest.size(), outcome.exit_code);
 }
 
 std::string selftest_json(const SelftestOutcome& outcome) {
@@ -86,9 +93,13 @@ std::string selftest_json(const SelftestOutcome& outcome) {
                         {"runs", s.runs},
                         {"file", s.place.file},
                         {"line", s.place.line}});
-  const Json document{
-      {"format", 1},          {"exit_code", outcome.exit_code},     {"defects", defects},          {"harmless", harmless},
-      {"smallest", smallest}, {"smallest_growth", smallest_growth}, {"problems", outcome.problems}};
+  const Json document{{"format", 1},
+                      {"exit_code", outcome.exit_code},
+                      {"defects", defects},
+                      {"harmless", harmless},
+                      {"smallest", smallest},
+                      {"smallest_growth", smallest_growth},
+                      {"problems", outcome.problems}};
   return json_text(document);
 }
 

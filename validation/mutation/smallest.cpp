@@ -7,7 +7,8 @@
 namespace tripoint {
 namespace {
 
-constexpr double least_share = 1e-15;  // of the start: smaller than any figure that a double could show beside 1
+// Of the start: smaller than any figure that a double could show beside 1
+constexpr double least_share = 1e-15;
 
 }  // namespace
 
@@ -34,7 +35,8 @@ SmallestVisible smallest_visible(double start, double greatest, const std::funct
     }
     size = red ? *red / stride : std::min(*green * stride, greatest);
   }
-  while (*red / *green > smallest_resolution * (1.0 + 1e-9)) {  // 1e-9: the first stride itself, rounded, is fine enough
+  // 1e-9: the first stride itself, rounded, is fine enough
+  while (*red / *green > smallest_resolution * (1.0 + 1e-9)) {
     const double middle = std::sqrt(*red * *green);
     (is_seen(middle) ? red : green) = middle;
   }

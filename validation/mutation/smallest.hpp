@@ -18,17 +18,20 @@ struct SmallestVisible {
 
 /// Ratio of the sizes between which bisection ends.
 constexpr double smallest_resolution = 1.05;
-/// A stored size may be passed by this factor before the self-test fails. A limit loosened, or a metric blunted, by a quarter is
-/// seen. Twice the resolution of the bisection and another machine's round-off are not.
+/// A stored size may be passed by this factor before the self-test fails. A limit loosened, or a metric
+/// blunted, by a quarter is seen. Twice the resolution of the bisection and another machine's round-off are
+/// not.
 constexpr double smallest_growth = 1.25;
 
-/// Looks from `start` in ever longer strides for a size that is seen and one that is not, then halves the ratio of the two.
+/// Looks from `start` in ever longer strides for a size that is seen and one that is not, then halves the
+/// ratio of the two.
 /// @param seen whether the gate is red at a size > 0; it is taken to be red at every larger one
 /// @param greatest no size beyond it is tried
-[[nodiscard]] SmallestVisible smallest_visible(double start, double greatest, const std::function<bool(double)>& seen);
+[[nodiscard]] SmallestVisible smallest_visible(double start, double greatest,
+                                               const std::function<bool(double)>& seen);
 
-/// The least visible size beside the one that the case states. UNSEEN: no gate turns red. NEVER GREEN: the gate is red at every
-/// size.
+/// The least visible size beside the one that the case states. UNSEEN: no gate turns red. NEVER GREEN: the
+/// gate is red at every size.
 enum class Size { held, shrank, grew, unseen, never_green };
 constexpr WordTable<5> word_table(Size) {
   return {"verdict on a smallest size", {"held", "shrank", "GREW", "UNSEEN", "NEVER GREEN"}};

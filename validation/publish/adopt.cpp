@@ -27,8 +27,8 @@ double round_off_of(const EngineEntry& engine) {
 }
 
 /// One run of the whole case with one seed; the trajectories are not kept.
-CaseResult run_once(const Case& value, const EngineEntry& engine, const AdoptOptions& o, const std::string& name,
-                    std::optional<std::uint64_t> seed) {
+CaseResult run_once(const Case& value, const EngineEntry& engine, const AdoptOptions& o,
+                    const std::string& name, std::optional<std::uint64_t> seed) {
   SuiteOptions suite;
   suite.selection.engines = {engine.name};
   suite.selection.seed = seed;
@@ -62,10 +62,13 @@ std::string difference(const RunRow& a, const RunRow& b) {
   if (a.status != b.status) return fmt::format("one run is {} and its repeat {}", a.status, b.status);
   for (const auto& [name, value] : a.metrics) {
     const auto again = b.metrics.find(name);
-    if (again == b.metrics.end() || !std::isfinite(value.value) || value.value == again->second.value) continue;
-    return fmt::format("{} is {:.9g} in one run and {:.9g} in its repeat", name, value.value, again->second.value);
+    if (again == b.metrics.end() || !std::isfinite(value.value) || value.value == again->second.value)
+      continue;
+    return fmt::format("{} is {:.9g} in one run and {:.9g} in its repeat", name, value.value,
+                       again->second.value);
   }
-  if (!a.state_hash.empty() && a.state_hash != b.state_hash) return "the state of one run and that of its repeat differ";
+  if (!a.state_hash.empty() && a.state_hash != b.state_hash)
+    return "the state of one run and that of its repeat differ";
   return {};
 }
 
@@ -76,21 +79,25 @@ bool repeats_itself(const CaseResult& first, const CaseResult& again) {
   });
 }
 
-/// The first run, its repeat, and more where chance has a hand: by the seed, or by an engine that does not repeat itself.
+/// The first run, its repeat, and more where chance has a hand: by the seed, or by an engine that does not
+/// repeat itself.
 std::vector<CaseResult> run_all(const Case& value, const EngineEntry& engine, const AdoptOptions& o) {
   std::vector<CaseResult> runs{run_once(value, engine, o, "first", {})};
-  const bool ran = std::any_of(runs[0].engines.begin(), runs[0].engines.end(),
-                               [](const auto& e) { return base_run(e) && base_run(e)->status == Status::ok; });
+  const bool ran = std::any_of(runs[0].engines.begin(), runs[0].engines.end(), [](const auto& e) {
+    return base_run(e) && base_run(e)->status == Status::ok;
+  });
   if (!ran) return runs;
   runs.push_back(run_once(value, engine, o, "repeat", {}));
   const int more = has_chance(value, engine) || !repeats_itself(runs[0], runs[1]) ? o.seeds : 0;
   for (int k = 0; k < more; ++k)
-    runs.push_back(run_once(value, engine, o, "seed", value.scene.seed + seeds_apart + static_cast<std::uint64_t>(k)));
+    runs.push_back(
+        run_once(value, engine, o, "seed", value.scene.seed + seeds_apart + static_cast<std::uint64_t>(k)));
   return runs;
 }
 
 /// Values of one metric over all runs: not finite where a run has none.
-Measured measured_in(const std::vector<CaseResult>& runs, const std::string& preset, const std::string& metric) {
+Measured measured_in(const std::vector<CaseResult>& runs, const std::string& preset,
+                     const std::string& metric) {
   Measured m;
   for (const auto& c : runs) {
     const auto* run = run_of(c, preset);
@@ -106,10 +113,11 @@ std::string note_of(const RunRow& run, const std::string& metric) {
   return at == run.metrics.end() || at->second.note.empty() ? std::string() : ": " + at->second.note;
 }
 
-void adopt_metric(AdoptedRow& row, const RunRow& base, const std::string& metric, const Measured& m, double margin,
-                  double round_off) {
+void adopt_metric(AdoptedRow& row, const RunRow& base, const std::string& metric, const Measured& m,
+                  double margin, double round_off) {
   if (!std::all_of(m.values.begin(), m.values.end(), [](double v) { return std::isfinite(v); })) {
-    row.findings.push_back({exit_missing, fmt::format("{} has no finite value{}", metric, note_of(base, metric)), false});
+    row.findings.push_back(
+        {exit_missing, fmt::format("{} has no finite value{}", metric, note_of(base, metric)), false});
     return;
   }
   if (const auto noisy = noise_exceeds_value(metric, m, round_off); !noisy.empty())
@@ -121,8 +129,8 @@ void adopt_metric(AdoptedRow& row, const RunRow& base, const std::string& metric
 
 void adopt_orders(AdoptedRow& row, const EngineRow& first) {
   for (const auto& order : first.order)
-    if (std::isfinite(order.order.low) && std::isfinite(order.order.high) && order.order.fit_class != FitClass::roundoff &&
-        order.order.fit_class != FitClass::noise_limited)
+    if (std::isfinite(order.order.low) && std::isfinite(order.order.high) &&
+        order.order.fit_class != FitClass::roundoff && order.order.fit_class != FitClass::noise_limited)
       row.gates.push_back(adopted_order_gate(order));
 }
 
@@ -164,7 +172,8 @@ void adopt_acceptance(AdoptedRow& row, const EngineRow& first, const std::vector
   }
   if (first.gates.empty())
     row.findings.push_back(
-        {exit_missing, "no limit of the case holds for any engine: nothing says that its values are right", true});
+        {exit_missing, "no limit of the case holds for any engine: nothing says that its values are right",
+         true});
 }
 
 void adopt_ended(AdoptedRow& row, const EngineRow& first) {
@@ -175,31 +184,37 @@ void adopt_ended(AdoptedRow& row, const EngineRow& first) {
   row.findings.push_back({code, fmt::format("a run ended as {}: {}", row.status, row.reason), false});
 }
 
-/// Studies of other engines are not written. A gate on a level of theirs means the case's own run, by its level in a study of
-/// this engine; where it has none, every run is the case's own.
-void settle_level(Gate& gate, const RunRow& base, const std::vector<Study>& studies, const std::string& engine) {
+/// Studies of other engines are not written. A gate on a level of theirs means the case's own run, by its
+/// level in a study of this engine; where it has none, every run is the case's own.
+void settle_level(Gate& gate, const RunRow& base, const std::vector<Study>& studies,
+                  const std::string& engine) {
   if (!gate.level) return;
   std::optional<double> own;
   for (const auto& s : studies) {
     if (!applies(s, engine, base.knobs.mode)) continue;
-    if (std::any_of(s.levels.begin(), s.levels.end(), [&](double l) { return same_level(l, *gate.level); })) return;
+    if (std::any_of(s.levels.begin(), s.levels.end(), [&](double l) { return same_level(l, *gate.level); }))
+      return;
     if (const auto at = base.levels.find(s.axes); at != base.levels.end()) own = at->second;
   }
   gate.level = own;
 }
 
-AdoptedRow row_of(const std::vector<CaseResult>& runs, const EngineRow& first, const EngineEntry& engine, const AdoptOptions& o) {
+AdoptedRow row_of(const std::vector<CaseResult>& runs, const EngineRow& first, const EngineEntry& engine,
+                  const AdoptOptions& o) {
   AdoptedRow row;
   row.preset = first.preset;
   adopt_ended(row, first);
   const auto* base = base_run(first);
   if (!base || base->status != Status::ok || !base->comparable || runs.size() < 2) return row;
   const auto* again = run_of(runs[1], row.preset);
-  if (const auto other = again ? difference(*base, *again) : std::string(); engine.deterministic && !other.empty())
+  if (const auto other = again ? difference(*base, *again) : std::string();
+      engine.deterministic && !other.empty())
     row.findings.push_back(
-        {exit_fail, fmt::format("{} says that it is deterministic, and that is untrue: {}", engine.name, other), true});
+        {exit_fail,
+         fmt::format("{} says that it is deterministic, and that is untrue: {}", engine.name, other), true});
   for (const auto& metric : runs.front().metrics)
-    adopt_metric(row, *base, metric.name, measured_in(runs, row.preset, metric.name), o.margin, round_off_of(engine));
+    adopt_metric(row, *base, metric.name, measured_in(runs, row.preset, metric.name), o.margin,
+                 round_off_of(engine));
   adopt_orders(row, first);
   adopt_acceptance(row, first, runs.front().gates);
   for (auto& gate : row.gates) settle_level(gate, *base, runs.front().studies, engine.name);
@@ -217,15 +232,16 @@ void sign_gates(AdoptedCase& adopted, const EngineEntry& engine, const AdoptOpti
 
 void say_outcome(const AdoptedCase& c, const EngineEntry& engine, void (*say)(const std::string&)) {
   for (const auto& row : c.rows)
-    say(fmt::format(
-        "{} {}: {}", c.id, label_of(engine.name, row.preset),
-        row.status == Status::ok ? fmt::format("{} gates", row.gates.size()) : fmt::format("{}, {}", row.status, row.reason)));
+    say(fmt::format("{} {}: {}", c.id, label_of(engine.name, row.preset),
+                    row.status == Status::ok ? fmt::format("{} gates", row.gates.size())
+                                             : fmt::format("{}, {}", row.status, row.reason)));
 }
 
 AdoptedCase measure_one(const Case& source, const EngineEntry& engine, const AdoptOptions& o) {
   AdoptedCase adopted{source.id, source.file, {}, {}};
   if (source.expect != Expect::pass) {
-    adopted.findings.push_back({exit_bad_input, "declares a defect or a divergence, and such a case is not adopted", false});
+    adopted.findings.push_back(
+        {exit_bad_input, "declares a defect or a divergence, and such a case is not adopted", false});
     return adopted;
   }
   const auto runs = run_all(case_to_adopt(source, engine), engine, o);
@@ -237,7 +253,8 @@ AdoptedCase measure_one(const Case& source, const EngineEntry& engine, const Ado
 
 /// Presets of an engine that the case does not list are all of them, as `validate` takes them.
 std::vector<std::string> presets_for(const Case& value, const EngineEntry& engine) {
-  const auto at = std::find_if(value.engines.begin(), value.engines.end(), [&](const auto& e) { return e.name == engine.name; });
+  const auto at = std::find_if(value.engines.begin(), value.engines.end(),
+                               [&](const auto& e) { return e.name == engine.name; });
   if (at != value.engines.end()) return at->presets;
   return suits_itself_to_the_scene(engine.name) ? std::vector<std::string>() : engine.presets;
 }
@@ -284,8 +301,8 @@ Case case_to_adopt(Case value, const EngineEntry& engine) {
   return value;
 }
 
-std::vector<AdoptedCase> measure_to_adopt(const std::vector<Case>& cases, const EngineEntry& engine, const AdoptOptions& o,
-                                          void (*say)(const std::string&)) {
+std::vector<AdoptedCase> measure_to_adopt(const std::vector<Case>& cases, const EngineEntry& engine,
+                                          const AdoptOptions& o, void (*say)(const std::string&)) {
   std::vector<AdoptedCase> list;
   for (const auto& source : cases) {
     list.push_back(measure_one(source, engine, o));

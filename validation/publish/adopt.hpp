@@ -9,8 +9,8 @@
 #include "validation/run/discover.hpp"
 #include "validation/run/plan_runs.hpp"
 
-/// Adopting an engine: its present results are measured, and gates are written that turn red where it drifts, to the worse or to
-/// the better. What fails a limit that holds for any engine is not adopted.
+/// Adopting an engine: its present results are measured, and gates are written that turn red where it drifts,
+/// to the worse or to the better. What fails a limit that holds for any engine is not adopted.
 namespace tripoint {
 
 struct AdoptOptions {
@@ -19,7 +19,8 @@ struct AdoptOptions {
   int jobs = 1;
   std::string work = "report-adopt";  ///< folder of the runs
   std::string date;                   ///< "2026-11-22", for the gates
-  std::string despite;                ///< why findings that a reason excuses are let pass; empty = they are not
+  /// Why findings that a reason excuses are let pass; empty = they are not
+  std::string despite;
 };
 
 /// Why a case is not adopted as it is.
@@ -55,7 +56,8 @@ struct Measured {
 };
 
 /// @param round_off below this an error is one of round-off, and may be anything smaller
-/// @return a band by the margin and the noise, or a limit where the value is of round-off; its reason states the measurement
+/// @return a band by the margin and the noise, or a limit where the value is of round-off; its reason states
+/// the measurement
 [[nodiscard]] Gate adopted_gate(const std::string& metric, const Measured&, double margin, double round_off);
 
 /// Chance must not become room: says so where the noise exceeds the value itself. Empty = it does not.
@@ -64,17 +66,21 @@ struct Measured {
 /// A band around a fitted order that holds its 95 % interval with room.
 [[nodiscard]] Gate adopted_order_gate(const OrderRow&);
 
-/// The case for one engine alone. It keeps its scene, every setting and study, and the limits that hold for any engine.
+/// The case for one engine alone. It keeps its scene, every setting and study, and the limits that hold for
+/// any engine.
 [[nodiscard]] Case case_to_adopt(Case, const EngineEntry&);
 
-/// Runs the cases on the engine, repeats them, and forms gates and findings. @param say progress, one line a call
-[[nodiscard]] std::vector<AdoptedCase> measure_to_adopt(const std::vector<Case>&, const EngineEntry&, const AdoptOptions&,
-                                                        void (*say)(const std::string&));
+/// Runs the cases on the engine, repeats them, and forms gates and findings. @param say progress, one line a
+/// call
+[[nodiscard]] std::vector<AdoptedCase> measure_to_adopt(const std::vector<Case>&, const EngineEntry&,
+                                                        const AdoptOptions&, void (*say)(const std::string&));
 
-/// Text of the adopted case: the whole document of its source, with this engine and its gates in the place of all others.
-/// @param source as read_case_document() gives it   @param comment first lines of the source   @param despite see AdoptOptions
-[[nodiscard]] std::string adopted_text(TomlNode source, const std::string& comment, const AdoptedCase&, const EngineEntry&,
-                                       const std::string& despite);
+/// Text of the adopted case: the whole document of its source, with this engine and its gates in the place of
+/// all others.
+/// @param source as read_case_document() gives it   @param comment first lines of the source   @param despite
+/// see AdoptOptions
+[[nodiscard]] std::string adopted_text(TomlNode source, const std::string& comment, const AdoptedCase&,
+                                       const EngineEntry&, const std::string& despite);
 
 /// Meshes and data that the document names, as it names them: they are copied beside the adopted case.
 [[nodiscard]] std::set<std::string> files_named_in(const TomlNode&);

@@ -28,7 +28,9 @@ Spread spread_of(const std::vector<double>& values) {
   return s;
 }
 
-double noise_of(const Measured& m) { return noise_room * spread_of(m.values).deviation + 2.0 * m.uncertainty; }
+double noise_of(const Measured& m) {
+  return noise_room * spread_of(m.values).deviation + 2.0 * m.uncertainty;
+}
 
 }  // namespace
 
@@ -36,7 +38,8 @@ std::string noise_exceeds_value(const std::string& metric, const Measured& m, do
   const double size = std::abs(spread_of(m.values).mean), noise = noise_of(m);
   if (noise <= std::max({size, round_off, least_limit})) return {};
   return fmt::format(
-      "the noise of {} exceeds its value: four standard deviations of {} runs and seeds, and twice the stated "
+      "the noise of {} exceeds its value: four standard deviations of {} runs and seeds, and twice the "
+      "stated "
       "uncertainty, are {:.3g}, and the value is {:.3g}",
       metric, m.values.size(), noise, size);
 }
@@ -49,7 +52,9 @@ Gate adopted_gate(const std::string& metric, const Measured& m, double margin, d
   const double apart = m.values.size() > 1 ? std::abs(m.values[1] - m.values[0]) : 0.0;
   const std::string measured = fmt::format(
       "adopted: {:.4g} measured, {:.2g} apart in a repeat{}", m.values.front(), apart,
-      m.values.size() > 2 ? fmt::format(", standard deviation {:.2g} over {} runs and seeds", s.deviation, m.values.size()) : "");
+      m.values.size() > 2
+          ? fmt::format(", standard deviation {:.2g} over {} runs and seeds", s.deviation, m.values.size())
+          : "");
   if (size <= round_off) {
     gate.limit = std::max({least_limit, round_off_room * size, size + noise});
     gate.reason = measured + "; an error of round-off may be anything smaller";
@@ -67,8 +72,9 @@ Gate adopted_order_gate(const OrderRow& order) {
   const auto& o = order.order;
   gate.metric = order.metric + ".order";
   gate.band = std::array{o.low - order_room, o.high + order_room};
-  gate.reason = fmt::format("adopted: observed order {:.3g}, 95 % interval {:.3g} to {:.3g}; room of {:g} beyond it", o.value,
-                            o.low, o.high, order_room);
+  gate.reason =
+      fmt::format("adopted: observed order {:.3g}, 95 % interval {:.3g} to {:.3g}; room of {:g} beyond it",
+                  o.value, o.low, o.high, order_room);
   return gate;
 }
 

@@ -10,7 +10,8 @@
 #include "validation/publish/adopt.hpp"
 #include "validation/results/escaped_text.hpp"
 
-/// The adopted case as a document: what is of its source stays, and what judged other engines gives place to the new gates.
+/// The adopted case as a document: what is of its source stays, and what judged other engines gives place to
+/// the new gates.
 namespace tripoint {
 namespace {
 
@@ -47,20 +48,24 @@ TomlNode list_node(std::vector<TomlNode> items) {
 /// A number for people to read, of as many digits as the measurement supports.
 double rounded(double value) { return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr); }
 
-void put(TomlNode& table, const std::string& key, TomlNode value) { table.members.emplace_back(key, std::move(value)); }
+void put(TomlNode& table, const std::string& key, TomlNode value) {
+  table.members.emplace_back(key, std::move(value));
+}
 
 void remove(TomlNode& table, const std::string& key) {
   std::erase_if(table.members, [&](const auto& m) { return m.first == key; });
 }
 
 /// [case] without the words that are of the source's suite: profiles, tags, and what its own engines prove.
-void write_head(TomlNode& document, const AdoptedCase& c, const EngineEntry& engine, const std::string& despite) {
+void write_head(TomlNode& document, const AdoptedCase& c, const EngineEntry& engine,
+                const std::string& despite) {
   TomlNode head;
   if (auto* given = document.find("case")) head = std::move(*given);
   remove(document, "case");
   for (const char* key : {"id", "profiles", "tags", "modes", "claims", "expect"}) remove(head, key);
   head.members.insert(head.members.begin(), {"id", text_node(c.id)});
-  std::string claims = one_line(fmt::format("{} {} is as accurate as when it was adopted", engine.name, engine.version));
+  std::string claims =
+      one_line(fmt::format("{} {} is as accurate as when it was adopted", engine.name, engine.version));
   if (!despite.empty()) claims += "; adopted despite what it fails: " + one_line(despite);
   put(head, "claims", text_node(claims));
   put(head, "profiles", list_node({text_node("commit")}));
@@ -104,7 +109,8 @@ void write_studies(TomlNode& document, const EngineEntry& engine, bool excused) 
   if (!studies) return;
   std::erase_if(studies->items, [&](const TomlNode& s) {
     const auto of = word(s, "engine"), mode = word(s, "mode");
-    return (!of.empty() && of != engine.name) || mode == "paper" || (mode == "corrected" && !is_own_solver(engine.name));
+    return (!of.empty() && of != engine.name) || mode == "paper" ||
+           (mode == "corrected" && !is_own_solver(engine.name));
   });
   for (auto& s : studies->items) {
     remove(s, "mode");
@@ -144,8 +150,8 @@ std::set<std::string> files_named_in(const TomlNode& document) {
   return files;
 }
 
-std::string adopted_text(TomlNode source, const std::string& comment, const AdoptedCase& adopted, const EngineEntry& engine,
-                         const std::string& despite) {
+std::string adopted_text(TomlNode source, const std::string& comment, const AdoptedCase& adopted,
+                         const EngineEntry& engine, const std::string& despite) {
   const auto findings = adopted.all_findings();
   const bool excused = !findings.empty();
   for (const char* key : {"gate", "defect", "harmless"}) remove(source, key);
@@ -157,9 +163,10 @@ std::string adopted_text(TomlNode source, const std::string& comment, const Adop
     for (const auto& gate : row.gates) gates.push_back(gate_node(gate));
   put(source, "gate", list_node(std::move(gates)));
   std::string text = comment;
-  text += one_line(fmt::format("# Adopted: `tripoint gate adopt` measured {} {} on this scene. The gates turn red where it "
-                               "drifts, to the worse or to the better.",
-                               engine.name, engine.version)) +
+  text += one_line(fmt::format(
+              "# Adopted: `tripoint gate adopt` measured {} {} on this scene. The gates turn red where it "
+              "drifts, to the worse or to the better.",
+              engine.name, engine.version)) +
           "\n";
   for (const auto& f : findings) text += "# Despite: " + one_line(f.text) + "\n";
   return text + document_text(source);

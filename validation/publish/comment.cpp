@@ -38,7 +38,8 @@ Count gates_of(const Results& r) {
   return n;
 }
 
-/// The path of a file as its repository knows it: relative to the working folder; empty where it lies elsewhere.
+/// The path of a file as its repository knows it: relative to the working folder; empty where it lies
+/// elsewhere.
 std::string path_in_repository(const std::string& file) {
   std::error_code none;
   auto path = fs::path(file).lexically_normal();
@@ -62,7 +63,9 @@ std::string limit_of(const MetricChange& c) {
 }
 
 /// "0.4 -> 0.5 of limit 0.01"
-std::string used_of_limit(const MetricChange& c) { return fmt::format("{} of {}", used_text(c), markdown(limit_of(c))); }
+std::string used_of_limit(const MetricChange& c) {
+  return fmt::format("{} of {}", used_text(c), markdown(limit_of(c)));
+}
 
 TextTable::Cells row_of(const MetricChange& c, const CommentOptions& o) {
   return {c.trend == Trend::same ? "same" : fmt::format("**{}**", word_of(c.trend)),
@@ -75,11 +78,12 @@ TextTable::Cells row_of(const MetricChange& c, const CommentOptions& o) {
 }
 
 std::string table_of(const Comparison& all, const CommentOptions& o) {
-  TextTable table({{""}, {"change", 0, true}, {"case"}, {"metric"}, {"base -> head"}, {"of the limit"}, {"noise"}});
+  TextTable table(
+      {{""}, {"change", 0, true}, {"case"}, {"metric"}, {"base -> head"}, {"of the limit"}, {"noise"}});
   std::size_t count = 0;
   for (const auto& c : all.changes) {
-    const bool moved =
-        c.trend == Trend::better || c.trend == Trend::worse || (c.trend == Trend::same && std::abs(c.change) >= least_change);
+    const bool moved = c.trend == Trend::better || c.trend == Trend::worse ||
+                       (c.trend == Trend::same && std::abs(c.change) >= least_change);
     if (moved && count < o.most) {
       ++count;
       table.add(row_of(c, o));
@@ -87,7 +91,8 @@ std::string table_of(const Comparison& all, const CommentOptions& o) {
   }
   if (table.empty()) return "No metric of the base has changed by a thousandth of its limit or more.\n";
   return table.markdown() +
-         "\nChanges and noise are in units of the limit; above 0 is worse, 1 is all that the limit allows. A change counts when "
+         "\nChanges and noise are in units of the limit; above 0 is worse, 1 is all that the limit allows. A "
+         "change counts when "
          "it is larger than its noise.\n";
 }
 
@@ -97,8 +102,8 @@ std::string arrivals(const Comparison& all, Trend trend, const CommentOptions& o
   std::size_t count = 0;
   for (const auto& c : all.changes) {
     if (c.trend != trend || ++count > named) continue;
-    text += fmt::format("- {}: {} {}: {}, {}\n", word_of(trend), linked(c.case_id, c.place, o.links), markdown(name_of(c)),
-                        markdown(values_text(c)), used_of_limit(c));
+    text += fmt::format("- {}: {} {}: {}, {}\n", word_of(trend), linked(c.case_id, c.place, o.links),
+                        markdown(name_of(c)), markdown(values_text(c)), used_of_limit(c));
   }
   return count > named ? text + fmt::format("- and {} more\n", count - named) : text;
 }
@@ -111,25 +116,30 @@ std::string not_green(const GateVerdict& verdict, const CommentOptions& o) {
     if (!r.error)
       ++warnings;
     else if (++errors <= named)
-      text += fmt::format("- {}: {}\n", r.place.file.empty() ? markdown(r.title) : linked(r.title, r.place, o.links),
+      text += fmt::format("- {}: {}\n",
+                          r.place.file.empty() ? markdown(r.title) : linked(r.title, r.place, o.links),
                           markdown(r.text));
   }
   if (errors > named) text += fmt::format("- and {} more\n", errors - named);
   if (!text.empty()) text = "\n### Not green\n\n" + text;
-  return warnings > 0 ? text + fmt::format("\n{} warning{} in the log of the gate.\n", warnings, warnings == 1 ? "" : "s") : text;
+  return warnings > 0 ? text + fmt::format("\n{} warning{} in the log of the gate.\n", warnings,
+                                           warnings == 1 ? "" : "s")
+                      : text;
 }
 
 /// Judged metrics, those that use most of their limits first, for results without a base.
 std::string most_used(const Results& results, const CommentOptions& o) {
   auto all = compare_results(results, results, {});
   std::erase_if(all.changes, [](const auto& c) { return !std::isfinite(c.head->used); });
-  std::ranges::stable_sort(all.changes, std::greater{}, [](const auto& c) { return c.head ? c.head->used : 0.0; });
+  std::ranges::stable_sort(all.changes, std::greater{},
+                           [](const auto& c) { return c.head ? c.head->used : 0.0; });
   if (all.changes.empty()) return "";
   TextTable table({{"case"}, {"metric"}, {"value"}, {"of the limit"}});
   for (std::size_t k = 0; k < std::min(o.most, all.changes.size()); ++k) {
     auto c = all.changes[k];
     c.base.reset();
-    table.add({linked(c.case_id, c.place, o.links), markdown(name_of(c)), markdown(values_text(c)), used_of_limit(c)});
+    table.add({linked(c.case_id, c.place, o.links), markdown(name_of(c)), markdown(values_text(c)),
+               used_of_limit(c)});
   }
   return table.markdown();
 }
@@ -147,13 +157,15 @@ std::string engines_of(const Results& results) {
     for (const auto& e : c.engines)
       if (!is_exact(e.name) && e.status == Status::ok) versions[e.name] = e.version;
   std::string text;
-  for (const auto& [name, version] : versions) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, version);
+  for (const auto& [name, version] : versions)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, version);
   return text;
 }
 
 std::string verdict_text(const GateVerdict& verdict, const CommentOptions& o) {
-  return o.informational && verdict.code != exit_pass ? fmt::format("{} (informational: nothing is blocked)", verdict.word)
-                                                      : verdict.word;
+  return o.informational && verdict.code != exit_pass
+             ? fmt::format("{} (informational: nothing is blocked)", verdict.word)
+             : verdict.word;
 }
 
 }  // namespace
@@ -162,8 +174,9 @@ std::string comment_markdown(const Results& results, const GateVerdict& verdict,
                              const CommentOptions& o) {
   const auto gates = gates_of(results);
   std::string text =
-      fmt::format("{}\n## Accuracy: {}\n\n{} of {} gates pass in {} case{}; {}; {}{}.\n", comment_mark, verdict_text(verdict, o),
-                  gates.green, gates.all, results.cases.size(), results.cases.size() == 1 ? "" : "s", physics_counts(results),
+      fmt::format("{}\n## Accuracy: {}\n\n{} of {} gates pass in {} case{}; {}; {}{}.\n", comment_mark,
+                  verdict_text(verdict, o), gates.green, gates.all, results.cases.size(),
+                  results.cases.size() == 1 ? "" : "s", physics_counts(results),
                   markdown(engines_of(results)), markdown(names_of(o)));
   if (!o.note.empty()) text += "\n" + markdown(o.note) + "\n";
   if (against) {
@@ -175,15 +188,18 @@ std::string comment_markdown(const Results& results, const GateVerdict& verdict,
     text += "\n" + most_used(results, o);
   }
   text += not_green(verdict, o);
-  if (text.size() > longest) text = text.substr(0, text.rfind('\n', longest)) + "\n\n(cut; the rest is in the report)\n";
+  if (text.size() > longest)
+    text = text.substr(0, text.rfind('\n', longest)) + "\n\n(cut; the rest is in the report)\n";
   return text;
 }
 
-std::string comment_text(const Results& results, const GateVerdict& verdict, const Comparison* against, const CommentOptions& o) {
+std::string comment_text(const Results& results, const GateVerdict& verdict, const Comparison* against,
+                         const CommentOptions& o) {
   const auto gates = gates_of(results);
   std::string text =
-      one_line(fmt::format("accuracy {}: {} of {} gates pass in {} cases; {}; {}{}", verdict_text(verdict, o), gates.green,
-                           gates.all, results.cases.size(), physics_counts(results), engines_of(results), names_of(o))) +
+      one_line(fmt::format("accuracy {}: {} of {} gates pass in {} cases; {}; {}{}", verdict_text(verdict, o),
+                           gates.green, gates.all, results.cases.size(), physics_counts(results),
+                           engines_of(results), names_of(o))) +
       "\n";
   if (!o.note.empty()) text += one_line(o.note) + "\n";
   if (against) text += changes_table(*against);

@@ -30,13 +30,16 @@ std::string name_of(const GateRow& g, const EngineRow& e) {
 TestCase test_of(const CaseResult& c, const EngineRow& e, const GateRow& g) {
   TestCase t{c.id, name_of(g, e), {}, g.verdict != Verdict::pass, false};
   t.body = fmt::format(
-      "<properties><property name=\"value\" value=\"{:g}\"/><property name=\"uncertainty\" value=\"{:g}\"/><property "
-      "name=\"limit\" value=\"{}\"/><property name=\"gate\" value=\"{}\"/><property name=\"physics\" value=\"{}\"/>"
+      "<properties><property name=\"value\" value=\"{:g}\"/><property name=\"uncertainty\" "
+      "value=\"{:g}\"/><property "
+      "name=\"limit\" value=\"{}\"/><property name=\"gate\" value=\"{}\"/><property name=\"physics\" "
+      "value=\"{}\"/>"
       "</properties>",
       g.value, g.uncertainty, xml(describe(g.gate)), g.verdict, xml(physics_text(g)));
   if (t.failed)
-    t.body += fmt::format("<failure type=\"{}\" message=\"{}\">{}\nlimit set at {} because: {}</failure>", g.verdict, xml(g.why),
-                          xml(g.why), xml(to_string(g.gate.place)), xml(g.gate.reason));
+    t.body +=
+        fmt::format("<failure type=\"{}\" message=\"{}\">{}\nlimit set at {} because: {}</failure>",
+                    g.verdict, xml(g.why), xml(g.why), xml(to_string(g.gate.place)), xml(g.gate.reason));
   return t;
 }
 
@@ -44,21 +47,25 @@ std::vector<TestCase> tests_of(const CaseResult& c) {
   std::vector<TestCase> tests;
   for (const auto& e : c.engines) {
     if (e.status != Status::ok) {
-      const bool broke_off = std::any_of(e.runs.begin(), e.runs.end(), [](const auto& r) { return crashed(r); });
+      const bool broke_off =
+          std::any_of(e.runs.begin(), e.runs.end(), [](const auto& r) { return crashed(r); });
       const bool counts = e.required || e.status == Status::diverged || broke_off;
-      tests.push_back({c.id, e.name + " runs",
-                       counts ? fmt::format("<failure type=\"{}\" message=\"{}\"/>", xml(to_string(e.status)), xml(e.reason))
-                              : fmt::format("<skipped message=\"{}: {}\"/>", xml(to_string(e.status)), xml(e.reason)),
-                       counts, !counts});
+      tests.push_back(
+          {c.id, e.name + " runs",
+           counts
+               ? fmt::format("<failure type=\"{}\" message=\"{}\"/>", xml(to_string(e.status)), xml(e.reason))
+               : fmt::format("<skipped message=\"{}: {}\"/>", xml(to_string(e.status)), xml(e.reason)),
+           counts, !counts});
     }
     if (is_unjudged(e))
       tests.push_back({c.id, e.name + " is judged",
-                       "<skipped message=\"not judged: no gate of the case names it or every engine\"/>", false, true});
+                       "<skipped message=\"not judged: no gate of the case names it or every engine\"/>",
+                       false, true});
     for (const auto& g : e.gates) tests.push_back(test_of(c, e, g));
   }
   for (const auto& p : c.problems)
-    tests.push_back(
-        {c.id, "the case can be judged", fmt::format("<failure type=\"problem\" message=\"{}\"/>", xml(p)), true, false});
+    tests.push_back({c.id, "the case can be judged",
+                     fmt::format("<failure type=\"problem\" message=\"{}\"/>", xml(p)), true, false});
   return tests;
 }
 
@@ -68,10 +75,12 @@ std::string suite_text(const std::string& name, const std::vector<TestCase>& tes
   for (const auto& t : tests) {
     failures += t.failed;
     skipped += t.skipped;
-    body += fmt::format("    <testcase classname=\"{}\" name=\"{}\">{}</testcase>\n", xml(t.class_name), xml(t.name), t.body);
+    body += fmt::format("    <testcase classname=\"{}\" name=\"{}\">{}</testcase>\n", xml(t.class_name),
+                        xml(t.name), t.body);
   }
-  return fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n{}  </testsuite>\n", xml(name),
-                     tests.size(), failures, skipped, body);
+  return fmt::format(
+      "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n{}  </testsuite>\n", xml(name),
+      tests.size(), failures, skipped, body);
 }
 
 }  // namespace
@@ -81,8 +90,8 @@ std::string junit_text(const Results& results) {
   for (const auto& c : results.cases) text += suite_text(c.id, tests_of(c));
   std::vector<TestCase> whole;
   for (const auto& p : results.problems)
-    whole.push_back(
-        {"tripoint", "the results are whole", fmt::format("<failure type=\"problem\" message=\"{}\"/>", xml(p)), true, false});
+    whole.push_back({"tripoint", "the results are whole",
+                     fmt::format("<failure type=\"problem\" message=\"{}\"/>", xml(p)), true, false});
   if (!whole.empty()) text += suite_text("tripoint", whole);
   return text + "</testsuites>\n";
 }

@@ -20,7 +20,8 @@ using Json = nlohmann::ordered_json;
 std::string harmless(const std::string& text) {
   auto out = one_line(text);
   std::replace_if(
-      out.begin(), out.end(), [](char c) { return c == '<' || c == '>' || c == '|' || c == '`' || c == '&' || c == '@'; }, '?');
+      out.begin(), out.end(),
+      [](char c) { return c == '<' || c == '>' || c == '|' || c == '`' || c == '&' || c == '@'; }, '?');
   return out;
 }
 
@@ -38,17 +39,21 @@ Badge badge_of(const Results& results, const GateVerdict& verdict) {
       }
   const std::string count = fmt::format("{}/{} gates", green, all);
   if (verdict.code == exit_pass) return {count, "#2e7d32"};
-  const bool open = verdict.code == exit_inconclusive || verdict.code == exit_cost || verdict.code == exit_interrupted;
+  const bool open =
+      verdict.code == exit_inconclusive || verdict.code == exit_cost || verdict.code == exit_interrupted;
   return {fmt::format("{}, {}", verdict.word, count), open ? "#b26a00" : "#c62828"};
 }
 
 /// Width of a text in Verdana 11, near enough for a box around it [px].
-int width_of(const std::string& text) { return static_cast<int>(6.8 * static_cast<double>(text.size())) + 12; }
+int width_of(const std::string& text) {
+  return static_cast<int>(6.8 * static_cast<double>(text.size())) + 12;
+}
 
 std::string svg_of(const std::string& label, const Badge& badge) {
   const int left = width_of(label), right = width_of(badge.message);
+  // www.w3.org/2000/svg" width="{0}" height="20" role="img" aria-label="{3}: {4}"><title>{3}: {4}</title>
   return fmt::format(
-      R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="20" role="img" aria-label="{3}: {4}"><title>{3}: {4}</title>
+      R"(<svg xmlns="http:
 <rect width="{1}" height="20" fill="#444"/><rect x="{1}" width="{2}" height="20" fill="{5}"/>
 <g fill="#fff" text-anchor="middle" font-family="Verdana,DejaVu Sans,sans-serif" font-size="11"><text x="{6}" y="14">{3}</text><text x="{7}" y="14">{4}</text></g></svg>
 )",
@@ -72,14 +77,19 @@ std::string dashboard_json(const Results& results, bool in_limits) {
   Json list = Json::array();
   for (const auto& c : compare_results(results, results, {}).changes) {
     const auto& s = *c.head;
-    if (!std::isfinite(s.used) || !std::isfinite(s.value)) continue;            // a class, a metric without a gate, no value
-    const double range = in_limits ? c.noise / std::sqrt(2.0) : 2.0 * s.noise;  // of one result, not of a difference of two
+    // a class, a metric without a gate, no value
+    if (!std::isfinite(s.used) || !std::isfinite(s.value)) continue;
+    // Of one result, not of a difference of two
+    const double range = in_limits ? c.noise / std::sqrt(2.0) : 2.0 * s.noise;
     Json entry;
     entry["name"] = harmless(fmt::format("{} {}", c.case_id, name_of(c)));
-    entry["unit"] = in_limits ? std::string("of the limit") : c.unit.empty() ? std::string("1") : harmless(c.unit);
+    entry["unit"] = in_limits        ? std::string("of the limit")
+                    : c.unit.empty() ? std::string("1")
+                                     : harmless(c.unit);
     entry["value"] = in_limits ? s.used : s.value;
     entry["range"] = fmt::format("\u00b1 {:.3g}", range);
-    entry["extra"] = harmless(fmt::format("{}: {} {}, {}", s.verdict, fmt::format("{:.6g}", s.value), c.unit, s.allows));
+    entry["extra"] =
+        harmless(fmt::format("{}: {} {}, {}", s.verdict, fmt::format("{:.6g}", s.value), c.unit, s.allows));
     list.push_back(entry);
   }
   return json_text(list);

@@ -13,12 +13,15 @@ namespace tripoint {
 namespace {
 
 const EngineRow* row_of(const CaseResult& c, const std::string& preset) {
-  const auto at = std::find_if(c.engines.begin(), c.engines.end(), [&](const auto& e) { return e.preset == preset; });
+  const auto at =
+      std::find_if(c.engines.begin(), c.engines.end(), [&](const auto& e) { return e.preset == preset; });
   return at == c.engines.end() ? nullptr : &*at;
 }
 
 /// Round-off that steps leave, in the unit of a metric of size one.
-double round_off(const EngineEntry& engine) { return engine.build.find("single") == std::string::npos ? 1e-11 : 1e-5; }
+double round_off(const EngineEntry& engine) {
+  return engine.build.find("single") == std::string::npos ? 1e-11 : 1e-5;
+}
 
 /// A metric against the exact solution of another scheme says what an engine is, not how far it is off.
 bool is_of_a_scheme(const CaseResult& c, const std::string& metric) {
@@ -42,8 +45,9 @@ const RunRow* base_run(const EngineRow& e) {
 }
 
 const OrderRow* ladder_in_time(const EngineRow& e, const std::string& metric) {
-  const auto at = std::find_if(e.order.begin(), e.order.end(),
-                               [&](const auto& o) { return o.metric == metric && o.axes == StudyAxes{Axis::time_step}; });
+  const auto at = std::find_if(e.order.begin(), e.order.end(), [&](const auto& o) {
+    return o.metric == metric && o.axes == StudyAxes{Axis::time_step};
+  });
   return at == e.order.end() ? nullptr : &*at;
 }
 
@@ -88,7 +92,8 @@ Case case_for_releases(Case value, const EngineEntry& engine, const std::vector<
     study.levels = levels;
     const auto own = value.scene.time_step;
     if (levels.empty() && !own)
-      throw InputError(value.id + " leaves the time step to the engine: name --levels a,b,c, coarse to fine [s]");
+      throw InputError(value.id +
+                       " leaves the time step to the engine: name --levels a,b,c, coarse to fine [s]");
     if (levels.empty()) study.levels = {2.0 * *own, *own, 0.5 * *own, 0.25 * *own};
     studies.push_back(study);
   }
@@ -106,11 +111,12 @@ std::vector<ReleaseChange> changes_between(const Release& from, const Release& t
     for (const auto& [name, value] : b->metrics) {
       const auto found = a->metrics.find(name);
       if (found == a->metrics.end() || is_of_a_scheme(to.result, name)) continue;
-      const double x = std::max(std::abs(found->second.value), floor), y = std::max(std::abs(value.value), floor);
+      const double x = std::max(std::abs(found->second.value), floor),
+                   y = std::max(std::abs(value.value), floor);
       if (std::isfinite(x) == std::isfinite(y) && !(std::max(x, y) > margin * std::min(x, y))) continue;
-      list.push_back({e.preset, name, from.engine.version, to.engine.version, found->second.value, value.value,
-                      observed_order(*before, name), observed_order(e, name), std::max(x, y) / std::min(x, y),
-                      std::min(x, y) <= floor, !(y < x)});
+      list.push_back({e.preset, name, from.engine.version, to.engine.version, found->second.value,
+                      value.value, observed_order(*before, name), observed_order(e, name),
+                      std::max(x, y) / std::min(x, y), std::min(x, y) <= floor, !(y < x)});
     }
   }
   return list;
@@ -129,12 +135,17 @@ std::string upgrade_line(const ReleaseTable& t) {
   const auto &first = t.releases.front(), &last = t.releases.back();
   std::string worse, better;
   for (const auto& c : changes_between(first, last, t.margin))
-    (c.worse ? worse : better) += fmt::format("{}{} {} {:.3g} -> {:.3g}", (c.worse ? worse : better).empty() ? "" : ", ",
-                                              c.preset, c.metric, c.before, c.after);
-  for (const auto& red : gates_turned_red(first, last)) worse += fmt::format("{}gate {}", worse.empty() ? "" : ", ", red);
-  if (lost_a_row(first.result, last.result)) worse += fmt::format("{}a preset that ran does not run", worse.empty() ? "" : ", ");
-  const std::string head = fmt::format("{} {} in the place of {}: ", last.engine.name, last.engine.version, first.engine.version);
-  if (worse.empty() && better.empty()) return head + fmt::format("no error differs by more than {:g} times", t.margin);
+    (c.worse ? worse : better) +=
+        fmt::format("{}{} {} {:.3g} -> {:.3g}", (c.worse ? worse : better).empty() ? "" : ", ", c.preset,
+                    c.metric, c.before, c.after);
+  for (const auto& red : gates_turned_red(first, last))
+    worse += fmt::format("{}gate {}", worse.empty() ? "" : ", ", red);
+  if (lost_a_row(first.result, last.result))
+    worse += fmt::format("{}a preset that ran does not run", worse.empty() ? "" : ", ");
+  const std::string head =
+      fmt::format("{} {} in the place of {}: ", last.engine.name, last.engine.version, first.engine.version);
+  if (worse.empty() && better.empty())
+    return head + fmt::format("no error differs by more than {:g} times", t.margin);
   return head + (worse.empty() ? "nothing is worse; better: " + better
                                : "worse: " + worse + (better.empty() ? "" : "; better: " + better));
 }

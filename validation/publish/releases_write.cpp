@@ -23,15 +23,17 @@ Json json(const EngineRow& e) {
       metrics[name] = {{"value", json_number(value.value)}, {"order", json_number(observed_order(e, name))}};
   for (const auto& o : e.order)
     if (metrics.contains(o.metric))
-      metrics[o.metric].update({{"step", json_numbers(o.step)}, {"error", json_numbers(o.error)}, {"class", o.order.fit_class}});
+      metrics[o.metric].update(
+          {{"step", json_numbers(o.step)}, {"error", json_numbers(o.error)}, {"class", o.order.fit_class}});
   for (const auto& g : e.gates)
     gates.push_back({{"metric", g.metric},
                      {"level", json_number(g.level)},
                      {"value", json_number(g.value)},
                      {"verdict", g.verdict},
                      {"why", g.why}});
-  return {{"preset", e.preset}, {"status", e.status}, {"reason", e.reason},
-          {"metrics", metrics}, {"gates", gates},     {"cpu_s", base ? Json(base->cost.cpu_s) : Json(nullptr)}};
+  return {{"preset", e.preset}, {"status", e.status},
+          {"reason", e.reason}, {"metrics", metrics},
+          {"gates", gates},     {"cpu_s", base ? Json(base->cost.cpu_s) : Json(nullptr)}};
 }
 
 Json json(const ReleaseChange& c) {
@@ -52,7 +54,8 @@ std::string cell(const Release& r, const std::string& preset, const std::string&
   for (const auto& e : r.result.engines) {
     if (e.preset != preset) continue;
     const auto* base = base_run(e);
-    if (e.status != Status::ok || !base || !base->metrics.contains(metric)) return std::string(to_string(e.status));
+    if (e.status != Status::ok || !base || !base->metrics.contains(metric))
+      return std::string(to_string(e.status));
     const auto* ladder = ladder_in_time(e, metric);
     return fmt::format("{:.3g}", base->metrics.at(metric).value) +
            (ladder && std::isfinite(ladder->order.value)
@@ -65,8 +68,9 @@ std::string cell(const Release& r, const std::string& preset, const std::string&
 std::string name_of(const Release& r) { return markdown(r.engine.name) + " " + markdown(r.engine.version); }
 
 std::string table_of(const ReleaseTable& t, const MetricChoice& metric) {
-  std::string text = fmt::format("\n**{}**{}: error at the case's own time step (observed order)\n\n", markdown(metric.name),
-                                 metric.unit.empty() ? "" : " [" + markdown(metric.unit) + "]");
+  std::string text =
+      fmt::format("\n**{}**{}: error at the case's own time step (observed order)\n\n", markdown(metric.name),
+                  metric.unit.empty() ? "" : " [" + markdown(metric.unit) + "]");
   std::vector<std::string> presets;
   for (const auto& r : t.releases)
     for (const auto& e : r.result.engines)
@@ -83,8 +87,8 @@ std::string table_of(const ReleaseTable& t, const MetricChoice& metric) {
 }
 
 std::string change_line(const ReleaseChange& c) {
-  std::string text = fmt::format("- {} -> {}, {} {}: {:.3g} -> {:.3g}", markdown(c.from), markdown(c.to), markdown(c.preset),
-                                 markdown(c.metric), c.before, c.after);
+  std::string text = fmt::format("- {} -> {}, {} {}: {:.3g} -> {:.3g}", markdown(c.from), markdown(c.to),
+                                 markdown(c.preset), markdown(c.metric), c.before, c.after);
   if (c.round_off)
     text += c.worse ? ", worse: it was round-off" : ", better: it is round-off";
   else
@@ -107,7 +111,8 @@ std::string gates_of(const ReleaseTable& t) {
       for (const auto& g : e.gates) {
         ++all;
         good += g.verdict == Verdict::pass;
-        if (g.verdict != Verdict::pass) red += fmt::format("{}{} {}: {}", red.empty() ? "" : "; ", e.preset, g.metric, g.why);
+        if (g.verdict != Verdict::pass)
+          red += fmt::format("{}{} {}: {}", red.empty() ? "" : "; ", e.preset, g.metric, g.why);
       }
     any = any || all > 0;
     table.add({name_of(r), fmt::format("{} of {}", good, all), markdown(red)});
@@ -129,10 +134,12 @@ std::string releases_text(const ReleaseTable& t) {
                         {"rows", rows}});
   }
   for (std::size_t k = 1; k < t.releases.size(); ++k) {
-    for (const auto& c : changes_between(t.releases[k - 1], t.releases[k], t.margin)) changes.push_back(json(c));
+    for (const auto& c : changes_between(t.releases[k - 1], t.releases[k], t.margin))
+      changes.push_back(json(c));
   }
   if (!t.releases.empty())
-    for (const auto& m : t.releases.front().result.metrics) metrics.push_back({{"name", m.name}, {"unit", m.unit}});
+    for (const auto& m : t.releases.front().result.metrics)
+      metrics.push_back({{"name", m.name}, {"unit", m.unit}});
   return json_text(Json{{"format", 1},
                         {"case", t.case_id},
                         {"title", t.title},
@@ -147,13 +154,16 @@ std::string releases_text(const ReleaseTable& t) {
 }
 
 std::string releases_markdown(const ReleaseTable& t) {
-  std::string text = fmt::format("# {}: {}\n\n{}.\n", markdown(t.case_id), markdown(t.title), markdown(upgrade_line(t)));
+  std::string text =
+      fmt::format("# {}: {}\n\n{}.\n", markdown(t.case_id), markdown(t.title), markdown(upgrade_line(t)));
   if (t.releases.empty()) return text;
   for (const auto& metric : t.releases.front().result.metrics) text += table_of(t, metric);
-  text += fmt::format("\nFrom one release to the next, errors that differ by more than {:g} times:\n\n", t.margin);
+  text += fmt::format("\nFrom one release to the next, errors that differ by more than {:g} times:\n\n",
+                      t.margin);
   std::string changes;
   for (std::size_t k = 1; k < t.releases.size(); ++k)
-    for (const auto& c : changes_between(t.releases[k - 1], t.releases[k], t.margin)) changes += change_line(c);
+    for (const auto& c : changes_between(t.releases[k - 1], t.releases[k], t.margin))
+      changes += change_line(c);
   text += (changes.empty() ? "- none\n" : changes) + gates_of(t);
   text += fmt::format("\nRun again: {}\n", markdown(t.command));
   return text;

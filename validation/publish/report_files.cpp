@@ -42,7 +42,8 @@ std::string make_page(const fs::path& results, const std::string& history, bool 
   spec.outlives_interrupt = true;
   spec.log = (results.parent_path() / "report.log").string();
   const auto end = run_process(sandboxed_report(spec, results.parent_path().string(), history));
-  if (end.how == ProcessEnd::How::exited && end.code == 0 && fs::exists(results.parent_path() / "index.html")) return {};
+  if (end.how == ProcessEnd::How::exited && end.code == 0 && fs::exists(results.parent_path() / "index.html"))
+    return {};
   return fmt::format("the report program {}: {}", describe(end), end.log_tail);
 }
 
@@ -79,8 +80,8 @@ void set_aside_report(const std::string& folder) {
   const fs::path previous = out / "previous";
   fs::remove_all(previous, none);
   fs::create_directory(previous, none);
-  for (const char* made : {"junit.xml", "summary.md", "scorecard.json", "scorecard.md", "scorecard.html", "index.html",
-                           "signable.html", "report.pdf", "case"})
+  for (const char* made : {"junit.xml", "summary.md", "scorecard.json", "scorecard.md", "scorecard.html",
+                           "index.html", "signable.html", "report.pdf", "case"})
     if (!fs::is_symlink(out / made, none)) fs::rename(out / made, previous / made, none);
   fs::remove(previous, none);  // where there was nothing to set aside
   remove_pages(out);
@@ -116,7 +117,8 @@ std::string notes_text(const Results& results) {
   const auto list = [&](const char* what, const std::map<std::string, int>& rows) {
     std::string names;
     for (const auto& [name, count] : rows)
-      names += fmt::format("{}{} in {} case{}", names.empty() ? "" : ", ", name, count, count == 1 ? "" : "s");
+      names +=
+          fmt::format("{}{} in {} case{}", names.empty() ? "" : ", ", name, count, count == 1 ? "" : "s");
     if (!names.empty()) text += fmt::format("{}: {}\n", what, one_line(names));
   };
   list("missing", missing);
@@ -125,9 +127,10 @@ std::string notes_text(const Results& results) {
 }
 
 std::string last_line(const Results& results, const std::string& folder) {
-  return fmt::format(
-      "verdict {} exit {}  {}", results.verdict, results.exit_code,
-      one_line((fs::path(folder) / (fs::exists(fs::path(folder) / "index.html") ? "index.html" : "results.json")).string()));
+  return fmt::format("verdict {} exit {}  {}", results.verdict, results.exit_code,
+                     one_line((fs::path(folder) /
+                               (fs::exists(fs::path(folder) / "index.html") ? "index.html" : "results.json"))
+                                  .string()));
 }
 
 }  // namespace tripoint

@@ -28,22 +28,25 @@ constexpr double disagreement = 0.5;  // of the acceptance limit
 bool is_fitted(const Gate& g) { return is_of_ladder(g.metric); }
 
 const MetricChoice* metric_of(const CaseResult& c, const std::string& name) {
-  const auto at = std::find_if(c.metrics.begin(), c.metrics.end(), [&](const auto& m) { return m.name == name; });
+  const auto at =
+      std::find_if(c.metrics.begin(), c.metrics.end(), [&](const auto& m) { return m.name == name; });
   return at == c.metrics.end() ? nullptr : &*at;
 }
 
-bool is_momentum(const MetricChoice& m) { return m.quantity == "momentum" || m.quantity == "angular_momentum"; }
+bool is_momentum(const MetricChoice& m) {
+  return m.quantity == "momentum" || m.quantity == "angular_momentum";
+}
 
 /// A law of conservation. The drift of an angle or of a height is none, as these may change in a right run.
 bool is_conserved(const MetricChoice& m) {
-  static constexpr std::array<std::string_view, 6> kept{"mass",           "ledger.residual", "ledger.time_integration",
-                                                        "ledger.kinetic", "ledger.thermal",  "energy"};
+  static constexpr std::array<std::string_view, 6> kept{
+      "mass", "ledger.residual", "ledger.time_integration", "ledger.kinetic", "ledger.thermal", "energy"};
   if (is_momentum(m) || m.quantity == "energy_gain") return true;
   return m.norm == Norm::drift && std::ranges::find(kept, m.quantity) != kept.end();
 }
 
-/// How much an error in this metric says of the motion, 0 the most. A wrong motion may keep its energy exactly, and a missing
-/// torque still changes angular momentum.
+/// How much an error in this metric says of the motion, 0 the most. A wrong motion may keep its energy
+/// exactly, and a missing torque still changes angular momentum.
 int weakness(const CaseResult& c, const Gate& g) {
   const auto* m = metric_of(c, g.metric);
   if (!m || !is_conserved(*m)) return 0;
@@ -52,8 +55,8 @@ int weakness(const CaseResult& c, const Gate& g) {
 
 /// The run at the case's own resolution; of our solver the corrected one.
 const RunRow* own_run(const EngineRow& e) {
-  const auto at =
-      std::find_if(e.runs.begin(), e.runs.end(), [](const auto& r) { return r.base && r.knobs.mode != JudgedMode::paper; });
+  const auto at = std::find_if(e.runs.begin(), e.runs.end(),
+                               [](const auto& r) { return r.base && r.knobs.mode != JudgedMode::paper; });
   return at == e.runs.end() ? nullptr : &*at;
 }
 
@@ -66,12 +69,18 @@ double error_of(const EngineRow& e, const Gate* gate) {
 
 /// The edge of the acceptance limit that is farthest from zero.
 double edge(const Gate& g) {
-  return g.limit ? *g.limit : g.band ? std::max(std::abs((*g.band)[0]), std::abs((*g.band)[1])) : not_a_number;
+  return g.limit  ? *g.limit
+         : g.band ? std::max(std::abs((*g.band)[0]), std::abs((*g.band)[1]))
+                  : not_a_number;
 }
 
-bool same_place(double a, double b) { return std::abs(a - b) <= same_error * std::max(a, b) || std::max(a, b) <= roundoff_limit; }
+bool same_place(double a, double b) {
+  return std::abs(a - b) <= same_error * std::max(a, b) || std::max(a, b) <= roundoff_limit;
+}
 
-std::string why(const GateRow& g) { return g.metric + ": " + (g.why.empty() ? std::string(to_string(g.verdict)) : g.why); }
+std::string why(const GateRow& g) {
+  return g.metric + ": " + (g.why.empty() ? std::string(to_string(g.verdict)) : g.why);
+}
 
 Score score_of(Verdict verdict) {
   switch (verdict) {
@@ -112,7 +121,8 @@ void settle(const EngineRow& e, ScoreRow& row) {
   }
   if (known) row.defect = known_defect(known->gate);
   if (known)
-    return set(Score::known_defect, fmt::format("{} ({}: {:.3g})", known_defect(known->gate), known->metric, known->value));
+    return set(Score::known_defect,
+               fmt::format("{} ({}: {:.3g})", known_defect(known->gate), known->metric, known->value));
   if (e.status == Status::diverged) return set(Score::diverged, e.reason);
   if (!judged) return set(Score::not_judged, "no acceptance limit fits its runs");
   set(Score::pass, "");
@@ -206,7 +216,8 @@ std::string words_on(const EngineRow& e, const Case* value, const std::vector<En
   const auto* entry = find_engine(engines, e.name);
   if (!entry) return {};
   std::string text;
-  if (const auto at = entry->settings.find("preset " + e.preset); at != entry->settings.end()) text = at->second;
+  if (const auto at = entry->settings.find("preset " + e.preset); at != entry->settings.end())
+    text = at->second;
   if (!value) return text;
   for (const auto& choice : value->engines)
     for (const auto& [key, setting] : choice.settings)
@@ -215,15 +226,18 @@ std::string words_on(const EngineRow& e, const Case* value, const std::vector<En
   return text;
 }
 
-/// How far two engines are apart in a metric: by their own trajectories where these are compared, else by their values.
+/// How far two engines are apart in a metric: by their own trajectories where these are compared, else by
+/// their values.
 double apart(const CaseResult& c, const Gate& gate, const EngineRow& a, const EngineRow& b) {
   const auto la = label_of(a.name, a.preset), lb = label_of(b.name, b.preset);
   for (const auto& q : c.equivalence)
-    if (q.metric == gate.metric && ((q.a == la && q.b == lb) || (q.a == lb && q.b == la))) return std::abs(q.difference);
+    if (q.metric == gate.metric && ((q.a == la && q.b == lb) || (q.a == lb && q.b == la)))
+      return std::abs(q.difference);
   return std::abs(error_of(a, &gate) - error_of(b, &gate));
 }
 
-std::optional<Disagreement> disagreement_of(const CaseResult& c, const Case* value, const std::vector<EngineEntry>& engines) {
+std::optional<Disagreement> disagreement_of(const CaseResult& c, const Case* value,
+                                            const std::vector<EngineEntry>& engines) {
   const auto* gate = ranking_gate(c);
   if (!gate || !(edge(*gate) > 0.0)) return {};
   std::vector<const EngineRow*> ran;
@@ -239,10 +253,12 @@ std::optional<Disagreement> disagreement_of(const CaseResult& c, const Case* val
         d.b = label_of(ran[j]->name, ran[j]->preset);
       }
   if (!(d.difference > disagreement * edge(*gate))) return {};
-  std::stable_sort(ran.begin(), ran.end(),
-                   [&](const auto* a, const auto* b) { return std::abs(error_of(*a, gate)) < std::abs(error_of(*b, gate)); });
+  std::stable_sort(ran.begin(), ran.end(), [&](const auto* a, const auto* b) {
+    return std::abs(error_of(*a, gate)) < std::abs(error_of(*b, gate));
+  });
   for (const auto* e : ran)
-    d.witnesses.push_back({label_of(e->name, e->preset), settled(*e).verdict, error_of(*e, gate), words_on(*e, value, engines)});
+    d.witnesses.push_back({label_of(e->name, e->preset), settled(*e).verdict, error_of(*e, gate),
+                           words_on(*e, value, engines)});
   return d;
 }
 
@@ -262,7 +278,8 @@ bool is_absent(const EngineScore& s, const std::vector<std::string>& asked) {
 }  // namespace
 
 bool is_acceptance(const Gate& g) {
-  return g.engine.empty() && g.preset.empty() && g.mode != JudgedMode::paper && g.mode != JudgedMode::corrected;
+  return g.engine.empty() && g.preset.empty() && g.mode != JudgedMode::paper &&
+         g.mode != JudgedMode::corrected;
 }
 
 const Gate* ranking_gate(const CaseResult& c) {
@@ -273,10 +290,12 @@ const Gate* ranking_gate(const CaseResult& c) {
 }
 
 int EngineScore::count(Score verdict) const {
-  return static_cast<int>(std::count_if(rows.begin(), rows.end(), [&](const auto& r) { return r.verdict == verdict; }));
+  return static_cast<int>(
+      std::count_if(rows.begin(), rows.end(), [&](const auto& r) { return r.verdict == verdict; }));
 }
 
-Scorecard scorecard_of(const Results& results, const std::vector<Case>& cases, const std::vector<EngineEntry>& engines) {
+Scorecard scorecard_of(const Results& results, const std::vector<Case>& cases,
+                       const std::vector<EngineEntry>& engines) {
   Scorecard card;
   card.command = results.command;
   card.verdict = results.verdict;
@@ -284,14 +303,16 @@ Scorecard scorecard_of(const Results& results, const std::vector<Case>& cases, c
   card.date = results.date;
   card.commit = results.tool.commit;
   for (const auto& c : results.cases) {
-    const auto at = std::find_if(cases.begin(), cases.end(), [&](const auto& value) { return value.id == c.id; });
+    const auto at =
+        std::find_if(cases.begin(), cases.end(), [&](const auto& value) { return value.id == c.id; });
     const Case* value = at == cases.end() ? nullptr : &*at;
     for (const auto& e : c.engines)
       if (!is_exact(e.name)) score_of(card, e).rows.push_back(row_of(c, value, e));
     if (auto d = disagreement_of(c, value, engines)) card.disagreements.push_back(std::move(*d));
   }
   std::erase_if(card.engines, [&](const auto& s) { return is_absent(s, results.asked); });
-  std::stable_sort(card.engines.begin(), card.engines.end(), [](const auto& a, const auto& b) { return a.engine < b.engine; });
+  std::stable_sort(card.engines.begin(), card.engines.end(),
+                   [](const auto& a, const auto& b) { return a.engine < b.engine; });
   return card;
 }
 

@@ -8,7 +8,8 @@
 #include "validation/results/results.hpp"
 #include "validation/run/discover.hpp"
 
-/// An engine judged by the limits that any engine must hold: a row a case, totals, and its place among the engines that ran.
+/// An engine judged by the limits that any engine must hold: a row a case, totals, and its place among the
+/// engines that ran.
 namespace tripoint {
 
 struct Case;
@@ -16,7 +17,9 @@ struct Case;
 /// Score of an engine in a case by the limits that any engine must hold.
 enum class Score { pass, fail, known_defect, inconclusive, diverged, crashed, not_judged, refused, missing };
 constexpr WordTable<9> word_table(Score) {
-  return {"score", {"pass", "fail", "known defect", "inconclusive", "diverged", "crashed", "not judged", "refused", "missing"}};
+  return {"score",
+          {"pass", "fail", "known defect", "inconclusive", "diverged", "crashed", "not judged", "refused",
+           "missing"}};
 }
 
 /// The acceptance limit that an engine uses most of, excused or not. Empty where it has no value for any.
@@ -29,10 +32,11 @@ struct WorstLimit {
 struct ScoreRow {
   std::string case_id, title;
   Score verdict = Score::missing;
-  std::string reason;           ///< of a verdict that is not pass: the failed gate, the reason of a refusal, or the name of a
-                                ///< known defect
-  std::string defect;           ///< name of the known defect
-  std::string cause;            ///< of a failed limit: whose known defect, or which registered one, makes such an error
+  /// Of a verdict that is not pass: the failed gate, the reason of a refusal, or the name of a known defect
+  std::string reason;
+  std::string defect;  ///< name of the known defect
+  /// Of a failed limit: whose known defect, or which registered one, makes such an error
+  std::string cause;
   std::string metric, unit;     ///< the metric by which engines are ranked: that of ranking_gate
   double error = not_a_number;  ///< its value at the case's own resolution, scaled
   std::string allowed;          ///< "limit 0.05": the acceptance limit on it
@@ -45,8 +49,9 @@ struct ScoreRow {
   std::string drift_metric;
   double cpu_s = not_a_number;  ///< of the run at the case's own resolution [CPU s]
   double cost = not_a_number;   ///< cpu_s over that of tripoint in the same case
-  int rank = 0, of = 0;  ///< 1 = the smallest error of the `of` engines that hold every limit; equal errors share a place. 0 =
-                         ///< it holds not all, or some by a known defect only
+  /// 1 = the smallest error of the `of` engines that hold every limit; equal errors share a place. 0 = it
+  /// holds not all, or some by a known defect only
+  int rank = 0, of = 0;
 };
 
 /// An engine and preset over all cases.
@@ -62,11 +67,12 @@ struct Witness {
   std::string label;
   Score verdict = Score::missing;
   double error = not_a_number;
-  std::string words;  ///< the vendor's own on preset and settings, with their source; empty = the engine gives none
+  /// The vendor's own on preset and settings, with their source; empty = the engine gives none
+  std::string words;
 };
 
-/// A case in which two engines differ by more than half of the acceptance limit. At most one of them uses less than a quarter of
-/// the limit.
+/// A case in which two engines differ by more than half of the acceptance limit. At most one of them uses
+/// less than a quarter of the limit.
 struct Disagreement {
   std::string case_id, metric, unit, allowed;
   std::string a, b;                ///< the two that differ most
@@ -82,14 +88,15 @@ struct Scorecard {
   std::vector<Disagreement> disagreements;
 };
 
-/// @param cases as they were run: settings and limits  @param engines for the vendors' words; `exact` and our printed form have
-/// no score
-[[nodiscard]] Scorecard scorecard_of(const Results&, const std::vector<Case>& cases, const std::vector<EngineEntry>& engines);
+/// @param cases as they were run: settings and limits  @param engines for the vendors' words; `exact` and our
+/// printed form have no score
+[[nodiscard]] Scorecard scorecard_of(const Results&, const std::vector<Case>& cases,
+                                     const std::vector<EngineEntry>& engines);
 
 /// Whether a gate is a limit that any engine must hold.
 [[nodiscard]] bool is_acceptance(const Gate&);
-/// The gate whose metric ranks the engines of a case: of its acceptance limits that are of no order the first on a value that has
-/// a truth, else on a momentum, else on an energy; nullptr where it has none.
+/// The gate whose metric ranks the engines of a case: of its acceptance limits that are of no order the first
+/// on a value that has a truth, else on a momentum, else on an energy; nullptr where it has none.
 [[nodiscard]] const Gate* ranking_gate(const CaseResult&);
 
 /// For the terminal: each engine's totals, and the rows of the engines that were asked for.
@@ -98,8 +105,8 @@ struct Scorecard {
 [[nodiscard]] std::string scorecard_markdown(const Scorecard&);
 /// scorecard.json, format 1: the data of the page.
 [[nodiscard]] std::string scorecard_json(const Scorecard&);
-/// Writes scorecard.json, scorecard.md and, where the report program can, scorecard.html. @return why there is no page; empty
-/// where it is there
+/// Writes scorecard.json, scorecard.md and, where the report program can, scorecard.html. @return why there
+/// is no page; empty where it is there
 [[nodiscard]] std::string write_scorecard(const Scorecard&, const std::string& folder);
 
 }  // namespace tripoint

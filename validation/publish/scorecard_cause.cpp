@@ -34,8 +34,9 @@ double width(const Gate& g) {
 }
 
 bool is_like(const Gate& known, const GateRow& row, const EngineRow& engine) {
-  return !known_defect(known).empty() && known.engine != engine.name && known.metric == row.metric && known.band &&
-         width(known) <= widest && at_same_level(known, row.gate) && verdict_of(known, row.value, 0.0) == Verdict::pass;
+  return !known_defect(known).empty() && known.engine != engine.name && known.metric == row.metric &&
+         known.band && width(known) <= widest && at_same_level(known, row.gate) &&
+         verdict_of(known, row.value, 0.0) == Verdict::pass;
 }
 
 /// The known defect with the narrowest band that holds the error, and every engine that has it.
@@ -54,23 +55,28 @@ std::string as_others(const CaseResult& c, const GateRow& row, const EngineRow& 
 /// The limit of our own solver on this metric, which its smallest seen defect reaches.
 double own_limit(const CaseResult& c, const GateRow& row) {
   for (const auto& g : c.gates)
-    if (is_own_solver(g.engine) && g.mode != JudgedMode::paper && g.metric == row.metric && g.limit && at_same_level(g, row.gate))
+    if (is_own_solver(g.engine) && g.mode != JudgedMode::paper && g.metric == row.metric && g.limit &&
+        at_same_level(g, row.gate))
       return *g.limit;
   return not_a_number;
 }
 
-/// The size of a registered defect that makes such an error, in proportion to the smallest size that our limit sees.
+/// The size of a registered defect that makes such an error, in proportion to the smallest size that our
+/// limit sees.
 std::string as_registered(const CaseResult& c, const Case* value, const GateRow& row) {
   if (!value) return {};
   for (const auto& d : value->defects) {
     if (!d.smallest || std::ranges::find(d.killed_by, row.metric) == d.killed_by.end()) continue;
     const double size = *d.smallest * std::abs(row.value) / own_limit(c, row);
-    if (std::isfinite(size) && size < 1.0) return fmt::format("as of {} off by about {:.1g} of itself", d.name, size);
+    if (std::isfinite(size) && size < 1.0)
+      return fmt::format("as of {} off by about {:.1g} of itself", d.name, size);
   }
   return {};
 }
 
-std::string joined(const std::string& a, const std::string& b) { return a.empty() || b.empty() ? a + b : a + "; or " + b; }
+std::string joined(const std::string& a, const std::string& b) {
+  return a.empty() || b.empty() ? a + b : a + "; or " + b;
+}
 
 }  // namespace
 

@@ -36,7 +36,8 @@ std::string error_cell(const ScoreRow& r) {
 
 std::string order_cell(const ScoreRow& r) {
   if (!r.order_class) return "-";
-  return std::isfinite(r.order) ? fmt::format("{:.1f} {}", r.order, *r.order_class) : std::string(to_string(*r.order_class));
+  return std::isfinite(r.order) ? fmt::format("{:.1f} {}", r.order, *r.order_class)
+                                : std::string(to_string(*r.order_class));
 }
 
 std::string drift_cell(const ScoreRow& r) {
@@ -68,7 +69,8 @@ double cpu_of(const EngineScore& s) {
 }
 
 int firsts(const EngineScore& s) {
-  return static_cast<int>(std::count_if(s.rows.begin(), s.rows.end(), [](const auto& r) { return r.rank == 1 && r.of > 1; }));
+  return static_cast<int>(
+      std::count_if(s.rows.begin(), s.rows.end(), [](const auto& r) { return r.rank == 1 && r.of > 1; }));
 }
 
 /// Refusals with one reason stand together.
@@ -76,7 +78,8 @@ std::vector<std::pair<std::string, std::vector<std::string>>> refusals(const Eng
   std::vector<std::pair<std::string, std::vector<std::string>>> list;
   for (const auto& r : s.rows) {
     if (ran(r)) continue;
-    const auto words = fmt::format("{}{}{}", r.verdict, r.reason.starts_with("as expected: ") ? ", " : ": ", r.reason);
+    const auto words =
+        fmt::format("{}{}{}", r.verdict, r.reason.starts_with("as expected: ") ? ", " : ": ", r.reason);
     const auto at = std::find_if(list.begin(), list.end(), [&](const auto& l) { return l.first == words; });
     if (at == list.end())
       list.push_back({words, {r.case_id}});
@@ -88,12 +91,19 @@ std::vector<std::pair<std::string, std::vector<std::string>>> refusals(const Eng
 
 /// ": reason. cause", as far as there are any.
 std::string because(const ScoreRow& r) {
-  return (r.reason.empty() ? "" : ": " + r.reason) + (r.cause.empty() ? "" : (r.reason.empty() ? ": " : ". ") + r.cause);
+  return (r.reason.empty() ? "" : ": " + r.reason) +
+         (r.cause.empty() ? "" : (r.reason.empty() ? ": " : ". ") + r.cause);
 }
 
 TextTable::Cells row_of(const ScoreRow& r) {
-  return {std::string(to_string(r.verdict)), r.case_id,   error_cell(r), order_cell(r), drift_cell(r), figure(r.cpu_s, "{:.2f}"),
-          figure(r.cost, "{:.2g}"),          rank_cell(r)};
+  return {std::string(to_string(r.verdict)),
+          r.case_id,
+          error_cell(r),
+          order_cell(r),
+          drift_cell(r),
+          figure(r.cpu_s, "{:.2f}"),
+          figure(r.cost, "{:.2g}"),
+          rank_cell(r)};
 }
 
 std::string rows_text(const EngineScore& s) {
@@ -111,7 +121,8 @@ std::string rows_text(const EngineScore& s) {
     for (const auto& line : {r.reason, r.cause})
       if (!line.empty()) table.note("                " + line);
   }
-  std::string text = fmt::format("\nscorecard of {} {}: {}\n", s.label(), s.version, tally(s)) + table.text("  ");
+  std::string text =
+      fmt::format("\nscorecard of {} {}: {}\n", s.label(), s.version, tally(s)) + table.text("  ");
   for (const auto& [reason, ids] : refusals(s))
     text += fmt::format("  {} ({} case{})\n", reason, ids.size(), ids.size() == 1 ? "" : "s");
   return text;
@@ -131,8 +142,9 @@ TextTable totals(const Scorecard& card, bool is_markdown) {
   for (const auto& s : card.engines) {
     const int fails = s.count(Score::fail) + s.count(Score::inconclusive) + s.count(Score::not_judged);
     TextTable::Cells cells{is_markdown ? s.label() + " " + s.version : s.label()};
-    for (const int n : {s.count(Score::pass), fails, s.count(Score::known_defect), s.count(Score::refused),
-                        s.count(Score::missing), s.count(Score::crashed) + s.count(Score::diverged), firsts(s)})
+    for (const int n :
+         {s.count(Score::pass), fails, s.count(Score::known_defect), s.count(Score::refused),
+          s.count(Score::missing), s.count(Score::crashed) + s.count(Score::diverged), firsts(s)})
       cells.push_back(std::to_string(n));
     cells.push_back(is_markdown ? fmt::format("{:.1f}", cpu_of(s)) : fmt::format("{:.2f}", cpu_of(s)));
     table.add(cells);
@@ -141,7 +153,8 @@ TextTable totals(const Scorecard& card, bool is_markdown) {
 }
 
 std::string rows_markdown(const EngineScore& s) {
-  TextTable table({{"case"}, {"verdict"}, {"error"}, {"order"}, {"drift"}, {"CPU s"}, {"times ours"}, {"rank"}});
+  TextTable table(
+      {{"case"}, {"verdict"}, {"error"}, {"order"}, {"drift"}, {"CPU s"}, {"times ours"}, {"rank"}});
   for (const auto& r : s.rows) {
     if (!ran(r)) continue;
     auto cells = row_of(r);
@@ -155,13 +168,14 @@ std::string rows_markdown(const EngineScore& s) {
   if (!table.empty()) text += "\n" + table.markdown();
   const auto list = refusals(s);
   if (!list.empty()) text += "\n";
-  for (const auto& [reason, ids] : list) text += fmt::format("- {}: {}\n", cell(reason), fmt::join(ids, ", "));
+  for (const auto& [reason, ids] : list)
+    text += fmt::format("- {}: {}\n", cell(reason), fmt::join(ids, ", "));
   return text;
 }
 
 std::string disagreement_markdown(const Disagreement& d) {
-  std::string text = fmt::format("\n### {}\n\n{} and {} are {:.3g} {} apart in `{}` ({}).\n\n", d.case_id, d.a, d.b, d.difference,
-                                 cell(d.unit), d.metric, d.allowed);
+  std::string text = fmt::format("\n### {}\n\n{} and {} are {:.3g} {} apart in `{}` ({}).\n\n", d.case_id,
+                                 d.a, d.b, d.difference, cell(d.unit), d.metric, d.allowed);
   TextTable table({{"engine"}, {"off the truth"}, {"verdict"}, {"the setting, in the vendor's words"}});
   for (const auto& w : d.witnesses)
     table.add({w.label, fmt::format("{:.3g}", w.error), std::string(to_string(w.verdict)), cell(w.words)});
@@ -211,7 +225,8 @@ Json json(const EngineScore& s) {
 Json json(const Disagreement& d) {
   Json witnesses = Json::array();
   for (const auto& w : d.witnesses)
-    witnesses.push_back({{"engine", w.label}, {"verdict", w.verdict}, {"error", json_number(w.error)}, {"words", w.words}});
+    witnesses.push_back(
+        {{"engine", w.label}, {"verdict", w.verdict}, {"error", json_number(w.error)}, {"words", w.words}});
   return {{"case", d.case_id},
           {"metric", d.metric},
           {"unit", d.unit},
@@ -232,18 +247,19 @@ std::string scorecard_text(const Scorecard& card, const std::vector<std::string>
   if (shown.size() <= most_in_full)
     for (const auto* s : shown) text += rows_text(*s);
   return text + "\n" + totals(card, false).text() +
-         (card.disagreements.empty()
-              ? ""
-              : fmt::format("in {} cases two engines differ by more than half of the limit: the page says which is how far off\n",
-                            card.disagreements.size()));
+         (card.disagreements.empty() ? ""
+                                     : fmt::format("in {} cases two engines differ by more than half of the "
+                                                   "limit: the page says which is how far off\n",
+                                                   card.disagreements.size()));
 }
 
 std::string scorecard_markdown(const Scorecard& card) {
-  std::string text =
-      fmt::format("# Acceptance: engines by the limits that any engine must hold\n\nWritten by `{}`: {}, exit {}.\n\n",
-                  card.command, card.verdict, card.exit_code);
+  std::string text = fmt::format(
+      "# Acceptance: engines by the limits that any engine must hold\n\nWritten by `{}`: {}, exit {}.\n\n",
+      card.command, card.verdict, card.exit_code);
   text +=
-      "`first` counts the cases in which an engine has the smallest error of several. An engine that fails a case, or holds it "
+      "`first` counts the cases in which an engine has the smallest error of several. An engine that fails a "
+      "case, or holds it "
       "by "
       "a known defect, has no rank there. `CPU s` is the sum over its own runs of "
       "the cases, studies left out.\n\n" +
@@ -251,7 +267,8 @@ std::string scorecard_markdown(const Scorecard& card) {
   for (const auto& s : card.engines) text += rows_markdown(s);
   if (!card.disagreements.empty())
     text +=
-        "\n## Where engines disagree\n\nTwo engines differ by more than half of the limit. The error of each is against the "
+        "\n## Where engines disagree\n\nTwo engines differ by more than half of the limit. The error of each "
+        "is against the "
         "exact solution.\n";
   for (const auto& d : card.disagreements) text += disagreement_markdown(d);
   return text;

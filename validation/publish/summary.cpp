@@ -27,7 +27,9 @@ std::string engines_of(const CaseResult& c) {
                         : is_unjudged(e)       ? ": not judged"
                                                : "");
   }
-  return absent.empty() ? list : fmt::format("{}{}not here: {}", list, list.empty() ? "" : "; ", fmt::join(absent, " "));
+  return absent.empty()
+             ? list
+             : fmt::format("{}{}not here: {}", list, list.empty() ? "" : "; ", fmt::join(absent, " "));
 }
 
 int green(const CaseResult& c, int& all) {
@@ -45,8 +47,8 @@ std::string table_of(const Results& r) {
   for (const auto& c : r.cases) {
     int all = 0;
     const int passed = green(c, all);
-    table.add({std::string(to_string(c.verdict)), markdown(physics_text(c)), markdown(c.id), fmt::format("{} of {}", passed, all),
-               markdown(engines_of(c))});
+    table.add({std::string(to_string(c.verdict)), markdown(physics_text(c)), markdown(c.id),
+               fmt::format("{} of {}", passed, all), markdown(engines_of(c))});
   }
   return table.markdown();
 }
@@ -57,15 +59,16 @@ std::string not_green(const CaseResult& c) {
   for (const auto& e : c.engines) {
     for (const auto& g : e.gates)
       if (g.verdict != Verdict::pass)
-        text += fmt::format("- **{}** {}\n", markdown(c.id),
-                            markdown(fmt::format("{}{} {} {}: {} ({}; limit because: {})", e.name, after_blank(g.mode), g.metric,
-                                                 g.verdict, g.why, to_string(g.gate.place), g.gate.reason)));
+        text += fmt::format(
+            "- **{}** {}\n", markdown(c.id),
+            markdown(fmt::format("{}{} {} {}: {} ({}; limit because: {})", e.name, after_blank(g.mode),
+                                 g.metric, g.verdict, g.why, to_string(g.gate.place), g.gate.reason)));
     if (is_unjudged(e))
-      text += fmt::format("- {} {} ran and is not judged: no gate of the case names it or every engine\n", markdown(c.id),
-                          markdown(label_of(e.name, e.preset)));
+      text += fmt::format("- {} {} ran and is not judged: no gate of the case names it or every engine\n",
+                          markdown(c.id), markdown(label_of(e.name, e.preset)));
     if (e.status != Status::ok)
-      text +=
-          fmt::format("- {} {} {}: {}\n", markdown(c.id), markdown(e.name), markdown(to_string(e.status)), markdown(e.reason));
+      text += fmt::format("- {} {} {}: {}\n", markdown(c.id), markdown(e.name), markdown(to_string(e.status)),
+                          markdown(e.reason));
   }
   return text;
 }
@@ -75,29 +78,32 @@ std::string not_green(const CaseResult& c) {
 std::string case_line(const CaseResult& c) {
   int all = 0;
   const int passed = green(c, all);
-  std::string line = fmt::format("{:13} {:40} {}/{} gates; physics {}; {}", c.verdict, one_line(c.id), passed, all,
-                                 one_line(physics_text(c)), one_line(engines_of(c)));
+  std::string line = fmt::format("{:13} {:40} {}/{} gates; physics {}; {}", c.verdict, one_line(c.id), passed,
+                                 all, one_line(physics_text(c)), one_line(engines_of(c)));
   if (c.exit_code == 0) return line;
   for (const auto& p : c.problems) line += "\n              " + one_line(p);
   for (const auto& e : c.engines)
     for (const auto& g : e.gates)
       if (g.verdict != Verdict::pass)
-        line += "\n              " + one_line(fmt::format("{}: {}{} {}: {}: {}", to_string(g.gate.place), e.name,
-                                                          after_blank(g.mode), g.metric, g.verdict, g.why));
+        line +=
+            "\n              " + one_line(fmt::format("{}: {}{} {}: {}: {}", to_string(g.gate.place), e.name,
+                                                      after_blank(g.mode), g.metric, g.verdict, g.why));
   return line;
 }
 
 std::string summary_text(const Results& r) {
-  std::string text = fmt::format("# tripoint: {} (exit {})\n\n{} case{}, {}, profile {}, commit {}, {}, {}\n\n", r.verdict,
-                                 r.exit_code, r.cases.size(), r.cases.size() == 1 ? "" : "s", physics_counts(r),
-                                 r.profile.empty() ? "any" : markdown(r.profile), markdown(r.tool.commit),
-                                 markdown(r.tool.compiler), markdown(r.tool.cpu));
+  std::string text =
+      fmt::format("# tripoint: {} (exit {})\n\n{} case{}, {}, profile {}, commit {}, {}, {}\n\n", r.verdict,
+                  r.exit_code, r.cases.size(), r.cases.size() == 1 ? "" : "s", physics_counts(r),
+                  r.profile.empty() ? "any" : markdown(r.profile), markdown(r.tool.commit),
+                  markdown(r.tool.compiler), markdown(r.tool.cpu));
   text += table_of(r);
   std::string rest;
   for (const auto& p : r.problems) rest += fmt::format("- {}\n", markdown(p));
   for (const auto& c : r.cases) rest += not_green(c);
   if (!rest.empty()) text += "\n## Not green\n\n" + rest;
-  if (text.size() > longest) text = text.substr(0, text.rfind('\n', longest)) + "\n\n(cut; the rest is in results.json)\n";
+  if (text.size() > longest)
+    text = text.substr(0, text.rfind('\n', longest)) + "\n\n(cut; the rest is in results.json)\n";
   return text;
 }
 

@@ -13,7 +13,8 @@
 namespace tripoint {
 namespace {
 
-/// Seconds a particle and step, seconds a particle and frame, and seconds at least; measured on the shipped cases, one core.
+/// Seconds a particle and step, seconds a particle and frame, and seconds at least; measured on the shipped
+/// cases, one core.
 struct Rates {
   double step, frame, least;
 };
@@ -25,14 +26,15 @@ Rates rates_of(const std::string& engine) {
   return {0.0, 2e-6, 0.1};  // engines of rigid bodies: their steps are nearly free beside the frames
 }
 
-/// Whether particles push each other: liquids and elastic bodies. Else they stand, conduct heat or move as whole bodies, at a
-/// tenth of the cost.
+/// Whether particles push each other: liquids and elastic bodies. Else they stand, conduct heat or move as
+/// whole bodies, at a tenth of the cost.
 bool has_forces(const Scene& scene) {
   return std::any_of(scene.bodies.begin(), scene.bodies.end(),
                      [](const Body& b) { return b.phase != Phase::rigid && b.motion == Motion::free; });
 }
 
-/// Fastest sound of matter that flows or bends [m/s]; 0 where there is none. Rigid matter has none, whatever its material says.
+/// Fastest sound of matter that flows or bends [m/s]; 0 where there is none. Rigid matter has none, whatever
+/// its material says.
 double fastest_sound(const Scene& scene) {
   const bool flows = calls_for(scene, "fluid"), bends = calls_for(scene, "elastic");
   double fastest = 0.0;
@@ -40,13 +42,14 @@ double fastest_sound(const Scene& scene) {
     const Material& m = scene.material(body.material);
     const bool is_elastic = body.phase == Phase::elastic || m.solid == SolidKind::elastic;
     if (flows && m.stiffness) fastest = std::max(fastest, std::sqrt(*m.stiffness));
-    if (bends && is_elastic && m.young_modulus) fastest = std::max(fastest, std::sqrt(*m.young_modulus / m.density));
+    if (bends && is_elastic && m.young_modulus)
+      fastest = std::max(fastest, std::sqrt(*m.young_modulus / m.density));
   }
   return fastest;
 }
 
-/// Greatest diffusivity of matter that grows warmer or colder [m2/s]; 0 where there is none. Matter held at a temperature bounds
-/// no step.
+/// Greatest diffusivity of matter that grows warmer or colder [m2/s]; 0 where there is none. Matter held at a
+/// temperature bounds no step.
 double greatest_diffusivity(const Scene& scene) {
   double greatest = 0.0;
   if (!calls_for(scene, "heat")) return greatest;
@@ -82,7 +85,8 @@ std::map<std::string, double> measured_costs(const Results& results) {
 
 double predicted_cost(const Job& job, const std::string& engine, std::size_t particles) {
   const auto rates = rates_of(engine);
-  const double n = static_cast<double>(particles), a_step = has_forces(job.scene) ? rates.step : 0.1 * rates.step;
+  const double n = static_cast<double>(particles),
+               a_step = has_forces(job.scene) ? rates.step : 0.1 * rates.step;
   return rates.least + n * (a_step * steps_of(job) + rates.frame * static_cast<double>(job.times.size()));
 }
 

@@ -37,7 +37,8 @@ int minutes(double predicted) { return std::max(15, static_cast<int>(std::ceil(4
 
 std::string head(const Queue& queue, const EmitOptions& o) {
   return fmt::format(
-      "# {} jobs in {} shards; the longest shard is predicted to take {:.0f} CPU s. Written by: tripoint suite emit\n",
+      "# {} jobs in {} shards; the longest shard is predicted to take {:.0f} CPU s. Written by: tripoint "
+      "suite emit\n",
       queue.jobs.size(), o.shards, o.longest);
 }
 
@@ -63,20 +64,22 @@ child=$!
 trap 'kill -TERM "$child"' TERM
 wait "$child" || wait "$child"
 )",
-                     fmt::arg("dir", o.dir), fmt::arg("array", ranges(o.numbers)), fmt::arg("threads", queue.threads),
-                     fmt::arg("minutes", minutes(o.longest)), fmt::arg("names", names(o)), fmt::arg("shards", o.shards));
+                     fmt::arg("dir", o.dir), fmt::arg("array", ranges(o.numbers)),
+                     fmt::arg("threads", queue.threads), fmt::arg("minutes", minutes(o.longest)),
+                     fmt::arg("names", names(o)), fmt::arg("shards", o.shards));
 }
 
 std::string hyperqueue(const Queue& queue, const EmitOptions& o) {
   return "#!/bin/bash\n" + head(queue, o) +
-         fmt::format(R"(# Needs a server and workers: hq server start, hq worker start (or hq alloc add slurm).
+         fmt::format(
+             R"(# Needs a server and workers: hq server start, hq worker start (or hq alloc add slurm).
 set -eu
 {names}hq submit --wait --name tripoint --array {array} --cpus {threads} --crash-limit 3 -- \
   bash -c 'exec "$1" suite work "$2" --shard "$HQ_TASK_ID/{shards}"' shard "$TRIPOINT" "$DIR"
 exec "$TRIPOINT" merge "$DIR"
 )",
-                     fmt::arg("array", ranges(o.numbers)), fmt::arg("threads", queue.threads), fmt::arg("names", names(o)),
-                     fmt::arg("shards", o.shards));
+             fmt::arg("array", ranges(o.numbers)), fmt::arg("threads", queue.threads),
+             fmt::arg("names", names(o)), fmt::arg("shards", o.shards));
 }
 
 std::string parallel(const Queue& queue, const EmitOptions& o) {
@@ -87,7 +90,8 @@ set -u
 {names}parallel --jobs "${{JOBS:-2}}" --quote --retries 3 --ungroup "$TRIPOINT" suite work "$DIR" --shard "{{}}/{shards}" ::: {numbers}
 exec "$TRIPOINT" merge "$DIR"
 )",
-             fmt::arg("names", names(o)), fmt::arg("shards", o.shards), fmt::arg("numbers", fmt::join(o.numbers, " ")));
+             fmt::arg("names", names(o)), fmt::arg("shards", o.shards),
+             fmt::arg("numbers", fmt::join(o.numbers, " ")));
 }
 
 /// A string for Python.
@@ -125,9 +129,9 @@ rule shard:
     shell:
         "{{TRIPOINT:q}} suite work {{DIR:q}} --shard {{wildcards.k}}/{shards}"
 )",
-             fmt::arg("program", python_word(o.program)), fmt::arg("dir", python_word(o.dir)), fmt::arg("shards", o.shards),
-             fmt::arg("numbers", fmt::join(o.numbers, ", ")), fmt::arg("threads", queue.threads),
-             fmt::arg("minutes", minutes(o.longest)));
+             fmt::arg("program", python_word(o.program)), fmt::arg("dir", python_word(o.dir)),
+             fmt::arg("shards", o.shards), fmt::arg("numbers", fmt::join(o.numbers, ", ")),
+             fmt::arg("threads", queue.threads), fmt::arg("minutes", minutes(o.longest)));
 }
 
 /// The line that plans this suite anew on another machine.
@@ -137,7 +141,8 @@ std::string make_command(const Queue& queue, const EmitOptions& o) {
   if (!queue.filter.profile.empty()) line += " --profile " + queue.filter.profile;
   if (!queue.filter.tag.empty()) line += " --tag " + quoted(queue.filter.tag);
   if (!queue.filter.substring.empty()) line += " -k " + quoted(queue.filter.substring);
-  if (!queue.engine_words.empty()) line += " --engines " + quoted(fmt::format("{}", fmt::join(queue.engine_words, ",")));
+  if (!queue.engine_words.empty())
+    line += " --engines " + quoted(fmt::format("{}", fmt::join(queue.engine_words, ",")));
   if (queue.selection.seed) line += fmt::format(" --seed {}", *queue.selection.seed);
   return line + fmt::format(" --threads {} --time-limit {:g}", queue.threads, queue.wall_limit);
 }
@@ -193,14 +198,17 @@ jobs:
           path: {typed}
 )",
              fmt::arg("minutes", minutes(o.longest)), fmt::arg("numbers", fmt::join(o.numbers, ", ")),
-             fmt::arg("shards", o.shards), fmt::arg("make", make_command(queue, o)), fmt::arg("dir", quoted(o.typed)),
-             fmt::arg("typed", o.typed));
+             fmt::arg("shards", o.shards), fmt::arg("make", make_command(queue, o)),
+             fmt::arg("dir", quoted(o.typed)), fmt::arg("typed", o.typed));
 }
 
 using Writer = std::string (*)(const Queue&, const EmitOptions&);
 const std::map<std::string, Writer>& writers() {
-  static const std::map<std::string, Writer> all{
-      {"github", github}, {"hyperqueue", hyperqueue}, {"parallel", parallel}, {"slurm", slurm}, {"snakemake", snakemake}};
+  static const std::map<std::string, Writer> all{{"github", github},
+                                                 {"hyperqueue", hyperqueue},
+                                                 {"parallel", parallel},
+                                                 {"slurm", slurm},
+                                                 {"snakemake", snakemake}};
   return all;
 }
 
@@ -214,7 +222,8 @@ std::vector<std::string> schedulers() {
 
 std::string script_for(const std::string& scheduler, const Queue& queue, const EmitOptions& options) {
   const auto at = writers().find(scheduler);
-  if (at == writers().end()) throw InputError(fmt::format("--for {}: write one of {}", scheduler, fmt::join(schedulers(), ", ")));
+  if (at == writers().end())
+    throw InputError(fmt::format("--for {}: write one of {}", scheduler, fmt::join(schedulers(), ", ")));
   return at->second(queue, options);
 }
 

@@ -5,8 +5,8 @@
 
 #include "validation/queue/queue.hpp"
 
-/// Scripts for schedulers. Each starts `tripoint suite work DIR --shard k/n` for every k, then merges; which jobs are in a shard
-/// is worked out there.
+/// Scripts for schedulers. Each starts `tripoint suite work DIR --shard k/n` for every k, then merges; which
+/// jobs are in a shard is worked out there.
 namespace tripoint {
 
 struct EmitOptions {

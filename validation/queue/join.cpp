@@ -18,7 +18,9 @@ namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
 
-const char* word_of(Stand stand) { return stand == Stand::running ? "running" : stand == Stand::lost ? "lost" : "waiting"; }
+const char* word_of(Stand stand) {
+  return stand == Stand::running ? "running" : stand == Stand::lost ? "lost" : "waiting";
+}
 
 /// @throws InputError naming the first jobs that have no result
 void check_all_ended(const Queue& queue, const Standing& standing) {
@@ -30,8 +32,8 @@ void check_all_ended(const Queue& queue, const Standing& standing) {
       if (standing.jobs[n].stand == stand && ++open <= most)
         names += fmt::format("\n  {}  {}  {}", word_of(stand), queue.jobs[n].id, name_of(queue.jobs[n]));
   if (open > 0)
-    throw InputError(fmt::format("{} of {} jobs have no result yet: tripoint suite work makes them{}{}", open, queue.jobs.size(),
-                                 names, open > most ? "\n  ..." : ""));
+    throw InputError(fmt::format("{} of {} jobs have no result yet: tripoint suite work makes them{}{}", open,
+                                 queue.jobs.size(), names, open > most ? "\n  ..." : ""));
 }
 
 /// Removes the remains of killed workers of this machine.
@@ -55,8 +57,8 @@ void copy_runs(const fs::path& dir, const fs::path& out) {
 
 }  // namespace
 
-Results join(const std::string& dir, const Queue& queue, const std::vector<EngineEntry>& engines, const std::string& out,
-             const std::function<void(const CaseResult&)>& on_case) {
+Results join(const std::string& dir, const Queue& queue, const std::vector<EngineEntry>& engines,
+             const std::string& out, const std::function<void(const CaseResult&)>& on_case) {
   const auto standing = look(dir, queue);
   check_all_ended(queue, standing);
   sweep(dir, standing);
@@ -72,7 +74,8 @@ Results join(const std::string& dir, const Queue& queue, const std::vector<Engin
     const bool is_same = at != jobs.end() && run_id(all, run, options) == at->second->id;
     if (!is_same)
       throw InputError(
-          fmt::format("{} {} {}: is not the run that the suite was made of: the case, the engine or this program is another. "
+          fmt::format("{} {} {}: is not the run that the suite was made of: the case, the engine or this "
+                      "program is another. "
                       "tripoint suite make again keeps every job that is still the same",
                       all.value->id, label_of(engine.name, engine.preset), run.plan.label));
     return published_run(dir, *at->second);

@@ -31,7 +31,8 @@ void add_jobs(const Case& value, const std::vector<EngineEntry>& engines, const 
     job.label = run.plan.label;
     const auto known = costs.find(run_folder(job));
     made.measured += known == costs.end() ? 0 : 1;
-    job.cost = known == costs.end() ? predicted_cost(run.job, engine.name, run.initial->size()) : known->second;
+    job.cost =
+        known == costs.end() ? predicted_cost(run.job, engine.name, run.initial->size()) : known->second;
     made.queue.jobs.push_back(std::move(job));
   }
 }
@@ -47,14 +48,15 @@ void touch(const std::string& path) { write_by_rename(path, "", "make"); }
 /// Ids that a worker holds; whether it lives is not asked here.
 std::set<std::string> claimed(const std::string& dir) {
   std::set<std::string> ids;
-  for (const auto& name : names_in(fs::path(dir) / state::running)) ids.insert(name.substr(0, name.find('.')));
+  for (const auto& name : names_in(fs::path(dir) / state::running))
+    ids.insert(name.substr(0, name.find('.')));
   return ids;
 }
 
 /// Every job of the suite stands somewhere: those that are nowhere wait. @return how many have a result
 std::size_t lay_out(const std::string& dir, const Queue& queue) {
-  const auto todo = names_in(fs::path(dir) / state::todo), running = claimed(dir), done = names_in(fs::path(dir) / state::done),
-             failed = names_in(fs::path(dir) / state::failed);
+  const auto todo = names_in(fs::path(dir) / state::todo), running = claimed(dir),
+             done = names_in(fs::path(dir) / state::done), failed = names_in(fs::path(dir) / state::failed);
   std::set<std::string> wanted;
   std::size_t kept = 0;
   for (const auto& job : queue.jobs) {
@@ -62,7 +64,8 @@ std::size_t lay_out(const std::string& dir, const Queue& queue) {
     const bool ended = done.count(job.id) + failed.count(job.id) > 0 && published_id(dir, job) == job.id;
     kept += ended ? 1 : 0;
     if (ended || running.count(job.id) > 0 || todo.count(job.id) > 0) continue;
-    for (const auto* old : {state::done, state::failed}) fs::remove(place(dir, old, job.id));  // its runs are gone
+    // Its runs are gone
+    for (const auto* old : {state::done, state::failed}) fs::remove(place(dir, old, job.id));
     touch(place(dir, state::todo, job.id));
   }
   for (const auto& id : todo)
@@ -76,7 +79,8 @@ QueueMade make_queue(const std::string& dir, Queue wanted, const std::vector<Cas
                      const std::vector<EngineEntry>& engines, const std::map<std::string, double>& costs) {
   QueueMade made;
   made.queue = std::move(wanted);
-  for (const char* name : {state::todo, state::running, state::done, state::failed, state::lost, state::doubled, state::workers})
+  for (const char* name :
+       {state::todo, state::running, state::done, state::failed, state::lost, state::doubled, state::workers})
     fs::create_directories(fs::path(dir) / name);
   auto options = options_of(made.queue);
   options.out = dir;
@@ -85,7 +89,8 @@ QueueMade make_queue(const std::string& dir, Queue wanted, const std::vector<Cas
     made.queue.cases.push_back({value.id, value.file});
     add_jobs(value, engines, options, costs, made);
   }
-  if (made.queue.jobs.empty()) throw InputError("no engine that is here runs any of these cases: there are no jobs");
+  if (made.queue.jobs.empty())
+    throw InputError("no engine that is here runs any of these cases: there are no jobs");
   write_durably((fs::path(dir) / "suite.json").string(), queue_text(made.queue));
   made.kept = lay_out(dir, made.queue);
   return made;

@@ -60,8 +60,12 @@ std::string queue_text(const Queue& q) {
   Json cases = Json::array(), jobs = Json::array();
   for (const auto& c : q.cases) cases.push_back({{"id", c.id}, {"file", c.file}});
   for (const auto& j : q.jobs)
-    jobs.push_back(
-        {{"id", j.id}, {"case", j.case_id}, {"engine", j.engine}, {"preset", j.preset}, {"run", j.label}, {"cost_s", j.cost}});
+    jobs.push_back({{"id", j.id},
+                    {"case", j.case_id},
+                    {"engine", j.engine},
+                    {"preset", j.preset},
+                    {"run", j.label},
+                    {"cost_s", j.cost}});
   Json document{{"format", 1},
                 {"folder", q.folder},
                 {"command", q.command},
@@ -86,8 +90,8 @@ Queue read_queue(const std::string& dir) {
   const auto file = fs::path(dir) / "suite.json";
   std::ifstream in(file, std::ios::binary);
   if (!in)
-    throw InputError(
-        fmt::format("{}: is no folder of a suite, it has no suite.json (tripoint suite make {} makes one)", dir, dir));
+    throw InputError(fmt::format(
+        "{}: is no folder of a suite, it has no suite.json (tripoint suite make {} makes one)", dir, dir));
   try {
     const auto document = Json::parse(in);
     if (document.at("format") != 1) throw InputError(file.string() + ": has not \"format\": 1");
@@ -98,13 +102,15 @@ Queue read_queue(const std::string& dir) {
 }
 
 Case case_of(const Queue& queue, const std::string& id) {
-  const auto at = std::find_if(queue.cases.begin(), queue.cases.end(), [&](const QueuedCase& c) { return c.id == id; });
+  const auto at =
+      std::find_if(queue.cases.begin(), queue.cases.end(), [&](const QueuedCase& c) { return c.id == id; });
   if (at == queue.cases.end()) throw InputError(id + ": is no case of the suite");
   CaseFilter file;
   file.what = {at->file};
   auto cases = select_cases(file);
   if (cases.size() != 1 || cases.front().id != id)
-    throw InputError(fmt::format("{}: is no longer the case {}: make the suite again, what is done is kept", at->file, id));
+    throw InputError(fmt::format("{}: is no longer the case {}: make the suite again, what is done is kept",
+                                 at->file, id));
   return std::move(cases.front());
 }
 

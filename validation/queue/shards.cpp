@@ -36,12 +36,13 @@ std::vector<std::vector<std::size_t>> balanced_shards(const std::vector<QueuedJo
 }
 
 double cost_of(const std::vector<QueuedJob>& jobs, const std::vector<std::size_t>& rows) {
-  return std::accumulate(rows.begin(), rows.end(), 0.0, [&](double sum, std::size_t row) { return sum + jobs[row].cost; });
+  return std::accumulate(rows.begin(), rows.end(), 0.0,
+                         [&](double sum, std::size_t row) { return sum + jobs[row].cost; });
 }
 
 int shards_of_seconds(const std::vector<QueuedJob>& jobs, double seconds, int most) {
-  const double whole =
-      std::accumulate(jobs.begin(), jobs.end(), 0.0, [](double sum, const QueuedJob& job) { return sum + job.cost; });
+  const double whole = std::accumulate(jobs.begin(), jobs.end(), 0.0,
+                                       [](double sum, const QueuedJob& job) { return sum + job.cost; });
   const double wanted = std::ceil(whole / seconds),
                at_most = std::min(static_cast<double>(most), static_cast<double>(jobs.size()));
   return std::max(1, static_cast<int>(std::min(wanted, at_most)));

@@ -4,11 +4,13 @@
 
 #include "validation/queue/queue.hpp"
 
-/// Jobs shared out to shards of nearly equal predicted cost. A shard is a rule, not a file: every machine works out the same one.
+/// Jobs shared out to shards of nearly equal predicted cost. A shard is a rule, not a file: every machine
+/// works out the same one.
 namespace tripoint {
 
-/// Rows of queue.jobs for each of n shards. The dearest job goes to the shard that has least so far (ties: the first shard, the
-/// lower id). So no shard costs more than 4/3 of the best possible [Graham 1969]. @throws InputError where n < 1
+/// Rows of queue.jobs for each of n shards. The dearest job goes to the shard that has least so far (ties:
+/// the first shard, the lower id). So no shard costs more than 4/3 of the best possible [Graham 1969].
+/// @throws InputError where n < 1
 [[nodiscard]] std::vector<std::vector<std::size_t>> balanced_shards(const std::vector<QueuedJob>&, int n);
 
 /// Rows in the order in which they are best begun: dearest first.

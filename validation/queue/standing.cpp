@@ -15,7 +15,8 @@ namespace {
 std::vector<std::string> names_in(const std::string& dir, const char* name) {
   std::vector<std::string> names;
   std::error_code error;
-  for (fs::directory_iterator at(fs::path(dir) / name, error), end; !error && at != end; at.increment(error)) {
+  for (fs::directory_iterator at(fs::path(dir) / name, error), end; !error && at != end;
+       at.increment(error)) {
     auto file = at->path().filename().string();
     if (!file.ends_with(".part")) names.push_back(std::move(file));
   }
@@ -34,7 +35,8 @@ std::pair<std::string, std::string> parts_of(const std::string& name) {
 }  // namespace
 
 std::size_t Standing::count(Stand stand) const {
-  return static_cast<std::size_t>(std::count_if(jobs.begin(), jobs.end(), [&](const JobStand& j) { return j.stand == stand; }));
+  return static_cast<std::size_t>(
+      std::count_if(jobs.begin(), jobs.end(), [&](const JobStand& j) { return j.stand == stand; }));
 }
 
 Standing look(const std::string& dir, const Queue& queue) {

@@ -62,13 +62,16 @@ std::string lines_of(const Queue& queue, const Standing& standing, Stand stand, 
   std::size_t count = 0;
   for (std::size_t n = 0; n < queue.jobs.size(); ++n) {
     if (standing.jobs[n].stand != stand || ++count > most_lines) continue;
-    text += one_line(fmt::format("{:8} {}  {}{}", word, queue.jobs[n].id, name_of(queue.jobs[n]), more(n))) + "\n";
+    text += one_line(fmt::format("{:8} {}  {}{}", word, queue.jobs[n].id, name_of(queue.jobs[n]), more(n))) +
+            "\n";
   }
-  if (count > most_lines) text += fmt::format("{:8} and {} more (--json has all)\n", word, count - most_lines);
+  if (count > most_lines)
+    text += fmt::format("{:8} and {} more (--json has all)\n", word, count - most_lines);
   return text;
 }
 
-Json json(const Queue& queue, const Standing& standing, Stand stand, const std::function<void(std::size_t, Json&)>& more) {
+Json json(const Queue& queue, const Standing& standing, Stand stand,
+          const std::function<void(std::size_t, Json&)>& more) {
   Json list = Json::array();
   for (std::size_t n = 0; n < queue.jobs.size(); ++n) {
     if (standing.jobs[n].stand != stand) continue;
@@ -103,32 +106,39 @@ std::string status_text(const std::string& dir, const Queue& queue, const QueueS
   const auto& all = status.standing;
   const auto open = all.count(Stand::waiting) + all.count(Stand::running) + all.count(Stand::lost);
   std::string text = fmt::format("{}: {} jobs of {} cases\n", dir, queue.jobs.size(), queue.cases.size());
-  text += fmt::format("done {}  running {}  waiting {}  lost {}  failed {}  doubled {}\n", all.count(Stand::done),
-                      all.count(Stand::running), all.count(Stand::waiting), all.count(Stand::lost), all.count(Stand::failed),
-                      all.doubled.size());
+  text += fmt::format("done {}  running {}  waiting {}  lost {}  failed {}  doubled {}\n",
+                      all.count(Stand::done), all.count(Stand::running), all.count(Stand::waiting),
+                      all.count(Stand::lost), all.count(Stand::failed), all.doubled.size());
   if (open > 0) {
-    const auto workers = status.busy_workers == 0
-                             ? std::string("one worker; none is at it")
-                             : fmt::format("{} worker{}", status.busy_workers, status.busy_workers == 1 ? "" : "s");
-    const auto basis = status.sampled == 0
-                           ? std::string("by prediction alone")
-                           : fmt::format("by prediction, and what is done took {:.2g} times what was predicted", status.speed);
+    const auto workers = status.busy_workers == 0 ? std::string("one worker; none is at it")
+                                                  : fmt::format("{} worker{}", status.busy_workers,
+                                                                status.busy_workers == 1 ? "" : "s");
+    const auto basis =
+        status.sampled == 0
+            ? std::string("by prediction alone")
+            : fmt::format("by prediction, and what is done took {:.2g} times what was predicted",
+                          status.speed);
     text += fmt::format("about {} left with {} ({})\n", duration(status.seconds_left), workers, basis);
   }
-  text += lines_of(queue, all, Stand::running, "running", [&](std::size_t n) { return "  by " + all.jobs[n].worker; });
+  text += lines_of(queue, all, Stand::running, "running",
+                   [&](std::size_t n) { return "  by " + all.jobs[n].worker; });
   text += lines_of(queue, all, Stand::lost, "lost", [&](std::size_t n) {
-    return all.jobs[n].worker.empty() ? "  its file was taken away" : "  was held by " + all.jobs[n].worker + ", which is gone";
+    return all.jobs[n].worker.empty() ? "  its file was taken away"
+                                      : "  was held by " + all.jobs[n].worker + ", which is gone";
   });
-  text += lines_of(queue, all, Stand::failed, "failed", [&](std::size_t n) { return "  " + reason_of(dir, queue.jobs[n]); });
+  text += lines_of(queue, all, Stand::failed, "failed",
+                   [&](std::size_t n) { return "  " + reason_of(dir, queue.jobs[n]); });
   for (std::size_t n = 0; n < std::min(all.doubled.size(), most_lines); ++n)
-    text +=
-        fmt::format("{:8} {}  {}\n", "doubled", all.doubled[n],
-                    note_of(place(dir, state::doubled, all.doubled[n])).value("same", false) ? "same result" : "ANOTHER result");
+    text += fmt::format("{:8} {}  {}\n", "doubled", all.doubled[n],
+                        note_of(place(dir, state::doubled, all.doubled[n])).value("same", false)
+                            ? "same result"
+                            : "ANOTHER result");
   if (open > 0)
     text += fmt::format("next: tripoint suite work {}   (lost jobs are taken over)\n", dir);
   else
-    text += fmt::format("next: tripoint merge {}{}\n", dir,
-                        all.count(Stand::failed) > 0 ? "   (or tripoint suite retry, then work, for what failed)" : "");
+    text += fmt::format(
+        "next: tripoint merge {}{}\n", dir,
+        all.count(Stand::failed) > 0 ? "   (or tripoint suite retry, then work, for what failed)" : "");
   return text;
 }
 
@@ -149,26 +159,27 @@ std::string status_json(const std::string& dir, const Queue& queue, const QueueS
                        {"worker", name.substr(std::min(name.size(), name.find('.') + 1))},
                        {"same", note_of(place(dir, state::doubled, name)).value("same", false)}});
   const auto nothing = [](std::size_t, Json&) {};
-  const Json document{{"format", 1},
-                      {"folder", dir},
-                      {"jobs", queue.jobs.size()},
-                      {"cases", queue.cases.size()},
-                      {"done", all.count(Stand::done)},
-                      {"running", all.count(Stand::running)},
-                      {"waiting", all.count(Stand::waiting)},
-                      {"lost", all.count(Stand::lost)},
-                      {"failed", all.count(Stand::failed)},
-                      {"doubled", all.doubled.size()},
-                      {"rest_cpu_s", status.rest},
-                      {"speed", status.speed},
-                      {"seconds_left", status.seconds_left},
-                      {"busy_workers", status.busy_workers},
-                      {"workers", workers},
-                      {"running_jobs", json(queue, all, Stand::running, nothing)},
-                      {"lost_jobs", json(queue, all, Stand::lost, nothing)},
-                      {"failed_jobs", json(queue, all, Stand::failed,
-                                           [&](std::size_t n, Json& row) { row["reason"] = reason_of(dir, queue.jobs[n]); })},
-                      {"doubled_jobs", doubled}};
+  const Json document{
+      {"format", 1},
+      {"folder", dir},
+      {"jobs", queue.jobs.size()},
+      {"cases", queue.cases.size()},
+      {"done", all.count(Stand::done)},
+      {"running", all.count(Stand::running)},
+      {"waiting", all.count(Stand::waiting)},
+      {"lost", all.count(Stand::lost)},
+      {"failed", all.count(Stand::failed)},
+      {"doubled", all.doubled.size()},
+      {"rest_cpu_s", status.rest},
+      {"speed", status.speed},
+      {"seconds_left", status.seconds_left},
+      {"busy_workers", status.busy_workers},
+      {"workers", workers},
+      {"running_jobs", json(queue, all, Stand::running, nothing)},
+      {"lost_jobs", json(queue, all, Stand::lost, nothing)},
+      {"failed_jobs", json(queue, all, Stand::failed,
+                           [&](std::size_t n, Json& row) { row["reason"] = reason_of(dir, queue.jobs[n]); })},
+      {"doubled_jobs", doubled}};
   return json_text(document);
 }
 

@@ -16,8 +16,8 @@ struct QueueStatus {
   double seconds_left = 0.0;  ///< rest * speed / workers, one worker where none is at it [s]
 };
 
-/// @param sample how many results are opened to learn the speed; their number is bounded, so that a status costs the same for
-/// many jobs
+/// @param sample how many results are opened to learn the speed; their number is bounded, so that a status
+/// costs the same for many jobs
 [[nodiscard]] QueueStatus status_of(const std::string& dir, const Queue&, std::size_t sample = 200);
 
 [[nodiscard]] std::string status_text(const std::string& dir, const Queue&, const QueueStatus&);

@@ -31,7 +31,8 @@ constexpr auto pause = std::chrono::milliseconds(200), longest_pause = std::chro
 /// Data that the workers of one process share.
 class Crew {
  public:
-  Crew(std::string dir, const Queue& queue, const std::vector<EngineEntry>& engines, const WorkOptions& options)
+  Crew(std::string dir, const Queue& queue, const std::vector<EngineEntry>& engines,
+       const WorkOptions& options)
       : dir_(std::move(dir)), queue_(queue), engines_(engines), options_(options) {}
 
   WorkDone run() {
@@ -88,7 +89,8 @@ class Crew {
     }
   }
 
-  /// Jobs whose file somebody took away wait again. One look may miss a job that just goes back; two in a row do not.
+  /// Jobs whose file somebody took away wait again. One look may miss a job that just goes back; two in a row
+  /// do not.
   void put_back(const Worker& worker, const Standing& standing, std::set<std::string>& nowhere) {
     std::set<std::string> now;
     for (const auto row : options_.rows) {
@@ -112,7 +114,8 @@ class Crew {
     } else if (stand.stand == Stand::lost && !stand.worker.empty()) {
       if (!worker.take_over(job.id, stand.worker)) return false;
       ++losses;
-      say(fmt::format("lost: {} ({}) was held by {}, which is gone: taken over", name_of(job), job.id, stand.worker));
+      say(fmt::format("lost: {} ({}) was held by {}, which is gone: taken over", name_of(job), job.id,
+                      stand.worker));
       count(&WorkDone::taken_over);
     } else {
       return false;
@@ -127,8 +130,8 @@ class Crew {
   }
 
   void make(const Worker& worker, const QueuedJob& job, int losses) {
-    if (published_id(dir_, job) == job.id)
-      return note_end(worker, job, published_run(dir_, job).row);  // its worker was lost between the run and its note
+    // Its worker was lost between the run and its note
+    if (published_id(dir_, job) == job.id) return note_end(worker, job, published_run(dir_, job).row);
     auto options = options_of(queue_);
     options.out = worker.workshop();
     options.wanted = [&](const EnginePlan& engine, const RunPlan& run) {
@@ -141,8 +144,10 @@ class Crew {
     else
       make_run(all, run, options);
     if (interrupted()) return worker.release(job.id);
-    if (run.row.status == Status::ok) publish_particles(dir_, run.particles, options.out);  // checked after the run
-    if (publish(dir_, job, {run.row, run.ledger}, run.folder, worker.name())) return note_end(worker, job, run.row);
+    // Checked after the run
+    if (run.row.status == Status::ok) publish_particles(dir_, run.particles, options.out);
+    if (publish(dir_, job, {run.row, run.ledger}, run.folder, worker.name()))
+      return note_end(worker, job, run.row);
     const auto first = published_run(dir_, job).row;
     const bool same = same_outcome(first, run.row);
     worker.note_double(job.id, nlohmann::json{{"same", same}}.dump());
@@ -151,7 +156,8 @@ class Crew {
     note_end(worker, job, first);
   }
 
-  /// The one run of a job, sampled and ready. A case is read and planned once a process; one thread at a time samples.
+  /// The one run of a job, sampled and ready. A case is read and planned once a process; one thread at a time
+  /// samples.
   CaseRuns prepared(const QueuedJob& job, const SuiteOptions& options) {
     const std::lock_guard lock(planning_);
     auto& plan = plans_[job.case_id];
@@ -163,7 +169,8 @@ class Crew {
     add_runs(all, options);
     if (all.runs.size() != 1 || run_id(all, all.runs.front(), options) != job.id)
       throw InputError(
-          fmt::format("{} ({}): is not the run that the suite was made of: the case, the engine or this program is another. "
+          fmt::format("{} ({}): is not the run that the suite was made of: the case, the engine or this "
+                      "program is another. "
                       "tripoint suite make again keeps every job that is still the same",
                       name_of(job), job.id));
     return all;
@@ -171,13 +178,15 @@ class Crew {
 
   void note_end(const Worker& worker, const QueuedJob& job, const RunRow& row) {
     const bool failed = crashed(row);
-    const nlohmann::ordered_json note{{"status", row.status},      {"reason", row.reason}, {"cpu_s", row.cost.cpu_s},
-                                      {"wall_s", row.cost.wall_s}, {"cost_s", job.cost},   {"worker", worker.name()}};
-    worker.finish(job.id, note.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace), failed);
+    const nlohmann::ordered_json note{{"status", row.status},    {"reason", row.reason},
+                                      {"cpu_s", row.cost.cpu_s}, {"wall_s", row.cost.wall_s},
+                                      {"cost_s", job.cost},      {"worker", worker.name()}};
+    worker.finish(job.id, note.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace),
+                  failed);
     count(&WorkDone::made);
     if (failed) count(&WorkDone::failed);
-    say(fmt::format("{} {}: {}{} ({:.2f} CPU s)", job.id, name_of(job), row.status, row.reason.empty() ? "" : ", " + row.reason,
-                    row.cost.cpu_s));
+    say(fmt::format("{} {}: {}{} ({:.2f} CPU s)", job.id, name_of(job), row.status,
+                    row.reason.empty() ? "" : ", " + row.reason, row.cost.cpu_s));
   }
 
   void say_waiting(const Standing& standing) {
@@ -210,7 +219,8 @@ class Crew {
 
 }  // namespace
 
-WorkDone work(const std::string& dir, const Queue& queue, const std::vector<EngineEntry>& engines, const WorkOptions& options) {
+WorkDone work(const std::string& dir, const Queue& queue, const std::vector<EngineEntry>& engines,
+              const WorkOptions& options) {
   return Crew(dir, queue, engines, options).run();
 }
 

@@ -62,17 +62,22 @@ std::string start_of(long pid) {
 /// Seconds since 1970 of a file's last change; negative where it is not there.
 double changed_at(const std::string& file) {
   struct stat s {};
-  return ::stat(file.c_str(), &s) == 0 ? static_cast<double>(s.st_mtim.tv_sec) + 1e-9 * static_cast<double>(s.st_mtim.tv_nsec)
-                                       : -1.0;
+  return ::stat(file.c_str(), &s) == 0
+             ? static_cast<double>(s.st_mtim.tv_sec) + 1e-9 * static_cast<double>(s.st_mtim.tv_nsec)
+             : -1.0;
 }
 
-std::string sign_file(const std::string& dir, const std::string& worker) { return place(dir, state::workers, worker + ".json"); }
+std::string sign_file(const std::string& dir, const std::string& worker) {
+  return place(dir, state::workers, worker + ".json");
+}
 
 std::string claim_file(const std::string& dir, const std::string& id, const std::string& worker) {
   return place(dir, state::running, id + "." + worker);
 }
 
-bool renamed(const std::string& from, const std::string& to) { return std::rename(from.c_str(), to.c_str()) == 0; }
+bool renamed(const std::string& from, const std::string& to) {
+  return std::rename(from.c_str(), to.c_str()) == 0;
+}
 
 void set_time_to_now(const std::string& file) { ::utimensat(AT_FDCWD, file.c_str(), nullptr, 0); }
 
@@ -103,7 +108,8 @@ WorkerSign read_sign(const std::string& dir, const std::string& worker, double n
 }
 
 bool is_gone(const WorkerSign& sign) {
-  return sign.pid > 0 && sign.machine == this_machine() && (sign.started.empty() || start_of(sign.pid) != sign.started);
+  return sign.pid > 0 && sign.machine == this_machine() &&
+         (sign.started.empty() || start_of(sign.pid) != sign.started);
 }
 
 bool is_alive(const WorkerSign& sign) {
@@ -134,7 +140,8 @@ Worker::~Worker() {
 
 void Worker::beat() {
   std::unique_lock lock(mutex_);
-  while (!leaving_.wait_for(lock, std::chrono::duration<double>(lost_after / 6.0), [this] { return leaves_; }))
+  while (
+      !leaving_.wait_for(lock, std::chrono::duration<double>(lost_after / 6.0), [this] { return leaves_; }))
     set_time_to_now(sign_file(dir_, name_));
 }
 

@@ -13,25 +13,30 @@ struct WorkerSign {
   std::string name, host;
   std::string machine;  ///< boot and process namespace: where it is ours, the process can be asked for
   long pid = 0;
-  std::string started;  ///< of the process, in ticks of its machine: a number that is used again is another worker
-  double age = 0.0;     ///< since the file was touched [s]
+  /// Of the process, in ticks of its machine: a number that is used again is another worker
+  std::string started;
+  double age = 0.0;  ///< since the file was touched [s]
 };
 
-/// Seconds after which a worker of another machine that gave no sign counts as lost; it gives one every sixth of that.
+/// Seconds after which a worker of another machine that gave no sign counts as lost; it gives one every sixth
+/// of that.
 inline constexpr double lost_after = 60.0;
 
 /// @param now_file a time of the same clock that stamps the workers' files [s]
 [[nodiscard]] WorkerSign read_sign(const std::string& dir, const std::string& worker, double now_file);
-/// A worker of this machine: whether the process is there. A worker of another: whether it gave a sign within lost_after.
+/// A worker of this machine: whether the process is there. A worker of another: whether it gave a sign within
+/// lost_after.
 [[nodiscard]] bool is_alive(const WorkerSign&);
 /// Whether the worker is of this machine, and its process is gone: nothing of it will be written again.
 [[nodiscard]] bool is_gone(const WorkerSign&);
-/// Time of the file system of DIR, by a file that is written there; our own clock where nothing can be written [s].
+/// Time of the file system of DIR, by a file that is written there; our own clock where nothing can be
+/// written [s].
 [[nodiscard]] double file_clock(const std::string& dir);
 
 class Worker {
  public:
-  /// Puts its sign into DIR/workers and keeps it fresh until it is destroyed. @param number tells workers of one process apart
+  /// Puts its sign into DIR/workers and keeps it fresh until it is destroyed. @param number tells workers of
+  /// one process apart
   Worker(std::string dir, int number);
   ~Worker();
   Worker(const Worker&) = delete;

@@ -8,8 +8,9 @@
 namespace tripoint {
 namespace {
 
-/// A body floats where it displaces its own weight. Numbers: draught [m]. For the metric of that name the pool: up (+1, -1),
-/// floor [m], pool_area, block_area [m2], liquid_volume [m3]. Also keel [m] (bottom of the body below its centre).
+/// A body floats where it displaces its own weight. Numbers: draught [m]. For the metric of that name the
+/// pool: up (+1, -1), floor [m], pool_area, block_area [m2], liquid_volume [m3]. Also keel [m] (bottom of the
+/// body below its centre).
 class Archimedes : public LiquidReference {
  public:
   Archimedes(const ReferenceInput& in, std::size_t axis, std::map<std::string, double, std::less<>> numbers)
@@ -44,18 +45,20 @@ std::unique_ptr<Reference> make_archimedes(const ReferenceInput& in) {
     pool *= (*job.scene.max)[k] - (*job.scene.min)[k];
     area *= box.length();
   }
-  const auto water = body_along(axis, liquid, job, in.initial), box = body_along(axis, block, job, in.initial);
+  const auto water = body_along(axis, liquid, job, in.initial),
+             box = body_along(axis, block, job, in.initial);
   const double ratio = material_of_body(job, block).density / material_of_body(job, liquid).density;
   if (ratio >= 1.0) throw InputError("archimedes: body `" + job.bodies[block].name + "` sinks");
   const double volume = job.bodies[liquid].properties.mass / material_of_body(job, liquid).density;
-  return std::make_unique<Archimedes>(in, axis,
-                                      std::map<std::string, double, std::less<>>{{"draught", ratio * box.length()},
-                                                                                 {"up", up},
-                                                                                 {"floor", up > 0.0 ? water.low : -water.high},
-                                                                                 {"pool_area", pool},
-                                                                                 {"block_area", area},
-                                                                                 {"liquid_volume", volume},
-                                                                                 {"keel", 0.5 * box.length()}});
+  return std::make_unique<Archimedes>(
+      in, axis,
+      std::map<std::string, double, std::less<>>{{"draught", ratio * box.length()},
+                                                 {"up", up},
+                                                 {"floor", up > 0.0 ? water.low : -water.high},
+                                                 {"pool_area", pool},
+                                                 {"block_area", area},
+                                                 {"liquid_volume", volume},
+                                                 {"keel", 0.5 * box.length()}});
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ Arguments::Arguments(const ReferenceChoice& choice, const ReferenceFunction& fun
     if (args_.contains(a.name)) check(a);
   for (const auto& [name, value] : args_) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    throw InputError("reference function " + function_ + " has no argument `" + printable(name) + "`" + suggestion(name, known));
+    throw InputError("reference function " + function_ + " has no argument `" + printable(name) + "`" +
+                     suggestion(name, known));
   }
 }
 
@@ -48,15 +49,23 @@ std::optional<T> Arguments::get(const std::string& name, const char* kind) const
   throw InputError("argument `" + name + "` of reference function " + function_ + " must be " + kind);
 }
 
-std::optional<double> Arguments::number(const std::string& name) const { return get<double>(name, "a number"); }
-std::optional<std::string> Arguments::word(const std::string& name) const { return get<std::string>(name, "a text"); }
-std::optional<bool> Arguments::flag(const std::string& name) const { return get<bool>(name, "true or false"); }
+std::optional<double> Arguments::number(const std::string& name) const {
+  return get<double>(name, "a number");
+}
+std::optional<std::string> Arguments::word(const std::string& name) const {
+  return get<std::string>(name, "a text");
+}
+std::optional<bool> Arguments::flag(const std::string& name) const {
+  return get<bool>(name, "true or false");
+}
 
 std::optional<std::size_t> Arguments::axis(const std::string& name) const {
   const auto letter = word(name);
   if (!letter) return {};
-  if (letter->size() == 1 && *letter >= "x" && *letter <= "z") return static_cast<std::size_t>((*letter)[0] - 'x');
-  throw InputError("argument `" + name + "` of reference function " + function_ + " must be \"x\", \"y\" or \"z\"");
+  if (letter->size() == 1 && *letter >= "x" && *letter <= "z")
+    return static_cast<std::size_t>((*letter)[0] - 'x');
+  throw InputError("argument `" + name + "` of reference function " + function_ +
+                   " must be \"x\", \"y\" or \"z\"");
 }
 
 Mode Arguments::form(Mode fallback) const {
@@ -64,7 +73,8 @@ Mode Arguments::form(Mode fallback) const {
   if (!given) return fallback;
   for (const Mode mode : {Mode::paper, Mode::corrected})
     if (*given == to_string(mode)) return mode;
-  throw InputError("argument `form` of reference function " + function_ + " must be \"paper\" or \"corrected\"");
+  throw InputError("argument `form` of reference function " + function_ +
+                   " must be \"paper\" or \"corrected\"");
 }
 
 std::optional<Vec3> Arguments::vector(const std::string& name) const {

@@ -12,7 +12,8 @@ namespace tripoint {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();  // [s]
-constexpr double smallest = 1e-12;                                 // share of a size or a speed that is no rounding
+// Share of a size or a speed that is no rounding
+constexpr double smallest = 1e-12;
 constexpr std::size_t most_hits = 1000;
 
 /// A free ball, or a fixed box: then of no inverse mass and inertia.
@@ -53,7 +54,8 @@ Touch ball_on_box(const Thing& ball, const Thing& box, double slowest) {
       const double t = std::max(0.0, gap / closing);
       const Vec3 at = ball.state.position + t * ball.state.velocity;
       bool beside = false;
-      for (std::size_t j = 0; j < 3; ++j) beside = beside || (j != k && (at[j] < box.low[j] || at[j] > box.high[j]));
+      for (std::size_t j = 0; j < 3; ++j)
+        beside = beside || (j != k && (at[j] < box.low[j] || at[j] > box.high[j]));
       if (beside || t >= first.after) continue;
       first.after = t;
       first.normal = {};
@@ -71,8 +73,8 @@ Touch next_touch(const std::vector<Thing>& things, double slowest) {
       if (things[b].ball()) {
         t.after = until_balls_touch(things[a], things[b], slowest);
         const double span = t.after < never ? t.after : 0.0;
-        const Vec3 x =
-            things[b].state.position - things[a].state.position + span * (things[b].state.velocity - things[a].state.velocity);
+        const Vec3 x = things[b].state.position - things[a].state.position +
+                       span * (things[b].state.velocity - things[a].state.velocity);
         t.normal = x / norm(x);
       } else {
         t = ball_on_box(things[a], things[b], slowest);
@@ -89,16 +91,18 @@ void push(Thing& t, const Vec3& impulse, const Vec3& arm) {
   t.state.angular_velocity += t.inverse_inertia * cross(arm, impulse);
 }
 
-/// Newton's restitution along the normal. Coulomb's friction across it: it ends the slip, or is mu times the normal impulse.
+/// Newton's restitution along the normal. Coulomb's friction across it: it ends the slip, or is mu times the
+/// normal impulse.
 void hit(Thing& a, Thing& b, const Vec3& normal, const Law& law) {
   const Vec3 arm_a = a.radius * normal, arm_b = -b.radius * normal;
-  const Vec3 approach =
-      a.state.velocity + cross(a.state.angular_velocity, arm_a) - b.state.velocity - cross(b.state.angular_velocity, arm_b);
+  const Vec3 approach = a.state.velocity + cross(a.state.angular_velocity, arm_a) - b.state.velocity -
+                        cross(b.state.angular_velocity, arm_b);
   const double closing = dot(approach, normal), inverse = a.inverse_mass + b.inverse_mass;
   const Vec3 slip = approach - closing * normal;
   const double normal_impulse = (1.0 + law.restitution) * closing / inverse;
+  // Of a tangential impulse
   const double across =
-      inverse + a.radius * a.radius * a.inverse_inertia + b.radius * b.radius * b.inverse_inertia;  // of a tangential impulse
+      inverse + a.radius * a.radius * a.inverse_inertia + b.radius * b.radius * b.inverse_inertia;
   const double grip = std::min(norm(slip) / across, law.friction * normal_impulse);
   const Vec3 impulse = normal_impulse * normal + (norm(slip) > 0.0 ? grip / norm(slip) : 0.0) * slip;
   push(a, -impulse, arm_a);
@@ -107,7 +111,8 @@ void hit(Thing& a, Thing& b, const Vec3& normal, const Law& law) {
 
 void fly(Thing& t, double span) {
   t.state.position += span * t.state.velocity;
-  t.state.orientation = normalised(from_rotation_vector(span * t.state.angular_velocity) * t.state.orientation);
+  t.state.orientation =
+      normalised(from_rotation_vector(span * t.state.angular_velocity) * t.state.orientation);
 }
 
 /// Straight flight of balls without gravity, from hit to hit. Numbers: touch_time, of the first hit [s].
@@ -121,14 +126,16 @@ class BallHits : public Reference {
       const auto touch = next_touch(paths_.back().things, smallest * fastest);
       Path next{paths_.back().since + touch.after, paths_.back().things};
       if (!(next.since <= end)) return;
-      if (paths_.size() > most_hits) throw InputError("ball_hits: more than " + std::to_string(most_hits) + " hits");
+      if (paths_.size() > most_hits)
+        throw InputError("ball_hits: more than " + std::to_string(most_hits) + " hits");
       for (auto& t : next.things) fly(t, touch.after);
       hit(next.things[touch.a], next.things[touch.b], touch.normal, law);
       paths_.push_back(std::move(next));
     }
   }
   [[nodiscard]] Snapshot at(double time) const override {
-    const auto after = std::find_if(paths_.begin() + 1, paths_.end(), [&](const Path& p) { return p.since >= time; });
+    const auto after =
+        std::find_if(paths_.begin() + 1, paths_.end(), [&](const Path& p) { return p.since >= time; });
     const Path& path = *(after - 1);
     Snapshot out;
     out.time = time;
@@ -162,7 +169,8 @@ Thing thing_of(const JobBody& body, const Shape& shape) {
   }
   const Vec3 moments = body.properties.principal_inertia;
   if (body.motion != Motion::free || body.phase != Phase::rigid || shape.kind != Shape::Kind::sphere)
-    throw InputError("ball_hits holds for free rigid balls and fixed boxes, and body `" + body.name + "` is neither");
+    throw InputError("ball_hits holds for free rigid balls and fixed boxes, and body `" + body.name +
+                     "` is neither");
   if (std::abs(moments[2] - moments[0]) > 1e-9 * moments[2])
     throw InputError("ball_hits: the principal moments of the ball `" + body.name + "` differ");
   t.radius = shape.radius;
@@ -189,15 +197,19 @@ std::unique_ptr<Reference> make_ball_hits(const ReferenceInput& in) {
 }  // namespace
 
 ReferenceEntry ball_hits_entry() {
-  return {
-      {"ball_hits",
-       "analytic",
-       "Newton's law of impact and Coulomb's law for the impulses of each hit; momentum and angular momentum between them",
-       "balls without gravity that hit each other and the faces of fixed boxes, with the moment of their own particles",
-       {{"friction", "1", "coefficient of Coulomb's friction; default that of all engines' settings, none where they say none"},
-        {"restitution", "1",
-         "normal speed after a hit over that before it; default that of all engines' settings, 1 where they say none"}}},
-      make_ball_hits};
+  return {{"ball_hits",
+           "analytic",
+           "Newton's law of impact and Coulomb's law for the impulses of each hit; momentum and angular "
+           "momentum between them",
+           "balls without gravity that hit each other and the faces of fixed boxes, with the moment of their "
+           "own particles",
+           {{"friction", "1",
+             "coefficient of Coulomb's friction; default that of all engines' settings, none where they say "
+             "none"},
+            {"restitution", "1",
+             "normal speed after a hit over that before it; default that of all engines' settings, 1 where "
+             "they say none"}}},
+          make_ball_hits};
 }
 
 }  // namespace tripoint

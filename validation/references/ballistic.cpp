@@ -8,15 +8,18 @@
 namespace tripoint {
 namespace {
 
-/// Exact flight of semi-implicit Euler (v += g d, then x += v d). Each step of length d falls g d^2/2 further than the parabola.
-/// With one step length dt the body lags by g t dt/2. Between two output times the steps are equal, and none is above dt.
+/// Exact flight of semi-implicit Euler (v += g d, then x += v d). Each step of length d falls g d^2/2 further
+/// than the parabola. With one step length dt the body lags by g t dt/2. Between two output times the steps
+/// are equal, and none is above dt.
 class SemiImplicitFlight : public RigidFlight {
  public:
-  SemiImplicitFlight(const Job& job, const InitialState& initial, double dt) : RigidFlight(job, initial), times_(job.times) {
+  SemiImplicitFlight(const Job& job, const InitialState& initial, double dt)
+      : RigidFlight(job, initial), times_(job.times) {
     if (!job.scene.events.empty()) throw InputError("ballistic_semi_implicit holds without events only");
     for (const auto& flight : flights())
       if (!flight.spin.steady())
-        throw InputError("ballistic_semi_implicit needs a spin of constant axis: the scheme's own tumbling is not exact");
+        throw InputError(
+            "ballistic_semi_implicit needs a spin of constant axis: the scheme's own tumbling is not exact");
     for (std::size_t n = 1; n < times_.size(); ++n) {
       const double interval = times_[n] - times_[n - 1];
       const double steps = std::max(1.0, std::ceil(interval / dt * (1.0 - 1e-9)));
@@ -43,7 +46,8 @@ class SemiImplicitFlight : public RigidFlight {
 };
 
 std::unique_ptr<Reference> make_ballistic(const ReferenceInput& in) {
-  if (!in.job.scene.events.empty()) throw InputError("ballistic holds without events: use merge_in_flight or split_in_flight");
+  if (!in.job.scene.events.empty())
+    throw InputError("ballistic holds without events: use merge_in_flight or split_in_flight");
   return std::make_unique<RigidFlight>(in.job, in.initial);
 }
 
@@ -51,7 +55,8 @@ std::unique_ptr<Reference> make_semi_implicit(const ReferenceInput& in) {
   auto dt = in.args.number("time_step");
   if (!dt) dt = in.job.resolution.time_step;
   if (!dt) dt = in.job.scene.time_step;
-  if (!dt || !(*dt > 0.0)) throw InputError("ballistic_semi_implicit needs a fixed time step: scene.time_step or args.time_step");
+  if (!dt || !(*dt > 0.0))
+    throw InputError("ballistic_semi_implicit needs a fixed time step: scene.time_step or args.time_step");
   if (in.job.times.size() < 2) throw InputError("ballistic_semi_implicit needs two output times or more");
   return std::make_unique<SemiImplicitFlight>(in.job, in.initial, *dt);
 }
@@ -62,7 +67,8 @@ ReferenceEntry ballistic_entry() {
   return {{"ballistic",
            "analytic",
            "Newton: r = r0 + v t + (g + F/m) t^2/2 for the centre of mass; free rotation as torque_free",
-           "free rigid bodies under gravity and constant forces at their centres, turning freely; prescribed and fixed bodies "
+           "free rigid bodies under gravity and constant forces at their centres, turning freely; prescribed "
+           "and fixed bodies "
            "beside them",
            {}},
           make_ballistic};

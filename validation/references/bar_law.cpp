@@ -14,20 +14,23 @@ double shear_modulus(const BarLaw& b) { return 0.5 * b.young / (1.0 + b.poisson_
 double bulk_modulus(const BarLaw& b) { return b.young / (3.0 * (1.0 - 2.0 * b.poisson_ratio)); }
 bool yields(const BarLaw& b) { return std::isfinite(b.elastic_limit); }
 
-/// The plastic component follows share * strain within +-half; the size of the plastic tensor is factor * |component|.
+/// The plastic component follows share * strain within +-half; the size of the plastic tensor is factor *
+/// |component|.
 struct Play {
   double share, half, factor;
 };
 Play play_of(const BarLaw& b) {
-  // Free sides: the elastic strain is (e, -nu e, -nu e), its deviator sqrt(2/3)(1 + nu) e. Held sides: dev E_11 = 2/3 E_11, |e'|
-  // = sqrt(3/2) e'_11.
-  if (b.sides == BarSides::confined) return {2.0 / 3.0, std::sqrt(2.0 / 3.0) * b.elastic_limit, std::sqrt(1.5)};
+  // Free sides: the elastic strain is (e, -nu e, -nu e), its deviator sqrt(2/3)(1 + nu) e. Held sides: dev
+  // E_11 = 2/3 E_11, |e'| = sqrt(3/2) e'_11.
+  if (b.sides == BarSides::confined)
+    return {2.0 / 3.0, std::sqrt(2.0 / 3.0) * b.elastic_limit, std::sqrt(1.5)};
   return {1.0, std::sqrt(1.5) * b.elastic_limit / (1.0 + b.poisson_ratio), std::sqrt(1.5)};
 }
 
 /// Second Piola-Kirchhoff stress along the bar in the law's own strain.
 double stress(const BarLaw& b, double strain, double plastic) {
-  if (b.sides == BarSides::confined) return bulk_modulus(b) * strain + 2.0 * shear_modulus(b) * (2.0 / 3.0 * strain - plastic);
+  if (b.sides == BarSides::confined)
+    return bulk_modulus(b) * strain + 2.0 * shear_modulus(b) * (2.0 / 3.0 * strain - plastic);
   return b.stiffness() * (strain - plastic);
 }
 
@@ -53,10 +56,13 @@ BarState stretched(const BarLaw& b, const BarState& from, double stretch) {
   s.stretch = stretch;
   if (yields(b)) {
     if (b.sides == BarSides::plane_strain)
-      throw InputError("yielding in plane strain has no closed form: leave both sides of the bar free, or hold both");
+      throw InputError(
+          "yielding in plane strain has no closed form: leave both sides of the bar free, or hold both");
     const auto play = play_of(b);
     const double cap = b.plastic_limit / play.factor;
-    s.plastic = std::clamp(std::clamp(from.plastic, play.share * strain - play.half, play.share * strain + play.half), -cap, cap);
+    s.plastic =
+        std::clamp(std::clamp(from.plastic, play.share * strain - play.half, play.share * strain + play.half),
+                   -cap, cap);
     s.dissipated += b.volume * b.yield_stress() * std::abs(s.plastic - from.plastic);
   }
   s.force = b.volume * stress(b, strain, s.plastic) * 2.0 * b.strain_factor * F * b.moment;

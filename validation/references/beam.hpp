@@ -24,18 +24,21 @@ struct BeamPoint {
   double displacement = 0.0, rotation = 0.0;
 };
 
-/// Static sag at x under the weight of beam and tip: w' = psi + V/(kappa G A), psi' = M/(E I), both integrated in closed form.
+/// Static sag at x under the weight of beam and tip: w' = psi + V/(kappa G A), psi' = M/(E I), both
+/// integrated in closed form.
 /// @param gravity [m/s2]   @param x from the clamp, 0 <= x <= L [m]
 [[nodiscard]] BeamPoint beam_sag(const Beam&, const BeamTip&, double gravity, double x);
 
-/// Lowest angular frequency [rad/s]: root of the determinant of the end conditions. The exponential of their matrix carries the
-/// equations of motion from clamp to end.
+/// Lowest angular frequency [rad/s]: root of the determinant of the end conditions. The exponential of their
+/// matrix carries the equations of motion from clamp to end.
 [[nodiscard]] double beam_frequency(const Beam&, const BeamTip&);
 
-/// Shear coefficient of a rectangular section [Cowper 1966]: 10 (1 + nu)/(12 + 11 nu); in plane strain with nu/(1 - nu) for nu.
+/// Shear coefficient of a rectangular section [Cowper 1966]: 10 (1 + nu)/(12 + 11 nu); in plane strain with
+/// nu/(1 - nu) for nu.
 [[nodiscard]] double rectangular_shear_coefficient(double poisson_ratio, bool plane_strain);
 
-/// A beam of rectangular section, `height` along the deflection, `depth` across it [m]. In plane strain E is E/(1 - nu^2).
+/// A beam of rectangular section, `height` along the deflection, `depth` across it [m]. In plane strain E is
+/// E/(1 - nu^2).
 /// @param kappa shear coefficient
 [[nodiscard]] Beam rectangular_beam(double length, double height, double depth, double density, double young,
                                     double poisson_ratio, bool plane_strain, double kappa);

@@ -13,7 +13,8 @@ struct Flight {
   double height = 0.0, speed = 0.0;
 };
 
-/// Parabolas between hits, each hit turning the speed round by the restitution. Numbers: touch_time, of the first hit [s].
+/// Parabolas between hits, each hit turning the speed round by the restitution. Numbers: touch_time, of the
+/// first hit [s].
 class Bouncing : public Reference {
  public:
   Bouncing(BoxOnFloor scene, Flight start, double gravity, double restitution)
@@ -57,14 +58,16 @@ class Bouncing : public Reference {
 std::unique_ptr<Reference> make_bouncing(const ReferenceInput& in) {
   auto scene = box_on_floor(in, "bouncing");
   const auto& box = in.job.bodies[scene.block];
-  const Vec3 along = box.velocity - box.velocity[scene.axis] * Vec3{scene.axis == 0 ? 1.0 : 0.0, scene.axis == 1 ? 1.0 : 0.0,
-                                                                    scene.axis == 2 ? 1.0 : 0.0};
+  const Vec3 along =
+      box.velocity - box.velocity[scene.axis] * Vec3{scene.axis == 0 ? 1.0 : 0.0, scene.axis == 1 ? 1.0 : 0.0,
+                                                     scene.axis == 2 ? 1.0 : 0.0};
   if (norm(along) > 0.0 || norm(box.angular_velocity) > 0.0)
     throw InputError("bouncing holds for a box that falls straight and does not turn");
   const double of_scene = law_of_contact(in.job, "restitution").value_or(1.0);
   const double restitution = in.args.number("restitution").value_or(of_scene);
   if (restitution < 0.0 || restitution > 1.0) throw InputError("bouncing: the restitution lies from 0 to 1");
-  const Flight start{scene.up * (box.properties.centre[scene.axis] - scene.rest), scene.up * box.velocity[scene.axis]};
+  const Flight start{scene.up * (box.properties.centre[scene.axis] - scene.rest),
+                     scene.up * box.velocity[scene.axis]};
   if (!(start.height > 0.0)) throw InputError("bouncing: the box must start above the floor");
   return std::make_unique<Bouncing>(std::move(scene), start, norm(in.job.scene.gravity), restitution);
 }
@@ -77,7 +80,8 @@ ReferenceEntry bouncing_entry() {
            "Newton: parabolas between hits; each hit turns the speed round by the restitution",
            "a ball, or a box that falls flat, on a fixed floor: it bounces",
            {{"restitution", "1",
-             "speed after a hit over that before it; default that of all engines' settings, 1 where they say none"}}},
+             "speed after a hit over that before it; default that of all engines' settings, 1 where they say "
+             "none"}}},
           make_bouncing};
 }
 

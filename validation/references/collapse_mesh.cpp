@@ -74,14 +74,16 @@ struct CollapseMesh::System {
   [[nodiscard]] double energy() const {
     double sum = 0.0;
     for (Eigen::Index n = 0; n < mass.size(); ++n)
-      sum += mass[n] * (place[2 * n + 1] + 0.5 * (velocity[2 * n] * velocity[2 * n] + velocity[2 * n + 1] * velocity[2 * n + 1]));
+      sum += mass[n] * (place[2 * n + 1] + 0.5 * (velocity[2 * n] * velocity[2 * n] +
+                                                  velocity[2 * n + 1] * velocity[2 * n + 1]));
     return sum;
   }
 
   /// Area of each cell less that of the start.
   [[nodiscard]] Vector excess(const Vector& at) const {
     Vector out(static_cast<Eigen::Index>(corners.size()));
-    for (std::size_t c = 0; c < corners.size(); ++c) out[static_cast<Eigen::Index>(c)] = corners[c].area(at) - cell_area;
+    for (std::size_t c = 0; c < corners.size(); ++c)
+      out[static_cast<Eigen::Index>(c)] = corners[c].area(at) - cell_area;
     return out;
   }
 
@@ -100,7 +102,8 @@ struct CollapseMesh::System {
     return out;
   }
 
-  /// Force against the motion of each cell that is neither uniform nor linear in place: corners take turns in it.
+  /// Force against the motion of each cell that is neither uniform nor linear in place: corners take turns in
+  /// it.
   [[nodiscard]] Vector damped() const {
     constexpr std::array<double, 4> turns{1.0, -1.0, 1.0, -1.0};
     Vector force = Vector::Zero(place.size());
@@ -138,7 +141,8 @@ struct CollapseMesh::System {
     int round = 0;
     for (Vector error = excess(next); !(error.cwiseAbs().maxCoeff() <= kept * cell_area);
          error = excess(next)) {  // not a number, too
-      if (++round > most_rounds || !error.allFinite()) throw InputError("collapsing_column: the mesh is too distorted to go on");
+      if (++round > most_rounds || !error.allFinite())
+        throw InputError("collapsing_column: the mesh is too distorted to go on");
       const Vector more = solver.solve(error);
       next -= push * more;
       multiplier -= more;
@@ -166,8 +170,12 @@ void CollapseMesh::step() {
   time_ += step_size();
 }
 
-double CollapseMesh::front() const { return column_.width * system_->place[2 * system_->node(system_->across, 0)]; }
-double CollapseMesh::top() const { return column_.width * system_->place[2 * system_->node(0, system_->up) + 1]; }
+double CollapseMesh::front() const {
+  return column_.width * system_->place[2 * system_->node(system_->across, 0)];
+}
+double CollapseMesh::top() const {
+  return column_.width * system_->place[2 * system_->node(0, system_->up) + 1];
+}
 double CollapseMesh::energy() const { return system_->energy() / system_->first_energy; }
 double CollapseMesh::greatest_area_error() const {
   return system_->excess(system_->place).cwiseAbs().maxCoeff() / system_->cell_area;
@@ -181,9 +189,11 @@ double CollapseMesh::pressure_at(double x, double y) const {
   const auto& s = *system_;
   const Eigen::Vector2d at(x / column_.width, y / column_.width);
   const auto middle = [&](int i, int j) {
-    const auto& corners = s.corners[static_cast<std::size_t>(i) * static_cast<std::size_t>(s.up) + static_cast<std::size_t>(j)];
+    const auto& corners =
+        s.corners[static_cast<std::size_t>(i) * static_cast<std::size_t>(s.up) + static_cast<std::size_t>(j)];
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-    for (std::size_t k = 0; k < 4; ++k) sum += 0.25 * Eigen::Vector2d(corners.x(s.place, k), corners.y(s.place, k));
+    for (std::size_t k = 0; k < 4; ++k)
+      sum += 0.25 * Eigen::Vector2d(corners.x(s.place, k), corners.y(s.place, k));
     return sum;
   };
   std::array<int, 2> nearest{};
@@ -219,7 +229,8 @@ std::vector<double> fronts_of(const LiquidColumn& column, int cells, const std::
   return out;
 }
 
-std::vector<double> pressures_of(const LiquidColumn& column, int cells, const std::vector<double>& times, double x, double y) {
+std::vector<double> pressures_of(const LiquidColumn& column, int cells, const std::vector<double>& times,
+                                 double x, double y) {
   CollapseMesh mesh(column, cells);
   std::vector<double> out;
   for (const double t : times) {
@@ -232,10 +243,12 @@ std::vector<double> pressures_of(const LiquidColumn& column, int cells, const st
 
 }  // namespace
 
-CollapsePressures collapse_pressures(const LiquidColumn& column, int cells, const std::vector<double>& times, double x,
-                                     double y) {
-  CollapsePressures out{pressures_of(column, cells, times, x, y), pressures_of(column, cells / 2, times, x, y)};
-  for (std::size_t n = 0; n < times.size(); ++n) out.difference[n] = std::abs(out.pressure[n] - out.difference[n]);
+CollapsePressures collapse_pressures(const LiquidColumn& column, int cells, const std::vector<double>& times,
+                                     double x, double y) {
+  CollapsePressures out{pressures_of(column, cells, times, x, y),
+                        pressures_of(column, cells / 2, times, x, y)};
+  for (std::size_t n = 0; n < times.size(); ++n)
+    out.difference[n] = std::abs(out.pressure[n] - out.difference[n]);
   return out;
 }
 
@@ -247,7 +260,8 @@ CollapseFronts collapse_fronts(const LiquidColumn& column, int cells, const std:
   const Question question{column.width, column.height, column.gravity, cells, times};
   if (const auto found = known.find(question); found != known.end()) return found->second;
   CollapseFronts out{fronts_of(column, cells, times), fronts_of(column, cells / 2, times)};
-  for (std::size_t n = 0; n < times.size(); ++n) out.difference[n] = std::abs(out.front[n] - out.difference[n]);
+  for (std::size_t n = 0; n < times.size(); ++n)
+    out.difference[n] = std::abs(out.front[n] - out.difference[n]);
   return known.emplace(question, std::move(out)).first->second;
 }
 

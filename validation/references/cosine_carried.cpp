@@ -13,10 +13,12 @@ Job at_rest(const Job& job) {
   return still;
 }
 
-/// The decay of cosine_mode seen from a frame in which the medium moves: every particle carries its temperature along.
+/// The decay of cosine_mode seen from a frame in which the medium moves: every particle carries its
+/// temperature along.
 class CarriedCosine : public Reference {
  public:
-  CarriedCosine(std::unique_ptr<Reference> still, const Vec3& velocity) : still_(std::move(still)), velocity_(velocity) {}
+  CarriedCosine(std::unique_ptr<Reference> still, const Vec3& velocity)
+      : still_(std::move(still)), velocity_(velocity) {}
   [[nodiscard]] Snapshot at(double time) const override {
     Snapshot out = still_->at(time);
     for (auto& r : out.position) r += time * velocity_;
@@ -24,7 +26,9 @@ class CarriedCosine : public Reference {
     return out;
   }
   /// Numbers are those of places at the start, where the particles' temperatures belong.
-  [[nodiscard]] std::optional<double> number(std::string_view quantity) const override { return still_->number(quantity); }
+  [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
+    return still_->number(quantity);
+  }
   [[nodiscard]] Measuring measuring() const override { return still_->measuring(); }
 
  private:
@@ -43,9 +47,10 @@ std::unique_ptr<Reference> make_carried(const ReferenceInput& in) {
   const auto wave = cosine_wave(in);
   refuse_open_ends(wave, {in.args, still, in.initial});
   const double D = in.args.number("diffusivity") ? *in.args.number("diffusivity") : common_diffusivity(still);
-  return std::make_unique<CarriedCosine>(std::make_unique<DecayingCosine>(ReferenceInput{in.args, still, in.initial}, wave,
-                                                                          D * dot(wave.wave_vector, wave.wave_vector)),
-                                         velocity);
+  return std::make_unique<CarriedCosine>(
+      std::make_unique<DecayingCosine>(ReferenceInput{in.args, still, in.initial}, wave,
+                                       D * dot(wave.wave_vector, wave.wave_vector)),
+      velocity);
 }
 
 }  // namespace
@@ -54,7 +59,8 @@ ReferenceEntry cosine_carried_entry() {
   auto args = cosine_arguments();
   args.push_back({"diffusivity", "m2/s", "k/(rho c_p); default of the bodies' material"});
   return {{"cosine_carried", "analytic",
-           "separation of variables in the frame of the medium (Galileo): T = mean + A exp(-D k^2 t) cos(k.(r - U t) + phase)",
+           "separation of variables in the frame of the medium (Galileo): T = mean + A exp(-D k^2 t) "
+           "cos(k.(r - U t) + phase)",
            "decay of one cosine mode in a medium that moves as a whole", args},
           make_carried};
 }

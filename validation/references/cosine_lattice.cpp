@@ -39,7 +39,8 @@ std::unique_ptr<Reference> make_lattice(const ReferenceInput& in) {
   const auto wave = cosine_wave(in);
   refuse_open_ends(wave, in);
   const double dx = in.job.resolution.spacing > 0.0 ? in.job.resolution.spacing : in.job.scene.spacing;
-  const double ratio = in.job.resolution.support_ratio > 0.0 ? in.job.resolution.support_ratio : in.job.scene.support_ratio;
+  const double ratio =
+      in.job.resolution.support_ratio > 0.0 ? in.job.resolution.support_ratio : in.job.scene.support_ratio;
   const double support = in.args.number("support_ratio").value_or(ratio) * dx;
   const double damping = in.args.form(in.job.scene.mode_of(term::heat)) == Mode::paper
                              ? paper_lattice_damping(wave.wave_vector, dx, support)
@@ -51,13 +52,16 @@ std::unique_ptr<Reference> make_lattice(const ReferenceInput& in) {
 
 double paper_lattice_damping(const Vec3& k, double dx, double h) {
   const double poly6 = 315.0 / (64.0 * pi * std::pow(h, 9)), laplacian = 45.0 / (pi * std::pow(h, 6));
+  // m_j/rho_j = 1/this
   const double number_density =
-      lattice_sum(dx, h, [&](const Vec3& r) { return poly6 * std::pow(h * h - dot(r, r), 3); });  // m_j/rho_j = 1/this
-  return lattice_sum(dx, h, [&](const Vec3& r) { return laplacian * (h - norm(r)) * versine(dot(k, r)); }) / number_density;
+      lattice_sum(dx, h, [&](const Vec3& r) { return poly6 * std::pow(h * h - dot(r, r), 3); });
+  return lattice_sum(dx, h, [&](const Vec3& r) { return laplacian * (h - norm(r)) * versine(dot(k, r)); }) /
+         number_density;
 }
 
 double corrected_lattice_damping(const Vec3& k, double dx, double h) {
-  // K = -2 W'/r is (1 - q)^3 times a constant, which cancels in the quotient: W = 21/(2 pi h^3) (1 - q)^4 (1 + 4 q), q = r/h.
+  // K = -2 W'/r is (1 - q)^3 times a constant, which cancels in the quotient: W = 21/(2 pi h^3) (1 - q)^4 (1
+  // + 4 q), q = r/h.
   const auto K = [&](const Vec3& r) { return std::pow(1.0 - norm(r) / h, 3); };
   const double moment = 0.5 * lattice_sum(dx, h, [&](const Vec3& r) { return K(r) * r.x * r.x; });
   return lattice_sum(dx, h, [&](const Vec3& r) { return K(r) * versine(dot(k, r)); }) / moment;
@@ -65,12 +69,15 @@ double corrected_lattice_damping(const Vec3& k, double dx, double h) {
 
 ReferenceEntry cosine_mode_lattice_entry() {
   auto args = cosine_arguments();
-  args.push_back({"form", "", "paper or corrected; default the run's mode of the heat term", ArgumentType::word});
+  args.push_back(
+      {"form", "", "paper or corrected; default the run's mode of the heat term", ArgumentType::word});
   args.push_back({"support_ratio", "", "h/dx; default the run's"});
-  return {{"cosine_mode_lattice", "discrete_exact",
-           "eigenvalue of the conduction operator on the cubic lattice: model (21) or section 8.6",
-           "decay of one cosine mode by the SPH operator itself, on an unbounded cubic lattice, exact in time", args},
-          make_lattice};
+  return {
+      {"cosine_mode_lattice", "discrete_exact",
+       "eigenvalue of the conduction operator on the cubic lattice: model (21) or section 8.6",
+       "decay of one cosine mode by the SPH operator itself, on an unbounded cubic lattice, exact in time",
+       args},
+      make_lattice};
 }
 
 }  // namespace tripoint

@@ -39,7 +39,8 @@ std::vector<CosineWave> waves_of(const ReferenceInput& in) {
     const auto wave_vector = in.args.vector("wave_vector" + tail);
     if (!amplitude && !wave_vector) continue;
     if (!amplitude || !wave_vector)
-      throw InputError("cosine_sum: wave " + std::to_string(n) + " needs both amplitude" + tail + " and wave_vector" + tail);
+      throw InputError("cosine_sum: wave " + std::to_string(n) + " needs both amplitude" + tail +
+                       " and wave_vector" + tail);
     waves.push_back({0.0, *amplitude, in.args.number("phase" + tail).value_or(0.0), *wave_vector});
     refuse_open_ends(waves.back(), in);
   }
@@ -55,8 +56,8 @@ std::unique_ptr<Reference> make_sum(const ReferenceInput& in) {
   for (const auto& w : waves) size += std::abs(w.amplitude);
   auto sum = std::make_unique<CosineSum>(in, *mean, std::move(waves),
                                          in.args.number("diffusivity").value_or(common_diffusivity(in.job)));
-  const auto start =
-      sum->at(0.0).temperature;  // the scene's formula and these arguments are written apart: they must say the same
+  // The scene's formula and these arguments are written apart: they must say the same
+  const auto start = sum->at(0.0).temperature;
   for (std::size_t i = 0; i < in.initial.size(); ++i)
     if (!(std::abs(start[i] - in.initial.temperature[i]) <= 1e-9 * size))
       throw InputError("cosine_sum: the scene does not start with the waves that the arguments name");
@@ -64,12 +65,13 @@ std::unique_ptr<Reference> make_sum(const ReferenceInput& in) {
 }
 
 std::vector<ReferenceArgument> sum_arguments() {
-  std::vector<ReferenceArgument> list{{"mean", "K", "needed"},
-                                      {"diffusivity", "m2/s", "k/(rho c_p); default of the bodies' material"}};
+  std::vector<ReferenceArgument> list{
+      {"mean", "K", "needed"}, {"diffusivity", "m2/s", "k/(rho c_p); default of the bodies' material"}};
   for (std::size_t n = 1; n <= most_waves; ++n) {
     const auto tail = "_" + std::to_string(n);
     list.push_back({"amplitude" + tail, "K", "of wave " + std::to_string(n)});
-    list.push_back({"wave_vector" + tail, "rad/m", "of wave " + std::to_string(n) + ", in any direction", ArgumentType::vector});
+    list.push_back({"wave_vector" + tail, "rad/m", "of wave " + std::to_string(n) + ", in any direction",
+                    ArgumentType::vector});
     list.push_back({"phase" + tail, "rad", "of wave " + std::to_string(n) + "; default 0"});
   }
   return list;
@@ -78,10 +80,12 @@ std::vector<ReferenceArgument> sum_arguments() {
 }  // namespace
 
 ReferenceEntry cosine_sum_entry() {
-  return {{"cosine_sum", "analytic",
-           "separation of variables: each wave decays by itself, T = mean + sum A exp(-D k^2 t) cos(k.r + phase)",
-           "decay of up to four waves in different directions in a periodic medium: no symmetry", sum_arguments()},
-          make_sum};
+  return {
+      {"cosine_sum", "analytic",
+       "separation of variables: each wave decays by itself, T = mean + sum A exp(-D k^2 t) cos(k.r + phase)",
+       "decay of up to four waves in different directions in a periodic medium: no symmetry",
+       sum_arguments()},
+      make_sum};
 }
 
 }  // namespace tripoint

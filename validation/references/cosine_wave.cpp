@@ -10,7 +10,8 @@ namespace {
 
 const TemperatureField* scene_cosine(const Job& job) {
   for (const auto& body : job.scene.bodies)
-    if (body.temperature && body.temperature->kind == TemperatureField::Kind::cosine) return &*body.temperature;
+    if (body.temperature && body.temperature->kind == TemperatureField::Kind::cosine)
+      return &*body.temperature;
   return nullptr;
 }
 
@@ -35,7 +36,8 @@ CosineWave cosine_wave(const ReferenceInput& in) {
   wave.wave_vector = in.args.vector("wave_vector").value_or(wave.wave_vector);
   if (norm(wave.wave_vector) == 0.0 || wave.amplitude == 0.0)
     throw InputError(
-        "the cosine mode needs a body with temperature = {kind = \"cosine\", ...} or the arguments wave_vector and amplitude");
+        "the cosine mode needs a body with temperature = {kind = \"cosine\", ...} or the arguments "
+        "wave_vector and amplitude");
   return wave;
 }
 
@@ -46,12 +48,15 @@ void refuse_open_ends(const CosineWave& wave, const ReferenceInput& in) {
     const auto bar = bar_along(axis, in.job, in.initial);
     if (bar.periodic) {
       const double waves = k * bar.length() / (2.0 * std::numbers::pi);
-      if (std::abs(waves - std::round(waves)) > 1e-9) throw InputError("no whole number of waves fits the periodic direction");
+      if (std::abs(waves - std::round(waves)) > 1e-9)
+        throw InputError("no whole number of waves fits the periodic direction");
       continue;
     }
     axis_of(wave.wave_vector, "between insulated ends the wave vector");
-    if (std::abs(std::sin(k * bar.low + wave.phase)) > 1e-9 || std::abs(std::sin(k * bar.high + wave.phase)) > 1e-9)
-      throw InputError("the wave is not level at the insulated ends: choose the phase so that they are crests or troughs");
+    if (std::abs(std::sin(k * bar.low + wave.phase)) > 1e-9 ||
+        std::abs(std::sin(k * bar.high + wave.phase)) > 1e-9)
+      throw InputError(
+          "the wave is not level at the insulated ends: choose the phase so that they are crests or troughs");
   }
 }
 

@@ -14,11 +14,13 @@ struct CosineWave {
   [[nodiscard]] double shape(const Vec3& r) const;  ///< the cosine [1]
 };
 
-/// From the arguments, else from the first body that starts with a cosine. @throws InputError when there is none
+/// From the arguments, else from the first body that starts with a cosine. @throws InputError when there is
+/// none
 [[nodiscard]] CosineWave cosine_wave(const ReferenceInput&);
 [[nodiscard]] std::vector<ReferenceArgument> cosine_arguments();
 
-/// @throws InputError unless whole waves fit each periodic direction and the wave is level at each insulated end
+/// @throws InputError unless whole waves fit each periodic direction and the wave is level at each insulated
+/// end
 void refuse_open_ends(const CosineWave&, const ReferenceInput&);
 
 /// The wave, its amplitude falling as exp(-rate t). Numbers: decay_rate [1/s], and the wave itself.

@@ -8,7 +8,8 @@
 namespace tripoint {
 namespace {
 
-/// Steady flow between two cylinders about z: u_theta = A r + B/r. Numbers: torque, on the inner one about z [N m].
+/// Steady flow between two cylinders about z: u_theta = A r + B/r. Numbers: torque, on the inner one about z
+/// [N m].
 class CouetteCylinders : public LiquidReference {
  public:
   CouetteCylinders(const ReferenceInput& in, const Vec3& centre, double A, double B, double torque)
@@ -33,11 +34,13 @@ class CouetteCylinders : public LiquidReference {
 };
 
 std::unique_ptr<Reference> make_cylinders(const ReferenceInput& in) {
-  const auto liquid = only_liquid(in.job, "couette_cylinders"), inner = solid_body(in, Motion::prescribed, "couette_cylinders");
+  const auto liquid = only_liquid(in.job, "couette_cylinders"),
+             inner = solid_body(in, Motion::prescribed, "couette_cylinders");
   const auto inner_radius = in.args.number("inner_radius"), outer_radius = in.args.number("outer_radius");
   if (!inner_radius || !outer_radius || !(*outer_radius > *inner_radius))
     throw InputError("couette_cylinders needs inner_radius below outer_radius");
-  if (!in.job.scene.periodic[2] || !in.job.scene.min) throw InputError("couette_cylinders is periodic in z, along the cylinders");
+  if (!in.job.scene.periodic[2] || !in.job.scene.min)
+    throw InputError("couette_cylinders is periodic in z, along the cylinders");
   const double a2 = *inner_radius * *inner_radius, b2 = *outer_radius * *outer_radius,
                spin = in.job.bodies[inner].angular_velocity.z;
   const double A = -spin * a2 / (b2 - a2), B = spin * a2 * b2 / (b2 - a2);

@@ -29,7 +29,8 @@ CoulombMotion::Phase CoulombMotion::slipping(double direction) const {
 
 /// Slip is 0: friction of pull/(1 + share) keeps it so, where the plane can give it.
 CoulombMotion::Phase CoulombMotion::after() const {
-  if (std::abs(plane_.pull) / (1.0 + contact_.share) > plane_.grip) return slipping(plane_.pull > 0.0 ? 1.0 : -1.0);
+  if (std::abs(plane_.pull) / (1.0 + contact_.share) > plane_.grip)
+    return slipping(plane_.pull > 0.0 ? 1.0 : -1.0);
   const double a = plane_.pull * contact_.share / (1.0 + contact_.share);
   return {a, contact_.share > 0.0 ? a / contact_.radius : 0.0};
 }
@@ -84,7 +85,8 @@ std::unique_ptr<Reference> make_sliding(const ReferenceInput& in) {
     throw InputError("sliding holds for a box that lies on its face and does not turn");
   const CoulombMotion::Plane plane{scene.pull, scene.friction * scene.press};
   if (scene.friction * scene.height > scene.half_length)
-    throw InputError("sliding: friction times the height of its centre is more than half its length: the box would tip");
+    throw InputError(
+        "sliding: friction times the height of its centre is more than half its length: the box would tip");
   return std::make_unique<OnPlane>(scene, CoulombMotion(plane, {}, scene.speed, 0.0));
 }
 
@@ -93,34 +95,39 @@ std::unique_ptr<Reference> make_rolling(const ReferenceInput& in) {
   if (scene.shape != Shape::Kind::sphere) throw InputError("rolling holds for a ball");
   const auto& p = in.job.bodies[scene.body].properties;
   if (p.principal_inertia.z - p.principal_inertia.x > 1e-6 * p.principal_inertia.z)
-    throw InputError("rolling: the ball's particles have three different moments: put its centre on the lattice");
+    throw InputError(
+        "rolling: the ball's particles have three different moments: put its centre on the lattice");
   const CoulombMotion::Plane plane{scene.pull, scene.friction * scene.press};
-  const CoulombMotion::Contact contact{p.mass * scene.height * scene.height / p.principal_inertia.z, scene.height};
+  const CoulombMotion::Contact contact{p.mass * scene.height * scene.height / p.principal_inertia.z,
+                                       scene.height};
   return std::make_unique<OnPlane>(scene, CoulombMotion(plane, contact, scene.speed, scene.spin));
 }
 
 const ReferenceArgument friction{
-    "friction", "1", "coefficient of Coulomb's friction; default that of all engines' settings, none where they say none"};
+    "friction", "1",
+    "coefficient of Coulomb's friction; default that of all engines' settings, none where they say none"};
 
 }  // namespace
 
 ReferenceEntry sliding_entry() {
   return {{"sliding",
            "analytic",
-           "Coulomb's law of friction: g (sin a - mu cos a) downhill, v0^2/(2 mu g) to rest, and no motion where tan a <= mu",
+           "Coulomb's law of friction: g (sin a - mu cos a) downhill, v0^2/(2 mu g) to rest, and no motion "
+           "where tan a <= mu",
            "a box that sticks or slides on a plane. Gravity may be tilted, and the plane may move",
            {friction}},
           make_sliding};
 }
 
 ReferenceEntry rolling_entry() {
-  return {
-      {"rolling",
-       "analytic",
-       "Coulomb's law of friction and Euler's law of rotation: a ball rolls at v0/(1 + I/(m r^2)), a solid one at 5/7 v0",
-       "a ball that slips or rolls on a plane, with the moment of its particles. Gravity may be tilted, and the plane may move",
-       {friction}},
-      make_rolling};
+  return {{"rolling",
+           "analytic",
+           "Coulomb's law of friction and Euler's law of rotation: a ball rolls at v0/(1 + I/(m r^2)), a "
+           "solid one at 5/7 v0",
+           "a ball that slips or rolls on a plane, with the moment of its particles. Gravity may be tilted, "
+           "and the plane may move",
+           {friction}},
+          make_rolling};
 }
 
 }  // namespace tripoint

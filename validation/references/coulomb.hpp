@@ -3,10 +3,11 @@
 
 namespace tripoint {
 
-/// Motion of a block or a ball on a plane with Coulomb's friction, along one line, in the plane's frame. The contact point slips
-/// at c = v - w r. While it slips, friction is mu times the normal force against it. When c reaches 0 it sticks (the ball rolls)
-/// if the friction needed is within mu times the normal force. Otherwise it slips on, downhill. While it slips,
-/// dv/dt = pull - grip sign(c) and dc/dt = pull - (1 + share) grip sign(c).
+/// Motion of a block or a ball on a plane with Coulomb's friction, along one line, in the plane's frame. The
+/// contact point slips at c = v - w r. While it slips, friction is mu times the normal force against it. When
+/// c reaches 0 it sticks (the ball rolls) if the friction needed is within mu times the normal force.
+/// Otherwise it slips on, downhill. While it slips, dv/dt = pull - grip sign(c) and dc/dt = pull - (1 +
+/// share) grip sign(c).
 class CoulombMotion {
  public:
   struct Plane {

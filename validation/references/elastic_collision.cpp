@@ -8,8 +8,9 @@
 namespace tripoint {
 namespace {
 
-/// Two free boxes that meet face to face and centre to centre, without friction or loss. Paths are straight, and at touch the
-/// velocities along the line of centres change as those of points. Numbers: event_time of the touch [s], axis.
+/// Two free boxes that meet face to face and centre to centre, without friction or loss. Paths are straight,
+/// and at touch the velocities along the line of centres change as those of points. Numbers: event_time of
+/// the touch [s], axis.
 class ElasticCollision : public Reference {
  public:
   ElasticCollision(const ReferenceInput& in, std::size_t axis, double touch)
@@ -21,13 +22,15 @@ class ElasticCollision : public Reference {
       BodyState s;
       const Vec3 after = after_touch(body);
       s.velocity = time < touch_ ? body.velocity : after;
-      s.position = body.properties.centre + std::min(time, touch_) * body.velocity + std::max(0.0, time - touch_) * after;
+      s.position = body.properties.centre + std::min(time, touch_) * body.velocity +
+                   std::max(0.0, time - touch_) * after;
       s.mass = body.properties.mass;
       out.bodies.push_back(s);
     }
     for (std::size_t i = 0; i < initial_.size(); ++i) {
       const auto b = static_cast<std::size_t>(initial_.source[i]);
-      out.position.push_back(initial_.position[i] + (out.bodies[b].position - job_.bodies[b].properties.centre));
+      out.position.push_back(initial_.position[i] +
+                             (out.bodies[b].position - job_.bodies[b].properties.centre));
       out.velocity.push_back(out.bodies[b].velocity);
     }
     return out;
@@ -64,12 +67,15 @@ std::unique_ptr<Reference> make_collision(const ReferenceInput& in) {
     if (b.motion != Motion::free || b.phase == Phase::liquid || norm(b.angular_velocity) > 0.0)
       throw InputError("elastic_collision: body `" + b.name + "` must be a free rigid body without spin");
   for (std::size_t k = 0; k < 3; ++k)
-    if (k != axis && std::abs(bodies[0].properties.centre[k] - bodies[1].properties.centre[k]) > 1e-9 * in.job.scene.spacing)
+    if (k != axis && std::abs(bodies[0].properties.centre[k] - bodies[1].properties.centre[k]) >
+                         1e-9 * in.job.scene.spacing)
       throw InputError("elastic_collision: an off-centre hit has no exact path");
   const auto a = body_along(axis, 0, in.job, in.initial), b = body_along(axis, 1, in.job, in.initial);
   const bool ahead = a.low < b.low;
-  const double gap = ahead ? b.low - a.high : a.low - b.high, speed = ahead ? approach[axis] : -approach[axis];
-  if (!(gap > 0.0) || !(speed > 0.0)) throw InputError("elastic_collision: the bodies must start apart and approach each other");
+  const double gap = ahead ? b.low - a.high : a.low - b.high,
+               speed = ahead ? approach[axis] : -approach[axis];
+  if (!(gap > 0.0) || !(speed > 0.0))
+    throw InputError("elastic_collision: the bodies must start apart and approach each other");
   return std::make_unique<ElasticCollision>(in, axis, gap / speed);
 }
 

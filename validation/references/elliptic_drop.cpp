@@ -35,7 +35,8 @@ class EllipticDrop : public LiquidReference {
     const Vec3 d = place - centre_;
     LiquidState s;
     s.velocity = {-now_.rate * d.x, now_.rate * d.y, 0.0};
-    const double change = now_.rate * now_.rate * (now_.a * now_.a - now_.b * now_.b) / (now_.a * now_.a + now_.b * now_.b);
+    const double change =
+        now_.rate * now_.rate * (now_.a * now_.a - now_.b * now_.b) / (now_.a * now_.a + now_.b * now_.b);
     const double inside = now_.a * now_.a - d.x * d.x - d.y * d.y * now_.a * now_.a / (now_.b * now_.b);
     s.pressure = std::max(0.0, 0.5 * density_ * (now_.rate * now_.rate - change) * inside);
     return s;
@@ -52,10 +53,11 @@ std::unique_ptr<Reference> make_drop(const ReferenceInput& in) {
   const auto liquid = only_liquid(in.job, "elliptic_drop");
   const auto& body = in.job.scene.bodies.at(liquid);
   const auto& g = body.velocity.gradient;
-  const bool drawn = body.velocity.kind == VelocityField::Kind::linear && g[0].x == -g[1].y && g[1].y > 0.0 && g[0].y == 0.0 &&
-                     g[1].x == 0.0 && g[2] == Vec3{};
+  const bool drawn = body.velocity.kind == VelocityField::Kind::linear && g[0].x == -g[1].y && g[1].y > 0.0 &&
+                     g[0].y == 0.0 && g[1].x == 0.0 && g[2] == Vec3{};
   if (body.shape.kind != Shape::Kind::cylinder || is_turned(body.shape) || !drawn)
-    throw InputError("elliptic_drop needs a cylinder of liquid along z with the velocity (-A x, A y, 0), A > 0");
+    throw InputError(
+        "elliptic_drop needs a cylinder of liquid along z with the velocity (-A x, A y, 0), A > 0");
   return std::make_unique<EllipticDrop>(in, body.velocity.centre, g[1].y, body.shape.radius,
                                         material_of_body(in.job, liquid).density);
 }
@@ -83,12 +85,13 @@ DropState elliptic_drop(double rate, double radius, double time) {
 }
 
 ReferenceEntry elliptic_drop_entry() {
-  return {{"elliptic_drop",
-           "analytic",
-           "Monaghan, Simulating free surface flows with SPH, 1994: ordinary differential equations of the axes",
-           "a round drop drawn out to an ellipse, without gravity",
-           {}},
-          make_drop};
+  return {
+      {"elliptic_drop",
+       "analytic",
+       "Monaghan, Simulating free surface flows with SPH, 1994: ordinary differential equations of the axes",
+       "a round drop drawn out to an ellipse, without gravity",
+       {}},
+      make_drop};
 }
 
 }  // namespace tripoint

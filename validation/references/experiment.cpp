@@ -73,12 +73,14 @@ class Reader {
   StatedNumber stated(const std::string& text) const {
     StatedNumber s;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), s.number);
-    if (error != std::errc() || !std::isfinite(s.number)) refuse("`" + printable(text) + "` does not begin with a number");
+    if (error != std::errc() || !std::isfinite(s.number))
+      refuse("`" + printable(text) + "` does not begin with a number");
     s.rest = trimmed(std::string_view(text).substr(static_cast<std::size_t>(end - text.data())));
     return s;
   }
 
-  /// "# source: ...", "# unit COLUMN: ...", "# uncertainty COLUMN: ...", "# hash: ..."; all else is free text.
+  /// "# source: ...", "# unit COLUMN: ...", "# uncertainty COLUMN: ...", "# hash: ..."; all else is free
+  /// text.
   void comment(const std::string& line) {
     const auto colon = line.find(':');
     if (colon == std::string::npos) return;
@@ -116,7 +118,8 @@ class Reader {
   void head(const std::string& line) {
     columns_ = split(line);
     if (columns_.size() < 2 || std::find(first_.begin(), first_.end(), columns_.front()) == first_.end())
-      refuse(fmt::format("the first line of the table names the columns: `{}` and at least one more", fmt::join(first_, "`, `")));
+      refuse(fmt::format("the first line of the table names the columns: `{}` and at least one more",
+                         fmt::join(first_, "`, `")));
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       if (columns_[c].empty() || std::count(columns_.begin(), columns_.end(), columns_[c]) > 1)
         refuse(fmt::format("column {} has no name of its own", c + 1));
@@ -138,7 +141,8 @@ class Reader {
       values.push_back(s.number);
     }
     if (!rows_.empty() && !(values[0] > rows_.back()[0]))
-      refuse(fmt::format("{} must rise from row to row", columns_.front() == "time" ? "times" : columns_.front()));
+      refuse(fmt::format("{} must rise from row to row",
+                         columns_.front() == "time" ? "times" : columns_.front()));
     rows_.push_back(std::move(values));
   }
 
@@ -148,7 +152,8 @@ class Reader {
     const auto now = experiment_hash(text);
     if (hash_.empty()) refuse(fmt::format("no line `# hash: ...`; of these data it is {}", now));
     if (hash_ != now)
-      refuse(fmt::format("the data hash to {}, the file says {}: they changed since they were entered", now, printable(hash_)));
+      refuse(fmt::format("the data hash to {}, the file says {}: they changed since they were entered", now,
+                         printable(hash_)));
   }
 
   [[nodiscard]] ExperimentFile finished() const {
@@ -163,7 +168,8 @@ class Reader {
       for (const auto& values : rows_) {
         curve.time.push_back(values[0] * units_.at(columns_.front()));
         curve.value.push_back(values[c] * unit);
-        curve.uncertainty.push_back(u.rest == "%" ? 0.01 * u.number * std::abs(values[c]) * unit : u.number * unit);
+        curve.uncertainty.push_back(u.rest == "%" ? 0.01 * u.number * std::abs(values[c]) * unit
+                                                  : u.number * unit);
       }
     }
     return file;
@@ -183,7 +189,8 @@ std::string text_of(const std::string& path) {
   std::error_code none;
   const auto size = std::filesystem::file_size(path, none);
   if (none) throw InputError(path + ": cannot be read");
-  if (size > largest_file) throw InputError(path + ": is larger than 1 MiB, which no table of measured values is");
+  if (size > largest_file)
+    throw InputError(path + ": is larger than 1 MiB, which no table of measured values is");
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
@@ -209,7 +216,8 @@ class Experiment : public Reference {
 };
 
 std::unique_ptr<Reference> make_experiment(const ReferenceInput& in) {
-  if (in.file.empty()) throw InputError("reference function experiment needs the key `file`: the data beside the case");
+  if (in.file.empty())
+    throw InputError("reference function experiment needs the key `file`: the data beside the case");
   return std::make_unique<Experiment>(read_experiment(in.file), in.args.axis("axis"));
 }
 
@@ -228,7 +236,9 @@ std::string experiment_hash(const std::string& text) {
 
 ExperimentFile read_experiment(const std::string& path) { return Reader(path, {"time"}).read(text_of(path)); }
 
-ExperimentFile read_table(const std::string& path) { return Reader(path, {"time", "x", "y", "z"}).read(text_of(path)); }
+ExperimentFile read_table(const std::string& path) {
+  return Reader(path, {"time", "x", "y", "z"}).read(text_of(path));
+}
 
 void check_data_files(const Case& value) {
   const auto check = [](const ReferenceChoice& choice) {
@@ -243,7 +253,8 @@ void check_data_files(const Case& value) {
 }
 
 ReferenceChoice with_source_of_file(ReferenceChoice choice) {
-  if ((choice.kind != ReferenceKind::experiment && choice.function != "table") || !choice.source.empty()) return choice;
+  if ((choice.kind != ReferenceKind::experiment && choice.function != "table") || !choice.source.empty())
+    return choice;
   try {
     const auto file = choice.function == "table" ? read_table(choice.file) : read_experiment(choice.file);
     choice.source = file.source;

@@ -6,8 +6,8 @@
 
 #include "validation/references/reference.hpp"
 
-/// Measured data: a table beside the case, `<case>.ref.csv`, that says where it comes from, in what unit and how well it is
-/// known.
+/// Measured data: a table beside the case, `<case>.ref.csv`, that says where it comes from, in what unit and
+/// how well it is known.
 ///
 ///     # source: J. C. Martin, W. J. Moyce, Phil. Trans. R. Soc. Lond. A 244 (1952) 312, figure 3
 ///     # unit time: 0.0539706 s           a value of the column times this is in SI
@@ -30,21 +30,23 @@ struct ExperimentFile {
   std::map<std::string, std::string> uncertainty;  ///< by column, as the file words it
 };
 
-/// @throws InputError naming file and line of an entry that is missing, unknown, not a number, not rising, of another width, or
-/// changed since it was hashed
+/// @throws InputError naming file and line of an entry that is missing, unknown, not a number, not rising, of
+/// another width, or changed since it was hashed
 [[nodiscard]] ExperimentFile read_experiment(const std::string& path);
 
 /// Likewise of a table whose first column is time, x, y or z; the curves' `time` is then that column.
 [[nodiscard]] ExperimentFile read_table(const std::string& path);
 
-/// FNV-1a over the lines without the one that begins with "# hash:" and without carriage returns, as it stands in the file.
+/// FNV-1a over the lines without the one that begins with "# hash:" and without carriage returns, as it
+/// stands in the file.
 [[nodiscard]] std::string experiment_hash(const std::string& text);
 
 /// Reads the data files of a case's references, so that nothing runs against data that cannot be used.
 /// @throws InputError as read_experiment does
 void check_data_files(const Case&);
 
-/// The choice of a case with the source that its data file states, where the case names none and the file can be read.
+/// The choice of a case with the source that its data file states, where the case names none and the file can
+/// be read.
 [[nodiscard]] ReferenceChoice with_source_of_file(ReferenceChoice);
 
 }  // namespace tripoint

@@ -5,15 +5,16 @@
 namespace tripoint {
 
 std::vector<ReferenceArgument> truth_fields() {
-  return {
-      {"value", "", "formula of t: what a quantity that is a single number is compared with, in its unit", ArgumentType::formula},
-      {"temperature", "K", "formula of the true temperature at x, y, z and t", ArgumentType::formula},
-      {"pressure", "Pa", "formula of the true pressure", ArgumentType::formula},
-      {"density", "kg/m3", "formula of the true density", ArgumentType::formula},
-      {"velocity_x", "m/s", "formula of the x component of velocity; a component that is not given is 0 where one is",
-       ArgumentType::formula},
-      {"velocity_y", "m/s", "formula of its y component", ArgumentType::formula},
-      {"velocity_z", "m/s", "formula of its z component", ArgumentType::formula}};
+  return {{"value", "", "formula of t: what a quantity that is a single number is compared with, in its unit",
+           ArgumentType::formula},
+          {"temperature", "K", "formula of the true temperature at x, y, z and t", ArgumentType::formula},
+          {"pressure", "Pa", "formula of the true pressure", ArgumentType::formula},
+          {"density", "kg/m3", "formula of the true density", ArgumentType::formula},
+          {"velocity_x", "m/s",
+           "formula of the x component of velocity; a component that is not given is 0 where one is",
+           ArgumentType::formula},
+          {"velocity_y", "m/s", "formula of its y component", ArgumentType::formula},
+          {"velocity_z", "m/s", "formula of its z component", ArgumentType::formula}};
 }
 
 std::string field_of_probe(std::string_view quantity, const Measuring& measuring) {
@@ -33,7 +34,8 @@ Snapshot truth_of_fields(const Snapshot& now, const FieldOf& field) {
   fill("temperature", out.temperature);
   fill("pressure", out.pressure);
   fill("density", out.density);
-  const std::function<double(const Vec3&)> v[3] = {field("velocity_x"), field("velocity_y"), field("velocity_z")};
+  const std::function<double(const Vec3&)> v[3] = {field("velocity_x"), field("velocity_y"),
+                                                   field("velocity_z")};
   if (!v[0] && !v[1] && !v[2]) return out;
   for (const Vec3& r : now.position) {
     Vec3 value;

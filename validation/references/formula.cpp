@@ -35,7 +35,8 @@ class Formula : public Reference {
   [[nodiscard]] std::optional<double> number_at(std::string_view quantity, double time) const override {
     const auto field = quantity == "value" ? std::string(quantity) : field_of_probe(quantity, measuring_);
     const auto found = formulas_.find(field);
-    return found == formulas_.end() ? number_of(quantity) : std::optional(found->second(measuring_.point.value_or(Vec3{}), time));
+    return found == formulas_.end() ? number_of(quantity)
+                                    : std::optional(found->second(measuring_.point.value_or(Vec3{}), time));
   }
 
  private:
@@ -61,9 +62,11 @@ std::unique_ptr<Reference> make_formula(const ReferenceInput& in) {
   }
   if (formulas.empty())
     throw InputError(
-        "reference function expression needs a formula: `value` of t for a single number, or `temperature`, `pressure`, "
+        "reference function expression needs a formula: `value` of t for a single number, or `temperature`, "
+        "`pressure`, "
         "`density`, `velocity_x` ... of x, y, z and t for a field");
-  return std::make_unique<Formula>(stated_numbers(in, "expression"), stated_measuring(in, "expression"), std::move(formulas));
+  return std::make_unique<Formula>(stated_numbers(in, "expression"), stated_measuring(in, "expression"),
+                                   std::move(formulas));
 }
 
 }  // namespace
@@ -72,7 +75,8 @@ ReferenceEntry expression_entry() {
   std::vector<ReferenceArgument> args = truth_fields();
   for (const auto& a : measuring_arguments()) args.push_back(a);
   return {{"expression", "analytic", "the case's own formula",
-           "formulas of x, y, z and t as texts. `value` of t is for a single number, the others are for fields at the particle's "
+           "formulas of x, y, z and t as texts. `value` of t is for a single number, the others are for "
+           "fields at the particle's "
            "position",
            args},
           make_formula};

@@ -15,11 +15,14 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 const Material& material_of(const Job& job, std::size_t body) {
   const auto& name = job.bodies.at(body).material;
   const auto& list = job.scene.materials;
-  const auto found = std::find_if(list.begin(), list.end(), [&](const Material& m) { return m.name == name; });
+  const auto found =
+      std::find_if(list.begin(), list.end(), [&](const Material& m) { return m.name == name; });
   if (found == list.end())
-    throw InputError("body `" + job.bodies[body].name + "` is of material `" + name + "`, which the scene does not have");
+    throw InputError("body `" + job.bodies[body].name + "` is of material `" + name +
+                     "`, which the scene does not have");
   if (!found->conductivity || !found->heat_capacity)
-    throw InputError("material `" + name + "` needs conductivity and heat_capacity for an exact solution of heat");
+    throw InputError("material `" + name +
+                     "` needs conductivity and heat_capacity for an exact solution of heat");
   return *found;
 }
 
@@ -42,7 +45,8 @@ BarAxis body_along(std::size_t axis, std::size_t body, const Job& job, const Ini
 
 BarAxis bar_along(std::size_t axis, const Job& job, const InitialState& initial) {
   if (job.scene.periodic[axis]) {
-    if (!job.scene.min || !job.scene.max) throw InputError("a periodic direction needs scene.min and scene.max");
+    if (!job.scene.min || !job.scene.max)
+      throw InputError("a periodic direction needs scene.min and scene.max");
     return {axis, (*job.scene.min)[axis], (*job.scene.max)[axis], true};
   }
   BarAxis bar{axis, infinity, -infinity, false};
@@ -58,18 +62,23 @@ std::size_t axis_of(const Vec3& direction, const std::string& what) {
   std::size_t k = 0;
   for (std::size_t i = 1; i < 3; ++i)
     if (std::abs(direction[i]) > std::abs(direction[k])) k = i;
-  const Vec3 rest = direction - Vec3{k == 0 ? direction.x : 0.0, k == 1 ? direction.y : 0.0, k == 2 ? direction.z : 0.0};
-  if (direction[k] == 0.0 || norm(rest) > 1e-12 * norm(direction)) throw InputError(what + " must point along x, y or z");
+  const Vec3 rest =
+      direction - Vec3{k == 0 ? direction.x : 0.0, k == 1 ? direction.y : 0.0, k == 2 ? direction.z : 0.0};
+  if (direction[k] == 0.0 || norm(rest) > 1e-12 * norm(direction))
+    throw InputError(what + " must point along x, y or z");
   return k;
 }
 
 PhaseValues phase_values(const Job& job, std::size_t body, Phase phase) {
   const auto& m = material_of(job, body);
   if (phase == Phase::liquid) return {*m.conductivity, m.density * *m.heat_capacity};
-  return {m.solid_conductivity.value_or(*m.conductivity), m.density * m.solid_heat_capacity.value_or(*m.heat_capacity)};
+  return {m.solid_conductivity.value_or(*m.conductivity),
+          m.density * m.solid_heat_capacity.value_or(*m.heat_capacity)};
 }
 
-double diffusivity(const Job& job, std::size_t body) { return phase_values(job, body, job.bodies[body].phase).diffusivity(); }
+double diffusivity(const Job& job, std::size_t body) {
+  return phase_values(job, body, job.bodies[body].phase).diffusivity();
+}
 
 double effusivity(const Job& job, std::size_t body) {
   const auto values = phase_values(job, body, job.bodies[body].phase);
@@ -87,9 +96,11 @@ double common_diffusivity(const Job& job) {
 
 HeatReference::HeatReference(const Job& job, const InitialState& initial, HeldEnds held) : initial_(initial) {
   for (const auto& body : job.bodies) {
-    const bool at_rest = body.motion == Motion::fixed ||
-                         (norm(body.velocity) == 0.0 && norm(body.angular_velocity) == 0.0 && body.keyframes.empty());
-    if (!at_rest) throw InputError("body `" + body.name + "` moves: the exact solutions of heat are of a medium at rest");
+    const bool at_rest =
+        body.motion == Motion::fixed ||
+        (norm(body.velocity) == 0.0 && norm(body.angular_velocity) == 0.0 && body.keyframes.empty());
+    if (!at_rest)
+      throw InputError("body `" + body.name + "` moves: the exact solutions of heat are of a medium at rest");
     if (body.temperature_held && held == HeldEnds::refused)
       throw InputError("body `" + body.name +
                        "` holds its temperature: this exact solution is of an insulated or periodic medium");

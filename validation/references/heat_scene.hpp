@@ -17,8 +17,8 @@ struct BarAxis {
   [[nodiscard]] double length() const { return high - low; }
 };
 
-/// The ends of all bodies along an axis: of the domain where it is periodic, else of the bodies' boxes. Without boxes: of their
-/// particles and half a spacing.
+/// The ends of all bodies along an axis: of the domain where it is periodic, else of the bodies' boxes.
+/// Without boxes: of their particles and half a spacing.
 [[nodiscard]] BarAxis bar_along(std::size_t axis, const Job&, const InitialState&);
 /// Likewise of one body.
 [[nodiscard]] BarAxis body_along(std::size_t axis, std::size_t body, const Job&, const InitialState&);
@@ -34,16 +34,16 @@ struct PhaseValues {
 /// @throws InputError when the material has no conductivity or heat capacity
 [[nodiscard]] PhaseValues phase_values(const Job&, std::size_t body, Phase);
 
-/// Diffusivity k/(rho c_p) [m2/s] and effusivity sqrt(k rho c_p) [W s^0.5/m2/K] of a body's material, in the phase in which the
-/// body begins.
+/// Diffusivity k/(rho c_p) [m2/s] and effusivity sqrt(k rho c_p) [W s^0.5/m2/K] of a body's material, in the
+/// phase in which the body begins.
 /// @throws InputError when its material has no conductivity or heat capacity
 [[nodiscard]] double diffusivity(const Job&, std::size_t body);
 [[nodiscard]] double effusivity(const Job&, std::size_t body);
 /// The one diffusivity of a scene. @throws InputError when its bodies differ
 [[nodiscard]] double common_diffusivity(const Job&);
 
-/// Base of the references of heat: a medium at rest of which only the temperature changes. Snapshots hold everything else as it
-/// was.
+/// Base of the references of heat: a medium at rest of which only the temperature changes. Snapshots hold
+/// everything else as it was.
 class HeatReference : public Reference {
  public:
   enum class HeldEnds { refused, allowed };

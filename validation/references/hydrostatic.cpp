@@ -14,10 +14,11 @@ struct LiquidLayer {
   std::size_t body;
 };
 
-/// Layers of liquid at rest: the pressure is the weight above. They may be compressed by it, p = c^2 (rho - rho0). Then dp/dz =
-/// -rho g gives p + c^2 rho0 = (p_t + c^2 rho0) exp(g (z_t - z)/c^2) in a layer with the pressure p_t at its top z_t. The top has
-/// fallen to c^2/g ln(1 + g H/(c^2 + p_t/rho0)) above its bottom, where the layer has its former mass. Numbers: bottom_pressure,
-/// interface_pressure [Pa], interface [m] (height of the highest interface along the axis, before it has fallen), axis.
+/// Layers of liquid at rest: the pressure is the weight above. They may be compressed by it, p = c^2 (rho -
+/// rho0). Then dp/dz = -rho g gives p + c^2 rho0 = (p_t + c^2 rho0) exp(g (z_t - z)/c^2) in a layer with the
+/// pressure p_t at its top z_t. The top has fallen to c^2/g ln(1 + g H/(c^2 + p_t/rho0)) above its bottom,
+/// where the layer has its former mass. Numbers: bottom_pressure, interface_pressure [Pa], interface [m]
+/// (height of the highest interface along the axis, before it has fallen), axis.
 class Hydrostatic : public LiquidReference {
  public:
   /// @param sound speeds of sound of the layers that their weight compresses [m/s], none = incompressible
@@ -53,7 +54,8 @@ class Hydrostatic : public LiquidReference {
     const double height = up_ * place[axis_];
     s.pressure = pressed_.empty() ? weight_above(height) : pressure_at(height);
     for (const auto& layer : layers_)
-      if (up_ * initial_.position[particle][axis_] < layer.high && std::isnan(s.density)) s.density = layer.density;
+      if (up_ * initial_.position[particle][axis_] < layer.high && std::isnan(s.density))
+        s.density = layer.density;
     return s;
   }
 
@@ -75,7 +77,8 @@ class Hydrostatic : public LiquidReference {
     const double depth = gravity_ * std::max(0.0, high - height) / c2;
     return factor_ * (above * std::exp(depth) + c2 * layers_[n].density * std::expm1(depth));
   }
-  /// A layer that is compressed: height of its top [m], pressure there [Pa], square of its speed of sound [m2/s2].
+  /// A layer that is compressed: height of its top [m], pressure there [Pa], square of its speed of sound
+  /// [m2/s2].
   struct Pressed {
     double high, above, sound2;
   };
@@ -119,7 +122,8 @@ ReferenceEntry hydrostatic_entry() {
            "Archimedes, Pascal: the pressure is the weight of the liquid above",
            "liquid at rest, in layers stacked along gravity",
            {{"factor", "1", "share of the pressure that a printed equation of state must show; default 1"},
-            {"compressed", "true or false", "each layer is compressed by its weight, at its speed of sound; default false",
+            {"compressed", "true or false",
+             "each layer is compressed by its weight, at its speed of sound; default false",
              ArgumentType::flag}}},
           make_hydrostatic};
 }

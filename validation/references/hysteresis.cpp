@@ -8,8 +8,8 @@
 namespace tripoint {
 namespace {
 
-/// Phases under a programme of temperatures that heat events set. Matter is liquid since the last one above t_melt, solid since
-/// the last one below t_solid, unchanged by those between.
+/// Phases under a programme of temperatures that heat events set. Matter is liquid since the last one above
+/// t_melt, solid since the last one below t_solid, unchanged by those between.
 class Hysteresis : public Reference {
  public:
   Hysteresis(const Job& job, const InitialState& initial) : job_(job), initial_(initial) {
@@ -37,17 +37,20 @@ class Hysteresis : public Reference {
   [[nodiscard]] bool heats(const Event& e, std::size_t i) const {
     if (e.kind != Event::Kind::heat) return false;
     const auto& name = job_.bodies.at(static_cast<std::size_t>(initial_.source[i])).name;
-    if (!e.bodies.empty() && std::find(e.bodies.begin(), e.bodies.end(), name) == e.bodies.end()) return false;
+    if (!e.bodies.empty() && std::find(e.bodies.begin(), e.bodies.end(), name) == e.bodies.end())
+      return false;
     return !e.region || inside(*e.region, initial_.position[i]);
   }
   [[nodiscard]] static Snapshot state(double time, std::vector<int> phase) {
     Snapshot out;
     out.time = time;
     out.phase = std::move(phase);
-    for (const int p : out.phase) out.liquid_fraction.push_back(p == static_cast<int>(Phase::liquid) ? 1.0 : 0.0);
+    for (const int p : out.phase)
+      out.liquid_fraction.push_back(p == static_cast<int>(Phase::liquid) ? 1.0 : 0.0);
     return out;
   }
-  [[nodiscard]] double round_off() const { return 1e-9 * job_.scene.end_time; }  // to which output times are met
+  // To which output times are met
+  [[nodiscard]] double round_off() const { return 1e-9 * job_.scene.end_time; }
   /// After all events before a time.
   [[nodiscard]] int phase_of(std::size_t i, double time) const {
     int phase = initial_.phase[i];
@@ -69,7 +72,8 @@ class Hysteresis : public Reference {
       if (!e.temperature) throw InputError(e.place, "hysteresis: the heat event needs a temperature");
       for (std::size_t i = 0; i < initial_.size(); ++i)
         if (material(i).t_melt && !heats(e, i))
-          throw InputError(e.place, "hysteresis: each heat event must hold all that can melt, else conduction decides");
+          throw InputError(
+              e.place, "hysteresis: each heat event must hold all that can melt, else conduction decides");
     }
     if (!any) throw InputError("hysteresis needs heat events");
   }
@@ -77,14 +81,17 @@ class Hysteresis : public Reference {
   InitialState initial_;
 };
 
-std::unique_ptr<Reference> make_hysteresis(const ReferenceInput& in) { return std::make_unique<Hysteresis>(in.job, in.initial); }
+std::unique_ptr<Reference> make_hysteresis(const ReferenceInput& in) {
+  return std::make_unique<Hysteresis>(in.job, in.initial);
+}
 
 }  // namespace
 
 ReferenceEntry hysteresis_entry() {
   return {{"hysteresis",
            "analytic",
-           "relay with two thresholds: melts above t_melt, freezes below t_solid, keeps its phase between (model 8.9)",
+           "relay with two thresholds: melts above t_melt, freezes below t_solid, keeps its phase between "
+           "(model 8.9)",
            "phases of all particles under heat events that hold everything that can melt",
            {}},
           make_hysteresis};

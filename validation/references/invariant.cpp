@@ -6,8 +6,8 @@
 namespace tripoint {
 namespace {
 
-/// Statements of the conservation laws alone about any scene. There are no positions, hence no frozen run that looks perfect by
-/// them.
+/// Statements of the conservation laws alone about any scene. There are no positions, hence no frozen run
+/// that looks perfect by them.
 class Invariant : public Reference {
  public:
   Invariant(const Job& job, const InitialState& initial) : gravity_(job.scene.gravity) {
@@ -35,7 +35,9 @@ class Invariant : public Reference {
   double mass_ = 0.0, kinetic_ = 0.0;
 };
 
-std::unique_ptr<Reference> make_invariant(const ReferenceInput& in) { return std::make_unique<Invariant>(in.job, in.initial); }
+std::unique_ptr<Reference> make_invariant(const ReferenceInput& in) {
+  return std::make_unique<Invariant>(in.job, in.initial);
+}
 
 }  // namespace
 
@@ -43,7 +45,8 @@ ReferenceEntry invariant_entry() {
   return {{"invariant",
            "invariant",
            "conservation of mass, momentum, angular momentum and energy",
-           "initial mass, momentum (with gravity's impulse), angular momentum, energy and shape are kept; no positions",
+           "initial mass, momentum (with gravity's impulse), angular momentum, energy and shape are kept; no "
+           "positions",
            {}},
           make_invariant};
 }

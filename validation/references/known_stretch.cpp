@@ -10,7 +10,8 @@ namespace {
 /// A body whose stretch along one axis is known, the same at all times. Numbers: bar, axis, stretch.
 class KnownStretch : public Reference {
  public:
-  KnownStretch(std::size_t bar, std::size_t axis, double stretch) : bar_(bar), axis_(axis), stretch_(stretch) {}
+  KnownStretch(std::size_t bar, std::size_t axis, double stretch)
+      : bar_(bar), axis_(axis), stretch_(stretch) {}
   [[nodiscard]] Snapshot at(double time) const override {
     Snapshot out;
     out.time = time;
@@ -27,7 +28,8 @@ class KnownStretch : public Reference {
   double stretch_;
 };
 
-/// (E u')' = -rho w^2 x with free ends: u = rho w^2 (R^2 x - x^3/3)/(2 E), read at the last layer of particles.
+/// (E u')' = -rho w^2 x with free ends: u = rho w^2 (R^2 x - x^3/3)/(2 E), read at the last layer of
+/// particles.
 std::unique_ptr<Reference> make_rod(const ReferenceInput& in) {
   const auto rod = elastic_body(in, "spinning_rod");
   const auto axis = long_axis(in, rod);
@@ -36,7 +38,8 @@ std::unique_ptr<Reference> make_rod(const ReferenceInput& in) {
   if (norm(w) == 0.0 || std::abs(w[axis]) > 1e-12 * norm(w))
     throw InputError("spinning_rod: the rod must spin across its length");
   const double R = 0.5 * extents(in, rod)[axis], x = R - 0.5 * in.job.scene.spacing;
-  const double load = in.job.scene.material(body.material).density * dot(w, w) / elastic_constants(in.job, rod).young;
+  const double load =
+      in.job.scene.material(body.material).density * dot(w, w) / elastic_constants(in.job, rod).young;
   return std::make_unique<KnownStretch>(rod, axis, 1.0 + 0.5 * load * (R * R - x * x / 3.0));
 }
 
@@ -45,18 +48,20 @@ std::unique_ptr<Reference> make_pressed(const ReferenceInput& in) {
   const auto pressure = in.args.number("pressure");
   if (!pressure) throw InputError("pressed_block needs the argument `pressure`");
   const auto e = elastic_constants(in.job, block);
-  return std::make_unique<KnownStretch>(block, long_axis(in, block), 1.0 - *pressure * (1.0 - 2.0 * e.poisson_ratio) / e.young);
+  return std::make_unique<KnownStretch>(block, long_axis(in, block),
+                                        1.0 - *pressure * (1.0 - 2.0 * e.poisson_ratio) / e.young);
 }
 
 }  // namespace
 
 ReferenceEntry spinning_rod_entry() {
-  return {{"spinning_rod",
-           "analytic",
-           "Timoshenko & Goodier, Theory of Elasticity: rod in rotation, u = rho w^2 (R^2 x - x^3/3)/(2 E)",
-           "steady stretch of a slender elastic box that spins about its centre across its length, small strains",
-           {{"body", "", "the rod; default the scene's only free elastic body", ArgumentType::word}}},
-          make_rod};
+  return {
+      {"spinning_rod",
+       "analytic",
+       "Timoshenko & Goodier, Theory of Elasticity: rod in rotation, u = rho w^2 (R^2 x - x^3/3)/(2 E)",
+       "steady stretch of a slender elastic box that spins about its centre across its length, small strains",
+       {{"body", "", "the rod; default the scene's only free elastic body", ArgumentType::word}}},
+      make_rod};
 }
 
 ReferenceEntry pressed_block_entry() {

@@ -9,7 +9,9 @@
 
 namespace tripoint {
 
-const Material& material_of_body(const Job& job, std::size_t body) { return job.scene.material(job.bodies.at(body).material); }
+const Material& material_of_body(const Job& job, std::size_t body) {
+  return job.scene.material(job.bodies.at(body).material);
+}
 
 std::vector<std::size_t> liquid_bodies(const Job& job) {
   std::vector<std::size_t> list;
@@ -21,13 +23,15 @@ std::vector<std::size_t> liquid_bodies(const Job& job) {
 std::size_t only_liquid(const Job& job, const char* function) {
   const auto list = liquid_bodies(job);
   if (list.size() != 1)
-    throw InputError(std::string(function) + " holds for one liquid, and the scene has " + std::to_string(list.size()));
+    throw InputError(std::string(function) + " holds for one liquid, and the scene has " +
+                     std::to_string(list.size()));
   return list.front();
 }
 
 double kinematic_viscosity(const Job& job, std::size_t body) {
   const auto& m = material_of_body(job, body);
-  if (!(m.viscosity > 0.0)) throw InputError("material `" + m.name + "` needs a viscosity for an exact viscous flow");
+  if (!(m.viscosity > 0.0))
+    throw InputError("material `" + m.name + "` needs a viscosity for an exact viscous flow");
   return m.viscosity / m.density;
 }
 
@@ -35,10 +39,13 @@ double state_sound_speed(const Job& job, std::size_t body) {
   double k = 0.0, reference = 0.0;
   for (std::size_t b = 0; b < job.bodies.size(); ++b) {
     k = std::max(k, material_of_body(job, b).stiffness.value_or(0.0));
-    if (job.bodies[b].phase == Phase::liquid) reference = std::max(reference, material_of_body(job, b).density);
+    if (job.bodies[b].phase == Phase::liquid)
+      reference = std::max(reference, material_of_body(job, b).density);
   }
   if (!(k > 0.0)) throw InputError("no material of the scene has a stiffness or a speed of sound");
-  return std::sqrt(job.scene.mode_of(term::state) == Mode::paper ? k : k * reference / material_of_body(job, body).density);
+  return std::sqrt(job.scene.mode_of(term::state) == Mode::paper
+                       ? k
+                       : k * reference / material_of_body(job, body).density);
 }
 
 std::size_t solid_body(const ReferenceInput& in, Motion motion, const char* function) {
@@ -46,7 +53,8 @@ std::size_t solid_body(const ReferenceInput& in, Motion motion, const char* func
   std::vector<std::size_t> found;
   for (std::size_t b = 0; b < in.job.bodies.size(); ++b) {
     const auto& body = in.job.bodies[b];
-    if (body.phase != Phase::liquid && body.motion == motion && (!name || body.name == *name)) found.push_back(b);
+    if (body.phase != Phase::liquid && body.motion == motion && (!name || body.name == *name))
+      found.push_back(b);
   }
   if (found.size() == 1) return found.front();
   throw InputError(std::string(function) + " needs one " + std::string(to_string(motion)) + " body" +

@@ -28,7 +28,9 @@ class LiquidReference : public Reference {
   [[nodiscard]] virtual LiquidState state(const Vec3& place, double time, std::size_t particle) const = 0;
   /// States of bodies, one row each; none unless overridden.
   [[nodiscard]] virtual std::vector<BodyState> bodies(double) const { return {}; }
-  [[nodiscard]] bool is_liquid(std::size_t particle) const { return initial_.phase[particle] == static_cast<int>(Phase::liquid); }
+  [[nodiscard]] bool is_liquid(std::size_t particle) const {
+    return initial_.phase[particle] == static_cast<int>(Phase::liquid);
+  }
   InitialState initial_;
 
  private:
@@ -42,9 +44,11 @@ class LiquidReference : public Reference {
 [[nodiscard]] std::size_t only_liquid(const Job&, const char* function);
 /// Dynamic over rest density [m2/s]. @throws InputError when the liquid is inviscid
 [[nodiscard]] double kinematic_viscosity(const Job&, std::size_t body);
-/// Speed of sound of the equation of state, sqrt(k rho_ref/rho0) corrected, sqrt(k) as printed [m/s]; one k a scene.
+/// Speed of sound of the equation of state, sqrt(k rho_ref/rho0) corrected, sqrt(k) as printed [m/s]; one k a
+/// scene.
 [[nodiscard]] double state_sound_speed(const Job&, std::size_t body);
-/// Row in Job::bodies of the only body of this motion that is not liquid, or of the one named. @throws InputError
+/// Row in Job::bodies of the only body of this motion that is not liquid, or of the one named. @throws
+/// InputError
 [[nodiscard]] std::size_t solid_body(const ReferenceInput&, Motion, const char* function);
 
 }  // namespace tripoint

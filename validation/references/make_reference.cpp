@@ -69,20 +69,25 @@ namespace {
 
 /// An exact solution that leaves a force out would be no truth. What a case states itself may hold with one.
 void refuse_forces(const std::string& function, const Scene& scene) {
-  static constexpr std::array knows{"ballistic", "ballistic_semi_implicit", "stated", "expression", "table", "experiment",
-                                    "invariant"};
+  static constexpr std::array knows{
+      "ballistic", "ballistic_semi_implicit", "stated", "expression", "table", "experiment", "invariant"};
   if (scene.forces.empty() || std::ranges::find(knows, function) != knows.end()) return;
-  throw InputError(scene.forces.front().place, function + " does not know forces: use ballistic, or a reference that you state");
+  throw InputError(scene.forces.front().place,
+                   function + " does not know forces: use ballistic, or a reference that you state");
 }
 
 }  // namespace
 
-std::unique_ptr<Reference> make_reference(const ReferenceChoice& choice, const Job& job, const InitialState& initial) {
+std::unique_ptr<Reference> make_reference(const ReferenceChoice& choice, const Job& job,
+                                          const InitialState& initial) {
   const bool by_kind = choice.kind == ReferenceKind::invariant || choice.kind == ReferenceKind::experiment;
-  const std::string kind(to_string(choice.kind)), name = choice.function.empty() && by_kind ? kind : choice.function;
-  if (name.empty()) throw InputError("the reference of kind " + kind + " names no function: no truth to compare with");
+  const std::string kind(to_string(choice.kind)),
+      name = choice.function.empty() && by_kind ? kind : choice.function;
+  if (name.empty())
+    throw InputError("the reference of kind " + kind + " names no function: no truth to compare with");
   const auto& entries = all_references();
-  const auto found = std::find_if(entries.begin(), entries.end(), [&](const auto& e) { return e.function.name == name; });
+  const auto found =
+      std::find_if(entries.begin(), entries.end(), [&](const auto& e) { return e.function.name == name; });
   if (found == entries.end()) {
     std::vector<std::string> known;
     for (const auto& e : entries) known.push_back(e.function.name);

@@ -19,8 +19,8 @@ std::size_t body_named(const Job& job, const std::string& name, const std::strin
     if (job.bodies[b].name == name) return b;
     known.push_back(job.bodies[b].name);
   }
-  throw InputError("argument `other` of reference function " + function + " names body `" + printable(name) + "`" +
-                   suggestion(name, known));
+  throw InputError("argument `other` of reference function " + function + " names body `" + printable(name) +
+                   "`" + suggestion(name, known));
 }
 
 /// Both corners, or neither.
@@ -39,16 +39,19 @@ std::optional<MeasuredBox> stated_box(const ReferenceInput& in, const std::strin
 }  // namespace
 
 std::vector<ReferenceArgument> measuring_arguments() {
-  return {{"phase", "", "liquid, elastic, rigid or solid (either of the two); default all particles", ArgumentType::word, true},
+  return {{"phase", "", "liquid, elastic, rigid or solid (either of the two); default all particles",
+           ArgumentType::word, true},
           {"axis", "", "x, y or z", ArgumentType::axis, true},
           {"other", "", "name of the second body of a pair", ArgumentType::word},
           {"gauge", "", "middle share of the body's length over which a stretch is measured; default 1"},
           {"min", "m", "low corner of a box", ArgumentType::vector, true},
           {"max", "m", "high corner of a box", ArgumentType::vector, true},
           {"outside", "", "true: what is not in the box; default false", ArgumentType::flag, true},
-          {"follows", "", "true: the box moves and turns with the metric's body, from where that body began; default false",
+          {"follows", "",
+           "true: the box moves and turns with the metric's body, from where that body began; default false",
            ArgumentType::flag},
-          {"point", "m", "place of a probe; for a displacement the place at the start", ArgumentType::vector, true},
+          {"point", "m", "place of a probe; for a displacement the place at the start", ArgumentType::vector,
+           true},
           {"frequency", "Hz", "true frequency, for the norm frequency"},
           {"diffusivity", "m2/s", "true diffusivity, for the quantity of that name"}};
 }
@@ -69,7 +72,8 @@ Numbers stated_numbers(const ReferenceInput& in, const std::string& function) {
   Numbers n;
   if (const auto value = in.args.number("gauge")) n["gauge"] = *value;
   if (const auto value = in.args.number("frequency")) {
-    if (!(*value > 0.0)) throw InputError("argument `frequency` of reference function " + function + " must be greater than 0");
+    if (!(*value > 0.0))
+      throw InputError("argument `frequency` of reference function " + function + " must be greater than 0");
     n["stated_frequency"] = *value;
   }
   if (const auto value = in.args.number("diffusivity")) n["diffusivity"] = *value;

@@ -20,7 +20,8 @@ Vec3 in_plane(const Vec3& v, const Vec3& up) { return v - dot(v, up) * up; }
 
 /// Along what moves or pulls; both must be along one line.
 Vec3 line_of(const Vec3& velocity, const Vec3& pull, const std::string& name) {
-  if (norm(velocity) > 0.0 && norm(pull) > 0.0 && norm(cross(velocity, pull)) > round_off * norm(velocity) * norm(pull))
+  if (norm(velocity) > 0.0 && norm(pull) > 0.0 &&
+      norm(cross(velocity, pull)) > round_off * norm(velocity) * norm(pull))
     throw InputError(name + ": velocity and gravity along the plane are not on one line");
   if (norm(velocity) > 0.0) return velocity / norm(velocity);
   if (norm(pull) > 0.0) return pull / norm(pull);
@@ -34,7 +35,9 @@ double half_along(const Shape& shape, const Vec3& direction) {
   return half.x * std::abs(direction.x) + half.y * std::abs(direction.y) + half.z * std::abs(direction.z);
 }
 
-Vec3 middle(const Shape& shape) { return shape.kind == Shape::Kind::sphere ? shape.centre : 0.5 * (shape.min + shape.max); }
+Vec3 middle(const Shape& shape) {
+  return shape.kind == Shape::Kind::sphere ? shape.centre : 0.5 * (shape.min + shape.max);
+}
 
 }  // namespace
 
@@ -56,7 +59,8 @@ BodyOnPlane body_on_plane(const ReferenceInput& in, const char* function) {
   const auto &body = bodies[s.body], &plane = bodies[s.plane];
   if (body.motion != Motion::free || plane.motion == Motion::free || !plane.keyframes.empty() ||
       norm(plane.angular_velocity) > 0.0)
-    throw InputError(name + " needs one free body, and one that is fixed or prescribed with a constant velocity");
+    throw InputError(name +
+                     " needs one free body, and one that is fixed or prescribed with a constant velocity");
   std::size_t axis = 0;
   for (std::size_t k = 1; k < 3; ++k) axis = std::abs(g[k]) > std::abs(g[axis]) ? k : axis;
   s.up = unit(axis, g[axis] > 0.0 ? -1.0 : 1.0);
@@ -66,10 +70,12 @@ BodyOnPlane body_on_plane(const ReferenceInput& in, const char* function) {
     throw InputError(name + " holds for a box or a ball on a box, none of them turned: turn gravity");
   s.height = half_along(shape, s.up);
   const double gap = dot(middle(shape) - middle(ground), s.up) - s.height - half_along(ground, s.up);
-  if (std::abs(gap) > round_off * s.height) throw InputError(name + ": the body must touch the plane at the start");
+  if (std::abs(gap) > round_off * s.height)
+    throw InputError(name + ": the body must touch the plane at the start");
   if (plane.motion == Motion::prescribed) s.plane_velocity = plane.velocity;
   const Vec3 relative = body.velocity - s.plane_velocity, pull = in_plane(g, s.up);
-  if (std::abs(dot(relative, s.up)) > 0.0) throw InputError(name + ": the body leaves the plane, or is pushed by it");
+  if (std::abs(dot(relative, s.up)) > 0.0)
+    throw InputError(name + ": the body leaves the plane, or is pushed by it");
   s.along = line_of(relative, pull, name);
   if (norm(s.along) == 0.0) s.along = unit((axis + 1) % 3, 1.0);
   const Vec3 about = cross(s.up, s.along);

@@ -12,7 +12,8 @@ using std::numbers::pi;
 
 class PlaneShear : public LiquidReference {
  public:
-  PlaneShear(const ReferenceInput& in, const ShearFlow& flow, std::size_t across, double low, const Vec3& along)
+  PlaneShear(const ReferenceInput& in, const ShearFlow& flow, std::size_t across, double low,
+             const Vec3& along)
       : LiquidReference(in.job, in.initial), flow_(flow), across_(across), low_(low), along_(along) {}
 
  protected:
@@ -43,11 +44,13 @@ std::size_t open_axis(const Job& job, const char* function) {
 }
 
 /// Velocities of the plates below and above the liquid.
-std::pair<Vec3, Vec3> plate_velocities(const ReferenceInput& in, std::size_t across, double middle, const char* function) {
+std::pair<Vec3, Vec3> plate_velocities(const ReferenceInput& in, std::size_t across, double middle,
+                                       const char* function) {
   std::optional<Vec3> low, high;
   for (const auto& body : in.job.bodies)
     if (body.phase != Phase::liquid)
-      (body.properties.centre[across] < middle ? low : high) = body.motion == Motion::fixed ? Vec3{} : body.velocity;
+      (body.properties.centre[across] < middle ? low : high) =
+          body.motion == Motion::fixed ? Vec3{} : body.velocity;
   if (!low || !high) throw InputError(std::string(function) + " needs a plate on either side of the liquid");
   return {*low, *high};
 }
@@ -81,15 +84,18 @@ std::unique_ptr<Reference> make_plane_shear(const ReferenceInput& in, const char
   const auto [low, high] = plate_velocities(in, across, 0.5 * (extent.low + extent.high), function);
   const Vec3 drive = by_walls ? high - low : in.job.scene.gravity;
   if (norm(drive) == 0.0)
-    throw InputError(std::string(function) + (by_walls ? ": no plate moves" : ": the scene has no gravity to drive it"));
-  if (by_walls == (norm(in.job.scene.gravity) > 0.0)) throw InputError("couette is driven by its plates alone");
+    throw InputError(std::string(function) +
+                     (by_walls ? ": no plate moves" : ": the scene has no gravity to drive it"));
+  if (by_walls == (norm(in.job.scene.gravity) > 0.0))
+    throw InputError("couette is driven by its plates alone");
   const Vec3 along = (1.0 / norm(drive)) * drive;
   if (std::abs(along[across]) > 1e-12 || (!by_walls && norm(low) + norm(high) > 0.0))
-    throw InputError(std::string(function) + ": the drive must be along the plates, and plates beside a body force at rest");
+    throw InputError(std::string(function) +
+                     ": the drive must be along the plates, and plates beside a body force at rest");
   ShearFlow flow;
   flow.width = in.args.number("width").value_or(extent.length());
-  flow.kinematic_viscosity =
-      in.args.number("kinematic_viscosity") ? *in.args.number("kinematic_viscosity") : kinematic_viscosity(in.job, liquid);
+  flow.kinematic_viscosity = in.args.number("kinematic_viscosity") ? *in.args.number("kinematic_viscosity")
+                                                                   : kinematic_viscosity(in.job, liquid);
   flow.drive = by_walls ? 0.0 : norm(drive);
   flow.low_speed = dot(low, along);
   flow.high_speed = dot(high, along);

@@ -17,6 +17,7 @@ struct ShearFlow {
 
 [[nodiscard]] std::vector<ReferenceArgument> plane_shear_arguments();
 /// @throws InputError when the scene is no such channel
-[[nodiscard]] std::unique_ptr<Reference> make_plane_shear(const ReferenceInput&, const char* function, bool by_walls);
+[[nodiscard]] std::unique_ptr<Reference> make_plane_shear(const ReferenceInput&, const char* function,
+                                                          bool by_walls);
 
 }  // namespace tripoint

@@ -21,7 +21,9 @@ struct MeasuredCurve {
 
 /// Particles of which phase a quantity takes; solid: elastic or rigid.
 enum class MeasuredPhase { liquid, elastic, rigid, solid };
-constexpr WordTable<4> word_table(MeasuredPhase) { return {"phase", {"liquid", "elastic", "rigid", "solid"}}; }
+constexpr WordTable<4> word_table(MeasuredPhase) {
+  return {"phase", {"liquid", "elastic", "rigid", "solid"}};
+}
 
 /// cos(wave_vector.r + phase), and which way particles swing in it, where that is not along the wave.
 struct MeasuredWave {
@@ -55,11 +57,12 @@ struct Measuring {
 class Reference {
  public:
   virtual ~Reference() = default;
-  /// The solution at a time: positions and velocities of particles and bodies, temperatures; columns that it does not know are
-  /// empty.
+  /// The solution at a time: positions and velocities of particles and bodies, temperatures; columns that it
+  /// does not know are empty.
   [[nodiscard]] virtual Snapshot at(double time) const = 0;
-  /// The truth that this frame is compared with. A solution that is a field of place (a liquid's) takes the frame's own places,
-  /// so that a particle is judged where it is. Others know each particle's place, and this is at(now.time).
+  /// The truth that this frame is compared with. A solution that is a field of place (a liquid's) takes the
+  /// frame's own places, so that a particle is judged where it is. Others know each particle's place, and
+  /// this is at(now.time).
   [[nodiscard]] virtual Snapshot truth_for(const Snapshot& now) const { return at(now.time); }
   /// A number it knows by name: decay_rate [1/s], event_time [s], energy_ratio ...; empty when it does not.
   [[nodiscard]] virtual std::optional<double> number(std::string_view quantity) const {
@@ -86,7 +89,8 @@ class Reference {
   }
 };
 
-/// Type of an argument: a number with its unit, three numbers, true or false, x y or z, a word or name, a formula.
+/// Type of an argument: a number with its unit, three numbers, true or false, x y or z, a word or name, a
+/// formula.
 enum class ArgumentType { number, vector, flag, axis, word, formula };
 constexpr WordTable<6> word_table(ArgumentType) {
   return {"type of argument", {"number", "vector", "flag", "axis", "word", "formula"}};
@@ -96,7 +100,8 @@ constexpr WordTable<6> word_table(ArgumentType) {
 struct ReferenceArgument {
   std::string name, unit, meaning;  ///< the meaning says the default taken from the scene
   ArgumentType type = ArgumentType::number;
-  bool of_place = false;  ///< says where a quantity is read, and nothing of its value: gauges of a job have it
+  /// Says where a quantity is read, and nothing of its value: gauges of a job have it
+  bool of_place = false;
 };
 struct ReferenceFunction {
   std::string name, kind, source, meaning;
@@ -105,6 +110,7 @@ struct ReferenceFunction {
 [[nodiscard]] const std::vector<ReferenceFunction>& reference_functions();
 
 /// @throws InputError for an unknown function (with the nearest known one) or a scene that it does not fit
-[[nodiscard]] std::unique_ptr<Reference> make_reference(const ReferenceChoice&, const Job&, const InitialState&);
+[[nodiscard]] std::unique_ptr<Reference> make_reference(const ReferenceChoice&, const Job&,
+                                                        const InitialState&);
 
 }  // namespace tripoint

@@ -9,8 +9,8 @@ bool inside(const Shape& shape, const Vec3& r) {
   const auto in = [&](const Shape& s) { return inside(s, r); };
   switch (shape.kind) {
     case Shape::Kind::box:
-      return r.x >= shape.min.x && r.y >= shape.min.y && r.z >= shape.min.z && r.x <= shape.max.x && r.y <= shape.max.y &&
-             r.z <= shape.max.z;
+      return r.x >= shape.min.x && r.y >= shape.min.y && r.z >= shape.min.z && r.x <= shape.max.x &&
+             r.y <= shape.max.y && r.z <= shape.max.z;
     case Shape::Kind::sphere:
       return norm(r - shape.centre) <= shape.radius;
     case Shape::Kind::cylinder: {
@@ -27,7 +27,9 @@ bool inside(const Shape& shape, const Vec3& r) {
     case Shape::Kind::mesh:
       break;
   }
-  throw InputError("the region of an event with an exact solution cannot be a mesh: use a box, sphere, cylinder or half space");
+  throw InputError(
+      "the region of an event with an exact solution cannot be a mesh: use a box, sphere, cylinder or half "
+      "space");
 }
 
 }  // namespace tripoint

@@ -50,17 +50,19 @@ BoxOnFloor box_on_floor(const ReferenceInput& in, const char* function) {
   }
   if (s.block == 2 || in.job.bodies[1 - s.block].motion != Motion::fixed)
     throw InputError(name + " needs one free and one fixed body");
-  const auto box = body_along(s.axis, s.block, in.job, in.initial), floor = body_along(s.axis, 1 - s.block, in.job, in.initial);
+  const auto box = body_along(s.axis, s.block, in.job, in.initial),
+             floor = body_along(s.axis, 1 - s.block, in.job, in.initial);
   const Shape& shape = in.job.scene.body(in.job.bodies[s.block].name).shape;
   if (has_turned_part(shape)) throw InputError(name + " holds for a body that is not turned");
-  const double half =
-      shape.kind == Shape::Kind::sphere ? shape.radius : 0.5 * box.length();  // a ball's particles end below its surface
+  // a ball's particles end below its surface
+  const double half = shape.kind == Shape::Kind::sphere ? shape.radius : 0.5 * box.length();
   s.rest = (s.up > 0.0 ? floor.high : floor.low) + s.up * half;
   return s;
 }
 
 ReferenceEntry resting_entry() {
-  return {{"resting", "analytic", "impenetrability: faces touch", "a box at rest on the floor below it", {}}, make_resting};
+  return {{"resting", "analytic", "impenetrability: faces touch", "a box at rest on the floor below it", {}},
+          make_resting};
 }
 
 }  // namespace tripoint

@@ -14,7 +14,8 @@ struct BoxOnFloor {
   double rest = 0.0;                ///< place of the box's centre along the axis where faces touch [m]
   std::vector<BodyState> start;     ///< of all bodies, one row each
 };
-/// @throws InputError unless the scene is one free box or ball above one fixed body under gravity along an axis
+/// @throws InputError unless the scene is one free box or ball above one fixed body under gravity along an
+/// axis
 [[nodiscard]] BoxOnFloor box_on_floor(const ReferenceInput&, const char* function);
 
 }  // namespace tripoint

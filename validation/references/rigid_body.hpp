@@ -8,7 +8,8 @@
 
 namespace tripoint {
 
-/// A rigid body as its particles make it at one moment: the result of a merge or split, by the conservation laws alone.
+/// A rigid body as its particles make it at one moment: the result of a merge or split, by the conservation
+/// laws alone.
 struct RigidBody {
   std::vector<std::size_t> members;  ///< particle ids
   std::vector<Vec3> offset;          ///< of the members from the centre [m]
@@ -17,7 +18,8 @@ struct RigidBody {
   Vec3 angular_momentum;             ///< about the centre [kg m2/s]
   Vec3 inertia;                      ///< principal moments, ascending [kg m2]
   Quaternion axes;                   ///< principal frame to world
-  Vec3 angular_velocity;             ///< inverse inertia times angular momentum, world [rad/s]; 0 about an axis without moment
+  /// Inverse inertia times angular momentum, world [rad/s]; 0 about an axis without moment
+  Vec3 angular_velocity;
 };
 
 /// Mass, momentum and angular momentum of the members, and the rigid motion that has the same.

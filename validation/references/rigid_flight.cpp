@@ -12,7 +12,8 @@ namespace {
 
 BodyState no_body() {
   const Vec3 none{not_a_number, not_a_number, not_a_number};
-  return {none, none, none, {not_a_number, not_a_number, not_a_number, not_a_number}, not_a_number, none, none};
+  return {none,         none, none, {not_a_number, not_a_number, not_a_number, not_a_number},
+          not_a_number, none, none};
 }
 
 std::vector<std::size_t> members_of(const InitialState& initial, std::size_t body) {
@@ -34,7 +35,8 @@ void refuse_what_is_not_free(const Job& job) {
   if (!job.scene.inflows.empty()) throw InputError("a scene with an inflow has no exact free flight");
   for (const auto& force : job.scene.forces)
     if (force.point)
-      throw InputError(force.place, "free flight is exact with forces at the centre of mass only: leave `place` out");
+      throw InputError(force.place,
+                       "free flight is exact with forces at the centre of mass only: leave `place` out");
 }
 
 }  // namespace
@@ -43,7 +45,8 @@ RigidFlight::RigidFlight(const Job& job, const InitialState& initial) : job_(job
   refuse_what_is_not_free(job_);
   start();
   auto events = job_.scene.events;
-  std::stable_sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.time < b.time; });
+  std::stable_sort(events.begin(), events.end(),
+                   [](const Event& a, const Event& b) { return a.time < b.time; });
   if (events.empty()) return;
   const double before = kinetic_energy_at(events.front().time);
   for (const auto& event : events) event.kind == Event::Kind::merge ? merge(event) : split(event);
@@ -62,12 +65,14 @@ void RigidFlight::start() {
     if (members.empty()) throw InputError("body `" + body.name + "` has no particles");
     if (body.motion != Motion::free) continue;
     const Vec3 centre = rigid_body(members, now.position, now.velocity, initial_.mass).centre;
-    for (const auto i : members) now.velocity[i] = body.velocity + cross(body.angular_velocity, initial_.position[i] - centre);
+    for (const auto i : members)
+      now.velocity[i] = body.velocity + cross(body.angular_velocity, initial_.position[i] - centre);
     launch(members, now, body.index, {});
   }
 }
 
-void RigidFlight::launch(const std::vector<std::size_t>& members, const Snapshot& now, int row, const Quaternion& orientation) {
+void RigidFlight::launch(const std::vector<std::size_t>& members, const Snapshot& now, int row,
+                         const Quaternion& orientation) {
   auto body = rigid_body(members, now.position, now.velocity, initial_.mass);
   TorqueFree spin(body.inertia, body.axes, body.angular_velocity);
   flights_.push_back({std::move(body), spin, orientation, row, now.time});
@@ -108,7 +113,8 @@ void RigidFlight::split(const Event& event) {
     const int row = flights_[f].row;
     if (!rows.empty() && std::find(rows.begin(), rows.end(), row) == rows.end()) continue;
     std::vector<std::size_t> staying;
-    for (const auto i : flights_[f].body.members) (inside(*event.region, now.position[i]) ? leaving : staying).push_back(i);
+    for (const auto i : flights_[f].body.members)
+      (inside(*event.region, now.position[i]) ? leaving : staying).push_back(i);
     if (staying.size() == flights_[f].body.members.size()) continue;
     flights_[f].death = event.time;
     if (!staying.empty()) launch(staying, now, row, now.bodies[static_cast<std::size_t>(row)].orientation);
@@ -123,7 +129,8 @@ void RigidFlight::split(const Event& event) {
 Vec3 RigidFlight::acceleration(const Flight& flight) const {
   Vec3 a = job_.scene.gravity;
   for (const AppliedForce& force : job_.scene.forces)
-    if (force.body == row_names_.at(static_cast<std::size_t>(flight.row))) a += force.value / flight.body.mass;
+    if (force.body == row_names_.at(static_cast<std::size_t>(flight.row)))
+      a += force.value / flight.body.mass;
   return a;
 }
 
@@ -167,7 +174,8 @@ Snapshot RigidFlight::at(double time) const {
   out.velocity.resize(initial_.size());
   out.body = initial_.body;
   out.phase = initial_.phase;
-  const auto rows = std::count_if(row_birth_.begin(), row_birth_.end(), [&](double birth) { return birth <= time; });
+  const auto rows =
+      std::count_if(row_birth_.begin(), row_birth_.end(), [&](double birth) { return birth <= time; });
   out.bodies.assign(static_cast<std::size_t>(rows), no_body());
   for (const auto& body : job_.bodies)
     if (body.motion != Motion::free) set_prescribed(body, time, out);
@@ -176,14 +184,18 @@ Snapshot RigidFlight::at(double time) const {
   return out;
 }
 
-double RigidFlight::kinetic_energy_at(double time) const { return kinetic_energy(at(time).velocity, initial_.mass); }
+double RigidFlight::kinetic_energy_at(double time) const {
+  return kinetic_energy(at(time).velocity, initial_.mass);
+}
 
 std::optional<double> RigidFlight::number(std::string_view quantity) const {
   if (job_.scene.events.empty()) return {};
   if (quantity == "energy_ratio") return energy_ratio_;
   if (quantity == "event_time") {
     const auto& events = job_.scene.events;
-    return std::min_element(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.time < b.time; })->time;
+    return std::min_element(events.begin(), events.end(),
+                            [](const Event& a, const Event& b) { return a.time < b.time; })
+        ->time;
   }
   return {};
 }

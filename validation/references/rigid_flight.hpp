@@ -11,15 +11,18 @@
 
 namespace tripoint {
 
-/// Rigid bodies in free flight under gravity, with merges and splits by event and prescribed bodies beside them: exact.
-/// Between events the centre of mass follows a parabola and the body turns freely about it. At an event the particles of the new
-/// body keep mass, momentum and angular momentum. At the very time of an event the state is the one after it.
+/// Rigid bodies in free flight under gravity, with merges and splits by event and prescribed bodies beside
+/// them: exact. Between events the centre of mass follows a parabola and the body turns freely about it. At
+/// an event the particles of the new body keep mass, momentum and angular momentum. At the very time of an
+/// event the state is the one after it.
 class RigidFlight : public Reference {
  public:
-  /// @throws InputError for bodies that are not rigid, for contact-making or heating events, for joined bodies
+  /// @throws InputError for bodies that are not rigid, for contact-making or heating events, for joined
+  /// bodies
   RigidFlight(const Job&, const InitialState&);
   [[nodiscard]] Snapshot at(double time) const override;
-  /// energy_ratio: kinetic energy after the last event over that before the first [1]; event_time: of the first event [s].
+  /// energy_ratio: kinetic energy after the last event over that before the first [1]; event_time: of the
+  /// first event [s].
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override;
   [[nodiscard]] double kinetic_energy_at(double time) const;
 
@@ -42,7 +45,8 @@ class RigidFlight : public Reference {
   void start();
   void merge(const Event&);
   void split(const Event&);
-  void launch(const std::vector<std::size_t>& members, const Snapshot& now, int row, const Quaternion& orientation);
+  void launch(const std::vector<std::size_t>& members, const Snapshot& now, int row,
+              const Quaternion& orientation);
   [[nodiscard]] Flight& alive(const std::string& name);
   void set_flight(const Flight&, double time, Snapshot&) const;
   void set_prescribed(const JobBody&, double time, Snapshot&) const;

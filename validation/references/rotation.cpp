@@ -26,7 +26,9 @@ class FlipTime : public RigidFlight {
     first_ = chosen->spin.flips(job.scene.end_time + *interval).front();
     interval_ = *interval;
   }
-  [[nodiscard]] Measuring measuring() const override { return {.flip_body = static_cast<std::size_t>(body_row_)}; }
+  [[nodiscard]] Measuring measuring() const override {
+    return {.flip_body = static_cast<std::size_t>(body_row_)};
+  }
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
     if (quantity == "event_time") return first_;
     if (quantity == "flip_count") return static_cast<double>(flips_.size());
@@ -60,14 +62,18 @@ template <Event::Kind kind>
 std::unique_ptr<Reference> make_in_flight(const ReferenceInput& in) {
   for (const auto& event : in.job.scene.events)
     if (event.kind == kind) return std::make_unique<RigidFlight>(in.job, in.initial);
-  throw InputError(
-      std::string(kind == Event::Kind::merge ? "merge_in_flight needs a merge event" : "split_in_flight needs a split event"));
+  throw InputError(std::string(kind == Event::Kind::merge ? "merge_in_flight needs a merge event"
+                                                          : "split_in_flight needs a split event"));
 }
 
 }  // namespace
 
 ReferenceEntry torque_free_entry() {
-  return {{"torque_free", "analytic", landau, "orientation and angular velocity of free rigid bodies of any inertia", {}},
+  return {{"torque_free",
+           "analytic",
+           landau,
+           "orientation and angular velocity of free rigid bodies of any inertia",
+           {}},
           make_torque_free};
 }
 
@@ -84,7 +90,8 @@ ReferenceEntry merge_in_flight_entry() {
   return {{"merge_in_flight",
            "analytic",
            "conservation of mass, momentum and angular momentum at the event; free flight around it",
-           "bodies that become one in flight, before and after; number energy_ratio: kinetic energy after over before",
+           "bodies that become one in flight, before and after; number energy_ratio: kinetic energy after "
+           "over before",
            {}},
           make_in_flight<Event::Kind::merge>};
 }
@@ -93,7 +100,8 @@ ReferenceEntry split_in_flight_entry() {
   return {{"split_in_flight",
            "analytic",
            "each part keeps the velocities of its particles; free flight around the event",
-           "a body that becomes two in flight, before and after; number energy_ratio: kinetic energy after over before",
+           "a body that becomes two in flight, before and after; number energy_ratio: kinetic energy after "
+           "over before",
            {}},
           make_in_flight<Event::Kind::split>};
 }

@@ -11,7 +11,8 @@ namespace tripoint {
 ElasticConstants elastic_constants(const Job& job, std::size_t body) {
   const auto& m = job.scene.material(job.bodies.at(body).material);
   if (!m.young_modulus || !m.poisson_ratio)
-    throw InputError("material `" + m.name + "` needs young_modulus and poisson_ratio for an exact solution of elasticity");
+    throw InputError("material `" + m.name +
+                     "` needs young_modulus and poisson_ratio for an exact solution of elasticity");
   return {*m.young_modulus, *m.poisson_ratio};
 }
 
@@ -23,7 +24,8 @@ std::optional<std::size_t> named_body(const ReferenceInput& in, const char* argu
     if (in.job.bodies[b].name == *name) return b;
     known.push_back(in.job.bodies[b].name);
   }
-  throw InputError(std::string("argument `") + argument + "` names body `" + printable(*name) + "`" + suggestion(*name, known));
+  throw InputError(std::string("argument `") + argument + "` names body `" + printable(*name) + "`" +
+                   suggestion(*name, known));
 }
 
 std::size_t elastic_body(const ReferenceInput& in, const char* function) {
@@ -31,7 +33,9 @@ std::size_t elastic_body(const ReferenceInput& in, const char* function) {
   std::optional<std::size_t> found;
   for (std::size_t b = 0; b < in.job.bodies.size(); ++b) {
     if (in.job.bodies[b].phase != Phase::elastic || in.job.bodies[b].motion != Motion::free) continue;
-    if (found) throw InputError(std::string(function) + " is of one free elastic body: name it by the argument `body`");
+    if (found)
+      throw InputError(std::string(function) +
+                       " is of one free elastic body: name it by the argument `body`");
     found = b;
   }
   if (!found) throw InputError(std::string(function) + " needs a free elastic body");
@@ -53,7 +57,8 @@ std::size_t long_axis(const ReferenceInput& in, std::size_t body) {
   std::size_t axis = 3;
   for (std::size_t k = 0; k < 3; ++k)
     if (!in.job.scene.periodic[k] && (axis == 3 || size[k] > size[axis])) axis = k;
-  if (axis == 3) throw InputError("body `" + in.job.bodies[body].name + "` has no end: every direction is periodic");
+  if (axis == 3)
+    throw InputError("body `" + in.job.bodies[body].name + "` has no end: every direction is periodic");
   return axis;
 }
 
@@ -77,7 +82,8 @@ BarLaw bar_law(const ReferenceInput& in, std::size_t bar, std::size_t axis) {
   law.elastic_limit = material.elastic_limit.value_or(law.elastic_limit);
   law.plastic_limit = material.plastic_limit.value_or(law.plastic_limit);
   if (in.args.form(in.job.scene.mode_of(term::elastic)) == Mode::corrected) return law;
-  const double given = in.job.resolution.support_ratio > 0.0 ? in.job.resolution.support_ratio : in.job.scene.support_ratio;
+  const double given =
+      in.job.resolution.support_ratio > 0.0 ? in.job.resolution.support_ratio : in.job.scene.support_ratio;
   const auto lattice = elastic_lattice_factors(in.args.number("support_ratio").value_or(given));
   law.strain_factor = 1.0;
   law.moment = lattice.moment;

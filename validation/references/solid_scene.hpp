@@ -19,7 +19,8 @@ struct ElasticConstants {
 /// Row in Job::bodies of the argument `body`, else of the scene's only free elastic body. @throws InputError
 [[nodiscard]] std::size_t elastic_body(const ReferenceInput&, const char* function);
 
-/// Row of the body that an argument names; empty when it is not given. @throws InputError for a name that the job does not have
+/// Row of the body that an argument names; empty when it is not given. @throws InputError for a name that the
+/// job does not have
 [[nodiscard]] std::optional<std::size_t> named_body(const ReferenceInput&, const char* argument);
 
 /// A body's extents [m]: the domain's where it is periodic.
@@ -28,10 +29,11 @@ struct ElasticConstants {
 /// The longest direction of a body that is not periodic.
 [[nodiscard]] std::size_t long_axis(const ReferenceInput&, std::size_t body);
 
-/// Support of the sides of a bar along an axis: the argument `sides`, else by how many of the other directions are periodic.
+/// Support of the sides of a bar along an axis: the argument `sides`, else by how many of the other
+/// directions are periodic.
 [[nodiscard]] BarSides bar_sides(const ReferenceInput&, std::size_t axis);
-/// The law of a bar of the body's material, in the form of the argument `form` or of the run's elastic term. The printed law has
-/// the factors of the lattice at the argument `support_ratio` or the run's.
+/// The law of a bar of the body's material, in the form of the argument `form` or of the run's elastic term.
+/// The printed law has the factors of the lattice at the argument `support_ratio` or the run's.
 [[nodiscard]] BarLaw bar_law(const ReferenceInput&, std::size_t bar, std::size_t axis);
 
 }  // namespace tripoint

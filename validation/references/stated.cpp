@@ -4,8 +4,9 @@
 namespace tripoint {
 namespace {
 
-/// A case's own statement: a claim, and the data that a quantity must know to be measured. It computes nothing, so that the case
-/// file itself states the value that a metric is compared with. Numbers: value, and those of measuring.hpp.
+/// A case's own statement: a claim, and the data that a quantity must know to be measured. It computes
+/// nothing, so that the case file itself states the value that a metric is compared with. Numbers: value, and
+/// those of measuring.hpp.
 using Stated = NumberTable;
 
 std::unique_ptr<Reference> make_stated(const ReferenceInput& in) {
@@ -19,7 +20,9 @@ std::unique_ptr<Reference> make_stated(const ReferenceInput& in) {
 ReferenceEntry stated_entry() {
   std::vector<ReferenceArgument> args{{"value", "", "what the quantity is compared with, in its unit"}};
   for (const auto& a : measuring_arguments()) args.push_back(a);
-  return {{"stated", "bound", "the case's own claim", "a number that the case states; nothing is computed", args}, make_stated};
+  return {
+      {"stated", "bound", "the case's own claim", "a number that the case states; nothing is computed", args},
+      make_stated};
 }
 
 }  // namespace tripoint

@@ -17,13 +17,19 @@ struct Course {
   bool melts = true;
 };
 
-/// A bar at rest that changes phase from a held wall. Numbers: bar, axis, area [m2], melts (1 or 0), lambda, stefan_number; in
-/// time: front_position from the wall's face [m].
+/// A bar at rest that changes phase from a held wall. Numbers: bar, axis, area [m2], melts (1 or 0), lambda,
+/// stefan_number; in time: front_position from the wall's face [m].
 class Stefan : public Reference {
  public:
   Stefan(const ReferenceInput& in, const NeumannFront& front, const Course& course)
-      : initial_(in.initial), dx_(in.job.scene.spacing), front_(front), course_(course), lambda_(front.lambda()) {
-    solid_ = in.job.scene.material(in.job.bodies[course.bar].material).solid == SolidKind::rigid ? Phase::rigid : Phase::elastic;
+      : initial_(in.initial),
+        dx_(in.job.scene.spacing),
+        front_(front),
+        course_(course),
+        lambda_(front.lambda()) {
+    solid_ = in.job.scene.material(in.job.bodies[course.bar].material).solid == SolidKind::rigid
+                 ? Phase::rigid
+                 : Phase::elastic;
   }
   [[nodiscard]] Snapshot at(double time) const override {
     Snapshot out;
@@ -37,7 +43,8 @@ class Stefan : public Reference {
     for (std::size_t i = 0; i < initial_.size(); ++i) {
       if (initial_.source[i] != static_cast<int>(course_.bar)) continue;
       const double x = course_.side * (initial_.position[i][course_.axis] - course_.face);
-      const double changed = std::clamp((X - x) / dx_ + 0.5, 0.0, 1.0);  // share of the particle's cell that the front has passed
+      // Share of the particle's cell that the front has passed
+      const double changed = std::clamp((X - x) / dx_ + 0.5, 0.0, 1.0);
       out.temperature[i] = time > 0.0 ? front_.temperature(x, time) : front_.far;
       out.liquid_fraction[i] = course_.melts ? changed : 1.0 - changed;
       out.phase[i] = static_cast<int>((changed >= 1.0) == course_.melts ? Phase::liquid : solid_);
@@ -74,7 +81,8 @@ std::size_t held_wall(const ReferenceInput& in) {
     if (!in.job.bodies[b].temperature_held) continue;
     if (found)
       throw InputError(
-          "stefan: name the wall that the change starts from by the argument `wall`: several bodies hold their temperature");
+          "stefan: name the wall that the change starts from by the argument `wall`: several bodies hold "
+          "their temperature");
     found = b;
   }
   if (!found) throw InputError("stefan needs a wall with temperature_held = true");
@@ -85,7 +93,9 @@ std::size_t melting_bar(const ReferenceInput& in, std::size_t wall) {
   if (const auto given = named_body(in, "body")) return *given;
   std::optional<std::size_t> found;
   for (std::size_t b = 0; b < in.job.bodies.size(); ++b) {
-    if (b == wall || in.job.bodies[b].temperature_held || !in.job.scene.material(in.job.bodies[b].material).t_melt) continue;
+    if (b == wall || in.job.bodies[b].temperature_held ||
+        !in.job.scene.material(in.job.bodies[b].material).t_melt)
+      continue;
     if (found) throw InputError("stefan: name the bar by the argument `body`: several bodies can melt");
     found = b;
   }
@@ -106,7 +116,9 @@ Course course_of(const ReferenceInput& in) {
   c.bar = melting_bar(in, c.wall);
   c.axis = long_axis(in, c.bar);
   const auto ends = body_along(c.axis, c.bar, in.job, in.initial);
-  c.side = in.job.bodies[c.wall].properties.centre[c.axis] < in.job.bodies[c.bar].properties.centre[c.axis] ? 1.0 : -1.0;
+  c.side = in.job.bodies[c.wall].properties.centre[c.axis] < in.job.bodies[c.bar].properties.centre[c.axis]
+               ? 1.0
+               : -1.0;
   c.face = in.args.number("place").value_or(c.side > 0.0 ? ends.low : ends.high);
   c.length = ends.length();
   const auto size = extents(in, c.bar);
@@ -114,7 +126,8 @@ Course course_of(const ReferenceInput& in) {
   return c;
 }
 
-/// Length of a bar whose far end is warmed by no more than `allowed` [K], and that the front does not reach [m].
+/// Length of a bar whose far end is warmed by no more than `allowed` [K], and that the front does not reach
+/// [m].
 double least_length(const NeumannFront& front, double diffusivity, double end, double allowed) {
   const double reach = std::sqrt(diffusivity * end), far = std::abs(front.far - front.change);
   double low = 0.0, high = 20.0;  // of 2 sqrt(D t): erfc(20) is below any number
@@ -139,18 +152,20 @@ std::unique_ptr<Reference> make_stefan(const ReferenceInput& in) {
   const Phase solid = Phase::rigid, liquid = Phase::liquid;
   const auto near = phase_values(in.job, course.bar, course.melts ? liquid : solid),
              left = phase_values(in.job, course.bar, course.melts ? solid : liquid);
-  const double more =
-      (phase_values(in.job, course.bar, liquid).heat_per_volume - phase_values(in.job, course.bar, solid).heat_per_volume) /
-      material.density;
+  const double more = (phase_values(in.job, course.bar, liquid).heat_per_volume -
+                       phase_values(in.job, course.bar, solid).heat_per_volume) /
+                      material.density;
   front.diffusivity = near.diffusivity();
   front.far_diffusivity_ratio = left.diffusivity() / near.diffusivity();
   front.far_conductivity_ratio = left.conductivity / near.conductivity;
   front.latent_over_capacity = (latent + more * (front.change - *material.t_melt)) * material.density /
                                near.heat_per_volume;  // the heat of fusion at the front (Kirchhoff)
   if ((front.surface - front.change) * (front.change - front.far) < 0.0 || front.surface == front.change)
-    throw InputError("stefan: the temperature of the change must lie between that of the wall and that of the bar");
+    throw InputError(
+        "stefan: the temperature of the change must lie between that of the wall and that of the bar");
   const double end = in.job.scene.end_time,
-               warmed = std::abs(front.far - front.change) * std::erfc(0.5 * course.length / std::sqrt(left.diffusivity() * end));
+               warmed = std::abs(front.far - front.change) *
+                        std::erfc(0.5 * course.length / std::sqrt(left.diffusivity() * end));
   const double allowed = 1e-3 * std::abs(front.surface - front.change);
   if (front.front(end) > course.length || warmed > allowed)
     throw InputError("stefan holds for a half space: the bar is " + std::to_string(course.length) +
@@ -165,9 +180,11 @@ std::unique_ptr<Reference> make_stefan(const ReferenceInput& in) {
 ReferenceEntry stefan_entry() {
   return {{"stefan",
            "analytic",
-           "Carslaw & Jaeger, Conduction of Heat in Solids, 1959, section 11.2: Neumann's similarity solution, X = 2 lambda "
+           "Carslaw & Jaeger, Conduction of Heat in Solids, 1959, section 11.2: Neumann's similarity "
+           "solution, X = 2 lambda "
            "sqrt(D t), with properties of each phase",
-           "melting of a bar from a held hot wall, or freezing from a cold one: front, temperatures, liquid fractions and phases",
+           "melting of a bar from a held hot wall, or freezing from a cold one: front, temperatures, liquid "
+           "fractions and phases",
            {{"wall", "", "the held body; default the scene's only one", ArgumentType::word},
             {"body", "", "the bar; default the scene's only body that can melt", ArgumentType::word},
             {"place", "m", "of the surface along the bar; default the bar's face towards the wall"},

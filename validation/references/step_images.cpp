@@ -34,7 +34,8 @@ double share_of_low_side(const StepImages& step, double x, double cell, double t
   const int images = 2 + static_cast<int>(std::ceil(6.5 * s / period));  // erf(6.5) differs from 1 by 4e-20
   double sum = 0.0;
   for (int n = -images; n <= images; ++n)
-    sum += 0.5 * (smooth_sign(x - from + n * period, cell, s) - smooth_sign(x - step.place + n * period, cell, s));
+    sum += 0.5 *
+           (smooth_sign(x - from + n * period, cell, s) - smooth_sign(x - step.place + n * period, cell, s));
   return sum;
 }
 

@@ -42,8 +42,10 @@ std::unique_ptr<Reference> make_step(const ReferenceInput& in) {
   StepImages step;
   step.bar = bar_along(axis, in.job, in.initial);
   step.place = in.args.number("place").value_or(field.point[axis]);
-  step.diffusivity = in.args.number("diffusivity") ? *in.args.number("diffusivity") : common_diffusivity(in.job);
-  if (step.place <= step.bar.low || step.place >= step.bar.high) throw InputError("the step lies outside the bar");
+  step.diffusivity =
+      in.args.number("diffusivity") ? *in.args.number("diffusivity") : common_diffusivity(in.job);
+  if (step.place <= step.bar.low || step.place >= step.bar.high)
+    throw InputError("the step lies outside the bar");
   const bool cells = in.args.flag("cell_average").value_or(in.job.resolution.walkers.has_value());
   const double low = upward ? field.behind : field.ahead, high = upward ? field.ahead : field.behind;
   return std::make_unique<StepBar>(in, step, low, high, cells ? in.job.scene.spacing : 0.0);
@@ -55,11 +57,13 @@ ReferenceEntry step_insulated_entry() {
   return {{"step_insulated",
            "analytic",
            "Carslaw & Jaeger, Conduction of Heat in Solids, 1959: method of images with the error function",
-           "a step of temperature in a bar with insulated ends, or in a periodic one (then with the second step at the periodic "
+           "a step of temperature in a bar with insulated ends, or in a periodic one (then with the second "
+           "step at the periodic "
            "boundary)",
            {{"place", "m", "of the step along its axis; default the point of the body's step"},
             {"diffusivity", "m2/s", "k/(rho c_p); default of the bodies' material"},
-            {"cell_average", "", "means over cells of one spacing instead of values at points; default true for runs by walkers",
+            {"cell_average", "",
+             "means over cells of one spacing instead of values at points; default true for runs by walkers",
              ArgumentType::flag}}},
           make_step};
 }

@@ -24,7 +24,10 @@ double between(const std::vector<double>& x, const std::vector<double>& y, doubl
 class Table : public Reference {
  public:
   Table(Numbers numbers, Measuring measuring, ExperimentFile file, std::string column)
-      : numbers_(std::move(numbers)), measuring_(std::move(measuring)), file_(std::move(file)), column_(std::move(column)) {}
+      : numbers_(std::move(numbers)),
+        measuring_(std::move(measuring)),
+        file_(std::move(file)),
+        column_(std::move(column)) {}
   [[nodiscard]] Measuring measuring() const override { return measuring_; }
   [[nodiscard]] Snapshot at(double time) const override {
     Snapshot out;
@@ -37,7 +40,8 @@ class Table : public Reference {
     return truth_of_fields(now, [&](const std::string& field) -> std::function<double(const Vec3&)> {
       const auto found = file_.curves.find(field);
       if (found == file_.curves.end()) return {};
-      return [&curve = found->second, axis](const Vec3& r) { return between(curve.time, curve.value, r[axis]); };
+      return
+          [&curve = found->second, axis](const Vec3& r) { return between(curve.time, curve.value, r[axis]); };
     });
   }
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
@@ -46,18 +50,20 @@ class Table : public Reference {
   }
   [[nodiscard]] std::optional<double> number_at(std::string_view quantity, double time) const override {
     if (quantity == "value" && in_time()) return known(between(curve().time, curve().value, time));
-    const auto field = in_time() ? file_.curves.end() : file_.curves.find(field_of_probe(quantity, measuring_));
+    const auto field =
+        in_time() ? file_.curves.end() : file_.curves.find(field_of_probe(quantity, measuring_));
     if (field == file_.curves.end()) return number(quantity);
     const auto& point = measuring_.point;
-    return point
-               ? known(between(field->second.time, field->second.value, (*point)[static_cast<std::size_t>(file_.first[0] - 'x')]))
-               : std::nullopt;
+    return point ? known(between(field->second.time, field->second.value,
+                                 (*point)[static_cast<std::size_t>(file_.first[0] - 'x')]))
+                 : std::nullopt;
   }
   [[nodiscard]] std::optional<double> uncertainty(std::string_view quantity, double time) const override {
     if (in_time()) return known(between(curve().time, curve().uncertainty, time));
     double most = 0.0;
     for (const auto& [name, curve] : file_.curves) {
-      if (!quantity.starts_with(name.substr(0, name.find('_'))) && quantity.find(name) == quantity.npos) continue;
+      if (!quantity.starts_with(name.substr(0, name.find('_'))) && quantity.find(name) == quantity.npos)
+        continue;
       most = std::max(most, *std::max_element(curve.uncertainty.begin(), curve.uncertainty.end()));
     }
     return most;
@@ -85,41 +91,47 @@ std::string column_of(const ReferenceInput& in, const ExperimentFile& file) {
   for (const auto& [name, curve] : file.curves) known.push_back(name);
   const auto named = in.args.word("column");
   if (named && !file.curves.count(*named))
-    throw InputError(in.file + ": argument `column` of reference function table: the table has no column `" + printable(*named) +
-                     "`" + suggestion(*named, known));
+    throw InputError(in.file + ": argument `column` of reference function table: the table has no column `" +
+                     printable(*named) + "`" + suggestion(*named, known));
   if (named || known.size() == 1) return named.value_or(known.front());
-  throw InputError(in.file + ": the table has several columns: name one by the argument `column` of reference function table");
+  throw InputError(
+      in.file +
+      ": the table has several columns: name one by the argument `column` of reference function table");
 }
 
 std::unique_ptr<Reference> make_table(const ReferenceInput& in) {
-  if (in.file.empty()) throw InputError("reference function table needs the key `file`: the table beside the case");
+  if (in.file.empty())
+    throw InputError("reference function table needs the key `file`: the table beside the case");
   ExperimentFile file = read_table(in.file);
   if (file.first == "time") {
     auto column = column_of(in, file);
-    return std::make_unique<Table>(stated_numbers(in, "table"), stated_measuring(in, "table"), std::move(file),
-                                   std::move(column));
+    return std::make_unique<Table>(stated_numbers(in, "table"), stated_measuring(in, "table"),
+                                   std::move(file), std::move(column));
   }
   if (in.args.word("column"))
-    throw InputError("argument `column` of reference function table is of a table in time: a table along " + file.first +
-                     " names its fields itself");
+    throw InputError("argument `column` of reference function table is of a table in time: a table along " +
+                     file.first + " names its fields itself");
   std::vector<std::string> fields;
   for (const auto& f : truth_fields())
     if (f.name != "value") fields.push_back(f.name);
   for (const auto& [name, curve] : file.curves)
     if (std::find(fields.begin(), fields.end(), name) == fields.end())
       throw InputError(in.file + ": no field is named `" + printable(name) + "`" + suggestion(name, fields));
-  return std::make_unique<Table>(stated_numbers(in, "table"), stated_measuring(in, "table"), std::move(file), "");
+  return std::make_unique<Table>(stated_numbers(in, "table"), stated_measuring(in, "table"), std::move(file),
+                                 "");
 }
 
 }  // namespace
 
 ReferenceEntry table_entry() {
-  std::vector<ReferenceArgument> args{{"column", "",
-                                       "of a table in time: the column that the quantity is compared with; default the only one",
-                                       ArgumentType::word}};
+  std::vector<ReferenceArgument> args{
+      {"column", "",
+       "of a table in time: the column that the quantity is compared with; default the only one",
+       ArgumentType::word}};
   for (const auto& a : measuring_arguments()) args.push_back(a);
   return {{"table", "analytic", "the source that the file states",
-           "values from the csv file beside the case (key `file`), with straight lines between rows. Its first column is time, "
+           "values from the csv file beside the case (key `file`), with straight lines between rows. Its "
+           "first column is time, "
            "x, y or z. It states source, units, uncertainty and hash",
            args},
           make_table};

@@ -8,18 +8,22 @@
 namespace tripoint {
 namespace {
 
-/// The vortices at the start: greatest speed U, wave number k, where their pattern begins and how fast it is carried along.
+/// The vortices at the start: greatest speed U, wave number k, where their pattern begins and how fast it is
+/// carried along.
 struct Vortices {
   double speed = 0.0, k = 0.0;
   Vec3 origin, carried;
 };
 
-/// u = U (-cos kx sin ky, sin kx cos ky) exp(-2 nu k^2 t), x and y from the origin, which moves along. Numbers: velocity_rate, at
-/// which it decays [1/s].
+/// u = U (-cos kx sin ky, sin kx cos ky) exp(-2 nu k^2 t), x and y from the origin, which moves along.
+/// Numbers: velocity_rate, at which it decays [1/s].
 class TaylorGreen : public LiquidReference {
  public:
   TaylorGreen(const ReferenceInput& in, const Vortices& v, double viscosity, double density)
-      : LiquidReference(in.job, in.initial), vortices_(v), rate_(2.0 * viscosity * v.k * v.k), density_(density) {}
+      : LiquidReference(in.job, in.initial),
+        vortices_(v),
+        rate_(2.0 * viscosity * v.k * v.k),
+        density_(density) {}
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
     if (quantity == "velocity_rate") return rate_;
     return {};
@@ -30,8 +34,8 @@ class TaylorGreen : public LiquidReference {
     const double U = vortices_.speed * std::exp(-rate_ * time), k = vortices_.k;
     const Vec3 r = place - vortices_.origin - time * vortices_.carried;
     LiquidState s;
-    s.velocity =
-        vortices_.carried + Vec3{-U * std::cos(k * r.x) * std::sin(k * r.y), U * std::sin(k * r.x) * std::cos(k * r.y), 0.0};
+    s.velocity = vortices_.carried + Vec3{-U * std::cos(k * r.x) * std::sin(k * r.y),
+                                          U * std::sin(k * r.x) * std::cos(k * r.y), 0.0};
     s.pressure = -0.25 * density_ * U * U * (std::cos(2.0 * k * r.x) + std::cos(2.0 * k * r.y));
     return s;
   }
@@ -46,19 +50,24 @@ Vortices vortices_of(const ReferenceInput& in, const VelocityField& v) {
   const auto speed = in.args.number("speed"), wavelength = in.args.number("wavelength");
   if (!known && (!speed || !wavelength))
     throw InputError(
-        "taylor_green needs a liquid with velocity = {kind = \"taylor_green\", ...}, or the arguments speed and wavelength");
+        "taylor_green needs a liquid with velocity = {kind = \"taylor_green\", ...}, or the arguments speed "
+        "and wavelength");
   return {speed.value_or(v.speed), 2.0 * std::numbers::pi / wavelength.value_or(v.wavelength),
           in.args.vector("origin").value_or(Vec3{}), in.args.vector("carried").value_or(Vec3{})};
 }
 
 std::unique_ptr<Reference> make_vortices(const ReferenceInput& in) {
   const auto liquid = only_liquid(in.job, "taylor_green");
-  if (!in.job.scene.periodic[0] || !in.job.scene.periodic[1]) throw InputError("taylor_green is periodic in x and y");
+  if (!in.job.scene.periodic[0] || !in.job.scene.periodic[1])
+    throw InputError("taylor_green is periodic in x and y");
   const auto v = vortices_of(in, in.job.scene.bodies.at(liquid).velocity);
-  auto flow = std::make_unique<TaylorGreen>(in, v, kinematic_viscosity(in.job, liquid), material_of_body(in.job, liquid).density);
-  const auto start = flow->at(0.0).velocity;  // formula and arguments are written apart: they must say the same
+  auto flow = std::make_unique<TaylorGreen>(in, v, kinematic_viscosity(in.job, liquid),
+                                            material_of_body(in.job, liquid).density);
+  // Formula and arguments are written apart: they must say the same
+  const auto start = flow->at(0.0).velocity;
   for (std::size_t i = 0; i < in.initial.size(); ++i)
-    if (in.initial.phase[i] == static_cast<int>(Phase::liquid) && !(norm(start[i] - in.initial.velocity[i]) <= 1e-9 * v.speed))
+    if (in.initial.phase[i] == static_cast<int>(Phase::liquid) &&
+        !(norm(start[i] - in.initial.velocity[i]) <= 1e-9 * v.speed))
       throw InputError("taylor_green: the liquid does not start with these vortices");
   return flow;
 }

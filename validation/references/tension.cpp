@@ -15,14 +15,17 @@ namespace {
 struct Bar {
   std::size_t row = 0, axis = 0;
   double length = 0.0, area = 0.0;
-  double gauge = 0.5, stretch_gauge = 1.0;  ///< middle shares of the length: for the modulus, for other stretches
+  /// Middle shares of the length: for the modulus, for other stretches
+  double gauge = 0.5, stretch_gauge = 1.0;
   BarLaw law;
-  std::optional<std::size_t> low, high;                      ///< rows in Job::bodies of the bodies that hold its ends
+  /// Rows in Job::bodies of the bodies that hold its ends
+  std::optional<std::size_t> low, high;
   double release = std::numeric_limits<double>::infinity();  ///< time at which an end is let go [s]
   double tear = std::numeric_limits<double>::infinity();     ///< stretch at which it parts
 };
 
-/// Displacement along an axis of a held body [m]: of its keyframes, straight between them, else at its constant velocity.
+/// Displacement along an axis of a held body [m]: of its keyframes, straight between them, else at its
+/// constant velocity.
 double displaced(const JobBody& body, std::size_t axis, double time) {
   if (body.motion == Motion::fixed) return 0.0;
   const auto& keys = body.keyframes;
@@ -37,9 +40,9 @@ double displaced(const JobBody& body, std::size_t axis, double time) {
   return keys.back().position[axis] - start;
 }
 
-/// A homogeneous bar between driven ends. Numbers: bar, axis, area [m2], gauge, modulus [Pa], yield_stress [Pa],
-/// residual_stretch, event_time of the tear [s]; in time: stretch, reaction [N]. The ledger's terms elastic and plastic [J] are
-/// in its snapshots.
+/// A homogeneous bar between driven ends. Numbers: bar, axis, area [m2], gauge, modulus [Pa], yield_stress
+/// [Pa], residual_stretch, event_time of the tear [s]; in time: stretch, reaction [N]. The ledger's terms
+/// elastic and plastic [J] are in its snapshots.
 class Tension : public Reference {
  public:
   Tension(const Job& job, Bar bar) : job_(job), bar_(std::move(bar)) {
@@ -111,8 +114,9 @@ class Tension : public Reference {
   }
   void find_residual() {
     if (!std::isfinite(bar_.law.elastic_limit) || times_.size() < 2) return;
-    const double longest = *std::max_element(times_.begin(), times_.end(),
-                                             [&](double a, double b) { return driven_stretch(a) < driven_stretch(b); });
+    const double longest = *std::max_element(times_.begin(), times_.end(), [&](double a, double b) {
+      return driven_stretch(a) < driven_stretch(b);
+    });
     if (driven_stretch(longest) > 1.0) residual_ = unloaded_stretch(bar_.law, driven(longest));
   }
 
@@ -131,7 +135,8 @@ void find_ends(const ReferenceInput& in, Bar& bar) {
     if (end) throw InputError("tension: two bodies hold the same end of the bar");
     end = b;
   }
-  if (!bar.low || !bar.high) throw InputError("tension: the bar needs a fixed or prescribed solid body at each end");
+  if (!bar.low || !bar.high)
+    throw InputError("tension: the bar needs a fixed or prescribed solid body at each end");
   for (const auto& event : in.job.scene.events) {
     if (event.kind != Event::Kind::release) continue;
     for (const auto& name : event.bodies)
@@ -160,22 +165,27 @@ std::unique_ptr<Reference> make_tension(const ReferenceInput& in) {
 }  // namespace
 
 ReferenceEntry tension_entry() {
-  return {{"tension",
-           "analytic",
-           "homogeneous St Venant-Kirchhoff bar, von Mises flow (O'Brien, Bargteil, Hodgins 2002); as printed with the gradient "
-           "moment (17)",
-           "reaction, stretch, stored and dissipated energy of an elastic box between two held ends, driven by keyframes, to the "
-           "tear",
-           {{"body", "", "the bar; default the scene's only free elastic body", ArgumentType::word},
-            {"length", "m", "between the held ends; default of the bar's box"},
-            {"area", "m2", "cross-section; default of the bar's box or the periodic domain"},
-            {"sides", "", "free, plane_strain (one direction held) or confined (both); default by the periodic directions",
-             ArgumentType::word},
-            {"form", "", "paper or corrected; default the run's mode of the elastic term", ArgumentType::word},
-            {"support_ratio", "", "h/dx of the printed form; default the run's"},
-            {"gauge", "",
-             "middle share of the length over which stretches are measured; default 0.5 for the modulus, 1 for others"}}},
-          make_tension};
+  return {
+      {"tension",
+       "analytic",
+       "homogeneous St Venant-Kirchhoff bar, von Mises flow (O'Brien, Bargteil, Hodgins 2002); as printed "
+       "with the gradient "
+       "moment (17)",
+       "reaction, stretch, stored and dissipated energy of an elastic box between two held ends, driven by "
+       "keyframes, to the "
+       "tear",
+       {{"body", "", "the bar; default the scene's only free elastic body", ArgumentType::word},
+        {"length", "m", "between the held ends; default of the bar's box"},
+        {"area", "m2", "cross-section; default of the bar's box or the periodic domain"},
+        {"sides", "",
+         "free, plane_strain (one direction held) or confined (both); default by the periodic directions",
+         ArgumentType::word},
+        {"form", "", "paper or corrected; default the run's mode of the elastic term", ArgumentType::word},
+        {"support_ratio", "", "h/dx of the printed form; default the run's"},
+        {"gauge", "",
+         "middle share of the length over which stretches are measured; default 0.5 for the modulus, 1 for "
+         "others"}}},
+      make_tension};
 }
 
 }  // namespace tripoint

@@ -81,7 +81,8 @@ TorqueFree::TorqueFree(const Vec3& inertia, const Quaternion& axes, const Vec3& 
   if (!steady_) choose_axes(inertia, axes, spin);
 }
 
-/// Orders the principal axes so that the elliptic solution holds: the third is the one about which L circulates in the body.
+/// Orders the principal axes so that the elliptic solution holds: the third is the one about which L
+/// circulates in the body.
 void TorqueFree::choose_axes(const Vec3& inertia, const Quaternion& axes, const Vec3& spin) {
   std::array<std::size_t, 3> order{0, 1, 2};
   const auto moment = [&](std::size_t k) { return inertia[order[k]]; };
@@ -105,12 +106,15 @@ void TorqueFree::solve(const Triple& w) {
   const auto [I1, I2, I3] = inertia_;
   const Real A = I1 * (I3 - I1) * w[0] * w[0] + I2 * (I3 - I2) * w[1] * w[1];  // 2 E I3 - L^2
   const Real B = I2 * (I2 - I1) * w[1] * w[1] + I3 * (I3 - I1) * w[2] * w[2];  // L^2 - 2 E I1
-  amplitude_ = {std::sqrt(A / (I1 * (I3 - I1))), std::sqrt(A / (I2 * (I3 - I2))), std::sqrt(B / (I3 * (I3 - I1)))};
+  amplitude_ = {std::sqrt(A / (I1 * (I3 - I1))), std::sqrt(A / (I2 * (I3 - I2))),
+                std::sqrt(B / (I3 * (I3 - I1)))};
   rate_ = std::sqrt((I3 - I2) * B / (I1 * I2 * I3));
   modulus_ = std::sqrt((I2 - I1) * A / ((I3 - I2) * B));
-  if (!(modulus_ < 1)) throw InputError("the spin lies on the separatrix of the middle axis: it has no period and no flip time");
+  if (!(modulus_ < 1))
+    throw InputError("the spin lies on the separatrix of the middle axis: it has no period and no flip time");
   momentum_ = std::sqrt(I1 * I1 * w[0] * w[0] + I2 * I2 * w[1] * w[1] + I3 * I3 * w[2] * w[2]);
-  // Two signs may be flipped at will (the equations keep their form); the third follows the sense of the circulation.
+  // Two signs may be flipped at will (the equations keep their form); the third follows the sense of the
+  // circulation.
   const Real sign = w[2] < 0 ? -1 : 1, sense = I3 > I2 ? 1 : -1;
   amplitude_ = {sign * amplitude_[0], sense * amplitude_[1], sign * amplitude_[2]};
   const Real angle = std::atan2(w[1] / amplitude_[1], w[0] / amplitude_[0]);
@@ -136,17 +140,20 @@ TorqueFree::Real TorqueFree::precession_rate(Real time) const {
 
 TorqueFree::Real TorqueFree::integral(Real from, Real to) const {
   if (from == to) return 0;
-  return boost::math::quadrature::gauss<Real, 20>::integrate([this](Real t) { return precession_rate(t); }, from, to);
+  return boost::math::quadrature::gauss<Real, 20>::integrate([this](Real t) { return precession_rate(t); },
+                                                             from, to);
 }
 
 void TorqueFree::store_panels() {
   panel_ = 2 * quarter_ / rate_ / panels_a_period;
   panels_.assign(1, 0);
-  for (int n = 0; n < panels_a_period; ++n) panels_.push_back(panels_.back() + integral(n * panel_, (n + 1) * panel_));
+  for (int n = 0; n < panels_a_period; ++n)
+    panels_.push_back(panels_.back() + integral(n * panel_, (n + 1) * panel_));
 }
 
 TorqueFree::Real TorqueFree::precession(Real time) const {
-  const Real period = panel_ * panels_a_period, turns = std::floor(time / period), rest = time - turns * period;
+  const Real period = panel_ * panels_a_period, turns = std::floor(time / period),
+             rest = time - turns * period;
   const auto n = std::min(static_cast<std::size_t>(rest / panel_), panels_.size() - 2);
   return turns * panels_.back() + panels_[n] + integral(static_cast<Real>(n) * panel_, rest);
 }

@@ -10,10 +10,11 @@
 namespace tripoint {
 
 /// Free rotation of a rigid body about its centre of mass [Landau & Lifshitz, Mechanics, section 37].
-/// The angular velocity in the principal frame is (a1 cn, a2 sn, a3 dn)(rate t + start; modulus), Jacobi's elliptic functions.
-/// The precession about the constant angular momentum is the integral of a periodic function of time. It is stored per panel of
-/// one period, so that a late time costs no more than an early one. Everything is formed in long double. Its checks: an
-/// eighth-order ODE in tests/references/torque_free_test.cpp, scipy's in torque_free.py.
+/// The angular velocity in the principal frame is (a1 cn, a2 sn, a3 dn)(rate t + start; modulus), Jacobi's
+/// elliptic functions. The precession about the constant angular momentum is the integral of a periodic
+/// function of time. It is stored per panel of one period, so that a late time costs no more than an early
+/// one. Everything is formed in long double. Its checks: an eighth-order ODE in
+/// tests/references/torque_free_test.cpp, scipy's in torque_free.py.
 class TorqueFree {
  public:
   /// @param inertia principal moments [kg m2], each >= 0 (0: a line's own axis, about which it cannot spin)
@@ -40,8 +41,9 @@ class TorqueFree {
   void choose_axes(const Vec3& inertia, const Quaternion& axes, const Vec3& spin);
   void solve(const Triple& omega);
   void store_panels();
-  [[nodiscard]] Triple omega(Real time) const;          // principal frame
-  [[nodiscard]] Matrix attitude(Real time) const;       // principal to world, but for the constant factor start_
+  [[nodiscard]] Triple omega(Real time) const;  // principal frame
+  // Principal to world, but for the constant factor start_
+  [[nodiscard]] Matrix attitude(Real time) const;
   [[nodiscard]] Real precession_rate(Real time) const;  // about L [rad/s]
   [[nodiscard]] Real precession(Real time) const;       // [rad]
   [[nodiscard]] Real integral(Real from, Real to) const;

@@ -19,12 +19,15 @@ class Contact : public HeatReference {
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
     const auto& s = layers_;
     if (quantity == "contact_temperature")
-      return (s.effusivity_low * s.start_low + s.effusivity_high * s.start_high) / (s.effusivity_low + s.effusivity_high);
+      return (s.effusivity_low * s.start_low + s.effusivity_high * s.start_high) /
+             (s.effusivity_low + s.effusivity_high);
     return {};
   }
 
  protected:
-  [[nodiscard]] double temperature(const Vec3& place, double time) const override { return solution_.at(place[axis_], time); }
+  [[nodiscard]] double temperature(const Vec3& place, double time) const override {
+    return solution_.at(place[axis_], time);
+  }
 
  private:
   std::size_t axis_;
@@ -33,7 +36,8 @@ class Contact : public HeatReference {
 };
 
 double uniform_temperature(const ReferenceInput& in, std::size_t body) {
-  const std::string refusal = "two_conductivities: body `" + in.job.bodies[body].name + "` must start at one temperature";
+  const std::string refusal =
+      "two_conductivities: body `" + in.job.bodies[body].name + "` must start at one temperature";
   if (in.initial.temperature.size() != in.initial.size()) throw InputError(refusal);
   double value = not_a_number;
   for (std::size_t i = 0; i < in.initial.size(); ++i) {
@@ -82,13 +86,13 @@ std::unique_ptr<Reference> make_contact(const ReferenceInput& in) {
 }  // namespace
 
 ReferenceEntry two_conductivities_entry() {
-  return {
-      {"two_conductivities",
-       "analytic",
-       "Carslaw & Jaeger, Conduction of Heat in Solids, 1959: composite solids; eigenfunctions once a front has reached an end",
-       "two bodies of different material and temperature in perfect contact, ends insulated",
-       {}},
-      make_contact};
+  return {{"two_conductivities",
+           "analytic",
+           "Carslaw & Jaeger, Conduction of Heat in Solids, 1959: composite solids; eigenfunctions once a "
+           "front has reached an end",
+           "two bodies of different material and temperature in perfect contact, ends insulated",
+           {}},
+          make_contact};
 }
 
 }  // namespace tripoint

@@ -13,9 +13,9 @@ struct TwoLayers {
   double start_low = 0.0, start_high = 0.0;              ///< [K]
 };
 
-/// Temperature of two layers, by whichever of the two exact forms converges. While both fronts are further than 6 sqrt(4 D t)
-/// from their ends, it is that of half spaces in contact. They have the contact temperature (e1 T1 + e2 T2)/(e1 + e2) and erfc
-/// profiles. Later it is a sum of eigenfunctions.
+/// Temperature of two layers, by whichever of the two exact forms converges. While both fronts are further
+/// than 6 sqrt(4 D t) from their ends, it is that of half spaces in contact. They have the contact
+/// temperature (e1 T1 + e2 T2)/(e1 + e2) and erfc profiles. Later it is a sum of eigenfunctions.
 class TwoLayerSolution {
  public:
   explicit TwoLayerSolution(const TwoLayers&);
@@ -23,8 +23,9 @@ class TwoLayerSolution {
 
   /// The two forms by themselves, for the check of one by the other where both hold.
   [[nodiscard]] double half_spaces(double x, double time) const;
-  /// Series over the modes cos(w x1/sqrt D1), cos(w x2/sqrt D2), x1, x2 counted from the ends. The frequencies w [1/sqrt s] are
-  /// the roots of e1 sin p cos q + e2 cos p sin q = 0. p = w L1/sqrt D1, q = w L2/sqrt D2. There is one in each ((n - 1/2) pi, (n
+  /// Series over the modes cos(w x1/sqrt D1), cos(w x2/sqrt D2), x1, x2 counted from the ends. The
+  /// frequencies w [1/sqrt s] are the roots of e1 sin p cos q + e2 cos p sin q = 0. p = w L1/sqrt D1, q = w
+  /// L2/sqrt D2. There is one in each ((n - 1/2) pi, (n
   /// + 1/2) pi) of p + q. Enough modes are kept for a quarter of the time from which at() uses them.
   [[nodiscard]] double series(double x, double time) const;
 

@@ -14,10 +14,11 @@ namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::uintmax_t most_read = std::uintmax_t{256} << 20;  // size of the greatest mesh; no other file may be as large
+// Size of the greatest mesh; no other file may be as large
+constexpr std::uintmax_t most_read = std::uintmax_t{256} << 20;
 
-/// Content of a file. For a file that every reader refuses for its size it is the size: a third-party case may name one that fits
-/// in no memory.
+/// Content of a file. For a file that every reader refuses for its size it is the size: a third-party case
+/// may name one that fits in no memory.
 std::string text_of(const fs::path& file) {
   std::error_code none;
   const std::uintmax_t size = fs::file_size(file, none);
@@ -38,9 +39,10 @@ bool is_of_the_scene(const std::string& key) {
   static constexpr std::array<std::string_view, 8> rooms{"scene.", "model.",  "material.", "body.",
                                                          "event.", "inflow.", "study.",    "input."};
   if (key == "case.modes" || key == "case.expect") return true;
-  if (key.starts_with("engines."))
-    return !key.ends_with(".required") && !key.ends_with(".refuses");  // part of the judgement, not of the question
-  return !key.ends_with(".source") && std::any_of(rooms.begin(), rooms.end(), [&](auto room) { return key.starts_with(room); });
+  // Part of the judgement, not of the question
+  if (key.starts_with("engines.")) return !key.ends_with(".required") && !key.ends_with(".refuses");
+  return !key.ends_with(".source") &&
+         std::any_of(rooms.begin(), rooms.end(), [&](auto room) { return key.starts_with(room); });
 }
 
 std::string hash_of(std::vector<std::string> lines) {
@@ -63,15 +65,18 @@ std::optional<CaseHashes> case_hashes(const std::string& file) {
   const auto hash = [&](const auto& wanted) {
     std::vector<std::string> lines;
     for (const auto& d : reading.decisions)
-      if ((d.given || d.reason.starts_with("library, ")) && wanted(d.key)) lines.push_back(line_of(d, folder));
+      if ((d.given || d.reason.starts_with("library, ")) && wanted(d.key))
+        lines.push_back(line_of(d, folder));
     return hash_of(std::move(lines));
   };
   CaseHashes hashes;
   hashes.scene = hash(is_of_the_scene);
-  hashes.reference = hash([](const std::string& key) { return key.starts_with("reference.") && !key.ends_with(".source"); });
+  hashes.reference =
+      hash([](const std::string& key) { return key.starts_with("reference.") && !key.ends_with(".source"); });
   for (const auto& m : reading.value.metrics)
-    hashes.metrics[m.name] =
-        hash([&](const std::string& key) { return key.starts_with("metric." + m.name + ".") && !key.ends_with(".source"); });
+    hashes.metrics[m.name] = hash([&](const std::string& key) {
+      return key.starts_with("metric." + m.name + ".") && !key.ends_with(".source");
+    });
   for (const auto& e : reading.value.engines) hashes.required[e.name] = e.required;
   hashes.profiles = reading.value.profiles;
   return hashes;

@@ -16,7 +16,9 @@ struct Letter {
 
 /// The letter that begins at `at`, by the rules of UTF-8: shortest form, no surrogates, at most U+10FFFF.
 Letter letter_at(std::string_view text, std::size_t at) {
-  const auto byte = [&](std::size_t k) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[k])); };
+  const auto byte = [&](std::size_t k) {
+    return static_cast<std::uint32_t>(static_cast<unsigned char>(text[k]));
+  };
   const auto first = byte(at);
   if (first < 0x80) return {first, 1, true};
   const std::size_t bytes = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
@@ -31,17 +33,21 @@ Letter letter_at(std::string_view text, std::size_t at) {
   return {code, bytes, true};
 }
 
-bool breaks_a_line(std::uint32_t c) { return (c >= 0x09 && c <= 0x0D) || c == 0x85 || c == 0x2028 || c == 0x2029; }
+bool breaks_a_line(std::uint32_t c) {
+  return (c >= 0x09 && c <= 0x0D) || c == 0x85 || c == 0x2028 || c == 0x2029;
+}
 
 /// Control characters, and marks that turn the direction of writing or are not seen.
 bool is_hidden(std::uint32_t c) {
-  return c < 0x20 || (c >= 0x7F && c <= 0x9F) || (c >= 0x200B && c <= 0x200F) || (c >= 0x202A && c <= 0x202E) ||
-         (c >= 0x2060 && c <= 0x206F) || c == 0xFEFF || c == 0xFFFE || c == 0xFFFF;
+  return c < 0x20 || (c >= 0x7F && c <= 0x9F) || (c >= 0x200B && c <= 0x200F) ||
+         (c >= 0x202A && c <= 0x202E) || (c >= 0x2060 && c <= 0x206F) || c == 0xFEFF || c == 0xFFFE ||
+         c == 0xFFFF;
 }
 
 bool is_word(char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
-/// Markdown text for a character of one line. Entities, since a backslash does not keep a bar out of a table everywhere.
+/// Markdown text for a character of one line. Entities, since a backslash does not keep a bar out of a table
+/// everywhere.
 std::string markdown_letter(std::string_view line, std::size_t k) {
   const char c = line[k], before = k > 0 ? line[k - 1] : ' ', after = k + 1 < line.size() ? line[k + 1] : ' ';
   switch (c) {
@@ -64,7 +70,8 @@ std::string markdown_letter(std::string_view line, std::size_t k) {
       return is_word(before) && is_word(after) ? "_" : "&#95;";  // inside a word it emphasises nothing
     case '@':
     case '#':
-      return is_word(after) ? std::string(1, c) + "&#8203;" : std::string(1, c);  // no mention, no reference: a space of no width
+      // No mention, no reference: a space of no width
+      return is_word(after) ? std::string(1, c) + "&#8203;" : std::string(1, c);
     case ':':
       return after == '/' ? "&#58;" : ":";  // no link
     case '.':
@@ -157,7 +164,8 @@ std::string command_text(std::string_view text, bool property) {
     }
   }
   end_line();
-  for (auto at = out.find("##["); at != std::string::npos; at = out.find("##[", at)) out.insert(at + 1, 1, ' ');
+  for (auto at = out.find("##["); at != std::string::npos; at = out.find("##[", at))
+    out.insert(at + 1, 1, ' ');
   return out;
 }
 

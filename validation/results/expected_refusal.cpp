@@ -19,8 +19,9 @@ std::string broken_refusal(const EngineRow& e) {
   if (e.refuses.empty() || e.status == Status::missing || refuses_as_expected(e)) return {};
   if (e.status == Status::refused)
     return fmt::format("refuses for another reason than the declared \"{}\": {}", e.refuses, e.reason);
-  return fmt::format("is declared to refuse (\"{}\"), and is {}: take the declaration away, or find what has changed", e.refuses,
-                     e.status);
+  return fmt::format(
+      "is declared to refuse (\"{}\"), and is {}: take the declaration away, or find what has changed",
+      e.refuses, e.status);
 }
 
 }  // namespace tripoint

@@ -2,14 +2,15 @@
 #pragma once
 #include <type_traits>
 
-/// A record of results.json or of a baseline is described once, as its fields in the order in which they are written. The
-/// description serves both directions: a visitor takes a key and a member, and either writes the member or reads it.
+/// A record of results.json or of a baseline is described once, as its fields in the order in which they are
+/// written. The description serves both directions: a visitor takes a key and a member, and either writes the
+/// member or reads it.
 ///
-///   v("key", member)             both directions; what is absent from a file leaves the member's default, a text empty
-///   v("key", member, value)      written is `value`, which says more than the member; read is the member
-///   v.written("key", value)      written only: the judge forms it anew
-///   v.part("key", is_there, f)   an object of further fields, left out where `is_there` is false
-///   v.end(status, reason)        how a row ended; a row without a status counts as an error
+///   v("key", member)             both directions; what is absent from a file leaves the member's default, a
+///   text empty v("key", member, value)      written is `value`, which says more than the member; read is the
+///   member v.written("key", value)      written only: the judge forms it anew v.part("key", is_there, f) an
+///   object of further fields, left out where `is_there` is false v.end(status, reason)        how a row
+///   ended; a row without a status counts as an error
 namespace tripoint {
 
 // Each has a deduction guide: clang 16 deduces no template argument of an aggregate without one.

@@ -15,18 +15,24 @@
 #include "validation/results/case_hash.hpp"
 #include "validation/results/verdict.hpp"
 
-/// Content of results.json (contracts: results.json, format 1), as plain data. Verdicts in it are always recomputed: judge.hpp.
+/// Content of results.json (contracts: results.json, format 1), as plain data. Verdicts in it are always
+/// recomputed: judge.hpp.
 namespace tripoint {
 
 struct Cost {
   double cpu_s = 0.0, wall_s = 0.0, setup_cpu_s = 0.0;  ///< [s]
   double peak_bytes = 0.0;
   double pairs = 0.0, steps = 0.0, iterations = 0.0;  ///< counted by the engine
-  double simulated_s = 0.0;                           ///< time of the scene that the steps took it through [s]
-  double particles = 0.0;                             ///< at the end: with inflowing particles, without lost ones
-  double instructions = 0.0;                          ///< in user space, of the whole process; 0 = not counted
-  std::vector<double> repeats;  ///< CPU seconds of the timed runs (--timing), one a round [s]; empty = it was run once
-  std::string counted_by;       ///< of the instructions: counter (the processor's own), callgrind (a second run)
+  /// Time of the scene that the steps took it through [s]
+  double simulated_s = 0.0;
+  /// At the end: with inflowing particles, without lost ones
+  double particles = 0.0;
+  /// In user space, of the whole process; 0 = not counted
+  double instructions = 0.0;
+  /// CPU seconds of the timed runs (--timing), one a round [s]; empty = it was run once
+  std::vector<double> repeats;
+  /// Of the instructions: counter (the processor's own), callgrind (a second run)
+  std::string counted_by;
 };
 
 struct Knobs {
@@ -64,13 +70,17 @@ struct OrderRow {
   LadderLimit limit;
   double formal = 0.0;
   std::vector<double> step, error, uncertainty;  ///< points that were fitted
-  std::vector<double> numerical;  ///< standard uncertainty of each level by the grid convergence index, which knows no truth;
-                                  ///< empty = no formal order is declared
+  /// Standard uncertainty of each level by the grid convergence index, which knows no truth; empty = no
+  /// formal order is declared
+  std::vector<double> numerical;
 };
 
-/// Whether what was measured is right, beside the verdict of the gate, which says whether it is as expected: physics.hpp.
+/// Whether what was measured is right, beside the verdict of the gate, which says whether it is as expected:
+/// physics.hpp.
 enum class Physics { right, known_defect, wrong, unknown };
-constexpr WordTable<4> word_table(Physics) { return {"physics", {"right", "known defect", "wrong", "not known"}}; }
+constexpr WordTable<4> word_table(Physics) {
+  return {"physics", {"right", "known defect", "wrong", "not known"}};
+}
 
 /// One gate applied to one engine's run (or seeds of a run, pooled), or to a fitted order.
 struct GateRow {
@@ -85,7 +95,8 @@ struct GateRow {
   std::string why;                            ///< one sentence for a verdict that is not pass
   std::optional<FitClass> expect, fit_class;  ///< as a study declares it, and as fitted
   Gate gate;                                  ///< limit, band, reason, file and line
-  bool excused = false;        ///< an acceptance limit that holds, though a defect is declared that excuses from it
+  /// An acceptance limit that holds, though a defect is declared that excuses from it
+  bool excused = false;
   double used = not_a_number;  ///< share of its limit: share_of_limit()
   Physics physics = Physics::unknown;
   std::string defect;  ///< NAME of the defect that its gate declares; empty = none
@@ -94,9 +105,11 @@ struct GateRow {
 /// One row of the matrix: an engine with a preset.
 struct EngineRow {
   std::string name, version, preset = default_preset;
-  std::string library_path, library_hash;   ///< of the engine's own library, as it reported; empty = it reported none
-  std::string executable, executable_hash;  ///< of a third-party engine: its program, and the hash of it when it ran
-  bool deterministic = false;               ///< as the engine says
+  /// Of the engine's own library, as it reported; empty = it reported none
+  std::string library_path, library_hash;
+  /// Of a third-party engine: its program, and the hash of it when it ran
+  std::string executable, executable_hash;
+  bool deterministic = false;  ///< as the engine says
   bool required = false;
   std::string refuses;  ///< words of the refusal that the case declares; empty = it declares none
   Status status = Status::ok;
@@ -135,12 +148,14 @@ struct CaseResult {
   std::vector<MetricChoice> metrics;  ///< as declared
   std::vector<Study> studies;         ///< as declared
   std::vector<Gate> gates;            ///< as declared: the judge starts from these
-  std::vector<std::string> adopted;   ///< engines that the case was adopted for: none may be left out by --engines
+  /// Engines that the case was adopted for: none may be left out by --engines
+  std::vector<std::string> adopted;
   std::vector<EngineRow> engines;
   std::vector<EquivalenceRow> equivalence;
   std::map<std::string, double> ledger;
-  std::vector<std::string> problems;   ///< why the verdict is not pass, beyond the gates' own rows
-  int timing_rounds = 0;               ///< --timing; 0 = runs were made once, and nothing says how far their times may be off
+  std::vector<std::string> problems;  ///< why the verdict is not pass, beyond the gates' own rows
+  /// --timing; 0 = runs were made once, and nothing says how far their times may be off
+  int timing_rounds = 0;
   double timing_floor = not_a_number;  ///< factor >= 1 by which an engine differed from itself
   std::string repeat;
   std::optional<CaseHashes> hashes;  ///< of the case that was run; older results do not say
@@ -162,13 +177,16 @@ struct Results {
   std::string shard;                 ///< "i/n", empty = whole
   bool interrupted = false;          ///< Ctrl-C ended it before every planned case was complete
   std::vector<std::string> planned;  ///< ids of every case that this run had to do
-  std::vector<std::string> what;     ///< files, folders and ids that were asked for; empty = the cases beside the program
-  std::string tag;                   ///< --tag; empty = any
-  bool filter_known =
-      false;  ///< these are all cases of `what`, `tag` and `profile`: not with -k or --last-failed, and older results do not say
+  /// Files, folders and ids that were asked for; empty = the cases beside the program
+  std::vector<std::string> what;
+  std::string tag;  ///< --tag; empty = any
+  /// These are all cases of `what`, `tag` and `profile`: not with -k or --last-failed, and older results do
+  /// not say
+  bool filter_known = false;
   bool seed_given = false;                ///< --seed replaced the cases' own
   std::vector<std::string> only_engines;  ///< --engines; empty = all
-  std::vector<std::string> asked;         ///< engines that the command line named, by --engines: none of them passes unjudged
+  /// Engines that the command line named, by --engines: none of them passes unjudged
+  std::vector<std::string> asked;
   std::vector<std::string> problems;
   std::vector<CaseResult> cases;
 };

@@ -155,7 +155,8 @@ void fields(V& v, RecordOf<GateRow> auto& r) {
 [[nodiscard]] inline std::vector<OrderRow> known_orders(const EngineRow& e) {
   std::vector<OrderRow> rows;
   for (const auto& o : e.order)
-    if (std::isfinite(o.order.value) && std::isfinite(o.order.low) && std::isfinite(o.order.high)) rows.push_back(o);
+    if (std::isfinite(o.order.value) && std::isfinite(o.order.low) && std::isfinite(o.order.high))
+      rows.push_back(o);
   return rows;
 }
 

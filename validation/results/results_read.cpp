@@ -14,8 +14,8 @@ namespace {
 using ReadJson = nlohmann::json;
 constexpr std::uintmax_t largest_file = 512u << 20;
 
-/// Reads the fields of a record from an object. An absent field, or one of another kind, leaves the member's default (of a text:
-/// it is empty). A word that names nothing is an error, which says where it stands.
+/// Reads the fields of a record from an object. An absent field, or one of another kind, leaves the member's
+/// default (of a text: it is empty). A word that names nothing is an error, which says where it stands.
 class Reader {
  public:
   explicit Reader(const ReadJson& from) : from_(from) {}
@@ -193,7 +193,8 @@ Record read_record(const ReadJson& from, const std::string& place) {
 }  // namespace
 
 RunRow read_run_row(const std::string& text_of_row, const std::string& place_of_row) {
-  const auto document = unfit_json(text_of_row).empty() ? ReadJson::parse(text_of_row, nullptr, false) : ReadJson();
+  const auto document =
+      unfit_json(text_of_row).empty() ? ReadJson::parse(text_of_row, nullptr, false) : ReadJson();
   if (!document.is_object()) throw InputError(place_of_row + ": holds no run of a results.json");
   return read_record<RunRow>(document, place_of_row);
 }
@@ -203,9 +204,12 @@ Results read_results(const std::string& path) {
   if (const std::string why = unfit_json(text_of_file); !why.empty())
     throw InputError(fmt::format("{}: {}, which no results file does", path, why));
   const auto document = ReadJson::parse(text_of_file, nullptr, false);
-  if (!document.is_object()) throw InputError(path + ": is not a JSON object (a results.json of tripoint validate is wanted)");
-  if (!document.contains("format") || document["format"] != 1) throw InputError(path + ": has not \"format\": 1");
-  if (!document.contains("cases") || !document["cases"].is_array()) throw InputError(path + ": has no list \"cases\"");
+  if (!document.is_object())
+    throw InputError(path + ": is not a JSON object (a results.json of tripoint validate is wanted)");
+  if (!document.contains("format") || document["format"] != 1)
+    throw InputError(path + ": has not \"format\": 1");
+  if (!document.contains("cases") || !document["cases"].is_array())
+    throw InputError(path + ": has no list \"cases\"");
   auto results = read_record<Results>(document, path);
   if (const auto code = document.find("exit_code"); code == document.end() || !code->is_number())
     results.exit_code = exit_missing;

@@ -35,7 +35,9 @@ class Writer {
     to_[key] = json_number(j.value);
     if (!std::isfinite(j.value)) to_["finite"] = false;
   }
-  void operator()(const char* key, OrNull<const double> x) { to_[key] = x.value > 0.0 ? Json(x.value) : Json(nullptr); }
+  void operator()(const char* key, OrNull<const double> x) {
+    to_[key] = x.value > 0.0 ? Json(x.value) : Json(nullptr);
+  }
   template <HasWords E>
   void operator()(const char* key, OrNull<const E> x) {
     to_[key] = to_string(x.value).empty() ? Json(nullptr) : Json(x.value);
@@ -82,7 +84,9 @@ class Writer {
   }
   static Json json(const std::optional<double>& value) { return json_number(value); }
   static Json json(const std::vector<double>& values) { return json_numbers(values); }
-  static Json json(const std::optional<std::array<double, 2>>& pair) { return pair ? Json(*pair) : Json(nullptr); }
+  static Json json(const std::optional<std::array<double, 2>>& pair) {
+    return pair ? Json(*pair) : Json(nullptr);
+  }
   template <HasWords E>
   static Json json(const std::optional<E>& word) {
     return word ? Json(*word) : Json("");
@@ -124,7 +128,8 @@ std::string source_of(const ReferenceChoice& r) {
   if (!r.source.empty()) return r.source;
   const auto& all = reference_functions();
   const std::string name = r.function.empty() ? std::string(to_string(r.kind)) : r.function;
-  const auto f = std::find_if(all.begin(), all.end(), [&](const ReferenceFunction& g) { return g.name == name; });
+  const auto f =
+      std::find_if(all.begin(), all.end(), [&](const ReferenceFunction& g) { return g.name == name; });
   return f == all.end() ? "" : f->source;
 }
 

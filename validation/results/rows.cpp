@@ -21,9 +21,13 @@ std::optional<MetricValue> measured(const RunRow& run, const std::string& metric
   if (!metric.ends_with(statistical_part)) return {};
   const auto at = run.metrics.find(metric.substr(0, metric.size() - statistical_part.size()));
   if (at == run.metrics.end()) return {};
-  const bool known =
-      std::isfinite(at->second.value) && at->second.uncertainty.statistical > 0.0;  // an unknown scatter is no scatter of 0
-  return MetricValue{known ? at->second.uncertainty.statistical : not_a_number, {}, "statistical standard uncertainty", {}, {}};
+  // An unknown scatter is no scatter of 0
+  const bool known = std::isfinite(at->second.value) && at->second.uncertainty.statistical > 0.0;
+  return MetricValue{known ? at->second.uncertainty.statistical : not_a_number,
+                     {},
+                     "statistical standard uncertainty",
+                     {},
+                     {}};
 }
 
 MetricValue pooled(const std::vector<MetricValue>& values) {
@@ -54,7 +58,8 @@ bool is_unjudged(const EngineRow& engine) {
 }
 
 bool may_diverge(const CaseResult& result, JudgedMode mode) {
-  return result.expect == Expect::diverges || (result.expect == Expect::paper_diverges && mode == JudgedMode::paper);
+  return result.expect == Expect::diverges ||
+         (result.expect == Expect::paper_diverges && mode == JudgedMode::paper);
 }
 
 }  // namespace tripoint

@@ -6,20 +6,20 @@
 /// Questions about the rows of results that need no verdict.
 namespace tripoint {
 
-/// Whether a row ran and no gate looked at it: it says nothing of the engine, good or bad. `exact` is the reference itself and is
-/// never judged.
+/// Whether a row ran and no gate looked at it: it says nothing of the engine, good or bad. `exact` is the
+/// reference itself and is never judged.
 [[nodiscard]] bool is_unjudged(const EngineRow&);
 
-/// Value of NAME, or of NAME.statistical (its statistical standard uncertainty), in one run; empty when the run has no such
-/// metric.
+/// Value of NAME, or of NAME.statistical (its statistical standard uncertainty), in one run; empty when the
+/// run has no such metric.
 [[nodiscard]] std::optional<MetricValue> measured(const RunRow&, const std::string& metric);
 
-/// Mean of runs that differ by seed only: the statistical uncertainty is the larger of the stated one and the scatter, over
-/// sqrt(n).
+/// Mean of runs that differ by seed only: the statistical uncertainty is the larger of the stated one and the
+/// scatter, over sqrt(n).
 [[nodiscard]] MetricValue pooled(const std::vector<MetricValue>&);
 
-/// Whether a run ended otherwise than it should: killed, timeout, error, or a status that nobody knows. An engine that is missing
-/// or refuses says so; this one does not.
+/// Whether a run ended otherwise than it should: killed, timeout, error, or a status that nobody knows. An
+/// engine that is missing or refuses says so; this one does not.
 [[nodiscard]] bool crashed(const RunRow&);
 
 /// Whether the case declares that this form of the model diverges.

@@ -9,7 +9,9 @@
 namespace tripoint {
 namespace {
 
-std::string name_of(const EngineRow& e, const RunRow& r) { return label_of(e.name, e.preset) + after_blank(r.knobs.mode); }
+std::string name_of(const EngineRow& e, const RunRow& r) {
+  return label_of(e.name, e.preset) + after_blank(r.knobs.mode);
+}
 
 }  // namespace
 
@@ -46,7 +48,8 @@ std::vector<TimingPair> timing_pairs(const CaseResult& result) {
   for (std::size_t a = 0; a < times.size(); ++a)
     for (std::size_t b = a + 1; b < times.size(); ++b) {
       const double ratio = times[a].second / times[b].second;
-      pairs.push_back({times[a].first, times[b].first, ratio, std::abs(std::log(ratio)) > std::log(result.timing_floor)});
+      pairs.push_back(
+          {times[a].first, times[b].first, ratio, std::abs(std::log(ratio)) > std::log(result.timing_floor)});
     }
   return pairs;
 }

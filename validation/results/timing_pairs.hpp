@@ -6,9 +6,10 @@
 /// CPU seconds of timed runs against each other.
 namespace tripoint {
 
-/// Factor >= 1 within which the same work was seen to differ from itself: exp of the mean log ratio plus two of its standard
-/// errors.
-/// @param pairs CPU seconds of the same run, twice a round   @return NaN with fewer than two rounds or a time that is not above 0
+/// Factor >= 1 within which the same work was seen to differ from itself: exp of the mean log ratio plus two
+/// of its standard errors.
+/// @param pairs CPU seconds of the same run, twice a round   @return NaN with fewer than two rounds or a time
+/// that is not above 0
 [[nodiscard]] double noise_floor(const std::vector<std::pair<double, double>>& pairs);
 
 /// Engines, presets and modes at the case's own resolution against each other, by their medians.

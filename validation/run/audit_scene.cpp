@@ -10,15 +10,16 @@
 namespace tripoint {
 namespace {
 
-/// An engine may hold its inputs as reciprocals or in other units: a few roundings of its own precision, but no more.
+/// An engine may hold its inputs as reciprocals or in other units: a few roundings of its own precision, but
+/// no more.
 double roundings(const Readback& held) { return held.precision == "single" ? 1e-6 : 1e-9; }
 
 bool same(double a, double b, double room) { return std::abs(a - b) <= room; }
 
 std::string text(const Vec3& v) { return fmt::format("({:g}, {:g}, {:g})", v.x, v.y, v.z); }
 
-/// A moment below this share of m dx^2 may be left out. A body of particles in a line, or nearly so, has no rotation about it
-/// (model 8.9).
+/// A moment below this share of m dx^2 may be left out. A body of particles in a line, or nearly so, has no
+/// rotation about it (model 8.9).
 constexpr double truncated_share = 2e-3;
 
 /// @param share of a value that it may be off by
@@ -29,9 +30,10 @@ std::string audit_body(const JobBody& given, const ReadbackBody& held, double sp
   const double largest = std::max({p.principal_inertia.x, p.principal_inertia.y, p.principal_inertia.z});
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (!same(p.principal_inertia[axis], held.principal_inertia[axis], share * largest) &&
-        !(held.principal_inertia[axis] == 0.0 && p.principal_inertia[axis] < truncated_share * p.mass * spacing * spacing))
-      return fmt::format("principal inertia of {} is {} kg m2, given was {}", given.name, text(held.principal_inertia),
-                         text(p.principal_inertia));
+        !(held.principal_inertia[axis] == 0.0 &&
+          p.principal_inertia[axis] < truncated_share * p.mass * spacing * spacing))
+      return fmt::format("principal inertia of {} is {} kg m2, given was {}", given.name,
+                         text(held.principal_inertia), text(p.principal_inertia));
   if (held.linear_damping != 0.0 || held.angular_damping != 0.0)
     return fmt::format("{} is damped, which the scene does not say", given.name);
   return {};
@@ -55,11 +57,14 @@ std::string audit_scene(const Job& job, const Readback& held) {
   if (!(norm(off) <= roundings(held) * norm(job.scene.gravity)))
     return fmt::format("gravity is {} m/s2, given was {}", text(held.gravity), text(job.scene.gravity));
   for (const auto& body : held.bodies) {
-    const auto given = std::find_if(job.bodies.begin(), job.bodies.end(), [&](const auto& b) { return b.name == body.name; });
-    if (given == job.bodies.end()) return fmt::format("it holds a body {} that the scene does not have", body.name);
+    const auto given = std::find_if(job.bodies.begin(), job.bodies.end(),
+                                    [&](const auto& b) { return b.name == body.name; });
+    if (given == job.bodies.end())
+      return fmt::format("it holds a body {} that the scene does not have", body.name);
     if (given->phase != Phase::rigid || given->motion != Motion::free)
       continue;  // a driven body's mass is the engine's own affair
-    if (const auto other = audit_body(*given, body, job.scene.spacing, roundings(held)); !other.empty()) return other;
+    if (const auto other = audit_body(*given, body, job.scene.spacing, roundings(held)); !other.empty())
+      return other;
     if (job.bodies.size() < 2) continue;  // alone: it touches nothing
     if (const auto other = audit_contact(job.settings, body, roundings(held)); !other.empty()) return other;
   }

@@ -39,21 +39,24 @@ fs::path own_group(std::string_view controller) {
   for (std::string line; std::getline(in, line);) {
     std::istringstream fields(line);
     std::string number, name, path;
-    if (std::getline(fields, number, ':') && std::getline(fields, name, ':') && std::getline(fields, path) && name == controller)
+    if (std::getline(fields, number, ':') && std::getline(fields, name, ':') && std::getline(fields, path) &&
+        name == controller)
       return root / name / fs::path(path).relative_path();
   }
   return {};
 }
 
 /// A group of this name as near below ours as may be, with each bound; empty where none can be made.
-fs::path group_below(const fs::path& ours, const fs::path& top, const std::vector<std::pair<std::string, double>>& bounds) {
+fs::path group_below(const fs::path& ours, const fs::path& top,
+                     const std::vector<std::pair<std::string, double>>& bounds) {
   const std::string name = new_name();
   std::error_code none;
   for (fs::path at = ours; !at.empty(); at = at.parent_path()) {
     const fs::path made = at / name;
     if (fs::create_directory(made, none)) {
       bool bounded = true;
-      for (const auto& [file, value] : bounds) bounded = bounded && wrote(made / file, fmt::format("{:.0f}", value));
+      for (const auto& [file, value] : bounds)
+        bounded = bounded && wrote(made / file, fmt::format("{:.0f}", value));
       if (bounded && ::access((made / "cgroup.procs").c_str(), W_OK) == 0) return made;
       fs::remove(made, none);
     }
@@ -66,15 +69,17 @@ fs::path group_below(const fs::path& ours, const fs::path& top, const std::vecto
 
 ControlGroup::ControlGroup(const SandboxSums& most) {
   if (!(most.memory > 0.0) || most.processes <= 0) return;
-  constexpr double ours = 2.0, one_too_many = 1.0;  // bubblewrap, and its first process inside; what the watch ends a run at
+  // Bubblewrap, and its first process inside; what the watch ends a run at
+  constexpr double ours = 2.0, one_too_many = 1.0;
   const double processes = most.processes + ours + one_too_many;
   if (fs::exists(root / "cgroup.controllers")) {
-    if (auto made = group_below(own_group(""), root, {{"memory.max", most.memory}, {"pids.max", processes}}); !made.empty())
+    if (auto made = group_below(own_group(""), root, {{"memory.max", most.memory}, {"pids.max", processes}});
+        !made.empty())
       folders_.push_back(std::move(made));
     return;
   }
-  for (const auto& [controller, file, value] :
-       {std::tuple("memory", "memory.limit_in_bytes", most.memory), std::tuple("pids", "pids.max", processes)})
+  for (const auto& [controller, file, value] : {std::tuple("memory", "memory.limit_in_bytes", most.memory),
+                                                std::tuple("pids", "pids.max", processes)})
     if (auto made = group_below(own_group(controller), root / controller, {{file, value}}); !made.empty())
       folders_.push_back(std::move(made));
 }
@@ -89,9 +94,10 @@ ControlGroup::~ControlGroup() {
 
 std::vector<std::string> ControlGroup::begun_inside(const std::vector<std::string>& argv) const {
   if (folders_.empty()) return argv;
-  std::vector<std::string> words{"/bin/sh", "-c",
-                                 R"(n=$1; shift; while [ "$n" -gt 0 ]; do echo $$ >"$1"; shift; n=$((n - 1)); done; exec "$@")",
-                                 "sh", std::to_string(folders_.size())};
+  std::vector<std::string> words{
+      "/bin/sh", "-c",
+      R"(n=$1; shift; while [ "$n" -gt 0 ]; do echo $$ >"$1"; shift; n=$((n - 1)); done; exec "$@")", "sh",
+      std::to_string(folders_.size())};
   for (const fs::path& folder : folders_) words.push_back((folder / "cgroup.procs").string());
   words.insert(words.end(), argv.begin(), argv.end());
   return words;

@@ -41,7 +41,8 @@ std::vector<std::string> engines_in(const fs::path& folder) {
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(folder, none)) {
     const auto name = entry.path().filename().string();
-    const bool part_of_one = entry.path().has_extension() && !is_program(entry.path());  // engine-mine.cpp beside engine-mine
+    // engine-mine.cpp beside engine-mine
+    const bool part_of_one = entry.path().has_extension() && !is_program(entry.path());
     if (name.rfind("engine-", 0) == 0 && entry.is_regular_file(none) && !part_of_one)
       found.push_back(fs::absolute(entry.path()).string());
   }
@@ -66,7 +67,8 @@ std::vector<Candidate> candidates(const std::vector<std::string>& extra) {
   for (const auto& path : extra) {
     if (!is_program(path))
       throw EngineError(path +
-                        ": was asked for as an engine and is no executable file (an engine is a program, see docs/engines.md)");
+                        ": was asked for as an engine and is no executable file (an engine is a program, see "
+                        "docs/engines.md)");
     add(path, true);
   }
   const char* folders = std::getenv("TRIPOINT_ENGINE_PATH");
@@ -90,9 +92,11 @@ std::vector<EngineEntry> ask_all(const std::vector<Candidate>& list) {
   for (std::size_t k = 0; k < asked.size(); ++k) {
     auto entry = asked[k].get();
     entry.joins = list[k].joins;
-    if (const auto* other = find_engine(engines, entry.name))  // neither may stand in the rows of the other without a word
+    // Neither may stand in the rows of the other without a word
+    if (const auto* other = find_engine(engines, entry.name))
       throw EngineError(
-          fmt::format("{}: calls itself {}, which is the name of {}: give it a name of its own, or take one of the two away",
+          fmt::format("{}: calls itself {}, which is the name of {}: give it a name of its own, or take one "
+                      "of the two away",
                       entry.executable, entry.name, other->executable));
     engines.push_back(std::move(entry));
   }
@@ -120,18 +124,23 @@ EngineEntry ask_engine(const std::string& executable) {
     return unavailable(entry, "--info " + describe(end) + last_words(end.log_tail));
   try {
     if (!belongs_to_us(executable))
-      try_of_third_party([&] { static_cast<void>(with_info(entry, end.output)); }, {"what --info printed"}, info_limit);
+      try_of_third_party([&] { static_cast<void>(with_info(entry, end.output)); }, {"what --info printed"},
+                         info_limit);
     return with_info(entry, end.output);
   } catch (const std::exception& e) {
     return unavailable(entry, e.what() + last_words(end.log_tail));
   }
 }
 
-std::vector<EngineEntry> discover_engines(const std::vector<std::string>& extra) { return ask_all(candidates(extra)); }
+std::vector<EngineEntry> discover_engines(const std::vector<std::string>& extra) {
+  return ask_all(candidates(extra));
+}
 
-std::vector<EngineEntry> discover_engines_wanted(const std::vector<std::string>& names, const std::vector<std::string>& extra) {
+std::vector<EngineEntry> discover_engines_wanted(const std::vector<std::string>& names,
+                                                 const std::vector<std::string>& extra) {
   auto list = candidates(extra);
-  std::erase_if(list, [&](const Candidate& c) {  // what a third-party engine calls itself only the engine knows
+  // What a third-party engine calls itself only the engine knows
+  std::erase_if(list, [&](const Candidate& c) {
     return !c.joins && std::find(names.begin(), names.end(), name_of_file(c.path)) == names.end();
   });
   return ask_all(list);
@@ -139,8 +148,9 @@ std::vector<EngineEntry> discover_engines_wanted(const std::vector<std::string>&
 
 std::vector<EngineEntry> discover_engines_named(const std::vector<std::string>& names) {
   auto list = candidates({});
-  std::erase_if(list,
-                [&](const Candidate& c) { return std::find(names.begin(), names.end(), name_of_file(c.path)) == names.end(); });
+  std::erase_if(list, [&](const Candidate& c) {
+    return std::find(names.begin(), names.end(), name_of_file(c.path)) == names.end();
+  });
   return ask_all(list);
 }
 

@@ -23,13 +23,15 @@ struct EngineEntry {
   std::string executable;  ///< absolute path
 };
 
-/// Asks one executable; a program that does not answer by the contract within 10 s is an entry that is not available.
+/// Asks one executable; a program that does not answer by the contract within 10 s is an entry that is not
+/// available.
 [[nodiscard]] EngineEntry ask_engine(const std::string& executable);
 
-/// Every engine-* in ../libexec/tripoint beside this program and in the folders of TRIPOINT_ENGINE_PATH, by name; each is asked
-/// once.
+/// Every engine-* in ../libexec/tripoint beside this program and in the folders of TRIPOINT_ENGINE_PATH, by
+/// name; each is asked once.
 /// @param extra executables that join (--engine PATH)
-/// @throws EngineError when an extra path is no executable file, and when two executables call themselves by one name
+/// @throws EngineError when an extra path is no executable file, and when two executables call themselves by
+/// one name
 [[nodiscard]] std::vector<EngineEntry> discover_engines(const std::vector<std::string>& extra = {});
 
 /// As discover_engines, but of the engines beside this program those of these names alone are started.

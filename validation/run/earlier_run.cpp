@@ -20,7 +20,9 @@ bool is_frames(const std::string& name) {
   return std::ranges::find(names, name) != names.end();
 }
 
-bool is_checkpoint(const std::string& name) { return name.starts_with("checkpoint-") && name.ends_with(".h5"); }
+bool is_checkpoint(const std::string& name) {
+  return name.starts_with("checkpoint-") && name.ends_with(".h5");
+}
 
 /// Whether a run makes a file of this name. Pictures and tables that somebody has made of the run are none.
 bool is_of_a_run(const std::string& name) {
@@ -56,7 +58,8 @@ bool is_kept(const std::string& name) { return name == frames_name || is_checkpo
 
 }  // namespace
 
-EarlierRun::EarlierRun(const std::string& folder, bool keeps_frames) : folder_(folder), aside_(folder_ / earlier_run_folder) {
+EarlierRun::EarlierRun(const std::string& folder, bool keeps_frames)
+    : folder_(folder), aside_(folder_ / earlier_run_folder) {
   if (fs::is_directory(fs::symlink_status(aside_)) && !is_replaced()) put_back();
   fs::remove_all(aside_);  // a link that somebody left there is removed, and not followed
   fs::create_directory(aside_);

@@ -72,27 +72,33 @@ bool check_info(const EngineEntry& engine, Checks& checks) {
   if (!checks.add("--info exits 0 within 10 s", end.how == ProcessEnd::How::exited && end.code == 0,
                   describe(end) + " " + end.log_tail))
     return false;
-  const auto info = unfit_json(end.output).empty() ? nlohmann::json::parse(end.output, nullptr, false) : nlohmann::json();
-  if (!checks.add("--info prints one JSON object and nothing else", info.is_object(), end.output.substr(0, 80))) return false;
+  const auto info =
+      unfit_json(end.output).empty() ? nlohmann::json::parse(end.output, nullptr, false) : nlohmann::json();
+  if (!checks.add("--info prints one JSON object and nothing else", info.is_object(),
+                  end.output.substr(0, 80)))
+    return false;
   checks.add("--info says contract 1", info.value("contract", nlohmann::json()) == 1,
              info.value("contract", nlohmann::json()).dump());
   for (const char* key : {"name", "version", "build"})
     checks.add(fmt::format("--info says its {}", key),
-               info.contains(key) && info[key].is_string() && !info[key].get<std::string>().empty(), "no text");
+               info.contains(key) && info[key].is_string() && !info[key].get<std::string>().empty(),
+               "no text");
   for (const char* key : {"capabilities", "presets"})
-    checks.add(fmt::format("--info lists its {}", key), info.contains(key) && info[key].is_array() && !info[key].empty(),
-               "no list");
-  checks.add("--info says whether it is deterministic", info.contains("deterministic") && info["deterministic"].is_boolean(),
-             "no true or false");
+    checks.add(fmt::format("--info lists its {}", key),
+               info.contains(key) && info[key].is_array() && !info[key].empty(), "no list");
+  checks.add("--info says whether it is deterministic",
+             info.contains("deterministic") && info["deterministic"].is_boolean(), "no true or false");
   return checks.add("it is available here", engine.available, engine.reason);
 }
 
 void check_broken_jobs(const std::string& executable, const fs::path& folder, Checks& checks) {
   const auto broken = (folder / "broken.json").string(), absent = (folder / "absent.json").string();
   std::ofstream(broken) << "{";
-  for (const auto& [what, job] : {std::pair{"a broken job", broken}, std::pair{"a job that is not there", absent}}) {
+  for (const auto& [what, job] :
+       {std::pair{"a broken job", broken}, std::pair{"a job that is not there", absent}}) {
     const auto end = ask(executable, {"--run", job}, 60.0, folder.string());
-    checks.add(fmt::format("--run on {} exits 2", what), end.how == ProcessEnd::How::exited && end.code == 2, describe(end));
+    checks.add(fmt::format("--run on {} exits 2", what), end.how == ProcessEnd::How::exited && end.code == 2,
+               describe(end));
   }
 }
 
@@ -143,7 +149,8 @@ void check_result_file(const std::string& what, const fs::path& file, Checks& ch
     text = text_of_regular_file(file.string(), std::uintmax_t{64} << 20);
   } catch (const InputError&) {  // no object then
   }
-  const auto result = unfit_json(text).empty() ? nlohmann::json::parse(text, nullptr, false) : nlohmann::json();
+  const auto result =
+      unfit_json(text).empty() ? nlohmann::json::parse(text, nullptr, false) : nlohmann::json();
   if (!checks.add(what + "result.json is one JSON object", result.is_object(), "it is not")) return;
   for (const char* key : {"contract", "status", "time_reached", "steps", "seconds", "readback"})
     checks.add(fmt::format("{}result.json has {}", what, key), result.contains(key), "it does not");
@@ -175,7 +182,8 @@ bool check_scene(const CheckScene& scene, const EngineEntry& engine, const fs::p
   check_metrics(what, p, outcome, checks);
   if (!engine.deterministic) return true;
   const auto again = run(scene, engine, p, folder, scene.name + "-2");
-  checks.add(what + "a second run has the same bits", again.trajectory && same_states(*outcome.trajectory, *again.trajectory),
+  checks.add(what + "a second run has the same bits",
+             again.trajectory && same_states(*outcome.trajectory, *again.trajectory),
              again.trajectory ? "it has not" : again.reason);
   return true;
 }
@@ -190,7 +198,8 @@ bool says_that_it_can(const EngineEntry& engine, const std::string& word) {
 
 std::vector<EngineCheck> check_engine(const std::string& executable) {
   Checks checks;
-  if (!checks.add("is an executable file", fs::is_regular_file(executable), executable + " is none")) return checks.take();
+  if (!checks.add("is an executable file", fs::is_regular_file(executable), executable + " is none"))
+    return checks.take();
   const ScratchFolder scratch;
   const auto engine = ask_engine(fs::absolute(executable).string());
   if (!check_info(engine, checks)) return checks.take();

@@ -12,9 +12,9 @@ struct EngineCheck {
   std::string found;  ///< the result found instead
 };
 
-/// Asks --info, hands over broken jobs, and runs small scenes, of which the engine must be able to do one. They are the flight of
-/// one body and, where it says `heat`, conduction. Checks result, times, ids, masses and units. Where the engine says
-/// deterministic, a second run must be the same.
+/// Asks --info, hands over broken jobs, and runs small scenes, of which the engine must be able to do one.
+/// They are the flight of one body and, where it says `heat`, conduction. Checks result, times, ids, masses
+/// and units. Where the engine says deterministic, a second run must be the same.
 [[nodiscard]] std::vector<EngineCheck> check_engine(const std::string& executable);
 
 /// A case that the check runs, as text of a case file.

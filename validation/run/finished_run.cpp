@@ -27,7 +27,9 @@ constexpr std::uintmax_t greatest_record = 1u << 20;
 /// Beside the particles, which an engine only reads: a record is ours alone.
 std::string record_file(const RunRequest& request) {
   const fs::path folder(request.folder), engine = folder.parent_path().filename(), run = folder.filename();
-  return (fs::path(request.particles).parent_path() / ("outcome-" + engine.string() + "-" + run.string() + ".json")).string();
+  return (fs::path(request.particles).parent_path() /
+          ("outcome-" + engine.string() + "-" + run.string() + ".json"))
+      .string();
 }
 
 /// Hash of the files that were left beside the record: the judged files must be those that the run wrote.
@@ -61,8 +63,10 @@ std::string file_hash(const std::string& file) {
     if (in >= 0) ::close(in);
     return {};
   }
-  std::string part(1u << 20, '\0'), all;  // a trajectory may be larger than memory: the hash is of the hashes of its parts
-  for (ssize_t n = 0; (n = read_fully(in, part)) > 0;) all += text_hash(part.substr(0, static_cast<std::size_t>(n)));
+  // a trajectory may be larger than memory: the hash is of the hashes of its parts
+  std::string part(1u << 20, '\0'), all;
+  for (ssize_t n = 0; (n = read_fully(in, part)) > 0;)
+    all += text_hash(part.substr(0, static_cast<std::size_t>(n)));
   ::close(in);
   return text_hash(all);
 }
@@ -79,13 +83,15 @@ std::string program_hash(const std::string& executable) {
 std::string run_hash(const RunRequest& request, const std::string& job) {
   const EngineEntry& e = *request.engine;
   std::string all = job + '\0' + state_hash(*request.initial);
-  for (const auto& part : {e.name, e.version, e.build, e.library_path, e.library_hash, program_hash(e.executable)})
+  for (const auto& part :
+       {e.name, e.version, e.build, e.library_path, e.library_hash, program_hash(e.executable)})
     all += '\0' + part;
   for (const auto& [name, value] : request.environment) all += '\0' + name + '=' + value;
   return text_hash(all);
 }
 
-void record_finished(const RunRequest& request, const std::string& hash, const ProcessEnd& end, const Outcome& outcome) {
+void record_finished(const RunRequest& request, const std::string& hash, const ProcessEnd& end,
+                     const Outcome& outcome) {
   if (outcome.status != Status::ok && outcome.status != Status::diverged) return;
   const nlohmann::ordered_json record{{"run", hash},
                                       {"files", hash_of_files(request)},
@@ -127,7 +133,8 @@ void forget_finished(const RunRequest& request) { fs::remove(record_file(request
 
 /// Names of the files that tell where the bodies of a run went.
 static bool tells_motion(const std::string& name) {
-  return name.starts_with("trajectory.") || name == "gauges.csv" || (name.starts_with("checkpoint-") && name.ends_with(".h5"));
+  return name.starts_with("trajectory.") || name == "gauges.csv" ||
+         (name.starts_with("checkpoint-") && name.ends_with(".h5"));
 }
 
 std::size_t remove_answers(const std::string& folder, const std::set<std::string>& kept_engines) {
@@ -135,10 +142,12 @@ std::size_t remove_answers(const std::string& folder, const std::set<std::string
   std::error_code none;
   for (fs::recursive_directory_iterator at(folder, none), end; !none && at != end; at.increment(none)) {
     const fs::path run = at->path().parent_path();
-    if (tells_motion(at->path().filename().string()) && !kept_engines.contains(run.parent_path().filename().string()))
+    if (tells_motion(at->path().filename().string()) &&
+        !kept_engines.contains(run.parent_path().filename().string()))
       found.push_back(at->path());
   }
-  return static_cast<std::size_t>(std::ranges::count_if(found, [&](const fs::path& file) { return fs::remove(file, none); }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(found, [&](const fs::path& file) { return fs::remove(file, none); }));
 }
 
 std::vector<std::string> checkpoints_in(const std::string& folder) {

@@ -58,19 +58,21 @@ FolderLock::FolderLock(const std::string& folder) {
   file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
   const int why = errno;
   if (file_ < 0 && why != ELOOP)
-    throw InputError(fmt::format("{}: cannot be opened: {}. Name another folder with --out", shown, std::strerror(why)));
+    throw InputError(
+        fmt::format("{}: cannot be opened: {}. Name another folder with --out", shown, std::strerror(why)));
   if (file_ < 0 || !is_own_file(file_)) {
     ::close(file_);
-    throw InputError(fmt::format("{}: is no plain file, which keeps this folder for one call at a time. Remove it", shown));
+    throw InputError(fmt::format(
+        "{}: is no plain file, which keeps this folder for one call at a time. Remove it", shown));
   }
   // A file system without locks says so by another error: there a folder cannot be held.
   if (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     const std::string who = holder(file_);
     ::close(file_);
-    throw InputError(
-        fmt::format("{}: {} writes into this folder and holds {}. Wait until it has ended, or name another folder "
-                    "with --out",
-                    printable(folder, 200), who, shown));
+    throw InputError(fmt::format(
+        "{}: {} writes into this folder and holds {}. Wait until it has ended, or name another folder "
+        "with --out",
+        printable(folder, 200), who, shown));
   }
   sign(file_);
   held = file_;

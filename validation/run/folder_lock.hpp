@@ -6,8 +6,9 @@
 /// Two calls that make runs in one folder would read and remove each other's files.
 namespace tripoint {
 
-/// Holds a folder of results against every other call while it lives. The system frees it where this process is killed. Its file
-/// FOLDER/.lock stays, with the number of the process that held it last. A process holds one folder at a time.
+/// Holds a folder of results against every other call while it lives. The system frees it where this process
+/// is killed. Its file FOLDER/.lock stays, with the number of the process that held it last. A process holds
+/// one folder at a time.
 class FolderLock {
  public:
   /// @param folder is there

@@ -62,7 +62,8 @@ std::optional<double> callgrind_instructions(const ProcessSpec& run) {
   ProcessSpec spec = run;
   const auto valgrind = on_path("valgrind");
   if (valgrind.empty()) return {};
-  spec.argv.insert(spec.argv.begin(), {valgrind, "--tool=callgrind", "--trace-children=yes", "--callgrind-out-file=/dev/null"});
+  spec.argv.insert(spec.argv.begin(),
+                   {valgrind, "--tool=callgrind", "--trace-children=yes", "--callgrind-out-file=/dev/null"});
   spec.progress = {};
   spec.status = {};
   const auto end = run_process(spec);

@@ -8,8 +8,8 @@
 /// Instructions of an engine's run: a cost that does not depend on what else the machine does.
 namespace tripoint {
 
-/// User-space instructions of the programs that this thread starts while it lives, by the processor's own counter.
-/// Where the kernel or the machine has none (most virtual machines), it counts nothing.
+/// User-space instructions of the programs that this thread starts while it lives, by the processor's own
+/// counter. Where the kernel or the machine has none (most virtual machines), it counts nothing.
 class InstructionCounter {
  public:
   InstructionCounter();
@@ -23,7 +23,8 @@ class InstructionCounter {
   int fd_ = -1;
 };
 
-/// The same call once more under callgrind, which simulates every instruction: exact, and some fifty times slower.
+/// The same call once more under callgrind, which simulates every instruction: exact, and some fifty times
+/// slower.
 /// @return empty where valgrind is missing, or the run did not end well under it
 [[nodiscard]] std::optional<double> callgrind_instructions(const ProcessSpec&);
 

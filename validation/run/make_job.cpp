@@ -45,7 +45,8 @@ JobBody job_body(const Body& body, int row, const Gathered& particles) {
   if (particles.mass.empty()) return b;
   b.properties = mass_properties(particles.position, particles.mass);
   Vec3 momentum;
-  for (std::size_t i = 0; i < particles.mass.size(); ++i) momentum += particles.mass[i] * particles.velocity[i];
+  for (std::size_t i = 0; i < particles.mass.size(); ++i)
+    momentum += particles.mass[i] * particles.velocity[i];
   b.velocity = momentum / b.properties.mass;
   return b;
 }
@@ -61,7 +62,8 @@ JobGauge gauge_of(const Case& value, const MetricChoice& metric) {
   return gauge;
 }
 
-/// A law that all pairs have in common is handed over as settings too. An engine's own setting goes before it.
+/// A law that all pairs have in common is handed over as settings too. An engine's own setting goes before
+/// it.
 void add_contact_law(Job& job) {
   const CommonContact common = common_contact(job.scene);
   if (common.differs) return;
@@ -90,7 +92,8 @@ std::string sampling_key(const Scene& scene) {
   return key;
 }
 
-Job make_job(const Case& value, const EnginePlan& engine, const RunPlan& run, const Scene& scene, const InitialState& initial) {
+Job make_job(const Case& value, const EnginePlan& engine, const RunPlan& run, const Scene& scene,
+             const InitialState& initial) {
   Job job;
   job.case_id = value.id;
   job.scene = scene;

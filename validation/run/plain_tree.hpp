@@ -5,7 +5,8 @@
 /// Files that somebody else hands us in folders.
 namespace tripoint {
 
-/// A link would bring in files from elsewhere, and a pipe would keep us waiting. A path that does not exist is plain.
+/// A link would bring in files from elsewhere, and a pipe would keep us waiting. A path that does not exist
+/// is plain.
 /// @throws InputError naming the first thing in a tree, or its root, that is neither a file nor a folder
 void expect_plain_tree(const std::filesystem::path& root);
 

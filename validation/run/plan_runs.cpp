@@ -36,21 +36,25 @@ Settings settings_of(const Case& value, const EngineChoice& engine) {
   return settings;
 }
 
-/// Whether [engines.all] asks for a law of contact that the solver does not have: it refuses friction, and restitution but for 1.
+/// Whether [engines.all] asks for a law of contact that the solver does not have: it refuses friction, and
+/// restitution but for 1.
 bool asks_for_laws_of_contact(const Case& value) {
   const auto other = [](const Settings& settings, const char* name, double own) {
     const auto at = settings.find(name);
     return at != settings.end() && at->second != Setting(own);
   };
   return std::ranges::any_of(value.engines, [&](const auto& e) {
-    return e.name == every_engine && (other(e.settings, "friction", 0.0) || other(e.settings, "restitution", 1.0));
+    return e.name == every_engine &&
+           (other(e.settings, "friction", 0.0) || other(e.settings, "restitution", 1.0));
   });
 }
 
-std::vector<EngineChoice> engines_of(const Case& value, const std::vector<EngineEntry>& found, const Selection& selection) {
+std::vector<EngineChoice> engines_of(const Case& value, const std::vector<EngineEntry>& found,
+                                     const Selection& selection) {
   std::vector<EngineChoice> list;
   const auto listed = [&](const std::string& name) {
-    return std::find_if(value.engines.begin(), value.engines.end(), [&](const auto& e) { return e.name == name; });
+    return std::find_if(value.engines.begin(), value.engines.end(),
+                        [&](const auto& e) { return e.name == name; });
   };
   const auto add = [&](const std::string& name, bool required) {
     if (std::any_of(list.begin(), list.end(), [&](const auto& e) { return e.name == name; })) return;
@@ -59,7 +63,8 @@ std::vector<EngineChoice> engines_of(const Case& value, const std::vector<Engine
     choice.required = choice.required || required;
     list.push_back(choice);
   };
-  add(engine_name::solver, listed(engine_name::solver) == value.engines.end() && !asks_for_laws_of_contact(value));
+  add(engine_name::solver,
+      listed(engine_name::solver) == value.engines.end() && !asks_for_laws_of_contact(value));
   for (const auto& e : value.engines)
     if (e.name != every_engine) add(e.name, false);
   if (has_states(value.reference)) add(engine_name::exact, false);
@@ -68,8 +73,9 @@ std::vector<EngineChoice> engines_of(const Case& value, const std::vector<Engine
   for (const auto& e : found)
     if (e.joins) add(e.name, false);
   if (!selection.engines.empty())
-    std::erase_if(list,
-                  [&](const auto& e) { return !contains(selection.engines, e.name) && !contains(selection.extra, e.name); });
+    std::erase_if(list, [&](const auto& e) {
+      return !contains(selection.engines, e.name) && !contains(selection.extra, e.name);
+    });
   return list;
 }
 
@@ -90,11 +96,12 @@ std::optional<double> own_level(const Scene& scene, const RunPlan& run, Axis axi
   return run.iterations;
 }
 
-/// Whether an engine says in --info that it has settings, and has none of the study's number: its own run is then the finest
-/// level.
+/// Whether an engine says in --info that it has settings, and has none of the study's number: its own run is
+/// then the finest level.
 bool lacks_number(const EngineEntry* entry, Axis axis) {
   if (!entry || entry->settings.empty() || is_own_solver(entry->name)) return false;
-  return (axis == Axis::walkers || axis == Axis::iterations) && !entry->settings.contains(std::string(to_string(axis)));
+  return (axis == Axis::walkers || axis == Axis::iterations) &&
+         !entry->settings.contains(std::string(to_string(axis)));
 }
 
 void set_level(RunPlan& run, Axis axis, double level) {
@@ -117,15 +124,19 @@ void set_level(RunPlan& run, Axis axis, double level) {
 }
 
 /// "paper-": how the labels of a mode's runs begin.
-std::string label_start(JudgedMode mode) { return mode == JudgedMode::none ? std::string() : std::string(to_string(mode)) + "-"; }
+std::string label_start(JudgedMode mode) {
+  return mode == JudgedMode::none ? std::string() : std::string(to_string(mode)) + "-";
+}
 
-/// Runs in the order in which they are made. A run is compared only with those of its mode, jitter and seed, by numbers that its
-/// scene gave once. Each seed of a study is a run, and comparing all of them would take millions of scenes.
+/// Runs in the order in which they are made. A run is compared only with those of its mode, jitter and seed,
+/// by numbers that its scene gave once. Each seed of a study is a run, and comparing all of them would take
+/// millions of scenes.
 class RunList {
  public:
   explicit RunList(const Case& value) : case_(value) {}
 
-  /// Also where the same run was planned before. A run with an input of its own is never compared: no study has another like it.
+  /// Also where the same run was planned before. A run with an input of its own is never compared: no study
+  /// has another like it.
   void append(const RunPlan& run) {
     if (run.input.empty()) {
       const auto [key, numbers] = told_apart(run);
@@ -138,7 +149,8 @@ class RunList {
   std::string add(const RunPlan& run) {
     const auto [key, numbers] = told_apart(run);
     auto& alike = alike_[key];
-    const auto at = std::find_if(alike.begin(), alike.end(), [&n = numbers](const Placed& p) { return same(p.numbers, n); });
+    const auto at = std::find_if(alike.begin(), alike.end(),
+                                 [&n = numbers](const Placed& p) { return same(p.numbers, n); });
     if (at != alike.end()) {
       RunPlan& before = runs_[at->place];
       before.levels.insert(run.levels.begin(), run.levels.end());
@@ -160,12 +172,14 @@ class RunList {
 
   [[nodiscard]] std::pair<Key, Numbers> told_apart(const RunPlan& run) const {
     const Scene s = scene_of(case_, run);
-    return {{run.mode, s.jitter, s.seed}, {s.spacing, s.time_step, s.support_ratio, run.walkers, run.iterations}};
+    return {{run.mode, s.jitter, s.seed},
+            {s.spacing, s.time_step, s.support_ratio, run.walkers, run.iterations}};
   }
 
   static bool same(const Numbers& a, const Numbers& b) {
-    return std::equal(a.begin(), a.end(), b.begin(),
-                      [](const auto& x, const auto& y) { return x.has_value() == y.has_value() && (!x || same_level(*x, *y)); });
+    return std::equal(a.begin(), a.end(), b.begin(), [](const auto& x, const auto& y) {
+      return x.has_value() == y.has_value() && (!x || same_level(*x, *y));
+    });
   }
 
   const Case& case_;
@@ -230,17 +244,20 @@ class Budget {
   void spend(std::size_t runs, const SourcePlace& place) {
     asked_ += runs;
     if (asked_ > most_runs)
-      throw InputError(place,
-                       fmt::format("here the case asks for {} runs by now, more than the {} that can be planned: give fewer "
-                                   "levels, seeds, modes, presets or engines",
-                                   asked_, most_runs));
+      throw InputError(
+          place,
+          fmt::format(
+              "here the case asks for {} runs by now, more than the {} that can be planned: give fewer "
+              "levels, seeds, modes, presets or engines",
+              asked_, most_runs));
   }
 
  private:
   std::size_t asked_ = 0;
 };
 
-void count_runs(const Case& value, const EngineChoice& engine, const EngineEntry* entry, std::size_t presets, Budget& budget) {
+void count_runs(const Case& value, const EngineChoice& engine, const EngineEntry* entry, std::size_t presets,
+                Budget& budget) {
   for (const JudgedMode mode : modes_of(value, engine)) {
     budget.spend(presets, {value.file, 0, 0});
     for (const auto& input : value.inputs) budget.spend(2 * presets, input.place);
@@ -265,7 +282,8 @@ std::vector<RunPlan> runs_of(const Case& value, const EngineChoice& engine, cons
     base.label = base.group = mode == JudgedMode::none ? "base" : to_string(mode);
     const Scene scene = scene_of(value, base);
     for (const auto& study :
-         value.studies)  // a gate on this level means the case's own run too, whichever engine the study is of
+         // a gate on this level means the case's own run too, whichever engine the study is of
+         value.studies)
       if (const auto level = own_level(scene, base, study.axes.axis); level && study.axes.alone())
         base.levels[study.axes] = *level;
       else if (applies(study, engine.name, mode) && lacks_number(entry, study.axes.axis))
@@ -274,7 +292,8 @@ std::vector<RunPlan> runs_of(const Case& value, const EngineChoice& engine, cons
     base.levels.clear();
     if (!is_exact(engine.name)) add_inputs(value, base, runs);
     for (const auto& study : value.studies)
-      if (applies(study, engine.name, mode) && !lacks_number(entry, study.axes.axis)) add_study(study, base, seed, runs);
+      if (applies(study, engine.name, mode) && !lacks_number(entry, study.axes.axis))
+        add_study(study, base, seed, runs);
   }
   return runs.take();
 }
@@ -282,12 +301,15 @@ std::vector<RunPlan> runs_of(const Case& value, const EngineChoice& engine, cons
 }  // namespace
 
 bool has_states(const ReferenceChoice& reference) {
-  if (reference.function == "expression" || reference.function == "table") return false;  // a field of place, not of particles
-  return !reference.function.empty() && (reference.kind == ReferenceKind::analytic ||
-                                         reference.kind == ReferenceKind::discrete_exact || reference.kind == ReferenceKind::mms);
+  // a field of place, not of particles
+  if (reference.function == "expression" || reference.function == "table") return false;
+  return !reference.function.empty() &&
+         (reference.kind == ReferenceKind::analytic || reference.kind == ReferenceKind::discrete_exact ||
+          reference.kind == ReferenceKind::mms);
 }
 
-std::vector<EnginePlan> plan_runs(const Case& value, const std::vector<EngineEntry>& found, const Selection& selection) {
+std::vector<EnginePlan> plan_runs(const Case& value, const std::vector<EngineEntry>& found,
+                                  const Selection& selection) {
   std::vector<EnginePlan> plans;
   Budget budget;
   for (const auto& engine : engines_of(value, found, selection)) {

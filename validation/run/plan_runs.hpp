@@ -26,7 +26,8 @@ struct RunPlan {
   std::optional<double> walkers, iterations;
   std::map<StudyAxes, double> levels;  ///< of a study -> level
   bool base = false;
-  std::string input;  ///< "key=VALUE" of an uncertain input at one end, in place of the case's value; empty = none
+  /// "key=VALUE" of an uncertain input at one end, in place of the case's value; empty = none
+  std::string input;
   std::string label;  ///< name of its folder below runs/<case>/<engine>
   std::string group;  ///< runs of one group differ by seed only
 };
@@ -43,24 +44,29 @@ struct EnginePlan {
 struct Selection {
   std::vector<std::string> engines;  ///< --engines; empty = all that the case names
   std::vector<std::string> extra;    ///< names of the engines given by --engine: they join every case
-  std::vector<std::string> asked;    ///< names that were asked for on the command line: none of them may pass unjudged
+  /// Names that were asked for on the command line: none of them may pass unjudged
+  std::vector<std::string> asked;
   std::optional<std::uint64_t> seed;
 };
 
-/// Greatest number of runs of one case, those of all its engines, presets and modes together, before equal ones are merged. This
-/// is a hundred times the number in a case of ours, and few enough to be planned at once.
+/// Greatest number of runs of one case, those of all its engines, presets and modes together, before equal
+/// ones are merged. This is a hundred times the number in a case of ours, and few enough to be planned at
+/// once.
 inline constexpr std::size_t most_runs = 10'000;
 
-/// Engines that run the case. First are tripoint (required unless the case says otherwise) and, where the reference has states,
-/// exact. Then come those that the case lists, the extra ones, and those that TRIPOINT_ENGINE_PATH brings. Modes are tripoint's
-/// alone: foreign engines run once. Runs: the case's own resolution, and each level and seed of each study; a run that two
-/// studies share is made once. @throws InputError with the place in the case file where it comes to ask for more than most_runs
-[[nodiscard]] std::vector<EnginePlan> plan_runs(const Case&, const std::vector<EngineEntry>&, const Selection&);
+/// Engines that run the case. First are tripoint (required unless the case says otherwise) and, where the
+/// reference has states, exact. Then come those that the case lists, the extra ones, and those that
+/// TRIPOINT_ENGINE_PATH brings. Modes are tripoint's alone: foreign engines run once. Runs: the case's own
+/// resolution, and each level and seed of each study; a run that two studies share is made once. @throws
+/// InputError with the place in the case file where it comes to ask for more than most_runs
+[[nodiscard]] std::vector<EnginePlan> plan_runs(const Case&, const std::vector<EngineEntry>&,
+                                                const Selection&);
 
 /// The scene that a run is made in.
 [[nodiscard]] Scene scene_of(const Case&, const RunPlan&);
 
-/// The job of one run: every body of the scene with the mass properties of its particles, output times from 0 to the end.
+/// The job of one run: every body of the scene with the mass properties of its particles, output times from 0
+/// to the end.
 [[nodiscard]] Job make_job(const Case&, const EnginePlan&, const RunPlan&, const Scene&, const InitialState&);
 
 /// Times 0, interval, 2 interval, ..., end [s]; the last is `end` itself.

@@ -39,10 +39,13 @@ namespace tripoint {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr double grace = 10.0;  // [s] from SIGTERM to SIGKILL, for an engine that writes a checkpoint before it ends
+// [s] from SIGTERM to SIGKILL, for an engine that writes a checkpoint before it ends
+constexpr double grace = 10.0;
 constexpr std::size_t kept_output = 4u << 20, kept_log = 1u << 20, kept_tail = 4096;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 /// A file descriptor that closes itself.
 class Descriptor {
@@ -61,12 +64,14 @@ class Descriptor {
   int fd_;
 };
 
-/// Keeps the beginning of a stream in a file, its end in memory, and counts what lies between: a flood costs time, not disk.
+/// Keeps the beginning of a stream in a file, its end in memory, and counts what lies between: a flood costs
+/// time, not disk.
 class BoundedLog {
  public:
   explicit BoundedLog(const std::string& path) {
     if (path.empty()) return;
-    ::unlink(path.c_str());  // an earlier call of the engine may have left a link there, to a file of somebody else
+    // An earlier call of the engine may have left a link there, to a file of somebody else
+    ::unlink(path.c_str());
     file_.reset(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644));
   }
   void add(const char* data, std::size_t size) {
@@ -79,7 +84,8 @@ class BoundedLog {
   }
   std::string close() {
     if (left_out_ > 0) {
-      const std::string end = fmt::format("\n[{} bytes are left out here; the end of the log was:]\n{}", left_out_, tail_);
+      const std::string end =
+          fmt::format("\n[{} bytes are left out here; the end of the log was:]\n{}", left_out_, tail_);
       put(end.data(), end.size());
     }
     file_.reset();
@@ -104,7 +110,8 @@ class BoundedLog {
 /// Finds the lines `progress X` and `status REST` in a stream that arrives in pieces.
 class ProgressLines {
  public:
-  ProgressLines(const std::function<void(double)>& report, const std::function<void(const std::string&)>& status)
+  ProgressLines(const std::function<void(double)>& report,
+                const std::function<void(const std::string&)>& status)
       : report_(report), status_(status) {}
   void add(const char* data, std::size_t size) {
     if (!report_ && !status_) return;
@@ -131,7 +138,8 @@ class ProgressLines {
   std::string line_;
 };
 
-/// Bubblewrap is given none of our variables: whoever it starts can read its environment, as that of process 1.
+/// Bubblewrap is given none of our variables: whoever it starts can read its environment, as that of
+/// process 1.
 std::vector<std::string> environment_with(const std::map<std::string, std::string>& added, bool in_sandbox) {
   std::vector<std::string> all;
   for (char** e = environ; *e && !in_sandbox; ++e) {
@@ -149,8 +157,10 @@ std::vector<char*> pointers(std::vector<std::string>& strings) {
   return p;
 }
 
-/// Starts the program in a process group of its own, with this mark in its environment. @return 0 or the error number
-int spawn(const ProcessSpec& spec, std::vector<std::string> argv, const std::string& mark, int out, int err, pid_t& pid) {
+/// Starts the program in a process group of its own, with this mark in its environment. @return 0 or the
+/// error number
+int spawn(const ProcessSpec& spec, std::vector<std::string> argv, const std::string& mark, int out, int err,
+          pid_t& pid) {
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
   posix_spawn_file_actions_init(&actions);
@@ -166,22 +176,25 @@ int spawn(const ProcessSpec& spec, std::vector<std::string> argv, const std::str
   posix_spawnattr_setsigmask(&attributes, &none);
   posix_spawnattr_setsigdefault(&attributes, &all);
   posix_spawnattr_setpgroup(&attributes, 0);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  posix_spawnattr_setflags(&attributes,
+                           POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   auto added = spec.in_sandbox ? std::map<std::string, std::string>{} : spec.environment;
   added[stray_mark] = mark;
   auto environment = environment_with(added, spec.in_sandbox);
   const std::lock_guard lock(no_spawn_mutex());
-  const int error =
-      posix_spawn(&pid, argv.front().c_str(), &actions, &attributes, pointers(argv).data(), pointers(environment).data());
+  const int error = posix_spawn(&pid, argv.front().c_str(), &actions, &attributes, pointers(argv).data(),
+                                pointers(environment).data());
   posix_spawn_file_actions_destroy(&actions);
   posix_spawnattr_destroy(&attributes);
   return error;
 }
 
-/// Allows no core files and no file above 16 GiB; the address space may not pass four times the machine's memory.
+/// Allows no core files and no file above 16 GiB; the address space may not pass four times the machine's
+/// memory.
 void bound_resources(pid_t pid) {
   const rlimit no_core{0, 0}, file{16ull << 30, 16ull << 30};
-  const auto memory = static_cast<rlim_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+  const auto memory =
+      static_cast<rlim_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
   const rlimit space{4 * memory, 4 * memory};
   prlimit(pid, RLIMIT_CORE, &no_core, nullptr);
   prlimit(pid, RLIMIT_FSIZE, &file, nullptr);
@@ -199,18 +212,24 @@ double peak_of(pid_t pid) {
   return 0.0;
 }
 
-/// The system's count of a child's memory begins with the peak of our process, which started it. It is the child's own only where
-/// it is more.
+/// The system's count of a child's memory begins with the peak of our process, which started it. It is the
+/// child's own only where it is more.
 void add_cost(ProcessEnd& end, const rusage& use) {
-  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
   end.cpu_s += seconds(use.ru_utime) + seconds(use.ru_stime);
   rusage ours{};
   getrusage(RUSAGE_SELF, &ours);
-  if (use.ru_maxrss > ours.ru_maxrss) end.peak_bytes = std::max(end.peak_bytes, 1024.0 * static_cast<double>(use.ru_maxrss));
+  if (use.ru_maxrss > ours.ru_maxrss)
+    end.peak_bytes = std::max(end.peak_bytes, 1024.0 * static_cast<double>(use.ru_maxrss));
 }
 
-/// Time until we look at a child again [ms]. It is a fifth of its run time so far, so that its memory is seen in a short run too.
-double until_next_look(double ran, double left) { return std::min({100.0, std::max(2.0, 200.0 * ran), 1e3 * left + 1.0}); }
+/// Time until we look at a child again [ms]. It is a fifth of its run time so far, so that its memory is seen
+/// in a short run too.
+double until_next_look(double ran, double left) {
+  return std::min({100.0, std::max(2.0, 200.0 * ran), 1e3 * left + 1.0});
+}
 
 /// Reads the bytes that are there, without waiting. @return false at the end of the stream
 template <class Take>
@@ -237,14 +256,16 @@ pid_t wait_for(pid_t which, int options, int& status, rusage& use) {
   return ended;
 }
 
-/// Waits until one of them has something to say. Where that cannot be waited for, all are asked after a moment.
+/// Waits until one of them has something to say. Where that cannot be waited for, all are asked after a
+/// moment.
 void wait_for_words(std::array<pollfd, 3>& wait, double most_ms) {
   if (::poll(wait.data(), wait.size(), static_cast<int>(most_ms)) >= 0) return;
   if (errno != EINTR) std::this_thread::sleep_for(std::chrono::milliseconds(2));
   for (pollfd& one : wait) one.revents = POLLIN;
 }
 
-/// The leader has ended or must end: nothing of its group stays, and every member that is ours to reap is paid for.
+/// The leader has ended or must end: nothing of its group stays, and every member that is ours to reap is
+/// paid for.
 void end_group(pid_t leader, ProcessEnd& end, bool leader_reaped) {
   ::kill(-leader, SIGKILL);
   if (!leader_reaped) ::kill(leader, SIGKILL);  // it may have left its group, and we wait for it
@@ -254,8 +275,8 @@ void end_group(pid_t leader, ProcessEnd& end, bool leader_reaped) {
   while (wait_for(-leader, 0, status, use) > 0) add_cost(end, use);
 }
 
-/// Adds the use of the first process inside a sandbox, and of all that it waited for. Bubblewrap ends without waiting for it, and
-/// it comes to us. @param inside 0 where it was never seen
+/// Adds the use of the first process inside a sandbox, and of all that it waited for. Bubblewrap ends without
+/// waiting for it, and it comes to us. @param inside 0 where it was never seen
 void add_cost_inside(pid_t inside, ProcessEnd& end) {
   if (inside == 0) return;
   const auto begun = Clock::now();
@@ -263,12 +284,14 @@ void add_cost_inside(pid_t inside, ProcessEnd& end) {
   while (!(use = use_of_orphan(inside)) && seconds_since(begun) < 2.0) ::poll(nullptr, 0, 1);
   if (!use) return;
   add_cost(end, *use);
-  end.peak_bytes = std::max(end.peak_bytes, 1024.0 * static_cast<double>(use->ru_maxrss));  // it began small, not as we
+  // It began small, not as we
+  end.peak_bytes = std::max(end.peak_bytes, 1024.0 * static_cast<double>(use->ru_maxrss));
 }
 
 void adopt_orphans() {
   static std::once_flag once;
-  std::call_once(once, [] { prctl(PR_SET_CHILD_SUBREAPER, 1); });  // daemons that an engine leaves come to us, not to init
+  // Daemons that an engine leaves come to us, not to init
+  std::call_once(once, [] { prctl(PR_SET_CHILD_SUBREAPER, 1); });
 }
 
 /// Files that pass their sum in less than a look take the run's good end from it.
@@ -372,7 +395,8 @@ ProcessEnd run_process(const ProcessSpec& spec) {
   }
   const Descriptor err_read(err[0]);
   Descriptor err_write(err[1]);
-  for (const int end_of_child : {out[1], err[1]}) ::fcntl(end_of_child, F_SETFL, 0);  // the child writes blocking
+  // The child writes blocking
+  for (const int end_of_child : {out[1], err[1]}) ::fcntl(end_of_child, F_SETFL, 0);
   pid_t pid = -1;
   BoundedLog log(spec.log);  // before anybody can put something in its place
   const InstructionCounter counter;

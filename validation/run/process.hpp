@@ -17,12 +17,15 @@ struct ProcessSpec {
   std::string folder;                              ///< working folder; empty = ours
   std::map<std::string, std::string> environment;  ///< added to ours
   double wall_limit = 600.0;                       ///< [s]; then the whole group is killed
-  std::string log;                                 ///< file that keeps stderr: its first MiB and its last lines; empty = none
-  std::function<void(double)> progress;            ///< called with 0..1 for each line `progress X` of stderr
-  std::function<void(const std::string&)>
-      status;                       ///< called with the rest of each line `status REST` of stderr, of 400 bytes at most
-  bool outlives_interrupt = false;  ///< Ctrl-C does not end it: it shows the results that are complete by then
-  /// argv is bubblewrap's, which leaves the process that it starts to us: that one is paid for. It is given no variable of ours.
+  /// File that keeps stderr: its first MiB and its last lines; empty = none
+  std::string log;
+  std::function<void(double)> progress;  ///< called with 0..1 for each line `progress X` of stderr
+  /// Called with the rest of each line `status REST` of stderr, of 400 bytes at most
+  std::function<void(const std::string&)> status;
+  /// Ctrl-C does not end it: it shows the results that are complete by then
+  bool outlives_interrupt = false;
+  /// argv is bubblewrap's, which leaves the process that it starts to us: that one is paid for. It is given
+  /// no variable of ours.
   bool in_sandbox = false;
   SandboxSums most;  ///< what passes them is killed
   std::string lent;  ///< folder that belongs to the sandbox's user while the program runs
@@ -40,12 +43,12 @@ struct ProcessEnd {
   double peak_bytes = 0.0;    ///< greatest resident size of one process of the group
 };
 
-/// Runs a program to its end, its limit or our Ctrl-C, whichever is first. Nothing of its group survives, nor does it where we
-/// are killed. Never throws for a fault of the program.
+/// Runs a program to its end, its limit or our Ctrl-C, whichever is first. Nothing of its group survives, nor
+/// does it where we are killed. Never throws for a fault of the program.
 [[nodiscard]] ProcessEnd run_process(const ProcessSpec&);
 
-/// Held while a program is started, and by all code that uses HDF5. Its files are not close-on-exec, so a child would inherit
-/// them for a moment; and Debian's library is not thread-safe.
+/// Held while a program is started, and by all code that uses HDF5. Its files are not close-on-exec, so a
+/// child would inherit them for a moment; and Debian's library is not thread-safe.
 [[nodiscard]] std::mutex& no_spawn_mutex();
 
 /// "exited with code 3", "was killed by signal 9 (Killed)", "was stopped after 600 s", ...

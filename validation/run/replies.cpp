@@ -12,7 +12,9 @@ namespace {
 
 constexpr std::size_t most_letters = 4096;  // of a text that an engine says
 
-Reply parsed(const std::string& printed) { return unfit_json(printed).empty() ? Reply::parse(printed, nullptr, false) : Reply(); }
+Reply parsed(const std::string& printed) {
+  return unfit_json(printed).empty() ? Reply::parse(printed, nullptr, false) : Reply();
+}
 
 std::string text(const Reply& from, const char* key) {
   const auto at = from.find(key);
@@ -41,22 +43,29 @@ void read_info(const Reply& info, EngineEntry& entry) {
   if (const auto settings = info.find("settings"); settings != info.end() && settings->is_object())
     for (const auto& [key, value] : settings->items()) entry.settings[key] = text(*settings, key.c_str());
   if (const auto said = info.find("preset_words"); said != info.end() && said->is_object())
-    for (const auto& [preset, value] : said->items()) entry.settings["preset " + preset] = text(*said, preset.c_str());
-  if (const auto d = info.find("deterministic"); d != info.end() && d->is_boolean()) entry.deterministic = d->get<bool>();
+    for (const auto& [preset, value] : said->items())
+      entry.settings["preset " + preset] = text(*said, preset.c_str());
+  if (const auto d = info.find("deterministic"); d != info.end() && d->is_boolean())
+    entry.deterministic = d->get<bool>();
   if (const auto defects = info.find("defects"); defects != info.end() && defects->is_array())
-    for (const auto& d : *defects) entry.defects.push_back({text(d, "name"), text(d, "what"), text(d, "case")});
+    for (const auto& d : *defects)
+      entry.defects.push_back({text(d, "name"), text(d, "what"), text(d, "case")});
   if (const auto a = info.find("available"); a != info.end() && a->is_boolean() && !a->get<bool>()) {
     entry.available = false;
-    entry.reason = text(info, "reason").empty() ? "says of itself that it is not available" : text(info, "reason");
+    entry.reason =
+        text(info, "reason").empty() ? "says of itself that it is not available" : text(info, "reason");
   }
 }
 
-/// A name is a word of the report and a folder of its own. It must not lead elsewhere, or look like the name of another engine.
+/// A name is a word of the report and a folder of its own. It must not lead elsewhere, or look like the name
+/// of another engine.
 bool is_plain(const std::string& name) {
   const auto good = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '.';
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+           c == '_' || c == '.';
   };
-  return !name.empty() && name.size() <= 64 && name.front() != '.' && std::all_of(name.begin(), name.end(), good);
+  return !name.empty() && name.size() <= 64 && name.front() != '.' &&
+         std::all_of(name.begin(), name.end(), good);
 }
 
 }  // namespace
@@ -79,7 +88,8 @@ EngineEntry with_info(EngineEntry entry, const std::string& printed) {
   }
   for (const auto& preset : entry.presets)
     if (!is_plain(preset))
-      return unavailable(entry, "one of its presets has a name that is not 1 to 64 letters, digits, '-', '_' or '.'");
+      return unavailable(
+          entry, "one of its presets has a name that is not 1 to 64 letters, digits, '-', '_' or '.'");
   return entry;
 }
 
@@ -93,7 +103,9 @@ std::optional<Refusal> refusal_in(const std::string& printed) {
     return refusal_for("--check did not print {can, reason}");
   if (answer["can"].get<bool>()) return {};
   const auto reason = answer.find("reason");
-  return refusal_for(reason != answer.end() && reason->is_string() ? reason->get<std::string>().substr(0, most_letters) : "");
+  return refusal_for(reason != answer.end() && reason->is_string()
+                         ? reason->get<std::string>().substr(0, most_letters)
+                         : "");
 }
 
 }  // namespace tripoint

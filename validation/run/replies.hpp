@@ -11,8 +11,8 @@ namespace tripoint {
 /// The entry with why it is not available.
 [[nodiscard]] EngineEntry unavailable(EngineEntry, const std::string& reason);
 
-/// The entry with all that `--info` printed. Output that breaks the contract leaves the entry not available, with the reason and
-/// the name that it had.
+/// The entry with all that `--info` printed. Output that breaks the contract leaves the entry not available,
+/// with the reason and the name that it had.
 [[nodiscard]] EngineEntry with_info(EngineEntry, const std::string& printed);
 
 /// Why an engine cannot run a job, in its own words or, where it has none, in ours.

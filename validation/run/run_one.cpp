@@ -26,9 +26,10 @@ namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double read_limit = 300.0;                                 // [s], for a foreign trajectory
-constexpr double reply_limit = 10.0;                                 // [s], for what else an engine says
-constexpr double check_limit = 60.0, check_limit_a_particle = 1e-4;  // [s]: --check runs nothing, but may set up the scene
+constexpr double read_limit = 300.0;  // [s], for a foreign trajectory
+constexpr double reply_limit = 10.0;  // [s], for what else an engine says
+// [s]: --check runs nothing, but may set up the scene
+constexpr double check_limit = 60.0, check_limit_a_particle = 1e-4;
 
 Outcome failed(Outcome outcome, Status status, const std::string& reason) {
   outcome.status = status;
@@ -42,7 +43,8 @@ Outcome refused(Outcome outcome, const Refusal& refusal) {
   return failed(std::move(outcome), Status::refused, refusal.reason);
 }
 
-/// Whether an engine has written into the shared file, or taken it away; the runs that follow find it as it was.
+/// Whether an engine has written into the shared file, or taken it away; the runs that follow find it as it
+/// was.
 bool particles_were_changed(const RunRequest& request) {
   if (!request.particles_hash) return false;
   const std::lock_guard lock(no_spawn_mutex());
@@ -64,16 +66,18 @@ Job job_in_folder(const RunRequest& request) {
   return job;
 }
 
-/// Removes the files of an earlier run, except those that a run resumed from a checkpoint in this folder still needs.
+/// Removes the files of an earlier run, except those that a run resumed from a checkpoint in this folder
+/// still needs.
 void prepare_folder(const RunRequest& request) {
   const fs::path folder(request.folder);
   fs::create_directories(folder);
   forget_finished(request);
-  for (const char* stale : {"job.json", "result.json", "trajectory.csv", "gauges.csv", "trajectory.xdmf", "log.txt"})
+  for (const char* stale :
+       {"job.json", "result.json", "trajectory.csv", "gauges.csv", "trajectory.xdmf", "log.txt"})
     fs::remove(folder / stale);
   std::error_code ignored;
-  const bool goes_on =
-      !request.job->resume.empty() && fs::equivalent(fs::path(request.job->resume).parent_path(), folder, ignored);
+  const bool goes_on = !request.job->resume.empty() &&
+                       fs::equivalent(fs::path(request.job->resume).parent_path(), folder, ignored);
   if (!goes_on) {
     fs::remove(folder / "trajectory.h5");
     for (const auto& checkpoint : checkpoints_in(request.folder)) fs::remove(checkpoint);
@@ -81,11 +85,13 @@ void prepare_folder(const RunRequest& request) {
   write_job((folder / "job.json").string(), job_in_folder(request));
 }
 
-/// Result that an engine states of its run. A copy of us first reads files that others wrote. @throws InputError, EngineError
+/// Result that an engine states of its run. A copy of us first reads files that others wrote. @throws
+/// InputError, EngineError
 Result result_of(const RunRequest& request) {
   const std::string file = (fs::path(request.folder) / "result.json").string();
   if (!belongs_to_us(request.engine->executable))
-    try_of_third_party([&] { static_cast<void>(read_result(file)); }, {"result.json", request.folder}, reply_limit);
+    try_of_third_party([&] { static_cast<void>(read_result(file)); }, {"result.json", request.folder},
+                       reply_limit);
   return read_result(file);
 }
 
@@ -111,8 +117,12 @@ ProcessSpec call(const RunRequest& request, const char* verb, double limit) {
 
 void take_cost(Outcome& outcome, const ProcessEnd& end) {
   const auto& r = outcome.result;
-  outcome.cost = {end.cpu_s,    end.wall_s,     r.setup_cpu, end.peak_bytes,   r.pairs, static_cast<double>(r.steps),
-                  r.iterations, r.time_reached, 0.0,         end.instructions, {},      end.instructions > 0.0 ? "counter" : ""};
+  outcome.cost = {end.cpu_s,    end.wall_s,
+                  r.setup_cpu,  end.peak_bytes,
+                  r.pairs,      static_cast<double>(r.steps),
+                  r.iterations, r.time_reached,
+                  0.0,          end.instructions,
+                  {},           end.instructions > 0.0 ? "counter" : ""};
 }
 
 /// A second run in a folder of its own, of which nothing but the count is kept.
@@ -140,22 +150,25 @@ void count_instructions(const RunRequest& request, ProcessSpec spec, Outcome& ou
 /// Bytes that a trajectory can need: inflowing liquid, doubled again and again, stays far below the gibibyte.
 std::uintmax_t greatest_trajectory(const RunRequest& request) {
   constexpr std::uintmax_t a_row = 4096, at_least = std::uintmax_t{1} << 30;
-  return at_least + a_row * request.job->times.size() * (request.initial->size() + request.job->bodies.size());
+  return at_least +
+         a_row * request.job->times.size() * (request.initial->size() + request.job->bodies.size());
 }
 
-/// A link would lead to files of another engine, or of another run. A pipe would keep its reader waiting. At the time of this
-/// check no engine writes any more. @throws EngineError
+/// A link would lead to files of another engine, or of another run. A pipe would keep its reader waiting. At
+/// the time of this check no engine writes any more. @throws EngineError
 void expect_own_files(const fs::path& folder) {
   for (const char* name : {"job.json", "result.json", "trajectory.h5", "trajectory.csv", "gauges.csv"})
     if (is_no_own_file((folder / name).string()))
-      throw EngineError(fmt::format("{} is a link to another file, or no regular file; refused: an engine writes its own", name));
+      throw EngineError(fmt::format(
+          "{} is a link to another file, or no regular file; refused: an engine writes its own", name));
 }
 
-/// Frames that a trajectory may have: a small one may show each step of its engine, a large one little more than the output
-/// times.
+/// Frames that a trajectory may have: a small one may show each step of its engine, a large one little more
+/// than the output times.
 std::size_t most_frames(const RunRequest& request) {
   constexpr std::size_t rows = 1'000'000;
-  return std::max(2 * request.job->times.size() + 16, rows / std::max<std::size_t>(1, request.initial->size()));
+  return std::max(2 * request.job->times.size() + 16,
+                  rows / std::max<std::size_t>(1, request.initial->size()));
 }
 
 Trajectory read_particle_trajectory(const RunRequest& request) {
@@ -164,8 +177,8 @@ Trajectory read_particle_trajectory(const RunRequest& request) {
     return read_trajectory(file, most_frames(request));
   const auto& bodies = request.job->bodies;
   const auto solids = std::count_if(bodies.begin(), bodies.end(), [](const auto& b) { return b.index >= 0; });
-  return read_trajectory_csv((folder / "trajectory.csv").string(), *request.initial, static_cast<std::size_t>(solids),
-                             most_frames(request));
+  return read_trajectory_csv((folder / "trajectory.csv").string(), *request.initial,
+                             static_cast<std::size_t>(solids), most_frames(request));
 }
 
 /// Particles, gauges or both: an engine that writes gauges need show no particles.
@@ -191,8 +204,10 @@ std::shared_ptr<const Trajectory> read_any_trajectory(const RunRequest& request)
     expect_regular_file((folder / name).string(), greatest_trajectory(request));
     if (there.empty()) there = name;
   }
-  if (there.empty() || belongs_to_us(request.engine->executable)) return std::make_shared<Trajectory>(read_files(request));
-  const auto bytes = read_of_third_party([&] { return packed(read_files(request)); }, {there, request.folder}, read_limit);
+  if (there.empty() || belongs_to_us(request.engine->executable))
+    return std::make_shared<Trajectory>(read_files(request));
+  const auto bytes =
+      read_of_third_party([&] { return packed(read_files(request)); }, {there, request.folder}, read_limit);
   return std::make_shared<Trajectory>(unpacked(bytes, most_frames(request)));
 }
 
@@ -211,11 +226,14 @@ Outcome read_trajectory_of(const RunRequest& request, Outcome outcome) {
   const auto& job = *request.job;
   const double end = job.times.back();
   if (!(std::abs(outcome.result.time_reached - end) <= 1e-9 * end))
-    return failed(outcome, Status::error, fmt::format("time not reached: {:g} s of {:g} s", outcome.result.time_reached, end));
+    return failed(outcome, Status::error,
+                  fmt::format("time not reached: {:g} s of {:g} s", outcome.result.time_reached, end));
   outcome.trajectory = read_any_trajectory(request);
-  if (outcome.trajectory->frames.empty()) return failed(outcome, Status::error, "the trajectory has no frame");
+  if (outcome.trajectory->frames.empty())
+    return failed(outcome, Status::error, "the trajectory has no frame");
   outcome.cost.particles = alive_at_the_end(*outcome.trajectory);
-  if (const auto wrong = audit(job, *request.initial, *outcome.trajectory, outcome.result.readback); !wrong.empty())
+  if (const auto wrong = audit(job, *request.initial, *outcome.trajectory, outcome.result.readback);
+      !wrong.empty())
     return failed(outcome, Status::error, wrong);
   if (const auto other = audit_scene(job, outcome.result.readback); !other.empty()) {
     outcome.comparable = false;
@@ -231,9 +249,11 @@ Outcome read_back(const RunRequest& request, const ProcessEnd& end) {
   take_cost(outcome, end);
   using How = ProcessEnd::How;
   if (end.how == How::not_started) return failed(outcome, Status::error, describe(end));
-  if (end.how == How::timed_out) return failed(outcome, Status::timeout, describe(end) + last_words(end.log_tail));
+  if (end.how == How::timed_out)
+    return failed(outcome, Status::timeout, describe(end) + last_words(end.log_tail));
   const fs::path file = fs::path(request.folder) / "result.json";
-  if (end.how == How::interrupted) return failed(outcome, Status::killed, describe(end) + words_of_the_interrupted(request));
+  if (end.how == How::interrupted)
+    return failed(outcome, Status::killed, describe(end) + words_of_the_interrupted(request));
   if (std::error_code none; !fs::exists(fs::symlink_status(file, none)))
     return failed(outcome, Status::killed, describe(end) + " without a result" + last_words(end.log_tail));
   try {
@@ -244,11 +264,12 @@ Outcome read_back(const RunRequest& request, const ProcessEnd& end) {
     if (r.status == Status::refused) return refused(outcome, refusal_for(r.message));
     if (r.status == Status::diverged)
       return failed(outcome, Status::diverged,
-                    r.divergence        ? describe(*r.divergence) + (r.message.empty() ? "" : ": " + r.message)
+                    r.divergence ? describe(*r.divergence) + (r.message.empty() ? "" : ": " + r.message)
                     : r.message.empty() ? "it gives no place"
                                         : r.message);
     if (r.status != Status::ok)
-      return failed(outcome, Status::error, (r.message.empty() ? "status error" : r.message) + last_words(end.log_tail));
+      return failed(outcome, Status::error,
+                    (r.message.empty() ? "status error" : r.message) + last_words(end.log_tail));
     if (end.how != How::exited || end.code != 0)
       return failed(outcome, Status::error, "says ok but " + describe(end) + last_words(end.log_tail));
     if (r.extra.contains("recoveries")) outcome.reason = r.message;
@@ -267,7 +288,8 @@ std::string not_handed_over(const RunRequest& request) {
     return std::ranges::find(request.engine->capabilities, capability) == request.engine->capabilities.end();
   };
   if (common_contact(scene).differs && lacks("contact-pairs"))
-    return "one friction and one restitution serve all pairs of it, and the [[contact]] tables of the scene differ (capability "
+    return "one friction and one restitution serve all pairs of it, and the [[contact]] tables of the scene "
+           "differ (capability "
            "contact-pairs)";
   if (!scene.forces.empty() && lacks("force")) return "no [[force]] is handed to it (capability force)";
   return {};
@@ -283,14 +305,17 @@ Outcome ask(const RunRequest& request) {
     return failed({}, Status::error, std::string("the job could not be written: ") + e.what());
   }
   const auto check =
-      run_process(call(request, "--check", check_limit + check_limit_a_particle * static_cast<double>(request.initial->size())));
+      run_process(call(request, "--check",
+                       check_limit + check_limit_a_particle * static_cast<double>(request.initial->size())));
   if (check.how == ProcessEnd::How::interrupted) return failed({}, Status::killed, describe(check));
-  if (check.how == ProcessEnd::How::timed_out) return failed({}, Status::timeout, "--check " + describe(check));
+  if (check.how == ProcessEnd::How::timed_out)
+    return failed({}, Status::timeout, "--check " + describe(check));
   if (check.how != ProcessEnd::How::exited || check.code != 0)
     return failed({}, Status::error, "--check " + describe(check) + last_words(check.log_tail));
   try {
     if (!belongs_to_us(request.engine->executable))
-      try_of_third_party([&] { static_cast<void>(refusal_in(check.output)); }, {"what --check printed"}, reply_limit);
+      try_of_third_party([&] { static_cast<void>(refusal_in(check.output)); }, {"what --check printed"},
+                         reply_limit);
     if (const auto refusal = refusal_in(check.output)) return refused({}, *refusal);
   } catch (const std::exception& e) {
     return failed({}, Status::error, e.what());
@@ -314,15 +339,16 @@ Outcome run_one(const RunRequest& request) {
   const auto end = run_process(spec);
   auto outcome = read_back(request, end);
   if (particles_were_changed(request))
-    return failed(outcome, Status::error,
-                  "the particles that all engines start from were changed while it ran: they are for reading");
+    return failed(
+        outcome, Status::error,
+        "the particles that all engines start from were changed while it ran: they are for reading");
   count_instructions(request, spec, outcome);
   record_finished(request, hash, end, outcome);
   return outcome;
 }
 
-MetricValue metric_of(const Case& value, const MetricChoice& choice, const Job& job, const InitialState& initial,
-                      const Trajectory& trajectory) {
+MetricValue metric_of(const Case& value, const MetricChoice& choice, const Job& job,
+                      const InitialState& initial, const Trajectory& trajectory) {
   const auto& truth = choice.reference.value_or(value.reference);
   std::unique_ptr<Reference> reference;
   try {
@@ -336,8 +362,8 @@ MetricValue metric_of(const Case& value, const MetricChoice& choice, const Job& 
   return evaluate(choice, job, initial, trajectory, *reference);
 }
 
-std::map<std::string, MetricValue> evaluate_all(const Case& value, const Job& job, const InitialState& initial,
-                                                const Trajectory& trajectory) {
+std::map<std::string, MetricValue> evaluate_all(const Case& value, const Job& job,
+                                                const InitialState& initial, const Trajectory& trajectory) {
   std::map<std::string, MetricValue> metrics;
   for (const auto& choice : value.metrics) {
     try {

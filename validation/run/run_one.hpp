@@ -22,16 +22,20 @@ struct RunRequest {
   const InitialState* initial = nullptr;
   std::string folder;     ///< results of an earlier run in it are removed first: they are never judged
   std::string particles;  ///< path of particles.h5
-  std::shared_ptr<std::string>
-      particles_hash;         ///< file_hash of it as it was written last; no engine may change the start of all engines
+  /// file_hash of it as it was written last; no engine may change the start of all engines
+  std::shared_ptr<std::string> particles_hash;
   double wall_limit = 600.0;  ///< [s]
   std::map<std::string, std::string> environment;
   std::function<void(double)> progress;
-  std::function<void(const std::string&)> status;  ///< of engines that tell more than how far they are (process.hpp)
-  double count_below =
-      0.0;  ///< [CPU s] instructions of a shorter run are counted by callgrind where the processor counts none; 0 = never
-  std::function<void()> before_third_party;  ///< called before an engine of somebody else is, where no earlier outcome is kept
-  bool keep_finished = false;  ///< takes the outcome of an earlier run in the folder, if it was of this very job and engine
+  /// Of engines that tell more than how far they are (process.hpp)
+  std::function<void(const std::string&)> status;
+  /// [CPU s] instructions of a shorter run are counted by callgrind where the processor counts none; 0 =
+  /// never
+  double count_below = 0.0;
+  /// Called before an engine of somebody else is, where no earlier outcome is kept
+  std::function<void()> before_third_party;
+  /// Takes the outcome of an earlier run in the folder, if it was of this very job and engine
+  bool keep_finished = false;
 };
 
 struct Outcome {
@@ -45,15 +49,16 @@ struct Outcome {
   Cost cost;
 };
 
-/// Hash that tells this run from any other: its job, its particles, and the engine that makes it (finished_run.hpp: run_hash).
+/// Hash that tells this run from any other: its job, its particles, and the engine that makes it
+/// (finished_run.hpp: run_hash).
 [[nodiscard]] std::string hash_of(const RunRequest&);
 
-/// Writes the job, asks --check, runs, and reads back; a fault of the engine becomes a status with its reason, never an
-/// exception.
+/// Writes the job, asks --check, runs, and reads back; a fault of the engine becomes a status with its
+/// reason, never an exception.
 [[nodiscard]] Outcome run_one(const RunRequest&);
 
-/// Writes the job and asks --check: status ok where the engine can run it, else refused, error, timeout or killed with the
-/// reason.
+/// Writes the job and asks --check: status ok where the engine can run it, else refused, error, timeout or
+/// killed with the reason.
 [[nodiscard]] Outcome ask(const RunRequest&);
 
 /// Reads result and trajectory from the folder of a run that has ended.
@@ -63,11 +68,14 @@ struct Outcome {
 /// @return empty when it is the same scene, else what differs, by name
 [[nodiscard]] std::string audit_scene(const Job&, const Readback&);
 
-/// One metric of one run. A norm that compares a run with its own start ("drift") does without the case's reference where that
-/// does not fit the scene. @throws InputError where the reference or the metric's words do not fit
-[[nodiscard]] MetricValue metric_of(const Case&, const MetricChoice&, const Job&, const InitialState&, const Trajectory&);
+/// One metric of one run. A norm that compares a run with its own start ("drift") does without the case's
+/// reference where that does not fit the scene. @throws InputError where the reference or the metric's words
+/// do not fit
+[[nodiscard]] MetricValue metric_of(const Case&, const MetricChoice&, const Job&, const InitialState&,
+                                    const Trajectory&);
 
 /// The metrics of a case for one run that is ok, by name.
-[[nodiscard]] std::map<std::string, MetricValue> evaluate_all(const Case&, const Job&, const InitialState&, const Trajectory&);
+[[nodiscard]] std::map<std::string, MetricValue> evaluate_all(const Case&, const Job&, const InitialState&,
+                                                              const Trajectory&);
 
 }  // namespace tripoint

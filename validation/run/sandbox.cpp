@@ -38,13 +38,15 @@ fs::path report;  ///< that no engine sees
 /// Who runs what a sandbox holds.
 enum class As {
   caller,  ///< the user who called us, in a user namespace of its own
-  nobody   ///< a user of the system who owns nothing: as root an engine could write whatever root may write without its rights
+  /// a user of the system who owns nothing: as root an engine could write whatever root may write without its
+  /// rights
+  nobody
 };
 
 As engines_run_as() { return ::geteuid() == 0 ? As::nobody : As::caller; }
 
-/// Namespaces of its own for all that Linux has; no right of root; ends with us. Only the system's programs and libraries are
-/// there, and settings of the kernel to read.
+/// Namespaces of its own for all that Linux has; no right of root; ends with us. Only the system's programs
+/// and libraries are there, and settings of the kernel to read.
 std::vector<std::string> bare(As as) {
   std::vector<std::string> words{bubblewrap,          "--unshare-ipc",
                                  "--unshare-pid",     "--unshare-net",
@@ -55,9 +57,10 @@ std::vector<std::string> bare(As as) {
     words.emplace_back("--unshare-user");
   else
     words.insert(words.end(), {"--cap-add", "CAP_SETUID", "--cap-add", "CAP_SETGID"});
-  words.insert(words.end(), {"--clearenv", "--ro-bind", "/usr",    "/usr",     "--dev",   "/dev",    "--perms",   "1777",
-                             "--size",     in_memory,   "--tmpfs", "/dev/shm", "--proc",  "/proc",   "--ro-bind", "/proc/sys",
-                             "/proc/sys",  "--perms",   "1777",    "--size",   in_memory, "--tmpfs", "/tmp"});
+  words.insert(words.end(), {"--clearenv", "--ro-bind", "/usr",      "/usr",      "--dev",     "/dev",
+                             "--perms",    "1777",      "--size",    in_memory,   "--tmpfs",   "/dev/shm",
+                             "--proc",     "/proc",     "--ro-bind", "/proc/sys", "/proc/sys", "--perms",
+                             "1777",       "--size",    in_memory,   "--tmpfs",   "/tmp"});
   for (const char* link : {"bin", "lib", "lib64", "sbin"})
     words.insert(words.end(), {"--symlink", fmt::format("usr/{}", link), fmt::format("/{}", link)});
   for (const char* file : {"/etc/alternatives", "/etc/ld.so.cache", "/etc/localtime"})
@@ -90,22 +93,24 @@ void expect_readable(const fs::path& folder, const fs::path& program) {
   constexpr auto read = fs::perms::others_read, enter = fs::perms::others_exec;
   for (const auto& [path, needed] : {std::pair(folder, enter), std::pair(program, read | enter)})
     if ((fs::status(path).permissions() & needed) != needed)
-      throw EngineError(fmt::format("--sandbox: called by root, engines run as user {}, who may not read {}: chmod -R o+rX {}",
-                                    sandbox_user, path.string(), folder.string()));
+      throw EngineError(fmt::format(
+          "--sandbox: called by root, engines run as user {}, who may not read {}: chmod -R o+rX {}",
+          sandbox_user, path.string(), folder.string()));
 }
 
 /// The engine's folder as it may be read: an empty folder hides the report and the data of git.
 std::vector<std::string> bind_engine(const fs::path& folder) {
   const char* home = std::getenv("HOME");
   if (home && *home == '/' && home[1] != '\0' && is_within(place_of(home), folder))
-    throw EngineError(fmt::format("--sandbox: the engine's folder {} holds your home: put the engine into a folder of its own",
-                                  folder.string()));
+    throw EngineError(fmt::format(
+        "--sandbox: the engine's folder {} holds your home: put the engine into a folder of its own",
+        folder.string()));
   const fs::path real = place_of(folder.string());
   if (!report.empty() && is_within(real, report))
-    throw EngineError(
-        fmt::format("--sandbox: the engine's folder {} lies in the report's, {}: put it elsewhere, or choose another "
-                    "--out",
-                    folder.string(), report.string()));
+    throw EngineError(fmt::format(
+        "--sandbox: the engine's folder {} lies in the report's, {}: put it elsewhere, or choose another "
+        "--out",
+        folder.string(), report.string()));
   Words words;
   show(words, "--ro-bind", folder.string());
   const auto hide = [&](const fs::path& what) {
@@ -132,21 +137,26 @@ rlim_t memory_of_the_machine() {
 std::vector<std::string> become(As as) {
   if (as == As::caller) return {};
   const std::string id = std::to_string(sandbox_user);
-  return {"/usr/bin/setpriv", "--reuid=" + id, "--regid=" + id, "--clear-groups", "--no-new-privs", "--inh-caps=-all", "--"};
+  return {"/usr/bin/setpriv",
+          "--reuid=" + id,
+          "--regid=" + id,
+          "--clear-groups",
+          "--no-new-privs",
+          "--inh-caps=-all",
+          "--"};
 }
 
-/// Limits of the engine. They are set inside the sandbox before the engine begins, so that it cannot escape them.
+/// Limits of the engine. They are set inside the sandbox before the engine begins, so that it cannot escape
+/// them.
 std::vector<std::string> limits(double wall_limit) {
   const rlim_t memory = memory_of_the_machine();
   const double cpu = std::min(wall_limit * std::max(1u, std::thread::hardware_concurrency()) + 10.0, 1e9);
-  return {limiter,
-          "--core=0",
-          fmt::format("--data={}", at_most(RLIMIT_DATA, memory)),
+  return {limiter, "--core=0", fmt::format("--data={}", at_most(RLIMIT_DATA, memory)),
           fmt::format("--as={}", at_most(RLIMIT_AS, 4 * memory)),  // some reserve much more than they use
           fmt::format("--fsize={}", at_most(RLIMIT_FSIZE, static_cast<rlim_t>(most_bytes))),
-          fmt::format("--nproc={}", at_most(RLIMIT_NPROC, 2 * most_processes)),  // the user's other processes count, too
-          fmt::format("--cpu={}", at_most(RLIMIT_CPU, static_cast<rlim_t>(std::ceil(cpu)))),
-          "--"};
+          // The user's other processes count, too
+          fmt::format("--nproc={}", at_most(RLIMIT_NPROC, 2 * most_processes)),
+          fmt::format("--cpu={}", at_most(RLIMIT_CPU, static_cast<rlim_t>(std::ceil(cpu)))), "--"};
 }
 
 }  // namespace
@@ -169,18 +179,22 @@ void sandbox_third_parties(const std::string& out) {
   trial.wall_limit = 10.0;
   const ProcessEnd end = run_process(trial);
   if (end.how == ProcessEnd::How::not_started)
-    throw EngineError("--sandbox needs bubblewrap: apt-get install bubblewrap; without --sandbox engines run as you do");
+    throw EngineError(
+        "--sandbox needs bubblewrap: apt-get install bubblewrap; without --sandbox engines run as you do");
   if (end.how != ProcessEnd::How::exited || end.code != 0)
-    throw EngineError(fmt::format(
-        "--sandbox: this machine lets bubblewrap make no namespaces ({}): {}; without --sandbox engines run as you do",
-        end.log_tail,
-        engines_run_as() == As::nobody ? "run tripoint as a user who is not root" : "allow unprivileged user namespaces"));
+    throw EngineError(
+        fmt::format("--sandbox: this machine lets bubblewrap make no namespaces ({}): {}; without --sandbox "
+                    "engines run as you do",
+                    end.log_tail,
+                    engines_run_as() == As::nobody ? "run tripoint as a user who is not root"
+                                                   : "allow unprivileged user namespaces"));
   CopyBounds reader{"what engines leave", 10.0};
   reader.folder = "/";
   reader.must_be_confined = true;
   if (read_in_confined_copy([] { return std::string(); }, reader).how != CopyEnd::How::read)
     throw EngineError(
-        "--sandbox: this system cannot confine the reader of what engines leave: that takes seccomp and Landlock (Linux 5.13); "
+        "--sandbox: this system cannot confine the reader of what engines leave: that takes seccomp and "
+        "Landlock (Linux 5.13); "
         "without --sandbox engines run as you do");
   wanted = true;
 }
@@ -193,8 +207,10 @@ namespace {
 ProcessSpec behind_walls(ProcessSpec spec, const Words& bound, As as) {
   Words words = bare(as);
   add(words, bound);
-  add(words, {"--chdir", spec.folder.empty() ? "/tmp" : fs::absolute(spec.folder).lexically_normal().string()});
-  add(words, {"--setenv", "PATH", "/usr/local/bin:/usr/bin:/bin", "--setenv", "HOME", "/tmp", "--setenv", "LANG", "C.UTF-8"});
+  add(words,
+      {"--chdir", spec.folder.empty() ? "/tmp" : fs::absolute(spec.folder).lexically_normal().string()});
+  add(words, {"--setenv", "PATH", "/usr/local/bin:/usr/bin:/bin", "--setenv", "HOME", "/tmp", "--setenv",
+              "LANG", "C.UTF-8"});
   for (const auto& [name, value] : spec.environment) add(words, {"--setenv", name, value});
   words.emplace_back("--");
   add(words, become(as));
@@ -239,7 +255,8 @@ void show_python(Words& words, fs::path python) {
 /// Whether an entry is made by the program that draws the pages: a page, or its figures.
 bool is_drawn(const fs::path& entry) {
   const fs::path name = entry.filename();
-  return name.extension() == ".html" || name == "case" || name == "figures" || name == "report.pdf" || name == "report.log";
+  return name.extension() == ".html" || name == "case" || name == "figures" || name == "report.pdf" ||
+         name == "report.log";
 }
 
 /// The report's folder, in which nothing but pages and figures may change.
@@ -248,7 +265,8 @@ void show_report(Words& words, const fs::path& out) {
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(out, none))
     if (!is_drawn(entry.path()))
-      show(words, "--ro-bind-try", entry.is_symlink(none) ? fs::weakly_canonical(entry.path()).string() : entry.path().string());
+      show(words, "--ro-bind-try",
+           entry.is_symlink(none) ? fs::weakly_canonical(entry.path()).string() : entry.path().string());
 }
 
 }  // namespace
@@ -263,7 +281,8 @@ ProcessSpec sandboxed(ProcessSpec spec, const std::vector<std::string>& readable
     if (engines_run_as() == As::nobody) fs::permissions(path, fs::perms::others_read, fs::perm_options::add);
   }
   if (!spec.folder.empty()) show(bound, "--bind", spec.folder);
-  if (const auto earlier = fs::path(spec.folder) / earlier_run_folder; !spec.folder.empty() && fs::is_directory(earlier))
+  if (const auto earlier = fs::path(spec.folder) / earlier_run_folder;
+      !spec.folder.empty() && fs::is_directory(earlier))
     add(bound, {"--tmpfs", fs::absolute(earlier).lexically_normal().string()});
   return behind_walls(std::move(spec), bound, engines_run_as());
 }

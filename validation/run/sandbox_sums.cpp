@@ -38,13 +38,15 @@ double kilobytes(const std::string& file, const std::vector<std::string>& keys) 
   return sum;
 }
 
-/// Memory of its own, with each page that several share counted once. That takes long to add up, so it is done only where a quick
-/// sum, which counts such pages more than once, is too great.
+/// Memory of its own, with each page that several share counted once. That takes long to add up, so it is
+/// done only where a quick sum, which counts such pages more than once, is too great.
 double memory_of(const std::vector<pid_t>& all, double most) {
   double quick = 0.0, shared_out = 0.0;
-  for (const pid_t pid : all) quick += kilobytes(fmt::format("/proc/{}/status", pid), {"RssAnon:", "RssShmem:"});
+  for (const pid_t pid : all)
+    quick += kilobytes(fmt::format("/proc/{}/status", pid), {"RssAnon:", "RssShmem:"});
   if (quick <= most) return quick;
-  for (const pid_t pid : all) shared_out += kilobytes(fmt::format("/proc/{}/smaps_rollup", pid), {"Pss_Anon:", "Pss_Shmem:"});
+  for (const pid_t pid : all)
+    shared_out += kilobytes(fmt::format("/proc/{}/smaps_rollup", pid), {"Pss_Anon:", "Pss_Shmem:"});
   return shared_out;
 }
 
@@ -55,9 +57,11 @@ double nameless_bytes(const std::vector<pid_t>& all) {
   double sum = 0.0;
   for (const pid_t pid : all) {
     std::error_code none;
-    for (fs::directory_iterator at(fmt::format("/proc/{}/fd", pid), none), end; !none && at != end; at.increment(none)) {
+    for (fs::directory_iterator at(fmt::format("/proc/{}/fd", pid), none), end; !none && at != end;
+         at.increment(none)) {
       struct stat status {};
-      if (::stat(at->path().c_str(), &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink == 0) sum += room_of(status);
+      if (::stat(at->path().c_str(), &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink == 0)
+        sum += room_of(status);
     }
   }
   return sum;
@@ -71,8 +75,8 @@ struct Taken {
 Taken taken_in(const std::string& folder) {
   Taken taken;
   std::error_code none;
-  for (fs::recursive_directory_iterator at(folder, none), end; !none && at != end && taken.files <= most_files;
-       at.increment(none)) {
+  for (fs::recursive_directory_iterator at(folder, none), end;
+       !none && at != end && taken.files <= most_files; at.increment(none)) {
     struct stat status {};
     if (::lstat(at->path().c_str(), &status) != 0) continue;
     taken.bytes += room_of(status);
@@ -83,29 +87,35 @@ Taken taken_in(const std::string& folder) {
 
 double free_room(const std::string& folder) {
   struct statvfs room {};
-  return ::statvfs(folder.c_str(), &room) == 0 ? static_cast<double>(room.f_bavail) * static_cast<double>(room.f_frsize) : 0.0;
+  return ::statvfs(folder.c_str(), &room) == 0
+             ? static_cast<double>(room.f_bavail) * static_cast<double>(room.f_frsize)
+             : 0.0;
 }
 
 void give(const fs::path& path, unsigned owner) {
   struct stat status {};
-  const bool has_other_names = ::lstat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink > 1;
+  const bool has_other_names =
+      ::lstat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink > 1;
   if (!has_other_names) static_cast<void>(::lchown(path.c_str(), owner, owner) == 0);
 }
 
 void give_all(const std::string& folder, unsigned owner) {
   give(folder, owner);
   std::error_code none;
-  for (fs::recursive_directory_iterator at(folder, none), end; !none && at != end; at.increment(none)) give(at->path(), owner);
+  for (fs::recursive_directory_iterator at(folder, none), end; !none && at != end; at.increment(none))
+    give(at->path(), owner);
 }
 
 }  // namespace
 
-SandboxWatch::SandboxWatch(const SandboxSums& most, std::string folder) : most_(most), folder_(std::move(folder)) {
+SandboxWatch::SandboxWatch(const SandboxSums& most, std::string folder)
+    : most_(most), folder_(std::move(folder)) {
   constexpr double share = 0.75;
   if (folder_.empty()) return;
   if (const double room = free_room(folder_); room > 0.0) most_.bytes = std::min(most_.bytes, share * room);
   std::error_code none;
-  for (fs::directory_iterator at(folder_, none), end; !none && at != end; at.increment(none)) at_start_.insert(at->path());
+  for (fs::directory_iterator at(folder_, none), end; !none && at != end; at.increment(none))
+    at_start_.insert(at->path());
 }
 
 std::string SandboxWatch::passed(pid_t outermost) {
@@ -140,7 +150,8 @@ std::string SandboxWatch::look(pid_t outermost) const {
   constexpr double mega = 1e6;
   const auto enough = static_cast<std::size_t>(most_.processes) + ours;
   const auto all = processes_from(outermost, most_.processes > 0 ? enough : std::size_t{4096});
-  if (most_.processes > 0 && all.size() > enough) return fmt::format("more than {} processes", most_.processes);
+  if (most_.processes > 0 && all.size() > enough)
+    return fmt::format("more than {} processes", most_.processes);
   if (const double sum = most_.memory > 0.0 ? memory_of(all, most_.memory) : 0.0; sum > most_.memory)
     return fmt::format("{:.0f} MB of memory, and {:.0f} MB are allowed", sum / mega, most_.memory / mega);
   return folder_.empty() || !(most_.bytes > 0.0) ? std::string() : of_files(all);

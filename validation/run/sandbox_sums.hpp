@@ -27,8 +27,8 @@ class SandboxWatch {
   SandboxWatch(const SandboxSums& most, std::string folder);
   /// @return the sum that is passed, in words; empty while none is, or where it is no time to look again
   [[nodiscard]] std::string passed(pid_t outermost);
-  /// The same of what is left where all processes have ended. Where files pass their sum, all that came since the start goes: a
-  /// full disk would stop every other run.
+  /// The same of what is left where all processes have ended. Where files pass their sum, all that came since
+  /// the start goes: a full disk would stop every other run.
   [[nodiscard]] std::string passed_at_end();
 
  private:
@@ -41,7 +41,8 @@ class SandboxWatch {
   Clock::time_point next_{};
 };
 
-/// A folder that belongs to the sandbox's user for a while, and then to us again, with all that lies in it. "" = none.
+/// A folder that belongs to the sandbox's user for a while, and then to us again, with all that lies in it.
+/// "" = none.
 class LentFolder {
  public:
   explicit LentFolder(std::string folder);
@@ -53,8 +54,8 @@ class LentFolder {
   std::string folder_;
 };
 
-/// A control group with the sums as its bounds, where this user may make one; the kernel keeps them then, without a moment's
-/// delay.
+/// A control group with the sums as its bounds, where this user may make one; the kernel keeps them then,
+/// without a moment's delay.
 class ControlGroup {
  public:
   explicit ControlGroup(const SandboxSums& most);

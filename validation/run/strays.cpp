@@ -28,11 +28,12 @@ namespace fs = std::filesystem;
 /// Result of a look over all processes.
 struct Look {
   std::vector<pid_t> marked;
-  bool unsure = false;  // one of ours is just becoming another program: for that moment nobody can read its environment
+  // One of ours is just becoming another program: for that moment nobody can read its environment
+  bool unsure = false;
 };
 
-/// The readable part of a file. Reading fails in the middle where the process ends just then, and a bare iterator would throw at
-/// it.
+/// The readable part of a file. Reading fails in the middle where the process ends just then, and a bare
+/// iterator would throw at it.
 std::string all_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
@@ -65,7 +66,8 @@ Standing standing_of(const fs::path& process) {
   return s;
 }
 
-/// Whether a process whose environment we read as empty is a child of ours, alive, and not one that was given none.
+/// Whether a process whose environment we read as empty is a child of ours, alive, and not one that was given
+/// none.
 bool is_becoming_another(const fs::path& process) {
   const Standing s = standing_of(process);
   return s.alive && s.parent == ::getpid() && !s.was_given_none;
@@ -80,7 +82,8 @@ bool carries(const std::string& environment, const std::string& entry) {
   return false;
 }
 
-/// Finds processes whose environment holds this entry. Processes of other users cannot be read, and are none of ours.
+/// Finds processes whose environment holds this entry. Processes of other users cannot be read, and are none
+/// of ours.
 Look look_for(const std::string& entry) {
   Look look;
   std::error_code none;
@@ -113,9 +116,9 @@ bool bury(pid_t pid) {
   return true;
 }
 
-/// Kills children of ours that have this entry. Buries children that came to us from sessions of their own and have ended: nobody
-/// else waits for them. It takes a tenth of the time of a look over all processes. So it catches a program that keeps moving to a
-/// new process. @return whether there was any of either
+/// Kills children of ours that have this entry. Buries children that came to us from sessions of their own
+/// and have ended: nobody else waits for them. It takes a tenth of the time of a look over all processes. So
+/// it catches a program that keeps moving to a new process. @return whether there was any of either
 bool end_children(const std::string& entry) {
   bool found = false;
   for (const pid_t pid : children_of(::getpid())) {
@@ -136,7 +139,8 @@ const std::string& our_stray_mark() {
   static const std::string mark = [] {
     const char* carried = std::getenv(stray_mark);
     const std::string before = carried ? std::string(carried) + mark_end : "";
-    return fmt::format("{}{}.{}", before, ::getpid(), std::chrono::steady_clock::now().time_since_epoch().count());
+    return fmt::format("{}{}.{}", before, ::getpid(),
+                       std::chrono::steady_clock::now().time_since_epoch().count());
   }();
   return mark;
 }
@@ -149,7 +153,8 @@ std::string new_stray_mark() {
 std::vector<pid_t> children_of(pid_t parent) {
   std::vector<pid_t> found;
   std::error_code none;
-  for (fs::directory_iterator at(fmt::format("/proc/{}/task", parent), none), end; !none && at != end; at.increment(none)) {
+  for (fs::directory_iterator at(fmt::format("/proc/{}/task", parent), none), end; !none && at != end;
+       at.increment(none)) {
     std::istringstream list(all_of(at->path() / "children"));
     for (pid_t pid = 0; list >> pid;) found.push_back(pid);
   }

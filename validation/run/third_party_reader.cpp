@@ -26,7 +26,8 @@ std::string read_within(const std::function<std::string()>& read, CopyBounds bou
 
 }  // namespace
 
-std::string read_of_third_party(const std::function<std::string()>& read, const ThirdPartyFile& file, double limit) {
+std::string read_of_third_party(const std::function<std::string()>& read, const ThirdPartyFile& file,
+                                double limit) {
   CopyBounds bounds{file.what, limit};
   bounds.folder = file.folder;
   return read_within(read, bounds);

@@ -73,18 +73,21 @@ void check_words(const Case& c, std::vector<Finding>& findings) {
   for (const auto& m : c.metrics) {
     const auto refuse = [&](const char* what, const std::string& word, const std::vector<std::string>& list) {
       if (!known(list, word))
-        findings.push_back(
-            {true, fmt::format("metric \"{}\": no {} is named \"{}\"{}", m.name, what, printable(word), suggestion(word, list)),
-             m.place});
+        findings.push_back({true,
+                            fmt::format("metric \"{}\": no {} is named \"{}\"{}", m.name, what,
+                                        printable(word), suggestion(word, list)),
+                            m.place});
     };
     if (!m.quantity.starts_with("ledger.")) refuse("quantity", m.quantity, quantities);
-    if (m.reference && !m.reference->function.empty()) refuse("reference function", m.reference->function, functions);
+    if (m.reference && !m.reference->function.empty())
+      refuse("reference function", m.reference->function, functions);
   }
   if (!c.reference.function.empty() && !known(functions, c.reference.function))
-    findings.push_back({true,
-                        fmt::format("no reference function is named \"{}\"{}", printable(c.reference.function),
-                                    suggestion(c.reference.function, functions)),
-                        {c.file, 0, 0}});
+    findings.push_back(
+        {true,
+         fmt::format("no reference function is named \"{}\"{}", printable(c.reference.function),
+                     suggestion(c.reference.function, functions)),
+         {c.file, 0, 0}});
 }
 
 /// A term that no engine of ours keeps is a warning: another engine may keep it.
@@ -94,9 +97,10 @@ void check_ledger_terms(const Case& c, std::vector<Finding>& findings) {
   for (const auto& m : c.metrics) {
     const std::string term = m.quantity.starts_with("ledger.") ? m.quantity.substr(7) : "";
     if (!term.empty() && !known(terms, term))
-      findings.push_back(
-          {false, fmt::format("metric \"{}\": the ledger has no term \"{}\"{}", m.name, printable(term), suggestion(term, terms)),
-           m.place});
+      findings.push_back({false,
+                          fmt::format("metric \"{}\": the ledger has no term \"{}\"{}", m.name,
+                                      printable(term), suggestion(term, terms)),
+                          m.place});
   }
 }
 
@@ -118,11 +122,14 @@ Snapshot still_frame(const Job& job, const InitialState& initial, double time) {
   }
   s.pressure.assign(initial.size(), 0.0);
   for (const JobBody& b : job.bodies)
-    if (b.index >= 0) s.bodies.push_back({b.properties.centre, b.velocity, b.angular_velocity, {}, b.properties.mass, {}, {}});
+    if (b.index >= 0)
+      s.bodies.push_back(
+          {b.properties.centre, b.velocity, b.angular_velocity, {}, b.properties.mass, {}, {}});
   return s;
 }
 
-/// Output times at which a metric can be tried: both ends, those that it names, and the first and last of its window.
+/// Output times at which a metric can be tried: both ends, those that it names, and the first and last of its
+/// window.
 std::vector<double> times_for(const MetricChoice& m, const Job& job) {
   std::set<double> times{job.times.front(), job.times.back()};
   double at = 0.0;
@@ -131,7 +138,8 @@ std::vector<double> times_for(const MetricChoice& m, const Job& job) {
   std::vector<double> inside;
   for (const double t : job.times) {
     if (named && std::abs(t - at) <= 1e-9 * job.times.back()) times.insert(t);
-    if (windowed && t >= m.window[0] - 1e-9 * job.times.back() && t <= m.window[1] + 1e-9 * job.times.back()) inside.push_back(t);
+    if (windowed && t >= m.window[0] - 1e-9 * job.times.back() && t <= m.window[1] + 1e-9 * job.times.back())
+      inside.push_back(t);
   }
   if (!inside.empty()) times.insert({inside.front(), inside[inside.size() / 2], inside.back()});
   return {times.begin(), times.end()};
@@ -147,7 +155,9 @@ bool tells_of_the_case(const std::string& note) {
 }
 
 /// Whether it tells that the metric takes no particle where it looks: none at the start, and perhaps later.
-bool looks_at_nothing(const std::string& note) { return note.starts_with("no particle that the metric takes lies"); }
+bool looks_at_nothing(const std::string& note) {
+  return note.starts_with("no particle that the metric takes lies");
+}
 
 /// Particles and their file for each sampling of the case.
 class Samples {
@@ -173,8 +183,8 @@ class Samples {
   std::map<std::string, Sample> samples_;
 };
 
-void ask_about(const Case& value, const EnginePlan& engine, const RunPlan& run, const Job& job, const Samples::Sample& from,
-               const fs::path& folder, std::vector<Finding>& findings) {
+void ask_about(const Case& value, const EnginePlan& engine, const RunPlan& run, const Job& job,
+               const Samples::Sample& from, const fs::path& folder, std::vector<Finding>& findings) {
   RunRequest request;
   request.engine = engine.entry;
   request.job = &job;
@@ -187,19 +197,22 @@ void ask_about(const Case& value, const EnginePlan& engine, const RunPlan& run, 
   row.status = answer.status;
   row.reason = answer.reason;
   if (const auto broken = broken_refusal(row); !broken.empty())
-    return findings.push_back(
-        {true, fmt::format("engine {} {}", label_of(engine.name, engine.preset), broken), {value.file, 0, 0}});
+    return findings.push_back({true,
+                               fmt::format("engine {} {}", label_of(engine.name, engine.preset), broken),
+                               {value.file, 0, 0}});
   if (answer.status == Status::ok || refuses_as_expected(row)) return;
-  const std::string what =
-      fmt::format("engine {}{}{}: {}: {}", engine.name, is_default_preset(engine.preset) ? "" : " " + engine.preset,
-                  run.base ? "" : ", run " + run.label, answer.status, answer.reason);
+  const std::string what = fmt::format("engine {}{}{}: {}: {}", engine.name,
+                                       is_default_preset(engine.preset) ? "" : " " + engine.preset,
+                                       run.base ? "" : ", run " + run.label, answer.status, answer.reason);
   if (std::none_of(findings.begin(), findings.end(), [&](const Finding& f) { return f.what == what; }))
     findings.push_back({engine.required, what, {value.file, 0, 0}});
 }
 
 }  // namespace
 
-std::string with_place(const Finding& f) { return (f.place.file.empty() ? "" : to_string(f.place) + ": ") + f.what; }
+std::string with_place(const Finding& f) {
+  return (f.place.file.empty() ? "" : to_string(f.place) + ": ") + f.what;
+}
 
 std::vector<Finding> try_metrics(const Case& value, const Job& whole, const InitialState& initial) {
   std::vector<Finding> findings;
@@ -213,11 +226,14 @@ std::vector<Finding> try_metrics(const Case& value, const Job& whole, const Init
       if (std::isfinite(value_of.value)) continue;
       if (looks_at_nothing(value_of.note))
         findings.push_back(
-            {false, fmt::format("metric \"{}\": at the start {}: it has no value until one comes there", m.name, value_of.note),
+            {false,
+             fmt::format("metric \"{}\": at the start {}: it has no value until one comes there", m.name,
+                         value_of.note),
              m.place});
       else if (tells_of_the_case(value_of.note))
         findings.push_back(
-            {true, fmt::format("metric \"{}\" could not be formed of any run: {}", m.name, value_of.note), m.place});
+            {true, fmt::format("metric \"{}\" could not be formed of any run: {}", m.name, value_of.note),
+             m.place});
     } catch (const InputError& e) {
       findings.push_back(finding_of(e, m));
     }
@@ -239,16 +255,18 @@ std::vector<Finding> trial(const Case& value) {
   for (const EnginePlan& plan : plan_runs(value, engines, {})) {
     if (!plan.entry || !plan.entry->available) {
       if (plan.required)
-        findings.push_back({true,
-                            fmt::format("engine {} is required and {}", plan.name,
-                                        plan.entry ? "is not available: " + plan.entry->reason
-                                                   : "is not found beside the program or in TRIPOINT_ENGINE_PATH"),
-                            {value.file, 0, 0}});
+        findings.push_back(
+            {true,
+             fmt::format("engine {} is required and {}", plan.name,
+                         plan.entry ? "is not available: " + plan.entry->reason
+                                    : "is not found beside the program or in TRIPOINT_ENGINE_PATH"),
+             {value.file, 0, 0}});
       continue;
     }
     for (const RunPlan& run : plan.runs) {
       if (!run.base && !is_own_solver(plan.name)) continue;
-      if (run.label != run.group) continue;  // another seed: the engine is asked about the run that it repeats
+      // Another seed: the engine is asked about the run that it repeats
+      if (run.label != run.group) continue;
       const Scene scene = scene_of(value, run);
       const auto& from = samples.of(scene);
       const Job job = make_job(value, plan, run, scene, from.state);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A parent-death signal would not do. It comes at the end of the thread that started the child, and only to the child itself.
+// A parent-death signal would not do. It comes at the end of the thread that started the child, and only to
+// the child itself.
 #include "validation/run/watch.hpp"
 
 #include <dirent.h>
@@ -23,8 +24,8 @@
 namespace tripoint {
 namespace {
 
-// The watcher is a copy of a process with many threads, any of which may have held a lock. So it makes system calls only, in
-// memory that was taken before.
+// The watcher is a copy of a process with many threads, any of which may have held a lock. So it makes system
+// calls only, in memory that was taken before.
 struct Watch {
   std::string entry;  // entry in the environment of each process of ours
   std::vector<char> names, text;
@@ -64,7 +65,8 @@ bool kill_ours(Watch& w) {
   const int proc = ::open("/proc", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   for (long n = 0; (n = ::syscall(SYS_getdents64, proc, w.names.data(), w.names.size())) > 0;)
     for (long at = 0; at < n;) {
-      const auto* item = reinterpret_cast<const dirent64*>(w.names.data() + at);  // the kernel's layout is that of glibc
+      // The kernel's layout is that of glibc
+      const auto* item = reinterpret_cast<const dirent64*>(w.names.data() + at);
       found |= kill_if_ours(w, proc, item->d_name);
       at += item->d_reclen;
     }
@@ -94,7 +96,8 @@ void stand_apart(Watch& w) {
   while ((n = ::read(w.door, &word, 1)) < 0 && errno == EINTR) {
   }
   if (n == 1) ::_exit(0);
-  constexpr int quiet_enough = 10, rounds = 3000;  // for a moment a process that becomes another program shows no environment
+  // For a moment a process that becomes another program shows no environment
+  constexpr int quiet_enough = 10, rounds = 3000;
   const timespec pause{0, 20'000'000};
   for (int quiet = 0, round = 0; quiet < quiet_enough && round < rounds; ++round) {
     quiet = kill_ours(w) ? 0 : quiet + 1;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// engine-@NAME@: an engine of tripoint in one file, one process a run. Put its folder on TRIPOINT_ENGINE_PATH and ask
-// `tripoint engine check PATH`. Everything in JOB.json is SI; the particles are in the job's particles.h5 (H5MD).
-// Build: cmake -S . -B build && cmake --build build   (Debian: nlohmann-json3-dev); the program lands beside this file
+// engine-@NAME@: an engine of tripoint in one file, one process a run. Put its folder on TRIPOINT_ENGINE_PATH
+// and ask `tripoint engine check PATH`. Everything in JOB.json is SI; the particles are in the job's
+// particles.h5 (H5MD). Build: cmake -S . -B build && cmake --build build   (Debian: nlohmann-json3-dev); the
+// program lands beside this file
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,17 +22,17 @@ namespace {
 using json = nlohmann::json;
 using Vector = std::array<double, 3>;
 
-const json info{
-    {"contract", 1},
-    {"name", "@NAME@"},
-    {"version", "1"},
-    {"build", "C++20"},
-    {"library", {{"path", ""}, {"hash", ""}}},
-    {"capabilities", {"rigid-free-flight", "gravity", "contact"}},
-    {"presets", {"default"}},
-    {"settings",
-     {{"friction", "of every pair of bodies; a central hit has none"}, {"restitution", "of every pair of bodies; default 0"}}},
-    {"deterministic", true}};
+const json info{{"contract", 1},
+                {"name", "@NAME@"},
+                {"version", "1"},
+                {"build", "C++20"},
+                {"library", {{"path", ""}, {"hash", ""}}},
+                {"capabilities", {"rigid-free-flight", "gravity", "contact"}},
+                {"presets", {"default"}},
+                {"settings",
+                 {{"friction", "of every pair of bodies; a central hit has none"},
+                  {"restitution", "of every pair of bodies; default 0"}}},
+                {"deterministic", true}};
 
 struct JobFile {
   json job;
@@ -55,8 +56,9 @@ std::optional<double> floor_of(const json& shape) {
   if (shape.at("kind") == "box") return shape.at("max").at(2).get<double>();
   if (shape.at("kind") != "half_space") return {};
   const auto normal = shape.at("normal").get<Vector>();
-  return normal[0] == 0.0 && normal[1] == 0.0 && normal[2] > 0.0 ? std::optional(shape.at("point").at(2).get<double>())
-                                                                 : std::nullopt;
+  return normal[0] == 0.0 && normal[1] == 0.0 && normal[2] > 0.0
+             ? std::optional(shape.at("point").at(2).get<double>())
+             : std::nullopt;
 }
 
 /// Whether a body is a ball that falls straight down on the floor: the one contact that is solved here.
@@ -64,9 +66,10 @@ bool falls_straight(const json& body, const json& floor, const Vector& g) {
   const auto v = body.at("velocity").get<Vector>(), x = body.at("centre").get<Vector>();
   bool over = true;
   if (floor.at("kind") == "box")
-    for (std::size_t k = 0; k < 2; ++k) over = over && floor.at("min").at(k) <= x[k] && x[k] <= floor.at("max").at(k);
-  return over && body.at("shape").at("kind") == "sphere" && v[0] == 0.0 && v[1] == 0.0 && g[0] == 0.0 && g[1] == 0.0 &&
-         g[2] < 0.0 && body.at("angular_velocity").get<Vector>() == Vector{};
+    for (std::size_t k = 0; k < 2; ++k)
+      over = over && floor.at("min").at(k) <= x[k] && x[k] <= floor.at("max").at(k);
+  return over && body.at("shape").at("kind") == "sphere" && v[0] == 0.0 && v[1] == 0.0 && g[0] == 0.0 &&
+         g[1] == 0.0 && g[2] < 0.0 && body.at("angular_velocity").get<Vector>() == Vector{};
 }
 
 /// Why this engine cannot run the job honestly; "" if it can. A refusal is a row of the report, not an error.
@@ -75,7 +78,8 @@ std::string refusal(const json& job) {
   if (!scene.at("events").empty()) return "no events";
   const json* floor = nullptr;
   for (const auto& body : scene.at("bodies")) {
-    if (body.at("phase") != "rigid" || (body.at("motion") != "free" && !is_fixed(body)) || !body.at("temperature").is_null())
+    if (body.at("phase") != "rigid" || (body.at("motion") != "free" && !is_fixed(body)) ||
+        !body.at("temperature").is_null())
       return "only free rigid bodies and a fixed floor, without heat";
     const auto I = body.at("principal_inertia").get<Vector>();  // ascending
     if (body.at("angular_velocity").get<Vector>() != Vector{} && I[2] > (1.0 + 1e-9) * I[0])
@@ -90,7 +94,8 @@ std::string refusal(const json& job) {
   return {};
 }
 
-/// Height above the floor and speed of a ball: parabolas between hits, each of which gives back a share of the speed.
+/// Height above the floor and speed of a ball: parabolas between hits, each of which gives back a share of
+/// the speed.
 struct Bounces {
   double z, v, g, restitution, begun = 0.0;
   void advance_to(double t) {
@@ -107,11 +112,12 @@ struct Bounces {
   double speed(double t) const { return v + g * (t - begun); }
 };
 
-/// Writes trajectory.csv: one row a body and output time. Here a body follows its parabola, turns at a constant rate and
-/// bounces: put your engine in its place.
+/// Writes trajectory.csv: one row a body and output time. Here a body follows its parabola, turns at a
+/// constant rate and bounces: put your engine in its place.
 void solve(const json& job, std::ostream& out) {
   out.precision(17);
-  out << "time,body,x,y,z,vx,vy,vz,qw,qx,qy,qz,wx,wy,wz\n";  // of particles: time,id,x,y,z,vx,vy,vz[,temperature]
+  // Of particles: time,id,x,y,z,vx,vy,vz[,temperature]
+  out << "time,body,x,y,z,vx,vy,vz,qw,qx,qy,qz,wx,wy,wz\n";
   const auto& bodies = job.at("scene").at("bodies");
   const auto floor = std::find_if(bodies.begin(), bodies.end(), is_fixed);
   for (const auto& body : bodies) {
@@ -120,7 +126,8 @@ void solve(const json& job, std::ostream& out) {
                w = body.at("angular_velocity").get<Vector>();
     const double rate = std::hypot(w[0], w[1], w[2]);
     const bool bounces = floor != bodies.end() && !is_fixed(body);
-    const double lowest = bounces ? *floor_of(floor->at("shape")) + body.at("shape").at("radius").get<double>() : 0.0;
+    const double lowest =
+        bounces ? *floor_of(floor->at("shape")) + body.at("shape").at("radius").get<double>() : 0.0;
     Bounces ball{x0[2] - lowest, v0[2], g[2], job.at("settings").value("restitution", 0.0)};
     for (const double t : job.at("times")) {
       Vector x, v;
@@ -135,7 +142,8 @@ void solve(const json& job, std::ostream& out) {
       for (const auto& three : {x, v})
         for (const double number : three) out << ',' << number;
       out << ',' << std::cos(0.5 * rate * t);  // orientation (w, x, y, z), (1, 0, 0, 0) at the start
-      for (std::size_t k = 0; k < 3; ++k) out << ',' << (rate > 0.0 ? std::sin(0.5 * rate * t) * w[k] / rate : 0.0);
+      for (std::size_t k = 0; k < 3; ++k)
+        out << ',' << (rate > 0.0 ? std::sin(0.5 * rate * t) * w[k] / rate : 0.0);
       for (std::size_t k = 0; k < 3; ++k) out << ',' << w[k];
       out << '\n';
     }
@@ -162,11 +170,16 @@ int run(const std::string& path) {
     solve(job, trajectory);
     if (!trajectory.flush()) throw std::runtime_error("trajectory.csv cannot be written");
   }
-  const json held{
-      {"gravity", job.at("scene").at("gravity")}, {"time_step", 0.0}, {"precision", "double"}, {"bodies", held_bodies(job)}};
-  const json result{{"contract", 1},     {"status", reason.empty() ? "ok" : "refused"},
-                    {"message", reason}, {"time_reached", reason.empty() ? job.at("times").back().get<double>() : 0.0},
-                    {"steps", 0},        {"seconds", {{"stepping_cpu", static_cast<double>(std::clock()) / CLOCKS_PER_SEC}}},
+  const json held{{"gravity", job.at("scene").at("gravity")},
+                  {"time_step", 0.0},
+                  {"precision", "double"},
+                  {"bodies", held_bodies(job)}};
+  const json result{{"contract", 1},
+                    {"status", reason.empty() ? "ok" : "refused"},
+                    {"message", reason},
+                    {"time_reached", reason.empty() ? job.at("times").back().get<double>() : 0.0},
+                    {"steps", 0},
+                    {"seconds", {{"stepping_cpu", static_cast<double>(std::clock()) / CLOCKS_PER_SEC}}},
                     {"readback", held}};
   std::ofstream(folder / "result.json.part") << result.dump(1);
   std::filesystem::rename(folder / "result.json.part", folder / "result.json");  // the last act

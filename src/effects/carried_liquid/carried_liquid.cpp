@@ -31,11 +31,13 @@ namespace {
 
 constexpr StepNumber kick_length{"carried_half_step", 0.0};      ///< length of the last kick [s]
 constexpr Account compression_released{"compression_released"};  ///< as the effect of contact has it
-constexpr StepNumber held_for{"carried_steps_held", -1.0};  ///< steps that have taken the present corrections, -1: none are there
+/// Steps that have taken the present corrections, -1: none are there
+constexpr StepNumber held_for{"carried_steps_held", -1.0};
 constexpr Account taken_by_diffusion{"taken_by_diffusion"}, taken_by_shift{"taken_by_shift"};
 constexpr double viscous_share = 0.03;                   ///< of dx^2/nu that a step takes
 constexpr double full_rank = 0.5, own_full_rank = 0.02;  ///< determinant below which an inverse is blended
-constexpr double exposed_below = 2.25;                   ///< trace of the moment of a particle at a free surface
+/// Trace of the moment of a particle at a free surface
+constexpr double exposed_below = 2.25;
 
 struct Numbers {
   double stiffness = 0.0, reference = 0.0;  ///< k [m2/s2], rho_ref [kg/m3]
@@ -48,7 +50,8 @@ struct Numbers {
 std::vector<const Material*> liquids_of(const Scene& scene) {
   std::vector<const Material*> list;
   for (const Body& b : scene.bodies)
-    if (const Material& m = scene.material(b.material); b.phase == Phase::liquid || m.t_melt) list.push_back(&m);
+    if (const Material& m = scene.material(b.material); b.phase == Phase::liquid || m.t_melt)
+      list.push_back(&m);
   for (const Inflow& f : scene.inflows) list.push_back(&scene.material(f.material));
   return list;
 }
@@ -76,8 +79,9 @@ PairKernels kernels_of(const Scene& scene, const Numbers& n) {
 
 /// Columns that the effect of contact owns where solids meet.
 std::vector<FieldInfo> shared() {
-  return {field::density, field::volume,  field::pressure,        field::group,           field::force_x,
-          field::force_y, field::force_z, field::viscous_force_x, field::viscous_force_y, field::viscous_force_z};
+  return {field::density,         field::volume,         field::pressure, field::group,
+          field::force_x,         field::force_y,        field::force_z,  field::viscous_force_x,
+          field::viscous_force_y, field::viscous_force_z};
 }
 
 class CarriedLiquid : public Effect {
@@ -95,7 +99,8 @@ class CarriedLiquid : public Effect {
   }
   void drift(World& world, double dt) override;
   void clear(World& world, PassName pass) override {
-    if (pass == PassName::density) fill(world.particles[field::summed_density], kernels_.wendland.value(0.0), world.threads);
+    if (pass == PassName::density)
+      fill(world.particles[field::summed_density], kernels_.wendland.value(0.0), world.threads);
   }
   void state(World&) override;
   void bonds(World&) override;
@@ -120,13 +125,16 @@ class CarriedLiquid : public Effect {
   void correct_gradients(World&) const;
   void correct_velocity_gradients(World&) const;
   void form_corrections(World&) const;
-  /// Whether the viscous force changes little while corrections are held. Where solids meet, its column is not held.
+  /// Whether the viscous force changes little while corrections are held. Where solids meet, its column is
+  /// not held.
   [[nodiscard]] bool holds_viscosity(const World& world) const {
-    return !solids_meet_ &&
-           scheme_.hold * sound_step(world) * numbers_.greatest_nu < viscous_share * std::pow(world.scene.spacing, 2);
+    return !solids_meet_ && scheme_.hold * sound_step(world) * numbers_.greatest_nu <
+                                viscous_share * std::pow(world.scene.spacing, 2);
   }
   /// Bound of the step where nothing moves [s].
-  [[nodiscard]] double sound_step(const World& world) const { return scheme_.courant * world.support() / numbers_.sound_speed; }
+  [[nodiscard]] double sound_step(const World& world) const {
+    return scheme_.courant * world.support() / numbers_.sound_speed;
+  }
   void move_density(World&) const;
   void set_pressure(World&) const;
   void set_shift(World&) const;
@@ -149,7 +157,8 @@ void CarriedLiquid::set_material(World& world, std::size_t i) const {
   p[field::liquid_rest_density][i] = m.density;
   p[field::impedance][i] = liquid ? std::sqrt(m.density * numbers_.stiffness * numbers_.reference) : 0.0;
   p[field::liquid_viscosity][i] = liquid ? m.viscosity : 0.0;
-  p[field::slips][i] = !liquid && source < world.scene.bodies.size() && world.scene.bodies[source].free_slip ? 1.0 : 0.0;
+  p[field::slips][i] =
+      !liquid && source < world.scene.bodies.size() && world.scene.bodies[source].free_slip ? 1.0 : 0.0;
 }
 
 void CarriedLiquid::set_groups(World& world) const {
@@ -165,7 +174,8 @@ void CarriedLiquid::load(World& world, const InitialState&) {
   set_groups(world);
   const std::vector<double> pressure = hydrostatic_start(world);
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const double share = p[field::body][i] < 0 ? pressure[i] / (numbers_.stiffness * numbers_.reference) : 0.0;
+    const double share =
+        p[field::body][i] < 0 ? pressure[i] / (numbers_.stiffness * numbers_.reference) : 0.0;
     p[field::density][i] = p[field::liquid_rest_density][i] * (1.0 + share);
   }
 }
@@ -182,7 +192,8 @@ void CarriedLiquid::adopt(World& world) {
   take_pressure_around(world, state_, kernels_, change.melted);
   take_pressure_around(world, state_, kernels_, change.born);
   if (!touched.empty())
-    world.booked[compression_released] += before - energy_of(world, state_, kernels_, touched, 0.5 * drifted_);
+    world.booked[compression_released] +=
+        before - energy_of(world, state_, kernels_, touched, 0.5 * drifted_);
   const auto m = world.particles[field::mass], rho = world.particles[field::density],
              rest = world.particles[field::liquid_rest_density];
   for (const std::uint32_t id : change.born) {
@@ -198,8 +209,8 @@ void CarriedLiquid::drift(World& world, double dt) {
   const auto m = world.particles[field::mass];
   std::vector<std::array<double, 1>> blocks;
   const Vec3 g = world.scene.gravity;
-  const auto work =
-      ordered_sums(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) { sum[0] += m[i] * dot(g, w.at(i)); });
+  const auto work = ordered_sums(
+      world, blocks, [&](std::size_t i, std::array<double, 1>& sum) { sum[0] += m[i] * dot(g, w.at(i)); });
   world.booked[taken_by_shift] += dt * work[0];
 }
 
@@ -210,7 +221,8 @@ void CarriedLiquid::run(World& world, const PairTerm& term, bool liquids_only) c
   const Rows formed = liquids_only ? Rows{0, p.size()} : world.formed();
   const std::vector<FieldInfo> both = shared();
   for (const Field<double>* f : pass.adds())
-    if (!solids_meet_ || std::ranges::find(both, FieldInfo(*f)) == both.end()) fill(part(p[*f], formed), 0.0, world.threads);
+    if (!solids_meet_ || std::ranges::find(both, FieldInfo(*f)) == both.end())
+      fill(part(p[*f], formed), 0.0, world.threads);
   const Clusters& c = world.neighbours->clusters();
   const auto z = p[field::impedance];
   const auto is_wanted = [&](std::uint32_t i) { return world.owns(i) && (!liquids_only || z[i] != 0.0); };
@@ -264,9 +276,9 @@ void CarriedLiquid::move_density(World& world) const {
   const auto a = matrix_columns(p, field::velocity_gradient);
   const auto slope = triple(p, field::density_gradient);
   const auto w = triple(std::as_const(p), field::shift);
-  const auto z = p[field::impedance], rho = p[field::density], rest = p[field::liquid_rest_density], mass = p[field::mass],
-             divergence = p[field::divergence], diffused = p[field::diffused], near = p[field::exposed_near],
-             exposed = p[field::exposed], summed = p[field::summed_density];
+  const auto z = p[field::impedance], rho = p[field::density], rest = p[field::liquid_rest_density],
+             mass = p[field::mass], divergence = p[field::divergence], diffused = p[field::diffused],
+             near = p[field::exposed_near], exposed = p[field::exposed], summed = p[field::summed_density];
   const double h = 0.5 * world.support(), c = numbers_.sound_speed, dt = drifted_;
   const double diffusion = scheme_.damping == Damping::limited ? scheme_.delta : 2.0 * scheme_.delta * h * c;
   const double relax = scheme_.relax * c / world.support();
@@ -274,7 +286,8 @@ void CarriedLiquid::move_density(World& world) const {
   const auto taken = ordered_sums(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
     if (z[i] == 0.0) return;
     const Matrix3 A = a.at(i);
-    const double exact = determinant(identity3 - dt * A) + dt * (A.xx + A.yy + A.zz);  // 1 + terms of higher order
+    // 1 + terms of higher order
+    const double exact = determinant(identity3 - dt * A) + dt * (A.xx + A.yy + A.zz);
     const double carried = std::clamp(exact - dt * divergence[i], 0.5, 2.0) * rho[i];
     const double sum_now = mass[i] * summed[i] / numbers_.lattice.density;
     double extra = dt * diffusion * diffused[i];
@@ -317,7 +330,8 @@ void CarriedLiquid::set_shift(World& world) const {
   const auto driven = p.has(field::driven.name) ? p[field::driven] : std::span<int>{};
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const bool inside = z[i] != 0.0 && (driven.empty() || driven[i] == 0) && exposed[i] == 0.0 && near[i] == 0.0;
+    const bool inside =
+        z[i] != 0.0 && (driven.empty() || driven[i] == 0) && exposed[i] == 0.0 && near[i] == 0.0;
     if (!inside || scheme_.shift == Shift::none) {
       w.set(i, {});
       continue;
@@ -334,7 +348,8 @@ void CarriedLiquid::set_shift(World& world) const {
   }
 }
 
-/// Gravity at solids. Their acceleration is left out: the head that it makes would do work that no energy stands behind.
+/// Gravity at solids. Their acceleration is left out: the head that it makes would do work that no energy
+/// stands behind.
 void CarriedLiquid::set_pull(World& world) const {
   Particles& p = world.particles;
   const auto pull = triple(p, field::pull);
@@ -345,8 +360,8 @@ void CarriedLiquid::set_pull(World& world) const {
 
 void CarriedLiquid::state(World& world) {
   Particles& p = world.particles;
-  const auto rho = p[field::density], m = p[field::mass], V = p[field::carried_volume], rest = p[field::liquid_rest_density],
-             z = p[field::impedance];
+  const auto rho = p[field::density], m = p[field::mass], V = p[field::carried_volume],
+             rest = p[field::liquid_rest_density], z = p[field::impedance];
   // Moments, rates and forces of one state take the same volumes: those before the step.
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t i = 0; i < p.size(); ++i) V[i] = m[i] / (z[i] != 0.0 ? rho[i] : rest[i]);
@@ -362,7 +377,8 @@ void CarriedLiquid::state(World& world) {
   set_pressure(world);
   set_pull(world);
   if (renewed) set_shift(world);
-  if (renewed || !holds_viscosity(world)) liquid::predict_velocities(world, world.step_numbers[kick_length], field::predicted);
+  if (renewed || !holds_viscosity(world))
+    liquid::predict_velocities(world, world.step_numbers[kick_length], field::predicted);
   drifted_ = 0.0;
 }
 
@@ -377,7 +393,8 @@ void CarriedLiquid::form_corrections(World& world) const {
 /// The viscous forces, the damping and the diffusion of the last renewal hold until the next.
 void CarriedLiquid::bonds(World& world) {
   if (world.step_numbers[held_for] > 0.0 && !world.forms_fixed)
-    return run(world, holds_viscosity(world) ? pair_term<SoundForce<false>> : pair_term<SoundForce<true>>, false);
+    return run(world, holds_viscosity(world) ? pair_term<SoundForce<false>> : pair_term<SoundForce<true>>,
+               false);
   run(world, scheme_.forces, false);
   if (scheme_.damping != Damping::residue) return;
   Particles& p = world.particles;
@@ -388,20 +405,24 @@ void CarriedLiquid::bonds(World& world) {
 
 TimeStepBound CarriedLiquid::max_dt(const World& world) const {
   TimeStepBound bound;
-  tighten(bound, scheme_.courant * world.support() / (numbers_.sound_speed + liquid::greatest_speed(world)), "sound");
+  tighten(bound, scheme_.courant * world.support() / (numbers_.sound_speed + liquid::greatest_speed(world)),
+          "sound");
   if (numbers_.greatest_nu > 0.0)
-    tighten(bound, viscous_share * world.scene.spacing * world.scene.spacing / numbers_.greatest_nu, "viscosity");
+    tighten(bound, viscous_share * world.scene.spacing * world.scene.spacing / numbers_.greatest_nu,
+            "viscosity");
   return bound;
 }
 
 /// m e(rho), de = p/rho^2 drho, from the rest density.
 void CarriedLiquid::add_to(const World& world, Ledger& ledger) const {
   const Particles& p = world.particles;
-  const auto z = p[field::impedance], m = p[field::mass], rho = p[field::density], rest = p[field::liquid_rest_density];
+  const auto z = p[field::impedance], m = p[field::mass], rho = p[field::density],
+             rest = p[field::liquid_rest_density];
   std::vector<std::array<double, 1>> blocks;
   const auto share = p[field::wall_share];
   const auto sums = ordered_sums(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
-    if (z[i] != 0.0) sum[0] += state_.energy(m[i], rho[i], rest[i]) + state_.wall_energy(m[i], rest[i], share[i]);
+    if (z[i] != 0.0)
+      sum[0] += state_.energy(m[i], rho[i], rest[i]) + state_.wall_energy(m[i], rest[i], share[i]);
   });
   ledger.energy["compression"] += sums[0];
   ledger.energy["diffusion"] += world.booked[taken_by_diffusion];
@@ -431,13 +452,20 @@ std::vector<FieldInfo> owned(bool solids_meet) {
 }
 
 std::vector<Force> forces_of(bool solids_meet) {
-  Force pressure{field::force_x, field::force_y, field::force_z, {"pressure_work"}, Account{"wall_pressure_work"}};
+  Force pressure{
+      field::force_x, field::force_y, field::force_z, {"pressure_work"}, Account{"wall_pressure_work"}};
   pressure.stored = StoredEnergy{{"compression"}, {"start_compression"}, {}, ""};
-  Force viscous{
-      field::viscous_force_x, field::viscous_force_y, field::viscous_force_z, {"viscous_work"}, Account{"wall_viscous_work"}};
+  Force viscous{field::viscous_force_x,
+                field::viscous_force_y,
+                field::viscous_force_z,
+                {"viscous_work"},
+                Account{"wall_viscous_work"}};
   viscous.entry = "viscous";
-  Force residue{
-      field::residue_force_x, field::residue_force_y, field::residue_force_z, {"residue_work"}, Account{"wall_residue_work"}};
+  Force residue{field::residue_force_x,
+                field::residue_force_y,
+                field::residue_force_z,
+                {"residue_work"},
+                Account{"wall_residue_work"}};
   residue.entry = "residue";
   return solids_meet ? std::vector{residue} : std::vector{pressure, viscous, residue};
 }
@@ -446,10 +474,10 @@ std::vector<Force> forces_of(bool solids_meet) {
 
 EffectSpec spec(const Scene& scene) {
   const bool solids_meet = calls_for(scene, "fluid");
-  EffectSpec s{
-      "carried_liquid", Mode::corrected, owned(solids_meet),
-      fields::joined(
-          {fields::position(), fields::velocity(), {field::id, field::mass, field::body, field::material, field::source}})};
+  EffectSpec s{"carried_liquid", Mode::corrected, owned(solids_meet),
+               fields::joined({fields::position(),
+                               fields::velocity(),
+                               {field::id, field::mass, field::body, field::material, field::source}})};
   s.reads_if_there = fields::joined({fields::image(), {field::driven}});
   if (solids_meet) s.reads = fields::joined({s.reads, shared()});
   s.sums_forces = true;

@@ -4,7 +4,8 @@
 
 #include "effects/effect.hpp"
 
-/// Liquid that carries its density: the rate follows from the velocities of neighbours, and the force is the adjoint of it.
+/// Liquid that carries its density: the rate follows from the velocities of neighbours, and the force is the
+/// adjoint of it.
 namespace tripoint::carried_liquid {
 
 [[nodiscard]] EffectSpec spec(const Scene&);

@@ -6,21 +6,22 @@
 /// Pair terms of the liquid that carries its density. G = grad_i W = (-W'/r) d, d = r_j - r_i.
 namespace tripoint::carried_liquid {
 
-/// Forms of the pair of pressures: F_i = -sum V_i V_j (p_i X + p_j Y). In each but `reverse_plain` the rate of density is
-/// -rho_i sum V_j (v_j - v_i).X, the adjoint of the force. At a solid all have 2 p_i B_i G.
+/// Forms of the pair of pressures: F_i = -sum V_i V_j (p_i X + p_j Y). In each but `reverse_plain` the rate
+/// of density is -rho_i sum V_j (v_j - v_i).X, the adjoint of the force. At a solid all have 2 p_i B_i G.
 enum class Pair : int {
   own,            ///< X = B_i G, Y = B_j G: exact for linear velocities [Bonet & Lok 1999]
   mean,           ///< X = Y = (B_i + B_j)/2 G
   reverse,        ///< X = B_j G, Y = B_i G
   reverse_plain,  ///< the same force, and the rate without B [Zhang et al. 2024]
 };
-/// What takes noise out of velocities: what linear reconstruction leaves of a pair, the same where it approaches and limited, or
-/// the whole approach, limited [Zhang, Hu, Adams 2017].
+/// What takes noise out of velocities: what linear reconstruction leaves of a pair, the same where it
+/// approaches and limited, or the whole approach, limited [Zhang, Hu, Adams 2017].
 enum class Damping : int { residue, limited_residue, limited };
 inline constexpr std::array<std::string_view, 4> pair_words{"own", "mean", "reverse", "reverse plain"};
 inline constexpr std::array<std::string_view, 3> damping_words{" residue", " limited residue", " limited"};
 
-/// Weight of the own pressure of i in a pair: 2 Z_j/(Z_i + Z_j) between liquids, 2 at a solid, which has no pressure of its own.
+/// Weight of the own pressure of i in a pair: 2 Z_j/(Z_i + Z_j) between liquids, 2 at a solid, which has no
+/// pressure of its own.
 template <class V>
 [[gnu::always_inline]] inline V weight(V z_i, V z_j) noexcept {
   const MaskOf<V> differ = z_i != z_j;
@@ -32,7 +33,8 @@ template <class V>
 
 /// X and Y of a pair over -W'/r, with the weights of the impedances.
 template <Pair form, class V>
-[[gnu::always_inline]] inline std::pair<VectorOf<V>, VectorOf<V>> sides(const VectorOf<V>& of_i, const VectorOf<V>& of_j, V z_i,
+[[gnu::always_inline]] inline std::pair<VectorOf<V>, VectorOf<V>> sides(const VectorOf<V>& of_i,
+                                                                        const VectorOf<V>& of_j, V z_i,
                                                                         V z_j) {
   const V w_i = weight<V>(z_i, z_j), w_j = weight<V>(z_j, z_i), none{};
   if constexpr (form == Pair::own) return {w_i * of_i, w_j * of_j};
@@ -64,9 +66,11 @@ template <class V>
 template <class V>
 [[gnu::always_inline]] inline V viscosity_between(const auto& i, const auto& j) {
   const MaskOf<V> wall_i = i(field::impedance) == 0.0, wall_j = j(field::impedance) == 0.0;
-  const V mu_i = i(field::liquid_viscosity), mu_j = j(field::liquid_viscosity), liquids = harmonic_mean<V>(mu_i, mu_j);
+  const V mu_i = i(field::liquid_viscosity), mu_j = j(field::liquid_viscosity),
+          liquids = harmonic_mean<V>(mu_i, mu_j);
   if (!any(wall_i | wall_j)) return liquids;
-  const V stick = where<V>(wall_i, 2.0 * (1.0 - i(field::slips))) * mu_j + where<V>(wall_j, 2.0 * (1.0 - j(field::slips))) * mu_i;
+  const V stick = where<V>(wall_i, 2.0 * (1.0 - i(field::slips))) * mu_j +
+                  where<V>(wall_j, 2.0 * (1.0 - j(field::slips))) * mu_i;
   return wall_i | wall_j ? stick : liquids;
 }
 /// Viscous force along the line of centres. @param k f V V mu @param v velocity of j less that of i
@@ -107,15 +111,16 @@ struct Moments {
   }
 };
 
-/// First derivatives: raw ones of velocity and density in the same liquid, the divergence by the form's pair, the unevenness
-/// sum V_j (X + Y), and the greatest velocity difference.
+/// First derivatives: raw ones of velocity and density in the same liquid, the divergence by the form's pair,
+/// the unevenness sum V_j (X + Y), and the greatest velocity difference.
 template <Pair form>
 struct Gradients {
-  static constexpr std::string_view first = "CarriedGradients ", second = pair_words[static_cast<std::size_t>(form)];
+  static constexpr std::string_view first = "CarriedGradients ",
+                                    second = pair_words[static_cast<std::size_t>(form)];
   static constexpr std::string_view name = JoinedName<first, second>::value;
   static constexpr bool zero_beyond = true;
-  using reads = Keys<field::carried_volume, field::impedance, field::liquid_rest_density, field::density, field::velocity,
-                     field::correction, field::exposed>;
+  using reads = Keys<field::carried_volume, field::impedance, field::liquid_rest_density, field::density,
+                     field::velocity, field::correction, field::exposed>;
   using adds = Keys<field::velocity_gradient, field::density_gradient, field::unevenness, field::exposed_near,
                     field::nearby_speed2, field::divergence>;
   template <class V>
@@ -123,13 +128,15 @@ struct Gradients {
     const V z_i = i(field::impedance), z_j = j(field::impedance);
     const V f = where<V>(g.within, -g.gradient * j(field::carried_volume));
     const VectorOf<V> d = g.d(), v = j(field::velocity) - i(field::velocity);
-    const V same = where<V>((i(field::liquid_rest_density) == j(field::liquid_rest_density)) & (z_j != 0.0), f);
+    const V same =
+        where<V>((i(field::liquid_rest_density) == j(field::liquid_rest_density)) & (z_j != 0.0), f);
     const V jump = j(field::density) - i(field::density);
     sum(field::velocity_gradient) += outer<V>(v, same * d);
     sum(field::density_gradient) += jump * (same * d);
     const auto [X, Y] = sides<form, V>(i(field::correction) * d, j(field::correction) * d, z_i, z_j);
     sum(field::unevenness) += f * (X + Y);
-    const V close = where<V>(g.within, j(field::exposed)), speed2 = where<V>(g.within & (z_j != 0.0), dot(v, v));
+    const V close = where<V>(g.within, j(field::exposed)),
+            speed2 = where<V>(g.within & (z_j != 0.0), dot(v, v));
     V &near = sum(field::exposed_near), &greatest = sum(field::nearby_speed2);
     near = close > near ? close : near;
     greatest = speed2 > greatest ? speed2 : greatest;
@@ -140,16 +147,19 @@ struct Gradients {
   }
 };
 
-/// Forces of pressure, of viscosity and of the damping, and the diffusion of density. A solid feels the opposite of what it does.
+/// Forces of pressure, of viscosity and of the damping, and the diffusion of density. A solid feels the
+/// opposite of what it does.
 template <Pair form, Damping damping>
 struct Forces {
-  static constexpr std::string_view first = "CarriedForces ", second = pair_words[static_cast<std::size_t>(form)],
+  static constexpr std::string_view first = "CarriedForces ",
+                                    second = pair_words[static_cast<std::size_t>(form)],
                                     third = damping_words[static_cast<std::size_t>(damping)];
   static constexpr std::string_view name = JoinedName<first, second, third>::value;
   static constexpr bool zero_beyond = true;
-  using reads = Keys<field::carried_volume, field::impedance, field::liquid_rest_density, field::density, field::pressure,
-                     field::liquid_viscosity, field::slips, field::correction, field::velocity, field::velocity_gradient,
-                     field::density_gradient, field::pull, field::predicted, field::wall_pressure>;
+  using reads = Keys<field::carried_volume, field::impedance, field::liquid_rest_density, field::density,
+                     field::pressure, field::liquid_viscosity, field::slips, field::correction,
+                     field::velocity, field::velocity_gradient, field::density_gradient, field::pull,
+                     field::predicted, field::wall_pressure>;
   using adds = Keys<field::force, field::viscous_force, field::residue_force, field::diffused>;
   template <class V>
   static void pair(const PairGeometry<V>& g, const auto& i, const auto& j, auto& sum) {
@@ -167,7 +177,8 @@ struct Forces {
     const V mu = viscosity_between<V>(i, j);
     sum(field::viscous_force) += shear<V>(g, ff * mu, j(field::predicted) - i(field::predicted));
     // damping
-    const V parting = dot(j(field::velocity) - i(field::velocity), d) * g.per_r2;  // [1/s], below 0 where the pair approaches
+    // [1/s], below 0 where the pair approaches
+    const V parting = dot(j(field::velocity) - i(field::velocity), d) * g.per_r2;
     V left = parting;
     if constexpr (damping != Damping::limited)
       left -= (0.5 * g.per_r2) * dot((i(field::velocity_gradient) + j(field::velocity_gradient)) * d, d);
@@ -176,7 +187,8 @@ struct Forces {
     if constexpr (damping == Damping::residue) {
       k = where<V>(rest_i == rest_j, ff * z * left);  // times beta h; unlike liquids slip along each other
     } else {
-      const V u = g.r * (parting > left ? -parting : -left), mach = 3.0 * u * (rest_i + rest_j) / (z_i + z_j + 1e-300);
+      const V u = g.r * (parting > left ? -parting : -left),
+              mach = 3.0 * u * (rest_i + rest_j) / (z_i + z_j + 1e-300);
       k = where<V>(u > 0.0, -(ff * z) * u * (mach < 1.0 ? mach : every_lane<V>(1.0)));
     }
     sum(field::residue_force) += k * d;

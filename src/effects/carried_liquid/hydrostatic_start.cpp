@@ -48,7 +48,8 @@ std::vector<Column> columns_of(const Start& s) {
   return list;
 }
 
-/// A stretch of a column that stands on a wall: each particle bears what lies above it. Liquid beneath a solid is covered.
+/// A stretch of a column that stands on a wall: each particle bears what lies above it. Liquid beneath a
+/// solid is covered.
 void press(Start& s, std::span<const std::pair<double, std::size_t>> stretch) {
   double p = 0.0;
   bool open = true;
@@ -67,7 +68,8 @@ void press_columns(Start& s) {
   for (const Column& list : columns_of(s))
     for (std::size_t from = 0, past = 0; from < list.size(); from = past) {
       past = from + 1;
-      while (past < list.size() && !s.is_wall(list[past - 1].second) && list[past].first - list[past - 1].first < gap * s.dx)
+      while (past < list.size() && !s.is_wall(list[past - 1].second) &&
+             list[past].first - list[past - 1].first < gap * s.dx)
         ++past;
       if (s.is_wall(list[past - 1].second)) press(s, std::span(list).subspan(from, past - 1 - from));
     }
@@ -102,8 +104,8 @@ class Cells {
   std::map<std::array<long, 3>, std::vector<std::size_t>> cells_;
 };
 
-/// Covered liquid takes its pressure from open liquid beside it, a ring of particles after the other. What no open liquid reaches
-/// bears the weight of the solid above it.
+/// Covered liquid takes its pressure from open liquid beside it, a ring of particles after the other. What no
+/// open liquid reaches bears the weight of the solid above it.
 void spread_under_solids(Start& s) {
   const Cells cells(s);
   std::vector<std::size_t> covered;

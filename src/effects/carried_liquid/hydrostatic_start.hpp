@@ -6,8 +6,8 @@
 
 namespace tripoint::carried_liquid {
 
-/// Pressure at time 0 of each row [Pa]: the weight above it in its column, where that column stands on a wall without a gap; else
-/// 0.
+/// Pressure at time 0 of each row [Pa]: the weight above it in its column, where that column stands on a wall
+/// without a gap; else 0.
 [[nodiscard]] std::vector<double> hydrostatic_start(const World&);
 
 }  // namespace tripoint::carried_liquid

@@ -32,7 +32,8 @@ std::vector<std::size_t> touched_rows(const World& world, const std::vector<std:
   const auto id = p[field::id];
   std::vector<std::uint32_t> all = ids;
   for (const std::uint32_t one : ids)
-    for (const Entry e : world.neighbours->of(p.row(one))) all.push_back(static_cast<std::uint32_t>(id[e.row()]));
+    for (const Entry e : world.neighbours->of(p.row(one)))
+      all.push_back(static_cast<std::uint32_t>(id[e.row()]));
   std::ranges::sort(all);
   all.erase(std::unique(all.begin(), all.end()), all.end());
   std::vector<std::size_t> rows;
@@ -40,10 +41,11 @@ std::vector<std::size_t> touched_rows(const World& world, const std::vector<std:
   return rows;
 }
 
-double energy_of(const World& world, const CarriedState& state, const PairKernels& kernels, const std::vector<std::size_t>& rows,
-                 double back) {
+double energy_of(const World& world, const CarriedState& state, const PairKernels& kernels,
+                 const std::vector<std::size_t>& rows, double back) {
   const Particles& p = world.particles;
-  const auto z = p[field::impedance], m = p[field::mass], rho = p[field::density], rest = p[field::liquid_rest_density];
+  const auto z = p[field::impedance], m = p[field::mass], rho = p[field::density],
+             rest = p[field::liquid_rest_density];
   const auto x = positions(p), v = velocities(p);
   double sum = 0.0;
   for (const std::size_t i : rows) {

@@ -20,17 +20,20 @@ struct CarriedState {
   [[nodiscard]] double wall_energy(double mass, double rest, double share) const;
 };
 
-inline constexpr double inside_wall = 0.5;  ///< share of its neighbourhood that a solid fills at the solid's face
+/// Share of its neighbourhood that a solid fills at the solid's face
+inline constexpr double inside_wall = 0.5;
 
 /// Rows of what changed, and of their neighbours.
 [[nodiscard]] std::vector<std::size_t> touched_rows(const World&, const std::vector<std::uint32_t>& ids);
 
-/// Energy of compression of these rows, as far as they are liquid now [J]. @param back time since the places meant [s]
-[[nodiscard]] double energy_of(const World&, const CarriedState&, const PairKernels&, const std::vector<std::size_t>& rows,
-                               double back);
+/// Energy of compression of these rows, as far as they are liquid now [J]. @param back time since the places
+/// meant [s]
+[[nodiscard]] double energy_of(const World&, const CarriedState&, const PairKernels&,
+                               const std::vector<std::size_t>& rows, double back);
 
 /// What becomes liquid takes the pressure of the liquid around it; alone it is at rest density.
 /// @param ids of new liquids   @pre their materials are set, and those of all others too
-void take_pressure_around(World&, const CarriedState&, const PairKernels&, const std::vector<std::uint32_t>& ids);
+void take_pressure_around(World&, const CarriedState&, const PairKernels&,
+                          const std::vector<std::uint32_t>& ids);
 
 }  // namespace tripoint::carried_liquid

@@ -14,8 +14,9 @@ bool flows(const Scene& s) {
 
 std::string called_for(const Scene& s) {
   if (!liquid::carries_density(s)) return "";
-  std::string who = bodies_where(
-      s, [](const Scene& scene, const Body& b, const Material&) { return b.phase == Phase::liquid && moves(scene, b); });
+  std::string who = bodies_where(s, [](const Scene& scene, const Body& b, const Material&) {
+    return b.phase == Phase::liquid && moves(scene, b);
+  });
   if (who.empty() && !s.inflows.empty()) who = "an inflow";
   if (who.empty() && flows(s)) who = who_changes_phase(s);
   return because(who, "liquid that carries its density");
@@ -24,12 +25,16 @@ std::string called_for(const Scene& s) {
 std::string left_out(const Scene&) { return "liquids take their density from the sum over neighbours"; }
 
 std::vector<BroughtForm> forms() {
-  const auto form = [](std::string_view word, std::string_view meaning) { return BroughtForm{term::pressure, {word, meaning}}; };
-  return {form("adjoint", "density is carried by a rate exact for linear velocities, and the force is its adjoint"),
-          form("adjoint_limited", "the same pair with limited viscosity, and a shift by the flow's own speed"),
-          form("reverse", "as adjoint_limited with the matrices of the pair exchanged"),
-          form("reverse_riemann", "exchanged matrices, a plain rate, Riemann pairs"),
-          form("mean", "as adjoint with the mean of the pair's matrices")};
+  const auto form = [](std::string_view word, std::string_view meaning) {
+    return BroughtForm{term::pressure, {word, meaning}};
+  };
+  return {
+      form("adjoint",
+           "density is carried by a rate exact for linear velocities, and the force is its adjoint"),
+      form("adjoint_limited", "the same pair with limited viscosity, and a shift by the flow's own speed"),
+      form("reverse", "as adjoint_limited with the matrices of the pair exchanged"),
+      form("reverse_riemann", "exchanged matrices, a plain rate, Riemann pairs"),
+      form("mean", "as adjoint with the mean of the pair's matrices")};
 }
 
 }  // namespace

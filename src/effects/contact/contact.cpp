@@ -6,7 +6,8 @@
 #include "liquids/changes.hpp"
 #include "liquids/fields.hpp"
 
-/// Contact of solids: they touch by the pressure of liquids, and here is what their touch asks of the step (model 8.3, 8.10).
+/// Contact of solids: they touch by the pressure of liquids, and here is what their touch asks of the step
+/// (model 8.3, 8.10).
 namespace tripoint::contact {
 namespace {
 
@@ -36,7 +37,8 @@ EffectSpec spec(const Scene& scene) {
   EffectSpec s{"contact",
                Mode::corrected,
                {},
-               fields::joined({fields::velocity(), {field::mass, field::group, field::rest_density, field::number_density}})};
+               fields::joined({fields::velocity(),
+                               {field::mass, field::group, field::rest_density, field::number_density}})};
   s.skips_sleeping = true;
   if (liquid::numbers_of(scene).contact_step == 0.0) return s;
   s.owns = {field::solid_density_before};

@@ -10,11 +10,12 @@
 namespace tripoint::contact {
 namespace {
 
-/// Compression that counts as round-off [1]: far above that of a kernel sum, and 1e-9 of the stiffness as a pressure.
+/// Compression that counts as round-off [1]: far above that of a kernel sum, and 1e-9 of the stiffness as a
+/// pressure.
 constexpr double rounding = 1e-9;
 
-/// Steps of sound before a touch from which on the bound of contact holds [1]: a choice. In them a hit at a tenth of the speed of
-/// sound comes nearer by a third of a spacing.
+/// Steps of sound before a touch from which on the bound of contact holds [1]: a choice. In them a hit at a
+/// tenth of the speed of sound comes nearer by a third of a spacing.
 constexpr double looked_ahead = 3.0;
 
 }  // namespace
@@ -32,9 +33,12 @@ void update_time_to_touch(World& world, const liquid::SceneNumbers& n) {
   const auto delta = p[field::number_density], before = p[field::solid_density_before];
   const auto rest = p[field::rest_density], m = p[field::mass], group = p[field::group];
   double least = std::numeric_limits<double>::infinity();
-#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(min : least) if (p.moving() > worth_threads)
+#pragma omp parallel for schedule(static) num_threads(world.threads) \
+    reduction(min                                                    \
+              : least) if (p.moving() > worth_threads)
   for (std::size_t i = 0; i < p.moving(); ++i) {
-    const double missing = rest[i] / m[i] * n.lattice_density * (1.0 + rounding) - delta[i], gained = delta[i] - before[i];
+    const double missing = rest[i] / m[i] * n.lattice_density * (1.0 + rounding) - delta[i],
+                 gained = delta[i] - before[i];
     before[i] = delta[i];
     if (group[i] == liquid_group || !world.owns(i)) continue;
     if (missing <= 0.0) least = 0.0;

@@ -7,7 +7,9 @@
 namespace tripoint::contact {
 namespace {
 
-bool is_free_solid(const Scene&, const Body& b, const Material&) { return b.phase != Phase::liquid && b.motion == Motion::free; }
+bool is_free_solid(const Scene&, const Body& b, const Material&) {
+  return b.phase != Phase::liquid && b.motion == Motion::free;
+}
 
 std::string no_contact_stiffness(const Scene& s) {
   if (s.mode_of(term::state) == Mode::paper) return "the equation of state is as printed";
@@ -24,7 +26,9 @@ std::string no_contact_step(const Scene& s) {
   return any_body(s, is_free_solid) ? "" : "no solid is free to touch another";
 }
 
-bool asks(const Scene& s) { return acting_number(s, "contact_stiffness") > 0.0 || acting_number(s, "contact_step") > 0.0; }
+bool asks(const Scene& s) {
+  return acting_number(s, "contact_stiffness") > 0.0 || acting_number(s, "contact_step") > 0.0;
+}
 
 std::string called_for(const Scene& s) {
   return calls_for(s, "fluid") && asks(s) ? "solids that touch are stiffer, or shorten the step" : "";
@@ -40,14 +44,18 @@ std::vector<EffectKey> keys() {
   using enum ValueType;
   using enum Range;
   return {
-      {{"scene", "contact_stiffness", number, "", not_negative, "0", "contacts are as stiff as the scene's liquids", "",
-        "extra stiffness of solid contact: contacts use (1 + contact_stiffness) k (model 8.3). Only where the state is "
+      {{"scene", "contact_stiffness", number, "", not_negative, "0",
+        "contacts are as stiff as the scene's liquids", "",
+        "extra stiffness of solid contact: contacts use (1 + contact_stiffness) k (model 8.3). Only where "
+        "the state is "
         "corrected, nothing freezes, and a solid is free"},
        {},
        no_contact_stiffness},
       {{"scene", "contact_step", number, "", fraction, "0", "the contact bound always holds", "",
-        "share of the contact bound of the step, used only while a free solid is pressed or about to be (model 8.10). 0: the "
-        "bound always holds. Only where the scene clamps without time_step, density, pressure and state are corrected, nothing "
+        "share of the contact bound of the step, used only while a free solid is pressed or about to be "
+        "(model 8.10). 0: the "
+        "bound always holds. Only where the scene clamps without time_step, density, pressure and state are "
+        "corrected, nothing "
         "freezes, and a solid is free"},
        {},
        no_contact_step},
@@ -57,17 +65,19 @@ std::vector<EffectKey> keys() {
 }  // namespace
 
 EffectRule rule() {
-  return {.name = "contact",
-          .called_for = called_for,
-          .left_out = left_out,
-          .choices = {{"contact",
-                       {{"stiff", "solids are 25 times as stiff where they touch (8.3)", {{"contact_stiffness", 24.0}}},
-                        {"common", "as stiff as the scene's liquids", {{"contact_stiffness", 0.0}}}}},
-                      {"contact_step",
-                       {{"at-touch", "the bound of contact holds near a touch alone (8.10)", {{"contact_step", 1.0}}},
-                        {"always", "it holds in every step", {{"contact_step", 0.0}}}}}},
-          .keys = keys(),
-          .over_processes = true};
+  return {
+      .name = "contact",
+      .called_for = called_for,
+      .left_out = left_out,
+      .choices =
+          {{"contact",
+            {{"stiff", "solids are 25 times as stiff where they touch (8.3)", {{"contact_stiffness", 24.0}}},
+             {"common", "as stiff as the scene's liquids", {{"contact_stiffness", 0.0}}}}},
+           {"contact_step",
+            {{"at-touch", "the bound of contact holds near a touch alone (8.10)", {{"contact_step", 1.0}}},
+             {"always", "it holds in every step", {{"contact_step", 0.0}}}}}},
+      .keys = keys(),
+      .over_processes = true};
 }
 
 }  // namespace tripoint::contact

@@ -13,13 +13,15 @@
 #include "world/body_table.hpp"
 #include "world/fill.hpp"
 
-/// Density, which pressure, viscosity and the heat of the paper divide by: (4), or corrected by the number density (model 8.2).
+/// Density, which pressure, viscosity and the heat of the paper divide by: (4), or corrected by the number
+/// density (model 8.2).
 namespace tripoint::density {
 namespace {
 
 /// Heat alone takes (4) as printed.
 bool is_printed(const Scene& scene) {
-  return !liquid::carries_density(scene) && (scene.mode_of(term::density) == Mode::paper || !calls_for(scene, "fluid"));
+  return !liquid::carries_density(scene) &&
+         (scene.mode_of(term::density) == Mode::paper || !calls_for(scene, "fluid"));
 }
 
 class Density : public Effect {
@@ -54,7 +56,8 @@ void Density::load(World& world, const InitialState&) {
 void Density::set_own_density(World& world, std::size_t row) const {
   if (!world.particles.has(field::own_density.name)) return;
   double sum = 0.0;
-  for (const OwnPair& pair : std::as_const(world.own).of(static_cast<std::size_t>(world.particles[field::id][row])))
+  for (const OwnPair& pair :
+       std::as_const(world.own).of(static_cast<std::size_t>(world.particles[field::id][row])))
     sum += pair.weight;
   world.particles[field::own_density][row] = sum;
 }
@@ -103,7 +106,9 @@ void Density::densities(World& world) {
 }
 
 PairWork Density::pair_work(const Scene&) const {
-  PairWork work{{printed_ ? pair_term<DensityPaper> : of_solids_ ? pair_term<SolidNumberDensity> : pair_term<NumberDensity>}};
+  PairWork work{{printed_     ? pair_term<DensityPaper>
+                 : of_solids_ ? pair_term<SolidNumberDensity>
+                              : pair_term<NumberDensity>}};
   work.where_it_acts = flows_;
   work.leaves_own_pairs = !printed_;
   return work;
@@ -113,8 +118,10 @@ PairWork Density::pair_work(const Scene&) const {
 
 EffectSpec spec(const Scene& scene) {
   const bool printed = is_printed(scene);
-  EffectSpec s{
-      "density", printed ? Mode::paper : Mode::corrected, {field::density, field::volume}, {field::id, field::mass, field::body}};
+  EffectSpec s{"density",
+               printed ? Mode::paper : Mode::corrected,
+               {field::density, field::volume},
+               {field::id, field::mass, field::body}};
   if (liquid::carries_density(scene)) s.reads.emplace_back(field::group);
   if (!printed) s.owns.push_back(field::number_density);
   if (!printed && can_have_deformable_bodies(scene)) s.owns.push_back(field::own_density);

@@ -17,8 +17,8 @@ struct DensityPaper {
   }
 };
 
-/// Number density (model 8.2) [Solenthaler & Pajarola 2008]: delta_i = sum_j W(r_ij) [1/m3]. The particle itself and its own
-/// pairs are added before the pass. The division by the kernel's lattice sum follows it.
+/// Number density (model 8.2) [Solenthaler & Pajarola 2008]: delta_i = sum_j W(r_ij) [1/m3]. The particle
+/// itself and its own pairs are added before the pass. The division by the kernel's lattice sum follows it.
 struct NumberDensity {
   static constexpr std::string_view name = "NumberDensity";
   static constexpr bool zero_beyond = true;
@@ -39,7 +39,8 @@ struct SolidNumberDensity {
   template <class V>
   static void pair(const PairGeometry<V>& g, const auto&, const auto& j, auto& sum) {
     const V group_j = j(field::group);
-    sum(field::number_density) += where(g.apart & (group_j != liquid_group), g.kernels.wendland.value_inside(g.r));
+    sum(field::number_density) +=
+        where(g.apart & (group_j != liquid_group), g.kernels.wendland.value_inside(g.r));
   }
 };
 

@@ -10,7 +10,9 @@ std::string needed_for(const Scene& s, const Called& called) {
   if (called("fluid")) return "pressure and viscosity divide by it";
   if (called("carried_liquid")) return "";  // it has a density
   const bool printed = s.mode_of(term::heat) == Mode::paper;
-  return called("heat") && printed && !equal_temperature(s) ? "(21) as printed divides by the summed density (4)" : "";
+  return called("heat") && printed && !equal_temperature(s)
+             ? "(21) as printed divides by the summed density (4)"
+             : "";
 }
 
 }  // namespace

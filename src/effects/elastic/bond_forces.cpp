@@ -28,11 +28,15 @@ PeriodicWidths periodic_widths(const PeriodicBox& box) {
 class Stresses {
  public:
   Stresses(World& world, const ElasticForms& forms, Deformations& all)
-      : forms_(forms), all_(all), constants_(forms.constants(world)), force_(triple(world.particles, field::elastic_force)) {}
+      : forms_(forms),
+        all_(all),
+        constants_(forms.constants(world)),
+        force_(triple(world.particles, field::elastic_force)) {}
   void none(std::size_t row) { force_.set(row, {}); }
-  /// @param G F - I   @param elastic strain less what has flowed   @param A shape inverse   @param P projector on its range
-  void set(std::size_t row, std::size_t id, const Matrix3& G, const Matrix3& H, const Symmetric& elastic, const Symmetric& A,
-           const Symmetric& P, int rank) {
+  /// @param G F - I   @param elastic strain less what has flowed   @param A shape inverse   @param P
+  /// projector on its range
+  void set(std::size_t row, std::size_t id, const Matrix3& G, const Matrix3& H, const Symmetric& elastic,
+           const Symmetric& A, const Symmetric& P, int rank) {
     const Symmetric S = forms_.stress(elastic, P, rank, constants_(row));
     const Matrix3 T = ((forms_.force_factor() * all_.places[id].volume) * ((identity3 + G) * S) + H) * A;
     all_.deformed[id].set_T(T);
@@ -52,13 +56,15 @@ double volume_ratio(const Matrix3& G) { return determinant(identity3 + G); }
 bool flows(const World& world) { return world.particles.has(field::may_flow.name); }
 
 /// Strain less what has flowed, within the range of P.
-inline Symmetric elastic_strain(const Symmetric& strain, const Symmetric& plastic, const Symmetric& P, int rank) {
+inline Symmetric elastic_strain(const Symmetric& strain, const Symmetric& plastic, const Symmetric& P,
+                                int rank) {
   const Symmetric e = strain - plastic;
   return rank == 3 ? e : between(P, e);
 }
 
 /// Of the hourglass energy of a solid: its modulus and the force of its own energy on it. @return H [N m]
-Matrix3 resist_hourglass(Deformations& all, std::uint32_t id, double stiff, const Matrix3& G, const ListSums& sums) {
+Matrix3 resist_hourglass(Deformations& all, std::uint32_t id, double stiff, const Matrix3& G,
+                         const ListSums& sums) {
   const double volume = all.places[id].volume;
   const ReferenceSums& reference = all.reference[id];
   all.deformed[id].set_moduli(stiff, 0.0, volume);
@@ -68,8 +74,8 @@ Matrix3 resist_hourglass(Deformations& all, std::uint32_t id, double stiff, cons
 
 /// Of a sheet or chain, where no force acts on it itself.
 /// @return H = -F sum_j kappa_ij y y^T, y = P x_ji, kappa_ij = (a E/2) v_i v_j W g_ij/|x_ij|^2 [N m]
-Matrix3 resist_flat_hourglass(const World& world, Deformations& all, std::uint32_t id, double stiff, const Symmetric& strain,
-                              const Symmetric& P, const Matrix3& F) {
+Matrix3 resist_flat_hourglass(const World& world, Deformations& all, std::uint32_t id, double stiff,
+                              const Symmetric& strain, const Symmetric& P, const Matrix3& F) {
   Symmetric sum;
   const Place& i = all.places[id];
   all.deformed[id].set_moduli(0.0, stiff, i.volume);
@@ -77,7 +83,8 @@ Matrix3 resist_flat_hourglass(const World& world, Deformations& all, std::uint32
   for (const Bond& b : world.bonds.of(id)) {
     const Place& j = all.places[b.other];
     const Vec3 r = solid::nearest_image(world.box, j.r - i.r);
-    const double kappa = stiff * i.volume * j.volume * b.weight / dot(b.x, b.x) * solid::hourglass_residual_flat(strain, -b.x, r);
+    const double kappa = stiff * i.volume * j.volume * b.weight / dot(b.x, b.x) *
+                         solid::hourglass_residual_flat(strain, -b.x, r);
     sum = sum + kappa * square(P * b.x);
   }
   return -1.0 * (F * sum);
@@ -147,7 +154,8 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all, bool
 void follow_flow(World& world, const ElasticForms& forms, Deformations& all) {
   const Particles& p = world.particles;
   const auto id_of = p[field::id], rank_of = p[field::shape_rank], may_flow = p[field::may_flow];
-  const auto shape = solid::shape_inverses(p), strain_of = solid::strains(p), plastic_of = solid::plastic_strains(p);
+  const auto shape = solid::shape_inverses(p), strain_of = solid::strains(p),
+             plastic_of = solid::plastic_strains(p);
   Stresses stresses(world, forms, all);
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t row = 0; row < p.size(); ++row) {
@@ -158,7 +166,8 @@ void follow_flow(World& world, const ElasticForms& forms, Deformations& all) {
     const int rank = rank_of[row];
     const Symmetric A = shape.at(row), P = forms.projector(A, rank);
     const BeforeFlow& before = all.before_flow[id];
-    stresses.set(row, id, before.G, before.H, elastic_strain(strain_of.at(row), plastic, P, rank), A, P, rank);
+    stresses.set(row, id, before.G, before.H, elastic_strain(strain_of.at(row), plastic, P, rank), A, P,
+                 rank);
   }
 }
 
@@ -169,9 +178,11 @@ Vec3 force_of(const Deformations& all, std::uint32_t k, std::uint32_t l, const B
   Vec3 f = -volume * (d.T() * of_k.gradient);
   const double w = all.places[k].volume * volume * of_k.weight / dot(of_k.x, of_k.x);
   const Matrix3 measure = d.measure();
-  if (d.solid_hourglass != 0.0) f += (d.solid_hourglass * w) * solid::hourglass_residual(identity3 + measure, -of_k.x, r_lk);
+  if (d.solid_hourglass != 0.0)
+    f += (d.solid_hourglass * w) * solid::hourglass_residual(identity3 + measure, -of_k.x, r_lk);
   if (d.flat_hourglass != 0.0)
-    f -= (d.flat_hourglass * w * solid::hourglass_residual_flat(symmetric_part(measure), -of_k.x, r_lk)) * r_lk;
+    f -= (d.flat_hourglass * w * solid::hourglass_residual_flat(symmetric_part(measure), -of_k.x, r_lk)) *
+         r_lk;
   return f;
 }
 
@@ -187,7 +198,8 @@ Vec3 general_force(const World& world, const Deformations& all, std::uint32_t i)
 
 /// Members of a rigid body that can melt have bonds too, and most are far from all that can deform.
 bool feels_energy(const BondLists::List& list, const Deformations& all, std::uint32_t id) {
-  return all.owns[id] != 0 || std::any_of(list.other, list.other + list.count, [&](std::uint32_t j) { return all.owns[j] != 0; });
+  return all.owns[id] != 0 ||
+         std::any_of(list.other, list.other + list.count, [&](std::uint32_t j) { return all.owns[j] != 0; });
 }
 
 /// f = own + v_i sum_j (what the energies of the partners do).
@@ -208,7 +220,8 @@ void add_all(World& world, const ElasticForms& forms, const Deformations& all) {
       continue;
     }
     PartnerForces of_partners;
-    sum.partners(list, all.lists.shapes(), all.places.data(), all.deformed.data(), all.places[id], box, of_partners);
+    sum.partners(list, all.lists.shapes(), all.places.data(), all.deformed.data(), all.places[id], box,
+                 of_partners);
     f.set(row, f.at(row) + all.places[id].volume * (Vec3(of_partners.stress) + of_partners.hourglass));
   }
 }
@@ -270,10 +283,12 @@ void refuse_inversion(const World& world, const ElasticForms& forms, const Defor
   };
   for (std::size_t row = 0; row < p.size(); ++row) {
     if (is_worst(row))
-      fail(world, GuardName::inversion, row, "deformation", "state",
-           fmt::format("is turned inside out: det F = {:.3g}; a stiffer or finer solid, a slower load, or unguarded = "
-                       "[\"inversion\"] to go on",
-                       least));
+      fail(
+          world, GuardName::inversion, row, "deformation", "state",
+          fmt::format(
+              "is turned inside out: det F = {:.3g}; a stiffer or finer solid, a slower load, or unguarded = "
+              "[\"inversion\"] to go on",
+              least));
   }
 }
 

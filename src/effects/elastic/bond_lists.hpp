@@ -8,18 +8,20 @@
 
 namespace tripoint::elastic {
 
-/// Data that bonds of one reference vector share: a line of the cache. Bonds of a lattice have few such vectors.
+/// Data that bonds of one reference vector share: a line of the cache. Bonds of a lattice have few such
+/// vectors.
 struct alignas(vector_bytes) BondShape {
-  Vec3 x;                  ///< reference vector x_ij [m]
-  double slope = 0.0;      ///< grad W(x_ij) = slope x_ij [1/m5]
-  Vec3 gradient;           ///< Bond::gradient: slope x_ij, but at a surface that is corrected for bending [1/m4]
+  Vec3 x;              ///< reference vector x_ij [m]
+  double slope = 0.0;  ///< grad W(x_ij) = slope x_ij [1/m5]
+  /// Bond::gradient: slope x_ij, but at a surface that is corrected for bending [1/m4]
+  Vec3 gradient;
   double hourglass = 0.0;  ///< W(x_ij)/|x_ij|^2 [1/m5]
   bool operator==(const BondShape&) const noexcept = default;
 };
 static_assert(sizeof(BondShape) == vector_bytes);
 
-/// The lists of bonds as the passes stream them: 12 bytes a bond, and what bonds have in common once. Memory that is made from
-/// World::bonds and follows it; no state of its own.
+/// The lists of bonds as the passes stream them: 12 bytes a bond, and what bonds have in common once. Memory
+/// that is made from World::bonds and follows it; no state of its own.
 class BondLists {
  public:
   /// One list, in the order of World::bonds.
@@ -44,8 +46,9 @@ class BondLists {
 
   std::vector<std::uint32_t> other_, shape_, seen_;  ///< by place in the pool of World::bonds
   AlignedVector<BondShape> shapes_;
-  std::vector<std::uint32_t> table_;  ///< open addressing: 1 + the shape with this hash, a power of two of places
-  std::uint64_t followed_ = 0;        ///< changes of World::bonds until now
+  /// Open addressing: 1 + the shape with this hash, a power of two of places
+  std::vector<std::uint32_t> table_;
+  std::uint64_t followed_ = 0;  ///< changes of World::bonds until now
 };
 
 }  // namespace tripoint::elastic

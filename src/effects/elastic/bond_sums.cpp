@@ -5,6 +5,8 @@
 
 namespace tripoint::elastic {
 
-BondSums bond_sums(const BondForms& forms) { return machine_has_avx2() ? bond_sums_for<Avx2>(forms) : bond_sums_for<Any>(forms); }
+BondSums bond_sums(const BondForms& forms) {
+  return machine_has_avx2() ? bond_sums_for<Avx2>(forms) : bond_sums_for<Any>(forms);
+}
 
 }  // namespace tripoint::elastic

@@ -6,9 +6,9 @@
 #include "core/matrix3.hpp"
 #include "effects/elastic/bond_lists.hpp"
 
-/// The loops over the bonds of one particle: three components side by side in a vector of four lanes. The fourth lane reads what
-/// lies behind the components in memory, and its result is not used. The loops are compiled for each vector unit; the bits are
-/// the same.
+/// The loops over the bonds of one particle: three components side by side in a vector of four lanes. The
+/// fourth lane reads what lies behind the components in memory, and its result is not used. The loops are
+/// compiled for each vector unit; the bits are the same.
 namespace tripoint::elastic {
 
 #ifdef __AVX2__
@@ -26,7 +26,8 @@ struct Quad {
 };
 #endif
 
-/// A column of a matrix, as wide as a vector of four. It has no value of its own: the sums below are written as a whole.
+/// A column of a matrix, as wide as a vector of four. It has no value of its own: the sums below are written
+/// as a whole.
 struct alignas(sizeof(Quad)) Column {
   double x, y, z, unused;
   operator Vec3() const noexcept { return {x, y, z}; }
@@ -46,10 +47,11 @@ struct alignas(sizeof(Quad)) Place {
   double volume = 0.0;
 };
 
-/// What the partners of a particle see of it, in three lines of the cache: two matrices by columns, each column at the start of a
-/// vector of four, and the moduli of its hourglass energy in the places between.
+/// What the partners of a particle see of it, in three lines of the cache: two matrices by columns, each
+/// column at the start of a vector of four, and the moduli of its hourglass energy in the places between.
 struct alignas(vector_bytes) Deformed {
-  /// Columns of what the hourglass energy measures bonds by: F - I of a solid, the strain of a sheet or chain.
+  /// Columns of what the hourglass energy measures bonds by: F - I of a solid, the strain of a sheet or
+  /// chain.
   Vec3 measure_x;
   double hourglass_energy = 0.0;  ///< v_i a E/2 where the hourglass energy is that of a solid, else 0 [J]
   Column measure_y, measure_z;
@@ -72,7 +74,8 @@ struct alignas(vector_bytes) Deformed {
     T_y = {a.xy, a.yy, a.zy};
     T_z = {a.xz, a.yz, a.zz, 0.0};
   }
-  /// @param solid,flat a E/2 of the hourglass energy of a solid, and of a sheet or chain [Pa]   @param volume v_i [m3]
+  /// @param solid,flat a E/2 of the hourglass energy of a solid, and of a sheet or chain [Pa]   @param volume
+  /// v_i [m3]
   void set_moduli(double solid, double flat, double volume) noexcept {
     solid_hourglass = solid;
     flat_hourglass = flat;
@@ -86,7 +89,8 @@ struct PeriodicWidths {
   Column half, width;
 };
 
-/// What a list tells of the reference shape, with x = x_ij, w = v_j W(x)/|x|^2: the same until bonds or volumes change.
+/// What a list tells of the reference shape, with x = x_ij, w = v_j W(x)/|x|^2: the same until bonds or
+/// volumes change.
 struct ReferenceSums {
   Matrix3 moment;  ///< sum w x x^T
   Vec3 gradient;   ///< sum v_j gradW
@@ -108,14 +112,16 @@ struct PartnerForces {
 /// The loops of one scene.
 struct BondSums {
   void (*reference)(const BondLists::List&, const BondShape*, const Place*, ReferenceSums&);
-  void (*list)(const BondLists::List&, const BondShape*, const Place*, const Place&, const PeriodicWidths&, ListSums&);
-  void (*partners)(const BondLists::List&, const BondShape*, const Place*, const Deformed*, const Place&, const PeriodicWidths&,
-                   PartnerForces&);
+  void (*list)(const BondLists::List&, const BondShape*, const Place*, const Place&, const PeriodicWidths&,
+               ListSums&);
+  void (*partners)(const BondLists::List&, const BondShape*, const Place*, const Deformed*, const Place&,
+                   const PeriodicWidths&, PartnerForces&);
 };
 /// What differs between scenes.
 struct BondForms {
   bool periodic = false, hourglass = false;
-  bool bends = false;  ///< bonds have gradients of their own: gradW below is that of the bond, which need not lie along x
+  /// Bonds have gradients of their own: gradW below is that of the bond, which need not lie along x
+  bool bends = false;
 };
 /// Those that this machine runs fastest.
 [[nodiscard]] BondSums bond_sums(const BondForms&);
@@ -129,8 +135,12 @@ BondSums bond_sums_for<Avx2>(const BondForms&);
 
 namespace detail {
 
-[[gnu::always_inline]] inline void load(Quad& to, const void* from) noexcept { std::memcpy(&to, from, sizeof to); }
-[[gnu::always_inline]] inline void store(void* to, const Quad& from) noexcept { std::memcpy(to, &from, sizeof from); }
+[[gnu::always_inline]] inline void load(Quad& to, const void* from) noexcept {
+  std::memcpy(&to, from, sizeof to);
+}
+[[gnu::always_inline]] inline void store(void* to, const Quad& from) noexcept {
+  std::memcpy(to, &from, sizeof from);
+}
 
 struct Quads {
   Quad x{}, y{}, z{};
@@ -162,7 +172,8 @@ template <bool periodic>
 
 /// @param places by id: their volumes are read
 template <bool hourglass, bool bends, class ForUnit>
-void sum_reference(const BondLists::List& list, const BondShape* shapes, const Place* places, ReferenceSums& out) {
+void sum_reference(const BondLists::List& list, const BondShape* shapes, const Place* places,
+                   ReferenceSums& out) {
   using namespace detail;
   Quads moment;
   Quad gradient{}, weighted{};
@@ -236,11 +247,12 @@ void sum_list(const BondLists::List& list, const BondShape* shapes, const Place*
   store(&out.residual, residual);
 }
 
-/// sum_j -T_j gradW(x_ji), and sum_j -k_j v_j W(x_ji)/|x_ji|^2 ((F_j - I) x_ji + u_ij), k = a E/2: x_ji as j has it in its list.
+/// sum_j -T_j gradW(x_ji), and sum_j -k_j v_j W(x_ji)/|x_ji|^2 ((F_j - I) x_ji + u_ij), k = a E/2: x_ji as j
+/// has it in its list.
 /// @param at place of i   @param places,deformed by id
 template <bool periodic, bool hourglass, bool bends, class ForUnit>
-void sum_partners(const BondLists::List& list, const BondShape* shapes, const Place* places, const Deformed* deformed,
-                  const Place& at, const PeriodicWidths& box, PartnerForces& out) {
+void sum_partners(const BondLists::List& list, const BondShape* shapes, const Place* places,
+                  const Deformed* deformed, const Place& at, const PeriodicWidths& box, PartnerForces& out) {
   using namespace detail;
   Quad i, stress{}, of_hourglass{};
   load(i, &at);
@@ -281,7 +293,8 @@ template <bool periodic, bool hourglass, bool bends, class ForUnit>
 }
 template <bool bends, class ForUnit>
 [[nodiscard]] BondSums pick_of(const BondForms& forms) {
-  if (forms.periodic) return forms.hourglass ? sums_of<true, true, bends, ForUnit>() : sums_of<true, false, bends, ForUnit>();
+  if (forms.periodic)
+    return forms.hourglass ? sums_of<true, true, bends, ForUnit>() : sums_of<true, false, bends, ForUnit>();
   return forms.hourglass ? sums_of<false, true, bends, ForUnit>() : sums_of<false, false, bends, ForUnit>();
 }
 template <class ForUnit>

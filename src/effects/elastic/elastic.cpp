@@ -49,33 +49,40 @@ void Elastic::adopt(World& world) {
   solid::refresh_shapes(world, ids);
 }
 
-/// 0.25 h/(c_L sqrt(max(1, a))), 0.3 h/c_L without hourglass; for lists that were changed 1/sqrt(2 max of the squared local
-/// frequency) (model 8.10).
+/// 0.25 h/(c_L sqrt(max(1, a))), 0.3 h/c_L without hourglass; for lists that were changed 1/sqrt(2 max of the
+/// squared local frequency) (model 8.10).
 TimeStepBound Elastic::max_dt(const World& world) const {
   TimeStepBound bound;
-  const double a = forms_.hourglass(), share = a > 0.0 ? courant_with_hourglass / std::sqrt(std::max(1.0, a)) : courant;
+  const double a = forms_.hourglass(),
+               share = a > 0.0 ? courant_with_hourglass / std::sqrt(std::max(1.0, a)) : courant;
   for (const Body& b : world.scene.bodies) {
     const Material& m = world.scene.material(b.material);
-    if ((b.phase == Phase::rigid && !turns_elastic(world.scene, m)) || !m.young_modulus || !m.poisson_ratio) continue;
+    if ((b.phase == Phase::rigid && !turns_elastic(world.scene, m)) || !m.young_modulus || !m.poisson_ratio)
+      continue;
     const solid::ElasticConstants c = solid::elastic_constants(*m.young_modulus, *m.poisson_ratio);
-    tighten(bound, share * bond_reach(world.scene) * world.scene.spacing / std::sqrt((c.lambda + 2.0 * c.mu) / m.density),
+    tighten(bound,
+            share * bond_reach(world.scene) * world.scene.spacing /
+                std::sqrt((c.lambda + 2.0 * c.mu) / m.density),
             "elastic wave");
   }
   if (!world.particles.has(field::bond_frequency.name)) return bound;
   double greatest = 0.0;
-  for (const double frequency : world.particles[field::bond_frequency]) greatest = std::max(greatest, frequency);
+  for (const double frequency : world.particles[field::bond_frequency])
+    greatest = std::max(greatest, frequency);
   if (greatest > 0.0) tighten(bound, 0.5 * 2.0 / std::sqrt(2.0 * greatest), "bonds");
   return bound;
 }
 
 void Elastic::add_to(const World& world, Ledger& ledger) const {
   std::vector<std::array<double, 2>> blocks;
-  const auto sums = ordered_sums(world.particles.size(), world.threads, blocks, [&](std::size_t id, std::array<double, 2>& sum) {
-    if (!world.owns(world.particles.row(id))) return;
-    const solid::DeformationEnergy energy = solid::deformation_energy(world, forms_, static_cast<std::uint32_t>(id));
-    sum[0] += energy.elastic;
-    sum[1] += energy.hourglass;
-  });
+  const auto sums = ordered_sums(
+      world.particles.size(), world.threads, blocks, [&](std::size_t id, std::array<double, 2>& sum) {
+        if (!world.owns(world.particles.row(id))) return;
+        const solid::DeformationEnergy energy =
+            solid::deformation_energy(world, forms_, static_cast<std::uint32_t>(id));
+        sum[0] += energy.elastic;
+        sum[1] += energy.hourglass;
+      });
   ledger.energy["elastic"] += sums[0];
   ledger.energy["hourglass"] += sums[1];
 }
@@ -87,15 +94,18 @@ bool can_freeze(const Scene& scene) { return calls_for(scene, "phase"); }
 EffectSpec spec(const Scene& scene) {
   EffectSpec s{"elastic",
                scene.mode_of(term::elastic),
-               {field::elastic_force, field::shape_inverse, field::shape_rank, field::solid_volume, field::solid_material,
-                field::solid_stiffness, field::regular_bonds, field::strain},
+               {field::elastic_force, field::shape_inverse, field::shape_rank, field::solid_volume,
+                field::solid_material, field::solid_stiffness, field::regular_bonds, field::strain},
                fields::joined({fields::position(), {field::id, field::mass, field::body, field::material}})};
   s.bounded = {{field::shape_rank, 0, [](const World&) -> std::size_t { return 4; }},  // 0 to 3
                {field::solid_material, 0, [](const World& w) { return w.scene.materials.size(); }}};
   s.reads_if_there = fields::joined({fields::deformation_if_there(), {field::may_flow}});
   if (can_freeze(scene)) s.owns.emplace_back(field::bond_frequency);
-  Force bonds{
-      field::elastic_force_x, field::elastic_force_y, field::elastic_force_z, {"elastic_work"}, Account{"wall_elastic_work"}};
+  Force bonds{field::elastic_force_x,
+              field::elastic_force_y,
+              field::elastic_force_z,
+              {"elastic_work"},
+              Account{"wall_elastic_work"}};
   bonds.stored = StoredEnergy{{"elastic", "hourglass"}, {"start_deformation"}, account::deformation_released};
   s.forces = {bonds};
   s.own_sums.bonds = columns_of_all(field::elastic_force);

@@ -2,8 +2,8 @@
 #pragma once
 #include "effects/effect.hpp"
 
-/// Elastic bodies, (10)-(17). The strain of each particle follows from its own list of reference vectors. Strain energy and
-/// hourglass energy exert forces on it and its body neighbours.
+/// Elastic bodies, (10)-(17). The strain of each particle follows from its own list of reference vectors.
+/// Strain energy and hourglass energy exert forces on it and its body neighbours.
 namespace tripoint::elastic {
 
 [[nodiscard]] EffectSpec spec(const Scene&);

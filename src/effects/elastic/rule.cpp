@@ -9,8 +9,9 @@ namespace tripoint::elastic {
 namespace {
 
 std::string called_for(const Scene& s) {
-  const std::string who = bodies_where(
-      s, [](const Scene& scene, const Body& b, const Material&) { return b.phase == Phase::elastic && moves(scene, b); });
+  const std::string who = bodies_where(s, [](const Scene& scene, const Body& b, const Material&) {
+    return b.phase == Phase::elastic && moves(scene, b);
+  });
   if (!who.empty()) return because(who, "elastic, and not held in place");
   return because(who_freezes_elastic(s, [](const Material&) { return true; }), "what freezes is elastic");
 }
@@ -40,23 +41,27 @@ std::vector<EffectKey> keys() {
         "coefficient of the energy against zero-energy modes"},
        {},
        no_hourglass},
-      {{"scene", "bond_reach", number, "", above_one, papers_support, "the paper's support, about 40 neighbours", "",
+      {{"scene", "bond_reach", number, "", above_one, papers_support,
+        "the paper's support, about 40 neighbours", "",
         "reach of bonds and support of the kernel (17), in spacings, whatever support_ratio is"}},
       {{"scene", "bending", number, "", fraction, "1", "bars bend and twist by their own stiffness", "",
-        "share of the bending correction, which makes gradients at surfaces exact for curved displacements (model 8.7); 0: none. "
+        "share of the bending correction, which makes gradients at surfaces exact for curved displacements "
+        "(model 8.7); 0: none. "
         "Only where elasticity is corrected"},
        {},
        no_bending},
-      {{"material", "young_modulus", number, "Pa", positive, "", "not elastic", "", "E of the solid"}, &Material::young_modulus},
+      {{"material", "young_modulus", number, "Pa", positive, "", "not elastic", "", "E of the solid"},
+       &Material::young_modulus},
       {{"material", "poisson_ratio", number, "", poisson, "", "not elastic", "", "of the solid, below 0.5"},
        &Material::poisson_ratio},
   };
 }
 
 std::vector<DeclaredTerm> terms() {
-  DeclaredTerm elasticity{term::elastic,
-                          {{"second-order", "gradients at surfaces exact for curved displacements too (8.7)", {{"bending", 1.0}}},
-                           {"first-order", "exact for linear ones", {{"bending", 0.0}}}}};
+  DeclaredTerm elasticity{
+      term::elastic,
+      {{"second-order", "gradients at surfaces exact for curved displacements too (8.7)", {{"bending", 1.0}}},
+       {"first-order", "exact for linear ones", {{"bending", 0.0}}}}};
   elasticity.name = "elasticity";
   return {elasticity, {term::hourglass, {{"energy", "energy against modes without energy (8.7)"}}}};
 }
@@ -76,7 +81,8 @@ EffectRule rule() {
           .terms = terms(),
           .keys = keys(),
           .settle_material = settle_material,
-          .ledger_entries = {{"elastic", "strain of elastic matter"}, {"hourglass", "deformation that the strain does not see"}},
+          .ledger_entries = {{"elastic", "strain of elastic matter"},
+                             {"hourglass", "deformation that the strain does not see"}},
           .over_processes = true,
           .has_pairs = true,
           .has_bonds = true,

@@ -40,11 +40,13 @@ void FacePressure::find(const World& world) {
   const auto each_pair = [&](std::size_t i, auto give) {
     for (const Entry e : world.neighbours->of(i)) {
       const auto j = static_cast<std::uint32_t>(e.row());
-      if ((elastic_[i] || elastic_[j]) && !e.own() && tripoint::acts(group[i], group[j])) give(liquid::ListedPair{j, e.image()});
+      if ((elastic_[i] || elastic_[j]) && !e.own() && tripoint::acts(group[i], group[j]))
+        give(liquid::ListedPair{j, e.image()});
     }
   };
   for (std::size_t i = 0; i < p.awake(); ++i)
-    if (elastic_[i]) each_pair(i, [&](const liquid::ListedPair& pair) { pressed[i] = pressed[pair.row] = 1; });
+    if (elastic_[i])
+      each_pair(i, [&](const liquid::ListedPair& pair) { pressed[i] = pressed[pair.row] = 1; });
   for (std::uint32_t i = 0; i < p.awake(); ++i) {
     if (!pressed[i]) continue;
     each_pair(i, [&](const liquid::ListedPair& pair) { pairs_.add(pair); });
@@ -55,7 +57,8 @@ void FacePressure::find(const World& world) {
   const auto is_loaded = [&](std::size_t row) { return elastic_[row] && (pressed[row] || !world.owns(row)); };
   for (std::uint32_t i = 0; i < p.awake(); ++i) {
     const auto list = world.bonds.of(static_cast<std::size_t>(id[i]));
-    if (is_loaded(i) || std::ranges::any_of(list, [&](const Bond& b) { return is_loaded(p.row(b.other)); })) bonded_.push_back(i);
+    if (is_loaded(i) || std::ranges::any_of(list, [&](const Bond& b) { return is_loaded(p.row(b.other)); }))
+      bonded_.push_back(i);
   }
 }
 
@@ -102,7 +105,8 @@ void FacePressure::add_densities(World& world, const PairKernels& kernels) {
       const std::uint32_t j = pair.row;
       const Vec3 d = liquid::way_to(*world.neighbours, x, i, pair);
       const double here2 = dot(d, d);
-      const double at_face2 = dot(d, seen_at_face(static_cast<std::size_t>(id[i]), static_cast<std::size_t>(id[j]), d));
+      const double at_face2 =
+          dot(d, seen_at_face(static_cast<std::size_t>(id[i]), static_cast<std::size_t>(id[j]), d));
       if (!(std::min(here2, at_face2) < support2)) continue;
       const double here = std::sqrt(here2);
       const double at_face = std::sqrt(at_face2);
@@ -135,8 +139,9 @@ void FacePressure::add_forces(World& world) {
     }
     if (i >= formed.from && i < formed.to) F.set(i, F.at(i) + f);
     if (elastic_[i] && world.owns(i))
-      load_[own] =
-          (-0.5 * share_) * (transposed(inverse_[i]) * (inverse_[i] * full(pressed) * transposed(inverse_[i]))) * shape.at(i);
+      load_[own] = (-0.5 * share_) *
+                   (transposed(inverse_[i]) * (inverse_[i] * full(pressed) * transposed(inverse_[i]))) *
+                   shape.at(i);
   });
   hand_to_copies(world, load_);
   load_bonds(world);

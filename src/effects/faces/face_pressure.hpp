@@ -10,18 +10,20 @@
 
 namespace tripoint::faces {
 
-/// Pressure acts at the face of an elastic solid (model 8.3). The force of a pair acts between the centres of two particles.
-/// Without a correction the half of the distance that lies within the solid would not be loaded. So this half is measured in the
-/// solid's reference shape: r*^2 = d.(I + D_i + D_j) d, d = r_j - r_i. D = s/2 (F^-T F^-1 - I), 0 for matter that is not elastic,
-/// s = scene.face_pressure. The energies of compression are those at r*, and their change with F is a load on the bonds of the
-/// solid. The pair passes see r; the difference due to r* is added after them.
+/// Pressure acts at the face of an elastic solid (model 8.3). The force of a pair acts between the centres of
+/// two particles. Without a correction the half of the distance that lies within the solid would not be
+/// loaded. So this half is measured in the solid's reference shape: r*^2 = d.(I + D_i + D_j) d, d = r_j -
+/// r_i. D = s/2 (F^-T F^-1 - I), 0 for matter that is not elastic, s = scene.face_pressure. The energies of
+/// compression are those at r*, and their change with F is a load on the bonds of the solid. The pair passes
+/// see r; the difference due to r* is added after them.
 class FacePressure {
  public:
   explicit FacePressure(const Scene&);
   [[nodiscard]] bool acts() const noexcept { return share_ > 0.0; }
   /// After the pass of densities: W(r*) - W(r) to both particles of each pair with an elastic one.
   void add_densities(World&, const PairKernels&);
-  /// After the pass of rates: the same to the pressure force, and dU/dF of each elastic particle to its bonds.
+  /// After the pass of rates: the same to the pressure force, and dU/dF of each elastic particle to its
+  /// bonds.
   void add_forces(World&);
   /// Rows, groups or bodies have changed: look again which particles are elastic.
   void clear() { pairs_.clear(); }
@@ -41,8 +43,9 @@ class FacePressure {
     return d + (measure_[i] + measure_[j]) * d;
   }
 
-  double share_;                       ///< s
-  std::vector<char> elastic_;          ///< of each row, 1 where it is a solid of rank 3 that moves by its own particles
+  double share_;  ///< s
+  /// Of each row, 1 where it is a solid of rank 3 that moves by its own particles
+  std::vector<char> elastic_;
   liquid::ListedPairs<> pairs_;        ///< of which one is elastic
   std::vector<Near> near_;             ///< those of a listed row n from pairs_.first(n) on
   std::vector<std::size_t> acting_;    ///< how many of each listed row

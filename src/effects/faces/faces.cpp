@@ -35,8 +35,8 @@ EffectSpec spec(const Scene&) {
                {},
                fields::joined({fields::position(),
                                fields::deformation(),
-                               {field::id, field::mass, field::body, field::material, field::group, field::number_density,
-                                field::pressure_share, field::force}})};
+                               {field::id, field::mass, field::body, field::material, field::group,
+                                field::number_density, field::pressure_share, field::force}})};
   s.reads_if_there = fields::image();
   s.skips_sleeping = true;
   s.own_sums = {.densities = columns_of_all(field::number_density), .bonds = columns_of_all(field::force)};

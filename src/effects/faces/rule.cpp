@@ -32,7 +32,8 @@ std::vector<EffectKey> keys() {
   using enum Range;
   return {
       {{"scene", "face_pressure", number, "", fraction, "0", "bodies of many particles hardly need it", "",
-        "share of the pressure on an elastic solid that acts at its face, not at its outer particles (model 8.3). Only where "
+        "share of the pressure on an elastic solid that acts at its face, not at its outer particles (model "
+        "8.3). Only where "
         "density, pressure, state and elasticity are corrected, nothing freezes and no solid can break"},
        {},
        no_face_pressure},
@@ -42,14 +43,15 @@ std::vector<EffectKey> keys() {
 }  // namespace
 
 EffectRule rule() {
-  return {.name = "faces",
-          .called_for = called_for,
-          .left_out = left_out,
-          .choices = {{"contact_face",
-                       {{"face", "pressure acts at the faces of elastic solids (8.3)", {{"face_pressure", 1.0}}},
-                        {"centres", "at the middles of their outer particles", {{"face_pressure", 0.0}}}}}},
-          .keys = keys(),
-          .over_processes = true};
+  return {
+      .name = "faces",
+      .called_for = called_for,
+      .left_out = left_out,
+      .choices = {{"contact_face",
+                   {{"face", "pressure acts at the faces of elastic solids (8.3)", {{"face_pressure", 1.0}}},
+                    {"centres", "at the middles of their outer particles", {{"face_pressure", 0.0}}}}}},
+      .keys = keys(),
+      .over_processes = true};
 }
 
 }  // namespace tripoint::faces

@@ -28,10 +28,11 @@
 namespace tripoint::fluid {
 namespace {
 
-// Share of h/(c + |v|) that a step of sound takes [1]. With these both forms take 0.47 to 0.52 of the longest stable step, as
-// measured (docs/guards.md).
+// Share of h/(c + |v|) that a step of sound takes [1]. With these both forms take 0.47 to 0.52 of the longest
+// stable step, as measured (docs/guards.md).
 constexpr double courant_printed = 0.7, courant_corrected = 0.45;
-/// The background pressure of the transport velocity adds half to the stiffness: 0.45/sqrt(1.5) = 0.37, rounded down.
+/// The background pressure of the transport velocity adds half to the stiffness: 0.45/sqrt(1.5) = 0.37,
+/// rounded down.
 constexpr double courant_transported = 0.35;
 
 /// Energy of compression that changes of phase and of own pairs let go [J].
@@ -108,7 +109,8 @@ void Fluid::follow_temperature(World& world) const {
 }
 
 void Fluid::adopt(World& world) {
-  world.booked[compression_released] -= compression_jump(world, numbers_, kernels_, liquid::Groups(world), 0.5 * drifted_);
+  world.booked[compression_released] -=
+      compression_jump(world, numbers_, kernels_, liquid::Groups(world), 0.5 * drifted_);
   for (const std::uint32_t id : world.change.born) set_material(world, world.particles.row(id));
   for (const std::uint32_t id : world.change.regrouped) set_material(world, world.particles.row(id));
   set_groups(world);
@@ -152,21 +154,23 @@ void Fluid::form_fixed(World& world) {
   if (!damps_) return;
   Particles& p = world.particles;
   const Rows fixed = world.formed();
-  std::ranges::copy(part(p[field::number_density], fixed), part(p[field::number_density_before], fixed).begin());
+  std::ranges::copy(part(p[field::number_density], fixed),
+                    part(p[field::number_density_before], fixed).begin());
 }
 
-/// Sound C h/(c + |v|), C of the form; viscosity, and the numerical bulk viscosity, which binds above its default alone
-/// (model 8.10).
+/// Sound C h/(c + |v|), C of the form; viscosity, and the numerical bulk viscosity, which binds above its
+/// default alone (model 8.10).
 TimeStepBound Fluid::max_dt(const World& world) const {
   const double fastest = liquid::greatest_speed(world);
   TimeStepBound bound{numbers_.courant * world.support() / (numbers_.sound_speed + fastest), "sound"};
   if (damps_)
-    tighten(bound, bulk_viscous_step(numbers_.bulk_viscosity) * world.support() / (numbers_.sound_speed + fastest),
+    tighten(bound,
+            bulk_viscous_step(numbers_.bulk_viscosity) * world.support() / (numbers_.sound_speed + fastest),
             "bulk viscosity");
   if (numbers_.sound_damping > 0.0)  // the background pressure adds to the stiffness here too
     tighten(bound,
-            numbers_.courant / liquid::courant_corrected * bulk_viscous_step(numbers_.sound_damping) * world.support() /
-                (numbers_.sound_speed + fastest),
+            numbers_.courant / liquid::courant_corrected * bulk_viscous_step(numbers_.sound_damping) *
+                world.support() / (numbers_.sound_speed + fastest),
             "bulk viscosity");
   tighten(bound, world.step_numbers[viscous_step], "viscosity");
   return bound;
@@ -178,7 +182,8 @@ PairWork Fluid::pair_work(const Scene& scene) const {
   PairWork work{{printed(term::pressure) ? pair_term<PressurePaper>
                  : solids_alone          ? pair_term<PressureOfSolids>
                                          : pair_term<PressureCorrected>}};
-  if (solids_alone || !scene.has_brought_form(term::viscosity)) work.terms.push_back(viscous_form_of(scene, kernels_).force);
+  if (solids_alone || !scene.has_brought_form(term::viscosity))
+    work.terms.push_back(viscous_form_of(scene, kernels_).force);
   work.where_it_acts = true;
   work.kernels = &kernels_;
   return work;
@@ -186,13 +191,18 @@ PairWork Fluid::pair_work(const Scene& scene) const {
 
 /// Pressure and viscosity, with where their work goes (model 8.11).
 std::vector<Force> forces_of(const Scene& scene) {
-  Force pressure{field::force_x, field::force_y, field::force_z, {"pressure_work"}, Account{"wall_pressure_work"}};
+  Force pressure{
+      field::force_x, field::force_y, field::force_z, {"pressure_work"}, Account{"wall_pressure_work"}};
   if (liquid::stores_compression(scene))
-    pressure.stored = StoredEnergy{{"compression"}, {"start_compression"}, compression_released, "phase_work"};
+    pressure.stored =
+        StoredEnergy{{"compression"}, {"start_compression"}, compression_released, "phase_work"};
   else
     pressure.entry = "pressure_work";
-  Force viscous{
-      field::viscous_force_x, field::viscous_force_y, field::viscous_force_z, {"viscous_work"}, Account{"wall_viscous_work"}};
+  Force viscous{field::viscous_force_x,
+                field::viscous_force_y,
+                field::viscous_force_z,
+                {"viscous_work"},
+                Account{"wall_viscous_work"}};
   viscous.entry = "viscous";
   return {pressure, viscous};
 }
@@ -200,16 +210,17 @@ std::vector<Force> forces_of(const Scene& scene) {
 }  // namespace
 
 EffectSpec spec(const Scene& scene) {
-  EffectSpec s{
-      "fluid",
-      scene.mode_of(term::pressure),
-      {field::pressure, field::rest_density, field::viscosity, field::solid, field::stick, field::group, field::force,
-       field::viscous_force, field::viscous_velocity},
-      fields::joined({fields::position(),
-                      fields::velocity(),
-                      {field::id, field::mass, field::body, field::material, field::source, field::density, field::volume}})};
+  EffectSpec s{"fluid",
+               scene.mode_of(term::pressure),
+               {field::pressure, field::rest_density, field::viscosity, field::solid, field::stick,
+                field::group, field::force, field::viscous_force, field::viscous_velocity},
+               fields::joined({fields::position(),
+                               fields::velocity(),
+                               {field::id, field::mass, field::body, field::material, field::source,
+                                field::density, field::volume}})};
   s.reads_if_there = fields::joined(
-      {fields::image(), {field::liquid_fraction, field::number_density, field::own_density, field::bulk_pressure}});
+      {fields::image(),
+       {field::liquid_fraction, field::number_density, field::own_density, field::bulk_pressure}});
   s.sums_forces = true;
   s.skips_sleeping = !scene.transport_velocity;
   const bool damps = bulk_viscosity(scene) > 0.0;
@@ -221,7 +232,8 @@ EffectSpec spec(const Scene& scene) {
   s.step_numbers = {liquid::half_step, viscous_step, viscous_age};
   s.guarded_entries = {{"viscous", EntryRole::only_takes, "viscous forces, which may only take energy"}};
   if (!liquid::stores_compression(scene))
-    s.guarded_entries.push_back({"pressure_work", EntryRole::unbacked, "the printed pressure, which no energy stands behind"});
+    s.guarded_entries.push_back(
+        {"pressure_work", EntryRole::unbacked, "the printed pressure, which no energy stands behind"});
   if (damps) s.numerical = {taken_by_bulk_viscosity};
   return s;
 }

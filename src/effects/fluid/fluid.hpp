@@ -4,7 +4,8 @@
 
 #include "effects/effect.hpp"
 
-/// Liquids and contact, (4) and (7)-(9): number density, equation of state, pressure, viscosity, walls (model 8.1-8.5).
+/// Liquids and contact, (4) and (7)-(9): number density, equation of state, pressure, viscosity, walls
+/// (model 8.1-8.5).
 namespace tripoint::fluid {
 
 [[nodiscard]] EffectSpec spec(const Scene&);

@@ -11,8 +11,8 @@ namespace tripoint::fluid {
 namespace {
 
 /// Core energy of the pairs of i that act, half of each pair [J]. A particle without a list has none.
-double core_energy(const World& world, const Triple<const double>& x, std::span<const double> group, const Core& core,
-                   const liquid::SumsDensity& sums, std::size_t i) {
+double core_energy(const World& world, const Triple<const double>& x, std::span<const double> group,
+                   const Core& core, const liquid::SumsDensity& sums, std::size_t i) {
   double sum = 0.0;
   for (const Entry e : world.neighbours->of(i)) {
     const std::size_t j = e.row();
@@ -24,10 +24,13 @@ double core_energy(const World& world, const Triple<const double>& x, std::span<
 
 }  // namespace
 
-void add_fluid(const World& world, const liquid::SceneNumbers& n, const PairKernels& kernels, Ledger& ledger) {
+void add_fluid(const World& world, const liquid::SceneNumbers& n, const PairKernels& kernels,
+               Ledger& ledger) {
   const Particles& p = world.particles;
-  const bool core = world.scene.mode_of(term::pressure) == Mode::corrected, clamps = liquid::clamps(world.scene);
-  const auto m = p[field::mass], rho = p[field::density], rest = p[field::rest_density], group = p[field::group];
+  const bool core = world.scene.mode_of(term::pressure) == Mode::corrected,
+             clamps = liquid::clamps(world.scene);
+  const auto m = p[field::mass], rho = p[field::density], rest = p[field::rest_density],
+             group = p[field::group];
   const auto x = positions(p);
   const liquid::SumsDensity sums(world.scene);
   std::vector<std::array<double, 1>> blocks;

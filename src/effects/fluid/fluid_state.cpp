@@ -19,13 +19,16 @@ void refuse_overlap(const World& world, const liquid::SceneNumbers& n) {
   const auto rho = p[field::density], rest = p[field::rest_density], group = p[field::group];
   const auto pressed = [&](std::size_t i) { return group[i] == wall_group ? 0.0 : rho[i] / rest[i]; };
   double most = 0.0;
-#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : most) if (p.moving() > worth_threads)
+#pragma omp parallel for schedule(static) num_threads(world.threads) \
+    reduction(max                                                    \
+              : most) if (p.moving() > worth_threads)
   for (std::size_t i = 0; i < p.moving(); ++i) most = std::max(most, pressed(i));
   if (most <= n.overlap_density) return;
   std::size_t worst = 0;
   while (pressed(worst) != most) ++worst;
   fail(world, GuardName::overlap, worst, "density", "density",
-       fmt::format("is pressed to {:.3g} times its rest density, as where two bodies overlap by one spacing ({:.3g}): a stiffer "
+       fmt::format("is pressed to {:.3g} times its rest density, as where two bodies overlap by one spacing "
+                   "({:.3g}): a stiffer "
                    "contact (speed of sound above 10 times that of the "
                    "impact), walls of 3 layers, or a smaller step",
                    most, n.overlap_density));
@@ -33,7 +36,8 @@ void refuse_overlap(const World& world, const liquid::SceneNumbers& n) {
 
 void set_pressure(World& world, const liquid::SceneNumbers& n) {
   Particles& p = world.particles;
-  const auto rho = p[field::density], rest = p[field::rest_density], pressure = p[field::pressure], group = p[field::group];
+  const auto rho = p[field::density], rest = p[field::rest_density], pressure = p[field::pressure],
+             group = p[field::group];
   const bool paper = world.scene.mode_of(term::state) == Mode::paper, clamps = liquid::clamps(world.scene);
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (p.awake() > worth_threads)
   for (std::size_t i = 0; i < p.awake(); ++i) {
@@ -44,8 +48,8 @@ void set_pressure(World& world, const liquid::SceneNumbers& n) {
 
 void set_pressure_shares(World& world, const liquid::SceneNumbers& n) {
   Particles& p = world.particles;
-  const auto share = p[field::pressure_share], V = p[field::volume], pressure = p[field::pressure], m = p[field::mass],
-             rest = p[field::rest_density];
+  const auto share = p[field::pressure_share], V = p[field::volume], pressure = p[field::pressure],
+             m = p[field::mass], rest = p[field::rest_density];
   const auto group = p[field::group];
   const auto q = p.has(field::bulk_pressure) ? p[field::bulk_pressure] : std::span<double>{};
   // At a free surface a particle has few neighbours, and is not thinned: it presses on its rest volume.

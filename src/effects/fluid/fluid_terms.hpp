@@ -10,10 +10,11 @@
 /// d = r_j - r_i, so that grad_i W = -(W'/r) d.
 namespace tripoint {
 
-/// Pressure force (7) corrected (model 8.3) [N]: F_i = -sum_j (V_i^2 p_i + V_j^2 p_j) grad_i W, the gradient of
-/// compression_energy(). `pressure_share` is V^2 p over the kernel's lattice moment, so that p is the force on an area also on
-/// the lattice (decision 6). The core energy 1/2 kappa (b - r)^2, b = scene.core_reach dx, is added. It keeps pairs apart where
-/// the clamp leaves no repulsion. `solids_alone`: where liquids carry their density.
+/// Pressure force (7) corrected (model 8.3) [N]: F_i = -sum_j (V_i^2 p_i + V_j^2 p_j) grad_i W, the gradient
+/// of compression_energy(). `pressure_share` is V^2 p over the kernel's lattice moment, so that p is the
+/// force on an area also on the lattice (decision 6). The core energy 1/2 kappa (b - r)^2, b =
+/// scene.core_reach dx, is added. It keeps pairs apart where the clamp leaves no repulsion. `solids_alone`:
+/// where liquids carry their density.
 template <bool solids_alone>
 struct PressureCorrectedOf {
   static constexpr std::string_view name = solids_alone ? "PressureOfSolids" : "PressureCorrected";
@@ -36,7 +37,8 @@ using PressureCorrected = PressureCorrectedOf<false>;
 using PressureOfSolids = PressureCorrectedOf<true>;
 
 /// Pressure force (7) as printed [N]: F_i = -sum_j V_i V_j (p_i + p_j)/2 grad_i W_spiky, V = m/rho of (4).
-/// Its faults: it tends to half of grad p, and a clamped mixture of two kernels does not keep energy in contacts.
+/// Its faults: it tends to half of grad p, and a clamped mixture of two kernels does not keep energy in
+/// contacts.
 struct PressurePaper {
   static constexpr std::string_view name = "PressurePaper";
   static constexpr bool zero_beyond = true;
@@ -47,13 +49,15 @@ struct PressurePaper {
     const V V_i = i(field::volume), p_i = i(field::pressure), group_i = i(field::group);
     const V V_j = j(field::volume), p_j = j(field::pressure), group_j = j(field::group);
     const V share = (0.5 * V_i) * (V_j * (p_i + p_j));
-    const V f = where(g.apart & acts(group_i, group_j), share * (g.kernels.spiky.derivative_inside(g.r) * (g.r * g.per_r2)));
+    const V f = where(g.apart & acts(group_i, group_j),
+                      share * (g.kernels.spiky.derivative_inside(g.r) * (g.r * g.per_r2)));
     sum(field::force) += f * g.d();
   }
 };
 
-/// Viscosity of a pair [Pa s] (model 8.5). Between liquids it is the harmonic mean. At a solid it is the liquid's own, 0 where
-/// that slips freely. Between solids it is the scene's contact viscosity, which `viscosity` of a solid holds.
+/// Viscosity of a pair [Pa s] (model 8.5). Between liquids it is the harmonic mean. At a solid it is the
+/// liquid's own, 0 where that slips freely. Between solids it is the scene's contact viscosity, which
+/// `viscosity` of a solid holds.
 template <class V>
 [[nodiscard]] inline V pair_viscosity(const auto& i, const auto& j) noexcept {
   const V mu_i = i(field::viscosity), solid_i = i(field::solid), stick_i = i(field::stick);
@@ -61,11 +65,13 @@ template <class V>
   const V liquids = harmonic_mean(mu_i, mu_j);
   if (!any(solid_i + solid_j != 0.0)) return liquids;
   const MaskOf<V> is_solid_i = solid_i != 0.0, is_solid_j = solid_j != 0.0;
-  const V with_j = is_solid_j ? 0.5 * (mu_i + mu_j) : mu_j * stick_i, without_j = is_solid_j ? mu_i * stick_j : liquids;
+  const V with_j = is_solid_j ? 0.5 * (mu_i + mu_j) : mu_j * stick_i,
+          without_j = is_solid_j ? mu_i * stick_j : liquids;
   return is_solid_i ? with_j : without_j;
 }
 
-using ViscousKeys = Keys<field::volume, field::viscosity, field::solid, field::stick, field::group, field::viscous_velocity>;
+using ViscousKeys =
+    Keys<field::volume, field::viscosity, field::solid, field::stick, field::group, field::viscous_velocity>;
 
 /// Viscous force (8) as printed [N]: F_i = sum_j V_i V_j (mu_i + mu_j)/2 (v_j - v_i) lap W_visc.
 /// Its faults: walls slip, the lattice factor is 0.93, and a rigidly turning liquid ball is braked.
@@ -84,12 +90,13 @@ struct ViscosityPaper {
   }
   template <class V>
   static void pair(const PairGeometry<V>& g, const auto& i, const auto& j, auto& sum) {
-    sum(field::viscous_force) += coefficient<V>(g, i, j) * (j(field::viscous_velocity) - i(field::viscous_velocity));
+    sum(field::viscous_force) +=
+        coefficient<V>(g, i, j) * (j(field::viscous_velocity) - i(field::viscous_velocity));
   }
 };
 
-/// `laplacian` (model 8.5) [N]: F_i = sum_j (V_i^2 + V_j^2) mu_ij (-W'/r)(v_j - v_i) over the kernel's lattice moment.
-/// For wall-bounded shear only: it does not keep angular momentum.
+/// `laplacian` (model 8.5) [N]: F_i = sum_j (V_i^2 + V_j^2) mu_ij (-W'/r)(v_j - v_i) over the kernel's
+/// lattice moment. For wall-bounded shear only: it does not keep angular momentum.
 struct ViscosityLaplacian {
   static constexpr std::string_view name = "ViscosityLaplacian";
   static constexpr bool zero_beyond = true;
@@ -106,12 +113,14 @@ struct ViscosityLaplacian {
   }
   template <class V>
   static void pair(const PairGeometry<V>& g, const auto& i, const auto& j, auto& sum) {
-    sum(field::viscous_force) += coefficient<V>(g, i, j) * (j(field::viscous_velocity) - i(field::viscous_velocity));
+    sum(field::viscous_force) +=
+        coefficient<V>(g, i, j) * (j(field::viscous_velocity) - i(field::viscous_velocity));
   }
 };
 
-/// `central` (model 8.5) [N]: F_ij = 10 mu_ij V_i V_j (-W'/r) ((v_j - v_i).r_ij) r_ij/r^2 over the same moment. It acts along the
-/// line of centres, so angular momentum is kept and a rigid rotation feels nothing. `weighted`: for isotropic shear.
+/// `central` (model 8.5) [N]: F_ij = 10 mu_ij V_i V_j (-W'/r) ((v_j - v_i).r_ij) r_ij/r^2 over the same
+/// moment. It acts along the line of centres, so angular momentum is kept and a rigid rotation feels nothing.
+/// `weighted`: for isotropic shear.
 template <bool weighted>
 struct ViscosityCentralOf {
   static constexpr std::string_view name = weighted ? "ViscosityCentralWeighted" : "ViscosityCentral";
@@ -139,11 +148,12 @@ struct ViscosityCentralOf {
 using ViscosityCentral = ViscosityCentralOf<false>;
 using ViscosityCentralWeighted = ViscosityCentralOf<true>;
 
-/// sum_j G_ij of a viscosity [kg/s], and for `central` sum_j G_ij e e^T, for the bound of the step. The sums stand in scratch
-/// columns (field::viscous_spread), which only update_viscous_bound() reads.
+/// sum_j G_ij of a viscosity [kg/s], and for `central` sum_j G_ij e e^T, for the bound of the step. The sums
+/// stand in scratch columns (field::viscous_spread), which only update_viscous_bound() reads.
 template <class Viscosity>
 struct ViscousSpread {
-  static constexpr std::string_view word = "ViscousSpread of ", name = JoinedName<word, Viscosity::name>::value;
+  static constexpr std::string_view word = "ViscousSpread of ",
+                                    name = JoinedName<word, Viscosity::name>::value;
   static constexpr bool central =
       std::is_same_v<Viscosity, ViscosityCentral> || std::is_same_v<Viscosity, ViscosityCentralWeighted>;
   static constexpr bool zero_beyond = true;

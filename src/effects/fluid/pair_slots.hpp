@@ -8,11 +8,11 @@ namespace tripoint::fluid {
 struct PairSlots : NoPairTerms {
   using Pressures = OneTermOf<PressurePaper, PressureCorrected, PressureOfSolids>;
   /// None of them where another effect brings the viscosity.
-  using Viscosities =
-      OneOf<Terms<>, Terms<ViscosityPaper>, Terms<ViscosityCentral>, Terms<ViscosityLaplacian>, Terms<ViscosityCentralWeighted>>;
+  using Viscosities = OneOf<Terms<>, Terms<ViscosityPaper>, Terms<ViscosityCentral>,
+                            Terms<ViscosityLaplacian>, Terms<ViscosityCentralWeighted>>;
   using rates = decltype(Pressures{} * Viscosities{});
-  using alone = OneTermOf<ViscousSpread<ViscosityPaper>, ViscousSpread<ViscosityCentral>, ViscousSpread<ViscosityLaplacian>,
-                          ViscousSpread<ViscosityCentralWeighted>>;
+  using alone = OneTermOf<ViscousSpread<ViscosityPaper>, ViscousSpread<ViscosityCentral>,
+                          ViscousSpread<ViscosityLaplacian>, ViscousSpread<ViscosityCentralWeighted>>;
   using timed = Terms<PressureCorrected, ViscosityCentral>;
 };
 

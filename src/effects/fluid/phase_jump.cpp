@@ -17,7 +17,8 @@ void sort_once(std::vector<std::uint32_t>& ids) {
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
-/// Rows of all that changed, in order of id; where solids alone sum densities, with their neighbours, which see them come and go.
+/// Rows of all that changed, in order of id; where solids alone sum densities, with their neighbours, which
+/// see them come and go.
 std::vector<std::size_t> changed_rows(const World& world, bool of_solids) {
   std::vector<std::uint32_t> ids = world.change.regrouped;
   ids.insert(ids.end(), world.change.relisted.begin(), world.change.relisted.end());
@@ -25,7 +26,8 @@ std::vector<std::size_t> changed_rows(const World& world, bool of_solids) {
   if (of_solids) {
     const auto id = world.particles[field::id];
     for (const std::uint32_t one : std::vector(ids))
-      for (const Entry e : world.neighbours->of(world.particles.row(one))) ids.push_back(static_cast<std::uint32_t>(id[e.row()]));
+      for (const Entry e : world.neighbours->of(world.particles.row(one)))
+        ids.push_back(static_cast<std::uint32_t>(id[e.row()]));
     sort_once(ids);
   }
   std::vector<std::size_t> rows;
@@ -38,7 +40,8 @@ std::vector<std::size_t> changed_rows(const World& world, bool of_solids) {
 double compression_jump(const World& world, const liquid::SceneNumbers& n, const PairKernels& kernels,
                         const std::function<double(std::size_t)>& group_now, double back) {
   const bool core = world.scene.mode_of(term::pressure) == Mode::corrected,
-             numbers = world.scene.mode_of(term::density) == Mode::corrected, clamps = liquid::clamps(world.scene);
+             numbers = world.scene.mode_of(term::density) == Mode::corrected,
+             clamps = liquid::clamps(world.scene);
   if (!world.neighbours || world.neighbours->rebuilds() == 0 || !(core || numbers)) return 0.0;
   const Particles& p = world.particles;
   const liquid::SumsDensity sums(world.scene);
@@ -49,7 +52,8 @@ double compression_jump(const World& world, const liquid::SceneNumbers& n, const
   const auto place = [&](std::size_t row) { return x.at(row) - back * v.at(row); };
   const auto group = p[field::group], m = p[field::mass], rest = p[field::rest_density];
   const auto id = p[field::id];
-  const auto own_before = numbers && p.has(field::own_density.name) ? p[field::own_density] : std::span<const double>{};
+  const auto own_before =
+      numbers && p.has(field::own_density.name) ? p[field::own_density] : std::span<const double>{};
   double jump = 0.0;
   for (const std::size_t i : rows) {
     double before = kernels.wendland.value(0.0), after = before;
@@ -58,7 +62,8 @@ double compression_jump(const World& world, const liquid::SceneNumbers& n, const
     for (const Entry e : world.neighbours->of(i)) {
       const std::size_t j = e.row();
       const double r = norm((place(j) - place(i)) + world.neighbours->shift(e.image()));
-      const bool own_now = are_own(world.own, static_cast<std::uint32_t>(id[i]), static_cast<std::uint32_t>(id[j]));
+      const bool own_now =
+          are_own(world.own, static_cast<std::uint32_t>(id[i]), static_cast<std::uint32_t>(id[j]));
       const double W = kernels.wendland.value(r);
       const bool both = sums(group[i]) && sums(group[j]), both_now = sums(group_now(i)) && sums(group_now(j));
       if (!e.own() && both) before += W;
@@ -71,7 +76,9 @@ double compression_jump(const World& world, const liquid::SceneNumbers& n, const
     const bool counts = sums(group[i]), counts_now = sums(group_now(i));
     if (!numbers || (before == after && counts == counts_now)) continue;
     const EquationOfState state = liquid::state_of(n, group[i], rest[i], clamps);
-    const auto energy = [&](double delta) { return compression_energy(state, m[i], m[i] * delta / n.lattice_density); };
+    const auto energy = [&](double delta) {
+      return compression_energy(state, m[i], m[i] * delta / n.lattice_density);
+    };
     jump += (counts_now ? energy(after) : 0.0) - (counts ? energy(before) : 0.0);
   }
   return jump;

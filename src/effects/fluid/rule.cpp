@@ -18,10 +18,13 @@ bool can_break(const Scene&, const Body& b, const Material& m) {
   return b.phase == Phase::elastic && (m.fracture_stretch || m.fracture_distance);
 }
 
-/// Bodies that can meet others: contact needs a stiffness, two bodies, or one that can break in two, and one of them free.
+/// Bodies that can meet others: contact needs a stiffness, two bodies, or one that can break in two, and one
+/// of them free.
 std::string who_can_touch(const Scene& s) {
   const bool any_free = std::ranges::any_of(s.bodies, [](const Body& b) { return b.motion == Motion::free; });
-  if (!s.contact || !any_material(s, has_stiffness) || !any_free || (s.bodies.size() < 2 && !any_body(s, can_break))) return "";
+  if (!s.contact || !any_material(s, has_stiffness) || !any_free ||
+      (s.bodies.size() < 2 && !any_body(s, can_break)))
+    return "";
   return bodies_where(s, [](const Scene&, const Body&, const Material&) { return true; });
 }
 
@@ -32,19 +35,23 @@ bool flows(const Scene& s) { return any_material(s, has_stiffness) || s.gravity 
 std::string who_can_meet(const Scene& s) {
   const auto solids = std::ranges::count_if(s.bodies, [](const Body& b) { return b.phase != Phase::liquid; });
   const auto is_free = [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; };
-  const bool moves_later = std::ranges::any_of(s.events, [](const Event& e) { return e.kind != Event::Kind::heat; });
+  const bool moves_later =
+      std::ranges::any_of(s.events, [](const Event& e) { return e.kind != Event::Kind::heat; });
   if (!s.contact || !(std::ranges::any_of(s.bodies, is_free) || moves_later)) return "";
   if (solids < 2 && !any_body(s, can_break) && !moves_later) return "";
-  return bodies_where(s, [](const Scene&, const Body& b, const Material&) { return b.phase != Phase::liquid; });
+  return bodies_where(s,
+                      [](const Scene&, const Body& b, const Material&) { return b.phase != Phase::liquid; });
 }
 
 std::string called_for(const Scene& s) {
   if (liquid::carries_density(s)) {
-    if (const std::string who = who_changes_phase(s); !who.empty() && flows(s)) return because(who, "what freezes can touch");
+    if (const std::string who = who_changes_phase(s); !who.empty() && flows(s))
+      return because(who, "what freezes can touch");
     return because(who_can_meet(s), "solids, one of them free: they can touch");
   }
-  std::string liquid = bodies_where(
-      s, [](const Scene& scene, const Body& b, const Material&) { return b.phase == Phase::liquid && moves(scene, b); });
+  std::string liquid = bodies_where(s, [](const Scene& scene, const Body& b, const Material&) {
+    return b.phase == Phase::liquid && moves(scene, b);
+  });
   if (liquid.empty() && !s.inflows.empty()) liquid = "an inflow";
   if (!liquid.empty()) return because(liquid, "liquid, and not held in place");
   if (const std::string touch = who_can_touch(s); !touch.empty())
@@ -56,7 +63,8 @@ std::string left_out(const Scene& s) {
   if (any_body(s, liquid::is_liquid)) return "every liquid is held in place, and nothing can touch";
   if (!s.contact) return "nothing is liquid, and the scene says contact = \"none\"";
   if (!any_material(s, has_stiffness))
-    return "nothing is liquid, no two bodies can meet before the end of the run, and no material has a stiffness";
+    return "nothing is liquid, no two bodies can meet before the end of the run, and no material has a "
+           "stiffness";
   return "nothing is liquid, and no free body has another to touch";
 }
 
@@ -65,18 +73,20 @@ std::string no_form_of_viscosity(const Scene& s) {
 }
 
 std::string solid_viscosity_idle(const Scene& scene) {
-  return scene.mode_of(term::viscosity) == Mode::paper
-             ? ""
-             : "viscosity is corrected: a liquid takes its own beside a solid, and solids scene.contact_viscosity";
+  return scene.mode_of(term::viscosity) == Mode::paper ? ""
+                                                       : "viscosity is corrected: a liquid takes its own "
+                                                         "beside a solid, and solids scene.contact_viscosity";
 }
 
-/// Why liquids can have no numerical bulk viscosity. Reasons: nothing is liquid; something freezes, which changes densities at
-/// once; density, pressure or state are printed. Or the scene does not clamp, so that it can have no free surface or contact.
-/// Why the topmost layer of a liquid can bear no part of its own weight. The reasons are those of the numerical bulk viscosity,
-/// or there is no gravity. Or a free body floats at the surface and loads it by an unknown weight.
+/// Why liquids can have no numerical bulk viscosity. Reasons: nothing is liquid; something freezes, which
+/// changes densities at once; density, pressure or state are printed. Or the scene does not clamp, so that it
+/// can have no free surface or contact. Why the topmost layer of a liquid can bear no part of its own weight.
+/// The reasons are those of the numerical bulk viscosity, or there is no gravity. Or a free body floats at
+/// the surface and loads it by an unknown weight.
 std::string no_surface_weight(const Scene& scene) {
-  if (any_body(scene,
-               [](const Scene&, const Body& b, const Material&) { return b.phase != Phase::liquid && b.motion == Motion::free; }))
+  if (any_body(scene, [](const Scene&, const Body& b, const Material&) {
+        return b.phase != Phase::liquid && b.motion == Motion::free;
+      }))
     return "a free body that floats would be lifted by it";
   if (liquid::pressing_gravity(scene) == Vec3{})
     return "gravity presses nothing down: there is none, or it acts along periodic directions alone";
@@ -104,8 +114,10 @@ std::vector<EffectKey> viscosity_keys() {
         "corrected viscosity; laplacian for wall-bounded shear only"},
        &Scene::viscosity_form,
        no_form_of_viscosity},
-      {{"scene", "isotropic_shear", number, "", fraction, "0", "most flows soon leave the lattice of the start", "",
-        "share of the weights that make the lattice's resistance to shear isotropic (model 8.5). Only where viscosity is "
+      {{"scene", "isotropic_shear", number, "", fraction, "0",
+        "most flows soon leave the lattice of the start", "",
+        "share of the weights that make the lattice's resistance to shear isotropic (model 8.5). Only where "
+        "viscosity is "
         "corrected and central"},
        {},
        no_isotropic_shear},
@@ -117,18 +129,23 @@ std::vector<EffectKey> pressure_keys() {
   using enum ValueType;
   using enum Range;
   return {
-      {{"scene", "bulk_viscosity", number, "", not_negative, "0.2", "damps the sound that a liquid's start emits", "",
-        "numerical bulk viscosity of liquids over rho0 c h, h the support (model 8.4); 0: none. Only where the scene clamps, "
+      {{"scene", "bulk_viscosity", number, "", not_negative, "0.2",
+        "damps the sound that a liquid's start emits", "",
+        "numerical bulk viscosity of liquids over rho0 c h, h the support (model 8.4); 0: none. Only where "
+        "the scene clamps, "
         "density, pressure and state are corrected, and nothing freezes"},
        {},
        liquid::no_compression_energy},
-      {{"scene", "core_reach", number, "", fraction, "0.9", "keeps pairs apart where the clamp leaves no pressure", "",
+      {{"scene", "core_reach", number, "", fraction, "0.9",
+        "keeps pairs apart where the clamp leaves no pressure", "",
         "distance in spacings below which pressing pairs repel (model 8.3); 0: none. Only where the "
         "pressure is corrected"},
        {},
        no_core},
-      {{"scene", "surface_weight", number, "", not_negative, "0.5", "half of its own weight lies above the middle of a layer", "",
-        "share of its weight that the topmost layer of a liquid bears as pressure (model 8.3); 0: none. Only where the scene "
+      {{"scene", "surface_weight", number, "", not_negative, "0.5",
+        "half of its own weight lies above the middle of a layer", "",
+        "share of its weight that the topmost layer of a liquid bears as pressure (model 8.3); 0: none. Only "
+        "where the scene "
         "clamps, density, pressure and state are corrected, nothing freezes, and no body is free"},
        {},
        no_surface_weight},
@@ -140,8 +157,8 @@ std::vector<EffectKey> contact_keys() {
   using enum ValueType;
   using enum Range;
   return {
-      {{"scene", "contact_viscosity", number, "Pa s", not_negative, "0", "contact of solids without friction", "",
-        "viscosity between solids that touch"},
+      {{"scene", "contact_viscosity", number, "Pa s", not_negative, "0", "contact of solids without friction",
+        "", "viscosity between solids that touch"},
        &Scene::contact_viscosity},
   };
 }
@@ -151,17 +168,22 @@ std::vector<EffectKey> material_keys() {
   using enum ValueType;
   using enum Range;
   return {
-      {{"material", "stiffness", number, "m2/s2", positive, "", "from the speeds of the scene or elastic moduli", "",
+      {{"material", "stiffness", number, "m2/s2", positive, "",
+        "from the speeds of the scene or elastic moduli", "",
         "k of p = k (rho - rho0), the square of the sound speed"},
        &Material::stiffness},
-      {{"material", "sound_speed", number, "m/s", positive, "", "see stiffness", "", "instead of stiffness: k is its square"},
+      {{"material", "sound_speed", number, "m/s", positive, "", "see stiffness", "",
+        "instead of stiffness: k is its square"},
        EffectKey::ByRule{}},
-      {{"material", "solid_viscosity", number, "Pa s", not_negative, "0", "a solid has scene.contact_viscosity", "",
-        "dynamic viscosity of the solid in (8), only where modes.viscosity is paper. With modes.phase paper it goes linearly to "
+      {{"material", "solid_viscosity", number, "Pa s", not_negative, "0",
+        "a solid has scene.contact_viscosity", "",
+        "dynamic viscosity of the solid in (8), only where modes.viscosity is paper. With modes.phase paper "
+        "it goes linearly to "
         "viscosity between t_solid and t_melt (Fig. 5)"},
        {},
        solid_viscosity_idle},
-      {{"material", "viscosity", number, "Pa s", not_negative, "0", "inviscid", "", "dynamic viscosity of the liquid"},
+      {{"material", "viscosity", number, "Pa s", not_negative, "0", "inviscid", "",
+        "dynamic viscosity of the liquid"},
        &Material::viscosity},
   };
 }
@@ -183,17 +205,25 @@ std::vector<DeclaredTerm> terms() {
           {term::state, {{"scaled", "all liquids equally hard to compress (8.3)"}}},
           {term::clamp, {{"clamped", "no pressure below zero"}}, TermKind::law, false},
           {term::viscosity,
-           {{"central", "along the line of centres (8.5)", {{"viscosity_form", central}, {"isotropic_shear", 0.0}}},
-            {"isotropic", "central, alike along axes and diagonals", {{"viscosity_form", central}, {"isotropic_shear", 1.0}}},
-            {"morris", "along the difference of velocities, for wall-bounded shear", {{"viscosity_form", laplacian}}}}},
+           {{"central",
+             "along the line of centres (8.5)",
+             {{"viscosity_form", central}, {"isotropic_shear", 0.0}}},
+            {"isotropic",
+             "central, alike along axes and diagonals",
+             {{"viscosity_form", central}, {"isotropic_shear", 1.0}}},
+            {"morris",
+             "along the difference of velocities, for wall-bounded shear",
+             {{"viscosity_form", laplacian}}}}},
           {term::walls, {{"mirrored", "mirrored velocities, and pressure of patches of the face (8.4)"}}}};
 }
 
 std::vector<ModelChoice> choices() {
   return {{"bulk_viscosity",
-           {{"numerical", "of liquids, 0.2 rho0 c h (8.4)", {{"bulk_viscosity", 0.2}}}, {"none", "", {{"bulk_viscosity", 0.0}}}}},
+           {{"numerical", "of liquids, 0.2 rho0 c h (8.4)", {{"bulk_viscosity", 0.2}}},
+            {"none", "", {{"bulk_viscosity", 0.0}}}}},
           {"core",
-           {{"repulsive", "pairs repel below 0.9 spacings (8.3)", {{"core_reach", 0.9}}}, {"none", "", {{"core_reach", 0.0}}}}},
+           {{"repulsive", "pairs repel below 0.9 spacings (8.3)", {{"core_reach", 0.9}}},
+            {"none", "", {{"core_reach", 0.0}}}}},
           {"surface",
            {{"weighted", "the topmost layer bears half of its weight (8.3)", {{"surface_weight", 0.5}}},
             {"none", "", {{"surface_weight", 0.0}}}}}};
@@ -202,7 +232,8 @@ std::vector<ModelChoice> choices() {
 void settle_material(TableReader& in, Material& m) {
   const auto c = in.maybe_number("sound_speed");
   if (!c) return;
-  if (in.has("stiffness")) in.refuse("sound_speed", "stiffness is given too, and is its square: give one of them");
+  if (in.has("stiffness"))
+    in.refuse("sound_speed", "stiffness is given too, and is its square: give one of them");
   m.stiffness = *c * *c;
   in.ruled("stiffness", show(*m.stiffness), "the square of sound_speed");
 }
@@ -224,7 +255,8 @@ EffectRule rule() {
           .scene_keys = {{"clamp"}},
           .settle_material = settle_material,
           .ledger_entries = {{"compression", "liquid that is compressed, where its pressure has an energy"},
-                             {"pressure_work", "in place of `compression`: work that the printed form of pressure took"},
+                             {"pressure_work",
+                              "in place of `compression`: work that the printed form of pressure took"},
                              {"phase_work"},
                              {"viscous", "work that viscosity took"},
                              {"bulk_viscous", "work that the numerical bulk viscosity took"}},

@@ -4,17 +4,18 @@
 
 #include "solids/fusion.hpp"
 
-/// mu of a solid in (8) and in contacts. The paper gives every particle a mu and interpolates it linearly between t_solid and
-/// t_melt (Fig. 5).
+/// mu of a solid in (8) and in contacts. The paper gives every particle a mu and interpolates it linearly
+/// between t_solid and t_melt (Fig. 5).
 namespace tripoint::fluid {
 
-/// mu of matter with this mu as a solid and as a liquid, at liquid fraction f: linear, as Fig. 5 has it [Pa s].
+/// mu of matter with this mu as a solid and as a liquid, at liquid fraction f: linear, as Fig. 5 has it [Pa
+/// s].
 [[nodiscard]] inline double viscosity_between(double solid, double liquid, double f) noexcept {
   return solid + f * (liquid - solid);
 }
 
-/// Viscosity of the solids of a scene: `material.solid_viscosity` where (8) is as printed and the key is given, else
-/// `scene.contact_viscosity` [Pa s].
+/// Viscosity of the solids of a scene: `material.solid_viscosity` where (8) is as printed and the key is
+/// given, else `scene.contact_viscosity` [Pa s].
 class SolidViscosity {
  public:
   explicit SolidViscosity(const Scene&);

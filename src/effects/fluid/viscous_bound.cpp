@@ -16,13 +16,15 @@
 namespace tripoint::fluid {
 namespace {
 
-/// Rates from one bound to the next: positions change little in so few steps, and the sum costs a pass of its own.
+/// Rates from one bound to the next: positions change little in so few steps, and the sum costs a pass of its
+/// own.
 constexpr double rates_between = 32.0;  // [1]
 
-// Velocities are predicted to the full step by the forces of the last one (predict_velocities). A mode of rate lambda is then
-// stable while lambda dt < 1, not 2. This is half the limit of an explicit step of the same rates (model 8.10). No lambda is
-// above twice the greatest rate of a particle, so 0.5 over that rate is enough in both forms. `central` takes less: at 0.3 both
-// forms have 0.46 to 0.62 of the longest stable step, as measured (docs/guards.md).
+// Velocities are predicted to the full step by the forces of the last one (predict_velocities). A mode of
+// rate lambda is then stable while lambda dt < 1, not 2. This is half the limit of an explicit step of the
+// same rates (model 8.10). No lambda is above twice the greatest rate of a particle, so 0.5 over that rate is
+// enough in both forms. `central` takes less: at 0.3 both forms have 0.46 to 0.62 of the longest stable step,
+// as measured (docs/guards.md).
 constexpr double share_of_rate = 0.5, share_of_rate_central = 0.3;  // [1]
 
 }  // namespace
@@ -44,17 +46,20 @@ void update_viscous_bound(World& world, const PairKernels& kernels) {
 
   const auto group = p[field::group], m = p[field::mass];
   std::array<std::span<const double>, Sums::size> sum;
-  std::ranges::transform(Sums::list, sum.begin(), [&](const Field<double>* f) { return std::as_const(p)[*f]; });
+  std::ranges::transform(Sums::list, sum.begin(),
+                         [&](const Field<double>* f) { return std::as_const(p)[*f]; });
   double greatest = 0.0;
 #pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : greatest)
   for (std::size_t i = 0; i < p.moving(); ++i) {
     if (group[i] == 0.0 || !world.owns(i)) continue;  // walls do not move by forces
     const double rate =
-        form.central ? largest_eigenvalue({sum[0][i], sum[1][i], sum[2][i], sum[3][i], sum[4][i], sum[5][i]}) : sum[0][i];
+        form.central ? largest_eigenvalue({sum[0][i], sum[1][i], sum[2][i], sum[3][i], sum[4][i], sum[5][i]})
+                     : sum[0][i];
     greatest = std::max(greatest, rate / m[i]);
   }
   const double share = form.central ? share_of_rate_central : share_of_rate;
-  world.step_numbers[viscous_step] = greatest > 0.0 ? share / greatest : std::numeric_limits<double>::infinity();
+  world.step_numbers[viscous_step] =
+      greatest > 0.0 ? share / greatest : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace tripoint::fluid

@@ -15,13 +15,14 @@ namespace tripoint::fracture {
 [[nodiscard]] constexpr bool breaks_by_stretch(const Vec3& r, const Vec3& x, double stretch) noexcept {
   return dot(r, r) > stretch * stretch * dot(x, x);
 }
-/// As printed: by distance |r| [m]. Its fault: a body's long bonds break first, at a stretch that short ones bear.
+/// As printed: by distance |r| [m]. Its fault: a body's long bonds break first, at a stretch that short ones
+/// bear.
 [[nodiscard]] constexpr bool breaks_by_distance(const Vec3& r, double distance) noexcept {
   return dot(r, r) > distance * distance;
 }
 
-/// The limits of a scene's materials in the form of its elasticity: `fracture_stretch`, printed `fracture_distance`. Where two
-/// materials meet the lower limit holds.
+/// The limits of a scene's materials in the form of its elasticity: `fracture_stretch`, printed
+/// `fracture_distance`. Where two materials meet the lower limit holds.
 class BondLimits {
  public:
   explicit BondLimits(const Scene& scene) : paper_(scene.mode_of(term::elastic) == Mode::paper) {

@@ -32,7 +32,9 @@ class Fracture : public Effect {
     found_.reset();
   }
   void happen(World&, const Happening&) override { unbroken_.clear(); }
-  void add_to(const World& world, Ledger& ledger) const override { ledger.energy["fracture"] += world.booked[let_go_by_bonds]; }
+  void add_to(const World& world, Ledger& ledger) const override {
+    ledger.energy["fracture"] += world.booked[let_go_by_bonds];
+  }
 
  private:
   [[nodiscard]] std::vector<Pair> broken(const World&);
@@ -46,7 +48,8 @@ class Fracture : public Effect {
   std::vector<char> has_broken_;            ///< memory that is used again, by id
 };
 
-/// Bonds that are beyond their limit, as lower and higher id, in order. Members of rigid bodies cannot move apart.
+/// Bonds that are beyond their limit, as lower and higher id, in order. Members of rigid bodies cannot move
+/// apart.
 std::vector<Pair> Fracture::broken(const World& world) {
   const Particles& p = world.particles;
   const solid::ElasticParticles is_elastic(world);
@@ -92,8 +95,8 @@ class Release {
   /// @param back time before now at which energies and strains are taken [s]
   Release(World& world, double back) : world_(world), forms_(world.scene), back_(back) {}
 
-  /// To be called ahead of a change to the list of a particle. As printed its partners change with it: its volume is a sum over
-  /// the list.
+  /// To be called ahead of a change to the list of a particle. As printed its partners change with it: its
+  /// volume is a sum over the list.
   void touch(std::uint32_t id) {
     remember(id);
     if (!forms_.paper()) return;
@@ -122,15 +125,17 @@ class Release {
     if (before_.contains(id)) return;
     const solid::Deformation d = solid::deformation_of(world_, forms_, id, back_);
     const Symmetric plastic = solid::plastic_strain_of(world_.particles, world_.particles.row(id));
-    before_[id] = {solid::deformation_energy(world_, forms_, id, back_).total(), between(d.P, d.strain - plastic), plastic};
+    before_[id] = {solid::deformation_energy(world_, forms_, id, back_).total(),
+                   between(d.P, d.strain - plastic), plastic};
   }
-  /// A particle that has flowed and loses bonds sees another strain at once. eps_p changes with it, so that P (eps - eps_p) P
-  /// does not jump. Without this the tear of a plastic bar creates energy.
+  /// A particle that has flowed and loses bonds sees another strain at once. eps_p changes with it, so that P
+  /// (eps - eps_p) P does not jump. Without this the tear of a plastic bar creates energy.
   void keep_elastic_strain(std::uint32_t id) {
     const Before& before = before_.at(id);
     if (before.plastic == Symmetric{}) return;
     const solid::Deformation d = solid::deformation_of(world_, forms_, id, back_);
-    solid::set_plastic_strain(world_.particles, world_.particles.row(id), between(d.P, d.strain - before.elastic));
+    solid::set_plastic_strain(world_.particles, world_.particles.row(id),
+                              between(d.P, d.strain - before.elastic));
   }
 
   World& world_;
@@ -168,8 +173,8 @@ bool Fracture::wants_change(World& world) {
 void Fracture::change(World& world) {
   if (!found_ && !find(world)) return;
   const std::vector<Pair> pairs = *std::exchange(found_, {});
-  // Only the first of the two kicks around a drift has the force of a bond, so the bond broke half way. It lets go the energy
-  // that it stored there, to second order in the step.
+  // Only the first of the two kicks around a drift has the force of a bond, so the bond broke half way. It
+  // lets go the energy that it stored there, to second order in the step.
   Release release(world, back_);
   for (const auto& [i, j] : pairs) {
     release.touch(i);
@@ -187,14 +192,17 @@ void Fracture::change(World& world) {
 }  // namespace
 
 EffectSpec spec(const Scene& scene) {
-  EffectSpec s{
-      "fracture",
-      scene.mode_of(term::elastic),
-      {},
-      fields::joined(
-          {fields::position(), fields::velocity(), {field::mass}, fields::deformation(), fields::shapes(), fields::grouping()}),
-      {},
-      {let_go_by_bonds}};
+  EffectSpec s{"fracture",
+               scene.mode_of(term::elastic),
+               {},
+               fields::joined({fields::position(),
+                               fields::velocity(),
+                               {field::mass},
+                               fields::deformation(),
+                               fields::shapes(),
+                               fields::grouping()}),
+               {},
+               {let_go_by_bonds}};
   s.changes = true;
   s.reads_if_there = fields::joined({fields::deformation_if_there(), fields::shapes_if_there()});
   return s;

@@ -37,15 +37,15 @@ std::vector<WrongKey> wrong_keys(const Material& m, std::span<const Scene> runs)
     return std::ranges::any_of(runs, [&](const Scene& s) { return s.mode_of(term::elastic) == mode; });
   };
   if (m.fracture_distance && !m.fracture_stretch && !runs_as(Mode::paper))
-    return {{"fracture_distance",
-             fmt::format("fracture_distance is the limit of the printed form, and this case runs the corrected one, in which "
-                         "\"{}\" never breaks: give fracture_stretch",
-                         m.name)}};
+    return {{"fracture_distance", fmt::format("fracture_distance is the limit of the printed form, and this "
+                                              "case runs the corrected one, in which "
+                                              "\"{}\" never breaks: give fracture_stretch",
+                                              m.name)}};
   if (m.fracture_stretch && !m.fracture_distance && !runs_as(Mode::corrected))
-    return {{"fracture_stretch",
-             fmt::format("fracture_stretch is the limit of the corrected form, and this case runs the printed one, in which "
-                         "\"{}\" never breaks: give fracture_distance",
-                         m.name)}};
+    return {{"fracture_stretch", fmt::format("fracture_stretch is the limit of the corrected form, and this "
+                                             "case runs the printed one, in which "
+                                             "\"{}\" never breaks: give fracture_distance",
+                                             m.name)}};
   return {};
 }
 

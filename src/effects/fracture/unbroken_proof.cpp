@@ -15,8 +15,9 @@ void UnbrokenProof::set(const World& world, double room) {
   for (std::size_t id = 0; id < p.size(); ++id) place_[id] = x.at(p.row(id));
 }
 
-/// |r_i - r_j| of two particles that moved by d_i and d_j grows by |d_i - d_j| at most, so by twice the greatest |d - d_0|. One
-/// that came back at the other side of a periodic box has moved far: then all are looked at again.
+/// |r_i - r_j| of two particles that moved by d_i and d_j grows by |d_i - d_j| at most, so by twice the
+/// greatest |d - d_0|. One that came back at the other side of a periodic box has moved far: then all are
+/// looked at again.
 bool UnbrokenProof::holds(const World& world) const {
   const Particles& p = world.particles;
   if (place_.empty() || place_.size() != p.size() || !(room_ > 0.0)) return false;

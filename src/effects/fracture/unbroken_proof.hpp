@@ -7,8 +7,9 @@
 
 namespace tripoint::fracture {
 
-/// The proof that no bond can have broken since all were checked. It compares the least room that any bond had then with the
-/// distance that particles have moved since, relative to each other. It changes no result, so that no checkpoint keeps it.
+/// The proof that no bond can have broken since all were checked. It compares the least room that any bond
+/// had then with the distance that particles have moved since, relative to each other. It changes no result,
+/// so that no checkpoint keeps it.
 class UnbrokenProof {
  public:
   /// Nothing is known: bonds, bodies or particles are others than before.

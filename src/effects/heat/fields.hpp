@@ -14,11 +14,12 @@ inline constexpr Field<double> rest_volume{"rest_volume", "m3"};
 inline constexpr Field<double> conductance{"conductance", "W/K"};
 /// sum_j of the coefficients of T_j - T_i in (21) as printed: bounds the time step.
 inline constexpr Field<double> exchange{"exchange", "1/s"};
-/// Pseudo-inverse of M_i of model 8.6: symmetric, six components. Between the density pass and the state, M_i itself.
-inline constexpr Field<double> moment_inverse_xx{"moment_inverse.xx", "1"}, moment_inverse_yy{"moment_inverse.yy", "1"},
-    moment_inverse_zz{"moment_inverse.zz", "1"};
-inline constexpr Field<double> moment_inverse_yz{"moment_inverse.yz", "1"}, moment_inverse_xz{"moment_inverse.xz", "1"},
-    moment_inverse_xy{"moment_inverse.xy", "1"};
+/// Pseudo-inverse of M_i of model 8.6: symmetric, six components. Between the density pass and the state, M_i
+/// itself.
+inline constexpr Field<double> moment_inverse_xx{"moment_inverse.xx", "1"},
+    moment_inverse_yy{"moment_inverse.yy", "1"}, moment_inverse_zz{"moment_inverse.zz", "1"};
+inline constexpr Field<double> moment_inverse_yz{"moment_inverse.yz", "1"},
+    moment_inverse_xz{"moment_inverse.xz", "1"}, moment_inverse_xy{"moment_inverse.xy", "1"};
 inline constexpr SymmetricField moment_inverse{moment_inverse_xx, moment_inverse_yy, moment_inverse_zz,
                                                moment_inverse_yz, moment_inverse_xz, moment_inverse_xy};
 

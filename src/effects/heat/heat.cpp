@@ -21,8 +21,9 @@ void refuse_printed(const Scene& scene) {
   if (scene.mode_of(term::heat) != Mode::paper && scene.mode_of(term::phase) != Mode::paper) return;
   for (const Body& b : scene.bodies) {
     if (!b.temperature || !has_two_phases(scene.material(b.material))) continue;
-    throw InputError("heat as printed knows one conductivity and one heat capacity of a material, and " + b.material +
-                     " has others when solid: write modes.heat = \"corrected\" and modes.phase = \"corrected\"");
+    throw InputError(
+        "heat as printed knows one conductivity and one heat capacity of a material, and " + b.material +
+        " has others when solid: write modes.heat = \"corrected\" and modes.phase = \"corrected\"");
   }
 }
 
@@ -30,7 +31,8 @@ void refuse_printed(const Scene& scene) {
 bool books_bodies(const Scene& scene) {
   if (!can_have_bodies(scene)) return false;
   return has_held_surfaces(scene) ||
-         std::ranges::any_of(scene.bodies, [](const Body& b) { return b.temperature_held && b.phase != Phase::liquid; }) ||
+         std::ranges::any_of(scene.bodies,
+                             [](const Body& b) { return b.temperature_held && b.phase != Phase::liquid; }) ||
          std::ranges::any_of(scene.events, [](const Event& e) { return e.kind == Event::Kind::heat; });
 }
 
@@ -38,14 +40,16 @@ const std::vector<GuardedEntry> guarded_entries{{"thermal", EntryRole::apart}, {
 
 std::vector<FieldInfo> read_by_both() {
   return fields::joined(
-      {fields::position(), {field::id, field::mass, field::body, field::material, field::phase, field::source}});
+      {fields::position(),
+       {field::id, field::mass, field::body, field::material, field::phase, field::source}});
 }
 
 EffectSpec spec_of_form(const Scene& scene) {
   if (scene.mode_of(term::heat) == Mode::paper) {
     return {"heat",
             Mode::paper,
-            {field::temperature, field::temperature_rate, field::exchange, field::heat_capacity, field::diffusivity, field::held},
+            {field::temperature, field::temperature_rate, field::exchange, field::heat_capacity,
+             field::diffusivity, field::held},
             fields::joined({read_by_both(), {field::density, field::volume}})};
   }
   return {"heat",

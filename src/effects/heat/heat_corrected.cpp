@@ -19,12 +19,14 @@ namespace tripoint::heat {
 namespace {
 
 constexpr double small_step = 0.005;  ///< of dx^2 over the greatest diffusivity (decision 040)
-constexpr double moment_cut = 0.05;   ///< eigenvalues of M_i below this share of the largest count as none (model 8.6)
+/// Eigenvalues of M_i below this share of the largest count as none (model 8.6)
+constexpr double moment_cut = 0.05;
 
 /// H = m (c_p T + L f) [J] at the particle's temperature, and the extra heat of the liquid above t_melt.
 double heat_content(const World& world, std::size_t row) {
   const Particles& p = world.particles;
-  const double sensible = enthalpy_of(p[field::mass][row], p[field::heat_capacity][row], p[field::temperature][row]);
+  const double sensible =
+      enthalpy_of(p[field::mass][row], p[field::heat_capacity][row], p[field::temperature][row]);
   if (!p.has(field::liquid_fraction.name)) return sensible;
   const Fusion fusion = fusion_of(world.scene, world.material_of(row));
   if (fusion.jump == 0.0) return sensible + latent_heat(world, row);
@@ -35,8 +37,8 @@ double heat_content(const World& world, std::size_t row) {
 /// Conductivity of both phases of a material [W/m/K].
 struct Conductivity {
   double solid = 0.0, liquid = 0.0;
-  /// Conductivity of a particle of the given phase. While it changes it conducts as the phase that it turns into. The front runs
-  /// through it, and the heat that moves the front comes through the phase that grows.
+  /// Conductivity of a particle of the given phase. While it changes it conducts as the phase that it turns
+  /// into. The front runs through it, and the heat that moves the front comes through the phase that grows.
   [[nodiscard]] double of(int phase, double f) const {
     const bool is_liquid = f >= 1.0 || (f > 0.0 && phase != static_cast<int>(Phase::liquid));
     return is_liquid ? liquid : solid;
@@ -63,8 +65,9 @@ double greatest_diffusivity(const Scene& scene) {
 void follow_phase(World& world, std::size_t row) {
   const Material& m = world.material_of(row);
   world.particles[field::conductivity][row] =
-      m.solid_conductivity ? conductivity_of(m).of(world.particles[field::phase][row], liquid_share(world, row))
-                           : conductivity_of(m).liquid;
+      m.solid_conductivity
+          ? conductivity_of(m).of(world.particles[field::phase][row], liquid_share(world, row))
+          : conductivity_of(m).liquid;
 }
 
 double set_temperature(World& world, std::size_t row, double temperature) {
@@ -77,19 +80,22 @@ double set_temperature(World& world, std::size_t row, double temperature) {
   return p[field::enthalpy][row] - before;
 }
 
-/// H_i += change(i), T from H, and with the last stage f. The heat that a held particle would have taken goes to the walls. The
-/// first stage gives T only: f follows the heat of the whole step, whatever the way between.
+/// H_i += change(i), T from H, and with the last stage f. The heat that a held particle would have taken goes
+/// to the walls. The first stage gives T only: f follows the heat of the whole step, whatever the way
+/// between.
 template <class Change>
 void add_heat(World& world, Stage stage, Change change) {
   Particles& p = world.particles;
-  const auto H = p[field::enthalpy], T = p[field::temperature], m = p[field::mass], c_p = p[field::heat_capacity];
+  const auto H = p[field::enthalpy], T = p[field::temperature], m = p[field::mass],
+             c_p = p[field::heat_capacity];
   const auto held = p[field::held], material = p[field::material];
   const bool melts = p.has(field::liquid_fraction.name);
   const auto f = melts ? p[field::liquid_fraction] : std::span<double>{};
   const std::vector<Fusion> fusions = melts ? fusions_of(world.scene) : std::vector<Fusion>{};
   std::vector<Conductivity> conducts;  // empty where no phase change touches it
-  if (melts && stage == Stage::last &&
-      std::ranges::any_of(world.scene.materials, [](const Material& one) { return one.solid_conductivity.has_value(); }))
+  if (melts && stage == Stage::last && std::ranges::any_of(world.scene.materials, [](const Material& one) {
+        return one.solid_conductivity.has_value();
+      }))
     for (const Material& one : world.scene.materials) conducts.push_back(conductivity_of(one));
   const auto k = p[field::conductivity];
   const auto phase = p[field::phase];
@@ -112,12 +118,13 @@ void add_heat(World& world, Stage stage, Change change) {
   book_held(world, change);
 }
 
-/// Least heat capacity of either phase over that of the solid, by material: a particle may change its phase within the step.
-/// Empty where the phases do not differ.
+/// Least heat capacity of either phase over that of the solid, by material: a particle may change its phase
+/// within the step. Empty where the phases do not differ.
 std::vector<double> least_capacities(const World& world) {
   std::vector<double> shares;
   if (!world.particles.has(field::liquid_fraction.name) ||
-      std::ranges::none_of(world.scene.materials, [](const Material& m) { return m.solid_heat_capacity.has_value(); }))
+      std::ranges::none_of(world.scene.materials,
+                           [](const Material& m) { return m.solid_heat_capacity.has_value(); }))
     return shares;
   for (const Fusion& fusion : fusions_of(world.scene)) shares.push_back(std::min(1.0, 1.0 + fusion.jump));
   return shares;
@@ -156,8 +163,8 @@ void CorrectedHeat::drift(World& world, double dt) {
   add_heat(world, Stage::first, [&](std::size_t i) { return dt * rate[i]; });
 }
 
-/// Second stage: H = 1/2 H_old + 1/2 (H_1 + dt dH/dt(H_1)), written as a change of H_1. Where the step is small beside the bound
-/// (8.10), dH/dt(H_1) serves as the rate of the new time too (decision 040).
+/// Second stage: H = 1/2 H_old + 1/2 (H_1 + dt dH/dt(H_1)), written as a change of H_1. Where the step is
+/// small beside the bound (8.10), dH/dt(H_1) serves as the rate of the new time too (decision 040).
 bool CorrectedHeat::correct(World& world, double dt) {
   surfaces_.book(world, Stage::last, dt);
   const auto rate = world.particles[field::heat_rate], before = world.particles[field::heat_rate_before];
@@ -187,7 +194,9 @@ void CorrectedHeat::state(World& world) {
   }
 }
 
-void CorrectedHeat::happen(World& world, const Happening& now) { hold_temperature(world, now, set_temperature); }
+void CorrectedHeat::happen(World& world, const Happening& now) {
+  hold_temperature(world, now, set_temperature);
+}
 
 /// 1/max_i sum_j G_ij/C_i (model 8.10): the one bound that gives a discrete maximum principle.
 TimeStepBound CorrectedHeat::max_dt(const World& world) const {
@@ -196,11 +205,14 @@ TimeStepBound CorrectedHeat::max_dt(const World& world) const {
   const auto held = p[field::held], material = p[field::material];
   const std::vector<double> least = least_capacities(world);
   double greatest = 0.0;
-#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : greatest) if (p.size() > worth_threads)
+#pragma omp parallel for schedule(static) num_threads(world.threads) \
+    reduction(max                                                    \
+              : greatest) if (p.size() > worth_threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (!held[i])
-      greatest =
-          std::max(greatest, G[i] / (m[i] * c_p[i] * (least.empty() ? 1.0 : least[static_cast<std::size_t>(material[i])])));
+      greatest = std::max(
+          greatest,
+          G[i] / (m[i] * c_p[i] * (least.empty() ? 1.0 : least[static_cast<std::size_t>(material[i])])));
   }
   TimeStepBound bound;
   if (greatest > 0.0) tighten(bound, 1.0 / greatest, "heat");

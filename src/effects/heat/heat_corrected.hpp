@@ -5,9 +5,10 @@
 
 namespace tripoint::heat {
 
-/// (21) in the enthalpy form of model 8.6. Two-stage strong-stability-preserving Runge-Kutta [Shu & Osher 1988, (2.16)]. It is a
-/// convex mix of Euler steps, so that a step within the bound makes no new extremes. It is second order in time. With one Euler
-/// step at the bound the temporal error would be as large as the spatial one, and of opposite sign.
+/// (21) in the enthalpy form of model 8.6. Two-stage strong-stability-preserving Runge-Kutta [Shu & Osher
+/// 1988, (2.16)]. It is a convex mix of Euler steps, so that a step within the bound makes no new extremes.
+/// It is second order in time. With one Euler step at the bound the temporal error would be as large as the
+/// spatial one, and of opposite sign.
 class CorrectedHeat : public Effect {
  public:
   void load(World&, const InitialState&) override;

@@ -12,7 +12,8 @@ namespace {
 
 double heat_at(const World& world, std::size_t row, double temperature) {
   const auto phase = static_cast<Phase>(world.particles[field::phase][row]);
-  return enthalpy_of(world.particles[field::mass][row], heat_capacity_of(world.material_of(row), phase), temperature);
+  return enthalpy_of(world.particles[field::mass][row], heat_capacity_of(world.material_of(row), phase),
+                     temperature);
 }
 
 }  // namespace
@@ -30,8 +31,9 @@ void EqualHeat::adopt(World& world) {
 
 void EqualHeat::add_to(const World& world, Ledger& ledger) const {
   std::vector<std::array<double, 1>> blocks;
-  const auto sums = ordered_sums_of_all(
-      world, blocks, [&](std::size_t i, std::array<double, 1>& sum) { sum[0] += heat_at(world, i, temperature_); });
+  const auto sums = ordered_sums_of_all(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
+    sum[0] += heat_at(world, i, temperature_);
+  });
   ledger.energy["thermal"] += sums[0];
 }
 

@@ -4,8 +4,8 @@
 
 namespace tripoint::heat {
 
-/// Heat of a scene where all has one temperature and nothing brings another (scene/temperatures.hpp): no column, no pair, no
-/// bound of the step. Only its entry in the ledger is left.
+/// Heat of a scene where all has one temperature and nothing brings another (scene/temperatures.hpp): no
+/// column, no pair, no bound of the step. Only its entry in the ledger is left.
 class EqualHeat : public Effect {
  public:
   explicit EqualHeat(double temperature) : temperature_(temperature) {}

@@ -20,13 +20,15 @@ namespace {
 /// m (c_p T + L f) [J]
 double printed_heat(const World& world, std::size_t row) {
   const Particles& p = world.particles;
-  const double sensible = enthalpy_of(p[field::mass][row], p[field::heat_capacity][row], p[field::temperature][row]);
+  const double sensible =
+      enthalpy_of(p[field::mass][row], p[field::heat_capacity][row], p[field::temperature][row]);
   return p.has(field::liquid_fraction.name) ? sensible + latent_heat(world, row) : sensible;
 }
 
 double set_printed_temperature(World& world, std::size_t row, double temperature) {
   Particles& p = world.particles;
-  const double given = p[field::mass][row] * p[field::heat_capacity][row] * (temperature - p[field::temperature][row]);
+  const double given =
+      p[field::mass][row] * p[field::heat_capacity][row] * (temperature - p[field::temperature][row]);
   p[field::temperature][row] = temperature;
   const double bound = p.has(field::liquid_fraction.name) ? latent_heat(world, row) : 0.0;
   set_melted(world, row, temperature);
@@ -44,7 +46,8 @@ void PaperHeat::set_material(World& world, std::size_t row) const {
   const Material& m = world.material_of(row);
   const double own = *m.conductivity / (m.density * *m.heat_capacity);
   const double one = kept_number(world.scene.values, key_row("scene", "heat_constant"));  // 0 = none is given
-  world.particles[field::diffusivity][row] = one > 0.0 ? one : own;                       // the paper's c [m2/s]
+  // The paper's c [m2/s]
+  world.particles[field::diffusivity][row] = one > 0.0 ? one : own;
 }
 
 /// Particles that have flowed in bring their heat.
@@ -60,7 +63,8 @@ void PaperHeat::adopt(World& world) {
 
 void PaperHeat::drift(World& world, double dt) {
   Particles& p = world.particles;
-  const auto T = p[field::temperature], rate = p[field::temperature_rate], m = p[field::mass], c_p = p[field::heat_capacity];
+  const auto T = p[field::temperature], rate = p[field::temperature_rate], m = p[field::mass],
+             c_p = p[field::heat_capacity];
   const auto held = p[field::held], material = p[field::material];
   const bool melts = p.has(field::liquid_fraction.name);
   const auto f = melts ? p[field::liquid_fraction] : std::span<double>{};
@@ -87,7 +91,9 @@ void PaperHeat::clear(World& world, PassName pass) {
   fill(world.particles[field::exchange], 0.0, world.threads);
 }
 
-void PaperHeat::happen(World& world, const Happening& now) { hold_temperature(world, now, set_printed_temperature); }
+void PaperHeat::happen(World& world, const Happening& now) {
+  hold_temperature(world, now, set_printed_temperature);
+}
 
 /// 1/max_i sum_j of the coefficients of T_j - T_i (model 8.10).
 TimeStepBound PaperHeat::max_dt(const World& world) const {
@@ -95,7 +101,9 @@ TimeStepBound PaperHeat::max_dt(const World& world) const {
   const auto exchange = p[field::exchange];
   const auto held = p[field::held];
   double greatest = 0.0;
-#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : greatest) if (p.size() > worth_threads)
+#pragma omp parallel for schedule(static) num_threads(world.threads) \
+    reduction(max                                                    \
+              : greatest) if (p.size() > worth_threads)
   for (std::size_t i = 0; i < exchange.size(); ++i) {
     if (!held[i]) greatest = std::max(greatest, exchange[i]);
   }

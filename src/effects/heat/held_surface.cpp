@@ -19,18 +19,21 @@
 namespace tripoint::heat {
 namespace {
 
-/// A particle nearer to the surface than this is taken to be this far [spacings]. Its conductance to the surface goes with one
-/// over the distance, and the step with one over the conductance. Boxes that the lattice fits have half a spacing everywhere.
+/// A particle nearer to the surface than this is taken to be this far [spacings]. Its conductance to the
+/// surface goes with one over the distance, and the step with one over the conductance. Boxes that the
+/// lattice fits have half a spacing everywhere.
 constexpr double least_distance = 0.25;
-/// Another particle this near to a place of the lattice stands there [spacings]: jitter moves it by less, and two places are 1
-/// apart.
+/// Another particle this near to a place of the lattice stands there [spacings]: jitter moves it by less, and
+/// two places are 1 apart.
 constexpr double same_place = 0.75;
 
-/// Least share, within the body, of the way to a place beyond the surface [1]. Jitter may have put the particle outside the
-/// shape, where the share would be 0. A choice, small beside least_distance.
+/// Least share, within the body, of the way to a place beyond the surface [1]. Jitter may have put the
+/// particle outside the shape, where the share would be 0. A choice, small beside least_distance.
 constexpr double least_way = 1e-3;
 
-bool acts(const Scene& scene) { return kept_number(scene.values, key_row("scene", "surface_exchange")) != 0.0; }
+bool acts(const Scene& scene) {
+  return kept_number(scene.values, key_row("scene", "surface_exchange")) != 0.0;
+}
 
 /// Particles as they were laid, by cells of one spacing.
 class Laid {
@@ -48,7 +51,8 @@ class Laid {
     for (int x = -1; x <= 1; ++x)
       for (int y = -1; y <= 1; ++y)
         for (int z = -1; z <= 1; ++z)
-          if (stands_in(cell_of(place + scene_.spacing * Vec3{double(x), double(y), double(z)}), place)) return true;
+          if (stands_in(cell_of(place + scene_.spacing * Vec3{double(x), double(y), double(z)}), place))
+            return true;
     return false;
   }
 
@@ -103,7 +107,8 @@ std::vector<Vec3> steps_within(double support_ratio) {
 
 using Inside = std::function<bool(const Vec3&)>;
 
-/// Share of the way from a point in the shape to one outside at which it leaves the shape, by halving: to a billionth.
+/// Share of the way from a point in the shape to one outside at which it leaves the shape, by halving: to a
+/// billionth.
 double way_within(const Inside& inside, const Vec3& from, const Vec3& away) {
   double in = 0.0, out = 1.0;
   for (int n = 0; n < 30; ++n) {
@@ -113,7 +118,8 @@ double way_within(const Inside& inside, const Vec3& from, const Vec3& away) {
   return 0.5 * (in + out);
 }
 
-/// There is nothing outside the domain. Where a side of the domain cuts a body, that side is a plane of symmetry.
+/// There is nothing outside the domain. Where a side of the domain cuts a body, that side is a plane of
+/// symmetry.
 bool cut_off(const Scene& scene, const Vec3& place) {
   if (!(scene.min && scene.max)) return false;
   for (std::size_t a = 0; a < 3; ++a)
@@ -121,8 +127,8 @@ bool cut_off(const Scene& scene, const Vec3& place) {
   return false;
 }
 
-std::vector<Beyond> places_beyond(const Scene& scene, const Inside& inside, const Vec3& at, const std::vector<Vec3>& steps,
-                                  const Laid& laid) {
+std::vector<Beyond> places_beyond(const Scene& scene, const Inside& inside, const Vec3& at,
+                                  const std::vector<Vec3>& steps, const Laid& laid) {
   const double dx = scene.spacing;
   std::vector<Beyond> found;
   double nearest = least_distance * dx;
@@ -136,7 +142,9 @@ std::vector<Beyond> places_beyond(const Scene& scene, const Inside& inside, cons
   return found;
 }
 
-std::array<double, 6> outer(const Vec3& r) { return {r.x * r.x, r.y * r.y, r.z * r.z, r.y * r.z, r.x * r.z, r.x * r.y}; }
+std::array<double, 6> outer(const Vec3& r) {
+  return {r.x * r.x, r.y * r.y, r.z * r.z, r.y * r.z, r.x * r.z, r.x * r.y};
+}
 
 bool leaves_by_a_face(const std::vector<Beyond>& beyond, double spacing) {
   return std::ranges::any_of(beyond, [&](const Beyond& b) { return norm(b.away) < 1.1 * spacing; });
@@ -148,11 +156,13 @@ constexpr std::array<const Field<double>*, 6> inverse = columns_of(field::moment
 
 std::optional<double> surface_temperature(const Scene& scene, const Body& b) {
   const double held = value_of(scene.material(b.material).values, "surface_temperature");
-  return held > 0.0 && b.motion == Motion::fixed && b.phase != Phase::liquid ? std::optional(held) : std::nullopt;
+  return held > 0.0 && b.motion == Motion::fixed && b.phase != Phase::liquid ? std::optional(held)
+                                                                             : std::nullopt;
 }
 
 bool has_held_surfaces(const Scene& scene) {
-  return std::ranges::any_of(scene.bodies, [&](const Body& b) { return surface_temperature(scene, b).has_value(); });
+  return std::ranges::any_of(scene.bodies,
+                             [&](const Body& b) { return surface_temperature(scene, b).has_value(); });
 }
 
 void refuse_held_surfaces(const Scene& scene) {
@@ -160,13 +170,17 @@ void refuse_held_surfaces(const Scene& scene) {
     const Material& m = scene.material(b.material);
     if (!(value_of(m.values, "surface_temperature") > 0.0)) continue;
     const auto refuse = [&](const std::string& why) {
-      throw InputError(fmt::format("body \"{}\" is of {}, which has a surface_temperature, {}", b.name, m.name, why));
+      throw InputError(
+          fmt::format("body \"{}\" is of {}, which has a surface_temperature, {}", b.name, m.name, why));
     };
     if (scene.mode_of(term::heat) == Mode::paper)
-      refuse("and heat as printed knows no surfaces: write modes.heat = \"corrected\", or hold a body beside it");
+      refuse(
+          "and heat as printed knows no surfaces: write modes.heat = \"corrected\", or hold a body beside "
+          "it");
     if (b.motion != Motion::fixed || b.phase == Phase::liquid)
       refuse(
-          "and a held surface stays where it was laid: write motion = \"fixed\" for a solid body, or give it another material");
+          "and a held surface stays where it was laid: write motion = \"fixed\" for a solid body, or give it "
+          "another material");
     if (m.t_melt && calls_for(scene, "phase"))
       refuse("and its surface would melt away: leave t_melt out of the material, or hold a body beside it");
     for (const Event& e : scene.events)
@@ -266,7 +280,8 @@ void HeldSurfaces::book(World& world, Stage stage, double dt) const {
     const double given = stage == Stage::first ? dt * now : 0.5 * dt * (now - before[i]);
     if (stage == Stage::first) before[i] = now;
     sum += given;
-    if (const int b = p[field::body][i]; by_body && b >= 0) world.bodies[field::body_heat][static_cast<std::size_t>(b)] += given;
+    if (const int b = p[field::body][i]; by_body && b >= 0)
+      world.bodies[field::body_heat][static_cast<std::size_t>(b)] += given;
   }
   world.booked[account::walls] -= sum;
 }

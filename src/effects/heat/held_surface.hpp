@@ -16,24 +16,28 @@ enum class Stage { first, last };
 [[nodiscard]] std::optional<double> surface_temperature(const Scene&, const Body&);
 [[nodiscard]] bool has_held_surfaces(const Scene&);
 
-/// @throws InputError naming a body whose held surface cannot be computed: one that moves, melts or is as printed
+/// @throws InputError naming a body whose held surface cannot be computed: one that moves, melts or is as
+/// printed
 void refuse_held_surfaces(const Scene&);
 
-/// Surfaces of bodies whose temperature is held (model 8.6). The part of a particle's neighbourhood beyond the surface is filled
-/// with lattice places. Their temperature is linear along the way through the surface [Gibou, Fedkiw, Cheng, Kang 2002]. So the
-/// surface lies where the shape has it, and not half a spacing further in or out.
+/// Surfaces of bodies whose temperature is held (model 8.6). The part of a particle's neighbourhood beyond
+/// the surface is filled with lattice places. Their temperature is linear along the way through the surface
+/// [Gibou, Fedkiw, Cheng, Kang 2002]. So the surface lies where the shape has it, and not half a spacing
+/// further in or out.
 ///
 /// The data kept here follow from the particles as they were laid, and a resumed run finds them again.
 class HeldSurfaces {
  public:
-  /// Finds the places beyond. Where scene.surface_exchange is 0 the outermost particles are held at the surface's temperature.
+  /// Finds the places beyond. Where scene.surface_exchange is 0 the outermost particles are held at the
+  /// surface's temperature.
   void load(World&, const InitialState&);
   /// Finds the particles that this process has by their new ids (Effect::renumber).
   void renumber(const World&);
-  /// Sums of a pass start with the share of the places beyond, not with 0. In the pass of densities this is M_i, in others the
-  /// flow of heat [W] and the conductance [W/K].
+  /// Sums of a pass start with the share of the places beyond, not with 0. In the pass of densities this is
+  /// M_i, in others the flow of heat [W] and the conductance [W/K].
   void start_sums(World&, PassName) const;
-  /// Books the heat that a stage takes from held surfaces, on the account `walls` and by body. Call it before the stage.
+  /// Books the heat that a stage takes from held surfaces, on the account `walls` and by body. Call it before
+  /// the stage.
   /// @param dt length of the step [s]
   void book(World&, Stage, double dt) const;
 
@@ -41,9 +45,10 @@ class HeldSurfaces {
   /// A particle with places beyond a held surface in its support.
   struct Near {
     std::uint32_t id = 0;
-    double temperature = 0.0;          ///< of the surface [K]
-    std::array<double, 6> moment{};    ///< sum 1/2 V K r r^T of the places: xx, yy, zz, yz, xz, xy
-    std::array<double, 6> exchange{};  ///< sum V_i V K e e^T over the share of the way that lies within the body [m]
+    double temperature = 0.0;        ///< of the surface [K]
+    std::array<double, 6> moment{};  ///< sum 1/2 V K r r^T of the places: xx, yy, zz, yz, xz, xy
+    /// Sum V_i V K e e^T over the share of the way that lies within the body [m]
+    std::array<double, 6> exchange{};
   };
   /// Conductance to the surface, k M_i^+ : exchange [W/K].
   [[nodiscard]] static double conductance(const Particles&, std::size_t row, const Near&);

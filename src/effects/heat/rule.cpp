@@ -11,10 +11,12 @@ namespace tripoint::heat {
 namespace {
 
 std::string called_for(const Scene& s) {
-  const std::string who = bodies_where(s, [](const Scene&, const Body& b, const Material& m) { return has_heat(b, m); });
+  const std::string who =
+      bodies_where(s, [](const Scene&, const Body& b, const Material& m) { return has_heat(b, m); });
   const auto equal = who.empty() ? std::optional<double>() : equal_temperature(s);
   if (equal)
-    return fmt::format("all has {:.6g} K and nothing brings another temperature: no heat flows, none is computed", *equal);
+    return fmt::format(
+        "all has {:.6g} K and nothing brings another temperature: no heat flows, none is computed", *equal);
   return because(who, "a temperature is given, and the material conducts");
 }
 
@@ -24,7 +26,8 @@ std::string left_out(const Scene& s) {
 }
 
 std::string no_constant(const Scene& s) {
-  return s.mode_of(term::heat) == Mode::paper ? "" : "heat is corrected, and conducts by what the materials say";
+  return s.mode_of(term::heat) == Mode::paper ? ""
+                                              : "heat is corrected, and conducts by what the materials say";
 }
 
 std::string no_held_surface(const Scene& s) {
@@ -33,7 +36,9 @@ std::string no_held_surface(const Scene& s) {
              : "no material has a surface_temperature";
 }
 
-std::string as_printed(const Scene& s) { return s.mode_of(term::heat) == Mode::paper ? "heat as printed knows no surfaces" : ""; }
+std::string as_printed(const Scene& s) {
+  return s.mode_of(term::heat) == Mode::paper ? "heat as printed knows no surfaces" : "";
+}
 
 /// Keys of the case file.
 std::vector<EffectKey> keys() {
@@ -42,25 +47,33 @@ std::vector<EffectKey> keys() {
   return {
       {{"scene", "heat_constant", number, "m2/s", not_negative, "0",
         "each material has its own, conductivity/(density heat_capacity)", "",
-        "the constant c of (21) of all matter, only where modes.heat is paper; 0: a constant for each material"},
+        "the constant c of (21) of all matter, only where modes.heat is paper; 0: a constant for each "
+        "material"},
        {},
        no_constant},
-      {{"material", "conductivity", number, "W/m/K", positive, "", "no heat flows", "", "thermal conductivity"},
+      {{"material", "conductivity", number, "W/m/K", positive, "", "no heat flows", "",
+        "thermal conductivity"},
        &Material::conductivity},
-      {{"material", "heat_capacity", number, "J/kg/K", positive, "", "holds no heat", "", "specific heat at constant pressure"},
+      {{"material", "heat_capacity", number, "J/kg/K", positive, "", "holds no heat", "",
+        "specific heat at constant pressure"},
        &Material::heat_capacity},
-      {{"material", "solid_conductivity", number, "W/m/K", positive, "", "conductivity is that of both phases", "",
+      {{"material", "solid_conductivity", number, "W/m/K", positive, "",
+        "conductivity is that of both phases", "",
         "conductivity of the solid; `conductivity` is then the liquid's; a correction"},
        &Material::solid_conductivity},
-      {{"material", "solid_heat_capacity", number, "J/kg/K", positive, "", "heat_capacity is that of both phases", "",
-        "specific heat of the solid; `heat_capacity` is then the liquid's, `latent_heat` that at t_melt; a correction"},
+      {{"material", "solid_heat_capacity", number, "J/kg/K", positive, "",
+        "heat_capacity is that of both phases", "",
+        "specific heat of the solid; `heat_capacity` is then the liquid's, `latent_heat` that at t_melt; a "
+        "correction"},
        &Material::solid_heat_capacity},
-      {{"scene", "surface_exchange", number, "", not_negative, "1", "surfaces exchange heat where they lie", "",
-        "1: surface_temperature acts at the surface (model 8.6); 0: it holds the outermost particles"},
+      {{"scene", "surface_exchange", number, "", not_negative, "1", "surfaces exchange heat where they lie",
+        "", "1: surface_temperature acts at the surface (model 8.6); 0: it holds the outermost particles"},
        {},
        no_held_surface},
-      {{"material", "surface_temperature", number, "K", not_negative, "0", "nothing passes through surfaces", "",
-        "temperature of the outer surfaces of fixed bodies, where they touch no body (model 8.6); 0: none. A body cut by "
+      {{"material", "surface_temperature", number, "K", not_negative, "0", "nothing passes through surfaces",
+        "",
+        "temperature of the outer surfaces of fixed bodies, where they touch no body (model 8.6); 0: none. A "
+        "body cut by "
         "scene.min or scene.max has a plane of symmetry there"},
        {},
        as_printed},
@@ -68,7 +81,8 @@ std::vector<EffectKey> keys() {
 }
 
 /// Where the case gives a value of both phases, the library's of the solid is none of its.
-void drop_of_library(TableReader& in, std::string_view key, std::string_view both, std::optional<double>& value) {
+void drop_of_library(TableReader& in, std::string_view key, std::string_view both,
+                     std::optional<double>& value) {
   if (!value || in.has(key) || !in.has(both)) return;
   in.ruled(key, "none", fmt::format("{} is given, and is that of both phases", both));
   value.reset();
@@ -80,15 +94,21 @@ void settle_material(TableReader& in, Material& m) {
   for (const auto& [key, both, alone] :
        {std::tuple{"solid_conductivity", "conductivity", m.solid_conductivity && !m.conductivity},
         std::tuple{"solid_heat_capacity", "heat_capacity", m.solid_heat_capacity && !m.heat_capacity}})
-    if (alone) in.refuse(key, fmt::format("{} is missing, which is the liquid's where the solid has its own: give it too", both));
+    if (alone)
+      in.refuse(
+          key,
+          fmt::format("{} is missing, which is the liquid's where the solid has its own: give it too", both));
   if (has_two_phases(m) && !m.t_melt)
-    in.refuse(m.solid_conductivity ? "solid_conductivity" : "solid_heat_capacity",
-              "without t_melt the material has one phase: give t_melt too, or write the value without solid_");
+    in.refuse(
+        m.solid_conductivity ? "solid_conductivity" : "solid_heat_capacity",
+        "without t_melt the material has one phase: give t_melt too, or write the value without solid_");
   if (has_two_phases(m) && m.t_solid && latent_heat_at(m, *m.t_solid) < 0.0)
-    in.refuse("solid_heat_capacity",
-              fmt::format("freezing at t_solid = {} K would take up heat, {:.4g} J/kg: the heat of fusion changes with "
-                          "temperature as the heat capacities differ; raise latent_heat or t_solid",
-                          *m.t_solid, -latent_heat_at(m, *m.t_solid)));
+    in.refuse(
+        "solid_heat_capacity",
+        fmt::format(
+            "freezing at t_solid = {} K would take up heat, {:.4g} J/kg: the heat of fusion changes with "
+            "temperature as the heat capacities differ; raise latent_heat or t_solid",
+            *m.t_solid, -latent_heat_at(m, *m.t_solid)));
 }
 
 }  // namespace
@@ -99,9 +119,12 @@ EffectRule rule() {
           .called_for = called_for,
           .left_out = left_out,
           .terms = {{term::heat, {{"conservative", "equal and opposite in each pair, two stages (8.6)"}}}},
-          .terms_shared = {term::kernel, term::pressure, term::density, term::state, term::clamp, term::viscosity, term::walls},
+          .terms_shared = {term::kernel, term::pressure, term::density, term::state, term::clamp,
+                           term::viscosity, term::walls},
           .choices = {{"heat_surface",
-                       {{"exchange", "a held surface exchanges heat where it lies (8.6)", {{"surface_exchange", 1.0}}},
+                       {{"exchange",
+                         "a held surface exchanges heat where it lies (8.6)",
+                         {{"surface_exchange", 1.0}}},
                         {"held", "its outermost particles are held", {{"surface_exchange", 0.0}}}}}},
           .keys = keys(),
           .settle_material = settle_material,

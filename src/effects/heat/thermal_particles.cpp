@@ -37,7 +37,8 @@ void load_particle(World& world, std::size_t row, double temperature) {
       !p.has(field::liquid_fraction.name) && liquid ? *material.heat_capacity : solid_capacity(material);
   p[field::temperature][row] = temperature;
   if (!std::isfinite(temperature))
-    throw InputError("particle " + std::to_string(p[field::id][row]) + " has no temperature: give its body or inflow one");
+    throw InputError("particle " + std::to_string(p[field::id][row]) +
+                     " has no temperature: give its body or inflow one");
   p[field::held][row] = held_by_scene(world, row);
   if (!p.has(field::liquid_fraction.name)) return;
   p[field::liquid_fraction][row] = liquid ? 1.0 : 0.0;
@@ -53,8 +54,8 @@ double liquid_share(const World& world, std::size_t row) {
 
 double latent_heat(const World& world, std::size_t row) {
   const Particles& p = world.particles;
-  return p[field::mass][row] * p[field::heat_capacity][row] * fusion_of(world.scene, world.material_of(row)).heat *
-         p[field::liquid_fraction][row];
+  return p[field::mass][row] * p[field::heat_capacity][row] *
+         fusion_of(world.scene, world.material_of(row)).heat * p[field::liquid_fraction][row];
 }
 
 void set_melted(World& world, std::size_t row, double temperature) {
@@ -78,13 +79,15 @@ void hold_temperature(World& world, const Happening& now, SetTemperature set) {
   if (now.event.kind != Event::Kind::heat || !now.event.temperature) return;
   Particles& p = world.particles;
   const auto held = p[field::held];
-  const auto inside = now.event.region ? inside_of(*now.event.region, world.scene.spacing) : [](const Vec3&) { return true; };
+  const auto inside =
+      now.event.region ? inside_of(*now.event.region, world.scene.spacing) : [](const Vec3&) { return true; };
   for (std::size_t id = 0; id < p.size(); ++id) {
     const std::size_t i = p.row(id);
     const auto source = static_cast<std::size_t>(p[field::source][i]);
     const auto& names = now.event.bodies;
     const bool named = names.empty() || (source < world.scene.bodies.size() &&
-                                         std::find(names.begin(), names.end(), world.scene.bodies[source].name) != names.end());
+                                         std::find(names.begin(), names.end(),
+                                                   world.scene.bodies[source].name) != names.end());
     if (!named || !inside(world.unwrapped(i))) continue;
     if (now.begins) {
       const double given = set(world, i, *now.event.temperature);

@@ -6,25 +6,29 @@
 namespace tripoint::heat {
 
 /// Heat capacity, temperature and held particles, from the scene and the sampled state.
-/// @throws InputError naming the material without heat capacity or conductivity, or a scene without temperatures
+/// @throws InputError naming the material without heat capacity or conductivity, or a scene without
+/// temperatures
 void load_common(World&, const InitialState&);
-/// Columns of one particle. @throws InputError when its material does not conduct, or its temperature [K] is not finite
+/// Columns of one particle. @throws InputError when its material does not conduct, or its temperature [K] is
+/// not finite
 void load_particle(World&, std::size_t row, double temperature);
 /// Temperature of a particle that flowed in [K]; NaN where its inflow has none.
 [[nodiscard]] double inflow_temperature(const World&, std::size_t row);
 
-/// Sets one particle's temperature, and with it the state of the form that is on. @return heat given to it [J]
+/// Sets one particle's temperature, and with it the state of the form that is on. @return heat given to it
+/// [J]
 using SetTemperature = double (*)(World&, std::size_t row, double temperature);
 
 /// Liquid fraction of a particle; where nothing changes its phase, that of its phase.
 [[nodiscard]] double liquid_share(const World&, std::size_t row);
 /// m L f [J] of a particle of a scene that has phase change.
 [[nodiscard]] double latent_heat(const World&, std::size_t row);
-/// Melts or freezes a particle whose temperature is set from outside [K]; nothing where the scene has no phase change.
+/// Melts or freezes a particle whose temperature is set from outside [K]; nothing where the scene has no
+/// phase change.
 void set_melted(World&, std::size_t row, double temperature);
 
-/// Counts the heat that held particles hand on, body by body. The source that holds a body has given it the heat that its
-/// neighbours took. @param change of a row [J]
+/// Counts the heat that held particles hand on, body by body. The source that holds a body has given it the
+/// heat that its neighbours took. @param change of a row [J]
 template <class Change>
 void book_held(World& world, Change change) {
   if (!world.bodies.has(field::body_heat.name)) return;
@@ -34,7 +38,8 @@ void book_held(World& world, Change change) {
     if (held[i] != 0 && body[i] >= 0 && world.owns(i)) heat[static_cast<std::size_t>(body[i])] -= change(i);
 }
 
-/// An event `heat`: its particles take the temperature and hold it until the end; the heat given is booked at the walls.
+/// An event `heat`: its particles take the temperature and hold it until the end; the heat given is booked at
+/// the walls.
 void hold_temperature(World&, const Happening&, SetTemperature);
 
 }  // namespace tripoint::heat

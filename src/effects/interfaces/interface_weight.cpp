@@ -75,7 +75,8 @@ double InterfaceWeight::energy(const World& world, const PairKernels& kernels, s
     if (!are_unlike(group[i], rest[i], group[j], rest[j])) continue;
     const Vec3 d = (x.at(j) - x.at(i)) + world.neighbours->shift(e.image());
     const double r = norm(d);
-    if (r < world.support()) sum += 0.5 * factor_ * (rest[i] - rest[j]) * dot(gravity_, d) * kernel_.value(kernels.wendland, r);
+    if (r < world.support())
+      sum += 0.5 * factor_ * (rest[i] - rest[j]) * dot(gravity_, d) * kernel_.value(kernels.wendland, r);
   }
   return sum;
 }

@@ -9,11 +9,12 @@
 
 namespace tripoint::interfaces {
 
-/// Liquids of two densities at rest (model 8.3). The mean of two pressures in a pair is that of the place between its particles
-/// where the pressure is linear. Across an interface the pressure has a kink, and the mean is off by the weight of half a layer.
-/// Every second layer would then have too high a pressure. Pairs of unlike liquids therefore have the energy a (g.d) K(r), d =
-/// r_j - r_i. a = s/2 (rho0_i - rho0_j) V0^2/M, s = scene.interface_weight, K = (c + c2 r^2/dx^2) W. With this K both layers
-/// beside a flat interface of the lattice are at rest under the exact pressures (interface_kernel()).
+/// Liquids of two densities at rest (model 8.3). The mean of two pressures in a pair is that of the place
+/// between its particles where the pressure is linear. Across an interface the pressure has a kink, and the
+/// mean is off by the weight of half a layer. Every second layer would then have too high a pressure. Pairs
+/// of unlike liquids therefore have the energy a (g.d) K(r), d = r_j - r_i. a = s/2 (rho0_i - rho0_j) V0^2/M,
+/// s = scene.interface_weight, K = (c + c2 r^2/dx^2) W. With this K both layers beside a flat interface of
+/// the lattice are at rest under the exact pressures (interface_kernel()).
 class InterfaceWeight {
  public:
   explicit InterfaceWeight(const Scene&);

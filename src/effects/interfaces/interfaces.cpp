@@ -39,10 +39,11 @@ class Interfaces : public Effect {
 }  // namespace
 
 EffectSpec spec(const Scene&) {
-  EffectSpec s{"interfaces",
-               Mode::corrected,
-               {},
-               fields::joined({fields::position(), {field::id, field::group, field::rest_density, field::force}})};
+  EffectSpec s{
+      "interfaces",
+      Mode::corrected,
+      {},
+      fields::joined({fields::position(), {field::id, field::group, field::rest_density, field::force}})};
   s.reads_if_there = fields::image();
   s.skips_sleeping = true;
   s.own_sums.bonds = columns_of_all(field::force);

@@ -16,7 +16,8 @@ std::string no_interface_weight(const Scene& scene) {
   for (const Body& b : scene.bodies)
     if (b.phase == Phase::liquid) densities.push_back(scene.material(b.material).density);
   for (const Inflow& f : scene.inflows) densities.push_back(scene.material(f.material).density);
-  if (std::ranges::all_of(densities, [&](double rho) { return rho == densities.front(); })) return "all liquids are as heavy";
+  if (std::ranges::all_of(densities, [&](double rho) { return rho == densities.front(); }))
+    return "all liquids are as heavy";
   return liquid::no_compression_energy(scene);
 }
 
@@ -37,7 +38,8 @@ std::vector<EffectKey> keys() {
   using enum Range;
   return {
       {{"scene", "interface_weight", number, "", fraction, "0", "only layers of two liquids need it", "",
-        "share of the energy of unlike pairs that corrects the pressure at a level interface of two liquids (model 8.3). Only "
+        "share of the energy of unlike pairs that corrects the pressure at a level interface of two liquids "
+        "(model 8.3). Only "
         "where density, pressure and state are corrected, the scene clamps, nothing freezes, and "
         "liquids of two densities have a weight"},
        {},
@@ -52,7 +54,9 @@ EffectRule rule() {
           .called_for = called_for,
           .left_out = left_out,
           .choices = {{"interface",
-                       {{"weighted", "pressure is right on both sides of a level interface (8.3)", {{"interface_weight", 1.0}}},
+                       {{"weighted",
+                         "pressure is right on both sides of a level interface (8.3)",
+                         {{"interface_weight", 1.0}}},
                         {"none", "", {{"interface_weight", 0.0}}}}}},
           .keys = keys(),
           .over_processes = true};

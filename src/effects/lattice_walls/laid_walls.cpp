@@ -14,8 +14,9 @@ bool is_liquid(double group) { return group == liquid_group; }
 
 }  // namespace
 
-/// Where the lattices of fixed walls lie: the mean, as of angles, of the places of each wall over the spacing. The mean jitter of
-/// all particles of a wall stays in it, which moves the wall as a whole and is no roughness.
+/// Where the lattices of fixed walls lie: the mean, as of angles, of the places of each wall over the
+/// spacing. The mean jitter of all particles of a wall stays in it, which moves the wall as a whole and is no
+/// roughness.
 void LaidWalls::find_moves(World& world) {
   using std::numbers::pi;
   const Particles& p = world.particles;
@@ -25,7 +26,8 @@ void LaidWalls::find_moves(World& world) {
   const double dx = world.scene.spacing;
   const auto fixed = [&](std::size_t row) {
     return group[row] == wall_group &&
-           world.bodies[field::body_motion][static_cast<std::size_t>(body[row])] == static_cast<int>(Motion::fixed);
+           world.bodies[field::body_motion][static_cast<std::size_t>(body[row])] ==
+               static_cast<int>(Motion::fixed);
   };
   const auto first_of = [&](std::size_t row) { return 6 * static_cast<std::size_t>(source[row]); };
   std::vector<double> sums(6 * world.scene.bodies.size());
@@ -64,8 +66,8 @@ void LaidWalls::find(World& world) {
   }
 }
 
-/// Calls give(i, j, d, d') for the pairs of each row within the support, in the order of its list. d' is d plus the lattice's
-/// part.
+/// Calls give(i, j, d, d') for the pairs of each row within the support, in the order of its list. d' is d
+/// plus the lattice's part.
 template <class Give>
 void LaidWalls::each_pair(const World& world, Give give) const {
   const auto x = positions(world.particles);

@@ -33,8 +33,8 @@ EffectSpec spec(const Scene&) {
                Mode::corrected,
                {},
                fields::joined({fields::position(),
-                               {field::id, field::body, field::source, field::group, field::number_density, field::pressure_share,
-                                field::force}})};
+                               {field::id, field::body, field::source, field::group, field::number_density,
+                                field::pressure_share, field::force}})};
   s.reads_if_there = fields::image();
   s.skips_sleeping = true;
   s.own_sums = {.densities = columns_of_all(field::number_density), .bonds = columns_of_all(field::force)};

@@ -49,8 +49,8 @@ class FreeMotion : public Effect {
   std::vector<std::array<double, works>> blocks_;  ///< memory that is used again
 };
 
-/// v += dt (sum F/m + g). The work of each force is booked by its own formula, dt F.(v- + v+)/2. The sum of these works is the
-/// change of kinetic energy to round-off (model 8.11).
+/// v += dt (sum F/m + g). The work of each force is booked by its own formula, dt F.(v- + v+)/2. The sum of
+/// these works is the change of kinetic energy to round-off (model 8.11).
 void FreeMotion::kick(World& world, double dt) {
   Particles& p = world.particles;
   const auto driven = p.has(field::driven.name) ? std::as_const(p)[field::driven] : std::span<const int>{};
@@ -75,7 +75,8 @@ void FreeMotion::drift(World& world, double dt) {
   const auto driven = guided ? std::as_const(p)[field::driven] : std::span<const int>{};
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t i = 0; i < p.moving(); ++i)
-    if (!is_member(i) && !(guided && driven[i] != 0)) r.set(i, r.at(i) + dt * (shifts ? v.at(i) + w.at(i) : v.at(i)));
+    if (!is_member(i) && !(guided && driven[i] != 0))
+      r.set(i, r.at(i) + dt * (shifts ? v.at(i) + w.at(i) : v.at(i)));
   world.moved = true;
 }
 

@@ -4,8 +4,8 @@
 
 #include "effects/effect.hpp"
 
-/// Motion of all particles that are no members of rigid bodies: liquids and deformable solids, by the forces of the other
-/// effects.
+/// Motion of all particles that are no members of rigid bodies: liquids and deformable solids, by the forces
+/// of the other effects.
 namespace tripoint::motion {
 
 [[nodiscard]] EffectSpec spec(const Scene&);

@@ -9,8 +9,8 @@
 
 namespace tripoint::no_slip {
 
-/// Finds the walls with liquid in reach, anew after each rebuild of the lists. The viscous velocities of fixed walls, which only
-/// wet ones are given, become 0 again.
+/// Finds the walls with liquid in reach, anew after each rebuild of the lists. The viscous velocities of
+/// fixed walls, which only wet ones are given, become 0 again.
 void MirroredVelocity::find(World& world) {
   if (known_ == world.neighbours->rebuilds()) return;
   known_ = world.neighbours->rebuilds();
@@ -25,7 +25,8 @@ void MirroredVelocity::find(World& world) {
   for (const std::size_t k : c.listed) {
     unsigned walls = 0, wet = 0;  // bits of members
     for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i)
-      walls |= static_cast<unsigned>(group[i] == wall_group && (drags || stick[i] != 0.0)) << (i - c.first[k]);
+      walls |= static_cast<unsigned>(group[i] == wall_group && (drags || stick[i] != 0.0))
+               << (i - c.first[k]);
     for (std::size_t e = c.start[k]; e < c.start[k + 1] && (walls & ~wet) != 0; ++e)
       if (group[Entry{c.entries[e]}.row()] == liquid_group) wet |= c.near[e];
     for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i)
@@ -39,8 +40,10 @@ void MirroredVelocity::mirror(World& world, const PairKernels& kernels) {
   Particles& p = world.particles;
   for (const Field<double>* f : WallExtrapolation::adds::list) fill(awake(p, *f), 0.0, world.threads);
   if (wet_walls_.empty()) return;
-  const PairTerm term = kernels.shear.even() ? pair_term<WallExtrapolation> : pair_term<WallExtrapolationWeighted>;
-  run_pass_over(pair_passes(world.neighbours->clusters().lanes).alone(term), p, *world.neighbours, kernels, world.threads, wet_);
+  const PairTerm term =
+      kernels.shear.even() ? pair_term<WallExtrapolation> : pair_term<WallExtrapolationWeighted>;
+  run_pass_over(pair_passes(world.neighbours->clusters().lanes).alone(term), p, *world.neighbours, kernels,
+                world.threads, wet_);
 
   const auto weight = p[field::wall_weight];
   const auto moved = triple(p, field::wall_velocity);

@@ -9,7 +9,8 @@
 
 namespace tripoint::no_slip {
 
-/// The velocity that viscous pairs see of walls is the mirrored one, v = 2 v_wall - mean v_f [Adami, Hu, Adams 2012].
+/// The velocity that viscous pairs see of walls is the mirrored one, v = 2 v_wall - mean v_f [Adami, Hu,
+/// Adams 2012].
 class MirroredVelocity {
  public:
   /// Sets the viscous velocity of the walls that liquid is near, where it sticks to them.

@@ -32,9 +32,10 @@ EffectSpec spec(const Scene&) {
   EffectSpec s{"no_slip",
                Mode::corrected,
                {field::wall_weight, field::wall_velocity},
-               fields::joined({fields::position(),
-                               fields::velocity(),
-                               {field::group, field::stick, field::solid, field::viscosity, field::viscous_velocity}})};
+               fields::joined(
+                   {fields::position(),
+                    fields::velocity(),
+                    {field::group, field::stick, field::solid, field::viscosity, field::viscous_velocity}})};
   s.skips_sleeping = true;
   s.own_sums.state = columns_of_all(field::viscous_velocity);
   return s;

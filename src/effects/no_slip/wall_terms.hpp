@@ -6,10 +6,11 @@
 /// Pair terms of walls (model 8.4). d = r_j - r_i.
 namespace tripoint {
 
-/// Mean velocity of the liquid at a wall particle [Adami, Hu, Adams 2012]: sums over its liquid neighbours of w and v w. The
-/// weight is the viscous coefficient of the pair without the factors that all pairs of the wall particle share. w = mu (-W'/r),
-/// and (-W'/r) as `central` weights it. The `laplacian` forces that follow only take energy. Seen from the wall their work is
-/// -sum G v_f.(v_f + mean v) = -(sum G v_f^2 + (sum G) |mean v|^2).
+/// Mean velocity of the liquid at a wall particle [Adami, Hu, Adams 2012]: sums over its liquid neighbours of
+/// w and v w. The weight is the viscous coefficient of the pair without the factors that all pairs of the
+/// wall particle share. w = mu (-W'/r), and (-W'/r) as `central` weights it. The `laplacian` forces that
+/// follow only take energy. Seen from the wall their work is -sum G v_f.(v_f + mean v) = -(sum G v_f^2 + (sum
+/// G) |mean v|^2).
 template <bool weighted>
 struct WallExtrapolationOf {
   static constexpr std::string_view name = weighted ? "WallExtrapolationWeighted" : "WallExtrapolation";

@@ -13,8 +13,8 @@
 namespace tripoint::phase {
 namespace {
 
-/// Determinant of F below which a particle's F gets no inverse [1]: a choice. A particle that is crushed or turned inside out has
-/// no inverse worth having.
+/// Determinant of F below which a particle's F gets no inverse [1]: a choice. A particle that is crushed or
+/// turned inside out has no inverse worth having.
 constexpr double least_determinant = 0.1;
 
 void turn_plastic_strain(Particles& p, std::size_t row, const Matrix3& R) {
@@ -28,12 +28,13 @@ void turn_plastic_strain(Particles& p, std::size_t row, const Matrix3& R) {
   p[field::plastic_strain_xy][row] = e.xy;
 }
 
-/// Turns the list of a deformable solid, and its plastic strain, into the present frame. No energy changes, and F has an inverse
-/// also for chains and sheets. Printed, nothing is turned, and a bond with a turned solid strains it. @return F^-1 of the list as
-/// it is left
+/// Turns the list of a deformable solid, and its plastic strain, into the present frame. No energy changes,
+/// and F has an inverse also for chains and sheets. Printed, nothing is turned, and a bond with a turned
+/// solid strains it. @return F^-1 of the list as it is left
 Matrix3 turn_into_present_frame(World& world, std::uint32_t id) {
   if (world.scene.mode_of(term::phase) == Mode::paper) return identity3;
-  solid::refresh_shapes(world, std::array{id}, true);  // it may have lost bonds in this step; frequencies follow with all others
+  // It may have lost bonds in this step; frequencies follow with all others
+  solid::refresh_shapes(world, std::array{id}, true);
   const solid::Deformation before = solid::deformation_of(world, id);
   if (before.rank == 0) return identity3;
   const Matrix3 R = solid::rotation_of(before.F, before.P, before.rank);

@@ -16,12 +16,14 @@ struct Joint {
   bool both;           ///< j freezes too: neither has a reference of its own yet
 };
 
-/// Makes the bonds. Frozen particles take the present vectors. A deformable solid j that was there before first turns its list
-/// into the present frame. It takes the new vector in its reference, F_j^-1 r_ji: nothing of j jumps.
+/// Makes the bonds. Frozen particles take the present vectors. A deformable solid j that was there before
+/// first turns its list into the present frame. It takes the new vector in its reference, F_j^-1 r_ji:
+/// nothing of j jumps.
 void bond(World&, const std::vector<Joint>&);
 
-/// Applies to a list without strain energy, as of a member of a rigid body that is bonded to no deformable partner. The present
-/// vectors to its bonded neighbours become its reference vectors. They differ by the body's rotation alone.
+/// Applies to a list without strain energy, as of a member of a rigid body that is bonded to no deformable
+/// partner. The present vectors to its bonded neighbours become its reference vectors. They differ by the
+/// body's rotation alone.
 void take_present_vectors(World&, const ElasticityKernel&, std::uint32_t id);
 
 /// From now on frozen deformable particles meet the near members of their body through their bonds alone.

@@ -37,9 +37,9 @@ class PhaseChange : public Effect {
   std::optional<ReleasedEnergy> released_;  ///< of the step that is being taken
 };
 
-/// Strain energy of a particle's bonds half a drift ago [J]; 0 where no body can deform. The kick before a drift has the forces
-/// of before the change, the kick after it the new ones. So the change lets go the difference of energies half way, to second
-/// order in the step.
+/// Strain energy of a particle's bonds half a drift ago [J]; 0 where no body can deform. The kick before a
+/// drift has the forces of before the change, the kick after it the new ones. So the change lets go the
+/// difference of energies half way, to second order in the step.
 ReleasedEnergy::Energy energy_of(const World& world, double back) {
   if (!world.particles.has(field::shape_rank.name)) return [](std::uint32_t) { return 0.0; };
   return [&world, back, forms = solid::ElasticForms(world.scene)](std::uint32_t id) {
@@ -64,7 +64,8 @@ void PhaseChange::change(World& world) {
   const Events events = *std::exchange(found_, {});
   if (events.empty()) return;
   world.neighbours->update(world.particles, world.time);
-  if (!world.neighbours->marked()) world.neighbours->mark_own(world.particles, world.own);  // as they are before the change
+  // As they are before the change
+  if (!world.neighbours->marked()) world.neighbours->mark_own(world.particles, world.own);
   released_.emplace(energy_of(world, back_));
   carry_out(world, events, *released_);
 }

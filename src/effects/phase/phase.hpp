@@ -4,9 +4,9 @@
 
 #include "effects/effect.hpp"
 
-/// Change of phase (Fig. 5; model 8.9): the particles that melt or freeze, and the bodies that result. Heat moves (H, f), and
-/// this effect decides by f. Melted particles leave their bodies, and frozen ones join the bodies that they touch. The effect
-/// settles the energies.
+/// Change of phase (Fig. 5; model 8.9): the particles that melt or freeze, and the bodies that result. Heat
+/// moves (H, f), and this effect decides by f. Melted particles leave their bodies, and frozen ones join the
+/// bodies that they touch. The effect settles the energies.
 namespace tripoint::phase {
 
 [[nodiscard]] EffectSpec spec(const Scene&);

@@ -11,7 +11,8 @@ namespace {
 
 /// Divides energy equally among particles. @param ids at least one
 void share(World& world, const std::vector<std::uint32_t>& ids, double joules) {
-  for (const std::uint32_t id : ids) give_heat(world, world.particles.row(id), joules / static_cast<double>(ids.size()));
+  for (const std::uint32_t id : ids)
+    give_heat(world, world.particles.row(id), joules / static_cast<double>(ids.size()));
 }
 
 /// Particles that melted from, or froze to, the body in this step; all events where none did.

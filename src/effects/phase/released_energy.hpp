@@ -9,9 +9,10 @@
 
 namespace tripoint::phase {
 
-/// Energy that the events of one step set free, and the particles that get it as heat (model 8.9). For each particle the energy
-/// in its bonds, before less after, is divided equally among the events that touched it. The cost of the joining of a rigid body
-/// is divided equally among the events of that body. So the result does not depend on any order.
+/// Energy that the events of one step set free, and the particles that get it as heat (model 8.9). For each
+/// particle the energy in its bonds, before less after, is divided equally among the events that touched it.
+/// The cost of the joining of a rigid body is divided equally among the events of that body. So the result
+/// does not depend on any order.
 class ReleasedEnergy {
  public:
   using Energy = std::function<double(std::uint32_t id)>;  ///< of deformation, as the lists are [J]
@@ -21,7 +22,8 @@ class ReleasedEnergy {
   void touch(std::uint32_t id);
   /// The same, by the melting or freezing of `event`.
   void touch(std::uint32_t id, std::uint32_t event);
-  /// Gives every difference to the heat of the events, and books it. To be called when all effects have adopted the change.
+  /// Gives every difference to the heat of the events, and books it. To be called when all effects have
+  /// adopted the change.
   void settle(World&) const;
 
  private:

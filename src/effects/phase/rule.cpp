@@ -17,11 +17,13 @@ std::string called_for(const Scene& s) {
 
 /// The proof that nothing melts or freezes.
 std::string left_out(const Scene& s) {
-  if (!any_material(s, [](const Material& m) { return m.t_melt.has_value(); })) return "no material has a t_melt";
+  if (!any_material(s, [](const Material& m) { return m.t_melt.has_value(); }))
+    return "no material has a t_melt";
   const TemperatureRange range = temperatures_of(s);
   if (range.empty()) return "no temperature is given";
   return fmt::format(
-      "bodies, inflows and events have {:.6g} to {:.6g} K, conduction never leaves that range, and no solid there melts and no "
+      "bodies, inflows and events have {:.6g} to {:.6g} K, conduction never leaves that range, and no solid "
+      "there melts and no "
       "liquid freezes",
       range.least, range.greatest);
 }
@@ -31,16 +33,18 @@ std::vector<EffectKey> keys() {
   using enum ValueType;
   using enum Range;
   return {
-      {{"material", "t_melt", number, "K", positive, "", "does not melt", "", "above it the matter is liquid"},
+      {{"material", "t_melt", number, "K", positive, "", "does not melt", "",
+        "above it the matter is liquid"},
        &Material::t_melt},
       {{"material", "t_solid", number, "K", positive, "=", "t_melt: no soft band and no hysteresis", "",
         "below it the matter is solid; at most t_melt"},
        &Material::t_solid},
-      {{"material", "latent_heat", number, "J/kg", not_negative, "=", "melts at once where t_melt is given", "",
-        "heat of fusion"},
+      {{"material", "latent_heat", number, "J/kg", not_negative, "=", "melts at once where t_melt is given",
+        "", "heat of fusion"},
        &Material::latent_heat},
       {{"material", "softens", flag, "", any, "false", "full stiffness up to melting", "",
-        "stiffness falls with the liquid fraction. With solid = \"rigid\", young_modulus and modes.phase = \"paper\": elastic "
+        "stiffness falls with the liquid fraction. With solid = \"rigid\", young_modulus and modes.phase = "
+        "\"paper\": elastic "
         "between t_solid and t_melt (Fig. 5)"},
        &Material::softens},
   };
@@ -48,7 +52,9 @@ std::vector<EffectKey> keys() {
 
 /// Whether bodies are joined or parted without any change of phase.
 bool joins_bodies(const Scene& s) {
-  const auto regroups = [](const Event& e) { return e.kind == Event::Kind::merge || e.kind == Event::Kind::split; };
+  const auto regroups = [](const Event& e) {
+    return e.kind == Event::Kind::merge || e.kind == Event::Kind::split;
+  };
   return std::ranges::any_of(s.events, regroups) ||
          any_body(s, [](const Scene&, const Body& b, const Material&) { return !b.joined_to.empty(); });
 }
@@ -69,9 +75,11 @@ void settle_material(TableReader& in, Material& m) {
     in.ruled("latent_heat", "0", "melts at once");
   }
   if (*m.t_solid > *m.t_melt)
-    in.refuse("t_solid", fmt::format("{} K is above t_melt = {} K: matter is solid below t_solid and liquid above t_melt; "
-                                     "give a t_solid of at most t_melt",
-                                     *m.t_solid, *m.t_melt));
+    in.refuse(
+        "t_solid",
+        fmt::format("{} K is above t_melt = {} K: matter is solid below t_solid and liquid above t_melt; "
+                    "give a t_solid of at most t_melt",
+                    *m.t_solid, *m.t_melt));
 }
 
 }  // namespace

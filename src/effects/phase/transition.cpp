@@ -42,7 +42,8 @@ std::vector<Partner> partners_of(const World& world, std::uint32_t id) {
   return list;
 }
 
-/// Whether a change of a list changes the volume of its particle, and with it the energies of all that list it.
+/// Whether a change of a list changes the volume of its particle, and with it the energies of all that list
+/// it.
 bool volumes_follow_lists(const World& world) { return world.scene.mode_of(term::elastic) == Mode::paper; }
 
 /// Phase of a solid particle at this liquid fraction, of a material that may turn.
@@ -103,9 +104,9 @@ void Transition::melt(std::uint32_t id) {
   world_.particles[field::phase][i] = static_cast<int>(Phase::liquid);
 }
 
-/// Bonds stay, so that a particle that turns elastic is joined to its mates and to nothing that it touches. A particle that was
-/// rigid is not strained, and one that becomes rigid lets its strain go: both have the present vectors. At a joint the list of a
-/// rigid member is strained with its partners, and stays so.
+/// Bonds stay, so that a particle that turns elastic is joined to its mates and to nothing that it touches. A
+/// particle that was rigid is not strained, and one that becomes rigid lets its strain go: both have the
+/// present vectors. At a joint the list of a rigid member is strained with its partners, and stays so.
 void Transition::turn(const std::vector<std::uint32_t>& ids) {
   if (ids.empty()) return;
   Particles& p = world_.particles;
@@ -137,7 +138,9 @@ void Transition::turn(const std::vector<std::uint32_t>& ids) {
 /// Members of one rigid body exert nothing on each other as it is.
 void Transition::end_pairs_of_rigid(const std::vector<std::uint32_t>& ids) {
   const auto phase = world_.particles[field::phase];
-  const auto is_rigid = [&](std::uint32_t id) { return phase[world_.particles.row(id)] == static_cast<int>(Phase::rigid); };
+  const auto is_rigid = [&](std::uint32_t id) {
+    return phase[world_.particles.row(id)] == static_cast<int>(Phase::rigid);
+  };
   for (const std::uint32_t id : ids) {
     if (!is_rigid(id)) continue;
     const auto own = std::as_const(world_.own).of(id);
@@ -154,7 +157,8 @@ void Transition::freeze(const std::vector<std::uint32_t>& ids) {
   Particles& p = world_.particles;
   for (const std::uint32_t id : ids) {
     const std::size_t i = p.row(id);
-    p[field::phase][i] = static_cast<int>(solid_phase(world_.scene, world_.material_of(i), p[field::liquid_fraction][i]));
+    p[field::phase][i] =
+        static_cast<int>(solid_phase(world_.scene, world_.material_of(i), p[field::liquid_fraction][i]));
     if (p.has(field::plastic_strain_xx.name)) solid::set_plastic_strain(p, i, {});
     world_.change.relisted.push_back(id);
     world_.change.regrouped.push_back(id);
@@ -201,7 +205,8 @@ class Turns {
   }
   [[nodiscard]] bool operator()(std::size_t row) const {
     const Particles& p = world_.particles;
-    if (!any_ || !may_[static_cast<std::size_t>(p[field::material][row])] || p[field::body][row] < 0) return false;
+    if (!any_ || !may_[static_cast<std::size_t>(p[field::material][row])] || p[field::body][row] < 0)
+      return false;
     const double f = p[field::liquid_fraction][row];
     if (f >= 1.0 || is_given_to_driven(row)) return false;
     return p[field::phase][row] != static_cast<int>(solid_phase(world_.scene, world_.material_of(row), f));
@@ -272,7 +277,8 @@ void connect_rigid_bodies(World& world) {
     for (const Entry e : world.neighbours->of(i)) {
       const std::size_t j = e.row();
       const auto other = static_cast<std::uint32_t>(p[field::id][j]);
-      if (body[j] != body[i] || other <= id || !(world.material_of(i).t_melt || world.material_of(j).t_melt)) continue;
+      if (body[j] != body[i] || other <= id || !(world.material_of(i).t_melt || world.material_of(j).t_melt))
+        continue;
       if (std::ranges::find(bonds, other, &Bond::other) != bonds.end()) continue;  // near an elastic joint
       const Vec3 r = -1.0 * ((x.at(j) - x.at(i)) + world.neighbours->shift(e.image()));
       if (norm(r) < joining_distance(world.scene)) nearest.try_emplace(other, r);

@@ -21,7 +21,9 @@ class PlasticFlow : public Effect {
   explicit PlasticFlow(const Scene&);
   void state(World&) override;
   void adopt(World&) override;
-  void add_to(const World& world, Ledger& ledger) const override { ledger.energy["plastic"] += world.booked[dissipation]; }
+  void add_to(const World& world, Ledger& ledger) const override {
+    ledger.energy["plastic"] += world.booked[dissipation];
+  }
 
  private:
   double flow(World&, std::size_t row) const;
@@ -46,7 +48,8 @@ double PlasticFlow::flow(World& world, std::size_t row) const {
   const YieldLimits& limits = limits_[static_cast<std::size_t>(p[field::material][row])];
   const int rank = p[field::shape_rank][row];
   const Symmetric strain = solid::strain_of(p, row), plastic = solid::plastic_strain_of(p, row);
-  const Symmetric P = forms_.projector(solid::shape_inverse_of(p, row), rank), elastic = between(P, strain - plastic);
+  const Symmetric P = forms_.projector(solid::shape_inverse_of(p, row), rank),
+                  elastic = between(P, strain - plastic);
   const solid::ElasticConstants c = forms_.constants(world, row);
   const double yields = yield_stress(c.mu, limits.elastic);
   const auto flat = [&] {
@@ -64,10 +67,11 @@ void PlasticFlow::state(World& world) {
   const auto may_flow = std::as_const(world.particles)[field::may_flow];
   if (std::ranges::find(may_flow, 1) == may_flow.end()) return;
   const solid::ElasticParticles is_elastic(world);
-  const auto lost =
-      ordered_sums(world.particles.size(), world.threads, blocks_, [&](std::size_t row, std::array<double, 1>& sum) {
-        if (may_flow[row] != 0 && is_elastic(row) && world.owns(row)) sum[0] += flow(world, row);
-      });
+  const auto lost = ordered_sums(world.particles.size(), world.threads, blocks_,
+                                 [&](std::size_t row, std::array<double, 1>& sum) {
+                                   if (may_flow[row] != 0 && is_elastic(row) && world.owns(row))
+                                     sum[0] += flow(world, row);
+                                 });
   world.booked[dissipation] += lost[0];
   world.booked[account::deformation_released] += lost[0];
 }
@@ -75,18 +79,20 @@ void PlasticFlow::state(World& world) {
 /// Melted particles lose their plastic strain.
 void PlasticFlow::adopt(World& world) {
   for (const auto* list : {&world.change.melted, &world.change.born})
-    for (const std::uint32_t id : *list) solid::set_plastic_strain(world.particles, world.particles.row(id), {});
+    for (const std::uint32_t id : *list)
+      solid::set_plastic_strain(world.particles, world.particles.row(id), {});
 }
 
 }  // namespace
 
 EffectSpec spec(const Scene& scene) {
-  EffectSpec s{"plastic",
-               scene.mode_of(term::elastic),
-               fields::joined({fields::plastic_strain(), {field::may_flow}}),
-               fields::joined({fields::strain(), fields::deformation(), {field::id, field::body, field::material}}),
-               {},
-               {dissipation}};
+  EffectSpec s{
+      "plastic",
+      scene.mode_of(term::elastic),
+      fields::joined({fields::plastic_strain(), {field::may_flow}}),
+      fields::joined({fields::strain(), fields::deformation(), {field::id, field::body, field::material}}),
+      {},
+      {dissipation}};
   s.reads_if_there = {field::stiffness_share};
   return s;
 }

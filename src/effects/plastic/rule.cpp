@@ -20,7 +20,8 @@ std::vector<EffectKey> keys() {
                "deviatoric strain where plastic flow begins"},
        .kept_in = &Material::elastic_limit,
        .limit = true},
-      {.row = {"material", "plastic_limit", number, "", positive, "", "flows without end", "", "largest plastic strain"},
+      {.row = {"material", "plastic_limit", number, "", positive, "", "flows without end", "",
+               "largest plastic strain"},
        .kept_in = &Material::plastic_limit,
        .limit = true},
   };

@@ -43,7 +43,8 @@ long Entrance::layers_until(double time) const {
 }
 
 int inflow_of(const World& world, std::size_t row) {
-  const int source = world.particles[field::source][row], bodies = static_cast<int>(world.scene.bodies.size());
+  const int source = world.particles[field::source][row],
+            bodies = static_cast<int>(world.scene.bodies.size());
   return source < bodies ? -1 : source - bodies;
 }
 
@@ -54,10 +55,12 @@ void append(World& world, std::size_t inflow, const Vec3& place, const Vec3& vel
   Particles& p = world.particles;
   const std::size_t row = p.append();
   const Inflow& in = world.scene.inflows[inflow];
-  const auto material = std::ranges::find(world.scene.materials, in.material, &Material::name) - world.scene.materials.begin();
+  const auto material =
+      std::ranges::find(world.scene.materials, in.material, &Material::name) - world.scene.materials.begin();
   positions(p).set(row, place);
   velocities(p).set(row, velocity);
-  const double m = world.scene.materials[static_cast<std::size_t>(material)].density * std::pow(world.scene.spacing, 3);
+  const double m =
+      world.scene.materials[static_cast<std::size_t>(material)].density * std::pow(world.scene.spacing, 3);
   p[field::mass][row] = m;
   p[field::phase][row] = static_cast<int>(Phase::liquid);
   p[field::body][row] = -1;

@@ -22,7 +22,9 @@ class Prescribed : public Effect {
   void change(World&) override;
   void adopt(World&) override;
   void happen(World&, const Happening&) override;
-  void add_to(const World& world, Ledger& ledger) const override { ledger.energy["inflow"] -= world.booked[account::inflow]; }
+  void add_to(const World& world, Ledger& ledger) const override {
+    ledger.energy["inflow"] -= world.booked[account::inflow];
+  }
 
  private:
   std::vector<Entrance> entrances_;
@@ -31,7 +33,8 @@ class Prescribed : public Effect {
 /// Kinetic and potential energy of a particle [J].
 double energy_of(const World& world, std::size_t row) {
   const Vec3 v = world.particles.velocity(row);
-  return world.particles[field::mass][row] * (0.5 * dot(v, v) - dot(world.scene.gravity, world.unwrapped(row)));
+  return world.particles[field::mass][row] *
+         (0.5 * dot(v, v) - dot(world.scene.gravity, world.unwrapped(row)));
 }
 
 /// A particle as its guide moves it; the energy that this costs is booked at the walls.
@@ -43,7 +46,8 @@ void guide(World& world, std::size_t row, const Vec3& place, const Vec3& velocit
   velocities(world.particles).set(row, velocity);
   if (!world.owns(row)) return;
   world.booked[account::walls] -= energy_of(world, row) - before;
-  world.booked[account::driven_potential] -= world.particles[field::mass][row] * dot(world.scene.gravity, way);
+  world.booked[account::driven_potential] -=
+      world.particles[field::mass][row] * dot(world.scene.gravity, way);
 }
 
 void Prescribed::load(World& world, const InitialState&) {
@@ -70,8 +74,8 @@ void Prescribed::drift(World& world, double dt) {
   }
 }
 
-/// A part of a shared scene does not know the layers of its particles. It checks whether as many have entered as should have, and
-/// whether one is about to leave the shape.
+/// A part of a shared scene does not know the layers of its particles. It checks whether as many have entered
+/// as should have, and whether one is about to leave the shape.
 bool Prescribed::wants_change(World& world) {
   if (entrances_.empty() || world.copies.empty()) return !entrances_.empty();
   const auto driven = std::as_const(world.particles)[field::driven];
@@ -81,7 +85,8 @@ bool Prescribed::wants_change(World& world) {
     const int from = inflow_of(world, i);
     if (from < 0 || !world.owns(i)) continue;
     there[static_cast<std::size_t>(from)] += 1.0;
-    leaves = leaves || (driven[i] == driven_in && !entrances_[static_cast<std::size_t>(from)].surely_inside(world.unwrapped(i)));
+    leaves = leaves || (driven[i] == driven_in &&
+                        !entrances_[static_cast<std::size_t>(from)].surely_inside(world.unwrapped(i)));
   }
   world.halo->add(there);
   for (std::size_t n = 0; n < entrances_.size(); ++n)
@@ -115,7 +120,9 @@ void Prescribed::adopt(World& world) {
     if (const std::size_t i = world.particles.row(id); is_member(i)) driven[i] = 0;
 }
 
-bool named(const Event& event, const std::string& name) { return std::ranges::find(event.bodies, name) != event.bodies.end(); }
+bool named(const Event& event, const std::string& name) {
+  return std::ranges::find(event.bodies, name) != event.bodies.end();
+}
 
 void Prescribed::happen(World& world, const Happening& now) {
   const Event& event = now.event;
@@ -125,7 +132,8 @@ void Prescribed::happen(World& world, const Happening& now) {
   Particles& p = world.particles;
   const auto driven = p[field::driven], body = p[field::body];
   const int number = driven_grip + static_cast<int>(&event - world.scene.events.data());
-  const auto inside = grips ? inside_of(*event.region, world.scene.spacing) : [](const Vec3&) { return true; };
+  const auto inside =
+      grips ? inside_of(*event.region, world.scene.spacing) : [](const Vec3&) { return true; };
   const RigidMembers is_member(world);
   const auto place = triple(p, field::grip);
   for (std::size_t id = 0; id < p.size(); ++id) {
@@ -153,14 +161,16 @@ void Prescribed::happen(World& world, const Happening& now) {
 }  // namespace
 
 EffectSpec spec(const Scene& scene) {
-  EffectSpec s{"prescribed",
-               scene.mode_of(term::time),
-               {field::driven, field::grip},
-               fields::joined({fields::position(),
-                               fields::velocity(),
-                               {field::id, field::mass, field::body, field::material, field::phase, field::source}})};
-  s.bounded = {
-      {field::driven, driven_in, [](const World& w) { return static_cast<std::size_t>(driven_grip) + w.scene.events.size(); }}};
+  EffectSpec s{
+      "prescribed",
+      scene.mode_of(term::time),
+      {field::driven, field::grip},
+      fields::joined({fields::position(),
+                      fields::velocity(),
+                      {field::id, field::mass, field::body, field::material, field::phase, field::source}})};
+  s.bounded = {{field::driven, driven_in, [](const World& w) {
+                  return static_cast<std::size_t>(driven_grip) + w.scene.events.size();
+                }}};
   s.reads_if_there = fields::image();
   s.changes = !scene.inflows.empty();
   s.skips_sleeping = true;

@@ -4,8 +4,8 @@
 
 #include "effects/effect.hpp"
 
-/// Particles that the scene moves, not forces: held in place, gripped, or on their way in. Members of rigid bodies are not among
-/// them: those move with their body.
+/// Particles that the scene moves, not forces: held in place, gripped, or on their way in. Members of rigid
+/// bodies are not among them: those move with their body.
 namespace tripoint::prescribed {
 
 [[nodiscard]] EffectSpec spec(const Scene&);

@@ -10,7 +10,8 @@ namespace {
 bool moves_particles(const Scene& s) {
   const auto loose = [&](const std::string& name) { return s.body(name).phase != Phase::rigid; };
   return std::ranges::any_of(s.events, [&](const Event& e) {
-    return e.kind == Event::Kind::grip || (e.kind == Event::Kind::hold && std::ranges::any_of(e.bodies, loose));
+    return e.kind == Event::Kind::grip ||
+           (e.kind == Event::Kind::hold && std::ranges::any_of(e.bodies, loose));
   });
 }
 

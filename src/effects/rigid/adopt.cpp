@@ -31,9 +31,11 @@ class Adoption {
   [[nodiscard]] int parent_of(std::size_t row, int now) const;
 
   World& world_;
-  std::map<std::size_t, Former> before_;                  ///< rigid bodies by row
-  std::map<std::size_t, std::vector<std::size_t>> rows_;  ///< members now, of each changed rigid body, in order of id
-  std::map<std::size_t, std::size_t> heir_;               ///< of each former body: where its member of lowest id is now
+  std::map<std::size_t, Former> before_;  ///< rigid bodies by row
+  /// Members now, of each changed rigid body, in order of id
+  std::map<std::size_t, std::vector<std::size_t>> rows_;
+  /// Of each former body: where its member of lowest id is now
+  std::map<std::size_t, std::size_t> heir_;
 };
 
 void Adoption::remember() {
@@ -59,7 +61,8 @@ void Adoption::list_members() {
     if (body[i] < 0 || !asked[static_cast<std::size_t>(body[i])]) continue;
     const auto b = static_cast<std::size_t>(body[i]);
     rows_[b].push_back(i);
-    if (const int parent = parent_of(i, body[i]); parent >= 0) heir_.try_emplace(static_cast<std::size_t>(parent), b);
+    if (const int parent = parent_of(i, body[i]); parent >= 0)
+      heir_.try_emplace(static_cast<std::size_t>(parent), b);
   }
 }
 
@@ -99,7 +102,8 @@ void Adoption::measure_anew(std::size_t b) {
   Vec3 P, L;
   double kinetic = 0.0, in_its_frame = 0.0;
   for (const std::size_t i : rows) {
-    const Vec3 r = world_.unwrapped(i), w = velocity_of(i, parent_of(i, body[i])), relative = w - old.motion.velocity_at(r);
+    const Vec3 r = world_.unwrapped(i), w = velocity_of(i, parent_of(i, body[i])),
+               relative = w - old.motion.velocity_at(r);
     v.set(i, w);
     P += m[i] * w;
     L += m[i] * cross(r - centre, w);

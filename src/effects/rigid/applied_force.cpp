@@ -20,7 +20,8 @@ Applied applied_to(const World& world, std::size_t b) {
   const Vec3 centre = t[field::body_centre][b];
   for (const AppliedForce& f : world.scene.forces) {
     if (f.body != world.scene.bodies[static_cast<std::size_t>(source)].name) continue;
-    const Vec3 arm = f.point ? rotate(t[field::body_orientation][b], *f.point - t[field::body_start_centre][b]) : Vec3{};
+    const Vec3 arm =
+        f.point ? rotate(t[field::body_orientation][b], *f.point - t[field::body_start_centre][b]) : Vec3{};
     sum.force += f.value;
     sum.torque += cross(arm, f.value);
     sum.potential -= dot(f.value, centre + arm);
@@ -45,7 +46,9 @@ void push_by_applied_forces(World& world, std::size_t b, double dt) {
   world.booked[account::gravity_work] += dt * (dot(applied.force, mean) + dot(applied.torque, spin));
 }
 
-double potential_of_applied_forces(const World& world, std::size_t b) { return applied_to(world, b).potential; }
+double potential_of_applied_forces(const World& world, std::size_t b) {
+  return applied_to(world, b).potential;
+}
 
 double applied_acceleration(const World& world, std::size_t b) {
   return norm(applied_to(world, b).force) / world.bodies[field::body_mass][b];

@@ -13,7 +13,8 @@
 namespace tripoint::rigid {
 namespace {
 
-/// World axes that the body may turn about: one that reaches through a periodic box turns about that axis only.
+/// World axes that the body may turn about: one that reaches through a periodic box turns about that axis
+/// only.
 Vec3 turning_axes(const World& world, const std::vector<std::size_t>& rows) {
   Vec3 turns{1.0, 1.0, 1.0};
   for (std::size_t a = 0; a < 3; ++a) {
@@ -35,8 +36,8 @@ Vec3 turning_axes(const World& world, const std::vector<std::size_t>& rows) {
 
 BodyMotion motion_of(const World& world, std::size_t b) {
   const Columns& t = world.bodies;
-  return {t[field::body_mass][b], t[field::body_centre][b], t[field::body_velocity][b], t[field::body_angular_momentum][b],
-          t[field::body_angular_velocity][b]};
+  return {t[field::body_mass][b], t[field::body_centre][b], t[field::body_velocity][b],
+          t[field::body_angular_momentum][b], t[field::body_angular_velocity][b]};
 }
 
 bool is_free(const World& world, std::size_t body) {
@@ -54,7 +55,8 @@ double kinetic_energy(const World& world, std::size_t b) {
 }
 
 double potential_energy(const World& world, std::size_t b) {
-  const double height = -world.bodies[field::body_mass][b] * dot(world.scene.gravity, world.bodies[field::body_centre][b]);
+  const double height =
+      -world.bodies[field::body_mass][b] * dot(world.scene.gravity, world.bodies[field::body_centre][b]);
   return world.scene.forces.empty() ? height : height + potential_of_applied_forces(world, b);
 }
 
@@ -106,7 +108,8 @@ void update_spin(World& world, std::size_t b) {
 
 Vec3 spin_momentum(const World& world, std::size_t b) {
   const Quaternion q = principal_to_world(world, b);
-  const Vec3 w = rotate_back(q, world.bodies[field::body_angular_velocity][b]), I = world.bodies[field::body_inertia][b];
+  const Vec3 w = rotate_back(q, world.bodies[field::body_angular_velocity][b]),
+             I = world.bodies[field::body_inertia][b];
   return rotate(q, {I.x * w.x, I.y * w.y, I.z * w.z});
 }
 
@@ -126,8 +129,8 @@ void place_members(World& world) {
   const auto orientation = world.bodies[field::body_orientation];
   const auto alive = world.bodies[field::body_alive];
   const RigidMembers is_member(world);
-  const std::size_t rows = world.placed ? p.moving() : p.size();  // on the first call members of fixed bodies are placed too,
-                                                                  // which shifts them by a rounding error
+  // On the first call members of fixed bodies are placed too, which shifts them by a rounding error
+  const std::size_t rows = world.placed ? p.moving() : p.size();
   world.placed = true;
   for_rows(rows, world.threads, [&](std::size_t i) {
     if (!is_member(i)) return;
@@ -154,7 +157,8 @@ void give_velocities(World& world) {
   const auto v = velocities(p);
   const auto reference = triple(std::as_const(p), field::reference);
   const auto body = p[field::body];
-  const auto velocity = world.bodies[field::body_velocity], omega = world.bodies[field::body_angular_velocity];
+  const auto velocity = world.bodies[field::body_velocity],
+             omega = world.bodies[field::body_angular_velocity];
   const auto orientation = world.bodies[field::body_orientation];
   const RigidMembers is_member(world);
   for_rows(p.moving(), world.threads, [&](std::size_t i) {

@@ -25,8 +25,8 @@ struct BodyMotion {
 /// -M g . r [J]
 [[nodiscard]] double potential_energy(const World&, std::size_t body);
 
-/// Mass, centre, inertia and the members' reference places from where the members are now; the orientation stays.
-/// The motion of the body is not changed. A body without members dies.
+/// Mass, centre, inertia and the members' reference places from where the members are now; the orientation
+/// stays. The motion of the body is not changed. A body without members dies.
 void measure(World&, std::size_t body);
 /// The same from the rows of its members, in order of id.
 void measure(World&, std::size_t body, const std::vector<std::size_t>& rows);
@@ -38,7 +38,8 @@ void update_spin(World&, std::size_t body);
 /// Places (and speeds) of the members from centre, orientation and reference: rigid to round-off for ever.
 void place_members(World&);
 void give_velocities(World&);
-/// Lets a fixed or prescribed body, already measured, go on as its outside drives it. @param old its motion before
+/// Lets a fixed or prescribed body, already measured, go on as its outside drives it. @param old its motion
+/// before
 void go_on_driven(World&, std::size_t body, const BodyMotion& old);
 
 }  // namespace tripoint::rigid

@@ -29,8 +29,8 @@ struct Share {
   double mass = 0.0;
   Vec3 P, moment;  ///< sum m v, sum m r x v
 };
-Share share_of(const World& world, const std::vector<std::size_t>& rows, const std::vector<BodyMotion>& parents,
-               const std::vector<int>& parent_of) {
+Share share_of(const World& world, const std::vector<std::size_t>& rows,
+               const std::vector<BodyMotion>& parents, const std::vector<int>& parent_of) {
   Share sum;
   for (const std::size_t i : rows) {
     const BodyMotion& parent =
@@ -61,7 +61,8 @@ std::vector<std::size_t> bodies_of(const World& world, const Event& event) {
   return rows;
 }
 
-/// Particles of the event's bodies that lie in its region become members of the body `born`. @return the bodies that lost some
+/// Particles of the event's bodies that lie in its region become members of the body `born`. @return the
+/// bodies that lost some
 std::vector<std::size_t> cut_off(World& world, const Event& event, std::size_t born) {
   const auto inside = inside_of(*event.region, world.scene.spacing);
   const auto body = world.particles[field::body];
@@ -76,7 +77,8 @@ std::vector<std::size_t> cut_off(World& world, const Event& event, std::size_t b
     if (touched) losers.push_back(b);
   }
   if (losers.empty())
-    throw InputError(event.place, "split: no member of a body is in the region of " + event.name + " at that time");
+    throw InputError(event.place,
+                     "split: no member of a body is in the region of " + event.name + " at that time");
   return losers;
 }
 
@@ -84,7 +86,8 @@ std::vector<std::size_t> cut_off(World& world, const Event& event, std::size_t b
 
 void merge(World& world, const Event& event) {
   const std::vector<std::size_t> bodies = bodies_of(world, event);
-  if (bodies.size() < 2) throw InputError(event.place, "merge needs two bodies: bodies = [\"that stays\", \"that joins\"]");
+  if (bodies.size() < 2)
+    throw InputError(event.place, "merge needs two bodies: bodies = [\"that stays\", \"that joins\"]");
   for (std::size_t n = 1; n < bodies.size(); ++n) {
     if (is_free(world, bodies[n])) continue;
     throw InputError(event.place, "merge: name the fixed or prescribed body " + world.body_names[bodies[n]] +
@@ -114,12 +117,14 @@ void merge(World& world, const Event& event) {
 }
 
 void split(World& world, const Event& event) {
-  if (!event.region) throw InputError(event.place, "split needs a region: its members become the body " + event.name);
+  if (!event.region)
+    throw InputError(event.place, "split needs a region: its members become the body " + event.name);
   std::vector<BodyMotion> parents;
   for (std::size_t b = 0; b < world.bodies.size(); ++b) parents.push_back(motion_of(world, b));
   const auto body = world.particles[field::body];
   std::vector<int> parent_of(world.particles.size(), -1);
-  for (std::size_t i = 0; i < body.size(); ++i) parent_of[static_cast<std::size_t>(world.particles[field::id][i])] = body[i];
+  for (std::size_t i = 0; i < body.size(); ++i)
+    parent_of[static_cast<std::size_t>(world.particles[field::id][i])] = body[i];
   const std::size_t born = world.bodies.size();
   const std::vector<std::size_t> changed = cut_off(world, event, born);
   Vec3 delivered, owed;

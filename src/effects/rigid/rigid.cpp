@@ -23,7 +23,8 @@ namespace {
 
 class RigidBodies : public Effect {
  public:
-  explicit RigidBodies(const Scene& scene) : turns_as_printed_(scene.mode_of(term::rotation) == Mode::paper) {}
+  explicit RigidBodies(const Scene& scene)
+      : turns_as_printed_(scene.mode_of(term::rotation) == Mode::paper) {}
   void load(World&, const InitialState&) override;
   void kick(World&, double dt) override;
   void drift(World&, double dt) override;
@@ -37,8 +38,8 @@ class RigidBodies : public Effect {
   bool turns_as_printed_;
 };
 
-/// Greatest angle of a step [rad]: a choice that guards accuracy, since the splitting stays bounded at any angle. At it a
-/// tumbling body keeps its energy to a thousandth (RotationBound, tests/step/bounds_test.cpp).
+/// Greatest angle of a step [rad]: a choice that guards accuracy, since the splitting stays bounded at any
+/// angle. At it a tumbling body keeps its energy to a thousandth (RotationBound, tests/step/bounds_test.cpp).
 constexpr double most_turn = 0.5;
 
 /// L of a body that turns about one axis only must lie along it. @throws InputError naming the body
@@ -51,17 +52,18 @@ void refuse_blocked_spin(const World& world, std::size_t b) {
   const double size = world.bodies[field::body_mass][b] * dx * (1e-300 + speed + dx * norm(w));
   for (std::size_t a = 0; a < 3; ++a) {
     if (turns[a] != 0.0 || std::abs(L[a]) <= 1e-9 * size) continue;
-    throw InputError("the rigid body " + world.body_names[b] +
-                     " reaches through a periodic direction and would turn across it: " +
-                     "make that direction not periodic, or the body shorter, or let it turn about that axis only");
+    throw InputError(
+        "the rigid body " + world.body_names[b] +
+        " reaches through a periodic direction and would turn across it: " +
+        "make that direction not periodic, or the body shorter, or let it turn about that axis only");
   }
 }
 
 /// A gripped body at a time: carried from where it was when the grip took it.
 PrescribedState gripped_state(const World& world, std::size_t b, double time) {
   const Columns& t = world.bodies;
-  PrescribedState s =
-      carried(world.scene.events[static_cast<std::size_t>(t[field::body_grip][b] - 1)], t[field::body_grip_centre][b], time);
+  PrescribedState s = carried(world.scene.events[static_cast<std::size_t>(t[field::body_grip][b] - 1)],
+                              t[field::body_grip_centre][b], time);
   s.rotation = s.rotation * t[field::body_grip_orientation][b];
   return s;
 }
@@ -89,10 +91,13 @@ void drive(World& world, std::size_t b, double time) {
 }
 
 /// Of a body that is alive and rigid.
-Motion motion_now(const World& world, std::size_t b) { return static_cast<Motion>(world.bodies[field::body_motion][b]); }
+Motion motion_now(const World& world, std::size_t b) {
+  return static_cast<Motion>(world.bodies[field::body_motion][b]);
+}
 
 bool at_rest(const World& world, std::size_t b) {
-  return world.bodies[field::body_velocity][b] == Vec3{} && world.bodies[field::body_angular_momentum][b] == Vec3{};
+  return world.bodies[field::body_velocity][b] == Vec3{} &&
+         world.bodies[field::body_angular_momentum][b] == Vec3{};
 }
 
 /// Turns a free body by its angular momentum; the one that reaches through a periodic box about that axis.
@@ -109,13 +114,15 @@ void turn(World& world, std::size_t b, double dt, bool as_printed) {
   const Vec3 I = t[field::body_inertia][b];
   const auto turned = [&] {
     if (as_printed) return rotated_paper(q, I, L, dt);
-    return world.axis_order ? rotated_no_squish(q, I, L, dt, *world.axis_order) : rotated_corrected(q, I, L, dt);
+    return world.axis_order ? rotated_no_squish(q, I, L, dt, *world.axis_order)
+                            : rotated_corrected(q, I, L, dt);
   };
   orientation = turned() * conjugate(t[field::body_axes][b]);
   update_spin(world, b);
 }
 
-/// v += dt (F/m + g), L += dt tau (18)-(19); the work of each force is booked by its own formula (model 8.11).
+/// v += dt (F/m + g), L += dt tau (18)-(19); the work of each force is booked by its own formula
+/// (model 8.11).
 void push(World& world, std::size_t b, const BodyForces& f, const Vec3& g, double dt) {
   Columns& t = world.bodies;
   Vec3& v = t[field::body_velocity][b];
@@ -134,13 +141,14 @@ void push(World& world, std::size_t b, const BodyForces& f, const Vec3& g, doubl
   world.booked[account::gravity_work] += dt * m * dot(g, mean);
 }
 
-/// The work of forces on a driven body goes to its driver. Half a kick works along the drift beside it. At a keyframe the half
-/// kick before goes with the old velocity, and the one after with the new.
+/// The work of forces on a driven body goes to its driver. Half a kick works along the drift beside it. At a
+/// keyframe the half kick before goes with the old velocity, and the one after with the new.
 void book_wall_work(World& world, std::size_t b, const std::vector<BodyForces>& forces, double dt) {
   if (forces.empty() || !world.tells_of(b)) return;
   const bool ends_step = world.time == world.next_time;
   const PrescribedState s = driven_state(world, b, ends_step ? world.time - dt : world.time + dt);
-  const Vec3 omega = s.angular_velocity, v = s.velocity + cross(omega, rotate(s.rotation, world.bodies[field::body_offset][b]));
+  const Vec3 omega = s.angular_velocity,
+             v = s.velocity + cross(omega, rotate(s.rotation, world.bodies[field::body_offset][b]));
   const BodyForces& f = forces[b];
   for (std::size_t k = 0; k < world.forces.size(); ++k)
     if (world.forces[k].feels == Feels::all)
@@ -242,7 +250,9 @@ void grip(World& world, const Event& event) {
   for (std::size_t b = 0; b < t.size(); ++b) {
     if (!is_free(world, b)) continue;
     const std::vector<std::size_t> rows = members(world, b);
-    if (2 * std::ranges::count_if(rows, [&](std::size_t i) { return inside(world.unwrapped(i)); }) <= std::ssize(rows)) continue;
+    if (2 * std::ranges::count_if(rows, [&](std::size_t i) { return inside(world.unwrapped(i)); }) <=
+        std::ssize(rows))
+      continue;
     t[field::body_grip][b] = 1 + static_cast<int>(&event - world.scene.events.data());
     t[field::body_grip_centre][b] = t[field::body_centre][b];
     t[field::body_grip_orientation][b] = t[field::body_orientation][b];
@@ -255,7 +265,9 @@ void grip(World& world, const Event& event) {
 void let_go(World& world, const Event& event) {
   Columns& t = world.bodies;
   for (std::size_t b = 0; b < t.size(); ++b) {
-    if (!is_alive(world, b) || t[field::body_grip][b] != 1 + static_cast<int>(&event - world.scene.events.data())) continue;
+    if (!is_alive(world, b) ||
+        t[field::body_grip][b] != 1 + static_cast<int>(&event - world.scene.events.data()))
+      continue;
     t[field::body_grip][b] = 0;
     set_motion(world, b, Motion::free);
   }
@@ -320,7 +332,8 @@ void RigidBodies::add_to(const World& world, Ledger& ledger) const {
   for (std::size_t b = 0; b < world.bodies.size(); ++b) {
     if (!is_alive(world, b) || !is_rigid(world, b)) continue;
     if (!world.tells_of(b)) {  // the same entries all the same
-      for (const char* entry : {ledger_entry::kinetic, ledger_entry::potential}) ledger.energy.try_emplace(entry, 0.0);
+      for (const char* entry : {ledger_entry::kinetic, ledger_entry::potential})
+        ledger.energy.try_emplace(entry, 0.0);
       continue;
     }
     const BodyMotion m = motion_of(world, b);
@@ -335,10 +348,11 @@ void RigidBodies::add_to(const World& world, Ledger& ledger) const {
 }  // namespace
 
 EffectSpec spec(const Scene& scene) {
-  EffectSpec s{"rigid",
-               scene.mode_of(term::rotation),
-               {field::reference},
-               fields::joined({fields::position(), fields::velocity(), {field::id, field::mass, field::body}})};
+  EffectSpec s{
+      "rigid",
+      scene.mode_of(term::rotation),
+      {field::reference},
+      fields::joined({fields::position(), fields::velocity(), {field::id, field::mass, field::body}})};
   s.reads_if_there = fields::image();
   s.sums_forces = true;
   s.skips_sleeping = true;

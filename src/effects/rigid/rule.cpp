@@ -22,7 +22,8 @@ std::string needed_for(const Scene& s, const Called& called) {
     return b.phase == Phase::rigid || (b.phase == Phase::elastic && b.motion != Motion::free);
   };
   if (any_body(s, driven)) return "fixed and prescribed bodies move as rigid ones";
-  if (called("phase") && any_material(s, [](const Material& m) { return m.t_melt && m.solid == SolidKind::rigid; }))
+  if (called("phase") &&
+      any_material(s, [](const Material& m) { return m.t_melt && m.solid == SolidKind::rigid; }))
     return "what freezes becomes rigid";
   return "";
 }

@@ -17,7 +17,8 @@ std::string no_transport(const Scene& scene) {
   const std::string printed = printed_among(scene, {term::density, term::pressure, term::state});
   if (!printed.empty()) return printed;
   if (liquid::carries_density(scene)) return "liquids carry their density";
-  return scene.transport_velocity ? "" : "particles move with their own velocity: transport_velocity is false";
+  return scene.transport_velocity ? ""
+                                  : "particles move with their own velocity: transport_velocity is false";
 }
 
 std::string called_for(const Scene& s) {
@@ -35,17 +36,21 @@ std::vector<EffectKey> keys() {
   using enum ValueType;
   using enum Range;
   return {
-      {{"scene", "transport_velocity", flag, "", any, "false", "a choice for vortical flow without free surface", "",
-        "move particles by the transport velocity"},
+      {{"scene", "transport_velocity", flag, "", any, "false",
+        "a choice for vortical flow without free surface", "", "move particles by the transport velocity"},
        &Scene::transport_velocity,
        no_transport_velocity},
-      {{"scene", "mean_pressure", number, "", fraction, "0", "pressure is that of each particle's own density", "",
-        "share of the neighbours' mean in the pressure of a liquid (model 8.3). Only with transport_velocity, where density, "
+      {{"scene", "mean_pressure", number, "", fraction, "0",
+        "pressure is that of each particle's own density", "",
+        "share of the neighbours' mean in the pressure of a liquid (model 8.3). Only with "
+        "transport_velocity, where density, "
         "pressure and state are corrected"},
        {},
        no_transport},
-      {{"scene", "sound_damping", number, "", not_negative, "0", "off: unclamped liquids are often used to study sound waves", "",
-        "numerical bulk viscosity over rho0 c h, h the support (model 8.3). Only with transport_velocity, where density, "
+      {{"scene", "sound_damping", number, "", not_negative, "0",
+        "off: unclamped liquids are often used to study sound waves", "",
+        "numerical bulk viscosity over rho0 c h, h the support (model 8.3). Only with transport_velocity, "
+        "where density, "
         "pressure and state are corrected"},
        {},
        no_transport},
@@ -55,22 +60,24 @@ std::vector<EffectKey> keys() {
 }  // namespace
 
 EffectRule rule() {
-  return {.name = "transport",
-          .called_for = called_for,
-          .left_out = left_out,
-          .choices = {{"mean_pressure",
-                       {{"neighbours",
-                         "the pressure of a liquid that the transport velocity moves is the mean over neighbours (8.3)",
-                         {{"mean_pressure", 1.0}}},
-                        {"none", "", {{"mean_pressure", 0.0}}}}},
-                      {"sound_damping",
-                       {{"bulk",
-                         "numerical bulk viscosity where the transport velocity moves the liquid (8.3)",
-                         {{"sound_damping", 0.2}}},
-                        {"none", "", {{"sound_damping", 0.0}}}}}},
-          .keys = keys(),
-          .ledger_entries = {{"transport", "work of the transport velocity"}},
-          .over_processes = true};
+  return {
+      .name = "transport",
+      .called_for = called_for,
+      .left_out = left_out,
+      .choices =
+          {{"mean_pressure",
+            {{"neighbours",
+              "the pressure of a liquid that the transport velocity moves is the mean over neighbours (8.3)",
+              {{"mean_pressure", 1.0}}},
+             {"none", "", {{"mean_pressure", 0.0}}}}},
+           {"sound_damping",
+            {{"bulk",
+              "numerical bulk viscosity where the transport velocity moves the liquid (8.3)",
+              {{"sound_damping", 0.2}}},
+             {"none", "", {{"sound_damping", 0.0}}}}}},
+      .keys = keys(),
+      .ledger_entries = {{"transport", "work of the transport velocity"}},
+      .over_processes = true};
 }
 
 }  // namespace tripoint::transport

@@ -11,7 +11,8 @@ namespace {
 
 class Transport : public Effect {
  public:
-  explicit Transport(const Scene& scene) : numbers_(liquid::numbers_of(scene)), kernels_(liquid::pair_kernels(scene)) {}
+  explicit Transport(const Scene& scene)
+      : numbers_(liquid::numbers_of(scene)), kernels_(liquid::pair_kernels(scene)) {}
   void drift(World& world, double dt) override { set_shift(world, dt); }
   void state(World& world) override { set_transport_forces(world, numbers_, kernels_); }
 
@@ -28,11 +29,12 @@ EffectSpec spec(const Scene& scene) {
                {field::shift, field::background, field::transport_force},
                fields::joined({fields::position(),
                                fields::velocity(),
-                               {field::mass, field::group, field::volume, field::density, field::rest_density, field::pressure,
-                                field::viscous_velocity}})};
+                               {field::mass, field::group, field::volume, field::density, field::rest_density,
+                                field::pressure, field::viscous_velocity}})};
   if (liquid::has_transport_means(liquid::numbers_of(scene)))
     s.owns.insert(s.owns.end(), {field::pressure_around, field::nearing, field::bulk_pressure});
-  Force stress{field::transport_force_x, field::transport_force_y, field::transport_force_z, {"transport_work"}};
+  Force stress{
+      field::transport_force_x, field::transport_force_y, field::transport_force_z, {"transport_work"}};
   stress.entry = "transport";
   stress.feels = Feels::particles;
   s.forces = {stress};

@@ -14,12 +14,13 @@ namespace tripoint::transport {
 
 namespace {
 
-/// From the sums of the pass. Weights and divergence are symmetric in a pair, so that no force of q ever gives energy.
+/// From the sums of the pass. Weights and divergence are symmetric in a pair, so that no force of q ever
+/// gives energy.
 void set_mean_pressure(World& world, const liquid::SceneNumbers& n) {
   Particles& p = world.particles;
   const auto pressure = p[field::pressure], q = p[field::bulk_pressure];
-  const auto around = p[field::pressure_around], nearing = p[field::nearing], V = p[field::volume], rest = p[field::rest_density],
-             group = p[field::group];
+  const auto around = p[field::pressure_around], nearing = p[field::nearing], V = p[field::volume],
+             rest = p[field::rest_density], group = p[field::group];
   const double weight = n.mean_pressure * n.rest_volume / n.lattice_density;                       // [m3]
   const double viscosity = n.sound_damping * n.sound_speed * world.support() / n.gradient_moment;  // [m2/s]
 #pragma omp parallel for schedule(static) num_threads(world.threads)

@@ -17,13 +17,15 @@ constexpr int fixed_frame = -1;
 std::vector<int> frames_of(const World& world) {
   std::vector<int> frames(world.bodies.size());
   for (std::size_t b = 0; b < frames.size(); ++b)
-    frames[b] = world.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed) ? fixed_frame : static_cast<int>(b);
+    frames[b] = world.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed) ? fixed_frame
+                                                                                       : static_cast<int>(b);
   return frames;
 }
 
 constexpr std::uint32_t none = ~std::uint32_t{0};
 
-/// Part of a neighbour in the kernel sum of a wall particle, and the part that it would have from its place on the lattice.
+/// Part of a neighbour in the kernel sum of a wall particle, and the part that it would have from its place
+/// on the lattice.
 struct Share {
   int id;
   double as_it_is, from_lattice;
@@ -32,7 +34,8 @@ struct Share {
 
 }  // namespace
 
-/// Copies take the owner's number, since the owner alone sees all neighbours. @param by_id a number for each particle
+/// Copies take the owner's number, since the owner alone sees all neighbours. @param by_id a number for each
+/// particle
 template <class T>
 void hand_to_copies(const World& world, std::vector<T>& by_id) {
   if (!world.halo) return;
@@ -42,7 +45,8 @@ void hand_to_copies(const World& world, std::vector<T>& by_id) {
   for (std::size_t id = 0; id < by_id.size(); ++id) by_id[id] = static_cast<T>(numbers[id]);
 }
 
-/// Gives walls that were here before their known values, by id. @return of each id, 1 where something is known
+/// Gives walls that were here before their known values, by id. @return of each id, 1 where something is
+/// known
 std::vector<char> WallPatches::recall_exposed(const World& world) {
   std::vector<char> known(world.particles.size(), 0);
   at_face_.resize(known.size());
@@ -69,12 +73,14 @@ void WallPatches::share_exposed(const World& world) {
   const std::span<const int> number = world.halo->numbers();
   for (std::size_t i = 0; i < world.particles.size(); ++i) {
     const auto one = static_cast<std::size_t>(id[i]);
-    if (group[i] == wall_group) exposures_[number[one]] = {at_face_[one], excess_.empty() ? 0.0 : excess_[one]};
+    if (group[i] == wall_group)
+      exposures_[number[one]] = {at_face_[one], excess_.empty() ? 0.0 : excess_[one]};
   }
 }
 
-/// Which particles lie at a face: those whose number density can in part be other than wall. And what jitter adds to the part
-/// that is fixed wall. Behind the face, where no velocity is mirrored and nothing jittered, no step reads the values of a wall.
+/// Which particles lie at a face: those whose number density can in part be other than wall. And what jitter
+/// adds to the part that is fixed wall. Behind the face, where no velocity is mirrored and nothing jittered,
+/// no step reads the values of a wall.
 void WallPatches::find_exposed(World& world, const liquid::SceneNumbers& n, const PairKernels& kernels) {
   const Particles& p = world.particles;
   const auto group = p[field::group];
@@ -99,7 +105,8 @@ void WallPatches::find_exposed(World& world, const liquid::SceneNumbers& n, cons
       const double as_it_is = kernels.wendland.value(norm(away));
       if (as_it_is > 0.0)
         shares.push_back(
-            {id[j], as_it_is, source[i] == source[j] ? kernels.wendland.value(dx * norm(liquid::laid(away / dx))) : as_it_is});
+            {id[j], as_it_is,
+             source[i] == source[j] ? kernels.wendland.value(dx * norm(liquid::laid(away / dx))) : as_it_is});
     }
     std::ranges::sort(shares);
     double wall = kernels.wendland.value(0.0), from_lattice = wall;
@@ -131,7 +138,8 @@ void WallPatches::add_faces(const World& world, bool fixed) {
   place_.resize(p.size(), none);
   const std::size_t old = face_.size();
   for (std::size_t i = 0; i < p.awake(); ++i) {
-    if (group[i] != wall_group || (frame_of(i) == fixed_frame) != fixed || at_face_[static_cast<std::size_t>(id[i])] == 0)
+    if (group[i] != wall_group || (frame_of(i) == fixed_frame) != fixed ||
+        at_face_[static_cast<std::size_t>(id[i])] == 0)
       continue;
     place_[static_cast<std::size_t>(id[i])] = static_cast<std::uint32_t>(face_.size());
     face_.push_back(static_cast<std::uint32_t>(id[i]));
@@ -141,7 +149,8 @@ void WallPatches::add_faces(const World& world, bool fixed) {
     patch_.push_back(static_cast<std::uint32_t>(k));
     for (const Entry e : world.neighbours->of(i)) {
       const std::size_t j = e.row();
-      if (group[j] != wall_group || j == i || frame_of(i) != frame_of(j) || at_face_[static_cast<std::size_t>(id[j])] == 0)
+      if (group[j] != wall_group || j == i || frame_of(i) != frame_of(j) ||
+          at_face_[static_cast<std::size_t>(id[j])] == 0)
         continue;
       if (norm((x.at(j) - x.at(i)) + world.neighbours->shift(e.image())) < radius)
         patch_.push_back(place_[static_cast<std::size_t>(id[j])]);
@@ -188,9 +197,11 @@ void WallPatches::find_faces(World& world, const liquid::SceneNumbers& n, const 
     patch_.resize(start_.back());
   }
   add_faces(world, false);
-  for (auto* column : {&density_, &mean_, &mean_of_mean_, &part_, &part_again_, &share_}) column->resize(face_.size());
+  for (auto* column : {&density_, &mean_, &mean_of_mean_, &part_, &part_again_, &share_})
+    column->resize(face_.size());
   members_.clear();
-  for (std::size_t k = 0; k < face_.size(); ++k) members_.push_back(static_cast<double>(start_[k + 1] - start_[k]));
+  for (std::size_t k = 0; k < face_.size(); ++k)
+    members_.push_back(static_cast<double>(start_[k + 1] - start_[k]));
   hand_to_copied_faces(world, members_);
   find_rows(world);
 }
@@ -204,7 +215,8 @@ void WallPatches::hand_to_copied_faces(const World& world, std::vector<double>& 
   for (std::size_t k = 0; k < face_.size(); ++k) of[k] = handed_[face_[k]];
 }
 
-/// Calls give(k, sum) for the faces that are awake. The sum is over the patch of k, of the values that its members were given.
+/// Calls give(k, sum) for the faces that are awake. The sum is over the patch of k, of the values that its
+/// members were given.
 template <class Give>
 void WallPatches::sum_patches(const std::vector<double>& of, int threads, Give give) const {
 #pragma omp parallel for schedule(static) num_threads(threads)

@@ -12,7 +12,8 @@ namespace {
 
 class Walls : public Effect {
  public:
-  explicit Walls(const Scene& scene) : numbers_(liquid::numbers_of(scene)), kernels_(liquid::pair_kernels(scene)) {}
+  explicit Walls(const Scene& scene)
+      : numbers_(liquid::numbers_of(scene)), kernels_(liquid::pair_kernels(scene)) {}
   void densities(World& world) override { patches_.average_density(world, numbers_, kernels_); }
   void after_states(World& world) override { patches_.hand_down_shares(world); }
   void adopt(World& world) override {
@@ -35,12 +36,13 @@ class Walls : public Effect {
 }  // namespace
 
 EffectSpec spec(const Scene&) {
-  EffectSpec s{"walls",
-               Mode::corrected,
-               {},
-               fields::joined({fields::position(),
-                               {field::id, field::mass, field::body, field::source, field::group, field::stick,
-                                field::rest_density, field::density, field::volume, field::pressure_share}})};
+  EffectSpec s{
+      "walls",
+      Mode::corrected,
+      {},
+      fields::joined({fields::position(),
+                      {field::id, field::mass, field::body, field::source, field::group, field::stick,
+                       field::rest_density, field::density, field::volume, field::pressure_share}})};
   s.reads_if_there = fields::image();
   s.skips_sleeping = true;
   return s;

@@ -7,7 +7,8 @@
 #include "liquids/fields.hpp"
 #include "liquids/scene_numbers.hpp"
 
-/// A viscosity that the program does not have: as `morris`, with the arithmetic mean of two viscosities in place of the harmonic.
+/// A viscosity that the program does not have: as `morris`, with the arithmetic mean of two viscosities in
+/// place of the harmonic.
 namespace tripoint::arithmetic {
 namespace {
 
@@ -67,13 +68,14 @@ TimeStepBound Arithmetic::max_dt(const World& world) const {
 }  // namespace
 
 EffectSpec spec(const Scene&) {
-  EffectSpec s{"arithmetic",
-               Mode::corrected,
-               {},
-               fields::joined({fields::position(),
-                               {field::mass, field::volume, field::viscosity, field::group, field::viscous_velocity_x,
-                                field::viscous_velocity_y, field::viscous_velocity_z, field::viscous_force_x,
-                                field::viscous_force_y, field::viscous_force_z}})};
+  EffectSpec s{
+      "arithmetic",
+      Mode::corrected,
+      {},
+      fields::joined({fields::position(),
+                      {field::mass, field::volume, field::viscosity, field::group, field::viscous_velocity_x,
+                       field::viscous_velocity_y, field::viscous_velocity_z, field::viscous_force_x,
+                       field::viscous_force_y, field::viscous_force_z}})};
   return s;
 }
 

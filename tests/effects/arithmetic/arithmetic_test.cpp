@@ -19,7 +19,8 @@
 namespace tripoint {
 namespace {
 
-const std::string case_file = std::string(TRIPOINT_SOURCE_DIR) + "/tests/effects/arithmetic/two-viscosities.toml";
+const std::string case_file =
+    std::string(TRIPOINT_SOURCE_DIR) + "/tests/effects/arithmetic/two-viscosities.toml";
 
 Scene sheared(const std::string& viscosity = "arithmetic", const std::vector<std::string>& set = {}) {
   std::vector<std::string> all = set;
@@ -42,7 +43,8 @@ bool is_on(const Scene& scene) {
 
 TEST(AddedEffectForm, IsOnWhereItsWordStandsAndNowhereElse) {
   EXPECT_TRUE(is_on(sheared()));
-  for (const char* other : {"central", "morris", "isotropic", "paper"}) EXPECT_FALSE(is_on(sheared(other))) << other;
+  for (const char* other : {"central", "morris", "isotropic", "paper"})
+    EXPECT_FALSE(is_on(sheared(other))) << other;
 }
 
 TEST(AddedEffectForm, BringsItsWordToTheReaderTheJobTheSchemaAndThePage) {

@@ -15,10 +15,12 @@ std::string left_out(const Scene&) { return "the viscosity has another form"; }
 }  // namespace
 
 EffectRule rule() {
-  return {.name = "arithmetic",
-          .called_for = called_for,
-          .left_out = left_out,
-          .forms = {{term::viscosity, {word, "along the difference of velocities, by the arithmetic mean of two viscosities"}}}};
+  return {
+      .name = "arithmetic",
+      .called_for = called_for,
+      .left_out = left_out,
+      .forms = {{term::viscosity,
+                 {word, "along the difference of velocities, by the arithmetic mean of two viscosities"}}}};
 }
 
 }  // namespace tripoint::arithmetic

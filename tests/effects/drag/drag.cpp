@@ -4,12 +4,14 @@
 #include "effects/drag/terms.hpp"
 #include "effects/effect.hpp"
 
-/// Linear drag: F = -c m v on every particle, c of its material [1/s]. A body that nothing else moves slows down as exp(-c t).
-/// As printed v is that of half a step before, and the scheme of first order; corrected it is that of the end of the step.
+/// Linear drag: F = -c m v on every particle, c of its material [1/s]. A body that nothing else moves slows
+/// down as exp(-c t). As printed v is that of half a step before, and the scheme of first order; corrected it
+/// is that of the end of the step.
 namespace tripoint::drag {
 namespace {
 
-constexpr Field<double> force_x{"drag_force.x", "N"}, force_y{"drag_force.y", "N"}, force_z{"drag_force.z", "N"};
+constexpr Field<double> force_x{"drag_force.x", "N"}, force_y{"drag_force.y", "N"},
+    force_z{"drag_force.z", "N"};
 
 class LinearDrag : public Effect {
  public:

@@ -61,7 +61,8 @@ double error_of(const Case& value) {
 }
 
 TEST(AddedEffect, IsCalledForByItsKeyAndLeftOutForAReason) {
-  const Plan with = plan(scene_for(slowed_ball(), {})), without = plan(scene_for(slowed_ball({"material.ball.drag=0"}), {}));
+  const Plan with = plan(scene_for(slowed_ball(), {})),
+             without = plan(scene_for(slowed_ball({"material.ball.drag=0"}), {}));
   const auto on = std::ranges::find(with.effects, "drag", &PlannedEffect::name);
   ASSERT_NE(on, with.effects.end());
   EXPECT_EQ(on->why, "body ball: it moves through a gas that brakes it");
@@ -79,21 +80,24 @@ TEST(AddedEffect, SaysInItsFolderWhatItsFieldsMean) {
   for (const PlannedField& field : plan(scene_for(slowed_ball(), {})).fields) {
     if (field.owner != "drag") continue;
     ++own;
-    EXPECT_NE(words.find("\n" + field.name.substr(0, field.name.find('.')) + " = {"), std::string::npos) << field.name;
+    EXPECT_NE(words.find("\n" + field.name.substr(0, field.name.find('.')) + " = {"), std::string::npos)
+        << field.name;
   }
   EXPECT_EQ(own, 3);
 }
 
 TEST(AddedEffect, BringsItsKeyToTheReaderTheSchemaAndThePage) {
   EXPECT_EQ(value_of(slowed_ball().scene.material("ball").values, "drag"), 2.0);
-  EXPECT_EQ(value_of(slowed_ball({"material.ball.drag=\"0.5 1/s\""}).scene.material("ball").values, "drag"), 0.5);
+  EXPECT_EQ(value_of(slowed_ball({"material.ball.drag=\"0.5 1/s\""}).scene.material("ball").values, "drag"),
+            0.5);
   try {
     static_cast<void>(slowed_ball({"material.ball.drag=-1"}));
     ADD_FAILURE() << "a negative drag was taken";
   } catch (const InputError& e) {
     EXPECT_NE(std::string(e.what()).find("0 or greater"), std::string::npos) << e.what();
   }
-  EXPECT_NE(case_reference_page().find("hare of the velocity that drag takes in a second"), std::string::npos);
+  EXPECT_NE(case_reference_page().find("hare of the velocity that drag takes in a second"),
+            std::string::npos);
   EXPECT_NE(case_schema().find("\"drag\""), std::string::npos);
 }
 
@@ -118,7 +122,8 @@ TEST(AddedEffect, BringsItsTermToTheReaderTheJobTheSchemaAndThePage) {
   EXPECT_EQ(scene_for(slowed_ball(), {}).mode_of(term::drag), Mode::corrected);
   const CaseReading reading = read_case(case_file, {"scene.modes.drag=\"paper\""});
   EXPECT_EQ(scene_for(reading.value, {}).mode_of(term::drag), Mode::paper);
-  EXPECT_TRUE(std::ranges::any_of(reading.decisions, [](const Decision& d) { return d.key == "scene.modes.drag" && d.given; }));
+  EXPECT_TRUE(std::ranges::any_of(reading.decisions,
+                                  [](const Decision& d) { return d.key == "scene.modes.drag" && d.given; }));
   RunChoice paper;
   paper.mode = Mode::paper;
   EXPECT_EQ(scene_for(slowed_ball(), paper).mode_of(term::drag), Mode::paper);
@@ -127,9 +132,11 @@ TEST(AddedEffect, BringsItsTermToTheReaderTheJobTheSchemaAndThePage) {
   std::vector<JobBody> bodies(1);
   scene_from_json(scene_to_json(scene_for(reading.value, {}), bodies), received, bodies);
   EXPECT_EQ(received.mode_of(term::drag), Mode::paper);
-  const std::vector<std::string> order{"kernel",  "pressure",  "density", "state", "clamp", "viscosity", "walls",
-                                       "elastic", "hourglass", "heat",    "phase", "drag",  "rotation",  "time"};
-  EXPECT_EQ(words_of_modes(received), order) << "those of the program stay in the order that jobs have had from the start";
+  const std::vector<std::string> order{"kernel",    "pressure", "density",  "state",     "clamp",
+                                       "viscosity", "walls",    "elastic",  "hourglass", "heat",
+                                       "phase",     "drag",     "rotation", "time"};
+  EXPECT_EQ(words_of_modes(received), order)
+      << "those of the program stay in the order that jobs have had from the start";
 
   EXPECT_NE(case_reference_page().find("`phase` `drag` `rotation`"), std::string::npos);
   const auto schema = nlohmann::json::parse(case_schema());
@@ -162,7 +169,8 @@ TEST(AddedEffect, HasItsRowOfAblationWhereItActs) {
   const Case as_printed = without(*row, value);
   EXPECT_EQ(scene_for(as_printed, {}).mode_of(term::drag), Mode::paper);
   EXPECT_EQ(scene_for(as_printed, {}).mode_of(term::time), Mode::corrected) << "all others stay";
-  EXPECT_GT(error_of(as_printed), 10.0 * *slowed_ball().gates.at(0).limit) << "which is what the correction buys";
+  EXPECT_GT(error_of(as_printed), 10.0 * *slowed_ball().gates.at(0).limit)
+      << "which is what the correction buys";
 }
 
 TEST(AddedEffect, RefusesATermThatNobodyHasDeclared) {
@@ -183,7 +191,8 @@ TEST(AddedEffect, IsRefusedAColumnThatItHasNotDeclared) {
       static_cast<void>(p[field::position_x]);
       ADD_FAILURE() << "a place was given out";
     } catch (const UndeclaredField& e) {
-      EXPECT_STREQ(e.what(), "the effect drag asks for the field position.x, which its `owns` and `reads` do not name");
+      EXPECT_STREQ(e.what(),
+                   "the effect drag asks for the field position.x, which its `owns` and `reads` do not name");
     }
   }
   EXPECT_EQ(p[field::position_x].size(), p.size());  // those who are no effect see all
@@ -220,7 +229,8 @@ TEST(AddedEffect, BooksItsWorkSoThatTheLedgerCloses) {
   EXPECT_NEAR(after.energy.at("drag") / before, 1.0 - std::exp(-4.0), 1e-4);  // second order in the step
   const std::vector<LedgerEntry> known = ledger_entries();
   for (const auto& [entry, energy] : after.energy)
-    EXPECT_NE(std::ranges::find(known, entry, &LedgerEntry::name), known.end()) << entry << " stands in no rule";
+    EXPECT_NE(std::ranges::find(known, entry, &LedgerEntry::name), known.end())
+        << entry << " stands in no rule";
 }
 
 TEST(AddedEffect, IsPaidByWhoDrivesABody) {
@@ -228,7 +238,8 @@ TEST(AddedEffect, IsPaidByWhoDrivesABody) {
   s.advance_to(1.0);
   const std::map<std::string, double> energy = s.ledger().energy;
   const double m = s.ledger().mass;
-  EXPECT_NEAR(energy.at("drag"), 2.0 * m, 0.02 * m);  // c m v^2 t; the force is that of 1/(1 + c dt/2) of the velocity
+  // c m v^2 t; the force is that of 1/(1 + c dt/2) of the velocity
+  EXPECT_NEAR(energy.at("drag"), 2.0 * m, 0.02 * m);
   EXPECT_NEAR(energy.at("walls"), -energy.at("drag"), 1e-12 * m);
 }
 
@@ -242,7 +253,9 @@ TEST(AddedEffect, IsStoppedWhereItsForceMakesEnergy) {
         try {
           static_cast<void>(error_of(value));
         } catch (const Diverged& stopped) {
-          std::exit(std::string(stopped.what()).find("drag, which may only take energy") != std::string::npos ? 3 : 4);
+          std::exit(std::string(stopped.what()).find("drag, which may only take energy") != std::string::npos
+                        ? 3
+                        : 4);
         }
       },
       testing::ExitedWithCode(3), "");

@@ -8,7 +8,9 @@ namespace {
 bool has_drag(const Material& m) { return value_of(m.values, "drag") > 0.0; }
 
 std::string called_for(const Scene& s) {
-  const auto drags = [](const Scene& scene, const Body& b, const Material& m) { return has_drag(m) && moves(scene, b); };
+  const auto drags = [](const Scene& scene, const Body& b, const Material& m) {
+    return has_drag(m) && moves(scene, b);
+  };
   return because(bodies_where(s, drags), "it moves through a gas that brakes it");
 }
 
@@ -17,8 +19,8 @@ std::string left_out(const Scene& s) {
 }
 
 std::vector<EffectKey> keys() {
-  return {{{"material", "drag", ValueType::number, "1/s", Range::not_negative, "0", "it moves in a vacuum", "",
-            "share of the velocity that drag takes in a second"}}};
+  return {{{"material", "drag", ValueType::number, "1/s", Range::not_negative, "0", "it moves in a vacuum",
+            "", "share of the velocity that drag takes in a second"}}};
 }
 
 }  // namespace
