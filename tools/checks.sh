@@ -16,7 +16,7 @@ rooms=(test-core test-particles test-sph test-scene test-files test-effects test
 replays=(replay-{baseline,case,checkpoint,csv,job,mesh,reply,results,text,trajectory,verdict})
 threads=(test-particles test-effects test-step test-queue state-hashes)
 cases=(cases/{fluid/dam-break-small,coupling/gum-ball,solid/plastic-sheet,phase/melt-rigid,phase/split-by-melting,heat/inflow}.toml)
-tidied=(src/{core,scene,files,particles,world,effects,step} validation/case)
+tidied=(src/{core,scene,files,particles,state,effects,step} validation/case)
 launcher=()
 command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 

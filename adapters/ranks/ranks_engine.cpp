@@ -11,7 +11,7 @@
 #include "adapters/tripoint/solver_job.hpp"
 #include "adapters/tripoint/tripoint_engine.hpp"
 #include "core/machine.hpp"
-#include "world/body_table.hpp"
+#include "state/body_table.hpp"
 
 namespace tripoint::ranks {
 namespace {
@@ -102,9 +102,9 @@ void add_bodies(Snapshot& s, Ranks& ranks) {
 }
 
 /// Sets the motions of deformable bodies as a whole, from their particles, which are all on the first rank.
-void set_whole_motions(Snapshot& s, const World& world) {
+void set_whole_motions(Snapshot& s, const State& state) {
   for (std::size_t b = 0; b < s.bodies.size(); ++b) {
-    if (is_rigid(world, b) || !is_alive(world, b)) continue;
+    if (is_rigid(state, b) || !is_alive(state, b)) continue;
     std::vector<Vec3> place, velocity;
     std::vector<double> mass;
     for (std::size_t n = 0; n < s.body.size(); ++n)
@@ -114,11 +114,11 @@ void set_whole_motions(Snapshot& s, const World& world) {
         mass.push_back(s.mass[n]);
       }
     const WholeMotion whole = whole_motion(place, velocity, mass);
-    BodyState& state = s.bodies[b];
-    state.position = whole.centre;
-    state.velocity = whole.velocity;
-    state.angular_velocity = whole.spin;
-    state.mass = whole.mass;
+    BodyState& body = s.bodies[b];
+    body.position = whole.centre;
+    body.velocity = whole.velocity;
+    body.angular_velocity = whole.spin;
+    body.mass = whole.mass;
   }
 }
 
@@ -236,8 +236,8 @@ bool RanksEngine::advance_to(double time, const std::function<bool(double, long)
   const bool reached = simulation_->advance_to(time, [&] {
     if (step_times_) step_times_->end_step();
     if (wall_seconds() - words_at_ > between_words) write_words();
-    is_due_ = checkpoints_->due(simulation_->world().time);
-    return go_on(simulation_->world().time, simulation_->steps());
+    is_due_ = checkpoints_->due(simulation_->state().time);
+    return go_on(simulation_->state().time, simulation_->steps());
   });
   write_words();
   return reached;
@@ -255,15 +255,15 @@ bool RanksEngine::stops(bool asked) {
 void RanksEngine::write_words() const {
   words_at_ = wall_seconds();
   ranks::write_words(words_path_, fmt::format("t = {:.6g} s, step {}, {} particles of its own and {} copies",
-                                              simulation_->world().time, simulation_->steps(), halo_->owned(),
-                                              simulation_->world().particles.size() - halo_->owned()));
+                                              simulation_->state().time, simulation_->steps(), halo_->owned(),
+                                              simulation_->state().particles.size() - halo_->owned()));
 }
 
 Snapshot RanksEngine::observe() const {
   Snapshot s = snapshot_of(*simulation_);
   gather_particles(s, *halo_, *halo_->ranks());
   add_bodies(s, *halo_->ranks());
-  set_whole_motions(s, simulation_->world());
+  set_whole_motions(s, simulation_->state());
   return s;
 }
 
@@ -271,7 +271,7 @@ void RanksEngine::write_step_times() const {
   if (step_times_) step_times_->write();
 }
 
-Readback RanksEngine::readback() const { return readback_of(simulation_->world(), simulation_->bound()); }
+Readback RanksEngine::readback() const { return readback_of(simulation_->state(), simulation_->bound()); }
 
 void RanksEngine::account(Result& result) const {
   if (!simulation_) return;

@@ -27,21 +27,21 @@ std::vector<int> by_id(const Particles& p, const Field<int>& f) {
   return values;
 }
 
-BodyState body_state(const World& world, std::size_t b) {
-  const Columns& bodies = world.bodies;
+BodyState body_state(const State& state, std::size_t b) {
+  const Columns& bodies = state.bodies;
   if (!bodies[field::body_alive][b]) {
     constexpr Vec3 nowhere{not_a_number, not_a_number, not_a_number};
     return {nowhere,      nowhere, nowhere, {not_a_number, not_a_number, not_a_number, not_a_number},
             not_a_number, nowhere, nowhere};
   }
   BodyState s;
-  if (!is_rigid(world, b)) {
-    const WholeMotion whole = whole_motion(world, b);
+  if (!is_rigid(state, b)) {
+    const WholeMotion whole = whole_motion(state, b);
     s.position = whole.centre;
     s.velocity = whole.velocity;
     s.angular_velocity = whole.spin;
     s.mass = whole.mass;
-    s.orientation = solid::orientation_of(world, b);
+    s.orientation = solid::orientation_of(state, b);
     return s;
   }
   s.position = bodies[field::body_centre][b];
@@ -56,19 +56,19 @@ BodyState body_state(const World& world, std::size_t b) {
 
 Snapshot snapshot_of(Simulation& simulation) {
   simulation.complete_bodies();
-  const World& world = simulation.world();
-  const Particles& p = world.particles;
+  const State& state = simulation.state();
+  const Particles& p = state.particles;
   Snapshot s;
-  s.time = world.time;
+  s.time = state.time;
   s.step = simulation.steps();
   for (std::size_t id = 0; id < p.size(); ++id) {
-    s.position.push_back(world.unwrapped(p.row(id)));
+    s.position.push_back(state.unwrapped(p.row(id)));
     s.velocity.push_back(p.velocity(p.row(id)));
     s.id.push_back(static_cast<int>(id));
   }
   s.temperature = by_id(p, field::temperature);
   // Heat keeps no column then
-  if (const auto equal = equal_temperature(world.scene)) s.temperature.assign(p.size(), *equal);
+  if (const auto equal = equal_temperature(state.scene)) s.temperature.assign(p.size(), *equal);
   s.density = by_id(p, field::density);
   s.pressure = by_id(p, field::pressure);
   s.liquid_fraction = by_id(p, field::liquid_fraction);
@@ -76,10 +76,10 @@ Snapshot snapshot_of(Simulation& simulation) {
   s.body = by_id(p, field::body);
   s.material = by_id(p, field::material);
   s.mass = by_id(p, field::mass);
-  const std::vector<BodyForces> forces = forces_on_bodies(world);
-  for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-    s.bodies.push_back(body_state(world, b));
-    if (forces.empty() || !world.bodies[field::body_alive][b]) continue;
+  const std::vector<BodyForces> forces = forces_on_bodies(state);
+  for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+    s.bodies.push_back(body_state(state, b));
+    if (forces.empty() || !state.bodies[field::body_alive][b]) continue;
     s.bodies.back().force = forces[b].force();
     s.bodies.back().torque = forces[b].torque();
   }
@@ -88,13 +88,13 @@ Snapshot snapshot_of(Simulation& simulation) {
   s.momentum = sums.momentum;
   s.angular_momentum = sums.angular_momentum;
   s.energy = sums.energy;
-  if (world.bodies.has(field::body_heat.name))
-    for (std::size_t b = 0; b < world.bodies.size(); ++b)
-      if (world.bodies[field::body_source][b] >= 0)
-        s.heat_given[world.body_names[b]] = world.bodies[field::body_heat][b];
-  if (calls_for(world.scene, &EffectRule::has_bonds))
-    s.counts["objects"] = static_cast<double>(count_objects(world));
-  if (world.scene.recovers) s.counts["recoveries"] = static_cast<double>(simulation.recovery().count());
+  if (state.bodies.has(field::body_heat.name))
+    for (std::size_t b = 0; b < state.bodies.size(); ++b)
+      if (state.bodies[field::body_source][b] >= 0)
+        s.heat_given[state.body_names[b]] = state.bodies[field::body_heat][b];
+  if (calls_for(state.scene, &EffectRule::has_bonds))
+    s.counts["objects"] = static_cast<double>(count_objects(state));
+  if (state.scene.recovers) s.counts["recoveries"] = static_cast<double>(simulation.recovery().count());
   return s;
 }
 

@@ -40,18 +40,18 @@ Scene scene_of(const Job& job) {
   return scene;
 }
 
-Readback readback_of(const World& world, const TimeStepBound& bound) {
+Readback readback_of(const State& state, const TimeStepBound& bound) {
   Readback held;
-  held.gravity = world.scene.gravity;
-  held.time_step = world.scene.time_step.value_or(bound.dt);
+  held.gravity = state.scene.gravity;
+  held.time_step = state.scene.time_step.value_or(bound.dt);
   const auto of_scene = static_cast<std::size_t>(
-      std::ranges::count_if(world.scene.bodies, [](const Body& b) { return b.phase != Phase::liquid; }));
+      std::ranges::count_if(state.scene.bodies, [](const Body& b) { return b.phase != Phase::liquid; }));
   // Matter that is cold from the start has frozen to bodies of its own by now
   for (std::size_t b = 0; b < of_scene; ++b) {
-    held.bodies.push_back({world.body_names[b], world.bodies[field::body_mass][b],
-                           world.bodies[field::body_centre][b],
+    held.bodies.push_back({state.body_names[b], state.bodies[field::body_mass][b],
+                           state.bodies[field::body_centre][b],
                            // Elastic by its energy, without friction
-                           world.bodies[field::body_inertia][b], 0.0, 1.0, 0.0, 0.0});
+                           state.bodies[field::body_inertia][b], 0.0, 1.0, 0.0, 0.0});
   }
   return held;
 }

@@ -33,7 +33,7 @@ T setting(const Job& job, const std::string& name, T otherwise) {
 /// preset that there is not
 [[nodiscard]] SimulationOptions options_of(const Job&);
 /// Values that the solver itself holds of the scene's bodies.
-[[nodiscard]] Readback readback_of(const World&, const TimeStepBound&);
+[[nodiscard]] Readback readback_of(const State&, const TimeStepBound&);
 /// How often a guard sent the run back, and why the last time; nothing where none did.
 void tell_recoveries(const Recovery&, Result&);
 

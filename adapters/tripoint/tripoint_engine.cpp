@@ -117,19 +117,19 @@ void TripointEngine::resume(const Job& job, const InitialState& initial, const C
 
 bool TripointEngine::advance_to(double time, const std::function<bool(double, long)>& go_on) {
   return simulation_->advance_to(time,
-                                 [&] { return go_on(simulation_->world().time, simulation_->steps()); });
+                                 [&] { return go_on(simulation_->state().time, simulation_->steps()); });
 }
 
 void TripointEngine::save(Checkpoint& kept) const { kept = simulation_->checkpoint(); }
 
 Snapshot TripointEngine::observe() const { return snapshot_of(*simulation_); }
 
-Readback TripointEngine::readback() const { return readback_of(simulation_->world(), simulation_->bound()); }
+Readback TripointEngine::readback() const { return readback_of(simulation_->state(), simulation_->bound()); }
 
 std::string TripointEngine::show_failure(const Diverged& failure, const std::string& folder) const {
   if (!simulation_) return {};
   constexpr const char* name = "culprits.vtp";
-  write_vtp(folder + "/" + name, culprits_of(simulation_->world(), failure));
+  write_vtp(folder + "/" + name, culprits_of(simulation_->state(), failure));
   return name;
 }
 
@@ -141,7 +141,7 @@ void TripointEngine::account(Result& result) const {
   result.extra["time_step"] = simulation_->time_step();
   if (std::isfinite(simulation_->bound().dt)) result.extra["time_step_bound"] = simulation_->bound().dt;
   tell_recoveries(simulation_->recovery(), result);
-  if (const auto& lists = simulation_->world().neighbours)
+  if (const auto& lists = simulation_->state().neighbours)
     result.extra["neighbour_rebuilds"] = static_cast<double>(lists->rebuilds());
 }
 

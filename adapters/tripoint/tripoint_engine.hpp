@@ -32,9 +32,9 @@ class TripointEngine : public Engine, public Restartable {
 /// The culprit of a failure with all particles within two support radii of it (of no single particle:
 /// everything). Every column of the solver is an array. A particle whose place is not finite has the place
 /// where it was listed last.
-[[nodiscard]] PointCloud culprits_of(const World&, const Diverged&);
+[[nodiscard]] PointCloud culprits_of(const State&, const Diverged&);
 
-/// Snapshot of the world: rows by id, places not put back into a periodic box.
+/// Snapshot of the state: rows by id, places not put back into a periodic box.
 [[nodiscard]] Snapshot snapshot_of(Simulation&);
 
 }  // namespace tripoint

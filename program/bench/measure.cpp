@@ -19,21 +19,21 @@ double cpu_now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 void run_steps(Simulation& simulation, long steps) {
   long left = steps;
-  simulation.advance_to(simulation.world().scene.end_time * 1e3, [&] { return --left > 0; });
+  simulation.advance_to(simulation.state().scene.end_time * 1e3, [&] { return --left > 0; });
 }
 
-long rebuilds_of(const Simulation& s) { return s.world().neighbours ? s.world().neighbours->rebuilds() : 0; }
+long rebuilds_of(const Simulation& s) { return s.state().neighbours ? s.state().neighbours->rebuilds() : 0; }
 
 std::vector<Vec3> places(const Simulation& s) {
-  const auto x = positions(s.world().particles);
-  std::vector<Vec3> list(s.world().particles.size());
+  const auto x = positions(s.state().particles);
+  std::vector<Vec3> list(s.state().particles.size());
   for (std::size_t i = 0; i < list.size(); ++i) list[i] = x.at(i);
   return list;
 }
 
 /// FNV-1a over places and velocities in order of id.
 std::string hash_of(const Simulation& s) {
-  const Particles& p = s.world().particles;
+  const Particles& p = s.state().particles;
   std::uint64_t hash = 1469598103934665603ULL;
   const auto x = positions(p), v = velocities(p);
   for (std::size_t id = 0; id < p.size(); ++id) {
@@ -81,7 +81,7 @@ Measured measure(const Work& work, const MeasureOptions& options) {
   m.bytes = peak_bytes() - before;
 
   std::optional<Limit> limit;
-  const double support = simulation.world().support();
+  const double support = simulation.state().support();
   if (work.has_limit)
     limit.emplace(places(simulation), work.mode, support, how.skin * support, options.threads);
   const long each = std::max(1L, options.steps.value_or(work.steps) / options.rounds);
@@ -107,7 +107,7 @@ Measured measure(const Work& work, const MeasureOptions& options) {
               std::accumulate(m.stages.begin(), m.stages.end(), 0.0);
   m.time_step = simulation.time_step();
   m.support = support;
-  m.bonds = static_cast<double>(simulation.world().bonds.pairs());
+  m.bonds = static_cast<double>(simulation.state().bonds.pairs());
   m.state_hash = hash_of(simulation);
   if (limit) {
     m.limit = limit->best(m.rebuilds);

@@ -40,7 +40,7 @@ void take_steps(Trial& trial, const Scene& scene, long steps, int threads, std::
   for (std::size_t k = 0; k < stages.size(); ++k) trial.stages[k] = stages[k] / n;
   trial.time_step = simulation.time_step();
   trial.bound_by = simulation.time_step_set_by();
-  trial.run_steps = n + (scene.end_time - simulation.world().time) / trial.time_step;
+  trial.run_steps = n + (scene.end_time - simulation.state().time) / trial.time_step;
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include "pairs/scene_passes.hpp"
 #include "scene/effect_rule.hpp"
-#include "world/body_table.hpp"
+#include "state/body_table.hpp"
 
 #ifndef TRIPOINT_EFFECT_LIST
 #define TRIPOINT_EFFECT_LIST "effects/effect_list.inc"
@@ -128,10 +128,10 @@ void set_declared(std::vector<Active>& effects) {
 /// Of the columns that every scene has, and of the table of bodies where there is one.
 std::vector<Bounded> common_bounds(const Scene& scene) {
   std::vector<Bounded> bounds{
-      {field::body, -1, [](const World& w) { return w.bodies.size(); }},
-      {field::phase, 0, [](const World&) -> std::size_t { return 3; }},  // phases
-      {field::material, 0, [](const World& w) { return w.scene.materials.size(); }},
-      {field::source, 0, [](const World& w) { return w.scene.bodies.size() + w.scene.inflows.size(); }}};
+      {field::body, -1, [](const State& w) { return w.bodies.size(); }},
+      {field::phase, 0, [](const State&) -> std::size_t { return 3; }},  // phases
+      {field::material, 0, [](const State& w) { return w.scene.materials.size(); }},
+      {field::source, 0, [](const State& w) { return w.scene.bodies.size() + w.scene.inflows.size(); }}};
   if (!can_have_bodies(scene)) return bounds;
   const std::vector<Bounded> of_bodies = body_table_bounds();
   bounds.insert(bounds.end(), of_bodies.begin(), of_bodies.end());
@@ -243,32 +243,32 @@ std::vector<char> idle_particles(const Scene& scene, const InitialState& initial
   return idle;
 }
 
-void declare(World& world, const std::vector<Active>& effects) {
-  world.guarded = {
+void declare(State& state, const std::vector<Active>& effects) {
+  state.guarded = {
       {field::position_x, "position", Written::drift}, {field::position_y, "position", Written::drift},
       {field::position_z, "position", Written::drift}, {field::velocity_x, "velocity", Written::kick},
       {field::velocity_y, "velocity", Written::kick},  {field::velocity_z, "velocity", Written::kick}};
-  world.bounded = common_bounds(world.scene);
-  world.positive = {field::mass};
+  state.bounded = common_bounds(state.scene);
+  state.positive = {field::mass};
   for (const Active& a : effects) {
     for (const Force& f : a.spec.forces) {
-      world.forces.push_back(f);
-      world.booked.open(f.work);
-      world.booked.open(work_on_driven(f));
-      if (f.stored) world.booked.open(f.stored->at_start);
+      state.forces.push_back(f);
+      state.booked.open(f.work);
+      state.booked.open(work_on_driven(f));
+      if (f.stored) state.booked.open(f.stored->at_start);
     }
-    for (const Account& one : a.spec.accounts) world.booked.open(one);
-    for (const Account& one : a.spec.numerical) world.booked.open(one);
-    world.numerical.insert(world.numerical.end(), a.spec.numerical.begin(), a.spec.numerical.end());
-    world.guarded.insert(world.guarded.end(), a.spec.guards.begin(), a.spec.guards.end());
-    world.bounded.insert(world.bounded.end(), a.spec.bounded.begin(), a.spec.bounded.end());
-    world.positive.insert(world.positive.end(), a.spec.positive.begin(), a.spec.positive.end());
-    world.guarded_entries.insert(world.guarded_entries.end(), a.spec.guarded_entries.begin(),
+    for (const Account& one : a.spec.accounts) state.booked.open(one);
+    for (const Account& one : a.spec.numerical) state.booked.open(one);
+    state.numerical.insert(state.numerical.end(), a.spec.numerical.begin(), a.spec.numerical.end());
+    state.guarded.insert(state.guarded.end(), a.spec.guards.begin(), a.spec.guards.end());
+    state.bounded.insert(state.bounded.end(), a.spec.bounded.begin(), a.spec.bounded.end());
+    state.positive.insert(state.positive.end(), a.spec.positive.begin(), a.spec.positive.end());
+    state.guarded_entries.insert(state.guarded_entries.end(), a.spec.guarded_entries.begin(),
                                  a.spec.guarded_entries.end());
-    for (const StepNumber& one : a.spec.step_numbers) world.step_numbers.declare(one);
-    world.body_sums.insert(world.body_sums.end(), a.spec.body_sums.begin(), a.spec.body_sums.end());
+    for (const StepNumber& one : a.spec.step_numbers) state.step_numbers.declare(one);
+    state.body_sums.insert(state.body_sums.end(), a.spec.body_sums.begin(), a.spec.body_sums.end());
   }
-  std::ranges::stable_sort(world.guarded, {}, &Guarded::written);
+  std::ranges::stable_sort(state.guarded, {}, &Guarded::written);
 }
 
 }  // namespace tripoint

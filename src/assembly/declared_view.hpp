@@ -4,13 +4,13 @@
 
 namespace tripoint {
 
-/// While it lives, the columns of the world are those that this effect has declared: any other is refused, in
+/// While it lives, the columns of the state are those that this effect has declared: any other is refused, in
 /// the test build.
 class DeclaredView {
  public:
-  DeclaredView([[maybe_unused]] const World& world, [[maybe_unused]] const Active& a) {
+  DeclaredView([[maybe_unused]] const State& state, [[maybe_unused]] const Active& a) {
 #ifdef TRIPOINT_DEFECTS
-    world_ = &world;
+    state_ = &state;
     show(&a.declared);
 #endif
   }
@@ -21,10 +21,10 @@ class DeclaredView {
 
  private:
   void show(const DeclaredFields* declared) const {
-    world_->particles.show_only(declared);
-    world_->bodies.show_only(declared);
+    state_->particles.show_only(declared);
+    state_->bodies.show_only(declared);
   }
-  const World* world_;
+  const State* state_;
 #endif
 };
 

@@ -9,8 +9,8 @@
 
 #include "pairs/pair_work.hpp"
 #include "scene/initial_state.hpp"
-#include "world/field_groups.hpp"
-#include "world/world.hpp"
+#include "state/field_groups.hpp"
+#include "state/state.hpp"
 
 /// An effect: a part of physics that a scene calls for. Effects do not know each other; they meet in fields.
 namespace tripoint {
@@ -47,7 +47,7 @@ struct EffectSpec {
   OwnSums own_sums{};
   std::vector<StepNumber> step_numbers{};  ///< that it keeps from step to step beside its columns
   FieldList reads_if_there{};              ///< of others, where the scene has them
-  bool sums_forces = false;                ///< it reads World::forces of all effects
+  bool sums_forces = false;                ///< it reads State::forces of all effects
   bool changes = false;                    ///< change() may be called of it: wants_change() is asked
   /// It ignores sleeping particles, and needs the forces on fixed ones only in form_fixed()
   bool skips_sleeping = false;
@@ -85,48 +85,48 @@ class Effect {
  public:
   virtual ~Effect() = default;
   /// Fills the columns that the effect owns. @throws InputError when the scene lacks what it needs
-  virtual void load(World&, const InitialState&) {}
+  virtual void load(State&, const InitialState&) {}
   /// Velocities gain dt times the present forces over the masses. @param dt half a step [s]
-  virtual void kick(World&, double /*dt*/) {}
+  virtual void kick(State&, double /*dt*/) {}
   /// Places move by dt times the velocities. @param dt length of the step [s]
-  virtual void drift(World&, double /*dt*/) {}
+  virtual void drift(State&, double /*dt*/) {}
   /// Sets the columns that the pass adds to.
-  virtual void clear(World&, PassName) {}
+  virtual void clear(State&, PassName) {}
   /// Adds to the sums of the pass of density, and takes densities from them. Called where places are new,
   /// before all states.
-  virtual void densities(World&) {}
+  virtual void densities(State&) {}
   /// Sets the quantities that follow from the densities at the present places: pressures, temperatures,
   /// strains.
-  virtual void state(World&) {}
+  virtual void state(State&) {}
   /// Sets the quantities that follow from the states of all effects.
-  virtual void after_states(World&) {}
+  virtual void after_states(State&) {}
   /// Forces of bonds, after all states of the present time.
-  virtual void bonds(World&) {}
+  virtual void bonds(State&) {}
   /// Sets the values of fixed particles that no step reads, except the sums of the passes
-  /// (World::forms_fixed). Called after their density.
-  virtual void form_fixed(World&) {}
+  /// (State::forms_fixed). Called after their density.
+  virtual void form_fixed(State&) {}
   /// Whether change() has anything to decide. Changes that depend on one particle's state alone are made here
   /// first. Each process that shares the scene is asked, about its own particles and about the known values
   /// of copies.
-  [[nodiscard]] virtual bool wants_change(World&) { return false; }
-  /// Decides what melts, freezes or breaks, changes bonds, phases and bodies, and tells it in World::change.
+  [[nodiscard]] virtual bool wants_change(State&) { return false; }
+  /// Decides what melts, freezes or breaks, changes bonds, phases and bodies, and tells it in State::change.
   /// It is called where wants_change() said so, in any of the processes that share the scene; each of them
   /// then holds all of it.
-  virtual void change(World&) {}
-  /// Follows World::change in the columns that the effect owns.
-  virtual void adopt(World&) {}
-  /// Settles what World::change cost or set free, when all have adopted it.
-  virtual void settle(World&) {}
+  virtual void change(State&) {}
+  /// Follows State::change in the columns that the effect owns.
+  virtual void adopt(State&) {}
+  /// Settles what State::change cost or set free, when all have adopted it.
+  virtual void settle(State&) {}
   /// The second stage of two-stage schemes, with rates at the predicted state. @param dt length of the step
   /// [s] @return whether rates must be computed again (PassName::again)
-  virtual bool correct(World&, double /*dt*/) { return false; }
-  virtual void happen(World&, const Happening&) {}
-  /// Rows and ids stand for other particles (World::halo): data that the effect keeps by row or id are void.
-  virtual void renumber(World&) {}
+  virtual bool correct(State&, double /*dt*/) { return false; }
+  virtual void happen(State&, const Happening&) {}
+  /// Rows and ids stand for other particles (State::halo): data that the effect keeps by row or id are void.
+  virtual void renumber(State&) {}
   /// Looks, after every step, for a state that the effect's equations do not hold for. @throws Diverged
-  virtual void check(const World&) const {}
-  [[nodiscard]] virtual TimeStepBound max_dt(const World&) const { return {}; }
-  virtual void add_to(const World&, Ledger&) const {}
+  virtual void check(const State&) const {}
+  [[nodiscard]] virtual TimeStepBound max_dt(const State&) const { return {}; }
+  virtual void add_to(const State&, Ledger&) const {}
   /// Asked once, before the first step.
   [[nodiscard]] virtual PairWork pair_work(const Scene&) const { return {}; }
 };

@@ -2,22 +2,22 @@
 #pragma once
 #include <cmath>
 
-#include "world/free_rows.hpp"
-#include "world/world.hpp"
+#include "state/free_rows.hpp"
+#include "state/state.hpp"
 
 namespace tripoint::liquid {
 
 /// Whether a change of phase or of bodies moves particles from one group to another (field::group).
-[[nodiscard]] inline bool groups_changed(const World& world) {
-  return !world.change.regrouped.empty() || !world.change.bodies.empty();
+[[nodiscard]] inline bool groups_changed(const State& state) {
+  return !state.change.regrouped.empty() || !state.change.bodies.empty();
 }
 
 /// Of what can move [m/s].
-[[nodiscard]] inline double greatest_speed(const World& world) {
-  const auto v = velocities(world.particles);
-  const FreeLoops loops = free_loops(world.forces.size());
+[[nodiscard]] inline double greatest_speed(const State& state) {
+  const auto v = velocities(state.particles);
+  const FreeLoops loops = free_loops(state.forces.size());
   return std::sqrt(
-      greatest_of_blocks(world.particles.moving(), world.threads, [&](std::size_t from, std::size_t to) {
+      greatest_of_blocks(state.particles.moving(), state.threads, [&](std::size_t from, std::size_t to) {
         return loops.greatest_speed2({v.x.data(), v.y.data(), v.z.data()}, from, to);
       }));
 }

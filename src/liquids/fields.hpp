@@ -2,7 +2,7 @@
 #pragma once
 #include "core/field.hpp"
 #include "particles/catalogue.hpp"
-#include "world/step_numbers.hpp"
+#include "state/step_numbers.hpp"
 
 /// Fields of liquids and contact (4), (7) to (9) that no other effect knows.
 namespace tripoint::field {

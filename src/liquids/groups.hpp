@@ -4,18 +4,18 @@
 #include <vector>
 
 #include "particles/catalogue.hpp"
-#include "world/body_table.hpp"
-#include "world/world.hpp"
+#include "state/body_table.hpp"
+#include "state/state.hpp"
 
 namespace tripoint::liquid {
 
 /// The group of each row (field::group).
 class Groups {
  public:
-  explicit Groups(const World& world) : body_(world.particles[field::body]) {
-    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-      const bool free = world.bodies[field::body_motion][b] == static_cast<int>(Motion::free);
-      of_.push_back(!is_rigid(world, b) ? deformable_group
+  explicit Groups(const State& state) : body_(state.particles[field::body]) {
+    for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+      const bool free = state.bodies[field::body_motion][b] == static_cast<int>(Motion::free);
+      of_.push_back(!is_rigid(state, b) ? deformable_group
                     : free              ? 1.0 + static_cast<double>(b)
                                         : wall_group);
     }

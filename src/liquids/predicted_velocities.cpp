@@ -3,21 +3,21 @@
 
 #include <utility>
 
-#include "world/body_table.hpp"
-#include "world/free_rows.hpp"
+#include "state/body_table.hpp"
+#include "state/free_rows.hpp"
 
 namespace tripoint::liquid {
 
-void predict_velocities(World& world, double ahead, const VectorField<double>& target) {
-  Particles& p = world.particles;
-  const FreeRows rows = free_rows(world);
+void predict_velocities(State& state, double ahead, const VectorField<double>& target) {
+  Particles& p = state.particles;
+  const FreeRows rows = free_rows(state);
   const FreeLoops loops = free_loops(rows.forces);
   const auto seen = triple(p, target);
   const auto x = positions(p), v = velocities(p);
   const auto body = p[field::body];
-  const RigidMembers is_member(world);
+  const RigidMembers is_member(state);
   const auto of_bodies = [&](const Field<Vec3>& f) {
-    return world.bodies.size() > 0 ? std::as_const(world.bodies)[f] : std::span<const Vec3>{};
+    return state.bodies.size() > 0 ? std::as_const(state.bodies)[f] : std::span<const Vec3>{};
   };
   const auto centre = of_bodies(field::body_centre), velocity = of_bodies(field::body_velocity),
              omega = of_bodies(field::body_angular_velocity);
@@ -25,7 +25,7 @@ void predict_velocities(World& world, double ahead, const VectorField<double>& t
              turned = of_bodies(field::body_angular_acceleration);
   const auto of_member = [&](std::size_t i) {
     const auto b = static_cast<std::size_t>(body[i]);
-    const Vec3 arm = (world.box.any() ? world.unwrapped(i) : x.at(i)) - centre[b];
+    const Vec3 arm = (state.box.any() ? state.unwrapped(i) : x.at(i)) - centre[b];
     seen.set(i, velocity[b] + ahead * gained[b] + cross(omega[b] + ahead * turned[b], arm));
   };
   const auto of_others = [&](std::size_t from, std::size_t to) {
@@ -37,7 +37,7 @@ void predict_velocities(World& world, double ahead, const VectorField<double>& t
     }
   };
   // Fixed particles are seen at rest
-  each_block(p.moving(), world.threads,
+  each_block(p.moving(), state.threads,
              [&](std::size_t from, std::size_t to) { is_member.each_run(from, to, of_member, of_others); });
 }
 

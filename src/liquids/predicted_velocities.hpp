@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "world/world.hpp"
+#include "state/state.hpp"
 
 namespace tripoint::liquid {
 
 /// The velocities that viscous pairs see: those at the full step, by the rates of the last one. @param ahead
 /// half a step [s]
-void predict_velocities(World&, double ahead, const VectorField<double>& target);
+void predict_velocities(State&, double ahead, const VectorField<double>& target);
 
 }  // namespace tripoint::liquid

@@ -9,7 +9,7 @@
 
 #include "pairs/run_pass.hpp"
 #include "particles/rank_grid.hpp"
-#include "world/body_table.hpp"
+#include "state/body_table.hpp"
 
 namespace tripoint {
 namespace {
@@ -70,61 +70,61 @@ Work work_of(const Clusters& c, std::size_t cluster, std::span<const double> gro
   return static_cast<Work>(in_density | (any_acts ? rates : none));
 }
 
-bool owns_any(const World& world, std::uint32_t first, std::uint32_t past) {
+bool owns_any(const State& state, std::uint32_t first, std::uint32_t past) {
   for (std::uint32_t i = first; i < past; ++i)
-    if (world.owns(i)) return true;
+    if (state.owns(i)) return true;
   return false;
 }
 
 }  // namespace
 
-std::vector<char> fixed_rows(const World& world, std::size_t rows) {
+std::vector<char> fixed_rows(const State& state, std::size_t rows) {
   std::vector<char> of_body;
-  for (std::size_t b = 0; b < world.bodies.size(); ++b)
-    of_body.push_back(is_rigid(world, b) &&
-                      world.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed));
-  const auto body = world.particles[field::body];
+  for (std::size_t b = 0; b < state.bodies.size(); ++b)
+    of_body.push_back(is_rigid(state, b) &&
+                      state.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed));
+  const auto body = state.particles[field::body];
   std::vector<char> fixed(rows, 1);
-  for (std::size_t i = 0; i < world.particles.moving(); ++i)
+  for (std::size_t i = 0; i < state.particles.moving(); ++i)
     fixed[i] = body[i] >= 0 ? of_body[static_cast<std::size_t>(body[i])] : char{0};
   return fixed;
 }
 
-void BusyClusters::find_own(const World& world) {
+void BusyClusters::find_own(const State& state) {
   own_is_known_ = true;
   own_.reset();
-  if (world.copies.empty()) return;
+  if (state.copies.empty()) return;
   own_.emplace();
-  const Clusters& c = world.neighbours->clusters();
+  const Clusters& c = state.neighbours->clusters();
   c.each([&](std::uint32_t k) {
-    if (owns_any(world, c.first[k], c.first[k + 1])) own_->clusters.push_back(k);
+    if (owns_any(state, c.first[k], c.first[k + 1])) own_->clusters.push_back(k);
   });
 }
 
-void BusyClusters::sum_own(const PassFunction& pass, World& world, const PairKernels& kernels) {
-  if (!own_is_known_) find_own(world);
-  run_pass_in(pass, world.particles, *world.neighbours, kernels, world.threads, own_);
+void BusyClusters::sum_own(const PassFunction& pass, State& state, const PairKernels& kernels) {
+  if (!own_is_known_) find_own(state);
+  run_pass_in(pass, state.particles, *state.neighbours, kernels, state.threads, own_);
 }
 
-void BusyClusters::find(World& world, bool leaves_own) {
-  Clusters& c = world.neighbours->clusters();
-  const auto group = world.particles[field::group];
-  const std::vector<char> fixed = fixed_rows(world, world.neighbours->rows());
+void BusyClusters::find(State& state, bool leaves_own) {
+  Clusters& c = state.neighbours->clusters();
+  const auto group = state.particles[field::group];
+  const std::vector<char> fixed = fixed_rows(state, state.neighbours->rows());
   std::vector<Work> work(c.size());
   c.acting.assign(c.size() > 0 ? within_start(c.start.back(), c.size()) : 0, 0);
-#pragma omp parallel for schedule(static) num_threads(world.threads)
+#pragma omp parallel for schedule(static) num_threads(state.threads)
   for (std::size_t k = 0; k < c.size(); ++k) {
-    if (!owns_any(world, c.first[k], c.first[k + 1])) continue;
-    work[k] = work_of(c, k, group, fixed, world.particles.moving(), leaves_own,
+    if (!owns_any(state, c.first[k], c.first[k + 1])) continue;
+    work[k] = work_of(c, k, group, fixed, state.particles.moving(), leaves_own,
                       c.acting.data() + within_start(c.start[k], k));
   }
   in_density_ = {};
   in_rates_ = {};
   still_.clear();
   c.each([&](std::uint32_t k) {
-    if (c.first[k] >= world.particles.awake()) return;
+    if (c.first[k] >= state.particles.awake()) return;
     if ((work[k] & density) != 0) in_density_.clusters.push_back(k);
-    if ((work[k] & rates) != 0 && c.first[k] < world.particles.moving()) in_rates_.clusters.push_back(k);
+    if ((work[k] & rates) != 0 && c.first[k] < state.particles.moving()) in_rates_.clusters.push_back(k);
     if ((work[k] & density_is_still) == 0) return;
     for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i) still_.push_back(i);
   });
@@ -133,9 +133,9 @@ void BusyClusters::find(World& world, bool leaves_own) {
 
 /// Finds the density of fixed particles that meet only fixed ones, for the time when their lists are no
 /// longer made.
-void BusyClusters::learn_still(const PassFunction& pass, World& world, const PairKernels& kernels) {
-  Neighbours& n = *world.neighbours;
-  Particles& p = world.particles;
+void BusyClusters::learn_still(const PassFunction& pass, State& state, const PairKernels& kernels) {
+  Neighbours& n = *state.neighbours;
+  Particles& p = state.particles;
   const Clusters& c = n.clusters();
   std::vector<char> is_still(p.size(), 0);
   for (const std::uint32_t one : n.still_ids()) is_still[p.row(one)] = 1;
@@ -148,7 +148,7 @@ void BusyClusters::learn_still(const PassFunction& pass, World& world, const Pai
   density_among_still_.clear();
   std::vector<std::vector<double>> before;
   for (const Field<double>* f : pass.adds()) before.emplace_back(p[*f].begin(), p[*f].end());
-  run_pass_among(pass, p, n, kernels, world.threads, among);
+  run_pass_among(pass, p, n, kernels, state.threads, among);
   auto old = before.begin();
   for (const Field<double>* f : pass.adds()) {
     const auto column = p[*f];
@@ -159,14 +159,14 @@ void BusyClusters::learn_still(const PassFunction& pass, World& world, const Pai
 }
 
 /// Sums over all lists there are. A particle without a list gets its density among fixed particles.
-void BusyClusters::sum_listed(const PassFunction& pass, World& world, const PairKernels& kernels) {
-  Neighbours& n = *world.neighbours;
-  Particles& p = world.particles;
+void BusyClusters::sum_listed(const PassFunction& pass, State& state, const PairKernels& kernels) {
+  Neighbours& n = *state.neighbours;
+  Particles& p = state.particles;
   const Clusters& c = n.clusters();
-  if (c.unlisted.empty() && c.on_demand.empty()) return sum_own(pass, world, kernels);
+  if (c.unlisted.empty() && c.on_demand.empty()) return sum_own(pass, state, kernels);
   assert(still_known_ == n.whole_lists());
   n.make_room_within();
-  run_pass_over(pass, p, n, kernels, world.threads, {c.listed, {}});
+  run_pass_over(pass, p, n, kernels, state.threads, {c.listed, {}});
   const auto id = p[field::id];
   std::size_t from = 0;
   for (const Field<double>* f : pass.adds()) {
@@ -178,13 +178,13 @@ void BusyClusters::sum_listed(const PassFunction& pass, World& world, const Pair
   }
 }
 
-void BusyClusters::keep(const PassFunction& pass, const World& world) {
+void BusyClusters::keep(const PassFunction& pass, const State& state) {
   density_.clear();
   for (const Field<double>* f : pass.adds()) {
-    const auto column = world.particles[*f];
+    const auto column = state.particles[*f];
     for (const std::uint32_t i : still_) density_.push_back(column[i]);
   }
-  placed_ = world.placed;
+  placed_ = state.placed;
 }
 
 void BusyClusters::put_back(const PassFunction& pass, Particles& p) const {
@@ -198,26 +198,26 @@ void BusyClusters::put_back(const PassFunction& pass, Particles& p) const {
 /// The first over new lists sums all, also because the passes that follow ask which pairs are within the
 /// support. So does the first one after fixed particles were placed by their body's pose, which can move them
 /// by a rounding error.
-void BusyClusters::sum_density(const PassFunction& pass, World& world, const PairKernels& kernels,
+void BusyClusters::sum_density(const PassFunction& pass, State& state, const PairKernels& kernels,
                                bool leaves_own) {
-  Particles& p = world.particles;
-  if (known_ && placed_ == world.placed) {
+  Particles& p = state.particles;
+  if (known_ && placed_ == state.placed) {
     put_back(pass, p);
-    run_pass_over(pass, p, *world.neighbours, kernels, world.threads, in_density_);
+    run_pass_over(pass, p, *state.neighbours, kernels, state.threads, in_density_);
     return;
   }
-  if (world.neighbours->may_rest_next() && still_known_ != world.neighbours->whole_lists())
-    learn_still(pass, world, kernels);
-  sum_listed(pass, world, kernels);
-  if (!known_) find(world, leaves_own);
-  keep(pass, world);
+  if (state.neighbours->may_rest_next() && still_known_ != state.neighbours->whole_lists())
+    learn_still(pass, state, kernels);
+  sum_listed(pass, state, kernels);
+  if (!known_) find(state, leaves_own);
+  keep(pass, state);
 }
 
 /// Clusters without a list take the density that was stored for them among fixed particles alone.
-void BusyClusters::sum_fixed_density(const PassFunction& pass, World& world,
+void BusyClusters::sum_fixed_density(const PassFunction& pass, State& state,
                                      const PairKernels& kernels) const {
-  Neighbours& n = *world.neighbours;
-  Particles& p = world.particles;
+  Neighbours& n = *state.neighbours;
+  Particles& p = state.particles;
   const Clusters& c = n.clusters();
   assert(still_known_ == n.whole_lists());
   std::vector<char> is_listed(n.rows(), 0);
@@ -233,30 +233,30 @@ void BusyClusters::sum_fixed_density(const PassFunction& pass, World& world,
     }
   }
   n.make_room_within();
-  run_pass_over(pass, p, n, kernels, world.threads, {c.on_demand, {}});
+  run_pass_over(pass, p, n, kernels, state.threads, {c.on_demand, {}});
 }
 
-void BusyClusters::sum_fixed_rates(const PassFunction& pass, World& world, const PairKernels& kernels) const {
-  Clusters& c = world.neighbours->clusters();
+void BusyClusters::sum_fixed_rates(const PassFunction& pass, State& state, const PairKernels& kernels) const {
+  Clusters& c = state.neighbours->clusters();
   ChosenClusters fixed;
   for (const auto* some : {&c.listed, &c.on_demand})
     std::ranges::copy_if(*some, std::back_inserter(fixed.clusters),
-                         [&](std::uint32_t k) { return c.first[k] >= world.particles.moving(); });
+                         [&](std::uint32_t k) { return c.first[k] >= state.particles.moving(); });
   c.acting.resize(within_start(c.start.back(), c.size()), 0);
   for (const std::uint32_t k : c.on_demand)  // their pairs with fixed particles add zeros
     std::fill(c.acting.begin() + static_cast<std::ptrdiff_t>(within_start(c.start[k], k)),
               c.acting.begin() + static_cast<std::ptrdiff_t>(within_start(c.start[k + 1], k + 1)),
               ~std::uint64_t{0});
-  run_pass_over(pass, world.particles, *world.neighbours, kernels, world.threads, fixed);
+  run_pass_over(pass, state.particles, *state.neighbours, kernels, state.threads, fixed);
 }
 
-bool BusyClusters::has_entries(const World& world, bool all) const {
-  return world.neighbours->rows() == world.particles.size() && (all || known_);
+bool BusyClusters::has_entries(const State& state, bool all) const {
+  return state.neighbours->rows() == state.particles.size() && (all || known_);
 }
 
-std::vector<double> BusyClusters::cost_by_row(const World& world, double steps, bool all) const {
-  const Clusters& c = world.neighbours->clusters();
-  std::vector<double> cost(world.particles.size(), 0.0);
+std::vector<double> BusyClusters::cost_by_row(const State& state, double steps, bool all) const {
+  const Clusters& c = state.neighbours->clusters();
+  std::vector<double> cost(state.particles.size(), 0.0);
   const auto add = [&](std::uint32_t k, double of_cluster) {
     for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i)
       cost[i] += of_cluster / (c.first[k + 1] - c.first[k]);
@@ -281,11 +281,11 @@ std::vector<double> BusyClusters::cost_by_row(const World& world, double steps, 
   return cost;
 }
 
-void BusyClusters::sum_rates(const PassFunction& pass, World& world, const PairKernels& kernels) const {
+void BusyClusters::sum_rates(const PassFunction& pass, State& state, const PairKernels& kernels) const {
   if (known_)
-    run_pass_over(pass, world.particles, *world.neighbours, kernels, world.threads, in_rates_);
+    run_pass_over(pass, state.particles, *state.neighbours, kernels, state.threads, in_rates_);
   else
-    run_pass(pass, world.particles, *world.neighbours, kernels, world.threads);
+    run_pass(pass, state.particles, *state.neighbours, kernels, state.threads);
 }
 
 }  // namespace tripoint

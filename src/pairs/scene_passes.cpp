@@ -103,45 +103,45 @@ void Passes::drop_clusters() { impl_->busy.drop_clusters(); }
 
 bool Passes::works_on_all() const { return impl_->meets_all; }
 
-std::vector<double> Passes::cost_at_start(const World& world) const {
-  const std::vector<char> fixed = fixed_rows(world, world.particles.size());
+std::vector<double> Passes::cost_at_start(const State& state) const {
+  const std::vector<char> fixed = fixed_rows(state, state.particles.size());
   std::vector<double> cost;
   for (const char one : fixed) cost.push_back(ParticleCost::at_start(one != 0 && !impl_->meets_all));
   return cost;
 }
 
-std::vector<double> Passes::cost(const World& world, double steps) const {
-  if (world.neighbours && !impl_->busy.has_entries(world, impl_->meets_all)) return cost_at_start(world);
-  const Particles& p = world.particles;
+std::vector<double> Passes::cost(const State& state, double steps) const {
+  if (state.neighbours && !impl_->busy.has_entries(state, impl_->meets_all)) return cost_at_start(state);
+  const Particles& p = state.particles;
   std::vector<double> cost(p.size(), 0.0);
-  if (world.neighbours) cost = impl_->busy.cost_by_row(world, steps, impl_->meets_all);
+  if (state.neighbours) cost = impl_->busy.cost_by_row(state, steps, impl_->meets_all);
   for (std::size_t i = 0; i < p.size(); ++i)
     cost[i] += ParticleCost::of_row(steps) +
                ParticleCost::of_bond *
-                   static_cast<double>(world.bonds.of(static_cast<std::size_t>(p[field::id][i])).size());
+                   static_cast<double>(state.bonds.of(static_cast<std::size_t>(p[field::id][i])).size());
   return cost;
 }
 
-void Passes::run_fixed(PassName name, World& world) const {
+void Passes::run_fixed(PassName name, State& state) const {
   if (name == PassName::density)
-    impl_->busy.sum_fixed_density(impl_->density, world, impl_->kernels);
+    impl_->busy.sum_fixed_density(impl_->density, state, impl_->kernels);
   else
-    impl_->busy.sum_fixed_rates(impl_->rates, world, impl_->kernels);
+    impl_->busy.sum_fixed_rates(impl_->rates, state, impl_->kernels);
 }
 
-void Passes::run(PassName name, World& world) const {
+void Passes::run(PassName name, State& state) const {
   if (!needed()) return;
   Impl& i = *impl_;
   const PassFunction& pass = name == PassName::density ? i.density
                              : name == PassName::rates ? i.rates
                                                        : i.again;
   if (!i.meets_all && name == PassName::density)
-    i.busy.sum_density(pass, world, i.kernels, i.leaves_own);
+    i.busy.sum_density(pass, state, i.kernels, i.leaves_own);
   else if (!i.meets_all && name == PassName::rates)
-    i.busy.sum_rates(pass, world, i.kernels);
+    i.busy.sum_rates(pass, state, i.kernels);
   else
-    i.busy.sum_own(pass, world, i.kernels);
-  if (pass.run) world.refresh(pass.adds());
+    i.busy.sum_own(pass, state, i.kernels);
+  if (pass.run) state.refresh(pass.adds());
 }
 
 }  // namespace tripoint

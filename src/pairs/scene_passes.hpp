@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "pairs/pair_work.hpp"
-#include "world/world.hpp"
+#include "state/state.hpp"
 
 namespace tripoint {
 
@@ -21,9 +21,9 @@ class Passes {
   Passes& operator=(Passes&&) noexcept;
   [[nodiscard]] bool needed() const;  ///< whether any pair is worked on at all
   [[nodiscard]] int lanes() const;    ///< particles of a cluster that the neighbours must have
-  void run(PassName, World&) const;
-  /// Sums the values of fixed particles that no step reads (World::forms_fixed).
-  void run_fixed(PassName, World&) const;
+  void run(PassName, State&) const;
+  /// Sums the values of fixed particles that no step reads (State::forms_fixed).
+  void run_fixed(PassName, State&) const;
   /// How far around what something can reach fixed particles must be awake, for every bit to stay [m]; none:
   /// nothing may sleep.
   [[nodiscard]] std::optional<double> sleeps_beyond() const;
@@ -32,8 +32,8 @@ class Passes {
   /// Cost of each particle in a step, by row, as lists and bonds are now; before there are any, a guess
   /// (ParticleCost).
   /// @param steps from new lists to new lists
-  [[nodiscard]] std::vector<double> cost(const World&, double steps) const;
-  [[nodiscard]] std::vector<double> cost_at_start(const World&) const;
+  [[nodiscard]] std::vector<double> cost(const State&, double steps) const;
+  [[nodiscard]] std::vector<double> cost_at_start(const State&) const;
   /// To be called when lists, own pairs, groups or the motion of bodies have changed: where a pass has work
   /// is found anew.
   void drop_clusters();

@@ -141,7 +141,7 @@ struct EffectRule {
   /// Of these those that every scene with forces tells, 0 where the effect is off: reports put scenes side by
   /// side.
   std::vector<std::string_view> (*always_told)(const Scene&) = nullptr;
-  bool over_processes = false;  ///< it also runs where several processes share a scene (World::halo)
+  bool over_processes = false;  ///< it also runs where several processes share a scene (State::halo)
 
   // What the rest of the program must know of a scene that calls for it; calls_for(scene, &EffectRule::...)
   // asks.

@@ -4,31 +4,31 @@
 #include <algorithm>
 #include <limits>
 
-#include "world/body_table.hpp"
+#include "state/body_table.hpp"
 
 namespace tripoint {
 namespace {
 
-bool moves(const World& world, std::size_t b) {
-  const Columns& t = world.bodies;
-  if (!is_rigid(world, b)) return false;
+bool moves(const State& state, std::size_t b) {
+  const Columns& t = state.bodies;
+  if (!is_rigid(state, b)) return false;
   const bool free =
       t[field::body_alive][b] != 0 && t[field::body_motion][b] == static_cast<int>(Motion::free);
   return free || t[field::body_velocity][b] != Vec3{} || t[field::body_angular_velocity][b] != Vec3{};
 }
 
-/// A force that bodies feel: its place among World::forces, and its columns.
+/// A force that bodies feel: its place among State::forces, and its columns.
 struct Felt {
   std::size_t number;
   Triple<const double> force;
 };
 
-std::vector<Felt> felt_forces(const World& world) {
+std::vector<Felt> felt_forces(const State& state) {
   std::vector<Felt> list;
-  for (std::size_t k = 0; k < world.forces.size(); ++k) {
-    const Force& f = world.forces[k];
+  for (std::size_t k = 0; k < state.forces.size(); ++k) {
+    const Force& f = state.forces[k];
     if (f.feels != Feels::all) continue;
-    list.push_back({k, triple(world.particles, f.x, f.y, f.z)});
+    list.push_back({k, triple(state.particles, f.x, f.y, f.z)});
   }
   return list;
 }
@@ -36,9 +36,9 @@ std::vector<Felt> felt_forces(const World& world) {
 /// Numbers of a record that told_members() makes.
 std::ptrdiff_t width_of(const std::vector<Felt>& felt) { return 2 + 6 * std::ssize(felt); }
 
-BodyForces no_forces(const World& world) {
+BodyForces no_forces(const State& state) {
   BodyForces none;
-  none.count = world.forces.size();
+  none.count = state.forces.size();
   return none;
 }
 
@@ -46,30 +46,30 @@ BodyForces no_forces(const World& world) {
 /// own.
 /// @param ids of those that may be members, in this order; empty: of all particles
 template <class Visit>
-void each_member(const World& world, const std::vector<char>& asked, std::span<const std::uint32_t> ids,
+void each_member(const State& state, const std::vector<char>& asked, std::span<const std::uint32_t> ids,
                  Visit visit) {
-  const Particles& p = world.particles;
+  const Particles& p = state.particles;
   const auto body = p[field::body];
-  const auto centre = world.bodies[field::body_centre];
+  const auto centre = state.bodies[field::body_centre];
   const auto x = positions(p);
-  const bool wraps = world.box.any();
+  const bool wraps = state.box.any();
   const auto look_at = [&](std::size_t id) {
     const std::size_t i = p.row(id);
-    if (body[i] < 0 || !world.owns(i) || !asked[static_cast<std::size_t>(body[i])]) return;
+    if (body[i] < 0 || !state.owns(i) || !asked[static_cast<std::size_t>(body[i])]) return;
     const auto b = static_cast<std::size_t>(body[i]);
-    visit(i, b, (wraps ? world.unwrapped(i) : x.at(i)) - centre[b]);
+    visit(i, b, (wraps ? state.unwrapped(i) : x.at(i)) - centre[b]);
   };
   for (const std::uint32_t id : ids) look_at(id);
   for (std::size_t id = 0; ids.empty() && id < p.size(); ++id) look_at(id);
 }
 
-void sum_forces(const World& world, const std::vector<char>& asked, std::span<const std::uint32_t> ids,
+void sum_forces(const State& state, const std::vector<char>& asked, std::span<const std::uint32_t> ids,
                 std::vector<BodyForces>& sums) {
-  const std::vector<Felt> felt = felt_forces(world);
+  const std::vector<Felt> felt = felt_forces(state);
   if (felt.empty()) return sums.clear();
-  sums.resize(world.bodies.size());  // those of bodies that are not kept here stay, and nobody reads them
-  each_kept_body(world, [&](std::size_t b) { sums[b] = no_forces(world); });
-  each_member(world, asked, ids, [&](std::size_t i, std::size_t b, const Vec3& arm) {
+  sums.resize(state.bodies.size());  // those of bodies that are not kept here stay, and nobody reads them
+  each_kept_body(state, [&](std::size_t b) { sums[b] = no_forces(state); });
+  each_member(state, asked, ids, [&](std::size_t i, std::size_t b, const Vec3& arm) {
     for (const Felt& f : felt) {
       const Vec3 force = f.force.at(i);
       sums[b].forces[f.number] += force;
@@ -107,12 +107,12 @@ void put_sum(const std::vector<Felt>& felt, std::size_t b, const BodyForces& sum
   for (const Felt& f : felt) put(told, sum.forces[f.number], sum.torques[f.number]);
 }
 
-std::vector<double> told_members(const World& world, const std::vector<char>& asked,
+std::vector<double> told_members(const State& state, const std::vector<char>& asked,
                                  const std::vector<BodyForces>& sums) {
-  const Particles& p = world.particles;
-  const BodyOwners& owners = world.body_owners;
-  const std::vector<Felt> felt = felt_forces(world);
-  const std::span<const int> number = world.halo->numbers();
+  const Particles& p = state.particles;
+  const BodyOwners& owners = state.body_owners;
+  const std::vector<Felt> felt = felt_forces(state);
+  const std::span<const int> number = state.halo->numbers();
   std::vector<char> one_by_one = asked;  // bodies whose members are told
   std::vector<std::size_t> counts(owners.any() ? sums.size() : 1);
   const auto count_of = [&](std::size_t b) -> std::size_t& { return counts[owners.any() ? b : 0]; };
@@ -120,7 +120,7 @@ std::vector<double> told_members(const World& world, const std::vector<char>& as
     if (owners.is_alone(b)) one_by_one[b] = 0;
 
   std::vector<double> told;
-  each_member(world, one_by_one, owners.members(), [&](std::size_t i, std::size_t b, const Vec3& arm) {
+  each_member(state, one_by_one, owners.members(), [&](std::size_t i, std::size_t b, const Vec3& arm) {
     if (std::ranges::all_of(felt, [&](const Felt& f) { return f.force.at(i) == Vec3{}; }) ||
         ++count_of(b) > most_told)
       return;
@@ -129,18 +129,18 @@ std::vector<double> told_members(const World& world, const std::vector<char>& as
     for (const Felt& f : felt) put(told, f.force.at(i), cross(arm, f.force.at(i)));
   });
   if (std::ranges::any_of(counts, [](std::size_t count) { return count > most_told; })) {
-    each_kept_body(world, [&](std::size_t b) { one_by_one[b] = one_by_one[b] && count_of(b) <= most_told; });
+    each_kept_body(state, [&](std::size_t b) { one_by_one[b] = one_by_one[b] && count_of(b) <= most_told; });
     told = records_of(told, one_by_one, width_of(felt));
   }
-  each_kept_body(world, [&](std::size_t b) {
+  each_kept_body(state, [&](std::size_t b) {
     if (asked[b] && !one_by_one[b]) put_sum(felt, b, sums[b], told);
   });
   return told;
 }
 
 /// What is told, where it is added up: by every process or, of each body, by its owner.
-std::vector<double> brought(const World& world, const std::vector<double>& told, std::size_t width) {
-  return world.body_owners.any() ? world.body_owners.to_owners(world, told, width) : world.halo->all_of(told);
+std::vector<double> brought(const State& state, const std::vector<double>& told, std::size_t width) {
+  return state.body_owners.any() ? state.body_owners.to_owners(state, told, width) : state.halo->all_of(told);
 }
 
 void take_sum(const std::vector<Felt>& felt, BodyForces& sum, const double* from) {
@@ -153,41 +153,41 @@ void take_sum(const std::vector<Felt>& felt, BodyForces& sum, const double* from
 
 /// The sums of all processes, in the order of one: members by their numbers, and what feels nothing adds
 /// nothing.
-void add_over_halo(const World& world, const std::vector<char>& asked, std::vector<BodyForces>& sums) {
-  if (!world.halo || sums.empty()) return;
-  const std::vector<Felt> felt = felt_forces(world);
+void add_over_halo(const State& state, const std::vector<char>& asked, std::vector<BodyForces>& sums) {
+  if (!state.halo || sums.empty()) return;
+  const std::vector<Felt> felt = felt_forces(state);
   const auto width = static_cast<std::size_t>(width_of(felt));
-  const std::vector<double> told = brought(world, told_members(world, asked, sums), width);
-  each_kept_body(world, [&](std::size_t b) { sums[b] = no_forces(world); });
+  const std::vector<double> told = brought(state, told_members(state, asked, sums), width);
+  each_kept_body(state, [&](std::size_t b) { sums[b] = no_forces(state); });
   for (const double* from : records_in_order(told, width))
     take_sum(felt, sums[static_cast<std::size_t>(from[1])], from + 2);
-  if (!world.body_owners.any()) return;
-  world.body_owners.to_keepers(
-      world, width - 2,
+  if (!state.body_owners.any()) return;
+  state.body_owners.to_keepers(
+      state, width - 2,
       [&](std::size_t b, std::vector<double>& to) {
         for (const Felt& f : felt) put(to, sums[b].forces[f.number], sums[b].torques[f.number]);
       },
       [&](std::size_t b, const double* from) {
-        sums[b] = no_forces(world);
+        sums[b] = no_forces(state);
         take_sum(felt, sums[b], from);
       });
 }
 
 }  // namespace
 
-std::vector<BodyForces> forces_on_bodies(const World& world) {
-  std::vector<BodyForces> sums(world.bodies.size(), no_forces(world));
-  if (!sums.empty()) sum_forces(world, std::vector<char>(world.bodies.size(), 1), {}, sums);
+std::vector<BodyForces> forces_on_bodies(const State& state) {
+  std::vector<BodyForces> sums(state.bodies.size(), no_forces(state));
+  if (!sums.empty()) sum_forces(state, std::vector<char>(state.bodies.size(), 1), {}, sums);
   return sums;
 }
 
-void forces_on_moving_bodies(const World& world, std::vector<BodyForces>& sums) {
-  if (world.bodies.size() == 0) return sums.clear();
-  std::vector<char> asked(world.bodies.size());
-  each_kept_body(world, [&](std::size_t b) { asked[b] = moves(world, b); });
-  if (!world.body_owners.any() && std::ranges::find(asked, 1) == asked.end()) return sums.clear();
-  sum_forces(world, asked, world.body_owners.members(), sums);
-  add_over_halo(world, asked, sums);
+void forces_on_moving_bodies(const State& state, std::vector<BodyForces>& sums) {
+  if (state.bodies.size() == 0) return sums.clear();
+  std::vector<char> asked(state.bodies.size());
+  each_kept_body(state, [&](std::size_t b) { asked[b] = moves(state, b); });
+  if (!state.body_owners.any() && std::ranges::find(asked, 1) == asked.end()) return sums.clear();
+  sum_forces(state, asked, state.body_owners.members(), sums);
+  add_over_halo(state, asked, sums);
 }
 
 }  // namespace tripoint

@@ -3,11 +3,11 @@
 #include <array>
 #include <vector>
 
-#include "world/world.hpp"
+#include "state/state.hpp"
 
 namespace tripoint {
 
-/// Forces on the members of one rigid body from all others (18). These are the sum of each of World::forces
+/// Forces on the members of one rigid body from all others (18). These are the sum of each of State::forces
 /// that bodies feel, in their order, and its torque about the centre of mass.
 struct BodyForces {
   std::array<Vec3, most_forces> forces;   ///< [N]
@@ -25,9 +25,9 @@ struct BodyForces {
 };
 /// One entry a body, sums in order of id over what this process owns; empty where no effect of the scene
 /// makes forces.
-[[nodiscard]] std::vector<BodyForces> forces_on_bodies(const World&);
+[[nodiscard]] std::vector<BodyForces> forces_on_bodies(const State&);
 /// The same for the bodies that move only, zero for others, of all processes that share the scene; empty when
 /// none does. @param sums is used again from call to call
-void forces_on_moving_bodies(const World&, std::vector<BodyForces>& sums);
+void forces_on_moving_bodies(const State&, std::vector<BodyForces>& sums);
 
 }  // namespace tripoint

@@ -15,17 +15,17 @@ namespace {
 /// joined to.
 class Joins {
  public:
-  explicit Joins(const World& world) : count_(world.bodies.size()), joined_(count_ * count_, 0) {
+  explicit Joins(const State& state) : count_(state.bodies.size()), joined_(count_ * count_, 0) {
     for (std::size_t b = 0; b < count_; ++b) {
-      if (!is_rigid(world, b)) set(b, b);
-      const auto source = static_cast<std::size_t>(world.bodies[field::body_source][b]);
-      for (const std::string& name : world.scene.bodies[source].joined_to) {
+      if (!is_rigid(state, b)) set(b, b);
+      const auto source = static_cast<std::size_t>(state.bodies[field::body_source][b]);
+      for (const std::string& name : state.scene.bodies[source].joined_to) {
         const auto other =
-            static_cast<std::size_t>(std::ranges::find(world.body_names, name) - world.body_names.begin());
+            static_cast<std::size_t>(std::ranges::find(state.body_names, name) - state.body_names.begin());
         if (other == count_)
-          throw InputError("the body " + world.body_names[b] + " is joined to " + name +
+          throw InputError("the body " + state.body_names[b] + " is joined to " + name +
                            ", which is liquid: bonds need two solids");
-        if (!is_rigid(world, b) || !is_rigid(world, other)) set(b, other);
+        if (!is_rigid(state, b) || !is_rigid(state, other)) set(b, other);
       }
     }
   }
@@ -52,15 +52,15 @@ struct Candidates {
   Particles places;
 };
 
-Candidates candidates_of(const World& world, const Joins& joined) {
+Candidates candidates_of(const State& state, const Joins& joined) {
   Candidates found;
-  const Particles& p = world.particles;
+  const Particles& p = state.particles;
   const auto body = p[field::body];
   for (std::uint32_t id = 0; id < p.size(); ++id) {
     const int b = body[p.row(id)];
     if (b >= 0 && joined.any(static_cast<std::size_t>(b))) found.ids.push_back(id);
   }
-  found.places = Particles(found.ids.size(), common_fields(world.box.any()));
+  found.places = Particles(found.ids.size(), common_fields(state.box.any()));
   for (std::size_t n = 0; n < found.ids.size(); ++n)
     positions(found.places).set(n, p.position(p.row(found.ids[n])));
   return found;
@@ -70,12 +70,12 @@ Candidates candidates_of(const World& world, const Joins& joined) {
 constexpr double most_stretch = 1.15;
 
 /// Bonds are told apart by the nearest image, so one must be shorter than half the box, also when stretched.
-void refuse_narrow_box(const World& world) {
-  const double least = 2.0 * most_stretch * bond_reach(world.scene) * world.scene.spacing;
+void refuse_narrow_box(const State& state) {
+  const double least = 2.0 * most_stretch * bond_reach(state.scene) * state.scene.spacing;
   for (std::size_t a = 0; a < 3; ++a) {
-    if (!world.box.periodic[a] || world.box.width[a] >= least) continue;
+    if (!state.box.periodic[a] || state.box.width[a] >= least) continue;
     throw InputError(std::string("the periodic direction ") + "xyz"[a] + " is " +
-                     std::to_string(world.box.width[a]) + " m wide, and bonds of elastic bodies need " +
+                     std::to_string(state.box.width[a]) + " m wide, and bonds of elastic bodies need " +
                      std::to_string(least) +
                      " m to be told apart: make the domain wider or the spacing smaller");
   }
@@ -83,18 +83,18 @@ void refuse_narrow_box(const World& world) {
 
 /// Which candidates are members of rigid bodies with a particle of a deformable body within reach. These own
 /// strain energy, and need their mates for it.
-std::vector<char> joints_of(const World& world, const Joins& joined, const Candidates& found,
+std::vector<char> joints_of(const State& state, const Joins& joined, const Candidates& found,
                             const Neighbours& near, double reach) {
   std::vector<char> at_joint(found.ids.size(), 0);
-  const ElasticParticles is_elastic(world);
-  const auto body = world.particles[field::body];
+  const ElasticParticles is_elastic(state);
+  const auto body = state.particles[field::body];
   const auto place = found.places[field::id];
   for (std::size_t n = 0; n < found.ids.size(); ++n) {
-    const std::size_t i = world.particles.row(found.ids[n]);
+    const std::size_t i = state.particles.row(found.ids[n]);
     if (is_elastic(i)) continue;
     at_joint[n] = std::ranges::any_of(near.of(found.places.row(n)), [&](Entry e) {
-      const std::size_t j = world.particles.row(found.ids[static_cast<std::size_t>(place[e.row()])]);
-      return is_elastic(j) && joined(body[i], body[j]) && norm(separation(world, j, i)) < reach;
+      const std::size_t j = state.particles.row(found.ids[static_cast<std::size_t>(place[e.row()])]);
+      return is_elastic(j) && joined(body[i], body[j]) && norm(separation(state, j, i)) < reach;
     });
   }
   return at_joint;
@@ -129,41 +129,41 @@ double own_weight(const Scene& scene, double distance) {
   return WendlandC2(scene.support_ratio * scene.spacing).value(distance);
 }
 
-Vec3 separation(const World& world, std::size_t i, std::size_t j, double back) {
-  const Particles& p = world.particles;
+Vec3 separation(const State& state, std::size_t i, std::size_t j, double back) {
+  const Particles& p = state.particles;
   const auto place = [&](std::size_t row) {
     return back == 0.0 ? p.position(row) : p.position(row) - back * p.velocity(row);
   };
-  return nearest_image(world.box, place(j) - place(i));
+  return nearest_image(state.box, place(j) - place(i));
 }
 
-void connect_solids(World& world) {
-  if (!can_have_deformable_bodies(world.scene)) return;
-  const Joins joined(world);
-  Candidates found = candidates_of(world, joined);
+void connect_solids(State& state) {
+  if (!can_have_deformable_bodies(state.scene)) return;
+  const Joins joined(state);
+  Candidates found = candidates_of(state, joined);
   if (found.ids.empty()) return;
-  refuse_narrow_box(world);
+  refuse_narrow_box(state);
   // Without pressure own pairs have nothing to be kept from
-  const bool meets = world.particles.has(field::force_x.name);
-  const bool paper = world.scene.mode_of(term::density) == Mode::paper;
-  const double reach = bond_reach(world.scene) * world.scene.spacing,
-               search = meets && !paper ? std::max(reach, world.support()) : reach;
-  Neighbours near(search, 0.0, world.box, world.threads);
+  const bool meets = state.particles.has(field::force_x.name);
+  const bool paper = state.scene.mode_of(term::density) == Mode::paper;
+  const double reach = bond_reach(state.scene) * state.scene.spacing,
+               search = meets && !paper ? std::max(reach, state.support()) : reach;
+  Neighbours near(search, 0.0, state.box, state.threads);
   near.update(found.places, 0.0);
-  const std::vector<char> at_joint = joints_of(world, joined, found, near, reach);
-  const ElasticityKernel kernel = bond_kernel(world.scene);
-  const auto body = world.particles[field::body];
+  const std::vector<char> at_joint = joints_of(state, joined, found, near, reach);
+  const ElasticityKernel kernel = bond_kernel(state.scene);
+  const auto body = state.particles[field::body];
   const auto place = found.places[field::id];
   for (std::size_t n = 0; n < found.ids.size(); ++n) {
-    const std::size_t row = found.places.row(n), i = world.particles.row(found.ids[n]);
+    const std::size_t row = found.places.row(n), i = state.particles.row(found.ids[n]);
     std::vector<Bond> bonds;
     std::vector<OwnPair> own;
     for (const Entry e : near.of(row)) {
       const auto other = static_cast<std::size_t>(place[e.row()]);
-      const std::size_t j = world.particles.row(found.ids[other]);
+      const std::size_t j = state.particles.row(found.ids[other]);
       const bool mates = body[i] == body[j] && (at_joint[n] || at_joint[other]);
       if (!joined(body[i], body[j]) && !mates) continue;
-      const Vec3 x = separation(world, j, i);
+      const Vec3 x = separation(state, j, i);
       const double r = norm(x);
       const bool bonded = r < reach;
       if (bonded) {
@@ -171,16 +171,16 @@ void connect_solids(World& world) {
         bonds.back().other = found.ids[other];
       }
       if (meets && !mates && (bonded || !paper))
-        own.push_back({found.ids[other], paper ? 0.0 : own_weight(world.scene, r)});
+        own.push_back({found.ids[other], paper ? 0.0 : own_weight(state.scene, r)});
     }
     std::ranges::sort(bonds, {}, &Bond::other);
     std::ranges::sort(own, {}, &OwnPair::other);
-    world.bonds.replace(found.ids[n], bonds);
-    if (meets) world.own.replace(found.ids[n], own);
+    state.bonds.replace(found.ids[n], bonds);
+    if (meets) state.own.replace(found.ids[n], own);
   }
-  set_twins(world.bonds, found.ids);
-  world.bonds.compact();
-  world.own.compact();
+  set_twins(state.bonds, found.ids);
+  state.bonds.compact();
+  state.own.compact();
 }
 
 }  // namespace tripoint::solid

@@ -7,7 +7,7 @@
 
 #include "scene/phase_values.hpp"
 #include "scene/shared_terms.hpp"
-#include "world/world.hpp"
+#include "state/state.hpp"
 
 /// Melting and freezing of one particle, the state (H, f) of model 8.9: H = m (c_p T + L f), 0 <= f <= 1.
 namespace tripoint {
@@ -108,14 +108,14 @@ struct ThermalState {
 /// Gives heat to one particle [J], of either sign, in the state of the form that is on (H, or as printed T).
 /// A particle whose temperature is held hands the heat on to its holder. While a step of H is under way f
 /// waits for its end, as for all other heat.
-inline void give_heat(World& world, std::size_t row, double joules) {
-  Particles& p = world.particles;
+inline void give_heat(State& state, std::size_t row, double joules) {
+  Particles& p = state.particles;
   if (p[field::held][row] != 0) {
-    world.booked[account::walls] += joules;
+    state.booked[account::walls] += joules;
     return;
   }
   const double capacity = p[field::mass][row] * p[field::heat_capacity][row];
-  const Fusion fusion = fusion_of(world.scene, world.material_of(row));
+  const Fusion fusion = fusion_of(state.scene, state.material_of(row));
   double& T = p[field::temperature][row];
   double& f = p[field::liquid_fraction][row];
   if (p.has(field::enthalpy.name)) {
@@ -123,9 +123,9 @@ inline void give_heat(World& world, std::size_t row, double joules) {
     H += joules;
     T = settled(fusion, temperature_at(fusion, H / capacity, f), f).temperature;
   } else {
-    const ThermalState state = settled(fusion, T + joules / capacity, f);
-    T = state.temperature;
-    f = state.liquid_fraction;
+    const ThermalState thermal = settled(fusion, T + joules / capacity, f);
+    T = thermal.temperature;
+    f = thermal.liquid_fraction;
   }
 }
 

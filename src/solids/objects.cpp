@@ -7,16 +7,16 @@
 #include <string>
 #include <utility>
 
-#include "world/body_table.hpp"
+#include "state/body_table.hpp"
 
 namespace tripoint {
 namespace {
 
 constexpr std::uint32_t no_node = ~std::uint32_t{0};
 
-bool is_driven(const World& world, int body) {
+bool is_driven(const State& state, int body) {
   return body >= 0 &&
-         world.bodies[field::body_motion][static_cast<std::size_t>(body)] != static_cast<int>(Motion::free);
+         state.bodies[field::body_motion][static_cast<std::size_t>(body)] != static_cast<int>(Motion::free);
 }
 
 /// A member of a changed body, or a particle that froze.
@@ -54,7 +54,7 @@ class Sets {
 
 class Grouping {
  public:
-  Grouping(World& world, const ChangedBodies& changed) : world_(world), rows_(changed.bodies) {
+  Grouping(State& state, const ChangedBodies& changed) : state_(state), rows_(changed.bodies) {
     sort_once(rows_);
     collect(changed.frozen);
   }
@@ -79,7 +79,7 @@ class Grouping {
   /// Component that the particle with this id belongs to, or below -1 its unchanged body; -1 for liquids.
   [[nodiscard]] int holder(std::uint32_t id) const;
 
-  World& world_;
+  State& state_;
   std::vector<std::size_t> rows_;
   std::vector<Node> nodes_;          ///< ascending by id
   std::vector<std::uint32_t> node_;  ///< by id
@@ -90,9 +90,9 @@ class Grouping {
 };
 
 void Grouping::collect(const std::vector<std::uint32_t>& frozen) {
-  const Particles& p = world_.particles;
+  const Particles& p = state_.particles;
   const auto body = p[field::body], source = p[field::source], phase = p[field::phase];
-  std::vector<char> is_changed(world_.bodies.size(), 0);
+  std::vector<char> is_changed(state_.bodies.size(), 0);
   for (const std::size_t b : rows_) is_changed[b] = 1;
   std::vector<std::uint32_t> ids = frozen;
   for (std::size_t i = 0; i < body.size(); ++i)
@@ -104,10 +104,10 @@ void Grouping::collect(const std::vector<std::uint32_t>& frozen) {
     const std::size_t i = p.row(id);
     const int b = body[i];
     const bool rigid =
-        b >= 0 ? is_rigid(world_, static_cast<std::size_t>(b)) : phase[i] == static_cast<int>(Phase::rigid);
+        b >= 0 ? is_rigid(state_, static_cast<std::size_t>(b)) : phase[i] == static_cast<int>(Phase::rigid);
     node_[id] = static_cast<std::uint32_t>(nodes_.size());
     nodes_.push_back({id, b, rigid,
-                      b >= 0 && world_.bodies[field::body_source][static_cast<std::size_t>(b)] == source[i]});
+                      b >= 0 && state_.bodies[field::body_source][static_cast<std::size_t>(b)] == source[i]});
   }
 }
 
@@ -115,25 +115,25 @@ void Grouping::collect(const std::vector<std::uint32_t>& frozen) {
 std::map<std::pair<int, int>, std::uint32_t> Grouping::blocks_that_never_melt() const {
   std::map<std::pair<int, int>, std::uint32_t> first;
   for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
-    const std::size_t i = world_.particles.row(nodes_[n].id);
-    if (nodes_[n].body >= 0 && nodes_[n].rigid && !world_.material_of(i).t_melt)
-      first.try_emplace({nodes_[n].body, world_.particles[field::source][i]}, n);
+    const std::size_t i = state_.particles.row(nodes_[n].id);
+    if (nodes_[n].body >= 0 && nodes_[n].rigid && !state_.material_of(i).t_melt)
+      first.try_emplace({nodes_[n].body, state_.particles[field::source][i]}, n);
   }
   return first;
 }
 
 void Grouping::unite() {
   std::vector<int> driven;
-  for (const Node& node : nodes_) driven.push_back(is_driven(world_, node.body) ? node.body : -1);
+  for (const Node& node : nodes_) driven.push_back(is_driven(state_, node.body) ? node.body : -1);
   Sets sets(std::move(driven));
-  const double joins = joining_distance(world_.scene);
+  const double joins = joining_distance(state_.scene);
   const auto blocks = blocks_that_never_melt();
   for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
     const Node& node = nodes_[n];
-    const std::size_t i = world_.particles.row(node.id);
-    if (node.body >= 0 && node.rigid && !world_.material_of(i).t_melt)
-      sets.unite(n, blocks.at({node.body, world_.particles[field::source][i]}));
-    for (const Bond& bond : world_.bonds.of(node.id)) {
+    const std::size_t i = state_.particles.row(node.id);
+    if (node.body >= 0 && node.rigid && !state_.material_of(i).t_melt)
+      sets.unite(n, blocks.at({node.body, state_.particles[field::source][i]}));
+    for (const Bond& bond : state_.bonds.of(node.id)) {
       const std::uint32_t m = node_[bond.other];
       if (m == no_node || norm(bond.x) >= joins) continue;
       if (node.rigid == nodes_[m].rigid && same_body_or_new(node, nodes_[m])) sets.unite(n, m);
@@ -161,7 +161,7 @@ void Grouping::assign_rows() {
     const Node& node = nodes_[n];
     if (node.body < 0) continue;
     Claim& claim = has[component_[n]][node.body];
-    claim.driven = is_driven(world_, node.body);
+    claim.driven = is_driven(state_, node.body);
     claim.share += claim.driven && !node.given ? 0 : 1;
   }
   std::map<int, std::pair<std::size_t, std::size_t>> keeper;  // body -> share, component that has most of it
@@ -187,37 +187,37 @@ void Grouping::assign_rows() {
 
 int Grouping::new_row(std::size_t component) {
   const std::vector<std::uint32_t>& group = members_[component];
-  const std::size_t first = world_.particles.row(nodes_[group.front()].id);
-  const auto phase = world_.particles[field::phase];
+  const std::size_t first = state_.particles.row(nodes_[group.front()].id);
+  const auto phase = state_.particles[field::phase];
   const bool deformable = std::ranges::all_of(group, [&](std::uint32_t n) {
-    return phase[world_.particles.row(nodes_[n].id)] == static_cast<int>(Phase::elastic);
+    return phase[state_.particles.row(nodes_[n].id)] == static_cast<int>(Phase::elastic);
   });
   std::map<int, std::size_t> parts;
   for (const std::uint32_t n : group)
     if (nodes_[n].body >= 0) ++parts[nodes_[n].body];
   const auto most = std::ranges::max_element(parts, {}, [](const auto& part) { return part.second; });
-  const std::string parent = most != parts.end() ? world_.body_names[static_cast<std::size_t>(most->first)]
-                                                 : world_.material_of(first).name;
+  const std::string parent = most != parts.end() ? state_.body_names[static_cast<std::size_t>(most->first)]
+                                                 : state_.material_of(first).name;
   std::size_t n = 1;
-  while (std::ranges::find(world_.body_names, parent + "." + std::to_string(n)) != world_.body_names.end())
+  while (std::ranges::find(state_.body_names, parent + "." + std::to_string(n)) != state_.body_names.end())
     ++n;
   return static_cast<int>(
-      add_body(world_, parent + "." + std::to_string(n), deformable ? Phase::elastic : Phase::rigid));
+      add_body(state_, parent + "." + std::to_string(n), deformable ? Phase::elastic : Phase::rigid));
 }
 
 int Grouping::holder(std::uint32_t id) const {
   if (node_[id] != no_node) return static_cast<int>(component_[node_[id]]);
-  const int body = world_.particles[field::body][world_.particles.row(id)];
+  const int body = state_.particles[field::body][state_.particles.row(id)];
   return body >= 0 ? -2 - body : -1;
 }
 
 void Grouping::end_pairs(const BeforeRelisting& before) {
-  const double joins = joining_distance(world_.scene);
+  const double joins = joining_distance(state_.scene);
   std::set<std::pair<int, int>> joints;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> across;
   for (const Node& node : nodes_) {
     const int own = holder(node.id);
-    for (const Bond& bond : world_.bonds.of(node.id)) {
+    for (const Bond& bond : state_.bonds.of(node.id)) {
       const int other = holder(bond.other);
       if (other == own || other == -1) continue;
       if (norm(bond.x) < joins) {
@@ -237,36 +237,36 @@ void Grouping::end_pairs(const BeforeRelisting& before) {
   sort_once(losers);
   if (before) std::ranges::for_each(losers, before);
   for (const auto& [i, j] : across)
-    disconnect(world_.bonds, i, [&, j = j](const Bond& b) { return b.other == j; });
-  Change& change = world_.change;
+    disconnect(state_.bonds, i, [&, j = j](const Bond& b) { return b.other == j; });
+  Change& change = state_.change;
   change.relisted.insert(change.relisted.end(), losers.begin(), losers.end());
   for (const Node& node : nodes_) {
     std::vector<std::uint32_t> ends;
-    for (const OwnPair& pair : std::as_const(world_.own).of(node.id))
+    for (const OwnPair& pair : std::as_const(state_.own).of(node.id))
       if (!holds(node.id, pair.other)) ends.push_back(pair.other);
     for (const std::uint32_t j : ends) {
-      end_own(world_.own, node.id, j);
+      end_own(state_.own, node.id, j);
       change.relisted.insert(change.relisted.end(), {node.id, j});
     }
   }
 }
 
 void Grouping::record_change() {
-  Change& change = world_.change;
-  const auto body = world_.particles[field::body];
-  std::vector<char> lives(world_.bodies.size(), 0);
+  Change& change = state_.change;
+  const auto body = state_.particles[field::body];
+  std::vector<char> lives(state_.bodies.size(), 0);
   for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
     const int row = row_[component_[n]];
     lives[static_cast<std::size_t>(row)] = 1;
     if (row == nodes_[n].body) continue;
-    body[world_.particles.row(nodes_[n].id)] = row;
+    body[state_.particles.row(nodes_[n].id)] = row;
     change.regrouped.push_back(nodes_[n].id);
     change.bodies.push_back(static_cast<std::size_t>(row));
     if (nodes_[n].body >= 0) change.bodies.push_back(static_cast<std::size_t>(nodes_[n].body));
   }
   for (const std::size_t b : rows_) {
-    if (lives[b] || !is_alive(world_, b)) continue;
-    world_.bodies[field::body_alive][b] = 0;
+    if (lives[b] || !is_alive(state_, b)) continue;
+    state_.bodies[field::body_alive][b] = 0;
     change.bodies.push_back(b);
   }
   sort_once(change.regrouped);
@@ -276,8 +276,8 @@ void Grouping::record_change() {
 
 }  // namespace
 
-void regroup(World& world, const ChangedBodies& changed, const BeforeRelisting& before) {
-  Grouping(world, changed).run(before);
+void regroup(State& state, const ChangedBodies& changed, const BeforeRelisting& before) {
+  Grouping(state, changed).run(before);
 }
 
 namespace {
@@ -288,15 +288,15 @@ struct Held {
   std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
 };
 
-Held held_here(const World& world) {
-  Held held{std::vector<char>(world.bodies.size(), 0), {}};
-  const auto body = world.particles[field::body];
-  for (std::uint32_t id = 0; id < world.particles.size(); ++id) {
-    const int b = body[world.particles.row(id)];
+Held held_here(const State& state) {
+  Held held{std::vector<char>(state.bodies.size(), 0), {}};
+  const auto body = state.particles[field::body];
+  for (std::uint32_t id = 0; id < state.particles.size(); ++id) {
+    const int b = body[state.particles.row(id)];
     if (b < 0) continue;
     held.lives[static_cast<std::size_t>(b)] = 1;
-    for (const Bond& bond : world.bonds.of(id)) {
-      const int other = body[world.particles.row(bond.other)];
+    for (const Bond& bond : state.bonds.of(id)) {
+      const int other = body[state.particles.row(bond.other)];
       if (other >= 0 && other != b)
         held.pairs.insert(std::minmax(static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(other)));
     }
@@ -306,14 +306,14 @@ Held held_here(const World& world) {
 
 /// In a shared scene each process tells which bodies it has seen, and which of them hold together. For a
 /// chain of bodies it does not tell each pair, but one less than there are bodies.
-void add_over_halo(const World& world, Held& held) {
-  if (!world.halo) return;
-  Sets here(std::vector<int>(world.bodies.size(), -1));
+void add_over_halo(const State& state, Held& held) {
+  if (!state.halo) return;
+  Sets here(std::vector<int>(state.bodies.size(), -1));
   for (const auto& [a, b] : held.pairs) here.unite(a, b);
   std::vector<double> told;
   for (std::uint32_t b = 0; b < held.lives.size(); ++b)
     if (held.lives[b]) told.insert(told.end(), {static_cast<double>(b), static_cast<double>(here.root(b))});
-  const std::vector<double> all = world.halo->all_of(told);
+  const std::vector<double> all = state.halo->all_of(told);
   for (std::size_t k = 0; k < all.size(); k += 2) {
     const auto body = static_cast<std::uint32_t>(all[k]), root = static_cast<std::uint32_t>(all[k + 1]);
     held.lives[body] = 1;
@@ -323,10 +323,10 @@ void add_over_halo(const World& world, Held& held) {
 
 }  // namespace
 
-std::size_t count_objects(const World& world) {
-  Held held = held_here(world);
-  add_over_halo(world, held);
-  Sets sets(std::vector<int>(world.bodies.size(), -1));
+std::size_t count_objects(const State& state) {
+  Held held = held_here(state);
+  add_over_halo(state, held);
+  Sets sets(std::vector<int>(state.bodies.size(), -1));
   for (const auto& [a, b] : held.pairs) sets.unite(a, b);
   std::size_t count = 0;
   for (std::uint32_t b = 0; b < held.lives.size(); ++b) count += held.lives[b] && sets.root(b) == b ? 1 : 0;

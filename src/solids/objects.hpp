@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "world/world.hpp"
+#include "state/state.hpp"
 
 /// Which particles are one body, and which bodies hold together: connected components over bonds (model 8.9).
 namespace tripoint {
@@ -27,7 +27,7 @@ struct ChangedBodies {
 using BeforeRelisting = std::function<void(std::uint32_t id)>;
 
 /// Makes one body of each connected component of the changed bodies and of frozen particles, and records it
-/// in World::change.
+/// in State::change.
 /// - Bonds shorter than joining_distance() connect members of one body, and frozen particles with bodies of
 /// their kind. Rigid
 ///   ones (all that move as one) join rigid ones, deformable ones join deformable ones. Two bodies that were
@@ -43,11 +43,11 @@ using BeforeRelisting = std::function<void(std::uint32_t id)>;
 /// bodies.
 /// @param before told ahead of the changes to lists of bonds, so that the caller can book the energy let go;
 /// may be empty
-void regroup(World&, const ChangedBodies&, const BeforeRelisting& before);
+void regroup(State&, const ChangedBodies&, const BeforeRelisting& before);
 
 /// Objects of which the solids are made: bodies that bonds of any length hold together, rigid with deformable
 /// ones, are one object.
-[[nodiscard]] std::size_t count_objects(const World&);
+[[nodiscard]] std::size_t count_objects(const State&);
 
 /// Ids or rows in order, each once.
 template <class T>

@@ -21,14 +21,14 @@ constexpr int no_energy_rank = 3;
 
 /// Which material's constants a particle's energy has, and how many times. They are its own; a member of a
 /// rigid body has those of the elastic partner with the lowest id.
-void set_stiffness(World& world, const ElasticParticles& is_elastic, std::uint32_t id) {
-  Particles& p = world.particles;
+void set_stiffness(State& state, const ElasticParticles& is_elastic, std::uint32_t id) {
+  Particles& p = state.particles;
   const std::size_t i = p.row(id);
   p[field::solid_material][i] = p[field::material][i];
   p[field::solid_stiffness][i] = is_elastic(i) ? 1.0 : 0.0;
   if (is_elastic(i) || p[field::body][i] < 0) return;
   std::uint32_t lowest = std::numeric_limits<std::uint32_t>::max();
-  for (const Bond& b : std::as_const(world.bonds).of(id))
+  for (const Bond& b : std::as_const(state.bonds).of(id))
     if (is_elastic(p.row(b.other))) lowest = std::min(lowest, b.other);
   if (lowest == std::numeric_limits<std::uint32_t>::max()) return;
   p[field::solid_material][i] = p[field::material][p.row(lowest)];
@@ -37,60 +37,60 @@ void set_stiffness(World& world, const ElasticParticles& is_elastic, std::uint32
 
 /// v_i [m3]: m/rho0; printed (11) m_i / sum_j m_j W(x_ij), for particles that have all their body neighbours
 /// in the list.
-double volume_of(const World& world, bool paper, bool owns, std::uint32_t id) {
-  const std::size_t i = world.particles.row(id);
-  const auto m = world.particles[field::mass];
-  if (!paper || !owns) return m[i] / world.material_of(i).density;
-  double sum = m[i] * bond_kernel(world.scene).value(0.0);
-  for (const Bond& b : world.bonds.of(id)) sum += m[world.particles.row(b.other)] * b.weight;
+double volume_of(const State& state, bool paper, bool owns, std::uint32_t id) {
+  const std::size_t i = state.particles.row(id);
+  const auto m = state.particles[field::mass];
+  if (!paper || !owns) return m[i] / state.material_of(i).density;
+  double sum = m[i] * bond_kernel(state.scene).value(0.0);
+  for (const Bond& b : state.bonds.of(id)) sum += m[state.particles.row(b.other)] * b.weight;
   return m[i] / sum;
 }
 
 /// M_i = sum_j v_j gradW(x_ij)(x_j - x_i)^T
-Symmetric moment_of(const World& world, std::uint32_t id) {
-  const auto volume = world.particles[field::solid_volume];
+Symmetric moment_of(const State& state, std::uint32_t id) {
+  const auto volume = state.particles[field::solid_volume];
   Symmetric M;
-  for (const Bond& b : world.bonds.of(id))
-    M = M + symmetric_part(-volume[world.particles.row(b.other)] * outer(b.gradient, b.x));
+  for (const Bond& b : state.bonds.of(id))
+    M = M + symmetric_part(-volume[state.particles.row(b.other)] * outer(b.gradient, b.x));
   return M;
 }
 
 /// Sets the gradients of a list. @param to called as to(bond), its gradient [1/m4]
 template <class To>
-void set_gradients(World& world, std::uint32_t id, To to) {
-  const auto list = std::as_const(world.bonds).of(id);
+void set_gradients(State& state, std::uint32_t id, To to) {
+  const auto list = std::as_const(state.bonds).of(id);
   if (std::ranges::all_of(list, [&](const Bond& b) { return b.gradient == to(b); }))
     return;  // the list counts as changed where it is
-  for (Bond& b : world.bonds.edit(id)) b.gradient = to(b);
+  for (Bond& b : state.bonds.edit(id)) b.gradient = to(b);
 }
 
 /// grad W(x_ij), whatever stood for it.
-void set_kernel_gradients(World& world, const ElasticityKernel& kernel, std::uint32_t id) {
-  set_gradients(world, id, [&](const Bond& b) { return bond_of(kernel, b.x).gradient; });
+void set_kernel_gradients(State& state, const ElasticityKernel& kernel, std::uint32_t id) {
+  set_gradients(state, id, [&](const Bond& b) { return bond_of(kernel, b.x).gradient; });
 }
 
 /// At a surface: grad W + M_i c_ij/v_j, so that d_ij = v_j A_i of it has the correction c_ij.
-void correct_for_bending(World& world, std::uint32_t id, double share, const Symmetric& moment,
+void correct_for_bending(State& state, std::uint32_t id, double share, const Symmetric& moment,
                          const Symmetric& A) {
-  const auto list = std::as_const(world.bonds).of(id);
+  const auto list = std::as_const(state.bonds).of(id);
   const auto volume_of = [&](const Bond& b) {
-    return world.particles[field::solid_volume][world.particles.row(b.other)];
+    return state.particles[field::solid_volume][state.particles.row(b.other)];
   };
   std::vector<GradientPoint> points;
   for (const Bond& b : list) points.push_back({-b.x, -volume_of(b) * dot(b.gradient, b.x) / dot(b.x, b.x)});
   if (!at_surface(points)) return;
   const std::vector<Vec3> correction = curvature_correction(points, A);
-  set_gradients(world, id, [&, first = list.data()](const Bond& b) {
+  set_gradients(state, id, [&, first = list.data()](const Bond& b) {
     const Vec3& c = correction[static_cast<std::size_t>(&b - first)];
     return b.gradient + (share / volume_of(b)) * (moment * c);
   });
 }
 
-bool is_regular(const World& world, std::uint32_t id) {
-  const auto rank = world.particles[field::shape_rank];
-  if (rank[world.particles.row(id)] != 3) return false;
-  return std::ranges::all_of(world.bonds.of(id),
-                             [&](const Bond& b) { return rank[world.particles.row(b.other)] == 3; });
+bool is_regular(const State& state, std::uint32_t id) {
+  const auto rank = state.particles[field::shape_rank];
+  if (rank[state.particles.row(id)] != 3) return false;
+  return std::ranges::all_of(state.bonds.of(id),
+                             [&](const Bond& b) { return rank[state.particles.row(b.other)] == 3; });
 }
 
 /// Part of one energy U_k in K_ii, with d = d_ki: v_k (mu |d|^2 + (lambda + mu) d d^T).
@@ -101,38 +101,38 @@ Symmetric stiffness(double volume, const ElasticConstants& c, const Vec3& d) {
 
 /// lambda_max(K_ii)/m_i [1/s2]: how fast a particle swings while its neighbours stay, by its own energy and
 /// those of its partners.
-double frequency_of(const World& world, const ElasticForms& forms, std::uint32_t id) {
-  const Particles& p = world.particles;
-  const EnergyOwners owns(world);
+double frequency_of(const State& state, const ElasticForms& forms, std::uint32_t id) {
+  const Particles& p = state.particles;
+  const EnergyOwners owns(state);
   const auto volume = p[field::solid_volume];
   const std::size_t i = p.row(id);
   const Symmetric A = shape_inverse_of(p, i);
   Vec3 own;
   Symmetric K;
   double springs = 0.0;
-  for (const Bond& b : world.bonds.of(id)) {
+  for (const Bond& b : state.bonds.of(id)) {
     const std::size_t j = p.row(b.other);
     const auto spring = [&](std::size_t k, const Bond& of) {
-      return 0.5 * forms.hourglass() * forms.constants(world, k).young * volume[i] * volume[j] * of.weight /
+      return 0.5 * forms.hourglass() * forms.constants(state, k).young * volume[i] * volume[j] * of.weight /
              dot(of.x, of.x);
     };
     own += volume[j] * (A * b.gradient);
     if (owns(i)) springs += spring(i, b);
     if (!owns(j)) continue;
-    const Bond& twin = world.bonds.of(b.other)[b.twin];
+    const Bond& twin = state.bonds.of(b.other)[b.twin];
     springs += spring(j, twin);
     K = K +
-        stiffness(volume[j], forms.constants(world, j), volume[i] * (shape_inverse_of(p, j) * twin.gradient));
+        stiffness(volume[j], forms.constants(state, j), volume[i] * (shape_inverse_of(p, j) * twin.gradient));
   }
-  if (owns(i)) K = K + stiffness(volume[i], forms.constants(world, i), own);
+  if (owns(i)) K = K + stiffness(volume[i], forms.constants(state, i), own);
   return (largest_eigenvalue(K) + springs) / p[field::mass][i];
 }
 
 /// These ids and their partners, ascending, each once.
-std::vector<std::uint32_t> with_partners(const World& world, std::span<const std::uint32_t> ids) {
+std::vector<std::uint32_t> with_partners(const State& state, std::span<const std::uint32_t> ids) {
   std::vector<std::uint32_t> all(ids.begin(), ids.end());
   for (const std::uint32_t id : ids)
-    for (const Bond& b : world.bonds.of(id)) all.push_back(b.other);
+    for (const Bond& b : state.bonds.of(id)) all.push_back(b.other);
   std::ranges::sort(all);
   all.erase(std::ranges::unique(all).begin(), all.end());
   return all;
@@ -172,11 +172,11 @@ ElasticForms::ElasticForms(const Scene& scene)
   }
 }
 
-ElasticForms::Constants::Constants(const ElasticForms& forms, const World& world)
+ElasticForms::Constants::Constants(const ElasticForms& forms, const State& state)
     : forms_(forms),
-      stiffness_(world.particles[field::solid_stiffness]),
-      material_(world.particles[field::solid_material]) {
-  if (world.particles.has(field::stiffness_share.name)) share_ = world.particles[field::stiffness_share];
+      stiffness_(state.particles[field::solid_stiffness]),
+      material_(state.particles[field::solid_material]) {
+  if (state.particles.has(field::stiffness_share.name)) share_ = state.particles[field::stiffness_share];
 }
 
 ElasticConstants ElasticForms::Constants::operator()(std::size_t row) const {
@@ -199,49 +199,49 @@ Symmetric ElasticForms::stress(const Symmetric& elastic_strain, const Symmetric&
   return solid::stress(elastic_strain, P, rank, c);
 }
 
-void refresh_shapes(World& world, std::span<const std::uint32_t> ids, bool first) {
-  Particles& p = world.particles;
-  const ElasticForms forms(world.scene);
-  const ElasticParticles is_elastic(world);
-  const EnergyOwners owns(world);
-  const ElasticityKernel kernel = bond_kernel(world.scene);
-  for (const std::uint32_t id : ids) set_stiffness(world, is_elastic, id);
+void refresh_shapes(State& state, std::span<const std::uint32_t> ids, bool first) {
+  Particles& p = state.particles;
+  const ElasticForms forms(state.scene);
+  const ElasticParticles is_elastic(state);
+  const EnergyOwners owns(state);
+  const ElasticityKernel kernel = bond_kernel(state.scene);
+  for (const std::uint32_t id : ids) set_stiffness(state, is_elastic, id);
   for (const std::uint32_t id : ids)
-    p[field::solid_volume][p.row(id)] = volume_of(world, forms.paper(), owns(p.row(id)), id);
+    p[field::solid_volume][p.row(id)] = volume_of(state, forms.paper(), owns(p.row(id)), id);
   for (const std::uint32_t id : ids) {
     const std::size_t i = p.row(id);
-    ShapeInverse shape{{}, owns(i) || world.bonds.of(id).empty() ? 0 : no_energy_rank};
+    ShapeInverse shape{{}, owns(i) || state.bonds.of(id).empty() ? 0 : no_energy_rank};
     if (owns(i) && forms.paper()) shape = {{1.0, 1.0, 1.0, 0.0, 0.0, 0.0}, 3};
     if (owns(i) && !forms.paper()) {
-      if (forms.bending() != 0.0) set_kernel_gradients(world, kernel, id);
-      const Symmetric moment = moment_of(world, id);
+      if (forms.bending() != 0.0) set_kernel_gradients(state, kernel, id);
+      const Symmetric moment = moment_of(state, id);
       shape = shape_inverse(moment);
       if (forms.bending() != 0.0 && shape.rank == 3)
-        correct_for_bending(world, id, forms.bending(), moment, shape.inverse);
+        correct_for_bending(state, id, forms.bending(), moment, shape.inverse);
     }
     shape_inverses(p).set(i, shape.inverse);
     p[field::shape_rank][i] = shape.rank;
   }
   const bool needs_frequency = !first && p.has(field::bond_frequency.name);
-  for (const std::uint32_t id : with_partners(world, ids)) {
+  for (const std::uint32_t id : with_partners(state, ids)) {
     const std::size_t i = p.row(id);
-    p[field::regular_bonds][i] = is_regular(world, id);
-    if (needs_frequency) p[field::bond_frequency][i] = frequency_of(world, forms, id);
+    p[field::regular_bonds][i] = is_regular(state, id);
+    if (needs_frequency) p[field::bond_frequency][i] = frequency_of(state, forms, id);
   }
 }
 
-Deformation deformation_of(const World& world, const ElasticForms& forms, std::uint32_t id, double back) {
-  const Particles& p = world.particles;
+Deformation deformation_of(const State& state, const ElasticForms& forms, std::uint32_t id, double back) {
+  const Particles& p = state.particles;
   const std::size_t i = p.row(id);
   Deformation d;
   d.rank = p[field::shape_rank][i];
-  if (!EnergyOwners(world)(i)) return d;
+  if (!EnergyOwners(state)(i)) return d;
   const auto volume = p[field::solid_volume];
   const Symmetric A = shape_inverse_of(p, i);
   Matrix3 sum;
-  for (const Bond& b : world.bonds.of(id)) {
+  for (const Bond& b : state.bonds.of(id)) {
     const std::size_t j = p.row(b.other);
-    sum = sum + outer(separation(world, i, j, back) + b.x, volume[j] * b.gradient);
+    sum = sum + outer(separation(state, i, j, back) + b.x, volume[j] * b.gradient);
   }
   d.F = deformation_gradient(sum, A);
   d.P = forms.projector(A, d.rank);
@@ -249,25 +249,25 @@ Deformation deformation_of(const World& world, const ElasticForms& forms, std::u
   return d;
 }
 
-Deformation deformation_of(const World& world, std::uint32_t id) {
-  return deformation_of(world, ElasticForms(world.scene), id);
+Deformation deformation_of(const State& state, std::uint32_t id) {
+  return deformation_of(state, ElasticForms(state.scene), id);
 }
 
-DeformationEnergy deformation_energy(const World& world, const ElasticForms& forms, std::uint32_t id,
+DeformationEnergy deformation_energy(const State& state, const ElasticForms& forms, std::uint32_t id,
                                      double back) {
-  const Particles& p = world.particles;
+  const Particles& p = state.particles;
   const std::size_t i = p.row(id);
-  if (!EnergyOwners(world)(i)) return {};
-  const Deformation d = deformation_of(world, forms, id, back);
+  if (!EnergyOwners(state)(i)) return {};
+  const Deformation d = deformation_of(state, forms, id, back);
   const auto volume = p[field::solid_volume];
-  const ElasticConstants c = forms.constants(world, i);
+  const ElasticConstants c = forms.constants(state, i);
   const Symmetric elastic = between(d.P, d.strain - plastic_strain_of(p, i));
   DeformationEnergy energy{0.5 * volume[i] * contraction(elastic, forms.stress(elastic, d.P, d.rank, c)),
                            0.0};
   if (forms.hourglass() == 0.0) return energy;
-  for (const Bond& b : world.bonds.of(id)) {
+  for (const Bond& b : state.bonds.of(id)) {
     const std::size_t j = p.row(b.other);
-    const Vec3 r = separation(world, i, j, back), x = -b.x;
+    const Vec3 r = separation(state, i, j, back), x = -b.x;
     const Vec3 e = hourglass_residual(d.F, x, r);
     const double flat = hourglass_residual_flat(d.strain, x, r);
     energy.hourglass += 0.25 * forms.hourglass() * c.young * volume[i] * volume[j] * b.weight *
@@ -276,24 +276,24 @@ DeformationEnergy deformation_energy(const World& world, const ElasticForms& for
   return energy;
 }
 
-DeformationEnergy deformation_energy(const World& world, std::uint32_t id) {
-  return deformation_energy(world, ElasticForms(world.scene), id);
+DeformationEnergy deformation_energy(const State& state, std::uint32_t id) {
+  return deformation_energy(state, ElasticForms(state.scene), id);
 }
 
-Quaternion orientation_of(const World& world, std::size_t body) {
-  if (!world.particles.has(field::shape_rank.name)) return {};
-  const ElasticForms forms(world.scene);
+Quaternion orientation_of(const State& state, std::size_t body) {
+  if (!state.particles.has(field::shape_rank.name)) return {};
+  const ElasticForms forms(state.scene);
   std::vector<double> parts;  // of each member its number and nine of a matrix
-  for (const std::size_t i : members(world, body)) {
-    if (!world.owns(i)) continue;
-    const int id = world.particles[field::id][i];
-    const Deformation d = deformation_of(world, forms, static_cast<std::uint32_t>(id));
-    const Matrix3 m = world.particles[field::mass][i] * rotation_of(d.F, d.P, d.rank);
-    const int number = world.halo ? world.halo->numbers()[static_cast<std::size_t>(id)] : id;
+  for (const std::size_t i : members(state, body)) {
+    if (!state.owns(i)) continue;
+    const int id = state.particles[field::id][i];
+    const Deformation d = deformation_of(state, forms, static_cast<std::uint32_t>(id));
+    const Matrix3 m = state.particles[field::mass][i] * rotation_of(d.F, d.P, d.rank);
+    const int number = state.halo ? state.halo->numbers()[static_cast<std::size_t>(id)] : id;
     parts.insert(parts.end(),
                  {static_cast<double>(number), m.xx, m.xy, m.xz, m.yx, m.yy, m.yz, m.zx, m.zy, m.zz});
   }
-  if (world.halo) parts = world.halo->all_of(parts);
+  if (state.halo) parts = state.halo->all_of(parts);
   Matrix3 sum;
   for (const double* n : records_in_order(parts, 10))
     sum = sum + Matrix3{n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9]};

@@ -6,9 +6,9 @@
 
 #include "sph/kernels.hpp"
 #include "sph/solid.hpp"
-#include "world/body_table.hpp"
+#include "state/body_table.hpp"
 
-/// Parts that elasticity, plasticity, fracture and change of phase share: bonds and own pairs of a world, and
+/// Parts that elasticity, plasticity, fracture and change of phase share: bonds and own pairs of a state, and
 /// how its particles are deformed. Particles are named by id.
 namespace tripoint::solid {
 
@@ -27,16 +27,16 @@ namespace tripoint::solid {
 }
 /// r_j - r_i [m] of the nearest images. @param i,j rows
 /// @param back a time [s]: places are r - back v, as they were so long before
-[[nodiscard]] Vec3 separation(const World&, std::size_t i, std::size_t j, double back = 0.0);
+[[nodiscard]] Vec3 separation(const State&, std::size_t i, std::size_t j, double back = 0.0);
 
 /// Bonds and own pairs within each deformable body of the scene, and to bodies that it is joined to.
 /// @throws InputError when a periodic direction is too narrow for bonds to be told apart
-void connect_solids(World&);
+void connect_solids(State&);
 
 /// Tells of rows whether they are particles of deformable bodies.
 class ElasticParticles {
  public:
-  explicit ElasticParticles(const World& world) : body_(world.particles[field::body]), is_rigid_(world) {}
+  explicit ElasticParticles(const State& state) : body_(state.particles[field::body]), is_rigid_(state) {}
   [[nodiscard]] bool operator()(std::size_t row) const { return body_[row] >= 0 && !is_rigid_(row); }
 
  private:
@@ -54,7 +54,7 @@ inline constexpr double joint_stiffness = 4.0;
 /// that are bonded to such. Valid as the lists were when shapes were last refreshed.
 class EnergyOwners {
  public:
-  explicit EnergyOwners(const World& world) : stiffness_(world.particles[field::solid_stiffness]) {}
+  explicit EnergyOwners(const State& state) : stiffness_(state.particles[field::solid_stiffness]) {}
   [[nodiscard]] bool operator()(std::size_t row) const { return stiffness_[row] > 0.0; }
 
  private:
@@ -66,7 +66,7 @@ class EnergyOwners {
 /// partners it also sets which are regular and, where the scene can freeze, the square of the frequency of
 /// each [1/s2].
 /// @param first lists are those of the start: no frequency is needed
-void refresh_shapes(World&, std::span<const std::uint32_t> ids, bool first = false);
+void refresh_shapes(State&, std::span<const std::uint32_t> ids, bool first = false);
 
 /// How a particle of a deformable body is deformed, by its list and the places of now (model 8.7).
 struct Deformation {
@@ -102,14 +102,14 @@ class ElasticForms {
 
    private:
     friend class ElasticForms;
-    Constants(const ElasticForms& forms, const World& world);
+    Constants(const ElasticForms& forms, const State& state);
     const ElasticForms& forms_;
     std::span<const double> stiffness_, share_;
     std::span<const int> material_;
   };
-  [[nodiscard]] Constants constants(const World& world) const { return {*this, world}; }
-  [[nodiscard]] ElasticConstants constants(const World& world, std::size_t row) const {
-    return constants(world)(row);
+  [[nodiscard]] Constants constants(const State& state) const { return {*this, state}; }
+  [[nodiscard]] ElasticConstants constants(const State& state, std::size_t row) const {
+    return constants(state)(row);
   }
   /// P of the scene's form [1]. @param shape_inverse A_i [1]   @param rank of it
   [[nodiscard]] Symmetric projector(const Symmetric& shape_inverse, int rank) const;
@@ -164,9 +164,9 @@ void set_plastic_strain(Particles&, std::size_t row, const Symmetric&);
 [[nodiscard]] Symmetric strain_of(const Particles&, std::size_t row);
 
 /// F, P and strain of one particle by (14). @param back as separation() has it [s]
-[[nodiscard]] Deformation deformation_of(const World&, const ElasticForms&, std::uint32_t id,
+[[nodiscard]] Deformation deformation_of(const State&, const ElasticForms&, std::uint32_t id,
                                          double back = 0.0);
-[[nodiscard]] Deformation deformation_of(const World&, std::uint32_t id);
+[[nodiscard]] Deformation deformation_of(const State&, std::uint32_t id);
 
 /// Energy that one particle stores by its deformation.
 struct DeformationEnergy {
@@ -175,12 +175,12 @@ struct DeformationEnergy {
 };
 /// U_i (10) and the hourglass energy of a particle [J] (model 8.7); zero unless it owns some. @param back as
 /// separation() has it [s]
-[[nodiscard]] DeformationEnergy deformation_energy(const World&, const ElasticForms&, std::uint32_t id,
+[[nodiscard]] DeformationEnergy deformation_energy(const State&, const ElasticForms&, std::uint32_t id,
                                                    double back = 0.0);
-[[nodiscard]] DeformationEnergy deformation_energy(const World&, std::uint32_t id);
+[[nodiscard]] DeformationEnergy deformation_energy(const State&, std::uint32_t id);
 
 /// Orientation of a deformable body: the rotation of the sum of its particles' rotations, weighted by mass.
 /// It starts at the identity, and again for a list that freezing has turned into the present frame.
-[[nodiscard]] Quaternion orientation_of(const World&, std::size_t body);
+[[nodiscard]] Quaternion orientation_of(const State&, std::size_t body);
 
 }  // namespace tripoint::solid

@@ -141,27 +141,27 @@ std::vector<std::uint32_t> row_order(const Checkpoint& kept, std::size_t particl
 }
 
 /// Lists of the same order as those that the run was cut with.
-void restore_lists(World& world, const Checkpoint& kept, const std::vector<std::uint32_t>& order) {
+void restore_lists(State& state, const Checkpoint& kept, const std::vector<std::uint32_t>& order) {
   const std::size_t n = order.size();
   const std::vector<double>& from = take(kept.real, "neighbours/build_positions", 3 * n);
   std::vector<Vec3> built(n);
   for (std::size_t i = 0; i < n; ++i) built[i] = {from[3 * i], from[3 * i + 1], from[3 * i + 2]};
-  world.neighbours->rebuild_from(world.particles, built, world.time,
+  state.neighbours->rebuild_from(state.particles, built, state.time,
                                  take(kept.whole, "neighbours/rebuilds", 1)[0]);
-  const auto id = world.particles[field::id];
+  const auto id = state.particles[field::id];
   for (std::size_t i = 0; i < n; ++i) {
     if (static_cast<std::uint32_t>(id[i]) != order[i])
       throw InputError("the checkpoint's rows are not those of its neighbour lists");
   }
 }
 
-void restore_bodies(World& world, const Checkpoint& kept) {
+void restore_bodies(State& state, const Checkpoint& kept) {
   const auto names = kept.text.find("bodies/name");
-  if (names == kept.text.end() || names->second.size() < world.bodies.size())
+  if (names == kept.text.end() || names->second.size() < state.bodies.size())
     throw InputError("the checkpoint has other bodies than the scene");
-  world.body_names = names->second;
-  while (world.bodies.size() < world.body_names.size()) world.bodies.append_row();
-  restore_columns(world.bodies, "bodies/", kept);
+  state.body_names = names->second;
+  while (state.bodies.size() < state.body_names.size()) state.bodies.append_row();
+  restore_columns(state.bodies, "bodies/", kept);
 }
 
 /// @param here layout() of this solver  @throws InputError naming the first line that differs
@@ -183,14 +183,14 @@ void restore_booked(Bookings& booked, const Checkpoint& kept) {
   booked.undelivered_spin = {spin[0], spin[1], spin[2]};
 }
 
-void restore_all_pairs(World& world, const Checkpoint& kept) {
-  restore_pairs(world.bonds, "bonds", kept);
-  restore_pairs(world.own, "own_pairs", kept);
+void restore_all_pairs(State& state, const Checkpoint& kept) {
+  restore_pairs(state.bonds, "bonds", kept);
+  restore_pairs(state.own, "own_pairs", kept);
   const std::vector<std::int64_t>& pairs = take(kept.whole, "step/pairs", 2);
-  if (pairs[0] != static_cast<std::int64_t>(world.bonds.pairs()) ||
-      pairs[1] != static_cast<std::int64_t>(world.own.pairs()))
+  if (pairs[0] != static_cast<std::int64_t>(state.bonds.pairs()) ||
+      pairs[1] != static_cast<std::int64_t>(state.own.pairs()))
     throw InputError("the checkpoint lacks some of its bonds or own pairs");
-  refuse_strange_pairs(world);
+  refuse_strange_pairs(state);
 }
 
 }  // namespace
@@ -203,56 +203,56 @@ std::vector<std::string> Simulation::layout() const {
       lines.push_back(std::string(to_string(f.per)) + " " + std::string(f.name) + " [" + std::string(f.unit) +
                       "] " + std::to_string(f.bytes) + " bytes");
   };
-  add(world_.particles);
-  add(world_.bodies);
+  add(state_.particles);
+  add(state_.bodies);
   for (const Active& a : effects_)
     lines.push_back("effect " + a.name + " " + std::string(to_string(a.spec.mode)));
-  for (const std::string_view name : world_.booked.names()) lines.push_back("account " + std::string(name));
-  for (const StepNumber& one : world_.step_numbers.declared())
+  for (const std::string_view name : state_.booked.names()) lines.push_back("account " + std::string(name));
+  for (const StepNumber& one : state_.step_numbers.declared())
     lines.push_back("step number " + std::string(one.name));
   return lines;
 }
 
 Checkpoint Simulation::checkpoint() {
-  Checkpoint kept = state();
-  if (world_.scene.recovers) recovery_.save(kept);
+  Checkpoint kept = whole_checkpoint();
+  if (state_.scene.recovers) recovery_.save(kept);
   return kept;
 }
 
-Checkpoint Simulation::state() {
-  if (sharing_.is_part(world_)) return state_of(sharing_.whole(world_));
+Checkpoint Simulation::whole_checkpoint() {
+  if (sharing_.is_part(state_)) return checkpoint_of(sharing_.whole(state_));
   form_fixed();
-  return state_of(world_);
+  return checkpoint_of(state_);
 }
 
-Checkpoint Simulation::state_of(const World& world) const {
+Checkpoint Simulation::checkpoint_of(const State& state) const {
   Checkpoint kept;
   kept.text["step/layout"] = layout();
-  const bool sleeps = world.particles.moving() < world.particles.size();
+  const bool sleeps = state.particles.moving() < state.particles.size();
   // As if nothing slept
   const std::vector<std::uint32_t> order =
-      sleeps ? world.neighbours->rows_in_order(world.particles) : std::vector<std::uint32_t>{};
-  save(world.particles, "particles/", kept, order);
-  save(world.bodies, "bodies/", kept);
-  kept.text["bodies/name"] = world.body_names;
-  save(world.bonds, "bonds", kept);
-  save(world.own, "own_pairs", kept);
-  kept.whole["step/pairs"] = {static_cast<std::int64_t>(world.bonds.pairs()),
-                              static_cast<std::int64_t>(world.own.pairs())};
-  kept.real["step/booked"] = plain(world.booked.values());
-  kept.real["step/undelivered_spin"] = plain(world.booked.undelivered_spin);
+      sleeps ? state.neighbours->rows_in_order(state.particles) : std::vector<std::uint32_t>{};
+  save(state.particles, "particles/", kept, order);
+  save(state.bodies, "bodies/", kept);
+  kept.text["bodies/name"] = state.body_names;
+  save(state.bonds, "bonds", kept);
+  save(state.own, "own_pairs", kept);
+  kept.whole["step/pairs"] = {static_cast<std::int64_t>(state.bonds.pairs()),
+                              static_cast<std::int64_t>(state.own.pairs())};
+  kept.real["step/booked"] = plain(state.booked.values());
+  kept.real["step/undelivered_spin"] = plain(state.booked.undelivered_spin);
   const Schedule::Stretch& stretch = schedule_.stretch();
-  kept.real["step/time"] = {world.time, world.next_time, dt_, pairs_, bound_.dt, stretch.start, stretch.end};
+  kept.real["step/time"] = {state.time, state.next_time, dt_, pairs_, bound_.dt, stretch.start, stretch.end};
   kept.text["step/bound"] = {bound_.name};
   kept.whole["step/count"] = {steps_, static_cast<std::int64_t>(schedule_.moments_past()), stretch.count,
-                              stretch.done, world.moved ? 1 : 0};
-  kept.real["step/numbers"].assign(world.step_numbers.values().begin(), world.step_numbers.values().end());
+                              stretch.done, state.moved ? 1 : 0};
+  kept.real["step/numbers"].assign(state.step_numbers.values().begin(), state.step_numbers.values().end());
   kept.real["step/guards"] = {guards_.turned_over, guards_.first_step};
-  if (world.neighbours) {
-    const std::span<const Vec3> built = world.neighbours->build_positions();
+  if (state.neighbours) {
+    const std::span<const Vec3> built = state.neighbours->build_positions();
     const std::vector<Vec3> ordered = in_order(built, order);
     kept.real["neighbours/build_positions"] = plain(sleeps ? std::span<const Vec3>(ordered) : built);
-    kept.whole["neighbours/rebuilds"] = {world.neighbours->rebuilds()};
+    kept.whole["neighbours/rebuilds"] = {state.neighbours->rebuilds()};
   }
   return kept;
 }
@@ -262,37 +262,37 @@ void Simulation::restore(const Checkpoint& kept) {
   const std::vector<double>& t = take(kept.real, "step/time", 7);
   if (!std::ranges::all_of(t, [](double x) { return !std::isnan(x); }))
     throw InputError("the checkpoint's times are no numbers");
-  world_.time = t[0];
-  world_.next_time = t[1];
+  state_.time = t[0];
+  state_.next_time = t[1];
   dt_ = t[2];
   pairs_ = t[3];
   bound_.dt = t[4];
   bound_.name = take(kept.text, "step/bound", 1)[0];
   const std::vector<std::int64_t>& n = take(kept.whole, "step/count", 5);
   steps_ = n[0];
-  world_.moved = n[4] != 0;
+  state_.moved = n[4] != 0;
   schedule_.restore(static_cast<std::size_t>(n[1]), {t[5], t[6], n[2], n[3]});
-  restore_booked(world_.booked, kept);
+  restore_booked(state_.booked, kept);
   // Particles that had flowed in
   if (const auto ids = kept.whole.find("particles/id"); ids != kept.whole.end())
-    while (world_.particles.size() < ids->second.size()) world_.particles.append();
-  const std::vector<std::uint32_t> order = row_order(kept, world_.particles.size());
-  world_.particles.permute(order);  // rows were in order of id
-  restore_all_pairs(world_, kept);
-  if (world_.neighbours) {
-    restore_lists(world_, kept, order);
-    world_.neighbours->mark_own(world_.particles, world_.own);
+    while (state_.particles.size() < ids->second.size()) state_.particles.append();
+  const std::vector<std::uint32_t> order = row_order(kept, state_.particles.size());
+  state_.particles.permute(order);  // rows were in order of id
+  restore_all_pairs(state_, kept);
+  if (state_.neighbours) {
+    restore_lists(state_, kept, order);
+    state_.neighbours->mark_own(state_.particles, state_.own);
     passes_.drop_clusters();
   }
-  restore_columns(world_.particles, "particles/", kept);
-  restore_bodies(world_, kept);
-  refuse_strange_columns(world_);
+  restore_columns(state_.particles, "particles/", kept);
+  restore_bodies(state_, kept);
+  refuse_strange_columns(state_);
   const std::vector<double>& guards = take(kept.real, "step/guards", 2);
   guards_.turned_over = guards[0];
   guards_.first_step = guards[1];
-  const std::span<double> numbers = world_.step_numbers.values();
+  const std::span<double> numbers = state_.step_numbers.values();
   std::ranges::copy(take(kept.real, "step/numbers", numbers.size()), numbers.begin());
-  if (options_.halo) sharing_.follow(world_, effects_, passes_);
+  if (options_.halo) sharing_.follow(state_, effects_, passes_);
 }
 
 }  // namespace tripoint

@@ -15,14 +15,14 @@ namespace {
   throw InputError("no run can go on from this checkpoint: " + what);
 }
 
-const Columns& table_of(const World& world, Per per) {
-  return per == Per::body ? world.bodies : world.particles;
+const Columns& table_of(const State& state, Per per) {
+  return per == Per::body ? state.bodies : state.particles;
 }
 
-void hold(const World& world, const Bounded& bounded) {
+void hold(const State& state, const Bounded& bounded) {
   const Field<int>& field = bounded.field;
-  const auto values = table_of(world, field.per)[field];
-  const long end = static_cast<long>(bounded.end(world));
+  const auto values = table_of(state, field.per)[field];
+  const long end = static_cast<long>(bounded.end(state));
   for (std::size_t row = 0; row < values.size(); ++row) {
     const long value = values[row];
     if (value >= bounded.least && value < end) continue;
@@ -32,8 +32,8 @@ void hold(const World& world, const Bounded& bounded) {
 }
 
 /// Holds amounts to what is finite and above 0.
-void hold_positive(const World& world, const Field<double>& field) {
-  const auto values = table_of(world, field.per)[field];
+void hold_positive(const State& state, const Field<double>& field) {
+  const auto values = table_of(state, field.per)[field];
   for (std::size_t row = 0; row < values.size(); ++row)
     if (!std::isnormal(values[row]) || values[row] < 0.0)
       refuse(fmt::format("{} of row {} is {} {}", field.name, row, values[row], field.unit));
@@ -59,19 +59,19 @@ bool has_twin(const Bonds& bonds, std::size_t id, const Bond& bond) {
 
 }  // namespace
 
-void refuse_strange_pairs(const World& world) {
-  hold_partners(world.bonds, "bonds", world.particles.size());
-  hold_partners(world.own, "own pairs", world.particles.size());
-  for (std::size_t id = 0; id < world.bonds.particles(); ++id)
-    for (const Bond& bond : world.bonds.of(id))
-      if (!has_twin(world.bonds, id, bond))
+void refuse_strange_pairs(const State& state) {
+  hold_partners(state.bonds, "bonds", state.particles.size());
+  hold_partners(state.own, "own pairs", state.particles.size());
+  for (std::size_t id = 0; id < state.bonds.particles(); ++id)
+    for (const Bond& bond : state.bonds.of(id))
+      if (!has_twin(state.bonds, id, bond))
         refuse(fmt::format("the bond of particle {} with {} is not in the list of {}", id, bond.other,
                            bond.other));
 }
 
-void refuse_strange_columns(const World& world) {
-  for (const Bounded& bounded : world.bounded) hold(world, bounded);
-  for (const Field<double>& field : world.positive) hold_positive(world, field);
+void refuse_strange_columns(const State& state) {
+  for (const Bounded& bounded : state.bounded) hold(state, bounded);
+  for (const Field<double>& field : state.positive) hold_positive(state, field);
 }
 
 }  // namespace tripoint

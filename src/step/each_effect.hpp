@@ -11,23 +11,23 @@ namespace tripoint {
 /// and no other.
 /// @param visit called as visit(Effect&)
 template <class Visit>
-void for_each_effect(const World& world, const std::vector<Active>& effects, Visit visit) {
+void for_each_effect(const State& state, const std::vector<Active>& effects, Visit visit) {
   for (const Active& a : effects) {
-    const DeclaredView view(world, a);
+    const DeclaredView view(state, a);
     visit(*a.effect);
   }
 }
 
 /// The same for a stage whose sums the copies of other processes take (EffectSpec::own_sums).
 template <class Visit>
-void for_each_effect(World& world, const std::vector<Active>& effects,
+void for_each_effect(State& state, const std::vector<Active>& effects,
                      std::vector<const Field<double>*> OwnSums::*sums, Visit visit) {
   for (const Active& a : effects) {
     {
-      const DeclaredView view(world, a);
+      const DeclaredView view(state, a);
       visit(*a.effect);
     }
-    if (world.halo && !(a.spec.own_sums.*sums).empty()) world.refresh(a.spec.own_sums.*sums);
+    if (state.halo && !(a.spec.own_sums.*sums).empty()) state.refresh(a.spec.own_sums.*sums);
   }
 }
 

@@ -47,10 +47,10 @@ bool all_finite(std::span<const double> values, int threads) {
 }
 
 /// Looks for values at or below 0 in a column that has none.
-void refuse_not_positive(const World& world, const Guarded& g) {
-  const Particles& p = world.particles;
+void refuse_not_positive(const State& state, const Guarded& g) {
+  const Particles& p = state.particles;
   const auto values = p[g.field].first(p.awake());
-  const bool positive = holds_for_all(values.size(), world.threads, [&](std::size_t from, std::size_t to) {
+  const bool positive = holds_for_all(values.size(), state.threads, [&](std::size_t from, std::size_t to) {
     double least = 1.0;
 #pragma omp simd reduction(min : least)
     for (std::size_t i = from; i < to; ++i) least = std::min(least, values[i]);
@@ -59,31 +59,31 @@ void refuse_not_positive(const World& world, const Guarded& g) {
   if (positive) return;
   for (std::size_t id = 0; id < p.size(); ++id)
     if (const std::size_t i = p.row(id); i < values.size() && !(values[i] > 0.0))
-      fail(world, GuardName::temperature, i, g.name, to_string(g.written),
+      fail(state, GuardName::temperature, i, g.name, to_string(g.written),
            fmt::format("is at {:.4g} {}", values[i], g.not_positive));
 }
 
 /// Whether forces move a particle: not a wall, not held, gripped or flowing in.
 class Movable {
  public:
-  explicit Movable(const World& world) : world_(world), body_(world.particles[field::body]) {
-    if (world.particles.has(field::driven)) driven_ = world.particles[field::driven];
+  explicit Movable(const State& state) : state_(state), body_(state.particles[field::body]) {
+    if (state.particles.has(field::driven)) driven_ = state.particles[field::driven];
   }
   bool operator()(std::size_t row) const {
     if (!driven_.empty() && driven_[row] != 0) return false;
-    return body_[row] < 0 || world_.bodies[field::body_motion][static_cast<std::size_t>(body_[row])] ==
+    return body_[row] < 0 || state_.bodies[field::body_motion][static_cast<std::size_t>(body_[row])] ==
                                  static_cast<int>(Motion::free);
   }
 
  private:
-  const World& world_;
+  const State& state_;
   std::span<const int> body_, driven_;
 };
 
 /// The row of the greatest kinetic energy: the particle that is named where no single particle is to blame.
-std::size_t fastest(const World& world) {
-  const auto v = velocities(world.particles);
-  const auto m = world.particles[field::mass];
+std::size_t fastest(const State& state) {
+  const auto v = velocities(state.particles);
+  const auto m = state.particles[field::mass];
   double most = -1.0;
   std::size_t row = 0;
   for (std::size_t i = 0; i < m.size(); ++i)
@@ -137,18 +137,18 @@ double turnover(const Ledger& ledger, const std::vector<GuardedEntry>& entries, 
 
 }  // namespace
 
-void check_finite(const World& world) {
-  const Particles& p = world.particles;
-  for (const Guarded& g : world.guarded) {
+void check_finite(const State& state) {
+  const Particles& p = state.particles;
+  for (const Guarded& g : state.guarded) {
     const auto values = p[g.field].first(p.awake());
-    if (all_finite(values, world.threads)) continue;
+    if (all_finite(values, state.threads)) continue;
     for (std::size_t id = 0; id < p.size(); ++id)
       if (const std::size_t i = p.row(id); i < values.size() && !std::isfinite(values[i]))
-        fail(world, GuardName::finite, i, g.name, to_string(g.written),
+        fail(state, GuardName::finite, i, g.name, to_string(g.written),
              fmt::format("has no finite {}", g.name));
   }
-  for (const Guarded& g : world.guarded)
-    if (!g.not_positive.empty()) refuse_not_positive(world, g);
+  for (const Guarded& g : state.guarded)
+    if (!g.not_positive.empty()) refuse_not_positive(state, g);
 }
 
 Enclosure enclosure_of(const Scene& s, const InitialState& initial) {
@@ -160,16 +160,16 @@ Enclosure enclosure_of(const Scene& s, const InitialState& initial) {
   return {{*s.min - around, *s.max + around}, true};
 }
 
-void check_escape(const World& world, const Enclosure& domain) {
-  const Scene& s = world.scene;
-  if (is_off(s, GuardName::escape) || (!domain.given && world.time > s.end_time)) return;
-  const auto x = positions(world.particles);
+void check_escape(const State& state, const Enclosure& domain) {
+  const Scene& s = state.scene;
+  if (is_off(s, GuardName::escape) || (!domain.given && state.time > s.end_time)) return;
+  const auto x = positions(state.particles);
   const std::array<std::span<const double>, 3> r{x.x, x.y, x.z};
-  const Movable movable(world);
+  const Movable movable(state);
   for (std::size_t a = 0; a < 3; ++a) {
     if (s.periodic[a]) continue;
     const double low = domain.box.min[a], high = domain.box.max[a];
-    for (std::size_t i = 0; i < world.particles.moving(); ++i) {
+    for (std::size_t i = 0; i < state.particles.moving(); ++i) {
       if ((r[a][i] >= low && r[a][i] <= high) || !movable(i)) continue;
       const std::string where =
           domain.given ? fmt::format("{:.6g} m .. {:.6g} m", (*s.min)[a], (*s.max)[a])
@@ -177,60 +177,60 @@ void check_escape(const World& world, const Enclosure& domain) {
                              "{:.6g} m .. {:.6g} m, which was made from the scene: give scene.min and "
                              "scene.max where it may, or unguarded = [\"escape\"]",
                              low, high);
-      fail(world, GuardName::escape, i, "position", "drift",
+      fail(state, GuardName::escape, i, "position", "drift",
            fmt::format("has left the domain: {} = {:.6g} m is outside {}", "xyz"[a], r[a][i], where));
     }
   }
 }
 
-void check_energy(const World& world, const Ledger& ledger, double start_potential, double dt,
+void check_energy(const State& state, const Ledger& ledger, double start_potential, double dt,
                   GuardMemory& memory) {
-  if (ledger.energy.count(ledger_entry::time_integration) == 0 || is_off(world.scene, GuardName::ledger))
+  if (ledger.energy.count(ledger_entry::time_integration) == 0 || is_off(state.scene, GuardName::ledger))
     return;
-  const Made made = made_by_scheme(ledger, world.guarded_entries, memory.still);
-  memory.turned_over = std::max(memory.turned_over, turnover(ledger, world.guarded_entries, start_potential));
-  const double grid_speed = world.scene.spacing / dt,
+  const Made made = made_by_scheme(ledger, state.guarded_entries, memory.still);
+  memory.turned_over = std::max(memory.turned_over, turnover(ledger, state.guarded_entries, start_potential));
+  const double grid_speed = state.scene.spacing / dt,
                least = round_off_share * ledger.mass * grid_speed * grid_speed;
   if (std::abs(made.energy) <= most_made * std::max(memory.turned_over, least)) return;
-  const std::size_t i = fastest(world);
-  fail(world, GuardName::ledger, i, "energy", "kick",
+  const std::size_t i = fastest(state);
+  fail(state, GuardName::ledger, i, "energy", "kick",
        fmt::format("moves fastest ({:.4g} m/s) where the scheme itself has {} {:.4g} J by {}, {:.2g} of all "
                    "the energy that the "
                    "scene has turned over: {}",
-                   norm(world.particles.velocity(i)), made.energy > 0.0 ? "made" : "lost",
+                   norm(state.particles.velocity(i)), made.energy > 0.0 ? "made" : "lost",
                    std::abs(made.energy), made.by, std::abs(made.energy) / memory.turned_over,
                    made.by_steps ? "a smaller time step"
                                  : "the corrected forms, a smaller time step, or a greater speed of sound"));
 }
 
-void check_step(const World& world, const TimeStepBound& bound, GuardMemory& memory) {
+void check_step(const State& state, const TimeStepBound& bound, GuardMemory& memory) {
   if (memory.first_step == 0.0 && std::isfinite(bound.dt)) memory.first_step = bound.dt;
   if (bound.dt >= least_step_share * memory.first_step ||
-      (is_off(world.scene, GuardName::time_step) && bound.dt > 0.0))
+      (is_off(state.scene, GuardName::time_step) && bound.dt > 0.0))
     return;
-  const std::size_t i = fastest(world);
-  fail(world, GuardName::time_step, i, "time_step", "bound",
+  const std::size_t i = fastest(state);
+  fail(state, GuardName::time_step, i, "time_step", "bound",
        fmt::format("moves fastest ({:.4g} m/s) where the bound of {} has shrunk the time step to {:.3g} s, "
                    "from {:.3g} s at first",
-                   norm(world.particles.velocity(i)), bound.name, bound.dt, memory.first_step));
+                   norm(state.particles.velocity(i)), bound.name, bound.dt, memory.first_step));
 }
 
-void refuse_small_step(const World& world, double dt, double length, const std::string& name) {
-  const std::size_t i = fastest(world);
-  fail(world, GuardName::time_step, i, "time_step", "bound",
+void refuse_small_step(const State& state, double dt, double length, const std::string& name) {
+  const std::size_t i = fastest(state);
+  fail(state, GuardName::time_step, i, "time_step", "bound",
        fmt::format("moves fastest ({:.4g} m/s) where a time step of {:.3g} s, set by {}, would need {:.3g} "
                    "steps to the next output",
-                   norm(world.particles.velocity(i)), dt, name, length / dt));
+                   norm(state.particles.velocity(i)), dt, name, length / dt));
 }
 
-void refuse_step(const World& world, double dt, double bound, const std::string& name) {
-  const std::size_t i = fastest(world);
-  fail(world, GuardName::time_step, i, "time_step", "bound",
+void refuse_step(const State& state, double dt, double bound, const std::string& name) {
+  const std::size_t i = fastest(state);
+  fail(state, GuardName::time_step, i, "time_step", "bound",
        fmt::format("moves fastest ({:.4g} m/s) where the scene's time_step, {:.4g} s, has come to lie above "
                    "the bound of {}, {:.4g} s: "
                    "make it smaller, or run all the same with [engines.tripoint] settings = {{ "
                    "force_time_step = true }}",
-                   norm(world.particles.velocity(i)), dt, name, bound));
+                   norm(state.particles.velocity(i)), dt, name, bound));
 }
 
 }  // namespace tripoint

@@ -2,8 +2,8 @@
 #pragma once
 #include "effects/effect.hpp"
 #include "scene/geometry.hpp"
-#include "world/failure.hpp"
-#include "world/world.hpp"
+#include "state/failure.hpp"
+#include "state/state.hpp"
 
 /// Guards that belong to no single effect; those of effects are in their check(). Each names particle, body,
 /// field, stage and time, and changes nothing.
@@ -13,7 +13,7 @@ namespace tripoint {
 /// one is named. Also looks for temperatures at or below 0 K, which conduction never makes of a start above
 /// it.
 /// @throws Diverged
-void check_finite(const World&);
+void check_finite(const State&);
 
 /// Where particles may be: the scene's domain with one spacing around it or, where it gives none,
 /// escape_domain().
@@ -25,7 +25,7 @@ struct Enclosure {
 
 /// Looks for particles that no keyframe moves and that are outside, where the domain is not periodic. @throws
 /// Diverged
-void check_escape(const World&, const Enclosure&);
+void check_escape(const State&, const Enclosure&);
 
 /// Memory of the guards about a run; a checkpoint keeps it.
 struct GuardMemory {
@@ -42,16 +42,16 @@ struct GuardMemory {
 /// the printed pressure counts too. Below a ten-billionth of the energy that the mass would have at one
 /// spacing a step nothing is told apart from round-off.
 /// @throws Diverged naming the particle of the greatest kinetic energy
-void check_energy(const World&, const Ledger&, double start_potential, double dt, GuardMemory&);
+void check_energy(const State&, const Ledger&, double start_potential, double dt, GuardMemory&);
 
 /// A step that shrinks to a hundred-thousandth of the first goes on, if at all, for ever.
 /// @throws Diverged naming the bound and the particle of the greatest kinetic energy
-void check_step(const World&, const TimeStepBound&, GuardMemory&);
+void check_step(const State&, const TimeStepBound&, GuardMemory&);
 
 /// @throws Diverged: the steps to the next output would be more than can be made
-[[noreturn]] void refuse_small_step(const World&, double dt, double length, const std::string& name);
+[[noreturn]] void refuse_small_step(const State&, double dt, double length, const std::string& name);
 
 /// @throws Diverged: the step that the scene chose has come to lie above a bound
-[[noreturn]] void refuse_step(const World&, double dt, double bound, const std::string& name);
+[[noreturn]] void refuse_step(const State&, double dt, double bound, const std::string& name);
 
 }  // namespace tripoint

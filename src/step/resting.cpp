@@ -3,17 +3,17 @@
 
 #include <algorithm>
 
-#include "world/body_table.hpp"
+#include "state/body_table.hpp"
 
 namespace tripoint {
 
-Resting fixed_bodies(const World& world, double beyond) {
-  Resting rest{std::vector<char>(world.bodies.size()), beyond};
+Resting fixed_bodies(const State& state, double beyond) {
+  Resting rest{std::vector<char>(state.bodies.size()), beyond};
   for (std::size_t b = 0; b < rest.bodies.size(); ++b) {
-    if (!is_alive(world, b) || !is_rigid(world, b)) continue;
-    rest.bodies[b] = world.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed);
+    if (!is_alive(state, b) || !is_rigid(state, b)) continue;
+    rest.bodies[b] = state.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed);
     // As it moves for the first time, all are put to their places
-    if (!rest.bodies[b] && !world.placed) return {};
+    if (!rest.bodies[b] && !state.placed) return {};
   }
   if (std::ranges::find(rest.bodies, 1) == rest.bodies.end()) return {};
   return rest;

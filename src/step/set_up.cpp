@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The world of a scene before its first step: fields, particles, bodies, bonds, neighbours.
+// The state of a run before its first step: fields, particles, bodies, bonds, neighbours.
 #include <algorithm>
 
 #include "core/errors.hpp"
 #include "scene/effect_rule.hpp"
 #include "solids/solid_particles.hpp"
+#include "state/body_table.hpp"
 #include "step/each_effect.hpp"
 #include "step/simulation.hpp"
-#include "world/body_table.hpp"
 
 namespace tripoint {
 namespace {
@@ -59,26 +59,26 @@ std::vector<FieldInfo> fields_of(const Scene& scene, const std::vector<Active>& 
 }  // namespace
 
 void Simulation::set_up(const Scene& scene, const InitialState& initial) {
-  world_.scene = scene;
-  world_.threads = options_.threads;
-  world_.axis_order = options_.axis_order;
-  world_.box = box_of(scene);
-  declare(world_, effects_);
+  state_.scene = scene;
+  state_.threads = options_.threads;
+  state_.axis_order = options_.axis_order;
+  state_.box = box_of(scene);
+  declare(state_, effects_);
   guards_.still = is_still(scene, initial);
   load(initial);
   enclosure_ = enclosure_of(scene, initial);
   if (passes_.needed())
-    world_.neighbours.emplace(world_.support(),
-                              is_static(scene, initial) ? 0.0 : options_.skin * world_.support(), world_.box,
+    state_.neighbours.emplace(state_.support(),
+                              is_static(scene, initial) ? 0.0 : options_.skin * state_.support(), state_.box,
                               options_.threads, passes_.lanes());
   schedule_ = Schedule(scene.events);
 }
 
 void Simulation::load(const InitialState& initial) {
-  const std::vector<FieldInfo> fields = fields_of(world_.scene, effects_);
-  world_.particles = Particles(initial.size(), fields);
-  world_.bodies = Columns(0, Per::body, fields);
-  Particles& p = world_.particles;
+  const std::vector<FieldInfo> fields = fields_of(state_.scene, effects_);
+  state_.particles = Particles(initial.size(), fields);
+  state_.bodies = Columns(0, Per::body, fields);
+  Particles& p = state_.particles;
   const auto x = positions(p), v = velocities(p);
   for (std::size_t i = 0; i < initial.size(); ++i) {
     x.set(i, initial.position[i]);
@@ -89,9 +89,9 @@ void Simulation::load(const InitialState& initial) {
     p[field::material][i] = initial.material[i];
     p[field::source][i] = initial.source[i];
   }
-  add_scene_bodies(world_);
-  solid::connect_solids(world_);
-  for_each_effect(world_, effects_, [&](Effect& effect) { effect.load(world_, initial); });
+  add_scene_bodies(state_);
+  solid::connect_solids(state_);
+  for_each_effect(state_, effects_, [&](Effect& effect) { effect.load(state_, initial); });
 }
 
 }  // namespace tripoint

@@ -58,12 +58,12 @@ double depth(const Scene& s, const InitialState& at) {
 }
 
 /// Mass-weighted mean square speed of the liquids [m2/s2], summed in the order of ids.
-double mean_square_speed(const World& world, const InitialState& at) {
+double mean_square_speed(const State& state, const InitialState& at) {
   double sum = 0.0, mass = 0.0;
-  const auto v = velocities(world.particles);
+  const auto v = velocities(state.particles);
   for (std::size_t id = 0; id < at.size(); ++id) {
     if (at.body[id] >= 0) continue;
-    const std::size_t row = world.particles.row(static_cast<std::uint32_t>(id));
+    const std::size_t row = state.particles.row(static_cast<std::uint32_t>(id));
     sum += at.mass[id] * dot(v.at(row), v.at(row));
     mass += at.mass[id];
   }
@@ -87,7 +87,7 @@ double swing(const Scene& scene, InitialState& at, long& steps) {
   Simulation simulation(scene, at);
   double peak = 0.0;
   simulation.advance_to(scene.end_time, [&] {
-    const double now = mean_square_speed(simulation.world(), at);
+    const double now = mean_square_speed(simulation.state(), at);
     const bool falls = now < peak;
     peak = std::max(peak, now);
     return !falls && ++steps < most_settling_steps && !is_stopped();
@@ -95,8 +95,8 @@ double swing(const Scene& scene, InitialState& at, long& steps) {
   if (is_stopped()) throw SettlingStopped();
   for (std::size_t id = 0; id < at.size(); ++id)
     if (at.body[id] < 0)
-      at.position[id] = simulation.world().particles.position(
-          simulation.world().particles.row(static_cast<std::uint32_t>(id)));
+      at.position[id] = simulation.state().particles.position(
+          simulation.state().particles.row(static_cast<std::uint32_t>(id)));
   return std::sqrt(peak);
 }
 

@@ -18,13 +18,13 @@ class Sharing {
   /// @param halo those that hold the rest of the scene; null: there are none
   Sharing(double skin, Halo* halo) : skin_(skin), halo_(halo) {}
   /// Whether this process holds a part of the scene and others the rest.
-  [[nodiscard]] bool is_part(const World&) const;
+  [[nodiscard]] bool is_part(const State&) const;
   /// The next whole is shared out as at the start.
   void begin_anew();
   /// Where the scene recovers, a failure that one process meets in `look` is thrown by all. Else, or where
   /// this process holds the whole, it is thrown where it is met. All call it. @throws Diverged
   template <class Look>
-  void look_together(const World&, Look look) const;
+  void look_together(const State&, Look look) const;
   /// The failure of the lowest particle, of those that processes have met. @param here met by this process;
   /// none: nothing. All call it. @pre the scene is shared out
   [[nodiscard]] std::optional<Diverged> first_failure(const std::optional<Diverged>& here) const;
@@ -33,23 +33,23 @@ class Sharing {
   /// Each process holds the whole scene, with the lists that a single process has. All then make the same
   /// changes and stay equal. Bookings made meanwhile stand with the first process alone. Nothing where this
   /// process holds all already.
-  void gather(World&, const std::vector<Active>&);
+  void gather(State&, const std::vector<Active>&);
   /// The scene as one process would hold it between two steps, with all that processes have booked.
-  [[nodiscard]] World whole(const World&) const;
+  [[nodiscard]] State whole(const State&) const;
   /// Shares out what this process holds all of, with the lists that it has where they are not outdated. Else,
   /// where the lists of one process are outdated, particles go to the process that has their place now, and
   /// all make new lists. All call it. @pre there is a halo
-  void follow(World&, const std::vector<Active>&, const Passes&);
+  void follow(State&, const std::vector<Active>&, const Passes&);
 
  private:
   /// Sums of each process over its own part, of a scene that all hold for now.
   struct Booked {
     Bookings accounts;
-    std::vector<std::vector<double>> body_sums;  ///< of each of World::body_sums, by body
+    std::vector<std::vector<double>> body_sums;  ///< of each of State::body_sums, by body
   };
-  [[nodiscard]] bool outdated(const World&) const;
-  void share_out(World&, const Passes&);
-  void share_particles(World&, const Passes&);
+  [[nodiscard]] bool outdated(const State&) const;
+  void share_out(State&, const Passes&);
+  void share_particles(State&, const Passes&);
   /// What this process held before it held the whole.
   struct Part {
     Particles particles;
@@ -57,9 +57,9 @@ class Sharing {
     OwnPairs own;
     std::optional<Neighbours> neighbours;  ///< none: they are not those of the whole
   };
-  Part hold_whole(World&) const;
-  [[nodiscard]] bool can_take_back(const World&) const;
-  void take_back(World&);
+  Part hold_whole(State&) const;
+  [[nodiscard]] bool can_take_back(const State&) const;
+  void take_back(State&);
 
   double skin_;
   Halo* halo_;
@@ -76,8 +76,8 @@ class Sharing {
 };
 
 template <class Look>
-void Sharing::look_together(const World& world, Look look) const {
-  if (!world.halo || !world.scene.recovers) return look();
+void Sharing::look_together(const State& state, Look look) const {
+  if (!state.halo || !state.scene.recovers) return look();
   std::optional<Diverged> failure;
   try {
     look();
@@ -89,6 +89,6 @@ void Sharing::look_together(const World& world, Look look) const {
 }
 
 /// Tells of each row whether it is a copy of another process's particle.
-void mark_copies(World&);
+void mark_copies(State&);
 
 }  // namespace tripoint

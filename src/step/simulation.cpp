@@ -14,10 +14,10 @@ Simulation::Simulation(const Scene& scene, const InitialState& initial, const Si
   set_up(scene, initial);
   if (scene.recovers) start_ = initial;
   form_rates();
-  check_finite(world_);
+  check_finite(state_);
   set_bound();
   refuse_endless_run(scene, bound_);
-  book_start(world_, own_ledger(world_, effects_));
+  book_start(state_, own_ledger(state_, effects_));
   happen_until_now();
   keep_good_state();
 }
@@ -43,54 +43,54 @@ bool Simulation::advance_to(double time, const std::function<bool()>& go_on) {
 
 bool Simulation::go_towards(double time, const std::function<bool()>& go_on) {
   const bool chooses_threads = options_.gives_way && options_.threads > 1;
-  while (world_.time < time) {
+  while (state_.time < time) {
     if (chooses_threads) threads_.begin_step();
     try {
       move_on(time);
     } catch (const Diverged& failure) {
-      if (!world_.scene.recovers) throw;
+      if (!state_.scene.recovers) throw;
       go_back(failure);
     }
     if (chooses_threads) {
       threads_.end_step();
-      if (threads_.now() != world_.threads) use_threads(threads_.now());
+      if (threads_.now() != state_.threads) use_threads(threads_.now());
     }
-    if (go_on && !go_on()) return world_.time >= time;
+    if (go_on && !go_on()) return state_.time >= time;
   }
   return true;
 }
 
 void Simulation::use_threads(int threads) {
-  world_.threads = threads;
-  if (world_.neighbours) world_.neighbours->use_threads(threads);
+  state_.threads = threads;
+  if (state_.neighbours) state_.neighbours->use_threads(threads);
 }
 
 /// Asks for the bound of the present state. @throws InputError, Diverged where the scene's own step is above
 /// it
 void Simulation::set_bound() {
-  bound_ = least_bound(world_, effects_);
-  const auto& given = world_.scene.time_step;
+  bound_ = least_bound(state_, effects_);
+  const auto& given = state_.scene.time_step;
   if (given && !options_.force_time_step)
-    refuse_above_bound(world_, recovery_.share() * *given, bound_, steps_ > 0);
+    refuse_above_bound(state_, recovery_.share() * *given, bound_, steps_ > 0);
 }
 
 /// Bodies that can sleep as neighbours are listed anew.
 Resting Simulation::resting() const {
   const std::optional<double> beyond = passes_.sleeps_beyond();
-  if (!beyond || world_.halo || schedule_.has_moments_left()) return {};
-  Resting rest = fixed_bodies(world_, *beyond);
-  rest.unread = world_.unread;
+  if (!beyond || state_.halo || schedule_.has_moments_left()) return {};
+  Resting rest = fixed_bodies(state_, *beyond);
+  rest.unread = state_.unread;
   return rest;
 }
 
 std::string Simulation::time_step_set_by() const {
-  if (world_.scene.time_step) return "scene";
+  if (state_.scene.time_step) return "scene";
   return bound_.name == "none" ? "output" : bound_.name;
 }
 
 Ledger Simulation::ledger() {
   form_fixed();  // the pairs of the core have lists from both sides
-  return ledger_of_all(world_, effects_);
+  return ledger_of_all(state_, effects_);
 }
 
 }  // namespace tripoint

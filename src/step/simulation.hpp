@@ -10,13 +10,13 @@
 #include "core/checkpoint.hpp"
 #include "pairs/scene_passes.hpp"
 #include "scene/initial_state.hpp"
+#include "state/state.hpp"
 #include "step/guard.hpp"
 #include "step/recovery.hpp"
 #include "step/schedule.hpp"
 #include "step/sharing.hpp"
 #include "step/stage_clock.hpp"
 #include "step/thread_choice.hpp"
-#include "world/world.hpp"
 
 namespace tripoint {
 
@@ -63,13 +63,13 @@ class Simulation {
 
   /// Threads of the steps that follow. They change no bit.
   void use_threads(int);
-  [[nodiscard]] const World& world() const noexcept { return world_; }
+  [[nodiscard]] const State& state() const noexcept { return state_; }
   /// Of all processes that share the scene, which all call it. Asking computes: pair passes over what no step
   /// reads (form_fixed), once a state, then sums over all particles and bonds. It changes no bit of the steps
   /// that follow.
   [[nodiscard]] Ledger ledger();
   /// Brings bodies that only other processes keep up to date. All processes that share the scene call it.
-  void complete_bodies() { world_.body_owners.complete(world_); }
+  void complete_bodies() { state_.body_owners.complete(state_); }
   [[nodiscard]] long steps() const noexcept { return steps_; }
   [[nodiscard]] double pairs() const noexcept { return pairs_; }  ///< directed pairs visited by rate passes
   [[nodiscard]] double time_step() const noexcept { return dt_; }
@@ -109,15 +109,15 @@ class Simulation {
   void go_back(const Diverged&);
   // checkpoint.cpp
   [[nodiscard]] std::vector<std::string> layout() const;
-  [[nodiscard]] Checkpoint state();
-  [[nodiscard]] Checkpoint state_of(const World& whole) const;
+  [[nodiscard]] Checkpoint whole_checkpoint();
+  [[nodiscard]] Checkpoint checkpoint_of(const State& whole) const;
   void restore(const Checkpoint&);
   // simulation.cpp
   bool go_towards(double time, const std::function<bool()>& go_on);
   void set_bound();
   [[nodiscard]] Resting resting() const;
 
-  World world_;
+  State state_;
   SimulationOptions options_;
   ThreadChoice threads_{options_.threads};
   std::vector<Active> effects_;

@@ -19,26 +19,26 @@ constexpr double rounding = 1e-9;
 
 }  // namespace
 
-TimeStepBound least_bound(const World& world, const std::vector<Active>& effects) {
+TimeStepBound least_bound(const State& state, const std::vector<Active>& effects) {
   TimeStepBound least;
-  for_each_effect(world, effects, [&](const Effect& effect) {
-    const TimeStepBound bound = effect.max_dt(world);
+  for_each_effect(state, effects, [&](const Effect& effect) {
+    const TimeStepBound bound = effect.max_dt(state);
     tighten(least, bound.dt, bound.name);
   });
-  if (world.halo) world.halo->take_least(least.dt, least.name);
+  if (state.halo) state.halo->take_least(least.dt, least.name);
   return least;
 }
 
-long steps_to(const World& world, double time, const TimeStepBound& bound, double share) {
-  const auto& given = world.scene.time_step;
-  const double length = time - world.time, most = share * given.value_or(bound.dt);
-  if (length > most_steps * most) refuse_small_step(world, most, length, given ? "scene" : bound.name);
+long steps_to(const State& state, double time, const TimeStepBound& bound, double share) {
+  const auto& given = state.scene.time_step;
+  const double length = time - state.time, most = share * given.value_or(bound.dt);
+  if (length > most_steps * most) refuse_small_step(state, most, length, given ? "scene" : bound.name);
   return std::max(1L, static_cast<long>(std::ceil(length / most - rounding)));
 }
 
-void refuse_above_bound(const World& world, double step, const TimeStepBound& bound, bool begun) {
+void refuse_above_bound(const State& state, double step, const TimeStepBound& bound, bool begun) {
   if (step <= bound.dt * (1.0 + rounding)) return;
-  if (begun) refuse_step(world, step, bound.dt, bound.name);
+  if (begun) refuse_step(state, step, bound.dt, bound.name);
   throw InputError(fmt::format(
       "time_step {:.4g} s is above the bound of {}, {:.4g} s: make it smaller, or run all the same with "
       "[engines.tripoint] settings = {{ force_time_step = true }}",

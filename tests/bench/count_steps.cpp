@@ -15,7 +15,7 @@ using namespace tripoint;
 
 namespace {
 void run_steps(Simulation& simulation, long steps) {
-  simulation.advance_to(simulation.world().scene.end_time * 1e3, [&] { return --steps > 0; });
+  simulation.advance_to(simulation.state().scene.end_time * 1e3, [&] { return --steps > 0; });
 }
 }  // namespace
 
@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
     Simulation simulation(scene, sample(scene));
     run_steps(simulation, std::atol(argv[3]));
     counted_steps(simulation, std::atol(argv[4]));
-    std::printf("%zu particles, %s, %zu bytes\n", simulation.world().particles.size(), __VERSION__,
+    std::printf("%zu particles, %s, %zu bytes\n", simulation.state().particles.size(), __VERSION__,
                 plan(scene).bytes_per_particle);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "count-steps: %s\n", e.what());

@@ -64,7 +64,7 @@ bool agrees(const std::string& file, Mode mode, long most, double budget) {
   const auto afford =
       static_cast<long>(budget / static_cast<double>(std::max<std::size_t>(1, initial.size())));
   const long steps = std::clamp(afford, 2L, most);
-  State oracle;
+  Outcome oracle;
   try {
     oracle = state_after(scene, initial, {.threads = 1, .lanes = 1, .sums_all = true}, steps);
   } catch (const InputError& e) {  // a scene that the solver does not take
@@ -72,7 +72,7 @@ bool agrees(const std::string& file, Mode mode, long most, double budget) {
     return true;
   }
   for (const Way& way : ways()) {
-    const State other = state_after(scene, initial, way, steps);
+    const Outcome other = state_after(scene, initial, way, steps);
     std::string what = oracle.failure == other.failure ? difference(oracle.kept, other.kept) : "how it fails";
     if (what.empty() && oracle.pairs != other.pairs) what = "the number of pairs";
     if (what.empty()) continue;

@@ -52,7 +52,7 @@ std::string difference(const Checkpoint& a, const Checkpoint& b) {
   return a.text == b.text ? "" : "text";
 }
 
-struct State {
+struct Start {
   Scene scene;
   InitialState initial;
 };
@@ -87,28 +87,28 @@ void go(Simulation& s, const Scene& scene, long output, const std::function<bool
 }
 
 /// Which kinds of change the last step brought, between `before` [s] and now.
-std::array<bool, kinds.size()> changes_of(const World& world, const Scene& scene, double before) {
-  const Change& change = world.change;
+std::array<bool, kinds.size()> changes_of(const State& state, const Scene& scene, double before) {
+  const Change& change = state.change;
   const bool meets_event = std::ranges::any_of(
-      scene.events, [&](const Event& e) { return before < e.time && e.time <= world.time; });
+      scene.events, [&](const Event& e) { return before < e.time && e.time <= state.time; });
   return {!change.melted.empty(),   !change.frozen.empty(), !change.bodies.empty(),
           !change.relisted.empty(), !change.born.empty(),   meets_event};
 }
 
 /// Steps of an unbroken run in which something changed, and how many it had. A step is counted each time that
 /// it is made: a run that recovers goes back, and makes steps of the same number again.
-Turns turns_of(const State& state, long most, long& steps) {
+Turns turns_of(const Start& start, long most, long& steps) {
   Turns turns;
-  Simulation s(state.scene, state.initial, {.force_time_step = true});
-  double before = s.world().time;
+  Simulation s(start.scene, start.initial, {.force_time_step = true});
+  double before = s.state().time;
   steps = 0;
-  go(s, state.scene, 1, [&](long) {
+  go(s, start.scene, 1, [&](long) {
     ++steps;
-    if (!s.world().change.empty()) turns.any.push_back(steps);
-    const auto changes = changes_of(s.world(), state.scene, before);
+    if (!s.state().change.empty()) turns.any.push_back(steps);
+    const auto changes = changes_of(s.state(), start.scene, before);
     for (std::size_t k = 0; k < kinds.size(); ++k)
       if (changes[k]) turns.of[k].push_back(steps);
-    before = s.world().time;
+    before = s.state().time;
     return steps < most;
   });
   return turns;
@@ -146,27 +146,27 @@ struct Kept {
 
 /// The state so many steps after a cut. @param cut_again after how many of them it is cut once more; as many:
 /// it is not
-Checkpoint after(const State& state, const Kept& cut, int threads, long steps, long cut_again) {
+Checkpoint after(const Start& start, const Kept& cut, int threads, long steps, long cut_again) {
   const SimulationOptions options{.threads = threads, .force_time_step = true};
-  Simulation s(state.scene, state.initial, options, cut.state);
+  Simulation s(start.scene, start.initial, options, cut.state);
   long made = 0, output = cut.output;
-  go(s, state.scene, cut.output, [&](long towards) {
+  go(s, start.scene, cut.output, [&](long towards) {
     output = towards;
     return ++made < cut_again;
   });
   if (cut_again == steps) return s.checkpoint();
-  return after(state, {s.checkpoint(), output}, threads, steps - cut_again, steps - cut_again);
+  return after(start, {s.checkpoint(), output}, threads, steps - cut_again, steps - cut_again);
 }
 
 /// @return whether all restarts agree
-bool agrees(const std::string& name, const State& state, long most, Counts& counts) {
+bool agrees(const std::string& name, const Start& start, long most, Counts& counts) {
   long steps = 0;
-  const Turns turns = turns_of(state, most, steps);
+  const Turns turns = turns_of(start, most, steps);
   const std::set<long> cuts = cuts_of(turns, steps, counts);
   std::map<long, Kept> at;
-  Simulation unbroken(state.scene, state.initial, {.force_time_step = true});
+  Simulation unbroken(start.scene, start.initial, {.force_time_step = true});
   long now = 0;
-  go(unbroken, state.scene, 1, [&](long output) {
+  go(unbroken, start.scene, 1, [&](long output) {
     ++now;
     const bool is_goal =
         now == steps || cuts.contains(now - goes_on) || cuts.contains(now - goes_on - goes_on / 2);
@@ -177,7 +177,7 @@ bool agrees(const std::string& name, const State& state, long most, Counts& coun
     for (const int threads : {1, 2, 3}) {
       const bool halfway = threads == 2 && at.contains(cut + goes_on + goes_on / 2);
       const long goal = std::min(steps, cut + goes_on + (halfway ? goes_on / 2 : 0));
-      const Checkpoint there = after(state, at.at(cut), threads, goal - cut, halfway ? goes_on : goal - cut);
+      const Checkpoint there = after(start, at.at(cut), threads, goal - cut, halfway ? goes_on : goal - cut);
       const std::string what = difference(at.at(goal).state, there);
       ++counts.restarts;
       if (what.empty()) continue;
@@ -213,12 +213,12 @@ bool agrees(const std::string& file, Mode mode, double budget, Counts& counts) {
   RunChoice choice;
   choice.mode = mode;
   const std::string name = fmt::format("{} {}", reading.value.id, to_string(mode));
-  State state{scene_for(reading.value, choice), {}};
-  state.initial = sample(state.scene);
+  Start start{scene_for(reading.value, choice), {}};
+  start.initial = sample(start.scene);
   const auto most = static_cast<long>(
-      std::clamp(budget / static_cast<double>(std::max<std::size_t>(1, state.initial.size())), 20.0, 5000.0));
+      std::clamp(budget / static_cast<double>(std::max<std::size_t>(1, start.initial.size())), 20.0, 5000.0));
   try {
-    return agrees(name, state, most, counts);
+    return agrees(name, start, most, counts);
   } catch (const InputError& e) {  // a scene that the solver does not take
     fmt::print("{}: left out, {}\n", name, e.what());
   } catch (const Diverged& e) {  // one that is meant to fail

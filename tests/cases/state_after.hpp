@@ -13,7 +13,7 @@ struct Way {
   bool changes = false;   ///< another number of threads after every step
 };
 
-struct State {
+struct Outcome {
   Checkpoint kept;
   std::string failure;  ///< of a scene that is meant to fail: it must do so alike
   double pairs = 0.0;
@@ -21,8 +21,8 @@ struct State {
 };
 
 /// The state after that many steps, or at the end of the scene.
-inline State state_after(const Scene& scene, const InitialState& initial, const Way& way, long steps) {
-  State state;
+inline Outcome state_after(const Scene& scene, const InitialState& initial, const Way& way, long steps) {
+  Outcome outcome;
   try {
     Simulation s(
         scene, initial,
@@ -31,13 +31,13 @@ inline State state_after(const Scene& scene, const InitialState& initial, const 
       if (way.changes) s.use_threads(1 + static_cast<int>(s.steps() % 3));
       return --steps > 0;
     });
-    state.kept = s.checkpoint();
-    state.pairs = s.pairs();
-    state.steps = s.steps();
+    outcome.kept = s.checkpoint();
+    outcome.pairs = s.pairs();
+    outcome.steps = s.steps();
   } catch (const Diverged& e) {
-    state.failure = e.what();
+    outcome.failure = e.what();
   }
-  return state;
+  return outcome;
 }
 
 }  // namespace tripoint

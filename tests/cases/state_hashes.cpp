@@ -36,7 +36,7 @@ class Hash {
   std::uint64_t value_ = 0xcbf29ce484222325ULL;
 };
 
-std::uint64_t hash_of(const State& state) {
+std::uint64_t hash_of(const Outcome& state) {
   Hash hash;
   const auto add = [&](const auto& arrays) {
     for (const auto& [name, values] : arrays) {
@@ -84,7 +84,7 @@ int main(int argc, char** argv) {
           const Scene scene = scene_for(reading.value, choice);
           const InitialState initial = sample(scene);
           if (traps) feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
-          const State state = state_after(scene, initial, way, steps);
+          const Outcome state = state_after(scene, initial, way, steps);
           if (traps) fedisableexcept(FE_ALL_EXCEPT);
           fmt::print("{} {} {} steps {:016x}\n", reading.value.id, to_string(mode), state.steps,
                      hash_of(state));

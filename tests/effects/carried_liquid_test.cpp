@@ -69,14 +69,14 @@ TEST(CarriedLiquid, HoldsCorrectionsForThreeSteps) {
   });
   Simulation s(lab.scene, lab.initial);
   const Vec3 before = s.ledger().momentum;
-  std::vector<double> B{s.world().particles[field::correction_xy][s.world().particles.row(5)]};
+  std::vector<double> B{s.state().particles[field::correction_xy][s.state().particles.row(5)]};
   for (int step = 1; step <= 4; ++step) {
     s.advance_to(1e-3 * step);
-    B.push_back(s.world().particles[field::correction_xy][s.world().particles.row(5)]);
+    B.push_back(s.state().particles[field::correction_xy][s.state().particles.row(5)]);
     EXPECT_LT(norm(s.ledger().momentum - before), 1e-13 * norm(before)) << step;
     Vec3 sum;
     double size = 0.0;
-    const Particles& p = s.world().particles;
+    const Particles& p = s.state().particles;
     for (std::size_t i = 0; i < p.size(); ++i) {
       const Vec3 F = p.vector(i, field::force);
       sum += F;
@@ -92,7 +92,7 @@ TEST(CarriedLiquid, HoldsCorrectionsForThreeSteps) {
 TEST_P(Forms, ForceIsTheAdjointOfTheRateOfDensity) {
   const lab::Lab lab = pressed(GetParam());
   const Simulation s(lab.scene, lab.initial);
-  const Particles& p = s.world().particles;
+  const Particles& p = s.state().particles;
   double force = 0.0, rate = 0.0;
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (p[field::body][i] >= 0) continue;
@@ -113,7 +113,7 @@ TEST_P(Forms, KeepSpinWhereThePairIsTheOwnOne) {
   lab::set_velocity(lab, [](const Vec3& r) { return -1.0 * strain(r - Vec3{0.4, 0.35, 0.3}); });
   Simulation s(lab.scene, lab.initial);
   s.advance_to(0.05);
-  const Particles& p = s.world().particles;
+  const Particles& p = s.state().particles;
   Vec3 torque;
   double size = 0.0;
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -131,7 +131,7 @@ TEST(CarriedLiquid, RateIsExactForLinearVelocities) {
   lab::Lab lab = blob(1);
   lab::set_velocity(lab, strain);
   const Simulation s(lab.scene, lab.initial);
-  const Particles& p = s.world().particles;
+  const Particles& p = s.state().particles;
   int inside = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
     const auto r = p.position(i) - Vec3{0.4, 0.35, 0.3};
@@ -154,7 +154,7 @@ TEST(CarriedLiquid, DensityFollowsAStepExactly) {
   lab::set_velocity(lab, [&](const Vec3& r) { return omega * Vec3{-(r.y - 0.35), r.x - 0.4, 0.0}; });
   Simulation s(lab.scene, lab.initial);
   s.advance_to(1e-3);
-  const Particles& p = s.world().particles;
+  const Particles& p = s.state().particles;
   for (std::size_t i = 0; i < p.size(); ++i) {
     const auto r = p.position(i) - Vec3{0.4, 0.35, 0.3};
     if (std::max({std::abs(r.x) - 0.1, std::abs(r.y) - 0.1, std::abs(r.z) - 0.05}) > 0.0) continue;
@@ -192,7 +192,7 @@ TEST_P(Forms, GoOnFromACheckpointWithTheSameBits) {
   Simulation s(lab.scene, lab.initial);
   s.advance_to(0.01);
   s.advance_to(0.02, [&] {
-    return s.world().step_numbers[StepNumber{"carried_steps_held", 0.0}] != 1.0 && GetParam() == 1;
+    return s.state().step_numbers[StepNumber{"carried_steps_held", 0.0}] != 1.0 && GetParam() == 1;
   });
   const Checkpoint cut = s.checkpoint();
   s.advance_to(0.02);

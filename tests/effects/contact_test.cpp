@@ -7,7 +7,7 @@ namespace tripoint {
 namespace {
 
 const Vec3& velocity_of(const Simulation& s, std::size_t body) {
-  return s.world().bodies[field::body_velocity][body];
+  return s.state().bodies[field::body_velocity][body];
 }
 
 lab::Lab two_blocks(double stiffness, double speed, double offset) {
@@ -34,7 +34,7 @@ TEST(Oblique, BlocksKeepMomentumAndAngularMomentumToRoundOff) {
   lab::Lab lab = two_blocks(1000.0, 0.5, 0.17);
   Simulation start(lab.scene, lab.initial), end = lab.run(1.0);
   const Ledger before = start.ledger(), after = end.ledger();
-  EXPECT_GT(norm(end.world().bodies[field::body_angular_velocity][0]), 0.1);
+  EXPECT_GT(norm(end.state().bodies[field::body_angular_velocity][0]), 0.1);
   EXPECT_LT(norm(after.momentum - before.momentum), 1e-13 * 64.0);
   EXPECT_LT(norm(after.angular_momentum - before.angular_momentum), 1e-12 * 64.0 * 0.5 * 0.4);
 }

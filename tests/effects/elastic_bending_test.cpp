@@ -52,7 +52,7 @@ TEST(ElasticBending, KeepsMomentumAndAngularMomentumToRoundOff) {
   Vec3 sum, torque;
   double forces = 0.0, torques = 0.0;
   for (std::size_t id = 0; id < body.size(); ++id) {
-    const Vec3 f = body.force(id), r = body.world().particles.position(body.world().particles.row(id));
+    const Vec3 f = body.force(id), r = body.state().particles.position(body.state().particles.row(id));
     sum += f;
     torque += cross(r, f);
     forces += norm(f);
@@ -98,8 +98,8 @@ double energy_in_bending(int across, double bending) {
   body.place(PureBending{curvature, 0.3, middle, middle});
   double energy = 0.0;
   for (std::uint32_t id = 0; id < body.size(); ++id)
-    if (std::abs(body.world().particles.position(body.world().particles.row(id)).x - 4.0 * dx) < 0.1 * dx)
-      energy += solid::deformation_energy(body.world(), id).total();
+    if (std::abs(body.state().particles.position(body.state().particles.row(id)).x - 4.0 * dx) < 0.1 * dx)
+      energy += solid::deformation_energy(body.state(), id).total();
   const double inertia = std::pow(across * dx, 4) / 12.0;
   return energy / (0.5 * curvature * curvature * inertia * dx);  // of one layer, E = 1
 }
@@ -143,7 +143,7 @@ TEST(ElasticBending, ChangesSurfacesOfSolidsAloneAndNothingAsPrinted) {
 
 TEST(ElasticBending, FollowsListsThatLoseBonds) {
   lab::Deformable body(bending_block({5, 5, 5}, 0.0));
-  World& w = body.world();
+  State& w = body.state();
   std::vector<std::uint32_t> ids{62};  // inside: it comes to lie at a surface
   const auto upward = [&](const Bond& b) { return b.x.y < 0.0; };
   const std::vector<std::uint32_t> lost = disconnect(w.bonds, 62, upward);

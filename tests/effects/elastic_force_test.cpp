@@ -58,7 +58,7 @@ TEST(ElasticForce, ReachesAsFarAsTheSceneSays) {
     lab::Lab lab = block({7, 7, 7}, Mode::corrected, 0.0);
     lab.scene.values["bond_reach"] = reach;
     const Simulation simulation(lab.scene, lab.initial, {.threads = 1});
-    EXPECT_EQ(simulation.world().bonds.of(171).size(), within) << reach;  // the middle one
+    EXPECT_EQ(simulation.state().bonds.of(171).size(), within) << reach;  // the middle one
     lab::Lab small = block({4, 4, 4});
     small.scene.values["bond_reach"] = reach;
     lab::Deformable body(small);
@@ -74,7 +74,7 @@ TEST(ElasticForce, KeepsMomentumAndAngularMomentumToRoundOff) {
     Vec3 sum, torque;
     double forces = 0.0, torques = 0.0;
     for (std::size_t id = 0; id < body.size(); ++id) {
-      const Vec3 f = body.force(id), r = body.world().particles.position(body.world().particles.row(id));
+      const Vec3 f = body.force(id), r = body.state().particles.position(body.state().particles.row(id));
       sum += f;
       torque += cross(r, f);
       forces += norm(f);
@@ -87,7 +87,7 @@ TEST(ElasticForce, KeepsMomentumAndAngularMomentumToRoundOff) {
 
 TEST(ElasticForce, OfListsThatDoNotMirrorEachOtherIsTheGradientStill) {
   lab::Deformable body(block({4, 4, 4}));
-  World& w = body.world();
+  State& w = body.state();
   // One particle keeps its list in a frame of its own, as after freezing (x_ij != -x_ji).
   const Quaternion q = from_rotation_vector({0.2, 0.9, -0.4});
   const ElasticityKernel kernel = solid::bond_kernel(w.scene);

@@ -34,7 +34,7 @@ TEST(ElasticMotion, ASpinningBlockTurnsAsARigidOneWould) {
               1e-12);  // round-off of some 1000 steps
   EXPECT_NEAR(norm(end.momentum - start.momentum), 0.0, 1e-13);
   const Vec3 corner =
-      s.world().particles.position(s.world().particles.row(0)) - whole_motion(s.world(), 0).centre;
+      s.state().particles.position(s.state().particles.row(0)) - whole_motion(s.state(), 0).centre;
   EXPECT_NEAR(
       std::remainder(std::atan2(corner.y, corner.x) - std::atan2(-1.0, -1.0) - 3.0, 6.283185307179586), 0.0,
       0.02);  // it widens by rho w^2 R^2/(3 E) = 0.2 %, and turns that much twice more slowly
@@ -48,7 +48,7 @@ TEST(ElasticMotion, TheWholeOfASpinningBlockMovesAsItWasStarted) {
            .phase = Phase::elastic,
            .velocity = velocity,
            .angular_velocity = spin});
-  const WholeMotion whole = whole_motion(Simulation(lab.scene, lab.initial).world(), 0);
+  const WholeMotion whole = whole_motion(Simulation(lab.scene, lab.initial).state(), 0);
   EXPECT_NEAR(norm(whole.velocity - velocity), 0.0, 1e-14);
   // round-off of moments about the origin, 40 times those about the centre
   EXPECT_NEAR(norm(whole.spin - spin), 0.0, 1e-13);

@@ -67,13 +67,13 @@ void set_velocity(Lab& lab, Velocity velocity) {
 }
 
 inline std::vector<Vec3> positions_by_id(const Simulation& s) {
-  const Particles& p = s.world().particles;
+  const Particles& p = s.state().particles;
   std::vector<Vec3> values(p.size());
-  for (std::size_t id = 0; id < p.size(); ++id) values[id] = s.world().unwrapped(p.row(id));
+  for (std::size_t id = 0; id < p.size(); ++id) values[id] = s.state().unwrapped(p.row(id));
   return values;
 }
 inline std::vector<Vec3> vectors_by_id(const Simulation& s, const VectorField<double>& f) {
-  const Particles& p = s.world().particles;
+  const Particles& p = s.state().particles;
   std::vector<Vec3> values(p.size());
   for (std::size_t id = 0; id < p.size(); ++id) values[id] = p.vector(p.row(id), f);
   return values;

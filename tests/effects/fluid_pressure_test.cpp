@@ -89,7 +89,7 @@ TEST(FreeSurface, IsPressedByTheGradientOfTheEnergyThatTheLedgerHolds) {
     return Simulation(of.scene, of.initial).ledger().energy.at("compression");
   };
   const Simulation s(lab.scene, lab.initial);
-  const Particles& p = s.world().particles;
+  const Particles& p = s.state().particles;
   const auto F = triple(p, field::force);
   int looked_at = 0;
   for (std::size_t id = 0; id < lab.initial.size(); id += 3) {

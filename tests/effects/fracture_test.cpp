@@ -22,7 +22,7 @@ lab::Lab bar_pulled_apart(double dt = 0.02) {
   return lab;
 }
 std::size_t bodies_alive(const Simulation& s) {
-  const auto alive = s.world().bodies[field::body_alive];
+  const auto alive = s.state().bodies[field::body_alive];
   return static_cast<std::size_t>(std::accumulate(alive.begin(), alive.end(), 0));
 }
 double total_energy(const Ledger& l) {
@@ -52,7 +52,7 @@ TEST(BondLimit, OfTwoMaterialsIsTheLower) {
 
 TEST(Fracture, MakesBodiesOfTheParts) {
   const Simulation s = bar_pulled_apart().run(8.0);
-  const World& w = s.world();
+  const State& w = s.state();
   EXPECT_GE(bodies_alive(s), 2u);
   EXPECT_EQ(bodies_alive(s), count_objects(w));
   EXPECT_EQ(w.body_names.at(1), "bar.1");
@@ -91,7 +91,7 @@ TEST(Fracture, BooksTheEnergyThatItLetsGo) {
 }
 
 /// P (eps - eps_p) P of particles that keep three directions, by id.
-std::vector<Symmetric> elastic_strains(const World& w) {
+std::vector<Symmetric> elastic_strains(const State& w) {
   std::vector<Symmetric> list;
   for (std::uint32_t id = 0; id < w.particles.size(); ++id)
     list.push_back(solid::deformation_of(w, id).strain -
@@ -105,10 +105,10 @@ TEST(Fracture, LeavesTheStressOfWhatHasFlowedAsItWas) {
   lab::Lab lab = bar_pulled_apart();
   lab.scene.materials[0].elastic_limit = 0.01;
   lab.scene.materials[0].fracture_stretch.reset();
-  World w = lab.run(1.0).world();
+  State w = lab.run(1.0).state();
   w.scene.materials[0].fracture_stretch = 1.06;
   const std::vector<Symmetric> before = elastic_strains(w);
-  w.booked.open(Account{"fracture"});  // the run that made this world could not break
+  w.booked.open(Account{"fracture"});  // the run that made this state could not break
   const auto effect = fracture::make(w.scene);
   effect->change(w);
   const std::vector<Symmetric> after = elastic_strains(w);
@@ -143,9 +143,9 @@ TEST(Fracture, GoesOnBitForBitFromACheckpoint) {
 TEST(Fracture, IsTheSameWithTwoThreads) {
   const lab::Lab lab = bar_pulled_apart(0.1);
   const Simulation one = lab.run(4.0), two = lab.run(4.0, 2);
-  EXPECT_GT(one.world().booked[Account{"fracture"}], 0.0);
+  EXPECT_GT(one.state().booked[Account{"fracture"}], 0.0);
   EXPECT_EQ(lab::by_id(one, field::position_x), lab::by_id(two, field::position_x));
-  EXPECT_EQ(one.world().booked[Account{"fracture"}], two.world().booked[Account{"fracture"}]);
+  EXPECT_EQ(one.state().booked[Account{"fracture"}], two.state().booked[Account{"fracture"}]);
 }
 
 }  // namespace

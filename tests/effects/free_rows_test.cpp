@@ -11,7 +11,7 @@
 
 #include "core/machine.hpp"
 #include "core/vec3.hpp"
-#include "world/free_rows.hpp"
+#include "state/free_rows.hpp"
 
 namespace tripoint {
 namespace {

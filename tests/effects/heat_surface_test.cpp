@@ -84,8 +84,8 @@ TEST(HeldSurface, BooksTheHeatThatComesInThroughIt) {
   const Ledger after = s.ledger();
   EXPECT_LT(after.energy.at("thermal"), 0.999 * before);
   EXPECT_NEAR((after.energy.at("thermal") + after.energy.at("walls")) / before, 1.0, 1e-12);
-  const World& world = s.world();
-  EXPECT_NEAR(world.bodies[field::body_heat][0] / (after.energy.at("thermal") - before), 1.0, 1e-9);
+  const State& state = s.state();
+  EXPECT_NEAR(state.bodies[field::body_heat][0] / (after.energy.at("thermal") - before), 1.0, 1e-9);
 }
 
 TEST(HeldSurface, IsAPlaneOfSymmetryWhereTheDomainCutsTheBody) {

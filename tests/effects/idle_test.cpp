@@ -73,7 +73,7 @@ TEST(OnlyWhatIsCalledFor, EqualTemperaturesCostNoColumnAndNoPairTermAndChangeNot
     EXPECT_EQ(plan(equal.scene).bytes_per_particle, plan(cold.scene).bytes_per_particle);
     EXPECT_GT(plan(armed.scene).bytes_per_particle, plan(equal.scene).bytes_per_particle);
     Simulation without = equal.run(0.05), with = armed.run(0.05);
-    EXPECT_FALSE(without.world().particles.has(field::temperature));
+    EXPECT_FALSE(without.state().particles.has(field::temperature));
     for (const double T : lab::by_id(with, field::temperature))
       EXPECT_NEAR(T, 300.0, 300.0 * 4e-15) << "one rounding of H = m c_p T and back, and of each step";
     expect_same_motion(without, with);
@@ -131,11 +131,11 @@ TEST(OnlyWhatIsCalledFor, EveryEffectIsEitherOnOrLeftOutForAReason) {
 
 /// Particles of a chain that shake more and more, looked at again only where `UnbrokenProof` asks for it.
 TEST(UnbrokenProof, NeverHoldsWhereABondIsBeyondItsLimitAndMostlyHoldsWhereNoneIs) {
-  World world;
-  world.scene.spacing = 1.0;
+  State state;
+  state.scene.spacing = 1.0;
   constexpr std::size_t n = 50;
-  world.particles = Particles(n, common_fields(false));
-  const auto x = positions(world.particles);
+  state.particles = Particles(n, common_fields(false));
+  const auto x = positions(state.particles);
   for (std::size_t i = 0; i < n; ++i) x.set(i, {double(i), 0.0, 0.0});
   constexpr double limit = 1.5;
   const auto least_room = [&] {
@@ -146,23 +146,23 @@ TEST(UnbrokenProof, NeverHoldsWhereABondIsBeyondItsLimitAndMostlyHoldsWhereNoneI
   std::mt19937_64 random(1);
   std::normal_distribution<double> kick(0.0, 0.004);
   fracture::UnbrokenProof unbroken;
-  EXPECT_FALSE(unbroken.holds(world));
+  EXPECT_FALSE(unbroken.holds(state));
   int held = 0, looked = 0, steps = 0;
   for (; least_room() > 0.0 && steps < 100'000; ++steps) {
-    if (unbroken.holds(world))
+    if (unbroken.holds(state))
       ++held;
     else {
       ++looked;
-      unbroken.set(world, least_room());
+      unbroken.set(state, least_room());
     }
     for (std::size_t i = 0; i < n; ++i)
       x.set(i, x.at(i) + Vec3{0.3, 0.0, 0.0} + Vec3{kick(random), kick(random), kick(random)});
   }
   EXPECT_LT(steps, 100'000) << "a bond must have broken";
-  EXPECT_FALSE(unbroken.holds(world));
+  EXPECT_FALSE(unbroken.holds(state));
   EXPECT_GT(held, looked) << "that all fly together is no reason to look";
   unbroken.clear();
-  EXPECT_FALSE(unbroken.holds(world));
+  EXPECT_FALSE(unbroken.holds(state));
 }
 
 }  // namespace

@@ -116,7 +116,7 @@ inline bool lists(const Plan& p, std::string_view field) {
 
 /// A column by id.
 inline std::vector<double> by_id(const Simulation& s, const Field<double>& f) {
-  const Particles& p = s.world().particles;
+  const Particles& p = s.state().particles;
   std::vector<double> values(p.size());
   for (std::size_t id = 0; id < p.size(); ++id) values[id] = p[f][p.row(id)];
   return values;

@@ -79,7 +79,7 @@ TEST(DampingOfSound, TakesWhatTheRateOfTheNumberDensitySays) {
   double power = 0.0, taken = 0.0;
   for (std::size_t i = 0; i < v.size(); ++i) {
     power += dot(damps[i] - presses[i], v[i]);
-    taken += V[i] * q[i] * q[i] / (zeta * c * with.world().support());
+    taken += V[i] * q[i] * q[i] / (zeta * c * with.state().support());
   }
   EXPECT_GT(taken, 0.0);
   EXPECT_NEAR(power / taken, -1.0, 1e-11);

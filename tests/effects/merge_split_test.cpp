@@ -51,8 +51,8 @@ TEST(Merge, KeepsMassMomentumAndAngularMomentumAndBooksTheRest) {
   EXPECT_NEAR(after.energy.at("kinetic") / before.energy.at("kinetic"), 0.093563, 1e-6);
   EXPECT_NEAR(after.energy.at("kinetic") + after.energy.at("merging"), before.energy.at("kinetic"),
               round_off);
-  EXPECT_FALSE(joined.world().bodies[field::body_alive][1]);
-  for (const int b : joined.world().particles[field::body]) EXPECT_EQ(b, 0);
+  EXPECT_FALSE(joined.state().bodies[field::body_alive][1]);
+  for (const int b : joined.state().particles[field::body]) EXPECT_EQ(b, 0);
 }
 
 TEST(Merge, KeepsTheOrientationOfTheBodyThatStays) {
@@ -60,9 +60,9 @@ TEST(Merge, KeepsTheOrientationOfTheBodyThatStays) {
   lab.scene.events = {event(Event::Kind::merge, 0.1, {"cube", "bar"})};
   lab::Lab never = cube_and_bar();
   Simulation merged = lab.run(0.1), apart = never.run(0.1);
-  EXPECT_EQ(merged.world().bodies[field::body_orientation][0],
-            apart.world().bodies[field::body_orientation][0]);
-  const auto x = positions(merged.world().particles), y = positions(apart.world().particles);
+  EXPECT_EQ(merged.state().bodies[field::body_orientation][0],
+            apart.state().bodies[field::body_orientation][0]);
+  const auto x = positions(merged.state().particles), y = positions(apart.state().particles);
   for (std::size_t i = 0; i < lab.initial.size(); ++i) EXPECT_NEAR(norm(x.at(i) - y.at(i)), 0.0, round_off);
   Simulation later = lab.run(0.5);
   expect_kept(later.ledger(), apart.ledger());
@@ -73,7 +73,7 @@ TEST(Merge, WithAFixedBodyKeepsItFixed) {
   lab.scene.bodies[0].motion = Motion::fixed;
   lab.scene.events = {event(Event::Kind::merge, 0.1, {"cube", "bar"})};
   Simulation s = lab.run(0.3);
-  EXPECT_EQ(norm(s.world().bodies[field::body_velocity][0]), 0.0);
+  EXPECT_EQ(norm(s.state().bodies[field::body_velocity][0]), 0.0);
   EXPECT_GT(s.ledger().energy.at("merging"), 0.0);
   lab.scene.events = {event(Event::Kind::merge, 0.1, {"bar", "cube"})};
   EXPECT_THROW((void)lab.run(0.3), InputError);
@@ -88,12 +88,12 @@ TEST(Merge, WithAPrescribedBodyMovesOnWithIt) {
     return lab.run(0.3);
   }();
   for (std::size_t i = 0; i < 64; ++i) {
-    EXPECT_NEAR(norm(positions(s.world().particles).at(i) - positions(alone.world().particles).at(i)), 0.0,
+    EXPECT_NEAR(norm(positions(s.state().particles).at(i) - positions(alone.state().particles).at(i)), 0.0,
                 round_off);
-    EXPECT_NEAR(norm(velocities(s.world().particles).at(i) - velocities(alone.world().particles).at(i)), 0.0,
+    EXPECT_NEAR(norm(velocities(s.state().particles).at(i) - velocities(alone.state().particles).at(i)), 0.0,
                 round_off);
   }
-  EXPECT_NEAR(s.world().bodies[field::body_mass][0], 109.0 / 64.0, round_off);
+  EXPECT_NEAR(s.state().bodies[field::body_mass][0], 109.0 / 64.0, round_off);
 }
 
 lab::Lab spinning_bar() {
@@ -124,9 +124,9 @@ TEST(Split, KeepsMassMomentumAngularMomentumAndEnergy) {
   const Ledger before = whole.ledger(), after = parted.ledger();
   expect_kept(before, after);
   EXPECT_NEAR(after.energy.at("kinetic") / before.energy.at("kinetic"), 1.0, round_off);
-  ASSERT_EQ(parted.world().bodies.size(), 2u);
-  EXPECT_EQ(parted.world().bodies[field::body_orientation][1], Quaternion{});
-  EXPECT_EQ(parted.world().body_names[1], "piece");
+  ASSERT_EQ(parted.state().bodies.size(), 2u);
+  EXPECT_EQ(parted.state().bodies[field::body_orientation][1], Quaternion{});
+  EXPECT_EQ(parted.state().body_names[1], "piece");
 }
 
 TEST(Split, LetsEveryParticleLeaveWithTheVelocityThatItHad) {
@@ -135,7 +135,7 @@ TEST(Split, LetsEveryParticleLeaveWithTheVelocityThatItHad) {
   lab.scene.events = {cut(0.05)};
   const Simulation parted = lab.run(0.05);
   for (std::size_t i = 0; i < lab.initial.size(); ++i) {
-    EXPECT_NEAR(norm(velocities(parted.world().particles).at(i) - velocities(whole.world().particles).at(i)),
+    EXPECT_NEAR(norm(velocities(parted.state().particles).at(i) - velocities(whole.state().particles).at(i)),
                 0.0, round_off);
   }
 }
@@ -147,7 +147,7 @@ TEST(Split, IsUndoneByAMerge) {
   Simulation again(lab.scene, lab.initial);
   expect_kept(whole.ledger(), again.ledger());
   EXPECT_NEAR(again.ledger().energy.at("merging"), 0.0, round_off);
-  EXPECT_NEAR(norm(again.world().bodies[field::body_angular_velocity][0] - Vec3{0.5, 1.0, 2.0}), 0.0,
+  EXPECT_NEAR(norm(again.state().bodies[field::body_angular_velocity][0] - Vec3{0.5, 1.0, 2.0}), 0.0,
               round_off);
 }
 
@@ -163,7 +163,7 @@ TEST(Split, OfATruncatedLineStaysFiniteAndBooksTheSpinThatItCannotHandOn) {
   lab.scene.events = {e};
   Simulation parted(lab.scene, lab.initial);
   expect_kept(whole.ledger(), parted.ledger());
-  EXPECT_GT(norm(parted.world().booked.undelivered_spin), 0.0);
+  EXPECT_GT(norm(parted.state().booked.undelivered_spin), 0.0);
   parted.advance_to(1.0);
   expect_kept(whole.ledger(), parted.ledger());
 }
@@ -183,7 +183,7 @@ TEST(Split, DownToSingleParticlesKeepsEverything) {
   second.name = "last";
   lab.scene.events = {first, second};
   Simulation parted(lab.scene, lab.initial);
-  EXPECT_EQ(parted.world().bodies.size(), 3u);
+  EXPECT_EQ(parted.state().bodies.size(), 3u);
   expect_kept(whole.ledger(), parted.ledger());
   parted.advance_to(0.5);
   expect_kept(whole.ledger(), parted.ledger());

@@ -49,7 +49,7 @@ TEST(Splitting, ByMeltingKeepsWhatIsKept) {
   EXPECT_EQ(std::count(body.begin(), body.end(), -1), 9);
   EXPECT_EQ(std::count(body.begin(), body.end(), 0), 36);
   EXPECT_EQ(std::count(body.begin(), body.end(), 1), 36);
-  EXPECT_EQ(s.world().body_names[1], "bar.1");
+  EXPECT_EQ(s.state().body_names[1], "bar.1");
   expect_kept(s.ledger(), start.ledger(), 81.0, 81.0);
   s.advance_to(0.5);
   expect_kept(s.ledger(), start.ledger(), 81.0, 81.0);
@@ -62,7 +62,7 @@ TEST(Splitting, LetsPiecesLeaveAsTheyMoved) {
   const std::vector<Vec3> whole = lab::speeds(s);
   s.advance_to(2e-3);
   ASSERT_EQ(lab::living_bodies(s), 2u);
-  const Columns& t = s.world().bodies;
+  const Columns& t = s.state().bodies;
   // Each piece turns as the whole did, and its centre moves with v + omega x r of the whole: no force acts, v
   // and omega stay within dt^2.
   for (const std::size_t b : {0u, 1u})
@@ -205,7 +205,7 @@ TEST(Merging, JoinsOnlyThroughWhatFreezes) {
   EXPECT_EQ(body.front(), 0);
   EXPECT_EQ(body[27], 1);
   EXPECT_EQ(body.back(), 2);
-  EXPECT_EQ(s.world().bodies[field::body_mass][2], 1.0);
+  EXPECT_EQ(s.state().bodies[field::body_mass][2], 1.0);
 }
 
 TEST(Merging, ByAnEventHoldsWhereBodiesTouchAsOneOfThemMelts) {
@@ -259,7 +259,7 @@ TEST(Merging, WithADrivenBodyTakesItsMotionAndHeatsByTheRelativeSpeed) {
     lab.scene.bodies[0].temperature->value = hot;
     Simulation start(lab.scene, lab.initial), s = lab.run(0.01);
     EXPECT_EQ(lab::living_bodies(s), 1u);
-    const Vec3 v = s.world().bodies[field::body_velocity][0];
+    const Vec3 v = s.state().bodies[field::body_velocity][0];
     EXPECT_NEAR(norm(v - Vec3{motion == Motion::fixed ? 0.0 : 1.0, 0.0, 0.0}), 0.0, 1e-15);
     const double relative = motion == Motion::fixed ? 9.0 : 10.0;  // |v - v_wall|^2
     EXPECT_NEAR(lab::by_id(s, field::temperature).back() - cold, 0.5 * relative / 1000.0, 1e-10);
@@ -281,8 +281,8 @@ TEST(Merging, OfALineBodyHandsOnTheSpinThatItCouldNotTurnWith) {
   Simulation start(lab.scene, lab.initial), s = lab.run(2e-3);
   EXPECT_EQ(lab::living_bodies(s), 1u);
   expect_kept(s.ledger(), start.ledger(), 1.0, 1.0);
-  EXPECT_EQ(norm(s.world().booked.undelivered_spin), 0.0);
-  EXPECT_GT(s.world().bodies[field::body_angular_velocity][0].x, 0.0);
+  EXPECT_EQ(norm(s.state().booked.undelivered_spin), 0.0);
+  EXPECT_GT(s.state().bodies[field::body_angular_velocity][0].x, 0.0);
 }
 
 TEST(Phase, GoesOnFromACheckpointBitForBit) {

@@ -16,7 +16,7 @@ using lab::hot;
 constexpr double dx = 0.1, young = 1e5;
 
 /// A block of elastic matter and one liquid particle beside it, as it is when it has been loaded.
-World block_and_drop(std::array<int, 3> count, const Vec3& drop) {
+State block_and_drop(std::array<int, 3> count, const Vec3& drop) {
   lab::Lab lab = lab::melting_lab(dx, {.solid = SolidKind::elastic});
   lab.scene.materials[0].stiffness = 1e-12;
   lab.add({.name = "block", .count = count, .phase = Phase::elastic, .temperature = constant(cold)});
@@ -27,22 +27,22 @@ World block_and_drop(std::array<int, 3> count, const Vec3& drop) {
            .temperature = constant(345.0)});
   lab.scene.materials[0].t_solid = 340.0;
   const Simulation s(lab.scene, lab.initial);
-  return s.world();
+  return s.state();
 }
 
-double energy_of_all(const World& world) {
+double energy_of_all(const State& state) {
   double sum = 0.0;
-  for (std::uint32_t id = 0; id < world.particles.size(); ++id)
-    sum += solid::deformation_energy(world, id).total();
+  for (std::uint32_t id = 0; id < state.particles.size(); ++id)
+    sum += solid::deformation_energy(state, id).total();
   return sum;
 }
 
 /// Moves every particle by a turn of 90 degrees and a stretch of 5 % along x.
-void turn_and_stretch(World& world, double stretch) {
-  const auto x = positions(world.particles);
+void turn_and_stretch(State& state, double stretch) {
+  const auto x = positions(state.particles);
   const Quaternion q =
       from_rotation_vector(0.5 * std::numbers::pi * Vec3{1.0, 2.0, -0.5} / norm(Vec3{1.0, 2.0, -0.5}));
-  for (std::size_t i = 0; i < world.particles.size(); ++i) {
+  for (std::size_t i = 0; i < state.particles.size(); ++i) {
     Vec3 r = x.at(i);
     r.x *= 1.0 + stretch;
     r.y *= 1.0 - 0.3 * stretch;
@@ -65,28 +65,28 @@ Event heat(double time, double temperature, std::optional<double> beyond = {}) {
 }
 
 /// What the energy of the block jumps by as the drop freezes to it.
-double jump(World world) {
-  const std::uint32_t drop = static_cast<std::uint32_t>(world.particles.size() - 1);
+double jump(State state) {
+  const std::uint32_t drop = static_cast<std::uint32_t>(state.particles.size() - 1);
   std::vector<phase::Joint> joints;
   for (std::uint32_t j = 0; j < drop; ++j) {
-    const Vec3 r = world.particles.position(world.particles.row(drop)) -
-                   world.particles.position(world.particles.row(j));
+    const Vec3 r = state.particles.position(state.particles.row(drop)) -
+                   state.particles.position(state.particles.row(j));
     if (norm(r) < 1.5 * dx) joints.push_back({drop, j, r, false});
   }
   EXPECT_GT(joints.size(), 0u);
-  const double before = energy_of_all(world);
-  phase::bond(world, joints);
+  const double before = energy_of_all(state);
+  phase::bond(state, joints);
   std::vector<std::uint32_t> ids;
   for (std::uint32_t id = 0; id <= drop; ++id) ids.push_back(id);
-  world.particles[field::body][world.particles.row(drop)] = 0;
-  world.particles[field::phase][world.particles.row(drop)] = 1;
-  solid::refresh_shapes(world, ids);
-  return energy_of_all(world) - before;
+  state.particles[field::body][state.particles.row(drop)] = 0;
+  state.particles[field::phase][state.particles.row(drop)] = 1;
+  solid::refresh_shapes(state, ids);
+  return energy_of_all(state) - before;
 }
 
 TEST(Freezing, BesideATurnedAndStretchedSolidMakesNothingJump) {
   for (const double stretch : {0.0, 0.05}) {
-    World block = block_and_drop({5, 5, 5}, {0.2, 0.2, 0.5});
+    State block = block_and_drop({5, 5, 5}, {0.2, 0.2, 0.5});
     turn_and_stretch(block, stretch);
     EXPECT_NEAR(jump(block), 0.0, 1e-12 * young * dx * dx * dx);  // present vectors instead: 0.05 E dx^3
   }
@@ -95,7 +95,7 @@ TEST(Freezing, BesideATurnedAndStretchedSolidMakesNothingJump) {
 TEST(Freezing, BesideTurnedChainsAndSheetsMakesNothingJump) {
   for (const auto& [count, drop] : {std::pair{std::array{6, 1, 1}, Vec3{0.6, 0.0, 0.0}},
                                     std::pair{std::array{5, 5, 1}, Vec3{0.5, 0.2, 0.0}}}) {
-    World block = block_and_drop(count, drop);
+    State block = block_and_drop(count, drop);
     turn_and_stretch(block, 0.0);
     EXPECT_NEAR(jump(block), 0.0, 1e-12 * young * dx * dx * dx);
   }
@@ -126,9 +126,9 @@ TEST(Freezing, OfElasticMatterBesideATurnedRigidBodyMakesNothingJump) {
   EXPECT_EQ(lab::living_bodies(s), 2u);
   double bonds_across = 0.0;
   for (std::uint32_t id = 0; id < 27; ++id)
-    for (const Bond& bond : s.world().bonds.of(id)) bonds_across += bond.other >= 27 ? 1.0 : 0.0;
+    for (const Bond& bond : s.state().bonds.of(id)) bonds_across += bond.other >= 27 ? 1.0 : 0.0;
   EXPECT_GT(bonds_across, 0.0);
-  EXPECT_LT(energy_of_all(s.world()), 1e-4 * young * dx * dx * dx);  // what a step of turning strains
+  EXPECT_LT(energy_of_all(s.state()), 1e-4 * young * dx * dx * dx);  // what a step of turning strains
 }
 
 /// A bar of 8 x 3 x 3 that swings along itself, and melts or freezes as heat events say.
@@ -155,7 +155,7 @@ TEST(Melting, OfAStrainedBarGivesItsEnergyToHeatAndFreezingMakesNoStress) {
   const Ledger molten = s.ledger();
   for (const int phase : lab::integers_by_id(s, field::phase)) EXPECT_EQ(phase, 0);
   EXPECT_EQ(molten.energy.at("elastic") + molten.energy.at("hourglass"), 0.0);
-  const double released = s.world().booked[account::deformation_released];
+  const double released = s.state().booked[account::deformation_released];
   EXPECT_NEAR(released / stored, 1.0, 0.02);  // a step of swinging lies between
   EXPECT_NEAR(lab::total_energy(molten) / lab::total_energy(strained), 1.0, 1e-12);
   s.advance_to(0.0311);
@@ -172,13 +172,13 @@ TEST(Melting, OfHalfABarLeavesTheBondsOfTheOtherHalf) {
   lab::Lab lab = swinging_bar(0.0);
   lab.scene.events = {heat(0.03, hot, 0.35), heat(0.032, 250.0, 0.0)};
   Simulation s(lab.scene, lab.initial);
-  const World before = s.world();
+  const State before = s.state();
   s.advance_to(0.031);
   const auto phase = lab::integers_by_id(s, field::phase);
   EXPECT_EQ(std::count(phase.begin(), phase.end(), 0), 36);
   std::size_t kept = 0;
   for (std::uint32_t id = 0; id < phase.size(); ++id) {
-    for (const Bond& bond : s.world().bonds.of(id)) {
+    for (const Bond& bond : s.state().bonds.of(id)) {
       EXPECT_EQ(phase[id], 1);
       EXPECT_EQ(phase[bond.other], 1);
       const auto old = before.bonds.of(id);
@@ -189,11 +189,11 @@ TEST(Melting, OfHalfABarLeavesTheBondsOfTheOtherHalf) {
     }
   }
   EXPECT_GT(kept, 300u);
-  const double stored = energy_of_all(s.world());
+  const double stored = energy_of_all(s.state());
   s.advance_to(0.0321);  // frozen again: of two kinds of bonds one body
   EXPECT_EQ(lab::living_bodies(s), 1u);
-  EXPECT_NEAR(energy_of_all(s.world()), stored, 0.05 * stored);  // 2 steps of swinging
-  const World& now = s.world();
+  EXPECT_NEAR(energy_of_all(s.state()), stored, 0.05 * stored);  // 2 steps of swinging
+  const State& now = s.state();
   for (std::uint32_t id = 0; id < phase.size(); ++id) {
     if (phase[id] == 1) continue;
     double strain = 0.0;
@@ -240,12 +240,12 @@ TEST(Softening, TakesStiffnessWithTheLiquidFractionAndClosesTheLedger) {
     const double left = printed ? 0.5 : 0.75;
     for (const double share : lab::by_id(s, field::stiffness_share)) EXPECT_NEAR(share, left, 1e-6);
     for (const int phase : lab::integers_by_id(s, field::phase)) EXPECT_EQ(phase, 1);
-    const World& world = s.world();
-    World stiff = world;
+    const State& state = s.state();
+    State stiff = state;
     for (double& share : stiff.particles[field::stiffness_share]) share = 1.0;
-    EXPECT_NEAR(energy_of_all(world) / energy_of_all(stiff), left, 1e-6);
+    EXPECT_NEAR(energy_of_all(state) / energy_of_all(stiff), left, 1e-6);
     EXPECT_NEAR(lab::total_energy(s.ledger()) / lab::total_energy(before), 1.0, 1e-12);
-    EXPECT_NE(world.booked[account::deformation_released], 0.0);
+    EXPECT_NE(state.booked[account::deformation_released], 0.0);
   }
 }
 
@@ -313,13 +313,13 @@ TEST(PrintedStage, ARigidMaterialThatSoftensIsElasticBetweenItsTwoTemperatures) 
 TEST(PrintedStage, WhatTurnsKeepsItsBondsItsMotionAndItsShareOfTheModulus) {
   const Simulation s = spinning_pair(330.0, 350.0);  // a quarter and three quarters of the way
   EXPECT_EQ(lab::living_bodies(s), 1u);
-  EXPECT_EQ(count_objects(s.world()), 1u);
+  EXPECT_EQ(count_objects(s.state()), 1u);
   const auto share = lab::by_id(s, field::stiffness_share);
   EXPECT_NEAR(share[0], 0.75, 1e-12);
   EXPECT_NEAR(share[1], 0.25, 1e-12);
   for (const std::uint32_t id : {0U, 1U}) {
-    ASSERT_EQ(s.world().bonds.of(id).size(), 1u);
-    EXPECT_NEAR(norm(s.world().bonds.of(id)[0].x), 0.1, 1e-9);
+    ASSERT_EQ(s.state().bonds.of(id).size(), 1u);
+    EXPECT_NEAR(norm(s.state().bonds.of(id)[0].x), 0.1, 1e-9);
   }
   const auto v = lab::speeds(s);  // omega x r: 2 rad/s at 0.05 m
   EXPECT_NEAR(v[0].y, -0.1, 1e-6);

@@ -222,7 +222,7 @@ TEST(Heat, OfWhatHoldsABodyIsCountedBodyByBody) {
     Simulation s(lab.scene, lab.initial);
     const double start = s.ledger().energy.at("thermal");
     s.advance_to(2e4);
-    const auto heat = s.world().bodies[field::body_heat];
+    const auto heat = s.state().bodies[field::body_heat];
     EXPECT_GT(heat[0], 0.0);
     EXPECT_EQ(heat[1], 0.0);
     EXPECT_LT(heat[2], 0.0);

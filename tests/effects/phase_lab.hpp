@@ -38,25 +38,25 @@ inline Lab melting_lab(double spacing, const Meltable& m = {}) {
 }
 
 inline std::vector<int> integers_by_id(const Simulation& s, const Field<int>& f) {
-  const Particles& p = s.world().particles;
+  const Particles& p = s.state().particles;
   std::vector<int> values(p.size());
   for (std::size_t id = 0; id < p.size(); ++id) values[id] = p[f][p.row(id)];
   return values;
 }
 inline std::vector<Vec3> places(const Simulation& s) {
   std::vector<Vec3> values;
-  for (std::size_t id = 0; id < s.world().particles.size(); ++id)
-    values.push_back(s.world().unwrapped(s.world().particles.row(id)));
+  for (std::size_t id = 0; id < s.state().particles.size(); ++id)
+    values.push_back(s.state().unwrapped(s.state().particles.row(id)));
   return values;
 }
 inline std::vector<Vec3> speeds(const Simulation& s) {
   std::vector<Vec3> values;
-  for (std::size_t id = 0; id < s.world().particles.size(); ++id)
-    values.push_back(s.world().particles.velocity(s.world().particles.row(id)));
+  for (std::size_t id = 0; id < s.state().particles.size(); ++id)
+    values.push_back(s.state().particles.velocity(s.state().particles.row(id)));
   return values;
 }
 inline std::size_t living_bodies(const Simulation& s) {
-  const auto alive = s.world().bodies[field::body_alive];
+  const auto alive = s.state().bodies[field::body_alive];
   return static_cast<std::size_t>(std::count(alive.begin(), alive.end(), 1));
 }
 /// Sum of all entries [J].

@@ -20,8 +20,8 @@ TEST(Plan, OfARigidSceneHasNoHeatColumnAndNeitherHasTheRun) {
   for (const char* f : {"temperature", "enthalpy", "heat_rate", "conductivity", "density"})
     EXPECT_FALSE(lab::lists(p, f)) << f;
   const Simulation s(lab.scene, lab.initial);
-  EXPECT_THROW((void)s.world().particles[field::temperature], MissingField);
-  EXPECT_FALSE(s.world().neighbours.has_value()) << "a scene without pair terms needs no lists";
+  EXPECT_THROW((void)s.state().particles[field::temperature], MissingField);
+  EXPECT_FALSE(s.state().neighbours.has_value()) << "a scene without pair terms needs no lists";
 }
 
 lab::Lab warm(Mode mode) {
@@ -42,8 +42,8 @@ TEST(Plan, OfASceneWithoutDeformableSolidsHasNoneOfTheirColumnsAndNoBonds) {
     EXPECT_TRUE(e.name != "elastic" && e.name != "plastic" && e.name != "fracture" && e.name != "phase")
         << e.name;
   const Simulation s = lab.run(0.01);
-  EXPECT_EQ(s.world().bonds.particles(), 0u);
-  EXPECT_EQ(s.world().own.particles(), 0u);
+  EXPECT_EQ(s.state().bonds.particles(), 0u);
+  EXPECT_EQ(s.state().own.particles(), 0u);
 }
 
 TEST(Plan, OfHeatOwnsEachFormsOwnFields) {
@@ -62,9 +62,9 @@ TEST(Plan, ListsExactlyTheColumnsThatTheRunHas) {
     const lab::Lab lab = warm(mode);
     const Plan p = plan(lab.scene);
     const Simulation s(lab.scene, lab.initial);
-    std::size_t columns = s.world().particles.fields().size() + s.world().bodies.fields().size();
+    std::size_t columns = s.state().particles.fields().size() + s.state().bodies.fields().size();
     EXPECT_EQ(columns, p.fields.size());
-    for (const auto& f : s.world().particles.fields()) EXPECT_TRUE(lab::lists(p, f.name)) << f.name;
+    for (const auto& f : s.state().particles.fields()) EXPECT_TRUE(lab::lists(p, f.name)) << f.name;
   }
 }
 

@@ -49,7 +49,7 @@ TEST(PlasticMelting, ClosesTheEnergyAndForgetsTheFlowOfWhatMelts) {
   const Ledger strained = s.ledger();
   EXPECT_GT(strained.energy.at("plastic"), 0.05 * strained.energy.at("kinetic"));
   s.advance_to(0.0305);
-  const World& w = s.world();
+  const State& w = s.state();
   std::size_t molten = 0, flowed = 0;
   for (std::size_t i = 0; i < w.particles.size(); ++i) {
     const bool liquid = w.particles[field::phase][i] == 0;
@@ -73,8 +73,8 @@ TEST(PlasticMelting, ClosesTheEnergyAndForgetsTheFlowOfWhatMelts) {
 TEST(PlasticFlow, LooksWhereverMatterFlowsAndNotBelowTheLimit) {
   const lab::Lab lab = yielding_bar();
   const Simulation s(lab.scene, lab.initial);
-  const solid::ElasticForms forms(s.world().scene);
-  const auto constants = forms.constants(s.world());
+  const solid::ElasticForms forms(s.state().scene);
+  const auto constants = forms.constants(s.state());
   const plastic::YieldLimits limits{.elastic = 0.01};
   std::mt19937 engine(6);
   std::uniform_real_distribution<double> u(-1.0, 1.0);

@@ -30,7 +30,7 @@ lab::Lab jet() {
 
 TEST(Inflow, BringsALayerASpacingInStepWithItsSpeed) {
   Simulation s = jet().run(0.1);
-  EXPECT_EQ(s.world().particles.size(), 1u + 16u * 6u);  // layers begin at 0, dx/v, ..., 5 dx/v = 0.1 s
+  EXPECT_EQ(s.state().particles.size(), 1u + 16u * 6u);  // layers begin at 0, dx/v, ..., 5 dx/v = 0.1 s
   EXPECT_NEAR(s.ledger().mass, 97.0 * 1e-3, 1e-15);      // rho dx^3 each
 }
 
@@ -62,7 +62,7 @@ TEST(Inflow, SetsTheStepOfSoundWhereItIsLighterThanEveryBody) {
 
 TEST(Inflow, IsALatticeWhereItEnters) {
   const Simulation s = jet().run(0.09);
-  const Particles& p = s.world().particles;
+  const Particles& p = s.state().particles;
   double nearest = 1.0;
   for (std::size_t i = 0; i < p.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) nearest = std::min(nearest, norm(p.position(i) - p.position(j)));
@@ -113,7 +113,7 @@ TEST(Grip, CarriesARigidBodyAsItsKeyframesSayAndLetsItFlyOn) {
   grip.keyframes = {{0.2, {}, {}},
                     {0.6, {0.0, 0.0, 0.2}, {std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle)}}};
   lab.scene.events.push_back(grip);
-  const auto centre_at = [&](double t) { return lab.run(t).world().bodies[field::body_centre][0]; };
+  const auto centre_at = [&](double t) { return lab.run(t).state().bodies[field::body_centre][0]; };
   const Vec3 start{0.11, 0.01, 0.01};
   const auto turned = [&](double a) {
     return Vec3{start.x * std::cos(a) - start.y * std::sin(a), start.x * std::sin(a) + start.y * std::cos(a),

@@ -31,12 +31,12 @@ lab::Lab printed(const std::vector<Vec3>& places, bool heat = false) {
 }
 
 Vec3 force(const Simulation& s, std::size_t id) {
-  const Particles& p = s.world().particles;
+  const Particles& p = s.state().particles;
   return p.vector(p.row(static_cast<std::uint32_t>(id)), field::force);
 }
 
 Vec3 viscous(const Simulation& s, std::size_t id) {
-  const Particles& p = s.world().particles;
+  const Particles& p = s.state().particles;
   return p.vector(p.row(static_cast<std::uint32_t>(id)), field::viscous_force);
 }
 
@@ -154,7 +154,7 @@ TEST(PrintedNumbers, AForceTurnsABodyOfFourByItsLever) {
   lab.scene.time_step = 0.01;
   const Simulation s = lab.run(0.01);
   // I_z = 4 m r^2 = 8 kg m2, so L = 4 kg m2/s; the body turns by omega dt = 0.005 rad (19), (20).
-  const Particles& p = s.world().particles;
+  const Particles& p = s.state().particles;
   EXPECT_NEAR(p.position(p.row(0)).x, std::cos(0.005), 1e-12);
   EXPECT_NEAR(p.position(p.row(0)).y, std::sin(0.005), 1e-12);
 }

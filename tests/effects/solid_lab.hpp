@@ -41,35 +41,35 @@ inline void jitter_all(Lab& lab, double amplitude, const Vec3& along = {1.0, 1.0
 class Deformable {
  public:
   explicit Deformable(const Lab& lab, int threads = 1)
-      : world_(Simulation(lab.scene, lab.initial, {.threads = threads}).world()),
+      : state_(Simulation(lab.scene, lab.initial, {.threads = threads}).state()),
         effect_(elastic::make(lab.scene)),
         start_(lab.initial.position) {
     place([](const Vec3& r) { return r; });
   }
   /// The solids of a run of this scene, as they are now.
   Deformable(const Lab& lab, const Simulation& now)
-      : world_(now.world()), effect_(elastic::make(lab.scene)), start_(lab.initial.position) {
+      : state_(now.state()), effect_(elastic::make(lab.scene)), start_(lab.initial.position) {
     place([](const Vec3& r) { return r; });
   }
   /// Each particle at to(its place at the start).
   template <class Place>
   void place(Place to) {
     for (std::size_t id = 0; id < start_.size(); ++id)
-      positions(world_.particles).set(world_.particles.row(id), to(start_[id]));
+      positions(state_.particles).set(state_.particles.row(id), to(start_[id]));
     update();
   }
   void move(std::size_t id, const Vec3& by) {
-    const std::size_t row = world_.particles.row(id);
-    positions(world_.particles).set(row, world_.particles.position(row) + by);
+    const std::size_t row = state_.particles.row(id);
+    positions(state_.particles).set(row, state_.particles.position(row) + by);
     update();
   }
   [[nodiscard]] Vec3 force(std::size_t id) const {
-    return world_.particles.vector(world_.particles.row(id), field::elastic_force);
+    return state_.particles.vector(state_.particles.row(id), field::elastic_force);
   }
   [[nodiscard]] double energy() const {
     double sum = 0.0;
     for (std::size_t id = 0; id < start_.size(); ++id)
-      sum += solid::deformation_energy(world_, static_cast<std::uint32_t>(id)).total();
+      sum += solid::deformation_energy(state_, static_cast<std::uint32_t>(id)).total();
     return sum;
   }
   /// Greatest Frobenius norm of the strains.
@@ -87,20 +87,20 @@ class Deformable {
     return most;
   }
   [[nodiscard]] Symmetric strain(std::size_t id) const {
-    const Particles& p = world_.particles;
+    const Particles& p = state_.particles;
     const std::size_t i = p.row(id);
     return {p[field::strain_xx][i], p[field::strain_yy][i], p[field::strain_zz][i],
             p[field::strain_yz][i], p[field::strain_xz][i], p[field::strain_xy][i]};
   }
   [[nodiscard]] std::size_t size() const { return start_.size(); }
-  [[nodiscard]] World& world() { return world_; }
+  [[nodiscard]] State& state() { return state_; }
   void update() {
-    effect_->state(world_);
-    effect_->bonds(world_);
+    effect_->state(state_);
+    effect_->bonds(state_);
   }
 
  private:
-  World world_;
+  State state_;
   std::unique_ptr<Effect> effect_;
   std::vector<Vec3> start_;
 };

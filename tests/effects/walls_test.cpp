@@ -31,7 +31,7 @@ double compression(const lab::Lab& lab) {
 
 void expect_gradient(const lab::Lab& lab) {
   const Simulation s(lab.scene, lab.initial);
-  const Particles& p = s.world().particles;
+  const Particles& p = s.state().particles;
   const auto F = triple(p, field::force);
   int looked_at = 0;
   for (std::size_t id = 0; id < lab.initial.size(); id += 5) {
@@ -60,7 +60,7 @@ TEST(Walls, ThatDoNotJitterAreFeltWhereTheyAre) {
     lab::Lab lab = pressed_column(ViscosityForm::laplacian, scene_jitter);
     for (Body& b : lab.scene.bodies) b.jitters = jitters;
     const Simulation s(lab.scene, lab.initial);
-    const Particles& p = s.world().particles;
+    const Particles& p = s.state().particles;
     std::vector<Vec3> of_id;
     for (std::size_t id = 0; id < p.size(); ++id) of_id.push_back(p.vector(p.row(id), field::force));
     return of_id;
@@ -74,9 +74,9 @@ TEST(Walls, AreShownTheForceAndDensityThatEveryStepWouldForm) {
   for (const double jitter : {0.0, 0.1}) {
     const lab::Lab lab = pressed_column(ViscosityForm::laplacian, jitter);
     Simulation some(lab.scene, lab.initial), all(lab.scene, lab.initial, {.sums_all = true});
-    some.advance_to(1.0, [&] { return some.world().neighbours->rebuilds() < 5 && some.steps() < 3000; });
+    some.advance_to(1.0, [&] { return some.state().neighbours->rebuilds() < 5 && some.steps() < 3000; });
     all.advance_to(1.0, [&] { return all.steps() < some.steps(); });
-    const Particles &p = some.world().particles, &q = all.world().particles;
+    const Particles &p = some.state().particles, &q = all.state().particles;
     ASSERT_LT(p.moving(), p.size()) << "fixed rows are apart from the third lists on";
     ASSERT_EQ(some.steps(), all.steps());
     double greatest = 0.0;
@@ -97,7 +97,7 @@ TEST(Walls, AreShownTheForceAndDensityThatEveryStepWouldForm) {
 TEST(Walls, HaveTheMeanDensityOfTheirFaceAndTheRestDensityBehindIt) {
   const lab::Lab lab = pressed_column();
   const Simulation s(lab.scene, lab.initial);
-  const Particles& p = s.world().particles;
+  const Particles& p = s.state().particles;
   const auto own = [&](std::size_t id) {
     return p[field::mass][p.row(id)] * p[field::number_density][p.row(id)] / 1000.0;
   };
@@ -191,7 +191,7 @@ double viscous_power(ViscosityForm form, unsigned seed) {
   std::normal_distribution<double> normal;
   lab::set_velocity(lab, [&](const Vec3&) { return Vec3{normal(random), normal(random), normal(random)}; });
   const Simulation s(lab.scene, lab.initial);
-  const Particles& p = s.world().particles;
+  const Particles& p = s.state().particles;
   const auto F = triple(p, field::viscous_force);
   double power = 0.0;
   for (std::size_t i = 0; i < p.size(); ++i)

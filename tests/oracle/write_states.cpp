@@ -25,19 +25,19 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-Json lists_of_bonds(const World& world) {
+Json lists_of_bonds(const State& state) {
   Json lists = Json::array();
-  for (std::size_t id = 0; id < world.bonds.particles(); ++id)
-    for (const Bond& b : world.bonds.of(id))
+  for (std::size_t id = 0; id < state.bonds.particles(); ++id)
+    for (const Bond& b : state.bonds.of(id))
       lists.push_back({id, b.other, b.x.x, b.x.y, b.x.z, b.gradient.x, b.gradient.y, b.gradient.z, b.weight,
-                       world.bonds.of(b.other)[b.twin].other});
+                       state.bonds.of(b.other)[b.twin].other});
   return lists;
 }
 
-Json lists_of_own_pairs(const World& world) {
+Json lists_of_own_pairs(const State& state) {
   Json lists = Json::array();
-  for (std::size_t id = 0; id < world.own.particles(); ++id)
-    for (const OwnPair& pair : world.own.of(id)) lists.push_back({id, pair.other, pair.weight});
+  for (std::size_t id = 0; id < state.own.particles(); ++id)
+    for (const OwnPair& pair : state.own.of(id)) lists.push_back({id, pair.other, pair.weight});
   return lists;
 }
 
@@ -69,21 +69,21 @@ Json columns_of(const Columns& bodies) {
   return columns;
 }
 
-Json step_numbers_of(const World& world) {
+Json step_numbers_of(const State& state) {
   Json numbers = Json::object();
-  for (const StepNumber& one : world.step_numbers.declared())
-    numbers[std::string(one.name)] = world.step_numbers[one];
+  for (const StepNumber& one : state.step_numbers.declared())
+    numbers[std::string(one.name)] = state.step_numbers[one];
   return numbers;
 }
 
 Json state_of(Simulation& s) {
-  const World& world = s.world();
+  const State& state = s.state();
   return {{"steps", s.steps()},
-          {"step_numbers", step_numbers_of(world)},
-          {"particles", columns_of(world.particles)},
-          {"bodies", columns_of(world.bodies)},
-          {"bonds", lists_of_bonds(world)},
-          {"own_pairs", lists_of_own_pairs(world)},
+          {"step_numbers", step_numbers_of(state)},
+          {"particles", columns_of(state.particles)},
+          {"bodies", columns_of(state.bodies)},
+          {"bonds", lists_of_bonds(state)},
+          {"own_pairs", lists_of_own_pairs(state)},
           {"ledger", s.ledger().energy}};
 }
 

@@ -22,8 +22,8 @@ double spin_error(double angle) {
   Simulation s(lab.scene, lab.initial, {.force_time_step = true});
   const double first = kinetic_energy(s);
   double most = 0.0;
-  while (s.world().time < 20.0) {
-    s.advance_to(s.world().time + *lab.scene.time_step);
+  while (s.state().time < 20.0) {
+    s.advance_to(s.state().time + *lab.scene.time_step);
     most = std::max(most, std::abs(kinetic_energy(s) / first - 1.0));
   }
   return most;
@@ -73,8 +73,8 @@ Fall heavy_fall(double share) {
   Simulation s(lab.scene, lab.initial, {.force_time_step = true});
   const double first = mechanical(s);
   Fall fall{0.0, probe.bound().name == "acceleration"};
-  while (s.world().time < 30.0) {
-    s.advance_to(s.world().time + *lab.scene.time_step);
+  while (s.state().time < 30.0) {
+    s.advance_to(s.state().time + *lab.scene.time_step);
     // 16 kg fall by a spacing
     fall.error = std::max(fall.error, std::abs(mechanical(s) - first) / (16.0 * weight));
   }
@@ -126,12 +126,12 @@ TEST(ContactBound, WithAContactStepHoldsNearATouchAloneAndAsShortAsTheKeySays) {
   EXPECT_EQ(s.bound().name, "sound");
   EXPECT_NEAR(s.bound().dt, sound_step / 1.05, 1e-12);
   bool touched = false;
-  while (s.world().time < 120.0) {
-    s.advance_to(s.world().time + 0.1);
+  while (s.state().time < 120.0) {
+    s.advance_to(s.state().time + 0.1);
     const bool pressed = s.ledger().energy.at("compression") > 1e-9;
     touched = touched || pressed;
     if (pressed) {
-      EXPECT_EQ(s.bound().name, "contact") << s.world().time;
+      EXPECT_EQ(s.bound().name, "contact") << s.state().time;
     }
   }
   EXPECT_TRUE(touched);
@@ -162,10 +162,10 @@ TEST(ContactBound, WithAContactStepAHitIsTheHitOfShortSteps) {
     Simulation s(lab.scene, lab.initial);
     double least = 5.0;
     s.advance_to(120.0, [&] {
-      least = std::min(least, s.world().bodies[field::body_centre][0].z);
+      least = std::min(least, s.state().bodies[field::body_centre][0].z);
       return true;
     });
-    return std::pair(least, s.world().bodies[field::body_velocity][0].z);
+    return std::pair(least, s.state().bodies[field::body_velocity][0].z);
   };
   const auto [depth, away] = deepest(1.0);
   const auto [depth_of_short, away_of_short] = deepest(0.0);

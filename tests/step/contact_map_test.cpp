@@ -38,13 +38,13 @@ Hit hit(double speed, double share) {
   lab.scene.unguarded = {GuardName::overlap, GuardName::time_step, GuardName::ledger};
   lab.scene.time_step = share * Simulation(lab.scene, lab.initial).bound().dt;
   Simulation s(lab.scene, lab.initial, {.force_time_step = true});
-  const auto x = [&](std::size_t body) { return s.world().bodies[field::body_centre][body].x; };
-  const auto v = [&](std::size_t body) { return s.world().bodies[field::body_velocity][body]; };
+  const auto x = [&](std::size_t body) { return s.state().bodies[field::body_centre][body].x; };
+  const auto v = [&](std::size_t body) { return s.state().bodies[field::body_velocity][body]; };
   Hit h{speed, share};
   const double first = x(1) - x(0) - gap;
   // Apart again, or right through
   for (double distance = gap; distance > -8.0 && (distance < 1.2 || v(1).x <= v(0).x);) {
-    s.advance_to(s.world().time + *lab.scene.time_step);
+    s.advance_to(s.state().time + *lab.scene.time_step);
     distance = x(1) - x(0) - first;
     h.overlap = std::max(h.overlap, 1.0 - distance);
   }

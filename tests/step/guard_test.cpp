@@ -39,11 +39,11 @@ TEST(Guard, NamesParticleFieldStageAndTimeOfARunThatBlowsUp) {
 TEST(Guard, NamesTheFieldThatASteppersWritesFirst) {
   const lab::Lab lab = warm();
   const Simulation s(lab.scene, lab.initial);
-  World world{s.world()};
-  world.particles[field::heat_rate][world.particles.row(9)] = std::nan("");
-  world.particles[field::temperature][world.particles.row(11)] = INFINITY;
+  State state{s.state()};
+  state.particles[field::heat_rate][state.particles.row(9)] = std::nan("");
+  state.particles[field::temperature][state.particles.row(11)] = INFINITY;
   try {
-    check_finite(world);
+    check_finite(state);
     FAIL();
   } catch (const Diverged& e) {
     EXPECT_EQ(e.particle, 11);
@@ -70,9 +70,9 @@ Simulation forced(const lab::Lab& lab) {
 
 TEST(Guard, NamesTheParticleThatIsColderThanAbsoluteZero) {
   const lab::Lab lab = warm();
-  World world{Simulation(lab.scene, lab.initial).world()};
-  world.particles[field::temperature][world.particles.row(17)] = -1e-9;
-  const Diverged e = tripped([&] { check_finite(world); });
+  State state{Simulation(lab.scene, lab.initial).state()};
+  state.particles[field::temperature][state.particles.row(17)] = -1e-9;
+  const Diverged e = tripped([&] { check_finite(state); });
   EXPECT_EQ(e.guard, "temperature");
   EXPECT_EQ(e.particle, 17);
 }
@@ -150,15 +150,15 @@ TEST(Guard, NamesEnergyThatTheSchemeMakes) {
   const double kinetic = ledger.energy.at("kinetic"), dt = s.bound().dt;
   GuardMemory memory;
   ledger.energy["time_integration"] = -0.4 * kinetic;
-  EXPECT_NO_THROW(check_energy(s.world(), ledger, s.world().booked[account::start_potential], dt, memory));
+  EXPECT_NO_THROW(check_energy(s.state(), ledger, s.state().booked[account::start_potential], dt, memory));
   EXPECT_DOUBLE_EQ(memory.turned_over, kinetic);
   ledger.energy["time_integration"] = 0.6 * kinetic;
   const Diverged e = tripped(
-      [&] { check_energy(s.world(), ledger, s.world().booked[account::start_potential], dt, memory); });
+      [&] { check_energy(s.state(), ledger, s.state().booked[account::start_potential], dt, memory); });
   EXPECT_EQ(e.guard, "ledger");
   EXPECT_EQ(e.particle, 21) << "the fastest";
   ledger.energy["thermal"] = 1e9;
-  EXPECT_THROW(check_energy(s.world(), ledger, s.world().booked[account::start_potential], dt, memory),
+  EXPECT_THROW(check_energy(s.state(), ledger, s.state().booked[account::start_potential], dt, memory),
                Diverged)
       << "heat hides no energy of motion";
 }
@@ -172,7 +172,7 @@ TEST(Guard, CountsWhatForcesMakeAsMadeByTheScheme) {
   ASSERT_EQ(ledger.energy.count("viscous"), 1u);
   GuardMemory memory;
   const auto check = [&] {
-    check_energy(s.world(), ledger, s.world().booked[account::start_potential], s.bound().dt, memory);
+    check_energy(s.state(), ledger, s.state().booked[account::start_potential], s.bound().dt, memory);
   };
   ledger.energy["kinetic"] = 100.0;
   ledger.energy["viscous"] = -40.0;
@@ -198,9 +198,9 @@ TEST(Guard, NamesTheBoundThatLetsTheStepCollapse) {
   const lab::Lab lab = warm();
   const Simulation s(lab.scene, lab.initial);
   GuardMemory memory;
-  EXPECT_NO_THROW(check_step(s.world(), {1.0, "sound"}, memory));
-  EXPECT_NO_THROW(check_step(s.world(), {1e-4, "sound"}, memory));
-  const Diverged e = tripped([&] { check_step(s.world(), {1e-6, "bonds"}, memory); });
+  EXPECT_NO_THROW(check_step(s.state(), {1.0, "sound"}, memory));
+  EXPECT_NO_THROW(check_step(s.state(), {1e-4, "sound"}, memory));
+  const Diverged e = tripped([&] { check_step(s.state(), {1e-6, "bonds"}, memory); });
   EXPECT_EQ(e.guard, "time_step");
   EXPECT_NE(std::string(e.what()).find("bonds"), std::string::npos);
 }

@@ -101,7 +101,7 @@ std::uint64_t bits_with(const std::string& set) {
   run.advance_to(scene.end_time);
   std::uint64_t hash = 1469598103934665603ull;
   const auto add = [&](double v) { hash = (hash ^ std::bit_cast<std::uint64_t>(v)) * 1099511628211ull; };
-  const Particles& p = run.world().particles;
+  const Particles& p = run.state().particles;
   for (std::size_t id = 0; id < p.size(); ++id) {
     const std::size_t i = p.row(id);
     for (const Vec3& v : {p.position(i), p.velocity(i)}) {

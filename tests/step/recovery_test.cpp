@@ -30,7 +30,7 @@ TEST(Recovery, ARunThatFailsGoesOnWithHalfTheStepAndCountsIt) {
   Simulation s(lab.scene, lab.initial, {.force_time_step = true});
   const double before = energy(s);
   s.advance_to(2000.0);
-  EXPECT_EQ(s.world().time, 2000.0);
+  EXPECT_EQ(s.state().time, 2000.0);
   EXPECT_GE(s.recovery().count(), 2) << "half of four bounds is beyond the frontier too";
   EXPECT_LT(s.recovery().count(), 20);
   EXPECT_FALSE(s.recovery().last().empty());

@@ -39,7 +39,7 @@ double unrest(const lab::Lab& lab, const InitialState& start) {
   Simulation s(lab.scene, start);
   double most = 0.0;
   s.advance_to(0.5, [&] {
-    const auto v = velocities(s.world().particles);
+    const auto v = velocities(s.state().particles);
     double sum = 0.0;
     for (std::size_t i = 0; i < start.size(); ++i) sum += dot(v.at(i), v.at(i));
     most = std::max(most, sum / (across * across * deep));

@@ -18,7 +18,7 @@ namespace {
 std::uint64_t hash_of(const Simulation& s) {
   std::uint64_t hash = 1469598103934665603ull;
   const auto add = [&](double v) { hash = (hash ^ std::bit_cast<std::uint64_t>(v)) * 1099511628211ull; };
-  const Particles& p = s.world().particles;
+  const Particles& p = s.state().particles;
   for (std::size_t id = 0; id < p.size(); ++id) {
     const std::size_t i = p.row(id);
     for (const Vec3& v : {p.position(i), p.velocity(i)}) {
@@ -28,9 +28,9 @@ std::uint64_t hash_of(const Simulation& s) {
     }
     if (p.has("temperature")) add(p[field::temperature][i]);
   }
-  for (std::size_t b = 0; b < s.world().bodies.size(); ++b) {
+  for (std::size_t b = 0; b < s.state().bodies.size(); ++b) {
     for (const Vec3& v :
-         {s.world().bodies[field::body_centre][b], s.world().bodies[field::body_angular_momentum][b]}) {
+         {s.state().bodies[field::body_centre][b], s.state().bodies[field::body_angular_momentum][b]}) {
       add(v.x);
       add(v.y);
       add(v.z);
@@ -65,7 +65,7 @@ TEST(Simulation, GivesTheSameBitsOnAnyNumberOfThreads) {
     const lab::Lab lab = everything(mode);
     const Simulation one = lab.run(0.5, 1);
     EXPECT_GT(one.steps(), 20);
-    EXPECT_GT(one.world().neighbours->rebuilds(), 3)
+    EXPECT_GT(one.state().neighbours->rebuilds(), 3)
         << "the lists must have been built anew for this to prove anything";
     for (const int threads : {2, 3, 7})
       EXPECT_EQ(hash_of(lab.run(0.5, threads)), hash_of(one)) << threads << " threads";
@@ -95,9 +95,9 @@ TEST(Simulation, GivesTheSameBitsWhereClustersAreVisitedInAnotherOrder) {
       return s;
     };
     const Simulation one = run(1), four = run(4);
-    EXPECT_FALSE(one.world().neighbours->clusters().visits.empty());
-    EXPECT_TRUE(four.world().neighbours->clusters().visits.empty());
-    EXPECT_GT(one.world().neighbours->rebuilds(), 3);
+    EXPECT_FALSE(one.state().neighbours->clusters().visits.empty());
+    EXPECT_TRUE(four.state().neighbours->clusters().visits.empty());
+    EXPECT_GT(one.state().neighbours->rebuilds(), 3);
     EXPECT_EQ(hash_of(one), hash_of(four));
   }
 }
@@ -108,10 +108,10 @@ TEST(Simulation, GivesAnEffectTheSameBitsAloneAndBesideAnother) {
   cold.initial.temperature.clear();
   warm.scene.time_step = cold.scene.time_step = 1e-2;
   const Simulation a = warm.run(0.5), b = cold.run(0.5);
-  EXPECT_FALSE(b.world().neighbours.has_value());
+  EXPECT_FALSE(b.state().neighbours.has_value());
   for (std::size_t row = 0; row < 2; ++row) {
-    EXPECT_EQ(a.world().bodies[field::body_centre][row], b.world().bodies[field::body_centre][row]);
-    EXPECT_EQ(a.world().bodies[field::body_orientation][row], b.world().bodies[field::body_orientation][row]);
+    EXPECT_EQ(a.state().bodies[field::body_centre][row], b.state().bodies[field::body_centre][row]);
+    EXPECT_EQ(a.state().bodies[field::body_orientation][row], b.state().bodies[field::body_orientation][row]);
   }
 }
 
@@ -128,7 +128,7 @@ TEST(Simulation, MeetsEveryOutputTimeExactly) {
   Simulation s(lab.scene, lab.initial);
   for (const double time : {0.1, 0.37, 1.0, 10.0 / 3.0}) {
     s.advance_to(time);
-    EXPECT_EQ(s.world().time, time);
+    EXPECT_EQ(s.state().time, time);
   }
 }
 
@@ -171,10 +171,10 @@ TEST(Simulation, OfAStaticSceneBuildsItsListsOnce) {
            }});
   const Simulation s = lab.run(5.0);
   EXPECT_GT(s.steps(), 10);
-  EXPECT_EQ(s.world().neighbours->rebuilds(), 1);
-  const auto x = positions(s.world().particles);
+  EXPECT_EQ(s.state().neighbours->rebuilds(), 1);
+  const auto x = positions(s.state().particles);
   for (std::size_t id = 0; id < lab.initial.size(); ++id)
-    EXPECT_EQ(x.at(s.world().particles.row(id)), lab.initial.position[id]);
+    EXPECT_EQ(x.at(s.state().particles.row(id)), lab.initial.position[id]);
 }
 
 }  // namespace

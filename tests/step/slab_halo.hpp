@@ -253,25 +253,25 @@ struct Seen {
   long migrations = 0, gatherings = 0, shares = 0;
 };
 
-inline void see_particle(Seen& seen, std::size_t number, const World& world, std::size_t row) {
+inline void see_particle(Seen& seen, std::size_t number, const State& state, std::size_t row) {
   if (seen.position.size() <= number) {
     seen.position.resize(number + 1);
     seen.velocity.resize(number + 1);
     seen.body.resize(number + 1);
     seen.phase.resize(number + 1);
   }
-  seen.position[number] = world.unwrapped(row);
-  seen.velocity[number] = world.particles.velocity(row);
-  seen.body[number] = world.particles[field::body][row];
-  seen.phase[number] = world.particles[field::phase][row];
+  seen.position[number] = state.unwrapped(row);
+  seen.velocity[number] = state.particles.velocity(row);
+  seen.body[number] = state.particles[field::body][row];
+  seen.phase[number] = state.particles[field::phase][row];
 }
 
-inline void see_bodies(Seen& seen, const World& world) {
-  seen.names = world.body_names;
-  if (world.bodies.size() == 0) return;
-  const auto alive = world.bodies[field::body_alive];
+inline void see_bodies(Seen& seen, const State& state) {
+  seen.names = state.body_names;
+  if (state.bodies.size() == 0) return;
+  const auto alive = state.bodies[field::body_alive];
   seen.alive.assign(alive.begin(), alive.end());
-  const auto centre = world.bodies[field::body_centre], spin = world.bodies[field::body_angular_velocity];
+  const auto centre = state.bodies[field::body_centre], spin = state.bodies[field::body_angular_velocity];
   seen.centre.assign(centre.begin(), centre.end());
   seen.spin.assign(spin.begin(), spin.end());
 }
@@ -286,11 +286,11 @@ inline Seen seen_whole(const test::Prepared& p, const Checkpoint* from = nullptr
     seen.kept = whole.checkpoint();
   }
   whole.advance_to(p.job.scene.end_time);
-  const World& world = whole.world();
-  for (std::size_t id = 0; id < world.particles.size(); ++id)
-    see_particle(seen, id, world, world.particles.row(id));
-  see_bodies(seen, world);
-  seen.objects = count_objects(world);
+  const State& state = whole.state();
+  for (std::size_t id = 0; id < state.particles.size(); ++id)
+    see_particle(seen, id, state, state.particles.row(id));
+  see_bodies(seen, state);
+  seen.objects = count_objects(state);
   seen.ledger = whole.ledger();
   return seen;
 }
@@ -318,9 +318,9 @@ inline Seen seen_shared(const test::Prepared& p, const std::vector<double>& plan
       part.advance_to(p.job.scene.end_time);
       const Ledger ledger = part.ledger();
       part.complete_bodies();
-      const std::size_t objects = count_objects(part.world());
+      const std::size_t objects = count_objects(part.state());
       const std::lock_guard lock(alone);
-      if (part.world().body_owners.any()) seen.kept_bodies.push_back(part.world().body_owners.kept().size());
+      if (part.state().body_owners.any()) seen.kept_bodies.push_back(part.state().body_owners.kept().size());
       if (rank == 0) {
         seen.ledger = ledger;
         seen.objects = objects;
@@ -328,11 +328,11 @@ inline Seen seen_shared(const test::Prepared& p, const std::vector<double>& plan
         seen.migrations = halo.migrations;
         seen.gatherings = halo.gatherings;
         seen.shares = halo.shares;
-        see_bodies(seen, part.world());
+        see_bodies(seen, part.state());
       }
       for (std::size_t id = 0; id < halo.owned(); ++id)
-        see_particle(seen, static_cast<std::size_t>(halo.numbers()[id]), part.world(),
-                     part.world().particles.row(id));
+        see_particle(seen, static_cast<std::size_t>(halo.numbers()[id]), part.state(),
+                     part.state().particles.row(id));
     });
   }
   for (std::thread& t : threads) t.join();

@@ -80,7 +80,7 @@ void disturb(Lab& lab, double speed) {
 
 double kinetic(const Simulation& s) {
   double sum = 0.0;
-  const Particles& p = s.world().particles;
+  const Particles& p = s.state().particles;
   for (std::size_t i = 0; i < p.size(); ++i) sum += p[field::mass][i] * dot(p.velocity(i), p.velocity(i));
   return sum;
 }

@@ -35,7 +35,7 @@ Point heat(Mode mode, const char* parameter, double ratio, double jitter) {
           {.motion = Motion::fixed, .temperature = [&](const Vec3&) { return 1000.0 + uniform(random); }});
   lab::jitter_all(lab, jitter);
   const auto spread = [](const Simulation& s) {
-    const auto T = s.world().particles[field::temperature];
+    const auto T = s.state().particles[field::temperature];
     return *std::ranges::max_element(T) - *std::ranges::min_element(T);
   };
   return {"heat",        std::string(to_string(mode)), parameter, ratio, conduction_limit(lab),

@@ -169,7 +169,7 @@ Point heat(const char* parameter, double value, double q, double latent) {
            .temperature = [&](const Vec3&) { return 1000.0 + uniform(random); }});
   lab.make_periodic({true, true, true}, {}, {side, side, side});
   const auto spread = [](const Simulation& s) {
-    const auto T = s.world().particles[field::temperature];
+    const auto T = s.state().particles[field::temperature];
     return *std::ranges::max_element(T) - *std::ranges::min_element(T);
   };
   // At the lattice the second moments are the gradient moment times the unit matrix: G = V^2 k K/M, K = -2

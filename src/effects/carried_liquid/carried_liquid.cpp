@@ -21,10 +21,10 @@
 #include "pairs/run_pass.hpp"
 #include "scene/effect_rule.hpp"
 #include "sph/lattice.hpp"
-#include "world/body_table.hpp"
-#include "world/fill.hpp"
-#include "world/free_rows.hpp"
-#include "world/ordered_sum.hpp"
+#include "state/body_table.hpp"
+#include "state/fill.hpp"
+#include "state/free_rows.hpp"
+#include "state/ordered_sum.hpp"
 
 namespace tripoint::carried_liquid {
 namespace {
@@ -90,27 +90,27 @@ class CarriedLiquid : public Effect {
       : numbers_(numbers_of(scene)),
         kernels_(kernels_of(scene, numbers_)),
         scheme_(scheme_of(scene)),
-        state_{numbers_.stiffness * numbers_.reference, scene.clamps()},
+        equation_{numbers_.stiffness * numbers_.reference, scene.clamps()},
         solids_meet_(calls_for(scene, "fluid")) {}
-  void load(World&, const InitialState&) override;
-  void kick(World& world, double dt) override {
+  void load(State&, const InitialState&) override;
+  void kick(State& state, double dt) override {
     drifted_ = 0.0;
-    world.step_numbers[kick_length] = dt;
+    state.step_numbers[kick_length] = dt;
   }
-  void drift(World& world, double dt) override;
-  void clear(World& world, PassName pass) override {
+  void drift(State& state, double dt) override;
+  void clear(State& state, PassName pass) override {
     if (pass == PassName::density)
-      fill(world.particles[field::summed_density], kernels_.wendland.value(0.0), world.threads);
+      fill(state.particles[field::summed_density], kernels_.wendland.value(0.0), state.threads);
   }
-  void state(World&) override;
-  void bonds(World&) override;
-  void adopt(World&) override;
-  void happen(World& world, const Happening&) override {
-    set_groups(world);
-    world.step_numbers[held_for] = -1.0;
+  void state(State&) override;
+  void bonds(State&) override;
+  void adopt(State&) override;
+  void happen(State& state, const Happening&) override {
+    set_groups(state);
+    state.step_numbers[held_for] = -1.0;
   }
-  [[nodiscard]] TimeStepBound max_dt(const World&) const override;
-  void add_to(const World&, Ledger&) const override;
+  [[nodiscard]] TimeStepBound max_dt(const State&) const override;
+  void add_to(const State&, Ledger&) const override;
   [[nodiscard]] PairWork pair_work(const Scene&) const override {
     PairWork work{{pair_term<SummedDensity>}};
     work.where_it_acts = true;
@@ -119,60 +119,60 @@ class CarriedLiquid : public Effect {
   }
 
  private:
-  void set_material(World&, std::size_t) const;
-  void set_groups(World&) const;
-  void run(World&, const PairTerm&, bool liquids_only) const;
-  void correct_gradients(World&) const;
-  void correct_velocity_gradients(World&) const;
-  void form_corrections(World&) const;
+  void set_material(State&, std::size_t) const;
+  void set_groups(State&) const;
+  void run(State&, const PairTerm&, bool liquids_only) const;
+  void correct_gradients(State&) const;
+  void correct_velocity_gradients(State&) const;
+  void form_corrections(State&) const;
   /// Whether the viscous force changes little while corrections are held. Where solids meet, its column is
   /// not held.
-  [[nodiscard]] bool holds_viscosity(const World& world) const {
-    return !solids_meet_ && scheme_.hold * sound_step(world) * numbers_.greatest_nu <
-                                viscous_share * std::pow(world.scene.spacing, 2);
+  [[nodiscard]] bool holds_viscosity(const State& state) const {
+    return !solids_meet_ && scheme_.hold * sound_step(state) * numbers_.greatest_nu <
+                                viscous_share * std::pow(state.scene.spacing, 2);
   }
   /// Bound of the step where nothing moves [s].
-  [[nodiscard]] double sound_step(const World& world) const {
-    return scheme_.courant * world.support() / numbers_.sound_speed;
+  [[nodiscard]] double sound_step(const State& state) const {
+    return scheme_.courant * state.support() / numbers_.sound_speed;
   }
-  void move_density(World&) const;
-  void set_pressure(World&) const;
-  void set_shift(World&) const;
-  void set_pull(World&) const;
-  [[nodiscard]] double pressure_of(double rho, double rest) const { return state_.pressure(rho, rest); }
+  void move_density(State&) const;
+  void set_pressure(State&) const;
+  void set_shift(State&) const;
+  void set_pull(State&) const;
+  [[nodiscard]] double pressure_of(double rho, double rest) const { return equation_.pressure(rho, rest); }
 
   Numbers numbers_;
   PairKernels kernels_;
   Scheme scheme_;
-  CarriedState state_;
+  CarriedState equation_;
   bool solids_meet_;      ///< another effect has their forces, and the columns that both write to
   double drifted_ = 0.0;  ///< since the last forces, within a step [s]
 };
 
-void CarriedLiquid::set_material(World& world, std::size_t i) const {
-  Particles& p = world.particles;
-  const Material& m = world.material_of(i);
+void CarriedLiquid::set_material(State& state, std::size_t i) const {
+  Particles& p = state.particles;
+  const Material& m = state.material_of(i);
   const bool liquid = p[field::body][i] < 0;
   const auto source = static_cast<std::size_t>(p[field::source][i]);
   p[field::liquid_rest_density][i] = m.density;
   p[field::impedance][i] = liquid ? std::sqrt(m.density * numbers_.stiffness * numbers_.reference) : 0.0;
   p[field::liquid_viscosity][i] = liquid ? m.viscosity : 0.0;
   p[field::slips][i] =
-      !liquid && source < world.scene.bodies.size() && world.scene.bodies[source].free_slip ? 1.0 : 0.0;
+      !liquid && source < state.scene.bodies.size() && state.scene.bodies[source].free_slip ? 1.0 : 0.0;
 }
 
-void CarriedLiquid::set_groups(World& world) const {
+void CarriedLiquid::set_groups(State& state) const {
   if (solids_meet_) return;
-  const auto group = world.particles[field::group];
-  const liquid::Groups group_of(world);
+  const auto group = state.particles[field::group];
+  const liquid::Groups group_of(state);
   for (std::size_t i = 0; i < group.size(); ++i) group[i] = group_of(i);
 }
 
-void CarriedLiquid::load(World& world, const InitialState&) {
-  Particles& p = world.particles;
-  for (std::size_t i = 0; i < p.size(); ++i) set_material(world, i);
-  set_groups(world);
-  const std::vector<double> pressure = hydrostatic_start(world);
+void CarriedLiquid::load(State& state, const InitialState&) {
+  Particles& p = state.particles;
+  for (std::size_t i = 0; i < p.size(); ++i) set_material(state, i);
+  set_groups(state);
+  const std::vector<double> pressure = hydrostatic_start(state);
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double share =
         p[field::body][i] < 0 ? pressure[i] / (numbers_.stiffness * numbers_.reference) : 0.0;
@@ -180,52 +180,52 @@ void CarriedLiquid::load(World& world, const InitialState&) {
   }
 }
 
-void CarriedLiquid::adopt(World& world) {
-  world.step_numbers[held_for] = -1.0;
-  const Change& change = world.change;
+void CarriedLiquid::adopt(State& state) {
+  state.step_numbers[held_for] = -1.0;
+  const Change& change = state.change;
   const std::vector<std::size_t> touched =
-      change.regrouped.empty() ? std::vector<std::size_t>{} : touched_rows(world, change.regrouped);
-  const double before = energy_of(world, state_, kernels_, touched, 0.5 * drifted_);
+      change.regrouped.empty() ? std::vector<std::size_t>{} : touched_rows(state, change.regrouped);
+  const double before = energy_of(state, equation_, kernels_, touched, 0.5 * drifted_);
   for (const auto* list : {&change.born, &change.regrouped})
-    for (const std::uint32_t id : *list) set_material(world, world.particles.row(id));
-  set_groups(world);
-  take_pressure_around(world, state_, kernels_, change.melted);
-  take_pressure_around(world, state_, kernels_, change.born);
+    for (const std::uint32_t id : *list) set_material(state, state.particles.row(id));
+  set_groups(state);
+  take_pressure_around(state, equation_, kernels_, change.melted);
+  take_pressure_around(state, equation_, kernels_, change.born);
   if (!touched.empty())
-    world.booked[compression_released] +=
-        before - energy_of(world, state_, kernels_, touched, 0.5 * drifted_);
-  const auto m = world.particles[field::mass], rho = world.particles[field::density],
-             rest = world.particles[field::liquid_rest_density];
+    state.booked[compression_released] +=
+        before - energy_of(state, equation_, kernels_, touched, 0.5 * drifted_);
+  const auto m = state.particles[field::mass], rho = state.particles[field::density],
+             rest = state.particles[field::liquid_rest_density];
   for (const std::uint32_t id : change.born) {
-    const std::size_t i = world.particles.row(id);
-    world.booked[account::inflow] += state_.energy(m[i], rho[i], rest[i]);
+    const std::size_t i = state.particles.row(id);
+    state.booked[account::inflow] += equation_.energy(m[i], rho[i], rest[i]);
   }
 }
 
 /// The shift of the last rates acts in this drift.
-void CarriedLiquid::drift(World& world, double dt) {
+void CarriedLiquid::drift(State& state, double dt) {
   drifted_ = dt;
-  const auto w = triple(std::as_const(world.particles), field::shift_x, field::shift_y, field::shift_z);
-  const auto m = world.particles[field::mass];
+  const auto w = triple(std::as_const(state.particles), field::shift_x, field::shift_y, field::shift_z);
+  const auto m = state.particles[field::mass];
   std::vector<std::array<double, 1>> blocks;
-  const Vec3 g = world.scene.gravity;
+  const Vec3 g = state.scene.gravity;
   const auto work = ordered_sums(
-      world, blocks, [&](std::size_t i, std::array<double, 1>& sum) { sum[0] += m[i] * dot(g, w.at(i)); });
-  world.booked[taken_by_shift] += dt * work[0];
+      state, blocks, [&](std::size_t i, std::array<double, 1>& sum) { sum[0] += m[i] * dot(g, w.at(i)); });
+  state.booked[taken_by_shift] += dt * work[0];
 }
 
 /// Sums of a term over the clusters that have a liquid, or over all whose forces are formed now.
-void CarriedLiquid::run(World& world, const PairTerm& term, bool liquids_only) const {
-  Particles& p = world.particles;
-  const PassFunction pass = pair_passes(world.neighbours->clusters().lanes).alone(term);
-  const Rows formed = liquids_only ? Rows{0, p.size()} : world.formed();
+void CarriedLiquid::run(State& state, const PairTerm& term, bool liquids_only) const {
+  Particles& p = state.particles;
+  const PassFunction pass = pair_passes(state.neighbours->clusters().lanes).alone(term);
+  const Rows formed = liquids_only ? Rows{0, p.size()} : state.formed();
   const std::vector<FieldInfo> both = shared();
   for (const Field<double>* f : pass.adds())
     if (!solids_meet_ || std::ranges::find(both, FieldInfo(*f)) == both.end())
-      fill(part(p[*f], formed), 0.0, world.threads);
-  const Clusters& c = world.neighbours->clusters();
+      fill(part(p[*f], formed), 0.0, state.threads);
+  const Clusters& c = state.neighbours->clusters();
   const auto z = p[field::impedance];
-  const auto is_wanted = [&](std::uint32_t i) { return world.owns(i) && (!liquids_only || z[i] != 0.0); };
+  const auto is_wanted = [&](std::uint32_t i) { return state.owns(i) && (!liquids_only || z[i] != 0.0); };
   ChosenClusters chosen{c.listed, {}};
   std::erase_if(chosen.clusters, [&](std::uint32_t k) {
     if (c.first[k] < formed.from || c.first[k] >= formed.to) return true;
@@ -233,15 +233,15 @@ void CarriedLiquid::run(World& world, const PairTerm& term, bool liquids_only) c
       if (is_wanted(i)) return false;
     return true;
   });
-  run_pass_over(pass, p, *world.neighbours, kernels_, world.threads, chosen);
-  world.refresh(pass.adds());
+  run_pass_over(pass, p, *state.neighbours, kernels_, state.threads, chosen);
+  state.refresh(pass.adds());
 }
 
-void CarriedLiquid::correct_gradients(World& world) const {
-  Particles& p = world.particles;
+void CarriedLiquid::correct_gradients(State& state) const {
+  Particles& p = state.particles;
   const auto m = symmetric_columns(p, field::moment), b = symmetric_columns(p, field::correction);
   const auto z = p[field::impedance], exposed = p[field::exposed];
-#pragma omp parallel for schedule(static) num_threads(world.threads)
+#pragma omp parallel for schedule(static) num_threads(state.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
     Symmetric inverse;
     exposed[i] = 0.0;
@@ -254,13 +254,13 @@ void CarriedLiquid::correct_gradients(World& world) const {
   }
 }
 
-void CarriedLiquid::correct_velocity_gradients(World& world) const {
-  Particles& p = world.particles;
+void CarriedLiquid::correct_velocity_gradients(State& state) const {
+  Particles& p = state.particles;
   const auto n = symmetric_columns(p, field::own_moment);
   const auto a = matrix_columns(p, field::velocity_gradient);
   const auto slope = triple(p, field::density_gradient);
   const auto z = p[field::impedance];
-#pragma omp parallel for schedule(static) num_threads(world.threads)
+#pragma omp parallel for schedule(static) num_threads(state.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (z[i] == 0.0) continue;
     const Symmetric inverse = blended_inverse(n.at(i), own_full_rank, 0.0);
@@ -270,20 +270,20 @@ void CarriedLiquid::correct_velocity_gradients(World& world) const {
 }
 
 /// The density at the end of the drift: exact where velocities are linear, since x before = (1 - dt A) x now.
-void CarriedLiquid::move_density(World& world) const {
+void CarriedLiquid::move_density(State& state) const {
   if (drifted_ == 0.0) return;
-  Particles& p = world.particles;
+  Particles& p = state.particles;
   const auto a = matrix_columns(p, field::velocity_gradient);
   const auto slope = triple(p, field::density_gradient);
   const auto w = triple(std::as_const(p), field::shift);
   const auto z = p[field::impedance], rho = p[field::density], rest = p[field::liquid_rest_density],
              mass = p[field::mass], divergence = p[field::divergence], diffused = p[field::diffused],
              near = p[field::exposed_near], exposed = p[field::exposed], summed = p[field::summed_density];
-  const double h = 0.5 * world.support(), c = numbers_.sound_speed, dt = drifted_;
+  const double h = 0.5 * state.support(), c = numbers_.sound_speed, dt = drifted_;
   const double diffusion = scheme_.damping == Damping::limited ? scheme_.delta : 2.0 * scheme_.delta * h * c;
-  const double relax = scheme_.relax * c / world.support();
+  const double relax = scheme_.relax * c / state.support();
   std::vector<std::array<double, 1>> blocks;
-  const auto taken = ordered_sums(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
+  const auto taken = ordered_sums(state, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
     if (z[i] == 0.0) return;
     const Matrix3 A = a.at(i);
     // 1 + terms of higher order
@@ -302,16 +302,16 @@ void CarriedLiquid::move_density(World& world) const {
     sum[0] += mass[i] * pressure_of(carried, rest[i]) / (carried * carried) * (next - carried);
     rho[i] = next;
   });
-  world.booked[taken_by_diffusion] -= taken[0];
+  state.booked[taken_by_diffusion] -= taken[0];
 }
 
-void CarriedLiquid::set_pressure(World& world) const {
-  Particles& p = world.particles;
+void CarriedLiquid::set_pressure(State& state) const {
+  Particles& p = state.particles;
   const auto z = p[field::impedance], rho = p[field::density], rest = p[field::liquid_rest_density],
              pressure = p[field::pressure], share = p[field::wall_share], out = p[field::wall_pressure],
              V = p[field::carried_volume];
   const auto b = symmetric_columns(p, field::correction), stress = symmetric_columns(p, field::stress);
-#pragma omp parallel for schedule(static) num_threads(world.threads)
+#pragma omp parallel for schedule(static) num_threads(state.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (z[i] != 0.0) pressure[i] = pressure_of(rho[i], rest[i]);
     const double stiffness = numbers_.stiffness * numbers_.reference;
@@ -320,15 +320,15 @@ void CarriedLiquid::set_pressure(World& world) const {
   }
 }
 
-void CarriedLiquid::set_shift(World& world) const {
-  Particles& p = world.particles;
+void CarriedLiquid::set_shift(State& state) const {
+  Particles& p = state.particles;
   const auto w = triple(p, field::shift);
   const auto s = triple(std::as_const(p), field::unevenness);
   const auto z = p[field::impedance], near = p[field::exposed_near], exposed = p[field::exposed],
              speed2 = p[field::nearby_speed2];
-  const double h = 0.5 * world.support();
+  const double h = 0.5 * state.support();
   const auto driven = p.has(field::driven.name) ? p[field::driven] : std::span<int>{};
-#pragma omp parallel for schedule(static) num_threads(world.threads)
+#pragma omp parallel for schedule(static) num_threads(state.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
     const bool inside =
         z[i] != 0.0 && (driven.empty() || driven[i] == 0) && exposed[i] == 0.0 && near[i] == 0.0;
@@ -350,83 +350,83 @@ void CarriedLiquid::set_shift(World& world) const {
 
 /// Gravity at solids. Their acceleration is left out: the head that it makes would do work that no energy
 /// stands behind.
-void CarriedLiquid::set_pull(World& world) const {
-  Particles& p = world.particles;
+void CarriedLiquid::set_pull(State& state) const {
+  Particles& p = state.particles;
   const auto pull = triple(p, field::pull);
   const auto z = p[field::impedance];
-  const Vec3 g = liquid::pressing_gravity(world.scene);
+  const Vec3 g = liquid::pressing_gravity(state.scene);
   for (std::size_t i = 0; i < p.size(); ++i) pull.set(i, z[i] != 0.0 ? Vec3{} : g);
 }
 
-void CarriedLiquid::state(World& world) {
-  Particles& p = world.particles;
+void CarriedLiquid::state(State& state) {
+  Particles& p = state.particles;
   const auto rho = p[field::density], m = p[field::mass], V = p[field::carried_volume],
              rest = p[field::liquid_rest_density], z = p[field::impedance];
   // Moments, rates and forces of one state take the same volumes: those before the step.
-#pragma omp parallel for schedule(static) num_threads(world.threads)
+#pragma omp parallel for schedule(static) num_threads(state.threads)
   for (std::size_t i = 0; i < p.size(); ++i) V[i] = m[i] / (z[i] != 0.0 ? rho[i] : rest[i]);
   if (!solids_meet_) std::ranges::copy(V, p[field::volume].begin());
-  double& held = world.step_numbers[held_for];
+  double& held = state.step_numbers[held_for];
   const bool renewed = held < 0.0 || held + 1.0 >= scheme_.hold || drifted_ == 0.0;
   held = renewed ? 0.0 : held + 1.0;
   if (renewed)
-    form_corrections(world);
+    form_corrections(state);
   else
-    run(world, pair_term<SoundRate>, true);
-  move_density(world);
-  set_pressure(world);
-  set_pull(world);
-  if (renewed) set_shift(world);
-  if (renewed || !holds_viscosity(world))
-    liquid::predict_velocities(world, world.step_numbers[kick_length], field::predicted);
+    run(state, pair_term<SoundRate>, true);
+  move_density(state);
+  set_pressure(state);
+  set_pull(state);
+  if (renewed) set_shift(state);
+  if (renewed || !holds_viscosity(state))
+    liquid::predict_velocities(state, state.step_numbers[kick_length], field::predicted);
   drifted_ = 0.0;
 }
 
 /// All that is held between renewals, and the divergence.
-void CarriedLiquid::form_corrections(World& world) const {
-  run(world, pair_term<Moments>, true);
-  correct_gradients(world);
-  run(world, scheme_.gradients, true);
-  correct_velocity_gradients(world);
+void CarriedLiquid::form_corrections(State& state) const {
+  run(state, pair_term<Moments>, true);
+  correct_gradients(state);
+  run(state, scheme_.gradients, true);
+  correct_velocity_gradients(state);
 }
 
 /// The viscous forces, the damping and the diffusion of the last renewal hold until the next.
-void CarriedLiquid::bonds(World& world) {
-  if (world.step_numbers[held_for] > 0.0 && !world.forms_fixed)
-    return run(world, holds_viscosity(world) ? pair_term<SoundForce<false>> : pair_term<SoundForce<true>>,
+void CarriedLiquid::bonds(State& state) {
+  if (state.step_numbers[held_for] > 0.0 && !state.forms_fixed)
+    return run(state, holds_viscosity(state) ? pair_term<SoundForce<false>> : pair_term<SoundForce<true>>,
                false);
-  run(world, scheme_.forces, false);
+  run(state, scheme_.forces, false);
   if (scheme_.damping != Damping::residue) return;
-  Particles& p = world.particles;
-  const double scale = scheme_.beta * 0.5 * world.support();
+  Particles& p = state.particles;
+  const double scale = scheme_.beta * 0.5 * state.support();
   for (const Field<double>* f : columns_of(field::residue_force))
-    for (double& one : part(p[*f], world.formed())) one *= scale;
+    for (double& one : part(p[*f], state.formed())) one *= scale;
 }
 
-TimeStepBound CarriedLiquid::max_dt(const World& world) const {
+TimeStepBound CarriedLiquid::max_dt(const State& state) const {
   TimeStepBound bound;
-  tighten(bound, scheme_.courant * world.support() / (numbers_.sound_speed + liquid::greatest_speed(world)),
+  tighten(bound, scheme_.courant * state.support() / (numbers_.sound_speed + liquid::greatest_speed(state)),
           "sound");
   if (numbers_.greatest_nu > 0.0)
-    tighten(bound, viscous_share * world.scene.spacing * world.scene.spacing / numbers_.greatest_nu,
+    tighten(bound, viscous_share * state.scene.spacing * state.scene.spacing / numbers_.greatest_nu,
             "viscosity");
   return bound;
 }
 
 /// m e(rho), de = p/rho^2 drho, from the rest density.
-void CarriedLiquid::add_to(const World& world, Ledger& ledger) const {
-  const Particles& p = world.particles;
+void CarriedLiquid::add_to(const State& state, Ledger& ledger) const {
+  const Particles& p = state.particles;
   const auto z = p[field::impedance], m = p[field::mass], rho = p[field::density],
              rest = p[field::liquid_rest_density];
   std::vector<std::array<double, 1>> blocks;
   const auto share = p[field::wall_share];
-  const auto sums = ordered_sums(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
+  const auto sums = ordered_sums(state, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
     if (z[i] != 0.0)
-      sum[0] += state_.energy(m[i], rho[i], rest[i]) + state_.wall_energy(m[i], rest[i], share[i]);
+      sum[0] += equation_.energy(m[i], rho[i], rest[i]) + equation_.wall_energy(m[i], rest[i], share[i]);
   });
   ledger.energy["compression"] += sums[0];
-  ledger.energy["diffusion"] += world.booked[taken_by_diffusion];
-  ledger.energy["shifting"] += world.booked[taken_by_shift];
+  ledger.energy["diffusion"] += state.booked[taken_by_diffusion];
+  ledger.energy["shifting"] += state.booked[taken_by_shift];
 }
 
 std::vector<FieldInfo> owned(bool solids_meet) {

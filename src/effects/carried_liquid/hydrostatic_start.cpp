@@ -16,15 +16,15 @@ constexpr double gap = 1.6;  ///< beyond it two particles do not stand on each o
 enum class Known : char { not_pressed, covered, yes };
 
 struct Start {
-  const World& world;
+  const State& state;
   Vec3 g, down;
   double pull, dx;
   std::vector<double> pressure;
   std::vector<Known> known;
 
-  [[nodiscard]] bool is_wall(std::size_t i) const { return world.particles[field::group][i] == wall_group; }
-  [[nodiscard]] bool is_liquid(std::size_t i) const { return world.particles[field::body][i] < 0; }
-  [[nodiscard]] double density(std::size_t i) const { return world.material_of(i).density; }
+  [[nodiscard]] bool is_wall(std::size_t i) const { return state.particles[field::group][i] == wall_group; }
+  [[nodiscard]] bool is_liquid(std::size_t i) const { return state.particles[field::body][i] < 0; }
+  [[nodiscard]] double density(std::size_t i) const { return state.material_of(i).density; }
 };
 
 /// Particles one above the other: depth along gravity, and row.
@@ -33,10 +33,10 @@ using Column = std::vector<std::pair<double, std::size_t>>;
 std::vector<Column> columns_of(const Start& s) {
   const Vec3 other = std::abs(s.down.x) < 0.5 ? Vec3{1.0, 0.0, 0.0} : Vec3{0.0, 1.0, 0.0};
   const Vec3 a = (1.0 / norm(cross(s.down, other))) * cross(s.down, other), b = cross(s.down, a);
-  const Vec3 origin = s.world.particles.position(0);
+  const Vec3 origin = s.state.particles.position(0);
   std::map<std::pair<long, long>, Column> columns;
-  for (std::size_t i = 0; i < s.world.particles.size(); ++i) {
-    const Vec3 r = s.world.particles.position(i) - origin;
+  for (std::size_t i = 0; i < s.state.particles.size(); ++i) {
+    const Vec3 r = s.state.particles.position(i) - origin;
     const auto bin = [&](const Vec3& e) { return std::lround(dot(r, e) / s.dx); };
     columns[{bin(a), bin(b)}].emplace_back(dot(r, s.down), i);
   }
@@ -79,24 +79,24 @@ void press_columns(Start& s) {
 class Cells {
  public:
   explicit Cells(const Start& s) : s_(s) {
-    for (std::size_t i = 0; i < s.world.particles.size(); ++i)
+    for (std::size_t i = 0; i < s.state.particles.size(); ++i)
       if (s.is_liquid(i) && s.known[i] != Known::not_pressed) cells_[cell_of(i)].push_back(i);
   }
   template <class Visit>
   void each_near(std::size_t i, Visit visit) const {
     const auto at = cell_of(i);
-    const Vec3 r = s_.world.particles.position(i);
+    const Vec3 r = s_.state.particles.position(i);
     for (long n = 0; n < 27; ++n) {
       const auto cell = cells_.find({at[0] + n % 3 - 1, at[1] + n / 3 % 3 - 1, at[2] + n / 9 - 1});
       if (cell == cells_.end()) continue;
       for (const std::size_t j : cell->second)
-        if (norm(s_.world.particles.position(j) - r) < gap * s_.dx) visit(j);
+        if (norm(s_.state.particles.position(j) - r) < gap * s_.dx) visit(j);
     }
   }
 
  private:
   [[nodiscard]] std::array<long, 3> cell_of(std::size_t i) const {
-    const Vec3 r = s_.world.particles.position(i);
+    const Vec3 r = s_.state.particles.position(i);
     const auto of = [&](double x) { return std::lround(std::floor(x / (gap * s_.dx))); };
     return {of(r.x), of(r.y), of(r.z)};
   }
@@ -118,7 +118,7 @@ void spread_under_solids(Start& s) {
       double sum = 0.0, count = 0.0;
       cells.each_near(i, [&](std::size_t j) {
         if (s.known[j] != Known::yes) return;
-        const Vec3 d = s.world.particles.position(i) - s.world.particles.position(j);
+        const Vec3 d = s.state.particles.position(i) - s.state.particles.position(j);
         sum += s.pressure[j] + 0.5 * (s.density(i) + s.density(j)) * dot(s.g, d);
         count += 1.0;
       });
@@ -134,15 +134,15 @@ void spread_under_solids(Start& s) {
 
 }  // namespace
 
-std::vector<double> hydrostatic_start(const World& world) {
-  const std::size_t count = world.particles.size();
-  const Vec3 g = liquid::pressing_gravity(world.scene);
+std::vector<double> hydrostatic_start(const State& state) {
+  const std::size_t count = state.particles.size();
+  const Vec3 g = liquid::pressing_gravity(state.scene);
   if (g == Vec3{} || count == 0) return std::vector<double>(count, 0.0);
-  Start s{world,
+  Start s{state,
           g,
           (1.0 / norm(g)) * g,
           norm(g),
-          world.scene.spacing,
+          state.scene.spacing,
           std::vector<double>(count, 0.0),
           std::vector<Known>(count, Known::not_pressed)};
   press_columns(s);

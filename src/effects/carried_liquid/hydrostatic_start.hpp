@@ -2,12 +2,12 @@
 #pragma once
 #include <vector>
 
-#include "world/world.hpp"
+#include "state/state.hpp"
 
 namespace tripoint::carried_liquid {
 
 /// Pressure at time 0 of each row [Pa]: the weight above it in its column, where that column stands on a wall
 /// without a gap; else 0.
-[[nodiscard]] std::vector<double> hydrostatic_start(const World&);
+[[nodiscard]] std::vector<double> hydrostatic_start(const State&);
 
 }  // namespace tripoint::carried_liquid

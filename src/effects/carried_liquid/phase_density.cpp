@@ -27,12 +27,12 @@ double CarriedState::wall_energy(double mass, double rest, double share) const {
   return 0.5 * modulus * mass / rest * inside * inside;
 }
 
-std::vector<std::size_t> touched_rows(const World& world, const std::vector<std::uint32_t>& ids) {
-  const Particles& p = world.particles;
+std::vector<std::size_t> touched_rows(const State& state, const std::vector<std::uint32_t>& ids) {
+  const Particles& p = state.particles;
   const auto id = p[field::id];
   std::vector<std::uint32_t> all = ids;
   for (const std::uint32_t one : ids)
-    for (const Entry e : world.neighbours->of(p.row(one)))
+    for (const Entry e : state.neighbours->of(p.row(one)))
       all.push_back(static_cast<std::uint32_t>(id[e.row()]));
   std::ranges::sort(all);
   all.erase(std::unique(all.begin(), all.end()), all.end());
@@ -41,9 +41,9 @@ std::vector<std::size_t> touched_rows(const World& world, const std::vector<std:
   return rows;
 }
 
-double energy_of(const World& world, const CarriedState& state, const PairKernels& kernels,
+double energy_of(const State& state, const CarriedState& equation, const PairKernels& kernels,
                  const std::vector<std::size_t>& rows, double back) {
-  const Particles& p = world.particles;
+  const Particles& p = state.particles;
   const auto z = p[field::impedance], m = p[field::mass], rho = p[field::density],
              rest = p[field::liquid_rest_density];
   const auto x = positions(p), v = velocities(p);
@@ -51,13 +51,13 @@ double energy_of(const World& world, const CarriedState& state, const PairKernel
   for (const std::size_t i : rows) {
     if (z[i] == 0.0) continue;
     double share = 0.0;
-    for (const Entry e : world.neighbours->of(i)) {
+    for (const Entry e : state.neighbours->of(i)) {
       const std::size_t j = e.row();
       if (z[j] != 0.0) continue;
-      const Vec3 d = (x.at(j) - x.at(i)) + world.neighbours->shift(e.image()) - back * (v.at(j) - v.at(i));
+      const Vec3 d = (x.at(j) - x.at(i)) + state.neighbours->shift(e.image()) - back * (v.at(j) - v.at(i));
       share += m[j] / rest[j] * kernels.wendland.value(norm(d));
     }
-    sum += state.energy(m[i], rho[i], rest[i]) + state.wall_energy(m[i], rest[i], share);
+    sum += equation.energy(m[i], rho[i], rest[i]) + equation.wall_energy(m[i], rest[i], share);
   }
   return sum;
 }
@@ -65,8 +65,8 @@ double energy_of(const World& world, const CarriedState& state, const PairKernel
 namespace {
 
 /// Rows of liquids that were so before.
-std::vector<std::size_t> settled_liquids(const World& world, const std::vector<std::uint32_t>& fresh) {
-  const Particles& p = world.particles;
+std::vector<std::size_t> settled_liquids(const State& state, const std::vector<std::uint32_t>& fresh) {
+  const Particles& p = state.particles;
   std::vector<char> is_fresh(p.size(), 0);
   for (const std::uint32_t one : fresh) is_fresh[p.row(one)] = 1;
   const auto z = p[field::impedance];
@@ -78,26 +78,26 @@ std::vector<std::size_t> settled_liquids(const World& world, const std::vector<s
 
 }  // namespace
 
-void take_pressure_around(World& world, const CarriedState& state, const PairKernels& kernels,
+void take_pressure_around(State& state, const CarriedState& equation, const PairKernels& kernels,
                           const std::vector<std::uint32_t>& ids) {
   if (ids.empty()) return;
-  Particles& p = world.particles;
-  const std::vector<std::size_t> others = settled_liquids(world, ids);
+  Particles& p = state.particles;
+  const std::vector<std::size_t> others = settled_liquids(state, ids);
   const auto x = positions(std::as_const(p));
   const auto rho = p[field::density], rest = p[field::liquid_rest_density], m = p[field::mass];
-  const Vec3 g = liquid::pressing_gravity(world.scene);
-  const double support2 = world.support() * world.support();
+  const Vec3 g = liquid::pressing_gravity(state.scene);
+  const double support2 = state.support() * state.support();
   for (const std::uint32_t id : ids) {
     const std::size_t i = p.row(id);
     double weight = 0.0, pressure = 0.0;
     for (const std::size_t j : others) {
-      const Vec3 d = solid::nearest_image(world.box, x.at(i) - x.at(j));
+      const Vec3 d = solid::nearest_image(state.box, x.at(i) - x.at(j));
       if (!(dot(d, d) < support2)) continue;
       const double w = m[j] / rho[j] * kernels.wendland.value(norm(d));
       weight += w;
-      pressure += w * (state.pressure(rho[j], rest[j]) + rho[j] * dot(g, d));
+      pressure += w * (equation.pressure(rho[j], rest[j]) + rho[j] * dot(g, d));
     }
-    rho[i] = rest[i] * (1.0 + (weight > 0.0 ? std::max(pressure / weight, 0.0) / state.modulus : 0.0));
+    rho[i] = rest[i] * (1.0 + (weight > 0.0 ? std::max(pressure / weight, 0.0) / equation.modulus : 0.0));
   }
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "sph/kernels.hpp"
-#include "world/world.hpp"
+#include "state/state.hpp"
 
 /// Density of what becomes liquid, and the energy of compression that comes and goes with it.
 namespace tripoint::carried_liquid {
@@ -24,16 +24,16 @@ struct CarriedState {
 inline constexpr double inside_wall = 0.5;
 
 /// Rows of what changed, and of their neighbours.
-[[nodiscard]] std::vector<std::size_t> touched_rows(const World&, const std::vector<std::uint32_t>& ids);
+[[nodiscard]] std::vector<std::size_t> touched_rows(const State&, const std::vector<std::uint32_t>& ids);
 
 /// Energy of compression of these rows, as far as they are liquid now [J]. @param back time since the places
 /// meant [s]
-[[nodiscard]] double energy_of(const World&, const CarriedState&, const PairKernels&,
+[[nodiscard]] double energy_of(const State&, const CarriedState&, const PairKernels&,
                                const std::vector<std::size_t>& rows, double back);
 
 /// What becomes liquid takes the pressure of the liquid around it; alone it is at rest density.
 /// @param ids of new liquids   @pre their materials are set, and those of all others too
-void take_pressure_around(World&, const CarriedState&, const PairKernels&,
+void take_pressure_around(State&, const CarriedState&, const PairKernels&,
                           const std::vector<std::uint32_t>& ids);
 
 }  // namespace tripoint::carried_liquid

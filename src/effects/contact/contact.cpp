@@ -14,15 +14,15 @@ namespace {
 class Contact : public Effect {
  public:
   explicit Contact(const Scene& scene) : numbers_(liquid::numbers_of(scene)) {}
-  void state(World& world) override {
-    if (looks_ahead() && world.moved) update_time_to_touch(world, numbers_);
+  void state(State& state) override {
+    if (looks_ahead() && state.moved) update_time_to_touch(state, numbers_);
   }
-  void adopt(World& world) override {
-    if (looks_ahead()) forget_time_to_touch(world);
+  void adopt(State& state) override {
+    if (looks_ahead()) forget_time_to_touch(state);
   }
-  void happen(World& world, const Happening&) override { adopt(world); }
-  [[nodiscard]] TimeStepBound max_dt(const World& world) const override {
-    return contact_bound(world, numbers_, numbers_.courant * world.support(), liquid::greatest_speed(world));
+  void happen(State& state, const Happening&) override { adopt(state); }
+  [[nodiscard]] TimeStepBound max_dt(const State& state) const override {
+    return contact_bound(state, numbers_, numbers_.courant * state.support(), liquid::greatest_speed(state));
   }
 
  private:

@@ -10,8 +10,8 @@
 #include "liquids/scene_numbers.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/shared_terms.hpp"
-#include "world/body_table.hpp"
-#include "world/fill.hpp"
+#include "state/body_table.hpp"
+#include "state/fill.hpp"
 
 /// Density, which pressure, viscosity and the heat of the paper divide by: (4), or corrected by the number
 /// density (model 8.2).
@@ -32,15 +32,15 @@ class Density : public Effect {
         of_solids_(liquid::carries_density(scene)),
         kernels_(flows_ ? liquid::pair_kernels(scene) : PairKernels(scene.support_ratio * scene.spacing)),
         scale_(printed_ ? 1.0 : 1.0 / liquid::numbers_of(scene).lattice_density) {}
-  void load(World&, const InitialState&) override;
-  void clear(World&, PassName) override;
-  void densities(World&) override;
-  void settle(World&) override;
+  void load(State&, const InitialState&) override;
+  void clear(State&, PassName) override;
+  void densities(State&) override;
+  void settle(State&) override;
   [[nodiscard]] PairWork pair_work(const Scene&) const override;
 
  private:
-  void clear_numbers(World&) const;
-  void set_own_density(World&, std::size_t row) const;
+  void clear_numbers(State&) const;
+  void set_own_density(State&, std::size_t row) const;
 
   bool flows_, printed_;
   bool of_solids_;  ///< liquids carry theirs
@@ -48,60 +48,60 @@ class Density : public Effect {
   double scale_;  ///< 1/S0 of the kernel
 };
 
-void Density::load(World& world, const InitialState&) {
-  for (std::size_t i = 0; i < world.particles.size(); ++i) set_own_density(world, i);
+void Density::load(State& state, const InitialState&) {
+  for (std::size_t i = 0; i < state.particles.size(); ++i) set_own_density(state, i);
 }
 
 /// Sum that the own pairs of a particle add to its number density, once and for all (model 8.2).
-void Density::set_own_density(World& world, std::size_t row) const {
-  if (!world.particles.has(field::own_density.name)) return;
+void Density::set_own_density(State& state, std::size_t row) const {
+  if (!state.particles.has(field::own_density.name)) return;
   double sum = 0.0;
   for (const OwnPair& pair :
-       std::as_const(world.own).of(static_cast<std::size_t>(world.particles[field::id][row])))
+       std::as_const(state.own).of(static_cast<std::size_t>(state.particles[field::id][row])))
     sum += pair.weight;
-  world.particles[field::own_density][row] = sum;
+  state.particles[field::own_density][row] = sum;
 }
 
 /// When all that looks at the densities before the change has seen them.
-void Density::settle(World& world) {
-  for (const std::uint32_t id : world.change.relisted) set_own_density(world, world.particles.row(id));
+void Density::settle(State& state) {
+  for (const std::uint32_t id : state.change.relisted) set_own_density(state, state.particles.row(id));
 }
 
 /// Each particle's own share of the sum.
-void Density::clear(World& world, PassName pass) {
+void Density::clear(State& state, PassName pass) {
   if (pass != PassName::density) return;
-  if (!printed_) return clear_numbers(world);
-  Particles& p = world.particles;
+  if (!printed_) return clear_numbers(state);
+  Particles& p = state.particles;
   const auto rho = awake(p, field::density), m = p[field::mass];
   const double self = kernels_.poly6.value(0.0);
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (rho.size() > worth_threads)
+#pragma omp parallel for schedule(static) num_threads(state.threads) if (rho.size() > worth_threads)
   for (std::size_t i = 0; i < rho.size(); ++i) rho[i] = m[i] * self;
 }
 
-void Density::clear_numbers(World& world) const {
-  Particles& p = world.particles;
-  const Rows rows = world.forms_fixed ? Rows{p.awake(), p.size()} : Rows{0, p.awake()};
+void Density::clear_numbers(State& state) const {
+  Particles& p = state.particles;
+  const Rows rows = state.forms_fixed ? Rows{p.awake(), p.size()} : Rows{0, p.awake()};
   const auto delta = part(p[field::number_density], rows);
-  fill(delta, kernels_.wendland.value(0.0), world.threads);
+  fill(delta, kernels_.wendland.value(0.0), state.threads);
   if (!p.has(field::own_density.name)) return;
   const auto own = part(p[field::own_density], rows);
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (delta.size() > worth_threads)
+#pragma omp parallel for schedule(static) num_threads(state.threads) if (delta.size() > worth_threads)
   for (std::size_t i = 0; i < delta.size(); ++i) delta[i] += own[i];
 }
 
-void Density::densities(World& world) {
-  Particles& p = world.particles;
+void Density::densities(State& state) {
+  Particles& p = state.particles;
   const auto rho = p[field::density], m = p[field::mass], V = p[field::volume];
   if (!printed_) {
     const auto delta = p[field::number_density];
     const double scale = scale_;
     const auto body = p[field::body];
     const bool of_solids = of_solids_;
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.awake() > worth_threads)
+#pragma omp parallel for schedule(static) num_threads(state.threads) if (p.awake() > worth_threads)
     for (std::size_t i = 0; i < p.awake(); ++i)
       if (!of_solids || body[i] >= 0) rho[i] = m[i] * (delta[i] * scale);
   }
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.awake() > worth_threads)
+#pragma omp parallel for schedule(static) num_threads(state.threads) if (p.awake() > worth_threads)
   for (std::size_t i = 0; i < p.awake(); ++i) V[i] = m[i] / rho[i];
 }
 

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "effects/elastic/fields.hpp"
-#include "world/failure.hpp"
+#include "state/failure.hpp"
 
 namespace tripoint::elastic {
 namespace {
@@ -27,11 +27,11 @@ PeriodicWidths periodic_widths(const PeriodicBox& box) {
 /// Sets T = (v F S + H) A, and the force of each particle's own energy on it.
 class Stresses {
  public:
-  Stresses(World& world, const ElasticForms& forms, Deformations& all)
+  Stresses(State& state, const ElasticForms& forms, Deformations& all)
       : forms_(forms),
         all_(all),
-        constants_(forms.constants(world)),
-        force_(triple(world.particles, field::elastic_force)) {}
+        constants_(forms.constants(state)),
+        force_(triple(state.particles, field::elastic_force)) {}
   void none(std::size_t row) { force_.set(row, {}); }
   /// @param G F - I   @param elastic strain less what has flowed   @param A shape inverse   @param P
   /// projector on its range
@@ -53,7 +53,7 @@ class Stresses {
 /// det F of a solid. @param G F - I
 double volume_ratio(const Matrix3& G) { return determinant(identity3 + G); }
 
-bool flows(const World& world) { return world.particles.has(field::may_flow.name); }
+bool flows(const State& state) { return state.particles.has(field::may_flow.name); }
 
 /// Strain less what has flowed, within the range of P.
 inline Symmetric elastic_strain(const Symmetric& strain, const Symmetric& plastic, const Symmetric& P,
@@ -74,15 +74,15 @@ Matrix3 resist_hourglass(Deformations& all, std::uint32_t id, double stiff, cons
 
 /// Of a sheet or chain, where no force acts on it itself.
 /// @return H = -F sum_j kappa_ij y y^T, y = P x_ji, kappa_ij = (a E/2) v_i v_j W g_ij/|x_ij|^2 [N m]
-Matrix3 resist_flat_hourglass(const World& world, Deformations& all, std::uint32_t id, double stiff,
+Matrix3 resist_flat_hourglass(const State& state, Deformations& all, std::uint32_t id, double stiff,
                               const Symmetric& strain, const Symmetric& P, const Matrix3& F) {
   Symmetric sum;
   const Place& i = all.places[id];
   all.deformed[id].set_moduli(0.0, stiff, i.volume);
   all.hourglass_force[id] = {};
-  for (const Bond& b : world.bonds.of(id)) {
+  for (const Bond& b : state.bonds.of(id)) {
     const Place& j = all.places[b.other];
-    const Vec3 r = solid::nearest_image(world.box, j.r - i.r);
+    const Vec3 r = solid::nearest_image(state.box, j.r - i.r);
     const double kappa = stiff * i.volume * j.volume * b.weight / dot(b.x, b.x) *
                          solid::hourglass_residual_flat(strain, -b.x, r);
     sum = sum + kappa * square(P * b.x);
@@ -97,26 +97,26 @@ Matrix3 without_hourglass(Deformations& all, std::uint32_t id) {
 }
 
 /// @param changed whether bonds or volumes have since `reference` was summed
-void deform_all(World& world, const ElasticForms& forms, Deformations& all, bool changed) {
-  Particles& p = world.particles;
+void deform_all(State& state, const ElasticForms& forms, Deformations& all, bool changed) {
+  Particles& p = state.particles;
   const auto id_of = p[field::id], rank_of = p[field::shape_rank];
-  const solid::EnergyOwners owns(world);
-  const auto constants = forms.constants(world);
+  const solid::EnergyOwners owns(state);
+  const auto constants = forms.constants(state);
   const auto shape = solid::shape_inverses(std::as_const(p));
   const auto strain_of = solid::strains(p);
-  const PeriodicWidths box = periodic_widths(world.box);
+  const PeriodicWidths box = periodic_widths(state.box);
   const bool hourglass = forms.hourglass() != 0.0;
   std::optional<SymmetricColumns<const double>> plastic_of;
-  if (flows(world)) plastic_of = solid::plastic_strains(std::as_const(p));
-  const auto may_flow = flows(world) ? p[field::may_flow] : std::span<int>{};
-  const BondSums sum = bond_sums({world.box.any(), hourglass, forms.bending() != 0.0});
-  Stresses stresses(world, forms, all);
+  if (flows(state)) plastic_of = solid::plastic_strains(std::as_const(p));
+  const auto may_flow = flows(state) ? p[field::may_flow] : std::span<int>{};
+  const BondSums sum = bond_sums({state.box.any(), hourglass, forms.bending() != 0.0});
+  Stresses stresses(state, forms, all);
   double least = 1.0;
-#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(min : least)
+#pragma omp parallel for schedule(static) num_threads(state.threads) reduction(min : least)
   for (std::size_t row = 0; row < p.size(); ++row) {
-    if (!world.owns(row)) continue;  // its list is not whole here: it is handed over
+    if (!state.owns(row)) continue;  // its list is not whole here: it is handed over
     const auto id = static_cast<std::uint32_t>(id_of[row]);
-    const BondLists::List list = all.lists.of(world.bonds, id);
+    const BondLists::List list = all.lists.of(state.bonds, id);
     if (!owns(row)) {
       stresses.none(row);
       if (list.count > 0) all.deformed[id] = {};
@@ -135,7 +135,7 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all, bool
     const double stiff = 0.5 * forms.hourglass() * constants(row).young;
     const Matrix3 H = !hourglass  ? without_hourglass(all, id)
                       : rank == 3 ? resist_hourglass(all, id, stiff, G, sums)
-                                  : resist_flat_hourglass(world, all, id, stiff, strain, P, F);
+                                  : resist_flat_hourglass(state, all, id, stiff, strain, P, F);
     Symmetric elastic = strain;
     if (plastic_of) {
       const Symmetric plastic = plastic_of->at(row);
@@ -151,13 +151,13 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all, bool
 }
 
 /// Stresses anew of what has flowed since they were formed.
-void follow_flow(World& world, const ElasticForms& forms, Deformations& all) {
-  const Particles& p = world.particles;
+void follow_flow(State& state, const ElasticForms& forms, Deformations& all) {
+  const Particles& p = state.particles;
   const auto id_of = p[field::id], rank_of = p[field::shape_rank], may_flow = p[field::may_flow];
   const auto shape = solid::shape_inverses(p), strain_of = solid::strains(p),
              plastic_of = solid::plastic_strains(p);
-  Stresses stresses(world, forms, all);
-#pragma omp parallel for schedule(static) num_threads(world.threads)
+  Stresses stresses(state, forms, all);
+#pragma omp parallel for schedule(static) num_threads(state.threads)
   for (std::size_t row = 0; row < p.size(); ++row) {
     if (may_flow[row] == 0) continue;
     const auto id = static_cast<std::size_t>(id_of[row]);
@@ -187,11 +187,11 @@ Vec3 force_of(const Deformations& all, std::uint32_t k, std::uint32_t l, const B
 }
 
 /// Where sheets or chains take part, bond by bond.
-Vec3 general_force(const World& world, const Deformations& all, std::uint32_t i) {
+Vec3 general_force(const State& state, const Deformations& all, std::uint32_t i) {
   Vec3 f;
-  for (const Bond& b : world.bonds.of(i)) {
-    const Vec3 r = solid::nearest_image(world.box, all.places[b.other].r - all.places[i].r);
-    f += force_of(all, b.other, i, world.bonds.of(b.other)[b.twin], -r) - force_of(all, i, b.other, b, r);
+  for (const Bond& b : state.bonds.of(i)) {
+    const Vec3 r = solid::nearest_image(state.box, all.places[b.other].r - all.places[i].r);
+    f += force_of(all, b.other, i, state.bonds.of(b.other)[b.twin], -r) - force_of(all, i, b.other, b, r);
   }
   return f;
 }
@@ -203,20 +203,20 @@ bool feels_energy(const BondLists::List& list, const Deformations& all, std::uin
 }
 
 /// f = own + v_i sum_j (what the energies of the partners do).
-void add_all(World& world, const ElasticForms& forms, const Deformations& all) {
-  Particles& p = world.particles;
+void add_all(State& state, const ElasticForms& forms, const Deformations& all) {
+  Particles& p = state.particles;
   const auto id_of = p[field::id], regular = p[field::regular_bonds];
   const auto f = triple(p, field::elastic_force);
-  const PeriodicWidths box = periodic_widths(world.box);
-  const BondSums sum = bond_sums({world.box.any(), forms.hourglass() != 0.0, forms.bending() != 0.0});
-#pragma omp parallel for schedule(static) num_threads(world.threads)
+  const PeriodicWidths box = periodic_widths(state.box);
+  const BondSums sum = bond_sums({state.box.any(), forms.hourglass() != 0.0, forms.bending() != 0.0});
+#pragma omp parallel for schedule(static) num_threads(state.threads)
   for (std::size_t row = 0; row < p.size(); ++row) {
-    if (!world.owns(row)) continue;
+    if (!state.owns(row)) continue;
     const auto id = static_cast<std::uint32_t>(id_of[row]);
-    const BondLists::List list = all.lists.of(world.bonds, id);
+    const BondLists::List list = all.lists.of(state.bonds, id);
     if (list.count == 0 || !feels_energy(list, all, id)) continue;
     if (!regular[row]) {
-      f.set(row, general_force(world, all, id));
+      f.set(row, general_force(state, all, id));
       continue;
     }
     PartnerForces of_partners;
@@ -227,32 +227,32 @@ void add_all(World& world, const ElasticForms& forms, const Deformations& all) {
 }
 
 /// What partners see of a particle is known where its list is whole: at its owner.
-void hand_deformed_to_copies(const World& world, Deformations& all) {
-  if (!world.halo) return;
+void hand_deformed_to_copies(const State& state, Deformations& all) {
+  if (!state.halo) return;
   constexpr std::size_t each = sizeof(Deformed) / sizeof(double);
   static_assert(std::is_standard_layout_v<Deformed> && std::is_trivially_copyable_v<Deformed>);
   double* const first = all.deformed.empty() ? nullptr : &all.deformed.front().measure_x.x;
-  world.halo->refresh({first, all.deformed.size() * each}, each);
+  state.halo->refresh({first, all.deformed.size() * each}, each);
 }
 
 /// @return whether a volume has changed, or who owns strain energy
-bool set_places(World& world, Deformations& all) {
-  Particles& p = world.particles;
+bool set_places(State& state, Deformations& all) {
+  Particles& p = state.particles;
   const auto x = positions(std::as_const(p));
   const auto id_of = std::as_const(p)[field::id];
   const auto volume = std::as_const(p)[field::solid_volume];
   all.places.resize(p.size());
   all.deformed.resize(p.size());
   all.hourglass_force.resize(p.size());
-  if (flows(world)) {
+  if (flows(state)) {
     all.before_flow.resize(p.size());
     std::ranges::fill(p[field::may_flow], 0);
   }
   all.reference.resize(p.size());
   all.owns.resize(p.size());
-  const solid::EnergyOwners owns(world);
+  const solid::EnergyOwners owns(state);
   bool changed = false;
-#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(|| : changed)
+#pragma omp parallel for schedule(static) num_threads(state.threads) reduction(|| : changed)
   for (std::size_t row = 0; row < p.size(); ++row) {
     const auto id = static_cast<std::size_t>(id_of[row]);
     const char owner = owns(row);
@@ -265,26 +265,26 @@ bool set_places(World& world, Deformations& all) {
 
 }  // namespace
 
-void deform(World& world, const ElasticForms& forms, Deformations& all) {
-  const bool relisted = all.lists.follow(world.bonds), changed = set_places(world, all);
-  deform_all(world, forms, all, relisted || changed);
+void deform(State& state, const ElasticForms& forms, Deformations& all) {
+  const bool relisted = all.lists.follow(state.bonds), changed = set_places(state, all);
+  deform_all(state, forms, all, relisted || changed);
 }
 
-void refuse_inversion(const World& world, const ElasticForms& forms, const Deformations& all) {
-  const Particles& p = world.particles;
-  if (forms.paper() || all.deformed.size() != p.size() || is_off(world.scene, GuardName::inversion)) return;
+void refuse_inversion(const State& state, const ElasticForms& forms, const Deformations& all) {
+  const Particles& p = state.particles;
+  if (forms.paper() || all.deformed.size() != p.size() || is_off(state.scene, GuardName::inversion)) return;
   const double least = all.least_volume_ratio;
   if (least > 0.0) return;
-  const solid::EnergyOwners owns(world);
+  const solid::EnergyOwners owns(state);
   const auto rank_of = p[field::shape_rank], id_of = p[field::id];
   const auto is_worst = [&](std::size_t row) {
-    return rank_of[row] == 3 && owns(row) && world.owns(row) &&
+    return rank_of[row] == 3 && owns(row) && state.owns(row) &&
            volume_ratio(all.deformed[static_cast<std::size_t>(id_of[row])].measure()) == least;
   };
   for (std::size_t row = 0; row < p.size(); ++row) {
     if (is_worst(row))
       fail(
-          world, GuardName::inversion, row, "deformation", "state",
+          state, GuardName::inversion, row, "deformation", "state",
           fmt::format(
               "is turned inside out: det F = {:.3g}; a stiffer or finer solid, a slower load, or unguarded = "
               "[\"inversion\"] to go on",
@@ -292,10 +292,10 @@ void refuse_inversion(const World& world, const ElasticForms& forms, const Defor
   }
 }
 
-void add_forces(World& world, const ElasticForms& forms, Deformations& all) {
-  if (flows(world)) follow_flow(world, forms, all);
-  hand_deformed_to_copies(world, all);
-  add_all(world, forms, all);
+void add_forces(State& state, const ElasticForms& forms, Deformations& all) {
+  if (flows(state)) follow_flow(state, forms, all);
+  hand_deformed_to_copies(state, all);
+  add_all(state, forms, all);
 }
 
 }  // namespace tripoint::elastic

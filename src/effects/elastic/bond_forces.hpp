@@ -31,12 +31,12 @@ struct Deformations {
 
 /// F, strain, H and the stress of all particles of deformable bodies, at the plastic strain so far. H = sum_j
 /// c_ij (F x_ji - r_ji) x_ji^T is the hourglass part.
-void deform(World&, const solid::ElasticForms&, Deformations&);
+void deform(State&, const solid::ElasticForms&, Deformations&);
 /// @throws Diverged where a particle of a solid is turned inside out: det F <= 0. Two measures are not
 /// checked. Printed strain is no measure of F, because a rotation alone changes its sign. F of a sheet or
 /// chain is that within its plane or line.
-void refuse_inversion(const World&, const solid::ElasticForms&, const Deformations&);
+void refuse_inversion(const State&, const solid::ElasticForms&, const Deformations&);
 /// (12) and the gradient of the hourglass energies, on every particle that has bonds, rigid or not.
-void add_forces(World&, const solid::ElasticForms&, Deformations&);
+void add_forces(State&, const solid::ElasticForms&, Deformations&);
 
 }  // namespace tripoint::elastic

@@ -21,10 +21,10 @@ struct alignas(vector_bytes) BondShape {
 static_assert(sizeof(BondShape) == vector_bytes);
 
 /// The lists of bonds as the passes stream them: 12 bytes a bond, and what bonds have in common once. Memory
-/// that is made from World::bonds and follows it; no state of its own.
+/// that is made from State::bonds and follows it; no state of its own.
 class BondLists {
  public:
-  /// One list, in the order of World::bonds.
+  /// One list, in the order of State::bonds.
   struct List {
     const std::uint32_t* other;  ///< id of j
     const std::uint32_t* shape;  ///< of the bond in this list
@@ -44,11 +44,11 @@ class BondLists {
   void make_room();
   void clear();
 
-  std::vector<std::uint32_t> other_, shape_, seen_;  ///< by place in the pool of World::bonds
+  std::vector<std::uint32_t> other_, shape_, seen_;  ///< by place in the pool of State::bonds
   AlignedVector<BondShape> shapes_;
   /// Open addressing: 1 + the shape with this hash, a power of two of places
   std::vector<std::uint32_t> table_;
-  std::uint64_t followed_ = 0;  ///< changes of World::bonds until now
+  std::uint64_t followed_ = 0;  ///< changes of State::bonds until now
 };
 
 }  // namespace tripoint::elastic

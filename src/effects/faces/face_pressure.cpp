@@ -17,28 +17,28 @@ namespace {
 
 /// Copies take from their owners what these have by id.
 template <class Numbers>
-void hand_to_copies(const World& world, std::vector<Numbers>& by_id) {
-  if (!world.halo) return;
+void hand_to_copies(const State& state, std::vector<Numbers>& by_id) {
+  if (!state.halo) return;
   static_assert(std::is_standard_layout_v<Numbers> && std::is_trivially_copyable_v<Numbers>);
   constexpr std::size_t each = sizeof(Numbers) / sizeof(double);
-  world.halo->refresh({by_id.empty() ? nullptr : &by_id.front().xx, by_id.size() * each}, each);
+  state.halo->refresh({by_id.empty() ? nullptr : &by_id.front().xx, by_id.size() * each}, each);
 }
 
 }  // namespace
 
 FacePressure::FacePressure(const Scene& scene) : share_(acting_number(scene, "face_pressure")) {}
 
-void FacePressure::find(const World& world) {
-  if (!pairs_.renew(world.neighbours->rebuilds())) return;
-  const Particles& p = world.particles;
+void FacePressure::find(const State& state) {
+  if (!pairs_.renew(state.neighbours->rebuilds())) return;
+  const Particles& p = state.particles;
   const auto group = p[field::group];
   const auto rank = p[field::shape_rank], id = p[field::id];
-  const solid::ElasticParticles moves_by_itself(world);
+  const solid::ElasticParticles moves_by_itself(state);
   elastic_.assign(p.size(), 0);
   for (std::size_t i = 0; i < p.size(); ++i) elastic_[i] = rank[i] == 3 && moves_by_itself(i);
   std::vector<char> pressed(p.size(), 0);
   const auto each_pair = [&](std::size_t i, auto give) {
-    for (const Entry e : world.neighbours->of(i)) {
+    for (const Entry e : state.neighbours->of(i)) {
       const auto j = static_cast<std::uint32_t>(e.row());
       if ((elastic_[i] || elastic_[j]) && !e.own() && tripoint::acts(group[i], group[j]))
         give(liquid::ListedPair{j, e.image()});
@@ -54,56 +54,56 @@ void FacePressure::find(const World& world) {
   }
   bonded_.clear();
   // Only the owning process knows all loads on a copy, so a copy counts as loaded.
-  const auto is_loaded = [&](std::size_t row) { return elastic_[row] && (pressed[row] || !world.owns(row)); };
+  const auto is_loaded = [&](std::size_t row) { return elastic_[row] && (pressed[row] || !state.owns(row)); };
   for (std::uint32_t i = 0; i < p.awake(); ++i) {
-    const auto list = world.bonds.of(static_cast<std::size_t>(id[i]));
+    const auto list = state.bonds.of(static_cast<std::size_t>(id[i]));
     if (is_loaded(i) || std::ranges::any_of(list, [&](const Bond& b) { return is_loaded(p.row(b.other)); }))
       bonded_.push_back(i);
   }
 }
 
 /// F of the elastic particles that are pressed, by (14), and D.
-void FacePressure::deform(World& world) {
-  const Particles& p = world.particles;
+void FacePressure::deform(State& state) {
+  const Particles& p = state.particles;
   const auto x = positions(p);
   const auto id = p[field::id];
   const auto volume = p[field::solid_volume];
   const auto shape = solid::shape_inverses(p);
   inverse_.resize(p.size());
   measure_.assign(p.size(), {});
-  pairs_.each_row(world.threads, [&](std::size_t n) {
+  pairs_.each_row(state.threads, [&](std::size_t n) {
     const std::size_t i = pairs_.row(n);
-    if (!elastic_[i] || !world.owns(i)) return;
+    if (!elastic_[i] || !state.owns(i)) return;
     Matrix3 sum;
-    for (const Bond& b : world.bonds.of(static_cast<std::size_t>(id[i]))) {
+    for (const Bond& b : state.bonds.of(static_cast<std::size_t>(id[i]))) {
       const std::size_t j = p.row(b.other);
-      const Vec3 u = solid::nearest_image(world.box, x.at(j) - x.at(i)) + b.x;
+      const Vec3 u = solid::nearest_image(state.box, x.at(j) - x.at(i)) + b.x;
       sum = sum + outer(u, volume[j] * b.gradient);
     }
     inverse_[i] = inverse(solid::deformation_gradient(sum, shape.at(i)));
     measure_[static_cast<std::size_t>(id[i])] =
         (0.5 * share_) * symmetric_part(transposed(inverse_[i]) * inverse_[i] - identity3);
   });
-  hand_to_copies(world, measure_);
+  hand_to_copies(state, measure_);
 }
 
-void FacePressure::add_densities(World& world, const PairKernels& kernels) {
-  find(world);
-  deform(world);
-  const Particles& p = world.particles;
+void FacePressure::add_densities(State& state, const PairKernels& kernels) {
+  find(state);
+  deform(state);
+  const Particles& p = state.particles;
   const auto x = positions(p);
   const auto id = p[field::id];
-  const auto delta = world.particles[field::number_density];
-  const double support2 = world.support() * world.support();
+  const auto delta = state.particles[field::number_density];
+  const double support2 = state.support() * state.support();
   near_.resize(pairs_.pairs());
   acting_.resize(pairs_.rows());
-  pairs_.each_row(world.threads, [&](std::size_t n) {
+  pairs_.each_row(state.threads, [&](std::size_t n) {
     const std::size_t i = pairs_.row(n);
     Near* const first = near_.data() + pairs_.first(n);
     Near* last = first;
     for (const liquid::ListedPair& pair : pairs_.of(n)) {
       const std::uint32_t j = pair.row;
-      const Vec3 d = liquid::way_to(*world.neighbours, x, i, pair);
+      const Vec3 d = liquid::way_to(*state.neighbours, x, i, pair);
       const double here2 = dot(d, d);
       const double at_face2 =
           dot(d, seen_at_face(static_cast<std::size_t>(id[i]), static_cast<std::size_t>(id[j]), d));
@@ -118,15 +118,15 @@ void FacePressure::add_densities(World& world, const PairKernels& kernels) {
 }
 
 /// With y = F^-1 d: dU/dF = -s/2 F^-T sum_j (share_i + share_j) W'(r*)/r* y y^T.
-void FacePressure::add_forces(World& world) {
-  Particles& p = world.particles;
+void FacePressure::add_forces(State& state) {
+  Particles& p = state.particles;
   const auto share = std::as_const(p)[field::pressure_share];
   const auto id = p[field::id];
   const auto F = triple(p, field::force);
   const auto shape = solid::shape_inverses(std::as_const(p));
-  const Rows formed = world.formed();
+  const Rows formed = state.formed();
   load_.assign(p.size(), {});
-  pairs_.each_row(world.threads, [&](std::size_t n) {
+  pairs_.each_row(state.threads, [&](std::size_t n) {
     const std::size_t i = pairs_.row(n);
     const auto own = static_cast<std::size_t>(id[i]);
     Vec3 f;
@@ -138,31 +138,31 @@ void FacePressure::add_forces(World& world) {
       if (elastic_[i]) pressed = pressed + (pressure * pair.at_face) * square(pair.d);
     }
     if (i >= formed.from && i < formed.to) F.set(i, F.at(i) + f);
-    if (elastic_[i] && world.owns(i))
+    if (elastic_[i] && state.owns(i))
       load_[own] = (-0.5 * share_) *
                    (transposed(inverse_[i]) * (inverse_[i] * full(pressed) * transposed(inverse_[i]))) *
                    shape.at(i);
   });
-  hand_to_copies(world, load_);
-  load_bonds(world);
+  hand_to_copies(state, load_);
+  load_bonds(state);
 }
 
 /// As the force of strain energy, (12): F = -v_l T gradW(x_kl) on l and the opposite on k, T = dU/dF A of k.
-void FacePressure::load_bonds(World& world) const {
-  Particles& p = world.particles;
+void FacePressure::load_bonds(State& state) const {
+  Particles& p = state.particles;
   const auto id = p[field::id];
   const auto volume = std::as_const(p)[field::solid_volume];
   const auto F = triple(p, field::force);
-  const Rows formed = world.formed();
-#pragma omp parallel for schedule(static) num_threads(world.threads)
+  const Rows formed = state.formed();
+#pragma omp parallel for schedule(static) num_threads(state.threads)
   for (std::size_t n = 0; n < bonded_.size(); ++n) {
     const std::size_t i = bonded_[n];
-    if (i < formed.from || i >= formed.to || !world.owns(i)) continue;
+    if (i < formed.from || i >= formed.to || !state.owns(i)) continue;
     const auto own = static_cast<std::size_t>(id[i]);
     Vec3 f;
-    for (const Bond& b : world.bonds.of(own)) {
+    for (const Bond& b : state.bonds.of(own)) {
       f += volume[p.row(b.other)] * (load_[own] * b.gradient);
-      f -= volume[i] * (load_[b.other] * world.bonds.of(b.other)[b.twin].gradient);
+      f -= volume[i] * (load_[b.other] * state.bonds.of(b.other)[b.twin].gradient);
     }
     F.set(i, F.at(i) + f);
   }

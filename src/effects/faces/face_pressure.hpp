@@ -6,7 +6,7 @@
 #include "core/matrix3.hpp"
 #include "liquids/listed_pairs.hpp"
 #include "sph/kernels.hpp"
-#include "world/world.hpp"
+#include "state/state.hpp"
 
 namespace tripoint::faces {
 
@@ -21,10 +21,10 @@ class FacePressure {
   explicit FacePressure(const Scene&);
   [[nodiscard]] bool acts() const noexcept { return share_ > 0.0; }
   /// After the pass of densities: W(r*) - W(r) to both particles of each pair with an elastic one.
-  void add_densities(World&, const PairKernels&);
+  void add_densities(State&, const PairKernels&);
   /// After the pass of rates: the same to the pressure force, and dU/dF of each elastic particle to its
   /// bonds.
-  void add_forces(World&);
+  void add_forces(State&);
   /// Rows, groups or bodies have changed: look again which particles are elastic.
   void clear() { pairs_.clear(); }
 
@@ -35,9 +35,9 @@ class FacePressure {
     Vec3 d;                ///< r_j - r_i [m]
     double at_face, here;  ///< W'(r*)/r*, W'(r)/r [1/m5]
   };
-  void find(const World&);
-  void deform(World&);
-  void load_bonds(World&) const;
+  void find(const State&);
+  void deform(State&);
+  void load_bonds(State&) const;
   /// (I + D_i + D_j) d. @param i,j ids
   [[nodiscard]] Vec3 seen_at_face(std::size_t i, std::size_t j, const Vec3& d) const {
     return d + (measure_[i] + measure_[j]) * d;

@@ -14,13 +14,13 @@ namespace {
 class Faces : public Effect {
  public:
   explicit Faces(const Scene& scene) : kernels_(liquid::pair_kernels(scene)), faces_(scene) {}
-  void densities(World& world) override { faces_.add_densities(world, kernels_); }
-  void bonds(World& world) override { faces_.add_forces(world); }
-  void adopt(World& world) override {
-    if (liquid::groups_changed(world)) faces_.clear();
+  void densities(State& state) override { faces_.add_densities(state, kernels_); }
+  void bonds(State& state) override { faces_.add_forces(state); }
+  void adopt(State& state) override {
+    if (liquid::groups_changed(state)) faces_.clear();
   }
-  void happen(World&, const Happening&) override { faces_.clear(); }
-  void renumber(World&) override { faces_.clear(); }
+  void happen(State&, const Happening&) override { faces_.clear(); }
+  void renumber(State&) override { faces_.clear(); }
 
  private:
   PairKernels kernels_;

@@ -7,7 +7,7 @@
 
 #include "liquids/fields.hpp"
 #include "scene/effect_rule.hpp"
-#include "world/ordered_sum.hpp"
+#include "state/ordered_sum.hpp"
 
 namespace tripoint::fluid {
 namespace {
@@ -28,18 +28,18 @@ constexpr double share_of_frontier = 0.81;
 
 double bulk_viscosity(const Scene& scene) { return acting_number(scene, "bulk_viscosity"); }
 
-void set_bulk_pressure(World& world, const liquid::SceneNumbers& n) {
-  Particles& p = world.particles;
-  const double dt = 2.0 * world.step_numbers[liquid::half_step];  // the step was begun by a half kick
-  const bool flows = dt > 0.0 && world.change.empty();            // new particles change densities at once
+void set_bulk_pressure(State& state, const liquid::SceneNumbers& n) {
+  Particles& p = state.particles;
+  const double dt = 2.0 * state.step_numbers[liquid::half_step];  // the step was begun by a half kick
+  const bool flows = dt > 0.0 && state.change.empty();            // new particles change densities at once
   // [m2/s] over the step
-  const double viscosity = flows ? n.bulk_viscosity * n.sound_speed * world.support() / dt : 0.0;
+  const double viscosity = flows ? n.bulk_viscosity * n.sound_speed * state.support() / dt : 0.0;
   const auto delta = p[field::number_density], before = p[field::number_density_before],
              q = p[field::bulk_pressure];
   const auto rest = p[field::rest_density], m = p[field::mass], pressure = p[field::pressure],
              V = p[field::volume], group = p[field::group];
   std::vector<std::array<double, 1>> blocks;
-  const auto taken = ordered_sums(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
+  const auto taken = ordered_sums(state, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
     const double squeezed = flows && group[i] == liquid_group ? delta[i] / before[i] - 1.0 : 0.0;
     const double next =
         pressure[i] > 0.0 && V[i] * rest[i] < m[i]
@@ -49,7 +49,7 @@ void set_bulk_pressure(World& world, const liquid::SceneNumbers& n) {
     q[i] = next;
     before[i] = delta[i];
   });
-  world.booked[taken_by_bulk_viscosity] += n.pressure_work * taken[0];
+  state.booked[taken_by_bulk_viscosity] += n.pressure_work * taken[0];
 }
 
 double bulk_viscous_step(double zeta) {

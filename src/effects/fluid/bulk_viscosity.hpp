@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "liquids/scene_numbers.hpp"
-#include "world/world.hpp"
+#include "state/state.hpp"
 
 namespace tripoint::fluid {
 
@@ -25,7 +25,7 @@ inline constexpr Account taken_by_bulk_viscosity{"bulk_viscous"};
 /// one faster, and 0.6 h/c is left at four times the density (tests/step/stability_bulk_test.cpp). Also books
 /// the energy that it takes, by the trapezoidal rule. To be called once for all new places, after the
 /// pressure is known.
-void set_bulk_pressure(World&, const liquid::SceneNumbers&);
+void set_bulk_pressure(State&, const liquid::SceneNumbers&);
 
 /// Greatest step over h/c [1] (model 8.10): 0.81 (sqrt(z^2 + 0.885^2) - z), z = 2.12 zeta. Above that of
 /// sound, 0.45, up to zeta = 0.2. @param zeta scene.bulk_viscosity or scene.sound_damping [1]

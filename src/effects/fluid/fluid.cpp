@@ -21,9 +21,9 @@
 #include "pairs/pass.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/shared_terms.hpp"
-#include "world/body_table.hpp"
-#include "world/fill.hpp"
-#include "world/free_rows.hpp"
+#include "state/body_table.hpp"
+#include "state/fill.hpp"
+#include "state/free_rows.hpp"
 
 namespace tripoint::fluid {
 namespace {
@@ -45,27 +45,27 @@ class Fluid : public Effect {
         kernels_(liquid::pair_kernels(scene)),
         damps_(numbers_.bulk_viscosity > 0.0),
         solid_viscosity_(scene) {}
-  void load(World&, const InitialState&) override;
-  void kick(World&, double dt) override;
-  void drift(World&, double dt) override;
-  void clear(World&, PassName) override;
-  void state(World&) override;
-  void after_states(World&) override;
-  void form_fixed(World&) override;
-  void happen(World& world, const Happening&) override { set_groups(world); }
-  void adopt(World&) override;
-  void check(const World& world) const override { refuse_overlap(world, numbers_); }
-  [[nodiscard]] TimeStepBound max_dt(const World&) const override;
-  void add_to(const World& world, Ledger& ledger) const override {
-    if (liquid::stores_compression(world.scene)) add_fluid(world, numbers_, kernels_, ledger);
-    if (damps_) ledger.energy["bulk_viscous"] += world.booked[taken_by_bulk_viscosity];
+  void load(State&, const InitialState&) override;
+  void kick(State&, double dt) override;
+  void drift(State&, double dt) override;
+  void clear(State&, PassName) override;
+  void state(State&) override;
+  void after_states(State&) override;
+  void form_fixed(State&) override;
+  void happen(State& state, const Happening&) override { set_groups(state); }
+  void adopt(State&) override;
+  void check(const State& state) const override { refuse_overlap(state, numbers_); }
+  [[nodiscard]] TimeStepBound max_dt(const State&) const override;
+  void add_to(const State& state, Ledger& ledger) const override {
+    if (liquid::stores_compression(state.scene)) add_fluid(state, numbers_, kernels_, ledger);
+    if (damps_) ledger.energy["bulk_viscous"] += state.booked[taken_by_bulk_viscosity];
   }
   [[nodiscard]] PairWork pair_work(const Scene&) const override;
 
  private:
-  void set_material(World&, std::size_t row) const;
-  void set_groups(World&);
-  void follow_temperature(World&) const;
+  void set_material(State&, std::size_t row) const;
+  void set_groups(State&);
+  void follow_temperature(State&) const;
 
   liquid::SceneNumbers numbers_;
   PairKernels kernels_;
@@ -74,105 +74,105 @@ class Fluid : public Effect {
   SolidViscosity solid_viscosity_;
 };
 
-void Fluid::load(World& world, const InitialState&) {
-  for (std::size_t i = 0; i < world.particles.size(); ++i) {
-    set_material(world, i);
+void Fluid::load(State& state, const InitialState&) {
+  for (std::size_t i = 0; i < state.particles.size(); ++i) {
+    set_material(state, i);
   }
-  set_groups(world);
+  set_groups(state);
 }
 
-void Fluid::set_material(World& world, std::size_t row) const {
-  Particles& p = world.particles;
+void Fluid::set_material(State& state, std::size_t row) const {
+  Particles& p = state.particles;
   const auto source = static_cast<std::size_t>(p[field::source][row]);
-  const bool slips = source < world.scene.bodies.size() && world.scene.bodies[source].free_slip;
+  const bool slips = source < state.scene.bodies.size() && state.scene.bodies[source].free_slip;
   const bool liquid = p[field::body][row] < 0;
-  p[field::rest_density][row] = world.material_of(row).density;
+  p[field::rest_density][row] = state.material_of(row).density;
   p[field::solid][row] = liquid ? 0.0 : 1.0;
-  const double of_liquid = liquid::carries_density(world.scene) ? 0.0 : world.material_of(row).viscosity;
-  p[field::viscosity][row] = liquid ? of_liquid : solid_viscosity_(world, row);
+  const double of_liquid = liquid::carries_density(state.scene) ? 0.0 : state.material_of(row).viscosity;
+  p[field::viscosity][row] = liquid ? of_liquid : solid_viscosity_(state, row);
   p[field::stick][row] = slips ? 0.0 : 1.0;
 }
 
 /// mu of solids between t_solid and t_melt. The bound of the step is looked at anew where one has changed.
-void Fluid::follow_temperature(World& world) const {
-  const auto body = world.particles[field::body];
-  const auto mu = world.particles[field::viscosity];
+void Fluid::follow_temperature(State& state) const {
+  const auto body = state.particles[field::body];
+  const auto mu = state.particles[field::viscosity];
   double changed = 0.0;
   for (std::size_t i = 0; i < body.size(); ++i) {
     if (body[i] < 0) continue;
-    const double now = solid_viscosity_(world, i);
+    const double now = solid_viscosity_(state, i);
     if (now != mu[i]) changed = 1.0;
     mu[i] = now;
   }
-  if (world.halo) world.halo->add({&changed, 1});
-  if (changed > 0.0) world.step_numbers[viscous_age] = 0.0;
+  if (state.halo) state.halo->add({&changed, 1});
+  if (changed > 0.0) state.step_numbers[viscous_age] = 0.0;
 }
 
-void Fluid::adopt(World& world) {
-  world.booked[compression_released] -=
-      compression_jump(world, numbers_, kernels_, liquid::Groups(world), 0.5 * drifted_);
-  for (const std::uint32_t id : world.change.born) set_material(world, world.particles.row(id));
-  for (const std::uint32_t id : world.change.regrouped) set_material(world, world.particles.row(id));
-  set_groups(world);
+void Fluid::adopt(State& state) {
+  state.booked[compression_released] -=
+      compression_jump(state, numbers_, kernels_, liquid::Groups(state), 0.5 * drifted_);
+  for (const std::uint32_t id : state.change.born) set_material(state, state.particles.row(id));
+  for (const std::uint32_t id : state.change.regrouped) set_material(state, state.particles.row(id));
+  set_groups(state);
 }
 
-void Fluid::set_groups(World& world) {
-  const auto group = world.particles[field::group];
-  const liquid::Groups group_of(world);
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (group.size() > worth_threads)
+void Fluid::set_groups(State& state) {
+  const auto group = state.particles[field::group];
+  const liquid::Groups group_of(state);
+#pragma omp parallel for schedule(static) num_threads(state.threads) if (group.size() > worth_threads)
   for (std::size_t i = 0; i < group.size(); ++i) group[i] = group_of(i);
-  world.step_numbers[viscous_age] = 0.0;
+  state.step_numbers[viscous_age] = 0.0;
 }
 
-void Fluid::kick(World& world, double dt) {
+void Fluid::kick(State& state, double dt) {
   drifted_ = 0.0;
-  world.step_numbers[liquid::half_step] = dt;
+  state.step_numbers[liquid::half_step] = dt;
 }
 
-void Fluid::drift(World&, double dt) { drifted_ = dt; }
+void Fluid::drift(State&, double dt) { drifted_ = dt; }
 
-void Fluid::clear(World& world, PassName pass) {
+void Fluid::clear(State& state, PassName pass) {
   if (pass != PassName::rates) return;
-  Particles& p = world.particles;
+  Particles& p = state.particles;
   for (const VectorField<double>& force : {field::force, field::viscous_force})
-    for (const Field<double>* f : columns_of(force)) fill(part(p[*f], world.formed()), 0.0, world.threads);
+    for (const Field<double>* f : columns_of(force)) fill(part(p[*f], state.formed()), 0.0, state.threads);
 }
 
-void Fluid::state(World& world) {
-  if (solid_viscosity_.follows_temperature()) follow_temperature(world);
-  set_pressure(world, numbers_);
-  if (damps_ && world.moved) set_bulk_pressure(world, numbers_);
-  liquid::predict_velocities(world, world.step_numbers[liquid::half_step], field::viscous_velocity);
+void Fluid::state(State& state) {
+  if (solid_viscosity_.follows_temperature()) follow_temperature(state);
+  set_pressure(state, numbers_);
+  if (damps_ && state.moved) set_bulk_pressure(state, numbers_);
+  liquid::predict_velocities(state, state.step_numbers[liquid::half_step], field::viscous_velocity);
 }
 
-void Fluid::after_states(World& world) {
-  if (world.scene.mode_of(term::pressure) == Mode::corrected) set_pressure_shares(world, numbers_);
-  if (!world.scene.has_brought_form(term::viscosity)) update_viscous_bound(world, kernels_);
+void Fluid::after_states(State& state) {
+  if (state.scene.mode_of(term::pressure) == Mode::corrected) set_pressure_shares(state, numbers_);
+  if (!state.scene.has_brought_form(term::viscosity)) update_viscous_bound(state, kernels_);
 }
 
-void Fluid::form_fixed(World& world) {
+void Fluid::form_fixed(State& state) {
   if (!damps_) return;
-  Particles& p = world.particles;
-  const Rows fixed = world.formed();
+  Particles& p = state.particles;
+  const Rows fixed = state.formed();
   std::ranges::copy(part(p[field::number_density], fixed),
                     part(p[field::number_density_before], fixed).begin());
 }
 
 /// Sound C h/(c + |v|), C of the form; viscosity, and the numerical bulk viscosity, which binds above its
 /// default alone (model 8.10).
-TimeStepBound Fluid::max_dt(const World& world) const {
-  const double fastest = liquid::greatest_speed(world);
-  TimeStepBound bound{numbers_.courant * world.support() / (numbers_.sound_speed + fastest), "sound"};
+TimeStepBound Fluid::max_dt(const State& state) const {
+  const double fastest = liquid::greatest_speed(state);
+  TimeStepBound bound{numbers_.courant * state.support() / (numbers_.sound_speed + fastest), "sound"};
   if (damps_)
     tighten(bound,
-            bulk_viscous_step(numbers_.bulk_viscosity) * world.support() / (numbers_.sound_speed + fastest),
+            bulk_viscous_step(numbers_.bulk_viscosity) * state.support() / (numbers_.sound_speed + fastest),
             "bulk viscosity");
   if (numbers_.sound_damping > 0.0)  // the background pressure adds to the stiffness here too
     tighten(bound,
             numbers_.courant / liquid::courant_corrected * bulk_viscous_step(numbers_.sound_damping) *
-                world.support() / (numbers_.sound_speed + fastest),
+                state.support() / (numbers_.sound_speed + fastest),
             "bulk viscosity");
-  tighten(bound, world.step_numbers[viscous_step], "viscosity");
+  tighten(bound, state.step_numbers[viscous_step], "viscosity");
   return bound;
 }
 

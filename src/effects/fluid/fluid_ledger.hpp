@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "liquids/scene_numbers.hpp"
-#include "world/world.hpp"
+#include "state/state.hpp"
 
 namespace tripoint::fluid {
 
 /// Adds the energy of compression, core and interfaces of all that exerts pressure [J] (model 8.11).
-void add_fluid(const World&, const liquid::SceneNumbers&, const PairKernels&, Ledger&);
+void add_fluid(const State&, const liquid::SceneNumbers&, const PairKernels&, Ledger&);
 
 }  // namespace tripoint::fluid

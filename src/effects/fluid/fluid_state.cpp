@@ -9,24 +9,24 @@
 #include "liquids/carried_density.hpp"
 #include "liquids/fields.hpp"
 #include "scene/shared_terms.hpp"
-#include "world/failure.hpp"
+#include "state/failure.hpp"
 
 namespace tripoint::fluid {
 
-void refuse_overlap(const World& world, const liquid::SceneNumbers& n) {
-  const Particles& p = world.particles;
-  if (!p.has(field::number_density) || is_off(world.scene, GuardName::overlap)) return;
+void refuse_overlap(const State& state, const liquid::SceneNumbers& n) {
+  const Particles& p = state.particles;
+  if (!p.has(field::number_density) || is_off(state.scene, GuardName::overlap)) return;
   const auto rho = p[field::density], rest = p[field::rest_density], group = p[field::group];
   const auto pressed = [&](std::size_t i) { return group[i] == wall_group ? 0.0 : rho[i] / rest[i]; };
   double most = 0.0;
-#pragma omp parallel for schedule(static) num_threads(world.threads) \
+#pragma omp parallel for schedule(static) num_threads(state.threads) \
     reduction(max                                                    \
               : most) if (p.moving() > worth_threads)
   for (std::size_t i = 0; i < p.moving(); ++i) most = std::max(most, pressed(i));
   if (most <= n.overlap_density) return;
   std::size_t worst = 0;
   while (pressed(worst) != most) ++worst;
-  fail(world, GuardName::overlap, worst, "density", "density",
+  fail(state, GuardName::overlap, worst, "density", "density",
        fmt::format("is pressed to {:.3g} times its rest density, as where two bodies overlap by one spacing "
                    "({:.3g}): a stiffer "
                    "contact (speed of sound above 10 times that of the "
@@ -34,20 +34,20 @@ void refuse_overlap(const World& world, const liquid::SceneNumbers& n) {
                    most, n.overlap_density));
 }
 
-void set_pressure(World& world, const liquid::SceneNumbers& n) {
-  Particles& p = world.particles;
+void set_pressure(State& state, const liquid::SceneNumbers& n) {
+  Particles& p = state.particles;
   const auto rho = p[field::density], rest = p[field::rest_density], pressure = p[field::pressure],
              group = p[field::group];
-  const bool paper = world.scene.mode_of(term::state) == Mode::paper, clamps = liquid::clamps(world.scene);
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.awake() > worth_threads)
+  const bool paper = state.scene.mode_of(term::state) == Mode::paper, clamps = liquid::clamps(state.scene);
+#pragma omp parallel for schedule(static) num_threads(state.threads) if (p.awake() > worth_threads)
   for (std::size_t i = 0; i < p.awake(); ++i) {
     const EquationOfState e = liquid::state_of(n, group[i], rest[i], clamps);
     pressure[i] = paper ? pressure_paper(e, rho[i]) : pressure_corrected(e, rho[i]);
   }
 }
 
-void set_pressure_shares(World& world, const liquid::SceneNumbers& n) {
-  Particles& p = world.particles;
+void set_pressure_shares(State& state, const liquid::SceneNumbers& n) {
+  Particles& p = state.particles;
   const auto share = p[field::pressure_share], V = p[field::volume], pressure = p[field::pressure],
              m = p[field::mass], rest = p[field::rest_density];
   const auto group = p[field::group];
@@ -56,7 +56,7 @@ void set_pressure_shares(World& world, const liquid::SceneNumbers& n) {
   const auto pressed = [&](std::size_t i) {
     return n.surface_head > 0.0 && group[i] == liquid_group ? std::min(V[i], m[i] / rest[i]) : V[i];
   };
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.awake() > worth_threads)
+#pragma omp parallel for schedule(static) num_threads(state.threads) if (p.awake() > worth_threads)
   for (std::size_t i = 0; i < p.awake(); ++i) {
     const double volume = pressed(i);
     share[i] = volume * volume * (q.empty() ? pressure[i] : pressure[i] + q[i]) / n.gradient_moment;

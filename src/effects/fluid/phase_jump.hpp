@@ -3,16 +3,16 @@
 #include <functional>
 
 #include "liquids/scene_numbers.hpp"
-#include "world/world.hpp"
+#include "state/state.hpp"
 
 namespace tripoint::fluid {
 
-/// Change of the energy of compression and core [J] when World::change ends and makes own pairs and groups.
+/// Change of the energy of compression and core [J] when State::change ends and makes own pairs and groups.
 /// It is summed over the changed particles and their pairs. @pre the columns `group` and `own_density` and
 /// the marks of the neighbour lists are those of before the change. @param group_now group of a row after the
 /// change @param back time before now at which energies are compared [s]. It is half a drift: the kick before
 /// has the old forces, the kick after it the new ones
-[[nodiscard]] double compression_jump(const World&, const liquid::SceneNumbers&, const PairKernels&,
+[[nodiscard]] double compression_jump(const State&, const liquid::SceneNumbers&, const PairKernels&,
                                       const std::function<double(std::size_t)>& group_now, double back);
 
 }  // namespace tripoint::fluid

@@ -16,8 +16,8 @@ SolidViscosity::SolidViscosity(const Scene& scene) {
   }
 }
 
-double SolidViscosity::operator()(const World& world, std::size_t row) const {
-  const Particles& p = world.particles;
+double SolidViscosity::operator()(const State& state, std::size_t row) const {
+  const Particles& p = state.particles;
   const OfMaterial& m = of_[static_cast<std::size_t>(p[field::material][row])];
   return m.stage ? viscosity_between(m.solid, m.liquid, p[field::liquid_fraction][row]) : m.solid;
 }

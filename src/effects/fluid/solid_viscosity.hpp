@@ -20,7 +20,7 @@ class SolidViscosity {
  public:
   explicit SolidViscosity(const Scene&);
   /// Value for a solid particle [Pa s].
-  [[nodiscard]] double operator()(const World&, std::size_t row) const;
+  [[nodiscard]] double operator()(const State&, std::size_t row) const;
   /// Whether that of any solid changes with its temperature.
   [[nodiscard]] bool follows_temperature() const noexcept { return follows_; }
 

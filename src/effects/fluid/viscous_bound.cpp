@@ -11,7 +11,7 @@
 #include "pairs/pair_passes.hpp"
 #include "pairs/run_pass.hpp"
 #include "sph/moments.hpp"
-#include "world/fill.hpp"
+#include "state/fill.hpp"
 
 namespace tripoint::fluid {
 namespace {
@@ -29,36 +29,36 @@ constexpr double share_of_rate = 0.5, share_of_rate_central = 0.3;  // [1]
 
 }  // namespace
 
-void update_viscous_bound(World& world, const PairKernels& kernels) {
-  double& age = world.step_numbers[viscous_age];
+void update_viscous_bound(State& state, const PairKernels& kernels) {
+  double& age = state.step_numbers[viscous_age];
   const bool is_due = std::fmod(age, rates_between) == 0.0;
   age += 1.0;
   if (!is_due) return;
-  Particles& p = world.particles;
-  const ViscousForm form = viscous_form_of(world.scene, kernels);
-  const PassFunction spread = pair_passes(world.neighbours->clusters().lanes).alone(form.spread);
+  Particles& p = state.particles;
+  const ViscousForm form = viscous_form_of(state.scene, kernels);
+  const PassFunction spread = pair_passes(state.neighbours->clusters().lanes).alone(form.spread);
   using Sums = ViscousSpread<ViscosityCentral>::adds;
-  for (const Field<double>* f : Sums::list) fill(p[*f].first(p.moving()), 0.0, world.threads);
-  const Clusters& c = world.neighbours->clusters();
+  for (const Field<double>* f : Sums::list) fill(p[*f].first(p.moving()), 0.0, state.threads);
+  const Clusters& c = state.neighbours->clusters();
   ChosenClusters moving{c.listed, {}};
   std::erase_if(moving.clusters, [&](std::uint32_t k) { return c.first[k] >= p.moving(); });
-  run_pass_over(spread, p, *world.neighbours, kernels, world.threads, moving);
+  run_pass_over(spread, p, *state.neighbours, kernels, state.threads, moving);
 
   const auto group = p[field::group], m = p[field::mass];
   std::array<std::span<const double>, Sums::size> sum;
   std::ranges::transform(Sums::list, sum.begin(),
                          [&](const Field<double>* f) { return std::as_const(p)[*f]; });
   double greatest = 0.0;
-#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : greatest)
+#pragma omp parallel for schedule(static) num_threads(state.threads) reduction(max : greatest)
   for (std::size_t i = 0; i < p.moving(); ++i) {
-    if (group[i] == 0.0 || !world.owns(i)) continue;  // walls do not move by forces
+    if (group[i] == 0.0 || !state.owns(i)) continue;  // walls do not move by forces
     const double rate =
         form.central ? largest_eigenvalue({sum[0][i], sum[1][i], sum[2][i], sum[3][i], sum[4][i], sum[5][i]})
                      : sum[0][i];
     greatest = std::max(greatest, rate / m[i]);
   }
   const double share = form.central ? share_of_rate_central : share_of_rate;
-  world.step_numbers[viscous_step] =
+  state.step_numbers[viscous_step] =
       greatest > 0.0 ? share / greatest : std::numeric_limits<double>::infinity();
 }
 

@@ -3,8 +3,8 @@
 #include <limits>
 
 #include "pairs/pass.hpp"
-#include "world/step_numbers.hpp"
-#include "world/world.hpp"
+#include "state/state.hpp"
+#include "state/step_numbers.hpp"
 
 namespace tripoint::fluid {
 
@@ -15,6 +15,6 @@ inline constexpr StepNumber viscous_age{"viscous_age", 0.0};  ///< rates since i
 /// Greatest stable step of the viscous pair forces (model 8.10), formed anew every few steps from the present
 /// places. (8) and `laplacian`: 0.5/max_i sum_j G_ij/m_i. `central`: 0.3/max_i lambda_max(sum_j G_ij e
 /// e^T/m_i).
-void update_viscous_bound(World&, const PairKernels&);
+void update_viscous_bound(State&, const PairKernels&);
 
 }  // namespace tripoint::fluid

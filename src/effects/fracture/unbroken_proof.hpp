@@ -3,7 +3,7 @@
 #include <limits>
 #include <vector>
 
-#include "world/world.hpp"
+#include "state/state.hpp"
 
 namespace tripoint::fracture {
 
@@ -15,9 +15,9 @@ class UnbrokenProof {
   /// Nothing is known: bonds, bodies or particles are others than before.
   void clear() noexcept { place_.clear(); }
   /// @param room least room of all bonds, as the particles are now [m]
-  void set(const World&, double room);
+  void set(const State&, double room);
   /// Whether every bond still holds.
-  [[nodiscard]] bool holds(const World&) const;
+  [[nodiscard]] bool holds(const State&) const;
 
  private:
   double room_ = 0.0;

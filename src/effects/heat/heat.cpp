@@ -11,7 +11,7 @@
 #include "scene/phase_values.hpp"
 #include "scene/shared_terms.hpp"
 #include "scene/temperatures.hpp"
-#include "world/body_table.hpp"
+#include "state/body_table.hpp"
 
 namespace tripoint::heat {
 namespace {

@@ -12,8 +12,8 @@
 #include "effects/heat/thermal_particles.hpp"
 #include "solids/fusion.hpp"
 #include "sph/moments.hpp"
-#include "world/fill.hpp"
-#include "world/ordered_sum.hpp"
+#include "state/fill.hpp"
+#include "state/ordered_sum.hpp"
 
 namespace tripoint::heat {
 namespace {
@@ -23,13 +23,13 @@ constexpr double small_step = 0.005;  ///< of dx^2 over the greatest diffusivity
 constexpr double moment_cut = 0.05;
 
 /// H = m (c_p T + L f) [J] at the particle's temperature, and the extra heat of the liquid above t_melt.
-double heat_content(const World& world, std::size_t row) {
-  const Particles& p = world.particles;
+double heat_content(const State& state, std::size_t row) {
+  const Particles& p = state.particles;
   const double sensible =
       enthalpy_of(p[field::mass][row], p[field::heat_capacity][row], p[field::temperature][row]);
   if (!p.has(field::liquid_fraction.name)) return sensible;
-  const Fusion fusion = fusion_of(world.scene, world.material_of(row));
-  if (fusion.jump == 0.0) return sensible + latent_heat(world, row);
+  const Fusion fusion = fusion_of(state.scene, state.material_of(row));
+  if (fusion.jump == 0.0) return sensible + latent_heat(state, row);
   return sensible + p[field::mass][row] * p[field::heat_capacity][row] *
                         bound_heat(fusion, p[field::temperature][row], p[field::liquid_fraction][row]);
 }
@@ -62,21 +62,21 @@ double greatest_diffusivity(const Scene& scene) {
 }
 
 /// A particle conducts as its phase does, or as the phase that it turns into.
-void follow_phase(World& world, std::size_t row) {
-  const Material& m = world.material_of(row);
-  world.particles[field::conductivity][row] =
+void follow_phase(State& state, std::size_t row) {
+  const Material& m = state.material_of(row);
+  state.particles[field::conductivity][row] =
       m.solid_conductivity
-          ? conductivity_of(m).of(world.particles[field::phase][row], liquid_share(world, row))
+          ? conductivity_of(m).of(state.particles[field::phase][row], liquid_share(state, row))
           : conductivity_of(m).liquid;
 }
 
-double set_temperature(World& world, std::size_t row, double temperature) {
-  Particles& p = world.particles;
+double set_temperature(State& state, std::size_t row, double temperature) {
+  Particles& p = state.particles;
   const double before = p[field::enthalpy][row];
-  set_melted(world, row, temperature);
+  set_melted(state, row, temperature);
   p[field::temperature][row] = temperature;
-  p[field::enthalpy][row] = heat_content(world, row);
-  follow_phase(world, row);
+  p[field::enthalpy][row] = heat_content(state, row);
+  follow_phase(state, row);
   return p[field::enthalpy][row] - before;
 }
 
@@ -84,23 +84,23 @@ double set_temperature(World& world, std::size_t row, double temperature) {
 /// to the walls. The first stage gives T only: f follows the heat of the whole step, whatever the way
 /// between.
 template <class Change>
-void add_heat(World& world, Stage stage, Change change) {
-  Particles& p = world.particles;
+void add_heat(State& state, Stage stage, Change change) {
+  Particles& p = state.particles;
   const auto H = p[field::enthalpy], T = p[field::temperature], m = p[field::mass],
              c_p = p[field::heat_capacity];
   const auto held = p[field::held], material = p[field::material];
   const bool melts = p.has(field::liquid_fraction.name);
   const auto f = melts ? p[field::liquid_fraction] : std::span<double>{};
-  const std::vector<Fusion> fusions = melts ? fusions_of(world.scene) : std::vector<Fusion>{};
+  const std::vector<Fusion> fusions = melts ? fusions_of(state.scene) : std::vector<Fusion>{};
   std::vector<Conductivity> conducts;  // empty where no phase change touches it
-  if (melts && stage == Stage::last && std::ranges::any_of(world.scene.materials, [](const Material& one) {
+  if (melts && stage == Stage::last && std::ranges::any_of(state.scene.materials, [](const Material& one) {
         return one.solid_conductivity.has_value();
       }))
-    for (const Material& one : world.scene.materials) conducts.push_back(conductivity_of(one));
+    for (const Material& one : state.scene.materials) conducts.push_back(conductivity_of(one));
   const auto k = p[field::conductivity];
   const auto phase = p[field::phase];
   std::vector<std::array<double, 1>> blocks;
-  const auto to_walls = ordered_sums(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
+  const auto to_walls = ordered_sums(state, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
     if (held[i]) {
       sum[0] += change(i);
       return;
@@ -109,103 +109,103 @@ void add_heat(World& world, Stage stage, Change change) {
     T[i] = temperature_of(m[i], c_p[i], H[i]);
     if (!melts) return;
     const Fusion& fusion = fusions[static_cast<std::size_t>(material[i])];
-    const ThermalState state = settled(fusion, temperature_at(fusion, T[i], f[i]), f[i]);
-    T[i] = state.temperature;
-    if (stage == Stage::last) f[i] = state.liquid_fraction;
+    const ThermalState thermal = settled(fusion, temperature_at(fusion, T[i], f[i]), f[i]);
+    T[i] = thermal.temperature;
+    if (stage == Stage::last) f[i] = thermal.liquid_fraction;
     if (!conducts.empty()) k[i] = conducts[static_cast<std::size_t>(material[i])].of(phase[i], f[i]);
   });
-  world.booked[account::walls] += to_walls[0];
-  book_held(world, change);
+  state.booked[account::walls] += to_walls[0];
+  book_held(state, change);
 }
 
 /// Least heat capacity of either phase over that of the solid, by material: a particle may change its phase
 /// within the step. Empty where the phases do not differ.
-std::vector<double> least_capacities(const World& world) {
+std::vector<double> least_capacities(const State& state) {
   std::vector<double> shares;
-  if (!world.particles.has(field::liquid_fraction.name) ||
-      std::ranges::none_of(world.scene.materials,
+  if (!state.particles.has(field::liquid_fraction.name) ||
+      std::ranges::none_of(state.scene.materials,
                            [](const Material& m) { return m.solid_heat_capacity.has_value(); }))
     return shares;
-  for (const Fusion& fusion : fusions_of(world.scene)) shares.push_back(std::min(1.0, 1.0 + fusion.jump));
+  for (const Fusion& fusion : fusions_of(state.scene)) shares.push_back(std::min(1.0, 1.0 + fusion.jump));
   return shares;
 }
 
 }  // namespace
 
-void CorrectedHeat::load(World& world, const InitialState& initial) {
-  load_common(world, initial);
-  surfaces_.load(world, initial);
-  for (std::size_t i = 0; i < world.particles.size(); ++i) set_material(world, i);
+void CorrectedHeat::load(State& state, const InitialState& initial) {
+  load_common(state, initial);
+  surfaces_.load(state, initial);
+  for (std::size_t i = 0; i < state.particles.size(); ++i) set_material(state, i);
 }
 
-void CorrectedHeat::set_material(World& world, std::size_t row) const {
-  Particles& p = world.particles;
-  follow_phase(world, row);
-  p[field::rest_volume][row] = p[field::mass][row] / world.material_of(row).density;
-  p[field::enthalpy][row] = heat_content(world, row);
+void CorrectedHeat::set_material(State& state, std::size_t row) const {
+  Particles& p = state.particles;
+  follow_phase(state, row);
+  p[field::rest_volume][row] = p[field::mass][row] / state.material_of(row).density;
+  p[field::enthalpy][row] = heat_content(state, row);
 }
 
 /// Particles that have flowed in bring their heat.
-void CorrectedHeat::adopt(World& world) {
-  for (const std::uint32_t id : world.change.born) {
-    const std::size_t i = world.particles.row(id);
-    load_particle(world, i, inflow_temperature(world, i));
-    set_material(world, i);
-    world.booked[account::inflow] += world.particles[field::enthalpy][i];
+void CorrectedHeat::adopt(State& state) {
+  for (const std::uint32_t id : state.change.born) {
+    const std::size_t i = state.particles.row(id);
+    load_particle(state, i, inflow_temperature(state, i));
+    set_material(state, i);
+    state.booked[account::inflow] += state.particles[field::enthalpy][i];
   }
 }
 
 /// First stage: an Euler step with the rates of the old time, which are kept for the second.
-void CorrectedHeat::drift(World& world, double dt) {
-  const auto rate = world.particles[field::heat_rate];
-  std::ranges::copy(rate, world.particles[field::heat_rate_before].begin());
-  surfaces_.book(world, Stage::first, dt);
-  add_heat(world, Stage::first, [&](std::size_t i) { return dt * rate[i]; });
+void CorrectedHeat::drift(State& state, double dt) {
+  const auto rate = state.particles[field::heat_rate];
+  std::ranges::copy(rate, state.particles[field::heat_rate_before].begin());
+  surfaces_.book(state, Stage::first, dt);
+  add_heat(state, Stage::first, [&](std::size_t i) { return dt * rate[i]; });
 }
 
 /// Second stage: H = 1/2 H_old + 1/2 (H_1 + dt dH/dt(H_1)), written as a change of H_1. Where the step is
 /// small beside the bound (8.10), dH/dt(H_1) serves as the rate of the new time too (decision 040).
-bool CorrectedHeat::correct(World& world, double dt) {
-  surfaces_.book(world, Stage::last, dt);
-  const auto rate = world.particles[field::heat_rate], before = world.particles[field::heat_rate_before];
-  add_heat(world, Stage::last, [&](std::size_t i) { return 0.5 * dt * (rate[i] - before[i]); });
-  return dt * greatest_diffusivity(world.scene) > small_step * world.scene.spacing * world.scene.spacing;
+bool CorrectedHeat::correct(State& state, double dt) {
+  surfaces_.book(state, Stage::last, dt);
+  const auto rate = state.particles[field::heat_rate], before = state.particles[field::heat_rate_before];
+  add_heat(state, Stage::last, [&](std::size_t i) { return 0.5 * dt * (rate[i] - before[i]); });
+  return dt * greatest_diffusivity(state.scene) > small_step * state.scene.spacing * state.scene.spacing;
 }
 
-void CorrectedHeat::clear(World& world, PassName pass) {
-  Particles& p = world.particles;
+void CorrectedHeat::clear(State& state, PassName pass) {
+  Particles& p = state.particles;
   if (pass != PassName::density) {
-    for (const auto* f : {&field::heat_rate, &field::conductance}) fill(p[*f], 0.0, world.threads);
+    for (const auto* f : {&field::heat_rate, &field::conductance}) fill(p[*f], 0.0, state.threads);
   } else {
-    for (const auto* f : HeatMoment::adds::list) fill(p[*f], 0.0, world.threads);
+    for (const auto* f : HeatMoment::adds::list) fill(p[*f], 0.0, state.threads);
   }
-  surfaces_.start_sums(world, pass);
+  surfaces_.start_sums(state, pass);
 }
 
 /// pinv M_i of every particle, in the place of the M_i that the density pass has just summed.
-void CorrectedHeat::state(World& world) {
-  if (!world.moved) return;
-  Particles& p = world.particles;
+void CorrectedHeat::state(State& state) {
+  if (!state.moved) return;
+  Particles& p = state.particles;
   const auto inverse = symmetric_columns(p, field::moment_inverse);
-#pragma omp parallel for schedule(static) num_threads(world.threads)
+#pragma omp parallel for schedule(static) num_threads(state.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
     const Symmetric a = pseudo_inverse(inverse.at(i), moment_cut);
     inverse.set(i, a);
   }
 }
 
-void CorrectedHeat::happen(World& world, const Happening& now) {
-  hold_temperature(world, now, set_temperature);
+void CorrectedHeat::happen(State& state, const Happening& now) {
+  hold_temperature(state, now, set_temperature);
 }
 
 /// 1/max_i sum_j G_ij/C_i (model 8.10): the one bound that gives a discrete maximum principle.
-TimeStepBound CorrectedHeat::max_dt(const World& world) const {
-  const Particles& p = world.particles;
+TimeStepBound CorrectedHeat::max_dt(const State& state) const {
+  const Particles& p = state.particles;
   const auto G = p[field::conductance], m = p[field::mass], c_p = p[field::heat_capacity];
   const auto held = p[field::held], material = p[field::material];
-  const std::vector<double> least = least_capacities(world);
+  const std::vector<double> least = least_capacities(state);
   double greatest = 0.0;
-#pragma omp parallel for schedule(static) num_threads(world.threads) \
+#pragma omp parallel for schedule(static) num_threads(state.threads) \
     reduction(max                                                    \
               : greatest) if (p.size() > worth_threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -219,12 +219,12 @@ TimeStepBound CorrectedHeat::max_dt(const World& world) const {
   return bound;
 }
 
-void CorrectedHeat::add_to(const World& world, Ledger& ledger) const {
-  const auto H = world.particles[field::enthalpy];
-  const bool melts = world.particles.has(field::liquid_fraction);
+void CorrectedHeat::add_to(const State& state, Ledger& ledger) const {
+  const auto H = state.particles[field::enthalpy];
+  const bool melts = state.particles.has(field::liquid_fraction);
   std::vector<std::array<double, 2>> blocks;
-  const auto sums = ordered_sums(world, blocks, [&](std::size_t i, std::array<double, 2>& sum) {
-    const double bound = melts ? latent_heat(world, i) : 0.0;
+  const auto sums = ordered_sums(state, blocks, [&](std::size_t i, std::array<double, 2>& sum) {
+    const double bound = melts ? latent_heat(state, i) : 0.0;
     sum[0] += H[i] - bound;
     sum[1] += bound;
   });

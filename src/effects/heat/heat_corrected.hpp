@@ -11,20 +11,20 @@ namespace tripoint::heat {
 /// spatial one, and of opposite sign.
 class CorrectedHeat : public Effect {
  public:
-  void load(World&, const InitialState&) override;
-  void drift(World&, double dt) override;
-  void clear(World&, PassName) override;
-  void state(World&) override;
-  bool correct(World&, double dt) override;
-  void happen(World&, const Happening&) override;
-  [[nodiscard]] TimeStepBound max_dt(const World&) const override;
-  void add_to(const World&, Ledger&) const override;
-  void adopt(World&) override;
-  void renumber(World& world) override { surfaces_.renumber(world); }
+  void load(State&, const InitialState&) override;
+  void drift(State&, double dt) override;
+  void clear(State&, PassName) override;
+  void state(State&) override;
+  bool correct(State&, double dt) override;
+  void happen(State&, const Happening&) override;
+  [[nodiscard]] TimeStepBound max_dt(const State&) const override;
+  void add_to(const State&, Ledger&) const override;
+  void adopt(State&) override;
+  void renumber(State& state) override { surfaces_.renumber(state); }
   [[nodiscard]] PairWork pair_work(const Scene&) const override;
 
  private:
-  void set_material(World&, std::size_t row) const;
+  void set_material(State&, std::size_t row) const;
 
   HeldSurfaces surfaces_;
 };

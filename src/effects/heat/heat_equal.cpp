@@ -5,34 +5,34 @@
 
 #include "effects/heat/enthalpy.hpp"
 #include "scene/phase_values.hpp"
-#include "world/ordered_sum.hpp"
+#include "state/ordered_sum.hpp"
 
 namespace tripoint::heat {
 namespace {
 
-double heat_at(const World& world, std::size_t row, double temperature) {
-  const auto phase = static_cast<Phase>(world.particles[field::phase][row]);
-  return enthalpy_of(world.particles[field::mass][row], heat_capacity_of(world.material_of(row), phase),
+double heat_at(const State& state, std::size_t row, double temperature) {
+  const auto phase = static_cast<Phase>(state.particles[field::phase][row]);
+  return enthalpy_of(state.particles[field::mass][row], heat_capacity_of(state.material_of(row), phase),
                      temperature);
 }
 
 }  // namespace
 
-void EqualHeat::load(World&, const InitialState& initial) {
+void EqualHeat::load(State&, const InitialState& initial) {
   if (std::ranges::any_of(initial.temperature, [&](double T) { return T != temperature_; }))
     throw InputError("the scene has one temperature everywhere, and its particles have others");
 }
 
 /// Particles that have flowed in bring their heat.
-void EqualHeat::adopt(World& world) {
-  for (const std::uint32_t id : world.change.born)
-    world.booked[account::inflow] += heat_at(world, world.particles.row(id), temperature_);
+void EqualHeat::adopt(State& state) {
+  for (const std::uint32_t id : state.change.born)
+    state.booked[account::inflow] += heat_at(state, state.particles.row(id), temperature_);
 }
 
-void EqualHeat::add_to(const World& world, Ledger& ledger) const {
+void EqualHeat::add_to(const State& state, Ledger& ledger) const {
   std::vector<std::array<double, 1>> blocks;
-  const auto sums = ordered_sums_of_all(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
-    sum[0] += heat_at(world, i, temperature_);
+  const auto sums = ordered_sums_of_all(state, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
+    sum[0] += heat_at(state, i, temperature_);
   });
   ledger.energy["thermal"] += sums[0];
 }

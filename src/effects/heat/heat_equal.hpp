@@ -9,9 +9,9 @@ namespace tripoint::heat {
 class EqualHeat : public Effect {
  public:
   explicit EqualHeat(double temperature) : temperature_(temperature) {}
-  void load(World&, const InitialState&) override;
-  void adopt(World&) override;
-  void add_to(const World&, Ledger&) const override;
+  void load(State&, const InitialState&) override;
+  void adopt(State&) override;
+  void add_to(const State&, Ledger&) const override;
 
  private:
   double temperature_;  ///< [K]

@@ -14,7 +14,7 @@
 #include "scene/scene_keys.hpp"
 #include "scene/shared_terms.hpp"
 #include "sph/kernels.hpp"
-#include "world/ordered_sum.hpp"
+#include "state/ordered_sum.hpp"
 
 namespace tripoint::heat {
 namespace {
@@ -189,16 +189,16 @@ void refuse_held_surfaces(const Scene& scene) {
   }
 }
 
-void HeldSurfaces::load(World& world, const InitialState& initial) {
+void HeldSurfaces::load(State& state, const InitialState& initial) {
   all_.clear();
   near_.clear();
-  const Scene& scene = world.scene;
+  const Scene& scene = state.scene;
   if (!has_held_surfaces(scene)) return;
   const Laid laid(initial, scene);
   const std::vector<Vec3> steps = steps_within(scene.support_ratio);
-  const WendlandC2 kernel(world.support());
+  const WendlandC2 kernel(state.support());
   const double dx = scene.spacing, volume = dx * dx * dx;
-  Particles& p = world.particles;
+  Particles& p = state.particles;
   std::vector<Inside> insides(scene.bodies.size());
   for (std::size_t i = 0; i < p.size(); ++i) {
     const auto source = static_cast<std::size_t>(p[field::source][i]);
@@ -217,7 +217,7 @@ void HeldSurfaces::load(World& world, const InitialState& initial) {
     }
     if (beyond.empty()) continue;
     Near near{id, *held_at};
-    const double own = p[field::mass][i] / world.material_of(i).density;
+    const double own = p[field::mass][i] / state.material_of(i).density;
     for (const Beyond& b : beyond) {
       const double r = norm(b.away), K = -2.0 * kernel.derivative_over_r(r);
       const auto rr = outer(b.away);
@@ -232,11 +232,11 @@ void HeldSurfaces::load(World& world, const InitialState& initial) {
   near_ = all_;
 }
 
-void HeldSurfaces::renumber(const World& world) {
+void HeldSurfaces::renumber(const State& state) {
   if (all_.empty()) return;
   near_.clear();
-  for (std::uint32_t id = 0; id < world.particles.size(); ++id) {
-    const std::uint32_t number = world.halo ? static_cast<std::uint32_t>(world.halo->numbers()[id]) : id;
+  for (std::uint32_t id = 0; id < state.particles.size(); ++id) {
+    const std::uint32_t number = state.halo ? static_cast<std::uint32_t>(state.halo->numbers()[id]) : id;
     const auto one = std::ranges::lower_bound(all_, number, {}, &Near::id);
     if (one == all_.end() || one->id != number) continue;
     near_.push_back(*one);
@@ -254,8 +254,8 @@ double HeldSurfaces::flow(const Particles& p, std::size_t row, const Near& near)
   return conductance(p, row, near) * (near.temperature - p[field::temperature][row]);
 }
 
-void HeldSurfaces::start_sums(World& world, PassName pass) const {
-  Particles& p = world.particles;
+void HeldSurfaces::start_sums(State& state, PassName pass) const {
+  Particles& p = state.particles;
   for (const Near& near : near_) {
     const std::size_t i = p.row(near.id);
     if (pass == PassName::density) {
@@ -267,23 +267,23 @@ void HeldSurfaces::start_sums(World& world, PassName pass) const {
   }
 }
 
-void HeldSurfaces::book(World& world, Stage stage, double dt) const {
+void HeldSurfaces::book(State& state, Stage stage, double dt) const {
   if (near_.empty()) return;
-  Particles& p = world.particles;
+  Particles& p = state.particles;
   const auto before = p[field::surface_flow_before];
-  const bool by_body = world.bodies.has(field::body_heat.name);
+  const bool by_body = state.bodies.has(field::body_heat.name);
   double sum = 0.0;
   for (const Near& near : near_) {
     const std::size_t i = p.row(near.id);
-    if (!world.owns(i) || p[field::held][i]) continue;
+    if (!state.owns(i) || p[field::held][i]) continue;
     const double now = flow(p, i, near);
     const double given = stage == Stage::first ? dt * now : 0.5 * dt * (now - before[i]);
     if (stage == Stage::first) before[i] = now;
     sum += given;
     if (const int b = p[field::body][i]; by_body && b >= 0)
-      world.bodies[field::body_heat][static_cast<std::size_t>(b)] += given;
+      state.bodies[field::body_heat][static_cast<std::size_t>(b)] += given;
   }
-  world.booked[account::walls] -= sum;
+  state.booked[account::walls] -= sum;
 }
 
 }  // namespace tripoint::heat

@@ -30,16 +30,16 @@ class HeldSurfaces {
  public:
   /// Finds the places beyond. Where scene.surface_exchange is 0 the outermost particles are held at the
   /// surface's temperature.
-  void load(World&, const InitialState&);
+  void load(State&, const InitialState&);
   /// Finds the particles that this process has by their new ids (Effect::renumber).
-  void renumber(const World&);
+  void renumber(const State&);
   /// Sums of a pass start with the share of the places beyond, not with 0. In the pass of densities this is
   /// M_i, in others the flow of heat [W] and the conductance [W/K].
-  void start_sums(World&, PassName) const;
+  void start_sums(State&, PassName) const;
   /// Books the heat that a stage takes from held surfaces, on the account `walls` and by body. Call it before
   /// the stage.
   /// @param dt length of the step [s]
-  void book(World&, Stage, double dt) const;
+  void book(State&, Stage, double dt) const;
 
  private:
   /// A particle with places beyond a held surface in its support.

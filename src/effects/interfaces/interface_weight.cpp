@@ -26,13 +26,13 @@ InterfaceWeight::InterfaceWeight(const Scene& scene) : gravity_(liquid::pressing
   kernel_.square /= dx * dx;
 }
 
-void InterfaceWeight::find(const World& world) {
-  if (!pairs_.renew(world.neighbours->rebuilds())) return;
-  const Particles& p = world.particles;
+void InterfaceWeight::find(const State& state) {
+  if (!pairs_.renew(state.neighbours->rebuilds())) return;
+  const Particles& p = state.particles;
   const auto group = p[field::group], rest = p[field::rest_density];
   for (std::uint32_t i = 0; i < p.moving(); ++i) {
     if (group[i] != liquid_group) continue;
-    for (const Entry e : world.neighbours->of(i)) {
+    for (const Entry e : state.neighbours->of(i)) {
       const auto j = static_cast<std::uint32_t>(e.row());
       if (are_unlike(group[i], rest[i], group[j], rest[j])) pairs_.add({j, e.image()});
     }
@@ -41,19 +41,19 @@ void InterfaceWeight::find(const World& world) {
 }
 
 /// The gradient of a (g.d) K: a (g K + (g.d) K'/r d) on i, the opposite on j.
-void InterfaceWeight::add_forces(World& world, const PairKernels& kernels) {
-  if (world.forms_fixed) return;  // the forces on liquids are of the present time
-  find(world);
-  Particles& p = world.particles;
+void InterfaceWeight::add_forces(State& state, const PairKernels& kernels) {
+  if (state.forms_fixed) return;  // the forces on liquids are of the present time
+  find(state);
+  Particles& p = state.particles;
   const auto x = positions(std::as_const(p));
   const auto rest = std::as_const(p)[field::rest_density];
   const auto F = triple(p, field::force);
-  const double support = world.support();
-  pairs_.each_row(world.threads, [&](std::size_t n) {
+  const double support = state.support();
+  pairs_.each_row(state.threads, [&](std::size_t n) {
     const std::size_t i = pairs_.row(n);
     Vec3 f;
     for (const liquid::ListedPair& pair : pairs_.of(n)) {
-      const Vec3 d = liquid::way_to(*world.neighbours, x, i, pair);
+      const Vec3 d = liquid::way_to(*state.neighbours, x, i, pair);
       const double r = norm(d);
       if (!(r < support)) continue;
       const double a = factor_ * (rest[i] - rest[pair.row]);
@@ -64,18 +64,18 @@ void InterfaceWeight::add_forces(World& world, const PairKernels& kernels) {
   });
 }
 
-double InterfaceWeight::energy(const World& world, const PairKernels& kernels, std::size_t i) const {
-  const Particles& p = world.particles;
+double InterfaceWeight::energy(const State& state, const PairKernels& kernels, std::size_t i) const {
+  const Particles& p = state.particles;
   const auto group = p[field::group], rest = p[field::rest_density];
   const auto x = positions(p);
   double sum = 0.0;
   if (group[i] != liquid_group) return sum;
-  for (const Entry e : world.neighbours->of(i)) {
+  for (const Entry e : state.neighbours->of(i)) {
     const std::size_t j = e.row();
     if (!are_unlike(group[i], rest[i], group[j], rest[j])) continue;
-    const Vec3 d = (x.at(j) - x.at(i)) + world.neighbours->shift(e.image());
+    const Vec3 d = (x.at(j) - x.at(i)) + state.neighbours->shift(e.image());
     const double r = norm(d);
-    if (r < world.support())
+    if (r < state.support())
       sum += 0.5 * factor_ * (rest[i] - rest[j]) * dot(gravity_, d) * kernel_.value(kernels.wendland, r);
   }
   return sum;

@@ -5,7 +5,7 @@
 #include "liquids/listed_pairs.hpp"
 #include "sph/kernels.hpp"
 #include "sph/lattice.hpp"
-#include "world/world.hpp"
+#include "state/state.hpp"
 
 namespace tripoint::interfaces {
 
@@ -20,14 +20,14 @@ class InterfaceWeight {
   explicit InterfaceWeight(const Scene&);
   [[nodiscard]] bool acts() const noexcept { return factor_ != 0.0; }
   /// The force of that energy, after the pass of rates.
-  void add_forces(World&, const PairKernels&);
+  void add_forces(State&, const PairKernels&);
   /// Half of the energies of the pairs of a row [J].
-  [[nodiscard]] double energy(const World&, const PairKernels&, std::size_t row) const;
+  [[nodiscard]] double energy(const State&, const PairKernels&, std::size_t row) const;
   /// Rows or groups have changed: look again which liquids meet.
   void clear() { pairs_.clear(); }
 
  private:
-  void find(const World&);
+  void find(const State&);
 
   double factor_ = 0.0;  ///< s/2 V0^2/M [m6]
   Vec3 gravity_;         ///< across directions that are not periodic [m/s2]

@@ -8,7 +8,7 @@
 #include "liquids/changes.hpp"
 #include "liquids/fields.hpp"
 #include "liquids/scene_numbers.hpp"
-#include "world/ordered_sum.hpp"
+#include "state/ordered_sum.hpp"
 
 /// Pressure is right on both sides of a level interface of two liquids (model 8.3).
 namespace tripoint::interfaces {
@@ -17,16 +17,16 @@ namespace {
 class Interfaces : public Effect {
  public:
   explicit Interfaces(const Scene& scene) : kernels_(liquid::pair_kernels(scene)), weight_(scene) {}
-  void bonds(World& world) override { weight_.add_forces(world, kernels_); }
-  void adopt(World& world) override {
-    if (liquid::groups_changed(world)) weight_.clear();
+  void bonds(State& state) override { weight_.add_forces(state, kernels_); }
+  void adopt(State& state) override {
+    if (liquid::groups_changed(state)) weight_.clear();
   }
-  void happen(World&, const Happening&) override { weight_.clear(); }
-  void renumber(World&) override { weight_.clear(); }
-  void add_to(const World& world, Ledger& ledger) const override {
+  void happen(State&, const Happening&) override { weight_.clear(); }
+  void renumber(State&) override { weight_.clear(); }
+  void add_to(const State& state, Ledger& ledger) const override {
     std::vector<std::array<double, 1>> blocks;
-    const auto energy = ordered_sums_of_all(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
-      if (i < world.neighbours->rows()) sum[0] += weight_.energy(world, kernels_, i);
+    const auto energy = ordered_sums_of_all(state, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
+      if (i < state.neighbours->rows()) sum[0] += weight_.energy(state, kernels_, i);
     });
     ledger.energy["compression"] += energy[0];
   }

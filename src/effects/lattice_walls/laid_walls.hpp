@@ -9,7 +9,7 @@
 #include "liquids/fixed_walls.hpp"
 #include "liquids/listed_pairs.hpp"
 #include "liquids/scene_numbers.hpp"
-#include "world/world.hpp"
+#include "state/state.hpp"
 
 namespace tripoint::lattice_walls {
 
@@ -22,10 +22,10 @@ class LaidWalls {
   /// After the pass of densities: adds W(|d'|) - W(|d|) to each pair of liquid and fixed wall within the
   /// support. d = r_j - r_i, and d' is that from the lattice place of the wall particle. The wall's own part
   /// is that of Walls.
-  void lay_densities(World&, const PairKernels&);
+  void lay_densities(State&, const PairKernels&);
   /// After the pass of rates: the same to the pressure force, so that it is the gradient of the energy at
   /// these densities.
-  void lay_forces(World&, const PairKernels&);
+  void lay_forces(State&, const PairKernels&);
   /// Groups have changed: look again which particles are walls.
   void clear() {
     pairs_.clear();
@@ -38,10 +38,10 @@ class LaidWalls {
     std::uint32_t row, image;
     Vec3 added;
   };
-  void find(World&);
-  void find_moves(World&);
+  void find(State&);
+  void find_moves(State&);
   template <class Give>
-  void each_pair(const World&, Give give) const;
+  void each_pair(const State&, Give give) const;
 
   /// By id, from where jitter put a particle of a fixed wall to its place on the lattice [m]; 0 of all others
   std::vector<Vec3> moves_;

@@ -13,13 +13,13 @@ namespace {
 class LatticeWalls : public Effect {
  public:
   explicit LatticeWalls(const Scene& scene) : kernels_(liquid::pair_kernels(scene)) {}
-  void densities(World& world) override { laid_.lay_densities(world, kernels_); }
-  void bonds(World& world) override { laid_.lay_forces(world, kernels_); }
-  void adopt(World& world) override {
-    if (liquid::groups_changed(world)) laid_.clear();
+  void densities(State& state) override { laid_.lay_densities(state, kernels_); }
+  void bonds(State& state) override { laid_.lay_forces(state, kernels_); }
+  void adopt(State& state) override {
+    if (liquid::groups_changed(state)) laid_.clear();
   }
-  void happen(World&, const Happening&) override { laid_.clear(); }
-  void renumber(World&) override { laid_.clear(); }
+  void happen(State&, const Happening&) override { laid_.clear(); }
+  void renumber(State&) override { laid_.clear(); }
 
  private:
   PairKernels kernels_;

@@ -6,9 +6,9 @@
 
 #include "scene/ledger_entry.hpp"
 #include "scene/shared_terms.hpp"
-#include "world/body_table.hpp"
-#include "world/free_rows.hpp"
-#include "world/ordered_sum.hpp"
+#include "state/body_table.hpp"
+#include "state/free_rows.hpp"
+#include "state/ordered_sum.hpp"
 
 namespace tripoint::motion {
 namespace {
@@ -40,10 +40,10 @@ struct Kick {
 
 class FreeMotion : public Effect {
  public:
-  void kick(World&, double dt) override;
-  void drift(World&, double dt) override;
-  [[nodiscard]] TimeStepBound max_dt(const World&) const override;
-  void add_to(const World&, Ledger&) const override;
+  void kick(State&, double dt) override;
+  void drift(State&, double dt) override;
+  [[nodiscard]] TimeStepBound max_dt(const State&) const override;
+  void add_to(const State&, Ledger&) const override;
 
  private:
   std::vector<std::array<double, works>> blocks_;  ///< memory that is used again
@@ -51,42 +51,42 @@ class FreeMotion : public Effect {
 
 /// v += dt (sum F/m + g). The work of each force is booked by its own formula, dt F.(v- + v+)/2. The sum of
 /// these works is the change of kinetic energy to round-off (model 8.11).
-void FreeMotion::kick(World& world, double dt) {
-  Particles& p = world.particles;
+void FreeMotion::kick(State& state, double dt) {
+  Particles& p = state.particles;
   const auto driven = p.has(field::driven.name) ? std::as_const(p)[field::driven] : std::span<const int>{};
-  const FreeRows free = free_rows(world);
-  const Kick kick{free, free_loops(free.forces), velocities(p), RigidMembers(world), driven, dt};
-  const auto sums = ordered_sums(world, blocks_, kick);
-  for (std::size_t k = 0; k < world.forces.size(); ++k) {
-    world.booked[world.forces[k].work] += sums[k];
-    world.booked[work_on_driven(world.forces[k])] += sums[works_on_driven + k];
+  const FreeRows free = free_rows(state);
+  const Kick kick{free, free_loops(free.forces), velocities(p), RigidMembers(state), driven, dt};
+  const auto sums = ordered_sums(state, blocks_, kick);
+  for (std::size_t k = 0; k < state.forces.size(); ++k) {
+    state.booked[state.forces[k].work] += sums[k];
+    state.booked[work_on_driven(state.forces[k])] += sums[works_on_driven + k];
   }
-  world.booked[account::gravity_work] += sums[by_gravity];
+  state.booked[account::gravity_work] += sums[by_gravity];
 }
 
 /// r += dt v; with the transport velocity of the scene's choice, dt (v + shift).
-void FreeMotion::drift(World& world, double dt) {
-  Particles& p = world.particles;
+void FreeMotion::drift(State& state, double dt) {
+  Particles& p = state.particles;
   const auto r = positions(p), v = velocities(p);
   const bool shifts = p.has(field::shift_x.name);
   const auto w = shifts ? triple(std::as_const(p), field::shift) : Triple<const double>{};
-  const RigidMembers is_member(world);
+  const RigidMembers is_member(state);
   const bool guided = p.has(field::driven.name);
   const auto driven = guided ? std::as_const(p)[field::driven] : std::span<const int>{};
-#pragma omp parallel for schedule(static) num_threads(world.threads)
+#pragma omp parallel for schedule(static) num_threads(state.threads)
   for (std::size_t i = 0; i < p.moving(); ++i)
     if (!is_member(i) && !(guided && driven[i] != 0))
       r.set(i, r.at(i) + dt * (shifts ? v.at(i) + w.at(i) : v.at(i)));
-  world.moved = true;
+  state.moved = true;
 }
 
 /// 0.25 sqrt(h/|a|max) (model 8.10).
-TimeStepBound FreeMotion::max_dt(const World& world) const {
-  const Particles& p = world.particles;
-  const FreeRows rows = free_rows(world);
+TimeStepBound FreeMotion::max_dt(const State& state) const {
+  const Particles& p = state.particles;
+  const FreeRows rows = free_rows(state);
   const FreeLoops loops = free_loops(rows.forces);
-  const RigidMembers is_member(world);
-  const double a2 = greatest_of_blocks(p.moving(), world.threads, [&](std::size_t from, std::size_t to) {
+  const RigidMembers is_member(state);
+  const double a2 = greatest_of_blocks(p.moving(), state.threads, [&](std::size_t from, std::size_t to) {
     double most = 0.0;
     is_member.each_run_of_others(from, to, [&](std::size_t first, std::size_t past) {
       most = std::max(most, loops.greatest_acceleration2(rows, first, past));
@@ -94,29 +94,29 @@ TimeStepBound FreeMotion::max_dt(const World& world) const {
     return most;
   });
   TimeStepBound bound;
-  if (a2 > 0.0) tighten(bound, acceleration_step(world.support(), std::sqrt(a2)), "acceleration");
+  if (a2 > 0.0) tighten(bound, acceleration_step(state.support(), std::sqrt(a2)), "acceleration");
   return bound;
 }
 
-void FreeMotion::add_to(const World& world, Ledger& ledger) const {
+void FreeMotion::add_to(const State& state, Ledger& ledger) const {
   enum Entry : std::size_t { momentum, angular = 3, kinetic = 6, potential, entries };
-  const Particles& p = world.particles;
+  const Particles& p = state.particles;
   const auto m = p[field::mass];
   const auto v = velocities(p);
-  const RigidMembers is_member(world);
+  const RigidMembers is_member(state);
   std::vector<std::array<double, entries>> blocks;
   const auto add = [](std::array<double, entries>& sum, std::size_t first, const Vec3& a) {
     sum[first] += a.x;
     sum[first + 1] += a.y;
     sum[first + 2] += a.z;
   };
-  const auto sums = ordered_sums(world, blocks, [&](std::size_t i, std::array<double, entries>& sum) {
+  const auto sums = ordered_sums(state, blocks, [&](std::size_t i, std::array<double, entries>& sum) {
     if (is_member(i)) return;
-    const Vec3 r = world.unwrapped(i), P = m[i] * v.at(i);
+    const Vec3 r = state.unwrapped(i), P = m[i] * v.at(i);
     add(sum, momentum, P);
     add(sum, angular, cross(r, P));
     sum[kinetic] += 0.5 * dot(v.at(i), P);
-    sum[potential] -= m[i] * dot(world.scene.gravity, r);
+    sum[potential] -= m[i] * dot(state.scene.gravity, r);
   });
   ledger.momentum += {sums[momentum], sums[momentum + 1], sums[momentum + 2]};
   ledger.angular_momentum += {sums[angular], sums[angular + 1], sums[angular + 2]};

@@ -5,23 +5,23 @@
 #include "liquids/fields.hpp"
 #include "liquids/fixed_walls.hpp"
 #include "pairs/pair_passes.hpp"
-#include "world/fill.hpp"
+#include "state/fill.hpp"
 
 namespace tripoint::no_slip {
 
 /// Finds the walls with liquid in reach, anew after each rebuild of the lists. The viscous velocities of
 /// fixed walls, which only wet ones are given, become 0 again.
-void MirroredVelocity::find(World& world) {
-  if (known_ == world.neighbours->rebuilds()) return;
-  known_ = world.neighbours->rebuilds();
+void MirroredVelocity::find(State& state) {
+  if (known_ == state.neighbours->rebuilds()) return;
+  known_ = state.neighbours->rebuilds();
   wet_walls_.clear();
-  const Particles& p = world.particles;
+  const Particles& p = state.particles;
   for (const Field<double>* f : columns_of(field::viscous_velocity))
-    fill(part(world.particles[*f], {p.moving(), p.awake()}), 0.0, world.threads);
-  const auto group = world.particles[field::group];
-  const auto stick = world.particles[field::stick];
-  const bool drags = liquid::all_drag(world.scene);
-  const Clusters& c = world.neighbours->clusters();
+    fill(part(state.particles[*f], {p.moving(), p.awake()}), 0.0, state.threads);
+  const auto group = state.particles[field::group];
+  const auto stick = state.particles[field::stick];
+  const bool drags = liquid::all_drag(state.scene);
+  const Clusters& c = state.neighbours->clusters();
   for (const std::size_t k : c.listed) {
     unsigned walls = 0, wet = 0;  // bits of members
     for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i)
@@ -35,21 +35,21 @@ void MirroredVelocity::find(World& world) {
   wet_ = clusters_of(c, wet_walls_);
 }
 
-void MirroredVelocity::mirror(World& world, const PairKernels& kernels) {
-  find(world);
-  Particles& p = world.particles;
-  for (const Field<double>* f : WallExtrapolation::adds::list) fill(awake(p, *f), 0.0, world.threads);
+void MirroredVelocity::mirror(State& state, const PairKernels& kernels) {
+  find(state);
+  Particles& p = state.particles;
+  for (const Field<double>* f : WallExtrapolation::adds::list) fill(awake(p, *f), 0.0, state.threads);
   if (wet_walls_.empty()) return;
   const PairTerm term =
       kernels.shear.even() ? pair_term<WallExtrapolation> : pair_term<WallExtrapolationWeighted>;
-  run_pass_over(pair_passes(world.neighbours->clusters().lanes).alone(term), p, *world.neighbours, kernels,
-                world.threads, wet_);
+  run_pass_over(pair_passes(state.neighbours->clusters().lanes).alone(term), p, *state.neighbours, kernels,
+                state.threads, wet_);
 
   const auto weight = p[field::wall_weight];
   const auto moved = triple(p, field::wall_velocity);
   const auto seen = triple(p, field::viscous_velocity);
   const auto v = velocities(p);
-#pragma omp parallel for schedule(static) num_threads(world.threads)
+#pragma omp parallel for schedule(static) num_threads(state.threads)
   for (std::size_t k = 0; k < wet_walls_.size(); ++k) {
     const std::size_t i = wet_walls_[k];
     if (weight[i] > 0.0)

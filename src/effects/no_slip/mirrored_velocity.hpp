@@ -5,7 +5,7 @@
 
 #include "pairs/run_pass.hpp"
 #include "sph/kernels.hpp"
-#include "world/world.hpp"
+#include "state/state.hpp"
 
 namespace tripoint::no_slip {
 
@@ -14,12 +14,12 @@ namespace tripoint::no_slip {
 class MirroredVelocity {
  public:
   /// Sets the viscous velocity of the walls that liquid is near, where it sticks to them.
-  void mirror(World&, const PairKernels&);
+  void mirror(State&, const PairKernels&);
   /// Rows or groups have changed: look again which particles are walls.
   void clear() { known_ = -1; }
 
  private:
-  void find(World&);
+  void find(State&);
 
   std::vector<std::uint32_t> wet_walls_;  ///< rows of walls with liquid in their lists that it sticks to
   ChosenClusters wet_;                    ///< their clusters

@@ -14,12 +14,12 @@ namespace {
 class NoSlip : public Effect {
  public:
   explicit NoSlip(const Scene& scene) : kernels_(liquid::pair_kernels(scene)) {}
-  void state(World& world) override { velocity_.mirror(world, kernels_); }
-  void adopt(World& world) override {
-    if (liquid::groups_changed(world)) velocity_.clear();
+  void state(State& state) override { velocity_.mirror(state, kernels_); }
+  void adopt(State& state) override {
+    if (liquid::groups_changed(state)) velocity_.clear();
   }
-  void happen(World&, const Happening&) override { velocity_.clear(); }
-  void renumber(World&) override { velocity_.clear(); }
+  void happen(State&, const Happening&) override { velocity_.clear(); }
+  void renumber(State&) override { velocity_.clear(); }
 
  private:
   PairKernels kernels_;

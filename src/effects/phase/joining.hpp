@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "sph/kernels.hpp"
-#include "world/world.hpp"
+#include "state/state.hpp"
 
 /// Bonds and own pairs of freezing particles (model 8.9).
 namespace tripoint::phase {
@@ -19,14 +19,14 @@ struct Joint {
 /// Makes the bonds. Frozen particles take the present vectors. A deformable solid j that was there before
 /// first turns its list into the present frame. It takes the new vector in its reference, F_j^-1 r_ji:
 /// nothing of j jumps.
-void bond(World&, const std::vector<Joint>&);
+void bond(State&, const std::vector<Joint>&);
 
 /// Applies to a list without strain energy, as of a member of a rigid body that is bonded to no deformable
 /// partner. The present vectors to its bonded neighbours become its reference vectors. They differ by the
 /// body's rotation alone.
-void take_present_vectors(World&, const ElasticityKernel&, std::uint32_t id);
+void take_present_vectors(State&, const ElasticityKernel&, std::uint32_t id);
 
 /// From now on frozen deformable particles meet the near members of their body through their bonds alone.
-void make_own_pairs(World&, const std::vector<std::uint32_t>& frozen);
+void make_own_pairs(State&, const std::vector<std::uint32_t>& frozen);
 
 }  // namespace tripoint::phase

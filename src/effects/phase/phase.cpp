@@ -7,7 +7,7 @@
 #include "effects/phase/transition.hpp"
 #include "scene/shared_terms.hpp"
 #include "solids/solid_particles.hpp"
-#include "world/body_table.hpp"
+#include "state/body_table.hpp"
 
 namespace tripoint::phase {
 namespace {
@@ -15,18 +15,18 @@ namespace {
 class PhaseChange : public Effect {
  public:
   explicit PhaseChange(const Scene& scene) : softens_(any_softens(scene)) {}
-  void load(World& world, const InitialState&) override {
-    if (softens_) load_stiffness(world);
+  void load(State& state, const InitialState&) override {
+    if (softens_) load_stiffness(state);
   }
-  void drift(World&, double dt) override { drifted_ = dt; }
-  [[nodiscard]] bool wants_change(World&) override;
-  void change(World&) override;
-  void renumber(World&) override { found_.reset(); }
-  void settle(World&) override;
-  void happen(World&, const Happening&) override;
+  void drift(State&, double dt) override { drifted_ = dt; }
+  [[nodiscard]] bool wants_change(State&) override;
+  void change(State&) override;
+  void renumber(State&) override { found_.reset(); }
+  void settle(State&) override;
+  void happen(State&, const Happening&) override;
   /// The entry is told also where nothing stands on it yet.
-  void add_to(const World& world, Ledger& ledger) const override {
-    if (!world.forces.empty()) ledger.energy["phase_work"] += 0.0;
+  void add_to(const State& state, Ledger& ledger) const override {
+    if (!state.forces.empty()) ledger.energy["phase_work"] += 0.0;
   }
 
  private:
@@ -40,45 +40,45 @@ class PhaseChange : public Effect {
 /// Strain energy of a particle's bonds half a drift ago [J]; 0 where no body can deform. The kick before a
 /// drift has the forces of before the change, the kick after it the new ones. So the change lets go the
 /// difference of energies half way, to second order in the step.
-ReleasedEnergy::Energy energy_of(const World& world, double back) {
-  if (!world.particles.has(field::shape_rank.name)) return [](std::uint32_t) { return 0.0; };
-  return [&world, back, forms = solid::ElasticForms(world.scene)](std::uint32_t id) {
-    return solid::deformation_energy(world, forms, id, back).total();
+ReleasedEnergy::Energy energy_of(const State& state, double back) {
+  if (!state.particles.has(field::shape_rank.name)) return [](std::uint32_t) { return 0.0; };
+  return [&state, back, forms = solid::ElasticForms(state.scene)](std::uint32_t id) {
+    return solid::deformation_energy(state, forms, id, back).total();
   };
 }
 
-bool PhaseChange::wants_change(World& world) {
+bool PhaseChange::wants_change(State& state) {
   released_.reset();
   back_ = 0.5 * std::exchange(drifted_, 0.0);
-  if (world.neighbours->rebuilds() == 0) {  // the run begins
-    world.neighbours->update(world.particles, world.time);
-    connect_rigid_bodies(world);
+  if (state.neighbours->rebuilds() == 0) {  // the run begins
+    state.neighbours->update(state.particles, state.time);
+    connect_rigid_bodies(state);
   }
-  if (softens_) follow_stiffness(world);
-  found_ = events_of(world);
+  if (softens_) follow_stiffness(state);
+  found_ = events_of(state);
   return !found_->empty();
 }
 
-void PhaseChange::change(World& world) {
-  if (!found_) found_ = events_of(world);
+void PhaseChange::change(State& state) {
+  if (!found_) found_ = events_of(state);
   const Events events = *std::exchange(found_, {});
   if (events.empty()) return;
-  world.neighbours->update(world.particles, world.time);
+  state.neighbours->update(state.particles, state.time);
   // As they are before the change
-  if (!world.neighbours->marked()) world.neighbours->mark_own(world.particles, world.own);
-  released_.emplace(energy_of(world, back_));
-  carry_out(world, events, *released_);
+  if (!state.neighbours->marked()) state.neighbours->mark_own(state.particles, state.own);
+  released_.emplace(energy_of(state, back_));
+  carry_out(state, events, *released_);
 }
 
-void PhaseChange::settle(World& world) {
-  if (released_) released_->settle(world);
+void PhaseChange::settle(State& state) {
+  if (released_) released_->settle(state);
 }
 
 /// Bodies that an event has united hold together by bonds where they touch.
-void PhaseChange::happen(World& world, const Happening& now) {
+void PhaseChange::happen(State& state, const Happening& now) {
   if (now.event.kind != Event::Kind::merge || !now.begins) return;
-  world.neighbours->update(world.particles, world.time);
-  connect_rigid_bodies(world);
+  state.neighbours->update(state.particles, state.time);
+  connect_rigid_bodies(state);
 }
 
 }  // namespace

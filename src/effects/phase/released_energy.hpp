@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "world/world.hpp"
+#include "state/state.hpp"
 
 namespace tripoint::phase {
 
@@ -24,15 +24,15 @@ class ReleasedEnergy {
   void touch(std::uint32_t id, std::uint32_t event);
   /// Gives every difference to the heat of the events, and books it. To be called when all effects have
   /// adopted the change.
-  void settle(World&) const;
+  void settle(State&) const;
 
  private:
   struct Entry {
     double before = 0.0;                ///< [J]
     std::vector<std::uint32_t> events;  ///< ids, each once
   };
-  void settle_deformation(World&) const;
-  void settle_joining(World&) const;
+  void settle_deformation(State&) const;
+  void settle_joining(State&) const;
 
   Energy energy_;
   std::map<std::uint32_t, Entry> entries_;

@@ -13,9 +13,9 @@ namespace {
 /// Remaining share of the stiffness of a particle: all of it where its material does not soften.
 class Shares {
  public:
-  explicit Shares(const World& world)
-      : material_(world.particles[field::material]), melted_(world.particles[field::liquid_fraction]) {
-    for (const Material& m : world.scene.materials) softens_.push_back(solid::softens(world.scene, m));
+  explicit Shares(const State& state)
+      : material_(state.particles[field::material]), melted_(state.particles[field::liquid_fraction]) {
+    for (const Material& m : state.scene.materials) softens_.push_back(solid::softens(state.scene, m));
   }
   double operator()(std::size_t row) const {
     return softens_[static_cast<std::size_t>(material_[row])] ? 1.0 - melted_[row] : 1.0;
@@ -34,34 +34,34 @@ bool any_softens(const Scene& scene) {
          std::ranges::any_of(scene.materials, [&](const Material& m) { return solid::softens(scene, m); });
 }
 
-void load_stiffness(World& world) {
-  const Shares share_of(world);
-  const auto share = world.particles[field::stiffness_share];
+void load_stiffness(State& state) {
+  const Shares share_of(state);
+  const auto share = state.particles[field::stiffness_share];
   for (std::size_t i = 0; i < share.size(); ++i) share[i] = share_of(i);
 }
 
-void follow_stiffness(World& world) {
-  Particles& p = world.particles;
+void follow_stiffness(State& state) {
+  Particles& p = state.particles;
   const auto share = p[field::stiffness_share];
-  const solid::ElasticForms forms(world.scene);
-  const solid::ElasticParticles is_elastic(world);
-  const Shares share_of(world);
+  const solid::ElasticForms forms(state.scene);
+  const solid::ElasticParticles is_elastic(state);
+  const Shares share_of(state);
   for (std::uint32_t id = 0; id < p.size(); ++id) {
     const std::size_t i = p.row(id);
-    if (!world.owns(i)) continue;  // a copy's list is not whole
+    if (!state.owns(i)) continue;  // a copy's list is not whole
     const double now = share_of(i);
     if (now == share[i] || p[field::liquid_fraction][i] >= 1.0)
       continue;  // a particle that melts in this step gives all its
                  // energy
-    const double before = is_elastic(i) ? solid::deformation_energy(world, forms, id).total() : 0.0;
+    const double before = is_elastic(i) ? solid::deformation_energy(state, forms, id).total() : 0.0;
     share[i] = now;
     if (!is_elastic(i)) continue;
-    const double released = before - solid::deformation_energy(world, forms, id).total();
-    world.booked[account::deformation_released] += released;
-    give_heat(world, i, released);
+    const double released = before - solid::deformation_energy(state, forms, id).total();
+    state.booked[account::deformation_released] += released;
+    give_heat(state, i, released);
   }
-  world.refresh(std::array{&field::stiffness_share, &field::temperature, &field::liquid_fraction});
-  if (p.has(field::enthalpy)) world.refresh(std::array{&field::enthalpy});
+  state.refresh(std::array{&field::stiffness_share, &field::temperature, &field::liquid_fraction});
+  if (p.has(field::enthalpy)) state.refresh(std::array{&field::enthalpy});
 }
 
 }  // namespace tripoint::phase

@@ -10,7 +10,7 @@
 #include "solids/fusion.hpp"
 #include "solids/objects.hpp"
 #include "solids/solid_particles.hpp"
-#include "world/body_table.hpp"
+#include "state/body_table.hpp"
 
 namespace tripoint::phase {
 namespace {
@@ -22,17 +22,17 @@ struct Partner {
 };
 
 /// In order of id, each once.
-std::vector<Partner> partners_of(const World& world, std::uint32_t id) {
-  const Particles& p = world.particles;
+std::vector<Partner> partners_of(const State& state, std::uint32_t id) {
+  const Particles& p = state.particles;
   const std::size_t i = p.row(id);
   const auto x = positions(p);
   const auto phase = p[field::phase];
-  const double reach = joining_distance(world.scene);
+  const double reach = joining_distance(state.scene);
   std::map<std::uint32_t, Vec3> nearest;
-  for (const Entry e : world.neighbours->of(i)) {
+  for (const Entry e : state.neighbours->of(i)) {
     const std::size_t j = e.row();
-    if (j == i || phase[j] == static_cast<int>(Phase::liquid) || !may_join(world, j)) continue;
-    const Vec3 r = -1.0 * ((x.at(j) - x.at(i)) + world.neighbours->shift(e.image()));
+    if (j == i || phase[j] == static_cast<int>(Phase::liquid) || !may_join(state, j)) continue;
+    const Vec3 r = -1.0 * ((x.at(j) - x.at(i)) + state.neighbours->shift(e.image()));
     if (norm(r) >= reach) continue;
     const auto [at, first] = nearest.try_emplace(static_cast<std::uint32_t>(p[field::id][j]), r);
     if (!first && dot(r, r) < dot(at->second, at->second)) at->second = r;
@@ -44,7 +44,7 @@ std::vector<Partner> partners_of(const World& world, std::uint32_t id) {
 
 /// Whether a change of a list changes the volume of its particle, and with it the energies of all that list
 /// it.
-bool volumes_follow_lists(const World& world) { return world.scene.mode_of(term::elastic) == Mode::paper; }
+bool volumes_follow_lists(const State& state) { return state.scene.mode_of(term::elastic) == Mode::paper; }
 
 /// Phase of a solid particle at this liquid fraction, of a material that may turn.
 Phase solid_phase(const Scene& scene, const Material& m, double f) {
@@ -54,9 +54,9 @@ Phase solid_phase(const Scene& scene, const Material& m, double f) {
 
 class Transition {
  public:
-  Transition(World& world, ReleasedEnergy& released) : world_(world), released_(released) {
-    const auto body = world.particles[field::body];
-    for (std::size_t id = 0; id < body.size(); ++id) body_before_.push_back(body[world.particles.row(id)]);
+  Transition(State& state, ReleasedEnergy& released) : state_(state), released_(released) {
+    const auto body = state.particles[field::body];
+    for (std::size_t id = 0; id < body.size(); ++id) body_before_.push_back(body[state.particles.row(id)]);
   }
   void melt(std::uint32_t id);
   void turn(const std::vector<std::uint32_t>& ids);
@@ -68,7 +68,7 @@ class Transition {
   void touch_with_partners(std::uint32_t id, std::uint32_t event);
   void end_pairs_of_rigid(const std::vector<std::uint32_t>& ids);
 
-  World& world_;
+  State& state_;
   ReleasedEnergy& released_;
   ChangedBodies changed_;
   std::vector<int> body_before_;  ///< by id
@@ -76,32 +76,32 @@ class Transition {
 
 void Transition::touch_with_partners(std::uint32_t id, std::uint32_t event) {
   released_.touch(id, event);
-  for (const Bond& bond : std::as_const(world_.bonds).of(id)) {
+  for (const Bond& bond : std::as_const(state_.bonds).of(id)) {
     released_.touch(bond.other, event);
-    if (!volumes_follow_lists(world_)) continue;
-    for (const Bond& next : std::as_const(world_.bonds).of(bond.other)) released_.touch(next.other, event);
+    if (!volumes_follow_lists(state_)) continue;
+    for (const Bond& next : std::as_const(state_.bonds).of(bond.other)) released_.touch(next.other, event);
   }
 }
 
 void Transition::melt(std::uint32_t id) {
-  const std::size_t i = world_.particles.row(id);
-  Change& change = world_.change;
+  const std::size_t i = state_.particles.row(id);
+  Change& change = state_.change;
   touch_with_partners(id, id);
-  const std::vector<std::uint32_t> lost = disconnect(world_.bonds, id, [](const Bond&) { return true; });
+  const std::vector<std::uint32_t> lost = disconnect(state_.bonds, id, [](const Bond&) { return true; });
   change.relisted.insert(change.relisted.end(), lost.begin(), lost.end());
-  const auto own = std::as_const(world_.own).of(id);
+  const auto own = std::as_const(state_.own).of(id);
   const std::vector<OwnPair> pairs(own.begin(), own.end());
   for (const OwnPair& pair : pairs) {
-    end_own(world_.own, id, pair.other);
+    end_own(state_.own, id, pair.other);
     change.relisted.push_back(pair.other);
   }
   change.relisted.push_back(id);
   change.regrouped.push_back(id);
-  const auto body = static_cast<std::size_t>(world_.particles[field::body][i]);
+  const auto body = static_cast<std::size_t>(state_.particles[field::body][i]);
   changed_.bodies.push_back(body);
   change.bodies.push_back(body);
-  world_.particles[field::body][i] = -1;
-  world_.particles[field::phase][i] = static_cast<int>(Phase::liquid);
+  state_.particles[field::body][i] = -1;
+  state_.particles[field::phase][i] = static_cast<int>(Phase::liquid);
 }
 
 /// Bonds stay, so that a particle that turns elastic is joined to its mates and to nothing that it touches. A
@@ -109,84 +109,84 @@ void Transition::melt(std::uint32_t id) {
 /// present vectors. At a joint the list of a rigid member is strained with its partners, and stays so.
 void Transition::turn(const std::vector<std::uint32_t>& ids) {
   if (ids.empty()) return;
-  Particles& p = world_.particles;
-  const ElasticityKernel kernel = solid::bond_kernel(world_.scene);
-  const solid::EnergyOwners owns(world_);
+  Particles& p = state_.particles;
+  const ElasticityKernel kernel = solid::bond_kernel(state_.scene);
+  const solid::EnergyOwners owns(state_);
   const auto f = p[field::liquid_fraction];
   std::vector<std::uint32_t> unstrained;
   for (const std::uint32_t id : ids) {
     const std::size_t i = p.row(id);
     touch_with_partners(id, id);
-    p[field::phase][i] = static_cast<int>(solid_phase(world_.scene, world_.material_of(i), f[i]));
+    p[field::phase][i] = static_cast<int>(solid_phase(state_.scene, state_.material_of(i), f[i]));
     if (p[field::phase][i] == static_cast<int>(Phase::rigid) || !owns(i)) unstrained.push_back(id);
-    for (const Bond& bond : std::as_const(world_.bonds).of(id)) {
+    for (const Bond& bond : std::as_const(state_.bonds).of(id)) {
       if (!owns(p.row(bond.other))) unstrained.push_back(bond.other);
-      world_.change.relisted.push_back(bond.other);
+      state_.change.relisted.push_back(bond.other);
     }
     if (p.has(field::plastic_strain_xx.name)) solid::set_plastic_strain(p, i, {});
     changed_.bodies.push_back(static_cast<std::size_t>(p[field::body][i]));
-    world_.change.bodies.push_back(static_cast<std::size_t>(p[field::body][i]));
-    world_.change.relisted.push_back(id);
-    world_.change.regrouped.push_back(id);
+    state_.change.bodies.push_back(static_cast<std::size_t>(p[field::body][i]));
+    state_.change.relisted.push_back(id);
+    state_.change.regrouped.push_back(id);
     p[field::body][i] = -1;
   }
   sort_once(unstrained);
-  for (const std::uint32_t id : unstrained) take_present_vectors(world_, kernel, id);
+  for (const std::uint32_t id : unstrained) take_present_vectors(state_, kernel, id);
   end_pairs_of_rigid(ids);
 }
 
 /// Members of one rigid body exert nothing on each other as it is.
 void Transition::end_pairs_of_rigid(const std::vector<std::uint32_t>& ids) {
-  const auto phase = world_.particles[field::phase];
+  const auto phase = state_.particles[field::phase];
   const auto is_rigid = [&](std::uint32_t id) {
-    return phase[world_.particles.row(id)] == static_cast<int>(Phase::rigid);
+    return phase[state_.particles.row(id)] == static_cast<int>(Phase::rigid);
   };
   for (const std::uint32_t id : ids) {
     if (!is_rigid(id)) continue;
-    const auto own = std::as_const(world_.own).of(id);
+    const auto own = std::as_const(state_.own).of(id);
     for (const OwnPair& pair : std::vector<OwnPair>(own.begin(), own.end())) {
       if (!is_rigid(pair.other)) continue;
-      end_own(world_.own, id, pair.other);
-      world_.change.relisted.push_back(pair.other);
+      end_own(state_.own, id, pair.other);
+      state_.change.relisted.push_back(pair.other);
     }
   }
 }
 
 /// All become solid at first, so that two that freeze at once are partners.
 void Transition::freeze(const std::vector<std::uint32_t>& ids) {
-  Particles& p = world_.particles;
+  Particles& p = state_.particles;
   for (const std::uint32_t id : ids) {
     const std::size_t i = p.row(id);
     p[field::phase][i] =
-        static_cast<int>(solid_phase(world_.scene, world_.material_of(i), p[field::liquid_fraction][i]));
+        static_cast<int>(solid_phase(state_.scene, state_.material_of(i), p[field::liquid_fraction][i]));
     if (p.has(field::plastic_strain_xx.name)) solid::set_plastic_strain(p, i, {});
-    world_.change.relisted.push_back(id);
-    world_.change.regrouped.push_back(id);
+    state_.change.relisted.push_back(id);
+    state_.change.regrouped.push_back(id);
   }
   std::vector<Joint> joints;
   for (const std::uint32_t id : ids) {
     released_.touch(id, id);
-    for (const Partner& partner : partners_of(world_, id)) {
+    for (const Partner& partner : partners_of(state_, id)) {
       const bool both_freeze = std::ranges::binary_search(ids, partner.id);
       if (both_freeze && partner.id < id) continue;
       joints.push_back({id, partner.id, partner.r, both_freeze});
-      volumes_follow_lists(world_) ? touch_with_partners(partner.id, id) : released_.touch(partner.id, id);
-      world_.change.relisted.push_back(partner.id);
+      volumes_follow_lists(state_) ? touch_with_partners(partner.id, id) : released_.touch(partner.id, id);
+      state_.change.relisted.push_back(partner.id);
       if (const int body = p[field::body][p.row(partner.id)]; body >= 0)
         changed_.bodies.push_back(static_cast<std::size_t>(body));
     }
   }
-  bond(world_, joints);
+  bond(state_, joints);
 }
 
 void Transition::regroup_bodies(const std::vector<std::uint32_t>& frozen) {  // and turned
   changed_.frozen = frozen;
-  regroup(world_, changed_, [&](std::uint32_t id) { released_.touch(id); });
-  make_own_pairs(world_, frozen);
+  regroup(state_, changed_, [&](std::uint32_t id) { released_.touch(id); });
+  make_own_pairs(state_, frozen);
 }
 
 void Transition::record(const Events& events) {
-  Change& change = world_.change;
+  Change& change = state_.change;
   change.melted.insert(change.melted.end(), events.melted.begin(), events.melted.end());
   change.frozen.insert(change.frozen.end(), events.frozen.begin(), events.frozen.end());
   change.frozen.insert(change.frozen.end(), events.turned.begin(), events.turned.end());
@@ -199,42 +199,42 @@ void Transition::record(const Events& events) {
 /// Tells of rows whether they are solid and of the wrong kind for their temperature, as printed (Fig. 5).
 class Turns {
  public:
-  explicit Turns(const World& world) : world_(world) {
-    for (const Material& m : world.scene.materials) may_.push_back(turns_elastic(world.scene, m));
+  explicit Turns(const State& state) : state_(state) {
+    for (const Material& m : state.scene.materials) may_.push_back(turns_elastic(state.scene, m));
     any_ = std::ranges::find(may_, 1) != may_.end();
   }
   [[nodiscard]] bool operator()(std::size_t row) const {
-    const Particles& p = world_.particles;
+    const Particles& p = state_.particles;
     if (!any_ || !may_[static_cast<std::size_t>(p[field::material][row])] || p[field::body][row] < 0)
       return false;
     const double f = p[field::liquid_fraction][row];
     if (f >= 1.0 || is_given_to_driven(row)) return false;
-    return p[field::phase][row] != static_cast<int>(solid_phase(world_.scene, world_.material_of(row), f));
+    return p[field::phase][row] != static_cast<int>(solid_phase(state_.scene, state_.material_of(row), f));
   }
 
  private:
   [[nodiscard]] bool is_given_to_driven(std::size_t row) const {
-    const auto body = static_cast<std::size_t>(world_.particles[field::body][row]);
-    const bool driven = world_.bodies[field::body_motion][body] != static_cast<int>(Motion::free);
-    return driven && world_.bodies[field::body_source][body] == world_.particles[field::source][row];
+    const auto body = static_cast<std::size_t>(state_.particles[field::body][row]);
+    const bool driven = state_.bodies[field::body_motion][body] != static_cast<int>(Motion::free);
+    return driven && state_.bodies[field::body_source][body] == state_.particles[field::source][row];
   }
 
-  const World& world_;
+  const State& state_;
   std::vector<char> may_;  ///< of each material
   bool any_ = false;
 };
 
 }  // namespace
 
-Events events_of(const World& world) {
-  const Particles& p = world.particles;
+Events events_of(const State& state) {
+  const Particles& p = state.particles;
   const auto f = p[field::liquid_fraction];
   const auto body = p[field::body];
   const auto material = p[field::material];
   const bool guided = p.has(field::driven.name);
   const auto driven = guided ? p[field::driven] : std::span<const int>{};
-  const std::vector<Fusion> fusions = fusions_of(world.scene);
-  const Turns turns(world);
+  const std::vector<Fusion> fusions = fusions_of(state.scene);
+  const Turns turns(state);
   Events events;
   for (std::uint32_t id = 0; id < p.size(); ++id) {
     const std::size_t i = p.row(id);
@@ -246,14 +246,14 @@ Events events_of(const World& world) {
   return events;
 }
 
-bool may_join(const World& world, std::size_t row) {
-  if (world.material_of(row).t_melt) return true;
-  const auto source = static_cast<std::size_t>(world.particles[field::source][row]);
-  return source < world.scene.bodies.size() && world.scene.bodies[source].joins;
+bool may_join(const State& state, std::size_t row) {
+  if (state.material_of(row).t_melt) return true;
+  const auto source = static_cast<std::size_t>(state.particles[field::source][row]);
+  return source < state.scene.bodies.size() && state.scene.bodies[source].joins;
 }
 
-void carry_out(World& world, const Events& events, ReleasedEnergy& released) {
-  Transition transition(world, released);
+void carry_out(State& state, const Events& events, ReleasedEnergy& released) {
+  Transition transition(state, released);
   for (const std::uint32_t id : events.melted) transition.melt(id);
   transition.turn(events.turned);
   transition.freeze(events.frozen);
@@ -263,9 +263,9 @@ void carry_out(World& world, const Events& events, ReleasedEnergy& released) {
   transition.record(events);
 }
 
-void connect_rigid_bodies(World& world) {
-  const Particles& p = world.particles;
-  const RigidMembers is_member(world);
+void connect_rigid_bodies(State& state) {
+  const Particles& p = state.particles;
+  const RigidMembers is_member(state);
   const auto x = positions(p);
   const auto body = p[field::body];
   std::vector<Joint> joints;
@@ -273,19 +273,19 @@ void connect_rigid_bodies(World& world) {
     const std::size_t i = p.row(id);
     if (!is_member(i)) continue;
     std::map<std::uint32_t, Vec3> nearest;
-    const auto bonds = std::as_const(world.bonds).of(id);
-    for (const Entry e : world.neighbours->of(i)) {
+    const auto bonds = std::as_const(state.bonds).of(id);
+    for (const Entry e : state.neighbours->of(i)) {
       const std::size_t j = e.row();
       const auto other = static_cast<std::uint32_t>(p[field::id][j]);
-      if (body[j] != body[i] || other <= id || !(world.material_of(i).t_melt || world.material_of(j).t_melt))
+      if (body[j] != body[i] || other <= id || !(state.material_of(i).t_melt || state.material_of(j).t_melt))
         continue;
       if (std::ranges::find(bonds, other, &Bond::other) != bonds.end()) continue;  // near an elastic joint
-      const Vec3 r = -1.0 * ((x.at(j) - x.at(i)) + world.neighbours->shift(e.image()));
-      if (norm(r) < joining_distance(world.scene)) nearest.try_emplace(other, r);
+      const Vec3 r = -1.0 * ((x.at(j) - x.at(i)) + state.neighbours->shift(e.image()));
+      if (norm(r) < joining_distance(state.scene)) nearest.try_emplace(other, r);
     }
     for (const auto& [other, r] : nearest) joints.push_back({id, other, r, true});
   }
-  bond(world, joints);
+  bond(state, joints);
 }
 
 }  // namespace tripoint::phase

@@ -8,7 +8,7 @@
 #include "effects/plastic/flow.hpp"
 #include "scene/shared_terms.hpp"
 #include "solids/solid_particles.hpp"
-#include "world/ordered_sum.hpp"
+#include "state/ordered_sum.hpp"
 
 namespace tripoint::plastic {
 namespace {
@@ -19,14 +19,14 @@ constexpr Account dissipation{"plastic"};
 class PlasticFlow : public Effect {
  public:
   explicit PlasticFlow(const Scene&);
-  void state(World&) override;
-  void adopt(World&) override;
-  void add_to(const World& world, Ledger& ledger) const override {
-    ledger.energy["plastic"] += world.booked[dissipation];
+  void state(State&) override;
+  void adopt(State&) override;
+  void add_to(const State& state, Ledger& ledger) const override {
+    ledger.energy["plastic"] += state.booked[dissipation];
   }
 
  private:
-  double flow(World&, std::size_t row) const;
+  double flow(State&, std::size_t row) const;
 
   solid::ElasticForms forms_;
   std::vector<YieldLimits> limits_;            ///< of each material
@@ -43,14 +43,14 @@ PlasticFlow::PlasticFlow(const Scene& scene) : forms_(scene) {
 }
 
 /// @return energy that it turned to heat [J]
-double PlasticFlow::flow(World& world, std::size_t row) const {
-  Particles& p = world.particles;
+double PlasticFlow::flow(State& state, std::size_t row) const {
+  Particles& p = state.particles;
   const YieldLimits& limits = limits_[static_cast<std::size_t>(p[field::material][row])];
   const int rank = p[field::shape_rank][row];
   const Symmetric strain = solid::strain_of(p, row), plastic = solid::plastic_strain_of(p, row);
   const Symmetric P = forms_.projector(solid::shape_inverse_of(p, row), rank),
                   elastic = between(P, strain - plastic);
-  const solid::ElasticConstants c = forms_.constants(world, row);
+  const solid::ElasticConstants c = forms_.constants(state, row);
   const double yields = yield_stress(c.mu, limits.elastic);
   const auto flat = [&] {
     return flowed_flat(elastic, forms_.stress(elastic, P, rank, c), plastic, rank, yields, limits.plastic);
@@ -63,24 +63,24 @@ double PlasticFlow::flow(World& world, std::size_t row) const {
 }
 
 /// After the strain of the present time is known, before its stress.
-void PlasticFlow::state(World& world) {
-  const auto may_flow = std::as_const(world.particles)[field::may_flow];
+void PlasticFlow::state(State& state) {
+  const auto may_flow = std::as_const(state.particles)[field::may_flow];
   if (std::ranges::find(may_flow, 1) == may_flow.end()) return;
-  const solid::ElasticParticles is_elastic(world);
-  const auto lost = ordered_sums(world.particles.size(), world.threads, blocks_,
+  const solid::ElasticParticles is_elastic(state);
+  const auto lost = ordered_sums(state.particles.size(), state.threads, blocks_,
                                  [&](std::size_t row, std::array<double, 1>& sum) {
-                                   if (may_flow[row] != 0 && is_elastic(row) && world.owns(row))
-                                     sum[0] += flow(world, row);
+                                   if (may_flow[row] != 0 && is_elastic(row) && state.owns(row))
+                                     sum[0] += flow(state, row);
                                  });
-  world.booked[dissipation] += lost[0];
-  world.booked[account::deformation_released] += lost[0];
+  state.booked[dissipation] += lost[0];
+  state.booked[account::deformation_released] += lost[0];
 }
 
 /// Melted particles lose their plastic strain.
-void PlasticFlow::adopt(World& world) {
-  for (const auto* list : {&world.change.melted, &world.change.born})
+void PlasticFlow::adopt(State& state) {
+  for (const auto* list : {&state.change.melted, &state.change.born})
     for (const std::uint32_t id : *list)
-      solid::set_plastic_strain(world.particles, world.particles.row(id), {});
+      solid::set_plastic_strain(state.particles, state.particles.row(id), {});
 }
 
 }  // namespace

@@ -42,49 +42,49 @@ long Entrance::layers_until(double time) const {
   return t < start_ ? 0 : static_cast<long>(std::floor((t - start_) * speed_ / spacing_ + 1e-9)) + 1;
 }
 
-int inflow_of(const World& world, std::size_t row) {
-  const int source = world.particles[field::source][row],
-            bodies = static_cast<int>(world.scene.bodies.size());
+int inflow_of(const State& state, std::size_t row) {
+  const int source = state.particles[field::source][row],
+            bodies = static_cast<int>(state.scene.bodies.size());
   return source < bodies ? -1 : source - bodies;
 }
 
 namespace {
 
 /// One particle more, in its first place moved on by what its layer has travelled.
-void append(World& world, std::size_t inflow, const Vec3& place, const Vec3& velocity) {
-  Particles& p = world.particles;
+void append(State& state, std::size_t inflow, const Vec3& place, const Vec3& velocity) {
+  Particles& p = state.particles;
   const std::size_t row = p.append();
-  const Inflow& in = world.scene.inflows[inflow];
+  const Inflow& in = state.scene.inflows[inflow];
   const auto material =
-      std::ranges::find(world.scene.materials, in.material, &Material::name) - world.scene.materials.begin();
+      std::ranges::find(state.scene.materials, in.material, &Material::name) - state.scene.materials.begin();
   positions(p).set(row, place);
   velocities(p).set(row, velocity);
   const double m =
-      world.scene.materials[static_cast<std::size_t>(material)].density * std::pow(world.scene.spacing, 3);
+      state.scene.materials[static_cast<std::size_t>(material)].density * std::pow(state.scene.spacing, 3);
   p[field::mass][row] = m;
   p[field::phase][row] = static_cast<int>(Phase::liquid);
   p[field::body][row] = -1;
   p[field::material][row] = static_cast<int>(material);
-  p[field::source][row] = static_cast<int>(world.scene.bodies.size() + inflow);
+  p[field::source][row] = static_cast<int>(state.scene.bodies.size() + inflow);
   p[field::driven][row] = driven_in;
-  const double potential = -m * dot(world.scene.gravity, place);
-  world.booked[account::inflow] += 0.5 * m * dot(velocity, velocity) + potential;
-  world.booked[account::driven_potential] += potential;
-  world.change.born.push_back(static_cast<std::uint32_t>(p[field::id][row]));
+  const double potential = -m * dot(state.scene.gravity, place);
+  state.booked[account::inflow] += 0.5 * m * dot(velocity, velocity) + potential;
+  state.booked[account::driven_potential] += potential;
+  state.change.born.push_back(static_cast<std::uint32_t>(p[field::id][row]));
 }
 
 }  // namespace
 
-void let_in(World& world, const std::vector<Entrance>& entrances) {
+void let_in(State& state, const std::vector<Entrance>& entrances) {
   std::vector<long> there(entrances.size(), 0);
-  for (std::size_t i = 0; i < world.particles.size(); ++i)
-    if (const int from = inflow_of(world, i); from >= 0) ++there[static_cast<std::size_t>(from)];
+  for (std::size_t i = 0; i < state.particles.size(); ++i)
+    if (const int from = inflow_of(state, i); from >= 0) ++there[static_cast<std::size_t>(from)];
   for (std::size_t n = 0; n < entrances.size(); ++n) {
     const Entrance& e = entrances[n];
     const long per_layer = static_cast<long>(e.section().size());
-    for (long layer = there[n] / per_layer; layer < e.layers_until(world.time); ++layer) {
-      const Vec3 travelled = (world.time - e.begin_of(layer)) * e.velocity();
-      for (const Vec3& r : e.section()) append(world, n, r + travelled, e.velocity());
+    for (long layer = there[n] / per_layer; layer < e.layers_until(state.time); ++layer) {
+      const Vec3 travelled = (state.time - e.begin_of(layer)) * e.velocity();
+      for (const Vec3& r : e.section()) append(state, n, r + travelled, e.velocity());
     }
   }
 }

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "world/world.hpp"
+#include "state/state.hpp"
 
 /// Liquid that flows in: layers of one spacing, which travel through the inflow's shape at its speed and are
 /// free beyond it. So entering particles never overlap.
@@ -39,9 +39,9 @@ class Entrance {
 };
 
 /// Particles of every inflow that entered until now, appended in order of inflow, layer and place: they
-/// become the next ids. World::change.born lists them; the energy that they bring is booked as inflow.
-void let_in(World&, const std::vector<Entrance>&);
+/// become the next ids. State::change.born lists them; the energy that they bring is booked as inflow.
+void let_in(State&, const std::vector<Entrance>&);
 /// Row in Scene::inflows of a particle that flowed in; -1 for one that was there from the start.
-[[nodiscard]] int inflow_of(const World&, std::size_t row);
+[[nodiscard]] int inflow_of(const State&, std::size_t row);
 
 }  // namespace tripoint::prescribed

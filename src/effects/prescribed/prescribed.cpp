@@ -9,21 +9,21 @@
 #include "scene/geometry.hpp"
 #include "scene/shared_terms.hpp"
 #include "solids/grip.hpp"
-#include "world/body_table.hpp"
+#include "state/body_table.hpp"
 
 namespace tripoint::prescribed {
 namespace {
 
 class Prescribed : public Effect {
  public:
-  void load(World&, const InitialState&) override;
-  void drift(World&, double dt) override;
-  [[nodiscard]] bool wants_change(World&) override;
-  void change(World&) override;
-  void adopt(World&) override;
-  void happen(World&, const Happening&) override;
-  void add_to(const World& world, Ledger& ledger) const override {
-    ledger.energy["inflow"] -= world.booked[account::inflow];
+  void load(State&, const InitialState&) override;
+  void drift(State&, double dt) override;
+  [[nodiscard]] bool wants_change(State&) override;
+  void change(State&) override;
+  void adopt(State&) override;
+  void happen(State&, const Happening&) override;
+  void add_to(const State& state, Ledger& ledger) const override {
+    ledger.energy["inflow"] -= state.booked[account::inflow];
   }
 
  private:
@@ -31,127 +31,127 @@ class Prescribed : public Effect {
 };
 
 /// Kinetic and potential energy of a particle [J].
-double energy_of(const World& world, std::size_t row) {
-  const Vec3 v = world.particles.velocity(row);
-  return world.particles[field::mass][row] *
-         (0.5 * dot(v, v) - dot(world.scene.gravity, world.unwrapped(row)));
+double energy_of(const State& state, std::size_t row) {
+  const Vec3 v = state.particles.velocity(row);
+  return state.particles[field::mass][row] *
+         (0.5 * dot(v, v) - dot(state.scene.gravity, state.unwrapped(row)));
 }
 
 /// A particle as its guide moves it; the energy that this costs is booked at the walls.
-void guide(World& world, std::size_t row, const Vec3& place, const Vec3& velocity) {
-  const double before = energy_of(world, row);
-  const Vec3 way = place - world.unwrapped(row);
-  const auto r = positions(world.particles);
+void guide(State& state, std::size_t row, const Vec3& place, const Vec3& velocity) {
+  const double before = energy_of(state, row);
+  const Vec3 way = place - state.unwrapped(row);
+  const auto r = positions(state.particles);
   r.set(row, r.at(row) + way);
-  velocities(world.particles).set(row, velocity);
-  if (!world.owns(row)) return;
-  world.booked[account::walls] -= energy_of(world, row) - before;
-  world.booked[account::driven_potential] -=
-      world.particles[field::mass][row] * dot(world.scene.gravity, way);
+  velocities(state.particles).set(row, velocity);
+  if (!state.owns(row)) return;
+  state.booked[account::walls] -= energy_of(state, row) - before;
+  state.booked[account::driven_potential] -=
+      state.particles[field::mass][row] * dot(state.scene.gravity, way);
 }
 
-void Prescribed::load(World& world, const InitialState&) {
+void Prescribed::load(State& state, const InitialState&) {
   entrances_.clear();
-  for (std::size_t n = 0; n < world.scene.inflows.size(); ++n) entrances_.emplace_back(world.scene, n);
+  for (std::size_t n = 0; n < state.scene.inflows.size(); ++n) entrances_.emplace_back(state.scene, n);
 }
 
-void Prescribed::drift(World& world, double dt) {
-  Particles& p = world.particles;
+void Prescribed::drift(State& state, double dt) {
+  Particles& p = state.particles;
   const auto driven = p[field::driven];
-  const RigidMembers is_member(world);
+  const RigidMembers is_member(state);
   for (std::size_t id = 0; id < p.size(); ++id) {
     const std::size_t i = p.row(id);
     if (driven[i] == 0 || driven[i] == driven_still || is_member(i)) continue;
     if (driven[i] == driven_in) {
-      const Vec3 v = entrances_[static_cast<std::size_t>(inflow_of(world, i))].velocity();
-      guide(world, i, world.unwrapped(i) + dt * v, v);
+      const Vec3 v = entrances_[static_cast<std::size_t>(inflow_of(state, i))].velocity();
+      guide(state, i, state.unwrapped(i) + dt * v, v);
     } else {
-      const Event& grip = world.scene.events[static_cast<std::size_t>(driven[i] - driven_grip)];
-      const PrescribedState s = carried(grip, p.vector(i, field::grip), world.next_time);
-      guide(world, i, s.position, s.velocity);
+      const Event& grip = state.scene.events[static_cast<std::size_t>(driven[i] - driven_grip)];
+      const PrescribedState s = carried(grip, p.vector(i, field::grip), state.next_time);
+      guide(state, i, s.position, s.velocity);
     }
-    world.moved = true;
+    state.moved = true;
   }
 }
 
 /// A part of a shared scene does not know the layers of its particles. It checks whether as many have entered
 /// as should have, and whether one is about to leave the shape.
-bool Prescribed::wants_change(World& world) {
-  if (entrances_.empty() || world.copies.empty()) return !entrances_.empty();
-  const auto driven = std::as_const(world.particles)[field::driven];
+bool Prescribed::wants_change(State& state) {
+  if (entrances_.empty() || state.copies.empty()) return !entrances_.empty();
+  const auto driven = std::as_const(state.particles)[field::driven];
   std::vector<double> there(entrances_.size(), 0.0);
   bool leaves = false;
   for (std::size_t i = 0; i < driven.size(); ++i) {
-    const int from = inflow_of(world, i);
-    if (from < 0 || !world.owns(i)) continue;
+    const int from = inflow_of(state, i);
+    if (from < 0 || !state.owns(i)) continue;
     there[static_cast<std::size_t>(from)] += 1.0;
     leaves = leaves || (driven[i] == driven_in &&
-                        !entrances_[static_cast<std::size_t>(from)].surely_inside(world.unwrapped(i)));
+                        !entrances_[static_cast<std::size_t>(from)].surely_inside(state.unwrapped(i)));
   }
-  world.halo->add(there);
+  state.halo->add(there);
   for (std::size_t n = 0; n < entrances_.size(); ++n)
-    leaves = leaves || there[n] < static_cast<double>(entrances_[n].layers_until(world.time)) *
+    leaves = leaves || there[n] < static_cast<double>(entrances_[n].layers_until(state.time)) *
                                       static_cast<double>(entrances_[n].section().size());
   return leaves;
 }
 
 /// New layers enter; those that have left the shape are free.
-void Prescribed::change(World& world) {
+void Prescribed::change(State& state) {
   if (entrances_.empty()) return;
-  let_in(world, entrances_);
-  Particles& p = world.particles;
+  let_in(state, entrances_);
+  Particles& p = state.particles;
   const auto driven = p[field::driven];
   std::vector<long> order(entrances_.size(), 0);
   for (std::size_t id = 0; id < p.size(); ++id) {
     const std::size_t i = p.row(id);
-    const int from = inflow_of(world, i);
+    const int from = inflow_of(state, i);
     if (from < 0) continue;
     const Entrance& e = entrances_[static_cast<std::size_t>(from)];
     const long layer = order[static_cast<std::size_t>(from)]++ / static_cast<long>(e.section().size());
-    if (driven[i] == driven_in && !e.inside(layer, world.time)) driven[i] = 0;
+    if (driven[i] == driven_in && !e.inside(layer, state.time)) driven[i] = 0;
   }
 }
 
 /// A particle that became a member of a rigid body moves with it.
-void Prescribed::adopt(World& world) {
-  const RigidMembers is_member(world);
-  const auto driven = world.particles[field::driven];
-  for (const std::uint32_t id : world.change.regrouped)
-    if (const std::size_t i = world.particles.row(id); is_member(i)) driven[i] = 0;
+void Prescribed::adopt(State& state) {
+  const RigidMembers is_member(state);
+  const auto driven = state.particles[field::driven];
+  for (const std::uint32_t id : state.change.regrouped)
+    if (const std::size_t i = state.particles.row(id); is_member(i)) driven[i] = 0;
 }
 
 bool named(const Event& event, const std::string& name) {
   return std::ranges::find(event.bodies, name) != event.bodies.end();
 }
 
-void Prescribed::happen(World& world, const Happening& now) {
+void Prescribed::happen(State& state, const Happening& now) {
   const Event& event = now.event;
   const bool holds = event.kind == Event::Kind::hold, grips = event.kind == Event::Kind::grip,
              releases = event.kind == Event::Kind::release;
   if (!holds && !grips && !releases) return;
-  Particles& p = world.particles;
+  Particles& p = state.particles;
   const auto driven = p[field::driven], body = p[field::body];
-  const int number = driven_grip + static_cast<int>(&event - world.scene.events.data());
+  const int number = driven_grip + static_cast<int>(&event - state.scene.events.data());
   const auto inside =
-      grips ? inside_of(*event.region, world.scene.spacing) : [](const Vec3&) { return true; };
-  const RigidMembers is_member(world);
+      grips ? inside_of(*event.region, state.scene.spacing) : [](const Vec3&) { return true; };
+  const RigidMembers is_member(state);
   const auto place = triple(p, field::grip);
   for (std::size_t id = 0; id < p.size(); ++id) {
     const std::size_t i = p.row(id);
     if (is_member(i)) continue;
-    if (grips && now.begins && body[i] >= 0 && inside(world.unwrapped(i))) {
+    if (grips && now.begins && body[i] >= 0 && inside(state.unwrapped(i))) {
       driven[i] = number;
-      place.set(i, world.unwrapped(i));
+      place.set(i, state.unwrapped(i));
     } else if ((grips && !now.begins && driven[i] == number) ||
                (releases && driven[i] >= driven_grip &&
-                named(event, world.scene.events[static_cast<std::size_t>(driven[i] - driven_grip)].name))) {
+                named(event, state.scene.events[static_cast<std::size_t>(driven[i] - driven_grip)].name))) {
       driven[i] = 0;
     } else if (holds || releases) {
       const auto source = static_cast<std::size_t>(p[field::source][i]);
-      if (source >= world.scene.bodies.size() || !named(event, world.scene.bodies[source].name)) continue;
+      if (source >= state.scene.bodies.size() || !named(event, state.scene.bodies[source].name)) continue;
       if (holds && now.begins && driven[i] == 0) {
         driven[i] = driven_still;
-        guide(world, i, world.unwrapped(i), {});
+        guide(state, i, state.unwrapped(i), {});
       } else if (driven[i] == driven_still)
         driven[i] = 0;
     }
@@ -168,7 +168,7 @@ EffectSpec spec(const Scene& scene) {
       fields::joined({fields::position(),
                       fields::velocity(),
                       {field::id, field::mass, field::body, field::material, field::phase, field::source}})};
-  s.bounded = {{field::driven, driven_in, [](const World& w) {
+  s.bounded = {{field::driven, driven_in, [](const State& w) {
                   return static_cast<std::size_t>(driven_grip) + w.scene.events.size();
                 }}};
   s.reads_if_there = fields::image();

@@ -25,13 +25,13 @@ class RigidBodies : public Effect {
  public:
   explicit RigidBodies(const Scene& scene)
       : turns_as_printed_(scene.mode_of(term::rotation) == Mode::paper) {}
-  void load(World&, const InitialState&) override;
-  void kick(World&, double dt) override;
-  void drift(World&, double dt) override;
-  void happen(World&, const Happening&) override;
-  void adopt(World& world) override { adopt_members(world); }
-  [[nodiscard]] TimeStepBound max_dt(const World&) const override;
-  void add_to(const World&, Ledger&) const override;
+  void load(State&, const InitialState&) override;
+  void kick(State&, double dt) override;
+  void drift(State&, double dt) override;
+  void happen(State&, const Happening&) override;
+  void adopt(State& state) override { adopt_members(state); }
+  [[nodiscard]] TimeStepBound max_dt(const State&) const override;
+  void add_to(const State&, Ledger&) const override;
 
  private:
   std::vector<BodyForces> forces_;  ///< memory that is used again from kick to kick
@@ -43,66 +43,66 @@ class RigidBodies : public Effect {
 constexpr double most_turn = 0.5;
 
 /// L of a body that turns about one axis only must lie along it. @throws InputError naming the body
-void refuse_blocked_spin(const World& world, std::size_t b) {
-  const Vec3 turns = world.bodies[field::body_turns][b], w = world.bodies[field::body_angular_velocity][b];
-  const Vec3 L = world.bodies[field::body_angular_momentum][b];
-  if (!is_free(world, b)) return;
+void refuse_blocked_spin(const State& state, std::size_t b) {
+  const Vec3 turns = state.bodies[field::body_turns][b], w = state.bodies[field::body_angular_velocity][b];
+  const Vec3 L = state.bodies[field::body_angular_momentum][b];
+  if (!is_free(state, b)) return;
   // Round-off of the particles' sums is of the size of m v dx also where nothing turns.
-  const double dx = world.scene.spacing, speed = norm(world.bodies[field::body_velocity][b]);
-  const double size = world.bodies[field::body_mass][b] * dx * (1e-300 + speed + dx * norm(w));
+  const double dx = state.scene.spacing, speed = norm(state.bodies[field::body_velocity][b]);
+  const double size = state.bodies[field::body_mass][b] * dx * (1e-300 + speed + dx * norm(w));
   for (std::size_t a = 0; a < 3; ++a) {
     if (turns[a] != 0.0 || std::abs(L[a]) <= 1e-9 * size) continue;
     throw InputError(
-        "the rigid body " + world.body_names[b] +
+        "the rigid body " + state.body_names[b] +
         " reaches through a periodic direction and would turn across it: " +
         "make that direction not periodic, or the body shorter, or let it turn about that axis only");
   }
 }
 
 /// A gripped body at a time: carried from where it was when the grip took it.
-PrescribedState gripped_state(const World& world, std::size_t b, double time) {
-  const Columns& t = world.bodies;
-  PrescribedState s = carried(world.scene.events[static_cast<std::size_t>(t[field::body_grip][b] - 1)],
+PrescribedState gripped_state(const State& state, std::size_t b, double time) {
+  const Columns& t = state.bodies;
+  PrescribedState s = carried(state.scene.events[static_cast<std::size_t>(t[field::body_grip][b] - 1)],
                               t[field::body_grip_centre][b], time);
   s.rotation = s.rotation * t[field::body_grip_orientation][b];
   return s;
 }
 
 /// A driven body at a time: its keyframes, or constant velocity and angular velocity for ever.
-PrescribedState driven_state(const World& world, std::size_t b, double time) {
-  const Columns& t = world.bodies;
-  if (t[field::body_grip][b] > 0) return gripped_state(world, b, time);
+PrescribedState driven_state(const State& state, std::size_t b, double time) {
+  const Columns& t = state.bodies;
+  if (t[field::body_grip][b] > 0) return gripped_state(state, b, time);
   const auto source = t[field::body_source][b];
   static const std::vector<Keyframe> none;
-  const auto& keyframes = source >= 0 ? world.scene.bodies[static_cast<std::size_t>(source)].keyframes : none;
+  const auto& keyframes = source >= 0 ? state.scene.bodies[static_cast<std::size_t>(source)].keyframes : none;
   return prescribed_state(keyframes, t[field::body_start_centre][b], t[field::body_start_velocity][b],
                           t[field::body_start_spin][b], time);
 }
 
-void drive(World& world, std::size_t b, double time) {
-  Columns& t = world.bodies;
-  const PrescribedState s = driven_state(world, b, time);
+void drive(State& state, std::size_t b, double time) {
+  Columns& t = state.bodies;
+  const PrescribedState s = driven_state(state, b, time);
   const Vec3 lever = rotate(s.rotation, t[field::body_offset][b]);
   t[field::body_orientation][b] = s.rotation;
   t[field::body_centre][b] = s.position + lever;
   t[field::body_angular_velocity][b] = s.angular_velocity;
   t[field::body_velocity][b] = s.velocity + cross(s.angular_velocity, lever);
-  t[field::body_angular_momentum][b] = spin_momentum(world, b);
+  t[field::body_angular_momentum][b] = spin_momentum(state, b);
 }
 
 /// Of a body that is alive and rigid.
-Motion motion_now(const World& world, std::size_t b) {
-  return static_cast<Motion>(world.bodies[field::body_motion][b]);
+Motion motion_now(const State& state, std::size_t b) {
+  return static_cast<Motion>(state.bodies[field::body_motion][b]);
 }
 
-bool at_rest(const World& world, std::size_t b) {
-  return world.bodies[field::body_velocity][b] == Vec3{} &&
-         world.bodies[field::body_angular_momentum][b] == Vec3{};
+bool at_rest(const State& state, std::size_t b) {
+  return state.bodies[field::body_velocity][b] == Vec3{} &&
+         state.bodies[field::body_angular_momentum][b] == Vec3{};
 }
 
 /// Turns a free body by its angular momentum; the one that reaches through a periodic box about that axis.
-void turn(World& world, std::size_t b, double dt, bool as_printed) {
-  Columns& t = world.bodies;
+void turn(State& state, std::size_t b, double dt, bool as_printed) {
+  Columns& t = state.bodies;
   const Vec3 L = t[field::body_angular_momentum][b];
   if (L == Vec3{}) return;
   Quaternion& orientation = t[field::body_orientation][b];
@@ -110,166 +110,166 @@ void turn(World& world, std::size_t b, double dt, bool as_printed) {
     orientation = normalised(from_rotation_vector(dt * t[field::body_angular_velocity][b]) * orientation);
     return;
   }
-  const Quaternion q = principal_to_world(world, b);
+  const Quaternion q = principal_to_world(state, b);
   const Vec3 I = t[field::body_inertia][b];
   const auto turned = [&] {
     if (as_printed) return rotated_paper(q, I, L, dt);
-    return world.axis_order ? rotated_no_squish(q, I, L, dt, *world.axis_order)
+    return state.axis_order ? rotated_no_squish(q, I, L, dt, *state.axis_order)
                             : rotated_corrected(q, I, L, dt);
   };
   orientation = turned() * conjugate(t[field::body_axes][b]);
-  update_spin(world, b);
+  update_spin(state, b);
 }
 
 /// v += dt (F/m + g), L += dt tau (18)-(19); the work of each force is booked by its own formula
 /// (model 8.11).
-void push(World& world, std::size_t b, const BodyForces& f, const Vec3& g, double dt) {
-  Columns& t = world.bodies;
+void push(State& state, std::size_t b, const BodyForces& f, const Vec3& g, double dt) {
+  Columns& t = state.bodies;
   Vec3& v = t[field::body_velocity][b];
   const double m = t[field::body_mass][b];
   const Vec3 v_before = v, omega_before = t[field::body_angular_velocity][b];
   v += dt * (f.force() / m + g);
   t[field::body_angular_momentum][b] += dt * f.torque();
-  update_spin(world, b);
+  update_spin(state, b);
   t[field::body_acceleration][b] = (1.0 / dt) * (v - v_before);
   t[field::body_angular_acceleration][b] = (1.0 / dt) * (t[field::body_angular_velocity][b] - omega_before);
-  if (!world.tells_of(b)) return;
+  if (!state.tells_of(b)) return;
   const Vec3 mean = 0.5 * (v_before + v), spin = 0.5 * (omega_before + t[field::body_angular_velocity][b]);
-  for (std::size_t k = 0; k < world.forces.size(); ++k)
-    if (world.forces[k].feels == Feels::all)
-      world.booked[world.forces[k].work] += dt * (dot(f.forces[k], mean) + dot(f.torques[k], spin));
-  world.booked[account::gravity_work] += dt * m * dot(g, mean);
+  for (std::size_t k = 0; k < state.forces.size(); ++k)
+    if (state.forces[k].feels == Feels::all)
+      state.booked[state.forces[k].work] += dt * (dot(f.forces[k], mean) + dot(f.torques[k], spin));
+  state.booked[account::gravity_work] += dt * m * dot(g, mean);
 }
 
 /// The work of forces on a driven body goes to its driver. Half a kick works along the drift beside it. At a
 /// keyframe the half kick before goes with the old velocity, and the one after with the new.
-void book_wall_work(World& world, std::size_t b, const std::vector<BodyForces>& forces, double dt) {
-  if (forces.empty() || !world.tells_of(b)) return;
-  const bool ends_step = world.time == world.next_time;
-  const PrescribedState s = driven_state(world, b, ends_step ? world.time - dt : world.time + dt);
+void book_wall_work(State& state, std::size_t b, const std::vector<BodyForces>& forces, double dt) {
+  if (forces.empty() || !state.tells_of(b)) return;
+  const bool ends_step = state.time == state.next_time;
+  const PrescribedState s = driven_state(state, b, ends_step ? state.time - dt : state.time + dt);
   const Vec3 omega = s.angular_velocity,
-             v = s.velocity + cross(omega, rotate(s.rotation, world.bodies[field::body_offset][b]));
+             v = s.velocity + cross(omega, rotate(s.rotation, state.bodies[field::body_offset][b]));
   const BodyForces& f = forces[b];
-  for (std::size_t k = 0; k < world.forces.size(); ++k)
-    if (world.forces[k].feels == Feels::all)
-      world.booked[work_on_driven(world.forces[k])] += dt * (dot(f.forces[k], v) + dot(f.torques[k], omega));
+  for (std::size_t k = 0; k < state.forces.size(); ++k)
+    if (state.forces[k].feels == Feels::all)
+      state.booked[work_on_driven(state.forces[k])] += dt * (dot(f.forces[k], v) + dot(f.torques[k], omega));
 }
 
-void RigidBodies::load(World& world, const InitialState& initial) {
-  const std::vector<std::vector<std::size_t>> rows = members_of_all(world);
-  for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-    if (!is_rigid(world, b)) continue;
-    Columns& t = world.bodies;
-    const Body& body = world.scene.bodies[static_cast<std::size_t>(t[field::body_source][b])];
-    measure(world, b, rows[b]);
+void RigidBodies::load(State& state, const InitialState& initial) {
+  const std::vector<std::vector<std::size_t>> rows = members_of_all(state);
+  for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+    if (!is_rigid(state, b)) continue;
+    Columns& t = state.bodies;
+    const Body& body = state.scene.bodies[static_cast<std::size_t>(t[field::body_source][b])];
+    measure(state, b, rows[b]);
     t[field::body_offset][b] = {};
     t[field::body_start_centre][b] = t[field::body_centre][b];
     t[field::body_start_spin][b] = body.angular_velocity;
     if (body.motion == Motion::fixed) continue;
     Vec3 P, L;
     for (const std::size_t i : rows[b]) {
-      const auto id = static_cast<std::size_t>(world.particles[field::id][i]);
+      const auto id = static_cast<std::size_t>(state.particles[field::id][i]);
       P += initial.mass[id] * initial.velocity[id];
       L += initial.mass[id] * cross(initial.position[id] - t[field::body_centre][b], initial.velocity[id]);
     }
-    if (!is_alive(world, b)) continue;
+    if (!is_alive(state, b)) continue;
     t[field::body_velocity][b] = t[field::body_start_velocity][b] = P / t[field::body_mass][b];
     t[field::body_angular_momentum][b] = L;
-    update_spin(world, b);
-    refuse_blocked_spin(world, b);
-    if (body.motion == Motion::prescribed) drive(world, b, world.time);
+    update_spin(state, b);
+    refuse_blocked_spin(state, b);
+    if (body.motion == Motion::prescribed) drive(state, b, state.time);
   }
-  give_velocities(world);
+  give_velocities(state);
 }
 
-void RigidBodies::kick(World& world, double dt) {
-  const Vec3 g = world.scene.gravity;
-  forces_on_moving_bodies(world, forces_);
+void RigidBodies::kick(State& state, double dt) {
+  const Vec3 g = state.scene.gravity;
+  forces_on_moving_bodies(state, forces_);
   static const BodyForces none;
-  const bool pushes = !world.scene.forces.empty();
+  const bool pushes = !state.scene.forces.empty();
   bool any = false;
-  each_kept_body(world, [&](std::size_t b) {
-    if (!is_alive(world, b) || !is_rigid(world, b) || motion_now(world, b) == Motion::fixed) return;
+  each_kept_body(state, [&](std::size_t b) {
+    if (!is_alive(state, b) || !is_rigid(state, b) || motion_now(state, b) == Motion::fixed) return;
     any = true;
-    motion_now(world, b) == Motion::free ? push(world, b, forces_.empty() ? none : forces_[b], g, dt)
-                                         : book_wall_work(world, b, forces_, dt);
-    if (pushes && motion_now(world, b) == Motion::free) push_by_applied_forces(world, b, dt);
+    motion_now(state, b) == Motion::free ? push(state, b, forces_.empty() ? none : forces_[b], g, dt)
+                                         : book_wall_work(state, b, forces_, dt);
+    if (pushes && motion_now(state, b) == Motion::free) push_by_applied_forces(state, b, dt);
   });
-  if (any) give_velocities(world);
+  if (any) give_velocities(state);
 }
 
-void RigidBodies::drift(World& world, double dt) {
-  Columns& t = world.bodies;
-  bool any = world.body_owners.any();  // this process does not know whether another has one that moves
-  each_kept_body(world, [&](std::size_t b) {
-    if (!is_alive(world, b) || !is_rigid(world, b) || motion_now(world, b) == Motion::fixed) return;
-    if (motion_now(world, b) == Motion::free) {
-      if (at_rest(world, b)) return;
+void RigidBodies::drift(State& state, double dt) {
+  Columns& t = state.bodies;
+  bool any = state.body_owners.any();  // this process does not know whether another has one that moves
+  each_kept_body(state, [&](std::size_t b) {
+    if (!is_alive(state, b) || !is_rigid(state, b) || motion_now(state, b) == Motion::fixed) return;
+    if (motion_now(state, b) == Motion::free) {
+      if (at_rest(state, b)) return;
       t[field::body_centre][b] += dt * t[field::body_velocity][b];
-      const double before = kinetic_energy(world, b);
-      turn(world, b, dt, turns_as_printed_);
-      if (world.tells_of(b)) world.booked[account::rotation_drift] += kinetic_energy(world, b) - before;
+      const double before = kinetic_energy(state, b);
+      turn(state, b, dt, turns_as_printed_);
+      if (state.tells_of(b)) state.booked[account::rotation_drift] += kinetic_energy(state, b) - before;
     } else {
-      const double kinetic = kinetic_energy(world, b), potential = potential_energy(world, b);
-      drive(world, b, world.next_time);
-      const double raised = potential_energy(world, b) - potential;
-      if (world.tells_of(b)) {
-        world.booked[account::driven_potential] += raised;
-        world.booked[account::walls] -= kinetic_energy(world, b) - kinetic + raised;
+      const double kinetic = kinetic_energy(state, b), potential = potential_energy(state, b);
+      drive(state, b, state.next_time);
+      const double raised = potential_energy(state, b) - potential;
+      if (state.tells_of(b)) {
+        state.booked[account::driven_potential] += raised;
+        state.booked[account::walls] -= kinetic_energy(state, b) - kinetic + raised;
       }
     }
     any = true;
   });
   if (!any) return;
-  place_members(world);
-  world.moved = true;
+  place_members(state);
+  state.moved = true;
 }
 
 /// How the scene says that a body moves; one born by a split is free.
-Motion own_motion(const World& world, std::size_t b) {
-  const int source = world.bodies[field::body_source][b];
-  return source < 0 ? Motion::free : world.scene.bodies[static_cast<std::size_t>(source)].motion;
+Motion own_motion(const State& state, std::size_t b) {
+  const int source = state.bodies[field::body_source][b];
+  return source < 0 ? Motion::free : state.scene.bodies[static_cast<std::size_t>(source)].motion;
 }
 
 /// Holds bodies still, or lets them go: the change of their energy is booked at the walls.
-void set_motion(World& world, std::size_t b, Motion motion) {
-  Columns& t = world.bodies;
-  const double before = kinetic_energy(world, b);
+void set_motion(State& state, std::size_t b, Motion motion) {
+  Columns& t = state.bodies;
+  const double before = kinetic_energy(state, b);
   t[field::body_motion][b] = static_cast<int>(motion);
   t[field::body_acceleration][b] = t[field::body_angular_acceleration][b] = {};
   if (motion == Motion::fixed) {
     t[field::body_velocity][b] = t[field::body_angular_momentum][b] = t[field::body_angular_velocity][b] = {};
   }
-  world.booked[account::walls] += before - kinetic_energy(world, b);
+  state.booked[account::walls] += before - kinetic_energy(state, b);
 }
 
 /// Free bodies with most of their members in the region are driven by the grip from now on.
-void grip(World& world, const Event& event) {
-  const auto inside = inside_of(*event.region, world.scene.spacing);
-  Columns& t = world.bodies;
+void grip(State& state, const Event& event) {
+  const auto inside = inside_of(*event.region, state.scene.spacing);
+  Columns& t = state.bodies;
   for (std::size_t b = 0; b < t.size(); ++b) {
-    if (!is_free(world, b)) continue;
-    const std::vector<std::size_t> rows = members(world, b);
-    if (2 * std::ranges::count_if(rows, [&](std::size_t i) { return inside(world.unwrapped(i)); }) <=
+    if (!is_free(state, b)) continue;
+    const std::vector<std::size_t> rows = members(state, b);
+    if (2 * std::ranges::count_if(rows, [&](std::size_t i) { return inside(state.unwrapped(i)); }) <=
         std::ssize(rows))
       continue;
-    t[field::body_grip][b] = 1 + static_cast<int>(&event - world.scene.events.data());
+    t[field::body_grip][b] = 1 + static_cast<int>(&event - state.scene.events.data());
     t[field::body_grip_centre][b] = t[field::body_centre][b];
     t[field::body_grip_orientation][b] = t[field::body_orientation][b];
     t[field::body_offset][b] = {};
-    set_motion(world, b, Motion::prescribed);
+    set_motion(state, b, Motion::prescribed);
   }
 }
 
 /// A body that a grip drove goes on freely with its present motion.
-void let_go(World& world, const Event& event) {
-  Columns& t = world.bodies;
+void let_go(State& state, const Event& event) {
+  Columns& t = state.bodies;
   for (std::size_t b = 0; b < t.size(); ++b) {
-    if (!is_alive(world, b) ||
-        t[field::body_grip][b] != 1 + static_cast<int>(&event - world.scene.events.data()))
+    if (!is_alive(state, b) ||
+        t[field::body_grip][b] != 1 + static_cast<int>(&event - state.scene.events.data()))
       continue;
     t[field::body_grip][b] = 0;
-    set_motion(world, b, Motion::free);
+    set_motion(state, b, Motion::free);
   }
 }
 
@@ -279,70 +279,70 @@ bool is_liquid(const Scene& scene, const std::string& name) {
 }
 
 /// A body, or all that a grip of that name holds.
-void release(World& world, const std::string& name) {
-  for (const Event& e : world.scene.events)
-    if (e.kind == Event::Kind::grip && e.name == name) return let_go(world, e);
-  if (is_liquid(world.scene, name)) return;
-  if (const std::size_t b = body_row(world, name); is_rigid(world, b)) set_motion(world, b, Motion::free);
+void release(State& state, const std::string& name) {
+  for (const Event& e : state.scene.events)
+    if (e.kind == Event::Kind::grip && e.name == name) return let_go(state, e);
+  if (is_liquid(state.scene, name)) return;
+  if (const std::size_t b = body_row(state, name); is_rigid(state, b)) set_motion(state, b, Motion::free);
 }
 
-void RigidBodies::happen(World& world, const Happening& now) {
+void RigidBodies::happen(State& state, const Happening& now) {
   switch (now.event.kind) {
     case Event::Kind::merge:
-      merge(world, now.event);
+      merge(state, now.event);
       break;
     case Event::Kind::split:
-      split(world, now.event);
+      split(state, now.event);
       break;
     case Event::Kind::release:
-      for (const std::string& name : now.event.bodies) release(world, name);
+      for (const std::string& name : now.event.bodies) release(state, name);
       break;
     case Event::Kind::hold:
       for (const std::string& name : now.event.bodies) {
-        if (is_liquid(world.scene, name)) continue;
-        const std::size_t b = body_row(world, name);
-        if (is_rigid(world, b)) set_motion(world, b, now.begins ? Motion::fixed : own_motion(world, b));
+        if (is_liquid(state.scene, name)) continue;
+        const std::size_t b = body_row(state, name);
+        if (is_rigid(state, b)) set_motion(state, b, now.begins ? Motion::fixed : own_motion(state, b));
       }
       break;
     case Event::Kind::grip:
-      now.begins ? grip(world, now.event) : let_go(world, now.event);
+      now.begins ? grip(state, now.event) : let_go(state, now.event);
       break;
     case Event::Kind::heat:
       return;
   }
-  for (std::size_t b = 0; b < world.bodies.size(); ++b) refuse_blocked_spin(world, b);
-  give_velocities(world);
+  for (std::size_t b = 0; b < state.bodies.size(); ++b) refuse_blocked_spin(state, b);
+  give_velocities(state);
 }
 
 /// |omega| dt <= most_turn, and acceleration_step() for what falls (model 8.10).
-TimeStepBound RigidBodies::max_dt(const World& world) const {
+TimeStepBound RigidBodies::max_dt(const State& state) const {
   TimeStepBound bound;
-  const double g = norm(world.scene.gravity);
-  each_kept_body(world, [&](std::size_t b) {
-    if (!is_free(world, b)) return;
-    const double spin = norm(world.bodies[field::body_angular_velocity][b]);
+  const double g = norm(state.scene.gravity);
+  each_kept_body(state, [&](std::size_t b) {
+    if (!is_free(state, b)) return;
+    const double spin = norm(state.bodies[field::body_angular_velocity][b]);
     if (spin > 0.0) tighten(bound, most_turn / spin, "rotation");
-    const double a = world.scene.forces.empty() ? g : g + applied_acceleration(world, b);
-    if (a > 0.0) tighten(bound, acceleration_step(world.support(), a), "acceleration");
+    const double a = state.scene.forces.empty() ? g : g + applied_acceleration(state, b);
+    if (a > 0.0) tighten(bound, acceleration_step(state.support(), a), "acceleration");
   });
   return bound;
 }
 
-void RigidBodies::add_to(const World& world, Ledger& ledger) const {
-  for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-    if (!is_alive(world, b) || !is_rigid(world, b)) continue;
-    if (!world.tells_of(b)) {  // the same entries all the same
+void RigidBodies::add_to(const State& state, Ledger& ledger) const {
+  for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+    if (!is_alive(state, b) || !is_rigid(state, b)) continue;
+    if (!state.tells_of(b)) {  // the same entries all the same
       for (const char* entry : {ledger_entry::kinetic, ledger_entry::potential})
         ledger.energy.try_emplace(entry, 0.0);
       continue;
     }
-    const BodyMotion m = motion_of(world, b);
+    const BodyMotion m = motion_of(state, b);
     ledger.momentum += m.mass * m.velocity;
     ledger.angular_momentum += m.L + m.mass * cross(m.centre, m.velocity);
-    ledger.energy[ledger_entry::kinetic] += kinetic_energy(world, b);
-    ledger.energy[ledger_entry::potential] += potential_energy(world, b);
+    ledger.energy[ledger_entry::kinetic] += kinetic_energy(state, b);
+    ledger.energy[ledger_entry::potential] += potential_energy(state, b);
   }
-  if (world.is_first()) ledger.angular_momentum += world.booked.undelivered_spin;
+  if (state.is_first()) ledger.angular_momentum += state.booked.undelivered_spin;
 }
 
 }  // namespace

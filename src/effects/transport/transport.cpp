@@ -13,8 +13,8 @@ class Transport : public Effect {
  public:
   explicit Transport(const Scene& scene)
       : numbers_(liquid::numbers_of(scene)), kernels_(liquid::pair_kernels(scene)) {}
-  void drift(World& world, double dt) override { set_shift(world, dt); }
-  void state(World& world) override { set_transport_forces(world, numbers_, kernels_); }
+  void drift(State& state, double dt) override { set_shift(state, dt); }
+  void state(State& state) override { set_transport_forces(state, numbers_, kernels_); }
 
  private:
   liquid::SceneNumbers numbers_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "liquids/scene_numbers.hpp"
-#include "world/world.hpp"
+#include "state/state.hpp"
 
 /// Transport velocity, the scene's choice for vortical flow without free surface [Adami, Hu, Adams 2013].
 /// Particles move with v + dt/2 (background force)/m, so that they stay even. The momentum that the
@@ -13,8 +13,8 @@ namespace tripoint::transport {
 /// the pressure becomes p_i + s V0/S0 sum W (p_j - p_i) [Pa], summed over liquid neighbours. With zeta =
 /// scene.sound_damping, the numerical bulk viscosity is q = -zeta rho0 c h div v [Pa]. @pre the pressure is
 /// that of each particle's own density
-void set_transport_forces(World&, const liquid::SceneNumbers&, const PairKernels&);
+void set_transport_forces(State&, const liquid::SceneNumbers&, const PairKernels&);
 /// w = dt/2 (background force)/m of liquids, for the step that begins [m/s].
-void set_shift(World&, double dt);
+void set_shift(State&, double dt);
 
 }  // namespace tripoint::transport

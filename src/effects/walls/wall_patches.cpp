@@ -14,10 +14,10 @@ namespace {
 constexpr int fixed_frame = -1;
 
 /// Frame that each body moves with: all that is fixed moves as one, each driven body by itself.
-std::vector<int> frames_of(const World& world) {
-  std::vector<int> frames(world.bodies.size());
+std::vector<int> frames_of(const State& state) {
+  std::vector<int> frames(state.bodies.size());
   for (std::size_t b = 0; b < frames.size(); ++b)
-    frames[b] = world.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed) ? fixed_frame
+    frames[b] = state.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed) ? fixed_frame
                                                                                        : static_cast<int>(b);
   return frames;
 }
@@ -37,22 +37,22 @@ struct Share {
 /// Copies take the owner's number, since the owner alone sees all neighbours. @param by_id a number for each
 /// particle
 template <class T>
-void hand_to_copies(const World& world, std::vector<T>& by_id) {
-  if (!world.halo) return;
-  std::vector<double> numbers(world.particles.size());  // where nothing is jittered there are none
+void hand_to_copies(const State& state, std::vector<T>& by_id) {
+  if (!state.halo) return;
+  std::vector<double> numbers(state.particles.size());  // where nothing is jittered there are none
   std::ranges::copy(by_id, numbers.begin());
-  world.halo->refresh(numbers, 1);
+  state.halo->refresh(numbers, 1);
   for (std::size_t id = 0; id < by_id.size(); ++id) by_id[id] = static_cast<T>(numbers[id]);
 }
 
 /// Gives walls that were here before their known values, by id. @return of each id, 1 where something is
 /// known
-std::vector<char> WallPatches::recall_exposed(const World& world) {
-  std::vector<char> known(world.particles.size(), 0);
+std::vector<char> WallPatches::recall_exposed(const State& state) {
+  std::vector<char> known(state.particles.size(), 0);
   at_face_.resize(known.size());
-  if (liquid::has_laid_walls(world.scene)) excess_.assign(known.size(), 0.0);
-  if (!world.halo || exposures_.empty()) return known;
-  const std::span<const int> number = world.halo->numbers();
+  if (liquid::has_laid_walls(state.scene)) excess_.assign(known.size(), 0.0);
+  if (!state.halo || exposures_.empty()) return known;
+  const std::span<const int> number = state.halo->numbers();
   for (std::size_t id = 0; id < known.size(); ++id) {
     const auto found = exposures_.find(number[id]);
     if (found == exposures_.end()) continue;
@@ -64,14 +64,14 @@ std::vector<char> WallPatches::recall_exposed(const World& world) {
 }
 
 /// Copies take what owners have found, and all is kept for when particles change hands.
-void WallPatches::share_exposed(const World& world) {
-  if (!world.halo) return;
-  hand_to_copies(world, at_face_);
-  hand_to_copies(world, excess_);
-  const auto id = world.particles[field::id];
-  const auto group = world.particles[field::group];
-  const std::span<const int> number = world.halo->numbers();
-  for (std::size_t i = 0; i < world.particles.size(); ++i) {
+void WallPatches::share_exposed(const State& state) {
+  if (!state.halo) return;
+  hand_to_copies(state, at_face_);
+  hand_to_copies(state, excess_);
+  const auto id = state.particles[field::id];
+  const auto group = state.particles[field::group];
+  const std::span<const int> number = state.halo->numbers();
+  for (std::size_t i = 0; i < state.particles.size(); ++i) {
     const auto one = static_cast<std::size_t>(id[i]);
     if (group[i] == wall_group)
       exposures_[number[one]] = {at_face_[one], excess_.empty() ? 0.0 : excess_[one]};
@@ -81,27 +81,27 @@ void WallPatches::share_exposed(const World& world) {
 /// Which particles lie at a face: those whose number density can in part be other than wall. And what jitter
 /// adds to the part that is fixed wall. Behind the face, where no velocity is mirrored and nothing jittered,
 /// no step reads the values of a wall.
-void WallPatches::find_exposed(World& world, const liquid::SceneNumbers& n, const PairKernels& kernels) {
-  const Particles& p = world.particles;
+void WallPatches::find_exposed(State& state, const liquid::SceneNumbers& n, const PairKernels& kernels) {
+  const Particles& p = state.particles;
   const auto group = p[field::group];
   const auto body = p[field::body], source = p[field::source], id = p[field::id];
   const auto x = positions(p);
-  const std::vector<int> frames = frames_of(world);
+  const std::vector<int> frames = frames_of(state);
   const auto frame_of = [&](std::size_t row) { return frames[static_cast<std::size_t>(body[row])]; };
-  const double dx = world.scene.spacing, full = n.lattice_density / std::pow(dx, 3);
-  const bool jittered = liquid::has_laid_walls(world.scene);
-  const std::vector<char> known = recall_exposed(world);
-  world.unread.assign(jittered ? 0 : p.size(), 0);
+  const double dx = state.scene.spacing, full = n.lattice_density / std::pow(dx, 3);
+  const bool jittered = liquid::has_laid_walls(state.scene);
+  const std::vector<char> known = recall_exposed(state);
+  state.unread.assign(jittered ? 0 : p.size(), 0);
   const auto stick = p[field::stick];
-  const bool drags = liquid::all_drag(world.scene);
-#pragma omp parallel for schedule(static) num_threads(world.threads)
+  const bool drags = liquid::all_drag(state.scene);
+#pragma omp parallel for schedule(static) num_threads(state.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
-    if (group[i] != wall_group || known[static_cast<std::size_t>(id[i])] || !world.owns(i)) continue;
+    if (group[i] != wall_group || known[static_cast<std::size_t>(id[i])] || !state.owns(i)) continue;
     std::vector<Share> shares;
-    for (const Entry e : world.neighbours->of(i)) {
+    for (const Entry e : state.neighbours->of(i)) {
       const std::size_t j = e.row();
       if (j == i || group[j] != wall_group || frame_of(i) != frame_of(j)) continue;
-      const Vec3 away = (x.at(j) - x.at(i)) + world.neighbours->shift(e.image());
+      const Vec3 away = (x.at(j) - x.at(i)) + state.neighbours->shift(e.image());
       const double as_it_is = kernels.wendland.value(norm(away));
       if (as_it_is > 0.0)
         shares.push_back(
@@ -119,22 +119,22 @@ void WallPatches::find_exposed(World& world, const liquid::SceneNumbers& n, cons
     if (jittered && frame_of(i) == fixed_frame)
       excess_[static_cast<std::size_t>(id[i])] = liquid::to_a_millionth((wall - from_lattice) / full);
   }
-  share_exposed(world);
+  share_exposed(state);
   if (jittered) return;
   for (std::size_t i = 0; i < p.size(); ++i)
     if (const auto one = static_cast<std::size_t>(id[i]); group[i] == wall_group)
-      world.unread[one] = at_face_[one] == 0 && !drags && stick[i] == 0.0 ? 1 : 0;
+      state.unread[one] = at_face_[one] == 0 && !drags && stick[i] == 0.0 ? 1 : 0;
 }
 
 /// The faces of fixed walls, or of driven ones, with their patches.
-void WallPatches::add_faces(const World& world, bool fixed) {
-  const Particles& p = world.particles;
+void WallPatches::add_faces(const State& state, bool fixed) {
+  const Particles& p = state.particles;
   const auto group = p[field::group];
   const auto body = p[field::body], id = p[field::id];
   const auto x = positions(p);
-  const std::vector<int> frames = frames_of(world);
+  const std::vector<int> frames = frames_of(state);
   const auto frame_of = [&](std::size_t row) { return frames[static_cast<std::size_t>(body[row])]; };
-  const double radius = patch_radius * world.scene.spacing;
+  const double radius = patch_radius * state.scene.spacing;
   place_.resize(p.size(), none);
   const std::size_t old = face_.size();
   for (std::size_t i = 0; i < p.awake(); ++i) {
@@ -147,20 +147,20 @@ void WallPatches::add_faces(const World& world, bool fixed) {
   for (std::size_t k = old; k < face_.size(); ++k) {
     const std::size_t i = p.row(face_[k]);
     patch_.push_back(static_cast<std::uint32_t>(k));
-    for (const Entry e : world.neighbours->of(i)) {
+    for (const Entry e : state.neighbours->of(i)) {
       const std::size_t j = e.row();
       if (group[j] != wall_group || j == i || frame_of(i) != frame_of(j) ||
           at_face_[static_cast<std::size_t>(id[j])] == 0)
         continue;
-      if (norm((x.at(j) - x.at(i)) + world.neighbours->shift(e.image())) < radius)
+      if (norm((x.at(j) - x.at(i)) + state.neighbours->shift(e.image())) < radius)
         patch_.push_back(place_[static_cast<std::size_t>(id[j])]);
     }
     start_.push_back(patch_.size());
   }
 }
 
-void WallPatches::find_rows(const World& world) {
-  const Particles& p = world.particles;
+void WallPatches::find_rows(const State& state) {
+  const Particles& p = state.particles;
   const auto group = p[field::group];
   const auto id = p[field::id];
   hidden_.clear();
@@ -179,39 +179,39 @@ void WallPatches::find_rows(const World& world) {
 }
 
 /// Fixed walls keep their faces and patches from one whole list to the next.
-void WallPatches::find_faces(World& world, const liquid::SceneNumbers& n, const PairKernels& kernels) {
-  if (known_faces_ == world.neighbours->rebuilds()) return;
-  known_faces_ = world.neighbours->rebuilds();
-  if (at_face_.empty()) find_exposed(world, n, kernels);
-  if (known_whole_ != world.neighbours->whole_lists()) {
-    known_whole_ = world.neighbours->whole_lists();
+void WallPatches::find_faces(State& state, const liquid::SceneNumbers& n, const PairKernels& kernels) {
+  if (known_faces_ == state.neighbours->rebuilds()) return;
+  known_faces_ = state.neighbours->rebuilds();
+  if (at_face_.empty()) find_exposed(state, n, kernels);
+  if (known_whole_ != state.neighbours->whole_lists()) {
+    known_whole_ = state.neighbours->whole_lists();
     face_.clear();
     start_.assign(1, 0);
     patch_.clear();
     place_.clear();
-    add_faces(world, true);
+    add_faces(state, true);
     fixed_faces_ = face_.size();
   } else {
     face_.resize(fixed_faces_);
     start_.resize(fixed_faces_ + 1);
     patch_.resize(start_.back());
   }
-  add_faces(world, false);
+  add_faces(state, false);
   for (auto* column : {&density_, &mean_, &mean_of_mean_, &part_, &part_again_, &share_})
     column->resize(face_.size());
   members_.clear();
   for (std::size_t k = 0; k < face_.size(); ++k)
     members_.push_back(static_cast<double>(start_[k + 1] - start_[k]));
-  hand_to_copied_faces(world, members_);
-  find_rows(world);
+  hand_to_copied_faces(state, members_);
+  find_rows(state);
 }
 
 /// The same for one number a face.
-void WallPatches::hand_to_copied_faces(const World& world, std::vector<double>& of) {
-  if (!world.halo) return;
-  handed_.resize(world.particles.size());  // values off the faces are handed on too, and nobody reads them
+void WallPatches::hand_to_copied_faces(const State& state, std::vector<double>& of) {
+  if (!state.halo) return;
+  handed_.resize(state.particles.size());  // values off the faces are handed on too, and nobody reads them
   for (std::size_t k = 0; k < face_.size(); ++k) handed_[face_[k]] = of[k];
-  world.halo->refresh(handed_, 1);
+  state.halo->refresh(handed_, 1);
   for (std::size_t k = 0; k < face_.size(); ++k) of[k] = handed_[face_[k]];
 }
 
@@ -228,9 +228,9 @@ void WallPatches::sum_patches(const std::vector<double>& of, int threads, Give g
   }
 }
 
-void WallPatches::average_density(World& world, const liquid::SceneNumbers& n, const PairKernels& kernels) {
-  find_faces(world, n, kernels);
-  Particles& p = world.particles;
+void WallPatches::average_density(State& state, const liquid::SceneNumbers& n, const PairKernels& kernels) {
+  find_faces(state, n, kernels);
+  Particles& p = state.particles;
   const auto rho = p[field::density], rest = p[field::rest_density], m = p[field::mass], V = p[field::volume];
   for (const std::uint32_t i : hidden_) {
     rho[i] = rest[i];
@@ -238,10 +238,10 @@ void WallPatches::average_density(World& world, const liquid::SceneNumbers& n, c
   }
   for (std::size_t a = 0; a < awake_.size(); ++a)
     density_[awake_[a]] = rho[row_[a]] / rest[row_[a]] - (excess_.empty() ? 0.0 : excess_[face_[awake_[a]]]);
-  sum_patches(density_, world.threads, [&](std::size_t k, double sum) { mean_[k] = sum / members_[k]; });
-  hand_to_copied_faces(world, mean_);
-  sum_patches(mean_, world.threads, [&](std::size_t k, double sum) { mean_of_mean_[k] = sum / members_[k]; });
-  hand_to_copied_faces(world, mean_of_mean_);
+  sum_patches(density_, state.threads, [&](std::size_t k, double sum) { mean_[k] = sum / members_[k]; });
+  hand_to_copied_faces(state, mean_);
+  sum_patches(mean_, state.threads, [&](std::size_t k, double sum) { mean_of_mean_[k] = sum / members_[k]; });
+  hand_to_copied_faces(state, mean_of_mean_);
   for (std::size_t a = 0; a < awake_.size(); ++a) {
     const std::size_t i = row_[a];
     rho[i] = mean_of_mean_[awake_[a]] * rest[i];
@@ -250,16 +250,16 @@ void WallPatches::average_density(World& world, const liquid::SceneNumbers& n, c
 }
 
 /// The transpose of the mean, twice: a particle in my patch has me in its own.
-void WallPatches::hand_down_shares(World& world) {
-  const auto share = world.particles[field::pressure_share];
+void WallPatches::hand_down_shares(State& state) {
+  const auto share = state.particles[field::pressure_share];
   for (std::size_t a = 0; a < awake_.size(); ++a) {
     const std::size_t k = awake_[a];
     part_[k] = share[row_[a]] / members_[k];
   }
-  sum_patches(part_, world.threads, [&](std::size_t k, double sum) { part_again_[k] = sum / members_[k]; });
-  hand_to_copied_faces(world, part_again_);
-  sum_patches(part_again_, world.threads, [&](std::size_t k, double sum) { share_[k] = sum; });
-  hand_to_copied_faces(world, share_);
+  sum_patches(part_, state.threads, [&](std::size_t k, double sum) { part_again_[k] = sum / members_[k]; });
+  hand_to_copied_faces(state, part_again_);
+  sum_patches(part_again_, state.threads, [&](std::size_t k, double sum) { share_[k] = sum; });
+  hand_to_copied_faces(state, share_);
   for (std::size_t a = 0; a < awake_.size(); ++a) share[row_[a]] = share_[awake_[a]];
 }
 

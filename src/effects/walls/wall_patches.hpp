@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "liquids/scene_numbers.hpp"
-#include "world/world.hpp"
+#include "state/state.hpp"
 
 namespace tripoint::walls {
 
@@ -27,10 +27,10 @@ class WallPatches {
   /// density. The mean is A A rho. A averages over the particles of the face within 1.75 spacings that move
   /// as one with it. Where the scene jitters fixed walls, the part of rho that is wall is first put back to
   /// that of the wall's lattice.
-  void average_density(World&, const liquid::SceneNumbers&, const PairKernels&);
+  void average_density(State&, const liquid::SceneNumbers&, const PairKernels&);
   /// Hands the pressure shares of the patches to their particles, by the transpose of average_density(). The
   /// force is the gradient of the energy of compression at the mean density.
-  void hand_down_shares(World&);
+  void hand_down_shares(State&);
   /// Groups have changed: look again which particles are walls.
   void clear() {
     renumber();
@@ -49,13 +49,13 @@ class WallPatches {
     char at_face;
     double excess;
   };
-  void find_faces(World&, const liquid::SceneNumbers&, const PairKernels&);
-  void find_exposed(World&, const liquid::SceneNumbers&, const PairKernels&);
-  [[nodiscard]] std::vector<char> recall_exposed(const World&);
-  void share_exposed(const World&);
-  void add_faces(const World&, bool fixed);
-  void find_rows(const World&);
-  void hand_to_copied_faces(const World&, std::vector<double>& of);
+  void find_faces(State&, const liquid::SceneNumbers&, const PairKernels&);
+  void find_exposed(State&, const liquid::SceneNumbers&, const PairKernels&);
+  [[nodiscard]] std::vector<char> recall_exposed(const State&);
+  void share_exposed(const State&);
+  void add_faces(const State&, bool fixed);
+  void find_rows(const State&);
+  void hand_to_copied_faces(const State&, std::vector<double>& of);
   template <class Give>
   void sum_patches(const std::vector<double>& of, int threads, Give give) const;
 

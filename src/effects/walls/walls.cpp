@@ -14,13 +14,13 @@ class Walls : public Effect {
  public:
   explicit Walls(const Scene& scene)
       : numbers_(liquid::numbers_of(scene)), kernels_(liquid::pair_kernels(scene)) {}
-  void densities(World& world) override { patches_.average_density(world, numbers_, kernels_); }
-  void after_states(World& world) override { patches_.hand_down_shares(world); }
-  void adopt(World& world) override {
-    if (liquid::groups_changed(world)) patches_.clear();
+  void densities(State& state) override { patches_.average_density(state, numbers_, kernels_); }
+  void after_states(State& state) override { patches_.hand_down_shares(state); }
+  void adopt(State& state) override {
+    if (liquid::groups_changed(state)) patches_.clear();
   }
-  void happen(World&, const Happening&) override { patches_.clear(); }
-  void renumber(World&) override { patches_.renumber(); }
+  void happen(State&, const Happening&) override { patches_.clear(); }
+  void renumber(State&) override { patches_.renumber(); }
   [[nodiscard]] PairWork pair_work(const Scene& scene) const override {
     PairWork work;
     work.awake_around = reach_of_patches * scene.spacing;

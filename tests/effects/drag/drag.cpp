@@ -18,9 +18,9 @@ class LinearDrag : public Effect {
   explicit LinearDrag(const Scene& scene) : as_printed_(scene.mode_of(term::drag) == Mode::paper) {
     for (const Material& m : scene.materials) coefficient_.push_back(value_of(m.values, "drag"));
   }
-  void kick(World&, double dt) override { half_step_ = dt; }
-  void bonds(World&) override;
-  [[nodiscard]] TimeStepBound max_dt(const World&) const override;
+  void kick(State&, double dt) override { half_step_ = dt; }
+  void bonds(State&) override;
+  [[nodiscard]] TimeStepBound max_dt(const State&) const override;
 
  private:
   std::vector<double> coefficient_;  ///< of each material [1/s]
@@ -29,11 +29,11 @@ class LinearDrag : public Effect {
 };
 
 /// The velocity at the end of the step is v/(1 + c dt/2) of that half a step before.
-void LinearDrag::bonds(World& world) {
-  const auto F = triple(world.particles, force_x, force_y, force_z);
-  const auto v = velocities(std::as_const(world.particles));
-  const auto m = world.particles[field::mass];
-  const auto material = world.particles[field::material];
+void LinearDrag::bonds(State& state) {
+  const auto F = triple(state.particles, force_x, force_y, force_z);
+  const auto v = velocities(std::as_const(state.particles));
+  const auto m = state.particles[field::mass];
+  const auto material = state.particles[field::material];
   const double later = as_printed_ ? 0.0 : half_step_;
   for (std::size_t i = 0; i < m.size(); ++i) {
     const double c = coefficient_[static_cast<std::size_t>(material[i])];
@@ -42,7 +42,7 @@ void LinearDrag::bonds(World& world) {
 }
 
 /// c dt <= 1: half of where a step would turn the velocity round.
-TimeStepBound LinearDrag::max_dt(const World&) const {
+TimeStepBound LinearDrag::max_dt(const State&) const {
   TimeStepBound bound;
   for (const double c : coefficient_)
     if (c > 0.0) tighten(bound, 1.0 / c, "drag");

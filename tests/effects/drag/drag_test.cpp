@@ -44,7 +44,7 @@ Simulation start(const Case& value) {
   return {scene, sample(scene)};
 }
 
-double way_of(const Simulation& s) { return s.world().bodies[field::body_centre][0].x; }
+double way_of(const Simulation& s) { return s.state().bodies[field::body_centre][0].x; }
 
 /// Greatest difference between the way of the ball and the formula that the case states [m].
 double error_of(const Case& value) {
@@ -183,9 +183,9 @@ TEST(AddedEffect, IsRefusedAColumnThatItHasNotDeclared) {
   const Simulation s(scene, sample(scene));
   const std::vector<Active> effects = active_effects(scene);
   const Active& drag = *std::ranges::find(effects, "drag", &Active::name);
-  const Particles& p = s.world().particles;
+  const Particles& p = s.state().particles;
   {
-    const DeclaredView view(s.world(), drag);
+    const DeclaredView view(s.state(), drag);
     EXPECT_EQ(p[field::velocity_x].size(), p.size());
     try {
       static_cast<void>(p[field::position_x]);

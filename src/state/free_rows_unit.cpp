@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "world/free_rows.hpp"
+#include "state/free_rows.hpp"
 
 /// Compiled once for each vector unit, and once for any machine.
 namespace tripoint {

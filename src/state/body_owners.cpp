@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "world/body_owners.hpp"
+#include "state/body_owners.hpp"
 
 #include <algorithm>
 #include <cstdint>
 #include <utility>
 
 #include "scene/scene.hpp"
-#include "world/body_table.hpp"
+#include "state/body_table.hpp"
 
 namespace tripoint {
 namespace {
 
-bool can_move(const World& world, std::size_t b) {
-  return is_alive(world, b) && is_rigid(world, b) &&
-         world.bodies[field::body_motion][b] != static_cast<int>(Motion::fixed);
+bool can_move(const State& state, std::size_t b) {
+  return is_alive(state, b) && is_rigid(state, b) &&
+         state.bodies[field::body_motion][b] != static_cast<int>(Motion::fixed);
 }
 
 /// Calls visit(value) for each column that the motion of a rigid body changes.
@@ -54,15 +54,15 @@ std::size_t BodyOwners::owner(std::size_t body) const {
 }
 
 /// Body by body, in the order in which they come in memory.
-void BodyOwners::find_members(const World& world) {
-  const auto body_of = [&, body = world.particles[field::body]](std::uint32_t id) {
-    return body[world.particles.row(id)];
+void BodyOwners::find_members(const State& state) {
+  const auto body_of = [&, body = state.particles[field::body]](std::uint32_t id) {
+    return body[state.particles.row(id)];
   };
-  std::vector<std::uint32_t> own, counts(world.bodies.size()), ends(world.bodies.size());
+  std::vector<std::uint32_t> own, counts(state.bodies.size()), ends(state.bodies.size());
   Bodies order;
-  for (std::uint32_t id = 0; id < world.halo->owned(); ++id) {
+  for (std::uint32_t id = 0; id < state.halo->owned(); ++id) {
     const int b = body_of(id);
-    if (b < 0 || !can_move(world, static_cast<std::size_t>(b))) continue;
+    if (b < 0 || !can_move(state, static_cast<std::size_t>(b))) continue;
     own.push_back(id);
     if (counts[static_cast<std::size_t>(b)]++ == 0) order.push_back(static_cast<std::size_t>(b));
   }
@@ -73,22 +73,22 @@ void BodyOwners::find_members(const World& world) {
   }
   members_.resize(own.size());
   for (const std::uint32_t id : own) members_[ends[static_cast<std::size_t>(body_of(id))]++] = id;
-  has_own_.assign(world.bodies.size(), 0);
+  has_own_.assign(state.bodies.size(), 0);
   for (const std::size_t b : order) {
     has_own_[b] = 1;
     const auto end = members_.begin() + ends[b];
     std::ranges::sort(end - counts[b], end, {},
-                      [number = world.halo->numbers()](std::uint32_t id) { return number[id]; });
+                      [number = state.halo->numbers()](std::uint32_t id) { return number[id]; });
   }
 }
 
-void BodyOwners::find_kept(const World& world) {
+void BodyOwners::find_kept(const State& state) {
   std::vector<char> is_near = has_own_;
-  const auto body = world.particles[field::body];
-  for (std::size_t id = world.halo->owned(); id < world.particles.size(); ++id)
-    if (const int b = body[world.particles.row(id)]; b >= 0) is_near[static_cast<std::size_t>(b)] = 1;
+  const auto body = state.particles[field::body];
+  for (std::size_t id = state.halo->owned(); id < state.particles.size(); ++id)
+    if (const int b = body[state.particles.row(id)]; b >= 0) is_near[static_cast<std::size_t>(b)] = 1;
   for (std::size_t b = 0; b < is_near.size(); ++b) {
-    if (!can_move(world, b) || !(is_near[b] || is_here(b))) continue;
+    if (!can_move(state, b) || !(is_near[b] || is_here(b))) continue;
     kept_.push_back(b);
     asked_[owner(b)].push_back(b);
   }
@@ -96,7 +96,7 @@ void BodyOwners::find_kept(const World& world) {
 
 /// Owners hear who keeps which of their bodies, and who has members of them. @return bodies that a process
 /// has begun to keep
-std::vector<BodyOwners::Bodies> BodyOwners::ask(const World& world, const std::vector<Bodies>& begun) {
+std::vector<BodyOwners::Bodies> BodyOwners::ask(const State& state, const std::vector<Bodies>& begun) {
   std::vector<std::vector<double>> questions(asked_.size());
   for (std::size_t process = 0; process < asked_.size(); ++process)
     for (const std::size_t b : asked_[process]) {
@@ -104,7 +104,7 @@ std::vector<BodyOwners::Bodies> BodyOwners::ask(const World& world, const std::v
       const auto question = {static_cast<double>(b), static_cast<double>(has_own_[b]), is_new ? 1.0 : 0.0};
       questions[process].insert(questions[process].end(), question);
     }
-  const std::vector<std::vector<double>> asked_here = world.halo->exchange(questions);
+  const std::vector<std::vector<double>> asked_here = state.halo->exchange(questions);
   std::vector<Bodies> begun_there(keepers_.size());
   for (std::size_t from = 0; from < keepers_.size(); ++from)
     for (std::size_t k = 0; k < asked_here[from].size(); k += 3) {
@@ -117,45 +117,45 @@ std::vector<BodyOwners::Bodies> BodyOwners::ask(const World& world, const std::v
 }
 
 /// As the scene is first shared out, every process knows all bodies.
-void BodyOwners::share(World& world) {
+void BodyOwners::share(State& state) {
   const BodyOwners before = std::exchange(*this, {});
-  const Halo& halo = *world.halo;
-  if (halo.processes() == 1 || world.bodies.size() <= halo.owners_above()) return;
+  const Halo& halo = *state.halo;
+  if (halo.processes() == 1 || state.bodies.size() <= halo.owners_above()) return;
   here_ = halo.process();
   asked_.resize(halo.processes());
   keepers_.resize(halo.processes());
-  is_alone_.resize(world.bodies.size());
-  holders_.resize(world.bodies.size());
-  find_members(world);
-  find_kept(world);
+  is_alone_.resize(state.bodies.size());
+  holders_.resize(state.bodies.size());
+  find_members(state);
+  find_kept(state);
   std::vector<Bodies> begun(asked_.size());
   for (const std::size_t b : kept_)
     if (before.any() && !std::ranges::binary_search(before.kept_, b)) begun[owner(b)].push_back(b);
-  const std::vector<Bodies> begun_there = ask(world, begun);
+  const std::vector<Bodies> begun_there = ask(state, begun);
   tell(
-      world, keepers_, asked_, 1,
+      state, keepers_, asked_, 1,
       [&](std::size_t b, std::vector<double>& to) { to.push_back(holders_[b] == 1 ? 1.0 : 0.0); },
       [&](std::size_t b, const double* from) { is_alone_[b] = *from > 0.0 ? 1 : 0; });
   tell(
-      world, begun_there, begun, numbers_of_motion,
-      [&](std::size_t b, std::vector<double>& to) { each_of_motion(world.bodies, b, PutMotion{to}); },
-      [&](std::size_t b, const double* from) { each_of_motion(world.bodies, b, TakeMotion{from}); });
+      state, begun_there, begun, numbers_of_motion,
+      [&](std::size_t b, std::vector<double>& to) { each_of_motion(state.bodies, b, PutMotion{to}); },
+      [&](std::size_t b, const double* from) { each_of_motion(state.bodies, b, TakeMotion{from}); });
 }
 
-void BodyOwners::complete(World& world) const {
+void BodyOwners::complete(State& state) const {
   if (!any()) return;
   std::vector<double> own;
   for (const std::size_t b : kept_) {
     if (!is_here(b)) continue;
     own.push_back(static_cast<double>(b));
-    each_of_motion(world.bodies, b, PutMotion{own});
+    each_of_motion(state.bodies, b, PutMotion{own});
   }
-  const std::vector<double> all = world.halo->all_of(own);
+  const std::vector<double> all = state.halo->all_of(own);
   for (std::size_t k = 0; k < all.size(); k += 1 + numbers_of_motion)
-    each_of_motion(world.bodies, static_cast<std::size_t>(all[k]), TakeMotion{&all[k + 1]});
+    each_of_motion(state.bodies, static_cast<std::size_t>(all[k]), TakeMotion{&all[k + 1]});
 }
 
-std::vector<double> BodyOwners::to_owners(const World& world, const std::vector<double>& records,
+std::vector<double> BodyOwners::to_owners(const State& state, const std::vector<double>& records,
                                           std::size_t width) const {
   std::vector<std::vector<double>> to(keepers_.size());
   for (auto record = records.begin(); record != records.end(); record += static_cast<std::ptrdiff_t>(width)) {
@@ -163,25 +163,25 @@ std::vector<double> BodyOwners::to_owners(const World& world, const std::vector<
     there.insert(there.end(), record, record + static_cast<std::ptrdiff_t>(width));
   }
   std::vector<double> here;
-  for (const std::vector<double>& from : world.halo->exchange(to))
+  for (const std::vector<double>& from : state.halo->exchange(to))
     here.insert(here.end(), from.begin(), from.end());
   return here;
 }
 
-void BodyOwners::to_keepers(const World& world, std::size_t width, const Put& put, const Take& take) const {
-  tell(world, keepers_, asked_, width, put, take);
+void BodyOwners::to_keepers(const State& state, std::size_t width, const Put& put, const Take& take) const {
+  tell(state, keepers_, asked_, width, put, take);
 }
 
 /// @param there for each process bodies of which it is told   @param here for each process bodies of which it
 /// tells this one
-void BodyOwners::tell(const World& world, const std::vector<Bodies>& there, const std::vector<Bodies>& here,
+void BodyOwners::tell(const State& state, const std::vector<Bodies>& there, const std::vector<Bodies>& here,
                       std::size_t width, const Put& put, const Take& take) {
   std::vector<std::vector<double>> to(there.size());
   for (std::size_t process = 0; process < to.size(); ++process) {
     to[process].reserve(there[process].size() * width);
     for (const std::size_t b : there[process]) put(b, to[process]);
   }
-  const std::vector<std::vector<double>> from = world.halo->exchange(to);
+  const std::vector<std::vector<double>> from = state.halo->exchange(to);
   for (std::size_t process = 0; process < from.size(); ++process)
     for (std::size_t k = 0; k < here[process].size(); ++k) take(here[process][k], &from[process][k * width]);
 }

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "core/machine.hpp"
-#include "world/world.hpp"
+#include "state/state.hpp"
 
 namespace tripoint {
 

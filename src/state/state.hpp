@@ -11,12 +11,12 @@
 #include "particles/neighbours.hpp"
 #include "particles/particles.hpp"
 #include "scene/scene.hpp"
-#include "world/account.hpp"
-#include "world/body_owners.hpp"
-#include "world/force.hpp"
-#include "world/guarded.hpp"
-#include "world/ledger.hpp"
-#include "world/step_numbers.hpp"
+#include "state/account.hpp"
+#include "state/body_owners.hpp"
+#include "state/force.hpp"
+#include "state/guarded.hpp"
+#include "state/ledger.hpp"
+#include "state/step_numbers.hpp"
 
 namespace tripoint {
 
@@ -51,7 +51,7 @@ struct Rows {
 };
 
 /// All that a step changes, and the data that it works with.
-struct World {
+struct State {
   Scene scene;
   Particles particles;
   Columns bodies;                       ///< one row for each solid body that ever existed
@@ -122,7 +122,7 @@ struct World {
   }
 };
 
-inline Vec3 World::unwrapped(std::size_t row) const {
+inline Vec3 State::unwrapped(std::size_t row) const {
   Vec3 r = particles.position(row);
   if (!box.any()) return r;
   const Vec3 n = images(particles).at(row);

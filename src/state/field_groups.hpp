@@ -44,7 +44,7 @@ using List = FieldList;
 
 [[nodiscard]] inline List position() { return {field::position}; }
 [[nodiscard]] inline List velocity() { return {field::velocity}; }
-/// World::unwrapped(), beside the position; a scene without a periodic direction has none.
+/// State::unwrapped(), beside the position; a scene without a periodic direction has none.
 [[nodiscard]] inline List image() { return {field::image}; }
 [[nodiscard]] inline List shift() { return {field::shift}; }
 [[nodiscard]] inline List strain() { return {field::strain}; }

@@ -8,19 +8,19 @@
 
 namespace tripoint {
 
-struct World;
+struct State;
 
 /// Who keeps which body of a scene that processes share (decision 044). Few bodies are kept, that is moved,
 /// by every process. Of many each has an owner, found by a hash of its row: it is kept by its owner and by
 /// those that have members of it, copies too. Others have it as it was when the scene was shared out. All
-/// processes make every call that takes a World.
+/// processes make every call that takes a State.
 class BodyOwners {
  public:
   /// Finds who keeps what, and brings what is kept here up to date. To be called whenever particles have
   /// changed hands.
-  void share(World&);
+  void share(State&);
   /// Every process has all bodies as their owners have them.
-  void complete(World&) const;
+  void complete(State&) const;
 
   /// Whether bodies have owners; else every process keeps all.
   [[nodiscard]] bool any() const noexcept { return !keepers_.empty(); }
@@ -35,22 +35,22 @@ class BodyOwners {
   /// Brings records to the owners of bodies. @param records `width` numbers each, the second of which is the
   /// row of a body
   /// @return those about bodies that this process owns, one process after the other. @pre any()
-  [[nodiscard]] std::vector<double> to_owners(const World&, const std::vector<double>& records,
+  [[nodiscard]] std::vector<double> to_owners(const State&, const std::vector<double>& records,
                                               std::size_t width) const;
 
   using Put = std::function<void(std::size_t body, std::vector<double>& to)>;
   using Take = std::function<void(std::size_t body, const double* from)>;
   /// The owner puts numbers of each of its bodies, which those that keep it too take. @param width of them
   /// @pre any()
-  void to_keepers(const World&, std::size_t width, const Put&, const Take&) const;
+  void to_keepers(const State&, std::size_t width, const Put&, const Take&) const;
 
  private:
   using Bodies = std::vector<std::size_t>;
   [[nodiscard]] std::size_t owner(std::size_t body) const;
-  void find_members(const World&);
-  void find_kept(const World&);
-  [[nodiscard]] std::vector<Bodies> ask(const World&, const std::vector<Bodies>& begun);
-  static void tell(const World&, const std::vector<Bodies>& there, const std::vector<Bodies>& here,
+  void find_members(const State&);
+  void find_kept(const State&);
+  [[nodiscard]] std::vector<Bodies> ask(const State&, const std::vector<Bodies>& begun);
+  static void tell(const State&, const std::vector<Bodies>& there, const std::vector<Bodies>& here,
                    std::size_t width, const Put&, const Take&);
 
   std::size_t here_ = 0;  ///< this process

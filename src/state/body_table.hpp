@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "world/world.hpp"
+#include "state/state.hpp"
 
 /// The table of solid bodies, one row for each that ever existed: rigid ones move as one, deformable ones by
 /// their particles.
@@ -22,40 +22,40 @@ namespace tripoint {
 [[nodiscard]] bool can_have_deformable_bodies(const Scene&);
 
 /// Rows of the members of one body, in order of id.
-[[nodiscard]] std::vector<std::size_t> members(const World&, std::size_t body);
+[[nodiscard]] std::vector<std::size_t> members(const State&, std::size_t body);
 /// The same of every body.
-[[nodiscard]] std::vector<std::vector<std::size_t>> members_of_all(const World&);
-[[nodiscard]] inline bool is_alive(const World& world, std::size_t body) {
-  return world.bodies[field::body_alive][body] != 0;
+[[nodiscard]] std::vector<std::vector<std::size_t>> members_of_all(const State&);
+[[nodiscard]] inline bool is_alive(const State& state, std::size_t body) {
+  return state.bodies[field::body_alive][body] != 0;
 }
 /// Whether its particles move as one: a rigid body, or any that is fixed or prescribed.
-[[nodiscard]] inline bool is_rigid(const World& world, std::size_t body) {
-  return world.bodies[field::body_phase][body] == static_cast<int>(Phase::rigid);
+[[nodiscard]] inline bool is_rigid(const State& state, std::size_t body) {
+  return state.bodies[field::body_phase][body] == static_cast<int>(Phase::rigid);
 }
 
 /// Calls visit(body) for each one that this process keeps, alive or not, in order of rows.
 template <class Visit>
-void each_kept_body(const World& world, Visit visit) {
-  if (world.body_owners.any()) {
-    for (const std::size_t b : world.body_owners.kept()) visit(b);
+void each_kept_body(const State& state, Visit visit) {
+  if (state.body_owners.any()) {
+    for (const std::size_t b : state.body_owners.kept()) visit(b);
   } else {
-    for (std::size_t b = 0; b < world.bodies.size(); ++b) visit(b);
+    for (std::size_t b = 0; b < state.bodies.size(); ++b) visit(b);
   }
 }
 
 /// A new row, alive, free, with identity orientation and no members yet. @return its row
-std::size_t add_body(World&, std::string_view name, Phase phase);
+std::size_t add_body(State&, std::string_view name, Phase phase);
 /// One row for each solid body of the scene.
-void add_scene_bodies(World&);
+void add_scene_bodies(State&);
 /// Row of the body with this name. @throws InputError when there is none, or it is gone
-[[nodiscard]] std::size_t body_row(const World&, std::string_view name);
+[[nodiscard]] std::size_t body_row(const State&, std::string_view name);
 
 /// Tells of rows of particles whether they are members of rigid bodies; all others move by the forces on them
 /// alone. Valid until bodies are added or particles sorted anew.
 class RigidMembers {
  public:
-  explicit RigidMembers(const World& world) : body_(world.particles[field::body]) {
-    if (world.bodies.size() > 0) phase_ = world.bodies[field::body_phase];
+  explicit RigidMembers(const State& state) : body_(state.particles[field::body]) {
+    if (state.bodies.size() > 0) phase_ = state.bodies[field::body_phase];
     any_ = std::ranges::find(phase_, static_cast<int>(Phase::rigid)) != phase_.end();
   }
   [[nodiscard]] bool operator()(std::size_t row) const {
@@ -96,6 +96,6 @@ struct WholeMotion {
 /// @param place,velocity,mass of its members [m], [m/s], [kg]; none: all zero
 [[nodiscard]] WholeMotion whole_motion(std::span<const Vec3> place, std::span<const Vec3> velocity,
                                        const std::vector<double>& mass);
-[[nodiscard]] WholeMotion whole_motion(const World&, std::size_t body);
+[[nodiscard]] WholeMotion whole_motion(const State&, std::size_t body);
 
 }  // namespace tripoint

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "world/body_table.hpp"
+#include "state/body_table.hpp"
 
 #include <algorithm>
 
@@ -35,13 +35,13 @@ std::vector<FieldInfo> body_table_fields() {
 }
 
 std::vector<Bounded> body_table_bounds() {
-  const auto three = [](const World&) -> std::size_t { return 3; };  // phases; motions
-  const auto yes_or_no = [](const World&) -> std::size_t { return 2; };
+  const auto three = [](const State&) -> std::size_t { return 3; };  // phases; motions
+  const auto yes_or_no = [](const State&) -> std::size_t { return 2; };
   return {{field::body_phase, 0, three},
           {field::body_motion, 0, three},
           {field::body_alive, 0, yes_or_no},
-          {field::body_grip, 0, [](const World& w) { return w.scene.events.size() + 1; }},
-          {field::body_source, -1, [](const World& w) { return w.scene.bodies.size(); }}};
+          {field::body_grip, 0, [](const State& w) { return w.scene.events.size() + 1; }},
+          {field::body_source, -1, [](const State& w) { return w.scene.bodies.size(); }}};
 }
 
 bool can_have_bodies(const Scene& scene) {
@@ -52,28 +52,28 @@ bool can_have_bodies(const Scene& scene) {
 
 bool can_have_deformable_bodies(const Scene& scene) { return calls_for(scene, &EffectRule::deforms_bodies); }
 
-std::vector<std::size_t> members(const World& world, std::size_t body) {
+std::vector<std::size_t> members(const State& state, std::size_t body) {
   std::vector<std::size_t> rows;
-  const auto of = world.particles[field::body];
+  const auto of = state.particles[field::body];
   for (std::size_t id = 0; id < of.size(); ++id) {
-    const std::size_t i = world.particles.row(id);
+    const std::size_t i = state.particles.row(id);
     if (of[i] == static_cast<int>(body)) rows.push_back(i);
   }
   return rows;
 }
 
-std::vector<std::vector<std::size_t>> members_of_all(const World& world) {
-  std::vector<std::vector<std::size_t>> rows(world.bodies.size());
-  const auto of = world.particles[field::body];
+std::vector<std::vector<std::size_t>> members_of_all(const State& state) {
+  std::vector<std::vector<std::size_t>> rows(state.bodies.size());
+  const auto of = state.particles[field::body];
   for (std::size_t id = 0; id < of.size(); ++id) {
-    const std::size_t i = world.particles.row(id);
+    const std::size_t i = state.particles.row(id);
     if (of[i] >= 0) rows[static_cast<std::size_t>(of[i])].push_back(i);
   }
   return rows;
 }
 
-std::size_t add_body(World& world, std::string_view name, Phase phase) {
-  Columns& t = world.bodies;
+std::size_t add_body(State& state, std::string_view name, Phase phase) {
+  Columns& t = state.bodies;
   t.append_row();
   const std::size_t b = t.size() - 1;
   t[field::body_phase][b] = static_cast<int>(phase);
@@ -82,27 +82,27 @@ std::size_t add_body(World& world, std::string_view name, Phase phase) {
   t[field::body_turns][b] = {1.0, 1.0, 1.0};
   t[field::body_alive][b] = 1;
   t[field::body_source][b] = -1;
-  world.body_names.emplace_back(name);
+  state.body_names.emplace_back(name);
   return b;
 }
 
-void add_scene_bodies(World& world) {
-  for (std::size_t n = 0; n < world.scene.bodies.size(); ++n) {
-    const Body& body = world.scene.bodies[n];
+void add_scene_bodies(State& state) {
+  for (std::size_t n = 0; n < state.scene.bodies.size(); ++n) {
+    const Body& body = state.scene.bodies[n];
     if (body.phase == Phase::liquid) continue;
     const bool deformable = body.phase == Phase::elastic && body.motion == Motion::free;
-    const std::size_t b = add_body(world, body.name, deformable ? Phase::elastic : Phase::rigid);
-    world.bodies[field::body_source][b] = static_cast<int>(n);
-    world.bodies[field::body_motion][b] = static_cast<int>(body.motion);
+    const std::size_t b = add_body(state, body.name, deformable ? Phase::elastic : Phase::rigid);
+    state.bodies[field::body_source][b] = static_cast<int>(n);
+    state.bodies[field::body_motion][b] = static_cast<int>(body.motion);
   }
 }
 
-std::size_t body_row(const World& world, std::string_view name) {
-  const auto place = std::ranges::find(world.body_names, name);
-  if (place == world.body_names.end())
+std::size_t body_row(const State& state, std::string_view name) {
+  const auto place = std::ranges::find(state.body_names, name);
+  if (place == state.body_names.end())
     throw InputError("an event names the body " + std::string(name) + ", and no solid body has that name");
-  const auto row = static_cast<std::size_t>(place - world.body_names.begin());
-  if (!is_alive(world, row))
+  const auto row = static_cast<std::size_t>(place - state.body_names.begin());
+  if (!is_alive(state, row))
     throw InputError("an event names the body " + std::string(name) + ", which has been absorbed before");
   return row;
 }
@@ -129,13 +129,13 @@ WholeMotion whole_motion(std::span<const Vec3> place, std::span<const Vec3> velo
   return whole;
 }
 
-WholeMotion whole_motion(const World& world, std::size_t body) {
+WholeMotion whole_motion(const State& state, std::size_t body) {
   std::vector<Vec3> place, velocity;
   std::vector<double> mass;
-  for (const std::size_t i : members(world, body)) {
-    place.push_back(world.unwrapped(i));
-    velocity.push_back(world.particles.velocity(i));
-    mass.push_back(world.particles[field::mass][i]);
+  for (const std::size_t i : members(state, body)) {
+    place.push_back(state.unwrapped(i));
+    velocity.push_back(state.particles.velocity(i));
+    mass.push_back(state.particles[field::mass][i]);
   }
   return whole_motion(place, velocity, mass);
 }

@@ -8,7 +8,7 @@
 
 #include "core/lanes.hpp"
 #include "core/vec3.hpp"
-#include "world/force.hpp"
+#include "state/force.hpp"
 
 /// Loops over particles that forces alone move, (18). They are compiled for each vector unit; the bits are
 /// those of one particle after the other.
@@ -182,12 +182,12 @@ template <class Find>
   return most;
 }
 
-struct World;
+struct State;
 
 /// Those of the machine's widest vector unit. @param forces that the scene has, at most most_forces
 [[nodiscard]] FreeLoops free_loops(std::size_t forces);
 /// The scene's forces, masses and gravity. Valid until particles are sorted anew.
-[[nodiscard]] FreeRows free_rows(const World&);
+[[nodiscard]] FreeRows free_rows(const State&);
 
 /// Those of a vector unit. @param forces that the scene has, at most most_forces
 template <class ForUnit>

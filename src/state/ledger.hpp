@@ -7,7 +7,7 @@
 
 namespace tripoint {
 
-struct World;
+struct State;
 
 /// Quantities that a closed system conserves, summed in order of id, and its energy by entry.
 struct Ledger {
@@ -18,11 +18,11 @@ struct Ledger {
 };
 
 /// Keeps the energy stored at time 0, which later ledgers are compared with.
-void book_start(World&, const Ledger&);
+void book_start(State&, const Ledger&);
 
 /// Tells the work of all forces (model 8.11). For forces that store energy, it tells also the difference by
 /// finite steps between work and store.
 /// @param sum what effects tell of themselves
-void close_ledger(const World&, Ledger& sum);
+void close_ledger(const State&, Ledger& sum);
 
 }  // namespace tripoint

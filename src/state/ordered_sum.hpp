@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "world/world.hpp"
+#include "state/state.hpp"
 
 namespace tripoint {
 namespace detail {
@@ -55,20 +55,20 @@ namespace detail {
 /// add() works on every row, copies too, and of these its sums are left out: they are their owners'. Rows go
 /// by runs of one kind, so that the loop over each asks nothing of a row.
 template <std::size_t n, class Add>
-[[nodiscard]] std::array<double, n> ordered_sums_of_own(const World& world,
+[[nodiscard]] std::array<double, n> ordered_sums_of_own(const State& state,
                                                         std::vector<std::array<double, n>>& blocks, Add add) {
   constexpr std::size_t block = 1024;
-  const std::size_t count = world.particles.size();
+  const std::size_t count = state.particles.size();
   blocks.assign((count + block - 1) / block, {});
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (blocks.size() > 1)
+#pragma omp parallel for schedule(static) num_threads(state.threads) if (blocks.size() > 1)
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const std::size_t end = std::min(count, (b + 1) * block);
     std::array<double, n> own{}, of_copies{};
     const Add add_row = add;
     for (std::size_t i = b * block; i < end;) {
-      const bool owns = world.owns(i);
+      const bool owns = state.owns(i);
       std::size_t past = i + 1;
-      while (past < end && world.owns(past) == owns) ++past;
+      while (past < end && state.owns(past) == owns) ++past;
       add_rows(add_row, i, past, owns ? own : of_copies);
       i = past;
     }
@@ -81,14 +81,14 @@ template <std::size_t n, class Add>
 
 /// The same over the rows that move, with the bits of a sum over all: fixed rows must add zeros.
 template <std::size_t n, class Add>
-[[nodiscard]] std::array<double, n> ordered_sums(const World& world,
+[[nodiscard]] std::array<double, n> ordered_sums(const State& state,
                                                  std::vector<std::array<double, n>>& blocks, Add add) {
-  const Particles& p = world.particles;
-  if (!world.copies.empty()) return detail::ordered_sums_of_own(world, blocks, add);
-  if (p.moving() == p.size()) return ordered_sums(p.size(), world.threads, blocks, add);
-  const std::span<const std::uint32_t> first = world.neighbours->row_blocks();
+  const Particles& p = state.particles;
+  if (!state.copies.empty()) return detail::ordered_sums_of_own(state, blocks, add);
+  if (p.moving() == p.size()) return ordered_sums(p.size(), state.threads, blocks, add);
+  const std::span<const std::uint32_t> first = state.neighbours->row_blocks();
   blocks.assign(first.size() - 1, {});
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (blocks.size() > 1)
+#pragma omp parallel for schedule(static) num_threads(state.threads) if (blocks.size() > 1)
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     std::array<double, n> sum{};
     const Add add_row = add;
@@ -100,13 +100,13 @@ template <std::size_t n, class Add>
 
 /// The same over all rows, fixed ones too.
 template <std::size_t n, class Add>
-[[nodiscard]] std::array<double, n> ordered_sums_of_all(const World& world,
+[[nodiscard]] std::array<double, n> ordered_sums_of_all(const State& state,
                                                         std::vector<std::array<double, n>>& blocks, Add add) {
-  const Particles& p = world.particles;
-  if (!world.copies.empty()) return detail::ordered_sums_of_own(world, blocks, add);
-  if (p.moving() == p.size()) return ordered_sums(p.size(), world.threads, blocks, add);
-  const std::vector<std::uint32_t> rows = world.neighbours->rows_in_order(p);
-  return ordered_sums(rows.size(), world.threads, blocks,
+  const Particles& p = state.particles;
+  if (!state.copies.empty()) return detail::ordered_sums_of_own(state, blocks, add);
+  if (p.moving() == p.size()) return ordered_sums(p.size(), state.threads, blocks, add);
+  const std::vector<std::uint32_t> rows = state.neighbours->rows_in_order(p);
+  return ordered_sums(rows.size(), state.threads, blocks,
                       [&](std::size_t k, std::array<double, n>& sum) { add(rows[k], sum); });
 }
 

@@ -7,7 +7,7 @@
 
 namespace tripoint {
 
-struct World;
+struct State;
 
 /// Where a step writes a field, in the order of a step.
 enum class Written { drift, density, rates, kick };
@@ -31,7 +31,7 @@ struct Guarded {
 struct Bounded {
   Field<int> field;
   long least;
-  std::size_t (*end)(const World&);
+  std::size_t (*end)(const State&);
 };
 
 /// Role of a ledger entry for the guard of energy (step/guard.hpp). An entry for which no effect gives a role

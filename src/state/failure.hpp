@@ -6,17 +6,17 @@
 
 #include "core/errors.hpp"
 #include "scene/guard_name.hpp"
-#include "world/world.hpp"
+#include "state/state.hpp"
 
 /// How guards name what went wrong.
 namespace tripoint {
 
 /// "particle 7 of body "beam" is ...": who it is in the whole scene, and at which time.
-[[nodiscard]] Diverged failure_of(const World&, GuardName guard, std::size_t row, std::string_view field,
+[[nodiscard]] Diverged failure_of(const State&, GuardName guard, std::size_t row, std::string_view field,
                                   std::string_view stage, const std::string& what);
 
 /// @throws Diverged, always
-[[noreturn]] void fail(const World&, GuardName guard, std::size_t row, std::string_view field,
+[[noreturn]] void fail(const State&, GuardName guard, std::size_t row, std::string_view field,
                        std::string_view stage, const std::string& what);
 
 /// Whether the scene has switched this guard off.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "world/account.hpp"
+#include "state/account.hpp"
 
 #include <cassert>
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/field.hpp"
-#include "world/account.hpp"
+#include "state/account.hpp"
 
 /// Description of a force by the effect that makes it. Motion, rigid bodies and the ledger do the rest.
 namespace tripoint {

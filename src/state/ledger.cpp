@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "world/ledger.hpp"
+#include "state/ledger.hpp"
 
 #include "scene/effect_rule.hpp"
 #include "scene/ledger_entry.hpp"
-#include "world/world.hpp"
+#include "state/state.hpp"
 
 namespace tripoint {
 namespace {
@@ -20,41 +20,41 @@ double stored_now(const Ledger& ledger, const StoredEnergy& stored) {
 }
 
 /// Entries that every scene with forces tells, 0 where their effect is off.
-void tell_common_entries(const World& world, Ledger& sum) {
+void tell_common_entries(const State& state, Ledger& sum) {
   for (const EffectRule& rule : effect_rules())
     if (rule.always_told)
-      for (const std::string_view entry : rule.always_told(world.scene))
+      for (const std::string_view entry : rule.always_told(state.scene))
         sum.energy.try_emplace(std::string(entry), 0.0);
 }
 
 /// Energy left by finite steps for one force: 0 to round-off where its work equals the energy taken from its
 /// store.
-double by_finite_steps(const World& world, const Force& f, const Ledger& sum) {
+double by_finite_steps(const State& state, const Force& f, const Ledger& sum) {
   const StoredEnergy& stored = *f.stored;
-  const double change = stored_now(sum, stored) - world.booked[stored.at_start];
-  const double released = stored.released ? world.booked[*stored.released] : 0.0;
-  return change + released + (world.booked[f.work] + paid_by_drivers(world.booked, f));
+  const double change = stored_now(sum, stored) - state.booked[stored.at_start];
+  const double released = stored.released ? state.booked[*stored.released] : 0.0;
+  return change + released + (state.booked[f.work] + paid_by_drivers(state.booked, f));
 }
 
 }  // namespace
 
-void book_start(World& world, const Ledger& start) {
-  for (const Force& f : world.forces)
-    if (f.stored) world.booked[f.stored->at_start] = stored_now(start, *f.stored);
+void book_start(State& state, const Ledger& start) {
+  for (const Force& f : state.forces)
+    if (f.stored) state.booked[f.stored->at_start] = stored_now(start, *f.stored);
   if (const auto potential = start.energy.find(ledger_entry::potential); potential != start.energy.end())
-    world.booked[account::start_potential] = potential->second - world.booked[account::driven_potential];
+    state.booked[account::start_potential] = potential->second - state.booked[account::driven_potential];
 }
 
-void close_ledger(const World& world, Ledger& sum) {
-  const Bookings& booked = world.booked;
-  if (!world.forces.empty()) {
-    tell_common_entries(world, sum);
+void close_ledger(const State& state, Ledger& sum) {
+  const Bookings& booked = state.booked;
+  if (!state.forces.empty()) {
+    tell_common_entries(state, sum);
     double made = -0.0, on_driven = 0.0;  // -0.0 less nothing is -0.0, as the entry always began
-    for (const Account& a : world.numerical) made -= booked[a];
-    for (const Force& f : world.forces) {
+    for (const Account& a : state.numerical) made -= booked[a];
+    for (const Force& f : state.forces) {
       on_driven += paid_by_drivers(booked, f);
       if (f.stored)
-        made -= by_finite_steps(world, f, sum);
+        made -= by_finite_steps(state, f, sum);
       else
         sum.energy[std::string(f.entry)] -= booked[f.work] + paid_by_drivers(booked, f);
       if (f.stored && f.stored->released && !f.stored->released_to.empty() &&
