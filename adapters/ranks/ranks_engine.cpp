@@ -264,6 +264,7 @@ Snapshot RanksEngine::observe() const {
   gather_particles(s, *halo_, *halo_->ranks());
   add_bodies(s, *halo_->ranks());
   set_whole_motions(s, simulation_->state());
+  s.counts["processes"] = halo_->ranks()->size();
   return s;
 }
 

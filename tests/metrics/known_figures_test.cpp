@@ -146,6 +146,7 @@ const std::vector<Figure>& figures() {
        -2.0,
        {{"value", 5.0}},
        [](Snapshot&, Snapshot& s) { s.counts["objects"] = 3.0; }},
+      {"processes", "", -1.0, {{"value", 3.0}}, [](Snapshot&, Snapshot& s) { s.counts["processes"] = 2.0; }},
       {"recoveries", "", 4.0, {}, [](Snapshot&, Snapshot& s) { s.counts["recoveries"] = 4.0; }},
       {"recoveries", "", 3.0, {{"value", 1.0}}, [](Snapshot&, Snapshot& s) { s.counts["recoveries"] = 4.0; }},
       {"axial_torque",

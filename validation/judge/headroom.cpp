@@ -18,8 +18,8 @@ namespace tripoint {
 namespace {
 
 bool is_count(const CaseResult& c, const std::string& metric) {
-  static constexpr std::array<std::string_view, 6> counts{"body_count",  "bonded_objects", "object_count",
-                                                          "phase_count", "event_count",    "toggles"};
+  static constexpr std::array<std::string_view, 7> counts{
+      "body_count", "bonded_objects", "object_count", "phase_count", "event_count", "toggles", "processes"};
   const auto at = std::find_if(c.metrics.begin(), c.metrics.end(),
                                [&](const MetricChoice& m) { return m.name == metric; });
   return at != c.metrics.end() && at->scale == 1.0 &&

@@ -192,6 +192,12 @@ FrameError recoveries(const FramePair& f) {
   return single(count->second - f.in.reference.number("value").value_or(0.0));
 }
 
+FrameError processes(const FramePair& f) {
+  const auto count = f.now.counts.find("processes");
+  if (count == f.now.counts.end()) return problem("the engine does not say over how many processes it ran");
+  return against_truth(f, "processes", count->second);
+}
+
 }  // namespace
 
 const std::vector<Quantity>& conserved_quantities() {
@@ -211,6 +217,9 @@ const std::vector<Quantity>& conserved_quantities() {
        bonded_objects},
       {{"recoveries", "1", "how often a guard sent the run back to a good state, minus the stated value"},
        recoveries},
+      {{"processes", "1",
+        "processes that the run was shared out to, as the engine counts them, minus the stated value"},
+       processes},
       {{"ledger.TERM", "J",
         "difference of a ledger term, from the particles or as the engine keeps it; residual is the change "
         "of their sum"},
