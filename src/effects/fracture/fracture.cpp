@@ -34,6 +34,10 @@ class Fracture : public Effect {
   void happen(State&, const Happening&) override { unbroken_.clear(); }
   void add_to(const State& state, Ledger& ledger) const override {
     ledger.energy["fracture"] += state.booked[let_go_by_bonds];
+    // Torn faces may let go pressure too: an entry that begins within a run would have no first frame.
+    for (const Force& f : state.forces)
+      if (f.stored && !f.stored->released_to.empty())
+        ledger.energy[std::string(f.stored->released_to)] += 0.0;
   }
 
  private:
