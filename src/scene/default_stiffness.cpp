@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "scene/defaults.hpp"
 #include "scene/effect_rule.hpp"
@@ -10,18 +11,68 @@
 namespace tripoint {
 namespace {
 
+/// Bodies that have to do with each other, and the pairs of solids among them that can meet.
+struct Neighbourhood {
+  std::vector<const Body*> bodies;
+  std::vector<Meeting> meetings;
+};
+
+/// Whether a body is liquid at any time.
+bool can_flow(const Scene& s, const Body& b) {
+  return b.phase == Phase::liquid || (s.material(b.material).t_melt && calls_for(s, "phase"));
+}
+
+/// Whether liquid of `a` can splash to `b`: as far as its body is large.
+bool splashes(const Body& a, const Body& b) {
+  const Bounds from = bounds(a.shape), to = bounds(b.shape);
+  const Vec3 size = from.extent();
+  const double reach = std::max({size.x, size.y, size.z});
+  for (std::size_t k = 0; k < 3; ++k)
+    if (from.max[k] + reach < to.min[k] || to.max[k] < from.min[k] - reach) return false;
+  return true;
+}
+
+bool joined(const Body& a, const Body& b) {
+  return std::ranges::find(a.joined_to, b.name) != a.joined_to.end();
+}
+
+/// Bodies far away, which meet none of the others and splash to none, are no reason for a stiffer contact. An
+/// inflow reaches all.
+std::vector<Neighbourhood> neighbourhoods(const Scene& s, const std::vector<Meeting>& meetings) {
+  std::vector<std::size_t> group(s.bodies.size());
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  const auto unite = [&](std::size_t a, std::size_t b) {
+    const std::size_t one = group[a], other = group[b];
+    if (one != other) std::ranges::replace(group, std::max(one, other), std::min(one, other));
+  };
+  for (const Meeting& m : meetings) unite(m.a, m.b);
+  for (std::size_t a = 0; a < group.size(); ++a)
+    for (std::size_t b = 0; b < group.size(); ++b) {
+      const Body &one = s.bodies[a], &other = s.bodies[b];
+      if (group[a] == group[b]) continue;
+      if (!s.inflows.empty() || joined(one, other) || (can_flow(s, one) && splashes(one, other))) unite(a, b);
+    }
+  std::vector<Neighbourhood> found(group.size());
+  for (std::size_t n = 0; n < group.size(); ++n) found[group[n]].bodies.push_back(&s.bodies[n]);
+  for (const Meeting& m : meetings) found[group[m.a]].meetings.push_back(m);
+  std::erase_if(found, [](const Neighbourhood& n) { return n.bodies.empty(); });
+  return found;
+}
+
 /// How far the bodies that a test picks reach along gravity [m]; 0 without gravity or such a body.
 template <class Test>
-double extent_along_gravity(const Scene& s, Test test) {
+double extent_along_gravity(const Scene& s, const Neighbourhood& near, Test test) {
   const double g = norm(s.gravity);
   double least = INFINITY, most = -INFINITY;
-  for (const Body& b : s.bodies) {
-    if (!(g > 0.0) || !test(b)) continue;
-    const Bounds box = bounds(b.shape);
+  for (const Body* b : near.bodies) {
+    if (!(g > 0.0) || !test(*b)) continue;
+    const bool turns =
+        b->shape.kind == Shape::Kind::box && is_turned(b->shape);  // its own corners, not those around it
+    const Bounds box = bounds(turns ? not_turned(b->shape) : b->shape);
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3 r{corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
                    corner & 4 ? box.max.z : box.min.z};
-      const double height = dot(s.gravity, r) / g;
+      const double height = dot(s.gravity, turns ? turning(b->shape)(r) : r) / g;
       least = std::min(least, height);
       most = std::max(most, height);
     }
@@ -29,26 +80,43 @@ double extent_along_gravity(const Scene& s, Test test) {
   return most > least && std::isfinite(most - least) ? most - least : 0.0;
 }
 
-/// k = (10 v)^2 of a scene that flows: v the greatest speed that the file tells of, or that of the liquids'
+bool is_wet(const Body* b) { return b->phase == Phase::liquid; }
+
+/// Greatest rest density of the bodies or, with an inflow too, of the liquids [kg/m3].
+double densest(const Scene& s, const Neighbourhood& near, bool liquids) {
+  double most = 0.0;
+  for (const Body* b : near.bodies)
+    if (!liquids || is_wet(b)) most = std::max(most, s.material(b->material).density);
+  if (liquids)
+    for (const Inflow& f : s.inflows) most = std::max(most, s.material(f.material).density);
+  return most;
+}
+
+/// k = (10 v)^2 of bodies that flow: v the greatest speed that the file tells of, or that of the liquids'
 /// fall.
-double stiffness_of_liquids(const Scene& s) {
+double stiffness_of_liquids(const Scene& s, const Neighbourhood& near) {
   double v = 0.0;
-  for (const Body& b : s.bodies) v = std::max(v, greatest_speed(b));
+  for (const Body* b : near.bodies) v = std::max(v, greatest_speed(*b));
   for (const Inflow& f : s.inflows) v = std::max(v, norm(f.velocity));
-  const double depth = extent_along_gravity(s, [](const Body& b) { return b.phase == Phase::liquid; });
-  const double height = depth > 0.0 ? depth : extent_along_gravity(s, [](const Body&) { return true; });
+  const double depth = extent_along_gravity(s, near, [](const Body& b) { return b.phase == Phase::liquid; });
+  const double height = depth > 0.0 ? depth : extent_along_gravity(s, near, [](const Body&) { return true; });
   v = std::max(v, std::sqrt(2.0 * norm(s.gravity) * height));
   return 100.0 * v * v;
 }
 
+/// Whether all of it falls alike: gravity then brings no two of its bodies together.
+bool falls_freely(const Scene& s, const Neighbourhood& near) {
+  return s.forces.empty() &&
+         std::ranges::all_of(near.bodies, [](const Body* b) { return b->motion == Motion::free; });
+}
+
 /// k of bodies that meet: (10 v)^2, or what makes the contact as stiff as the stiffest elastic body that
 /// meets another (see 004).
-double stiffness_of_solids(const Scene& s, const std::vector<Meeting>& meetings) {
-  const double g = norm(s.gravity),
-               fall = 2.0 * g * extent_along_gravity(s, [](const Body&) { return true; });
-  double speed = 0.0, modulus = 0.0, densest = 0.0;
-  for (const Body& b : s.bodies) densest = std::max(densest, s.material(b.material).density);
-  for (const Meeting& m : meetings) {
+double stiffness_of_solids(const Scene& s, const Neighbourhood& near) {
+  const double g = falls_freely(s, near) ? 0.0 : norm(s.gravity);
+  const double fall = 2.0 * g * extent_along_gravity(s, near, [](const Body&) { return true; });
+  double speed = 0.0, modulus = 0.0;
+  for (const Meeting& m : near.meetings) {
     const double bounded = std::min(m.speed + g * s.end_time, std::sqrt(m.speed * m.speed + fall));
     speed = std::max(speed, bounded);
     for (const std::size_t n : {m.a, m.b}) {
@@ -60,7 +128,28 @@ double stiffness_of_solids(const Scene& s, const std::vector<Meeting>& meetings)
       modulus = std::max(modulus, *of.young_modulus * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)));
     }
   }
-  return std::max(100.0 * speed * speed, modulus / densest);
+  return std::max(100.0 * speed * speed, modulus / densest(s, near, false));
+}
+
+/// The greatest stiffness that any neighbourhood asks for: times a rest density, it is a pressure
+/// (model 8.3).
+double common_stiffness(const Scene& s, const std::vector<Meeting>& meetings, bool flows) {
+  const std::vector<Neighbourhood> all = neighbourhoods(s, meetings);
+  const bool wet =
+      !s.inflows.empty() || std::ranges::any_of(s.bodies, [](const Body& b) { return is_wet(&b); });
+  double reference = 0.0, most = 0.0;
+  for (const Neighbourhood& near : all) reference = std::max(reference, densest(s, near, wet));
+  for (const Neighbourhood& near : all) {
+    const bool flowing =
+        flows && std::ranges::any_of(near.bodies, [&](const Body* b) { return can_flow(s, *b); });
+    const bool liquids = std::ranges::any_of(near.bodies, is_wet) || !s.inflows.empty();
+    const double k = flowing || !s.inflows.empty() ? stiffness_of_liquids(s, near)
+                     : near.meetings.empty()       ? 0.0
+                                                   : stiffness_of_solids(s, near);
+    most = std::max(most, k * (densest(s, near, liquids) / reference));
+  }
+  if (most == 0.0 && flows) most = std::pow(10.0 * s.spacing / s.end_time, 2);  // liquid at rest
+  return most;
 }
 
 }  // namespace
@@ -69,10 +158,10 @@ std::optional<DefaultStiffness> default_stiffness(const Scene& s) {
   if (std::ranges::any_of(s.materials, [](const Material& m) { return m.stiffness.has_value(); })) return {};
   DefaultStiffness k;
   if (calls_for(s, &EffectRule::has_pressure)) {
-    k = {stiffness_of_liquids(s),
+    k = {common_stiffness(s, s.contact ? meetings(s) : std::vector<Meeting>{}, true),
          "(10 v)^2, v the greatest of initial and prescribed speeds and sqrt(2 g depth of the liquids)"};
   } else if (const auto pairs = s.contact ? meetings(s) : std::vector<Meeting>{}; !pairs.empty()) {
-    k = {stiffness_of_solids(s, pairs),
+    k = {common_stiffness(s, pairs, false),
          "solids can meet: (10 v)^2, v the greatest speed of approach with the fall by the scene's height, "
          "or the longitudinal "
          "modulus of an elastic body over the greatest density"};

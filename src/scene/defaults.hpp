@@ -29,9 +29,10 @@ struct DefaultStiffness {
   std::string rule;
 };
 /// Liquids take k = (10 v)^2, v the greatest of initial and prescribed speeds and sqrt(2 |g| depth of the
-/// liquids). The speed of sound is then ten times the expected speed. Solids of which two can meet
-/// (meeting.hpp) take it from their speed of approach, the height of the scene, and the moduli of elastic
-/// bodies. Empty where a material gives one, nothing flows or can meet, or no speed is known.
+/// liquids); at rest, a spacing in the time of the run. Solids of which two can meet (meeting.hpp) take it
+/// from their speed of approach, the height that they can fall, and the moduli of elastic bodies. Only bodies
+/// that meet, are joined or can be splashed count together; the hardest such neighbourhood decides. Empty
+/// where a material gives one, or nothing flows or can meet.
 [[nodiscard]] std::optional<DefaultStiffness> default_stiffness(const Scene&);
 
 /// Distance within which a freezing particle joins where the scene does not say [spacings]. As in the paper:

@@ -13,6 +13,7 @@ Scene tank() {
   s.gravity = {0.0, 0.0, -10.0};
   s.materials.resize(1);
   s.materials[0].name = "water";
+  s.materials[0].density = 1000.0;
   Body b;
   b.name = b.material = "water";
   b.shape.min = {0.0, 0.0, 1.0};
@@ -42,6 +43,65 @@ TEST(DefaultStiffness, LeavesAloneWhatIsGivenAndWhatNeitherFlowsNorMoves) {
   solid.bodies[0].phase = Phase::rigid;
   still.gravity = {};
   for (const Scene& s : {given, solid, still}) EXPECT_FALSE(default_stiffness(s));
+}
+
+/// A cube that hits another, between x = 0 and 3 m.
+Scene hit() {
+  Scene s = tank();
+  s.gravity = {};
+  s.end_time = 1.0;
+  s.spacing = 0.1;
+  for (const double x : {0.0, 2.0}) {
+    Body b = s.bodies[0];
+    b.name = x == 0.0 ? "left" : "right";
+    b.phase = Phase::rigid;
+    b.shape.min.x = x;
+    b.shape.max.x = x + 1.0;
+    b.velocity.value = {x == 0.0 ? 3.0 : 0.0, 0.0, 0.0};
+    s.bodies.push_back(b);
+  }
+  s.bodies.erase(s.bodies.begin());
+  return s;
+}
+
+/// A body 50 m away, of matter of another density.
+void put_far_away(Scene& s, Phase phase, double density) {
+  s.materials.push_back({});
+  s.materials.back().name = "far";
+  s.materials.back().density = density;
+  Body b = s.bodies[0];
+  b.name = b.material = "far";
+  b.phase = phase;
+  b.velocity.value = {};
+  b.shape.min.x = 50.0;
+  b.shape.max.x = 51.0;
+  s.bodies.push_back(b);
+}
+
+/// Greatest pressure that the equation of state knows: k times the density of reference (model 8.3).
+double hardness(const Scene& s, double reference) { return default_stiffness(s)->value * reference; }
+
+TEST(DefaultStiffness, OfAHitKnowsNothingOfBodiesFarAway) {
+  const double alone = hardness(hit(), 1000.0);
+  EXPECT_NEAR(alone, 1000.0 * 100.0 * 9.0, 1e-6);
+  Scene heavy = hit(), wet = hit(), falls = hit();
+  put_far_away(heavy, Phase::rigid, 5000.0);
+  EXPECT_NEAR(hardness(heavy, 5000.0), alone, 1e-6);
+  put_far_away(wet, Phase::liquid, 800.0);
+  EXPECT_NEAR(hardness(wet, 800.0), alone, 1e-6);
+  falls.gravity = {0.0, 0.0, -10.0};
+  const double fall = hardness(falls, 1000.0);
+  put_far_away(falls, Phase::rigid, 1000.0);
+  falls.bodies.back().shape.max.z = 40.0;
+  falls.bodies.back().motion = Motion::fixed;
+  EXPECT_NEAR(hardness(falls, 1000.0), fall, 1e-6);
+}
+
+TEST(DefaultStiffness, OfLiquidAtRestIsFoundToo) {
+  Scene s = hit();
+  for (Body& b : s.bodies) b.velocity.value = {};
+  put_far_away(s, Phase::liquid, 800.0);
+  EXPECT_NEAR(default_stiffness(s)->value, 1.0, 1e-12);  // ten spacings in the time of the run
 }
 
 TEST(DefaultStiffness, IsThatOfTheSceneThatRuns) {

@@ -172,6 +172,8 @@ TEST(EscapeDomain, HoldsFreeFlightsButNoFallThroughAFloor) {
   const auto floor = domain(stone_scene(falls) + plate + box("block", "[0,0,0]", "[0.3,0.3,0.3]"));
   EXPECT_GT(floor.min.z, -7.0) << "twice the diagonal of 2.8 m and the plate; no free fall of 4.9 m more";
   EXPECT_LT(floor.min.z, -5.0);
+  const auto beside = domain(stone_scene(falls) + plate + box("block", "[9,0,0]", "[9.3,0.3,0.3]"));
+  EXPECT_LT(beside.min.z, floor.min.z - 4.9) << "a plate beside it stops no fall";
 }
 
 }  // namespace
