@@ -88,6 +88,31 @@ TEST(Experiment, SaysFileAndLineOfWhatIsWrong) {
   EXPECT_THROW((void)read_experiment("/nowhere/at/all.csv"), InputError);
 }
 
+/// Tables as digitising programs and loggers write them.
+TEST(Experiment, ReadsTabsSemicolonsBlanksAndDecimalCommas) {
+  const std::string above = "# source: x\n# uncertainty front: 2 %\n";
+  for (const std::string table :
+       {"time [ms],front [mm]\n500,1.5\n1000,2.5\n",                        // units in the header
+        "time (ms);front (mm)\n500;1,5\n1000;2,5\n",                        // a German spreadsheet
+        "time / ms\tfront / mm\n500\t1.5\n1000\t2.5\n",                     // tabs
+        "Front of Smith, 1983\ntime [ms],front [mm]\n500,1.5\n1000,2.5\n",  // a title
+        "# columns: time [ms], front [mm]\n500 1,5\n1000 2,5\n"}) {         // no header
+    const DataFile file(sealed(above + table));
+    const auto read = read_experiment(file.path());
+    EXPECT_DOUBLE_EQ(read.curves.at("front").time[0], 0.5) << table;
+    EXPECT_DOUBLE_EQ(read.curves.at("front").value[1], 0.0025) << table;
+  }
+}
+
+TEST(Experiment, SaysAtOnceAllThatATableLacks) {
+  const auto what = refusal("time,front\n1,2\n");
+  for (const char* line :
+       {"`# unit time: ...`", "`# unit front: ...`", "`# uncertainty front: ...`", "`# source: ...`"})
+    EXPECT_NE(what.find(line), std::string::npos) << what;
+  EXPECT_NE(refusal("1 2\n3 4\n").find("`# columns: time, ...`"), std::string::npos);
+  EXPECT_NE(refusal("time [furlong],front\n1,2\n").find("furlong"), std::string::npos);
+}
+
 TEST(Experiment, IsAReferenceThatKnowsWhatItsFileHoldsAndNoMore) {
   const DataFile file(sealed(data));
   const auto block = test::block({1, 2, 3}, 1.0, 4);

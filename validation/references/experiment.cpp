@@ -9,32 +9,20 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <sstream>
+#include <stdexcept>
 
 #include "tables/nearest.hpp"
 #include "validation/case/case.hpp"
 #include "validation/references/functions.hpp"
+#include "validation/references/measured_cells.hpp"
 
 namespace tripoint {
 namespace {
 
 constexpr std::uintmax_t largest_file = 1 << 20;  // [bytes]
 constexpr std::string_view hash_key = "# hash:";
-
-std::string trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
-  return first == std::string_view::npos ? std::string() : std::string(text.substr(first, last - first + 1));
-}
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> cells;
-  std::size_t from = 0;
-  for (std::size_t at = 0; at != std::string::npos; from = at + 1) {
-    at = line.find(',', from);
-    cells.push_back(trimmed(std::string_view(line).substr(from, at == std::string::npos ? at : at - from)));
-  }
-  return cells;
-}
 
 /// A number as the header words it: `scale` turns values of a column into SI, or says their uncertainty.
 struct StatedNumber {
@@ -57,10 +45,8 @@ class Reader {
         comment(line);
       else if (trimmed(line).empty())
         continue;
-      else if (columns_.empty())
-        head(line);
       else
-        row(line);
+        line_of_table(line);
     }
     place_.line = 0;
     check(text);
@@ -79,8 +65,8 @@ class Reader {
     return s;
   }
 
-  /// "# source: ...", "# unit COLUMN: ...", "# uncertainty COLUMN: ...", "# hash: ..."; all else is free
-  /// text.
+  /// "# source: ...", "# unit COLUMN: ...", "# uncertainty COLUMN: ...", "# hash: ...", "# columns: ..."; all
+  /// else is free text.
   void comment(const std::string& line) {
     const auto colon = line.find(':');
     if (colon == std::string::npos) return;
@@ -93,6 +79,8 @@ class Reader {
       source_ = value;
     else if (key == "hash" && column.empty())
       hash_ = value;
+    else if (key == "columns" && column.empty())
+      name_columns(cells_of(value));
     else if (key == "unit" && !column.empty())
       units_[column] = unit(value);
     else if (key == "uncertainty" && !column.empty()) {
@@ -115,23 +103,73 @@ class Reader {
     return s;
   }
 
-  void head(const std::string& line) {
-    columns_ = split(line);
-    if (columns_.size() < 2 || std::find(first_.begin(), first_.end(), columns_.front()) == first_.end())
-      refuse(fmt::format("the first line of the table names the columns: `{}` and at least one more",
-                         fmt::join(first_, "`, `")));
-    for (std::size_t c = 0; c < columns_.size(); ++c) {
-      if (columns_[c].empty() || std::count(columns_.begin(), columns_.end(), columns_[c]) > 1)
-        refuse(fmt::format("column {} has no name of its own", c + 1));
-      if (!units_.count(columns_[c]))
-        refuse(fmt::format("no line `# unit {}: ...` stands above the table", printable(columns_[c])));
-      if (c > 0 && !uncertainty_.count(columns_[c]))
-        refuse(fmt::format("no line `# uncertainty {}: ...` stands above the table", printable(columns_[c])));
+  /// One line that names no columns may stand above the table: a title.
+  void line_of_table(const std::string& line) {
+    const auto cells = cells_of(line);
+    if (checked_) return row(cells);
+    if (are_numbers(cells) && !columns_.empty()) {
+      check_columns();
+      return row(cells);
+    }
+    if (are_numbers(cells) || (title_ && !names_columns(cells))) {
+      place_ = title_.value_or(place_);
+      refuse(
+          fmt::format("the first line of the table names the columns: `{}` and at least one more; a table "
+                      "without such a line "
+                      "has `# columns: {}, ...` above it",
+                      fmt::join(first_, "`, `"), first_.front()));
+    }
+    if (!names_columns(cells)) {
+      title_ = place_;
+      return;
+    }
+    name_columns(cells);
+    check_columns();
+  }
+
+  [[nodiscard]] bool names_columns(const std::vector<std::string>& cells) const {
+    if (cells.size() < 2) return false;
+    try {
+      return std::ranges::find(first_, named_column(cells.front()).name) != first_.end();
+    } catch (const std::invalid_argument&) {
+      return true;  // it says a unit, and a wrong one
     }
   }
 
-  void row(const std::string& line) {
-    const auto cells = split(line);
+  void name_columns(const std::vector<std::string>& cells) {
+    columns_.clear();
+    for (const auto& cell : cells) {
+      try {
+        const NamedColumn column = named_column(cell);
+        columns_.push_back(column.name);
+        if (column.unit) units_.try_emplace(column.name, *column.unit);
+      } catch (const std::invalid_argument& e) {
+        refuse(e.what());
+      }
+    }
+  }
+
+  /// Says all that is missing at once.
+  void check_columns() {
+    checked_ = true;
+    std::vector<std::string> lacks;
+    if (std::ranges::find(first_, columns_.front()) == first_.end() || columns_.size() < 2)
+      refuse(fmt::format("the first column is `{}`, and at least one more follows",
+                         fmt::join(first_, "` or `")));
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      const std::string& name = columns_[c];
+      if (name.empty() || std::ranges::count(columns_, name) > 1)
+        refuse(fmt::format("column {} has no name of its own", c + 1));
+      if (!units_.contains(name)) lacks.push_back(fmt::format("`# unit {}: ...`", printable(name)));
+      if (c > 0 && !uncertainty_.contains(name))
+        lacks.push_back(fmt::format("`# uncertainty {}: ...`", printable(name)));
+    }
+    if (lacks.empty()) return;
+    if (source_.empty()) lacks.emplace_back("`# source: ...`");
+    refuse(fmt::format("no line {} stands above the table", fmt::join(lacks, ", no line ")));
+  }
+
+  void row(const std::vector<std::string>& cells) {
     if (cells.size() != columns_.size())
       refuse(fmt::format("{} values where the table has {} columns", cells.size(), columns_.size()));
     std::vector<double> values;
@@ -182,6 +220,8 @@ class Reader {
   std::map<std::string, StatedNumber> uncertainty_;
   std::map<std::string, std::string> words_;
   std::vector<std::string> columns_;
+  bool checked_ = false;              ///< the columns are known, with units and uncertainties
+  std::optional<SourcePlace> title_;  ///< of a line above the table that names no columns
   std::vector<std::vector<double>> rows_;
 };
 

@@ -17,7 +17,9 @@
 ///     time,front
 ///     1.219,1.474
 ///
-/// Other comments are free text. The first column is the time, and it rises.
+/// Other comments are free text. The first column is the time, and it rises. Cells stand between commas,
+/// semicolons, tabs or blanks (measured_cells.hpp). The header may have units, as "time [ms]"; a table
+/// without header has `# columns: time, front`.
 namespace tripoint {
 
 struct Case;
