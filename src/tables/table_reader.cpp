@@ -74,7 +74,8 @@ const std::vector<Absent> not_simulated{
      "\"grip\" moves those in a "
      "region"},
     {{"external_force", "body_force", "thrust", "applied_force", "force", "applied_load", "torque"},
-     "a [[force]] pushes a rigid body by a constant force, and scene.gravity acts on all that is free; other "
+     "a [[force]] pushes a rigid body and turns it by a torque, and scene.gravity acts on all that "
+     "is free; other "
      "forces from "
      "outside are not simulated; motion = \"prescribed\" leads a body"},
     {{"wind", "drag", "air_density", "atmosphere"},
@@ -82,9 +83,21 @@ const std::vector<Absent> not_simulated{
     {{"turbulence", "k_epsilon", "smagorinsky"},
      "no model of turbulence is there: what the particles resolve is simulated"},
     {{"radiation", "emissivity", "convection", "heat_flux", "heat_source"},
-     "radiation and given heat flows are not simulated; temperature_held and events of kind \"heat\" hold a "
-     "temperature"},
-    {{"thermal_expansion"}, "thermal expansion is not simulated: densities do not depend on temperature"},
+     "a [[source]] gives heat: heat and heat_density within matter, flux, transfer_coefficient and "
+     "emissivity through surfaces; "
+     "temperature_held and events of kind \"heat\" hold a temperature"},
+    {{"thermal_expansion", "buoyancy"},
+     "thermal_expansion of a [[material]] makes its liquid rise and sink with temperature; solids do not "
+     "expand"},
+    {{"dimension", "plane_strain", "axisymmetric"},
+     "scenes have three dimensions; a slab of five layers between periodic sides stands for a plane"},
+    {{"outlet", "outflow", "on_escape"},
+     "nothing flows out: what leaves scene.min..max ends the run, unless `unguarded` has \"escape\"; let it "
+     "fall into a basin"},
+    {{"mass", "inertia"},
+     "a body weighs what its particles do, density times their volume: choose the density, and `tripoint "
+     "check` says what "
+     "they weigh"},
     {{"magnet", "electric", "charge"}, "electric and magnetic fields are not simulated"}};
 
 /// For words that other programs have: why this one has not, and what serves.

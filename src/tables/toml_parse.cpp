@@ -27,6 +27,7 @@ namespace tripoint {
 
 #include "core/confined_copy.hpp"
 #include "tables/nearest.hpp"
+#include "tables/other_formats.hpp"
 #include "tables/toml_node.hpp"
 
 namespace tripoint {
@@ -242,6 +243,13 @@ TomlNode parse_toml(const std::string& text, const std::string& file, double lim
   try {
     return document_of(text, file);
   } catch (const toml::parse_error& error) {
+    if (const auto format = other_format(text); !format.empty())
+      throw InputError(
+          {file, 0, 0},
+          fmt::format(
+              "this is {}, and a case is TOML: `tripoint new NAME` writes one, whose bodies, shapes and "
+              "materials take what this file says (docs/case-file.md)",
+              format));
     throw InputError(place_of(error.source(), file),
                      fmt::format("no valid TOML: {}; write key = value, texts in quotes, [a, b] for lists",
                                  printable(error.description(), 300)));

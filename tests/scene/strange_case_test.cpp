@@ -58,7 +58,8 @@ TEST(StrangeCase, AskingForFrictionLearnsWhatThereIs) {
                                                         {"motor", "motors are not simulated"},
                                                         {"thrust", "a [[force]] pushes a rigid body"},
                                                         {"cable", "ropes and sheets"},
-                                                        {"radiation", "radiation and given heat"}})
+                                                        {"radiation", "a [[source]] gives heat"},
+                                                        {"outlet", "nothing flows out"}})
     expect_refused(with("", "[[" + table + "]]\nname = 'x'\n"), {"unknown key `" + table + "`", answer});
   expect_refused(with("", "[[hose]]\nname = 'x'\n"), {"unknown key `hose`"});
 }
