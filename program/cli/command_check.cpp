@@ -11,6 +11,7 @@
 #include "scene/sample.hpp"
 #include "validation/campaign/case_names.hpp"
 #include "validation/campaign/suite.hpp"
+#include "validation/case/foreseen.hpp"
 #include "validation/case/idle_keys.hpp"
 #include "validation/case/preflight.hpp"
 #include "validation/case/read_case.hpp"
@@ -50,10 +51,15 @@ int check(const std::string& file, const std::vector<std::string>& set) {
   for (const auto& f : mesh_notes(scene, state)) say("note: " + with_place(f));
   for (const auto& f : moment_notes(scene, state)) say("note: " + with_place(f));
   for (const auto& f : start_notes(scene, state)) say("note: " + with_place(f));
+  for (const auto& f : foreseen(scene)) say("note: " + with_place(f));
   if (scene.settle)
     say("note: nothing is run here: liquids are not let down into equilibrium (scene.settle), and the "
         "particles are those before "
         "it");
+  if (const auto seconds = cpu_seconds(scene, state))
+    say(fmt::format(
+        "note: a run of the particle solver takes about {:.2g} CPU seconds (within a factor of three)",
+        *seconds));
   for (const auto& f : findings) {
     errors += f.error ? 1 : 0;
     say((f.error ? "error: " : "warning: ") + with_place(f));

@@ -22,6 +22,7 @@
 #include "validation/campaign/case_names.hpp"
 #include "validation/campaign/suite.hpp"
 #include "validation/case/engine_names.hpp"
+#include "validation/case/foreseen.hpp"
 #include "validation/case/idle_keys.hpp"
 #include "validation/case/read_case.hpp"
 #include "validation/metrics/metric.hpp"
@@ -206,6 +207,7 @@ void say_findings(const CaseReading& reading, const Scene& scene, const InitialS
   for (const auto& f : library_values(reading)) say("note: " + with_place(f));
   for (const auto& f : old_keys(reading)) say("note: " + with_place(f));
   for (const auto& f : start_notes(scene, initial)) say("note: " + with_place(f));
+  for (const auto& f : foreseen(scene)) say("note: " + with_place(f));
   auto findings = preflight(reading.value, scene, initial);
   for (auto& f : idle_keys(reading, scene, initial)) findings.push_back(std::move(f));
   for (auto& f : try_metrics(reading.value, job, initial)) findings.push_back(std::move(f));

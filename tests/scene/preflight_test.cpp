@@ -4,6 +4,7 @@
 #include "case_file.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/sample.hpp"
+#include "validation/case/foreseen.hpp"
 #include "validation/case/preflight.hpp"
 #include "validation/case/shape_match.hpp"
 
@@ -115,6 +116,67 @@ TEST(Preflight, NamesTheShiftThatPutsACutOutBodyOnTheLattice) {
   EXPECT_EQ(told(scene(0.67), "cut out for it alike, by (0, 0, 0.03) m"), "error");
   EXPECT_EQ(told(scene(0.67), "share room"), "");
   EXPECT_EQ(told(scene(0.70), "overlap"), "") << "moved as it says";
+}
+
+std::string tank(const std::string& wall) {
+  return "[[body]]\nname='pool'\nmaterial='water'\nshape={kind='box',min=[0,0,0],max=[0.5,0.5,0.5]}\n"
+         "[[body]]\nname='tank'\nmaterial='steel'\nmotion='fixed'\nshape={kind='difference',from={kind='box',"
+         "min=[-" +
+         wall + ",-" + wall + ",-" + wall +
+         "],max=[0.8,0.8,0.8]},minus={kind='box',min=[0,0,0],max=[0.5,0.5,9]}}\n";
+}
+
+TEST(Preflight, WarnsOfWallsThinnerThanTheSupport) {
+  EXPECT_EQ(told(scene_with(tank("0.1"), "gravity=[0,0,-9.81]"), "1 layer of particles thick"), "warning");
+  EXPECT_EQ(told(scene_with(tank("0.2"), "gravity=[0,0,-9.81]"), "make them 3 layers, 0.3 m"), "warning");
+  EXPECT_EQ(told(scene_with(tank("0.3"), "gravity=[0,0,-9.81]"), "layer"), "");
+}
+
+TEST(Preflight, WarnsOfALiquidThatItsOwnWeightPressesTogether) {
+  const auto with = [](const std::string& speed) {
+    return scene_with(tank("0.3"), "gravity=[0,0,-9.81]\n[[material]]\nname='water'\nsound_speed=" + speed);
+  };
+  EXPECT_EQ(told(with("5"), "presses it together by 20 %"), "warning");
+  EXPECT_EQ(told(with("31"), "presses it together"), "");
+}
+
+/// The first of the notes on what a run will not show; "" for none.
+std::string foretold(const std::string& text) {
+  const auto notes = foreseen(scene_for(read_text(text).value, {}));
+  return notes.empty() ? "" : notes.front().what;
+}
+
+TEST(Preflight, ForetellsASlopeWithoutFriction) {
+  const auto block = steel_box("block", "[0,0,1]", "[0.5,0.5,1.5]");
+  const auto ramp = [](const std::string& rotation) {
+    return steel_box("ramp", "[-1,-1,-0.3]", "[1,1,0]", "motion='fixed'\nrotation=" + rotation);
+  };
+  EXPECT_NE(foretold(scene_with(block + ramp("[1,0,0.2,0]"), "gravity=[0,0,-9.81]")).find("slopes"),
+            std::string::npos);
+  EXPECT_EQ(foretold(scene_with(block + ramp("[1,0,0,0.2]"), "gravity=[0,0,-9.81]")), "")
+      << "its faces lie level";
+}
+
+TEST(Preflight, ForetellsHeatThatStaysWhereItIs) {
+  const auto bar = [](const std::string& conductivity) {
+    return "[[material]]\nname='stuff'\ndensity=1000\nheat_capacity=1000\nconductivity=" + conductivity +
+           "\n[[body]]\nname='bar'\nmaterial='stuff'\nshape={kind='box',min=[0,0,0],max=[1,1,1]}\n"
+           "temperature={kind='step',point=[0.5,0,0],normal=[1,0,0],behind=300,ahead=400}\n";
+  };
+  EXPECT_NE(foretold(scene_with(bar("1"))).find("heat spreads 0.002 m"), std::string::npos);
+  EXPECT_EQ(foretold(scene_with(bar("1e5"))), "");
+}
+
+/// 1000 particles, and steps of 10 ms at a sound speed of 10 m/s.
+TEST(Preflight, ForetellsTheCostWithinAFactorOfThree) {
+  const auto c =
+      read_text(scene_with("[[material]]\nname='water'\nsound_speed=10\n[[body]]\nname='pool'\n"
+                           "material='water'\nphase='liquid'\nshape={kind='box',min=[0,0,0],max=[1,1,1]}\n"))
+          .value;
+  const auto scene = scene_for(c, {});
+  const auto seconds = cpu_seconds(scene, sample(scene));
+  ASSERT_TRUE(seconds);
+  EXPECT_NEAR(*seconds, 1000 * 100 * 0.6e-6, 1e-12);
 }
 
 TEST(Preflight, FindsOverlapAcrossAPeriodicSide) {

@@ -12,6 +12,7 @@
 #include "scene/shared_terms.hpp"
 #include "validation/case/case.hpp"
 #include "validation/case/dates.hpp"
+#include "validation/case/foreseen.hpp"
 #include "validation/case/overlap.hpp"
 #include "validation/case/preflight.hpp"
 #include "validation/case/shape_match.hpp"
@@ -34,6 +35,7 @@ class Preflight {
       keyframes(n);
     }
     for (auto& f : unlike_their_shapes(scene_, state_)) findings_.push_back(std::move(f));
+    for (auto& f : weak_containers(scene_, state_)) findings_.push_back(std::move(f));
     outside();
     time_steps();
     dates();
