@@ -23,9 +23,11 @@ constexpr const char* new_description =
     "solution. Change it\n"
     "from there; a file that exists is never overwritten.\n"
     "  tripoint new my-case        writes my-case.toml\n"
+    "  tripoint new my-case --from tank    writes a scene of that kind: tank dam float melt pour ramp stack "
+    "drop beam heat\n"
     "  tripoint run my-case.toml";
 
-int create(const std::string& name) {
+int create(const std::string& name, const std::string& from) {
   namespace fs = std::filesystem;
   fs::path path = name;
   if (path.extension() != ".toml") path += ".toml";
@@ -39,6 +41,7 @@ int create(const std::string& name) {
   const auto folder = fs::absolute(path, error).parent_path();
   if (!fs::is_directory(folder, error))
     throw InputError({path.string(), 0, 0}, "its folder does not exist: make it first");
+  const auto text = from.empty() ? new_case_text("my/" + stem) : new_case_text("my/" + stem, from);
   // In one act: no other file can slip in
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
   if (file < 0)
@@ -46,7 +49,6 @@ int create(const std::string& name) {
                      errno == EEXIST
                          ? std::string("exists already, and is left as it is: choose another name")
                          : fmt::format("cannot be written: {}", std::strerror(errno)));
-  const auto text = new_case_text("my/" + stem);
   const bool whole = ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
   if (::close(file) != 0 || !whole)
     throw InputError({path.string(), 0, 0}, "could not be written whole: is the disk full?");
@@ -61,7 +63,9 @@ void add_new(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("new", new_description);
   auto name = std::make_shared<std::string>();
   command->add_option("NAME", *name, "name or path of the new case file")->required();
-  command->callback([=, &exit_code] { exit_code = guarded([&] { return create(*name); }); });
+  auto from = std::make_shared<std::string>();
+  command->add_option("--from", *from, "kind of scene: tank dam float melt pour ramp stack drop beam heat");
+  command->callback([=, &exit_code] { exit_code = guarded([&] { return create(*name, *from); }); });
 }
 
 }  // namespace tripoint

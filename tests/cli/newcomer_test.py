@@ -148,6 +148,38 @@ class Newcomer(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertTrue((self.path / "report" / "index.html").exists())
 
+    def test_each_template_is_a_case_without_an_error(self):
+        kinds = sorted(file.stem for file in (SOURCE / "cases" / "templates").glob("*.toml"))
+        self.assertEqual(len(kinds), 10)
+        for kind in kinds:
+            self.assertEqual(self.call("new", f"my-{kind}", "--from", kind).returncode, 0)
+            text = (self.path / f"my-{kind}.toml").read_text()
+            self.assertIn(f'id = "my/my-{kind}"', text)
+            self.assertNotIn("profiles", text)
+            done = self.call("check", f"my-{kind}.toml")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("0 errors, 0 warnings", done.stdout)
+        unknown = self.call("new", "other", "--from", "tenk")
+        self.assertEqual(unknown.returncode, 2)
+        self.assertIn("did you mean `tank`", unknown.stderr)
+        self.assertFalse((self.path / "other.toml").exists())
+
+    def test_a_file_of_another_program_is_called_by_its_name(self):
+        for text, name in (
+            ("<mujoco><worldbody/></mujoco>", "MuJoCo"),
+            ('<?xml version="1.0"?><robot name="arm"/>', "URDF"),
+            ("<case><casedef/></case>", "DualSPHysics"),
+            ('<sdf version="1.6"/>', "SDF"),
+            ('{"Configuration": {}, "RigidBodies": []}', "SPlisHSPlasH"),
+            ("units si\natom_style sph\n", "LAMMPS"),
+        ):
+            with self.subTest(name):
+                (self.path / "scene.txt").write_text(text)
+                done = self.call("check", "scene.txt")
+                self.assertEqual(done.returncode, 2)
+                self.assertIn(name, done.stderr)
+                self.assertIn("tripoint new", done.stderr)
+
     def test_gate_from_another_folder_says_in_which_one_to_call_it(self):
         self.assertEqual(self.call("new", "my-case").returncode, 0)
         self.assertEqual(self.call("validate", "my-case", "--no-report").returncode, 0)

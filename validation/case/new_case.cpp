@@ -1,9 +1,55 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "core/errors.hpp"
+#include "tables/library.hpp"
+#include "tables/nearest.hpp"
 #include "validation/case/schema.hpp"
 
 namespace tripoint {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Template by template, sorted by name.
+std::vector<std::string> templates(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::ranges::sort(names);
+  return names;
+}
+
+/// What holds for the template alone: the line on itself, and the suite that it belongs to.
+bool is_of_template(const std::string& line) {
+  for (const char* begin : {"# `tripoint new", "requirement =", "profiles =", "tags ="})
+    if (line.starts_with(begin)) return true;
+  return false;
+}
+
+}  // namespace
+
+std::string new_case_text(const std::string& id, const std::string& from) {
+  const fs::path folder = fs::path(share_folder()) / "cases" / "templates";
+  const auto names = templates(folder);
+  if (std::ranges::find(names, from) == names.end())
+    throw InputError(fmt::format("no template is named `{}`{}", printable(from), suggestion(from, names)));
+  std::ifstream in(folder / (from + ".toml"));
+  std::string text;
+  for (std::string line; std::getline(in, line);) {
+    if (is_of_template(line)) continue;
+    text += line + "\n";
+    if (line == "[case]") text += fmt::format("id = \"{}\"\n", id);
+  }
+  return text;
+}
 
 std::string new_case_text(const std::string& id) {
   return fmt::format(
