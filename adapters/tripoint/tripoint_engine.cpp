@@ -65,6 +65,8 @@ EngineInfo TripointEngine::info() const {
                        "liquid",
                        "contact",
                        "force",
+                       "source",
+                       "torque",
                        "viscosity",
                        "walls",
                        "transport-velocity",

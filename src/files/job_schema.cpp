@@ -171,11 +171,12 @@ json named(const char* title, json whole) {
 json scene_schema() {
   json scene = object_of(record<Scene>);
   add_effect_keys<Scene>(scene, "scene");
-  for (const char* list : {"materials", "bodies", "events", "inflows", "contacts", "forces"}) {
+  for (const char* list : {"materials", "bodies", "events", "inflows", "contacts", "forces", "sources"}) {
     const std::string one =
         std::string(list) == "bodies" ? "body" : std::string(list, std::char_traits<char>::length(list) - 1);
     scene["properties"][list] = list_of(table(one));
-    if (std::string(list) != "contacts" && std::string(list) != "forces") scene["required"].push_back(list);
+    if (std::string(list) != "contacts" && std::string(list) != "forces" && std::string(list) != "sources")
+      scene["required"].push_back(list);
   }
   scene["properties"]["model"] = table("model");
   return scene;
@@ -213,6 +214,7 @@ json job_schema() {
   tables["inflow"] = object_of(record<Inflow>);
   tables["contact"] = object_of(record<ContactLaw>);
   tables["force"] = object_of(record<AppliedForce>);
+  tables["source"] = object_of(record<HeatSource>);
   tables["keyframe"] = object_of(record<Keyframe>);
   tables["shape"] = kinds_of<Shape>({});
   tables["temperature"] = kinds_of<TemperatureField>(of_type("number"));

@@ -27,6 +27,7 @@ class Checker : NameChecks {
     events();
     contact_laws();
     forces();
+    sources();
     kernel();
     printed_heat();
   }
@@ -197,6 +198,21 @@ class Checker : NameChecks {
         throw InputError(place(path, force.place),
                          "a force acts on a body that stays one: remove the events of merge and split, or "
                          "t_melt of its material");
+    }
+  }
+
+  void sources() const {
+    for (std::size_t n = 0; n < scene_.sources.size(); ++n) {
+      const HeatSource& s = scene_.sources[n];
+      const auto path = fmt::format("source.{}", n + 1);
+      for (const auto& name : s.bodies) known_body(scene_, name, path + ".bodies", s.place);
+      if (s.start >= scene_.end_time)
+        throw InputError(place(path + ".start", s.place),
+                         fmt::format("it begins at {} s, and end_time is {} s: begin sooner, or remove it",
+                                     s.start, scene_.end_time));
+      if (std::ranges::none_of(scene_.bodies, [](const Body& b) { return b.temperature.has_value(); }))
+        throw InputError(place(path, s.place),
+                         "no body has a temperature, so that nothing can be heated: give every body one");
     }
   }
 

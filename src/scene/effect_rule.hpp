@@ -130,7 +130,7 @@ struct EffectRule {
   std::vector<BroughtForm> forms{};    ///< of terms of others
   std::vector<EffectKey> keys{};       ///< of [scene] and [[material]]
   std::vector<SceneKey> scene_keys{};
-  std::vector<std::string_view> scene_keys_shared{};  ///< scene_keys of others that it reads too
+  std::vector<std::string_view> scene_keys_shared{};  ///< keys of others that it reads too
   /// Checks keys of a material against each other, once all are read: refuses impossible values, and sets
   /// those that a rule gives.
   void (*settle_material)(TableReader&, Material&) = nullptr;

@@ -248,7 +248,33 @@ AppliedForce read_force(const TomlNode& node, std::size_t number, Reading& readi
   AppliedForce force;
   force.place = node.place;
   RecordReader(in, force, reading).all();
+  if (force.value == Vec3{} && force.torque == Vec3{})
+    in.refuse("", "it does nothing: give value, torque or both");
+  if (force.stop && !(*force.stop > force.start))
+    in.refuse("stop", "it ends before it begins: stop must be greater than start");
   return force;
+}
+
+HeatSource read_source(const TomlNode& node, std::size_t number, double end_time, Reading& reading) {
+  TableReader in(node, "source", fmt::format("source.{}", number), reading.decisions, scene_keys());
+  HeatSource s;
+  s.place = node.place;
+  RecordReader(in, s, reading).all([&](std::string_view key) {
+    if (key != "stop") return;
+    s.stop = end_time;
+    in.ruled("stop", show(end_time), "end_time");
+  });
+  if (!(s.stop > s.start)) in.refuse("stop", "it ends before it begins: stop must be greater than start");
+  if (int{s.heat.has_value()} + int{s.density.has_value()} + int{s.is_of_surfaces()} != 1)
+    in.refuse(
+        "",
+        "write heat, heat_density, or what goes through surfaces: flux, transfer_coefficient, emissivity");
+  if ((s.transfer_coefficient || s.emissivity) && !s.ambient)
+    in.refuse("", "convection and radiation need ambient_temperature");
+  if (s.ambient && !s.transfer_coefficient && !s.emissivity)
+    in.refuse("ambient_temperature",
+              "only convection and radiation read it: give transfer_coefficient or emissivity");
+  return s;
 }
 
 }  // namespace tripoint

@@ -222,6 +222,9 @@ Scene read_scene(TableReader& top, Reading& reading) {
     s.contact_laws.push_back(read_contact_law(*node, ++n, reading));
   n = 0;
   for (const auto* node : top.tables("force")) s.forces.push_back(read_force(*node, ++n, reading));
+  n = 0;
+  for (const auto* node : top.tables("source"))
+    s.sources.push_back(read_source(*node, ++n, s.end_time, reading));
   const bool flows = !s.inflows.empty() || std::any_of(s.bodies.begin(), s.bodies.end(), [](const Body& b) {
     return b.phase == Phase::liquid;
   });

@@ -29,8 +29,10 @@ struct Reading {
 
 [[nodiscard]] ContactLaw read_contact_law(const TomlNode&, std::size_t number, Reading&);
 [[nodiscard]] AppliedForce read_force(const TomlNode&, std::size_t number, Reading&);
+[[nodiscard]] HeatSource read_source(const TomlNode&, std::size_t number, double end_time, Reading&);
 
-/// Everything that is simulated: [scene], materials, bodies, events, inflows, laws of contact, forces.
+/// Everything that is simulated: [scene], materials, bodies, events, inflows, laws of contact, forces,
+/// sources of heat.
 [[nodiscard]] Scene read_scene(TableReader& top, Reading&);
 
 /// Names that become folders, columns and command line arguments: refuses any but letters, digits, blanks, _

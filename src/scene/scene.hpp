@@ -151,12 +151,30 @@ struct ContactLaw {
   SourcePlace place;
 };
 
-/// A constant force on a rigid body, [[force]].
+/// A force or a torque on a rigid body, constant from its start to its stop, [[force]].
 struct AppliedForce {
   std::string body;
-  Vec3 value;                 ///< in the world frame [N]
-  std::optional<Vec3> point;  ///< of the body, where it is at the start; empty = the centre of mass [m]
+  Vec3 value;                  ///< in the world frame [N]
+  std::optional<Vec3> point;   ///< of the body, where it is at the start; empty = the centre of mass [m]
+  Vec3 torque;                 ///< in the world frame [N m]
+  double start = 0.0;          ///< [s]
+  std::optional<double> stop;  ///< empty = it acts to the end [s]
   SourcePlace place;
+  [[nodiscard]] bool is_timed() const { return start > 0.0 || stop; }
+  /// Whether its work depends on the way: it has no potential.
+  [[nodiscard]] bool has_no_potential() const { return is_timed() || torque != Vec3{}; }
+};
+
+/// Heat from outside, [[source]]: into the volume of matter, or through outer surfaces of fixed bodies.
+struct HeatSource {
+  std::vector<std::string> bodies;      ///< empty = all
+  std::optional<Shape> region;          ///< that matter or surfaces are in; empty = everywhere
+  std::optional<double> heat, density;  ///< into the volume [W], [W/m3]
+  std::optional<double> flux, transfer_coefficient, emissivity;  ///< through surfaces [W/m2], [W/m2/K], [1]
+  std::optional<double> ambient;                                 ///< temperature beyond those surfaces [K]
+  double start = 0.0, stop = 0.0;                                ///< [s]
+  SourcePlace place;
+  [[nodiscard]] bool is_of_surfaces() const { return flux || transfer_coefficient || emissivity; }
 };
 
 /// Support radius h/dx where a file says nothing. Where every term is as printed it is that of the paper,
@@ -202,6 +220,7 @@ struct Scene {
   std::vector<Inflow> inflows;
   std::vector<ContactLaw> contact_laws;
   std::vector<AppliedForce> forces;
+  std::vector<HeatSource> sources;
 
   /// A look-up: a loop over particles or bodies asks for its values before it begins. @throws UndeclaredTerm
   [[nodiscard]] Mode mode_of(const Term& t) const {

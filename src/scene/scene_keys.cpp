@@ -25,7 +25,8 @@ constexpr auto top_keys = std::to_array<Key>({
     {"", "inflow", tables, "", any, "=", "nothing flows in", "inflow", "liquid that flows in"},
     {"", "contact", tables, "", any, "=", "no friction; restitution as each engine's preset has it",
      "contact", "friction and restitution by pairs of materials"},
-    {"", "force", tables, "", any, "=", "gravity alone", "force", "constant forces on rigid bodies"},
+    {"", "force", tables, "", any, "=", "gravity alone", "force", "forces and torques on rigid bodies"},
+    {"", "source", tables, "", any, "=", "no heat comes from outside", "source", "heat from outside"},
 });
 
 constexpr auto tables_of_scene = std::to_array<TableInfo>({
@@ -55,7 +56,11 @@ constexpr auto tables_of_scene = std::to_array<TableInfo>({
     {"event", "[[event]]", "An event at a time."},
     {"inflow", "[[inflow]]", "Liquid that flows in."},
     {"contact", "[[contact]]", "Friction and restitution of a pair of materials."},
-    {"force", "[[force]]", "A constant force on a rigid body."},
+    {"force", "[[force]]", "A force or a torque on a rigid body, constant from its start to its stop."},
+    {"source", "[[source]]",
+     "Heat from outside: into the volume of bodies, or through outer surfaces of fixed ones, where they "
+     "touch no body. Several "
+     "sources of one surface add up."},
 });
 
 void add_rows(std::vector<Key>& list, const auto& record) {
@@ -81,6 +86,7 @@ std::vector<Key> all_keys() {
   add_rows(list, record<Inflow>);
   add_rows(list, record<ContactLaw>);
   add_rows(list, record<AppliedForce>);
+  add_rows(list, record<HeatSource>);
   for (const EffectRule& rule : effect_rules()) {
     for (const EffectKey& key : rule.keys) {
       const auto last =

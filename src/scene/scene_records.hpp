@@ -171,11 +171,47 @@ inline constexpr auto of_contact_law = std::make_tuple(
 
 inline constexpr auto of_force = std::make_tuple(
     kept(&AppliedForce::body, {"force", "body", text, "", any, "!", "", "", "name of a free rigid body"}),
-    kept(&AppliedForce::value, {"force", "value", vector, "N", any, "!", "", "",
-                                "constant force in the world frame, from the start to the end"}),
+    kept(&AppliedForce::value, {"force", "value", vector, "N", any, "[0, 0, 0]", "a torque alone", "",
+                                "constant force in the world frame"}),
     kept(&AppliedForce::point,
          {"force", "place", vector, "m", any, "", "the centre of mass", "",
-          "point of the body that it acts on, where it is at the start; it moves with the body"}));
+          "point of the body that it acts on, where it is at the start; it moves with the body"}),
+    kept(&AppliedForce::torque,
+         {"force", "torque", vector, "N m", any, "[0, 0, 0]", "no torque of its own", "",
+          "constant torque in the world frame"},
+         {.later = true}),
+    kept(&AppliedForce::start,
+         {"force", "start", number, "s", not_negative, "0", "from the start", "", "time at which it begins"},
+         {.later = true}),
+    kept(&AppliedForce::stop,
+         {"force", "stop", number, "s", positive, "", "to the end", "", "time at which it ends"}));
+
+inline constexpr auto of_source = std::make_tuple(
+    kept(&HeatSource::bodies,
+         {"source", "bodies", texts, "", any, "[]", "all in the region", "", "bodies that it heats"}),
+    kept(&HeatSource::region,
+         {"source", "region", shape, "", any, "", "everywhere", "",
+          "region that it heats: matter that is in it now, or surfaces that were laid in it"}),
+    kept(&HeatSource::heat,
+         {"source", "heat", number, "W", any, "", "none", "",
+          "heat per second, shared by volume; of a region, by what is in it at the start. Below 0 it cools"}),
+    kept(&HeatSource::density,
+         {"source", "heat_density", number, "W/m3", any, "", "none", "", "heat per second and volume"}),
+    kept(&HeatSource::flux,
+         {"source", "flux", number, "W/m2", any, "", "none", "",
+          "heat per second and area, into the body through its outer surface (model 8.6)"}),
+    kept(&HeatSource::transfer_coefficient,
+         {"source", "transfer_coefficient", number, "W/m2/K", not_negative, "", "no convection", "",
+          "heat transfer coefficient of the outer surface, to ambient_temperature"}),
+    kept(&HeatSource::emissivity,
+         {"source", "emissivity", number, "", fraction, "", "no radiation", "",
+          "emissivity of the outer surface, to surroundings of ambient_temperature"}),
+    kept(&HeatSource::ambient, {"source", "ambient_temperature", number, "K", not_negative, "", "none", "",
+                                "temperature of what convection and radiation go to"}),
+    kept(&HeatSource::start, {"source", "start", number, "s", not_negative, "0", "from the start", "",
+                              "time at which it begins"}),
+    kept(&HeatSource::stop,
+         {"source", "stop", number, "s", positive, "=", "end_time", "", "time at which it ends"}));
 
 }  // namespace records
 
@@ -195,5 +231,7 @@ template <>
 inline constexpr auto record<ContactLaw> = records::of_contact_law;
 template <>
 inline constexpr auto record<AppliedForce> = records::of_force;
+template <>
+inline constexpr auto record<HeatSource> = records::of_source;
 
 }  // namespace tripoint

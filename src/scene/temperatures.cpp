@@ -44,6 +44,11 @@ TemperatureRange temperatures_of(const Scene& s) {
     if (f.temperature) add(range, *f.temperature);
   for (const auto& e : s.events)
     if (e.temperature) add(range, *e.temperature);
+  for (const auto& h : s.sources) {
+    if (h.ambient) add(range, *h.ambient);
+    for (const auto& given : {h.heat, h.density, h.flux})
+      if (given && *given != 0.0) add(range, *given > 0.0 ? INFINITY : 0.0);
+  }
   return range;
 }
 

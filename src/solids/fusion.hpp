@@ -117,7 +117,8 @@ inline void give_heat(State& state, std::size_t row, double joules) {
   const double capacity = p[field::mass][row] * p[field::heat_capacity][row];
   const Fusion fusion = fusion_of(state.scene, state.material_of(row));
   double& T = p[field::temperature][row];
-  double& f = p[field::liquid_fraction][row];
+  double none = 0.0;  // where nothing melts
+  double& f = p.has(field::liquid_fraction.name) ? p[field::liquid_fraction][row] : none;
   if (p.has(field::enthalpy.name)) {
     double& H = p[field::enthalpy][row];
     H += joules;

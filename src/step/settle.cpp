@@ -31,6 +31,7 @@ Scene still_scene(Scene s) {
   s.recovers = false;
   s.events.clear();
   s.inflows.clear();
+  s.sources.clear();
   for (Material& m : s.materials) m.viscosity = 0.0;
   for (Body& b : s.bodies) {
     b.temperature.reset();

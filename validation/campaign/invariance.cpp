@@ -27,6 +27,7 @@ std::string always(const Scene&) { return {}; }
 /// Places and motions that the scene gives besides its particles would have to change with them.
 std::string has_places(const Scene& s) {
   if (!s.inflows.empty()) return "the scene has an inflow";
+  if (!s.sources.empty()) return "the scene has a source of heat";
   for (const auto& b : s.bodies)
     if (!b.keyframes.empty()) return "body `" + b.name + "` moves by keyframes";
   for (const auto& e : s.events)
@@ -49,6 +50,7 @@ std::string is_not_closed(const Scene& s) {
 
 std::string has_other_numbers(const Scene& s) {
   if (!s.inflows.empty()) return "the scene has an inflow";
+  if (!s.sources.empty()) return "the scene has a source of heat";
   for (const auto& e : s.events)
     if (e.region || !e.keyframes.empty()) return "an event names a region or keyframes";
   return {};

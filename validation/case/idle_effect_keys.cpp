@@ -14,9 +14,18 @@
 namespace tripoint {
 namespace {
 
+/// Whether an effect of the case reads a key that another one brings.
+bool is_shared(const IdleSearch& in, std::string_view key) {
+  return std::ranges::any_of(effect_rules(), [&](const EffectRule& rule) {
+    return std::ranges::find(rule.scene_keys_shared, key) != rule.scene_keys_shared.end() &&
+           in.calls(rule.name);
+  });
+}
+
 void material_key(IdleSearch& in, const Material& m, const EffectRule& rule, const EffectKey& key) {
   const auto place = in.given(fmt::format("material.{}.{}", m.name, key.row.name));
   if (place.file.empty()) return;
+  if (is_shared(in, key.row.name)) return;
   const bool on = in.calls(rule.name);
   if (on && (!key.idle || in.any_mode([&](const Scene& run) { return key.idle(run).empty(); }))) return;
   in.warn(place, fmt::format("{} of material \"{}\" never acts: {}", key.row.name, m.name,
@@ -77,11 +86,7 @@ bool acts(const IdleSearch& in, const Term& one) {
 
 /// Whether an effect of the case reads this key of the scene, or something beside its effects.
 bool is_read(const IdleSearch& in, const SceneKey& key) {
-  if (key.serves && in.any_mode(key.serves)) return true;
-  return std::ranges::any_of(effect_rules(), [&](const EffectRule& rule) {
-    return std::ranges::find(rule.scene_keys_shared, key.name) != rule.scene_keys_shared.end() &&
-           in.calls(rule.name);
-  });
+  return (key.serves && in.any_mode(key.serves)) || is_shared(in, key.name);
 }
 
 /// Words of [model] for what is in no run of the case.

@@ -107,8 +107,8 @@ HeatReference::HeatReference(const Job& job, const InitialState& initial, HeldEn
     if (body.motion == Motion::free && norm(job.scene.gravity) > 0.0)
       throw InputError("body `" + body.name + "` falls: the exact solutions of heat are of a medium at rest");
   }
-  if (!job.scene.events.empty() || !job.scene.inflows.empty())
-    throw InputError("an exact solution of heat has no events or inflows");
+  if (!job.scene.events.empty() || !job.scene.inflows.empty() || !job.scene.sources.empty())
+    throw InputError("an exact solution of heat has no events, inflows or sources");
   rest_.position = initial.position;
   rest_.velocity.assign(initial.size(), Vec3{});
   rest_.phase = initial.phase;

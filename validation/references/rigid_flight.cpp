@@ -33,10 +33,14 @@ void refuse_what_is_not_free(const Job& job) {
     if (event.kind != Event::Kind::merge && event.kind != Event::Kind::split)
       throw InputError(event.place, "free flight is exact with merge and split events only");
   if (!job.scene.inflows.empty()) throw InputError("a scene with an inflow has no exact free flight");
-  for (const auto& force : job.scene.forces)
+  for (const auto& force : job.scene.forces) {
+    if (force.has_no_potential())
+      throw InputError(force.place,
+                       "free flight is exact with constant forces only: leave torque, start and stop out");
     if (force.point)
       throw InputError(force.place,
                        "free flight is exact with forces at the centre of mass only: leave `place` out");
+  }
 }
 
 }  // namespace

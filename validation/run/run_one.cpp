@@ -292,6 +292,11 @@ std::string not_handed_over(const RunRequest& request) {
            "differ (capability "
            "contact-pairs)";
   if (!scene.forces.empty() && lacks("force")) return "no [[force]] is handed to it (capability force)";
+  if (std::ranges::any_of(scene.forces, [](const AppliedForce& f) { return f.has_no_potential(); }) &&
+      lacks("torque"))
+    return "no torque, and no [[force]] that begins or ends, is handed to it (capability torque)";
+  if (!scene.sources.empty() && lacks("source"))
+    return "no [[source]] of heat is handed to it (capability source)";
   return {};
 }
 

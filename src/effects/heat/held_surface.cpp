@@ -12,6 +12,7 @@
 #include "scene/effect_rule.hpp"
 #include "scene/geometry.hpp"
 #include "scene/scene_keys.hpp"
+#include "scene/shape_distance.hpp"
 #include "scene/shared_terms.hpp"
 #include "sph/kernels.hpp"
 #include "state/ordered_sum.hpp"
@@ -35,6 +36,16 @@ bool acts(const Scene& scene) {
   return kept_number(scene.values, key_row("scene", "surface_exchange")) != 0.0;
 }
 
+/// A place beyond a periodic side, where it is in the domain.
+Vec3 put_back(const Scene& scene, Vec3 place) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (!scene.periodic[a]) continue;
+    const double width = (*scene.max)[a] - (*scene.min)[a];
+    place[a] -= width * std::floor((place[a] - (*scene.min)[a]) / width);
+  }
+  return place;
+}
+
 /// Particles as they were laid, by cells of one spacing.
 class Laid {
  public:
@@ -43,11 +54,7 @@ class Laid {
   }
   /// Whether a particle stands at the place, or at one of its periodic images.
   [[nodiscard]] bool taken(Vec3 place) const {
-    for (std::size_t a = 0; a < 3; ++a) {
-      if (!scene_.periodic[a]) continue;
-      const double width = (*scene_.max)[a] - (*scene_.min)[a];
-      place[a] -= width * std::floor((place[a] - (*scene_.min)[a]) / width);
-    }
+    place = put_back(scene_, place);
     for (int x = -1; x <= 1; ++x)
       for (int y = -1; y <= 1; ++y)
         for (int z = -1; z <= 1; ++z)
@@ -90,6 +97,7 @@ class Laid {
 struct Beyond {
   Vec3 away;      ///< [m]
   double within;  ///< of 0..1
+  Vec3 exit;      ///< where the way leaves the body [m]
 };
 
 /// Steps of the lattice that the support reaches [spacings].
@@ -135,7 +143,8 @@ std::vector<Beyond> places_beyond(const Scene& scene, const Inside& inside, cons
   for (const Vec3& step : steps) {
     const Vec3 away = dx * step, place = at + away;
     if (inside(place) || cut_off(scene, place) || laid.taken(place)) continue;
-    found.push_back({away, std::max(way_within(inside, at, away), least_way)});
+    const double way = way_within(inside, at, away);
+    found.push_back({away, std::max(way, least_way), at + way * away});
     nearest = std::min(nearest, found.back().within * norm(away));
   }
   for (Beyond& b : found) b.within *= least_distance * dx / nearest;
@@ -150,6 +159,23 @@ bool leaves_by_a_face(const std::vector<Beyond>& beyond, double spacing) {
   return std::ranges::any_of(beyond, [&](const Beyond& b) { return norm(b.away) < 1.1 * spacing; });
 }
 
+/// Normal of the surface of a shape, by differences of distance [1].
+Vec3 normal_at(const PlaceFunction& distance, const Vec3& r, double spacing) {
+  const double step =
+      0.05 * spacing;  // a choice: fields of meshes are linear between points half a spacing apart
+  Vec3 n;
+  for (std::size_t a = 0; a < 3; ++a) {
+    Vec3 e;
+    e[a] = step;
+    n[a] = distance(r + e) - distance(r - e);
+  }
+  return norm(n) > 0.0 ? n / norm(n) : n;
+}
+
+bool has_sources(const Scene& scene, const Body& b) {
+  return std::ranges::any_of(scene.sources, [&](const HeatSource& s) { return acts_on(s, b); });
+}
+
 constexpr std::array<const Field<double>*, 6> inverse = columns_of(field::moment_inverse);
 
 }  // namespace
@@ -161,31 +187,52 @@ std::optional<double> surface_temperature(const Scene& scene, const Body& b) {
 }
 
 bool has_held_surfaces(const Scene& scene) {
-  return std::ranges::any_of(scene.bodies,
-                             [&](const Body& b) { return surface_temperature(scene, b).has_value(); });
+  return std::ranges::any_of(scene.bodies, [&](const Body& b) {
+    return surface_temperature(scene, b).has_value() || has_sources(scene, b);
+  });
 }
 
+namespace {
+
+/// Why heat cannot pass the surface of a body, and what to write instead; empty = it can.
+std::string surface_refusal(const Scene& scene, const Body& b) {
+  if (scene.mode_of(term::heat) == Mode::paper)
+    return "and heat as printed knows no surfaces: write modes.heat = \"corrected\", or hold a body beside "
+           "it";
+  if (b.motion != Motion::fixed || b.phase == Phase::liquid)
+    return "and such a surface stays where it was laid: write motion = \"fixed\" for a solid body";
+  if (scene.material(b.material).t_melt && calls_for(scene, "phase"))
+    return "and its surface would melt away: leave t_melt out of the material, or hold a body beside it";
+  for (const Event& e : scene.events)
+    if (e.kind == Event::Kind::release && std::ranges::find(e.bodies, b.name) != e.bodies.end())
+      return "and it is released: such a surface stays where it was laid";
+  return {};
+}
+
+void refuse_surface_sources(const Scene& scene) {
+  for (const HeatSource& s : scene.sources) {
+    if (!s.is_of_surfaces()) continue;
+    if (std::ranges::none_of(scene.bodies, [&](const Body& b) { return acts_on(s, b); }) && s.bodies.empty())
+      throw InputError(s.place, "heat passes surfaces of fixed solid bodies alone, and the scene has none");
+    for (const Body& b : scene.bodies) {
+      if (!acts_on(s, b) && std::ranges::find(s.bodies, b.name) == s.bodies.end()) continue;
+      if (const auto why = surface_refusal(scene, b); !why.empty())
+        throw InputError(s.place,
+                         fmt::format("a source acts through the surface of body \"{}\", {}", b.name, why));
+    }
+  }
+}
+
+}  // namespace
+
 void refuse_held_surfaces(const Scene& scene) {
+  refuse_surface_sources(scene);
   for (const Body& b : scene.bodies) {
     const Material& m = scene.material(b.material);
     if (!(value_of(m.values, "surface_temperature") > 0.0)) continue;
-    const auto refuse = [&](const std::string& why) {
+    if (const auto why = surface_refusal(scene, b); !why.empty())
       throw InputError(
           fmt::format("body \"{}\" is of {}, which has a surface_temperature, {}", b.name, m.name, why));
-    };
-    if (scene.mode_of(term::heat) == Mode::paper)
-      refuse(
-          "and heat as printed knows no surfaces: write modes.heat = \"corrected\", or hold a body beside "
-          "it");
-    if (b.motion != Motion::fixed || b.phase == Phase::liquid)
-      refuse(
-          "and a held surface stays where it was laid: write motion = \"fixed\" for a solid body, or give it "
-          "another material");
-    if (m.t_melt && calls_for(scene, "phase"))
-      refuse("and its surface would melt away: leave t_melt out of the material, or hold a body beside it");
-    for (const Event& e : scene.events)
-      if (e.kind == Event::Kind::release && std::ranges::find(e.bodies, b.name) != e.bodies.end())
-        refuse("and it is released: a held surface stays where it was laid");
   }
 }
 
@@ -194,42 +241,72 @@ void HeldSurfaces::load(State& state, const InitialState& initial) {
   near_.clear();
   const Scene& scene = state.scene;
   if (!has_held_surfaces(scene)) return;
+  sources_.emplace(scene);
   const Laid laid(initial, scene);
   const std::vector<Vec3> steps = steps_within(scene.support_ratio);
-  const WendlandC2 kernel(state.support());
-  const double dx = scene.spacing, volume = dx * dx * dx;
+  const double dx = scene.spacing;
   Particles& p = state.particles;
   std::vector<Inside> insides(scene.bodies.size());
+  std::vector<PlaceFunction> distances(scene.bodies.size());
   for (std::size_t i = 0; i < p.size(); ++i) {
     const auto source = static_cast<std::size_t>(p[field::source][i]);
     if (source >= scene.bodies.size()) continue;
-    const auto held_at = surface_temperature(scene, scene.bodies[source]);
-    if (!held_at) continue;
-    if (!insides[source]) insides[source] = inside_of(scene.bodies[source].shape, dx);
+    const Body& body = scene.bodies[source];
+    const auto held_at = surface_temperature(scene, body);
+    const bool heated = has_sources(scene, body);
+    if (!held_at && !heated) continue;
+    if (!insides[source])
+      insides[source] = [&scene, in = inside_of(body.shape, dx)](const Vec3& r) {
+        return in(put_back(scene, r));
+      };
+    if (heated && !distances[source])
+      distances[source] = [&scene, d = distance_of(body.shape, dx)](const Vec3& r) {
+        return d(put_back(scene, r));
+      };
     const auto id = static_cast<std::uint32_t>(p[field::id][i]);
     const auto beyond = places_beyond(scene, insides[source], initial.position[id], steps, laid);
-    if (!acts(scene)) {
+    if (!acts(scene) && held_at) {
       if (leaves_by_a_face(beyond, dx)) {
         p[field::held][i] = 1;
         p[field::temperature][i] = *held_at;
       }
       continue;
     }
-    if (beyond.empty()) continue;
-    Near near{id, *held_at};
-    const double own = p[field::mass][i] / state.material_of(i).density;
+    const std::size_t first = all_.size();
     for (const Beyond& b : beyond) {
-      const double r = norm(b.away), K = -2.0 * kernel.derivative_over_r(r);
-      const auto rr = outer(b.away);
-      for (std::size_t c = 0; c < 6; ++c) {
-        near.moment[c] += 0.5 * volume * K * rr[c];
-        near.exchange[c] += own * volume * K * rr[c] / (r * r * b.within);
-      }
+      Near near{id, held_at.value_or(0.0)};
+      if (heated) near.sources = sources_->acting(scene, body, b.exit);
+      if (near.sources == 0 && !held_at) continue;
+      if (near.sources != 0)
+        near.depth =
+            std::max(dot(normal_at(distances[source], b.exit, dx), b.within * b.away), least_way * dx);
+      add_place(state, i, b.away, b.within, alike(near, first));
     }
-    all_.push_back(near);
   }
-  std::ranges::sort(all_, {}, &Near::id);
+  std::ranges::stable_sort(all_, {}, &Near::id);
   near_ = all_;
+}
+
+/// That of a particle's entries, from `first` on, which has the same surface; a new one where none has.
+HeldSurfaces::Near& HeldSurfaces::alike(const Near& near, std::size_t first) {
+  constexpr double same = 1e-6;  // of the depth: ways through one plane face have the same but for round-off
+  for (std::size_t n = first; n < all_.size(); ++n)
+    if (all_[n].sources == near.sources && std::abs(all_[n].depth - near.depth) <= same * near.depth)
+      return all_[n];
+  return all_.emplace_back(near);
+}
+
+void HeldSurfaces::add_place(const State& state, std::size_t row, const Vec3& away, double within,
+                             Near& near) {
+  const WendlandC2 kernel(state.support());
+  const double dx = state.scene.spacing, volume = dx * dx * dx;
+  const double own = state.particles[field::mass][row] / state.material_of(row).density;
+  const double r = norm(away), K = -2.0 * kernel.derivative_over_r(r);
+  const auto rr = outer(away);
+  for (std::size_t c = 0; c < 6; ++c) {
+    near.moment[c] += 0.5 * volume * K * rr[c];
+    near.exchange[c] += own * volume * K * rr[c] / (r * r * within);
+  }
 }
 
 void HeldSurfaces::renumber(const State& state) {
@@ -237,21 +314,23 @@ void HeldSurfaces::renumber(const State& state) {
   near_.clear();
   for (std::uint32_t id = 0; id < state.particles.size(); ++id) {
     const std::uint32_t number = state.halo ? static_cast<std::uint32_t>(state.halo->numbers()[id]) : id;
-    const auto one = std::ranges::lower_bound(all_, number, {}, &Near::id);
-    if (one == all_.end() || one->id != number) continue;
-    near_.push_back(*one);
-    near_.back().id = id;
+    for (auto one = std::ranges::lower_bound(all_, number, {}, &Near::id);
+         one != all_.end() && one->id == number; ++one) {
+      near_.push_back(*one);
+      near_.back().id = id;
+    }
   }
 }
 
-double HeldSurfaces::conductance(const Particles& p, std::size_t row, const Near& near) {
+HeldSurfaces::Flow HeldSurfaces::flow(const State& state, std::size_t row, const Near& near) const {
+  const Particles& p = state.particles;
   double sum = 0.0;
   for (std::size_t c = 0; c < 6; ++c) sum += (c < 3 ? 1.0 : 2.0) * p[*inverse[c]][row] * near.exchange[c];
-  return p[field::conductivity][row] * sum;
-}
-
-double HeldSurfaces::flow(const Particles& p, std::size_t row, const Near& near) {
-  return conductance(p, row, near) * (near.temperature - p[field::temperature][row]);
+  const double k = p[field::conductivity][row], T = p[field::temperature][row], conductance = k * sum;
+  if (near.sources == 0) return {conductance * (near.temperature - T), conductance};
+  const auto surface = sources_->balance(near.sources, state.time, k / near.depth, T);
+  return {conductance * (surface.temperature - T),
+          conductance * surface.slope / (k / near.depth + surface.slope)};
 }
 
 void HeldSurfaces::start_sums(State& state, PassName pass) const {
@@ -259,11 +338,23 @@ void HeldSurfaces::start_sums(State& state, PassName pass) const {
   for (const Near& near : near_) {
     const std::size_t i = p.row(near.id);
     if (pass == PassName::density) {
-      for (std::size_t c = 0; c < 6; ++c) p[*inverse[c]][i] = near.moment[c];
+      for (std::size_t c = 0; c < 6; ++c) p[*inverse[c]][i] += near.moment[c];
       continue;
     }
-    p[field::conductance][i] = conductance(p, i, near);
-    p[field::heat_rate][i] = flow(p, i, near);
+    const Flow now = flow(state, i, near);
+    p[field::conductance][i] += now.conductance;
+    p[field::heat_rate][i] += now.heat;
+  }
+}
+
+template <class Visit>
+void HeldSurfaces::each_particle(const State& state, Visit visit) const {
+  for (std::size_t n = 0; n < near_.size();) {
+    const std::uint32_t id = near_[n].id;
+    const std::size_t row = state.particles.row(id);
+    double heat = 0.0;
+    for (; n < near_.size() && near_[n].id == id; ++n) heat += flow(state, row, near_[n]).heat;
+    visit(row, heat);
   }
 }
 
@@ -273,16 +364,14 @@ void HeldSurfaces::book(State& state, Stage stage, double dt) const {
   const auto before = p[field::surface_flow_before];
   const bool by_body = state.bodies.has(field::body_heat.name);
   double sum = 0.0;
-  for (const Near& near : near_) {
-    const std::size_t i = p.row(near.id);
-    if (!state.owns(i) || p[field::held][i]) continue;
-    const double now = flow(p, i, near);
+  each_particle(state, [&](std::size_t i, double now) {
+    if (!state.owns(i) || p[field::held][i]) return;
     const double given = stage == Stage::first ? dt * now : 0.5 * dt * (now - before[i]);
     if (stage == Stage::first) before[i] = now;
     sum += given;
     if (const int b = p[field::body][i]; by_body && b >= 0)
       state.bodies[field::body_heat][static_cast<std::size_t>(b)] += given;
-  }
+  });
   state.booked[account::walls] -= sum;
 }
 

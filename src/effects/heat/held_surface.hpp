@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "effects/effect.hpp"
+#include "effects/heat/surface_law.hpp"
 
 namespace tripoint::heat {
 
@@ -16,14 +17,14 @@ enum class Stage { first, last };
 [[nodiscard]] std::optional<double> surface_temperature(const Scene&, const Body&);
 [[nodiscard]] bool has_held_surfaces(const Scene&);
 
-/// @throws InputError naming a body whose held surface cannot be computed: one that moves, melts or is as
+/// @throws InputError naming a body whose surface cannot exchange heat: one that moves, melts or is as
 /// printed
 void refuse_held_surfaces(const Scene&);
 
-/// Surfaces of bodies whose temperature is held (model 8.6). The part of a particle's neighbourhood beyond
-/// the surface is filled with lattice places. Their temperature is linear along the way through the surface
-/// [Gibou, Fedkiw, Cheng, Kang 2002]. So the surface lies where the shape has it, and not half a spacing
-/// further in or out.
+/// Surfaces of bodies whose temperature is held, or through which sources give heat (model 8.6). The part of
+/// a particle's neighbourhood beyond the surface is filled with lattice places. Their temperature is linear
+/// along the way through the surface [Gibou, Fedkiw, Cheng, Kang 2002]. So the surface lies where the shape
+/// has it, and not half a spacing further in or out.
 ///
 /// The data kept here follow from the particles as they were laid, and a resumed run finds them again.
 class HeldSurfaces {
@@ -42,18 +43,29 @@ class HeldSurfaces {
   void book(State&, Stage, double dt) const;
 
  private:
-  /// A particle with places beyond a held surface in its support.
+  /// A particle with places in its support that lie beyond a surface: beyond a held one, or one with these
+  /// sources.
   struct Near {
     std::uint32_t id = 0;
-    double temperature = 0.0;        ///< of the surface [K]
+    double temperature = 0.0;        ///< of a held surface [K]
+    std::uint32_t sources = 0;       ///< that act at the surface; 0: it is held
+    double depth = 0.0;              ///< of the particle below a surface with sources [m]
     std::array<double, 6> moment{};  ///< sum 1/2 V K r r^T of the places: xx, yy, zz, yz, xz, xy
     /// Sum V_i V K e e^T over the share of the way that lies within the body [m]
     std::array<double, 6> exchange{};
   };
-  /// Conductance to the surface, k M_i^+ : exchange [W/K].
-  [[nodiscard]] static double conductance(const Particles&, std::size_t row, const Near&);
-  [[nodiscard]] static double flow(const Particles&, std::size_t row, const Near&);
+  /// Heat that comes from the surface [W], and how it falls with the particle's temperature [W/K].
+  struct Flow {
+    double heat = 0.0, conductance = 0.0;
+  };
+  [[nodiscard]] Flow flow(const State&, std::size_t row, const Near&) const;
+  Near& alike(const Near&, std::size_t first);
+  static void add_place(const State&, std::size_t row, const Vec3& away, double within, Near&);
+  /// Calls visit(row, heat) for each particle near a surface, with all that comes to it [W].
+  template <class Visit>
+  void each_particle(const State&, Visit visit) const;
 
+  std::optional<SurfaceSources> sources_;
   std::vector<Near> all_;   ///< of the whole scene, by number, ascending
   std::vector<Near> near_;  ///< of these the ones that this process has, copies too, by id, ascending
 };

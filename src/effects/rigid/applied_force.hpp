@@ -2,9 +2,17 @@
 #pragma once
 #include "state/body_table.hpp"
 
-/// Constant forces on free rigid bodies, [[force]]. Such a force has a potential: the body's point moves and
-/// the force does not.
+/// Forces and torques on free rigid bodies, [[force]]. A constant force has a potential: the body's point
+/// moves and the force does not. Torques, and forces that begin or end, have none: the entry `applied_force`
+/// takes their work.
 namespace tripoint::rigid {
+
+namespace account {
+using namespace tripoint::account;
+inline constexpr Account applied_work{"applied_work"};  ///< of forces and torques without a potential
+}  // namespace account
+
+[[nodiscard]] bool has_forces_without_potential(const Scene&);
 
 /// v += dt F/m, L += dt (r_point - r_cm) x F (18)-(19); the work goes to the account of gravity, whose entry
 /// holds the potential.

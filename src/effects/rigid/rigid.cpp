@@ -342,6 +342,8 @@ void RigidBodies::add_to(const State& state, Ledger& ledger) const {
     ledger.energy[ledger_entry::kinetic] += kinetic_energy(state, b);
     ledger.energy[ledger_entry::potential] += potential_energy(state, b);
   }
+  if (state.booked.has(account::applied_work))
+    ledger.energy["applied_force"] -= state.booked[account::applied_work];
   if (state.is_first()) ledger.angular_momentum += state.booked.undelivered_spin;
 }
 
@@ -356,6 +358,7 @@ EffectSpec spec(const Scene& scene) {
   s.reads_if_there = fields::image();
   s.sums_forces = true;
   s.skips_sleeping = true;
+  if (has_forces_without_potential(scene)) s.accounts = {account::applied_work};
   return s;
 }
 

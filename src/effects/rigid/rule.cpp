@@ -36,7 +36,9 @@ EffectRule rule() {
           .left_out = left_out,
           .needed_for = needed_for,
           .terms = {{term::rotation, {{"splitting", "of second order (20)"}}, TermKind::time}},
-          .ledger_entries = {{ledger_entry::kinetic}, {ledger_entry::potential}},
+          .ledger_entries = {{ledger_entry::kinetic},
+                             {ledger_entry::potential},
+                             {"applied_force", "minus the work of torques, and of forces that begin or end"}},
           .over_processes = true};
 }
 
