@@ -11,12 +11,10 @@
 #include "scene/sample.hpp"
 #include "validation/campaign/case_names.hpp"
 #include "validation/campaign/suite.hpp"
-#include "validation/case/foreseen.hpp"
 #include "validation/case/idle_keys.hpp"
 #include "validation/case/preflight.hpp"
 #include "validation/case/read_case.hpp"
 #include "validation/case/shape_match.hpp"
-#include "validation/case/unjudged.hpp"
 #include "validation/references/experiment.hpp"
 #include "validation/run/trial.hpp"
 

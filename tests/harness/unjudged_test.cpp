@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the gates of a case leave open is a warning, and no case of the suite leaves a defect open.
-#include "validation/case/unjudged.hpp"
+#include "validation/case/preflight.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,6 @@
 #include "case_file.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/sample.hpp"
-#include "validation/case/foreseen.hpp"
 #include "validation/case/preflight.hpp"
 #include "validation/case/shape_match.hpp"
 
@@ -151,9 +150,9 @@ TEST(Preflight, ForetellsASlopeWithoutFriction) {
   const auto ramp = [](const std::string& rotation) {
     return steel_box("ramp", "[-1,-1,-0.3]", "[1,1,0]", "motion='fixed'\nrotation=" + rotation);
   };
-  EXPECT_NE(foretold(scene_with(block + ramp("[1,0,0.2,0]"), "gravity=[0,0,-9.81]")).find("slopes"),
+  EXPECT_NE(foretold(scene_with(block + ramp("[0.8,0,0.6,0]"), "gravity=[0,0,-9.81]")).find("slopes"),
             std::string::npos);
-  EXPECT_EQ(foretold(scene_with(block + ramp("[1,0,0,0.2]"), "gravity=[0,0,-9.81]")), "")
+  EXPECT_EQ(foretold(scene_with(block + ramp("[0.8,0,0,0.6]"), "gravity=[0,0,-9.81]")), "")
       << "its faces lie level";
 }
 

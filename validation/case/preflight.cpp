@@ -12,7 +12,6 @@
 #include "scene/shared_terms.hpp"
 #include "validation/case/case.hpp"
 #include "validation/case/dates.hpp"
-#include "validation/case/foreseen.hpp"
 #include "validation/case/overlap.hpp"
 #include "validation/case/preflight.hpp"
 #include "validation/case/shape_match.hpp"

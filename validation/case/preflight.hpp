@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,8 +10,11 @@ namespace tripoint {
 
 struct Case;
 struct CaseReading;
+struct Gate;
 struct InitialState;
+struct MetricChoice;
 struct Scene;
+struct Study;
 
 /// One finding of the pre-flight check.
 struct Finding {
@@ -28,5 +32,25 @@ struct Finding {
 
 /// One note for each number of [scene] that a word of [model] says.
 [[nodiscard]] std::vector<Finding> old_keys(const CaseReading&);
+
+/// Warnings of what the case's gates leave open. Nothing judges the case, so that `validate` would pass it
+/// unjudged; no gate looks at a metric; a known defect has a floor and no ceiling; a ladder for every engine
+/// whose limit is not judged.
+[[nodiscard]] std::vector<Finding> unjudged(const Case&);
+
+/// Names of metrics that no gate and no expected class of a study looks at.
+[[nodiscard]] std::vector<std::string> unjudged_metrics(const std::vector<MetricChoice>&,
+                                                        const std::vector<Gate>&, const std::vector<Study>&);
+
+/// Warnings of walls that leak, as they are thinner than the support, and of liquid too soft for its own
+/// weight.
+[[nodiscard]] std::vector<Finding> weak_containers(const Scene&, const InitialState&);
+
+/// Notes of what a run will not show: friction on a slope, heat and melting that need longer than end_time.
+[[nodiscard]] std::vector<Finding> foreseen(const Scene&);
+
+/// CPU seconds of a run by the particle solver, within a factor of three; empty where nothing bounds its
+/// step.
+[[nodiscard]] std::optional<double> cpu_seconds(const Scene&, const InitialState&);
 
 }  // namespace tripoint

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "validation/case/unjudged.hpp"
+#include "validation/case/preflight.hpp"
 
 #include <fmt/format.h>
 

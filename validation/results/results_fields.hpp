@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "validation/case/unjudged.hpp"
+#include "validation/case/preflight.hpp"
 #include "validation/results/fields.hpp"
 #include "validation/results/results.hpp"
 #include "validation/results/rows.hpp"

@@ -26,9 +26,9 @@ std::vector<EffectKey> keys() {
   using enum ValueType;
   return {{{"material", "thermal_expansion", number, "1/K", Range::any, "0",
             "size does not depend on temperature", "",
-            "of a liquid the share of its density that it loses per kelvin, in its weight alone "
-            "(Boussinesq); of an "
-            "elastic solid the share of its length that it gains (model 8.13)"}},
+            "of a liquid: relative loss of density per kelvin, in its weight alone (model 8.13). Of an "
+            "elastic solid: "
+            "relative gain of length per kelvin"}},
           {{"material", "expansion_temperature", number, "K", Range::not_negative, "0",
             "mean of its matter at the start", "",
             "temperature at which the material has its density and its length; 0: the mean at the start"}}};
