@@ -145,7 +145,7 @@ TEST(Simulation, TakesTheScenesTimeStepWhereItGivesOne) {
 TEST(Simulation, NamesTheEffectWhoseBoundSetsTheStep) {
   lab::Lab spinning = lab::asymmetric_block({1.0, 2.0, 3.0});
   EXPECT_EQ(Simulation(spinning.scene, spinning.initial).time_step_set_by(), "rotation");
-  EXPECT_NEAR(Simulation(spinning.scene, spinning.initial).bound().dt, 0.5 / std::sqrt(14.0), 1e-12);
+  EXPECT_NEAR(Simulation(spinning.scene, spinning.initial).bound().dt, 0.1 / std::sqrt(14.0), 1e-12);
   spinning.scene.gravity = {0.0, 0.0, -1e4};
   EXPECT_EQ(Simulation(spinning.scene, spinning.initial).time_step_set_by(), "acceleration");
   lab::Lab warm(1e-3);

@@ -41,6 +41,8 @@ class RigidBodies : public Effect {
 /// Greatest angle of a step [rad]: a choice that guards accuracy, since the splitting stays bounded at any
 /// angle. At it a tumbling body keeps its energy to a thousandth (RotationBound, tests/step/bounds_test.cpp).
 constexpr double most_turn = 0.5;
+/// The same where the step is ours to choose: a tumbling body is then within 0.005 rad after two turns.
+constexpr double chosen_turn = 0.1;
 
 /// L of a body that turns about one axis only must lie along it. @throws InputError naming the body
 void refuse_blocked_spin(const State& state, std::size_t b) {
@@ -314,14 +316,15 @@ void RigidBodies::happen(State& state, const Happening& now) {
   give_velocities(state);
 }
 
-/// |omega| dt <= most_turn, and acceleration_step() for what falls (model 8.10).
+/// |omega| dt <= chosen_turn, and acceleration_step() for what falls (model 8.10).
 TimeStepBound RigidBodies::max_dt(const State& state) const {
   TimeStepBound bound;
+  const double angle = state.scene.time_step || turns_as_printed_ ? most_turn : chosen_turn;
   const double g = norm(state.scene.gravity);
   each_kept_body(state, [&](std::size_t b) {
     if (!is_free(state, b)) return;
     const double spin = norm(state.bodies[field::body_angular_velocity][b]);
-    if (spin > 0.0) tighten(bound, most_turn / spin, "rotation");
+    if (spin > 0.0) tighten(bound, angle / spin, "rotation");
     const double a = state.scene.forces.empty() ? g : g + applied_acceleration(state, b);
     if (a > 0.0) tighten(bound, acceleration_step(state.support(), a), "acceleration");
   });
