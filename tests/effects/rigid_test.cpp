@@ -34,7 +34,7 @@ TEST(RigidBody, AConstantForceAtItsCentreAddsFOverMToGravity) {
            .velocity = {1.0, 0.0, 5.0},
            .angular_velocity = {1.87, 3.74, 5.61}});
   const Vec3 force{3.0, -200.0, 40.0};
-  lab.scene.forces.push_back({"pushed", force, {}, {}});
+  lab.scene.forces.push_back({"pushed", force, {}, {}, 0.0, {}, {}});
   const Simulation s = lab.run(1.0);
   const Vec3 a = g + force / s.state().bodies[field::body_mass][0];
   EXPECT_NEAR(norm(s.state().bodies[field::body_centre][0] - (Vec3{1.15, 0.15, 5.15} + 0.5 * a)), 0.0, 1e-12);
@@ -46,7 +46,7 @@ double energy_drift_under_a_force_at_a_corner(double dt) {
   lab::Lab lab = lab::asymmetric_block({0.2, 0.1, 0.0});
   lab.scene.time_step = dt;
   lab.scene.bodies[0].name = "swung";
-  lab.scene.forces.push_back({"swung", {0.0, 0.3, -1.0}, Vec3{0.5, 0.3, 0.2}, {}});
+  lab.scene.forces.push_back({"swung", {0.0, 0.3, -1.0}, Vec3{0.5, 0.3, 0.2}, {}, 0.0, {}, {}});
   Simulation s(lab.scene, lab.initial, {.threads = 1});
   const auto energy = [&] {
     const Ledger now = s.ledger();
