@@ -15,6 +15,7 @@
 #include "program/cli/case_summary.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
+#include "scene/effect_rule.hpp"
 #include "scene/sample.hpp"
 #include "validation/campaign/case_names.hpp"
 #include "validation/campaign/suite.hpp"
@@ -49,8 +50,21 @@ std::string origin(const Decision& d, const std::string& file) {
                               : fmt::format("given, {}:{}", d.place.file, d.place.line);
 }
 
+/// Why the number of an effect's key changes nothing in this scene; "" = it acts, is not set, or no effect
+/// brings it.
+std::string why_idle(const Scene& scene, const Decision& d) {
+  for (const EffectRule& rule : effect_rules())
+    for (const EffectKey& key : rule.keys) {
+      if (key.row.table != "scene" || d.key != fmt::format("scene.{}", key.row.name) || d.value == "0")
+        continue;
+      const std::string why = key.idle ? key.idle(scene) : "";
+      return why.empty() && rule.left_out && !calls_for(scene, rule.name) ? rule.left_out(scene) : why;
+    }
+  return "";
+}
+
 /// Keys that are not set are only counted: they would hide the others.
-void print_decisions(const std::vector<Decision>& decisions, const std::string& file) {
+void print_decisions(const Scene& scene, const std::vector<Decision>& decisions, const std::string& file) {
   std::size_t width = 0, unset = 0;
   for (const auto& d : decisions) width = std::max(width, std::min<std::size_t>(d.key.size(), 44));
   for (const auto& d : decisions) {
@@ -58,7 +72,9 @@ void print_decisions(const std::vector<Decision>& decisions, const std::string& 
       ++unset;
       continue;
     }
-    print_line(fmt::format("{:{}}  {:24}  # {}", d.key, width, d.value, origin(d, file)));
+    const std::string idle = why_idle(scene, d);
+    print_line(fmt::format("{:{}}  {:24}  # {}{}", d.key, width, d.value, origin(d, file),
+                           idle.empty() ? "" : "; changes nothing here: " + idle));
   }
   print(fmt::format("\n{} keys are not set (with --json: each with what that means).\n", unset));
 }
@@ -122,13 +138,14 @@ json as_json(const bench::Trial& t, int threads) {
           {"bytes_per_particle", t.bytes}};
 }
 
-json as_json(const CaseReading& reading, const Plan& plan) {
+json as_json(const CaseReading& reading, const Scene& scene, const Plan& plan) {
   json decisions = json::array(), effects = json::array(), fields = json::array(), idle = json::array(),
        bytes = json::object();
   for (const auto& d : reading.decisions) {
     json row{{"key", d.key}, {"value", d.value}, {"given", d.given}, {"reason", d.reason}};
     if (d.given && !d.place.file.empty()) row["file"] = d.place.file;
     if (d.given && d.place.line > 0) row["line"] = d.place.line;
+    if (const std::string why = why_idle(scene, d); !why.empty()) row["changes_nothing"] = why;
     decisions.push_back(std::move(row));
   }
   for (const auto& e : plan.effects) effects.push_back({{"name", e.name}, {"mode", e.mode}, {"why", e.why}});
@@ -184,7 +201,7 @@ int explain(const ExplainOptions& options) {
     return bench::try_scene(scene, steps, options.threads, options.trial ? SIZE_MAX : most_tried);
   };
   if (options.as_document) {
-    json document = as_json(reading, planned);
+    json document = as_json(reading, scene, planned);
     if (has_mesh(scene)) document["meshes"] = meshes_of(scene);
     if (options.trial.value_or(0) > 0) document["trial"] = as_json(trial(*options.trial), options.threads);
     print(json_text(document, 2));
@@ -195,7 +212,7 @@ int explain(const ExplainOptions& options) {
   print(case_summary(reading.value, scene, planned, timed));
   if (has_mesh(scene))
     for (const auto& f : mesh_notes(scene, sample(scene))) print_line(f.what);
-  print_decisions(reading.decisions, reading.value.file);
+  print_decisions(scene, reading.decisions, reading.value.file);
   print_plan(planned);
   if (steps > 0) print_trial(timed, options.threads);
   return 0;

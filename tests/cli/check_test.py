@@ -237,6 +237,32 @@ class Check(unittest.TestCase):
             self.assertLessEqual({p.name for p in Path(tempfile.gettempdir()).glob("tripoint-check-*")}, before)
 
 
+class Explain(unittest.TestCase):
+    def idle(self, text, folder):
+        """Keys of the scene that change nothing, and why, by `explain`."""
+        decisions = json.loads(call("explain", text, folder, "--json").stdout)["decisions"]
+        return {d["key"]: d["changes_nothing"] for d in decisions if "changes_nothing" in d}
+
+    def test_it_says_which_defaults_change_nothing_and_why(self):
+        bar = body("bar", "gum", [0.0, 0.0, 0.0], [0.4, 0.4, 0.4])
+        pool = body("pool", "stone", [2.0, 0.0, 0.0], [2.4, 0.4, 0.4], 'phase = "liquid"')
+        falls = "end_time = 0.1\ngravity = [0.0, 0.0, -9.81]"
+        warm = 'temperature = 300.0\nmotion = "fixed"'
+        frozen = body("frozen", "frost", [5.0, 0.0, 0.0], [5.4, 0.4, 0.4], warm.replace("300", "250"))
+        hot = body("hot", "frost", [5.4, 0.0, 0.0], [5.8, 0.4, 0.4], warm + '\nphase = "liquid"')
+        heat = "conductivity = 1.0\nheat_capacity = 1000.0\n"
+        wet = pool.replace("phase", "temperature = 300.0\nphase")
+        with tempfile.TemporaryDirectory() as folder:
+            alone = self.idle(scene(falls) + BALL + bar + INVARIANT + LEDGER, folder)
+            water = self.idle(scene(falls) + STONE + pool + INVARIANT + LEDGER, folder)
+            ice = self.idle(scene(falls) + STONE + heat + ICE + wet + frozen + hot + INVARIANT + LEDGER, folder)
+        self.assertNotIn("scene.bending", alone)
+        self.assertIn("scene.bulk_viscosity", alone)
+        self.assertEqual(water["scene.bending"], "nothing is elastic")
+        self.assertNotIn("scene.bulk_viscosity", water)
+        self.assertIn("melts or freezes", ice["scene.bulk_viscosity"])
+
+
 class Run(unittest.TestCase):
     def run_case(self, text, folder, *more):
         done = call("run", text, folder, "--out", Path(folder) / "out", "--json", *more)
