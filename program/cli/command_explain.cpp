@@ -55,8 +55,8 @@ std::string origin(const Decision& d, const std::string& file) {
 std::string why_idle(const Scene& scene, const Decision& d) {
   for (const EffectRule& rule : effect_rules())
     for (const EffectKey& key : rule.keys) {
-      if (key.row.table != "scene" || d.key != fmt::format("scene.{}", key.row.name) || d.value == "0")
-        continue;
+      if (key.row.table != "scene" || d.key != fmt::format("scene.{}", key.row.name)) continue;
+      if (d.value == "0" || d.value == "false") return "";
       const std::string why = key.idle ? key.idle(scene) : "";
       return why.empty() && rule.left_out && !calls_for(scene, rule.name) ? rule.left_out(scene) : why;
     }

@@ -143,6 +143,8 @@ def scaled(case, length, mass, time):
 
     def through(table, where):
         for key, v in table.items():
+            if isinstance(v, dict) and v.get("kind") == "expression":
+                raise ValueError("formulas have no units")
             if isinstance(v, dict):
                 through(v, "shape" if key in ("from", "minus") else key)
             elif key == "keyframes":
