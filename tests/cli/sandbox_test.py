@@ -8,6 +8,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -382,6 +383,43 @@ resource.RLIMIT_NPROC, resource.RLIMIT_CPU)]
             self.assertEqual(told[:4], [memory, 4 * memory, 16 << 30, 1024])
             self.assertTrue(0 < told[4] < 100000, told)
             self.assertEqual(told[5:], [1 << 30, 1 << 30])
+
+    def ended(self, deeds):
+        """How a run ends whose engine does this, and the seconds that it takes."""
+        self.insert('import os, sys\nif sys.argv[1] == "--run":\n' + deeds)
+        begun = time.monotonic()
+        done, results = self.validate("--sandbox")
+        reasons = [e["reason"] for e in results["cases"][0]["engines"] if e["name"] == "mine"]
+        return reasons[0], time.monotonic() - begun
+
+    def test_many_small_files_in_memory_end_it(self):
+        said, seconds = self.ended("""
+    for n in range(2000000):
+        if n % 1000 == 0:
+            os.mkdir(f"/tmp/{n}")
+        open(f"/tmp/{n // 1000 * 1000}/{n}", "w").close()
+""")
+        self.assertIn("more than 100000 files in memory", said)
+        self.assertLess(seconds, 60.0)
+
+    def test_its_memory_is_a_share_of_what_its_group_has_free(self):
+        """The machine is not asked for more than 300 MB."""
+        group = Path("/sys/fs/cgroup/memory/tripoint-test")
+        try:
+            group.mkdir(exist_ok=True)
+            (group / "memory.limit_in_bytes").write_text(str(400 << 20))
+        except OSError:
+            self.skipTest("no control group of version 1 can be made here")
+        self.addCleanup(group.rmdir)
+        own = "/sys/fs/cgroup/memory" + next(
+            line.split(":", 2)[2] for line in Path("/proc/self/cgroup").read_text().splitlines() if ":memory:" in line
+        )
+        (group / "cgroup.procs").write_text(str(os.getpid()))
+        try:
+            said, _ = self.ended("    import time\n    m = b'x' * (330 << 20)\n    time.sleep(5)\n")
+        finally:
+            Path(own, "cgroup.procs").write_text(str(os.getpid()))
+        self.assertRegex(said, r"the sandbox has (more than )?\d+ MB of memory")
 
     def test_it_starts_where_the_caller_has_lower_limits(self):
         words = [

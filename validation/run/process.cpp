@@ -410,6 +410,11 @@ ProcessEnd run_process(const ProcessSpec& spec) {
   err_write.reset();
   follow(spec, pid, out[0], err[0], log, end);
   end_strays(mark);
+  if (end.passed.empty() && !(end.how == ProcessEnd::How::exited && end.code == 0))
+    if (end.passed = group.passed(); !end.passed.empty()) {
+      end.how = ProcessEnd::How::signalled;
+      end.code = SIGKILL;
+    }
   end.log_tail = log.close();
   end.instructions = counter.read();
   return end;

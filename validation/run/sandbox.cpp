@@ -31,6 +31,7 @@ constexpr const char* bubblewrap = "/usr/bin/bwrap";
 constexpr const char* limiter = "/usr/bin/prlimit";
 constexpr auto in_memory = "1073741824";          ///< bytes of a folder that lives in memory
 constexpr int most_processes = 512;               ///< of one engine
+constexpr double share_of_free_memory = 0.75;     ///< of what is free when it begins
 constexpr double most_bytes = 16.0 * (1u << 30);  ///< of the files of one run
 std::atomic<bool> wanted{false};
 fs::path report;  ///< that no engine sees
@@ -219,7 +220,7 @@ ProcessSpec behind_walls(ProcessSpec spec, const Words& bound, As as) {
   spec.argv = std::move(words);
   spec.in_sandbox = true;
   if (as == As::nobody) spec.lent = spec.folder;
-  spec.most = {0.75 * static_cast<double>(memory_of_the_machine()), most_processes, most_bytes};
+  spec.most = {share_of_free_memory * free_memory(), most_processes, most_bytes};
   return spec;
 }
 

@@ -28,16 +28,6 @@ std::vector<pid_t> processes_from(pid_t outermost, std::size_t enough) {
   return all;
 }
 
-/// Sum of some lines `KEY:  N kB` of a file [bytes].
-double kilobytes(const std::string& file, const std::vector<std::string>& keys) {
-  double sum = 0.0;
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);)
-    for (const std::string& key : keys)
-      if (line.starts_with(key)) sum += 1024.0 * std::atof(line.c_str() + key.size());
-  return sum;
-}
-
 /// Memory of its own, with each page that several share counted once. That takes long to add up, so it is
 /// done only where a quick sum, which counts such pages more than once, is too great.
 double memory_of(const std::vector<pid_t>& all, double most) {
@@ -85,6 +75,17 @@ Taken taken_in(const std::string& folder) {
   return taken;
 }
 
+/// Files in the folders of a process that live in memory.
+std::size_t files_in_memory(pid_t inside) {
+  std::size_t files = 0;
+  for (const char* folder : {"tmp", "dev/shm"}) {
+    struct statvfs room {};
+    if (::statvfs(fmt::format("/proc/{}/root/{}", inside, folder).c_str(), &room) == 0)
+      files += room.f_files - room.f_ffree;
+  }
+  return files;
+}
+
 double free_room(const std::string& folder) {
   struct statvfs room {};
   return ::statvfs(folder.c_str(), &room) == 0
@@ -108,6 +109,15 @@ void give_all(const std::string& folder, unsigned owner) {
 
 }  // namespace
 
+double kilobytes(const std::string& file, const std::vector<std::string>& keys) {
+  double sum = 0.0;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);)
+    for (const std::string& key : keys)
+      if (line.starts_with(key)) sum += 1024.0 * std::atof(line.c_str() + key.size());
+  return sum;
+}
+
 SandboxWatch::SandboxWatch(const SandboxSums& most, std::string folder)
     : most_(most), folder_(std::move(folder)) {
   constexpr double share = 0.75;
@@ -122,7 +132,7 @@ std::string SandboxWatch::passed(pid_t outermost) {
   const auto now = Clock::now();
   if (now < next_) return {};
   std::string words = look(outermost);
-  next_ = Clock::now() + std::max<Clock::duration>(100ms, 10 * (Clock::now() - now));
+  next_ = Clock::now() + std::clamp<Clock::duration>(10 * (Clock::now() - now), 100ms, 2s);
   return words;
 }
 
@@ -154,7 +164,10 @@ std::string SandboxWatch::look(pid_t outermost) const {
     return fmt::format("more than {} processes", most_.processes);
   if (const double sum = most_.memory > 0.0 ? memory_of(all, most_.memory) : 0.0; sum > most_.memory)
     return fmt::format("{:.0f} MB of memory, and {:.0f} MB are allowed", sum / mega, most_.memory / mega);
-  return folder_.empty() || !(most_.bytes > 0.0) ? std::string() : of_files(all);
+  if (folder_.empty() || !(most_.bytes > 0.0)) return {};
+  if (all.size() > ours && files_in_memory(all.back()) > most_files)
+    return fmt::format("more than {} files in memory", most_files);
+  return of_files(all);
 }
 
 LentFolder::LentFolder(std::string folder) : folder_(std::move(folder)) {

@@ -17,6 +17,11 @@ struct SandboxSums {
   double bytes = 0.0;   ///< of files in its folder, also of removed ones that are open, 0 = unbounded
 };
 
+/// Sum of some lines `KEY:  N kB` of a file [bytes].
+[[nodiscard]] double kilobytes(const std::string& file, const std::vector<std::string>& keys);
+/// Memory that new work may take on this machine now, or in the control group that we are in [bytes].
+[[nodiscard]] double free_memory();
+
 /// User and group that third-party engines run as where root calls us: it owns nothing.
 inline constexpr unsigned sandbox_user = 65534;
 
@@ -62,10 +67,13 @@ class ControlGroup {
   ~ControlGroup();
   ControlGroup(const ControlGroup&) = delete;
   ControlGroup& operator=(const ControlGroup&) = delete;
+  /// The sum for which the kernel has ended a process, in words; empty where it has ended none.
+  [[nodiscard]] std::string passed() const;
   /// The command, begun inside of the group; the command itself where there is none.
   [[nodiscard]] std::vector<std::string> begun_inside(const std::vector<std::string>& argv) const;
 
  private:
+  double memory_ = 0.0;
   std::vector<std::filesystem::path> folders_;  ///< one for each hierarchy
 };
 
