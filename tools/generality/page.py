@@ -100,7 +100,9 @@ def page(seed, groups, heads, verdicts):
         for key, rows in of_kind.items():
             at, why, entry = verdicts[key]
             wrong = sum(used(r) > 1.0 for r in rows)
-            hue, word = ("right", "within its limit") if at <= 1.0 else ("wrong", "above its limit")
+            hue, word = ("wrong", "above its limit") if at > 1.0 else ("right", "within its limit")
+            if entry and at <= 1.0:  # other draws are wrong: no green
+                hue, word = "open", "within its limit in this draw"
             head, reason = heads[key[1]], f" Known: {entry['reason']}." if entry else ""
             parts.append(f"<h2>{html.escape(head['title'])}</h2><p>{html.escape(head['why'])}.")
             parts.append(f"<b class='{hue}'>95th percentile {at:.3g}: {word}</b>; {wrong} of {len(rows)} scenes above.")
