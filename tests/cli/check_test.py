@@ -342,25 +342,17 @@ class Run(unittest.TestCase):
         drop = '[[material]]\nname = "oil"\ndensity = 900.0\nviscosity = 1.0\n' + body(
             "pool", "oil", [0.0, 0.0, 0.0], [0.4, 0.4, 0.4]
         )
-        wall = body(
-            "wall", "stone", [2.0, 0.0, -1.0], [2.4, 0.4, 1.0], 'motion = "fixed"'
-        )  # beside it and lower: nothing holds the liquid
+        below = body("wall", "stone", [0.0, 0.0, -0.4], [0.4, 0.4, 0.0], 'motion = "fixed"')  # the liquid runs off it
+        beside = body("wall", "stone", [2.0, 0.0, -1.0], [2.4, 0.4, 1.0], 'motion = "fixed"')  # it falls freely
+        falls = "end_time = 3.0\ngravity = [0.0, 0.0, -9.81]\n"
         with tempfile.TemporaryDirectory() as folder:
-            done, told = self.run_case(
-                scene("end_time = 3.0\ngravity = [0.0, 0.0, -9.81]") + STONE + drop + wall + INVARIANT + LEDGER, folder
-            )
+            done, told = self.run_case(scene(falls) + STONE + drop + below + INVARIANT + LEDGER, folder)
             self.assertEqual(done.returncode, 7, told)
             self.assertIn("made from the scene: give scene.min", told["reason"])
-            done, told = self.run_case(
-                scene('end_time = 3.0\ngravity = [0.0, 0.0, -9.81]\nunguarded = ["escape"]')
-                + STONE
-                + drop
-                + wall
-                + INVARIANT
-                + LEDGER,
-                folder,
-            )
-            self.assertEqual(done.returncode, 0, told)
+            unguarded = scene(falls + 'unguarded = ["escape"]')
+            for text in (unguarded + STONE + drop + below, scene(falls) + STONE + drop + beside):
+                done, told = self.run_case(text + INVARIANT + LEDGER, folder)
+                self.assertEqual(done.returncode, 0, told)
 
 
 if __name__ == "__main__":
