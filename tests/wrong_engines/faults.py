@@ -72,6 +72,22 @@ def by_chance():
     return 1.0 + math.copysign(PER_CENT * (1.0 + 2.0 * abs(2.0 * share - 1.0)), share - 0.5)
 
 
+def of_materials(key):
+    def change(job):
+        for material in job["scene"]["materials"]:
+            if material.get(key) is not None:
+                material[key] *= 1.0 + PER_CENT
+
+    return change
+
+
+def turned_tensor(job):
+    """Moments as they should be, about axes that are turned by 0.01 rad."""
+    for body in job["scene"]["bodies"]:
+        turn = (math.cos(0.005), math.sin(0.005), 0.0, 0.0)
+        body["principal_axes"] = list(flight.product(turn, tuple(body["principal_axes"])))
+
+
 def conductivity(job):
     for material in job["scene"]["materials"]:
         for key in ("conductivity", "solid_conductivity"):
@@ -280,6 +296,14 @@ FAULTS = {
         ("diffusivity",),
         job=conductivity,
         walkers=2e6,
+    ),
+    "heat capacity": Fault("heat capacity 1 % large", "heat/cosine-fine", ("rate",), job=of_materials("heat_capacity")),
+    "latent heat": Fault("latent heat 1 % large", "phase/heat-of-fusion", ("metal",), job=of_materials("latent_heat")),
+    "turned tensor": Fault(
+        "moments about axes that are 0.01 rad off",
+        "rigid/torque-free",
+        ("angle.order", "angle.limit"),
+        job=turned_tensor,
     ),
     "drift": Fault(
         "walkers drift by 0.001 spacings a step",
