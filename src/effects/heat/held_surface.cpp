@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <unordered_map>
+#include <utility>
 
 #include "effects/heat/fields.hpp"
 #include "scene/effect_rule.hpp"
@@ -172,6 +173,17 @@ Vec3 normal_at(const PlaceFunction& distance, const Vec3& r, double spacing) {
   return norm(n) > 0.0 ? n / norm(n) : n;
 }
 
+/// How deep a particle lies below the plane through the exit of its way [m].
+double depth_below(const PlaceFunction& distance, const Beyond& b, double spacing) {
+  return std::max(dot(normal_at(distance, b.exit, spacing), b.within * b.away), least_way * spacing);
+}
+
+/// The same function of places beyond periodic sides too.
+template <class Function>
+Function across_sides(const Scene& scene, Function function) {
+  return [&scene, function = std::move(function)](const Vec3& r) { return function(put_back(scene, r)); };
+}
+
 bool has_sources(const Scene& scene, const Body& b) {
   return std::ranges::any_of(scene.sources, [&](const HeatSource& s) { return acts_on(s, b); });
 }
@@ -255,14 +267,8 @@ void HeldSurfaces::load(State& state, const InitialState& initial) {
     const auto held_at = surface_temperature(scene, body);
     const bool heated = has_sources(scene, body);
     if (!held_at && !heated) continue;
-    if (!insides[source])
-      insides[source] = [&scene, in = inside_of(body.shape, dx)](const Vec3& r) {
-        return in(put_back(scene, r));
-      };
-    if (heated && !distances[source])
-      distances[source] = [&scene, d = distance_of(body.shape, dx)](const Vec3& r) {
-        return d(put_back(scene, r));
-      };
+    if (!insides[source]) insides[source] = across_sides(scene, inside_of(body.shape, dx));
+    if (heated && !distances[source]) distances[source] = across_sides(scene, distance_of(body.shape, dx));
     const auto id = static_cast<std::uint32_t>(p[field::id][i]);
     const auto beyond = places_beyond(scene, insides[source], initial.position[id], steps, laid);
     if (!acts(scene) && held_at) {
@@ -274,13 +280,10 @@ void HeldSurfaces::load(State& state, const InitialState& initial) {
     }
     const std::size_t first = all_.size();
     for (const Beyond& b : beyond) {
-      Near near{id, held_at.value_or(0.0)};
-      if (heated) near.sources = sources_->acting(scene, body, b.exit);
-      if (near.sources == 0 && !held_at) continue;
-      if (near.sources != 0)
-        near.depth =
-            std::max(dot(normal_at(distances[source], b.exit, dx), b.within * b.away), least_way * dx);
-      add_place(state, i, b.away, b.within, alike(near, first));
+      const std::uint32_t acting = heated ? sources_->acting(scene, body, b.exit) : 0;
+      const double depth = acting != 0 ? depth_below(distances[source], b, dx) : 0.0;
+      if (acting != 0 || held_at)
+        add_place(state, i, b.away, b.within, alike({id, held_at.value_or(0.0), acting, depth}, first));
     }
   }
   std::ranges::stable_sort(all_, {}, &Near::id);
