@@ -126,7 +126,7 @@ def pot(p):
 def second_liquid(case, p):
     add(
         case,
-        [matter("oil", viscosity=0.1), matter("pot")],
+        [matter("oil", viscosity=1000.0 * p.dx**2 / case["scene"]["end_time"]), matter("pot")],
         [
             {
                 "name": "bystander oil",
