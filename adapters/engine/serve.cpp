@@ -28,7 +28,7 @@ enum Exit { ok = 0, failed = 1, bad_job = 2, refused = 4, diverged = 7, interrup
 
 /// For listeners on stderr. A terminal that has closed takes no words; that is no reason to fail.
 template <class... Args>
-void tell(fmt::format_string<Args...> format, Args&&... args) {
+void report(fmt::format_string<Args...> format, Args&&... args) {
   const std::string words = fmt::format(format, std::forward<Args>(args)...);
   std::fwrite(words.data(), 1, words.size(), stderr);
 }
@@ -169,7 +169,7 @@ class Run {
       account();
       return finish(Status::error, Exit::interrupted);
     } catch (const Diverged& e) {
-      tell_failure(e);
+      report_failure(e);
       account();
       return finish(Status::diverged, Exit::diverged);
     } catch (const std::exception& e) {
@@ -237,9 +237,9 @@ class Run {
       result_.stepping_wall += wall_seconds() - wall;
       last_ = engine_.observe();
       show(writer, last_);
-      tell_status(time);
-      tell("frame {} t {:.9g} s\nprogress {:.4f}\n", writer.frames() - 1, time,
-           (time - job_.times.front()) / std::max(job_.times.back() - job_.times.front(), 1e-300));
+      report_status(time);
+      report("frame {} t {:.9g} s\nprogress {:.4f}\n", writer.frames() - 1, time,
+             (time - job_.times.front()) / std::max(job_.times.back() - job_.times.front(), 1e-300));
     }
     account();
     result_.state_hash = state_hash(last_);
@@ -268,20 +268,20 @@ class Run {
   void advance_to(double time) {
     if (!restartable_) return engine_.advance_to(time);
     restartable_->advance_to(time, [&](double now, long step) {
-      tell_status(now);
+      report_status(now);
       const bool due = checkpoints_->due(now), stops = restartable_->stops(stop_asked());
       if (!due && !stops) return true;
       Checkpoint kept;
       restartable_->save(kept);
       const std::string path = checkpoints_->write(std::move(kept), now, step, progress_);
-      tell("checkpoint {} t {:.9g} s\n", path, now);
+      report("checkpoint {} t {:.9g} s\n", path, now);
       if (stops) throw Interrupted{path, now};
       return true;
     });
   }
 
   /// Where the run is: `status {...}` on stderr, at most once in the interval.
-  void tell_status(double now) {
+  void report_status(double now) {
     if (wall_seconds() < next_status_) return;
     Result sofar;
     engine_.account(sofar);
@@ -295,10 +295,10 @@ class Run {
       line["ledger_residual"] = ledger_.residual();
       line["ledger_exchanged"] = ledger_.exchanged();
     }
-    tell("status {}\n", line.dump(-1, ' ', false, json::error_handler_t::replace));
+    report("status {}\n", line.dump(-1, ' ', false, json::error_handler_t::replace));
   }
 
-  void tell_failure(const Diverged& e) {
+  void report_failure(const Diverged& e) {
     Divergence d{e.particle,
                  e.body,
                  e.field,
@@ -321,11 +321,11 @@ class Run {
 
   int finish(Status status, int code) {
     result_.status = status;
-    if (!result_.message.empty()) tell("{}: {}\n", status, result_.message);
+    if (!result_.message.empty()) report("{}: {}\n", status, result_.message);
     try {
       write_result(result_path_, result_);
     } catch (const std::exception& e) {
-      tell("error: {}\n", with_limit(e.what()));
+      report("error: {}\n", with_limit(e.what()));
       return Exit::failed;
     }
     return code;
@@ -347,7 +347,7 @@ class Run {
 };
 
 int usage(const char* program) {
-  tell(
+  report(
       "usage: {0} --info | --check JOB.json | --run JOB.json\nAn engine of tripoint; `tripoint run CASE "
       "--engine NAME` "
       "writes the job and calls it.\n",
@@ -361,7 +361,7 @@ int serve(int argc, char** argv, MakeEngine make) {
   const std::string verb = argc > 1 ? argv[1] : "";
   expect_file_limit();
   if (const auto why = stack_trouble(argv); !why.empty()) {
-    tell("error: {}\n", why);
+    report("error: {}\n", why);
     return bad_job;
   }
   try {
@@ -371,10 +371,10 @@ int serve(int argc, char** argv, MakeEngine make) {
     if (verb == "--run" && argc == 3) return Run(*engine, read_job(argv[2])).go();
     return usage(argv[0]);
   } catch (const InputError& e) {
-    tell("error: {}\n", e.what());
+    report("error: {}\n", e.what());
     return bad_job;
   } catch (const std::exception& e) {
-    tell("error: {}\n", e.what());
+    report("error: {}\n", e.what());
     return failed;
   }
 }

@@ -118,12 +118,13 @@ std::string hold_face(const Body& plate, double spacing, CellBox& box) {
   if (plate.temperature->kind != TemperatureField::Kind::constant)
     return fmt::format("walkers need faces of one held temperature, and that of {} changes in place",
                        plate.name);
-  const double slack = 1e-6 * spacing;
+  const double tolerance = 1e-6 * spacing;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
-    const bool covers = low[a] <= box.min[a] + slack && high[a] >= box.max[a] - slack &&
-                        low[b] <= box.min[b] + slack && high[b] >= box.max[b] - slack;
-    const bool below = std::abs(high[k] - box.min[k]) < slack, above = std::abs(low[k] - box.max[k]) < slack;
+    const bool covers = low[a] <= box.min[a] + tolerance && high[a] >= box.max[a] - tolerance &&
+                        low[b] <= box.min[b] + tolerance && high[b] >= box.max[b] - tolerance;
+    const bool below = std::abs(high[k] - box.min[k]) < tolerance,
+               above = std::abs(low[k] - box.max[k]) < tolerance;
     if (!covers || !(below || above)) continue;
     const int axis = static_cast<int>(k);
     if (box.periodic[k] || (box.held_axis >= 0 && box.held_axis != axis))

@@ -64,7 +64,7 @@ class LammpsHalo : public Halo {
   [[nodiscard]] bool is_first() const override { return is_first_; }
 
   /// Every call of all ranks ends a part of a step. @param times null: nobody wants to know
-  void tell_parts_to(StepTimes* times) noexcept { times_ = times; }
+  void report_parts_to(StepTimes* times) noexcept { times_ = times; }
 
   [[nodiscard]] Ranks* ranks() const noexcept { return ranks_; }
   [[nodiscard]] long migrations() const noexcept { return migrations_; }

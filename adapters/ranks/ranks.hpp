@@ -93,5 +93,5 @@ int tripoint_rank();
 int tripoint_size();
 void tripoint_abort(int code);
 /// From now on this is called, with MPI's own words, where a call of MPI fails. It does not return.
-void tripoint_on_fault_of_mpi(void (*told)(const char* words));
+void tripoint_on_fault_of_mpi(void (*report)(const char* words));
 }

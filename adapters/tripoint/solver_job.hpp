@@ -35,6 +35,6 @@ T setting(const Job& job, const std::string& name, T otherwise) {
 /// Values that the solver itself holds of the scene's bodies.
 [[nodiscard]] Readback readback_of(const State&, const TimeStepBound&);
 /// How often a guard sent the run back, and why the last time; nothing where none did.
-void tell_recoveries(const Recovery&, Result&);
+void report_recoveries(const Recovery&, Result&);
 
 }  // namespace tripoint

@@ -142,7 +142,7 @@ void TripointEngine::account(Result& result) const {
   result.time_step_bound = simulation_->time_step_set_by();
   result.extra["time_step"] = simulation_->time_step();
   if (std::isfinite(simulation_->bound().dt)) result.extra["time_step_bound"] = simulation_->bound().dt;
-  tell_recoveries(simulation_->recovery(), result);
+  report_recoveries(simulation_->recovery(), result);
   if (const auto& lists = simulation_->state().neighbours)
     result.extra["neighbour_rebuilds"] = static_cast<double>(lists->rebuilds());
 }

@@ -30,7 +30,7 @@ std::string wall_time(double seconds) {
 
 /// Shown to a reader, if any: a terminal that has closed takes no words, and the run must end as it should
 /// all the same.
-void tell(const std::string& words) { std::fwrite(words.data(), 1, words.size(), stderr); }
+void report(const std::string& words) { std::fwrite(words.data(), 1, words.size(), stderr); }
 
 }  // namespace
 
@@ -99,12 +99,12 @@ void RunProgress::show(double done) {
     if (last_->ledger_residual) line["ledger_residual"] = *last_->ledger_residual;
     if (last_->ledger_exchanged) line["ledger_exchanged"] = *last_->ledger_exchanged;
     line["seconds_left"] = left ? nlohmann::ordered_json(*left) : nlohmann::ordered_json();
-    tell(json_text(line, -1));
+    report(json_text(line, -1));
     return;
   }
   const std::string line = last_ ? status_line(*last_, done, left) : fmt::format("{:3.0f} %", 100.0 * done);
-  if (form_ == ProgressForm::terminal) tell("\r\033[K" + line);
-  if (form_ == ProgressForm::lines) tell(line + "\n");
+  if (form_ == ProgressForm::terminal) report("\r\033[K" + line);
+  if (form_ == ProgressForm::lines) report(line + "\n");
   std::fflush(stderr);
 }
 
@@ -116,7 +116,7 @@ std::optional<double> RunProgress::seconds_left(double done) {
 }
 
 void RunProgress::end() {
-  if (form_ == ProgressForm::terminal && begun_) tell("\r\033[K");
+  if (form_ == ProgressForm::terminal && begun_) report("\r\033[K");
 }
 
 }  // namespace tripoint

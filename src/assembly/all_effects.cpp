@@ -138,14 +138,15 @@ std::vector<Bounded> common_bounds(const Scene& scene) {
   return bounds;
 }
 
-/// @throws InputError when two effects declare a force's columns or an account, or there are more forces than
-/// sums have room for
+/// @throws InputError when two effects declare a force's columns or an energy account, or there are more
+/// forces than sums have room for
 void check_forces(const std::vector<Active>& effects) {
-  std::vector<Account> seen;
+  std::vector<EnergyAccount> seen;
   std::size_t forces = 0;
-  const auto once = [&](const Account& a, const std::string& who) {
-    if (std::ranges::find(seen, a) != seen.end() || Bookings().has(a))
-      throw InputError("the account " + std::string(a.name) + " of the effect " + who + " is declared twice");
+  const auto once = [&](const EnergyAccount& a, const std::string& who) {
+    if (std::ranges::find(seen, a) != seen.end() || EnergyAccounts().has(a))
+      throw InputError("the energy account " + std::string(a.name) + " of the effect " + who +
+                       " is declared twice");
     seen.push_back(a);
   };
   for (const Active& a : effects) {
@@ -161,8 +162,8 @@ void check_forces(const std::vector<Active>& effects) {
       if (f.work_on_driven) once(*f.work_on_driven, a.name);
       if (f.stored) once(f.stored->at_start, a.name);
     }
-    for (const Account& one : a.spec.accounts) once(one, a.name);
-    for (const Account& one : a.spec.numerical) once(one, a.name);
+    for (const EnergyAccount& one : a.spec.accounts) once(one, a.name);
+    for (const EnergyAccount& one : a.spec.numerical) once(one, a.name);
   }
   if (forces > most_forces)
     throw InputError("the effects of this scene make " + std::to_string(forces) +
@@ -253,12 +254,12 @@ void declare(State& state, const std::vector<Active>& effects) {
   for (const Active& a : effects) {
     for (const Force& f : a.spec.forces) {
       state.forces.push_back(f);
-      state.booked.open(f.work);
-      state.booked.open(work_on_driven(f));
-      if (f.stored) state.booked.open(f.stored->at_start);
+      state.accumulated.open(f.work);
+      state.accumulated.open(work_on_driven(f));
+      if (f.stored) state.accumulated.open(f.stored->at_start);
     }
-    for (const Account& one : a.spec.accounts) state.booked.open(one);
-    for (const Account& one : a.spec.numerical) state.booked.open(one);
+    for (const EnergyAccount& one : a.spec.accounts) state.accumulated.open(one);
+    for (const EnergyAccount& one : a.spec.numerical) state.accumulated.open(one);
     state.numerical.insert(state.numerical.end(), a.spec.numerical.begin(), a.spec.numerical.end());
     state.guarded.insert(state.guarded.end(), a.spec.guards.begin(), a.spec.guards.end());
     state.bounded.insert(state.bounded.end(), a.spec.bounded.begin(), a.spec.bounded.end());

@@ -29,7 +29,7 @@ struct Active {
 /// pairs have work.
 [[nodiscard]] std::vector<char> idle_particles(const Scene&, const InitialState&);
 
-/// Puts the forces, accounts and guards that these effects declare into the state.
+/// Puts the forces, energy accounts and guards that these effects declare into the state.
 void declare(State&, const std::vector<Active>&);
 
 }  // namespace tripoint

@@ -30,10 +30,10 @@ struct EffectSpec {
   /// Of others, that it reads or sets; each has an owner in the scene
   FieldList reads;
   std::vector<Force> forces{};  ///< that it makes
-  /// That it books on beside those of its forces; common ones need no word
-  std::vector<Account> accounts{};
+  /// Energy energy accounts that it writes beside those of its forces; common ones need no word
+  std::vector<EnergyAccount> accounts{};
   /// Accounts of the energy that its numerical terms take on purpose
-  std::vector<Account> numerical{};
+  std::vector<EnergyAccount> numerical{};
   std::vector<Guarded> guards{};  ///< of its columns those that are looked at after every step
   /// Of its columns those of whole numbers that stand for something
   std::vector<Bounded> bounded{};

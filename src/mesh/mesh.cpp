@@ -154,9 +154,9 @@ bool is_closed(const Mesh& mesh) {
 /// The first few edges of a kind, with their uses.
 std::string some_edges(const Mesh& mesh, const EdgeUses& uses, bool (*of_kind)(const std::array<int, 2>&)) {
   std::string text;
-  int told = 0;
+  int reported = 0;
   for (const auto& [edge, use] : uses) {
-    if (!of_kind(use) || ++told > 3) continue;
+    if (!of_kind(use) || ++reported > 3) continue;
     const auto &a = mesh.points[edge.first], &b = mesh.points[edge.second];
     text += fmt::format("; ({}, {}, {}) to ({}, {}, {}) used {} and {} times", a.x, a.y, a.z, b.x, b.y, b.z,
                         use[0], use[1]);

@@ -113,7 +113,7 @@ std::vector<char> Neighbours::within(std::vector<char> marks, double distance) c
                                         static_cast<std::size_t>(n[0]) * n[1]};
   for (std::size_t a = 0; a < 3; ++a) {
     const double wide = still_.width[a] * (a == 0 ? Grid::cells_a_stretch : 1);
-    const int far = static_cast<int>(std::ceil(distance / wide * (1.0 - Grid::slack))) +
+    const int far = static_cast<int>(std::ceil(distance / wide * (1.0 - Grid::tolerance))) +
                     (box_.periodic[a] ? 1 : 0);  // the last stretch of a period may be short
     const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
     std::vector<char> line(static_cast<std::size_t>(n[a]));
@@ -207,16 +207,16 @@ void Neighbours::sort_awake(Particles& particles, Grid& grid, const Resting& res
   order_.resize(rows.size());
   meets_.resize(rows.size());
   moving_first_.resize(grid.cells() + 1);
-  std::size_t told = 0;  // cells whose first moving row is known: most of a tank's cells are empty
+  std::size_t filled = 0;  // cells whose first moving row is known: most of a tank's cells are empty
   for (std::uint32_t at = 0; at < place.size(); ++at) {
     const std::uint32_t k = place[at], cell = cell_of[k];
-    for (; told <= cell; ++told) moving_first_[told] = row[moves];
+    for (; filled <= cell; ++filled) moving_first_[filled] = row[moves];
     const std::uint32_t r = row[part[k]]++;
     order_[at] = r;
     was[r] = rows[k];
     meets_[r] = can_meet[k];
   }
-  for (; told < moving_first_.size(); ++told) moving_first_[told] = row[moves];
+  for (; filled < moving_first_.size(); ++filled) moving_first_[filled] = row[moves];
   const auto& [from, to] = bring_to_front(was, n);
   particles.rearrange(from, to, first_read, first_asleep, threads_);
   const auto sorted = positions(particles);

@@ -16,7 +16,7 @@ namespace tripoint {
 struct Neighbours::Grid {
   static constexpr std::array<double, 3> cells_a_reach{6.0, 1.5, 1.5};
   static constexpr int cells_a_stretch = 6;  ///< see Neighbours::Still
-  static constexpr double slack = 1e-9;      ///< of the reach, far above the rounding of cell numbers
+  static constexpr double tolerance = 1e-9;  ///< of the reach, far above the rounding of cell numbers
 
   std::array<int, 3> count{1, 1, 1};
   std::array<int, 3> skipped{};  ///< cells between the origin and the first of these, of a part of a scene
@@ -103,7 +103,7 @@ struct Neighbours::Grid {
   void candidates(const Vec3& low, const Vec3& high, double reach, const PeriodicBox& box,
                   std::vector<CandidateRange>& ranges) const {
     ranges.clear();
-    const double wide = reach * (1.0 + slack);
+    const double wide = reach * (1.0 + tolerance);
     const Axis along_x = axis(0, box.periodic[0]);
     const auto zs = axis(2, box.periodic[2]).touched(low.z - wide, high.z + wide),
                ys = axis(1, box.periodic[1]).touched(low.y - wide, high.y + wide);

@@ -140,7 +140,7 @@ struct EffectRule {
   std::vector<LedgerEntry> ledger_entries{};  ///< that it tells, or that take the work of its forces
   /// Of these those that every scene with forces tells, 0 where the effect is off: reports put scenes side by
   /// side.
-  std::vector<std::string_view> (*always_told)(const Scene&) = nullptr;
+  std::vector<std::string_view> (*always_reported)(const Scene&) = nullptr;
   bool over_processes = false;  ///< it also runs where several processes share a scene (State::halo)
 
   // What the rest of the program must know of a scene that calls for it; calls_for(scene, &EffectRule::...)

@@ -8,8 +8,8 @@
 
 #include "core/field.hpp"
 
-/// Terms of the model that have a printed and a corrected form are typed keys, as fields and accounts are.
-/// The effect that a term is of declares it in its rule (effect_rule.hpp).
+/// Terms of the model that have a printed and a corrected form are typed keys, as fields and energy accounts
+/// are. The effect that a term is of declares it in its rule (effect_rule.hpp).
 namespace tripoint {
 
 enum class Mode { corrected, paper };

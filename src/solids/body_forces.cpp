@@ -33,7 +33,7 @@ std::vector<Felt> felt_forces(const State& state) {
   return list;
 }
 
-/// Numbers of a record that told_members() makes.
+/// Numbers of a record that reported_members() makes.
 std::ptrdiff_t width_of(const std::vector<Felt>& felt) { return 2 + 6 * std::ssize(felt); }
 
 BodyForces no_forces(const State& state) {
@@ -92,23 +92,24 @@ std::vector<double> records_of(const std::vector<double>& records, const std::ve
 }
 
 /// Data that a process sends to others for each own member that feels a force: number, body, and each force
-/// with its torque. It sends only their sums by body above `most_told` members. Where bodies have owners
+/// with its torque. It sends only their sums by body above `most_reported` members. Where bodies have owners
 /// these are members of one body, and the sum is told of a body that no other process has members of, too: it
 /// has the order of one process.
-constexpr std::size_t most_told = 1024;
+constexpr std::size_t most_reported = 1024;
 constexpr double sum_of_process = std::numeric_limits<double>::max();  ///< in place of a number
 
-void put_sum(const std::vector<Felt>& felt, std::size_t b, const BodyForces& sum, std::vector<double>& told) {
+void put_sum(const std::vector<Felt>& felt, std::size_t b, const BodyForces& sum,
+             std::vector<double>& reported) {
   const auto is_zero = [&](const Felt& f) {
     return sum.forces[f.number] == Vec3{} && sum.torques[f.number] == Vec3{};
   };
   if (std::ranges::all_of(felt, is_zero)) return;
-  told.insert(told.end(), {sum_of_process, static_cast<double>(b)});
-  for (const Felt& f : felt) put(told, sum.forces[f.number], sum.torques[f.number]);
+  reported.insert(reported.end(), {sum_of_process, static_cast<double>(b)});
+  for (const Felt& f : felt) put(reported, sum.forces[f.number], sum.torques[f.number]);
 }
 
-std::vector<double> told_members(const State& state, const std::vector<char>& asked,
-                                 const std::vector<BodyForces>& sums) {
+std::vector<double> reported_members(const State& state, const std::vector<char>& asked,
+                                     const std::vector<BodyForces>& sums) {
   const Particles& p = state.particles;
   const BodyOwners& owners = state.body_owners;
   const std::vector<Felt> felt = felt_forces(state);
@@ -119,28 +120,30 @@ std::vector<double> told_members(const State& state, const std::vector<char>& as
   for (const std::size_t b : owners.kept())
     if (owners.is_alone(b)) one_by_one[b] = 0;
 
-  std::vector<double> told;
+  std::vector<double> reported;
   each_member(state, one_by_one, owners.members(), [&](std::size_t i, std::size_t b, const Vec3& arm) {
     if (std::ranges::all_of(felt, [&](const Felt& f) { return f.force.at(i) == Vec3{}; }) ||
-        ++count_of(b) > most_told)
+        ++count_of(b) > most_reported)
       return;
-    told.insert(told.end(), {static_cast<double>(number[static_cast<std::size_t>(p[field::id][i])]),
-                             static_cast<double>(b)});
-    for (const Felt& f : felt) put(told, f.force.at(i), cross(arm, f.force.at(i)));
+    reported.insert(reported.end(), {static_cast<double>(number[static_cast<std::size_t>(p[field::id][i])]),
+                                     static_cast<double>(b)});
+    for (const Felt& f : felt) put(reported, f.force.at(i), cross(arm, f.force.at(i)));
   });
-  if (std::ranges::any_of(counts, [](std::size_t count) { return count > most_told; })) {
-    each_kept_body(state, [&](std::size_t b) { one_by_one[b] = one_by_one[b] && count_of(b) <= most_told; });
-    told = records_of(told, one_by_one, width_of(felt));
+  if (std::ranges::any_of(counts, [](std::size_t count) { return count > most_reported; })) {
+    each_kept_body(state,
+                   [&](std::size_t b) { one_by_one[b] = one_by_one[b] && count_of(b) <= most_reported; });
+    reported = records_of(reported, one_by_one, width_of(felt));
   }
   each_kept_body(state, [&](std::size_t b) {
-    if (asked[b] && !one_by_one[b]) put_sum(felt, b, sums[b], told);
+    if (asked[b] && !one_by_one[b]) put_sum(felt, b, sums[b], reported);
   });
-  return told;
+  return reported;
 }
 
 /// What is told, where it is added up: by every process or, of each body, by its owner.
-std::vector<double> brought(const State& state, const std::vector<double>& told, std::size_t width) {
-  return state.body_owners.any() ? state.body_owners.to_owners(state, told, width) : state.halo->all_of(told);
+std::vector<double> brought(const State& state, const std::vector<double>& reported, std::size_t width) {
+  return state.body_owners.any() ? state.body_owners.to_owners(state, reported, width)
+                                 : state.halo->all_of(reported);
 }
 
 void take_sum(const std::vector<Felt>& felt, BodyForces& sum, const double* from) {
@@ -157,12 +160,12 @@ void add_over_halo(const State& state, const std::vector<char>& asked, std::vect
   if (!state.halo || sums.empty()) return;
   const std::vector<Felt> felt = felt_forces(state);
   const auto width = static_cast<std::size_t>(width_of(felt));
-  const std::vector<double> told = brought(state, told_members(state, asked, sums), width);
+  const std::vector<double> reported = brought(state, reported_members(state, asked, sums), width);
   each_kept_body(state, [&](std::size_t b) { sums[b] = no_forces(state); });
-  for (const double* from : records_in_order(told, width))
+  for (const double* from : records_in_order(reported, width))
     take_sum(felt, sums[static_cast<std::size_t>(from[1])], from + 2);
   if (!state.body_owners.any()) return;
-  state.body_owners.to_keepers(
+  state.body_owners.to_subscribers(
       state, width - 2,
       [&](std::size_t b, std::vector<double>& to) {
         for (const Felt& f : felt) put(to, sums[b].forces[f.number], sums[b].torques[f.number]);

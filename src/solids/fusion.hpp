@@ -111,7 +111,7 @@ struct ThermalState {
 inline void give_heat(State& state, std::size_t row, double joules) {
   Particles& p = state.particles;
   if (p[field::held][row] != 0) {
-    state.booked[account::walls] += joules;
+    state.accumulated[account::walls] += joules;
     return;
   }
   const double capacity = p[field::mass][row] * p[field::heat_capacity][row];

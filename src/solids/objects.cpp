@@ -310,10 +310,11 @@ void add_over_halo(const State& state, Held& held) {
   if (!state.halo) return;
   Sets here(std::vector<int>(state.bodies.size(), -1));
   for (const auto& [a, b] : held.pairs) here.unite(a, b);
-  std::vector<double> told;
+  std::vector<double> reported;
   for (std::uint32_t b = 0; b < held.lives.size(); ++b)
-    if (held.lives[b]) told.insert(told.end(), {static_cast<double>(b), static_cast<double>(here.root(b))});
-  const std::vector<double> all = state.halo->all_of(told);
+    if (held.lives[b])
+      reported.insert(reported.end(), {static_cast<double>(b), static_cast<double>(here.root(b))});
+  const std::vector<double> all = state.halo->all_of(reported);
   for (std::size_t k = 0; k < all.size(); k += 2) {
     const auto body = static_cast<std::uint32_t>(all[k]), root = static_cast<std::uint32_t>(all[k + 1]);
     held.lives[body] = 1;

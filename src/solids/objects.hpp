@@ -41,8 +41,8 @@ using BeforeRelisting = std::function<void(std::uint32_t id)>;
 /// - Longer bonds, and own pairs, between different components end, unless the two are joined by a shorter
 /// bond (rigid with deformable). The cost is that of the changed bodies, and of one look at the column of
 /// bodies.
-/// @param before told ahead of the changes to lists of bonds, so that the caller can book the energy let go;
-/// may be empty
+/// @param before computed ahead of the changes to lists of bonds, so that the caller can accumulate the
+/// energy let go; may be empty
 void regroup(State&, const ChangedBodies&, const BeforeRelisting& before);
 
 /// Objects of which the solids are made: bodies that bonds of any length hold together, rigid with deformable

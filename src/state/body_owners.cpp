@@ -50,7 +50,7 @@ struct TakeMotion {
 /// The upper bits of a product: rows that follow one another come to all processes alike.
 std::size_t BodyOwners::owner(std::size_t body) const {
   constexpr std::uint64_t golden = 0x9E3779B97F4A7C15;
-  return (((body * golden) >> 32) * keepers_.size()) >> 32;
+  return (((body * golden) >> 32) * subscribers_.size()) >> 32;
 }
 
 /// Body by body, in the order in which they come in memory.
@@ -105,11 +105,11 @@ std::vector<BodyOwners::Bodies> BodyOwners::ask(const State& state, const std::v
       questions[process].insert(questions[process].end(), question);
     }
   const std::vector<std::vector<double>> asked_here = state.halo->exchange(questions);
-  std::vector<Bodies> begun_there(keepers_.size());
-  for (std::size_t from = 0; from < keepers_.size(); ++from)
+  std::vector<Bodies> begun_there(subscribers_.size());
+  for (std::size_t from = 0; from < subscribers_.size(); ++from)
     for (std::size_t k = 0; k < asked_here[from].size(); k += 3) {
       const auto b = static_cast<std::size_t>(asked_here[from][k]);
-      keepers_[from].push_back(b);
+      subscribers_[from].push_back(b);
       holders_[b] += asked_here[from][k + 1] > 0.0 ? 1 : 0;
       if (asked_here[from][k + 2] > 0.0) begun_there[from].push_back(b);
     }
@@ -123,7 +123,7 @@ void BodyOwners::share(State& state) {
   if (halo.processes() == 1 || state.bodies.size() <= halo.owners_above()) return;
   here_ = halo.process();
   asked_.resize(halo.processes());
-  keepers_.resize(halo.processes());
+  subscribers_.resize(halo.processes());
   is_alone_.resize(state.bodies.size());
   holders_.resize(state.bodies.size());
   find_members(state);
@@ -132,11 +132,11 @@ void BodyOwners::share(State& state) {
   for (const std::size_t b : kept_)
     if (before.any() && !std::ranges::binary_search(before.kept_, b)) begun[owner(b)].push_back(b);
   const std::vector<Bodies> begun_there = ask(state, begun);
-  tell(
-      state, keepers_, asked_, 1,
+  exchange(
+      state, subscribers_, asked_, 1,
       [&](std::size_t b, std::vector<double>& to) { to.push_back(holders_[b] == 1 ? 1.0 : 0.0); },
       [&](std::size_t b, const double* from) { is_alone_[b] = *from > 0.0 ? 1 : 0; });
-  tell(
+  exchange(
       state, begun_there, begun, numbers_of_motion,
       [&](std::size_t b, std::vector<double>& to) { each_of_motion(state.bodies, b, PutMotion{to}); },
       [&](std::size_t b, const double* from) { each_of_motion(state.bodies, b, TakeMotion{from}); });
@@ -157,7 +157,7 @@ void BodyOwners::complete(State& state) const {
 
 std::vector<double> BodyOwners::to_owners(const State& state, const std::vector<double>& records,
                                           std::size_t width) const {
-  std::vector<std::vector<double>> to(keepers_.size());
+  std::vector<std::vector<double>> to(subscribers_.size());
   for (auto record = records.begin(); record != records.end(); record += static_cast<std::ptrdiff_t>(width)) {
     std::vector<double>& there = to[owner(static_cast<std::size_t>(record[1]))];
     there.insert(there.end(), record, record + static_cast<std::ptrdiff_t>(width));
@@ -168,14 +168,16 @@ std::vector<double> BodyOwners::to_owners(const State& state, const std::vector<
   return here;
 }
 
-void BodyOwners::to_keepers(const State& state, std::size_t width, const Put& put, const Take& take) const {
-  tell(state, keepers_, asked_, width, put, take);
+void BodyOwners::to_subscribers(const State& state, std::size_t width, const Put& put,
+                                const Take& take) const {
+  exchange(state, subscribers_, asked_, width, put, take);
 }
 
 /// @param there for each process bodies of which it is told   @param here for each process bodies of which it
 /// tells this one
-void BodyOwners::tell(const State& state, const std::vector<Bodies>& there, const std::vector<Bodies>& here,
-                      std::size_t width, const Put& put, const Take& take) {
+void BodyOwners::exchange(const State& state, const std::vector<Bodies>& there,
+                          const std::vector<Bodies>& here, std::size_t width, const Put& put,
+                          const Take& take) {
   std::vector<std::vector<double>> to(there.size());
   for (std::size_t process = 0; process < to.size(); ++process) {
     to[process].reserve(there[process].size() * width);

@@ -23,7 +23,7 @@ class BodyOwners {
   void complete(State&) const;
 
   /// Whether bodies have owners; else every process keeps all.
-  [[nodiscard]] bool any() const noexcept { return !keepers_.empty(); }
+  [[nodiscard]] bool any() const noexcept { return !subscribers_.empty(); }
   [[nodiscard]] bool is_here(std::size_t body) const { return owner(body) == here_; }
   /// ascending; none where !any()
   [[nodiscard]] std::span<const std::size_t> kept() const noexcept { return kept_; }
@@ -42,7 +42,7 @@ class BodyOwners {
   using Take = std::function<void(std::size_t body, const double* from)>;
   /// The owner puts numbers of each of its bodies, which those that keep it too take. @param width of them
   /// @pre any()
-  void to_keepers(const State&, std::size_t width, const Put&, const Take&) const;
+  void to_subscribers(const State&, std::size_t width, const Put&, const Take&) const;
 
  private:
   using Bodies = std::vector<std::size_t>;
@@ -50,8 +50,8 @@ class BodyOwners {
   void find_members(const State&);
   void find_kept(const State&);
   [[nodiscard]] std::vector<Bodies> ask(const State&, const std::vector<Bodies>& begun);
-  static void tell(const State&, const std::vector<Bodies>& there, const std::vector<Bodies>& here,
-                   std::size_t width, const Put&, const Take&);
+  static void exchange(const State&, const std::vector<Bodies>& there, const std::vector<Bodies>& here,
+                       std::size_t width, const Put&, const Take&);
 
   std::size_t here_ = 0;  ///< this process
   Bodies kept_;
@@ -59,8 +59,8 @@ class BodyOwners {
   std::vector<char> has_own_, is_alone_;  ///< of each body: has members of this process's own; of one process
   /// Of each body that this process owns: how many have members of their own
   std::vector<int> holders_;
-  std::vector<Bodies> asked_;    ///< of each process: bodies that it owns and this one keeps
-  std::vector<Bodies> keepers_;  ///< of each process: bodies that it keeps and this one owns
+  std::vector<Bodies> asked_;        ///< of each process: bodies that it owns and this one keeps
+  std::vector<Bodies> subscribers_;  ///< of each process: bodies that it keeps and this one owns
 };
 
 }  // namespace tripoint

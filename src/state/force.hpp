@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/field.hpp"
-#include "state/account.hpp"
+#include "state/energy_account.hpp"
 
 /// Description of a force by the effect that makes it. Motion, rigid bodies and the ledger do the rest.
 namespace tripoint {
@@ -13,10 +13,10 @@ namespace tripoint {
 /// The energy whose gradient a force is. The difference that finite steps leave between it and the work of
 /// the force is the entry `time_integration`.
 struct StoredEnergy {
-  std::vector<std::string_view> entries;  ///< of the ledger, which the effect tells in add_to()
-  Account at_start;                       ///< their sum at time 0
-  std::optional<Account> released{};      ///< energy that events let go of
-  std::string_view released_to{};         ///< entry that has the energy they let go; "" where others tell it
+  std::vector<std::string_view> entries;    ///< of the ledger, which the effect tells in add_to()
+  EnergyAccount at_start;                   ///< their sum at time 0
+  std::optional<EnergyAccount> released{};  ///< energy that events let go of
+  std::string_view released_to{};  ///< entry that has the energy they let go; "" where others tell it
 };
 
 /// Particles that feel a force. all: rigid bodies too, by the sum over their members; particles: only what
@@ -25,16 +25,16 @@ enum class Feels { all, particles };
 
 struct Force {
   Field<double> x, y, z;  ///< columns that the effect owns [N]
-  Account work;           ///< done on what moves by forces
+  EnergyAccount work;     ///< done on what moves by forces
   /// Done on bodies that the scene moves, which pay for it; none: it stands with the other
-  std::optional<Account> work_on_driven{};
+  std::optional<EnergyAccount> work_on_driven{};
   std::optional<StoredEnergy> stored{};
   std::string_view entry{};  ///< of the ledger, that takes the work of a force which no energy stores
   Feels feels = Feels::all;
 };
 
-/// Where the work on bodies that the scene moves is booked.
-[[nodiscard]] inline const Account& work_on_driven(const Force& f) {
+/// Where the work on bodies that the scene moves is accumulated.
+[[nodiscard]] inline const EnergyAccount& work_on_driven(const Force& f) {
   return f.work_on_driven ? *f.work_on_driven : f.work;
 }
 

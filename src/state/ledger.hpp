@@ -18,7 +18,7 @@ struct Ledger {
 };
 
 /// Keeps the energy stored at time 0, which later ledgers are compared with.
-void book_start(State&, const Ledger&);
+void accumulate_start(State&, const Ledger&);
 
 /// Tells the work of all forces (model 8.11). For forces that store energy, it tells also the difference by
 /// finite steps between work and store.

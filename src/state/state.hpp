@@ -11,8 +11,8 @@
 #include "particles/neighbours.hpp"
 #include "particles/particles.hpp"
 #include "scene/scene.hpp"
-#include "state/account.hpp"
 #include "state/body_owners.hpp"
+#include "state/energy_account.hpp"
 #include "state/force.hpp"
 #include "state/guarded.hpp"
 #include "state/ledger.hpp"
@@ -61,11 +61,11 @@ struct State {
   OwnPairs own;                          ///< members of deformable bodies that meet through their bonds alone
   Change change;                         ///< of this step
   std::optional<Neighbours> neighbours;  ///< none where no effect has pairs
-  Bookings booked;
+  EnergyAccounts accumulated;
   /// That the effects make, in the order in which they are summed
   std::vector<Force> forces;
   /// Energy that numerical terms dissipate on purpose: not a time-integration error
-  std::vector<Account> numerical;
+  std::vector<EnergyAccount> numerical;
   /// Columns that are checked after every step, in the order in which it writes them
   std::vector<Guarded> guarded;
   std::vector<Bounded> bounded;         ///< columns whose whole numbers a checkpoint is held to
@@ -104,7 +104,7 @@ struct State {
   /// Whether this process reports values that all hold alike.
   [[nodiscard]] bool is_first() const { return !halo || halo->is_first(); }
   /// Whether this process, among those that keep the body, reports its energies.
-  [[nodiscard]] bool tells_of(std::size_t body) const {
+  [[nodiscard]] bool reports(std::size_t body) const {
     return body_owners.any() ? body_owners.is_here(body) : is_first();
   }
   /// Rows whose forces are formed now: moving ones, or fixed ones where forms_fixed says so.

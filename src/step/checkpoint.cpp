@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The state that a run continues from. Columns and bookings are taken generically, so that a new field or
-// entry is kept without a line here. Derived state (neighbour lists) is rebuilt from its own earlier input,
-// never from the present state.
+// The state that a run continues from. Columns and energy accounts are taken generically, so that a new field
+// or entry is kept without a line here. Derived state (neighbour lists) is rebuilt from its own earlier
+// input, never from the present state.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -177,10 +177,11 @@ void refuse_another_layout(const Checkpoint& kept, const std::vector<std::string
                    here[n] + "\"");
 }
 
-void restore_booked(Bookings& booked, const Checkpoint& kept) {
-  std::ranges::copy(take(kept.real, "step/booked", booked.values().size()), booked.values().begin());
+void restore_accumulated(EnergyAccounts& accumulated, const Checkpoint& kept) {
+  std::ranges::copy(take(kept.real, "step/booked", accumulated.values().size()),
+                    accumulated.values().begin());
   const std::vector<double>& spin = take(kept.real, "step/undelivered_spin", 3);
-  booked.undelivered_spin = {spin[0], spin[1], spin[2]};
+  accumulated.undelivered_spin = {spin[0], spin[1], spin[2]};
 }
 
 void restore_all_pairs(State& state, const Checkpoint& kept) {
@@ -207,7 +208,8 @@ std::vector<std::string> Simulation::layout() const {
   add(state_.bodies);
   for (const Active& a : effects_)
     lines.push_back("effect " + a.name + " " + std::string(to_string(a.spec.mode)));
-  for (const std::string_view name : state_.booked.names()) lines.push_back("account " + std::string(name));
+  for (const std::string_view name : state_.accumulated.names())
+    lines.push_back("account " + std::string(name));
   for (const StepNumber& one : state_.step_numbers.declared())
     lines.push_back("step number " + std::string(one.name));
   return lines;
@@ -239,8 +241,8 @@ Checkpoint Simulation::checkpoint_of(const State& state) const {
   save(state.own, "own_pairs", kept);
   kept.whole["step/pairs"] = {static_cast<std::int64_t>(state.bonds.pairs()),
                               static_cast<std::int64_t>(state.own.pairs())};
-  kept.real["step/booked"] = plain(state.booked.values());
-  kept.real["step/undelivered_spin"] = plain(state.booked.undelivered_spin);
+  kept.real["step/booked"] = plain(state.accumulated.values());
+  kept.real["step/undelivered_spin"] = plain(state.accumulated.undelivered_spin);
   const Schedule::Stretch& stretch = schedule_.stretch();
   kept.real["step/time"] = {state.time, state.next_time, dt_, pairs_, bound_.dt, stretch.start, stretch.end};
   kept.text["step/bound"] = {bound_.name};
@@ -272,7 +274,7 @@ void Simulation::restore(const Checkpoint& kept) {
   steps_ = n[0];
   state_.moved = n[4] != 0;
   schedule_.restore(static_cast<std::size_t>(n[1]), {t[5], t[6], n[2], n[3]});
-  restore_booked(state_.booked, kept);
+  restore_accumulated(state_.accumulated, kept);
   // Particles that had flowed in
   if (const auto ids = kept.whole.find("particles/id"); ids != kept.whole.end())
     while (state_.particles.size() < ids->second.size()) state_.particles.append();

@@ -17,7 +17,7 @@ Ledger own_ledger(const State& state, const std::vector<Active>& effects) {
 
 namespace {
 
-/// An entry that one of the processes has, since something stands on its account, all have.
+/// An entry that one of the processes has, since something stands on its energy account, all have.
 void add_entries_of_others(const State& state, Ledger& sum) {
   std::vector<std::string> entries;
   for (const Force& f : state.forces)

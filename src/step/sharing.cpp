@@ -155,7 +155,7 @@ std::optional<Diverged> Sharing::first_failure(const std::optional<Diverged>& he
 }
 
 void Sharing::begin_anew() {
-  booked_.reset();
+  accumulated_.reset();
   part_.reset();
   count_ = 0;
   if (halo_) halo_->begin_anew();
@@ -175,7 +175,7 @@ bool Sharing::outdated(const State& state) const {
 
 void Sharing::gather(State& state, const std::vector<Active>& effects) {
   if (!is_part(state)) return;
-  booked_ = {state.booked, body_sums(state)};
+  accumulated_ = {state.accumulated, body_sums(state)};
   part_ = hold_whole(state);
   gathered_ = {state.bonds.changes(), state.own.changes()};
   for (const Active& a : effects) a.effect->renumber(state);
@@ -211,7 +211,7 @@ Sharing::Part Sharing::hold_whole(State& state) const {
 State Sharing::whole(const State& part) const {
   State state = part;
   static_cast<void>(hold_whole(state));
-  halo_->add(state.booked.values());
+  halo_->add(state.accumulated.values());
   for (const Field<double>& f : state.body_sums) halo_->add(state.bodies[f]);
   std::string unused;
   for (const StepNumber& one : state.step_numbers.declared())
@@ -222,13 +222,13 @@ State Sharing::whole(const State& part) const {
 void Sharing::share_out(State& state, const Passes& passes) {
   state.halo = halo_;
   if (!halo_->is_first()) {
-    set_body_sums(state, booked_ ? booked_->body_sums : std::vector<std::vector<double>>{});
-    if (booked_)
-      state.booked = booked_->accounts;
+    set_body_sums(state, accumulated_ ? accumulated_->body_sums : std::vector<std::vector<double>>{});
+    if (accumulated_)
+      state.accumulated = accumulated_->accounts;
     else
-      state.booked.clear();
+      state.accumulated.clear();
   }
-  booked_.reset();
+  accumulated_.reset();
   if (can_take_back(state))
     take_back(state);
   else

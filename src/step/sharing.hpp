@@ -31,10 +31,10 @@ class Sharing {
   /// Whether one of the processes says so. All call it. @pre the scene is shared out
   [[nodiscard]] bool any(bool here) const;
   /// Each process holds the whole scene, with the lists that a single process has. All then make the same
-  /// changes and stay equal. Bookings made meanwhile stand with the first process alone. Nothing where this
-  /// process holds all already.
+  /// changes and stay equal. EnergyAccounts made meanwhile stand with the first process alone. Nothing where
+  /// this process holds all already.
   void gather(State&, const std::vector<Active>&);
-  /// The scene as one process would hold it between two steps, with all that processes have booked.
+  /// The scene as one process would hold it between two steps, with all that processes have accumulated.
   [[nodiscard]] State whole(const State&) const;
   /// Shares out what this process holds all of, with the lists that it has where they are not outdated. Else,
   /// where the lists of one process are outdated, particles go to the process that has their place now, and
@@ -43,8 +43,8 @@ class Sharing {
 
  private:
   /// Sums of each process over its own part, of a scene that all hold for now.
-  struct Booked {
-    Bookings accounts;
+  struct Accumulated {
+    EnergyAccounts accounts;
     std::vector<std::vector<double>> body_sums;  ///< of each of State::body_sums, by body
   };
   [[nodiscard]] bool outdated(const State&) const;
@@ -63,8 +63,8 @@ class Sharing {
 
   double skin_;
   Halo* halo_;
-  std::size_t count_ = 0;         ///< particles of the scene, as last shared out
-  std::optional<Booked> booked_;  ///< none: nothing yet
+  std::size_t count_ = 0;                   ///< particles of the scene, as last shared out
+  std::optional<Accumulated> accumulated_;  ///< none: nothing yet
   /// While this process holds the whole, after it held a part
   std::optional<Part> part_;
   /// Changes of the whole's bonds and own pairs, as it was gathered

@@ -17,7 +17,7 @@ Simulation::Simulation(const Scene& scene, const InitialState& initial, const Si
   check_finite(state_);
   set_bound();
   refuse_endless_run(scene, bound_);
-  book_start(state_, own_ledger(state_, effects_));
+  accumulate_start(state_, own_ledger(state_, effects_));
   happen_until_now();
   keep_good_state();
 }

@@ -168,7 +168,7 @@ void Simulation::check() {
   const StageTimer timer(options_.stage_seconds, Stage::check);
   sharing_.look_together(state_, [this] { check_particles(); });
   if (steps_ % steps_between_ledgers != 0) return;
-  double start_potential = state_.booked[account::start_potential];
+  double start_potential = state_.accumulated[account::start_potential];
   if (state_.halo) state_.halo->add({&start_potential, 1});
   check_energy(state_, ledger(), start_potential, dt_, guards_);
 }

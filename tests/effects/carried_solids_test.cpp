@@ -161,7 +161,7 @@ TEST(CarriedPhase, WhatMeltsTakesThePressureAroundIt) {
   }
 }
 
-TEST(CarriedPhase, BooksTheCompressionThatComesAndGoes) {
+TEST(CarriedPhase, AccumulatesTheCompressionThatComesAndGoes) {
   for (const bool melts : {true, false}) {
     lab::Lab lab = melts ? pool_and_block(lab::hot, lab::hot) : pool_and_block(lab::cold, lab::cold);
     Simulation s(lab.scene, lab.initial);

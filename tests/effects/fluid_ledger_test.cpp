@@ -14,17 +14,17 @@ double sum_of(const Ledger& ledger) {
 }
 
 /// What became of the energy of a run: all taken at the end, relative to what changed hands.
-struct Account {
+struct EnergyAccount {
   double exchanged;         ///< greatest change of the kinetic or potential energy on the way [J]
   double residual;          ///< change of the sum of all entries, over `exchanged`
   double time_integration;  ///< greatest on the way, over `exchanged`
 };
 
-Account account(lab::Lab lab, double time, double step) {
+EnergyAccount account(lab::Lab lab, double time, double step) {
   lab.scene.time_step = step;
   Simulation s(lab.scene, lab.initial);
   const Ledger start = s.ledger();
-  Account a{};
+  EnergyAccount a{};
   double drift = 0.0, scheme = 0.0;
   for (int n = 1; n <= 20; ++n) {
     s.advance_to(time * n / 20);
@@ -114,7 +114,7 @@ struct FluidLedger : testing::TestWithParam<Scene_> {};
 
 TEST_P(FluidLedger, ClosesToRoundOffAndLeavesToTheSchemeWhatFallsWithTheSquareOfTheStep) {
   const auto& [name, make, time, step] = GetParam();
-  const Account coarse = account(make(), time, step), fine = account(make(), time, 0.5 * step);
+  const EnergyAccount coarse = account(make(), time, step), fine = account(make(), time, 0.5 * step);
   EXPECT_LT(coarse.residual, 1e-12);
   EXPECT_LT(fine.residual, 1e-12);
   EXPECT_LT(fine.time_integration, 1e-3);
@@ -136,10 +136,12 @@ lab::Lab printed_column() {
   return lab;
 }
 
-/// No energy stands behind (7): what it does is booked as work, and nothing of it is left to the scheme,
+/// No energy stands behind (7): what it does is accumulated as work, and nothing of it is left to the scheme,
 /// however long the step.
-TEST(FluidLedger, BooksThePrintedPressureAsWorkAndLeavesToTheSchemeOnlyWhatFallsWithTheSquareOfTheStep) {
-  const Account coarse = account(printed_column(), 0.3, 1e-3), fine = account(printed_column(), 0.3, 5e-4);
+TEST(FluidLedger,
+     AccumulatesThePrintedPressureAsWorkAndLeavesToTheSchemeOnlyWhatFallsWithTheSquareOfTheStep) {
+  const EnergyAccount coarse = account(printed_column(), 0.3, 1e-3),
+                      fine = account(printed_column(), 0.3, 5e-4);
   EXPECT_LT(coarse.residual, 1e-12);  // round-off of 300 steps
   EXPECT_LT(fine.residual, 1e-12);
   EXPECT_LT(coarse.time_integration, 1e-3);

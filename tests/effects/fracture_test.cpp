@@ -76,7 +76,7 @@ TEST(Fracture, KeepsMomentaToRoundOff) {
 
 /// What the step leaves (5.0e-4 and 1.2e-4 of the energy) falls with its square; what broken bonds let go is
 /// an entry of its own.
-TEST(Fracture, BooksTheEnergyThatItLetsGo) {
+TEST(Fracture, AccumulatesTheEnergyThatItLetsGo) {
   double left[2] = {};
   for (const int halvings : {0, 1}) {
     const lab::Lab lab = bar_pulled_apart(0.05 / (1 << halvings));
@@ -108,7 +108,7 @@ TEST(Fracture, LeavesTheStressOfWhatHasFlowedAsItWas) {
   State w = lab.run(1.0).state();
   w.scene.materials[0].fracture_stretch = 1.06;
   const std::vector<Symmetric> before = elastic_strains(w);
-  w.booked.open(Account{"fracture"});  // the run that made this state could not break
+  w.accumulated.open(EnergyAccount{"fracture"});  // the run that made this state could not break
   const auto effect = fracture::make(w.scene);
   effect->change(w);
   const std::vector<Symmetric> after = elastic_strains(w);
@@ -121,7 +121,7 @@ TEST(Fracture, LeavesTheStressOfWhatHasFlowedAsItWas) {
     ++changed;
   }
   EXPECT_GT(changed, 4u);
-  EXPECT_GE(w.booked[Account{"fracture"}], 0.0);
+  EXPECT_GE(w.accumulated[EnergyAccount{"fracture"}], 0.0);
 }
 
 TEST(Fracture, GoesOnBitForBitFromACheckpoint) {
@@ -143,9 +143,10 @@ TEST(Fracture, GoesOnBitForBitFromACheckpoint) {
 TEST(Fracture, IsTheSameWithTwoThreads) {
   const lab::Lab lab = bar_pulled_apart(0.1);
   const Simulation one = lab.run(4.0), two = lab.run(4.0, 2);
-  EXPECT_GT(one.state().booked[Account{"fracture"}], 0.0);
+  EXPECT_GT(one.state().accumulated[EnergyAccount{"fracture"}], 0.0);
   EXPECT_EQ(lab::by_id(one, field::position_x), lab::by_id(two, field::position_x));
-  EXPECT_EQ(one.state().booked[Account{"fracture"}], two.state().booked[Account{"fracture"}]);
+  EXPECT_EQ(one.state().accumulated[EnergyAccount{"fracture"}],
+            two.state().accumulated[EnergyAccount{"fracture"}]);
 }
 
 }  // namespace

@@ -87,10 +87,10 @@ TEST(FreeRows, AreKickedWithTheBitsOfOneParticleAfterTheOther) {
     }
     for (const FreeLoops& loops : loops_of_all_units(forces)) {
       Cloud cloud(count, forces);
-      std::array<double, most_forces + 1> booked{};
-      booked.fill(1.0);
-      loops.kick(cloud.rows, cloud.places(cloud.v), dt, from, to, booked.data());
-      EXPECT_EQ(booked, work) << forces << " forces";
+      std::array<double, most_forces + 1> accumulated{};
+      accumulated.fill(1.0);
+      loops.kick(cloud.rows, cloud.places(cloud.v), dt, from, to, accumulated.data());
+      EXPECT_EQ(accumulated, work) << forces << " forces";
       for (std::size_t a = 0; a < 3; ++a)
         EXPECT_TRUE(same_bits(cloud.v[a], one.v[a])) << forces << " forces, axis " << a;
     }

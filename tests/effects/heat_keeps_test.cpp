@@ -48,7 +48,7 @@ TEST(PaperHeat, LosesHeatAcrossADensityJumpAsItIsPrinted) {
   EXPECT_GT(std::abs(s.ledger().energy.at("thermal") / before - 1.0), 1e-3);
 }
 
-TEST(CorrectedHeat, BooksWhatHeldTemperaturesGive) {
+TEST(CorrectedHeat, AccumulatesWhatHeldTemperaturesGive) {
   const lab::Lab lab = two_blocks(Mode::corrected, 400.0);
   Simulation s(lab.scene, lab.initial);
   const double before = s.ledger().energy.at("thermal");

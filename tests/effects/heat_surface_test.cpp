@@ -76,7 +76,7 @@ TEST(HeldSurface, KeepsAStraightProfileAtRest) {
   for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(T[i], 300.0 + 1000.0 * x[i], 1e-9);
 }
 
-TEST(HeldSurface, BooksTheHeatThatComesInThroughIt) {
+TEST(HeldSurface, AccumulatesTheHeatThatComesInThroughIt) {
   const lab::Lab lab = slab(6, [](const Vec3&) { return 350.0; });
   Simulation s(lab.scene, lab.initial);
   const double before = s.ledger().energy.at("thermal");

@@ -138,22 +138,23 @@ TEST(UnbrokenProof, NeverHoldsWhereABondIsBeyondItsLimitAndMostlyHoldsWhereNoneI
   const auto x = positions(state.particles);
   for (std::size_t i = 0; i < n; ++i) x.set(i, {double(i), 0.0, 0.0});
   constexpr double limit = 1.5;
-  const auto least_room = [&] {
-    double room = 1e300;
-    for (std::size_t i = 0; i + 1 < n; ++i) room = std::min(room, limit - norm(x.at(i + 1) - x.at(i)));
-    return room;
+  const auto least_headroom = [&] {
+    double headroom = 1e300;
+    for (std::size_t i = 0; i + 1 < n; ++i)
+      headroom = std::min(headroom, limit - norm(x.at(i + 1) - x.at(i)));
+    return headroom;
   };
   std::mt19937_64 random(1);
   std::normal_distribution<double> kick(0.0, 0.004);
   fracture::UnbrokenProof unbroken;
   EXPECT_FALSE(unbroken.holds(state));
   int held = 0, looked = 0, steps = 0;
-  for (; least_room() > 0.0 && steps < 100'000; ++steps) {
+  for (; least_headroom() > 0.0 && steps < 100'000; ++steps) {
     if (unbroken.holds(state))
       ++held;
     else {
       ++looked;
-      unbroken.set(state, least_room());
+      unbroken.set(state, least_headroom());
     }
     for (std::size_t i = 0; i < n; ++i)
       x.set(i, x.at(i) + Vec3{0.3, 0.0, 0.0} + Vec3{kick(random), kick(random), kick(random)});

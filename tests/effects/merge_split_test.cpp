@@ -40,7 +40,7 @@ void expect_kept(const Ledger& a, const Ledger& b) {
   EXPECT_NEAR(norm(a.angular_momentum - b.angular_momentum), 0.0, round_off);
 }
 
-TEST(Merge, KeepsMassMomentumAndAngularMomentumAndBooksTheRest) {
+TEST(Merge, KeepsMassMomentumAndAngularMomentumAndAccumulatesTheRest) {
   lab::Lab lab = cube_and_bar();
   Simulation apart(lab.scene, lab.initial);
   lab.scene.events = {event(Event::Kind::merge, 0.0, {"cube", "bar"})};
@@ -151,7 +151,7 @@ TEST(Split, IsUndoneByAMerge) {
               round_off);
 }
 
-TEST(Split, OfATruncatedLineStaysFiniteAndBooksTheSpinThatItCannotHandOn) {
+TEST(Split, OfATruncatedLineStaysFiniteAndAccumulatesTheSpinThatItCannotHandOn) {
   lab::Lab lab(0.1);
   lab.scene.time_step = 1e-3;
   std::vector<Vec3> points;
@@ -163,7 +163,7 @@ TEST(Split, OfATruncatedLineStaysFiniteAndBooksTheSpinThatItCannotHandOn) {
   lab.scene.events = {e};
   Simulation parted(lab.scene, lab.initial);
   expect_kept(whole.ledger(), parted.ledger());
-  EXPECT_GT(norm(parted.state().booked.undelivered_spin), 0.0);
+  EXPECT_GT(norm(parted.state().accumulated.undelivered_spin), 0.0);
   parted.advance_to(1.0);
   expect_kept(whole.ledger(), parted.ledger());
 }

@@ -281,7 +281,7 @@ TEST(Merging, OfALineBodyHandsOnTheSpinThatItCouldNotTurnWith) {
   Simulation start(lab.scene, lab.initial), s = lab.run(2e-3);
   EXPECT_EQ(lab::living_bodies(s), 1u);
   expect_kept(s.ledger(), start.ledger(), 1.0, 1.0);
-  EXPECT_EQ(norm(s.state().booked.undelivered_spin), 0.0);
+  EXPECT_EQ(norm(s.state().accumulated.undelivered_spin), 0.0);
   EXPECT_GT(s.state().bodies[field::body_angular_velocity][0].x, 0.0);
 }
 

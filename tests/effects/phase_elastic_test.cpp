@@ -155,7 +155,7 @@ TEST(Melting, OfAStrainedBarGivesItsEnergyToHeatAndFreezingMakesNoStress) {
   const Ledger molten = s.ledger();
   for (const int phase : lab::integers_by_id(s, field::phase)) EXPECT_EQ(phase, 0);
   EXPECT_EQ(molten.energy.at("elastic") + molten.energy.at("hourglass"), 0.0);
-  const double released = s.state().booked[account::deformation_released];
+  const double released = s.state().accumulated[account::deformation_released];
   EXPECT_NEAR(released / stored, 1.0, 0.02);  // a step of swinging lies between
   EXPECT_NEAR(lab::total_energy(molten) / lab::total_energy(strained), 1.0, 1e-12);
   s.advance_to(0.0311);
@@ -245,7 +245,7 @@ TEST(Softening, TakesStiffnessWithTheLiquidFractionAndClosesTheLedger) {
     for (double& share : stiff.particles[field::stiffness_share]) share = 1.0;
     EXPECT_NEAR(energy_of_all(state) / energy_of_all(stiff), left, 1e-6);
     EXPECT_NEAR(lab::total_energy(s.ledger()) / lab::total_energy(before), 1.0, 1e-12);
-    EXPECT_NE(state.booked[account::deformation_released], 0.0);
+    EXPECT_NE(state.accumulated[account::deformation_released], 0.0);
   }
 }
 

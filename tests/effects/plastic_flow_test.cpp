@@ -55,7 +55,7 @@ TEST(PlasticFlow, DoesNothingBelowTheLimitAndNothingTwice) {
 
 /// At a strain that is held the stored energy loses that much, and mu |flow|^2 more: what is second order in
 /// a step.
-TEST(PlasticFlow, NeverGivesEnergyAndBooksWhatTheStoredEnergyLoses) {
+TEST(PlasticFlow, NeverGivesEnergyAndAccumulatesWhatTheStoredEnergyLoses) {
   std::mt19937 engine(4);
   const YieldLimits limits{.elastic = 0.01, .plastic = 0.05};
   Symmetric plastic;

@@ -69,7 +69,7 @@ TEST(Inflow, IsALatticeWhereItEnters) {
   EXPECT_NEAR(nearest, dx, 1e-9 * dx);  // nothing acts on a lattice at rest density but round-off
 }
 
-TEST(Inflow, IsBookedSoThatTheLedgerCloses) {
+TEST(Inflow, IsAccumulatedSoThatTheLedgerCloses) {
   lab::Lab lab = jet();
   lab.scene.gravity = {0.0, 0.0, -9.81};
   Simulation s(lab.scene, lab.initial);

@@ -277,7 +277,7 @@ std::string judged(const Reference& of, const fs::path& folder, const Attempt& a
 }
 
 /// Books one run with its faults.
-void book(const Attempt& attempt, const std::string& what) {
+void accumulate(const Attempt& attempt, const std::string& what) {
   const std::size_t outcome = outcome_of(what);
   ++table->runs;
   ++table->runs_of[outcome];
@@ -318,7 +318,7 @@ bool try_seed(std::vector<Reference>& references, unsigned long seed, const fs::
     if (const std::string written = last_checkpoint(attempt.end.said); !written.empty()) checkpoint = written;
     const bool is_last = n == most_attempts || checkpoint.empty() || attempt.end.code == 0;
     found = judged(of, folder, attempt, checkpoint, is_last || goes_on_each_time);
-    book(attempt, found);
+    accumulate(attempt, found);
     fs::remove_all(folder.string() + ".again");
     story +=
         fmt::format("  attempt {}: calls {} fail by {}: exit {}: {}\n", n, at, kind, attempt.end.code, found);

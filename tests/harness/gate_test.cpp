@@ -63,20 +63,20 @@ TEST(Remarks, WhatWouldEndAWorkflowCommandIsEscaped) {
   EXPECT_EQ(annotations_text(list), "::error file=a%2Cb%3Ac.toml,line=3,title=t%3A1%2C2::100 %25%0Anext\n");
 }
 
-TEST(Slack, ALimitThreeTimesTheErrorWarnsAndTenTimesFails) {
+TEST(Headroom, ALimitThreeTimesTheErrorWarnsAndTenTimesFails) {
   EXPECT_TRUE(headroom_remarks(used(0.05, 0.1)).empty());
   EXPECT_FALSE(headroom_remarks(used(0.02, 0.1)).at(0).error);
   EXPECT_TRUE(headroom_remarks(used(0.009, 0.1)).at(0).error);
   EXPECT_TRUE(headroom_remarks(used(0.0, 0.1)).at(0).error);  // a metric that is dead is the slackest of all
 }
 
-TEST(Slack, TheUncertaintyCountsAsUsed) {
+TEST(Headroom, TheUncertaintyCountsAsUsed) {
   auto r = green();
   error(r) = value(0.001, 0.02);
   EXPECT_TRUE(headroom_remarks(judged(r)).empty());  // 0.1 over 0.041
 }
 
-TEST(Slack, ADatedReasonIsShownAndDoesNotFail) {
+TEST(Headroom, ADatedReasonIsShownAndDoesNotFail) {
   auto r = used(0.001, 0.1);
   r.cases[0].gates[0].date = "2026-11-21";
   const auto remarks = headroom_remarks(judged(r));
@@ -84,7 +84,7 @@ TEST(Slack, ADatedReasonIsShownAndDoesNotFail) {
   EXPECT_NE(remarks[0].text.find("2026-11-21"), std::string::npos);
 }
 
-TEST(Slack, TheRunThatUsesMostOfAGateDecides) {
+TEST(Headroom, TheRunThatUsesMostOfAGateDecides) {
   auto r = green();
   auto coarse = engine(r).runs[0];
   coarse.base = false;
@@ -94,7 +94,7 @@ TEST(Slack, TheRunThatUsesMostOfAGateDecides) {
   EXPECT_TRUE(headroom_remarks(judged(r)).empty());
 }
 
-TEST(Slack, LimitsOfRoundOffAndCountsHaveNoneToGive) {
+TEST(Headroom, LimitsOfRoundOffAndCountsHaveNoneToGive) {
   EXPECT_TRUE(headroom_remarks(used(1e-16, 1e-10)).empty());
   EXPECT_FALSE(headroom_remarks(used(1e-16, 1e-9)).empty());
   auto r = used(0.0, 0.5);
@@ -103,7 +103,7 @@ TEST(Slack, LimitsOfRoundOffAndCountsHaveNoneToGive) {
   EXPECT_TRUE(headroom_remarks(r).empty());
 }
 
-TEST(Slack, OrdersAndClassesHaveNoRoomToTighten) {
+TEST(Headroom, OrdersAndClassesHaveNoRoomToTighten) {
   GateRow row;
   row.metric = "error.order";
   row.verdict = Verdict::pass;
@@ -116,7 +116,7 @@ TEST(Slack, OrdersAndClassesHaveNoRoomToTighten) {
   EXPECT_FALSE(headroom_of({}, row).has_value());
 }
 
-TEST(Slack, ABandIsAskedOnBothSides) {
+TEST(Headroom, ABandIsAskedOnBothSides) {
   auto r = green();
   auto& gate = r.cases[0].gates[0];
   gate.limit.reset();

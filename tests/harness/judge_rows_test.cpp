@@ -405,7 +405,7 @@ TEST(JudgeSuite, HoldsEachPlannedCaseOnce) {
 
 // --- headroom --------------------------------------------------------------------
 
-TEST(SlackEdges, WarnsAboveThreeAndFailsAboveTen) {
+TEST(HeadroomEdges, WarnsAboveThreeAndFailsAboveTen) {
   const auto remark = [](
                           double most,
                           const std::function<void(Results&)>& change = [](Results&) {}) -> std::string {

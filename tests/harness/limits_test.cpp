@@ -220,7 +220,7 @@ GateRow passed(double value, double u, const Gate& gate) {
   return row;
 }
 
-TEST(SlackEdges, IsTheLimitOverWhatIsUsedAndWhatIsUsedOverTheLeast) {
+TEST(HeadroomEdges, IsTheLimitOverWhatIsUsedAndWhatIsUsedOverTheLeast) {
   const auto of = [](double value, double u, const Gate& gate) {
     return headroom_of({}, passed(value, u, gate)).value_or(-1.0);
   };
@@ -241,7 +241,7 @@ TEST(SlackEdges, IsTheLimitOverWhatIsUsedAndWhatIsUsedOverTheLeast) {
   EXPECT_FALSE(headroom_of({}, row).has_value());
 }
 
-TEST(SlackEdges, ACountUsesAHalfAtLeastUnlessItIsScaled) {
+TEST(HeadroomEdges, ACountUsesAHalfAtLeastUnlessItIsScaled) {
   CaseResult c;
   c.metrics.resize(1);
   c.metrics[0].name = "error";

@@ -150,15 +150,16 @@ TEST(Guard, NamesEnergyThatTheSchemeMakes) {
   const double kinetic = ledger.energy.at("kinetic"), dt = s.bound().dt;
   GuardMemory memory;
   ledger.energy["time_integration"] = -0.4 * kinetic;
-  EXPECT_NO_THROW(check_energy(s.state(), ledger, s.state().booked[account::start_potential], dt, memory));
+  EXPECT_NO_THROW(
+      check_energy(s.state(), ledger, s.state().accumulated[account::start_potential], dt, memory));
   EXPECT_DOUBLE_EQ(memory.turned_over, kinetic);
   ledger.energy["time_integration"] = 0.6 * kinetic;
   const Diverged e = tripped(
-      [&] { check_energy(s.state(), ledger, s.state().booked[account::start_potential], dt, memory); });
+      [&] { check_energy(s.state(), ledger, s.state().accumulated[account::start_potential], dt, memory); });
   EXPECT_EQ(e.guard, "ledger");
   EXPECT_EQ(e.particle, 21) << "the fastest";
   ledger.energy["thermal"] = 1e9;
-  EXPECT_THROW(check_energy(s.state(), ledger, s.state().booked[account::start_potential], dt, memory),
+  EXPECT_THROW(check_energy(s.state(), ledger, s.state().accumulated[account::start_potential], dt, memory),
                Diverged)
       << "heat hides no energy of motion";
 }
@@ -172,7 +173,7 @@ TEST(Guard, CountsWhatForcesMakeAsMadeByTheScheme) {
   ASSERT_EQ(ledger.energy.count("viscous"), 1u);
   GuardMemory memory;
   const auto check = [&] {
-    check_energy(s.state(), ledger, s.state().booked[account::start_potential], s.bound().dt, memory);
+    check_energy(s.state(), ledger, s.state().accumulated[account::start_potential], s.bound().dt, memory);
   };
   ledger.energy["kinetic"] = 100.0;
   ledger.energy["viscous"] = -40.0;

@@ -37,7 +37,7 @@ WayDifference way_difference(const Audited& run, const Track& track, std::size_t
               rounding_rate(run, size, 1e-6 * run.job.scene.spacing, time) + contact.hidden_speed};
 }
 
-std::string told(const Audited& run, const std::string& name, std::size_t n, const WayDifference& d) {
+std::string reported(const Audited& run, const std::string& name, std::size_t n, const WayDifference& d) {
   return "contradicts itself: " + name + " moves otherwise than its velocity says" +
          between(*run.frames[n], *run.frames[n + 1]) + ": by " + figure(d.found) + " m/s, where " +
          figure(d.allowed) + " m/s may be";
@@ -131,7 +131,7 @@ std::string particle_contradicts(const Audited& run, std::size_t i, const Interv
     sums.found[n] += d.found * d.found;
     sums.allowed[n] += d.allowed * d.allowed;
     d.allowed = 3.0 * d.allowed + intervals.fastest[n];
-    if (d.found > d.allowed) return told(run, "particle " + std::to_string(i), n, d);
+    if (d.found > d.allowed) return reported(run, "particle " + std::to_string(i), n, d);
   }
   return {};
 }
@@ -144,7 +144,7 @@ std::string mean_contradicts(const Audited& run, const JobBody& body, const Squa
   const double allowed = vibration + *std::max_element(sums.allowed.begin(), sums.allowed.end());
   for (std::size_t n = 0; n < sums.found.size(); ++n)
     if (sums.found[n] > allowed)
-      return told(run, "the matter of `" + name + "`", n, {std::sqrt(sums.found[n]), std::sqrt(allowed)});
+      return reported(run, "the matter of `" + name + "`", n, {std::sqrt(sums.found[n]), std::sqrt(allowed)});
   return {};
 }
 
@@ -220,7 +220,7 @@ std::string bodies_contradict(const Audited& run) {
       const Contact contact = contact_of_row(run, row, n);
       auto d = way_difference(run, track, n, contact);
       if (contact.touches) d.allowed += pushed_out * greatest_speed(track) + speed_about(track, n);
-      if (d.found > d.allowed) return told(run, row_name(run, row), n, d);
+      if (d.found > d.allowed) return reported(run, row_name(run, row), n, d);
     }
   }
   return {};

@@ -10,10 +10,10 @@
 namespace tripoint {
 namespace {
 
-constexpr double least_limit = 1e-10;   // a limit of round-off, of which no headroom is asked
-constexpr double round_off_room = 3.0;  // another machine rounds otherwise
-constexpr double noise_room = 4.0;      // standard deviations over repeats and seeds
-constexpr double order_room = 0.2;      // beyond the interval of a fitted order
+constexpr double least_limit = 1e-10;       // a limit of round-off, of which no headroom is asked
+constexpr double round_off_headroom = 3.0;  // another machine rounds otherwise
+constexpr double noise_headroom = 4.0;      // standard deviations over repeats and seeds
+constexpr double order_headroom = 0.2;      // beyond the interval of a fitted order
 
 struct Spread {
   double mean = 0.0, deviation = 0.0;
@@ -29,7 +29,7 @@ Spread spread_of(const std::vector<double>& values) {
 }
 
 double noise_of(const Measured& m) {
-  return noise_room * spread_of(m.values).deviation + 2.0 * m.uncertainty;
+  return noise_headroom * spread_of(m.values).deviation + 2.0 * m.uncertainty;
 }
 
 }  // namespace
@@ -56,7 +56,7 @@ Gate adopted_gate(const std::string& metric, const Measured& m, double margin, d
           ? fmt::format(", standard deviation {:.2g} over {} runs and seeds", s.deviation, m.values.size())
           : "");
   if (size <= round_off) {
-    gate.limit = std::max({least_limit, round_off_room * size, size + noise});
+    gate.limit = std::max({least_limit, round_off_headroom * size, size + noise});
     gate.reason = measured + "; an error of round-off may be anything smaller";
     return gate;
   }
@@ -71,10 +71,10 @@ Gate adopted_order_gate(const OrderRow& order) {
   Gate gate;
   const auto& o = order.order;
   gate.metric = order.metric + ".order";
-  gate.band = std::array{o.low - order_room, o.high + order_room};
+  gate.band = std::array{o.low - order_headroom, o.high + order_headroom};
   gate.reason =
       fmt::format("adopted: observed order {:.3g}, 95 % interval {:.3g} to {:.3g}; room of {:g} beyond it",
-                  o.value, o.low, o.high, order_room);
+                  o.value, o.low, o.high, order_headroom);
   return gate;
 }
 

@@ -65,7 +65,7 @@ TimeStepBound Buoyancy::max_dt(const State& state) const {
 }  // namespace
 
 EffectSpec spec(const Scene&) {
-  Force buoyancy{force_x, force_y, force_z, {"buoyancy_work"}, Account{"wall_buoyancy_work"}};
+  Force buoyancy{force_x, force_y, force_z, {"buoyancy_work"}, EnergyAccount{"wall_buoyancy_work"}};
   buoyancy.entry = "buoyancy";
   return {"buoyancy",
           Mode::corrected,

@@ -29,11 +29,11 @@
 namespace tripoint::carried_liquid {
 namespace {
 
-constexpr StepNumber kick_length{"carried_half_step", 0.0};      ///< length of the last kick [s]
-constexpr Account compression_released{"compression_released"};  ///< as the effect of contact has it
+constexpr StepNumber kick_length{"carried_half_step", 0.0};            ///< length of the last kick [s]
+constexpr EnergyAccount compression_released{"compression_released"};  ///< as the effect of contact has it
 /// Steps that have taken the present corrections, -1: none are there
 constexpr StepNumber held_for{"carried_steps_held", -1.0};
-constexpr Account taken_by_diffusion{"taken_by_diffusion"}, taken_by_shift{"taken_by_shift"};
+constexpr EnergyAccount taken_by_diffusion{"taken_by_diffusion"}, taken_by_shift{"taken_by_shift"};
 constexpr double viscous_share = 0.03;                   ///< of dx^2/nu that a step takes
 constexpr double full_rank = 0.5, own_full_rank = 0.02;  ///< determinant below which an inverse is blended
 /// Trace of the moment of a particle at a free surface
@@ -192,13 +192,13 @@ void CarriedLiquid::adopt(State& state) {
   take_pressure_around(state, equation_, kernels_, change.melted);
   take_pressure_around(state, equation_, kernels_, change.born);
   if (!touched.empty())
-    state.booked[compression_released] +=
+    state.accumulated[compression_released] +=
         before - energy_of(state, equation_, kernels_, touched, 0.5 * drifted_);
   const auto m = state.particles[field::mass], rho = state.particles[field::density],
              rest = state.particles[field::liquid_rest_density];
   for (const std::uint32_t id : change.born) {
     const std::size_t i = state.particles.row(id);
-    state.booked[account::inflow] += equation_.energy(m[i], rho[i], rest[i]);
+    state.accumulated[account::inflow] += equation_.energy(m[i], rho[i], rest[i]);
   }
 }
 
@@ -211,7 +211,7 @@ void CarriedLiquid::drift(State& state, double dt) {
   const Vec3 g = state.scene.gravity;
   const auto work = ordered_sums(
       state, blocks, [&](std::size_t i, std::array<double, 1>& sum) { sum[0] += m[i] * dot(g, w.at(i)); });
-  state.booked[taken_by_shift] += dt * work[0];
+  state.accumulated[taken_by_shift] += dt * work[0];
 }
 
 /// Sums of a term over the clusters that have a liquid, or over all whose forces are formed now.
@@ -302,7 +302,7 @@ void CarriedLiquid::move_density(State& state) const {
     sum[0] += mass[i] * pressure_of(carried, rest[i]) / (carried * carried) * (next - carried);
     rho[i] = next;
   });
-  state.booked[taken_by_diffusion] -= taken[0];
+  state.accumulated[taken_by_diffusion] -= taken[0];
 }
 
 void CarriedLiquid::set_pressure(State& state) const {
@@ -425,8 +425,8 @@ void CarriedLiquid::add_to(const State& state, Ledger& ledger) const {
       sum[0] += equation_.energy(m[i], rho[i], rest[i]) + equation_.wall_energy(m[i], rest[i], share[i]);
   });
   ledger.energy["compression"] += sums[0];
-  ledger.energy["diffusion"] += state.booked[taken_by_diffusion];
-  ledger.energy["shifting"] += state.booked[taken_by_shift];
+  ledger.energy["diffusion"] += state.accumulated[taken_by_diffusion];
+  ledger.energy["shifting"] += state.accumulated[taken_by_shift];
 }
 
 std::vector<FieldInfo> owned(bool solids_meet) {
@@ -453,19 +453,19 @@ std::vector<FieldInfo> owned(bool solids_meet) {
 
 std::vector<Force> forces_of(bool solids_meet) {
   Force pressure{
-      field::force_x, field::force_y, field::force_z, {"pressure_work"}, Account{"wall_pressure_work"}};
+      field::force_x, field::force_y, field::force_z, {"pressure_work"}, EnergyAccount{"wall_pressure_work"}};
   pressure.stored = StoredEnergy{{"compression"}, {"start_compression"}, {}, ""};
   Force viscous{field::viscous_force_x,
                 field::viscous_force_y,
                 field::viscous_force_z,
                 {"viscous_work"},
-                Account{"wall_viscous_work"}};
+                EnergyAccount{"wall_viscous_work"}};
   viscous.entry = "viscous";
   Force residue{field::residue_force_x,
                 field::residue_force_y,
                 field::residue_force_z,
                 {"residue_work"},
-                Account{"wall_residue_work"}};
+                EnergyAccount{"wall_residue_work"}};
   residue.entry = "residue";
   return solids_meet ? std::vector{residue} : std::vector{pressure, viscous, residue};
 }

@@ -105,7 +105,7 @@ EffectSpec spec(const Scene& scene) {
               field::elastic_force_y,
               field::elastic_force_z,
               {"elastic_work"},
-              Account{"wall_elastic_work"}};
+              EnergyAccount{"wall_elastic_work"}};
   bonds.stored = StoredEnergy{{"elastic", "hourglass"}, {"start_deformation"}, account::deformation_released};
   s.forces = {bonds};
   s.own_sums.bonds = columns_of_all(field::elastic_force);

@@ -15,7 +15,7 @@ namespace tripoint::expansion {
 namespace {
 
 namespace account {
-constexpr Account taken{"expansion"};  ///< elastic energy that a change of temperature took [J]
+constexpr EnergyAccount taken{"expansion"};  ///< elastic energy that a change of temperature took [J]
 }
 
 struct Law {
@@ -33,7 +33,7 @@ class Expansion : public Effect {
   void load(State&, const InitialState&) override;
   void state(State&) override;
   void add_to(const State& state, Ledger& ledger) const override {
-    ledger.energy["expansion"] += state.booked[account::taken];
+    ledger.energy["expansion"] += state.accumulated[account::taken];
   }
 
  private:
@@ -78,8 +78,8 @@ void Expansion::state(State& state) {
                                   [&](std::size_t row, std::array<double, 1>& sum) {
                                     if (is_elastic(row)) sum[0] += expand(state, row);
                                   });
-  state.booked[account::taken] += taken[0];
-  state.booked[tripoint::account::deformation_released] += taken[0];
+  state.accumulated[account::taken] += taken[0];
+  state.accumulated[tripoint::account::deformation_released] += taken[0];
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ void set_bulk_pressure(State& state, const liquid::SceneNumbers& n) {
     q[i] = next;
     before[i] = delta[i];
   });
-  state.booked[taken_by_bulk_viscosity] += n.pressure_work * taken[0];
+  state.accumulated[taken_by_bulk_viscosity] += n.pressure_work * taken[0];
 }
 
 double bulk_viscous_step(double zeta) {

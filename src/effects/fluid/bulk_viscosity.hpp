@@ -6,7 +6,7 @@
 namespace tripoint::fluid {
 
 /// Energy that the numerical bulk viscosity of liquids has taken [J].
-inline constexpr Account taken_by_bulk_viscosity{"bulk_viscous"};
+inline constexpr EnergyAccount taken_by_bulk_viscosity{"bulk_viscous"};
 
 /// zeta of scene.bulk_viscosity [1]; 0 where liquids of this scene can have none (no_bulk_viscosity).
 [[nodiscard]] double bulk_viscosity(const Scene&);
@@ -22,9 +22,9 @@ inline constexpr Account taken_by_bulk_viscosity{"bulk_viscous"};
 /// that of sound. A wave of frequency w is damped at w^2 zeta h/c. Forces of the last half step's velocities
 /// are then stable while w^2 dt^2 + 2 w^2 zeta (h/c) dt < 4. With w = 2 c/(0.885 h), the fastest wave of the
 /// lattice, that is dt < 0.71 h/c at 0.2: sound takes 0.45. Where liquids mix, the heavy one damps the light
-/// one faster, and 0.6 h/c is left at four times the density (tests/step/stability_bulk_test.cpp). Also books
-/// the energy that it takes, by the trapezoidal rule. To be called once for all new places, after the
-/// pressure is known.
+/// one faster, and 0.6 h/c is left at four times the density (tests/step/stability_bulk_test.cpp). Also
+/// accumulates the energy that it takes, by the trapezoidal rule. To be called once for all new places, after
+/// the pressure is known.
 void set_bulk_pressure(State&, const liquid::SceneNumbers&);
 
 /// Greatest step over h/c [1] (model 8.10): 0.81 (sqrt(z^2 + 0.885^2) - z), z = 2.12 zeta. Above that of

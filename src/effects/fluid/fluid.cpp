@@ -36,7 +36,7 @@ constexpr double courant_printed = 0.7, courant_corrected = 0.45;
 constexpr double courant_transported = 0.35;
 
 /// Energy of compression that changes of phase and of own pairs let go [J].
-constexpr Account compression_released{"compression_released"};
+constexpr EnergyAccount compression_released{"compression_released"};
 
 class Fluid : public Effect {
  public:
@@ -58,7 +58,7 @@ class Fluid : public Effect {
   [[nodiscard]] TimeStepBound max_dt(const State&) const override;
   void add_to(const State& state, Ledger& ledger) const override {
     if (liquid::stores_compression(state.scene)) add_fluid(state, numbers_, kernels_, ledger);
-    if (damps_) ledger.energy["bulk_viscous"] += state.booked[taken_by_bulk_viscosity];
+    if (damps_) ledger.energy["bulk_viscous"] += state.accumulated[taken_by_bulk_viscosity];
   }
   [[nodiscard]] PairWork pair_work(const Scene&) const override;
 
@@ -109,7 +109,7 @@ void Fluid::follow_temperature(State& state) const {
 }
 
 void Fluid::adopt(State& state) {
-  state.booked[compression_released] -=
+  state.accumulated[compression_released] -=
       compression_jump(state, numbers_, kernels_, liquid::Groups(state), 0.5 * drifted_);
   for (const std::uint32_t id : state.change.born) set_material(state, state.particles.row(id));
   for (const std::uint32_t id : state.change.regrouped) set_material(state, state.particles.row(id));
@@ -192,7 +192,7 @@ PairWork Fluid::pair_work(const Scene& scene) const {
 /// Pressure and viscosity, with where their work goes (model 8.11).
 std::vector<Force> forces_of(const Scene& scene) {
   Force pressure{
-      field::force_x, field::force_y, field::force_z, {"pressure_work"}, Account{"wall_pressure_work"}};
+      field::force_x, field::force_y, field::force_z, {"pressure_work"}, EnergyAccount{"wall_pressure_work"}};
   if (liquid::stores_compression(scene))
     pressure.stored =
         StoredEnergy{{"compression"}, {"start_compression"}, compression_released, "phase_work"};
@@ -202,7 +202,7 @@ std::vector<Force> forces_of(const Scene& scene) {
                 field::viscous_force_y,
                 field::viscous_force_z,
                 {"viscous_work"},
-                Account{"wall_viscous_work"}};
+                EnergyAccount{"wall_viscous_work"}};
   viscous.entry = "viscous";
   return {pressure, viscous};
 }

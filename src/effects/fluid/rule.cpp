@@ -238,7 +238,7 @@ void settle_material(TableReader& in, Material& m) {
   in.ruled("stiffness", show(*m.stiffness), "the square of sound_speed");
 }
 
-std::vector<std::string_view> always_told(const Scene& scene) {
+std::vector<std::string_view> always_reported(const Scene& scene) {
   return {"viscous", liquid::stores_compression(scene) ? "compression" : "pressure_work"};
 }
 
@@ -260,7 +260,7 @@ EffectRule rule() {
                              {"phase_work"},
                              {"viscous", "work that viscosity took"},
                              {"bulk_viscous", "work that the numerical bulk viscosity took"}},
-          .always_told = always_told,
+          .always_reported = always_reported,
           .over_processes = true,
           .has_pairs = true,
           .has_pressure = true};

@@ -38,7 +38,7 @@ class BondLimits {
     return paper_ ? breaks_by_distance(r, limit) : breaks_by_stretch(r, bond.x, limit);
   }
   /// By how much |r| may grow before the bond breaks [m].
-  [[nodiscard]] double room(const Vec3& r, const Bond& bond, std::size_t a, std::size_t b) const {
+  [[nodiscard]] double headroom(const Vec3& r, const Bond& bond, std::size_t a, std::size_t b) const {
     return (paper_ ? 1.0 : norm(bond.x)) * limit_of(a, b) - norm(r);
   }
 

@@ -17,7 +17,7 @@ namespace {
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
 /// Energy that broken bonds have let go [J].
-constexpr Account let_go_by_bonds{"fracture"};
+constexpr EnergyAccount let_go_by_bonds{"fracture"};
 
 class Fracture : public Effect {
  public:
@@ -33,7 +33,7 @@ class Fracture : public Effect {
   }
   void happen(State&, const Happening&) override { unbroken_.clear(); }
   void add_to(const State& state, Ledger& ledger) const override {
-    ledger.energy["fracture"] += state.booked[let_go_by_bonds];
+    ledger.energy["fracture"] += state.accumulated[let_go_by_bonds];
     // Torn faces may let go pressure too: an entry that begins within a run would have no first frame.
     for (const Force& f : state.forces)
       if (f.stored && !f.stored->released_to.empty())
@@ -77,7 +77,7 @@ std::vector<Pair> Fracture::broken(const State& state) {
     for (const Bond& b : state.bonds.of(id)) {
       const Ends e = ends_of(i, b);
       if (limits_.breaks(e.r, b, e.a, e.b)) has_broken_[id] = 1;
-      least = std::min(least, limits_.room(e.r, b, e.a, e.b));
+      least = std::min(least, limits_.headroom(e.r, b, e.a, e.b));
     }
   }
   unbroken_.set(state, least);
@@ -106,7 +106,7 @@ class Release {
     if (!forms_.paper()) return;
     for (const Bond& b : std::as_const(state_.bonds).of(id)) remember(b.other);
   }
-  /// Shapes and plastic strain by the lists of now; the energy let go is booked.
+  /// Shapes and plastic strain by the lists of now; the energy let go is accumulated.
   void settle() {
     std::vector<std::uint32_t> ids;
     for (const auto& [id, before] : before_) ids.push_back(id);
@@ -116,8 +116,8 @@ class Release {
     double let_go = 0.0;
     for (const auto& [id, before] : before_)
       let_go += before.energy - solid::deformation_energy(state_, forms_, id, back_).total();
-    state_.booked[let_go_by_bonds] += let_go;
-    state_.booked[account::deformation_released] += let_go;
+    state_.accumulated[let_go_by_bonds] += let_go;
+    state_.accumulated[account::deformation_released] += let_go;
   }
 
  private:

@@ -6,8 +6,8 @@
 
 namespace tripoint::fracture {
 
-void UnbrokenProof::set(const State& state, double room) {
-  room_ = room - 1e-9 * state.scene.spacing;  // far above round-off
+void UnbrokenProof::set(const State& state, double headroom) {
+  headroom_ = headroom - 1e-9 * state.scene.spacing;  // far above round-off
   const Particles& p = state.particles;
   place_.resize(p.size());
   const auto x = positions(p);
@@ -20,7 +20,7 @@ void UnbrokenProof::set(const State& state, double room) {
 /// looked at again.
 bool UnbrokenProof::holds(const State& state) const {
   const Particles& p = state.particles;
-  if (place_.empty() || place_.size() != p.size() || !(room_ > 0.0)) return false;
+  if (place_.empty() || place_.size() != p.size() || !(headroom_ > 0.0)) return false;
   const auto x = positions(p);
   const Vec3 all = x.at(p.row(0)) - place_[0];
   double most = 0.0;
@@ -29,7 +29,7 @@ bool UnbrokenProof::holds(const State& state) const {
     const Vec3 d = (x.at(p.row(id)) - place_[id]) - all;
     most = std::max(most, dot(d, d));
   }
-  return 2.0 * std::sqrt(most) < room_;
+  return 2.0 * std::sqrt(most) < headroom_;
 }
 
 }  // namespace tripoint::fracture

@@ -28,7 +28,7 @@ void refuse_printed(const Scene& scene) {
 }
 
 /// Whether heat that is given to solids from outside is counted body by body.
-bool books_bodies(const Scene& scene) {
+bool accumulates_bodies(const Scene& scene) {
   if (!can_have_bodies(scene)) return false;
   return has_held_surfaces(scene) ||
          std::ranges::any_of(scene.bodies,
@@ -77,7 +77,7 @@ EffectSpec spec(const Scene& scene) {
     s.guards.push_back({field::temperature_rate, "temperature_rate", Written::rates});
   else
     s.guards.push_back({field::heat_rate, "heat_rate", Written::rates});
-  if (books_bodies(scene)) {
+  if (accumulates_bodies(scene)) {
     s.owns.emplace_back(field::body_heat);
     s.body_sums = {field::body_heat};
   }

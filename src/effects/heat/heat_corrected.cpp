@@ -114,8 +114,8 @@ void add_heat(State& state, Stage stage, Change change) {
     if (stage == Stage::last) f[i] = thermal.liquid_fraction;
     if (!conducts.empty()) k[i] = conducts[static_cast<std::size_t>(material[i])].of(phase[i], f[i]);
   });
-  state.booked[account::walls] += to_walls[0];
-  book_held(state, change);
+  state.accumulated[account::walls] += to_walls[0];
+  accumulate_held(state, change);
 }
 
 /// Least heat capacity of either phase over that of the solid, by material: a particle may change its phase
@@ -151,7 +151,7 @@ void CorrectedHeat::adopt(State& state) {
     const std::size_t i = state.particles.row(id);
     load_particle(state, i, inflow_temperature(state, i));
     set_material(state, i);
-    state.booked[account::inflow] += state.particles[field::enthalpy][i];
+    state.accumulated[account::inflow] += state.particles[field::enthalpy][i];
   }
 }
 
@@ -159,14 +159,14 @@ void CorrectedHeat::adopt(State& state) {
 void CorrectedHeat::drift(State& state, double dt) {
   const auto rate = state.particles[field::heat_rate];
   std::ranges::copy(rate, state.particles[field::heat_rate_before].begin());
-  surfaces_.book(state, Stage::first, dt);
+  surfaces_.accumulate(state, Stage::first, dt);
   add_heat(state, Stage::first, [&](std::size_t i) { return dt * rate[i]; });
 }
 
 /// Second stage: H = 1/2 H_old + 1/2 (H_1 + dt dH/dt(H_1)), written as a change of H_1. Where the step is
 /// small beside the bound (8.10), dH/dt(H_1) serves as the rate of the new time too (decision 040).
 bool CorrectedHeat::correct(State& state, double dt) {
-  surfaces_.book(state, Stage::last, dt);
+  surfaces_.accumulate(state, Stage::last, dt);
   const auto rate = state.particles[field::heat_rate], before = state.particles[field::heat_rate_before];
   add_heat(state, Stage::last, [&](std::size_t i) { return 0.5 * dt * (rate[i] - before[i]); });
   return dt * greatest_diffusivity(state.scene) > small_step * state.scene.spacing * state.scene.spacing;

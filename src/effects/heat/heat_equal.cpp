@@ -26,7 +26,7 @@ void EqualHeat::load(State&, const InitialState& initial) {
 /// Particles that have flowed in bring their heat.
 void EqualHeat::adopt(State& state) {
   for (const std::uint32_t id : state.change.born)
-    state.booked[account::inflow] += heat_at(state, state.particles.row(id), temperature_);
+    state.accumulated[account::inflow] += heat_at(state, state.particles.row(id), temperature_);
 }
 
 void EqualHeat::add_to(const State& state, Ledger& ledger) const {

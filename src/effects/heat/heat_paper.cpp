@@ -57,7 +57,7 @@ void PaperHeat::adopt(State& state) {
     const std::size_t i = p.row(id);
     load_particle(state, i, inflow_temperature(state, i));
     set_material(state, i);
-    state.booked[account::inflow] += printed_heat(state, i);
+    state.accumulated[account::inflow] += printed_heat(state, i);
   }
 }
 
@@ -81,8 +81,8 @@ void PaperHeat::drift(State& state, double dt) {
     T[i] = thermal.temperature;
     f[i] = thermal.liquid_fraction;
   });
-  state.booked[account::walls] += to_walls[0];
-  book_held(state, [&](std::size_t i) { return enthalpy_of(m[i], c_p[i], rate[i] * dt); });
+  state.accumulated[account::walls] += to_walls[0];
+  accumulate_held(state, [&](std::size_t i) { return enthalpy_of(m[i], c_p[i], rate[i] * dt); });
 }
 
 void PaperHeat::clear(State& state, PassName pass) {

@@ -361,7 +361,7 @@ void HeldSurfaces::each_particle(const State& state, Visit visit) const {
   }
 }
 
-void HeldSurfaces::book(State& state, Stage stage, double dt) const {
+void HeldSurfaces::accumulate(State& state, Stage stage, double dt) const {
   if (near_.empty()) return;
   Particles& p = state.particles;
   const auto before = p[field::surface_flow_before];
@@ -375,7 +375,7 @@ void HeldSurfaces::book(State& state, Stage stage, double dt) const {
     if (const int b = p[field::body][i]; by_body && b >= 0)
       state.bodies[field::body_heat][static_cast<std::size_t>(b)] += given;
   });
-  state.booked[account::walls] -= sum;
+  state.accumulated[account::walls] -= sum;
 }
 
 }  // namespace tripoint::heat

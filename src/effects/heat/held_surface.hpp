@@ -37,10 +37,10 @@ class HeldSurfaces {
   /// Sums of a pass start with the share of the places beyond, not with 0. In the pass of densities this is
   /// M_i, in others the flow of heat [W] and the conductance [W/K].
   void start_sums(State&, PassName) const;
-  /// Books the heat that a stage takes from held surfaces, on the account `walls` and by body. Call it before
-  /// the stage.
+  /// Accumulates the heat that a stage takes from held surfaces, on the energy account `walls` and by body.
+  /// Call it before the stage.
   /// @param dt length of the step [s]
-  void book(State&, Stage, double dt) const;
+  void accumulate(State&, Stage, double dt) const;
 
  private:
   /// A particle with places in its support that lie beyond a surface: beyond a held one, or one with these

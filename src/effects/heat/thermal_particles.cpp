@@ -91,7 +91,7 @@ void hold_temperature(State& state, const Happening& now, SetTemperature set) {
     if (!named || !inside(state.unwrapped(i))) continue;
     if (now.begins) {
       const double given = set(state, i, *now.event.temperature);
-      state.booked[account::walls] -= given;
+      state.accumulated[account::walls] -= given;
       if (const int b = p[field::body][i]; b >= 0 && state.bodies.has(field::body_heat.name))
         state.bodies[field::body_heat][static_cast<std::size_t>(b)] += given;
     }

@@ -30,7 +30,7 @@ void set_melted(State&, std::size_t row, double temperature);
 /// Counts the heat that held particles hand on, body by body. The source that holds a body has given it the
 /// heat that its neighbours took. @param change of a row [J]
 template <class Change>
-void book_held(State& state, Change change) {
+void accumulate_held(State& state, Change change) {
   if (!state.bodies.has(field::body_heat.name)) return;
   const auto held = state.particles[field::held], body = state.particles[field::body];
   const auto heat = state.bodies[field::body_heat];
@@ -38,8 +38,8 @@ void book_held(State& state, Change change) {
     if (held[i] != 0 && body[i] >= 0 && state.owns(i)) heat[static_cast<std::size_t>(body[i])] -= change(i);
 }
 
-/// An event `heat`: its particles take the temperature and hold it until the end; the heat given is booked at
-/// the walls.
+/// An event `heat`: its particles take the temperature and hold it until the end; the heat given is
+/// accumulated at the walls.
 void hold_temperature(State&, const Happening&, SetTemperature);
 
 }  // namespace tripoint::heat

@@ -14,7 +14,7 @@ namespace tripoint::heat_source {
 namespace {
 
 namespace account {
-constexpr Account given{"heat_source"};  ///< heat given [J]
+constexpr EnergyAccount given{"heat_source"};  ///< heat given [J]
 }
 
 using Inside = std::function<bool(const Vec3&)>;
@@ -58,7 +58,7 @@ class Heating : public Effect {
   void load(State&, const InitialState&) override;
   void drift(State&, double dt) override;
   void add_to(const State& state, Ledger& ledger) const override {
-    ledger.energy["heat_source"] -= state.booked[account::given];
+    ledger.energy["heat_source"] -= state.accumulated[account::given];
   }
 
  private:
@@ -81,7 +81,7 @@ void Heating::drift(State& state, double) {
       if (!h.heats[static_cast<std::size_t>(p[field::source][i])] || !h.inside(state.unwrapped(i))) continue;
       const double heat = h.density * seconds * p[field::mass][i] / state.material_of(i).density;
       give_heat(state, i, heat);
-      if (state.owns(i)) state.booked[account::given] += heat;
+      if (state.owns(i)) state.accumulated[account::given] += heat;
     }
   }
 }

@@ -49,8 +49,8 @@ class FreeMotion : public Effect {
   std::vector<std::array<double, works>> blocks_;  ///< memory that is used again
 };
 
-/// v += dt (sum F/m + g). The work of each force is booked by its own formula, dt F.(v- + v+)/2. The sum of
-/// these works is the change of kinetic energy to round-off (model 8.11).
+/// v += dt (sum F/m + g). The work of each force is accumulated by its own formula, dt F.(v- + v+)/2. The sum
+/// of these works is the change of kinetic energy to round-off (model 8.11).
 void FreeMotion::kick(State& state, double dt) {
   Particles& p = state.particles;
   const auto driven = p.has(field::driven.name) ? std::as_const(p)[field::driven] : std::span<const int>{};
@@ -58,10 +58,10 @@ void FreeMotion::kick(State& state, double dt) {
   const Kick kick{free, free_loops(free.forces), velocities(p), RigidMembers(state), driven, dt};
   const auto sums = ordered_sums(state, blocks_, kick);
   for (std::size_t k = 0; k < state.forces.size(); ++k) {
-    state.booked[state.forces[k].work] += sums[k];
-    state.booked[work_on_driven(state.forces[k])] += sums[works_on_driven + k];
+    state.accumulated[state.forces[k].work] += sums[k];
+    state.accumulated[work_on_driven(state.forces[k])] += sums[works_on_driven + k];
   }
-  state.booked[account::gravity_work] += sums[by_gravity];
+  state.accumulated[account::gravity_work] += sums[by_gravity];
 }
 
 /// r += dt v; with the transport velocity of the scene's choice, dt (v + shift).

@@ -57,7 +57,7 @@ void ReleasedEnergy::settle_deformation(State& state) const {
   for (const auto& [id, entry] : entries_) difference[id] = entry.before - energy_(id);
   for (const auto& [id, entry] : entries_) {
     if (difference.at(id) == 0.0) continue;
-    state.booked[account::deformation_released] += difference.at(id);
+    state.accumulated[account::deformation_released] += difference.at(id);
     std::vector<std::uint32_t> events = entry.events;
     std::ranges::sort(events);
     share(state, events.empty() ? std::vector{id} : events, difference.at(id));

@@ -22,7 +22,7 @@ class ReleasedEnergy {
   void touch(std::uint32_t id);
   /// The same, by the melting or freezing of `event`.
   void touch(std::uint32_t id, std::uint32_t event);
-  /// Gives every difference to the heat of the events, and books it. To be called when all effects have
+  /// Gives every difference to the heat of the events, and accumulates it. To be called when all effects have
   /// adopted the change.
   void settle(State&) const;
 

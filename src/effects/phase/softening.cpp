@@ -57,7 +57,7 @@ void follow_stiffness(State& state) {
     share[i] = now;
     if (!is_elastic(i)) continue;
     const double released = before - solid::deformation_energy(state, forms, id).total();
-    state.booked[account::deformation_released] += released;
+    state.accumulated[account::deformation_released] += released;
     give_heat(state, i, released);
   }
   state.refresh(std::array{&field::stiffness_share, &field::temperature, &field::liquid_fraction});

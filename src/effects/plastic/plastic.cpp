@@ -14,7 +14,7 @@ namespace tripoint::plastic {
 namespace {
 
 /// Energy that plastic flow has dissipated [J].
-constexpr Account dissipation{"plastic"};
+constexpr EnergyAccount dissipation{"plastic"};
 
 class PlasticFlow : public Effect {
  public:
@@ -22,7 +22,7 @@ class PlasticFlow : public Effect {
   void state(State&) override;
   void adopt(State&) override;
   void add_to(const State& state, Ledger& ledger) const override {
-    ledger.energy["plastic"] += state.booked[dissipation];
+    ledger.energy["plastic"] += state.accumulated[dissipation];
   }
 
  private:
@@ -72,8 +72,8 @@ void PlasticFlow::state(State& state) {
                                    if (may_flow[row] != 0 && is_elastic(row) && state.owns(row))
                                      sum[0] += flow(state, row);
                                  });
-  state.booked[dissipation] += lost[0];
-  state.booked[account::deformation_released] += lost[0];
+  state.accumulated[dissipation] += lost[0];
+  state.accumulated[account::deformation_released] += lost[0];
 }
 
 /// Melted particles lose their plastic strain.

@@ -68,8 +68,8 @@ void append(State& state, std::size_t inflow, const Vec3& place, const Vec3& vel
   p[field::source][row] = static_cast<int>(state.scene.bodies.size() + inflow);
   p[field::driven][row] = driven_in;
   const double potential = -m * dot(state.scene.gravity, place);
-  state.booked[account::inflow] += 0.5 * m * dot(velocity, velocity) + potential;
-  state.booked[account::driven_potential] += potential;
+  state.accumulated[account::inflow] += 0.5 * m * dot(velocity, velocity) + potential;
+  state.accumulated[account::driven_potential] += potential;
   state.change.born.push_back(static_cast<std::uint32_t>(p[field::id][row]));
 }
 

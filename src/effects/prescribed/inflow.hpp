@@ -39,7 +39,7 @@ class Entrance {
 };
 
 /// Particles of every inflow that entered until now, appended in order of inflow, layer and place: they
-/// become the next ids. State::change.born lists them; the energy that they bring is booked as inflow.
+/// become the next ids. State::change.born lists them; the energy that they bring is accumulated as inflow.
 void let_in(State&, const std::vector<Entrance>&);
 /// Row in Scene::inflows of a particle that flowed in; -1 for one that was there from the start.
 [[nodiscard]] int inflow_of(const State&, std::size_t row);

@@ -23,7 +23,7 @@ class Prescribed : public Effect {
   void adopt(State&) override;
   void happen(State&, const Happening&) override;
   void add_to(const State& state, Ledger& ledger) const override {
-    ledger.energy["inflow"] -= state.booked[account::inflow];
+    ledger.energy["inflow"] -= state.accumulated[account::inflow];
   }
 
  private:
@@ -37,7 +37,7 @@ double energy_of(const State& state, std::size_t row) {
          (0.5 * dot(v, v) - dot(state.scene.gravity, state.unwrapped(row)));
 }
 
-/// A particle as its guide moves it; the energy that this costs is booked at the walls.
+/// A particle as its guide moves it; the energy that this costs is accumulated at the walls.
 void guide(State& state, std::size_t row, const Vec3& place, const Vec3& velocity) {
   const double before = energy_of(state, row);
   const Vec3 way = place - state.unwrapped(row);
@@ -45,8 +45,8 @@ void guide(State& state, std::size_t row, const Vec3& place, const Vec3& velocit
   r.set(row, r.at(row) + way);
   velocities(state.particles).set(row, velocity);
   if (!state.owns(row)) return;
-  state.booked[account::walls] -= energy_of(state, row) - before;
-  state.booked[account::driven_potential] -=
+  state.accumulated[account::walls] -= energy_of(state, row) - before;
+  state.accumulated[account::driven_potential] -=
       state.particles[field::mass][row] * dot(state.scene.gravity, way);
 }
 

@@ -113,7 +113,7 @@ void Adoption::measure_anew(std::size_t b) {
   if (old.driven) {
     go_on_driven(state_, b, old.motion);
     state_.change.kinetic_lost[b] = in_its_frame;
-    state_.booked[account::walls] += kinetic - in_its_frame - kinetic_energy(state_, b);
+    state_.accumulated[account::walls] += kinetic - in_its_frame - kinetic_energy(state_, b);
   } else {
     t[field::body_velocity][b] = P / t[field::body_mass][b];
     t[field::body_angular_momentum][b] = L;
@@ -131,7 +131,7 @@ void Adoption::hand_over_undelivered() {
     else if (heir != heir_.end() && !before_.at(heir->second).driven)
       state_.bodies[field::body_angular_momentum][heir->second] += old.undelivered;
     else
-      state_.booked.undelivered_spin += old.undelivered;
+      state_.accumulated.undelivered_spin += old.undelivered;
   }
 }
 

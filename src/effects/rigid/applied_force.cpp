@@ -76,11 +76,11 @@ void push_by_applied_forces(State& state, std::size_t b, double dt) {
   update_spin(state, b);
   t[field::body_acceleration][b] += (1.0 / dt) * (v - v_before);
   t[field::body_angular_acceleration][b] += (1.0 / dt) * (t[field::body_angular_velocity][b] - omega_before);
-  if (!state.tells_of(b)) return;
+  if (!state.reports(b)) return;
   const Vec3 mean = 0.5 * (v_before + v), spin = 0.5 * (omega_before + t[field::body_angular_velocity][b]);
-  state.booked[account::gravity_work] += dt * (dot(applied.force, mean) + dot(applied.torque, spin));
-  if (state.booked.has(account::applied_work))
-    state.booked[account::applied_work] +=
+  state.accumulated[account::gravity_work] += dt * (dot(applied.force, mean) + dot(applied.torque, spin));
+  if (state.accumulated.has(account::applied_work))
+    state.accumulated[account::applied_work] +=
         dt * (dot(applied.paid_force, mean) + dot(applied.paid_torque, spin));
 }
 

@@ -9,13 +9,13 @@ namespace tripoint::rigid {
 
 namespace account {
 using namespace tripoint::account;
-inline constexpr Account applied_work{"applied_work"};  ///< of forces and torques without a potential
+inline constexpr EnergyAccount applied_work{"applied_work"};  ///< of forces and torques without a potential
 }  // namespace account
 
 [[nodiscard]] bool has_forces_without_potential(const Scene&);
 
-/// v += dt F/m, L += dt (r_point - r_cm) x F (18)-(19); the work goes to the account of gravity, whose entry
-/// holds the potential.
+/// v += dt F/m, L += dt (r_point - r_cm) x F (18)-(19); the work goes to the energy account of gravity, whose
+/// entry holds the potential.
 void push_by_applied_forces(State&, std::size_t body, double dt);
 
 /// -F . r_point, summed over the body's forces [J]

@@ -112,7 +112,7 @@ void merge(State& state, const Event& event) {
   } else {
     go_on_driven(state, stays, old);
   }
-  state.booked[account::merging] += before.kinetic - kinetic_energy(state, stays);
+  state.accumulated[account::merging] += before.kinetic - kinetic_energy(state, stays);
   give_velocities(state);
 }
 
@@ -154,8 +154,8 @@ void split(State& state, const Event& event) {
     }
     deliver(b);
   }
-  state.booked.undelivered_spin += owed - delivered;
-  state.booked[account::walls] += kinetic;
+  state.accumulated.undelivered_spin += owed - delivered;
+  state.accumulated[account::walls] += kinetic;
   give_velocities(state);
 }
 

@@ -6,7 +6,7 @@
 /// are kept.
 namespace tripoint::rigid {
 
-/// bodies[0] absorbs the rest and keeps its row and orientation; the kinetic energy lost is booked as
+/// bodies[0] absorbs the rest and keeps its row and orientation; the kinetic energy lost is accumulated as
 /// merging. A fixed or prescribed bodies[0] keeps its motion. @throws InputError where another of them is
 /// fixed or prescribed
 void merge(State&, const Event&);

@@ -123,7 +123,7 @@ void turn(State& state, std::size_t b, double dt, bool as_printed) {
   update_spin(state, b);
 }
 
-/// v += dt (F/m + g), L += dt tau (18)-(19); the work of each force is booked by its own formula
+/// v += dt (F/m + g), L += dt tau (18)-(19); the work of each force is accumulated by its own formula
 /// (model 8.11).
 void push(State& state, std::size_t b, const BodyForces& f, const Vec3& g, double dt) {
   Columns& t = state.bodies;
@@ -135,18 +135,18 @@ void push(State& state, std::size_t b, const BodyForces& f, const Vec3& g, doubl
   update_spin(state, b);
   t[field::body_acceleration][b] = (1.0 / dt) * (v - v_before);
   t[field::body_angular_acceleration][b] = (1.0 / dt) * (t[field::body_angular_velocity][b] - omega_before);
-  if (!state.tells_of(b)) return;
+  if (!state.reports(b)) return;
   const Vec3 mean = 0.5 * (v_before + v), spin = 0.5 * (omega_before + t[field::body_angular_velocity][b]);
   for (std::size_t k = 0; k < state.forces.size(); ++k)
     if (state.forces[k].feels == Feels::all)
-      state.booked[state.forces[k].work] += dt * (dot(f.forces[k], mean) + dot(f.torques[k], spin));
-  state.booked[account::gravity_work] += dt * m * dot(g, mean);
+      state.accumulated[state.forces[k].work] += dt * (dot(f.forces[k], mean) + dot(f.torques[k], spin));
+  state.accumulated[account::gravity_work] += dt * m * dot(g, mean);
 }
 
 /// The work of forces on a driven body goes to its driver. Half a kick works along the drift beside it. At a
 /// keyframe the half kick before goes with the old velocity, and the one after with the new.
-void book_wall_work(State& state, std::size_t b, const std::vector<BodyForces>& forces, double dt) {
-  if (forces.empty() || !state.tells_of(b)) return;
+void accumulate_wall_work(State& state, std::size_t b, const std::vector<BodyForces>& forces, double dt) {
+  if (forces.empty() || !state.reports(b)) return;
   const bool ends_step = state.time == state.next_time;
   const PrescribedState s = driven_state(state, b, ends_step ? state.time - dt : state.time + dt);
   const Vec3 omega = s.angular_velocity,
@@ -154,7 +154,8 @@ void book_wall_work(State& state, std::size_t b, const std::vector<BodyForces>& 
   const BodyForces& f = forces[b];
   for (std::size_t k = 0; k < state.forces.size(); ++k)
     if (state.forces[k].feels == Feels::all)
-      state.booked[work_on_driven(state.forces[k])] += dt * (dot(f.forces[k], v) + dot(f.torques[k], omega));
+      state.accumulated[work_on_driven(state.forces[k])] +=
+          dt * (dot(f.forces[k], v) + dot(f.torques[k], omega));
 }
 
 void RigidBodies::load(State& state, const InitialState& initial) {
@@ -194,7 +195,7 @@ void RigidBodies::kick(State& state, double dt) {
     if (!is_alive(state, b) || !is_rigid(state, b) || motion_now(state, b) == Motion::fixed) return;
     any = true;
     motion_now(state, b) == Motion::free ? push(state, b, forces_.empty() ? none : forces_[b], g, dt)
-                                         : book_wall_work(state, b, forces_, dt);
+                                         : accumulate_wall_work(state, b, forces_, dt);
     if (pushes && motion_now(state, b) == Motion::free) push_by_applied_forces(state, b, dt);
   });
   if (any) give_velocities(state);
@@ -210,14 +211,14 @@ void RigidBodies::drift(State& state, double dt) {
       t[field::body_centre][b] += dt * t[field::body_velocity][b];
       const double before = kinetic_energy(state, b);
       turn(state, b, dt, turns_as_printed_);
-      if (state.tells_of(b)) state.booked[account::rotation_drift] += kinetic_energy(state, b) - before;
+      if (state.reports(b)) state.accumulated[account::rotation_drift] += kinetic_energy(state, b) - before;
     } else {
       const double kinetic = kinetic_energy(state, b), potential = potential_energy(state, b);
       drive(state, b, state.next_time);
       const double raised = potential_energy(state, b) - potential;
-      if (state.tells_of(b)) {
-        state.booked[account::driven_potential] += raised;
-        state.booked[account::walls] -= kinetic_energy(state, b) - kinetic + raised;
+      if (state.reports(b)) {
+        state.accumulated[account::driven_potential] += raised;
+        state.accumulated[account::walls] -= kinetic_energy(state, b) - kinetic + raised;
       }
     }
     any = true;
@@ -233,7 +234,7 @@ Motion own_motion(const State& state, std::size_t b) {
   return source < 0 ? Motion::free : state.scene.bodies[static_cast<std::size_t>(source)].motion;
 }
 
-/// Holds bodies still, or lets them go: the change of their energy is booked at the walls.
+/// Holds bodies still, or lets them go: the change of their energy is accumulated at the walls.
 void set_motion(State& state, std::size_t b, Motion motion) {
   Columns& t = state.bodies;
   const double before = kinetic_energy(state, b);
@@ -242,7 +243,7 @@ void set_motion(State& state, std::size_t b, Motion motion) {
   if (motion == Motion::fixed) {
     t[field::body_velocity][b] = t[field::body_angular_momentum][b] = t[field::body_angular_velocity][b] = {};
   }
-  state.booked[account::walls] += before - kinetic_energy(state, b);
+  state.accumulated[account::walls] += before - kinetic_energy(state, b);
 }
 
 /// Free bodies with most of their members in the region are driven by the grip from now on.
@@ -334,7 +335,7 @@ TimeStepBound RigidBodies::max_dt(const State& state) const {
 void RigidBodies::add_to(const State& state, Ledger& ledger) const {
   for (std::size_t b = 0; b < state.bodies.size(); ++b) {
     if (!is_alive(state, b) || !is_rigid(state, b)) continue;
-    if (!state.tells_of(b)) {  // the same entries all the same
+    if (!state.reports(b)) {  // the same entries all the same
       for (const char* entry : {ledger_entry::kinetic, ledger_entry::potential})
         ledger.energy.try_emplace(entry, 0.0);
       continue;
@@ -345,9 +346,9 @@ void RigidBodies::add_to(const State& state, Ledger& ledger) const {
     ledger.energy[ledger_entry::kinetic] += kinetic_energy(state, b);
     ledger.energy[ledger_entry::potential] += potential_energy(state, b);
   }
-  if (state.booked.has(account::applied_work))
-    ledger.energy["applied_force"] -= state.booked[account::applied_work];
-  if (state.is_first()) ledger.angular_momentum += state.booked.undelivered_spin;
+  if (state.accumulated.has(account::applied_work))
+    ledger.energy["applied_force"] -= state.accumulated[account::applied_work];
+  if (state.is_first()) ledger.angular_momentum += state.accumulated.undelivered_spin;
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ class WallPatches {
   std::vector<std::uint32_t> face_;
   std::vector<std::size_t> start_;    ///< first entry of each patch, and one past the last
   std::vector<std::uint32_t> patch_;  ///< places in face_, the particle itself first
-  std::vector<double> members_;       ///< of each patch; a copy's are told by its owner
+  std::vector<double> members_;       ///< of each patch; a ghost's are reported by its owner
   std::size_t fixed_faces_ = 0;
   std::vector<std::uint32_t> awake_, row_;  ///< places in face_ of those that are awake, and their rows
   std::vector<std::uint32_t> place_;        ///< by id, the place in face_

@@ -52,7 +52,7 @@ TimeStepBound LinearDrag::max_dt(const State&) const {
 }  // namespace
 
 EffectSpec spec(const Scene& scene) {
-  Force drag{force_x, force_y, force_z, {"drag_work"}, Account{"wall_drag_work"}};
+  Force drag{force_x, force_y, force_z, {"drag_work"}, EnergyAccount{"wall_drag_work"}};
   drag.entry = "drag";
   EffectSpec s{"drag",
                scene.mode_of(term::drag),

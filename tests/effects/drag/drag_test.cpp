@@ -218,7 +218,7 @@ TEST(AddedEffect, HasADefectThatItsCaseKills) {
       testing::ExitedWithCode(3), "");
 }
 
-TEST(AddedEffect, BooksItsWorkSoThatTheLedgerCloses) {
+TEST(AddedEffect, AccumulatesItsWorkSoThatTheLedgerCloses) {
   Simulation s = start(slowed_ball());
   const double before = s.ledger().energy.at("kinetic");
   s.advance_to(1.0);

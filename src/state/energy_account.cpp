@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "state/account.hpp"
+#include "state/energy_account.hpp"
 
 #include <cassert>
 
 namespace tripoint {
 
-Bookings::Bookings() {
-  for (const Account& a :
+EnergyAccounts::EnergyAccounts() {
+  for (const EnergyAccount& a :
        {account::gravity_work, account::start_potential, account::driven_potential, account::rotation_drift,
         account::deformation_released, account::inflow, account::merging, account::walls})
     open(a);
 }
 
-void Bookings::open(const Account& a) {
+void EnergyAccounts::open(const EnergyAccount& a) {
   if (has(a)) return;
   assert(values_.size() < places / 2);
   names_.push_back(a.name);
