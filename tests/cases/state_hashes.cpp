@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Prints one hash a case and mode, of the whole state after some steps: of all columns, bonds, bookings and
-/// the order of rows. Two builds, two processors and two numbers of lanes must print the same text.
+/// Prints one hash a case and mode, of the whole state after some steps: of all columns, bonds, energy
+/// accounts and the order of rows. Values go by their names: which effect declares them, and in which order,
+/// changes no hash. Two builds, two processors and two numbers of lanes must print the same text.
 ///   state-hashes [--steps N] [--lanes N] [--threads N] [--traps] CASE.toml...
 /// --traps: what is not a number, infinite or divided by zero ends the program by SIGFPE.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cfenv>
 #include <cstdlib>
@@ -36,6 +38,30 @@ class Hash {
   std::uint64_t value_ = 0xcbf29ce484222325ULL;
 };
 
+/// Values that stand in the order of their declaration are taken apart, each to the name that the layout has
+/// for it.
+Checkpoint by_names(Checkpoint kept) {
+  std::vector<std::string> names[2], fields;
+  for (const std::string& line : kept.text.at("step/layout")) {
+    if (line.starts_with("effect ")) continue;
+    if (line.starts_with("account "))
+      names[0].push_back(line);
+    else if (line.starts_with("step number "))
+      names[1].push_back(line);
+    else
+      fields.push_back(line);
+  }
+  const auto take_apart = [&](const char* key, const std::vector<std::string>& of) {
+    const std::vector<double> values = kept.real.extract(key).mapped();
+    for (std::size_t n = 0; n < of.size(); ++n) kept.real[of[n]] = {values.at(n)};
+  };
+  take_apart("step/booked", names[0]);
+  take_apart("step/numbers", names[1]);
+  std::ranges::sort(fields);
+  kept.text["step/layout"] = fields;
+  return kept;
+}
+
 std::uint64_t hash_of(const Outcome& state) {
   Hash hash;
   const auto add = [&](const auto& arrays) {
@@ -49,9 +75,10 @@ std::uint64_t hash_of(const Outcome& state) {
       }
     }
   };
-  add(state.kept.real);
-  add(state.kept.whole);
-  add(state.kept.text);
+  const Checkpoint kept = state.failure.empty() ? by_names(state.kept) : state.kept;
+  add(kept.real);
+  add(kept.whole);
+  add(kept.text);
   hash.add(state.failure);
   hash.add_bits(state.pairs);
   return hash.value();
