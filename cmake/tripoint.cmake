@@ -69,7 +69,7 @@ endfunction()
 
 # The definition of TRIPOINT_EFFECTS for these effects, or groups of them: tripoint_effect_list(VARIABLE liquid solid heat ...). None = all.
 function(tripoint_effect_list variable)
-  set(groups_liquid fluid density contact lattice_walls no_slip walls faces interfaces transport motion)
+  set(groups_liquid pressure viscosity density contact lattice_walls no_slip walls faces interfaces transport motion)
   set(groups_solid elastic motion)
   set(groups_heat heat rigid)  # what conducts and does not flow is a body
   foreach(name ${ARGN})

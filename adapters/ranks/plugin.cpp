@@ -362,13 +362,13 @@ void* create_halo(void* lammps, int count, char** words) {
   return static_cast<LAMMPS_NS::Fix*>(new FixHalo(static_cast<LAMMPS*>(lammps), count, words));
 }
 
-void (*on_fault)(const char* words) = nullptr;
+void (*report_fault)(const char* words) = nullptr;
 
 void on_fault(MPI_Comm*, int* code, ...) {
   char words[MPI_MAX_ERROR_STRING] = {};
   int length = 0;
   MPI_Error_string(*code, words, &length);
-  on_fault(words);
+  report_fault(words);
 }
 
 /// "MPICH Version:      5.0.2\n..." becomes "MPICH 5.0.2"; another library's words stay as they are, up to
@@ -422,7 +422,7 @@ void tripoint_abort(int code) { MPI_Abort(MPI_COMM_WORLD, code); }
 
 /// Communicators that are made of MPI's own hand its handler on.
 void tripoint_on_fault_of_mpi(void (*report)(const char*)) {
-  tripoint::ranks::on_fault = report;
+  tripoint::ranks::report_fault = report;
   MPI_Errhandler handler = MPI_ERRHANDLER_NULL;
   MPI_Comm_create_errhandler(tripoint::ranks::on_fault, &handler);
   MPI_Comm_set_errhandler(MPI_COMM_WORLD, handler);

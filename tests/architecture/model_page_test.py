@@ -91,7 +91,7 @@ class ModelPage(unittest.TestCase):
         found = [row for bullet in re.findall(r"\*\*Code\.\*\*([^*]*)", PAGE) for row in strayed(bullet)]
         self.assertGreater(len(found), 30)
         self.assertEqual([f"{name} in {file}" for name, file, stands in found if not stands], [])
-        elsewhere = "`pressure_paper`, `src/effects/fluid/fluid.cpp`"  # it stands in equation_of_state.hpp
+        elsewhere = "`pressure_paper`, `src/effects/pressure/pressure.cpp`"  # it stands in equation_of_state.hpp
         self.assertEqual([stands for *_, stands in strayed(elsewhere)], [False])
 
     def test_every_name_is_code_a_file_or_a_case(self):

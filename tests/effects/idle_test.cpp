@@ -123,7 +123,8 @@ TEST(OnlyWhatIsCalledFor, WhatStaysWarmerThanItFreezesHasNoPhaseCheckAndWhatIsCo
 
 TEST(OnlyWhatIsCalledFor, EveryEffectIsEitherOnOrLeftOutForAReason) {
   const Plan p = plan(splash(Mode::corrected).scene);
-  for (const char* name : {"fluid", "elastic", "plastic", "fracture", "rigid", "heat", "phase"}) {
+  for (const char* name :
+       {"pressure", "viscosity", "elastic", "plastic", "fracture", "rigid", "heat", "phase"}) {
     const bool on = std::ranges::find(p.effects, name, &PlannedEffect::name) != p.effects.end();
     EXPECT_NE(on, !why_without(p, name).empty()) << name;
   }

@@ -11,10 +11,11 @@
 
 #include "core/machine.hpp"
 #include "effects/density/pair_slots.hpp"
-#include "effects/fluid/pair_slots.hpp"
 #include "effects/heat/pair_slots.hpp"
 #include "effects/no_slip/pair_slots.hpp"
+#include "effects/pressure/pair_slots.hpp"
 #include "effects/transport/pair_slots.hpp"
+#include "effects/viscosity/pair_slots.hpp"
 #include "pairs/run_pass.hpp"
 
 namespace tripoint {
@@ -88,8 +89,8 @@ TEST(PairPasses, SumTheTermsThatAreWantedAndNoOthers) {
   }
   EXPECT_EQ(p.rates(Wanted{pair_term<PressurePaper>}).terms.size(), 1U)
       << "where another effect brings the viscosity";
-  EXPECT_EQ(p.rates(Wanted{pair_term<ViscosityPaper>}).terms.size(), 0U)
-      << "which is compiled together with a pressure alone";
+  EXPECT_EQ(p.rates(Wanted{pair_term<ViscosityPaper>}).terms.size(), 1U) << "which is an effect of its own";
+  EXPECT_EQ(p.rates(Wanted{pair_term<HeatMoment>}).terms.size(), 0U) << "which is a sum of the other pass";
   const auto names_term = [](const Field<double>* f) { return f->name == field::number_density.name; };
   EXPECT_TRUE(std::ranges::any_of(p.density(Wanted{pair_term<NumberDensity>}).adds(), names_term));
 }
@@ -145,7 +146,8 @@ struct FarSlots : NoPairTerms {
 
 TEST(PairPasses, FuseTheTermOfOneMoreEffectWithThoseOfTheOthers) {
   struct Mine;  // a vector unit of the test's own: one particle at a time
-  using All = PassesOf<1, Mine, density::PairSlots, fluid::PairSlots, heat::PairSlots, FarSlots>;
+  using All = PassesOf<1, Mine, density::PairSlots, pressure::PairSlots, viscosity::PairSlots,
+                       heat::PairSlots, FarSlots>;
   const PairPasses passes{All::density, All::rates, All::alone, All::timed};
   const PassFunction pass = passes.density(Wanted{pair_term<Far>, pair_term<NumberDensity>});
   ASSERT_EQ(pass.terms.size(), 2U);

@@ -36,7 +36,7 @@ bool has_forces(const Scene& scene) {
 /// Fastest sound of matter that flows or bends [m/s]; 0 where there is none. Rigid matter has none, whatever
 /// its material says.
 double fastest_sound(const Scene& scene) {
-  const bool flows = calls_for(scene, "fluid"), bends = calls_for(scene, "elastic");
+  const bool flows = calls_for(scene, "pressure"), bends = calls_for(scene, "elastic");
   double fastest = 0.0;
   for (const auto& body : scene.bodies) {
     const Material& m = scene.material(body.material);

@@ -91,7 +91,7 @@ class CarriedLiquid : public Effect {
         kernels_(kernels_of(scene, numbers_)),
         scheme_(scheme_of(scene)),
         equation_{numbers_.stiffness * numbers_.reference, scene.clamps()},
-        solids_meet_(calls_for(scene, "fluid")) {}
+        solids_meet_(calls_for(scene, "pressure")) {}
   void load(State&, const InitialState&) override;
   void kick(State& state, double dt) override {
     drifted_ = 0.0;
@@ -473,7 +473,7 @@ std::vector<Force> forces_of(bool solids_meet) {
 }  // namespace
 
 EffectSpec spec(const Scene& scene) {
-  const bool solids_meet = calls_for(scene, "fluid");
+  const bool solids_meet = calls_for(scene, "pressure");
   EffectSpec s{"carried_liquid", Mode::corrected, owned(solids_meet),
                fields::joined({fields::position(),
                                fields::velocity(),

@@ -31,11 +31,11 @@ bool asks(const Scene& s) {
 }
 
 std::string called_for(const Scene& s) {
-  return calls_for(s, "fluid") && asks(s) ? "solids that touch are stiffer, or shorten the step" : "";
+  return calls_for(s, "pressure") && asks(s) ? "solids that touch are stiffer, or shorten the step" : "";
 }
 
 std::string left_out(const Scene& s) {
-  if (!calls_for(s, "fluid")) return "nothing flows or touches";
+  if (!calls_for(s, "pressure")) return "nothing flows or touches";
   const std::string why = no_contact_stiffness(s);
   return why.empty() ? "scene.contact_stiffness and scene.contact_step are 0" : why;
 }

@@ -21,13 +21,13 @@ namespace {
 /// Heat alone takes (4) as printed.
 bool is_printed(const Scene& scene) {
   return !liquid::carries_density(scene) &&
-         (scene.mode_of(term::density) == Mode::paper || !calls_for(scene, "fluid"));
+         (scene.mode_of(term::density) == Mode::paper || !calls_for(scene, "pressure"));
 }
 
 class Density : public Effect {
  public:
   explicit Density(const Scene& scene)
-      : flows_(calls_for(scene, "fluid")),
+      : flows_(calls_for(scene, "pressure")),
         printed_(is_printed(scene)),
         of_solids_(liquid::carries_density(scene)),
         kernels_(flows_ ? liquid::pair_kernels(scene) : PairKernels(scene.support_ratio * scene.spacing)),
@@ -127,7 +127,7 @@ EffectSpec spec(const Scene& scene) {
   if (!printed && can_have_deformable_bodies(scene)) s.owns.push_back(field::own_density);
   s.guards = {{field::density, "density", Written::density}};
   s.positive = {field::density};
-  s.skips_sleeping = calls_for(scene, "fluid");
+  s.skips_sleeping = calls_for(scene, "pressure");
   return s;
 }
 

@@ -7,7 +7,7 @@ namespace tripoint::density {
 namespace {
 
 std::string needed_for(const Scene& s, const Called& called) {
-  if (called("fluid")) return "pressure and viscosity divide by it";
+  if (called("pressure")) return "pressure and viscosity divide by it";
   if (called("carried_liquid")) return "";  // it has a density
   const bool printed = s.mode_of(term::heat) == Mode::paper;
   return called("heat") && printed && !equal_temperature(s)

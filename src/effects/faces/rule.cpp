@@ -16,13 +16,13 @@ std::string no_face_pressure(const Scene& s) {
 }
 
 std::string called_for(const Scene& s) {
-  return calls_for(s, "fluid") && acting_number(s, "face_pressure") > 0.0
+  return calls_for(s, "pressure") && acting_number(s, "face_pressure") > 0.0
              ? "scene.face_pressure: pressure acts at the faces of elastic solids"
              : "";
 }
 
 std::string left_out(const Scene& s) {
-  if (!calls_for(s, "fluid")) return "nothing flows or touches";
+  if (!calls_for(s, "pressure")) return "nothing flows or touches";
   const std::string why = no_face_pressure(s);
   return why.empty() ? "scene.face_pressure is 0" : why;
 }

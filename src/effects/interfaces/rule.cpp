@@ -22,13 +22,13 @@ std::string no_interface_weight(const Scene& scene) {
 }
 
 std::string called_for(const Scene& s) {
-  return calls_for(s, "fluid") && acting_number(s, "interface_weight") > 0.0
+  return calls_for(s, "pressure") && acting_number(s, "interface_weight") > 0.0
              ? "scene.interface_weight: liquids of two densities have a weight"
              : "";
 }
 
 std::string left_out(const Scene& s) {
-  if (!calls_for(s, "fluid")) return "nothing flows or touches";
+  if (!calls_for(s, "pressure")) return "nothing flows or touches";
   const std::string why = no_interface_weight(s);
   return why.empty() ? "scene.interface_weight is 0" : why;
 }

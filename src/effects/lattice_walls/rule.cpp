@@ -5,7 +5,7 @@ namespace tripoint::lattice_walls {
 namespace {
 
 std::string called_for(const Scene& s) {
-  return calls_for(s, "fluid") && liquid::averages_walls(s) && liquid::can_have_walls(s) &&
+  return calls_for(s, "pressure") && liquid::averages_walls(s) && liquid::can_have_walls(s) &&
                  liquid::has_laid_walls(s)
              ? "fixed walls jitter, and liquid lies on their lattice"
              : "";

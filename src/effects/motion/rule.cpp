@@ -10,7 +10,7 @@ std::string needed_for(const Scene& s, const Called& called) {
       any_body(s, [](const Scene&, const Body& b, const Material&) { return b.phase == Phase::liquid; }) ||
       !s.inflows.empty();
   const bool moves =
-      (wet && (called("fluid") || called("carried_liquid"))) || called("elastic") || called("phase");
+      (wet && (called("pressure") || called("carried_liquid"))) || called("elastic") || called("phase");
   return moves ? "liquids and deformable solids move by the forces on their particles" : "";
 }
 

@@ -5,8 +5,8 @@ namespace tripoint::no_slip {
 namespace {
 
 std::string called_for(const Scene& s) {
-  return calls_for(s, "fluid") && liquid::mirrors_velocities(s) ? "liquid sticks to what is held or driven"
-                                                                : "";
+  return calls_for(s, "pressure") && liquid::mirrors_velocities(s) ? "liquid sticks to what is held or driven"
+                                                                   : "";
 }
 
 }  // namespace

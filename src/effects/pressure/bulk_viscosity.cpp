@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "effects/fluid/bulk_viscosity.hpp"
+#include "effects/pressure/bulk_viscosity.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include "scene/effect_rule.hpp"
 #include "state/ordered_sum.hpp"
 
-namespace tripoint::fluid {
+namespace tripoint::pressure {
 namespace {
 
 // All three are measured by tests/step/stability_bulk_test.cpp; model 8.10 has the equation of the frontier
@@ -57,4 +57,4 @@ double bulk_viscous_step(double zeta) {
   return share_of_frontier * (std::sqrt(of_mixed * of_mixed + fastest_wave * fastest_wave) - of_mixed);
 }
 
-}  // namespace tripoint::fluid
+}  // namespace tripoint::pressure

@@ -3,7 +3,7 @@
 #include "liquids/scene_numbers.hpp"
 #include "state/state.hpp"
 
-namespace tripoint::fluid {
+namespace tripoint::pressure {
 
 /// Energy that the numerical bulk viscosity of liquids has taken [J].
 inline constexpr EnergyAccount taken_by_bulk_viscosity{"bulk_viscous"};
@@ -31,4 +31,4 @@ void set_bulk_pressure(State&, const liquid::SceneNumbers&);
 /// sound, 0.45, up to zeta = 0.2. @param zeta scene.bulk_viscosity or scene.sound_damping [1]
 [[nodiscard]] double bulk_viscous_step(double zeta);
 
-}  // namespace tripoint::fluid
+}  // namespace tripoint::pressure

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "effects/fluid/fluid_ledger.hpp"
+#include "effects/pressure/compression_ledger.hpp"
 
-#include "effects/fluid/fluid_terms.hpp"
+#include "effects/pressure/pressure_terms.hpp"
 #include "liquids/carried_density.hpp"
 #include "liquids/fields.hpp"
 #include "scene/shared_terms.hpp"
 #include "state/ordered_sum.hpp"
 
-namespace tripoint::fluid {
+namespace tripoint::pressure {
 namespace {
 
 /// Core energy of the pairs of i that act, half of each pair [J]. A particle without a list has none.
@@ -24,8 +24,8 @@ double core_energy(const State& state, const Triple<const double>& x, std::span<
 
 }  // namespace
 
-void add_fluid(const State& state, const liquid::SceneNumbers& n, const PairKernels& kernels,
-               Ledger& ledger) {
+void add_compression(const State& state, const liquid::SceneNumbers& n, const PairKernels& kernels,
+                     Ledger& ledger) {
   const Particles& p = state.particles;
   const bool core = state.scene.mode_of(term::pressure) == Mode::corrected,
              clamps = liquid::clamps(state.scene);
@@ -42,4 +42,4 @@ void add_fluid(const State& state, const liquid::SceneNumbers& n, const PairKern
   ledger.energy["compression"] += compression[0];
 }
 
-}  // namespace tripoint::fluid
+}  // namespace tripoint::pressure

@@ -3,9 +3,9 @@
 #include "liquids/scene_numbers.hpp"
 #include "state/state.hpp"
 
-namespace tripoint::fluid {
+namespace tripoint::pressure {
 
 /// Adds the energy of compression, core and interfaces of all that exerts pressure [J] (model 8.11).
-void add_fluid(const State&, const liquid::SceneNumbers&, const PairKernels&, Ledger&);
+void add_compression(const State&, const liquid::SceneNumbers&, const PairKernels&, Ledger&);
 
-}  // namespace tripoint::fluid
+}  // namespace tripoint::pressure

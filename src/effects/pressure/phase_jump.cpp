@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "effects/fluid/phase_jump.hpp"
+#include "effects/pressure/phase_jump.hpp"
 
 #include <algorithm>
 #include <vector>
 
-#include "effects/fluid/fluid_terms.hpp"
+#include "effects/pressure/pressure_terms.hpp"
 #include "liquids/carried_density.hpp"
 #include "liquids/fields.hpp"
 #include "scene/shared_terms.hpp"
 
-namespace tripoint::fluid {
+namespace tripoint::pressure {
 namespace {
 
 void sort_once(std::vector<std::uint32_t>& ids) {
@@ -84,4 +84,4 @@ double compression_jump(const State& state, const liquid::SceneNumbers& n, const
   return jump;
 }
 
-}  // namespace tripoint::fluid
+}  // namespace tripoint::pressure

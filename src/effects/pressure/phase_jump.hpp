@@ -5,7 +5,7 @@
 #include "liquids/scene_numbers.hpp"
 #include "state/state.hpp"
 
-namespace tripoint::fluid {
+namespace tripoint::pressure {
 
 /// Change of the energy of compression and core [J] when State::change ends and makes own pairs and groups.
 /// It is summed over the changed particles and their pairs. @pre the columns `group` and `own_density` and
@@ -15,4 +15,4 @@ namespace tripoint::fluid {
 [[nodiscard]] double compression_jump(const State&, const liquid::SceneNumbers&, const PairKernels&,
                                       const std::function<double(std::size_t)>& group_now, double back);
 
-}  // namespace tripoint::fluid
+}  // namespace tripoint::pressure

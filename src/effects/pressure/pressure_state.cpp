@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "effects/fluid/fluid_state.hpp"
+#include "effects/pressure/pressure_state.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include "scene/shared_terms.hpp"
 #include "state/failure.hpp"
 
-namespace tripoint::fluid {
+namespace tripoint::pressure {
 
 void refuse_overlap(const State& state, const liquid::SceneNumbers& n) {
   const Particles& p = state.particles;
@@ -63,4 +63,4 @@ void set_pressure_shares(State& state, const liquid::SceneNumbers& n) {
   }
 }
 
-}  // namespace tripoint::fluid
+}  // namespace tripoint::pressure

@@ -4,7 +4,7 @@
 #include "state/state.hpp"
 
 /// State that follows from places and velocities of one time, particle by particle: before the rate pass.
-namespace tripoint::fluid {
+namespace tripoint::pressure {
 
 /// @throws Diverged where a particle that is no wall has the density of two layers in one plane. Then its
 /// body or liquid and another overlap by one spacing. For printed (4) there is no such limit: it sums masses,
@@ -16,4 +16,4 @@ void set_pressure(State&, const liquid::SceneNumbers&);
 /// particle in the corrected pressure force.
 void set_pressure_shares(State&, const liquid::SceneNumbers&);
 
-}  // namespace tripoint::fluid
+}  // namespace tripoint::pressure

@@ -9,7 +9,7 @@
 #include "scene/shared_terms.hpp"
 #include "tables/table_reader.hpp"
 
-namespace tripoint::fluid {
+namespace tripoint::pressure {
 namespace {
 
 bool has_stiffness(const Material& m) { return m.stiffness.has_value(); }
@@ -68,16 +68,6 @@ std::string left_out(const Scene& s) {
   return "nothing is liquid, and no free body has another to touch";
 }
 
-std::string no_form_of_viscosity(const Scene& s) {
-  return s.mode_of(term::viscosity) == Mode::paper ? "viscosity as printed has one form" : "";
-}
-
-std::string solid_viscosity_idle(const Scene& scene) {
-  return scene.mode_of(term::viscosity) == Mode::paper ? ""
-                                                       : "viscosity is corrected: a liquid takes its own "
-                                                         "beside a solid, and solids scene.contact_viscosity";
-}
-
 /// Why liquids can have no numerical bulk viscosity. Reasons: nothing is liquid; something freezes, which
 /// changes densities at once; density, pressure or state are printed. Or the scene does not clamp, so that it
 /// can have no free surface or contact. Why the topmost layer of a liquid can bear no part of its own weight.
@@ -93,35 +83,8 @@ std::string no_surface_weight(const Scene& scene) {
   return liquid::no_compression_energy(scene);
 }
 
-std::string no_isotropic_shear(const Scene& s) {
-  if (s.mode_of(term::viscosity) == Mode::paper) return "viscosity is as printed";
-  if (s.viscosity_form != ViscosityForm::central) return "the viscosity is not central";
-  if (s.contact_viscosity > 0.0) return "";
-  return any_material(s, [](const Material& m) { return m.viscosity > 0.0; }) ? "" : "nothing is viscous";
-}
-
 std::string no_core(const Scene& scene) {
   return scene.mode_of(term::pressure) == Mode::paper ? "the pressure is as printed, and has no core" : "";
-}
-
-/// How liquids resist shear (model 8.5).
-std::vector<EffectKey> viscosity_keys() {
-  using enum ValueType;
-  using enum Range;
-  return {
-      {{"scene", "viscosity_form", word, "", any, "\"central\"",
-        "keeps angular momentum; right wherever a surface or body is free", "laplacian central",
-        "corrected viscosity; laplacian for wall-bounded shear only"},
-       &Scene::viscosity_form,
-       no_form_of_viscosity},
-      {{"scene", "isotropic_shear", number, "", fraction, "0",
-        "most flows soon leave the lattice of the start", "",
-        "share of the weights that make the lattice's resistance to shear isotropic (model 8.5). Only where "
-        "viscosity is "
-        "corrected and central"},
-       {},
-       no_isotropic_shear},
-  };
 }
 
 /// Keys of the terms beside the equation of state of liquids (model 8.3, 8.4).
@@ -152,17 +115,6 @@ std::vector<EffectKey> pressure_keys() {
   };
 }
 
-/// Friction of solids that touch.
-std::vector<EffectKey> contact_keys() {
-  using enum ValueType;
-  using enum Range;
-  return {
-      {{"scene", "contact_viscosity", number, "Pa s", not_negative, "0", "contact of solids without friction",
-        "", "viscosity between solids that touch"},
-       &Scene::contact_viscosity},
-  };
-}
-
 /// Keys of a material.
 std::vector<EffectKey> material_keys() {
   using enum ValueType;
@@ -175,45 +127,22 @@ std::vector<EffectKey> material_keys() {
       {{"material", "sound_speed", number, "m/s", positive, "", "see stiffness", "",
         "instead of stiffness: k is its square"},
        EffectKey::ByRule{}},
-      {{"material", "solid_viscosity", number, "Pa s", not_negative, "0",
-        "a solid has scene.contact_viscosity", "",
-        "dynamic viscosity of the solid in (8), only where modes.viscosity is paper. With modes.phase paper "
-        "it goes linearly to "
-        "viscosity between t_solid and t_melt (Fig. 5)"},
-       {},
-       solid_viscosity_idle},
-      {{"material", "viscosity", number, "Pa s", not_negative, "0", "inviscid", "",
-        "dynamic viscosity of the liquid"},
-       &Material::viscosity},
   };
 }
 
 /// Keys of the case file, in the order of its reference page.
 std::vector<EffectKey> keys() {
   std::vector<EffectKey> all;
-  for (const auto& group : {viscosity_keys(), contact_keys(), pressure_keys(), material_keys()})
+  for (const auto& group : {pressure_keys(), material_keys()})
     all.insert(all.end(), group.begin(), group.end());
   return all;
 }
-
-/// The words of `viscosity_form`, by their places.
-constexpr double laplacian = 0.0, central = 1.0;
 
 std::vector<DeclaredTerm> terms() {
   return {{term::pressure, {{"conservative", "the gradient of an energy of compression (8.3)"}}},
           {term::density, {{"number", "number density over its lattice sum (8.2)"}}},
           {term::state, {{"scaled", "all liquids equally hard to compress (8.3)"}}},
           {term::clamp, {{"clamped", "no pressure below zero"}}, TermKind::law, false},
-          {term::viscosity,
-           {{"central",
-             "along the line of centres (8.5)",
-             {{"viscosity_form", central}, {"isotropic_shear", 0.0}}},
-            {"isotropic",
-             "central, alike along axes and diagonals",
-             {{"viscosity_form", central}, {"isotropic_shear", 1.0}}},
-            {"morris",
-             "along the difference of velocities, for wall-bounded shear",
-             {{"viscosity_form", laplacian}}}}},
           {term::walls, {{"mirrored", "mirrored velocities, and pressure of patches of the face (8.4)"}}}};
 }
 
@@ -239,13 +168,13 @@ void settle_material(TableReader& in, Material& m) {
 }
 
 std::vector<std::string_view> always_reported(const Scene& scene) {
-  return {"viscous", liquid::stores_compression(scene) ? "compression" : "pressure_work"};
+  return {liquid::stores_compression(scene) ? "compression" : "pressure_work"};
 }
 
 }  // namespace
 
 EffectRule rule() {
-  return {.name = "fluid",
+  return {.name = "pressure",
           .called_for = called_for,
           .left_out = left_out,
           .terms = terms(),
@@ -258,7 +187,6 @@ EffectRule rule() {
                              {"pressure_work",
                               "in place of `compression`: work that the printed form of pressure took"},
                              {"phase_work"},
-                             {"viscous", "work that viscosity took"},
                              {"bulk_viscous", "work that the numerical bulk viscosity took"}},
           .always_reported = always_reported,
           .over_processes = true,
@@ -266,4 +194,4 @@ EffectRule rule() {
           .has_pressure = true};
 }
 
-}  // namespace tripoint::fluid
+}  // namespace tripoint::pressure

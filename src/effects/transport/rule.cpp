@@ -22,13 +22,13 @@ std::string no_transport(const Scene& scene) {
 }
 
 std::string called_for(const Scene& s) {
-  return calls_for(s, "fluid") && s.transport_velocity && no_transport_velocity(s).empty()
+  return calls_for(s, "pressure") && s.transport_velocity && no_transport_velocity(s).empty()
              ? "scene.transport_velocity moves the liquid"
              : "";
 }
 
 std::string left_out(const Scene& s) {
-  if (!calls_for(s, "fluid")) return "nothing flows or touches";
+  if (!calls_for(s, "pressure")) return "nothing flows or touches";
   return s.transport_velocity ? no_transport_velocity(s) : "scene.transport_velocity is false";
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "effects/fluid/solid_viscosity.hpp"
+#include "effects/viscosity/solid_viscosity.hpp"
 
 #include "scene/effect_rule.hpp"
 #include "scene/shared_terms.hpp"
 
-namespace tripoint::fluid {
+namespace tripoint::viscosity {
 
 SolidViscosity::SolidViscosity(const Scene& scene) {
   const bool printed = scene.mode_of(term::viscosity) == Mode::paper;
@@ -22,4 +22,4 @@ double SolidViscosity::operator()(const State& state, std::size_t row) const {
   return m.stage ? viscosity_between(m.solid, m.liquid, p[field::liquid_fraction][row]) : m.solid;
 }
 
-}  // namespace tripoint::fluid
+}  // namespace tripoint::viscosity

@@ -6,7 +6,7 @@
 
 /// mu of a solid in (8) and in contacts. The paper gives every particle a mu and interpolates it linearly
 /// between t_solid and t_melt (Fig. 5).
-namespace tripoint::fluid {
+namespace tripoint::viscosity {
 
 /// mu of matter with this mu as a solid and as a liquid, at liquid fraction f: linear, as Fig. 5 has it [Pa
 /// s].
@@ -33,4 +33,4 @@ class SolidViscosity {
   bool follows_ = false;
 };
 
-}  // namespace tripoint::fluid
+}  // namespace tripoint::viscosity

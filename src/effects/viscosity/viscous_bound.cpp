@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "effects/fluid/viscous_bound.hpp"
+#include "effects/viscosity/viscous_bound.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "effects/fluid/viscous_form.hpp"
+#include "effects/viscosity/viscous_form.hpp"
 #include "liquids/fields.hpp"
 #include "pairs/pair_passes.hpp"
 #include "pairs/run_pass.hpp"
 #include "sph/moments.hpp"
 #include "state/fill.hpp"
 
-namespace tripoint::fluid {
+namespace tripoint::viscosity {
 namespace {
 
 /// Rates from one bound to the next: positions change little in so few steps, and the sum costs a pass of its
@@ -62,4 +62,4 @@ void update_viscous_bound(State& state, const PairKernels& kernels) {
       greatest > 0.0 ? share / greatest : std::numeric_limits<double>::infinity();
 }
 
-}  // namespace tripoint::fluid
+}  // namespace tripoint::viscosity

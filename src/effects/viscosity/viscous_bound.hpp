@@ -6,7 +6,7 @@
 #include "state/state.hpp"
 #include "state/step_numbers.hpp"
 
-namespace tripoint::fluid {
+namespace tripoint::viscosity {
 
 /// Greatest stable step of viscosity, as last formed [s].
 inline constexpr StepNumber viscous_step{"viscous_step", std::numeric_limits<double>::infinity(), true};
@@ -17,4 +17,4 @@ inline constexpr StepNumber viscous_age{"viscous_age", 0.0};  ///< rates since i
 /// e^T/m_i).
 void update_viscous_bound(State&, const PairKernels&);
 
-}  // namespace tripoint::fluid
+}  // namespace tripoint::viscosity

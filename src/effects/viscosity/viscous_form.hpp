@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "effects/fluid/fluid_terms.hpp"
+#include "effects/viscosity/viscous_terms.hpp"
 #include "scene/scene.hpp"
 #include "scene/shared_terms.hpp"
 
-namespace tripoint::fluid {
+namespace tripoint::viscosity {
 
 /// A viscosity as the passes have it: its force, and the sums for the bound of the step.
 struct ViscousForm {
@@ -22,4 +22,4 @@ inline constexpr ViscousForm viscous_form{pair_term<Viscosity>, pair_term<Viscou
   return kernels.shear.even() ? viscous_form<ViscosityCentral> : viscous_form<ViscosityCentralWeighted>;
 }
 
-}  // namespace tripoint::fluid
+}  // namespace tripoint::viscosity

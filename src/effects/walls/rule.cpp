@@ -5,7 +5,7 @@ namespace tripoint::walls {
 namespace {
 
 std::string called_for(const Scene& s) {
-  return calls_for(s, "fluid") && liquid::averages_walls(s) && liquid::can_have_walls(s)
+  return calls_for(s, "pressure") && liquid::averages_walls(s) && liquid::can_have_walls(s)
              ? "liquid alone touches what is held or driven"
              : "";
 }

@@ -7,7 +7,7 @@ namespace tripoint::arithmetic {
 namespace {
 
 std::string called_for(const Scene& s) {
-  return calls_for(s, "fluid") && s.takes_form(term::viscosity, word) ? "model.viscosity asks for it" : "";
+  return calls_for(s, "pressure") && s.takes_form(term::viscosity, word) ? "model.viscosity asks for it" : "";
 }
 
 std::string left_out(const Scene&) { return "the viscosity has another form"; }
