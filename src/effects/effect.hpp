@@ -30,7 +30,7 @@ struct EffectSpec {
   /// Of others, that it reads or sets; each has an owner in the scene
   FieldList reads;
   std::vector<Force> forces{};  ///< that it makes
-  /// Energy energy accounts that it writes beside those of its forces; common ones need no word
+  /// Energy accounts that it writes beside those of its forces; common ones need no word
   std::vector<EnergyAccount> accounts{};
   /// Accounts of the energy that its numerical terms take on purpose
   std::vector<EnergyAccount> numerical{};

@@ -23,18 +23,16 @@ struct EnergyAccount {
   bool operator==(const EnergyAccount& other) const noexcept { return key == other.key; }
 };
 
-/// Energy energy accounts that every scene has, since several effects accumulate on them.
+/// Energy accounts that every scene has, since several effects accumulate on them.
 namespace account {
 inline constexpr EnergyAccount gravity_work{"gravity_work"};  ///< done by gravity on liquids and free bodies
 inline constexpr EnergyAccount start_potential{"start_potential"};
 /// Change of the potential energy of driven bodies
 inline constexpr EnergyAccount driven_potential{"driven_potential"};
-inline constexpr EnergyAccount rotation_drift{
-    /// Change of kinetic energy by the free rotation of bodies, which a scheme does not keep exactly
-    "rotation_drift"};
-inline constexpr EnergyAccount deformation_released{
-    /// Elastic and hourglass energy that events turned into heat, plastic or fracture entries
-    "deformation_released"};
+/// Change of kinetic energy by the free rotation of bodies, which a scheme does not keep exactly
+inline constexpr EnergyAccount rotation_drift{"rotation_drift"};
+/// Elastic and hourglass energy that events turned into heat, plastic or fracture entries
+inline constexpr EnergyAccount deformation_released{"deformation_released"};
 inline constexpr EnergyAccount inflow{"inflow"};    ///< kinetic, potential and thermal energy that flowed in
 inline constexpr EnergyAccount merging{"merging"};  ///< kinetic energy lost as bodies became one
 inline constexpr EnergyAccount walls{"walls"};  ///< taken by bodies held, fixed or prescribed from outside
