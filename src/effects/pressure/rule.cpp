@@ -142,8 +142,7 @@ std::vector<DeclaredTerm> terms() {
   return {{term::pressure, {{"conservative", "the gradient of an energy of compression (8.3)"}}},
           {term::density, {{"number", "number density over its lattice sum (8.2)"}}},
           {term::state, {{"scaled", "all liquids equally hard to compress (8.3)"}}},
-          {term::clamp, {{"clamped", "no pressure below zero"}}, TermKind::law, false},
-          {term::walls, {{"mirrored", "mirrored velocities, and pressure of patches of the face (8.4)"}}}};
+          {term::clamp, {{"clamped", "no pressure below zero"}}, TermKind::law, false}};
 }
 
 std::vector<ModelChoice> choices() {

@@ -88,6 +88,7 @@ std::vector<EffectKey> keys() {
 /// The words of `viscosity_form`, by their places.
 constexpr double laplacian = 0.0, central = 1.0;
 
+/// In the order that jobs have had from the start.
 std::vector<DeclaredTerm> terms() {
   return {{term::viscosity,
            {{"central",
@@ -98,7 +99,8 @@ std::vector<DeclaredTerm> terms() {
              {{"viscosity_form", central}, {"isotropic_shear", 1.0}}},
             {"morris",
              "along the difference of velocities, for wall-bounded shear",
-             {{"viscosity_form", laplacian}}}}}};
+             {{"viscosity_form", laplacian}}}}},
+          {term::walls, {{"mirrored", "mirrored velocities, and pressure of patches of the face (8.4)"}}}};
 }
 
 std::vector<std::string_view> always_reported(const Scene&) { return {"viscous"}; }
