@@ -86,6 +86,31 @@ Material read_material(const TomlNode& node, Reading& reading) {
   return m;
 }
 
+/// @throws InputError when the body's material is not among these
+static const Material& material_named(TableReader& in, const std::string& name,
+                                      const std::vector<Material>& materials) {
+  const auto material = std::ranges::find(materials, name, &Material::name);
+  if (material != materials.end()) return *material;
+  auto known = library_names();
+  for (const auto& m : materials) known.push_back(m.name);
+  in.refuse("material",
+            fmt::format("no material is named \"{}\"{}", printable(name), suggestion(name, known)));
+}
+
+/// @throws InputError when the velocities, keyframes and motion of a body contradict one another
+static void refuse_other_motion(TableReader& in, const Body& b) {
+  const bool has_velocity = in.has("velocity") || in.has("angular_velocity");
+  const std::string velocity = in.has("velocity") ? "velocity" : "angular_velocity";
+  if (!b.keyframes.empty() && has_velocity)
+    in.refuse(velocity, "the keyframes of the body give its velocities: remove it, or the keyframes");
+  if (!b.keyframes.empty() && b.motion != Motion::prescribed)
+    in.refuse("keyframes", "only a prescribed body follows keyframes: write motion = \"prescribed\"");
+  if (b.motion == Motion::fixed && has_velocity)
+    in.refuse(velocity, "a fixed body does not move: remove it, or write motion = \"prescribed\"");
+  if (b.phase == Phase::rigid && b.velocity.kind != VelocityField::Kind::constant)
+    in.refuse("velocity", "a rigid body has one velocity: write [x, y, z] and angular_velocity");
+}
+
 Body read_body(const TomlNode& node, const std::vector<Material>& materials, Reading& reading) {
   TableReader in(node, "body", "body." + entry_name(node, 1), reading.decisions, scene_keys());
   Body b;
@@ -94,23 +119,16 @@ Body read_body(const TomlNode& node, const std::vector<Material>& materials, Rea
   read("name");
   plain_name(in, "name", b.name);
   read("material");
-  const auto material = std::find_if(materials.begin(), materials.end(),
-                                     [&](const Material& m) { return m.name == b.material; });
-  if (material == materials.end()) {
-    auto known = library_names();
-    for (const auto& m : materials) known.push_back(m.name);
-    in.refuse("material", fmt::format("no material is named \"{}\"{}", printable(b.material),
-                                      suggestion(b.material, known)));
-  }
+  const Material& material = material_named(in, b.material, materials);
   read("shape");
   if (const auto q = in.maybe_numbers("rotation")) turn(in, b.shape, unit_quaternion(in, "rotation", *q));
   read("temperature");
   if (read("phase")) {
-    const auto [found, why] = phase_rule(*material, b.temperature);
+    const auto [found, why] = phase_rule(material, b.temperature);
     b.phase = found;
     in.ruled("phase", fmt::format("\"{}\"", to_string(found)), why);
   }
-  if (b.phase == Phase::elastic && !material->young_modulus)
+  if (b.phase == Phase::elastic && !material.young_modulus)
     in.refuse(in.has("phase") ? "phase" : "material",
               fmt::format("an elastic body needs young_modulus and poisson_ratio of its material \"{}\": "
                           "give them, or write phase = \"rigid\"",
@@ -120,19 +138,10 @@ Body read_body(const TomlNode& node, const std::vector<Material>& materials, Rea
     in.refuse("temperature_held", "no temperature is given to hold: give temperature too");
   read("motion");
   read("keyframes");
-  if (!b.keyframes.empty() && (in.has("velocity") || in.has("angular_velocity")))
-    in.refuse(in.has("velocity") ? "velocity" : "angular_velocity",
-              "the keyframes of the body give its velocities: remove it, or the keyframes");
-  if (!b.keyframes.empty() && b.motion != Motion::prescribed)
-    in.refuse("keyframes", "only a prescribed body follows keyframes: write motion = \"prescribed\"");
-  if (b.motion == Motion::fixed && (in.has("velocity") || in.has("angular_velocity")))
-    in.refuse(in.has("velocity") ? "velocity" : "angular_velocity",
-              "a fixed body does not move: remove it, or write motion = \"prescribed\"");
-  if (b.phase == Phase::rigid && b.velocity.kind != VelocityField::Kind::constant)
-    in.refuse("velocity", "a rigid body has one velocity: write [x, y, z] and angular_velocity");
+  refuse_other_motion(in, b);
   read("slip");
   if (read("joins")) {
-    b.joins = material->t_melt.has_value();
+    b.joins = material.t_melt.has_value();
     in.ruled("joins", b.joins ? "true" : "false",
              b.joins ? "its material melts" : "its material does not melt");
   }

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Every source file names its licence, has at most 500 lines and holds no path of one machine; functions of C++ are
-short: files_test.py SOURCE."""
+short and decide little: files_test.py SOURCE."""
 
 import re
 import sys
@@ -18,6 +18,25 @@ MOST_OF_A_FUNCTION = 65  # lines, where the program is written; a test's table m
 PROGRAM = ("src/", "adapters/", "validation/", "program/")
 HEAD = re.compile(r"\)( const| noexcept| override| final| mutable| ->.*)* \{$")
 CONTROL = re.compile(r"\s*(\} )?(if|for|while|switch|else|do|try|catch)\b")
+MOST_DECISIONS = 15  # of a function of src
+DECISION = re.compile(r"\b(?:if|for|while|case|catch)\b|&&|\|\||\?")
+COMMENT_OR_TEXT = re.compile(r'//.*|"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])\'')
+# Functions from before the rule, by the most decisions of a file's: a split one leaves the list, and none joins it.
+DECIDE_MORE = {
+    "src/effects/faces/face_pressure.cpp": 17,
+    "src/effects/heat/held_surface.cpp": 16,
+    "src/effects/prescribed/prescribed.cpp": 24,
+    "src/effects/pressure/phase_jump.cpp": 28,
+    "src/effects/walls/wall_patches.cpp": 21,
+    "src/files/job_schema.cpp": 18,
+    "src/files/record_json.hpp": 38,
+    "src/pairs/busy_clusters.cpp": 21,
+    "src/particles/neighbours.cpp": 18,
+    "src/scene/check_scene.cpp": 19,
+    "src/scene/meeting.cpp": 18,
+    "src/solids/connect_solids.cpp": 17,
+    "src/tables/toml_guard.cpp": 17,
+}
 MACHINE = re.compile(r"(?<![\w.}/-])/(?:home|root|work|mnt|Users|opt)/[A-Za-z0-9]")
 HOME = "/".join(["", "home", "ann"])  # in parts, since no file may hold such a path
 
@@ -42,15 +61,34 @@ def machine_paths(path, text):
             yield f"{path}:{number}: a path of one machine: {line.strip()[:200]}"
 
 
-def long_functions(lines):
-    """(line, its lines) of each. A body is what stands deeper than the brace that ends it."""
+def functions(lines):
+    """(line of the head, end) of each. A body is what stands deeper than the brace that ends it."""
     for number, head in enumerate(lines[:-1], 1):
         if not HEAD.search(head) or CONTROL.match(head):
             continue
         depth = indent(lines[number])
         end = next((n for n in range(number, len(lines)) if lines[n].strip() and indent(lines[n]) < depth), number)
+        yield number, end
+
+
+def long_functions(lines):
+    for number, end in functions(lines):
         if end + 2 - number > MOST_OF_A_FUNCTION:
             yield number, end + 2 - number
+
+
+def decisions(lines):
+    """(line, its decisions) of each function: branches, loops, cases, and, or."""
+    for number, end in functions(lines):
+        body = (COMMENT_OR_TEXT.sub("", line) for line in lines[number:end] if not line.lstrip().startswith("#"))
+        yield number, sum(len(DECISION.findall(line)) for line in body)
+
+
+def undecided(path, text):
+    most = DECIDE_MORE.get(path, MOST_DECISIONS)
+    for number, count in decisions(text.splitlines()):
+        if count > most:
+            yield f"{path}:{number}: a function of {count} decisions, {most} at most: split it by subject"
 
 
 def indent(line):
@@ -88,6 +126,11 @@ class Rules(unittest.TestCase):
             self.assertEqual(self.told("src/core/a.cpp", planted), found)
             self.assertEqual(self.told("tests/core/a_test.cpp", planted), [])
 
+    def test_a_function_of_the_solver_has_fifteen_decisions_at_most(self):
+        for count, found in ((7, 0), (8, 1)):
+            planted = "int sum(int x) {\n" + count * "  if (x && x) x += '?';  // if so\n" + "  return x;\n}\n"
+            self.assertEqual(len(list(undecided("src/core/a.cpp", planted))), found)
+
     def test_a_path_of_one_machine_is_named_with_its_line(self):
         text = self.TAG + "BSD-3-Clause\n"
         self.assertEqual(
@@ -99,6 +142,13 @@ class Rules(unittest.TestCase):
 
 
 class Tree(unittest.TestCase):
+    def test_no_function_of_the_solver_decides_more_than_before(self):
+        found = {str(f.relative_to(ROOT)): f.read_text() for f in sorted((ROOT / "src").rglob("*.[ch]pp"))}
+        self.assertGreater(len(found), 300)
+        self.assertEqual([fault for path, text in found.items() for fault in undecided(path, text)], [])
+        counts = {path: max((n for _, n in decisions(found[path].splitlines())), default=0) for path in DECIDE_MORE}
+        self.assertEqual(counts, DECIDE_MORE, "a smaller one takes its row down, or out")
+
     def test_no_page_or_case_holds_a_path_of_one_machine(self):
         """Nor what a command has drawn into the project."""
         pages = [f for room in PAGES for f in sorted((ROOT / room).rglob("*")) if f.suffix in WORDS]
