@@ -117,9 +117,8 @@ inline constexpr Field<int> body_phase{"body.phase", "1", Per::body};
 inline constexpr Field<int> body_grip{"body.grip", "1", Per::body};
 inline constexpr Field<Vec3> body_grip_centre{"body.grip_centre", "m", Per::body};
 inline constexpr Field<Quaternion> body_grip_orientation{"body.grip_orientation", "1", Per::body};
-inline constexpr Field<double> body_heat{"body.heat", "J",
-                                         /// Given to it so far by what holds the temperature of its particles
-                                         Per::body};
+/// Given to it so far by what holds the temperature of its particles
+inline constexpr Field<double> body_heat{"body.heat", "J", Per::body};
 inline constexpr Field<int> body_motion{"body.motion", "1", Per::body},
     body_alive{"body.alive", "1", Per::body}, body_source{"body.source", "1", Per::body};
 
