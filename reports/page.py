@@ -124,17 +124,16 @@ def truth(row, case, side):
 
 
 def portable(command):
-    """A command as it can be typed elsewhere: of the folder that it wrote to the name is enough."""
+    """A command as it can be typed elsewhere: of a place on this machine the name is enough."""
     try:
         words = shlex.split(command or "")
     except ValueError:
         return command
     for n, word in enumerate(words):
-        option, _, value = word.partition("=")
-        if value and option in WRITES_TO:
-            words[n] = f"{option}={Path(value).name}"
-        elif n and words[n - 1] in WRITES_TO:
-            words[n] = Path(word).name
+        option, sign, value = word.partition("=") if word.startswith("-") else ("", "", word)
+        written = option in WRITES_TO or (n and words[n - 1] in WRITES_TO)
+        here = [Path(v).name or "." if v and (written or v[0] in "/~") else v for v in value.split(",")]
+        words[n] = option + sign + ",".join(here)
     return shlex.join(words)
 
 

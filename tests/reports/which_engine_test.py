@@ -238,6 +238,9 @@ class Commands(unittest.TestCase):
                 "tripoint validate --out report --engines all,./mine",
                 "tripoint validate --out report --engines all,./mine",
             ),
+            (f"{home}/bin/tripoint run {home}/x.toml --out .", "tripoint run x.toml --out ."),
+            (f"tripoint run x --engine {home}/engine-b -o {home}/r", "tripoint run x --engine engine-b -o r"),
+            (f"tripoint validate --engines all,{home}/engine-b", "tripoint validate --engines all,engine-b"),
             ("tripoint validate 'open", "tripoint validate 'open"),
             (None, ""),
         ):
