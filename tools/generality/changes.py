@@ -26,7 +26,8 @@ class Place:
         level = [a for a in range(3) if a not in self.periodic and self.gravity[a] == 0]
         if not level:
             raise ValueError("no room beside a scene that is periodic in every level direction")
-        self.axis = level[0]
+        flown = [b["velocity"] for b in case["body"] if isinstance(b.get("velocity"), list)]
+        self.axis = min(level, key=lambda a: max([abs(v[a]) for v in flown], default=0.0))  # out of the way
         down = int(np.argmax(np.abs(self.gravity))) if self.gravity.any() else (self.axis + 2) % 3
         self.order = [self.axis, ({0, 1, 2} - {self.axis, down}).pop(), down]
         self.up = -1.0 if self.gravity[down] > 0 else 1.0
