@@ -148,6 +148,19 @@ TEST(AuditOfSums, TheSumsThatARunStatesAreThoseOfItsParticles) {
   }
 }
 
+TEST(AuditOfSums, AMomentumIsComparedWhereItIsTheOnlySum) {
+  Trial t(thrown_block(), "ballistic");
+  for (auto& frame : t.run.frames) {
+    state_sums(frame);
+    frame.total_mass = 0.0;
+    frame.energy.clear();
+    frame.angular_momentum = {};
+  }
+  EXPECT_EQ(t.sound(), "");
+  t.run.frames.at(5).momentum.x *= 1.001;
+  EXPECT_NE(t.sound().find("`momentum.x`"), std::string::npos) << t.sound();
+}
+
 TEST(AuditOfSums, ARunWithoutSumsIsLetAlone) { EXPECT_EQ(Trial(thrown_block(), "ballistic").sound(), ""); }
 
 }  // namespace
