@@ -23,13 +23,13 @@ class Pairs:
 
     def __init__(self, s):
         self.s, self.D = s, -s.d
-        self.f = np.where(s.distance < s.h, -s.slope_over_r, 0.0)
         self.z, self.rest, self.V = s["impedance"], s["liquid_rest_density"], s["carried_volume"]
         self.wall = self.z == 0
+        self.f = np.where((s.distance < s.h) & ~both_solid(s), -s.slope_over_r, 0.0)
         z_i, z_j = self.z[:, None], self.z[None, :]
         with np.errstate(divide="ignore", invalid="ignore"):
             between = np.where(z_i == z_j, 1.0, 2 * z_j / (z_i + z_j))
-        self.w = np.where(z_i == z_j, 1.0, np.where(self.wall[None, :], 2.0, between))
+        self.w = np.where((z_i == 0) | (z_j == 0), 1.0, between)
         self.same = (self.rest[:, None] == self.rest[None, :]) & ~self.wall[None, :]
         self.liquids = ~self.wall[:, None] & ~self.wall[None, :]
         B = s.symmetric("correction")
@@ -66,10 +66,9 @@ def moments(s):
     p = Pairs(s)
     outer = p.D[..., :, None] * p.D[..., None, :]
     f = p.f * p.V[None, :]
-    weight = np.where(p.wall[None, :], 1.0, p.w)
     share = np.where(p.wall[None, :], p.V[None, :] * wendland(s.distance, s.h), 0.0)
     return [
-        total(s, (weight * f)[..., None, None] * outer),
+        total(s, (p.w * f)[..., None, None] * outer),
         total(s, np.where(p.same, f, 0.0)[..., None, None] * outer),
         total(s, share),
     ]
@@ -115,25 +114,21 @@ def greatest_near(s):
     return near, np.where(liquid, speed2, 0.0).max(axis=1)
 
 
-def pressures(p):
-    """Of i and of j in each pair: at a solid with half of the head between the two."""
-    s = p.s
-    pull = s.vector("pull")
-    sign = np.where(p.wall, -1.0, 1.0)[:, None]
-    lean = sign * np.einsum("ijk,ijk->ij", pull[:, None] + pull[None, :], p.D)
-    P, rho = s["pressure"], s["density"]
-    head = lambda P, rho: np.maximum(0.5 * rho * lean, -np.maximum(P, 0.0) + 0 * lean)
-    p_i = P[:, None] + np.where(p.wall[None, :], head(P[:, None], rho[:, None]), 0.0)
-    return p_i, P[None, :] + np.where(p.wall[:, None], head(P[None, :], rho[None, :]), 0.0)
+def touch(s):
+    """Of solids: sum V W over liquids, and the same of the pressure that these would have at the solid."""
+    p = Pairs(s)
+    share = np.where(p.wall[:, None] & ~p.wall[None, :], p.V[None, :] * wendland(s.distance, s.h), 0.0)
+    lean = np.einsum("ik,ijk->ij", s.vector("pull"), p.D)
+    return total(s, share), total(s, share * (s["carried_pressure"][None, :] - s["density"][None, :] * lean))
 
 
 def pressure_force(s, pair):
     p = Pairs(s)
-    p_i, p_j = pressures(p)
+    P = s["carried_pressure"]
     X, Y = p.sides(pair)
     out = s["wall_pressure"]
     push = np.where(p.wall[None, :], out[:, None], 0.0) + np.where(p.wall[:, None], out[None, :], 0.0)
-    inner = p_i[..., None] * X + p_j[..., None] * Y + push[..., None] * p.D
+    inner = P[:, None, None] * X + P[None, :, None] * Y + push[..., None] * p.D
     return model.summed(s, -(p.f * p.V[:, None] * p.V[None, :])[..., None] * inner)
 
 
@@ -282,16 +277,18 @@ def compare(out, s, before):
         (s["divergence"], divergence),
     ):
         out.compare("carried gradients 8.12", solver[wet], *at(twin))
+    dry = lambda pair_of: (pair_of[0][~wet], pair_of[1][~wet])
+    for name, twin in (("divergence", divergence), *zip(("touching", "pressed"), touch(s))):
+        out.compare("carried gradients 8.12", s[name][~wet], *dry(twin))
     near, speed2 = greatest_near(s)
     out.compare("carried gradients 8.12", s["exposed_near"][wet], near[wet], 1.0)
     out.compare("carried gradients 8.12", s["nearby_speed2"][wet], speed2[wet], speed2[wet])
     pressure, viscous = pressure_force(s, pair), viscous_force(s)
     if s.has("number_density"):
-        of_solids = lambda pair_of: (pair_of[0][~wet], pair_of[1][~wet])
-        out.compare("number density of solids 8.12", s["number_density"][~wet], *of_solids(solid_number_density(s)))
+        out.compare("number density of solids 8.12", s["number_density"][~wet], *dry(solid_number_density(s)))
         pressure = [a + b for a, b in zip(pressure, solid_pressure_force(s))]
         viscous = [a + b for a, b in zip(viscous, solid_viscous_force(s))]
-        out.compare("pressure force of solids 8.12", s.vector("force")[~wet], *of_solids(pressure))
+        out.compare("pressure force of solids 8.12", s.vector("force")[~wet], *dry(pressure))
     out.compare("carried pressure force 8.12", s.vector("force"), *pressure)
     out.compare("carried viscous force 8.12", s.vector("viscous_force"), *viscous)
     out.compare("carried damping 8.12", s.vector("residue_force"), *residue_force(s, damping))

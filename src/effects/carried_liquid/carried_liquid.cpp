@@ -11,6 +11,7 @@
 #include "effects/carried_liquid/hydrostatic_start.hpp"
 #include "effects/carried_liquid/phase_density.hpp"
 #include "effects/carried_liquid/scheme.hpp"
+#include "effects/carried_liquid/solid_pressure.hpp"
 #include "effects/carried_liquid/sound_terms.hpp"
 #include "liquids/changes.hpp"
 #include "liquids/groups.hpp"
@@ -34,10 +35,10 @@ constexpr EnergyAccount compression_released{"compression_released"};  ///< as t
 /// Steps that have taken the present corrections, -1: none are there
 constexpr StepNumber held_for{"carried_steps_held", -1.0};
 constexpr EnergyAccount taken_by_diffusion{"taken_by_diffusion"}, taken_by_shift{"taken_by_shift"};
+constexpr double relax_of_solids = 0.1;                  ///< of a squeeze, over c/support [1]
 constexpr double viscous_share = 0.03;                   ///< of dx^2/nu that a step takes
 constexpr double full_rank = 0.5, own_full_rank = 0.02;  ///< determinant below which an inverse is blended
-/// Trace of the moment of a particle at a free surface
-constexpr double exposed_below = 2.25;
+constexpr double exposed_below = 2.25;  ///< trace of the moment of a particle at a free surface
 
 struct Numbers {
   double stiffness = 0.0, reference = 0.0;  ///< k [m2/s2], rho_ref [kg/m3]
@@ -121,7 +122,7 @@ class CarriedLiquid : public Effect {
  private:
   void set_material(State&, std::size_t) const;
   void set_groups(State&) const;
-  void run(State&, const PairTerm&, bool liquids_only) const;
+  void run(State&, const PairTerm&, bool all) const;
   void correct_gradients(State&) const;
   void correct_velocity_gradients(State&) const;
   void form_corrections(State&) const;
@@ -138,8 +139,6 @@ class CarriedLiquid : public Effect {
   void move_density(State&) const;
   void set_pressure(State&) const;
   void set_shift(State&) const;
-  void set_pull(State&) const;
-  [[nodiscard]] double pressure_of(double rho, double rest) const { return equation_.pressure(rho, rest); }
 
   Numbers numbers_;
   PairKernels kernels_;
@@ -157,6 +156,7 @@ void CarriedLiquid::set_material(State& state, std::size_t i) const {
   p[field::liquid_rest_density][i] = m.density;
   p[field::impedance][i] = liquid ? std::sqrt(m.density * numbers_.stiffness * numbers_.reference) : 0.0;
   p[field::liquid_viscosity][i] = liquid ? m.viscosity : 0.0;
+  triple(p, field::pull).set(i, liquid ? Vec3{} : liquid::pressing_gravity(state.scene));
   p[field::slips][i] =
       !liquid && source < state.scene.bodies.size() && state.scene.bodies[source].free_slip ? 1.0 : 0.0;
 }
@@ -177,19 +177,23 @@ void CarriedLiquid::load(State& state, const InitialState&) {
     const double share =
         p[field::body][i] < 0 ? pressure[i] / (numbers_.stiffness * numbers_.reference) : 0.0;
     p[field::density][i] = p[field::liquid_rest_density][i] * (1.0 + share);
+    p[field::squeeze][i] = -1.0;
   }
 }
 
 void CarriedLiquid::adopt(State& state) {
   state.step_numbers[held_for] = -1.0;
   const Change& change = state.change;
-  const std::vector<std::size_t> touched =
-      change.regrouped.empty() ? std::vector<std::size_t>{} : touched_rows(state, change.regrouped);
+  const std::vector<std::size_t> touched = touched_rows(state, change.regrouped);
   const double before = energy_of(state, equation_, kernels_, touched, 0.5 * drifted_);
   for (const auto* list : {&change.born, &change.regrouped})
-    for (const std::uint32_t id : *list) set_material(state, state.particles.row(id));
+    for (const std::uint32_t id : *list) {
+      const std::size_t i = state.particles.row(id);
+      const bool was_liquid = state.particles[field::impedance][i] != 0.0;
+      set_material(state, i);
+      keep_pressure(state, i, was_liquid);
+    }
   set_groups(state);
-  take_pressure_around(state, equation_, kernels_, change.melted);
   take_pressure_around(state, equation_, kernels_, change.born);
   if (!touched.empty())
     state.accumulated[compression_released] +=
@@ -214,23 +218,21 @@ void CarriedLiquid::drift(State& state, double dt) {
   state.accumulated[taken_by_shift] += dt * work[0];
 }
 
-/// Sums of a term over the clusters that have a liquid, or over all whose forces are formed now.
-void CarriedLiquid::run(State& state, const PairTerm& term, bool liquids_only) const {
+/// Sums of a term over all clusters, or over those whose forces are formed now.
+void CarriedLiquid::run(State& state, const PairTerm& term, bool all) const {
   Particles& p = state.particles;
   const PassFunction pass = pair_passes(state.neighbours->clusters().lanes).alone(term);
-  const Rows formed = liquids_only ? Rows{0, p.size()} : state.formed();
+  const Rows formed = all ? Rows{0, p.size()} : state.formed();
   const std::vector<FieldInfo> both = shared();
   for (const Field<double>* f : pass.adds())
     if (!solids_meet_ || std::ranges::find(both, FieldInfo(*f)) == both.end())
       fill(part(p[*f], formed), 0.0, state.threads);
   const Clusters& c = state.neighbours->clusters();
-  const auto z = p[field::impedance];
-  const auto is_wanted = [&](std::uint32_t i) { return state.owns(i) && (!liquids_only || z[i] != 0.0); };
   ChosenClusters chosen{c.listed, {}};
   std::erase_if(chosen.clusters, [&](std::uint32_t k) {
     if (c.first[k] < formed.from || c.first[k] >= formed.to) return true;
     for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i)
-      if (is_wanted(i)) return false;
+      if (state.owns(i)) return false;
     return true;
   });
   run_pass_over(pass, p, *state.neighbours, kernels_, state.threads, chosen);
@@ -245,7 +247,9 @@ void CarriedLiquid::correct_gradients(State& state) const {
   for (std::size_t i = 0; i < p.size(); ++i) {
     Symmetric inverse;
     exposed[i] = 0.0;
-    if (z[i] != 0.0) {
+    if (z[i] == 0.0) {
+      inverse = {1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
+    } else {
       const Symmetric moment = m.at(i);
       inverse = blended_inverse(moment, full_rank, 1.0);
       exposed[i] = trace(moment) < exposed_below ? 1.0 : 0.0;
@@ -271,23 +275,27 @@ void CarriedLiquid::correct_velocity_gradients(State& state) const {
 
 /// The density at the end of the drift: exact where velocities are linear, since x before = (1 - dt A) x now.
 void CarriedLiquid::move_density(State& state) const {
-  if (drifted_ == 0.0) return;
   Particles& p = state.particles;
   const auto a = matrix_columns(p, field::velocity_gradient);
   const auto slope = triple(p, field::density_gradient);
   const auto w = triple(std::as_const(p), field::shift);
   const auto z = p[field::impedance], rho = p[field::density], rest = p[field::liquid_rest_density],
              mass = p[field::mass], divergence = p[field::divergence], diffused = p[field::diffused],
-             near = p[field::exposed_near], exposed = p[field::exposed], summed = p[field::summed_density];
+             near = p[field::exposed_near], exposed = p[field::exposed], summed = p[field::summed_density],
+             squeeze = p[field::squeeze];
   const double h = 0.5 * state.support(), c = numbers_.sound_speed, dt = drifted_;
   const double diffusion = scheme_.damping == Damping::limited ? scheme_.delta : 2.0 * scheme_.delta * h * c;
   const double relax = scheme_.relax * c / state.support();
   std::vector<std::array<double, 1>> blocks;
-  const auto taken = ordered_sums(state, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
-    if (z[i] == 0.0) return;
+  const auto taken = ordered_sums_of_all(state, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
+    if (z[i] == 0.0) {
+      squeeze[i] =
+          next_squeeze(state, i, equation_.modulus, dt, relax_of_solids * c / state.support(), sum[0]);
+      return;
+    }
     const Matrix3 A = a.at(i);
-    // 1 + terms of higher order
-    const double exact = determinant(identity3 - dt * A) + dt * (A.xx + A.yy + A.zz);
+    const double exact =
+        determinant(identity3 - dt * A) + dt * (A.xx + A.yy + A.zz);  // 1 + terms of higher order
     const double carried = std::clamp(exact - dt * divergence[i], 0.5, 2.0) * rho[i];
     const double sum_now = mass[i] * summed[i] / numbers_.lattice.density;
     double extra = dt * diffusion * diffused[i];
@@ -299,7 +307,7 @@ void CarriedLiquid::move_density(State& state) const {
       extra += 0.2 * ((open ? std::max(sum_now, rest[i]) : sum_now) - carried);
     }
     const double next = std::max(carried + extra, 0.5 * rest[i]);
-    sum[0] += mass[i] * pressure_of(carried, rest[i]) / (carried * carried) * (next - carried);
+    sum[0] += mass[i] * equation_.pressure(carried, rest[i]) / (carried * carried) * (next - carried);
     rho[i] = next;
   });
   state.accumulated[taken_by_diffusion] -= taken[0];
@@ -308,15 +316,17 @@ void CarriedLiquid::move_density(State& state) const {
 void CarriedLiquid::set_pressure(State& state) const {
   Particles& p = state.particles;
   const auto z = p[field::impedance], rho = p[field::density], rest = p[field::liquid_rest_density],
-             pressure = p[field::pressure], share = p[field::wall_share], out = p[field::wall_pressure],
-             V = p[field::carried_volume];
+             pressure = p[field::pressure], V = p[field::carried_volume], squeeze = p[field::squeeze],
+             carried = p[field::carried_pressure], share = p[field::wall_share],
+             out = p[field::wall_pressure];
   const auto b = symmetric_columns(p, field::correction), stress = symmetric_columns(p, field::stress);
 #pragma omp parallel for schedule(static) num_threads(state.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
-    if (z[i] != 0.0) pressure[i] = pressure_of(rho[i], rest[i]);
-    const double stiffness = numbers_.stiffness * numbers_.reference;
-    out[i] = z[i] != 0.0 ? stiffness * std::max(share[i] - inside_wall, 0.0) * rho[i] / rest[i] : 0.0;
-    stress.set(i, (pressure[i] * V[i]) * b.at(i));
+    const bool liquid = z[i] != 0.0;
+    if (liquid) pressure[i] = equation_.pressure(rho[i], rest[i]);
+    carried[i] = liquid ? pressure[i] : equation_.modulus * std::max(squeeze[i], 0.0);
+    out[i] = liquid ? equation_.modulus * std::max(share[i] - inside_wall, 0.0) * rho[i] / rest[i] : 0.0;
+    stress.set(i, (carried[i] * V[i]) * b.at(i));
   }
 }
 
@@ -348,34 +358,26 @@ void CarriedLiquid::set_shift(State& state) const {
   }
 }
 
-/// Gravity at solids. Their acceleration is left out: the head that it makes would do work that no energy
-/// stands behind.
-void CarriedLiquid::set_pull(State& state) const {
-  Particles& p = state.particles;
-  const auto pull = triple(p, field::pull);
-  const auto z = p[field::impedance];
-  const Vec3 g = liquid::pressing_gravity(state.scene);
-  for (std::size_t i = 0; i < p.size(); ++i) pull.set(i, z[i] != 0.0 ? Vec3{} : g);
-}
-
 void CarriedLiquid::state(State& state) {
   Particles& p = state.particles;
   const auto rho = p[field::density], m = p[field::mass], V = p[field::carried_volume],
-             rest = p[field::liquid_rest_density], z = p[field::impedance];
+             rest = p[field::liquid_rest_density], z = p[field::impedance], squeeze = p[field::squeeze];
   // Moments, rates and forces of one state take the same volumes: those before the step.
 #pragma omp parallel for schedule(static) num_threads(state.threads)
-  for (std::size_t i = 0; i < p.size(); ++i) V[i] = m[i] / (z[i] != 0.0 ? rho[i] : rest[i]);
+  for (std::size_t i = 0; i < p.size(); ++i)
+    V[i] = m[i] / (z[i] != 0.0 ? rho[i] : rest[i] * (1.0 + std::max(squeeze[i], 0.0)));
   if (!solids_meet_) std::ranges::copy(V, p[field::volume].begin());
   double& held = state.step_numbers[held_for];
-  const bool renewed = held < 0.0 || held + 1.0 >= scheme_.hold || drifted_ == 0.0;
+  const bool first = held < 0.0;
+  const bool renewed = first || held + 1.0 >= scheme_.hold || drifted_ == 0.0;
   held = renewed ? 0.0 : held + 1.0;
+  if (first) set_pressure(state);
   if (renewed)
     form_corrections(state);
   else
     run(state, pair_term<SoundRate>, true);
   move_density(state);
   set_pressure(state);
-  set_pull(state);
   if (renewed) set_shift(state);
   if (renewed || !holds_viscosity(state))
     liquid::predict_velocities(state, state.step_numbers[kick_length], field::predicted);
@@ -397,10 +399,9 @@ void CarriedLiquid::bonds(State& state) {
                false);
   run(state, scheme_.forces, false);
   if (scheme_.damping != Damping::residue) return;
-  Particles& p = state.particles;
   const double scale = scheme_.beta * 0.5 * state.support();
   for (const Field<double>* f : columns_of(field::residue_force))
-    for (double& one : part(p[*f], state.formed())) one *= scale;
+    for (double& one : part(state.particles[*f], state.formed())) one *= scale;
 }
 
 TimeStepBound CarriedLiquid::max_dt(const State& state) const {
@@ -416,13 +417,12 @@ TimeStepBound CarriedLiquid::max_dt(const State& state) const {
 /// m e(rho), de = p/rho^2 drho, from the rest density.
 void CarriedLiquid::add_to(const State& state, Ledger& ledger) const {
   const Particles& p = state.particles;
-  const auto z = p[field::impedance], m = p[field::mass], rho = p[field::density],
-             rest = p[field::liquid_rest_density];
+  const auto z = p[field::impedance], m = p[field::mass], rest = p[field::liquid_rest_density],
+             share = p[field::wall_share];
   std::vector<std::array<double, 1>> blocks;
-  const auto share = p[field::wall_share];
-  const auto sums = ordered_sums(state, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
-    if (z[i] != 0.0)
-      sum[0] += equation_.energy(m[i], rho[i], rest[i]) + equation_.wall_energy(m[i], rest[i], share[i]);
+  const auto sums = ordered_sums_of_all(state, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
+    sum[0] += energy_of(state, equation_, i);
+    if (z[i] != 0.0) sum[0] += equation_.wall_energy(m[i], rest[i], share[i]);
   });
   ledger.energy["compression"] += sums[0];
   ledger.energy["diffusion"] += state.accumulated[taken_by_diffusion];
@@ -441,9 +441,13 @@ std::vector<FieldInfo> owned(bool solids_meet) {
   add(Moments::adds::list);
   add(AllGradients::adds::list);
   add(AllForces::adds::list);
-  for (const Field<double>* f : AllForces::reads::list)
-    if (f != &field::velocity_x && f != &field::velocity_y && f != &field::velocity_z) add({{f}});
-  add({{&field::exposed}});
+  const auto add_read = [&](std::span<const Field<double>* const> some) {
+    for (const Field<double>* f : some)
+      if (f != &field::velocity_x && f != &field::velocity_y && f != &field::velocity_z) add({{f}});
+  };
+  add_read(AllForces::reads::list);
+  add({{&field::exposed, &field::squeeze}});
+  add_read(AllGradients::reads::list);
   add(SoundForce<true>::reads::list);
   const std::vector<FieldInfo> both = shared();
   std::erase_if(list, [&](const FieldInfo& f) { return std::ranges::find(both, f) != both.end(); });

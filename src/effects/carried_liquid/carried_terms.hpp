@@ -7,7 +7,7 @@
 namespace tripoint::carried_liquid {
 
 /// Forms of the pair of pressures: F_i = -sum V_i V_j (p_i X + p_j Y). In each but `reverse_plain` the rate
-/// of density is -rho_i sum V_j (v_j - v_i).X, the adjoint of the force. At a solid all have 2 p_i B_i G.
+/// of density is -rho_i sum V_j (v_j - v_i).X, the adjoint of the force. Of a solid B is the identity.
 enum class Pair : int {
   own,            ///< X = B_i G, Y = B_j G: exact for linear velocities [Bonet & Lok 1999]
   mean,           ///< X = Y = (B_i + B_j)/2 G
@@ -20,15 +20,14 @@ enum class Damping : int { residue, limited_residue, limited };
 inline constexpr std::array<std::string_view, 4> pair_words{"own", "mean", "reverse", "reverse plain"};
 inline constexpr std::array<std::string_view, 3> damping_words{" residue", " limited residue", " limited"};
 
-/// Weight of the own pressure of i in a pair: 2 Z_j/(Z_i + Z_j) between liquids, 2 at a solid, which has no
-/// pressure of its own.
+/// Weight of the own pressure of i in a pair: 2 Z_j/(Z_i + Z_j) between liquids, 1 at a solid.
 template <class V>
 [[gnu::always_inline]] inline V weight(V z_i, V z_j) noexcept {
   const MaskOf<V> differ = z_i != z_j;
   const V one = every_lane<V>(1.0);
   if (!any(differ)) return one;
   const V liquids = differ ? 2.0 * z_j / (z_i + z_j) : one;
-  return z_j == 0.0 ? every_lane<V>(2.0) : liquids;
+  return (z_i == 0.0) | (z_j == 0.0) ? one : liquids;
 }
 
 /// X and Y of a pair over -W'/r, with the weights of the impedances.
@@ -45,21 +44,23 @@ template <Pair form, class V>
   return {a * of_i + b * of_j, c * of_j + d * of_i};
 }
 
-/// Half of the head between a liquid and a solid; where that would pull, no more than the pressure.
+/// -W'/r, 0 between solids and beyond the support.
 template <class V>
-[[gnu::always_inline]] inline V head(V pressure, V difference) noexcept {
-  const V pressed = where<V>(pressure > 0.0, pressure), half = 0.5 * difference;
-  return half > -pressed ? half : -pressed;
+[[gnu::always_inline]] inline V slope_of(const PairGeometry<V>& g, V z_i, V z_j) {
+  return where<V>(g.within & ((z_i != 0.0) | (z_j != 0.0)), -g.gradient);
 }
 
-/// Head between a liquid and a solid, of the pressure of i and of that of j; 0 between likes.
+/// Share of the neighbourhood of i that j fills where it is solid.
 template <class V>
-[[gnu::always_inline]] inline std::pair<V, V> heads(const PairGeometry<V>& g, const auto& i, const auto& j) {
-  const MaskOf<V> wall_i = i(field::impedance) == 0.0, wall_j = j(field::impedance) == 0.0;
-  const V towards = wall_i ? every_lane<V>(-1.0) : every_lane<V>(1.0);
-  const V lean = towards * dot(i(field::pull) + j(field::pull), g.d());
-  return {where<V>(wall_j, head<V>(i(field::pressure), i(field::density) * lean)),
-          where<V>(wall_i, head<V>(j(field::pressure), j(field::density) * lean))};
+[[gnu::always_inline]] inline V solid_share(const PairGeometry<V>& g, V z_j, V V_j) {
+  const MaskOf<V> wall = g.within & (z_j == 0.0);
+  return any(wall) ? where<V>(wall, V_j * g.kernels.wendland.value_inside(g.r)) : V{};
+}
+
+/// Pressure with which solids push out a liquid, of a pair of the two.
+template <class V>
+[[gnu::always_inline]] inline V push_out(const auto& i, const auto& j, V z_i, V z_j) {
+  return where<V>(z_j == 0.0, i(field::wall_pressure)) + where<V>(z_i == 0.0, j(field::wall_pressure));
 }
 
 /// Viscosity of a pair. A solid is seen with its velocity mirrored; two solids have none.
@@ -93,44 +94,43 @@ struct SummedDensity {
   }
 };
 
-/// Moments sum V d (x) G: of all neighbours, where a solid counts once, and of those of the same liquid.
+/// Moments sum V d (x) G of all neighbours.
 struct Moments {
   static constexpr std::string_view name = "CarriedMoments";
   static constexpr bool zero_beyond = true;
-  using reads = Keys<field::carried_volume, field::impedance, field::liquid_rest_density>;
-  using adds = Keys<field::moment, field::own_moment, field::wall_share>;
+  using reads = Keys<field::carried_volume, field::impedance>;
+  using adds = Keys<field::moment>;
   template <class V>
   static void pair(const PairGeometry<V>& g, const auto& i, const auto& j, auto& sum) {
-    const V z_i = i(field::impedance), z_j = j(field::impedance), V_j = j(field::carried_volume);
-    const V rest_i = i(field::liquid_rest_density), rest_j = j(field::liquid_rest_density);
-    const V w = z_j == 0.0 ? every_lane<V>(1.0) : weight<V>(z_i, z_j);
-    const V f = where<V>(g.within, -g.gradient * V_j);
-    sum(field::moment) += w * f * square(g.d());
-    sum(field::own_moment) += where<V>((rest_i == rest_j) & (z_j != 0.0), f) * square(g.d());
-    sum(field::wall_share) += where<V>(g.within & (z_j == 0.0), V_j * g.kernels.wendland.value_inside(g.r));
+    const V z_i = i(field::impedance), z_j = j(field::impedance);
+    sum(field::moment) +=
+        (slope_of<V>(g, z_i, z_j) * j(field::carried_volume) * weight<V>(z_i, z_j)) * square(g.d());
   }
 };
 
-/// First derivatives: raw ones of velocity and density in the same liquid, the divergence by the form's pair,
-/// the unevenness sum V_j (X + Y), and the greatest velocity difference.
+/// First derivatives: raw ones of velocity and density in the same liquid, the unevenness sum V_j (X + Y),
+/// the greatest velocity difference; of a solid the pressure that liquids have there.
 template <Pair form>
 struct Gradients {
   static constexpr std::string_view first = "CarriedGradients ",
                                     second = pair_words[static_cast<std::size_t>(form)];
   static constexpr std::string_view name = JoinedName<first, second>::value;
   static constexpr bool zero_beyond = true;
-  using reads = Keys<field::carried_volume, field::impedance, field::liquid_rest_density, field::density,
-                     field::velocity, field::correction, field::exposed>;
-  using adds = Keys<field::velocity_gradient, field::density_gradient, field::unevenness, field::exposed_near,
-                    field::nearby_speed2, field::divergence>;
+  using reads =
+      Keys<field::carried_volume, field::impedance, field::liquid_rest_density, field::density,
+           field::velocity, field::correction, field::exposed, field::carried_pressure, field::pull>;
+  using adds = Keys<field::own_moment, field::touching, field::pressed, field::velocity_gradient,
+                    field::density_gradient, field::unevenness, field::exposed_near, field::nearby_speed2,
+                    field::divergence, field::wall_share>;
   template <class V>
   static void pair(const PairGeometry<V>& g, const auto& i, const auto& j, auto& sum) {
     const V z_i = i(field::impedance), z_j = j(field::impedance);
-    const V f = where<V>(g.within, -g.gradient * j(field::carried_volume));
+    const V f = slope_of<V>(g, z_i, z_j) * j(field::carried_volume);
     const VectorOf<V> d = g.d(), v = j(field::velocity) - i(field::velocity);
     const V same =
         where<V>((i(field::liquid_rest_density) == j(field::liquid_rest_density)) & (z_j != 0.0), f);
     const V jump = j(field::density) - i(field::density);
+    sum(field::own_moment) += same * square(d);
     sum(field::velocity_gradient) += outer<V>(v, same * d);
     sum(field::density_gradient) += jump * (same * d);
     const auto [X, Y] = sides<form, V>(i(field::correction) * d, j(field::correction) * d, z_i, z_j);
@@ -144,6 +144,12 @@ struct Gradients {
       sum(field::divergence) += (weight<V>(z_i, z_j) * f) * dot(v, d);
     else
       sum(field::divergence) += f * dot(v, X);
+    sum(field::wall_share) += solid_share<V>(g, z_j, j(field::carried_volume));
+    const MaskOf<V> touch = g.within & (z_i == 0.0) & (z_j != 0.0);
+    if (!any(touch)) return;
+    const V share = where<V>(touch, j(field::carried_volume) * g.kernels.wendland.value_inside(g.r));
+    sum(field::touching) += share;
+    sum(field::pressed) += share * (j(field::carried_pressure) - j(field::density) * dot(i(field::pull), d));
   }
 };
 
@@ -157,9 +163,9 @@ struct Forces {
   static constexpr std::string_view name = JoinedName<first, second, third>::value;
   static constexpr bool zero_beyond = true;
   using reads = Keys<field::carried_volume, field::impedance, field::liquid_rest_density, field::density,
-                     field::pressure, field::liquid_viscosity, field::slips, field::correction,
-                     field::velocity, field::velocity_gradient, field::density_gradient, field::pull,
-                     field::predicted, field::wall_pressure>;
+                     field::liquid_viscosity, field::slips, field::correction, field::velocity,
+                     field::velocity_gradient, field::density_gradient, field::predicted,
+                     field::carried_pressure, field::wall_pressure>;
   using adds = Keys<field::force, field::viscous_force, field::residue_force, field::diffused>;
   template <class V>
   static void pair(const PairGeometry<V>& g, const auto& i, const auto& j, auto& sum) {
@@ -167,13 +173,11 @@ struct Forces {
     const V rho_i = i(field::density), rho_j = j(field::density);
     const V rest_i = i(field::liquid_rest_density), rest_j = j(field::liquid_rest_density);
     const MaskOf<V> wall_i = z_i == 0.0, wall_j = z_j == 0.0, liquids = !(wall_i | wall_j);
-    const V f = where<V>(g.within, -g.gradient), ff = f * (i(field::carried_volume) * V_j);
+    const V f = slope_of<V>(g, z_i, z_j), ff = f * (i(field::carried_volume) * V_j);
     const VectorOf<V> d = g.d();
-    const auto [head_i, head_j] = heads<V>(g, i, j);
-    const V p_i = i(field::pressure) + head_i, p_j = j(field::pressure) + head_j;
+    const V p_i = i(field::carried_pressure), p_j = j(field::carried_pressure);
     const auto [X, Y] = sides<form, V>(i(field::correction) * d, j(field::correction) * d, z_i, z_j);
-    const V out = where<V>(wall_j, i(field::wall_pressure)) + where<V>(wall_i, j(field::wall_pressure));
-    sum(field::force) += -ff * (p_i * X + p_j * Y + out * d);
+    sum(field::force) += -ff * (p_i * X + p_j * Y + push_out<V>(i, j, z_i, z_j) * d);
     const V mu = viscosity_between<V>(i, j);
     sum(field::viscous_force) += shear<V>(g, ff * mu, j(field::predicted) - i(field::predicted));
     // damping
@@ -194,7 +198,7 @@ struct Forces {
     sum(field::residue_force) += k * d;
     // diffusion of density
     if constexpr (damping == Damping::limited) {
-      const V jump = j(field::pressure) - i(field::pressure);
+      const V jump = p_j - p_i;
       sum(field::diffused) += where<V>(liquids, (2.0 * V_j) * rho_i * jump * f * g.r / (z_i + z_j + 1e-300));
     } else {
       const V linear = 0.5 * dot(i(field::density_gradient) + j(field::density_gradient), d);

@@ -50,6 +50,13 @@ inline constexpr Field<double> nearby_speed2{"nearby_speed2", "m2/s2"};
 inline constexpr Field<double> divergence{"divergence", "1/s"};
 /// Sum of the density diffusion, before its coefficient
 inline constexpr Field<double> diffused{"diffused", "kg/m5"};
+/// Of a solid: by how much the liquid that touches it has pressed it, p_s = modulus squeeze; -1 before the
+/// start is known.
+inline constexpr Field<double> squeeze{"squeeze", "1"};
+inline constexpr Field<double> touching{"touching", "1"};  ///< sum V W over liquids, of a solid
+inline constexpr Field<double> pressed{"pressed", "Pa"};   ///< sum V W (p - rho g.d) over liquids, of a solid
+/// Of liquids and of what they touch
+inline constexpr Field<double> carried_pressure{"carried_pressure", "Pa"};
 /// Gravity at a solid; 0 of liquids.
 inline constexpr Field<double> pull_x{"pull.x", "m/s2"}, pull_y{"pull.y", "m/s2"}, pull_z{"pull.z", "m/s2"};
 inline constexpr VectorField<double> pull{pull_x, pull_y, pull_z};

@@ -41,14 +41,22 @@ std::vector<std::size_t> touched_rows(const State& state, const std::vector<std:
   return rows;
 }
 
+double energy_of(const State& state, const CarriedState& equation, std::size_t i) {
+  const Particles& p = state.particles;
+  const double rest = p[field::liquid_rest_density][i];
+  const bool is_liquid = p[field::impedance][i] != 0.0;
+  const double rho = is_liquid ? p[field::density][i] : rest * (1.0 + std::max(p[field::squeeze][i], 0.0));
+  return equation.energy(p[field::mass][i], rho, rest);
+}
+
 double energy_of(const State& state, const CarriedState& equation, const PairKernels& kernels,
                  const std::vector<std::size_t>& rows, double back) {
   const Particles& p = state.particles;
-  const auto z = p[field::impedance], m = p[field::mass], rho = p[field::density],
-             rest = p[field::liquid_rest_density];
+  const auto z = p[field::impedance], m = p[field::mass], rest = p[field::liquid_rest_density];
   const auto x = positions(p), v = velocities(p);
   double sum = 0.0;
   for (const std::size_t i : rows) {
+    sum += energy_of(state, equation, i);
     if (z[i] == 0.0) continue;
     double share = 0.0;
     for (const Entry e : state.neighbours->of(i)) {
@@ -57,7 +65,7 @@ double energy_of(const State& state, const CarriedState& equation, const PairKer
       const Vec3 d = (x.at(j) - x.at(i)) + state.neighbours->shift(e.image()) - back * (v.at(j) - v.at(i));
       share += m[j] / rest[j] * kernels.wendland.value(norm(d));
     }
-    sum += equation.energy(m[i], rho[i], rest[i]) + equation.wall_energy(m[i], rest[i], share);
+    sum += equation.wall_energy(m[i], rest[i], share);
   }
   return sum;
 }

@@ -20,18 +20,20 @@ struct CarriedState {
   [[nodiscard]] double wall_energy(double mass, double rest, double share) const;
 };
 
-/// Share of its neighbourhood that a solid fills at the solid's face
 inline constexpr double inside_wall = 0.5;
 
 /// Rows of what changed, and of their neighbours.
 [[nodiscard]] std::vector<std::size_t> touched_rows(const State&, const std::vector<std::uint32_t>& ids);
 
-/// Energy of compression of these rows, as far as they are liquid now [J]. @param back time since the places
+/// Energy of compression of a particle, without that of solids that push it out [J].
+[[nodiscard]] double energy_of(const State&, const CarriedState&, std::size_t row);
+
+/// Energy of compression of these rows [J]. @param back time since the places
 /// meant [s]
 [[nodiscard]] double energy_of(const State&, const CarriedState&, const PairKernels&,
                                const std::vector<std::size_t>& rows, double back);
 
-/// What becomes liquid takes the pressure of the liquid around it; alone it is at rest density.
+/// What flows in takes the pressure of the liquid around it; alone it is at rest density.
 /// @param ids of new liquids   @pre their materials are set, and those of all others too
 void take_pressure_around(State&, const CarriedState&, const PairKernels&,
                           const std::vector<std::uint32_t>& ids);

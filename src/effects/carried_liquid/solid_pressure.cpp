@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/carried_liquid/solid_pressure.hpp"
+
+#include <algorithm>
+
+#include "effects/carried_liquid/fields.hpp"
+
+namespace tripoint::carried_liquid {
+
+double next_squeeze(const State& state, std::size_t i, double modulus, double dt, double rate,
+                    double& taken) {
+  const Particles& p = state.particles;
+  const double before = p[field::squeeze][i], touching = p[field::touching][i];
+  const double wanted = touching > 1e-12 ? std::max(p[field::pressed][i] / touching, 0.0) / modulus : 0.0;
+  if (before < 0.0) return wanted;
+  const double carried = (1.0 + before) * std::clamp(1.0 - dt * p[field::divergence][i], 0.5, 2.0);
+  const double s = std::max(carried - 1.0, 0.0), next = s + std::min(rate * dt, 1.0) * (wanted - s);
+  const double volume = p[field::mass][i] / p[field::liquid_rest_density][i];
+  taken += modulus * volume * s / ((1.0 + s) * (1.0 + s)) * (next - s);
+  return next;
+}
+
+void keep_pressure(State& state, std::size_t i, bool was_liquid) {
+  Particles& p = state.particles;
+  const bool is_liquid = p[field::impedance][i] != 0.0;
+  const double rest = p[field::liquid_rest_density][i];
+  double &rho = p[field::density][i], &squeeze = p[field::squeeze][i];
+  if (was_liquid && !is_liquid) squeeze = std::max(rho / rest - 1.0, 0.0);
+  if (is_liquid && !was_liquid) rho = rest * (1.0 + std::max(squeeze, 0.0));
+}
+
+}  // namespace tripoint::carried_liquid
