@@ -11,9 +11,9 @@ compilers at four optimisation levels.
     on two cores), runs, compares with the same file
 
 Runs `state-hashes` on twelve cases of the commit profile, in each mode that they have: a hash of all columns, bonds,
-energy accounts and the order of rows after some steps. Exit 0: all equal; 1: some differ, and each is named; 2: nothing was
-compared. 77: the stored hashes are not for this machine. The last digit of a sine is another in another C library, and
-in the functions that this one has for processors without fused multiply-add (the last row of --builds shows it)."""
+energy accounts and the order of rows after some steps. Exit 0: all equal; 1: some differ, and each is named; 2: nothing
+was compared. 77: the stored hashes are not for this machine. The last digit of a sine is another in another C library,
+and in the functions that this one has for processors without fused multiply-add (the last row of --builds shows it)."""
 
 import argparse
 import json

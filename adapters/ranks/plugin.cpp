@@ -95,7 +95,7 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
 
  private:
   /// Columns of one exchange: the density pass has 7, the rates 8, a deformation 24
-  static constexpr int most_forwarded = 24;
+  static constexpr int most_forwarded = 32;
   /// Numbers that LAMMPS keeps of an atom. The first is the row that it stands for or, counted down from -1,
   /// the place of its numbers among those that have arrived. The second is its cost.
   static constexpr int place_kept = 0, cost_kept = 1, numbers_kept = 2;

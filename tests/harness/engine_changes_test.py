@@ -2,6 +2,7 @@
 """Which limit sees which wrong constant of an engine: each row of engine_changes.toml, against Bullet with that
 constant bent.
 
+A row with `known` names the metrics that are a known defect of Bullet as it is.
 A row with `engine` is of one that is installed on demand: it is bent under its own name, and left out where it is not
 here."""
 
@@ -94,7 +95,8 @@ class Changes(unittest.TestCase):
             if (case, preset) not in sound:
                 sound[case, preset] = gates(case, preset, "")
                 with self.subTest(case=case, change="none"):
-                    self.assertEqual({m: v for m, v in sound[case, preset].items() if v != "pass"}, {})
+                    wrong = {metric for metric, verdict in sound[case, preset].items() if verdict != "pass"}
+                    self.assertEqual(wrong, set(change.get("known", [])))
                     self.assertTrue(sound[case, preset], "no limit of the case holds for any engine")
             with self.subTest(**change):
                 if "set" in change:

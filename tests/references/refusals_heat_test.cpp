@@ -61,8 +61,8 @@ TEST(Refusals, OfHeat) {
          s.job.scene.gravity = {0, 0, -1};
          s.job.bodies[0].motion = Motion::fixed;
        }},
-      {"no events or inflows", [](Prepared& s, Settings&) { s.job.scene.events.resize(1); }},
-      {"no events or inflows", [](Prepared& s, Settings&) { s.job.scene.inflows.resize(1); }},
+      {"no events, inflows or sources", [](Prepared& s, Settings&) { s.job.scene.events.resize(1); }},
+      {"no events, inflows or sources", [](Prepared& s, Settings&) { s.job.scene.inflows.resize(1); }},
       {"needs scene.min and scene.max",
        [](Prepared& s, Settings&) {
          s.job.scene.periodic[0] = true;

@@ -51,9 +51,8 @@ int width_of(const std::string& text) {
 
 std::string svg_of(const std::string& label, const Badge& badge) {
   const int left = width_of(label), right = width_of(badge.message);
-  // www.w3.org/2000/svg" width="{0}" height="20" role="img" aria-label="{3}: {4}"><title>{3}: {4}</title>
   return fmt::format(
-      R"(<svg xmlns="http:
+      R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="20" role="img" aria-label="{3}: {4}"><title>{3}: {4}</title>
 <rect width="{1}" height="20" fill="#444"/><rect x="{1}" width="{2}" height="20" fill="{5}"/>
 <g fill="#fff" text-anchor="middle" font-family="Verdana,DejaVu Sans,sans-serif" font-size="11"><text x="{6}" y="14">{3}</text><text x="{7}" y="14">{4}</text></g></svg>
 )",
