@@ -5,6 +5,11 @@
 
 namespace tripoint {
 
+/// Whether a material has a thermal_expansion.
+[[nodiscard]] inline bool expands(const Material& m) {
+  return value_of(m.values, "thermal_expansion") != 0.0;
+}
+
 /// Temperature at which a material has its density and its length [K]: its expansion_temperature, else the
 /// mean of its matter of this phase at the start, by mass.
 [[nodiscard]] inline double expansion_temperature(const Scene& scene, const InitialState& initial,

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/effect_rule.hpp"
+#include "scene/start_temperature.hpp"
 #include "scene/temperatures.hpp"
 
 namespace tripoint::buoyancy {
 namespace {
-
-bool expands(const Material& m) { return value_of(m.values, "thermal_expansion") != 0.0; }
 
 bool rises(const Scene& s, const Body& b, const Material& m) {
   return expands(m) && b.phase == Phase::liquid && has_heat(b, m) && norm(s.gravity) > 0.0;

@@ -198,12 +198,9 @@ void CarriedLiquid::adopt(State& state) {
   if (!touched.empty())
     state.accumulated[compression_released] +=
         before - energy_of(state, equation_, kernels_, touched, 0.5 * drifted_);
-  const auto m = state.particles[field::mass], rho = state.particles[field::density],
-             rest = state.particles[field::liquid_rest_density];
-  for (const std::uint32_t id : change.born) {
-    const std::size_t i = state.particles.row(id);
-    state.accumulated[account::inflow] += equation_.energy(m[i], rho[i], rest[i]);
-  }
+  const CompressionEnergy energy(state, equation_);
+  for (const std::uint32_t id : change.born)
+    state.accumulated[account::inflow] += energy(state.particles.row(id));
 }
 
 /// The shift of the last rates acts in this drift.
@@ -287,10 +284,10 @@ void CarriedLiquid::move_density(State& state) const {
   const double diffusion = scheme_.damping == Damping::limited ? scheme_.delta : 2.0 * scheme_.delta * h * c;
   const double relax = scheme_.relax * c / state.support();
   std::vector<std::array<double, 1>> blocks;
+  const Squeezes squeezes(state);
   const auto taken = ordered_sums_of_all(state, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
     if (z[i] == 0.0) {
-      squeeze[i] =
-          next_squeeze(state, i, equation_.modulus, dt, relax_of_solids * c / state.support(), sum[0]);
+      squeeze[i] = squeezes.next(i, equation_.modulus, dt, relax_of_solids * c / state.support(), sum[0]);
       return;
     }
     const Matrix3 A = a.at(i);
@@ -419,9 +416,10 @@ void CarriedLiquid::add_to(const State& state, Ledger& ledger) const {
   const Particles& p = state.particles;
   const auto z = p[field::impedance], m = p[field::mass], rest = p[field::liquid_rest_density],
              share = p[field::wall_share];
+  const CompressionEnergy energy(state, equation_);
   std::vector<std::array<double, 1>> blocks;
   const auto sums = ordered_sums_of_all(state, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
-    sum[0] += energy_of(state, equation_, i);
+    sum[0] += energy(i);
     if (z[i] != 0.0) sum[0] += equation_.wall_energy(m[i], rest[i], share[i]);
   });
   ledger.energy["compression"] += sums[0];

@@ -41,12 +41,17 @@ std::vector<std::size_t> touched_rows(const State& state, const std::vector<std:
   return rows;
 }
 
-double energy_of(const State& state, const CarriedState& equation, std::size_t i) {
-  const Particles& p = state.particles;
-  const double rest = p[field::liquid_rest_density][i];
-  const bool is_liquid = p[field::impedance][i] != 0.0;
-  const double rho = is_liquid ? p[field::density][i] : rest * (1.0 + std::max(p[field::squeeze][i], 0.0));
-  return equation.energy(p[field::mass][i], rho, rest);
+CompressionEnergy::CompressionEnergy(const State& state, const CarriedState& equation)
+    : equation_(equation),
+      impedance_(state.particles[field::impedance]),
+      mass_(state.particles[field::mass]),
+      density_(state.particles[field::density]),
+      rest_(state.particles[field::liquid_rest_density]),
+      squeeze_(state.particles[field::squeeze]) {}
+
+double CompressionEnergy::operator()(std::size_t i) const {
+  const double rho = impedance_[i] != 0.0 ? density_[i] : rest_[i] * (1.0 + std::max(squeeze_[i], 0.0));
+  return equation_.energy(mass_[i], rho, rest_[i]);
 }
 
 double energy_of(const State& state, const CarriedState& equation, const PairKernels& kernels,
@@ -54,9 +59,10 @@ double energy_of(const State& state, const CarriedState& equation, const PairKer
   const Particles& p = state.particles;
   const auto z = p[field::impedance], m = p[field::mass], rest = p[field::liquid_rest_density];
   const auto x = positions(p), v = velocities(p);
+  const CompressionEnergy energy(state, equation);
   double sum = 0.0;
   for (const std::size_t i : rows) {
-    sum += energy_of(state, equation, i);
+    sum += energy(i);
     if (z[i] == 0.0) continue;
     double share = 0.0;
     for (const Entry e : state.neighbours->of(i)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "sph/kernels.hpp"
@@ -26,7 +27,15 @@ inline constexpr double inside_wall = 0.5;
 [[nodiscard]] std::vector<std::size_t> touched_rows(const State&, const std::vector<std::uint32_t>& ids);
 
 /// Energy of compression of a particle, without that of solids that push it out [J].
-[[nodiscard]] double energy_of(const State&, const CarriedState&, std::size_t row);
+class CompressionEnergy {
+ public:
+  CompressionEnergy(const State&, const CarriedState&);
+  [[nodiscard]] double operator()(std::size_t row) const;
+
+ private:
+  CarriedState equation_;
+  std::span<const double> impedance_, mass_, density_, rest_, squeeze_;
+};
 
 /// Energy of compression of these rows [J]. @param back time since the places
 /// meant [s]

@@ -7,15 +7,21 @@
 
 namespace tripoint::carried_liquid {
 
-double next_squeeze(const State& state, std::size_t i, double modulus, double dt, double rate,
-                    double& taken) {
-  const Particles& p = state.particles;
-  const double before = p[field::squeeze][i], touching = p[field::touching][i];
-  const double wanted = touching > 1e-12 ? std::max(p[field::pressed][i] / touching, 0.0) / modulus : 0.0;
+Squeezes::Squeezes(const State& state)
+    : squeeze_(state.particles[field::squeeze]),
+      touching_(state.particles[field::touching]),
+      pressed_(state.particles[field::pressed]),
+      divergence_(state.particles[field::divergence]),
+      mass_(state.particles[field::mass]),
+      rest_(state.particles[field::liquid_rest_density]) {}
+
+double Squeezes::next(std::size_t i, double modulus, double dt, double rate, double& taken) const {
+  const double before = squeeze_[i], touching = touching_[i];
+  const double wanted = touching > 1e-12 ? std::max(pressed_[i] / touching, 0.0) / modulus : 0.0;
   if (before < 0.0) return wanted;
-  const double carried = (1.0 + before) * std::clamp(1.0 - dt * p[field::divergence][i], 0.5, 2.0);
+  const double carried = (1.0 + before) * std::clamp(1.0 - dt * divergence_[i], 0.5, 2.0);
   const double s = std::max(carried - 1.0, 0.0), next = s + std::min(rate * dt, 1.0) * (wanted - s);
-  const double volume = p[field::mass][i] / p[field::liquid_rest_density][i];
+  const double volume = mass_[i] / rest_[i];
   taken += modulus * volume * s / ((1.0 + s) * (1.0 + s)) * (next - s);
   return next;
 }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/effect_rule.hpp"
+#include "scene/start_temperature.hpp"
 #include "scene/temperatures.hpp"
 
 namespace tripoint::expansion {
 namespace {
-
-bool expands(const Material& m) { return value_of(m.values, "thermal_expansion") != 0.0; }
 
 std::string called_for(const Scene& s) {
   const auto stretches = [](const Scene&, const Body& b, const Material& m) {

@@ -68,9 +68,7 @@ std::string left_out(const Scene& s) {
   return "nothing is liquid, and no free body has another to touch";
 }
 
-/// Why liquids can have no numerical bulk viscosity. Reasons: nothing is liquid; something freezes, which
-/// changes densities at once; density, pressure or state are printed. Or the scene does not clamp, so that it
-/// can have no free surface or contact. Why the topmost layer of a liquid can bear no part of its own weight.
+/// Why the topmost layer of a liquid can bear no part of its own weight.
 /// The reasons are those of the numerical bulk viscosity, or there is no gravity. Or a free body floats at
 /// the surface and loads it by an unknown weight.
 std::string no_surface_weight(const Scene& scene) {
