@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks that README, CONTRIBUTING and docs are plain English.
+"""Checks that the pages are plain English: those at the top, in docs and in examples, and the texts of commands.
 
     tools/prose.py             fails where a file has more findings than tools/prose-allowance.txt allows
     tools/prose.py FILE...     prints every finding of these files, without an allowance
@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Iterator, NamedTuple
 
 SENTENCE, CELL, DECISION = 25, 30, 200  # words at most
+ROOMS = ("docs", "examples")
 ALLOWANCE = "tools/prose-allowance.txt"
 
 # A construction that needs a second reading, and the advice that goes with it.
@@ -60,15 +61,14 @@ class Block(NamedTuple):
 
 
 def visible(line: str) -> str:
-    """The line as a reader sees it: code is one word, a link is its text."""
-    line = re.sub(r"`+[^`]*`+", "`code`", line)
+    """The line as a reader sees it: a link is its text."""
     line = re.sub(r"!\[[^\]]*\]\([^)]*\)", "", line)
     line = re.sub(r"\[((?:[^\[\]]|\[[^\]]*\])*)\]\([^)]*\)", r"\1", line)
     return re.sub(r"<[^>]*>", "", line)
 
 
 def cells(line: str) -> list[str]:
-    return [cell.strip() for cell in re.split(r"(?<!\\)\|", line.strip().strip("|"))]
+    return [cell.strip() for cell in re.split(r"(?<!\\)\|(?=(?:[^`]*`[^`]*`)*[^`]*$)", line.strip().strip("|"))]
 
 
 def prose_lines(text: str) -> Iterator[tuple[int, str]]:
@@ -116,7 +116,8 @@ def sentences(block: Block) -> Iterator[tuple[int, str]]:
 
 
 def count(text: str) -> int:
-    return sum(bool(re.search(r"\w", word)) for word in text.split())
+    """Words as they are read: each word of code and each sign of a formula is one."""
+    return len(text.split())
 
 
 def findings(path: str, text: str) -> list[Finding]:
@@ -132,13 +133,15 @@ def findings(path: str, text: str) -> list[Finding]:
             if count(sentence) > SENTENCE:
                 advice = f"{count(sentence)} words: split it, a sentence has at most {SENTENCE}"
                 found.append(Finding(path, line, sentence, advice))
-            found += [Finding(path, line, sentence, advice) for rule, advice in BANNED if rule.search(sentence)]
+            words = re.sub(r"`+[^`]*`+", "`code`", sentence)
+            found += [Finding(path, line, sentence, advice) for rule, advice in BANNED if rule.search(words)]
     return found
 
 
 def pages(root: Path) -> list[str]:
-    paths = [root / "README.md", root / "CONTRIBUTING.md", *sorted((root / "docs").rglob("*.md"))]
-    return [str(path.relative_to(root)) for path in paths if path.exists()]
+    """All pages but REFERENCES.md, which is a table of citations."""
+    paths = [*root.glob("*.md"), *(path for room in ROOMS for path in (root / room).rglob("*.md"))]
+    return sorted(str(path.relative_to(root)) for path in paths if path.name != "REFERENCES.md")
 
 
 def allowed(root: Path) -> dict[str, int]:

@@ -27,16 +27,10 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* ablate_description =
-    "Puts one term of the model after the other back to its printed form, all others corrected, and prints "
-    "what each correction "
-    "buys:\n"
-    "the metrics of each case with that one term as printed, beside those of the corrected model. A term "
-    "that the paper does not "
-    "have\n"
-    "is left out instead, and its row has the name of its key (bulk_viscosity). OUT/ablation.json holds it; "
-    "in the folder of a "
-    "report,\n"
-    "its page \"what each correction buys\" shows it.\n"
+    "Shows the effect of each correction. Each term in turn gets its printed form, and the metrics of\n"
+    "each case are printed beside those of the corrected model. A term that the paper does not have is\n"
+    "left out instead, and its row has the name of its key (bulk_viscosity). OUT/ablation.json holds the\n"
+    "table. In the folder of a report, its page \"what each correction buys\" shows it.\n"
     "  tripoint ablate                            the cases of the commit profile that run corrected\n"
     "  tripoint ablate heat/cosine-mode solid/rotation --out report";
 

@@ -25,15 +25,13 @@ using bench::Spread;
 using bench::Work;
 
 constexpr const char* bench_description =
-    "Times standard work on this machine, stage by stage, beside the machine's own limit: the same pair "
-    "loops fused by hand in "
-    "the\n"
-    "best layout known, with lists that last as long, measured in the same seconds. Compare ratios, not "
-    "seconds.\n"
+    "Times standard work on this machine, stage by stage, beside the machine's own limit. The limit is\n"
+    "the same pair loops fused by hand in the best layout known, measured in the same seconds. Compare\n"
+    "ratios, not seconds.\n"
     "  tripoint bench\n"
     "  tripoint bench --work liquid-heat-40k --threads 2 --json\n"
-    "  tripoint bench --growth --threads 1    cost a particle-step of liquid with heat from 1,000 to "
-    "2,000,000 particles";
+    "  tripoint bench --growth --threads 1    cost a particle-step of liquid with heat from 1,000 "
+    "to 2,000,000 particles";
 
 struct BenchOptions {
   std::vector<std::string> work;

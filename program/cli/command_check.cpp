@@ -22,12 +22,11 @@ namespace tripoint {
 namespace {
 
 constexpr const char* check_description =
-    "Checks a case before anything runs: every key, unit and name; then the particles: bodies that overlap "
-    "or stand too near,\n"
-    "that are too coarse or of wrong mass, a time step above a bound; events and keys that can change "
-    "nothing; then metrics,\n"
-    "references and engines: what would be refused; and whether any gate judges it.\n"
-    "Ends 2 where it finds an error, 0 where it finds none or warnings.\n"
+    "Checks a case before anything runs: every key, unit and name. It finds bodies that overlap, stand\n"
+    "too near, are too coarse or have a wrong mass. It finds time steps above a bound, and events and\n"
+    "keys that can change nothing. It names metrics, references and engines that would be refused, and a\n"
+    "case that no gate judges.\n"
+    "Exit: 2 with an error, 0 with none or with warnings.\n"
     "  tripoint check my.toml\n"
     "  tripoint check my.toml --set scene.spacing=0.01";
 

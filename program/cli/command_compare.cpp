@@ -20,22 +20,19 @@ namespace tripoint {
 namespace {
 
 constexpr const char* compare_description =
-    "Runs one case on the named engines and states their equivalence: the difference of their trajectories "
-    "in each metric, its\n"
-    "uncertainty, the margin that the case sets, and both errors to truth, so that two engines that are "
-    "wrong together are "
-    "seen.\n"
+    "Runs one case on the named engines and states their equivalence. For each metric it prints the\n"
+    "difference of their trajectories, its uncertainty and the margin of the case. Both errors to truth\n"
+    "stand beside it, which shows two engines that are wrong together.\n"
     "  tripoint compare rigid/ballistic --engines tripoint,bullet\n"
     "Exit: 0 compared, 4 an engine did not run or two scenes are not the same scene, 7 diverged.";
 
 constexpr const char* converge_description =
-    "Refines one axis of a case in our solver and prints error, order and its 95 % interval for each "
+    "Refines one axis of a case in our solver and prints error, order and its 95 % interval for each\n"
     "metric.\n"
     "  tripoint converge heat/cosine-mode --axis spacing --levels 1e-3,5e-4,2.5e-4,1.25e-4\n"
     "  tripoint converge rigid/torque-free --axis time_step --engine bullet\n"
-    "Levels are in the axis's own unit (SI), coarse to fine; without them the case's own study of this axis "
-    "is taken.\n"
-    "Four levels or more make an interval worth reading. OUT then holds the whole report.";
+    "Levels are in the axis's own unit (SI), coarse to fine. Without them the case's own study of this\n"
+    "axis is taken. Four levels or more make an interval worth reading. OUT then holds the whole report.";
 
 struct CompareOptions {
   std::string what, engines, out;
@@ -186,7 +183,7 @@ void add_converge(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("converge", converge_description);
   auto o = std::make_shared<ConvergeOptions>();
   command->add_option("CASE", o->what, "a case file or id")->required();
-  command->add_option("--axis", o->axis, "what is refined")
+  command->add_option("--axis", o->axis, "the refined axis")
       ->check(CLI::IsMember(axis_words()))
       ->capture_default_str();
   command->add_option("--levels", o->levels, "a,b,c: coarse to fine")

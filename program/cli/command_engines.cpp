@@ -24,33 +24,29 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* engines_description =
-    "Lists the engines: every engine-* beside the program (libexec/tripoint) and in the folders of "
-    "TRIPOINT_ENGINE_PATH,\n"
-    "with version, library and what each one can do; one whose library is missing is listed with the "
-    "reason.\n"
+    "Lists the engines: every engine-* beside the program (libexec/tripoint) and in the folders of\n"
+    "TRIPOINT_ENGINE_PATH. Each has its version, library and capabilities, or the reason why it cannot\n"
+    "start.\n"
     "  tripoint engines            a table\n"
     "  tripoint engines --json     one JSON document";
 
 constexpr const char* engine_description =
-    "Makes, checks and installs engines. An engine is any executable that answers --info, --check JOB and "
-    "--run JOB "
-    "(docs/engines.md).\n"
+    "Makes, checks and installs engines. An engine is any executable that answers --info, --check JOB and\n"
+    "--run JOB (docs/engines.md).\n"
     "  tripoint engine new my-engine --lang python\n"
     "  tripoint engine check ./my-engine/engine-my-engine\n"
     "  tripoint engine install mujoco";
 
 constexpr const char* install_description =
-    "Fetches a pinned release of an engine, checks its SHA-256, and unpacks it into an environment of its "
-    "own, in .venv-engines "
-    "of the\n"
-    "checkout or in the folder TRIPOINT_ENGINES. Size and licence are said first. What was fetched before is "
-    "not fetched again.\n"
-    "  tripoint engine install mujoco              the release that the project's cases know, after a "
-    "question\n"
-    "  tripoint engine install mujoco@3.3.7 --yes  another release; the name mujoco means it from now on\n"
-    "Exit 0 when it is installed, 2 for a name or version that is not known or when nobody agreed, 4 when it "
-    "could not be "
-    "fetched or does not start.";
+    "Fetches a pinned release of an engine, checks its SHA-256, and unpacks it into an environment of its\n"
+    "own. The environment is in .venv-engines of the checkout, or in the folder TRIPOINT_ENGINES. Size\n"
+    "and licence are said first. Earlier downloads are used again.\n"
+    "  tripoint engine install mujoco              the release that the project's cases know, after "
+    "a question\n"
+    "  tripoint engine install mujoco@3.3.7 --yes  another release; the name mujoco means it from "
+    "now on\n"
+    "Exit: 0 installed, 2 unknown name or version, or nobody agreed, 4 it could not be fetched or does\n"
+    "not start.";
 
 std::string short_list(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(words, " "));

@@ -33,11 +33,9 @@ constexpr long usual_trial = 3;              ///< steps
 constexpr std::size_t most_tried = 100'000;  ///< particles, unless --trial asks for more
 
 constexpr const char* explain_description =
-    "Says what a case means: a summary; then every key with its value in SI and the reason for it, the "
-    "effects that the scene "
-    "calls for and why, those\n"
-    "that it does without and the proof, the bytes of its particles by effect, and the seconds of its first "
-    "steps.\n"
+    "Says what a case means: a summary, then every key with its value in SI and the reason for it. Then\n"
+    "come the effects that the scene calls for, and those that it does without, with reasons. The last\n"
+    "lines are the bytes of its particles by effect and the seconds of its first steps.\n"
     "  tripoint explain rigid/ballistic\n"
     "  tripoint explain fluid/hydrostatic --trial 20 --threads 2\n"
     "  tripoint explain my.toml --set scene.spacing=\"2 mm\" --json | jq .effects\n"

@@ -11,20 +11,19 @@ namespace tripoint {
 namespace {
 
 constexpr const char* export_description =
-    "Writes a run for other programs, or the numbers of a report for a paper. docs/trajectory.md says which "
-    "program reads which "
-    "file.\n"
-    "  tripoint export runs/rigid/ballistic/tripoint --to vtp                     frames.pvd for ParaView "
-    "and PyVista\n"
-    "  tripoint export runs/rigid/ballistic/tripoint --to xyz,lammps --out files  OVITO, ASE; only of "
-    "particles that are alive\n"
-    "  tripoint export runs/rigid/ballistic/tripoint --to csv --frames 0:100:10   poses of bodies, energies\n"
-    "  tripoint export report/results.json --to csv,latex,pdf                     tables and figures at "
-    "print size\n"
-    "Of a run: vtp, xdmf, h5md, lammps, xyz, ply, obj, csv, paraview. Of a results.json: csv, latex, pdf. "
-    "Numbers are copied: "
-    "SI, every digit.\n"
-    "Exit: 0 written, 2 bad input, 4 a dataset, a library or room on the disk is missing, 130 Ctrl-C.";
+    "Writes a run for other programs, or the numbers of a report for a paper. docs/trajectory.md says\n"
+    "which program reads which file.\n"
+    "  tripoint export runs/rigid/ballistic/tripoint --to vtp                     frames.pvd for "
+    "ParaView and PyVista\n"
+    "  tripoint export runs/rigid/ballistic/tripoint --to xyz,lammps --out files  OVITO, ASE; only "
+    "of particles that are alive\n"
+    "  tripoint export runs/rigid/ballistic/tripoint --to csv --frames 0:100:10   poses of bodies, "
+    "energies\n"
+    "  tripoint export report/results.json --to csv,latex,pdf                     tables and "
+    "figures at print size\n"
+    "Of a run: vtp, xdmf, h5md, lammps, xyz, ply, obj, csv, paraview. Of a results.json: csv, latex, pdf.\n"
+    "Numbers are copied: SI, every digit.\n"
+    "Exit: 0 written, 2 bad input, 4 a dataset, a library or disk space is missing, 130 Ctrl-C.";
 
 struct ExportOptions {
   std::string what, out, frames = "all";

@@ -25,54 +25,37 @@ namespace tripoint {
 namespace {
 
 constexpr const char* gate_description =
-    "Judges a results.json from its measured values and limits alone; it runs nothing and trusts no stored "
-    "verdict, and\n"
-    "reads the case files again: metrics, gates, runs and values must be those of the cases as they are. "
-    "Then it judges the\n"
-    "limits: none more than 10 times its error (above 3 times warns) unless its reason is dated, none looser "
-    "than the accepted "
-    "baseline,\n"
-    "no gate gone that was accepted, no value moved by more than the drift that its gate states, no run with "
-    "more than 1 % more "
-    "pairs, steps or\n"
-    "instructions than accepted. A case without a baseline yet is named in a warning.\n"
+    "Judges a results.json from its measured values and limits alone; it runs nothing and trusts no\n"
+    "stored verdict. It reads the case files again: metrics, gates, runs and values must be theirs. A\n"
+    "limit of more than 10 times its error is red, unless its reason is dated; above 3 times warns.\n"
+    "Against the accepted baseline these are red: a looser limit, a missing gate, and a value moved by\n"
+    "more than its gate's drift. A run with over 1 % more pairs, steps or instructions is red too. A case\n"
+    "without a baseline is named in a warning.\n"
     "  tripoint gate report/results.json     exit 0 only when every gate is green\n"
-    "  tripoint gate report --against base/results.json     every metric beside that of a base, in units of "
-    "its limit\n"
-    "  tripoint gate accept report/results.json --reason 'who decided what, and why'     the only writer of "
-    "baselines\n"
+    "  tripoint gate report --against base/results.json     every metric beside that of a base, in "
+    "units of its limit\n"
+    "  tripoint gate accept report/results.json --reason 'who decided what, and why'     the only "
+    "writer of baselines\n"
     "  tripoint gate adopt --engine ./my-engine --out cases     writes gates for an engine of your own\n"
     "  tripoint gate selftest                proves that the gates can fail, and only where they should";
 
 constexpr const char* accept_description =
-    "Accepts the figures of green cases as their baselines (baselines/<subject>/<case>.toml beside the "
-    "folder cases), and prints "
-    "what changes:\n"
-    "old limit, new limit, and the sum of all loosenings since the first baseline. Results that lack an "
-    "engine or a metric that\n"
-    "was accepted are refused, unless --keep-missing or --drop-missing says what becomes of its rows.\n"
+    "Accepts the figures of green cases as their baselines (baselines/<subject>/<case>.toml beside the\n"
+    "folder cases). It prints old limit, new limit, and the sum of all loosenings since the first\n"
+    "baseline. Results that lack an accepted engine or metric are refused, unless --keep-missing or\n"
+    "--drop-missing is given.\n"
     "  tripoint gate accept --reason 'kernel moments corrected, decision 006' report/results.json "
     "heat/cosine-mode";
 
 constexpr const char* selftest_description =
-    "Runs every defect that the cases declare in the test build of our solver, and expects the gates named "
-    "in killed_by to turn "
-    "red;\n"
-    "and asks that every defect which a physical term registers has a case that kills it. Then runs every "
-    "harmless change that "
-    "the cases\n"
-    "declare (threads, order, ulp, boost, mirror, rotation, units): no gate may turn and no metric may "
-    "change by more than "
-    "round-off.\n"
-    "Of defects that state a `smallest` size it finds by bisection the least one that turns the gate red: a "
-    "table, red where it "
-    "has grown by more than a quarter.\n"
-    "With --seeds N it looks for false alarms instead: all that chance has a hand in (jittered particles, "
-    "walkers) runs again "
-    "with N other seeds.\n"
-    "Exit 5 when a defect survives, a gate turns by its seed, a harmless change is felt, or a smallest "
-    "visible defect has "
-    "grown.\n"
+    "Runs every defect that the cases declare in the test build of our solver; the gates in killed_by\n"
+    "must turn red. Every defect that a physical term registers must have a case that kills it. Then it\n"
+    "runs the invariance tests of the cases (threads, order, ulp, boost, mirror, rotation, units). In\n"
+    "them no gate may turn, and no metric may change by more than round-off. Defects with a key\n"
+    "`smallest` are bisected for the least size that turns the gate red. Growth by more than a quarter\n"
+    "fails. With --seeds N it looks for false alarms instead: runs with jittered particles or walkers are\n"
+    "repeated with N other seeds. It ends 5 when a defect survives, a gate turns by its seed, an\n"
+    "invariance test fails, or a smallest visible defect has grown.\n"
     "  tripoint gate selftest                every case\n"
     "  tripoint gate selftest heat/cosine-mode --jobs 2\n"
     "  tripoint gate selftest --smallest     only the table of smallest visible defects\n"
@@ -174,8 +157,7 @@ void add_gate(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   self->add_flag("--smallest", o->selftest.only_smallest, "only the smallest visible defects");
-  self->add_option("--seeds", o->seeds,
-                   "other seeds to run what chance has a hand in with; nothing else is then done")
+  self->add_option("--seeds", o->seeds, "other seeds for runs with random numbers; nothing else is then done")
       ->check(CLI::Range(1, 10000));
   self->add_option("--profile", o->profile,
                    "with --seeds: only cases of this profile (commit where no CASE is given)")

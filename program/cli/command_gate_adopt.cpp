@@ -33,24 +33,17 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* adopt_description =
-    "Measures an engine of your own on the acceptance cases, twice and with other seeds where chance has a "
-    "hand, and writes a "
-    "case file with\n"
-    "gates into your repository for each case that it runs: what drifts from then on, to the worse or to the "
-    "better, is red. "
-    "Baselines are\n"
-    "accepted beside them. Cases that the engine refuses are left out.\n"
-    "Not adopted, by name: what fails a limit that holds for any engine, an engine that says it is "
-    "deterministic and is not, "
-    "and a noise\n"
-    "above the value, unless --despite says why; and a case with a metric that has no finite value.\n"
+    "Measures an engine of your own on the acceptance cases, twice, and with other seeds where a run has\n"
+    "random numbers. For each case it writes a case file with gates into your repository. Later drift is\n"
+    "red, to the worse or to the better. Baselines are accepted beside them. Cases that the engine\n"
+    "refuses are left out. Named and not adopted are failures of a limit of any engine, engines that are\n"
+    "wrongly declared deterministic, and noise above the value. The option --despite adopts these. A case\n"
+    "with a metric that has no finite value is never adopted.\n"
     "  tripoint gate adopt --engine ./my-engine --out cases\n"
     "  tripoint gate adopt --engine my-engine --margin 1.2 --out cases rigid/ballistic\n"
-    "Exit 0 when the written gates hold on a run of their own, 1 when a case fails acceptance, 2 when a file "
-    "is there already, 3 "
-    "when noise\n"
-    "hides a value, 4 when a metric has no value or the engine runs none of the cases. What is adoptable is "
-    "written even so.";
+    "Exit: 0 the written gates hold on a run of their own, 1 a case fails acceptance, 2 a file is there\n"
+    "already, 3 noise hides a value, 4 a metric has no value or the engine runs none of the cases.\n"
+    "Adoptable cases are written in any case.";
 
 struct GateAdoptOptions {
   std::string engine, out = "cases";
@@ -261,7 +254,7 @@ CLI::App* add_gate_adopt(CLI::App& gate, int& exit_code) {
       ->capture_default_str();
   command->add_option("--out", o->out, "folder of the written cases; baselines go beside it")
       ->capture_default_str();
-  command->add_option("--seeds", o->adopt.seeds, "other seeds, where chance has a hand in a run")
+  command->add_option("--seeds", o->adopt.seeds, "other seeds, for runs with random numbers")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->add_option("--jobs", o->adopt.jobs, "engine processes at a time")
@@ -269,9 +262,8 @@ CLI::App* add_gate_adopt(CLI::App& gate, int& exit_code) {
       ->capture_default_str();
   command->add_option("--work", o->adopt.work, "folder of the runs")->capture_default_str();
   command->add_flag("--overwrite", o->overwrite, "write files that are there anew");
-  auto* despite = command->add_option(
-      "--despite", o->adopt.despite,
-      "adopt also what fails a limit of any engine, with this reason written into the case");
+  auto* despite = command->add_option("--despite", o->adopt.despite,
+                                      "adopt failing figures too, with this reason written into the case");
   command->callback([o, despite, &exit_code] {
     o->despite_given = despite->count() > 0;
     exit_code = guarded([&] { return adopt(*o); });

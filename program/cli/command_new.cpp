@@ -19,12 +19,11 @@ namespace tripoint {
 namespace {
 
 constexpr const char* new_description =
-    "Writes a new case file that runs as it is: one steel block in free flight, judged against the exact "
-    "solution. Change it\n"
-    "from there; a file that exists is never overwritten.\n"
+    "Writes a new case file that runs as it is: one steel block in free flight, judged against the exact\n"
+    "solution. Change it from there; a file that exists is never overwritten.\n"
     "  tripoint new my-case        writes my-case.toml\n"
-    "  tripoint new my-case --from tank    writes a scene of that kind: tank dam float melt pour ramp stack "
-    "drop beam heat\n"
+    "  tripoint new my-case --from tank    writes a scene of that kind: tank dam float melt pour "
+    "ramp stack drop beam heat\n"
     "  tripoint run my-case.toml";
 
 int create(const std::string& name, const std::string& from) {

@@ -26,31 +26,24 @@ namespace tripoint {
 namespace {
 
 constexpr const char* predict_description =
-    "Predicts what a step of a case costs on many ranks of the engine tripoint-mpi: time, efficiency, "
-    "memory. Three short runs "
-    "on one rank give\n"
-    "the cost of a particle and a pair, a probe of MPI between two ranks gives latency and bandwidth, and "
-    "the particles are "
-    "shared out as the\n"
-    "engine would do it. Every table says what is prediction; --measure runs it beside.\n"
+    "Predicts the cost of a step of a case on many ranks of the engine tripoint-mpi: time, efficiency,\n"
+    "memory. Three short runs on one rank give the cost of a particle and a pair. A probe of MPI between\n"
+    "two ranks gives latency and bandwidth. The particles are shared out as the engine would do it. Every\n"
+    "table says which figures are predictions; --measure runs them beside.\n"
     "  tripoint predict heat/cosine-mode --ranks 2,4,64\n"
-    "  tripoint predict fluid/dam-break-small --ranks 1024,10240 --particles 1e8,1e9 --machine cluster.toml\n"
-    "  tripoint predict heat/cosine-mode --ranks 1,2 --measure 1,2 --set scene.spacing='0.125 mm'   beside "
-    "what this machine "
-    "takes\n"
-    "  tripoint predict speed/liquid-heat --measure 1,2 --weak-set 'body.cube.shape.max=[0.34,0.34,0.68]'    "
-    "as many particles a "
-    "rank\n"
-    "  tripoint predict heat/cosine-mode --ranks 1,2,4,8 --kit > kit.sh                one file for a "
-    "cluster: sbatch kit.sh\n"
-    "  tripoint predict --compare FILE.json                                            what the kit has "
-    "brought back\n"
-    "A machine file (TOML) has name, cores_a_node, latency (s), bandwidth (bytes/s); where they differ, "
-    "allreduce (s), pack_rate "
-    "(bytes/s),\n"
-    "core_speed (of its cores over these), speed_at_once (of a core where all have work, over one alone), "
-    "waiting (share of the "
-    "work, 0.05).\n"
+    "  tripoint predict fluid/dam-break-small --ranks 1024,10240 --particles 1e8,1e9 --machine "
+    "cluster.toml\n"
+    "  tripoint predict heat/cosine-mode --ranks 1,2 --measure 1,2 --set scene.spacing='0.125 mm'   "
+    "with this machine's figures beside\n"
+    "  tripoint predict speed/liquid-heat --measure 1,2 --weak-set "
+    "'body.cube.shape.max=[0.34,0.34,0.68]'    as many particles a rank\n"
+    "  tripoint predict heat/cosine-mode --ranks 1,2,4,8 --kit > kit.sh                one file for "
+    "a cluster: sbatch kit.sh\n"
+    "  tripoint predict --compare FILE.json                                            figures that "
+    "the kit has brought back\n"
+    "A machine file (TOML) has name, cores_a_node, latency (s), bandwidth (bytes/s). It may have\n"
+    "allreduce (s), pack_rate (bytes/s), core_speed (of its cores over these) and speed_at_once (of a\n"
+    "core where all have work, over one alone). It may also have waiting (fraction of the work, 0.05).\n"
     "Exit: 0 done, 2 bad input, 4 the engine is missing or cannot run the case over ranks.";
 
 /// Particles times ranks up to which shares are counted one by one; beyond, they are scaled by volume.
@@ -257,7 +250,7 @@ void add_predict(CLI::App& app, int& exit_code) {
       ->allow_extra_args(false);
   command
       ->add_option("--particles", o->particles,
-                   "numbers of particles in the place of the case's own, by its shape: 1e7,1e9")
+                   "numbers of particles instead of the case's own, by its shape: 1e7,1e9")
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_option("--machine", o->machine, "a machine file (TOML) in the place of the probe")
@@ -274,14 +267,12 @@ void add_predict(CLI::App& app, int& exit_code) {
       ->allow_extra_args(false);
   command
       ->add_option("--repeats", o->repeats,
-                   "of each run at least, in turns; of each part of a step, between calls of all ranks, the "
-                   "best counts")
+                   "of each run at least, in turns; the best time of each part of a step counts")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command
-      ->add_option(
-          "--most-repeats", o->most_repeats,
-          "of each run at most: repeats end when three in a row lower no best time by over half a per cent")
+      ->add_option("--most-repeats", o->most_repeats,
+                   "of each run at most; repeats end when three in a row lower no time by 0.5 %")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command

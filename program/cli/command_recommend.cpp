@@ -24,29 +24,24 @@ namespace tripoint {
 namespace {
 
 constexpr const char* recommend_description =
-    "Measures what accuracy costs along the studies of a case, on every engine, and says which settings are "
-    "cheapest for a wish; "
-    "then makes that\n"
-    "run and says how well error and cost were predicted. Error is |value| + 2 u of the metric, in its own "
-    "scaled unit.\n"
+    "Measures the cost of accuracy along the studies of a case, on every engine, and names the cheapest\n"
+    "settings for a wish. It makes that run and says how well error and cost were predicted. Error is\n"
+    "|value| + 2 u of the metric, in its own scaled unit.\n"
     "  tripoint recommend heat/cosine-mode --error 1%\n"
     "  tripoint recommend rigid/torque-free --error 1e-5 --engines tripoint\n"
-    "  tripoint recommend fluid/sound-wave --seconds 5 --from report/results.json   the front of runs that "
-    "were made before\n"
-    "Exit: 0 the run met the wish, 1 it did not, 3 no settings within twice of what was measured promise it.";
+    "  tripoint recommend fluid/sound-wave --seconds 5 --from report/results.json   the front of "
+    "runs that were made before\n"
+    "Exit: 0 the run met the wish, 1 it did not, 3 no settings within twice of the measured ones promise\n"
+    "it.";
 
 /// How much finer than the finest measured level a plan still names a level. An order from two or three
 /// coarse levels may be off by 0.3. Over this factor that makes the error wrong by 2.
 constexpr double farthest = 16.0;
 
 constexpr const char* plan_description =
-    "Says beforehand how fine the levels, how many walkers and how many CPU seconds a wished error takes, "
-    "with the interval that "
-    "the measured\n"
-    "levels leave. Only the two or three coarsest levels of each study are run; nothing is with --from. A "
-    "level more than 16 "
-    "times finer than\n"
-    "what was measured is not offered.\n"
+    "Predicts the level, walkers and CPU seconds that a wished error takes, with the interval of the\n"
+    "measured levels. Only the two or three coarsest levels of each study are run; nothing is with\n"
+    "--from. A level more than 16 times finer than the measured ones is not offered.\n"
     "  tripoint plan heat/cosine-mode --error 1%\n"
     "  tripoint plan heat/step-walkers --error 0.5% --metric uncertainty";
 

@@ -23,20 +23,15 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* releases_description =
-    "Can I upgrade? Runs a case on several releases of an engine, each in its own environment, and prints "
-    "error and observed "
-    "order by release.\n"
+    "Runs a case on several releases of an engine, each in its own environment. It prints error and\n"
+    "observed order by release, which says whether you can upgrade.\n"
     "  tripoint releases mujoco --versions 2.3.7,3.3.7,3.7.0,3.10.0,3.17.0,4.0.0 rigid/torque-free\n"
     "  tripoint releases my-engine --versions ./old/engine-mine,./new/engine-mine rigid/ballistic\n"
-    "A version is one that `tripoint engine install NAME@VERSION` knows, or the path of an executable; "
-    "oldest first. Without "
-    "--versions all\n"
-    "pinned ones are taken. What is not installed is installed, after --yes. OUT holds releases.json, "
-    "releases.md and "
-    "index.html.\n"
-    "Exit 0: the last release is not worse than the first beyond the margin; 1: it is; 2: bad input; 4: a "
-    "release cannot be "
-    "installed or run.";
+    "A version is one that `tripoint engine install NAME@VERSION` knows, or the path of an executable;\n"
+    "oldest first. Without --versions all pinned ones are taken. A missing one is installed, after --yes.\n"
+    "OUT holds releases.json, releases.md and index.html.\n"
+    "Exit: 0 the last release is not worse than the\n"
+    "first beyond the margin, 1 it is, 2 bad input, 4 a release cannot be installed or run.";
 
 constexpr double install_limit = 3600.0;  // [s]
 constexpr double page_limit = 120.0;      // [s]

@@ -25,25 +25,21 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* render_description =
-    "Draws frames of a run that has ended: the surface of each body and liquid, equations (22) to (26) of "
-    "the paper, "
-    "ray-traced.\n"
-    "  tripoint render runs/paper/fig-12/tripoint                   six frames, a contact sheet, and a film "
-    "where ffmpeg is "
-    "installed\n"
-    "  tripoint render paper/fig-12 --frames -1 --colour temperature the last frame of the run that tripoint "
-    "run left in runs/\n"
+    "Draws frames of a run that has ended: the surface of each body and liquid, equations (22) to (26) of\n"
+    "the paper, ray-traced.\n"
+    "  tripoint render runs/paper/fig-12/tripoint                   six frames, a contact sheet, "
+    "and a film where ffmpeg is installed\n"
+    "  tripoint render paper/fig-12 --frames -1 --colour temperature the last frame of the run that "
+    "tripoint run left in runs/\n"
     "  tripoint render paper/fig-12 --frames 0:-1:1 --particles     every frame, as balls: a quick look\n"
-    "  tripoint render paper/fig-12 --frames 5 --mesh shell.ply     also the closed mesh, with temperature, "
-    "phase and body\n"
-    "  tripoint render paper/fig-12 --zb05                          without the factor f of (25): what it "
-    "repairs is seen\n"
-    "Up is against gravity. Fixed bodies are walls: what of them stands before the rest is cut away "
-    "(--walls). A run in a "
-    "periodic box is\n"
-    "drawn as it lies in the box. docs/surface.md says what is drawn, how near it is to the truth, and what "
-    "it costs.\n"
-    "OUT then holds frame-NNNN.png, sheet.png and film.mp4. stdout says the files, one a line.";
+    "  tripoint render paper/fig-12 --frames 5 --mesh shell.ply     also the closed mesh, with "
+    "temperature, phase and body\n"
+    "  tripoint render paper/fig-12 --zb05                          without the factor f of (25), "
+    "to see its effect\n"
+    "Up is against gravity. Fixed bodies are walls; parts of them before the rest are cut away (--walls).\n"
+    "A run in a periodic box is drawn as it lies in the box. docs/surface.md has the method, its error\n"
+    "and its cost. OUT then holds frame-NNNN.png, sheet.png and film.mp4. stdout says the files, one a\n"
+    "line.";
 
 constexpr int sheet_width = 320;   // of one frame on the contact sheet [pixels]
 constexpr int natural_frames = 6;  // that are drawn where nobody names some
@@ -294,15 +290,15 @@ void add_render(CLI::App& app, int& exit_code) {
   add_earlier_flag(*command, "--surface", "the default", [o] { o->surface = true; });
   command->add_flag("--particles", o->particles, "particles as balls: quicker");
   command->add_flag("--whole", o->whole,
-                    "one surface about all that is no wall, instead of one a body and one a liquid");
+                    "one surface about everything but walls, instead of one a body and one a liquid");
   command->add_flag("--zb05", o->zb05,
                     "f = 1 everywhere: the surface of Zhu and Bridson 2005, equation (22)");
   command->add_option("--walls", o->walls, "fixed bodies: cut away before the rest, all of them, or none")
       ->check(CLI::IsMember({"cut", "show", "hide"}))
       ->capture_default_str();
-  command->add_option("--azimuth", o->azimuth, "where from, to the right of the front [degrees]")
+  command->add_option("--azimuth", o->azimuth, "direction of view, to the right of the front [degrees]")
       ->capture_default_str();
-  command->add_option("--elevation", o->elevation, "where from, above the horizon [degrees]")
+  command->add_option("--elevation", o->elevation, "direction of view, above the horizon [degrees]")
       ->check(CLI::Range(-89.0, 89.0))
       ->capture_default_str();
   command

@@ -24,17 +24,16 @@ constexpr const char* merge_description =
     "  tripoint validate --shard 1/2 --out a     tripoint validate --shard 2/2 --out b\n"
     "  tripoint merge a b --out report           a missing or doubled shard is refused (exit 2)\n"
     "  tripoint suite make DIR                   tripoint suite work DIR\n"
-    "  tripoint merge DIR                        DIR/results.json, DIR/index.html; jobs without a result are "
-    "named (exit 2)\n"
+    "  tripoint merge DIR                        DIR/results.json, DIR/index.html; jobs without a "
+    "result are named (exit 2)\n"
     "  tripoint merge DIR --out report           into another folder, with a copy of the runs";
 
 constexpr const char* report_description =
-    "Draws the report anew from a results.json: index.html, junit.xml and summary.md beside it. Runs and "
-    "judges nothing anew\n"
-    "but the verdicts, which are always recomputed from the measured values.\n"
+    "Draws the report anew from a results.json: index.html, junit.xml and summary.md beside it. Runs anew\n"
+    "nothing but the verdicts, which are always computed from the measured values.\n"
     "  tripoint report report/results.json\n"
-    "  tripoint report report/results.json --pdf      also report.pdf, the report to sign (needs Debian's "
-    "weasyprint)\n"
+    "  tripoint report report/results.json --pdf      also report.pdf, the report to sign (needs "
+    "Debian's weasyprint)\n"
     "Exit: 0 drawn, whatever the verdict; 4 where the page or the PDF could not be made.";
 
 int merge_reports(const MergeOptions& o) {

@@ -41,26 +41,20 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* run_description =
-    "Runs one case on one engine, at the case's own resolution, and prints how it ended, and each metric "
-    "with its unit, its "
-    "standard\n"
-    "uncertainty and the limit that the case sets it. The exit code judges nothing: tripoint validate does.\n"
+    "Runs one case on one engine, at the case's own resolution, and prints how it ended. Each metric is\n"
+    "printed with its unit, its standard uncertainty and its limit. The exit code judges nothing:\n"
+    "tripoint validate does.\n"
     "  tripoint run rigid/ballistic\n"
     "  tripoint run heat/cosine-mode --set scene.spacing='1 mm' --threads 2 --out coarse\n"
     "  tripoint run rigid/ballistic --engine bullet --until 0.5\n"
-    "  tripoint run heat/cosine-mode --checkpoint-interval '10 s'; tripoint run heat/cosine-mode --resume "
-    "runs/heat/cosine-mode/tripoint\n"
-    "  tripoint run paper/fig-08-rigid --progress json --json --until 0.1   progress as JSON lines on "
-    "stderr, the result on "
-    "stdout\n"
-    "DIR then holds job.json, particles.h5, trajectory.h5 (H5MD; trajectory.xdmf opens it in ParaView), "
-    "result.json and "
-    "log.txt.\n"
-    "Ctrl-C leaves a checkpoint there too. A run that goes on from one has the same bits as one that was "
-    "never cut, on any "
-    "number of threads.\n"
-    "Exit: 0 done, 2 bad input, 4 the engine is missing, refuses, fails or does not answer, 7 diverged, 130 "
-    "Ctrl-C.";
+    "  tripoint run heat/cosine-mode --checkpoint-interval '10 s'; tripoint run heat/cosine-mode "
+    "--resume runs/heat/cosine-mode/tripoint\n"
+    "  tripoint run paper/fig-08-rigid --progress json --json --until 0.1   JSON lines on stderr\n"
+    "DIR then holds job.json, particles.h5, trajectory.h5 (H5MD), trajectory.xdmf for ParaView,\n"
+    "result.json and log.txt. Ctrl-C leaves a checkpoint there too. A run that goes on from it has the\n"
+    "bits of an uncut one, on any number of threads.\n"
+    "Exit: 0 done, 2 bad input, 4 the engine is missing, refuses, fails or does not answer, 7 diverged,\n"
+    "130 Ctrl-C.";
 
 struct RunOptions {
   std::string what, engine = engine_name::solver, out, until, resume, checkpoint_interval;

@@ -25,13 +25,12 @@ namespace {
 using json = nlohmann::ordered_json;
 
 constexpr const char* schema_description =
-    "Prints the JSON Schema of the case file, for editors that complete and check while you type; with "
-    "--page the reference\n"
-    "page of all keys, reference functions, quantities and norms in Markdown. All come from the tables the "
-    "program reads by.\n"
+    "Prints the JSON Schema of the case file, for editors that complete and check while you type. With\n"
+    "--page it prints the reference page of all keys, reference functions, quantities and norms in\n"
+    "Markdown. All come from the tables that the program reads by.\n"
     "  tripoint schema > case.schema.json      # in the case file: #:schema ./case.schema.json\n"
-    "  tripoint schema --job                   # of what an engine is asked, JOB.json\n"
-    "  tripoint schema --result                # of what it answers, result.json\n"
+    "  tripoint schema --job                   # of JOB.json, the job of an engine\n"
+    "  tripoint schema --result                # of result.json, the engine's answer\n"
     "  tripoint schema --page | less";
 
 json words_of(const std::vector<MetricWord>& words) {
@@ -153,8 +152,9 @@ void add_schema(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("schema", schema_description);
   auto wanted = std::make_shared<Wanted>();
   command->add_flag("--page", wanted->page, "print the reference page in Markdown");
-  auto* job = command->add_flag("--job", wanted->job, "of JOB.json, what an engine is asked");
-  command->add_flag("--result", wanted->result, "of result.json, what an engine answers")->excludes(job);
+  auto* job = command->add_flag("--job", wanted->job, "the schema of JOB.json, an engine's job");
+  command->add_flag("--result", wanted->result, "the schema of result.json, an engine's answer")
+      ->excludes(job);
   command->callback([=, &exit_code] {
     exit_code = guarded([&] {
       print(wanted_text(*wanted));

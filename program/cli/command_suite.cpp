@@ -35,61 +35,44 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* suite_description =
-    "Makes a suite by many processes or machines that share a folder: a job is one run of one engine, any "
-    "worker takes it, and "
-    "the\n"
-    "merged report is the one that `tripoint validate` would have written.\n"
+    "Makes a suite by many processes or machines that share a folder. A job is one run of one engine, and\n"
+    "any worker takes it. The merged report is the one that `tripoint validate` would have written.\n"
     "  tripoint suite make DIR --profile nightly      plan the jobs; nothing runs\n"
-    "  tripoint suite work DIR                        take jobs until all are done; start it as often as you "
-    "like, where you "
-    "like\n"
-    "  tripoint status DIR                            done, running, lost, failed, and the time that is "
-    "left\n"
+    "  tripoint suite work DIR                        take jobs until all are done; start it as "
+    "often as you like\n"
+    "  tripoint status DIR                            done, running, lost, failed, and the time "
+    "that is left\n"
     "  tripoint merge DIR                             judge, and write DIR/index.html\n"
-    "  tripoint suite emit DIR --for slurm            a script that does it on a scheduler: slurm, "
-    "hyperqueue, parallel, "
-    "snakemake, github\n"
-    "A worker that is killed loses the job that it was at, no other; the next `work` takes it over. "
-    "docs/scale.md tells all of "
-    "it.";
+    "  tripoint suite emit DIR --for slurm            a script that does it on a scheduler\n"
+    "A killed worker loses only its present job; the next `work` takes it over. docs/scale.md says more.";
 
 constexpr const char* make_description =
-    "Plans every run of the cases as a job in DIR, with a predicted cost; nothing runs. The id of a job is a "
-    "hash of all that "
-    "makes the run:\n"
-    "its scene, particles, engine, version, level and seed. Made again after a change, the suite keeps the "
-    "results that still "
-    "hold.\n"
+    "Plans every run of the cases as a job in DIR, with a predicted cost; nothing runs. The id of a job\n"
+    "is a hash of its scene, particles, engine, version, level and seed. Made again after a change, the\n"
+    "suite keeps the results that still hold.\n"
     "  tripoint suite make DIR                                    the commit suite\n"
     "  tripoint suite make DIR heat rigid/ballistic --engines tripoint,bullet\n"
-    "  tripoint suite make DIR --profile nightly --costs report/results.json    shares work out by what runs "
-    "have cost before";
+    "  tripoint suite make DIR --profile nightly --costs report/results.json    shares work out by "
+    "earlier costs";
 
 constexpr const char* work_description =
-    "Takes jobs of the suite until all are finished. Ctrl-C gives back what it holds (exit 130).\n"
+    "Takes jobs of the suite until all are finished. Ctrl-C gives its jobs back.\n"
     "  tripoint suite work DIR                  any job that waits, the dearest first\n"
     "  tripoint suite work DIR --jobs 4         four engine processes at a time\n"
     "  tripoint suite work DIR --shard 2/8      the second of eight shards of equal predicted cost\n"
-    "Jobs that other workers hold are waited for, and taken over where their worker is gone: on this machine "
-    "at once, on another "
-    "after\n"
-    "60 s without a sign. Exit: 0 every job that was wanted has a result, whatever it says; 4 (--no-wait "
-    "alone) others hold "
-    "some;\n"
-    "2 a job is not the run that the suite was made of, because a case, an engine or the program has "
-    "changed.";
+    "Jobs that other workers hold are waited for. Jobs of a lost worker are taken over: on this machine\n"
+    "at once, on another after 60 s without a sign.\n"
+    "Exit: 0 every wanted job has a result, whatever it says, 2 a case, an engine or the program has\n"
+    "changed since the suite was made, 4 others hold jobs (--no-wait alone), 130 Ctrl-C.";
 
 constexpr const char* status_description =
-    "Says where a suite stands: jobs that are done, running, waiting, lost, failed, doubled, and the time "
+    "Says where a suite stands: jobs that are done, running, waiting, lost, failed, doubled, and the time\n"
     "that is left.\n"
     "  tripoint status DIR\n"
     "  tripoint status DIR --json\n"
-    "lost: its worker is gone; the next `tripoint suite work DIR` makes that job again, and no other. "
-    "failed: killed, timed out "
-    "or ended with an\n"
-    "error; `tripoint suite retry DIR` puts it back. doubled: two workers made it; the first result counts. "
-    "The time left is a "
-    "prediction.";
+    "Lost: its worker is gone; the next `tripoint suite work DIR` makes that job again, and no other.\n"
+    "Failed: killed, timed out or ended with an error; `tripoint suite retry DIR` puts it back. Doubled:\n"
+    "two workers made it; the first result counts. The time left is a prediction.";
 
 constexpr const char* retry_description =
     "Puts failed jobs back to those that wait: all of them, or those whose ids are given.\n"
@@ -97,14 +80,13 @@ constexpr const char* retry_description =
     "  tripoint suite retry DIR 1b6f0c55a1e2d3f4";
 
 constexpr const char* emit_description =
-    "Prints a script that makes the suite on a scheduler. Short jobs are batched: a task takes a shard of "
-    "about --batch "
-    "seconds.\n"
+    "Prints a script that makes the suite on a scheduler. Short jobs are batched: a task takes a shard of\n"
+    "about --batch seconds.\n"
     "  tripoint suite emit DIR --for slurm > suite.sh                       sbatch suite.sh\n"
     "  tripoint suite emit DIR --for parallel --batch 60 > suite.sh         JOBS=8 bash suite.sh\n"
     "  tripoint suite emit DIR --for snakemake --shards 16 > Snakefile      snakemake --cores 2\n"
-    "  tripoint suite emit DIR --for slurm --shards 16 --left > again.sh    only the shards that are not "
-    "finished";
+    "  tripoint suite emit DIR --for slurm --shards 16 --left > again.sh    only the shards that "
+    "are not finished";
 
 struct MakeOptions {
   std::string dir, costs;
@@ -268,7 +250,7 @@ void add_make(CLI::App& suite, int& exit_code) {
       ->capture_default_str();
   command
       ->add_option("--costs", o->costs,
-                   "a results.json, or its folder: what its runs cost goes before what is predicted")
+                   "a results.json, or its folder: its measured costs replace predictions")
       ->type_name("RESULTS");
   command->callback([o, &exit_code] { exit_code = guarded([&] { return make(*o); }); });
 }

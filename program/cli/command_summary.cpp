@@ -19,14 +19,15 @@ namespace tripoint {
 namespace {
 
 constexpr const char* summary_description =
-    "Writes the text of a comment on a change: the verdict and the ten most changed metrics, base -> head in "
-    "units of the limit, "
-    "with the noise.\n"
-    "It runs nothing and ends 0 whatever the verdict: `tripoint gate` is what blocks.\n"
-    "  tripoint summary report                                          the ten metrics that use most of "
-    "their limits\n"
+    "Writes the text of a comment on a change: the verdict and the ten most changed metrics. Each has\n"
+    "base -> head in units of the limit, with the noise. It runs nothing. `tripoint gate` blocks merges,\n"
+    "this command does not.\n"
+    "Exit: 0 whatever the verdict, 2 bad input.\n"
+    "  tripoint summary report                                          the ten metrics that use "
+    "most of their limits\n"
     "  tripoint summary report --markdown --against base/results.json   the text of a comment\n"
-    "  tripoint summary report --data data.json --badge badge.svg       files for a dashboard and a badge";
+    "  tripoint summary report --data data.json --badge badge.svg       files for a dashboard and a "
+    "badge";
 
 struct SummaryOptions {
   std::string results, against, again, baselines, data, shares, badge, sarif;
@@ -100,8 +101,8 @@ void add_summary(CLI::App& app, int& exit_code) {
                    "results of the base once more (A/A); what differs between the two counts as noise")
       ->type_name("BASE2.json");
   command->add_option("--baselines", o->baselines, "judge by the baselines in this folder")->type_name("DIR");
-  command->add_flag("--require-baselines", o->require_baselines, "as of `tripoint gate`");
-  command->add_option("--head", o->comment.head, "name of what was judged, for people: a branch, a commit");
+  command->add_flag("--require-baselines", o->require_baselines, "as in `tripoint gate`");
+  command->add_option("--head", o->comment.head, "name of the judged branch or commit, for people");
   command->add_option("--base", o->comment.base, "name of the base, for people");
   command
       ->add_option("--links", o->comment.links,
@@ -120,7 +121,7 @@ void add_summary(CLI::App& app, int& exit_code) {
       ->type_name("FILE");
   command->add_option("--badge", o->badge, "also write a badge: .svg, or .json as an endpoint answers")
       ->type_name("FILE");
-  command->add_option("--sarif", o->sarif, "also write what is not green as SARIF 2.1.0")->type_name("FILE");
+  command->add_option("--sarif", o->sarif, "also write red gates as SARIF 2.1.0")->type_name("FILE");
   command->callback([o, &exit_code] { exit_code = guarded([&] { return summarise(*o); }); });
 }
 

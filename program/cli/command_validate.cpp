@@ -41,7 +41,7 @@ struct ValidateOptions {
 };
 
 constexpr const char* validate_description =
-    "Runs cases on their engines, compares each with its reference, judges every gate and writes the "
+    "Runs cases on their engines, compares each with its reference, judges every gate and writes the\n"
     "report.\n\n"
     "Without CASE it takes the cases beside the program that belong to the profile.\n"
     "  tripoint validate                                     the commit suite\n"
@@ -49,14 +49,11 @@ constexpr const char* validate_description =
     "  tripoint validate heat                                the cases of one subject, from any folder\n"
     "  tripoint validate -k floating                         the cases with this in their id\n"
     "  tripoint validate my-cases/ --engines all,./my-engine   your cases, with your engine beside ours\n"
-    "  tripoint validate --profile acceptance --engines all,./my-engine   your engine by the limits that any "
-    "engine must hold: a "
-    "scorecard\n"
-    "  tripoint validate --last-failed --no-report           once more what was not green; no page, so it is "
-    "quick\n"
-    "  tripoint validate --resume                            what an earlier call that was cut left to do\n"
-    "  tripoint validate --profile nightly --shard 1/4       a quarter of the suite; tripoint merge joins "
-    "the four\n"
+    "  tripoint validate --profile acceptance --engines all,./my-engine   a scorecard of your engine\n"
+    "  tripoint validate --last-failed --no-report           the cases that were not green, quickly\n"
+    "  tripoint validate --resume                            the rest of an earlier call that was cut\n"
+    "  tripoint validate --profile nightly --shard 1/4       a quarter of the suite; tripoint merge "
+    "joins the four\n"
     "The verdict is the last line; OUT/index.html shows it, OUT/results.json holds it.";
 
 /// Ids of the cases that were not green in the results that OUT holds. @throws InputError where there are
@@ -264,23 +261,20 @@ void add_validate(CLI::App& app, int& exit_code) {
       "keep the runs in OUT that have ended, where job and engine are the same; make only the others");
   command
       ->add_option("--timing", o->timing,
-                   "then time every run in this many interleaved rounds, one of each engine twice a round: "
-                   "what it differs from "
-                   "itself is the noise floor below which a ratio is not resolved")
+                   "then time every run in this many interleaved rounds. One engine runs twice a round; the "
+                   "difference of its two times is the noise floor")
       ->check(CLI::Range(2, 1000));
   command
       ->add_option("--count-instructions", o->suite.count_below,
-                   "where the processor counts no instructions, count those of every run below this many CPU "
-                   "seconds by "
-                   "callgrind, in a second run some fifty times slower")
+                   "count instructions by callgrind where the processor does not, for runs below this many "
+                   "CPU seconds. The second run is some fifty times slower")
       ->expected(0, 1)
       ->default_str("1")
       ->check(CLI::PositiveNumber)
       ->type_name("CPU_S");
   command->add_option("--history", o->history,
-                      "file of JSON lines to which what was measured is appended, one line a case (default "
-                      "OUT/history.jsonl); "
-                      "the report draws it");
+                      "file of JSON lines to which figures are appended, one line a case (default "
+                      "OUT/history.jsonl); the report draws it");
   command->add_flag_callback(
       "--no-history", [o] { o->keep_history = false; }, "append nothing");
   command->add_option("--shard", o->shard, "i/n: every n-th case, from the i-th");

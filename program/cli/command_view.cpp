@@ -12,26 +12,21 @@ namespace tripoint {
 namespace {
 
 constexpr const char* view_description =
-    "Writes one page that shows the particles of a run in three dimensions, in any browser and without a "
+    "Writes one page that shows the particles of a run in three dimensions, in any browser and without a\n"
     "network.\n"
-    "  tripoint view runs/paper/fig-14-coated/tripoint              view.html in the run's folder: turn it, "
-    "play it, colour it\n"
-    "  tripoint view paper/fig-14-coated --out look.html            the run that `tripoint run` left in "
-    "runs/, into a file of "
-    "your own\n"
-    "  tripoint view report/runs/rigid/ballistic/tripoint/corrected report/runs/rigid/ballistic/bullet/base "
-    "--out beside.html\n"
-    "                                                               several runs, with one camera and one "
-    "time\n"
-    "In the page: a slider of time, colour by phase, temperature, speed, pressure, body or material, walls "
-    "on and off; every key "
-    "is named there.\n"
-    "Gravity points down. A run that is too large for the page loses frames first, then particles, and the "
-    "page says so "
-    "(--limit).\n"
-    "docs/surface.md says more. For a picture of the surface: tripoint render. For other programs: tripoint "
-    "export.\n"
-    "Exit: 0 written, 2 bad input, 4 a dataset, a library or room on the disk is missing, 130 Ctrl-C.";
+    "  tripoint view runs/paper/fig-14-coated/tripoint              view.html in the run's folder: "
+    "turn it, play it, colour it\n"
+    "  tripoint view paper/fig-14-coated --out look.html            the run that `tripoint run` "
+    "left in runs/, into a file of your own\n"
+    "  tripoint view report/runs/rigid/ballistic/tripoint/corrected "
+    "report/runs/rigid/ballistic/bullet/base --out beside.html\n"
+    "                                                               several runs, with one camera "
+    "and one time\n"
+    "The page has a slider of time, colours by phase, temperature, speed, pressure, body or material, and\n"
+    "walls on and off. It names its keys. Gravity points down. A run that is too large for the page loses\n"
+    "frames first, then particles, and the page says so (--limit). docs/surface.md says more. For a\n"
+    "picture of the surface: tripoint render. For other programs: tripoint export.\n"
+    "Exit: 0 written, 2 bad input, 4 a dataset, a library or disk space is missing, 130 Ctrl-C.";
 
 struct ViewOptions {
   std::vector<std::string> runs;

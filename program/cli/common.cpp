@@ -174,9 +174,8 @@ std::string results_file(const std::string& path) {
 
 void add_sandbox_flag(CLI::App& command, bool& wanted) {
   command.add_flag("--sandbox", wanted,
-                   "run engines that do not belong to this program by bubblewrap: no network, your files out "
-                   "of sight, writing "
-                   "in the run's own folder alone; and what draws the pages of what they left");
+                   "run third-party engines by bubblewrap: no network, none of your files, writing in the "
+                   "run's own folder alone. Pages are drawn in it too");
 }
 
 void make_folder(const std::string& out) {

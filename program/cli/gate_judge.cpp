@@ -26,12 +26,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* propose_description =
-    "Writes what `gate accept` would write as a patch, and accepts nothing: no baseline is touched. Above "
-    "the patch, as text, "
-    "stand what changes and\n"
-    "the line that accepts it. Without --reason the patch says that nobody has decided, and a baseline that "
-    "says so is red (exit "
-    "4).\n"
+    "Writes a patch of the baselines that `gate accept` would write, and accepts nothing. Above the patch\n"
+    "stand its changes as text and the line that accepts it. Without --reason the patch says that nobody\n"
+    "has decided, and such a baseline is red (exit 4).\n"
     "  tripoint gate propose report/results.json flight/throw --patch baselines.patch";
 
 bool on_github() {
@@ -138,32 +135,28 @@ int propose_baselines(const ProposeOptions& o) {
 
 void add_judge_options(CLI::App& gate, JudgeOptions& o) {
   gate.add_option("RESULTS", o.results, "a results.json, or the folder of one");
-  gate.add_option("--against", o.against,
-                  "print every metric beside that of this base, with the change in units of its limit and "
-                  "the noise; worse "
-                  "within the limit is said")
+  gate.add_option(
+          "--against", o.against,
+          "print every metric beside that of this base, with the change in units of its limit and the noise")
       ->type_name("BASE.json");
   gate.add_option(
           "--again", o.again,
           "with --against: results of the base once more (A/A); what differs between the two counts as noise")
       ->type_name("BASE2.json");
   gate.add_flag("--no-worse", o.no_worse,
-                "with --against: worse than the base by more than its noise is red (exit 1), a metric that "
-                "is gone or a looser "
-                "limit too (exit 4)");
+                "with --against: worse than the base by more than its noise is red (exit 1). A missing "
+                "metric or a looser limit is exit 4");
   gate.add_flag("--informational", o.informational, "say the verdict, and end 0 whatever it is");
   gate.add_flag("--annotations", o.annotations,
                 "remarks as workflow commands of GitHub (also where GITHUB_ACTIONS is true): ten of a kind, "
                 "the worst first");
   gate.add_option("--baselines", o.baselines,
-                  "judge by the baselines in this folder, for example those of the branch that a change is "
-                  "to go into (default: "
-                  "beside the cases); one that is gone beside the cases is an error, exit 4")
+                  "judge by the baselines in this folder, for example those of the target branch (default: "
+                  "beside the cases). One that is gone beside the cases is exit 4")
       ->type_name("DIR");
   gate.add_flag("--require-baselines", o.require_baselines,
-                "a case that has no baseline is an error, exit 4 (else one warning names them); with "
-                "--baselines also a case that has "
-                "one there and is not among the results");
+                "a case without a baseline is exit 4 (else a warning). With --baselines a case that has one "
+                "there and no results is too");
   gate.add_option("--history", o.history,
                   "append a line of JSON a case, with every value and count, to this file (validate has done "
                   "so to OUT/history.jsonl)");

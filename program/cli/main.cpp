@@ -15,13 +15,13 @@
 namespace {
 
 constexpr const char* description =
-    "tripoint: one scene in our SPH solver, in Bullet, in LAMMPS and in exact solutions, compared and "
+    "tripoint: one scene in our SPH solver, in Bullet, in LAMMPS and in exact solutions, compared and\n"
     "judged.\n\n"
     "First steps:\n"
-    "  tripoint list                         the cases and what each one proves\n"
-    "  tripoint explain rigid/ballistic      what a case simulates, and why each default is what it is\n"
+    "  tripoint list                         the cases and the claim of each\n"
+    "  tripoint explain rigid/ballistic      the meaning of a case, and the reason of each default\n"
     "  tripoint validate rigid/ballistic     run it on every engine, judge it, write report/index.html\n"
-    "  tripoint new my-case.toml             start a case of your own\n";
+    "  tripoint new my-case.toml             start a case of your own\n\n";
 
 constexpr const char* footer =
     "tripoint COMMAND --help says more, with examples.\n"

@@ -74,11 +74,12 @@ inline constexpr auto of_temperature = std::make_tuple(
                                                  "", "temperature where (r - point).normal < 0"}),
                 kept(&TemperatureField::ahead,
                      {"temperature.step", "ahead", number, "K", positive, "!", "", "", "elsewhere"})),
-    kind_record(TemperatureField::Kind::expression, "expression",
-                kept(&TemperatureField::expression,
-                     {"temperature.expression", "value", text, "", any, "!", "", "",
-                      "formula of x, y, z in m with `+ - * / ^ ( ) sin cos tan exp log sqrt abs "
-                      "erf erfc sinh cosh tanh min max pi` and `sum(n, 1, 40, f)`"})));
+    kind_record(
+        TemperatureField::Kind::expression, "expression",
+        kept(&TemperatureField::expression,
+             {"temperature.expression", "value", text, "", any, "!", "", "",
+              "formula of x, y, z in m, with `+ - * / ^ ( )`, `pi` and `sum(n, 1, 40, f)`. Functions: "
+              "`sin cos tan exp log sqrt abs erf erfc sinh cosh tanh min max`"})));
 
 inline constexpr auto of_velocity = std::make_tuple(
     kind_record(VelocityField::Kind::constant, "constant"),

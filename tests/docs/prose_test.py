@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""README, CONTRIBUTING and docs are plain English, and the check of that sees what is not: prose_test.py SOURCE."""
+"""Pages and help texts are plain English, and the check of that sees a bad one: prose_test.py SOURCE TRIPOINT."""
 
+import re
 import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-SOURCE = Path(sys.argv.pop(1)).resolve()
+SOURCE, TRIPOINT = (Path(sys.argv.pop(1)).resolve() for _ in range(2))
 sys.path.insert(0, str(SOURCE / "tools"))
 import prose
 
@@ -22,6 +23,36 @@ class Checkout(unittest.TestCase):
     def test_no_page_has_more_findings_than_its_allowance(self):
         answer = check()
         self.assertEqual(answer.returncode, 0, answer.stdout)
+
+
+def helps(*command: str) -> dict[str, str]:
+    """The help of a command and of the commands in it."""
+    text = subprocess.run([TRIPOINT, *command, "--help"], capture_output=True, text=True, check=True).stdout
+    found = {" ".join(command): text}
+    for name in re.findall(r"(?m)^  ([a-z]+)  ", text.partition("\nSubcommands:\n")[2]):
+        found |= helps(*command, name)
+    return found
+
+
+def paragraphs(text: str) -> str:
+    """A help text with each example and option as a paragraph, without lists of exit codes."""
+    text = re.sub(r"\n {20,}", " ", text)  # an option's second line
+    text = re.sub(r"(?m)^Exit.*(\n(?!  |Usage).+)*", "", text)
+    return re.sub(r"(?m)^  .*$", lambda line: f"\n{re.split(' {2,}', line[0].strip(), maxsplit=1)[-1]}\n", text)
+
+
+class Helps(unittest.TestCase):
+    def test_texts_of_commands_are_plain(self):
+        texts = helps()
+        self.assertGreater(len(texts), 30)
+        for command, text in texts.items():
+            with self.subTest(command):
+                self.assertEqual(prose.findings(command, paragraphs(text)), [])
+
+    def test_a_command_has_one_list_of_exit_codes(self):
+        for command, text in helps().items():
+            with self.subTest(command):
+                self.assertEqual(len(re.findall(r"(?m)^Exit(?: codes)?[: ]", text)), 1, text)
 
 
 class Planted(unittest.TestCase):
@@ -100,14 +131,15 @@ class Sentences(unittest.TestCase):
     def test_items_headings_and_cells_are_apart(self):
         text = "# A title\nText goes\non. More.\n- an item\n1. another\n\n| a | `b|c` |\n"
         expected = [(1, "A title"), (2, "Text goes on."), (3, "More."), (4, "an item"), (5, "another"), (7, "a")]
-        self.assertEqual(self.lines(text), [*expected, (7, "`code`")])
+        self.assertEqual(self.lines(text), [*expected, (7, "`b|c`")])
 
     def test_code_and_comments_are_not_prose(self):
         text = f"```\n{LONG}\n```\n<!-- {LONG}\n{LONG} -->\n\n    {LONG}\n"
         self.assertEqual(prose.findings("page", text), [])
 
-    def test_code_is_one_word_and_a_link_is_its_text(self):
-        self.assertEqual(self.lines("Run `a b c` by [the page](to/it.md)."), [(1, "Run `code` by the page.")])
+    def test_code_has_its_words_and_a_link_is_its_text(self):
+        self.assertEqual(self.lines("Run `a b c` by [the page](to/it.md)."), [(1, "Run `a b c` by the page.")])
+        self.assertEqual(prose.count("Run `a b c` with x = 1."), 8)
 
 
 if __name__ == "__main__":

@@ -47,8 +47,8 @@ void compare_limits(const CaseResult& c, const AcceptedGate& now, const SourcePl
   if (const auto edge = looser_edge(now, old);
       !edge.empty() && !(less_is_better && is_nearer_truth(now, old)))
     list.push_back({true, exit_missing, place, title,
-                    fmt::format("loosened: {} is looser than what was accepted, {} ({}){}", now.allows,
-                                old.allows, edge, decide),
+                    fmt::format("loosened: {} is looser than the accepted {} ({}){}", now.allows, old.allows,
+                                edge, decide),
                     old.room > 0.0 ? now.room / old.room : infinity, "LOOSENED"});
   if (!old.measures.empty() && now.measures != old.measures)
     list.push_back({true, exit_missing, place, title,

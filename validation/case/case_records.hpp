@@ -129,8 +129,7 @@ inline constexpr auto of_gate = std::make_tuple(
     kept(&Gate::reason,
          {"gate", "reason", text, "", any, "!", "", "",
           "reason of the limit. \"known defect NAME: ...\" in a band of a named engine excuses it from the "
-          "acceptance limit, which it "
-          "must then exceed"}),
+          "acceptance limit, which it must exceed"}),
     kept(&Gate::by, {"gate", "by", text, "", any, "\"\"", "unsigned", "", "name of who set the limit"}),
     kept(&Gate::date,
          {"gate", "date", text, "", any, "\"\"", "undated", "", "date on which the limit was accepted"}));

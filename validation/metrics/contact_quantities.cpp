@@ -129,24 +129,25 @@ FrameError object_count(const FramePair& f) {
 }  // namespace
 
 const std::vector<Quantity>& contact_quantities() {
-  static const std::vector<Quantity> list{{{"overlap", "spacings",
-                                            "largest depth of a solid particle in another body: 1 - least "
-                                            "distance / spacing, and 1 to 3 past its outer layer. Pairs "
-                                            "of walls do not count"},
-                                           overlap},
-                                          {{"separation", "m",
-                                            "distance of the centres of the metric's and the other body, of "
-                                            "their particles as sampled, minus the stated value"},
-                                           separation},
-                                          {{"relative_motion", "m/s",
-                                            "speed of the other body's centre seen from the metric's body, "
-                                            "|v_b - v_a - w_a x (r_b - r_a)|: 0 when they move as one"},
-                                           relative_motion},
-                                          {{"object_count", "1",
-                                            "clusters of solid particles (of the stated phase) nearer than "
-                                            "merge_distance, minus the stated value; touching bodies "
-                                            "count as one"},
-                                           object_count}};
+  static const std::vector<Quantity> list{
+      {{"overlap", "spacings",
+        "largest depth of a solid particle in another body: 1 - least "
+        "distance / spacing, and 1 to 3 past its outer layer. Pairs "
+        "of walls do not count"},
+       overlap},
+      {{"separation", "m",
+        "distance of the centres of the metric's and the other body, of "
+        "their particles as sampled, minus the stated value"},
+       separation},
+      {{"relative_motion", "m/s",
+        "speed of the other body's centre in the frame of the metric's body: "
+        "|v_b - v_a - w_a x (r_b - r_a)|"},
+       relative_motion},
+      {{"object_count", "1",
+        "clusters of solid particles (of the stated phase) nearer than "
+        "merge_distance, minus the stated value; touching bodies "
+        "count as one"},
+       object_count}};
   return list;
 }
 

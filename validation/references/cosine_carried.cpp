@@ -59,8 +59,7 @@ ReferenceEntry cosine_carried_entry() {
   auto args = cosine_arguments();
   args.push_back({"diffusivity", "m2/s", "k/(rho c_p); default of the bodies' material"});
   return {{"cosine_carried", "analytic",
-           "separation of variables in the frame of the medium (Galileo): T = mean + A exp(-D k^2 t) "
-           "cos(k.(r - U t) + phase)",
+           "separation of variables in the moving frame: T = mean + A exp(-D k^2 t) cos(k.(r - U t) + phase)",
            "decay of one cosine mode in a medium that moves as a whole", args},
           make_carried};
 }

@@ -112,7 +112,7 @@ const ReferenceArgument friction{
 ReferenceEntry sliding_entry() {
   return {{"sliding",
            "analytic",
-           "Coulomb's law of friction: g (sin a - mu cos a) downhill, v0^2/(2 mu g) to rest, and no motion "
+           "Coulomb's law of friction: g (sin a - mu cos a) downhill, v0^2/(2 mu g) to rest. No motion "
            "where tan a <= mu",
            "a box that sticks or slides on a plane. Gravity may be tilted, and the plane may move",
            {friction}},

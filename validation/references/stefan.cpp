@@ -180,9 +180,8 @@ std::unique_ptr<Reference> make_stefan(const ReferenceInput& in) {
 ReferenceEntry stefan_entry() {
   return {{"stefan",
            "analytic",
-           "Carslaw & Jaeger, Conduction of Heat in Solids, 1959, section 11.2: Neumann's similarity "
-           "solution, X = 2 lambda "
-           "sqrt(D t), with properties of each phase",
+           "Carslaw & Jaeger, Conduction of Heat in Solids, 1959, section 11.2: Neumann's solution "
+           "X = 2 lambda sqrt(D t), by phases",
            "melting of a bar from a held hot wall, or freezing from a cold one: front, temperatures, liquid "
            "fractions and phases",
            {{"wall", "", "the held body; default the scene's only one", ArgumentType::word},
