@@ -33,6 +33,13 @@ class Tree(unittest.TestCase):
         answer = ruff("check")
         self.assertEqual(answer.returncode, 0, answer.stdout)
 
+    def test_programs_without_a_suffix_are_checked_too(self):
+        names = subprocess.run(["git", "ls-files"], cwd=SOURCE, capture_output=True, text=True, check=True).stdout
+        plain = [SOURCE / name for name in names.splitlines() if not Path(name).suffix and (SOURCE / name).is_file()]
+        programs = {str(path) for path in plain if b"python" in path.read_bytes().partition(b"\n")[0]}
+        self.assertGreater(len(programs), 10)
+        self.assertEqual(programs - set(ruff("check", "--show-files").stdout.splitlines()), set())
+
 
 class Planted(unittest.TestCase):
     def test_each_fault_is_named(self):
