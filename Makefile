@@ -79,6 +79,8 @@ pages:  ## write what pages hold of the program: keys, metrics, fields, the comm
 	@tools/build.sh $(JOBS) tripoint
 	@build/bin/tripoint schema --page >build/case-file.md
 	@mv build/case-file.md docs/case-file.md
+	@build/bin/tripoint schema --results --page >build/results.md
+	@mv build/results.md docs/results.md
 	@/usr/bin/python3 -B tools/field_dictionary.py build/bin/tripoint --write docs/model.md
 	@/usr/bin/python3 -B tests/cli/pull_requests.py build/bin/tripoint --write docs/ci.md
 

@@ -18,6 +18,7 @@
 #include "validation/references/measuring.hpp"
 #include "validation/references/reference.hpp"
 #include "validation/results/json_text.hpp"
+#include "validation/results/results_schema.hpp"
 
 namespace tripoint {
 namespace {
@@ -31,6 +32,7 @@ constexpr const char* schema_description =
     "  tripoint schema > case.schema.json      # in the case file: #:schema ./case.schema.json\n"
     "  tripoint schema --job                   # of JOB.json, the job of an engine\n"
     "  tripoint schema --result                # of result.json, the engine's answer\n"
+    "  tripoint schema --results               # of results.json, the numbers of a report\n"
     "  tripoint schema --page | less";
 
 json words_of(const std::vector<MetricWord>& words) {
@@ -137,10 +139,11 @@ std::string key_tables(const json& schema, const std::string& title) {
 }
 
 struct Wanted {
-  bool page = false, job = false, result = false;
+  bool page = false, job = false, result = false, results = false;
 };
 
 std::string wanted_text(const Wanted& wanted) {
+  if (wanted.results) return wanted.page ? results_page() : json_text(results_schema(), 2);
   if (!wanted.job && !wanted.result) return wanted.page ? page() : schema();
   const json chosen = wanted.job ? job_schema() : result_schema();
   return wanted.page ? key_tables(chosen, wanted.job ? "JOB.json" : "result.json") : json_text(chosen, 2);
@@ -155,6 +158,8 @@ void add_schema(CLI::App& app, int& exit_code) {
   auto* job = command->add_flag("--job", wanted->job, "the schema of JOB.json, an engine's job");
   command->add_flag("--result", wanted->result, "the schema of result.json, an engine's answer")
       ->excludes(job);
+  command->add_flag("--results", wanted->results, "the schema of results.json, the numbers of a report")
+      ->excludes("--job", "--result");
   command->callback([=, &exit_code] {
     exit_code = guarded([&] {
       print(wanted_text(*wanted));

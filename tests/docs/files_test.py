@@ -18,7 +18,6 @@ import numpy as np
 
 TRIPOINT, SOURCE = (Path(argument).resolve() for argument in sys.argv[1:3])
 PAGE = (SOURCE / "docs" / "trajectory.md").read_text()
-RESULTS = (SOURCE / "docs" / "results.md").read_text()
 CASE_FILE = (SOURCE / "docs" / "case-file.md").read_text()
 FAMILIES = {"energy_": "TERM", "heat_": "BODY", "count_": "WHAT"}
 RUNS = {  # between them they write every element
@@ -217,30 +216,13 @@ def words(*head, page=None):
     return {names(line)[0] for line in text.splitlines() if line.startswith("| `")}
 
 
-class ResultsPage(unittest.TestCase):
+class Results(unittest.TestCase):
+    """Real results are as the schema says, which the page is made of (written_test.py)."""
+
     @classmethod
     def setUpClass(cls):
-        cls.documented = set()
-        for heading, prefix in (
-            ("The whole", ""),
-            ("A case: `cases[]`", "cases[]."),
-            ("An engine: `cases[].engines[]`", "cases[].engines[]."),
-            ("A run: `cases[].engines[].runs[]`", "cases[].engines[].runs[]."),
-        ):
-            for row in rows(RESULTS, heading):
-                cls.documented |= {prefix + name for name in names(row[0])}
-        cls.optional = {
-            prefix + name
-            for heading, prefix in (
-                ("A case: `cases[]`", "cases[]."),
-                ("An engine: `cases[].engines[]`", "cases[].engines[]."),
-                ("A run: `cases[].engines[].runs[]`", "cases[].engines[].runs[]."),
-            )
-            for row in rows(RESULTS, heading)
-            if row[1].endswith(", opt")
-            for name in names(row[0])
-        }
-        cls.found = set()
+        printed = subprocess.run([TRIPOINT, "schema", "--results"], capture_output=True, text=True, check=True).stdout
+        cls.schema = json.loads(printed)
         with tempfile.TemporaryDirectory(prefix="tripoint-results-") as folder:
             words = ["rigid/ballistic", "--engines", "tripoint,bullet,exact", "--timing", "2"]
             done = subprocess.run(
@@ -252,45 +234,57 @@ class ResultsPage(unittest.TestCase):
             )
             assert done.returncode == 0, done.stdout + done.stderr
             cls.document = json.loads((Path(folder) / "results.json").read_text())
-        walk(cls.document, "", cls.found)
 
-    @staticmethod
-    def writer():
-        """The fields of each record, and the code that writes them."""
-        text = "".join(
-            (SOURCE / "validation" / "results" / name).read_text()
-            for name in ("results_fields.hpp", "results_write.cpp")
-        )
-        return re.sub(r"//.*", "", text)
+    def test_results_are_as_the_schema_says(self):
+        self.assertEqual(list(faults(self.document, self.schema, "")), [])
 
-    def test_each_key_of_real_results_is_on_the_page(self):
-        self.assertEqual(self.found - self.documented, set())
-
-    def test_each_key_of_the_page_is_in_results_or_optional_and_written(self):
-        written = set(re.findall(r'"(\w+)"', self.writer()))
-        for path in self.documented - self.found:
-            last = path.rpartition(".")[2]
-            self.assertIn(last, written | {"TERM", "NAME", "AXIS"}, f"{path}: no such key is written")
-
-    def test_each_key_that_is_written_is_on_the_page(self):
-        keys = set(re.findall(r'\("(\w+)", ', self.writer())) | set(re.findall(r'\["(\w+)"\] =', self.writer()))
-        self.assertGreater(len(keys), 80)
-        told = {part.removesuffix("[]") for path in self.documented for part in path.split(".")}
-        self.assertEqual(keys - told, set())
+    def test_a_fault_is_named(self):
+        run = self.document["cases"][0]["engines"][0]["runs"][0]
+        for change, where in (
+            (lambda: run.update(colour="red"), "colour: not in the schema"),
+            (lambda: run["cost"].pop("steps"), "cost.steps: missing"),
+            (lambda: run.update(folder=1.0), "folder: 1.0"),
+            (lambda: run.update(status="tired"), "status: 'tired'"),
+        ):
+            kept = json.dumps(run)
+            change()
+            with self.subTest(where):
+                [fault] = faults(self.document, self.schema, "")
+                self.assertIn(where, fault)
+            run.clear()
+            run.update(json.loads(kept))
 
 
-def walk(value, path, found):
-    """Paths of keys: of lists [], of objects whose keys are names the word that the page has."""
-    word = {"metrics": "NAME", "args": "NAME", "levels": "AXIS", "ledger": "TERM"}.get(path.rpartition(".")[2])
-    if isinstance(value, dict):
-        for key, inner in value.items():
-            here = f"{path}.{word or key}" if path else key
-            found.add(here)
-            walk(inner, here, found)
-    elif isinstance(value, list):
+TYPES = {"string": str, "boolean": bool, "number": (int, float), "array": list, "object": dict, "null": type(None)}
+
+
+def fits(value, schema):
+    if "anyOf" in schema:
+        return any(fits(value, one) for one in schema["anyOf"])
+    if "enum" in schema:
+        return value in schema["enum"]
+    return "type" not in schema or isinstance(value, TYPES[schema["type"]])
+
+
+def faults(value, schema, path):
+    """Places of a document that are not as its schema says."""
+    if not fits(value, schema):
+        yield f"{path}: {value!r}"
+        return
+    schema = schema.get("anyOf", [schema])[0]
+    if isinstance(value, list):
         for inner in value:
-            if isinstance(inner, dict):
-                walk(inner, f"{path}[]", found)
+            yield from faults(inner, schema["items"], f"{path}[]")
+    if not isinstance(value, dict):
+        return
+    known = schema.get("properties", {})
+    yield from (f"{path}.{key}: missing" for key in schema.get("required", []) if key not in value)
+    for key, inner in value.items():
+        one = known.get(key, schema.get("additionalProperties"))
+        if one is None:
+            yield f"{path}.{key}: not in the schema"
+        else:
+            yield from faults(inner, one, f"{path}.{key}")
 
 
 if __name__ == "__main__":

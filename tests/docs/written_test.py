@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What pages hold of the program is what make pages writes: docs/case-file.md, and the field dictionary of
-docs/model.md.
+"""What pages hold of the program is what make pages writes: docs/case-file.md, docs/results.md and the field
+dictionary of docs/model.md.
 
 written_test.py TRIPOINT SOURCE [unittest arguments]
 """
@@ -27,9 +27,11 @@ def of_drag(owner="drag"):
 
 
 class Pages(unittest.TestCase):
-    def test_the_page_of_the_case_file_is_what_the_program_prints(self):
-        printed = subprocess.run([TRIPOINT, "schema", "--page"], capture_output=True, text=True, check=True).stdout
-        self.assertEqual((SOURCE / "docs/case-file.md").read_text(), printed, "docs/case-file.md is old: make pages")
+    def test_the_pages_of_the_case_file_and_of_results_are_what_the_program_prints(self):
+        for page, *words in (("docs/case-file.md",), ("docs/results.md", "--results")):
+            command = [TRIPOINT, "schema", *words, "--page"]
+            printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+            self.assertEqual((SOURCE / page).read_text(), printed, f"{page} is old: make pages")
 
     def test_the_command_that_the_page_on_engines_names_prints_every_key_of_the_protocol(self):
         page = (SOURCE / "docs/engines.md").read_text()

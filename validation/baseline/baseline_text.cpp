@@ -7,7 +7,7 @@
 #include "core/whole_number.hpp"
 #include "files/job.hpp"
 #include "tables/toml_node.hpp"
-#include "validation/baseline/baseline_fields.hpp"
+#include "validation/baseline/baseline_records.hpp"
 
 /// The file of a baseline, written and read by one list of fields.
 namespace tripoint {
@@ -44,28 +44,27 @@ class Writer {
   explicit Writer(bool is_row = false) : is_row_(is_row) {}
 
   template <class T>
-  void operator()(std::string_view key, const T& value) {
+  void operator()(const Key& key, const T& value) {
     if constexpr (requires { value.empty(); })
       if (is_row_ && value.empty()) return;
     add(key, toml(value));
   }
   template <class T>
-  void operator()(std::string_view key, const T&, const T& instead) {
+  void operator()(const Key& key, const T&, const T& instead) {
     (*this)(key, instead);
   }
   template <HasWords E>
-  void operator()(std::string_view key, const E& word) {
+  void operator()(const Key& key, const E& word) {
     (*this)(key, std::string(to_string(word)));
   }
   template <class T>
-  void operator()(std::string_view key, const std::optional<T>& value) {
+  void operator()(const Key& key, const std::optional<T>& value) {
     if (value) (*this)(key, *value);
   }
-  template <class T>
-  requires Fields<Writer, const T>
-  void operator()(std::string_view key, const std::vector<T>& list) {
+  template <Described T>
+  void operator()(const Key& key, const std::vector<T>& list) {
     if (list.empty()) return;
-    text_ += fmt::format("\n{} = [\n", key);
+    text_ += fmt::format("\n{} = [\n", key.name);
     for (const T& item : list) {
       Writer row(true);
       fields(row, item);
@@ -74,7 +73,7 @@ class Writer {
     text_ += "]\n";
   }
   template <class T>
-  void unless(const T& known, std::string_view key, const T& value) {
+  void unless(const T& known, const Key& key, const T& value) {
     if (value != known) (*this)(key, value);
   }
   template <class Each>
@@ -84,9 +83,9 @@ class Writer {
   [[nodiscard]] const std::string& text() const { return text_; }
 
  private:
-  void add(std::string_view key, const std::string& value) {
-    text_ +=
-        fmt::format("{}{} = {}{}", is_row_ && !text_.empty() ? ", " : "", key, value, is_row_ ? "" : "\n");
+  void add(const Key& key, const std::string& value) {
+    text_ += fmt::format("{}{} = {}{}", is_row_ && !text_.empty() ? ", " : "", key.name, value,
+                         is_row_ ? "" : "\n");
   }
   std::string text_;
   bool is_row_;
@@ -97,70 +96,69 @@ class Reader {
  public:
   explicit Reader(const TomlNode& from) : from_(from) {}
 
-  void operator()(std::string_view key, std::string& to) const {
-    const auto* v = from_.find(key);
+  void operator()(const Key& key, std::string& to) const {
+    const auto* v = from_.find(key.name);
     to = v && v->kind == TomlNode::Kind::text ? v->text : std::string();
   }
-  void operator()(std::string_view key, std::optional<double>& to) const {
-    const auto* v = from_.find(key);
+  void operator()(const Key& key, std::optional<double>& to) const {
+    const auto* v = from_.find(key.name);
     if (!v) return to.reset();
     if (v->kind != TomlNode::Kind::integer && v->kind != TomlNode::Kind::real)
-      throw InputError(v->place, fmt::format("{} is no number", key));
+      throw InputError(v->place, fmt::format("{} is no number", key.name));
     to = number(*v);
   }
-  void operator()(std::string_view key, double& to) const { unless(0.0, key, to); }
+  void operator()(const Key& key, double& to) const { unless(0.0, key, to); }
   template <std::integral T>
-  void operator()(std::string_view key, T& to) const {
+  void operator()(const Key& key, T& to) const {
     double value = 0.0;
     (*this)(key, value);
     to = whole_number<T>(value);
   }
-  void operator()(std::string_view key, std::optional<std::array<double, 2>>& to) const {
-    const auto* v = from_.find(key);
+  void operator()(const Key& key, std::optional<std::array<double, 2>>& to) const {
+    const auto* v = from_.find(key.name);
     if (!v) return;
     if (v->kind != TomlNode::Kind::array || v->items.size() != 2)
-      throw InputError(v->place, fmt::format("{} is not [low, high]", key));
+      throw InputError(v->place, fmt::format("{} is not [low, high]", key.name));
     to = {number(v->items[0]), number(v->items[1])};
   }
   template <HasWords E>
-  void operator()(std::string_view key, E& to) const {
+  void operator()(const Key& key, E& to) const {
     std::string word;
     (*this)(key, word);
     const auto found = find_word<E>(word);
     if (!found)
       throw InputError(from_.place,
-                       fmt::format("{}: `{}` is no {}", key, printable(word), word_table(E{}).what));
+                       fmt::format("{}: `{}` is no {}", key.name, printable(word), word_table(E{}).what));
     to = *found;
   }
   template <HasWords E>
-  void operator()(std::string_view key, std::optional<E>& to) const {
+  void operator()(const Key& key, std::optional<E>& to) const {
     std::string word;
     (*this)(key, word);
     if (!word.empty()) (*this)(key, to.emplace());
   }
-  void operator()(std::string_view key, std::vector<std::string>& to) const {
+  void operator()(const Key& key, std::vector<std::string>& to) const {
     for (const TomlNode& item : items(key)) to.push_back(item.text);
   }
-  template <class T>
-  requires Fields<const Reader, T>
-  void operator()(std::string_view key, std::vector<T>& to) const {
+  template <Described T>
+  void operator()(const Key& key, std::vector<T>& to) const {
     for (const TomlNode& item : items(key)) {
       const Reader row(item);
       fields(row, to.emplace_back());
     }
   }
   template <class T>
-  void operator()(std::string_view key, T& to, const T& /*what is written*/) const {
+  void operator()(const Key& key, T& to, const T& /*what is written*/) const {
     (*this)(key, to);
   }
-  void unless(double known, std::string_view key, double& to) const {
+  void unless(double known, const Key& key, double& to) const {
     std::optional<double> value;
     (*this)(key, value);
     to = value.value_or(known);
   }
   template <class T>
-  void unless(const T& known, std::string_view key, T& to) const {
-    if (from_.find(key))
+  void unless(const T& known, const Key& key, T& to) const {
+    if (from_.find(key.name))
       (*this)(key, to);
     else
       to = known;
@@ -174,9 +172,9 @@ class Reader {
   [[nodiscard]] static double number(const TomlNode& v) {
     return v.kind == TomlNode::Kind::integer ? static_cast<double>(v.integer) : v.real;
   }
-  [[nodiscard]] const std::vector<TomlNode>& items(std::string_view key) const {
+  [[nodiscard]] const std::vector<TomlNode>& items(const Key& key) const {
     static const std::vector<TomlNode> none;
-    const auto* v = from_.find(key);
+    const auto* v = from_.find(key.name);
     return v && v->kind == TomlNode::Kind::array ? v->items : none;
   }
   const TomlNode& from_;
@@ -198,12 +196,12 @@ Baseline read_baseline(const std::string& file) {
   const auto top = read_toml(file);
   const Reader reader(top);
   double format = 0.0;
-  reader("format", format);
+  reader(named("format"), format);
   if (format != 1.0) throw InputError(file + ": has not format = 1");
   Baseline b;
   fields(reader, b);
   std::string seal;
-  reader("seal", seal);  // older versions wrote neither hashes nor seal
+  reader(named("seal"), seal);  // older versions wrote neither hashes nor seal
   b.sealed = seal.empty() ? b.scene.empty() : seal == text_hash(unsealed(text_of_file(file)));
   return b;
 }

@@ -20,10 +20,10 @@ namespace tripoint {
 namespace {
 
 /// Properties that make two rows the same metric; `nth` tells gates apart that judge the same row.
-using Key = std::tuple<std::string, std::string, JudgedMode, std::string, double, int>;
+using RowKey = std::tuple<std::string, std::string, JudgedMode, std::string, double, int>;
 
 struct ComparedRow {
-  Key key;
+  RowKey key;
   MetricChange change;  ///< all but the two standings
   MetricStanding standing;
   Gate gate;
@@ -105,10 +105,10 @@ std::vector<ComparedRow> rows_of(const Results& r) {
       for (const auto& g : e.gates) rows.push_back(row_of(c, e, g));
       add_unjudged(c, e, rows);
     }
-  std::map<Key, int> seen;
+  std::map<RowKey, int> seen;
   for (auto& row : rows) {
     const auto& c = row.change;
-    Key key{c.case_id, c.engine, c.mode, c.metric, c.level.value_or(-1.0), 0};
+    RowKey key{c.case_id, c.engine, c.mode, c.metric, c.level.value_or(-1.0), 0};
     std::get<5>(key) = seen[key]++;
     row.key = key;
   }
@@ -223,7 +223,7 @@ Comparison compare_results(const Results& base, const Results& head, const std::
   Comparison all;
   all.base_name = base_name;
   all.remarks = remarks_on(base, head);
-  std::map<Key, ComparedRow> before, again;
+  std::map<RowKey, ComparedRow> before, again;
   for (auto& row : rows_of(base)) before.emplace(row.key, row);
   if (repeat)
     for (auto& row : rows_of(*repeat)) again.emplace(row.key, row);

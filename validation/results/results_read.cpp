@@ -6,7 +6,7 @@
 #include "core/foreign_json.hpp"
 #include "core/whole_number.hpp"
 #include "files/foreign_file.hpp"
-#include "validation/results/results_fields.hpp"
+#include "validation/results/results_records.hpp"
 
 namespace tripoint {
 namespace {
@@ -20,65 +20,65 @@ class Reader {
  public:
   explicit Reader(const ReadJson& from) : from_(from) {}
 
-  void operator()(const char* key, std::string& to) const {
+  void operator()(const Key& key, std::string& to) const {
     const auto& v = member(key);
     to = v.is_string() ? v.get<std::string>() : std::string();
   }
-  void operator()(const char* key, bool& to) const {
+  void operator()(const Key& key, bool& to) const {
     if (const auto& v = member(key); v.is_boolean()) to = v.get<bool>();
   }
-  void operator()(const char* key, double& to) const {
+  void operator()(const Key& key, double& to) const {
     if (const auto& v = member(key); v.is_number()) to = v.get<double>();
   }
   template <std::integral T>
-  void operator()(const char* key, T& to) const {
+  void operator()(const Key& key, T& to) const {
     if (const auto& v = member(key); v.is_number()) to = whole_number<T>(v.get<double>());
   }
-  void operator()(const char* key, std::optional<double>& to) const {
+  void operator()(const Key& key, std::optional<double>& to) const {
     if (const auto& v = member(key); v.is_number()) to = v.get<double>();
   }
-  void operator()(const char* key, std::array<double, 2>& to) const {
+  void operator()(const Key& key, std::array<double, 2>& to) const {
     std::optional<std::array<double, 2>> pair;
     (*this)(key, pair);
     if (pair) to = *pair;
   }
-  void operator()(const char* key, std::optional<std::array<double, 2>>& to) const {
+  void operator()(const Key& key, std::optional<std::array<double, 2>>& to) const {
     std::vector<double> list;
     (*this)(key, list);
     if (list.size() == 2) to = {list[0], list[1]};
   }
   template <HasWords E>
-  void operator()(const char* key, E& to) const {
+  void operator()(const Key& key, E& to) const {
     std::optional<E> word;
     (*this)(key, word);
     if (word) to = *word;
   }
   template <HasWords E>
-  void operator()(const char* key, std::optional<E>& to) const {
+  void operator()(const Key& key, std::optional<E>& to) const {
     std::string word;
     (*this)(key, word);
-    if (!word.empty()) within(key, [&] { to = from_word<E>(word); });
+    if (!word.empty()) within(std::string(key.name), [&] { to = from_word<E>(word); });
   }
-  void operator()(const char* key, StudyAxes& to) const {
+  void operator()(const Key& key, StudyAxes& to) const {
     std::string words;
     (*this)(key, words);
-    if (!words.empty()) within(key, [&] { to = study_axes_from(words); });
+    if (!words.empty()) within(std::string(key.name), [&] { to = study_axes_from(words); });
   }
   template <class T>
-  void operator()(const char* key, std::vector<T>& to) const {
+  void operator()(const Key& key, std::vector<T>& to) const {
     const auto& v = member(key);
     if (!v.is_array()) return;
     for (std::size_t i = 0; i < v.size(); ++i) {
       if constexpr (std::is_same_v<T, double>)
         to.push_back(number(v[i]));
       else if constexpr (!std::is_same_v<T, std::string>)
-        within(fmt::format("{}[{}]", key, i), [&] { to.push_back(record<T>(v[i])); });
+        within(fmt::format("{}[{}]", key.name, i), [&] { to.push_back(record<T>(v[i])); });
       else if (v[i].is_string())
         to.push_back(v[i].template get<std::string>());
     }
   }
   template <class T>
-  void operator()(const char* key, std::map<std::string, T>& to) const {
+  void operator()(const Key& key, std::map<std::string, T>& to) const {
     const auto& v = member(key);
     if (!v.is_object()) return;
     for (const auto& [name, value] : v.items()) {
@@ -92,52 +92,51 @@ class Reader {
         to[name] = record<T>(value);
     }
   }
-  void operator()(const char* key, std::map<StudyAxes, double>& to) const {
+  void operator()(const Key& key, std::map<StudyAxes, double>& to) const {
     std::map<std::string, double> levels;
     (*this)(key, levels);
-    for (const auto& one : levels) within(key, [&] { to[study_axes_from(one.first)] = one.second; });
+    for (const auto& one : levels)
+      within(std::string(key.name), [&] { to[study_axes_from(one.first)] = one.second; });
   }
-  template <class T>
-  requires Fields<const Reader, T>
-  void operator()(const char* key, T& to) const {
+  template <Described T>
+  void operator()(const Key& key, T& to) const {
     const Reader inner(member(key));
-    within(key, [&] { fields(inner, to); });
+    within(std::string(key.name), [&] { fields(inner, to); });
   }
-  template <class T>
-  requires Fields<const Reader, T>
-  void operator()(const char* key, std::optional<T>& to) const {
+  template <Described T>
+  void operator()(const Key& key, std::optional<T>& to) const {
     if (member(key).is_object()) (*this)(key, to.emplace());
   }
   template <class T>
-  void operator()(const char* key, T& to, const T& /*what is written*/) const {
+  void operator()(const Key& key, T& to, const T& /*what is written*/) const {
     (*this)(key, to);
   }
-  void operator()(const char* key, NumberOrNull<double> to) const { to.value = number(member(key)); }
-  void operator()(const char* key, Stated<double> to) const {
-    if (from_.is_object() && from_.contains(key)) to.value = number(member(key));
+  void operator()(const Key& key, NumberOrNull<double> to) const { to.value = number(member(key)); }
+  void operator()(const Key& key, Stated<double> to) const {
+    if (from_.is_object() && from_.contains(std::string(key.name))) to.value = number(member(key));
   }
-  void operator()(const char* key, Judged<double> to) const {
-    to.value = member("finite") == ReadJson(false) ? not_a_number : number(member(key));
+  void operator()(const Key& key, Judged<double> to) const {
+    to.value = member(named("finite")) == ReadJson(false) ? not_a_number : number(member(key));
   }
   template <class T>
-  void operator()(const char* key, OrNull<T> to) const {
+  void operator()(const Key& key, OrNull<T> to) const {
     (*this)(key, to.value);
   }
   template <class T>
-  void operator()(const char* key, IfAny<T> to) const {
+  void operator()(const Key& key, IfAny<T> to) const {
     (*this)(key, to.value);
   }
   template <class Form>
-  void written(const char* /*key*/, Form /*form*/) const {}
+  void written(const Key& /*key*/, Form /*form*/) const {}
   template <class Each>
-  void part(const char* key, bool /*is_there*/, Each each) const {
+  void part(const Key& key, bool /*is_there*/, Each each) const {
     const Reader inner(member(key));
     each(inner);
   }
-  void end(Status& status, std::string& reason) const {
+  void end(const Key& status_key, Status& status, const Key& reason_key, std::string& reason) const {
     std::optional<Status> word;
-    (*this)("status", word);
-    (*this)("reason", reason);
+    (*this)(status_key, word);
+    (*this)(reason_key, reason);
     status = word.value_or(Status::error);
     if (!word) reason = "the results give no status";
   }
@@ -151,10 +150,10 @@ class Reader {
   }
 
  private:
-  [[nodiscard]] const ReadJson& member(const char* key) const {
+  [[nodiscard]] const ReadJson& member(const Key& key) const {
     static const ReadJson nothing;
     if (!from_.is_object()) return nothing;
-    const auto at = from_.find(key);
+    const auto at = from_.find(std::string(key.name));
     return at == from_.end() ? nothing : *at;
   }
   /// A value that is no number is read as NaN, which never passes.

@@ -4,7 +4,7 @@
 
 #include "validation/references/reference.hpp"
 #include "validation/results/json_text.hpp"
-#include "validation/results/results_fields.hpp"
+#include "validation/results/results_records.hpp"
 
 namespace tripoint {
 namespace {
@@ -15,35 +15,35 @@ using Json = nlohmann::ordered_json;
 class Writer {
  public:
   template <class T>
-  void operator()(const char* key, const T& value) {
-    to_[key] = json(value);
+  void operator()(const Key& key, const T& value) {
+    to_[std::string(key.name)] = json(value);
   }
   template <class T>
-  void operator()(const char* key, const T&, const T& instead) {
-    to_[key] = json(instead);
+  void operator()(const Key& key, const T&, const T& instead) {
+    to_[std::string(key.name)] = json(instead);
   }
   template <class T>
-  void operator()(const char* key, NumberOrNull<T> m) {
-    to_[key] = json_number(m.value);
+  void operator()(const Key& key, NumberOrNull<T> m) {
+    to_[std::string(key.name)] = json_number(m.value);
   }
   template <class T>
-  void operator()(const char* key, Stated<T> s) {
-    to_[key] = json_number(s.value);
+  void operator()(const Key& key, Stated<T> s) {
+    to_[std::string(key.name)] = json_number(s.value);
   }
   template <class T>
-  void operator()(const char* key, Judged<T> j) {
-    to_[key] = json_number(j.value);
+  void operator()(const Key& key, Judged<T> j) {
+    to_[std::string(key.name)] = json_number(j.value);
     if (!std::isfinite(j.value)) to_["finite"] = false;
   }
-  void operator()(const char* key, OrNull<const double> x) {
-    to_[key] = x.value > 0.0 ? Json(x.value) : Json(nullptr);
+  void operator()(const Key& key, OrNull<const double> x) {
+    to_[std::string(key.name)] = x.value > 0.0 ? Json(x.value) : Json(nullptr);
   }
   template <HasWords E>
-  void operator()(const char* key, OrNull<const E> x) {
-    to_[key] = to_string(x.value).empty() ? Json(nullptr) : Json(x.value);
+  void operator()(const Key& key, OrNull<const E> x) {
+    to_[std::string(key.name)] = to_string(x.value).empty() ? Json(nullptr) : Json(x.value);
   }
   template <class T>
-  void operator()(const char* key, IfAny<T> any) {
+  void operator()(const Key& key, IfAny<T> any) {
     if constexpr (requires { any.value.empty(); }) {
       if (any.value.empty()) return;
     } else if (!any.value) {
@@ -52,29 +52,28 @@ class Writer {
     (*this)(key, any.value);
   }
   template <class Form>
-  void written(const char* key, Form form) {
-    to_[key] = json(form());
+  void written(const Key& key, Form form) {
+    to_[std::string(key.name)] = json(form());
   }
   template <class Each>
-  void part(const char* key, bool is_there, Each each) {
+  void part(const Key& key, bool is_there, Each each) {
     if (!is_there) return;
     Writer inner;
     each(inner);
-    to_[key] = std::move(inner.to_);
+    to_[std::string(key.name)] = std::move(inner.to_);
   }
-  template <class T>
-  requires Fields<Writer, const T>
-  void operator()(const char* key, const std::optional<T>& record) {
-    if (record) to_[key] = json(*record);
+  template <Described T>
+  void operator()(const Key& key, const std::optional<T>& record) {
+    if (record) to_[std::string(key.name)] = json(*record);
   }
-  void end(Status status, const std::string& reason) {
-    (*this)("status", status);
-    (*this)("reason", reason);
+  void end(const Key& status_key, Status status, const Key& reason_key, const std::string& reason) {
+    (*this)(status_key, status);
+    (*this)(reason_key, reason);
   }
 
   template <class T>
   static Json json(const T& value) {
-    if constexpr (requires(Writer & w) { fields(w, value); }) {
+    if constexpr (Described<T>) {
       Writer inner;
       fields(inner, value);
       return std::move(inner.to_);
