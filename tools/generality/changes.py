@@ -27,7 +27,8 @@ class Place:
         if not level:
             raise ValueError("no room beside a scene that is periodic in every level direction")
         flown = [b["velocity"] for b in case["body"] if isinstance(b.get("velocity"), list)]
-        self.axis = min(level, key=lambda a: max([abs(v[a]) for v in flown], default=0.0))  # out of the way
+        self.fastest = np.abs([[0.0] * 3, *flown]).max(0)
+        self.axis = min(level, key=lambda a: self.fastest[a])  # out of the way
         down = int(np.argmax(np.abs(self.gravity))) if self.gravity.any() else (self.axis + 2) % 3
         self.order = [self.axis, ({0, 1, 2} - {self.axis, down}).pop(), down]
         self.up = -1.0 if self.gravity[down] > 0 else 1.0
@@ -223,8 +224,8 @@ def periodic_side(case, p):
     n = math.ceil((high - low).max() / p.dx) + 4 * FAR
     first = np.floor(low / p.dx) - n
     if "min" not in s:
-        fall = np.abs(p.gravity) * s["end_time"] ** 2
-        s["min"], s["max"] = (first * p.dx - 1e3 * fall).tolist(), ((first + 3 * n) * p.dx + 1e3 * fall).tolist()
+        way = 1e3 * np.abs(p.gravity) * s["end_time"] ** 2 + p.fastest * s["end_time"]
+        s["min"], s["max"] = (first * p.dx - way).tolist(), ((first + 3 * n) * p.dx + way).tolist()
     s["min"][p.axis], s["max"][p.axis] = float(first[p.axis] * p.dx), float((first[p.axis] + 3 * n) * p.dx)
     s["periodic"] = [*s.get("periodic", []), "xyz"[p.axis]]
 
