@@ -16,6 +16,8 @@ struct PairWork {
   /// Its terms add nothing to pairs that do not act on each other (Clusters::acting)
   bool where_it_acts = false;
   bool leaves_own_pairs = false;  ///< its density leaves own pairs out
+  /// Of its density terms those that are left out where State::holds_sums says so
+  std::vector<PairTerm> held{};
   /// Its rates are computed a second time in each step, without those of others
   bool again = false;
   /// The kernels that all terms of the scene use; at most one effect may set them

@@ -13,7 +13,7 @@ namespace {
 
 /// Work that all effects of a scene ask of the passes.
 struct AllWork {
-  std::vector<PairTerm> terms, again;
+  std::vector<PairTerm> terms, again, held;
   bool any_acts = false;   ///< an effect's terms add something where pairs act on each other alone
   bool meets_all = false;  ///< a term works on every pair, whatever meets there
   bool leaves_own_pairs = false;
@@ -22,12 +22,18 @@ struct AllWork {
 
   void add(const PairWork& w) {
     terms.insert(terms.end(), w.terms.begin(), w.terms.end());
+    held.insert(held.end(), w.held.begin(), w.held.end());
     if (w.again) again.insert(again.end(), w.terms.begin(), w.terms.end());
     any_acts = any_acts || w.where_it_acts;
     meets_all = meets_all || (!w.terms.empty() && !w.where_it_acts);
     leaves_own_pairs = leaves_own_pairs || w.leaves_own_pairs;
     if (w.kernels) kernels = w.kernels;
     awake_around = std::max(awake_around, w.awake_around);
+  }
+  [[nodiscard]] std::vector<PairTerm> without_held() const {
+    std::vector<PairTerm> rest = terms;
+    std::erase_if(rest, [&](const PairTerm& term) { return std::ranges::find(held, term) != held.end(); });
+    return rest;
   }
 };
 
@@ -71,7 +77,7 @@ std::optional<double> sleeps_beyond(const AllWork& work, const std::vector<Effec
 
 struct Passes::Impl {
   int lanes;
-  PassFunction density, rates, again;
+  PassFunction density, without_held, rates, again;
   PairKernels kernels;
   bool meets_all;   ///< a term works on every pair, whatever meets there
   bool leaves_own;  ///< the density leaves own pairs out
@@ -84,9 +90,9 @@ Passes::Passes(const Scene& scene, const std::vector<EffectPairWork>& effects, i
   const PairKernels kernels = work.kernels ? *work.kernels : PairKernels(scene.support_ratio * scene.spacing);
   if (lanes == 0) lanes = work.terms.empty() ? 1 : best_lanes();
   const PairPasses passes = pair_passes(lanes);
-  impl_ = std::make_unique<Impl>(Impl{lanes, passes.density(work.terms), passes.rates(work.terms),
-                                      passes.rates(work.again), kernels, sums_all || work.meets_all,
-                                      work.leaves_own_pairs,
+  impl_ = std::make_unique<Impl>(Impl{lanes, passes.density(work.terms), passes.density(work.without_held()),
+                                      passes.rates(work.terms), passes.rates(work.again), kernels,
+                                      sums_all || work.meets_all, work.leaves_own_pairs,
                                       sums_all ? std::nullopt : tripoint::sleeps_beyond(work, effects)});
 }
 Passes::~Passes() = default;
@@ -96,6 +102,8 @@ Passes& Passes::operator=(Passes&&) noexcept = default;
 int Passes::lanes() const { return impl_->lanes; }
 
 bool Passes::needed() const { return impl_->density.run != nullptr || impl_->rates.run != nullptr; }
+
+bool Passes::can_hold() const { return impl_->without_held.run != nullptr; }
 
 std::optional<double> Passes::sleeps_beyond() const { return impl_->sleeps_beyond; }
 
@@ -132,7 +140,7 @@ void Passes::run_fixed(PassName name, State& state) const {
 void Passes::run(PassName name, State& state) const {
   if (!needed()) return;
   Impl& i = *impl_;
-  const PassFunction& pass = name == PassName::density ? i.density
+  const PassFunction& pass = name == PassName::density ? (state.holds_sums ? i.without_held : i.density)
                              : name == PassName::rates ? i.rates
                                                        : i.again;
   if (!i.meets_all && name == PassName::density)

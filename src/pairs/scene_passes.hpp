@@ -22,6 +22,8 @@ class Passes {
   [[nodiscard]] bool needed() const;  ///< whether any pair is worked on at all
   [[nodiscard]] int lanes() const;    ///< particles of a cluster that the neighbours must have
   void run(PassName, State&) const;
+  /// Whether a pass of density without the held terms finds all pairs too.
+  [[nodiscard]] bool can_hold() const;
   /// Sums the values of fixed particles that no step reads (State::forms_fixed).
   void run_fixed(PassName, State&) const;
   /// How far around what something can reach fixed particles must be awake, for every bit to stay [m]; none:

@@ -18,6 +18,7 @@ struct FieldGroup {
   template <class T>
   FieldGroup(const VectorField<T>& v) : columns{v.x, v.y, v.z} {}
   FieldGroup(const SymmetricField& m) : columns{m.xx, m.yy, m.zz, m.yz, m.xz, m.xy} {}
+  FieldGroup(const MatrixField& m) : columns{m.xx, m.xy, m.xz, m.yx, m.yy, m.yz, m.zx, m.zy, m.zz} {}
 };
 class FieldList : public std::vector<FieldInfo> {
  public:

@@ -84,6 +84,9 @@ struct State {
   bool placed = false;  ///< members of all rigid bodies have been put to their places by the poses of these
   bool moved = true;    ///< positions differ from those of the last rates
 
+  bool can_hold_sums = false;  ///< a pass of density may leave out what PairWork::held names
+  bool holds_sums = false;     ///< the present one does
+
   /// By id, 1 where a step reads only the place of a fixed particle, as behind the face of a wall; empty: all
   /// is read.
   std::vector<char> unread;

@@ -65,6 +65,7 @@ void Simulation::set_up(const Scene& scene, const InitialState& initial) {
   state_.box = box_of(scene);
   declare(state_, effects_);
   guards_.still = is_still(scene, initial);
+  state_.can_hold_sums = passes_.can_hold();
   load(initial);
   enclosure_ = enclosure_of(scene, initial);
   if (passes_.needed())

@@ -113,10 +113,38 @@ def heat_printed(s):
     )
 
 
-def heat_moment(s):
-    """M_i = 1/2 sum_j V_j K r r^T of 8.6."""
+def conduction_sums(s):
+    """Q_i = sum w d d^T e e^T over vectors of six components, and S_i = sum 2 w d, of 8.6; w = 1/2 V_j K."""
     V = s.m / s.material("density")
-    return np.einsum("ij,ijk,ijl->ikl", V[None, :] * -s.slope_over_r, s.d, s.d)
+    w = V[None, :] * (s["conductivity"] > 0)[None, :] * -s.slope_over_r
+    pairs = [(0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1)]
+    dd = np.stack([s.d[..., a] * s.d[..., b] * (1 if a == b else 2**0.5) for a, b in pairs], -1)
+    return np.einsum("ij,ijk,ijl->ikl", w / s.distance**2, dd, dd), np.einsum("ij,ijk->ik", 2 * w, s.d)
+
+
+def conduction_tensor(Q, S, dx):
+    """B of 8.6."""
+    one, S = np.array([1.0, 1, 1, 0, 0, 0]), S * dx
+    QI = Q @ one
+    if not QI @ one > 0:
+        return np.zeros((3, 3))
+    fade = 0.08 * (QI @ one) / 3
+
+    def solved(target):
+        values, vectors = np.linalg.eigh(Q)
+        return vectors @ (values / (values**2 + fade**2) * (vectors.T @ target))
+
+    even = (QI @ one) / (QI @ QI)
+    B = even * one + solved(one - even * QI)
+    most = 0.62 * (S @ S - 0.1)
+    if most > 0:
+        n, root = S / np.linalg.norm(S), 2**0.5
+        normal = np.array([*n**2, root * n[1] * n[2], root * n[0] * n[2], root * n[0] * n[1]])
+        taken = solved(normal)
+        along, per_f = normal @ B, normal @ taken
+        B = B - (most if per_f * most <= along else max(along / per_f, 0.0)) * taken
+    xx, yy, zz, yz, xz, xy = B / np.array([1, 1, 1, 2**0.5, 2**0.5, 2**0.5])
+    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
 
 
 def pseudo_inverse(M, cut):
@@ -129,9 +157,9 @@ def pseudo_inverse(M, cut):
 
 def heat_corrected(s):
     """dH_i/dt of 8.6, what its magnitudes sum to, and the sum of G_ij."""
-    V, k, T, A = s.m / s.material("density"), s["conductivity"], s["temperature"], s.symmetric("moment_inverse")
+    V, k, T, B = s.m / s.material("density"), s["conductivity"], s["temperature"], s.symmetric("moment_inverse")
     e = s.d / s.distance[..., None]
-    along = 0.5 * (np.einsum("ijk,ikl,ijl->ij", e, A, e) + np.einsum("ijk,jkl,ijl->ij", e, A, e))
+    along = 0.5 * np.maximum(np.einsum("ijk,ikl,ijl->ij", e, B, e) + np.einsum("ijk,jkl,ijl->ij", e, B, e), 0)
     G = V[:, None] * V[None, :] * 2 * k[:, None] * k[None, :] / (k[:, None] + k[None, :]) * along * -2 * s.slope_over_r
     return (
         (G * (T[None, :] - T[:, None])).sum(axis=1),

@@ -55,7 +55,8 @@ EffectSpec spec_of_form(const Scene& scene) {
   return {"heat",
           Mode::corrected,
           {field::temperature, field::enthalpy, field::heat_rate, field::heat_rate_before, field::conductance,
-           field::heat_capacity, field::conductivity, field::rest_volume, field::held, field::moment_inverse},
+           field::heat_capacity, field::conductivity, field::rest_volume, field::held, field::moment_inverse,
+           field::spread, field::spread_rest, field::lean},
           read_by_both()};
 }
 
@@ -73,6 +74,10 @@ EffectSpec spec(const Scene& scene) {
   s.guarded_entries = guarded_entries;
   s.guards = {{field::temperature, "temperature", Written::drift, "K, below absolute zero"}};
   s.positive = {field::heat_capacity};
+  if (s.mode == Mode::corrected) {
+    s.step_numbers = {b_held_for};
+    s.own_sums.state = columns_of_all(field::moment_inverse);
+  }
   if (s.mode == Mode::paper)
     s.guards.push_back({field::temperature_rate, "temperature_rate", Written::rates});
   else

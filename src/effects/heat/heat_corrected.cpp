@@ -19,8 +19,7 @@ namespace tripoint::heat {
 namespace {
 
 constexpr double small_step = 0.005;  ///< of dx^2 over the greatest diffusivity (decision 040)
-/// Eigenvalues of M_i below this share of the largest count as none (model 8.6)
-constexpr double moment_cut = 0.05;
+constexpr double steps_held = 3.0;    ///< that take the same B_i (decision 048)
 
 /// H = m (c_p T + L f) [J] at the particle's temperature, and the extra heat of the liquid above t_melt.
 double heat_content(const State& state, std::size_t row) {
@@ -132,6 +131,21 @@ std::vector<double> least_capacities(const State& state) {
 
 }  // namespace
 
+namespace {
+
+bool is_small(const State& state, double dt) {
+  return dt * greatest_diffusivity(state.scene) <= small_step * state.scene.spacing * state.scene.spacing;
+}
+
+/// A few steps take the same B_i; where matter has changed they are formed anew.
+void decide_what_is_held(State& state) {
+  double& held = state.step_numbers[b_held_for];
+  state.holds_sums = state.can_hold_sums && held > 0.0 && held < steps_held && state.change.empty();
+  if (!state.holds_sums) held = 0.0;
+}
+
+}  // namespace
+
 void CorrectedHeat::load(State& state, const InitialState& initial) {
   load_common(state, initial);
   surfaces_.load(state, initial);
@@ -157,6 +171,7 @@ void CorrectedHeat::adopt(State& state) {
 
 /// First stage: an Euler step with the rates of the old time, which are kept for the second.
 void CorrectedHeat::drift(State& state, double dt) {
+  state.step_numbers[b_held_for] += 1.0;
   const auto rate = state.particles[field::heat_rate];
   std::ranges::copy(rate, state.particles[field::heat_rate_before].begin());
   surfaces_.accumulate(state, Stage::first, dt);
@@ -169,7 +184,7 @@ bool CorrectedHeat::correct(State& state, double dt) {
   surfaces_.accumulate(state, Stage::last, dt);
   const auto rate = state.particles[field::heat_rate], before = state.particles[field::heat_rate_before];
   add_heat(state, Stage::last, [&](std::size_t i) { return 0.5 * dt * (rate[i] - before[i]); });
-  return dt * greatest_diffusivity(state.scene) > small_step * state.scene.spacing * state.scene.spacing;
+  return !is_small(state, dt);
 }
 
 void CorrectedHeat::clear(State& state, PassName pass) {
@@ -177,20 +192,26 @@ void CorrectedHeat::clear(State& state, PassName pass) {
   if (pass != PassName::density) {
     for (const auto* f : {&field::heat_rate, &field::conductance}) fill(p[*f], 0.0, state.threads);
   } else {
+    decide_what_is_held(state);
+    if (state.holds_sums) return;
     for (const auto* f : HeatMoment::adds::list) fill(p[*f], 0.0, state.threads);
   }
   surfaces_.start_sums(state, pass);
 }
 
-/// pinv M_i of every particle, in the place of the M_i that the density pass has just summed.
+/// B_i of every particle, of the sums of the density pass.
 void CorrectedHeat::state(State& state) {
-  if (!state.moved) return;
+  if (!state.moved || state.holds_sums) return;
   Particles& p = state.particles;
-  const auto inverse = symmetric_columns(p, field::moment_inverse);
+  const auto B = symmetric_columns(p, field::moment_inverse), spread = symmetric_columns(p, field::spread);
+  const auto rest = matrix_columns(p, field::spread_rest).a;
+  const auto lean = triple(p, field::lean);
+  const double dx = state.scene.spacing;
 #pragma omp parallel for schedule(static) num_threads(state.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const Symmetric a = pseudo_inverse(inverse.at(i), moment_cut);
-    inverse.set(i, a);
+    ConductionSums sums{spread.at(i), {}, lean.at(i)};
+    for (std::size_t k = 0; k < rest.size(); ++k) sums.rest[k] = rest[k][i];
+    B.set(i, conduction_tensor(sums, dx));
   }
 }
 
@@ -235,6 +256,7 @@ void CorrectedHeat::add_to(const State& state, Ledger& ledger) const {
 PairWork CorrectedHeat::pair_work(const Scene&) const {
   PairWork work{{pair_term<HeatMoment>, pair_term<HeatFlowCorrected>}};
   work.again = true;
+  work.held = {pair_term<HeatMoment>};
   return work;
 }
 

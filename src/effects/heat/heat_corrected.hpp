@@ -5,6 +5,9 @@
 
 namespace tripoint::heat {
 
+/// Steps since B_i were formed.
+inline constexpr StepNumber b_held_for{"heat_steps_held", 0.0};
+
 /// (21) in the enthalpy form of model 8.6. Two-stage strong-stability-preserving Runge-Kutta [Shu & Osher
 /// 1988, (2.16)]. It is a convex mix of Euler steps, so that a step within the bound makes no new extremes.
 /// It is second order in time. With one Euler step at the bound the temporal error would be as large as the

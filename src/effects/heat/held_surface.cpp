@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "effects/heat/fields.hpp"
+#include "effects/heat/heat_terms.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/geometry.hpp"
 #include "scene/scene_keys.hpp"
@@ -189,6 +190,7 @@ bool has_sources(const Scene& scene, const Body& b) {
 }
 
 constexpr std::array<const Field<double>*, 6> inverse = columns_of(field::moment_inverse);
+constexpr std::array<const Field<double>*, 18> sums = HeatMoment::adds::list;
 
 }  // namespace
 
@@ -306,10 +308,14 @@ void HeldSurfaces::add_place(const State& state, std::size_t row, const Vec3& aw
   const double own = state.particles[field::mass][row] / state.material_of(row).density;
   const double r = norm(away), K = -2.0 * kernel.derivative_over_r(r);
   const auto rr = outer(away);
+  const double w = 0.5 * volume * K;
   for (std::size_t c = 0; c < 6; ++c) {
-    near.moment[c] += 0.5 * volume * K * rr[c];
-    near.exchange[c] += own * volume * K * rr[c] / (r * r * within);
+    near.moment[c] += w * rr[0] * rr[c] / (r * r);
+    near.exchange[c] += 2.0 * own * w * rr[c] / (r * r * within);
   }
+  for (std::size_t c = 1; c < 6; ++c) near.moment[5 + c] += w * rr[1] * rr[c] / (r * r);
+  for (std::size_t c = 2; c < 6; ++c) near.moment[9 + c] += w * rr[2] * rr[c] / (r * r);
+  for (std::size_t c = 0; c < 3; ++c) near.moment[15 + c] += 2.0 * w * away[c];
 }
 
 void HeldSurfaces::renumber(const State& state) {
@@ -329,7 +335,8 @@ HeldSurfaces::Flow HeldSurfaces::flow(const State& state, std::size_t row, const
   const Particles& p = state.particles;
   double sum = 0.0;
   for (std::size_t c = 0; c < 6; ++c) sum += (c < 3 ? 1.0 : 2.0) * p[*inverse[c]][row] * near.exchange[c];
-  const double k = p[field::conductivity][row], T = p[field::temperature][row], conductance = k * sum;
+  const double k = p[field::conductivity][row], T = p[field::temperature][row],
+               conductance = k * std::max(sum, 0.0);
   if (near.sources == 0) return {conductance * (near.temperature - T), conductance};
   const auto surface = sources_->balance(near.sources, state.time, k / near.depth, T);
   return {conductance * (surface.temperature - T),
@@ -341,7 +348,7 @@ void HeldSurfaces::start_sums(State& state, PassName pass) const {
   for (const Near& near : near_) {
     const std::size_t i = p.row(near.id);
     if (pass == PassName::density) {
-      for (std::size_t c = 0; c < 6; ++c) p[*inverse[c]][i] += near.moment[c];
+      for (std::size_t c = 0; c < sums.size(); ++c) p[*sums[c]][i] += near.moment[c];
       continue;
     }
     const Flow now = flow(state, i, near);

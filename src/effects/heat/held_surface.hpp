@@ -34,8 +34,8 @@ class HeldSurfaces {
   void load(State&, const InitialState&);
   /// Finds the particles that this process has by their new ids (Effect::renumber).
   void renumber(const State&);
-  /// Sums of a pass start with the share of the places beyond, not with 0. In the pass of densities this is
-  /// M_i, in others the flow of heat [W] and the conductance [W/K].
+  /// Sums of a pass start with the share of the places beyond, not with 0. In the pass of densities these are
+  /// Q_i and S_i, in others the flow of heat [W] and the conductance [W/K].
   void start_sums(State&, PassName) const;
   /// Accumulates the heat that a stage takes from held surfaces, on the energy account `walls` and by body.
   /// Call it before the stage.
@@ -47,10 +47,10 @@ class HeldSurfaces {
   /// sources.
   struct Near {
     std::uint32_t id = 0;
-    double temperature = 0.0;        ///< of a held surface [K]
-    std::uint32_t sources = 0;       ///< that act at the surface; 0: it is held
-    double depth = 0.0;              ///< of the particle below a surface with sources [m]
-    std::array<double, 6> moment{};  ///< sum 1/2 V K r r^T of the places: xx, yy, zz, yz, xz, xy
+    double temperature = 0.0;         ///< of a held surface [K]
+    std::uint32_t sources = 0;        ///< that act at the surface; 0: it is held
+    double depth = 0.0;               ///< of the particle below a surface with sources [m]
+    std::array<double, 18> moment{};  ///< sums of the places, as HeatMoment adds them
     /// Sum V_i V K e e^T over the share of the way that lies within the body [m]
     std::array<double, 6> exchange{};
   };
