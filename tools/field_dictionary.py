@@ -98,9 +98,16 @@ def words_from(root):
     return words
 
 
+def kind_of(field):
+    """Components of a value, and what carries it; a scalar of a particle says neither."""
+    parts = [",".join(field["components"])] if field["components"] != ["1"] else []
+    parts += [f"({field['per']})"] if field["per"] != "particle" else []
+    return "".join(" " + part for part in parts)
+
+
 def table(fields, words, root):
     """The table of all fields. @raises Wrong"""
-    rows = ["| field | components | per | symbol | unit | owner | meaning |", "|---|---|---|---|---|---|---|"]
+    rows = ["| field | symbol | unit | owner | meaning |", "|---|---|---|---|---|"]
     for path, name, symbol, meaning in words:
         shown, folder = path.relative_to(root.parent), path.parent
         if name not in fields:
@@ -108,10 +115,8 @@ def table(fields, words, root):
         field = fields[name]
         if folder.parent.name == "effects" and folder.name not in field["owners"]:
             raise Wrong(f"{shown}: {name} is a field of {', '.join(sorted(field['owners']))}: move the line")
-        rows.append(
-            f"| `{name}` | {' '.join(field['components'])} | {field['per']} | {symbol} | {field['unit']} | "
-            f"{', '.join(sorted(field['owners']))} | {meaning} |"
-        )
+        owners = ", ".join(sorted(field["owners"]))
+        rows.append(f"| `{name}`{kind_of(field)} | {symbol} | {field['unit']} | {owners} | {meaning} |")
     for name in sorted(fields.keys() - {name for _, name, _, _ in words}):
         owner = min(fields[name]["owners"])
         raise Wrong(

@@ -96,14 +96,16 @@ std::string function_page(const ReferenceFunction& f) {
   const bool all = measuring.size() == measuring_arguments().size();
   std::string meaning = f.meaning;
   meaning[0] = static_cast<char>(std::toupper(meaning[0]));
-  std::string out = fmt::format("### `{}`\n\n{}. Source: {} ({}).\n\n", f.name, meaning, f.source, f.kind);
+  const std::string kind = f.kind == "analytic" ? "" : fmt::format(" ({})", f.kind);
+  std::string out = fmt::format("### `{}`\n\n{}. Source: {}{}.\n\n", f.name, meaning, f.source, kind);
   out += argument_list(all ? own : f.args);
   if (all) out += "It also takes the [measuring arguments](#measuring-arguments).\n\n";
   return out;
 }
 
 std::string page() {
-  std::string out = case_reference_page() + "## Reference functions\n\n";
+  std::string out =
+      case_reference_page() + "## Reference functions\n\nAnalytic, where no other kind is named.\n\n";
   for (const auto& f : reference_functions()) out += function_page(f);
   out += "### Measuring arguments\n\n" + argument_list(measuring_arguments());
   return out + word_list("Quantities", metric_quantities()) + word_list("Norms", metric_norms());

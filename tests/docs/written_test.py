@@ -76,7 +76,7 @@ class Dictionary(unittest.TestCase):
     def test_the_added_effect_has_its_row_by_its_folder_alone(self):
         root = SOURCE / "tests/effects"
         rows = table(fields_from(of_drag()), words_from(root), root).splitlines()
-        self.assertEqual(rows[2:], ["| `drag_force` | x y z | particle | F | N | drag | force of drag, -c m v |"])
+        self.assertEqual(rows[2:], ["| `drag_force` x,y,z | F | N | drag | force of drag, -c m v |"])
 
     def test_types_owners_and_a_missing_symbol_are_shown(self):
         columns = [
@@ -96,9 +96,9 @@ class Dictionary(unittest.TestCase):
         self.assertEqual(
             rows.splitlines()[2:],
             [
-                "| `a.b` | Vec3 | body | - | m | drag | place |",
-                "| `n` | 1 | particle | n | 1 | drag, wind | number |",
-                "| `q` | Quaternion | particle | - | 1 | drag | turn |",
+                "| `a.b` Vec3 (body) | - | m | drag | place |",
+                "| `n` | n | 1 | drag, wind | number |",
+                "| `q` Quaternion | - | 1 | drag | turn |",
             ],
         )
 

@@ -97,7 +97,7 @@ Dictionary catalogue() {
       if (first) continue;
       EXPECT_EQ(at->second.unit, entry.unit) << name;
       EXPECT_EQ(at->second.owners, entry.owners) << name;
-      at->second.components += " " + component;
+      at->second.components += "," + component;
     }
   }
   return all;
@@ -109,7 +109,8 @@ std::string without_ticks(std::string cell) {
   return first == std::string::npos ? "" : cell.substr(first, cell.find_last_not_of(' ') - first + 1);
 }
 
-/// Rows of the table of chapter 13: field, components, per, symbol, unit, owner, meaning.
+/// Rows of the table of chapter 13: field with components and carrier, symbol, unit, owner, meaning. Neither
+/// is said of a scalar of a particle.
 Dictionary dictionary() {
   const std::string text = text_of(fs::path(TRIPOINT_SOURCE_DIR) / "docs/model.md");
   const auto from = text.find("<a id=\"13-fields\">"), to = text.find("<a id=\"14-readings\">");
@@ -121,11 +122,17 @@ Dictionary dictionary() {
     std::vector<std::string> cells;
     std::istringstream row(line.substr(1));
     for (std::string cell; std::getline(row, cell, '|');) cells.push_back(without_ticks(cell));
-    EXPECT_EQ(cells.size(), 7U) << line;
-    if (cells.size() != 7) continue;
-    EXPECT_FALSE(cells[3].empty() || cells[6].empty()) << "no symbol or no meaning: " << line;
-    EXPECT_TRUE(all.try_emplace(cells[0], Entry{cells[1], cells[2], cells[4], cells[5]}).second)
-        << "twice: " << cells[0];
+    EXPECT_EQ(cells.size(), 5U) << line;
+    if (cells.size() != 5) continue;
+    EXPECT_FALSE(cells[1].empty() || cells[4].empty()) << "no symbol or no meaning: " << line;
+    std::istringstream words(cells[0]);
+    std::string name, components = "1", carrier = "particle";
+    words >> name;
+    for (std::string word; words >> word;)
+      (word.starts_with('(') ? carrier : components) =
+          word.starts_with('(') ? word.substr(1, word.size() - 2) : word;
+    EXPECT_TRUE(all.try_emplace(name, Entry{components, carrier, cells[2], cells[3]}).second)
+        << "twice: " << name;
   }
   return all;
 }
@@ -135,7 +142,7 @@ TEST(FieldDictionary, SaysOfEveryFieldWhatTheCatalogueAndTheEffectsSay) {
   ASSERT_GT(code.size(), 50U);
   for (const auto& [name, entry] : code) {
     const auto row = page.find(name);
-    const std::string right = "| `" + name + "` | " + entry.components + " | " + entry.per + " | SYMBOL | " +
+    const std::string right = "| `" + name + "` " + entry.components + " (" + entry.per + ") | SYMBOL | " +
                               entry.unit + " | " + entry.owners + " | MEANING |";
     EXPECT_TRUE(row != page.end() && row->second == entry)
         << "docs/model.md, chapter 13, should have the row\n"

@@ -22,11 +22,17 @@ std::string cell(std::string_view text) {
 
 std::string code(std::string_view name) { return fmt::format("`{}`", name); }
 
+/// The range of a number in the signs of mathematics.
+std::string_view range_signs(Range range) {
+  constexpr std::array signs{"", "> 0", ">= 0", "0 to 1", "-1 to 0.5", "> 1"};
+  return signs.at(static_cast<std::size_t>(range));
+}
+
 std::string type_words(const Key& k) {
   std::string text(k.type == ValueType::tables && k.words.empty() ? "three rows of three numbers"
                                                                   : type_text(k.type));
   if (!k.unit.empty()) text += fmt::format(", {}", k.unit);
-  if (k.range != Range::any) text += fmt::format(", {}", range_text(k.range));
+  if (k.range != Range::any) text += fmt::format(", {}", range_signs(k.range));
   if (k.required()) text += ", **required**";
   if (k.words.empty() || (k.type != ValueType::word && k.type != ValueType::words)) return text;
   return fmt::format("{}: `{}`", text, fmt::join(split_words(k.words), "` `"));

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "validation/results/results_schema.hpp"
@@ -69,43 +71,53 @@ struct Row {
 /// The objects of these paths have lists of their own.
 bool has_own_list(const std::string& path) { return path == "cases" || path == "engines" || path == "runs"; }
 
-void add_rows(std::vector<Row>& rows, const Json& object, const std::string& prefix);
+/// The list of the keys of an object and of those in it.
+class KeyList {
+ public:
+  explicit KeyList(const Json& object) { add(object, ""); }
 
-/// Keys of the objects that a value holds.
-void add_inner(std::vector<Row>& rows, const Json& value, const std::string& path) {
-  if (value.contains("properties"))
-    add_rows(rows, value, path + ".");
-  else if (value.contains("items"))
-    add_inner(rows, value["items"], path + "[]");
-  else if (value.contains("additionalProperties"))
-    add_inner(rows, value["additionalProperties"], path + ".NAME");
-}
-
-/// Keys of one type and meaning that follow each other share a row.
-void add_rows(std::vector<Row>& rows, const Json& object, const std::string& prefix) {
-  bool joins = false;
-  for (const auto& [name, value] : object["properties"].items()) {
-    const auto& required = object["required"];
-    const bool is_there = std::find(required.begin(), required.end(), name) != required.end();
-    const Row row{fmt::format("`{}{}`", prefix, name), type_words(value) + (is_there ? "" : ", *opt*"),
-                  meaning(value)};
-    if (joins && rows.back().type == row.type && rows.back().meaning == row.meaning)
-      rows.back().keys += ", " + row.keys;
-    else
-      rows.push_back(row);
-    const std::size_t before = rows.size();
-    if (!has_own_list(prefix + name)) add_inner(rows, value, prefix + name);
-    joins = rows.size() == before;
+  [[nodiscard]] std::string text(const std::string& title) const {
+    std::string out = fmt::format("## {}\n\n", title);
+    for (const Row& row : rows_) out += fmt::format("- {} ({}): {}\n", row.keys, row.type, row.meaning);
+    return out + "\n";
   }
-}
 
-std::string list_of(const std::string& title, const Json& object) {
-  std::vector<Row> rows;
-  add_rows(rows, object, "");
-  std::string out = fmt::format("## {}\n\n", title);
-  for (const Row& row : rows) out += fmt::format("- {} ({}): {}\n", row.keys, row.type, row.meaning);
-  return out + "\n";
-}
+ private:
+  /// Keys of one type and meaning that follow each other share a row.
+  void add(const Json& object, const std::string& prefix) {
+    bool joins = false;
+    for (const auto& [name, value] : object["properties"].items()) {
+      const auto& required = object["required"];
+      const bool is_there = std::find(required.begin(), required.end(), name) != required.end();
+      const Row row{fmt::format("`{}{}`", prefix, name), type_words(value) + (is_there ? "" : ", *opt*"),
+                    meaning(value)};
+      if (joins && rows_.back().type == row.type && rows_.back().meaning == row.meaning)
+        rows_.back().keys += ", " + row.keys;
+      else
+        rows_.push_back(row);
+      const std::size_t before = rows_.size();
+      if (!has_own_list(prefix + name)) add_inner(value, prefix + name);
+      joins = rows_.size() == before;
+    }
+  }
+  /// Keys of the objects that a value holds. Keys that are listed already are those of that place.
+  void add_inner(const Json& value, const std::string& path) {
+    if (value.contains("properties")) {
+      const auto [at, is_new] = listed_.try_emplace(value["properties"].dump(), path);
+      if (is_new)
+        add(value, path + ".");
+      else
+        rows_.back().meaning += fmt::format("; keys as of `{}`", at->second);
+    } else if (value.contains("items")) {
+      add_inner(value["items"], path + "[]");
+    } else if (value.contains("additionalProperties")) {
+      add_inner(value["additionalProperties"], path + ".NAME");
+    }
+  }
+
+  std::vector<Row> rows_;
+  std::map<std::string, std::string> listed_;  ///< properties -> where they are listed
+};
 
 }  // namespace
 
@@ -115,9 +127,9 @@ std::string results_page() {
   const Json& engine = of_case["properties"]["engines"]["items"];
   const Json& run = engine["properties"]["runs"]["items"];
   std::string out(introduction);
-  out += list_of("The whole", whole) + list_of("A case: `cases[]`", of_case);
-  out += list_of("An engine and preset: `cases[].engines[]`", engine);
-  out += list_of("A run: `cases[].engines[].runs[]`", run);
+  out += KeyList(whole).text("The whole") + KeyList(of_case).text("A case: `cases[]`");
+  out += KeyList(engine).text("An engine and preset: `cases[].engines[]`");
+  out += KeyList(run).text("A run: `cases[].engines[].runs[]`");
   out.pop_back();
   return out;
 }
