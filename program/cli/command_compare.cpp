@@ -87,7 +87,7 @@ int compare(const CompareOptions& o) {
   const auto words = sort_engine_words(split(o.engines));
   SuiteOptions options;
   options.out = o.out.empty() ? own_folder("compare", value.id) : o.out;
-  if (o.sandbox) sandbox_third_parties(options.out);
+  if (o.sandbox) sandbox_third_parties(options.out, o.jobs);
   options.selection.engines = words.names;
   for (const auto& path : words.paths) options.selection.engines.push_back(ask_engine(path).name);
   if (options.selection.engines.size() < 2)
@@ -149,7 +149,7 @@ int converge(const ConvergeOptions& o) {
   const auto words = sort_engine_words(files_as_paths({o.engine}));
   SuiteOptions options;
   options.out = o.out.empty() ? own_folder("converge", value.id) : o.out;
-  if (o.sandbox) sandbox_third_parties(options.out);
+  if (o.sandbox) sandbox_third_parties(options.out, o.jobs);
   options.selection.engines =
       words.paths.empty() ? words.names : std::vector<std::string>{ask_engine(words.paths.front()).name};
   value.studies.front().engine = options.selection.engines.front();

@@ -86,7 +86,7 @@ std::vector<Case> cases_of(const GateAdoptOptions& o) {
 }
 
 EngineEntry engine_of(const GateAdoptOptions& o, std::vector<EngineEntry>& engines) {
-  if (o.sandbox) sandbox_third_parties(o.adopt.work);
+  if (o.sandbox) sandbox_third_parties(o.adopt.work, o.adopt.jobs);
   const auto words = sort_engine_words(files_as_paths({o.engine}));
   engines = discover_engines(words.paths);
   const std::string name = words.paths.empty() ? o.engine : ask_engine(words.paths.front()).name;

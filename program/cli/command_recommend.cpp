@@ -96,7 +96,7 @@ std::string metric_of(const RecommendOptions& o, const Case& value) {
 CaseResult measure(const RecommendOptions& o, const Case& value,
                    const std::function<bool(const RunPlan&)>& wanted) {
   const auto words = sort_engine_words(split(o.engines));
-  if (o.sandbox) sandbox_third_parties(o.out);
+  if (o.sandbox) sandbox_third_parties(o.out, o.jobs);
   SuiteOptions options;
   options.selection.engines = words.names;
   for (const auto& path : words.paths) options.selection.engines.push_back(ask_engine(path).name);

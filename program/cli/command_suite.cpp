@@ -162,7 +162,7 @@ int run_worker(const std::string& typed, const std::string& shard, WorkOptions o
   o.say = [](const std::string& line) { say(line); };
   const auto start = std::chrono::steady_clock::now();
   go_to_its_folder(opened);
-  if (sandbox) sandbox_third_parties(opened.dir);
+  if (sandbox) sandbox_third_parties(opened.dir, o.jobs);
   const auto done = work(opened.dir, opened.queue, engines_of(opened.queue, o.rows), o);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   print_line(fmt::format(

@@ -204,7 +204,7 @@ int validate(ValidateOptions o) {
   fit_threads(o.suite);
   auto lock = hold_earlier(o.suite.out);
   choose_cases(o);
-  if (o.sandbox) sandbox_third_parties(o.suite.out);
+  if (o.sandbox) sandbox_third_parties(o.suite.out, o.suite.jobs);
   auto cases = cases_of(o, lock.has_value());
   const auto engines = engines_asked_for(o.engines.words(), o.suite.selection);
   if (o.profile == "acceptance") add_all_presets(cases, engines, o.suite.selection.asked);

@@ -399,8 +399,25 @@ resource.RLIMIT_NPROC, resource.RLIMIT_CPU)]
             os.mkdir(f"/tmp/{n}")
         open(f"/tmp/{n // 1000 * 1000}/{n}", "w").close()
 """)
-        self.assertIn("more than 100000 files in memory", said)
+        self.assertIn("more than 20000 files in memory", said)
         self.assertLess(seconds, 60.0)
+
+    def test_many_at_once_share_the_memory(self):
+        """500 at once have some 30 MB each."""
+        self.insert(
+            'import sys\nif sys.argv[1] == "--run":\n    m = b"x" * (200 << 20)\n    import time\n    time.sleep(3)\n'
+        )
+        for jobs, killed in (("1", False), ("500", True)):
+            results = self.validate("--sandbox", "--jobs", jobs)[1]
+            reasons = [e["reason"] for e in results["cases"][0]["engines"] if e["name"] == "mine"]
+            self.assertEqual("MB of memory" in reasons[0], killed, reasons)
+
+    def test_folders_that_nest_without_end_end_it_and_go(self):
+        self.insert('import os, sys\nwhile sys.argv[1] == "--run":\n    os.mkdir("d")\n    os.chdir("d")')
+        done = self.run_in([TRIPOINT, "run", "rigid/ballistic", "--engine", self.engine, "--sandbox", "--out", "out"])
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertIn("the sandbox has folders more than 64 deep", done.stdout + done.stderr)
+        self.assertLess(len(list((self.folder / "out").iterdir())), 20)
 
     def test_its_memory_is_a_share_of_what_its_group_has_free(self):
         """The machine is not asked for more than 300 MB."""

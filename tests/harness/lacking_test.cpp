@@ -75,6 +75,21 @@ TEST(Baselines, AreNotAcceptedWhereAnAcceptedRunEndedEarlyThatNoGateJudges) {
   EXPECT_NE(said.find("test/one tripoint/time_step=0.5: REMOVED, killed"), std::string::npos) << said;
 }
 
+TEST(Baselines, HoldNothingOfAnEngineThatNoGateJudges) {
+  Kept kept;
+  auto& guest = kept.r.cases[0].engines.emplace_back(kept.r.cases[0].engines[0]);
+  guest.name = "guest";
+  guest.required = false;
+  kept.r.cases[0].gates[0].engine = "tripoint";
+  guest.runs[0].folder = "runs/test/one/guest/corrected";
+  judge(kept.r);
+  (void)kept.accept_all();
+  const auto file = read_baseline(kept.folder / "baselines/test/one.toml");
+  EXPECT_EQ(file.engines.size(), 1u);
+  ASSERT_EQ(file.cost.size(), 1u);
+  EXPECT_EQ(file.cost[0].run, "tripoint/corrected");
+}
+
 TEST(Baselines, SayWhatElseIsAnotherWhenTheyAreAccepted) {
   Kept kept;
   const auto file = kept.folder / "cases/test/one.toml";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
@@ -143,6 +144,55 @@ ProcessEnd bounded(const SandboxSums& most, const std::string& folder, const std
   spec.most = most;
   spec.wall_limit = 20.0;
   return run_process(spec);
+}
+
+/// Of an engine outside of any sandbox, whose folder is watched.
+ProcessEnd watched(const std::string& folder, const std::string& deeds, std::size_t files = 50) {
+  ProcessSpec spec;
+  spec.argv = {"/bin/sh", "-c", deeds + "; sleep 30"};
+  spec.folder = folder;
+  spec.most.files = files;
+  spec.wall_limit = 25.0;
+  return run_process(spec);
+}
+
+TEST(Process, EndlessOutputEndsIt) {
+  for (const char* stream : {"1", "2"}) {
+    const auto end = run_process(shell(std::string("exec tr '\\0' x </dev/zero >&") + stream));
+    EXPECT_EQ(describe(end), "was killed because it wrote more than 1024 MiB to stdout and stderr");
+  }
+}
+
+TEST(Process, OneThatIsStoppedAndNotLetGoOnIsEnded) {
+  for (const char* deeds : {"kill -STOP $$", "sh -c 'kill -STOP $$'", "sleep 60 & kill -STOP $!; wait"}) {
+    const auto end = run_process(shell(deeds));
+    EXPECT_EQ(describe(end), "was killed because it was stopped (SIGSTOP) and not let go on for 10 s")
+        << deeds;
+    EXPECT_LT(end.wall_s, 20.0);
+  }
+}
+
+TEST(Process, OneThatIsStoppedForAMomentGoesOn) {
+  const auto end = run_process(shell("(sleep 2; kill -CONT $$) & kill -STOP $$; exit 3"));
+  EXPECT_EQ(end.code, 3) << describe(end);
+}
+
+TEST(Process, FloodsOfFoldersEndItAndGoAwayAndWhatWasThereBeforeStays) {
+  const TestFolder folder;
+  write_text(folder / "job.json", "{}");
+  std::filesystem::create_directories(folder / "kept/inner");
+  std::vector<std::pair<const char*, const char*>> floods{
+      {"for n in $(seq 100); do mkdir d$n; done", "more than 53 files"},
+      {"for n in $(seq 100); do ln -s x l$n; done", "more than 53 files"},
+      {"for n in $(seq 3000); do mkdir d && cd d || exit; done", "folders more than 64 deep"}};
+  if (::geteuid() != 0)  // root looks into any folder
+    floods.push_back({"mkdir -p a/b/c; chmod 0 a/b", "a folder that is closed to us"});
+  for (const auto& [deeds, words] : floods) {
+    const auto end = watched(folder / ".", deeds);
+    EXPECT_EQ(describe(end), std::string("was killed because its folder has ") + words);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "."), {}), 2) << deeds;
+    EXPECT_TRUE(std::filesystem::exists(folder / "kept/inner"));
+  }
 }
 
 TEST(Process, FilesThatPassTheirSumGoWithTheRunAndWhatWasThereBeforeStays) {

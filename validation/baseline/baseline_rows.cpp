@@ -81,11 +81,13 @@ std::string run_name(const EngineRow& e, const RunRow& r) {
   return at == std::string::npos ? e.name + "/" + r.group : r.folder.substr(at + 1);
 }
 
+bool is_judged(const EngineRow& e) { return std::ranges::any_of(e.gates, is_accepted); }
+
 std::vector<AcceptedCost> costs_of(const CaseResult& c, const Tool& tool) {
   std::vector<AcceptedCost> list;
   for (const auto& e : c.engines)
     for (const auto& r : e.runs)
-      if (r.status == Status::ok && (r.cost.pairs > 0.0 || r.cost.steps > 0.0))
+      if (is_judged(e) && r.status == Status::ok && (r.cost.pairs > 0.0 || r.cost.steps > 0.0))
         list.push_back(
             {run_name(e, r), r.cost.pairs, r.cost.steps, r.cost.instructions, counted_on(tool, r)});
   return list;
@@ -95,8 +97,7 @@ std::vector<AcceptedEngine> engines_of(const CaseResult& c) {
   std::vector<AcceptedEngine> list;
   for (const auto& e : c.engines) {
     const bool known = std::any_of(list.begin(), list.end(), [&](const auto& a) { return a.name == e.name; });
-    if (!known && std::any_of(e.gates.begin(), e.gates.end(), is_accepted))
-      list.push_back({e.name, one_line(e.version), e.executable_hash});
+    if (!known && is_judged(e)) list.push_back({e.name, one_line(e.version), e.executable_hash});
   }
   return list;
 }

@@ -15,6 +15,9 @@ namespace tripoint {
 [[nodiscard]] bool is_accepted(const GateRow&);
 /// Engine and folder of a run.
 [[nodiscard]] std::string run_name(const EngineRow&, const RunRow&);
+/// Whether a gate of the case has accepted anything of this engine and preset: a baseline holds nothing else.
+[[nodiscard]] bool is_judged(const EngineRow&);
+/// Of runs of judged engines.
 [[nodiscard]] std::vector<AcceptedCost> costs_of(const CaseResult&, const Tool&);
 /// Engines that a gate judges, once each.
 [[nodiscard]] std::vector<AcceptedEngine> engines_of(const CaseResult&);

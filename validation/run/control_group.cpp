@@ -141,7 +141,7 @@ std::string ControlGroup::passed() const {
       std::ifstream in(folder / file);
       for (std::string key, value; in >> key >> value;)
         if (key == "oom_kill" && std::atof(value.c_str()) > 0.0)
-          return fmt::format("more than {:.0f} MB of memory", memory_ / 1e6);
+          return fmt::format("the sandbox has more than {:.0f} MB of memory", memory_ / 1e6);
     }
   return {};
 }

@@ -42,6 +42,7 @@ using Clock = std::chrono::steady_clock;
 // [s] from SIGTERM to SIGKILL, for an engine that writes a checkpoint before it ends
 constexpr double grace = 10.0;
 constexpr std::size_t kept_output = 4u << 20, kept_log = 1u << 20, kept_tail = 4096;
+constexpr std::size_t most_told = 1u << 30;  ///< [bytes]: who tells more tells without end
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -294,27 +295,28 @@ void adopt_orphans() {
   std::call_once(once, [] { prctl(PR_SET_CHILD_SUBREAPER, 1); });
 }
 
-/// Files that pass their sum in less than a look take the run's good end from it.
-void end_at_left_files(SandboxWatch& watch, ProcessEnd& end) {
-  auto words = watch.passed_at_end();
-  if (words.empty() || !end.passed.empty()) return;
-  end.passed = std::move(words);
+void kill_for(std::string why, ProcessEnd& end) {
+  if (why.empty()) return;
+  end.passed = std::move(why);
   end.how = ProcessEnd::How::signalled;
   end.code = SIGKILL;
 }
 
 /// Follows the child's streams until it ends, is out of time, or we are stopped.
-void follow(const ProcessSpec& spec, pid_t pid, int out, int err, BoundedLog& log, ProcessEnd& end) {
+void follow(const ProcessSpec& spec, pid_t pid, int out, int err, BoundedLog& log, SandboxWatch& watch,
+            ProcessEnd& end) {
   const auto start = Clock::now();
   ProgressLines progress(spec.progress, spec.status);
+  std::size_t told = 0;
   const auto take_output = [&](const char* p, std::size_t n) {
+    told += n;
     end.output.append(p, std::min(n, kept_output - std::min(kept_output, end.output.size())));
   };
   const auto take_log = [&](const char* p, std::size_t n) {
+    told += n;
     log.add(p, n);
     progress.add(p, n);
   };
-  SandboxWatch watch(spec.most, spec.most.bytes > 0.0 ? spec.folder : "");
   const Descriptor child(static_cast<int>(syscall(SYS_pidfd_open, pid, 0)));
   std::array<pollfd, 3> wait{pollfd{out, POLLIN, 0}, pollfd{err, POLLIN, 0}, pollfd{child.get(), POLLIN, 0}};
   bool reaped = false;
@@ -330,12 +332,10 @@ void follow(const ProcessSpec& spec, pid_t pid, int out, int err, BoundedLog& lo
       end.how = ProcessEnd::How::timed_out;
       break;
     }
-    if (spec.in_sandbox) end.passed = watch.passed(pid);
-    if (!end.passed.empty()) {
-      end.how = ProcessEnd::How::signalled;
-      end.code = SIGKILL;
-      break;
-    }
+    kill_for(told > most_told ? fmt::format("it wrote more than {} MiB to stdout and stderr", most_told >> 20)
+                              : watch.passed(pid),
+             end);
+    if (!end.passed.empty()) break;
     end.peak_bytes = std::max(end.peak_bytes, peak_of(pid));
     if (spec.in_sandbox && inside == 0)
       for (const pid_t first : children_of(pid)) inside = first;
@@ -361,7 +361,6 @@ void follow(const ProcessSpec& spec, pid_t pid, int out, int err, BoundedLog& lo
     end.code = stopped_by();
   }
   end_group(pid, end, reaped);
-  if (spec.in_sandbox) end_at_left_files(watch, end);
   add_cost_inside(inside, end);
   drain(out, take_output);
   drain(err, take_log);
@@ -399,6 +398,7 @@ ProcessEnd run_process(const ProcessSpec& spec) {
   for (const int end_of_child : {out[1], err[1]}) ::fcntl(end_of_child, F_SETFL, 0);
   pid_t pid = -1;
   BoundedLog log(spec.log);  // before anybody can put something in its place
+  SandboxWatch watch(spec.most, spec.folder);
   const InstructionCounter counter;
   const std::string mark = new_stray_mark();
   if (const int error = spawn(spec, group.begun_inside(spec.argv), mark, out[1], err[1], pid); error != 0) {
@@ -408,13 +408,12 @@ ProcessEnd run_process(const ProcessSpec& spec) {
   bound_resources(pid);
   out_write.reset();
   err_write.reset();
-  follow(spec, pid, out[0], err[0], log, end);
+  follow(spec, pid, out[0], err[0], log, watch, end);
   end_strays(mark);
+  auto left_files = watch.passed_at_end();  // they may pass their sum in less than a look
+  if (end.passed.empty()) kill_for(std::move(left_files), end);
   if (end.passed.empty() && !(end.how == ProcessEnd::How::exited && end.code == 0))
-    if (end.passed = group.passed(); !end.passed.empty()) {
-      end.how = ProcessEnd::How::signalled;
-      end.code = SIGKILL;
-    }
+    kill_for(group.passed(), end);
   end.log_tail = log.close();
   end.instructions = counter.read();
   return end;
@@ -434,7 +433,7 @@ std::string describe(const ProcessEnd& end) {
     case ProcessEnd::How::exited:
       return fmt::format("exited with code {}{}", end.code, end.code == 128 + SIGXFSZ ? file_limit : "");
     case ProcessEnd::How::signalled:
-      if (!end.passed.empty()) return "was killed because the sandbox has " + end.passed;
+      if (!end.passed.empty()) return "was killed because " + end.passed;
       if (end.code == SIGXFSZ) return fmt::format("was killed by signal {}{}", end.code, file_limit);
       return fmt::format("was killed by signal {} ({})", end.code, strsignal(end.code));
     case ProcessEnd::How::timed_out:

@@ -34,7 +34,7 @@ struct ProcessSpec {
 struct ProcessEnd {
   enum class How { exited, signalled, timed_out, interrupted, not_started } how = How::not_started;
   int code = 0;               ///< exit code, or the number of the signal that ended it, or us
-  std::string passed;         ///< sum of a sandbox that was passed, in words
+  std::string passed;         ///< why we killed it, in words
   std::string output;         ///< stdout, at most 4 MiB
   std::string log_tail;       ///< last lines of stderr, or why it could not start
   double wall_s = 0.0;        ///< [s]

@@ -112,6 +112,7 @@ ProcessSpec call(const RunRequest& request, const char* verb, double limit) {
   spec.environment = request.environment;
   spec.environment["OMP_NUM_THREADS"] = std::to_string(request.job->threads);
   spec.wall_limit = limit;
+  spec.most.files = most_files;
   return sandboxed(spec, {request.particles});
 }
 

@@ -35,6 +35,7 @@ constexpr double share_of_free_memory = 0.75;     ///< of what is free when it b
 constexpr double most_bytes = 16.0 * (1u << 30);  ///< of the files of one run
 std::atomic<bool> wanted{false};
 fs::path report;  ///< that no engine sees
+int at_once = 1;  ///< sandboxes
 
 /// Who runs what a sandbox holds.
 enum class As {
@@ -169,7 +170,8 @@ bool belongs_to_us(const std::string& executable) {
   return !none && !relative.empty() && *relative.begin() != "..";
 }
 
-void sandbox_third_parties(const std::string& out) {
+void sandbox_third_parties(const std::string& out, int jobs) {
+  at_once = std::max(jobs, 1);
   report = out.empty() ? fs::path() : place_of(out);
   ProcessSpec trial;
   trial.argv = bare(engines_run_as());
@@ -220,7 +222,8 @@ ProcessSpec behind_walls(ProcessSpec spec, const Words& bound, As as) {
   spec.argv = std::move(words);
   spec.in_sandbox = true;
   if (as == As::nobody) spec.lent = spec.folder;
-  spec.most = {share_of_free_memory * free_memory(), most_processes, most_bytes};
+  spec.most = {share_of_free_memory * free_memory() / at_once, most_processes, most_bytes, most_files,
+               at_once};
   return spec;
 }
 

@@ -15,9 +15,10 @@ namespace tripoint {
 
 /// From now on `sandboxed` acts. Asked once, before the first engine is. @param out folder of all runs, of
 /// which no engine sees any but its own; "" where there is none
+/// @param jobs how many engines run at once: each has its part of the free memory and disk
 /// @throws EngineError where bubblewrap is not installed, or this machine lets it make no namespaces: nothing
 /// is run unguarded then
-void sandbox_third_parties(const std::string& out);
+void sandbox_third_parties(const std::string& out, int jobs = 1);
 
 /// Whether it was called.
 [[nodiscard]] bool third_parties_are_sandboxed() noexcept;

@@ -9,8 +9,11 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <limits>
+#include <string_view>
 #include <utility>
 
+#include "validation/run/folder_sums.hpp"
 #include "validation/run/strays.hpp"
 
 namespace tripoint {
@@ -18,7 +21,12 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
-constexpr std::size_t most_files = 100'000;
+constexpr double mega = 1e6;
+constexpr auto without_bound = std::numeric_limits<std::size_t>::max();
+constexpr auto longest_stop = 10s;
+constexpr std::size_t of_bubblewrap = 2;  // bubblewrap, and its first process inside
+constexpr double low = 1.0 / 16.0;        // part of what was free at the start: then whoever takes much ends
+constexpr double much = 0.25;             // part of its own limit
 
 /// A process and all below it; no more than are needed to see that there are too many.
 std::vector<pid_t> processes_from(pid_t outermost, std::size_t enough) {
@@ -26,6 +34,15 @@ std::vector<pid_t> processes_from(pid_t outermost, std::size_t enough) {
   for (std::size_t n = 0; n < all.size() && all.size() <= enough; ++n)
     for (const pid_t child : children_of(all[n])) all.push_back(child);
   return all;
+}
+
+/// R, S, D, T (stopped), ...; 0 where it has ended.
+char state_of(pid_t pid) {
+  constexpr std::string_view key = "State:\t";
+  std::ifstream status(fmt::format("/proc/{}/status", pid));
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with(key) && line.size() > key.size()) return line[key.size()];
+  return 0;
 }
 
 /// Memory of its own, with each page that several share counted once. That takes long to add up, so it is
@@ -40,8 +57,6 @@ double memory_of(const std::vector<pid_t>& all, double most) {
   return shared_out;
 }
 
-double room_of(const struct stat& status) { return 512.0 * static_cast<double>(status.st_blocks); }
-
 /// Files that have lost their names, and whose room is taken while a process has them open.
 double nameless_bytes(const std::vector<pid_t>& all) {
   double sum = 0.0;
@@ -51,28 +66,21 @@ double nameless_bytes(const std::vector<pid_t>& all) {
          at.increment(none)) {
       struct stat status {};
       if (::stat(at->path().c_str(), &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink == 0)
-        sum += room_of(status);
+        sum += 512.0 * static_cast<double>(status.st_blocks);
     }
   }
   return sum;
 }
 
-struct Taken {
-  double bytes = 0.0;
-  std::size_t files = 0;
-};
-
-Taken taken_in(const std::string& folder) {
-  Taken taken;
-  std::error_code none;
-  for (fs::recursive_directory_iterator at(folder, none), end;
-       !none && at != end && taken.files <= most_files; at.increment(none)) {
-    struct stat status {};
-    if (::lstat(at->path().c_str(), &status) != 0) continue;
-    taken.bytes += room_of(status);
-    ++taken.files;
+/// Whether no process runs or waits for anything but a stopped one.
+bool all_stand_still(const std::vector<pid_t>& all) {
+  bool stopped = false;
+  for (const pid_t pid : all) {
+    const char state = state_of(pid);
+    stopped = stopped || state == 'T';
+    if (state != 'T' && (state != 'S' || children_of(pid).empty())) return false;
   }
-  return taken;
+  return stopped;
 }
 
 /// Files in the folders of a process that live in memory.
@@ -119,55 +127,83 @@ double kilobytes(const std::string& file, const std::vector<std::string>& keys) 
 }
 
 SandboxWatch::SandboxWatch(const SandboxSums& most, std::string folder)
-    : most_(most), folder_(std::move(folder)) {
+    : most_(most), is_sandbox_(most.memory > 0.0 || most.processes > 0 || most.bytes > 0.0) {
   constexpr double share = 0.75;
-  if (folder_.empty()) return;
-  if (const double room = free_room(folder_); room > 0.0) most_.bytes = std::min(most_.bytes, share * room);
+  if (most_.memory > 0.0) free_memory_at_start_ = free_memory();
+  if (folder.empty() || !(most_.bytes > 0.0 || most_.files > 0)) return;
+  folder_ = std::move(folder);
   std::error_code none;
   for (fs::directory_iterator at(folder_, none), end; !none && at != end; at.increment(none))
-    at_start_.insert(at->path());
+    at_start_.insert(at->path().filename().string());
+  if (most_.files > 0) most_.files += sums_of_folder(folder_, without_bound).entries;
+  free_room_at_start_ = free_room(folder_);
+  if (most_.bytes > 0.0 && free_room_at_start_ > 0.0)
+    most_.bytes = std::min(most_.bytes, share * free_room_at_start_ / most_.at_once);
 }
 
 std::string SandboxWatch::passed(pid_t outermost) {
   const auto now = Clock::now();
   if (now < next_) return {};
-  std::string words = look(outermost);
+  std::string words = look(outermost, now);
   next_ = Clock::now() + std::clamp<Clock::duration>(10 * (Clock::now() - now), 100ms, 2s);
   return words;
 }
 
-std::string SandboxWatch::passed_at_end() {
-  if (folder_.empty() || !(most_.bytes > 0.0)) return {};
+std::string SandboxWatch::passed_at_end() const {
   std::string words = of_files({});
-  std::error_code none;
-  if (!words.empty())
-    for (fs::directory_iterator at(folder_, none), end; !none && at != end; at.increment(none))
-      if (!at_start_.contains(at->path())) fs::remove_all(at->path(), none);
-  return words;
+  if (words.empty()) return words;
+  remove_flat(folder_, at_start_);
+  return whose() + words;
 }
 
+std::string SandboxWatch::whose() const { return is_sandbox_ ? "the sandbox has " : "its folder has "; }
+
 std::string SandboxWatch::of_files(const std::vector<pid_t>& all) const {
-  constexpr double mega = 1e6;
-  const Taken taken = taken_in(folder_);
-  if (taken.files > most_files) return fmt::format("more than {} files", most_files);
-  if (const double sum = taken.bytes + nameless_bytes(all); sum > most_.bytes)
+  if (folder_.empty()) return {};
+  const FolderSums taken = sums_of_folder(folder_, most_.files > 0 ? most_.files : without_bound);
+  if (most_.files > 0 && !taken.unseen.empty()) return taken.unseen;
+  if (most_.files > 0 && taken.entries > most_.files) return fmt::format("more than {} files", most_.files);
+  if (!(most_.bytes > 0.0)) return {};
+  const double sum = taken.bytes + nameless_bytes(all);
+  if (sum > most_.bytes)
     return fmt::format("{:.0f} MB of files, and {:.0f} MB are allowed", sum / mega, most_.bytes / mega);
+  if (const double left = free_room(folder_); left < low * free_room_at_start_ && sum > much * most_.bytes)
+    return fmt::format("{:.0f} MB of files, and the disk has {:.0f} MB left", sum / mega, left / mega);
   return {};
 }
 
-std::string SandboxWatch::look(pid_t outermost) const {
-  constexpr std::size_t ours = 2;  // bubblewrap, and its first process inside
-  constexpr double mega = 1e6;
-  const auto enough = static_cast<std::size_t>(most_.processes) + ours;
+std::string SandboxWatch::of_memory(const std::vector<pid_t>& all) const {
+  if (!(most_.memory > 0.0)) return {};
+  const double sum = memory_of(all, most_.memory);
+  if (sum > most_.memory)
+    return fmt::format("{:.0f} MB of memory, and {:.0f} MB are allowed", sum / mega, most_.memory / mega);
+  if (sum <= much * most_.memory) return {};
+  if (const double left = free_memory(); left < low * free_memory_at_start_)
+    return fmt::format("{:.0f} MB of memory, and the machine has {:.0f} MB left", sum / mega, left / mega);
+  return {};
+}
+
+bool SandboxWatch::stands_still(const std::vector<pid_t>& all, Clock::time_point now) {
+  // Time in which we were stopped too, as by a queue that pauses a whole job, counts as one look
+  const auto since = std::min<Clock::duration>(now - last_look_, 2s);
+  last_look_ = now;
+  still_for_ = all_stand_still(all) ? still_for_ + since : 0s;
+  return still_for_ > longest_stop;
+}
+
+std::string SandboxWatch::look(pid_t outermost, Clock::time_point now) {
+  const auto enough = static_cast<std::size_t>(most_.processes) + of_bubblewrap;
   const auto all = processes_from(outermost, most_.processes > 0 ? enough : std::size_t{4096});
   if (most_.processes > 0 && all.size() > enough)
-    return fmt::format("more than {} processes", most_.processes);
-  if (const double sum = most_.memory > 0.0 ? memory_of(all, most_.memory) : 0.0; sum > most_.memory)
-    return fmt::format("{:.0f} MB of memory, and {:.0f} MB are allowed", sum / mega, most_.memory / mega);
-  if (folder_.empty() || !(most_.bytes > 0.0)) return {};
-  if (all.size() > ours && files_in_memory(all.back()) > most_files)
-    return fmt::format("more than {} files in memory", most_files);
-  return of_files(all);
+    return fmt::format("{}more than {} processes", whose(), most_.processes);
+  if (stands_still(all, now))
+    return fmt::format("it was stopped (SIGSTOP) and not let go on for {} s", longest_stop / 1s);
+  std::string words = of_memory(all);
+  if (words.empty() && is_sandbox_ && most_.files > 0 && all.size() > of_bubblewrap &&
+      files_in_memory(all.back()) > most_files)
+    words = fmt::format("more than {} files in memory", most_files);
+  if (words.empty()) words = of_files(all);
+  return words.empty() ? words : whose() + words;
 }
 
 LentFolder::LentFolder(std::string folder) : folder_(std::move(folder)) {

@@ -10,12 +10,17 @@
 
 namespace tripoint {
 
-/// Greatest sums over all processes and files of a sandbox. No limit of one process bounds these.
+/// Greatest sums over all processes and files of an engine. No limit of one process bounds these.
 struct SandboxSums {
-  double memory = 0.0;  ///< [bytes], 0 = unbounded
-  int processes = 0;    ///< 0 = unbounded
-  double bytes = 0.0;   ///< of files in its folder, also of removed ones that are open, 0 = unbounded
+  double memory = 0.0;    ///< [bytes], 0 = unbounded
+  int processes = 0;      ///< 0 = unbounded
+  double bytes = 0.0;     ///< of files in its folder, also of removed ones that are open, 0 = unbounded
+  std::size_t files = 0;  ///< in its folder, and of a sandbox in memory, 0 = unbounded
+  int at_once = 1;        ///< engines that share the disk
 };
+
+/// Entries of the folder of any run: an engine that writes more writes without end.
+inline constexpr std::size_t most_files = 20'000;
 
 /// Sum of some lines `KEY:  N kB` of a file [bytes].
 [[nodiscard]] double kilobytes(const std::string& file, const std::vector<std::string>& keys);
@@ -28,22 +33,29 @@ inline constexpr unsigned sandbox_user = 65534;
 /// Looks at all processes below one, and at a folder, a few times a second.
 class SandboxWatch {
  public:
-  /// At most three quarters of the disk's free room are given away.
+  /// At most three quarters of the disk's free room are given away, in parts to all that run at once.
   SandboxWatch(const SandboxSums& most, std::string folder);
-  /// @return the sum that is passed, in words; empty while none is, or where it is no time to look again
+  /// @return why it must end: "the sandbox has ..."; empty while nothing is passed, or where it is no time to
+  /// look again
   [[nodiscard]] std::string passed(pid_t outermost);
   /// The same of what is left where all processes have ended. Where files pass their sum, all that came since
   /// the start goes: a full disk would stop every other run.
-  [[nodiscard]] std::string passed_at_end();
+  [[nodiscard]] std::string passed_at_end() const;
 
  private:
   using Clock = std::chrono::steady_clock;
-  [[nodiscard]] std::string look(pid_t outermost) const;
+  [[nodiscard]] std::string look(pid_t outermost, Clock::time_point now);
+  [[nodiscard]] std::string of_memory(const std::vector<pid_t>& all) const;
   [[nodiscard]] std::string of_files(const std::vector<pid_t>& all) const;
+  [[nodiscard]] bool stands_still(const std::vector<pid_t>& all, Clock::time_point now);
+  [[nodiscard]] std::string whose() const;
   SandboxSums most_;
+  bool is_sandbox_;
   std::string folder_;
-  std::set<std::filesystem::path> at_start_;  ///< what the folder held
-  Clock::time_point next_{};
+  std::set<std::string> at_start_;                                ///< what the folder held
+  double free_memory_at_start_ = 0.0, free_room_at_start_ = 0.0;  ///< [bytes]
+  Clock::time_point next_{}, last_look_{};
+  Clock::duration still_for_{};  ///< for how long nothing of it has run
 };
 
 /// A folder that belongs to the sandbox's user for a while, and then to us again, with all that lies in it.
