@@ -97,6 +97,16 @@ def chosen(curves, own):
     return others[:room] + printed, [label for label, _ in others[room:]]
 
 
+def fitted(label, width):
+    """The first names of curves that lie on each other, as many as a legend of this width [inches] has room for."""
+    names, most = label.split(", "), int((width - 0.55) / 0.075)
+    for n in range(len(names), 1, -1):
+        text = ", ".join(names[:n]) + (f" and {len(names) - n} more" if n < len(names) else "")
+        if len(text) <= most:
+            return text
+    return names[0] + (f" and {len(names) - 1} more" if names[1:] else "")
+
+
 def plotted(axis, label, curve, look):
     """A curve, and dots where the run wrote frames and rates."""
     times, values, rates = curve
@@ -125,7 +135,7 @@ def picture(out, name, title, axis_label, curves, truth, caption, own=(), band=N
         else:
             axis.plot(*smooth(*truth[1]), color=style.GREY, linewidth=5, alpha=0.55, label=truth[0], zorder=1)
         for label, curve in drawn:
-            plotted(axis, label, curve, looks[label])
+            plotted(axis, fitted(label, width), curve, looks[label])
         if band:
             low, high = axis.get_ylim()
             axis.axhspan(-band, band, color=style.GREEN, alpha=0.08, zorder=0)

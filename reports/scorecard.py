@@ -13,6 +13,7 @@ from types import SimpleNamespace
 
 import foreign
 import page
+from headline_parts import own_engines
 from model import number, ordered, rows, table, text
 
 APART = ("refused", "missing")  # verdicts of a case that did not run: they stand below the table, by reason
@@ -65,7 +66,7 @@ def refused(lines):
     return [{"verdict": verdict, "reason": reason, "cases": cases} for (verdict, reason), cases in found.items()]
 
 
-def engine(document):
+def engine(document, own):
     lines = [line(row) for row in rows(document.get("rows"))]
     totals = table(document.get("totals"))
     return {
@@ -74,6 +75,7 @@ def engine(document):
         "totals": {name: totals.get(name) or 0 for name in COLUMNS},
         "first": document.get("first") or 0,
         "cpu": page.show(number(document.get("cpu_s"))),
+        "own": text(document.get("engine")) in own,
         "lines": [row for row in lines if row["verdict"] not in APART],
         "refused": refused(lines),
     }
@@ -117,7 +119,9 @@ def disagreement(document):
 
 def render(document):
     """@return HTML"""
-    engines = [engine(e) for e in rows(document.get("engines"))]
+    own = own_engines(SimpleNamespace(command=text(document.get("command"))))
+    engines = [engine(e, own) for e in rows(document.get("engines"))]
+    engines.sort(key=lambda e: not e["own"])
     columns = [
         name for name in COLUMNS if name in ("pass", "fail", "refused") or any(e["totals"][name] for e in engines)
     ]  # of the others only what there is

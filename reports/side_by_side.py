@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 
 import digit_cost
 import summary
+from headline_parts import own_engines
 from model import is_number, number, text
 
 EXACT = "exact"
@@ -20,13 +21,14 @@ class Cell:
     verdict: str = ""
     physics: str = ""
     best: bool = False
-    word: str = ""
 
 
 @dataclass
 class Comparison:
     case: object
-    columns: list  # labels: engine, preset, mode
+    columns: list  # labels of the engines that ran, the user's own first: engine, preset, mode
+    own: list  # those of the user's own
+    absent: dict  # {why it did not run: labels}
     cost: dict  # label -> (CPU seconds, times the cheapest, whether that is outside the noise floor; None = not known)
     floor: float | None  # factor by which an engine's seconds differed from themselves; None = runs were made once
     metrics: list  # (name, unit, {label: Cell})
@@ -34,17 +36,35 @@ class Comparison:
 
 
 def read(results):
-    return [comparison for comparison in map(compare, results.cases) if comparison]
+    own = own_engines(results)
+    return [comparison for case in results.cases if (comparison := compare(case, own))]
 
 
-def compare(case):
+def compare(case, own=()):
     shown = shown_runs(case)
     sound = {label: run for label, (_, _, run) in shown.items() if run is not None and run.status == "ok"}
     if len({shown[label][0].name for label in sound}) < 2:
         return None
     rows = [row for metric in case.metrics for row in [metric_row(metric, shown)] if row]
     floor = digit_cost.floor_of(case)
-    return Comparison(case, list(shown), costs(sound, floor), floor, rows, case.equivalence)
+    mine = [label for label in sound if shown[label][0].name in own]
+    columns = mine + [label for label in sound if label not in mine]
+    return Comparison(case, columns, mine, absent(shown), costs(sound, floor), floor, rows, case.equivalence)
+
+
+def absent(shown):
+    """{why it did not run: labels}"""
+    found = {}
+    for label, (engine, _, run) in shown.items():
+        if why := why_not(engine, run):
+            found.setdefault(why, []).append(label)
+    return found
+
+
+def why_not(engine, run):
+    if run is None:
+        return engine.reason or engine.status
+    return "" if run.status == "ok" else run.reason or run.status
 
 
 def shown_runs(case):
@@ -77,8 +97,8 @@ def metric_row(metric, shown):
 
 
 def cell(engine, mode, run, name):
-    if run is None or run.status != "ok":
-        return Cell(word=(run.reason or run.status) if run is not None else engine.reason or engine.status)
+    if why_not(engine, run):
+        return Cell()
     metric = run.metrics.get(name)
     gates = [gate for gate in engine.gates if gate.metric == name and gate.mode in ("", mode)]
     return Cell(

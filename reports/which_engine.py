@@ -47,6 +47,11 @@ class Cell:
         return sum(line["verdict"] == "pass" for line in self.lines)
 
     @property
+    def asked(self):
+        """Cases of the use: those that it was judged in, and those that it refused."""
+        return len(self.lines) + len(self.refused)
+
+    @property
     def tone(self):
         wrong = any(line["verdict"] not in ("pass", "known defect") for line in self.lines)
         return "wrong" if wrong else "right" if self.right == len(self.lines) else "known"
@@ -73,6 +78,8 @@ class Cell:
 def words_of(use, cell):
     """What the cell says: "stands", "falls: known defect soft contact", "wrong: way 0.79"."""
     fails = "falls" if cell.fell else "off"
+    if cell.tone == "right" and len(cell.refused) > len(cell.lines):
+        return f"right in the {len(cell.lines)} of {cell.asked} that it takes"
     if cell.tone == "right":
         return use.right
     if cell.tone == "known":

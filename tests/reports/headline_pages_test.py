@@ -173,6 +173,12 @@ class Spin(Pages):
             ],
         )
 
+    def test_a_legend_has_the_names_that_fit(self):
+        self.assertEqual(headline_pictures.fitted("ode, bullet", 4.3), "ode, bullet")
+        long = ", ".join(["drake · runge_kutta2"] * 5)
+        self.assertEqual(headline_pictures.fitted(long, 4.3), "drake · runge_kutta2 and 4 more")
+        self.assertEqual(headline_pictures.fitted(long, 9.2), long)
+
     def test_an_order_is_shown_with_its_class(self):
         class Found:
             value, fit_class = 2.0, "plateau"

@@ -223,6 +223,17 @@ class SideBySide(Pages):
         self.write(case(engines))
         self.assertIn("no noise floor was measured", self.text("engines.html"))
 
+    def test_own_engines_stand_first_and_those_that_did_not_run_below_with_the_reason(self):
+        refused = {"name": "slow", "preset": "default", "status": "refused", "reason": "no conduction", "runs": []}
+        results = self.load(case([ladder(2.0, 5.0), refused, ladder(1.0, 4.0, name="mine")]))
+        results.command = "tripoint validate heat --engines all,./engine-mine"
+        found = side_by_side.read(results)[0]
+        self.assertEqual(found.columns, ["mine, corrected", "tripoint, corrected"])
+        self.assertEqual((found.own, list(found.absent)), (["mine, corrected"], ["no conduction"]))
+        html = page.render_side_by_side(results)
+        self.assertLess(html.index("mine, corrected"), html.index("tripoint, corrected"))
+        self.assertIn('data-label="error"', html)  # a telephone shows each number with its name
+
     def test_a_case_of_one_engine_is_no_comparison(self):
         self.assertEqual(side_by_side.read(self.load(case([ladder(2.0, 5.0)]))), [])
 

@@ -124,6 +124,17 @@ class WhichEngine(Pages):
             file["particles/bodies/position/value"] = np.zeros((3, 1, 3))
         self.assertEqual(list(read_h5md(self.path / "trajectory.h5").body_times), [0.0, 0.5, 1.0])
 
+    def test_who_refuses_most_cases_is_not_said_to_do_it(self):
+        few = score(
+            "ode",
+            "default",
+            *(judged(f"contact/tower-{n}", w, 0.1) for n, w in ((1, "pass"), (2, "refused"), (3, "refused"))),
+        )
+        cell = self.cell(self.page(few, self.SCORES[3]), "ODE")
+        self.assertIn("right in the 1 of 3 that it takes", cell)
+        self.assertIn("right in 1 of 3 cases, 2 refused", cell)
+        self.assertNotIn("stands", cell)
+
     def test_a_box_that_sank_by_more_than_half_of_its_height_fell(self):
         self.assertIn("falls: known defect soft contact", self.cell(self.page(*self.SCORES, drop=0.15), "MuJoCo"))
         self.assertIn("off: known defect", self.cell(self.page(*self.SCORES, drop=0.05), "MuJoCo"))
@@ -195,6 +206,12 @@ class Scorecards(unittest.TestCase):
         text = Reader(scorecard.render(self.CARD)).text
         self.assertIn("exit 4: a required engine, reference or metric is missing", text)
         self.assertIn("jolt: crashed in contact/b.", text)
+
+    def test_the_users_own_engine_is_first(self):
+        engines = [{"engine": name, "label": name, "rows": []} for name in ("bullet", "mine")]
+        html = scorecard.render({"command": "tripoint validate --engines all,./engine-mine", "engines": engines})
+        self.assertLess(html.index(">mine</a>"), html.index(">bullet</a>"))
+        self.assertIn('<tr class="mine"><th scope="row"><a href="#engine-1">mine', html)
 
     def test_says_what_an_error_is_like(self):
         card = {
