@@ -110,7 +110,8 @@ void check_bounds(const std::vector<Active>& effects) {
 void set_declared(std::vector<Active>& effects) {
   std::vector<FieldInfo> forces;
   for (const Active& a : effects)
-    for (const Force& f : a.spec.forces) forces.insert(forces.end(), {f.x, f.y, f.z});
+    for (const Force& f : a.spec.forces)
+      forces.insert(forces.end(), {f.field.get().x, f.field.get().y, f.field.get().z});
   for (Active& a : effects) {
     a.declared.who = a.name;
     const auto add = [&](const std::vector<FieldInfo>& fields) {
@@ -152,11 +153,11 @@ void check_forces(const std::vector<Active>& effects) {
   for (const Active& a : effects) {
     for (const Force& f : a.spec.forces) {
       ++forces;
-      if (std::ranges::find(a.spec.owns, FieldInfo(f.x)) == a.spec.owns.end())
-        throw InputError("the effect " + a.name + " makes the force " + std::string(f.x.name) +
+      if (std::ranges::find(a.spec.owns, FieldInfo(f.field.get().x)) == a.spec.owns.end())
+        throw InputError("the effect " + a.name + " makes the force " + std::string(f.field.get().x.name) +
                          " and does not own it");
       if (!f.stored && f.entry.empty())
-        throw InputError("the work of the force " + std::string(f.x.name) +
+        throw InputError("the work of the force " + std::string(f.field.get().x.name) +
                          " has no entry of the ledger, and no energy stores it");
       once(f.work, a.name);
       if (f.work_on_driven) once(*f.work_on_driven, a.name);
@@ -245,10 +246,10 @@ std::vector<char> idle_particles(const Scene& scene, const InitialState& initial
 }
 
 void declare(State& state, const std::vector<Active>& effects) {
-  state.guarded = {
-      {field::position_x, "position", Written::drift}, {field::position_y, "position", Written::drift},
-      {field::position_z, "position", Written::drift}, {field::velocity_x, "velocity", Written::kick},
-      {field::velocity_y, "velocity", Written::kick},  {field::velocity_z, "velocity", Written::kick}};
+  for (const Field<double>* f : columns_of(field::position))
+    state.guarded.push_back({*f, "position", Written::drift});
+  for (const Field<double>* f : columns_of(field::velocity))
+    state.guarded.push_back({*f, "velocity", Written::kick});
   state.bounded = common_bounds(state.scene);
   state.positive = {field::mass};
   for (const Active& a : effects) {

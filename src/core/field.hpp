@@ -36,16 +36,72 @@ struct Field {
   std::uint64_t key = key_of(name);
 };
 
-/// The three columns of a vector, the six of a symmetric matrix and the nine of a matrix, as one key.
+namespace detail {
+
+/// The names of the columns of a key, "NAME.PART", kept beside it.
+template <std::size_t parts>
+class PartNames {
+ public:
+  constexpr PartNames(std::string_view name, const std::array<std::string_view, parts>& of_parts) {
+    for (std::size_t k = 0; k < parts; ++k)
+      for (const std::string_view piece : {name, std::string_view("."), of_parts[k]})
+        for (const char c : piece) text_[k].at(size_[k]++) = c;
+  }
+  constexpr PartNames(const PartNames&) = delete;  // fields refer to the text
+  PartNames& operator=(const PartNames&) = delete;
+  [[nodiscard]] constexpr std::string_view operator[](std::size_t k) const {
+    return {text_[k].data(), size_[k]};
+  }
+
+ private:
+  static constexpr std::size_t longest = 32;
+  std::array<std::array<char, longest>, parts> text_{};
+  std::array<std::size_t, parts> size_{};
+};
+
+}  // namespace detail
+
+/// The three columns of a vector, the six of a symmetric matrix and the nine of a matrix, as one key. A key
+/// is a constant of the program: its fields refer to names that it holds.
 template <class T>
-struct VectorField {
-  const Field<T>&x, &y, &z;
+class VectorField {
+  detail::PartNames<3> names_;
+
+ public:
+  Field<T> x, y, z;
+  constexpr VectorField(std::string_view name, std::string_view unit)
+      : names_(name, {"x", "y", "z"}), x{names_[0], unit}, y{names_[1], unit}, z{names_[2], unit} {}
 };
-struct SymmetricField {
-  const Field<double>&xx, &yy, &zz, &yz, &xz, &xy;
+class SymmetricField {
+  detail::PartNames<6> names_;
+
+ public:
+  Field<double> xx, yy, zz, yz, xz, xy;
+  constexpr SymmetricField(std::string_view name, std::string_view unit)
+      : names_(name, {"xx", "yy", "zz", "yz", "xz", "xy"}),
+        xx{names_[0], unit},
+        yy{names_[1], unit},
+        zz{names_[2], unit},
+        yz{names_[3], unit},
+        xz{names_[4], unit},
+        xy{names_[5], unit} {}
 };
-struct MatrixField {
-  const Field<double>&xx, &xy, &xz, &yx, &yy, &yz, &zx, &zy, &zz;
+class MatrixField {
+  detail::PartNames<9> names_;
+
+ public:
+  Field<double> xx, xy, xz, yx, yy, yz, zx, zy, zz;
+  constexpr MatrixField(std::string_view name, std::string_view unit)
+      : names_(name, {"xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"}),
+        xx{names_[0], unit},
+        xy{names_[1], unit},
+        xz{names_[2], unit},
+        yx{names_[3], unit},
+        yy{names_[4], unit},
+        yz{names_[5], unit},
+        zx{names_[6], unit},
+        zy{names_[7], unit},
+        zz{names_[8], unit} {}
 };
 template <class T>
 [[nodiscard]] constexpr std::array<const Field<T>*, 1> columns_of(const Field<T>& f) noexcept {
@@ -62,12 +118,10 @@ template <class T>
   return {&f.xx, &f.xy, &f.xz, &f.yx, &f.yy, &f.yz, &f.zx, &f.zy, &f.zz};
 }
 
-/// Columns of several keys, one after the other.
-[[nodiscard]] inline std::vector<const Field<double>*> columns_of_all(const auto&... keys) {
-  std::vector<const Field<double>*> all;
-  const auto take = [&](const auto& columns) { all.insert(all.end(), columns.begin(), columns.end()); };
-  (take(columns_of(keys)), ...);
-  return all;
+/// The columns of a key as a list.
+[[nodiscard]] inline std::vector<const Field<double>*> columns_of_all(const auto& key) {
+  const auto columns = columns_of(key);
+  return {columns.begin(), columns.end()};
 }
 
 enum class FieldType { real, integer, vector, quaternion };

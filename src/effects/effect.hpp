@@ -90,21 +90,25 @@ class Effect {
   virtual void kick(State&, double /*dt*/) {}
   /// Places move by dt times the velocities. @param dt length of the step [s]
   virtual void drift(State&, double /*dt*/) {}
-  /// Sets the columns that the pass adds to.
-  virtual void clear(State&, PassName) {}
+  /// Whether the pass of density holds the sums that it may hold (State::holds_sums). Called before it.
+  virtual void decide_sums(State&) {}
+  /// The pass has set the columns to which the terms of the effect add to 0 in these rows. Sums that begin
+  /// with another value get it here.
+  virtual void start_sums(State&, PassName, const Rows&) {}
   /// Adds to the sums of the pass of density, and takes densities from them. Called where places are new,
-  /// before all states.
-  virtual void densities(State&) {}
+  /// before all states. @param rows whose values a step reads
+  virtual void densities(State&, const Rows& /*rows*/) {}
   /// Sets the quantities that follow from the densities at the present places: pressures, temperatures,
   /// strains.
-  virtual void state(State&) {}
+  virtual void state(State&, const Rows& /*rows*/) {}
   /// Sets the quantities that follow from the states of all effects.
-  virtual void after_states(State&) {}
-  /// Forces of bonds, after all states of the present time.
-  virtual void bonds(State&) {}
-  /// Sets the values of fixed particles that no step reads, except the sums of the passes
-  /// (State::forms_fixed). Called after their density.
-  virtual void form_fixed(State&) {}
+  virtual void after_states(State&, const Rows& /*rows*/) {}
+  /// Forces of bonds and others that no pass sums, after all states of the present time. @param rows whose
+  /// forces are formed now
+  virtual void bonds(State&, const Rows& /*rows*/) {}
+  /// Sets the values of fixed particles that no step reads, except the sums of the passes. Called after their
+  /// density.
+  virtual void form_fixed(State&, const Rows& /*rows*/) {}
   /// Whether change() has anything to decide. Changes that depend on one particle's state alone are made here
   /// first. Each process that shares the scene is asked, about its own particles and about the known values
   /// of copies.

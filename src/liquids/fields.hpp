@@ -10,38 +10,23 @@ namespace tripoint::field {
 inline constexpr Field<double> number_density{"number_density", "1/m3"};
 /// V^2 p over the kernel's lattice moment
 inline constexpr Field<double> pressure_share{"pressure_share", "Pa m6"};
-inline constexpr Field<double> viscous_force_x{"viscous_force.x", "N"},
-    viscous_force_y{"viscous_force.y", "N"}, viscous_force_z{"viscous_force.z", "N"};
-inline constexpr VectorField<double> viscous_force{viscous_force_x, viscous_force_y, viscous_force_z};
+inline constexpr VectorField<double> viscous_force{"viscous_force", "N"};
 inline constexpr Field<double> number_density_before{"number_density_before", "1/m3"},
     bulk_pressure{"bulk_pressure", "Pa"};  ///< at the last places; of the numerical bulk viscosity
 /// Of solids, at the last places
 inline constexpr Field<double> solid_density_before{"solid_density_before", "1/m3"};
 /// Velocity that viscous pairs see: predicted to the full step for liquids, mirrored for walls.
-inline constexpr Field<double> viscous_velocity_x{"viscous_velocity.x", "m/s"},
-    viscous_velocity_y{"viscous_velocity.y", "m/s"}, viscous_velocity_z{"viscous_velocity.z", "m/s"};
-inline constexpr VectorField<double> viscous_velocity{viscous_velocity_x, viscous_velocity_y,
-                                                      viscous_velocity_z};
+inline constexpr VectorField<double> viscous_velocity{"viscous_velocity", "m/s"};
 inline constexpr Field<double> viscosity{"viscosity", "Pa s"}, rest_density{"rest_density", "kg/m3"};
 inline constexpr Field<double> solid{"solid", "1"};  ///< 1 for solids and walls, 0 for liquids
 /// 1 where a liquid sticks to this solid, 0 where it slips
 inline constexpr Field<double> stick{"stick", "1"};
 /// Sums of walls over the liquid near them: viscous weights, and velocities times these.
 inline constexpr Field<double> wall_weight{"wall.weight", "Pa s/m5"};
-inline constexpr Field<double> wall_velocity_x{"wall.velocity.x", "Pa/m4"},
-    wall_velocity_y{"wall.velocity.y", "Pa/m4"}, wall_velocity_z{"wall.velocity.z", "Pa/m4"};
-inline constexpr VectorField<double> wall_velocity{wall_velocity_x, wall_velocity_y, wall_velocity_z};
+inline constexpr VectorField<double> wall_velocity{"wall.velocity", "Pa/m4"};
 /// Force of the background pressure, and of the stress that the transport velocity carries (model 8.3).
-inline constexpr Field<double> background_x{"background.x", "N"}, background_y{"background.y", "N"},
-    background_z{"background.z", "N"};
-inline constexpr VectorField<double> background{background_x, background_y, background_z};
-inline constexpr Field<double> transport_force_x{"transport_force.x", "N"},
-    transport_force_y{"transport_force.y", "N"}, transport_force_z{"transport_force.z", "N"};
-inline constexpr VectorField<double> transport_force{transport_force_x, transport_force_y, transport_force_z};
-/// Scratch for the bound of the step: six columns of forces that hold other sums until the pass that fills
-/// them anew.
-inline constexpr SymmetricField viscous_spread{force_x,         force_y,         force_z,
-                                               viscous_force_x, viscous_force_y, viscous_force_z};
+inline constexpr VectorField<double> background{"background", "N"};
+inline constexpr VectorField<double> transport_force{"transport_force", "N"};
 /// Sums over neighbours for the mean pressure and the damping of sound (model 8.3).
 inline constexpr Field<double> pressure_around{"pressure_around", "Pa/m3"}, nearing{"nearing", "1/(s m3)"};
 

@@ -71,9 +71,15 @@ void run_pass_in(const PassFunction& function, Particles& particles, Neighbours&
 
 void run_pass_over(const PassFunction& function, Particles& particles, Neighbours& neighbours,
                    const PairKernels& kernels, int threads, const ChosenClusters& chosen) {
-  if (!function.run || chosen.clusters.empty()) return;
+  if (function.run)
+    run_pass_over(function, columns_of(function, particles), particles, neighbours, kernels, threads, chosen);
+}
+
+void run_pass_over(const PassFunction& function, const std::vector<double*>& columns,
+                   const Particles& particles, Neighbours& neighbours, const PairKernels& kernels,
+                   int threads, const ChosenClusters& chosen) {
+  if (chosen.clusters.empty()) return;
   PassTask task = task_of(particles, neighbours, kernels, threads);
-  const std::vector<double*> columns = columns_of(function, particles);
   task.columns = columns.data();
   task.chosen = chosen.clusters.data();
   task.count = chosen.clusters.size();

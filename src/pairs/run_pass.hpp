@@ -38,5 +38,8 @@ void run_pass_in(const PassFunction&, Particles&, Neighbours&, const PairKernels
 /// asked for some members alone.
 void run_pass_over(const PassFunction&, Particles&, Neighbours&, const PairKernels&, int threads,
                    const ChosenClusters&);
+/// The same with these columns, in the order of PassFunction::fields.
+void run_pass_over(const PassFunction&, const std::vector<double*>& columns, const Particles&, Neighbours&,
+                   const PairKernels&, int threads, const ChosenClusters&);
 
 }  // namespace tripoint

@@ -7,6 +7,7 @@
 #include "pairs/pair_passes.hpp"
 #include "pairs/run_pass.hpp"
 #include "particles/rank_grid.hpp"
+#include "state/fill.hpp"
 
 namespace tripoint {
 namespace {
@@ -83,6 +84,11 @@ struct Passes::Impl {
   bool leaves_own;  ///< the density leaves own pairs out
   std::optional<double> sleeps_beyond;
   BusyClusters busy{};
+
+  [[nodiscard]] const PassFunction& pass(PassName name, const State& state) const {
+    if (name == PassName::density) return state.holds_sums ? without_held : density;
+    return name == PassName::rates ? rates : again;
+  }
 };
 
 Passes::Passes(const Scene& scene, const std::vector<EffectPairWork>& effects, int lanes, bool sums_all) {
@@ -137,12 +143,15 @@ void Passes::run_fixed(PassName name, State& state) const {
     impl_->busy.sum_fixed_rates(impl_->rates, state, impl_->kernels);
 }
 
+void Passes::start_sums(PassName name, State& state, const Rows& rows) const {
+  for (const Field<double>* f : impl_->pass(name, state).adds())
+    fill(part(state.particles[*f], rows), 0.0, state.threads);
+}
+
 void Passes::run(PassName name, State& state) const {
   if (!needed()) return;
   Impl& i = *impl_;
-  const PassFunction& pass = name == PassName::density ? (state.holds_sums ? i.without_held : i.density)
-                             : name == PassName::rates ? i.rates
-                                                       : i.again;
+  const PassFunction& pass = i.pass(name, state);
   if (!i.meets_all && name == PassName::density)
     i.busy.sum_density(pass, state, i.kernels, i.leaves_own);
   else if (!i.meets_all && name == PassName::rates)

@@ -21,6 +21,8 @@ class Passes {
   Passes& operator=(Passes&&) noexcept;
   [[nodiscard]] bool needed() const;  ///< whether any pair is worked on at all
   [[nodiscard]] int lanes() const;    ///< particles of a cluster that the neighbours must have
+  /// Sets the columns to which a pass adds to 0.
+  void start_sums(PassName, State&, const Rows&) const;
   void run(PassName, State&) const;
   /// Whether a pass of density without the held terms finds all pairs too.
   [[nodiscard]] bool can_hold() const;

@@ -10,15 +10,9 @@ namespace tripoint::field {
 inline constexpr Field<int> id{"id", "1"}, body{"body", "1"}, phase{"phase", "1"}, material{"material", "1"},
     source{"source", "1"};
 inline constexpr Field<double> mass{"mass", "kg"};
-inline constexpr Field<double> position_x{"position.x", "m"}, position_y{"position.y", "m"},
-    position_z{"position.z", "m"};
-inline constexpr Field<double> velocity_x{"velocity.x", "m/s"}, velocity_y{"velocity.y", "m/s"},
-    velocity_z{"velocity.z", "m/s"};
-inline constexpr VectorField<double> position{position_x, position_y, position_z},
-    velocity{velocity_x, velocity_y, velocity_z};
+inline constexpr VectorField<double> position{"position", "m"}, velocity{"velocity", "m/s"};
 /// How many box widths a particle has been moved back by in a periodic direction.
-inline constexpr Field<int> image_x{"image.x", "1"}, image_y{"image.y", "1"}, image_z{"image.z", "1"};
-inline constexpr VectorField<int> image{image_x, image_y, image_z};
+inline constexpr VectorField<int> image{"image", "1"};
 
 // density (4)
 inline constexpr Field<double> density{"density", "kg/m3"};
@@ -26,15 +20,12 @@ inline constexpr Field<double> density{"density", "kg/m3"};
 // liquids and contact (4), (7)-(9)
 inline constexpr Field<double> volume{"volume", "m3"}, pressure{"pressure", "Pa"};
 /// Of pressure
-inline constexpr Field<double> force_x{"force.x", "N"}, force_y{"force.y", "N"}, force_z{"force.z", "N"};
-inline constexpr VectorField<double> force{force_x, force_y, force_z};
+inline constexpr VectorField<double> force{"force", "N"};
 /// Group of the particle. Members of one group of 0 and above exert no force on each other. The values are
 /// listed at the end of this file.
 inline constexpr Field<double> group{"group", "1"};
 /// Transport velocity less velocity.
-inline constexpr Field<double> shift_x{"shift.x", "m/s"}, shift_y{"shift.y", "m/s"},
-    shift_z{"shift.z", "m/s"};
-inline constexpr VectorField<double> shift{shift_x, shift_y, shift_z};
+inline constexpr VectorField<double> shift{"shift", "m/s"};
 
 /// sum of W(x_ij) over the own pairs of a member of a deformable body: a constant part of its number density
 /// (model 8.2)
@@ -47,12 +38,7 @@ inline constexpr Field<int> driven{"driven", "1"};
 // elastic solids (10)-(17)
 /// A_i = pinv M_i of the reference list (model 8.7), symmetric, and its rank: 3 solid, 2 sheet, 1 chain, 0
 /// without neighbours. Members of rigid bodies that own no strain energy have rank 3.
-inline constexpr Field<double> shape_inverse_xx{"shape_inverse.xx", "1"},
-    shape_inverse_yy{"shape_inverse.yy", "1"}, shape_inverse_zz{"shape_inverse.zz", "1"};
-inline constexpr Field<double> shape_inverse_yz{"shape_inverse.yz", "1"},
-    shape_inverse_xz{"shape_inverse.xz", "1"}, shape_inverse_xy{"shape_inverse.xy", "1"};
-inline constexpr SymmetricField shape_inverse{shape_inverse_xx, shape_inverse_yy, shape_inverse_zz,
-                                              shape_inverse_yz, shape_inverse_xz, shape_inverse_xy};
+inline constexpr SymmetricField shape_inverse{"shape_inverse", "1"};
 inline constexpr Field<int> shape_rank{"shape_rank", "1"};
 inline constexpr Field<double> solid_volume{"solid_volume", "m3"};  ///< v_i: m/rho0, printed (11)
 /// Material whose constants the strain energy of a particle has, and how many times: 0 where it owns none.
@@ -65,16 +51,8 @@ inline constexpr Field<int> regular_bonds{"regular_bonds", "1"};
 inline constexpr Field<double> bond_frequency{"bond_frequency", "1/s2"};
 /// Strain of the present time, total, within the range of M_i; and the part of it that has flowed
 /// (model 8.7, 8.8).
-inline constexpr Field<double> strain_xx{"strain.xx", "1"}, strain_yy{"strain.yy", "1"},
-    strain_zz{"strain.zz", "1"}, strain_yz{"strain.yz", "1"}, strain_xz{"strain.xz", "1"},
-    strain_xy{"strain.xy", "1"};
-inline constexpr SymmetricField strain{strain_xx, strain_yy, strain_zz, strain_yz, strain_xz, strain_xy};
-inline constexpr Field<double> plastic_strain_xx{"plastic_strain.xx", "1"},
-    plastic_strain_yy{"plastic_strain.yy", "1"}, plastic_strain_zz{"plastic_strain.zz", "1"};
-inline constexpr Field<double> plastic_strain_yz{"plastic_strain.yz", "1"},
-    plastic_strain_xz{"plastic_strain.xz", "1"}, plastic_strain_xy{"plastic_strain.xy", "1"};
-inline constexpr SymmetricField plastic_strain{plastic_strain_xx, plastic_strain_yy, plastic_strain_zz,
-                                               plastic_strain_yz, plastic_strain_xz, plastic_strain_xy};
+inline constexpr SymmetricField strain{"strain", "1"};
+inline constexpr SymmetricField plastic_strain{"plastic_strain", "1"};
 /// 1 where the strain of now is beyond the bound of plastic flow, else 0
 inline constexpr Field<int> may_flow{"may_flow", "1"};
 

@@ -43,6 +43,11 @@ class Columns {
   [[nodiscard]] std::size_t size() const noexcept { return rows_; }
   [[nodiscard]] bool has(std::string_view name) const noexcept { return find(key_of(name)) != nullptr; }
   template <class T>
+  [[nodiscard]] bool has(const VectorField<T>& key) const noexcept {
+    return has(key.x);
+  }
+  [[nodiscard]] bool has(const SymmetricField& key) const noexcept { return has(key.xx); }
+  template <class T>
   [[nodiscard]] bool has(const Field<T>& key) const noexcept {
     return find(key.key) != nullptr;
   }

@@ -28,7 +28,7 @@ std::vector<Felt> felt_forces(const State& state) {
   for (std::size_t k = 0; k < state.forces.size(); ++k) {
     const Force& f = state.forces[k];
     if (f.feels != Feels::all) continue;
-    list.push_back({k, triple(state.particles, f.x, f.y, f.z)});
+    list.push_back({k, triple(state.particles, f.field.get())});
   }
   return list;
 }

@@ -137,47 +137,68 @@ Vec3 separation(const State& state, std::size_t i, std::size_t j, double back) {
   return nearest_image(state.box, place(j) - place(i));
 }
 
+namespace {
+
+/// How far lists of a particle reach, and which it has.
+struct Connecting {
+  bool meets;  ///< without pressure own pairs have nothing to be kept from
+  bool paper;
+  double reach;  ///< of bonds [m]
+
+  explicit Connecting(const State& state)
+      : meets(state.particles.has(field::force)),
+        paper(state.scene.mode_of(term::density) == Mode::paper),
+        reach(bond_reach(state.scene) * state.scene.spacing) {}
+  [[nodiscard]] double search(const State& state) const {
+    return meets && !paper ? std::max(reach, state.support()) : reach;
+  }
+  [[nodiscard]] bool is_own(bool bonded) const { return meets && (bonded || !paper); }
+};
+
+/// Bonds and own pairs of candidate n.
+void list_partners(State& state, const Joins& joined, const Candidates& found, const Neighbours& near,
+                   const std::vector<char>& at_joint, const Connecting& how, std::size_t n) {
+  const ElasticityKernel kernel = bond_kernel(state.scene);
+  const auto body = state.particles[field::body];
+  const auto place = found.places[field::id];
+  const std::size_t i = state.particles.row(found.ids[n]);
+  std::vector<Bond> bonds;
+  std::vector<OwnPair> own;
+  for (const Entry e : near.of(found.places.row(n))) {
+    const auto other = static_cast<std::size_t>(place[e.row()]);
+    const std::size_t j = state.particles.row(found.ids[other]);
+    const bool mates = body[i] == body[j] && (at_joint[n] || at_joint[other]);
+    if (!joined(body[i], body[j]) && !mates) continue;
+    const Vec3 x = separation(state, j, i);
+    const double r = norm(x);
+    const bool bonded = r < how.reach;
+    if (bonded) {
+      bonds.push_back(bond_of(kernel, x));
+      bonds.back().other = found.ids[other];
+    }
+    if (!mates && how.is_own(bonded))
+      own.push_back({found.ids[other], how.paper ? 0.0 : own_weight(state.scene, r)});
+  }
+  std::ranges::sort(bonds, {}, &Bond::other);
+  std::ranges::sort(own, {}, &OwnPair::other);
+  state.bonds.replace(found.ids[n], bonds);
+  if (how.meets) state.own.replace(found.ids[n], own);
+}
+
+}  // namespace
+
 void connect_solids(State& state) {
   if (!can_have_deformable_bodies(state.scene)) return;
   const Joins joined(state);
   Candidates found = candidates_of(state, joined);
   if (found.ids.empty()) return;
   refuse_narrow_box(state);
-  // Without pressure own pairs have nothing to be kept from
-  const bool meets = state.particles.has(field::force_x.name);
-  const bool paper = state.scene.mode_of(term::density) == Mode::paper;
-  const double reach = bond_reach(state.scene) * state.scene.spacing,
-               search = meets && !paper ? std::max(reach, state.support()) : reach;
-  Neighbours near(search, 0.0, state.box, state.threads);
+  const Connecting how(state);
+  Neighbours near(how.search(state), 0.0, state.box, state.threads);
   near.update(found.places, 0.0);
-  const std::vector<char> at_joint = joints_of(state, joined, found, near, reach);
-  const ElasticityKernel kernel = bond_kernel(state.scene);
-  const auto body = state.particles[field::body];
-  const auto place = found.places[field::id];
-  for (std::size_t n = 0; n < found.ids.size(); ++n) {
-    const std::size_t row = found.places.row(n), i = state.particles.row(found.ids[n]);
-    std::vector<Bond> bonds;
-    std::vector<OwnPair> own;
-    for (const Entry e : near.of(row)) {
-      const auto other = static_cast<std::size_t>(place[e.row()]);
-      const std::size_t j = state.particles.row(found.ids[other]);
-      const bool mates = body[i] == body[j] && (at_joint[n] || at_joint[other]);
-      if (!joined(body[i], body[j]) && !mates) continue;
-      const Vec3 x = separation(state, j, i);
-      const double r = norm(x);
-      const bool bonded = r < reach;
-      if (bonded) {
-        bonds.push_back(bond_of(kernel, x));
-        bonds.back().other = found.ids[other];
-      }
-      if (meets && !mates && (bonded || !paper))
-        own.push_back({found.ids[other], paper ? 0.0 : own_weight(state.scene, r)});
-    }
-    std::ranges::sort(bonds, {}, &Bond::other);
-    std::ranges::sort(own, {}, &OwnPair::other);
-    state.bonds.replace(found.ids[n], bonds);
-    if (meets) state.own.replace(found.ids[n], own);
-  }
+  const std::vector<char> at_joint = joints_of(state, joined, found, near, how.reach);
+  for (std::size_t n = 0; n < found.ids.size(); ++n)
+    list_partners(state, joined, found, near, at_joint, how, n);
   set_twins(state.bonds, found.ids);
   state.bonds.compact();
   state.own.compact();

@@ -143,7 +143,7 @@ std::vector<std::uint32_t> with_partners(const State& state, std::span<const std
 Symmetric shape_inverse_of(const Particles& p, std::size_t row) { return shape_inverses(p).at(row); }
 
 Symmetric plastic_strain_of(const Particles& p, std::size_t row) {
-  return p.has(field::plastic_strain_xx.name) ? plastic_strains(p).at(row) : Symmetric{};
+  return p.has(field::plastic_strain) ? plastic_strains(p).at(row) : Symmetric{};
 }
 
 void set_plastic_strain(Particles& p, std::size_t row, const Symmetric& e) { plastic_strains(p).set(row, e); }

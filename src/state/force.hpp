@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <functional>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -24,8 +25,8 @@ struct StoredEnergy {
 enum class Feels { all, particles };
 
 struct Force {
-  Field<double> x, y, z;  ///< columns that the effect owns [N]
-  EnergyAccount work;     ///< done on what moves by forces
+  std::reference_wrapper<const VectorField<double>> field;  ///< that the effect owns [N]
+  EnergyAccount work;                                       ///< done on what moves by forces
   /// Done on bodies that the scene moves, which pay for it; none: it stands with the other
   std::optional<EnergyAccount> work_on_driven{};
   std::optional<StoredEnergy> stored{};

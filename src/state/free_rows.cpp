@@ -17,7 +17,7 @@ FreeRows free_rows(const State& state) {
   rows.forces = state.forces.size();
   std::size_t column = 0;
   for (const Force& force : state.forces)
-    for (const Field<double>* f : {&force.x, &force.y, &force.z}) rows.force[column++] = p[*f].data();
+    for (const Field<double>* f : columns_of(force.field.get())) rows.force[column++] = p[*f].data();
   rows.m = p[field::mass].data();
   const Vec3 g = state.scene.gravity;
   rows.g = {g.x, g.y, g.z};

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "particles/halo.hpp"
@@ -16,6 +18,7 @@
 #include "state/force.hpp"
 #include "state/guarded.hpp"
 #include "state/ledger.hpp"
+#include "state/rows_loop.hpp"
 #include "state/step_numbers.hpp"
 
 namespace tripoint {
@@ -42,12 +45,6 @@ struct Change {
     bodies.clear();
     kinetic_lost.clear();
   }
-};
-
-/// Rows from..to-1.
-struct Rows {
-  std::size_t from = 0, to = 0;
-  [[nodiscard]] std::size_t count() const { return to - from; }
 };
 
 /// All that a step changes, and the data that it works with.
@@ -110,10 +107,25 @@ struct State {
   [[nodiscard]] bool reports(std::size_t body) const {
     return body_owners.any() ? body_owners.is_here(body) : is_first();
   }
+  /// Rows that take part in a step.
+  [[nodiscard]] Rows awake() const { return {0, particles.awake()}; }
   /// Rows whose forces are formed now: moving ones, or fixed ones where forms_fixed says so.
   [[nodiscard]] Rows formed() const {
     return forms_fixed ? Rows{particles.moving(), particles.size()} : Rows{0, particles.moving()};
   }
+  /// Whether one of the processes says so. All call it.
+  [[nodiscard]] bool anywhere(bool here) const {
+    double some = here ? 1.0 : 0.0;
+    add_up({&some, 1});
+    return some > 0.0;
+  }
+  /// Each number becomes its sum over all processes. All call it.
+  void add_up(std::span<double> numbers) const {
+    if (halo) halo->add(numbers);
+  }
+  /// Ghosts take what their owners have. @param by_id records of doubles, one for each particle
+  template <class Records>
+  void hand_to_ghosts(Records& by_id) const;
   /// Copies take the sums of a pair pass from their owners.
   void refresh(std::span<const Field<double>* const> columns) {
     if (halo) halo->refresh(particles, columns);
@@ -124,6 +136,16 @@ struct State {
     return scene.materials[static_cast<std::size_t>(particles[field::material][row])];
   }
 };
+
+template <class Records>
+void State::hand_to_ghosts(Records& by_id) const {
+  using Numbers = typename Records::value_type;
+  static_assert(std::is_standard_layout_v<Numbers> && std::is_trivially_copyable_v<Numbers>);
+  static_assert(sizeof(Numbers) % sizeof(double) == 0);
+  if (!halo) return;
+  constexpr std::size_t each = sizeof(Numbers) / sizeof(double);
+  halo->refresh({reinterpret_cast<double*>(by_id.data()), by_id.size() * each}, each);
+}
 
 inline Vec3 State::unwrapped(std::size_t row) const {
   Vec3 r = particles.position(row);

@@ -98,6 +98,7 @@ class Simulation {
   void form_states();
   void sum_bonds();
   void pass(PassName);
+  void start_sums(PassName);
   void sum(PassName);
   [[nodiscard]] bool leaves_out_first_kick() const;
   void happen_until_now();

@@ -45,13 +45,14 @@ void Simulation::form_fixed() {
   state_.neighbours->list_sleeping();
   const auto each = [&](auto visit) { for_each_effect(state_, effects_, visit); };
   const auto sum_fixed = [&](PassName name) {
-    each([&](Effect& effect) { effect.clear(state_, name); });
+    start_sums(name);
     passes_.run_fixed(name, state_);
   };
   if (!state_.unread.empty()) sum_fixed(PassName::density);
-  each([&](Effect& effect) { effect.form_fixed(state_); });
+  each([&](Effect& effect) { effect.form_fixed(state_, state_.formed()); });
   sum_fixed(PassName::rates);
-  for_each_effect(state_, effects_, &OwnSums::bonds, [&](Effect& effect) { effect.bonds(state_); });
+  for_each_effect(state_, effects_, &OwnSums::bonds,
+                  [&](Effect& effect) { effect.bonds(state_, state_.formed()); });
   state_.forms_fixed = false;
 }
 
@@ -90,14 +91,15 @@ inline void Simulation::drift(double dt) {
 }
 
 inline void Simulation::form_states() {
+  const Rows rows = state_.awake();
   if (state_.moved)
-    each_effect(Stage::state, &OwnSums::densities, [&](Effect& effect) { effect.densities(state_); });
-  each_effect(Stage::state, &OwnSums::state, [&](Effect& effect) { effect.state(state_); });
-  each_effect(Stage::state, [&](Effect& effect) { effect.after_states(state_); });
+    each_effect(Stage::state, &OwnSums::densities, [&](Effect& effect) { effect.densities(state_, rows); });
+  each_effect(Stage::state, &OwnSums::state, [&](Effect& effect) { effect.state(state_, rows); });
+  each_effect(Stage::state, [&](Effect& effect) { effect.after_states(state_, rows); });
 }
 
 inline void Simulation::sum_bonds() {
-  each_effect(Stage::bonds, &OwnSums::bonds, [&](Effect& effect) { effect.bonds(state_); });
+  each_effect(Stage::bonds, &OwnSums::bonds, [&](Effect& effect) { effect.bonds(state_, state_.formed()); });
 }
 
 /// One pass over pairs, where the scene has any.
@@ -107,8 +109,21 @@ void Simulation::pass(PassName name) {
   sum(name);
 }
 
+/// Fixed walls have densities, and no forces.
+void Simulation::start_sums(PassName name) {
+  const Particles& p = state_.particles;
+  const Rows asleep{p.awake(), p.size()};
+  const Rows rows = name != PassName::density ? state_.formed()
+                    : state_.forms_fixed      ? asleep
+                                              : state_.awake();
+  if (name == PassName::density)
+    for_each_effect(state_, effects_, [&](Effect& effect) { effect.decide_sums(state_); });
+  passes_.start_sums(name, state_, rows);
+  for_each_effect(state_, effects_, [&](Effect& effect) { effect.start_sums(state_, name, rows); });
+}
+
 void Simulation::sum(PassName name) {
-  for_each_effect(state_, effects_, [&](Effect& effect) { effect.clear(state_, name); });
+  start_sums(name);
   passes_.run(name, state_);
   if (name != PassName::density) pairs_ += static_cast<double>(state_.neighbours->entries());
 }

@@ -69,10 +69,10 @@ TEST(CarriedLiquid, HoldsCorrectionsForThreeSteps) {
   });
   Simulation s(lab.scene, lab.initial);
   const Vec3 before = s.ledger().momentum;
-  std::vector<double> B{s.state().particles[field::correction_xy][s.state().particles.row(5)]};
+  std::vector<double> B{s.state().particles[field::correction.xy][s.state().particles.row(5)]};
   for (int step = 1; step <= 4; ++step) {
     s.advance_to(1e-3 * step);
-    B.push_back(s.state().particles[field::correction_xy][s.state().particles.row(5)]);
+    B.push_back(s.state().particles[field::correction.xy][s.state().particles.row(5)]);
     EXPECT_LT(norm(s.ledger().momentum - before), 1e-13 * norm(before)) << step;
     Vec3 sum;
     double size = 0.0;
@@ -137,8 +137,8 @@ TEST(CarriedLiquid, RateIsExactForLinearVelocities) {
     const auto r = p.position(i) - Vec3{0.4, 0.35, 0.3};
     if (std::max({std::abs(r.x) - 0.15, std::abs(r.y) - 0.1, std::abs(r.z) - 0.05}) > 0.0) continue;
     EXPECT_NEAR(p[field::divergence][i], 1.0 - 0.7 - 0.3, 1e-12);
-    EXPECT_NEAR(p[field::velocity_gradient_xy][i], -0.5, 1e-12);
-    EXPECT_NEAR(p[field::velocity_gradient_zz][i], -0.3, 1e-12);
+    EXPECT_NEAR(p[field::velocity_gradient.xy][i], -0.5, 1e-12);
+    EXPECT_NEAR(p[field::velocity_gradient.zz][i], -0.3, 1e-12);
     ++inside;
   }
   EXPECT_GT(inside, 4);

@@ -151,8 +151,8 @@ TEST(Threads, LeaveTheBitsOfLiquidBodiesAndHeatAlone) {
   for (const int threads : {2, 3}) {
     Simulation more = lab.run(0.1, threads);
     EXPECT_EQ(one.steps(), more.steps());
-    for (const Field<double>* f : {&field::position_x, &field::velocity_z, &field::pressure,
-                                   &field::temperature, &field::viscous_force_x})
+    for (const Field<double>* f : {&field::position.x, &field::velocity.z, &field::pressure,
+                                   &field::temperature, &field::viscous_force.x})
       EXPECT_EQ(lab::by_id(one, *f), lab::by_id(more, *f)) << f->name << " with " << threads;
     EXPECT_EQ(one.ledger().energy, more.ledger().energy);
   }

@@ -144,7 +144,7 @@ TEST(Fracture, IsTheSameWithTwoThreads) {
   const lab::Lab lab = bar_pulled_apart(0.1);
   const Simulation one = lab.run(4.0), two = lab.run(4.0, 2);
   EXPECT_GT(one.state().accumulated[EnergyAccount{"fracture"}], 0.0);
-  EXPECT_EQ(lab::by_id(one, field::position_x), lab::by_id(two, field::position_x));
+  EXPECT_EQ(lab::by_id(one, field::position.x), lab::by_id(two, field::position.x));
   EXPECT_EQ(one.state().accumulated[EnergyAccount{"fracture"}],
             two.state().accumulated[EnergyAccount{"fracture"}]);
 }

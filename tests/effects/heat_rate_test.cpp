@@ -11,7 +11,7 @@ namespace tripoint {
 namespace {
 
 double amplitude(const Simulation& s, double k, double phase) {
-  const auto x = lab::by_id(s, field::position_x), T = lab::by_id(s, field::temperature);
+  const auto x = lab::by_id(s, field::position.x), T = lab::by_id(s, field::temperature);
   double sum = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) sum += 2.0 * (T[i] - 300.0) * std::cos(k * x[i] + phase);
   return sum / static_cast<double>(x.size());

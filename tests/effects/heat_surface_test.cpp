@@ -33,7 +33,7 @@ double error_of_rate(int across) {
   const double k = std::numbers::pi / 0.01, time = 0.5 / (lab::diffusivity * k * k);
   const auto sine = [&](const Vec3& r) { return std::sin(k * r.x); };
   const Simulation s = slab(across, [&](const Vec3& r) { return 300.0 + 10.0 * sine(r); }).run(time);
-  const auto x = lab::by_id(s, field::position_x), T = lab::by_id(s, field::temperature);
+  const auto x = lab::by_id(s, field::position.x), T = lab::by_id(s, field::temperature);
   double sum = 0.0, of_sine = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double wave = std::sin(k * x[i]);
@@ -72,7 +72,7 @@ TEST(HeldSurface, KeepsAStraightProfileAtRest) {
     lab.scene.materials[static_cast<std::size_t>(n)].values["surface_temperature"] = 300.0 + 10.0 * n;
   }
   const Simulation s = lab.run(1.0);
-  const auto x = lab::by_id(s, field::position_x), T = lab::by_id(s, field::temperature);
+  const auto x = lab::by_id(s, field::position.x), T = lab::by_id(s, field::temperature);
   for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(T[i], 300.0 + 1000.0 * x[i], 1e-9);
 }
 

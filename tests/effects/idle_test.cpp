@@ -60,8 +60,8 @@ lab::Lab with_event(lab::Lab lab, double time, double temperature) {
 }
 
 void expect_same_motion(const Simulation& a, const Simulation& b) {
-  for (const auto* f : {&field::position_x, &field::position_y, &field::position_z, &field::velocity_x,
-                        &field::velocity_y, &field::velocity_z, &field::density, &field::pressure})
+  for (const auto* f : {&field::position.x, &field::position.y, &field::position.z, &field::velocity.x,
+                        &field::velocity.y, &field::velocity.z, &field::density, &field::pressure})
     EXPECT_EQ(lab::by_id(a, *f), lab::by_id(b, *f)) << f->name;
 }
 

@@ -90,8 +90,8 @@ TEST(Inflow, GoesOnBitForBitFromACheckpointAndOnTwoThreads) {
   first.advance_to(0.15, [&] { return first.steps() < 30; });
   Simulation second(lab.scene, lab.initial, {.threads = 1}, first.checkpoint());
   second.advance_to(0.15);
-  EXPECT_EQ(lab::by_id(whole, field::position_z), lab::by_id(second, field::position_z));
-  EXPECT_EQ(lab::by_id(whole, field::velocity_x), lab::by_id(second, field::velocity_x));
+  EXPECT_EQ(lab::by_id(whole, field::position.z), lab::by_id(second, field::position.z));
+  EXPECT_EQ(lab::by_id(whole, field::velocity.x), lab::by_id(second, field::velocity.x));
 }
 
 Event event(Event::Kind kind, double time, double until) {
@@ -136,7 +136,7 @@ TEST(Hold, StopsALiquidWhereItIsAndLetsItGo) {
   hold.bodies = {"drop"};
   lab.scene.events.push_back(hold);
   const auto height = [&](double t) {
-    const std::vector<double> z = lab::by_id(lab.run(t), field::position_z);
+    const std::vector<double> z = lab::by_id(lab.run(t), field::position.z);
     double sum = 0.0;
     for (const double value : z) sum += value / 27.0;
     return sum;

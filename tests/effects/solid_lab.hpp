@@ -89,14 +89,14 @@ class Deformable {
   [[nodiscard]] Symmetric strain(std::size_t id) const {
     const Particles& p = state_.particles;
     const std::size_t i = p.row(id);
-    return {p[field::strain_xx][i], p[field::strain_yy][i], p[field::strain_zz][i],
-            p[field::strain_yz][i], p[field::strain_xz][i], p[field::strain_xy][i]};
+    return {p[field::strain.xx][i], p[field::strain.yy][i], p[field::strain.zz][i],
+            p[field::strain.yz][i], p[field::strain.xz][i], p[field::strain.xy][i]};
   }
   [[nodiscard]] std::size_t size() const { return start_.size(); }
   [[nodiscard]] State& state() { return state_; }
   void update() {
-    effect_->state(state_);
-    effect_->bonds(state_);
+    effect_->state(state_, state_.awake());
+    effect_->bonds(state_, state_.formed());
   }
 
  private:

@@ -85,10 +85,10 @@ TEST(Walls, AreShownTheForceAndDensityThatEveryStepWouldForm) {
       ASSERT_EQ(p.position(i), q.position(j));
       if (lab.initial.body[id] < 0) continue;
       for (const Field<double>* f :
-           {&field::force_x, &field::force_y, &field::force_z, &field::viscous_force_x,
-            &field::viscous_velocity_x, &field::number_density, &field::number_density_before})
+           {&field::force.x, &field::force.y, &field::force.z, &field::viscous_force.x,
+            &field::viscous_velocity.x, &field::number_density, &field::number_density_before})
         EXPECT_EQ(p[*f][i], q[*f][j]) << f->name << " of particle " << id << ", jitter " << jitter;
-      greatest = std::max(greatest, std::abs(p[field::force_z][i]));
+      greatest = std::max(greatest, std::abs(p[field::force.z][i]));
     }
     EXPECT_GT(greatest, 0.0);
   }
@@ -162,7 +162,7 @@ TEST(Walls, OfAJitteredSceneAreFeltFromTheirLattice) {
     }
     for (Vec3& r : lab.initial.position) r.z *= r.z > 0.0 ? 0.95 : 1.0;
     const Simulation s(lab.scene, lab.initial);
-    const auto rho = lab::by_id(s, field::density), f = lab::by_id(s, field::force_z);
+    const auto rho = lab::by_id(s, field::density), f = lab::by_id(s, field::force.z);
     std::array<std::vector<double>, 2> lowest;
     for (std::size_t id = 0; id < rho.size(); ++id)
       if (const double z = lab.initial.position[id].z; lab.initial.body[id] < 0 && z < lab.scene.spacing) {

@@ -36,7 +36,7 @@ TEST(Columns, HoldOnlyTheirOwnCarriersFields) {
 
 TEST(Columns, StartAtAVectorAndAreReadableOneVectorBeyondTheEnd) {
   Particles particles(5, some_fields());
-  for (const auto* f : {&field::mass, &field::temperature, &field::position_z}) {
+  for (const auto* f : {&field::mass, &field::temperature, &field::position.z}) {
     const auto column = particles[*f];
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(column.data()) % vector_bytes, 0u);
     for (std::size_t n = column.size(); n < column.size() + vector_bytes / sizeof(double); ++n)

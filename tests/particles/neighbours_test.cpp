@@ -152,9 +152,9 @@ TEST(Neighbours, LastUntilAParticleHasMovedByHalfTheSkin) {
   Particles p = cloud(100, {1.0, 1.0, 1.0}, false);
   Neighbours n(0.3, 0.1, {}, 1);
   EXPECT_TRUE(n.update(p, 0.0));
-  p[field::position_x][7] += 0.049;
+  p[field::position.x][7] += 0.049;
   EXPECT_FALSE(n.update(p, 0.0));
-  p[field::position_x][7] += 0.002;
+  p[field::position.x][7] += 0.002;
   EXPECT_TRUE(n.update(p, 0.0));
   EXPECT_EQ(n.rebuilds(), 2);
 }
@@ -169,13 +169,13 @@ TEST(Neighbours, WithoutMotionAreNeverBuiltAgainEvenWithoutASkin) {
 TEST(Neighbours, PutParticlesBackIntoThePeriodicBoxAndCountHowOften) {
   const PeriodicBox box{{true, false, false}, {-0.5, 0.0, 0.0}, {1.0, 0.0, 0.0}};
   Particles p = cloud(50, {0.4, 1.0, 1.0}, true);
-  const double before = p[field::position_x][3];
-  p[field::position_x][3] += 2.0;
+  const double before = p[field::position.x][3];
+  p[field::position.x][3] += 2.0;
   Neighbours n(0.3, 0.0, box, 1);
   n.update(p, 0.0);
   const std::size_t row = p.row(3);
-  EXPECT_NEAR(p[field::position_x][row], before, 1e-15);
-  EXPECT_EQ(p[field::image_x][row], 2);
+  EXPECT_NEAR(p[field::position.x][row], before, 1e-15);
+  EXPECT_EQ(p[field::image.x][row], 2);
 }
 
 TEST(Neighbours, ContinueTheSameListFromTheirBuildPositions) {
@@ -190,7 +190,7 @@ TEST(Neighbours, ContinueTheSameListFromTheirBuildPositions) {
   again.rebuild_from(q, built, 0.0);
   for (std::size_t i = 0; i < p.size(); ++i) {
     ASSERT_EQ(q[field::id][i], p[field::id][i]);
-    ASSERT_EQ(q[field::position_x][i], p[field::position_x][i]);
+    ASSERT_EQ(q[field::position.x][i], p[field::position.x][i]);
     ASSERT_EQ(entries_of(again, i), entries_of(n, i));
   }
 }
@@ -228,7 +228,7 @@ TEST(Neighbours, ThatAreMadeWhereSomebodyAsksAreTheSame) {
 
 TEST(Neighbours, OfAParticleFarAwayDoNotAskForAMountainOfCells) {
   Particles p = cloud(100, {1.0, 1.0, 1.0}, false);
-  p[field::position_x][9] = 1e9;
+  p[field::position.x][9] = 1e9;
   Neighbours n(0.2, 0.0, {}, 1);
   n.update(p, 0.0);
   EXPECT_EQ(listed(p, n, 0.2), brute(p, 0.2, {}));
@@ -236,7 +236,7 @@ TEST(Neighbours, OfAParticleFarAwayDoNotAskForAMountainOfCells) {
 
 TEST(Neighbours, OfAParticleThatIsNowhereNameIt) {
   Particles p = cloud(10, {1.0, 1.0, 1.0}, false);
-  p[field::position_y][4] = std::nan("");
+  p[field::position.y][4] = std::nan("");
   Neighbours n(0.2, 0.0, {}, 1);
   try {
     n.update(p, 2.5);
@@ -258,7 +258,7 @@ TEST(Neighbours, OfManyAreVisitedStripByStrip) {
   Neighbours m(support, skin, {}, 1);
   m.update(many, 0.0);
   const Clusters& c = m.clusters();
-  const auto y = many[field::position_y];
+  const auto y = many[field::position.y];
   const double low = *std::ranges::min_element(y);
   std::vector<std::pair<int, std::uint32_t>> visited;
   c.each([&](std::uint32_t k) { visited.emplace_back(static_cast<int>((y[c.first[k]] - low) / wide), k); });

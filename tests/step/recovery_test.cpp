@@ -45,7 +45,7 @@ TEST(Recovery, ARunThatDoesNotFailHasTheBitsOfOneThatCannotRecover) {
   Simulation without(lab.scene, lab.initial);
   without.advance_to(300.0);
   EXPECT_EQ(with.recovery().count(), 0);
-  EXPECT_EQ(lab::by_id(with, field::position_x), lab::by_id(without, field::position_x));
+  EXPECT_EQ(lab::by_id(with, field::position.x), lab::by_id(without, field::position.x));
 }
 
 TEST(Recovery, ACutRunGoesBackToTheSameStates) {
@@ -60,7 +60,7 @@ TEST(Recovery, ACutRunGoesBackToTheSameStates) {
   Simulation continued(lab.scene, lab.initial, {.force_time_step = true}, cut);
   continued.advance_to(1000.0);
   EXPECT_EQ(continued.recovery().count(), whole.recovery().count());
-  EXPECT_EQ(lab::by_id(continued, field::position_x), lab::by_id(whole, field::position_x));
+  EXPECT_EQ(lab::by_id(continued, field::position.x), lab::by_id(whole, field::position.x));
 }
 
 TEST(Recovery, GivesUpWithTheFirstCauseWhereNoStepHelps) {

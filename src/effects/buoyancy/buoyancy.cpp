@@ -11,8 +11,7 @@
 namespace tripoint::buoyancy {
 namespace {
 
-constexpr Field<double> force_x{"buoyancy_force.x", "N"}, force_y{"buoyancy_force.y", "N"},
-    force_z{"buoyancy_force.z", "N"};
+constexpr VectorField<double> force{"buoyancy_force", "N"};
 
 struct Expansion {
   double coefficient = 0.0, temperature = 0.0;  ///< [1/K], [K]
@@ -21,7 +20,7 @@ struct Expansion {
 class Buoyancy : public Effect {
  public:
   void load(State&, const InitialState&) override;
-  void bonds(State&) override;
+  void bonds(State&, const Rows&) override;
   [[nodiscard]] TimeStepBound max_dt(const State&) const override;
 
  private:
@@ -36,9 +35,9 @@ void Buoyancy::load(State& state, const InitialState& initial) {
   }
 }
 
-void Buoyancy::bonds(State& state) {
+void Buoyancy::bonds(State& state, const Rows&) {
   const Particles& p = std::as_const(state.particles);
-  const auto F = triple(state.particles, force_x, force_y, force_z);
+  const auto F = triple(state.particles, force);
   const auto m = p[field::mass], T = p[field::temperature];
   const auto material = p[field::material], phase = p[field::phase];
   for (std::size_t i = 0; i < m.size(); ++i) {
@@ -65,11 +64,11 @@ TimeStepBound Buoyancy::max_dt(const State& state) const {
 }  // namespace
 
 EffectSpec spec(const Scene&) {
-  Force buoyancy{force_x, force_y, force_z, {"buoyancy_work"}, EnergyAccount{"wall_buoyancy_work"}};
+  Force buoyancy{force, {"buoyancy_work"}, EnergyAccount{"wall_buoyancy_work"}};
   buoyancy.entry = "buoyancy";
   return {"buoyancy",
           Mode::corrected,
-          {force_x, force_y, force_z},
+          {force},
           {field::mass, field::material, field::phase, field::temperature},
           {buoyancy}};
 }

@@ -18,8 +18,7 @@
 #include "liquids/predicted_velocities.hpp"
 #include "liquids/pressing_gravity.hpp"
 #include "liquids/scene_numbers.hpp"
-#include "pairs/pair_passes.hpp"
-#include "pairs/run_pass.hpp"
+#include "pairs/alone.hpp"
 #include "scene/effect_rule.hpp"
 #include "sph/lattice.hpp"
 #include "state/body_table.hpp"
@@ -79,11 +78,11 @@ PairKernels kernels_of(const Scene& scene, const Numbers& n) {
 }
 
 /// Columns that the effect of contact owns where solids meet.
-std::vector<FieldInfo> shared() {
-  return {field::density,         field::volume,         field::pressure, field::group,
-          field::force_x,         field::force_y,        field::force_z,  field::viscous_force_x,
-          field::viscous_force_y, field::viscous_force_z};
+fields::List shared() {
+  return {field::density, field::volume, field::pressure, field::group, field::force, field::viscous_force};
 }
+
+Rows all_rows(const State& state) { return {0, state.particles.size()}; }
 
 class CarriedLiquid : public Effect {
  public:
@@ -99,12 +98,12 @@ class CarriedLiquid : public Effect {
     state.step_numbers[kick_length] = dt;
   }
   void drift(State& state, double dt) override;
-  void clear(State& state, PassName pass) override {
+  void start_sums(State& state, PassName pass, const Rows& rows) override {
     if (pass == PassName::density)
-      fill(state.particles[field::summed_density], kernels_.wendland.value(0.0), state.threads);
+      fill(part(state.particles[field::summed_density], rows), kernels_.wendland.value(0.0), state.threads);
   }
-  void state(State&) override;
-  void bonds(State&) override;
+  void state(State&, const Rows&) override;
+  void bonds(State&, const Rows&) override;
   void adopt(State&) override;
   void happen(State& state, const Happening&) override {
     set_groups(state);
@@ -122,7 +121,7 @@ class CarriedLiquid : public Effect {
  private:
   void set_material(State&, std::size_t) const;
   void set_groups(State&) const;
-  void run(State&, const PairTerm&, bool all) const;
+  void run(State&, const PairTerm&, const Rows&) const;
   void correct_gradients(State&) const;
   void correct_velocity_gradients(State&) const;
   void form_corrections(State&) const;
@@ -206,7 +205,7 @@ void CarriedLiquid::adopt(State& state) {
 /// The shift of the last rates acts in this drift.
 void CarriedLiquid::drift(State& state, double dt) {
   drifted_ = dt;
-  const auto w = triple(std::as_const(state.particles), field::shift_x, field::shift_y, field::shift_z);
+  const auto w = triple(std::as_const(state.particles), field::shift);
   const auto m = state.particles[field::mass];
   std::vector<std::array<double, 1>> blocks;
   const Vec3 g = state.scene.gravity;
@@ -215,12 +214,11 @@ void CarriedLiquid::drift(State& state, double dt) {
   state.accumulated[taken_by_shift] += dt * work[0];
 }
 
-/// Sums of a term over all clusters, or over those whose forces are formed now.
-void CarriedLiquid::run(State& state, const PairTerm& term, bool all) const {
+/// Sums of a term over the clusters of these rows.
+void CarriedLiquid::run(State& state, const PairTerm& term, const Rows& formed) const {
   Particles& p = state.particles;
-  const PassFunction pass = pair_passes(state.neighbours->clusters().lanes).alone(term);
-  const Rows formed = all ? Rows{0, p.size()} : state.formed();
-  const std::vector<FieldInfo> both = shared();
+  const PassFunction pass = alone_pass(state, term);
+  const fields::List both = shared();
   for (const Field<double>* f : pass.adds())
     if (!solids_meet_ || std::ranges::find(both, FieldInfo(*f)) == both.end())
       fill(part(p[*f], formed), 0.0, state.threads);
@@ -232,8 +230,7 @@ void CarriedLiquid::run(State& state, const PairTerm& term, bool all) const {
       if (state.owns(i)) return false;
     return true;
   });
-  run_pass_over(pass, p, *state.neighbours, kernels_, state.threads, chosen);
-  state.refresh(pass.adds());
+  add_alone(state, pass, kernels_, chosen);
 }
 
 void CarriedLiquid::correct_gradients(State& state) const {
@@ -355,7 +352,7 @@ void CarriedLiquid::set_shift(State& state) const {
   }
 }
 
-void CarriedLiquid::state(State& state) {
+void CarriedLiquid::state(State& state, const Rows&) {
   Particles& p = state.particles;
   const auto rho = p[field::density], m = p[field::mass], V = p[field::carried_volume],
              rest = p[field::liquid_rest_density], z = p[field::impedance], squeeze = p[field::squeeze];
@@ -372,7 +369,7 @@ void CarriedLiquid::state(State& state) {
   if (renewed)
     form_corrections(state);
   else
-    run(state, pair_term<SoundRate>, true);
+    run(state, pair_term<SoundRate>, all_rows(state));
   move_density(state);
   set_pressure(state);
   if (renewed) set_shift(state);
@@ -383,22 +380,22 @@ void CarriedLiquid::state(State& state) {
 
 /// All that is held between renewals, and the divergence.
 void CarriedLiquid::form_corrections(State& state) const {
-  run(state, pair_term<Moments>, true);
+  run(state, pair_term<Moments>, all_rows(state));
   correct_gradients(state);
-  run(state, scheme_.gradients, true);
+  run(state, scheme_.gradients, all_rows(state));
   correct_velocity_gradients(state);
 }
 
 /// The viscous forces, the damping and the diffusion of the last renewal hold until the next.
-void CarriedLiquid::bonds(State& state) {
+void CarriedLiquid::bonds(State& state, const Rows& rows) {
   if (state.step_numbers[held_for] > 0.0 && !state.forms_fixed)
     return run(state, holds_viscosity(state) ? pair_term<SoundForce<false>> : pair_term<SoundForce<true>>,
-               false);
-  run(state, scheme_.forces, false);
+               rows);
+  run(state, scheme_.forces, rows);
   if (scheme_.damping != Damping::residue) return;
   const double scale = scheme_.beta * 0.5 * state.support();
   for (const Field<double>* f : columns_of(field::residue_force))
-    for (double& one : part(state.particles[*f], state.formed())) one *= scale;
+    for (double& one : part(state.particles[*f], rows)) one *= scale;
 }
 
 TimeStepBound CarriedLiquid::max_dt(const State& state) const {
@@ -427,8 +424,8 @@ void CarriedLiquid::add_to(const State& state, Ledger& ledger) const {
   ledger.energy["shifting"] += state.accumulated[taken_by_shift];
 }
 
-std::vector<FieldInfo> owned(bool solids_meet) {
-  std::vector<FieldInfo> list{field::shift_x, field::shift_y, field::shift_z};
+fields::List owned(bool solids_meet) {
+  fields::List list{field::shift};
   const auto add = [&](std::span<const Field<double>* const> some) {
     for (const Field<double>* f : some)
       if (std::ranges::find(list, FieldInfo(*f)) == list.end()) list.emplace_back(*f);
@@ -441,33 +438,24 @@ std::vector<FieldInfo> owned(bool solids_meet) {
   add(AllForces::adds::list);
   const auto add_read = [&](std::span<const Field<double>* const> some) {
     for (const Field<double>* f : some)
-      if (f != &field::velocity_x && f != &field::velocity_y && f != &field::velocity_z) add({{f}});
+      if (f != &field::velocity.x && f != &field::velocity.y && f != &field::velocity.z) add({{f}});
   };
   add_read(AllForces::reads::list);
   add({{&field::exposed, &field::squeeze}});
   add_read(AllGradients::reads::list);
   add(SoundForce<true>::reads::list);
-  const std::vector<FieldInfo> both = shared();
+  const fields::List both = shared();
   std::erase_if(list, [&](const FieldInfo& f) { return std::ranges::find(both, f) != both.end(); });
   if (!solids_meet) list.insert(list.end(), both.begin(), both.end());
   return list;
 }
 
 std::vector<Force> forces_of(bool solids_meet) {
-  Force pressure{
-      field::force_x, field::force_y, field::force_z, {"pressure_work"}, EnergyAccount{"wall_pressure_work"}};
+  Force pressure{field::force, {"pressure_work"}, EnergyAccount{"wall_pressure_work"}};
   pressure.stored = StoredEnergy{{"compression"}, {"start_compression"}, {}, ""};
-  Force viscous{field::viscous_force_x,
-                field::viscous_force_y,
-                field::viscous_force_z,
-                {"viscous_work"},
-                EnergyAccount{"wall_viscous_work"}};
+  Force viscous{field::viscous_force, {"viscous_work"}, EnergyAccount{"wall_viscous_work"}};
   viscous.entry = "viscous";
-  Force residue{field::residue_force_x,
-                field::residue_force_y,
-                field::residue_force_z,
-                {"residue_work"},
-                EnergyAccount{"wall_residue_work"}};
+  Force residue{field::residue_force, {"residue_work"}, EnergyAccount{"wall_residue_work"}};
   residue.entry = "residue";
   return solids_meet ? std::vector{residue} : std::vector{pressure, viscous, residue};
 }

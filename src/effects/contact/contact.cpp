@@ -14,7 +14,7 @@ namespace {
 class Contact : public Effect {
  public:
   explicit Contact(const Scene& scene) : numbers_(liquid::numbers_of(scene)) {}
-  void state(State& state) override {
+  void state(State& state, const Rows&) override {
     if (looks_ahead() && state.moved) update_time_to_touch(state, numbers_);
   }
   void adopt(State& state) override {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 #include <memory>
 #include <utility>
 
-#include "core/machine.hpp"
 #include "effects/density/density_terms.hpp"
 #include "effects/effect.hpp"
 #include "liquids/carried_density.hpp"
@@ -11,7 +9,7 @@
 #include "scene/effect_rule.hpp"
 #include "scene/shared_terms.hpp"
 #include "state/body_table.hpp"
-#include "state/fill.hpp"
+#include "state/rows_loop.hpp"
 
 /// Density, which pressure, viscosity and the heat of the paper divide by: (4), or corrected by the number
 /// density (model 8.2).
@@ -33,13 +31,12 @@ class Density : public Effect {
         kernels_(flows_ ? liquid::pair_kernels(scene) : PairKernels(scene.support_ratio * scene.spacing)),
         scale_(printed_ ? 1.0 : 1.0 / liquid::numbers_of(scene).lattice_density) {}
   void load(State&, const InitialState&) override;
-  void clear(State&, PassName) override;
-  void densities(State&) override;
+  void start_sums(State&, PassName, const Rows&) override;
+  void densities(State&, const Rows&) override;
   void settle(State&) override;
   [[nodiscard]] PairWork pair_work(const Scene&) const override;
 
  private:
-  void clear_numbers(State&) const;
   void set_own_density(State&, std::size_t row) const;
 
   bool flows_, printed_;
@@ -54,7 +51,7 @@ void Density::load(State& state, const InitialState&) {
 
 /// Sum that the own pairs of a particle add to its number density, once and for all (model 8.2).
 void Density::set_own_density(State& state, std::size_t row) const {
-  if (!state.particles.has(field::own_density.name)) return;
+  if (!state.particles.has(field::own_density)) return;
   double sum = 0.0;
   for (const OwnPair& pair :
        std::as_const(state.own).of(static_cast<std::size_t>(state.particles[field::id][row])))
@@ -68,41 +65,34 @@ void Density::settle(State& state) {
 }
 
 /// Each particle's own share of the sum.
-void Density::clear(State& state, PassName pass) {
+void Density::start_sums(State& state, PassName pass, const Rows& rows) {
   if (pass != PassName::density) return;
-  if (!printed_) return clear_numbers(state);
   Particles& p = state.particles;
-  const auto rho = awake(p, field::density), m = p[field::mass];
-  const double self = kernels_.poly6.value(0.0);
-#pragma omp parallel for schedule(static) num_threads(state.threads) if (rho.size() > worth_threads)
-  for (std::size_t i = 0; i < rho.size(); ++i) rho[i] = m[i] * self;
+  if (printed_) {
+    const auto rho = p[field::density], m = p[field::mass];
+    const double self = kernels_.poly6.value(0.0);
+    for_rows(rows, state.threads, [&](std::size_t i) { rho[i] = m[i] * self; });
+    return;
+  }
+  const auto delta = p[field::number_density];
+  const double self = kernels_.wendland.value(0.0);
+  if (!p.has(field::own_density))
+    return for_rows(rows, state.threads, [&](std::size_t i) { delta[i] = self; });
+  const auto own = p[field::own_density];
+  for_rows(rows, state.threads, [&](std::size_t i) { delta[i] = self + own[i]; });
 }
 
-void Density::clear_numbers(State& state) const {
-  Particles& p = state.particles;
-  const Rows rows = state.forms_fixed ? Rows{p.awake(), p.size()} : Rows{0, p.awake()};
-  const auto delta = part(p[field::number_density], rows);
-  fill(delta, kernels_.wendland.value(0.0), state.threads);
-  if (!p.has(field::own_density.name)) return;
-  const auto own = part(p[field::own_density], rows);
-#pragma omp parallel for schedule(static) num_threads(state.threads) if (delta.size() > worth_threads)
-  for (std::size_t i = 0; i < delta.size(); ++i) delta[i] += own[i];
-}
-
-void Density::densities(State& state) {
+void Density::densities(State& state, const Rows& rows) {
   Particles& p = state.particles;
   const auto rho = p[field::density], m = p[field::mass], V = p[field::volume];
   if (!printed_) {
     const auto delta = p[field::number_density];
-    const double scale = scale_;
     const auto body = p[field::body];
-    const bool of_solids = of_solids_;
-#pragma omp parallel for schedule(static) num_threads(state.threads) if (p.awake() > worth_threads)
-    for (std::size_t i = 0; i < p.awake(); ++i)
+    for_rows(rows, state.threads, [&, scale = scale_, of_solids = of_solids_](std::size_t i) {
       if (!of_solids || body[i] >= 0) rho[i] = m[i] * (delta[i] * scale);
+    });
   }
-#pragma omp parallel for schedule(static) num_threads(state.threads) if (p.awake() > worth_threads)
-  for (std::size_t i = 0; i < p.awake(); ++i) V[i] = m[i] / rho[i];
+  for_rows(rows, state.threads, [&](std::size_t i) { V[i] = m[i] / rho[i]; });
 }
 
 PairWork Density::pair_work(const Scene&) const {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
-#include <type_traits>
 #include <utility>
 
 #include "effects/elastic/fields.hpp"
@@ -226,15 +225,6 @@ void add_all(State& state, const ElasticForms& forms, const Deformations& all) {
   }
 }
 
-/// What partners see of a particle is known where its list is whole: at its owner.
-void hand_deformed_to_copies(const State& state, Deformations& all) {
-  if (!state.halo) return;
-  constexpr std::size_t each = sizeof(Deformed) / sizeof(double);
-  static_assert(std::is_standard_layout_v<Deformed> && std::is_trivially_copyable_v<Deformed>);
-  double* const first = all.deformed.empty() ? nullptr : &all.deformed.front().measure_x.x;
-  state.halo->refresh({first, all.deformed.size() * each}, each);
-}
-
 /// @return whether a volume has changed, or who owns strain energy
 bool set_places(State& state, Deformations& all) {
   Particles& p = state.particles;
@@ -294,7 +284,7 @@ void refuse_inversion(const State& state, const ElasticForms& forms, const Defor
 
 void add_forces(State& state, const ElasticForms& forms, Deformations& all) {
   if (flows(state)) follow_flow(state, forms, all);
-  hand_deformed_to_copies(state, all);
+  state.hand_to_ghosts(all.deformed);  // only the owner of a particle has all of its list
   add_all(state, forms, all);
 }
 

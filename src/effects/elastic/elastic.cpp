@@ -22,8 +22,8 @@ class Elastic : public Effect {
  public:
   explicit Elastic(const Scene& scene) : forms_(scene) {}
   void load(State&, const InitialState&) override;
-  void state(State& state) override { deform(state, forms_, deformations_); }
-  void bonds(State& state) override { add_forces(state, forms_, deformations_); }
+  void state(State& state, const Rows&) override { deform(state, forms_, deformations_); }
+  void bonds(State& state, const Rows&) override { add_forces(state, forms_, deformations_); }
   void adopt(State&) override;
   void renumber(State&) override { deformations_ = {}; }
   void check(const State& state) const override { refuse_inversion(state, forms_, deformations_); }
@@ -101,11 +101,7 @@ EffectSpec spec(const Scene& scene) {
                {field::solid_material, 0, [](const State& w) { return w.scene.materials.size(); }}};
   s.reads_if_there = fields::joined({fields::deformation_if_there(), {field::may_flow}});
   if (can_freeze(scene)) s.owns.emplace_back(field::bond_frequency);
-  Force bonds{field::elastic_force_x,
-              field::elastic_force_y,
-              field::elastic_force_z,
-              {"elastic_work"},
-              EnergyAccount{"wall_elastic_work"}};
+  Force bonds{field::elastic_force, {"elastic_work"}, EnergyAccount{"wall_elastic_work"}};
   bonds.stored = StoredEnergy{{"elastic", "hourglass"}, {"start_deformation"}, account::deformation_released};
   s.forces = {bonds};
   s.own_sums.bonds = columns_of_all(field::elastic_force);

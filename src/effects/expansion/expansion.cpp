@@ -31,7 +31,7 @@ class Expansion : public Effect {
  public:
   explicit Expansion(const Scene& scene) : forms_(scene) {}
   void load(State&, const InitialState&) override;
-  void state(State&) override;
+  void state(State&, const Rows&) override;
   void add_to(const State& state, Ledger& ledger) const override {
     ledger.energy["expansion"] += state.accumulated[account::taken];
   }
@@ -71,7 +71,7 @@ double Expansion::expand(State& state, std::size_t row) const {
 }
 
 /// Where places and temperatures are those of the end of the step, before the strain is formed.
-void Expansion::state(State& state) {
+void Expansion::state(State& state, const Rows&) {
   const solid::ElasticParticles is_elastic(state);
   std::vector<std::array<double, 1>> blocks;
   const auto taken = ordered_sums(state.particles.size(), state.threads, blocks,

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <type_traits>
 #include <utility>
 
 #include "liquids/acting_pairs.hpp"
@@ -13,29 +12,22 @@
 #include "solids/solid_particles.hpp"
 
 namespace tripoint::faces {
-namespace {
-
-/// Copies take from their owners what these have by id.
-template <class Numbers>
-void hand_to_copies(const State& state, std::vector<Numbers>& by_id) {
-  if (!state.halo) return;
-  static_assert(std::is_standard_layout_v<Numbers> && std::is_trivially_copyable_v<Numbers>);
-  constexpr std::size_t each = sizeof(Numbers) / sizeof(double);
-  state.halo->refresh({by_id.empty() ? nullptr : &by_id.front().xx, by_id.size() * each}, each);
-}
-
-}  // namespace
-
 FacePressure::FacePressure(const Scene& scene) : share_(acting_number(scene, "face_pressure")) {}
 
 void FacePressure::find(const State& state) {
   if (!pairs_.renew(state.neighbours->rebuilds())) return;
   const Particles& p = state.particles;
-  const auto group = p[field::group];
-  const auto rank = p[field::shape_rank], id = p[field::id];
+  const auto rank = p[field::shape_rank];
   const solid::ElasticParticles moves_by_itself(state);
   elastic_.assign(p.size(), 0);
   for (std::size_t i = 0; i < p.size(); ++i) elastic_[i] = rank[i] == 3 && moves_by_itself(i);
+  find_bonded(state, find_pressed(state));
+}
+
+/// The pairs across a face. @return of each row, whether it has one
+std::vector<char> FacePressure::find_pressed(const State& state) {
+  const Particles& p = state.particles;
+  const auto group = p[field::group];
   std::vector<char> pressed(p.size(), 0);
   const auto each_pair = [&](std::size_t i, auto give) {
     for (const Entry e : state.neighbours->of(i)) {
@@ -52,6 +44,13 @@ void FacePressure::find(const State& state) {
     each_pair(i, [&](const liquid::ListedPair& pair) { pairs_.add(pair); });
     pairs_.end_row(i);
   }
+  return pressed;
+}
+
+/// Rows whose bonds a load passes on.
+void FacePressure::find_bonded(const State& state, const std::vector<char>& pressed) {
+  const Particles& p = state.particles;
+  const auto id = p[field::id];
   bonded_.clear();
   // Only the owning process knows all loads on a copy, so a copy counts as loaded.
   const auto is_loaded = [&](std::size_t row) { return elastic_[row] && (pressed[row] || !state.owns(row)); };
@@ -84,7 +83,7 @@ void FacePressure::deform(State& state) {
     measure_[static_cast<std::size_t>(id[i])] =
         (0.5 * share_) * symmetric_part(transposed(inverse_[i]) * inverse_[i] - identity3);
   });
-  hand_to_copies(state, measure_);
+  state.hand_to_ghosts(measure_);
 }
 
 void FacePressure::add_densities(State& state, const PairKernels& kernels) {
@@ -118,13 +117,12 @@ void FacePressure::add_densities(State& state, const PairKernels& kernels) {
 }
 
 /// With y = F^-1 d: dU/dF = -s/2 F^-T sum_j (share_i + share_j) W'(r*)/r* y y^T.
-void FacePressure::add_forces(State& state) {
+void FacePressure::add_forces(State& state, const Rows& rows) {
   Particles& p = state.particles;
   const auto share = std::as_const(p)[field::pressure_share];
   const auto id = p[field::id];
   const auto F = triple(p, field::force);
   const auto shape = solid::shape_inverses(std::as_const(p));
-  const Rows formed = state.formed();
   load_.assign(p.size(), {});
   pairs_.each_row(state.threads, [&](std::size_t n) {
     const std::size_t i = pairs_.row(n);
@@ -137,27 +135,26 @@ void FacePressure::add_forces(State& state) {
       f += pressure * (pair.at_face * at_face - pair.here * pair.d);
       if (elastic_[i]) pressed = pressed + (pressure * pair.at_face) * square(pair.d);
     }
-    if (i >= formed.from && i < formed.to) F.set(i, F.at(i) + f);
+    if (rows.has(i)) F.set(i, F.at(i) + f);
     if (elastic_[i] && state.owns(i))
       load_[own] = (-0.5 * share_) *
                    (transposed(inverse_[i]) * (inverse_[i] * full(pressed) * transposed(inverse_[i]))) *
                    shape.at(i);
   });
-  hand_to_copies(state, load_);
-  load_bonds(state);
+  state.hand_to_ghosts(load_);
+  load_bonds(state, rows);
 }
 
 /// As the force of strain energy, (12): F = -v_l T gradW(x_kl) on l and the opposite on k, T = dU/dF A of k.
-void FacePressure::load_bonds(State& state) const {
+void FacePressure::load_bonds(State& state, const Rows& rows) const {
   Particles& p = state.particles;
   const auto id = p[field::id];
   const auto volume = std::as_const(p)[field::solid_volume];
   const auto F = triple(p, field::force);
-  const Rows formed = state.formed();
 #pragma omp parallel for schedule(static) num_threads(state.threads)
   for (std::size_t n = 0; n < bonded_.size(); ++n) {
     const std::size_t i = bonded_[n];
-    if (i < formed.from || i >= formed.to || !state.owns(i)) continue;
+    if (!rows.has(i) || !state.owns(i)) continue;
     const auto own = static_cast<std::size_t>(id[i]);
     Vec3 f;
     for (const Bond& b : state.bonds.of(own)) {

@@ -24,7 +24,7 @@ class FacePressure {
   void add_densities(State&, const PairKernels&);
   /// After the pass of rates: the same to the pressure force, and dU/dF of each elastic particle to its
   /// bonds.
-  void add_forces(State&);
+  void add_forces(State&, const Rows&);
   /// Rows, groups or bodies have changed: look again which particles are elastic.
   void clear() { pairs_.clear(); }
 
@@ -37,7 +37,9 @@ class FacePressure {
   };
   void find(const State&);
   void deform(State&);
-  void load_bonds(State&) const;
+  std::vector<char> find_pressed(const State&);
+  void find_bonded(const State&, const std::vector<char>& pressed);
+  void load_bonds(State&, const Rows&) const;
   /// (I + D_i + D_j) d. @param i,j ids
   [[nodiscard]] Vec3 seen_at_face(std::size_t i, std::size_t j, const Vec3& d) const {
     return d + (measure_[i] + measure_[j]) * d;

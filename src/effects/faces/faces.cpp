@@ -14,8 +14,8 @@ namespace {
 class Faces : public Effect {
  public:
   explicit Faces(const Scene& scene) : kernels_(liquid::pair_kernels(scene)), faces_(scene) {}
-  void densities(State& state) override { faces_.add_densities(state, kernels_); }
-  void bonds(State& state) override { faces_.add_forces(state); }
+  void densities(State& state, const Rows&) override { faces_.add_densities(state, kernels_); }
+  void bonds(State& state, const Rows& rows) override { faces_.add_forces(state, rows); }
   void adopt(State& state) override {
     if (liquid::groups_changed(state)) faces_.clear();
   }

@@ -111,7 +111,7 @@ class Release {
     std::vector<std::uint32_t> ids;
     for (const auto& [id, before] : before_) ids.push_back(id);
     solid::refresh_shapes(state_, ids);
-    if (state_.particles.has(field::plastic_strain_xx.name))
+    if (state_.particles.has(field::plastic_strain))
       for (const std::uint32_t id : ids) keep_elastic_strain(id);
     double let_go = 0.0;
     for (const auto& [id, before] : before_)

@@ -12,7 +12,6 @@
 #include "effects/heat/thermal_particles.hpp"
 #include "solids/fusion.hpp"
 #include "sph/moments.hpp"
-#include "state/fill.hpp"
 #include "state/ordered_sum.hpp"
 
 namespace tripoint::heat {
@@ -137,13 +136,6 @@ bool is_small(const State& state, double dt) {
   return dt * greatest_diffusivity(state.scene) <= small_step * state.scene.spacing * state.scene.spacing;
 }
 
-/// A few steps take the same B_i; where matter has changed they are formed anew.
-void decide_what_is_held(State& state) {
-  double& held = state.step_numbers[b_held_for];
-  state.holds_sums = state.can_hold_sums && held > 0.0 && held < steps_held && state.change.empty();
-  if (!state.holds_sums) held = 0.0;
-}
-
 }  // namespace
 
 void CorrectedHeat::load(State& state, const InitialState& initial) {
@@ -187,32 +179,30 @@ bool CorrectedHeat::correct(State& state, double dt) {
   return !is_small(state, dt);
 }
 
-void CorrectedHeat::clear(State& state, PassName pass) {
-  Particles& p = state.particles;
-  if (pass != PassName::density) {
-    for (const auto* f : {&field::heat_rate, &field::conductance}) fill(p[*f], 0.0, state.threads);
-  } else {
-    decide_what_is_held(state);
-    if (state.holds_sums) return;
-    for (const auto* f : HeatMoment::adds::list) fill(p[*f], 0.0, state.threads);
-  }
-  surfaces_.start_sums(state, pass);
+/// A few steps take the same B_i; where matter has changed they are formed anew.
+void CorrectedHeat::decide_sums(State& state) {
+  double& held = state.step_numbers[b_held_for];
+  state.holds_sums = state.can_hold_sums && held > 0.0 && held < steps_held && state.change.empty();
+  if (!state.holds_sums) held = 0.0;
+}
+
+void CorrectedHeat::start_sums(State& state, PassName pass, const Rows&) {
+  if (pass != PassName::density || !state.holds_sums) surfaces_.start_sums(state, pass);
 }
 
 /// B_i of every particle, of the sums of the density pass.
-void CorrectedHeat::state(State& state) {
+void CorrectedHeat::state(State& state, const Rows& rows) {
   if (!state.moved || state.holds_sums) return;
   Particles& p = state.particles;
   const auto B = symmetric_columns(p, field::moment_inverse), spread = symmetric_columns(p, field::spread);
   const auto rest = matrix_columns(p, field::spread_rest).a;
   const auto lean = triple(p, field::lean);
   const double dx = state.scene.spacing;
-#pragma omp parallel for schedule(static) num_threads(state.threads)
-  for (std::size_t i = 0; i < p.size(); ++i) {
+  for_rows(rows, state.threads, [&](std::size_t i) {
     ConductionSums sums{spread.at(i), {}, lean.at(i)};
     for (std::size_t k = 0; k < rest.size(); ++k) sums.rest[k] = rest[k][i];
     B.set(i, conduction_tensor(sums, dx));
-  }
+  });
 }
 
 void CorrectedHeat::happen(State& state, const Happening& now) {

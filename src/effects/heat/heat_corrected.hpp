@@ -16,8 +16,9 @@ class CorrectedHeat : public Effect {
  public:
   void load(State&, const InitialState&) override;
   void drift(State&, double dt) override;
-  void clear(State&, PassName) override;
-  void state(State&) override;
+  void decide_sums(State&) override;
+  void start_sums(State&, PassName, const Rows&) override;
+  void state(State&, const Rows&) override;
   bool correct(State&, double dt) override;
   void happen(State&, const Happening&) override;
   [[nodiscard]] TimeStepBound max_dt(const State&) const override;

@@ -11,7 +11,6 @@
 #include "scene/effect_rule.hpp"
 #include "scene/scene_keys.hpp"
 #include "solids/fusion.hpp"
-#include "state/fill.hpp"
 #include "state/ordered_sum.hpp"
 
 namespace tripoint::heat {
@@ -83,12 +82,6 @@ void PaperHeat::drift(State& state, double dt) {
   });
   state.accumulated[account::walls] += to_walls[0];
   accumulate_held(state, [&](std::size_t i) { return enthalpy_of(m[i], c_p[i], rate[i] * dt); });
-}
-
-void PaperHeat::clear(State& state, PassName pass) {
-  if (pass == PassName::density) return;
-  fill(state.particles[field::temperature_rate], 0.0, state.threads);
-  fill(state.particles[field::exchange], 0.0, state.threads);
 }
 
 void PaperHeat::happen(State& state, const Happening& now) {

@@ -9,7 +9,6 @@ class PaperHeat : public Effect {
  public:
   void load(State&, const InitialState&) override;
   void drift(State&, double dt) override;
-  void clear(State&, PassName) override;
   void happen(State&, const Happening&) override;
   [[nodiscard]] TimeStepBound max_dt(const State&) const override;
   void add_to(const State&, Ledger&) const override;

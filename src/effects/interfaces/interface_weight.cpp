@@ -41,8 +41,7 @@ void InterfaceWeight::find(const State& state) {
 }
 
 /// The gradient of a (g.d) K: a (g K + (g.d) K'/r d) on i, the opposite on j.
-void InterfaceWeight::add_forces(State& state, const PairKernels& kernels) {
-  if (state.forms_fixed) return;  // the forces on liquids are of the present time
+void InterfaceWeight::add_forces(State& state, const PairKernels& kernels, const Rows& rows) {
   find(state);
   Particles& p = state.particles;
   const auto x = positions(std::as_const(p));
@@ -51,6 +50,7 @@ void InterfaceWeight::add_forces(State& state, const PairKernels& kernels) {
   const double support = state.support();
   pairs_.each_row(state.threads, [&](std::size_t n) {
     const std::size_t i = pairs_.row(n);
+    if (!rows.has(i)) return;
     Vec3 f;
     for (const liquid::ListedPair& pair : pairs_.of(n)) {
       const Vec3 d = liquid::way_to(*state.neighbours, x, i, pair);

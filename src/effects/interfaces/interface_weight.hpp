@@ -20,7 +20,7 @@ class InterfaceWeight {
   explicit InterfaceWeight(const Scene&);
   [[nodiscard]] bool acts() const noexcept { return factor_ != 0.0; }
   /// The force of that energy, after the pass of rates.
-  void add_forces(State&, const PairKernels&);
+  void add_forces(State&, const PairKernels&, const Rows&);
   /// Half of the energies of the pairs of a row [J].
   [[nodiscard]] double energy(const State&, const PairKernels&, std::size_t row) const;
   /// Rows or groups have changed: look again which liquids meet.

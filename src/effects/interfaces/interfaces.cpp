@@ -17,7 +17,7 @@ namespace {
 class Interfaces : public Effect {
  public:
   explicit Interfaces(const Scene& scene) : kernels_(liquid::pair_kernels(scene)), weight_(scene) {}
-  void bonds(State& state) override { weight_.add_forces(state, kernels_); }
+  void bonds(State& state, const Rows& rows) override { weight_.add_forces(state, kernels_, rows); }
   void adopt(State& state) override {
     if (liquid::groups_changed(state)) weight_.clear();
   }

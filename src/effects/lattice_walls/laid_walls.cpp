@@ -37,7 +37,7 @@ void LaidWalls::find_moves(State& state) {
       sums[first_of(i) + 2 * a] += std::cos(angle);
       sums[first_of(i) + 2 * a + 1] += std::sin(angle);
     }
-  if (state.halo) state.halo->add(sums);
+  state.add_up(sums);
   moves_.assign(p.size(), {});
   for (std::size_t i = 0; i < p.size(); ++i)
     for (std::size_t a = 0; a < 3 && fixed(i); ++a) {
@@ -89,13 +89,12 @@ void LaidWalls::lay_densities(State& state, const PairKernels& kernels) {
   });
 }
 
-void LaidWalls::lay_forces(State& state, const PairKernels& kernels) {
+void LaidWalls::lay_forces(State& state, const PairKernels& kernels, const Rows& rows) {
   Particles& p = state.particles;
   const auto share = std::as_const(p)[field::pressure_share];
   const auto F = triple(p, field::force);
-  const Rows formed = state.formed();
   each_pair(state, [&](std::size_t i, std::size_t j, const Vec3& d, const Vec3& from_lattice) {
-    if (i < formed.from || i >= formed.to) return;
+    if (!rows.has(i)) return;
     const double pressure = share[i] + share[j];
     F.set(i, F.at(i) + pressure * (kernels.wendland.derivative_over_r(norm(from_lattice)) * from_lattice -
                                    kernels.wendland.derivative_over_r(norm(d)) * d));

@@ -25,7 +25,7 @@ class LaidWalls {
   void lay_densities(State&, const PairKernels&);
   /// After the pass of rates: the same to the pressure force, so that it is the gradient of the energy at
   /// these densities.
-  void lay_forces(State&, const PairKernels&);
+  void lay_forces(State&, const PairKernels&, const Rows&);
   /// Groups have changed: look again which particles are walls.
   void clear() {
     pairs_.clear();

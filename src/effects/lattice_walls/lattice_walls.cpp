@@ -13,8 +13,8 @@ namespace {
 class LatticeWalls : public Effect {
  public:
   explicit LatticeWalls(const Scene& scene) : kernels_(liquid::pair_kernels(scene)) {}
-  void densities(State& state) override { laid_.lay_densities(state, kernels_); }
-  void bonds(State& state) override { laid_.lay_forces(state, kernels_); }
+  void densities(State& state, const Rows&) override { laid_.lay_densities(state, kernels_); }
+  void bonds(State& state, const Rows& rows) override { laid_.lay_forces(state, kernels_, rows); }
   void adopt(State& state) override {
     if (liquid::groups_changed(state)) laid_.clear();
   }

@@ -68,7 +68,7 @@ void FreeMotion::kick(State& state, double dt) {
 void FreeMotion::drift(State& state, double dt) {
   Particles& p = state.particles;
   const auto r = positions(p), v = velocities(p);
-  const bool shifts = p.has(field::shift_x.name);
+  const bool shifts = p.has(field::shift);
   const auto w = shifts ? triple(std::as_const(p), field::shift) : Triple<const double>{};
   const RigidMembers is_member(state);
   const bool guided = p.has(field::driven.name);

@@ -4,20 +4,20 @@
 #include "effects/no_slip/wall_terms.hpp"
 #include "liquids/fields.hpp"
 #include "liquids/fixed_walls.hpp"
-#include "pairs/pair_passes.hpp"
+#include "pairs/alone.hpp"
 #include "state/fill.hpp"
 
 namespace tripoint::no_slip {
 
 /// Finds the walls with liquid in reach, anew after each rebuild of the lists. The viscous velocities of
 /// fixed walls, which only wet ones are given, become 0 again.
-void MirroredVelocity::find(State& state) {
+void MirroredVelocity::find(State& state, const Rows& rows) {
   if (known_ == state.neighbours->rebuilds()) return;
   known_ = state.neighbours->rebuilds();
   wet_walls_.clear();
   const Particles& p = state.particles;
   for (const Field<double>* f : columns_of(field::viscous_velocity))
-    fill(part(state.particles[*f], {p.moving(), p.awake()}), 0.0, state.threads);
+    fill(part(state.particles[*f], {p.moving(), rows.to}), 0.0, state.threads);
   const auto group = state.particles[field::group];
   const auto stick = state.particles[field::stick];
   const bool drags = liquid::all_drag(state.scene);
@@ -35,15 +35,14 @@ void MirroredVelocity::find(State& state) {
   wet_ = clusters_of(c, wet_walls_);
 }
 
-void MirroredVelocity::mirror(State& state, const PairKernels& kernels) {
-  find(state);
+void MirroredVelocity::mirror(State& state, const PairKernels& kernels, const Rows& rows) {
+  find(state, rows);
   Particles& p = state.particles;
-  for (const Field<double>* f : WallExtrapolation::adds::list) fill(awake(p, *f), 0.0, state.threads);
+  for (const Field<double>* f : WallExtrapolation::adds::list) fill(part(p[*f], rows), 0.0, state.threads);
   if (wet_walls_.empty()) return;
   const PairTerm term =
       kernels.shear.even() ? pair_term<WallExtrapolation> : pair_term<WallExtrapolationWeighted>;
-  run_pass_over(pair_passes(state.neighbours->clusters().lanes).alone(term), p, *state.neighbours, kernels,
-                state.threads, wet_);
+  add_alone_here(state, alone_pass(state, term), kernels, wet_);
 
   const auto weight = p[field::wall_weight];
   const auto moved = triple(p, field::wall_velocity);

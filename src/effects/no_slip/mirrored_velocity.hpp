@@ -14,12 +14,12 @@ namespace tripoint::no_slip {
 class MirroredVelocity {
  public:
   /// Sets the viscous velocity of the walls that liquid is near, where it sticks to them.
-  void mirror(State&, const PairKernels&);
+  void mirror(State&, const PairKernels&, const Rows&);
   /// Rows or groups have changed: look again which particles are walls.
   void clear() { known_ = -1; }
 
  private:
-  void find(State&);
+  void find(State&, const Rows&);
 
   std::vector<std::uint32_t> wet_walls_;  ///< rows of walls with liquid in their lists that it sticks to
   ChosenClusters wet_;                    ///< their clusters

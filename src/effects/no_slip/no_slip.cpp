@@ -14,7 +14,7 @@ namespace {
 class NoSlip : public Effect {
  public:
   explicit NoSlip(const Scene& scene) : kernels_(liquid::pair_kernels(scene)) {}
-  void state(State& state) override { velocity_.mirror(state, kernels_); }
+  void state(State& state, const Rows& rows) override { velocity_.mirror(state, kernels_, rows); }
   void adopt(State& state) override {
     if (liquid::groups_changed(state)) velocity_.clear();
   }

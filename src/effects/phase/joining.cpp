@@ -18,14 +18,9 @@ namespace {
 constexpr double least_determinant = 0.1;
 
 void turn_plastic_strain(Particles& p, std::size_t row, const Matrix3& R) {
-  if (!p.has(field::plastic_strain_xx.name)) return;
+  if (!p.has(field::plastic_strain)) return;
   const Symmetric e = symmetric_part(R * full(solid::plastic_strain_of(p, row)) * transposed(R));
-  p[field::plastic_strain_xx][row] = e.xx;
-  p[field::plastic_strain_yy][row] = e.yy;
-  p[field::plastic_strain_zz][row] = e.zz;
-  p[field::plastic_strain_yz][row] = e.yz;
-  p[field::plastic_strain_xz][row] = e.xz;
-  p[field::plastic_strain_xy][row] = e.xy;
+  solid::set_plastic_strain(p, row, e);
 }
 
 /// Turns the list of a deformable solid, and its plastic strain, into the present frame. No energy changes,
@@ -86,7 +81,7 @@ void bond(State& state, const std::vector<Joint>& joints) {
 
 void make_own_pairs(State& state, const std::vector<std::uint32_t>& frozen) {
   Particles& p = state.particles;
-  if (!p.has(field::own_density.name) && !(has_deformable(state) && p.has(field::force_x.name))) return;
+  if (!p.has(field::own_density.name) && !(has_deformable(state) && p.has(field::force))) return;
   const solid::ElasticParticles is_elastic(state);
   const auto body = p[field::body];
   const double reach = std::max(state.support(), bond_reach(state.scene) * state.scene.spacing);

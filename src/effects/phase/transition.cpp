@@ -123,7 +123,7 @@ void Transition::turn(const std::vector<std::uint32_t>& ids) {
       if (!owns(p.row(bond.other))) unstrained.push_back(bond.other);
       state_.change.relisted.push_back(bond.other);
     }
-    if (p.has(field::plastic_strain_xx.name)) solid::set_plastic_strain(p, i, {});
+    if (p.has(field::plastic_strain)) solid::set_plastic_strain(p, i, {});
     changed_.bodies.push_back(static_cast<std::size_t>(p[field::body][i]));
     state_.change.bodies.push_back(static_cast<std::size_t>(p[field::body][i]));
     state_.change.relisted.push_back(id);
@@ -159,7 +159,7 @@ void Transition::freeze(const std::vector<std::uint32_t>& ids) {
     const std::size_t i = p.row(id);
     p[field::phase][i] =
         static_cast<int>(solid_phase(state_.scene, state_.material_of(i), p[field::liquid_fraction][i]));
-    if (p.has(field::plastic_strain_xx.name)) solid::set_plastic_strain(p, i, {});
+    if (p.has(field::plastic_strain)) solid::set_plastic_strain(p, i, {});
     state_.change.relisted.push_back(id);
     state_.change.regrouped.push_back(id);
   }

@@ -19,7 +19,7 @@ constexpr EnergyAccount dissipation{"plastic"};
 class PlasticFlow : public Effect {
  public:
   explicit PlasticFlow(const Scene&);
-  void state(State&) override;
+  void state(State&, const Rows&) override;
   void adopt(State&) override;
   void add_to(const State& state, Ledger& ledger) const override {
     ledger.energy["plastic"] += state.accumulated[dissipation];
@@ -63,7 +63,7 @@ double PlasticFlow::flow(State& state, std::size_t row) const {
 }
 
 /// After the strain of the present time is known, before its stress.
-void PlasticFlow::state(State& state) {
+void PlasticFlow::state(State& state, const Rows&) {
   const auto may_flow = std::as_const(state.particles)[field::may_flow];
   if (std::ranges::find(may_flow, 1) == may_flow.end()) return;
   const solid::ElasticParticles is_elastic(state);

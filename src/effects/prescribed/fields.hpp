@@ -5,7 +5,6 @@
 /// Where a grip took a particle.
 namespace tripoint::field {
 
-inline constexpr Field<double> grip_x{"grip.x", "m"}, grip_y{"grip.y", "m"}, grip_z{"grip.z", "m"};
-inline constexpr VectorField<double> grip{grip_x, grip_y, grip_z};
+inline constexpr VectorField<double> grip{"grip", "m"};
 
 }  // namespace tripoint::field

@@ -50,10 +50,9 @@ class Pressure : public Effect {
   void load(State&, const InitialState&) override;
   void kick(State&, double dt) override;
   void drift(State&, double dt) override;
-  void clear(State&, PassName) override;
-  void state(State&) override;
-  void after_states(State&) override;
-  void form_fixed(State&) override;
+  void state(State&, const Rows&) override;
+  void after_states(State&, const Rows&) override;
+  void form_fixed(State&, const Rows&) override;
   void happen(State& state, const Happening&) override { set_groups(state); }
   void adopt(State&) override;
   void check(const State& state) const override { refuse_overlap(state, numbers_); }
@@ -93,28 +92,20 @@ void Pressure::kick(State& state, double dt) {
 
 void Pressure::drift(State&, double dt) { drifted_ = dt; }
 
-void Pressure::clear(State& state, PassName pass) {
-  if (pass != PassName::rates) return;
-  Particles& p = state.particles;
-  for (const Field<double>* f : columns_of(field::force))
-    fill(part(p[*f], state.formed()), 0.0, state.threads);
-}
-
-void Pressure::state(State& state) {
-  set_pressure(state, numbers_);
+void Pressure::state(State& state, const Rows& rows) {
+  set_pressure(state, numbers_, rows);
   if (damps_ && state.moved) set_bulk_pressure(state, numbers_);
 }
 
-void Pressure::after_states(State& state) {
-  if (state.scene.mode_of(term::pressure) == Mode::corrected) set_pressure_shares(state, numbers_);
+void Pressure::after_states(State& state, const Rows& rows) {
+  if (state.scene.mode_of(term::pressure) == Mode::corrected) set_pressure_shares(state, numbers_, rows);
 }
 
-void Pressure::form_fixed(State& state) {
+void Pressure::form_fixed(State& state, const Rows& rows) {
   if (!damps_) return;
   Particles& p = state.particles;
-  const Rows fixed = state.formed();
-  std::ranges::copy(part(p[field::number_density], fixed),
-                    part(p[field::number_density_before], fixed).begin());
+  std::ranges::copy(part(p[field::number_density], rows),
+                    part(p[field::number_density_before], rows).begin());
 }
 
 /// Sound C h/(c + |v|), C of the form, and the numerical bulk viscosity, which binds above its default alone
@@ -145,8 +136,7 @@ PairWork Pressure::pair_work(const Scene& scene) const {
 
 /// Where its work goes (model 8.11).
 Force force_of(const Scene& scene) {
-  Force pressure{
-      field::force_x, field::force_y, field::force_z, {"pressure_work"}, EnergyAccount{"wall_pressure_work"}};
+  Force pressure{field::force, {"pressure_work"}, EnergyAccount{"wall_pressure_work"}};
   if (liquid::stores_compression(scene))
     pressure.stored =
         StoredEnergy{{"compression"}, {"start_compression"}, compression_released, "phase_work"};

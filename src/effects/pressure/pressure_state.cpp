@@ -10,6 +10,7 @@
 #include "liquids/fields.hpp"
 #include "scene/shared_terms.hpp"
 #include "state/failure.hpp"
+#include "state/rows_loop.hpp"
 
 namespace tripoint::pressure {
 
@@ -34,19 +35,18 @@ void refuse_overlap(const State& state, const liquid::SceneNumbers& n) {
                    most, n.overlap_density));
 }
 
-void set_pressure(State& state, const liquid::SceneNumbers& n) {
+void set_pressure(State& state, const liquid::SceneNumbers& n, const Rows& rows) {
   Particles& p = state.particles;
   const auto rho = p[field::density], rest = p[field::rest_density], pressure = p[field::pressure],
              group = p[field::group];
   const bool paper = state.scene.mode_of(term::state) == Mode::paper, clamps = liquid::clamps(state.scene);
-#pragma omp parallel for schedule(static) num_threads(state.threads) if (p.awake() > worth_threads)
-  for (std::size_t i = 0; i < p.awake(); ++i) {
+  for_rows(rows, state.threads, [&](std::size_t i) {
     const EquationOfState e = liquid::state_of(n, group[i], rest[i], clamps);
     pressure[i] = paper ? pressure_paper(e, rho[i]) : pressure_corrected(e, rho[i]);
-  }
+  });
 }
 
-void set_pressure_shares(State& state, const liquid::SceneNumbers& n) {
+void set_pressure_shares(State& state, const liquid::SceneNumbers& n, const Rows& rows) {
   Particles& p = state.particles;
   const auto share = p[field::pressure_share], V = p[field::volume], pressure = p[field::pressure],
              m = p[field::mass], rest = p[field::rest_density];
@@ -56,11 +56,10 @@ void set_pressure_shares(State& state, const liquid::SceneNumbers& n) {
   const auto pressed = [&](std::size_t i) {
     return n.surface_head > 0.0 && group[i] == liquid_group ? std::min(V[i], m[i] / rest[i]) : V[i];
   };
-#pragma omp parallel for schedule(static) num_threads(state.threads) if (p.awake() > worth_threads)
-  for (std::size_t i = 0; i < p.awake(); ++i) {
+  for_rows(rows, state.threads, [&](std::size_t i) {
     const double volume = pressed(i);
     share[i] = volume * volume * (q.empty() ? pressure[i] : pressure[i] + q[i]) / n.gradient_moment;
-  }
+  });
 }
 
 }  // namespace tripoint::pressure

@@ -11,9 +11,9 @@ namespace tripoint::pressure {
 /// so an overlap looks like a heavy neighbour.
 void refuse_overlap(const State&, const liquid::SceneNumbers&);
 /// (9), printed or scaled (model 8.3).
-void set_pressure(State&, const liquid::SceneNumbers&);
+void set_pressure(State&, const liquid::SceneNumbers&, const Rows&);
 /// V^2 p, with the pressure of the bulk viscosity, over the kernel's lattice moment: the share of each
 /// particle in the corrected pressure force.
-void set_pressure_shares(State&, const liquid::SceneNumbers&);
+void set_pressure_shares(State&, const liquid::SceneNumbers&, const Rows&);
 
 }  // namespace tripoint::pressure

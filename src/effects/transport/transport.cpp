@@ -14,7 +14,7 @@ class Transport : public Effect {
   explicit Transport(const Scene& scene)
       : numbers_(liquid::numbers_of(scene)), kernels_(liquid::pair_kernels(scene)) {}
   void drift(State& state, double dt) override { set_shift(state, dt); }
-  void state(State& state) override { set_transport_forces(state, numbers_, kernels_); }
+  void state(State& state, const Rows&) override { set_transport_forces(state, numbers_, kernels_); }
 
  private:
   liquid::SceneNumbers numbers_;
@@ -33,8 +33,7 @@ EffectSpec spec(const Scene& scene) {
                                 field::pressure, field::viscous_velocity}})};
   if (liquid::has_transport_means(liquid::numbers_of(scene)))
     s.owns.insert(s.owns.end(), {field::pressure_around, field::nearing, field::bulk_pressure});
-  Force stress{
-      field::transport_force_x, field::transport_force_y, field::transport_force_z, {"transport_work"}};
+  Force stress{field::transport_force, {"transport_work"}};
   stress.entry = "transport";
   stress.feels = Feels::particles;
   s.forces = {stress};

@@ -5,10 +5,8 @@
 
 #include "effects/transport/transport_terms.hpp"
 #include "liquids/fields.hpp"
-#include "pairs/pair_passes.hpp"
-#include "pairs/run_pass.hpp"
+#include "pairs/alone.hpp"
 #include "scene/shared_terms.hpp"
-#include "state/fill.hpp"
 
 namespace tripoint::transport {
 
@@ -37,10 +35,7 @@ void set_transport_forces(State& state, const liquid::SceneNumbers& n, const Pai
   Particles& p = state.particles;
   const bool means = liquid::has_transport_means(n);
   const PairTerm term = means ? pair_term<TransportForcesAndMeans> : pair_term<TransportForces>;
-  const PassFunction pass = pair_passes(state.neighbours->clusters().lanes).alone(term);
-  for (const Field<double>* f : pass.adds()) fill(p[*f], 0.0, state.threads);
-  run_pass(pass, p, *state.neighbours, kernels, state.threads);
-  state.refresh(pass.adds());
+  sum_alone(state, term, kernels);
   const double pressure = n.stiffness * n.reference_density;  // rho0 c^2, as Adami, Hu and Adams take it
   const double background = pressure / n.lattice_density, stress = 1.0 / n.lattice_density;
   for (const Field<double>* f : columns_of(field::background))

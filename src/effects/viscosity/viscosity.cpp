@@ -9,7 +9,6 @@
 #include "liquids/fields.hpp"
 #include "liquids/predicted_velocities.hpp"
 #include "liquids/scene_numbers.hpp"
-#include "state/fill.hpp"
 
 /// Viscosity of liquids and friction of solids that touch, (8): the force, and its bound of the step
 /// (model 8.5).
@@ -23,9 +22,8 @@ class Viscosity : public Effect {
         has_own_form_(!scene.has_brought_form(term::viscosity)),
         solid_viscosity_(scene) {}
   void load(State&, const InitialState&) override;
-  void clear(State&, PassName) override;
-  void state(State&) override;
-  void after_states(State&) override;
+  void state(State&, const Rows&) override;
+  void after_states(State&, const Rows&) override;
   void happen(State& state, const Happening&) override { forget_bound(state); }
   void adopt(State&) override;
   [[nodiscard]] TimeStepBound max_dt(const State& state) const override {
@@ -61,15 +59,14 @@ void Viscosity::set_material(State& state, std::size_t row) const {
 void Viscosity::follow_temperature(State& state) const {
   const auto body = state.particles[field::body];
   const auto mu = state.particles[field::viscosity];
-  double changed = 0.0;
+  bool changed = false;
   for (std::size_t i = 0; i < body.size(); ++i) {
     if (body[i] < 0) continue;
     const double now = solid_viscosity_(state, i);
-    if (now != mu[i]) changed = 1.0;
+    changed = changed || now != mu[i];
     mu[i] = now;
   }
-  if (state.halo) state.halo->add({&changed, 1});
-  if (changed > 0.0) forget_bound(state);
+  if (state.anywhere(changed)) forget_bound(state);
 }
 
 void Viscosity::adopt(State& state) {
@@ -78,18 +75,12 @@ void Viscosity::adopt(State& state) {
   forget_bound(state);
 }
 
-void Viscosity::clear(State& state, PassName pass) {
-  if (pass != PassName::rates) return;
-  for (const Field<double>* f : columns_of(field::viscous_force))
-    fill(part(state.particles[*f], state.formed()), 0.0, state.threads);
-}
-
-void Viscosity::state(State& state) {
+void Viscosity::state(State& state, const Rows&) {
   if (solid_viscosity_.follows_temperature()) follow_temperature(state);
   liquid::predict_velocities(state, state.step_numbers[liquid::half_step], field::viscous_velocity);
 }
 
-void Viscosity::after_states(State& state) {
+void Viscosity::after_states(State& state, const Rows&) {
   if (has_own_form_) update_viscous_bound(state, kernels_);
 }
 
@@ -113,11 +104,7 @@ EffectSpec spec(const Scene& scene) {
   s.reads_if_there = fields::joined({fields::image(), {field::liquid_fraction}});
   s.sums_forces = true;
   s.skips_sleeping = !scene.transport_velocity;
-  Force force{field::viscous_force_x,
-              field::viscous_force_y,
-              field::viscous_force_z,
-              {"viscous_work"},
-              EnergyAccount{"wall_viscous_work"}};
+  Force force{field::viscous_force, {"viscous_work"}, EnergyAccount{"wall_viscous_work"}};
   force.entry = "viscous";
   s.forces = {force};
   s.step_numbers = {viscous_step, viscous_age};

@@ -2,16 +2,14 @@
 #include "effects/viscosity/viscous_bound.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "effects/viscosity/viscous_form.hpp"
 #include "liquids/fields.hpp"
-#include "pairs/pair_passes.hpp"
-#include "pairs/run_pass.hpp"
+#include "pairs/alone.hpp"
 #include "sph/moments.hpp"
-#include "state/fill.hpp"
 
 namespace tripoint::viscosity {
 namespace {
@@ -34,20 +32,16 @@ void update_viscous_bound(State& state, const PairKernels& kernels) {
   const bool is_due = std::fmod(age, rates_between) == 0.0;
   age += 1.0;
   if (!is_due) return;
-  Particles& p = state.particles;
+  const Particles& p = state.particles;
   const ViscousForm form = viscous_form_of(state.scene, kernels);
-  const PassFunction spread = pair_passes(state.neighbours->clusters().lanes).alone(form.spread);
-  using Sums = ViscousSpread<ViscosityCentral>::adds;
-  for (const Field<double>* f : Sums::list) fill(p[*f].first(p.moving()), 0.0, state.threads);
   const Clusters& c = state.neighbours->clusters();
   ChosenClusters moving{c.listed, {}};
   std::erase_if(moving.clusters, [&](std::uint32_t k) { return c.first[k] >= p.moving(); });
-  run_pass_over(spread, p, *state.neighbours, kernels, state.threads, moving);
+  const PassFunction spread = alone_pass(state, form.spread);
+  std::vector<std::vector<double>> sum(spread.adds().size(), std::vector<double>(p.size()));
+  add_alone_to(sum, state, spread, kernels, moving);
 
   const auto group = p[field::group], m = p[field::mass];
-  std::array<std::span<const double>, Sums::size> sum;
-  std::ranges::transform(Sums::list, sum.begin(),
-                         [&](const Field<double>* f) { return std::as_const(p)[*f]; });
   double greatest = 0.0;
 #pragma omp parallel for schedule(static) num_threads(state.threads) reduction(max : greatest)
   for (std::size_t i = 0; i < p.moving(); ++i) {

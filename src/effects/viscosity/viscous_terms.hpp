@@ -6,6 +6,13 @@
 #include "liquids/fields.hpp"
 #include "pairs/pass.hpp"
 
+namespace tripoint::field {
+
+/// sum_j G_ij, or sum_j G_ij e e^T, while the bound of the step is formed: no column of a scene
+inline constexpr SymmetricField viscous_spread{"viscous_spread", "kg/s"};
+
+}  // namespace tripoint::field
+
 /// Pair terms of viscosity, printed and corrected. d = r_j - r_i, so that grad_i W = -(W'/r) d.
 namespace tripoint {
 
@@ -103,7 +110,7 @@ using ViscosityCentral = ViscosityCentralOf<false>;
 using ViscosityCentralWeighted = ViscosityCentralOf<true>;
 
 /// sum_j G_ij of a viscosity [kg/s], and for `central` sum_j G_ij e e^T, for the bound of the step. The sums
-/// stand in scratch columns (field::viscous_spread), which only update_viscous_bound() reads.
+/// stand in scratch memory of update_viscous_bound().
 template <class Viscosity>
 struct ViscousSpread {
   static constexpr std::string_view word = "ViscousSpread of ",

@@ -14,8 +14,8 @@ class Walls : public Effect {
  public:
   explicit Walls(const Scene& scene)
       : numbers_(liquid::numbers_of(scene)), kernels_(liquid::pair_kernels(scene)) {}
-  void densities(State& state) override { patches_.average_density(state, numbers_, kernels_); }
-  void after_states(State& state) override { patches_.hand_down_shares(state); }
+  void densities(State& state, const Rows&) override { patches_.average_density(state, numbers_, kernels_); }
+  void after_states(State& state, const Rows&) override { patches_.hand_down_shares(state); }
   void adopt(State& state) override {
     if (liquid::groups_changed(state)) patches_.clear();
   }

@@ -15,7 +15,7 @@ namespace {
 class Arithmetic : public Effect {
  public:
   explicit Arithmetic(const Scene& scene) : kernels_(liquid::pair_kernels(scene)) {}
-  void bonds(State&) override;
+  void bonds(State&, const Rows&) override;
   [[nodiscard]] TimeStepBound max_dt(const State&) const override;
 
  private:
@@ -41,12 +41,11 @@ void Arithmetic::each_pair(const State& state, std::size_t i, Give give) const {
 }
 
 /// F_i = sum_j G_ij (v_j - v_i) [N].
-void Arithmetic::bonds(State& state) {
+void Arithmetic::bonds(State& state, const Rows& rows) {
   Particles& p = state.particles;
   const auto v = triple(std::as_const(p), field::viscous_velocity);
   const auto F = triple(p, field::viscous_force);
-  const Rows formed = state.formed();
-  for (std::size_t i = formed.from; i < formed.to; ++i) {
+  for (std::size_t i = rows.from; i < rows.to; ++i) {
     Vec3 sum;
     each_pair(state, i, [&](std::size_t j, double G) { sum += G * (v.at(j) - v.at(i)); });
     F.set(i, F.at(i) + sum);
@@ -68,14 +67,12 @@ TimeStepBound Arithmetic::max_dt(const State& state) const {
 }  // namespace
 
 EffectSpec spec(const Scene&) {
-  EffectSpec s{
-      "arithmetic",
-      Mode::corrected,
-      {},
-      fields::joined({fields::position(),
-                      {field::mass, field::volume, field::viscosity, field::group, field::viscous_velocity_x,
-                       field::viscous_velocity_y, field::viscous_velocity_z, field::viscous_force_x,
-                       field::viscous_force_y, field::viscous_force_z}})};
+  EffectSpec s{"arithmetic",
+               Mode::corrected,
+               {},
+               fields::joined({fields::position(),
+                               {field::mass, field::volume, field::viscosity, field::group,
+                                field::viscous_velocity, field::viscous_force}})};
   return s;
 }
 

@@ -10,8 +10,7 @@
 namespace tripoint::drag {
 namespace {
 
-constexpr Field<double> force_x{"drag_force.x", "N"}, force_y{"drag_force.y", "N"},
-    force_z{"drag_force.z", "N"};
+constexpr VectorField<double> force{"drag_force", "N"};
 
 class LinearDrag : public Effect {
  public:
@@ -19,7 +18,7 @@ class LinearDrag : public Effect {
     for (const Material& m : scene.materials) coefficient_.push_back(value_of(m.values, "drag"));
   }
   void kick(State&, double dt) override { half_step_ = dt; }
-  void bonds(State&) override;
+  void bonds(State&, const Rows&) override;
   [[nodiscard]] TimeStepBound max_dt(const State&) const override;
 
  private:
@@ -29,13 +28,13 @@ class LinearDrag : public Effect {
 };
 
 /// The velocity at the end of the step is v/(1 + c dt/2) of that half a step before.
-void LinearDrag::bonds(State& state) {
-  const auto F = triple(state.particles, force_x, force_y, force_z);
+void LinearDrag::bonds(State& state, const Rows& rows) {
+  const auto F = triple(state.particles, force);
   const auto v = velocities(std::as_const(state.particles));
   const auto m = state.particles[field::mass];
   const auto material = state.particles[field::material];
   const double later = as_printed_ ? 0.0 : half_step_;
-  for (std::size_t i = 0; i < m.size(); ++i) {
+  for (std::size_t i = rows.from; i < rows.to; ++i) {
     const double c = coefficient_[static_cast<std::size_t>(material[i])];
     F.set(i, (-c * m[i] / (1.0 + c * later)) * v.at(i));
   }
@@ -52,13 +51,10 @@ TimeStepBound LinearDrag::max_dt(const State&) const {
 }  // namespace
 
 EffectSpec spec(const Scene& scene) {
-  Force drag{force_x, force_y, force_z, {"drag_work"}, EnergyAccount{"wall_drag_work"}};
+  Force drag{force, {"drag_work"}, EnergyAccount{"wall_drag_work"}};
   drag.entry = "drag";
-  EffectSpec s{"drag",
-               scene.mode_of(term::drag),
-               {force_x, force_y, force_z},
-               {field::mass, field::material, field::velocity_x, field::velocity_y, field::velocity_z},
-               {drag}};
+  EffectSpec s{
+      "drag", scene.mode_of(term::drag), {force}, {field::mass, field::material, field::velocity}, {drag}};
   s.guarded_entries = {{"drag", EntryRole::only_takes, "drag, which may only take energy"}};
   return s;
 }

@@ -186,16 +186,16 @@ TEST(AddedEffect, IsRefusedAColumnThatItHasNotDeclared) {
   const Particles& p = s.state().particles;
   {
     const DeclaredView view(s.state(), drag);
-    EXPECT_EQ(p[field::velocity_x].size(), p.size());
+    EXPECT_EQ(p[field::velocity.x].size(), p.size());
     try {
-      static_cast<void>(p[field::position_x]);
+      static_cast<void>(p[field::position.x]);
       ADD_FAILURE() << "a place was given out";
     } catch (const UndeclaredField& e) {
       EXPECT_STREQ(e.what(),
                    "the effect drag asks for the field position.x, which its `owns` and `reads` do not name");
     }
   }
-  EXPECT_EQ(p[field::position_x].size(), p.size());  // those who are no effect see all
+  EXPECT_EQ(p[field::position.x].size(), p.size());  // those who are no effect see all
 }
 
 TEST(AddedEffect, SlowsTheBallAsItsCaseSays) {
