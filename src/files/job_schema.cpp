@@ -25,6 +25,22 @@ json numbers(int count) {
   return list;
 }
 
+/// The table whose schema a member of this type has, and how many numbers it is; none of others.
+template <class T>
+inline constexpr std::string_view table_of = "";
+template <>
+inline constexpr std::string_view table_of<Shape> = "shape";
+template <>
+inline constexpr std::string_view table_of<TemperatureField> = "temperature";
+template <>
+inline constexpr std::string_view table_of<VelocityField> = "velocity_field";
+template <class T>
+inline constexpr int numbers_of = 0;
+template <>
+inline constexpr int numbers_of<Vec3> = 3;
+template <>
+inline constexpr int numbers_of<Quaternion> = 4;
+
 /// How a member of this type is written (record_json.hpp: put).
 template <class T>
 json schema_of(const Key& key, std::string_view yes) {
@@ -38,22 +54,16 @@ json schema_of(const Key& key, std::string_view yes) {
     return of_type("integer");
   } else if constexpr (std::is_same_v<T, double>) {
     return of_type("number");
-  } else if constexpr (std::is_same_v<T, Vec3>) {
-    return numbers(3);
-  } else if constexpr (std::is_same_v<T, Quaternion>) {
-    return numbers(4);
+  } else if constexpr (numbers_of<T> != 0) {
+    return numbers(numbers_of<T>);
   } else if constexpr (std::is_same_v<T, std::array<Vec3, 3>>) {
     return list_of(numbers(3));
   } else if constexpr (std::is_same_v<T, std::vector<double>>) {
     return list_of(of_type("number"));
   } else if constexpr (std::is_same_v<T, Settings>) {
     return of_type("object");
-  } else if constexpr (std::is_same_v<T, Shape>) {
-    return table("shape");
-  } else if constexpr (std::is_same_v<T, TemperatureField>) {
-    return table("temperature");
-  } else if constexpr (std::is_same_v<T, VelocityField>) {
-    return table("velocity_field");
+  } else if constexpr (!table_of<T>.empty()) {
+    return table(table_of<T>);
   } else if constexpr (std::is_same_v<T, std::vector<Keyframe>>) {
     return list_of(table("keyframe"));
   } else if constexpr (requires(T value) { value.has_value(); }) {

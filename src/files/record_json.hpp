@@ -32,41 +32,52 @@ inline constexpr bool is_word_list = false;
 template <class E>
 inline constexpr bool is_word_list<std::vector<E>> = std::is_enum_v<E>;
 
+/// A word of the key's row, by its number.
+inline std::string word_of(const Key& key, std::size_t number) { return split_words(key.words).at(number); }
+
 /// How a value of a member's type is written. `key` and `yes` are those of its row.
 template <class T>
-json put(const Key& key, std::string_view yes, const T& value) {
-  if constexpr (std::is_same_v<T, bool>) {
-    if (yes.empty()) return value;
-    const auto words = split_words(key.words);
-    return *std::ranges::find_if(words, [&](const std::string& word) { return (word == yes) == value; });
-  } else if constexpr (std::is_enum_v<T>) {
-    return split_words(key.words).at(static_cast<std::size_t>(value));
-  } else if constexpr (is_word_list<T>) {
-    json list = json::array();
-    for (const auto one : value) list.push_back(split_words(key.words).at(static_cast<std::size_t>(one)));
-    return list;
-  } else if constexpr (std::is_same_v<T, Vec3> || std::is_same_v<T, Quaternion> ||
-                       std::is_same_v<T, Settings>) {
-    return to_json(value);
-  } else if constexpr (std::is_same_v<T, Shape> || std::is_same_v<T, TemperatureField> ||
-                       std::is_same_v<T, VelocityField>) {
-    return kind_json(value);
-  } else if constexpr (std::is_same_v<T, std::array<bool, 3>>) {
-    json list = json::array();
-    for (std::size_t k = 0; k < 3; ++k)
-      if (value[k]) list.push_back(split_words(key.words).at(k));
-    return list;
-  } else if constexpr (std::is_same_v<T, std::array<Vec3, 3>>) {
-    return json::array({to_json(value[0]), to_json(value[1]), to_json(value[2])});
-  } else if constexpr (std::is_same_v<T, std::vector<Keyframe>>) {
-    json list = json::array();
-    for (const Keyframe& k : value) put_record(k, list.emplace_back(json::object()));
-    return list;
-  } else if constexpr (requires { value.has_value(); }) {
-    return value ? put(key, yes, *value) : json(nullptr);
-  } else {
-    return value;
-  }
+json put(const Key&, std::string_view, const T& value) {
+  return value;
+}
+inline json put(const Key& key, std::string_view yes, bool value) {
+  if (yes.empty()) return value;
+  const auto words = split_words(key.words);
+  return *std::ranges::find_if(words, [&](const std::string& word) { return (word == yes) == value; });
+}
+template <class E>
+requires std::is_enum_v<E> json put(const Key& key, std::string_view, const E& value) {
+  return word_of(key, static_cast<std::size_t>(value));
+}
+template <class E>
+requires std::is_enum_v<E> json put(const Key& key, std::string_view, const std::vector<E>& value) {
+  json list = json::array();
+  for (const E one : value) list.push_back(word_of(key, static_cast<std::size_t>(one)));
+  return list;
+}
+inline json put(const Key&, std::string_view, const Vec3& value) { return to_json(value); }
+inline json put(const Key&, std::string_view, const Quaternion& value) { return to_json(value); }
+inline json put(const Key&, std::string_view, const Settings& value) { return to_json(value); }
+inline json put(const Key&, std::string_view, const Shape& value) { return kind_json(value); }
+inline json put(const Key&, std::string_view, const TemperatureField& value) { return kind_json(value); }
+inline json put(const Key&, std::string_view, const VelocityField& value) { return kind_json(value); }
+inline json put(const Key& key, std::string_view, const std::array<bool, 3>& value) {
+  json list = json::array();
+  for (std::size_t k = 0; k < 3; ++k)
+    if (value[k]) list.push_back(word_of(key, k));
+  return list;
+}
+inline json put(const Key&, std::string_view, const std::array<Vec3, 3>& value) {
+  return json::array({to_json(value[0]), to_json(value[1]), to_json(value[2])});
+}
+inline json put(const Key&, std::string_view, const std::vector<Keyframe>& value) {
+  json list = json::array();
+  for (const Keyframe& k : value) put_record(k, list.emplace_back(json::object()));
+  return list;
+}
+template <class T>
+json put(const Key& key, std::string_view yes, const std::optional<T>& value) {
+  return value ? put(key, yes, *value) : json(nullptr);
 }
 
 /// The number of a word in a list; @throws InputError where it is none of them
@@ -77,61 +88,85 @@ inline std::size_t place_of(const JsonObject& o, const std::string& name, const 
   return static_cast<std::size_t>(at - words.begin());
 }
 
+/// The place of a member in a job, with the row of its key.
+struct Member {
+  const JsonObject& o;
+  const std::string& name;
+  const Key& key;
+  std::string_view yes;
+  bool later;  ///< whether any value stays as it is where a job lacks it
+
+  [[nodiscard]] bool stays() const { return later && !o.has(name); }
+  [[nodiscard]] std::size_t place(const std::string& word) const {
+    return place_of(o, name, word, split_words(key.words));
+  }
+};
+
 /// Reads a member. Flags, lists, texts that have a default and what may be unknown stay as they are where a
 /// job lacks them.
-/// @param later whether any value does so
+inline void take(const Member& m, double& value) {
+  value = m.later ? m.o.number_or(m.name, value) : m.o.number(m.name);
+}
+inline void take(const Member& m, bool& value) {
+  if (m.yes.empty())
+    value = m.o.flag_or(m.name, value);
+  else if (m.o.has(m.name))
+    value = word_of(m.key, m.place(m.o.text(m.name))) == m.yes;
+}
+inline void take(const Member& m, std::string& value) {
+  value = m.later || !m.key.required() ? m.o.text_or(m.name, value) : m.o.text(m.name);
+}
+template <std::integral T>
+void take(const Member& m, T& value) {
+  value = m.later ? whole_number<T>(m.o.number_or(m.name, static_cast<double>(value)))
+                  : static_cast<T>(m.o.integer(m.name));
+}
+inline void take(const Member& m, Settings& value) { value = m.o.settings(m.name); }
+inline void take(const Member& m, std::vector<double>& value) { value = m.o.numbers(m.name); }
+template <class E>
+requires std::is_enum_v<E>
+void take(const Member& m, E& value) {
+  if (!m.stays()) value = static_cast<E>(m.place(m.o.text(m.name)));
+}
+inline void take(const Member& m, Vec3& value) {
+  if (!m.stays()) value = m.o.vector(m.name);
+}
+inline void take(const Member& m, Quaternion& value) {
+  if (!m.stays()) value = m.o.quaternion(m.name);
+}
+inline void take(const Member& m, Shape& value) {
+  if (m.o.has(m.name) || m.key.table != "body") value = from_kind_json<Shape>(m.o.object(m.name));
+}
+template <class Start>
+requires std::is_same_v<Start, TemperatureField> || std::is_same_v<Start, VelocityField>
+void take(const Member& m, Start& value) {
+  if (m.o.has(m.name)) value = from_kind_json<Start>(m.o.object(m.name));
+}
+inline void take(const Member& m, std::vector<std::string>& value) { value = m.o.texts(m.name); }
+template <class E>
+requires std::is_enum_v<E>
+void take(const Member& m, std::vector<E>& value) {
+  value.clear();
+  for (const std::string& word : m.o.texts(m.name)) value.push_back(static_cast<E>(m.place(word)));
+}
+inline void take(const Member& m, std::array<std::string, 3>& value) {
+  const std::vector<std::string> parts = m.o.texts(m.name);
+  if (parts.size() != 3) throw InputError(m.o.path() + "." + m.name + ": expected 3 expressions");
+  std::ranges::copy(parts, value.begin());
+}
+inline void take(const Member& m, std::array<bool, 3>& value) {
+  const auto words = split_words(m.key.words);
+  for (const std::string& word : m.o.texts(m.name))
+    value[std::min<std::size_t>(std::ranges::find(words, word) - words.begin(), 2)] = true;
+}
+inline void take(const Member& m, std::array<Vec3, 3>& value) { value = m.o.rows(m.name); }
+inline void take(const Member& m, std::vector<Keyframe>& value) {
+  for (const JsonObject& k : m.o.objects(m.name)) take_record(k, value.emplace_back());
+}
 template <class T>
-void take(const JsonObject& o, const std::string& name, const Key& key, std::string_view yes, bool later,
-          T& value) {
-  if constexpr (std::is_same_v<T, double>) {
-    value = later ? o.number_or(name, value) : o.number(name);
-  } else if constexpr (std::is_same_v<T, bool>) {
-    if (yes.empty())
-      value = o.flag_or(name, value);
-    else if (o.has(name))
-      value = split_words(key.words)[place_of(o, name, o.text(name), split_words(key.words))] == yes;
-  } else if constexpr (std::is_same_v<T, std::string>) {
-    value = later || !key.required() ? o.text_or(name, value) : o.text(name);
-  } else if constexpr (std::integral<T>) {
-    value = later ? whole_number<T>(o.number_or(name, static_cast<double>(value)))
-                  : static_cast<T>(o.integer(name));
-  } else if constexpr (std::is_same_v<T, Settings>) {
-    value = o.settings(name);
-  } else if constexpr (std::is_same_v<T, std::vector<double>>) {
-    value = o.numbers(name);
-  } else if constexpr (std::is_enum_v<T>) {
-    if (!later || o.has(name))
-      value = static_cast<T>(place_of(o, name, o.text(name), split_words(key.words)));
-  } else if constexpr (std::is_same_v<T, Vec3>) {
-    if (!later || o.has(name)) value = o.vector(name);
-  } else if constexpr (std::is_same_v<T, Quaternion>) {
-    if (!later || o.has(name)) value = o.quaternion(name);
-  } else if constexpr (std::is_same_v<T, Shape>) {
-    if (o.has(name) || key.table != "body") value = from_kind_json<T>(o.object(name));
-  } else if constexpr (std::is_same_v<T, TemperatureField> || std::is_same_v<T, VelocityField>) {
-    if (o.has(name)) value = from_kind_json<T>(o.object(name));
-  } else if constexpr (std::is_same_v<T, std::vector<std::string>>) {
-    value = o.texts(name);
-  } else if constexpr (is_word_list<T>) {
-    value.clear();
-    for (const std::string& word : o.texts(name))
-      value.push_back(static_cast<typename T::value_type>(place_of(o, name, word, split_words(key.words))));
-  } else if constexpr (std::is_same_v<T, std::array<std::string, 3>>) {
-    const std::vector<std::string> parts = o.texts(name);
-    if (parts.size() != 3) throw InputError(o.path() + "." + name + ": expected 3 expressions");
-    std::ranges::copy(parts, value.begin());
-  } else if constexpr (std::is_same_v<T, std::array<bool, 3>>) {
-    const auto words = split_words(key.words);
-    for (const std::string& word : o.texts(name))
-      value[std::min<std::size_t>(std::ranges::find(words, word) - words.begin(), 2)] = true;
-  } else if constexpr (std::is_same_v<T, std::array<Vec3, 3>>) {
-    value = o.rows(name);
-  } else if constexpr (std::is_same_v<T, std::vector<Keyframe>>) {
-    for (const JsonObject& k : o.objects(name)) take_record(k, value.emplace_back());
-  } else {  // values that may be unknown
-    value.reset();
-    if (o.has(name)) take(o, name, key, yes, false, value.emplace());
-  }
+void take(const Member& m, std::optional<T>& value) {
+  value.reset();
+  if (m.o.has(m.name)) take({m.o, m.name, m.key, m.yes, false}, value.emplace());
 }
 
 // --- a record
@@ -152,7 +187,8 @@ void put_by(const Record& list, const Owner& owner, json& out) {
 template <class Owner, class Record>
 void take_by(const Record& list, const JsonObject& o, Owner& owner) {
   each_kept(list, [&](const auto& entry) {
-    take(o, std::string(entry.in_job), entry.key, entry.yes, entry.later, owner.*entry.member);
+    const std::string name(entry.in_job);
+    take({o, name, entry.key, entry.yes, entry.later}, owner.*entry.member);
   });
 }
 
@@ -167,7 +203,8 @@ void put_record(const Owner& owner, json& out) {
 template <class Owner>
 void take_record(const JsonObject& o, Owner& owner) {
   each_kept_of(owner, [&](const auto& entry) {
-    take(o, std::string(entry.in_job), entry.key, entry.yes, entry.later, owner.*entry.member);
+    const std::string name(entry.in_job);
+    take({o, name, entry.key, entry.yes, entry.later}, owner.*entry.member);
   });
 }
 
@@ -208,7 +245,8 @@ Owner from_kind_json(const JsonObject& o) {
     if (owner.kind == Shape::Kind::unite || owner.kind == Shape::Kind::difference)
       for (const JsonObject& part : o.objects("of")) owner.of.push_back(from_kind_json<Shape>(part));
   } else if (owner.kind == Owner::Kind::constant) {
-    take(o, "value", Key{}, "", false, owner.value);
+    const std::string name = "value";
+    take({o, name, Key{}, "", false}, owner.value);
   }
   return owner;
 }

@@ -37,8 +37,10 @@ void put_effect_values(const Owner& owner, std::string_view table, json& out) {
 /// A missing value stays as the owner has it.
 template <class Owner>
 void take_effect_values(const JsonObject& o, std::string_view table, Owner& owner) {
-  each_effect_key(owner, table,
-                  [&](const Key& key, auto& value) { take(o, std::string(key.name), key, "", true, value); });
+  each_effect_key(owner, table, [&](const Key& key, auto& value) {
+    const std::string name(key.name);
+    take({o, name, key, "", true}, value);
+  });
 }
 
 // --- materials, bodies, events

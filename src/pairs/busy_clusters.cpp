@@ -16,6 +16,26 @@ namespace {
 
 enum Work : std::uint8_t { none = 0, density = 1, rates = 2, density_is_still = 4 };
 
+Work work_of_pairs(bool any_moves, bool any_acts, bool any_counts) {
+  if (!any_moves) return static_cast<Work>(density_is_still | (any_acts ? rates : none));
+  if (any_acts) return static_cast<Work>(density | rates);
+  return any_counts ? density : none;
+}
+
+/// The work of a cluster of fixed walls, which are all of one group. @param acting as for work_of()
+Work work_of_fixed(const Clusters& c, std::size_t cluster, std::span<const double> group,
+                   const std::vector<char>& fixed, std::uint64_t* acting) {
+  const std::size_t start = c.start[cluster], end = c.start[cluster + 1];
+  bool any_moves = false;
+  for (std::size_t e = start; e < end; ++e) {
+    const std::size_t j = Entry{c.entries[e]}.row();
+    any_moves = any_moves || fixed[j] == 0;
+    acting[(e - start) / within_bits] |= std::uint64_t{group[j] != group[c.first[cluster]]}
+                                         << ((e - start) % within_bits);
+  }
+  return any_moves ? density : density_is_still;
+}
+
 /// The work that a cluster needs. Two act on each other unless they are an own pair, or members of one group
 /// of 0 and above.
 /// @param moving number of rows that may move @param acting of each entry of the cluster a bit, set where it
@@ -24,16 +44,7 @@ Work work_of(const Clusters& c, std::size_t cluster, std::span<const double> gro
              const std::vector<char>& fixed, std::size_t moving, bool leaves_own, std::uint64_t* acting) {
   const std::uint32_t first = c.first[cluster], past = c.first[cluster + 1];
   const std::size_t start = c.start[cluster], end = c.start[cluster + 1];
-  if (first >= moving) {  // fixed walls, all of one group
-    bool any_moves = false;
-    for (std::size_t e = start; e < end; ++e) {
-      const std::size_t j = Entry{c.entries[e]}.row();
-      any_moves = any_moves || fixed[j] == 0;
-      acting[(e - start) / within_bits] |= std::uint64_t{group[j] != group[first]}
-                                           << ((e - start) % within_bits);
-    }
-    return any_moves ? density : density_is_still;
-  }
+  if (first >= moving) return work_of_fixed(c, cluster, group, fixed, acting);
   const bool all_liquid = std::all_of(group.begin() + first, group.begin() + past, acts_on_all);
   if (all_liquid && c.own.empty()) {  // everything acts on them
     std::fill(acting, acting + (end - start + within_bits - 1) / within_bits, ~std::uint64_t{0});
@@ -64,10 +75,7 @@ Work work_of(const Clusters& c, std::size_t cluster, std::span<const double> gro
     any_acts = any_acts || acts;
     acting[(e - start) / within_bits] |= std::uint64_t{acts} << ((e - start) % within_bits);
   }
-  const Work in_density = !any_moves                             ? density_is_still
-                          : any_acts || any_apart || !leaves_own ? density
-                                                                 : none;
-  return static_cast<Work>(in_density | (any_acts ? rates : none));
+  return work_of_pairs(any_moves, any_acts, any_apart || !leaves_own);
 }
 
 bool owns_any(const State& state, std::uint32_t first, std::uint32_t past) {

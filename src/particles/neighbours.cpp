@@ -121,22 +121,28 @@ void Neighbours::rebuild(Particles& particles, double time, const Resting& resti
   ++rebuilds_;
 }
 
-void Neighbours::sort_and_list(Particles& particles, const Resting& resting) {
+Neighbours::Extent Neighbours::extent_of(const Particles& particles) const {
   const std::size_t n = particles.size(), moving = particles.moving();
   const auto x = positions(particles);
-  Vec3 low = n ? x.at(0) : Vec3{}, high = low;
+  Extent all;
+  all.low = all.high = n ? x.at(0) : Vec3{};
   const auto reach_to = [&](const Vec3& r) {
     for (std::size_t a = 0; a < 3; ++a) {
-      low[a] = std::min(low[a], r[a]);
-      high[a] = std::max(high[a], r[a]);
+      all.low[a] = std::min(all.low[a], r[a]);
+      all.high[a] = std::max(all.high[a], r[a]);
     }
   };
   for (std::size_t i = 0; i < moving; ++i) reach_to(x.at(i));
-  if (moving < n) {
-    for (std::size_t i = built_.size(); i < n; ++i) reach_to(x.at(i));
-    reach_to(still_.low);
-    reach_to(still_.high);
-  }
+  if (moving == n) return all;
+  for (std::size_t i = built_.size(); i < n; ++i) reach_to(x.at(i));
+  reach_to(still_.low);
+  reach_to(still_.high);
+  return all;
+}
+
+void Neighbours::sort_and_list(Particles& particles, const Resting& resting) {
+  const std::size_t n = particles.size();
+  const auto [low, high] = extent_of(particles);
   Grid grid = whole_ ? Grid::over(whole_->low, whole_->high, support_ + skin_, box_, whole_->particles)
                      : Grid::over(low, high, support_ + skin_, box_, n);
   if (whole_ && n > 0) grid.keep(low, high, box_);

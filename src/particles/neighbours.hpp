@@ -240,6 +240,11 @@ class Neighbours {
   };
   void wrap(Particles&) const;
   void rebuild(Particles&, double time, const Resting&);
+  /// Around all particles; fixed ones are known to be where they were.
+  struct Extent {
+    Vec3 low, high;
+  };
+  [[nodiscard]] Extent extent_of(const Particles&) const;
   void sort_and_list(Particles&, const Resting&);
   void sort_all(Particles&, Grid&);
   enum Part : char { moves, read, asleep };  ///< asleep: acts by its place alone

@@ -116,51 +116,65 @@ class Checker : NameChecks {
     std::vector<std::string> born;
     for (const auto& e : scene_.events)
       if (!e.name.empty()) born.push_back(e.name);
+    const std::vector<Absorbed> absorbed = absorbed_bodies();
     std::size_t n = 0;
-    std::vector<std::pair<std::string, double>> absorbed;
-    for (const auto& e : scene_.events)
-      for (std::size_t k = 1; e.kind == Event::Kind::merge && k < e.bodies.size(); ++k)
-        absorbed.emplace_back(e.bodies[k], e.time);
     for (const auto& e : scene_.events) {
       ++n;
       const auto path = e.name.empty() ? fmt::format("event.{}", n) : "event." + e.name;
       for (const auto& name : e.bodies) known_body(scene_, name, path + ".bodies", e.place, born);
       acts_on(e, path);
-      if (e.time > scene_.end_time)
-        throw InputError(
-            place(path + ".time", e.place),
-            fmt::format("the event at {} s never comes: end_time is {} s; remove it, or lengthen the run",
-                        e.time, scene_.end_time));
-      for (const auto& [name, time] : absorbed)
-        if (e.time > time && holds(e.bodies, name))
-          throw InputError(place(path + ".bodies", e.place),
-                           fmt::format("body \"{}\" is absorbed by a merge at {} s and is no more at {} s: "
-                                       "name the body that absorbs it",
-                                       printable(name), time, e.time));
-      if (e.kind == Event::Kind::heat &&
-          std::none_of(scene_.bodies.begin(), scene_.bodies.end(),
-                       [](const Body& b) { return b.temperature.has_value(); }))
-        throw InputError(place(path + ".temperature", e.place),
-                         "no body has a temperature, so that nothing can be heated: give every body one");
-      if (e.kind == Event::Kind::split && holds(names_of(scene_.bodies), e.name))
-        throw InputError(
-            place(path + ".name", e.place),
-            fmt::format("a body \"{}\" exists already: give the part that splits off another name",
-                        printable(e.name)));
+      event_comes(e, path);
+      for (const Absorbed& one : absorbed) names_present(e, path, one);
+      event_has_its_means(e, path);
     }
-    n = 0;
-    for (const auto& f : scene_.inflows) {
-      ++n;
-      if (f.start >= scene_.end_time)
-        throw InputError(place(fmt::format("inflow.{}.start", n), {}),
-                         fmt::format("nothing flows in before end_time = {} s, since start = {} s: begin "
-                                     "sooner, or remove the inflow",
-                                     scene_.end_time, f.start));
-      if (!holds(names_of(scene_.materials), f.material))
-        throw InputError(place(fmt::format("inflow.{}.material", n), {}),
-                         fmt::format("no material is named \"{}\"{}", printable(f.material),
-                                     suggestion(f.material, names_of(scene_.materials))));
-    }
+    for (n = 0; n < scene_.inflows.size(); ++n) inflow(scene_.inflows[n], n + 1);
+  }
+
+  struct Absorbed {
+    std::string body;
+    double time;
+  };
+  [[nodiscard]] std::vector<Absorbed> absorbed_bodies() const {
+    std::vector<Absorbed> list;
+    for (const auto& e : scene_.events)
+      for (std::size_t k = 1; e.kind == Event::Kind::merge && k < e.bodies.size(); ++k)
+        list.push_back({e.bodies[k], e.time});
+    return list;
+  }
+  void event_comes(const Event& e, const std::string& path) const {
+    if (e.time > scene_.end_time)
+      throw InputError(
+          place(path + ".time", e.place),
+          fmt::format("the event at {} s never comes: end_time is {} s; remove it, or lengthen the run",
+                      e.time, scene_.end_time));
+  }
+  void names_present(const Event& e, const std::string& path, const Absorbed& absorbed) const {
+    if (e.time > absorbed.time && holds(e.bodies, absorbed.body))
+      throw InputError(place(path + ".bodies", e.place),
+                       fmt::format("body \"{}\" is absorbed by a merge at {} s and is no more at {} s: "
+                                   "name the body that absorbs it",
+                                   printable(absorbed.body), absorbed.time, e.time));
+  }
+  void event_has_its_means(const Event& e, const std::string& path) const {
+    if (e.kind == Event::Kind::heat &&
+        std::ranges::none_of(scene_.bodies, [](const Body& b) { return b.temperature.has_value(); }))
+      throw InputError(place(path + ".temperature", e.place),
+                       "no body has a temperature, so that nothing can be heated: give every body one");
+    if (e.kind == Event::Kind::split && holds(names_of(scene_.bodies), e.name))
+      throw InputError(place(path + ".name", e.place),
+                       fmt::format("a body \"{}\" exists already: give the part that splits off another name",
+                                   printable(e.name)));
+  }
+  void inflow(const Inflow& f, std::size_t number) const {
+    if (f.start >= scene_.end_time)
+      throw InputError(place(fmt::format("inflow.{}.start", number), {}),
+                       fmt::format("nothing flows in before end_time = {} s, since start = {} s: begin "
+                                   "sooner, or remove the inflow",
+                                   scene_.end_time, f.start));
+    if (!holds(names_of(scene_.materials), f.material))
+      throw InputError(place(fmt::format("inflow.{}.material", number), {}),
+                       fmt::format("no material is named \"{}\"{}", printable(f.material),
+                                   suggestion(f.material, names_of(scene_.materials))));
   }
 
   void contact_laws() const {

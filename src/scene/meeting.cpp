@@ -201,6 +201,8 @@ bool near(const Scene& s, std::size_t axis, const Bounds& a, const Bounds& b, Ex
   return high + shift >= b.min[axis];
 }
 
+bool is_straight(const Path& p) { return p.spread == 0.0 && p.keyframes.empty() && !p.turns; }
+
 bool meet(const Scene& s, const Path& a, const Path& b, double until) {
   if (until > a.lost || until > b.lost) return true;
   Box v, g;
@@ -209,8 +211,7 @@ bool meet(const Scene& s, const Path& a, const Path& b, double until) {
     g[k] = a.acceleration[k] - b.acceleration[k];
   }
   const double spread = a.spread + b.spread;
-  const bool still = size(v) == 0.0 && size(g) == 0.0 && spread == 0.0 && a.keyframes.empty() &&
-                     b.keyframes.empty() && !a.turns && !b.turns;
+  const bool still = size(v) == 0.0 && size(g) == 0.0 && is_straight(a) && is_straight(b);
   if (still || !(until > 0.0)) return false;
   const auto near_between = [&](double from, double to) {
     const Box by_a = led(a.keyframes, from, to), by_b = led(b.keyframes, from, to);

@@ -82,12 +82,7 @@ class Scanner {
         comma();
         break;
       case '.':
-        if (++dots_ > max_dots)
-          refuse(
-              fmt::format("more than {} dots in one key or value: a dotted key is at most three names long, "
-                          "and numbers have a "
-                          "comma between them",
-                          max_dots));
+        dot();
         break;
       case '=':
         key_dots_ = dots_;
@@ -98,6 +93,14 @@ class Scanner {
     }
     if (c != ' ' && c != '\t' && c != '\n' && c != '\r') last_ = c;
     ++at_;
+  }
+
+  void dot() {
+    if (++dots_ > max_dots)
+      refuse(
+          fmt::format("more than {} dots in one key or value: a dotted key is at most three names long, "
+                      "and numbers have a comma between them",
+                      max_dots));
   }
 
   void comment() {
@@ -118,7 +121,7 @@ class Scanner {
       control(text_[at_]);
       if (text_[at_] == '\n') newline();
       if (quote == '"' && text_[at_] == '\\') {
-        if (at_ + 1 < text_.size() && text_[at_ + 1] != '\n' && text_[at_ + 1] != '\r') ++at_;
+        escaped();
         continue;
       }
       if (multi ? at(three) : text_[at_] == quote) break;
@@ -126,6 +129,11 @@ class Scanner {
     at_ += multi ? 3 : 1;
     while (multi && at_ < text_.size() && text_[at_] == quote) ++at_;  // """a"""" holds a quote
     last_ = quote;
+  }
+
+  /// The letter behind a backslash; the end of a line stands for itself.
+  void escaped() {
+    if (at_ + 1 < text_.size() && text_[at_ + 1] != '\n' && text_[at_ + 1] != '\r') ++at_;
   }
 
   void open(char c) {

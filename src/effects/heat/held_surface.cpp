@@ -250,6 +250,17 @@ void refuse_held_surfaces(const Scene& scene) {
   }
 }
 
+namespace {
+
+void hold_at_a_face(Particles& p, std::size_t row, const std::vector<Beyond>& beyond, double dx,
+                    double temperature) {
+  if (!leaves_by_a_face(beyond, dx)) return;
+  p[field::held][row] = 1;
+  p[field::temperature][row] = temperature;
+}
+
+}  // namespace
+
 void HeldSurfaces::load(State& state, const InitialState& initial) {
   all_.clear();
   near_.clear();
@@ -274,18 +285,15 @@ void HeldSurfaces::load(State& state, const InitialState& initial) {
     const auto id = static_cast<std::uint32_t>(p[field::id][i]);
     const auto beyond = places_beyond(scene, insides[source], initial.position[id], steps, laid);
     if (!acts(scene) && held_at) {
-      if (leaves_by_a_face(beyond, dx)) {
-        p[field::held][i] = 1;
-        p[field::temperature][i] = *held_at;
-      }
+      hold_at_a_face(p, i, beyond, dx, *held_at);
       continue;
     }
     const std::size_t first = all_.size();
     for (const Beyond& b : beyond) {
       const std::uint32_t acting = heated ? sources_->acting(scene, body, b.exit) : 0;
+      if (acting == 0 && !held_at) continue;
       const double depth = acting != 0 ? depth_below(distances[source], b, dx) : 0.0;
-      if (acting != 0 || held_at)
-        add_place(state, i, b.away, b.within, alike({id, held_at.value_or(0.0), acting, depth}, first));
+      add_place(state, i, b.away, b.within, alike({id, held_at.value_or(0.0), acting, depth}, first));
     }
   }
   std::ranges::stable_sort(all_, {}, &Near::id);

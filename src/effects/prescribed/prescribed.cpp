@@ -88,7 +88,7 @@ bool Prescribed::wants_change(State& state) {
     leaves = leaves || (driven[i] == driven_in &&
                         !entrances_[static_cast<std::size_t>(from)].surely_inside(state.unwrapped(i)));
   }
-  state.halo->add(there);
+  state.add_up(there);
   for (std::size_t n = 0; n < entrances_.size(); ++n)
     leaves = leaves || there[n] < static_cast<double>(entrances_[n].layers_until(state.time)) *
                                       static_cast<double>(entrances_[n].section().size());
@@ -124,38 +124,75 @@ bool named(const Event& event, const std::string& name) {
   return std::ranges::find(event.bodies, name) != event.bodies.end();
 }
 
-void Prescribed::happen(State& state, const Happening& now) {
-  const Event& event = now.event;
-  const bool holds = event.kind == Event::Kind::hold, grips = event.kind == Event::Kind::grip,
-             releases = event.kind == Event::Kind::release;
-  if (!holds && !grips && !releases) return;
+/// Of each particle that is no member of a rigid body, in the order of ids.
+template <class Visit>
+void each_loose(const State& state, Visit visit) {
+  const RigidMembers is_member(state);
+  for (std::size_t id = 0; id < state.particles.size(); ++id)
+    if (const std::size_t i = state.particles.row(id); !is_member(i)) visit(i);
+}
+
+bool names_body_of(const State& state, const Event& event, std::size_t row) {
+  const auto source = static_cast<std::size_t>(state.particles[field::source][row]);
+  return source < state.scene.bodies.size() && named(event, state.scene.bodies[source].name);
+}
+
+void begin_grip(State& state, const Event& event, int number) {
   Particles& p = state.particles;
   const auto driven = p[field::driven], body = p[field::body];
-  const int number = driven_grip + static_cast<int>(&event - state.scene.events.data());
-  const auto inside =
-      grips ? inside_of(*event.region, state.scene.spacing) : [](const Vec3&) { return true; };
-  const RigidMembers is_member(state);
   const auto place = triple(p, field::grip);
-  for (std::size_t id = 0; id < p.size(); ++id) {
-    const std::size_t i = p.row(id);
-    if (is_member(i)) continue;
-    if (grips && now.begins && body[i] >= 0 && inside(state.unwrapped(i))) {
-      driven[i] = number;
-      place.set(i, state.unwrapped(i));
-    } else if ((grips && !now.begins && driven[i] == number) ||
-               (releases && driven[i] >= driven_grip &&
-                named(event, state.scene.events[static_cast<std::size_t>(driven[i] - driven_grip)].name))) {
+  const auto inside = inside_of(*event.region, state.scene.spacing);
+  each_loose(state, [&](std::size_t i) {
+    if (body[i] < 0 || !inside(state.unwrapped(i))) return;
+    driven[i] = number;
+    place.set(i, state.unwrapped(i));
+  });
+}
+
+void end_grip(State& state, int number) {
+  const auto driven = state.particles[field::driven];
+  each_loose(state, [&](std::size_t i) {
+    if (driven[i] == number) driven[i] = 0;
+  });
+}
+
+/// Its bodies stay where they are as it begins, and no longer as it ends.
+void hold(State& state, const Event& event, bool begins) {
+  const auto driven = state.particles[field::driven];
+  each_loose(state, [&](std::size_t i) {
+    if (!names_body_of(state, event, i)) return;
+    if (begins && driven[i] == 0) {
+      driven[i] = driven_still;
+      guide(state, i, state.unwrapped(i), {});
+    } else if (driven[i] == driven_still) {
       driven[i] = 0;
-    } else if (holds || releases) {
-      const auto source = static_cast<std::size_t>(p[field::source][i]);
-      if (source >= state.scene.bodies.size() || !named(event, state.scene.bodies[source].name)) continue;
-      if (holds && now.begins && driven[i] == 0) {
-        driven[i] = driven_still;
-        guide(state, i, state.unwrapped(i), {});
-      } else if (driven[i] == driven_still)
-        driven[i] = 0;
     }
-  }
+  });
+}
+
+/// Grips that it names let go, and bodies that it names are held no longer.
+void release(State& state, const Event& event) {
+  const auto driven = state.particles[field::driven];
+  const auto grip_is_named = [&](int of) {
+    return of >= driven_grip &&
+           named(event, state.scene.events[static_cast<std::size_t>(of - driven_grip)].name);
+  };
+  each_loose(state, [&](std::size_t i) {
+    if (grip_is_named(driven[i]) || (driven[i] == driven_still && names_body_of(state, event, i)))
+      driven[i] = 0;
+  });
+}
+
+void Prescribed::happen(State& state, const Happening& now) {
+  const Event& event = now.event;
+  const int number = driven_grip + static_cast<int>(&event - state.scene.events.data());
+  if (event.kind == Event::Kind::hold) hold(state, event, now.begins);
+  if (event.kind == Event::Kind::release) release(state, event);
+  if (event.kind != Event::Kind::grip) return;
+  if (now.begins)
+    begin_grip(state, event, number);
+  else
+    end_grip(state, number);
 }
 
 }  // namespace

@@ -35,53 +35,96 @@ std::vector<std::size_t> changed_rows(const State& state, bool of_solids) {
   return rows;
 }
 
+/// Energy of compression before a change and after it, at the same places.
+class Jump {
+ public:
+  Jump(const State& state, const liquid::SceneNumbers& n, const PairKernels& kernels,
+       const std::function<double(std::size_t)>& group_now, double back)
+      : state_(state),
+        n_(n),
+        kernels_(kernels),
+        group_now_(group_now),
+        back_(back),
+        core_(state.scene.mode_of(term::pressure) == Mode::corrected),
+        sums_density_(state.scene.mode_of(term::density) == Mode::corrected),
+        clamps_(liquid::clamps(state.scene)),
+        sums_(state.scene),
+        rows_(changed_rows(state, sums_.of_solids())),
+        changed_(state.particles.size(), 0),
+        group_(state.particles[field::group]),
+        id_(state.particles[field::id]) {
+    for (const std::size_t i : rows_) changed_[i] = 1;
+  }
+  /// After less before [J].
+  double operator()() {
+    for (const std::size_t i : rows_) add(i);
+    return jump_;
+  }
+
+ private:
+  [[nodiscard]] Vec3 place(std::size_t row) const {
+    return state_.particles.position(row) - back_ * state_.particles.velocity(row);
+  }
+  [[nodiscard]] std::uint32_t id(std::size_t row) const { return static_cast<std::uint32_t>(id_[row]); }
+  /// What a particle adds to its own number density, and its excluded pairs [1/m3].
+  void start(std::size_t i) {
+    before_ = after_ = kernels_.wendland.value(0.0);
+    const Particles& p = state_.particles;
+    if (sums_density_ && p.has(field::own_density)) before_ += p[field::own_density][i];
+    for (const OwnPair& pair : state_.own.of(id(i))) after_ += pair.weight;
+  }
+  void add_pair(std::size_t i, const Entry& e) {
+    const std::size_t j = e.row();
+    const double r = norm((place(j) - place(i)) + state_.neighbours->shift(e.image()));
+    const double W = kernels_.wendland.value(r);
+    const bool own_now = are_own(state_.own, id(i), id(j));
+    const bool met = !e.own() && sums_(group_[i]) && sums_(group_[j]),
+               meet = !own_now && sums_(group_now_(i)) && sums_(group_now_(j));
+    if (met) before_ += W;
+    if (meet) after_ += W;
+    if (!core_) return;
+    const double acted = met ? acts(group_[i], group_[j]) : 0.0,
+                 acts_now = meet ? acts(group_now_(i), group_now_(j)) : 0.0;
+    jump_ += (changed_[j] ? 0.5 : 1.0) * (acts_now - acted) * kernels_.core.energy(r);
+  }
+  void add(std::size_t i) {
+    start(i);
+    for (const Entry e : state_.neighbours->of(i)) add_pair(i, e);
+    if (!sums_density_) return;
+    const bool counted = sums_(group_[i]), counts = sums_(group_now_(i));
+    if (before_ != after_ || counted != counts)
+      jump_ += (counts ? energy(i, after_) : 0.0) - (counted ? energy(i, before_) : 0.0);
+  }
+  [[nodiscard]] double energy(std::size_t i, double delta) const {
+    const Particles& p = state_.particles;
+    const double m = p[field::mass][i];
+    const EquationOfState equation = liquid::state_of(n_, group_[i], p[field::rest_density][i], clamps_);
+    return compression_energy(equation, m, m * delta / n_.lattice_density);
+  }
+
+  const State& state_;
+  const liquid::SceneNumbers& n_;
+  const PairKernels& kernels_;
+  const std::function<double(std::size_t)>& group_now_;
+  double back_;
+  bool core_, sums_density_, clamps_;
+  liquid::SumsDensity sums_;
+  std::vector<std::size_t> rows_;
+  std::vector<char> changed_;  ///< by row
+  std::span<const double> group_;
+  std::span<const int> id_;
+  double before_ = 0.0, after_ = 0.0;  ///< number density of the present particle [1/m3]
+  double jump_ = 0.0;
+};
+
 }  // namespace
 
 double compression_jump(const State& state, const liquid::SceneNumbers& n, const PairKernels& kernels,
                         const std::function<double(std::size_t)>& group_now, double back) {
-  const bool core = state.scene.mode_of(term::pressure) == Mode::corrected,
-             numbers = state.scene.mode_of(term::density) == Mode::corrected,
-             clamps = liquid::clamps(state.scene);
-  if (!state.neighbours || state.neighbours->rebuilds() == 0 || !(core || numbers)) return 0.0;
-  const Particles& p = state.particles;
-  const liquid::SumsDensity sums(state.scene);
-  const std::vector<std::size_t> rows = changed_rows(state, sums.of_solids());
-  std::vector<char> changed(p.size(), 0);
-  for (const std::size_t i : rows) changed[i] = 1;
-  const auto x = positions(p), v = velocities(p);
-  const auto place = [&](std::size_t row) { return x.at(row) - back * v.at(row); };
-  const auto group = p[field::group], m = p[field::mass], rest = p[field::rest_density];
-  const auto id = p[field::id];
-  const auto own_before =
-      numbers && p.has(field::own_density.name) ? p[field::own_density] : std::span<const double>{};
-  double jump = 0.0;
-  for (const std::size_t i : rows) {
-    double before = kernels.wendland.value(0.0), after = before;
-    if (!own_before.empty()) before += own_before[i];
-    for (const OwnPair& pair : state.own.of(static_cast<std::size_t>(id[i]))) after += pair.weight;
-    for (const Entry e : state.neighbours->of(i)) {
-      const std::size_t j = e.row();
-      const double r = norm((place(j) - place(i)) + state.neighbours->shift(e.image()));
-      const bool own_now =
-          are_own(state.own, static_cast<std::uint32_t>(id[i]), static_cast<std::uint32_t>(id[j]));
-      const double W = kernels.wendland.value(r);
-      const bool both = sums(group[i]) && sums(group[j]), both_now = sums(group_now(i)) && sums(group_now(j));
-      if (!e.own() && both) before += W;
-      if (!own_now && both_now) after += W;
-      if (!core) continue;
-      const double acted = e.own() || !both ? 0.0 : acts(group[i], group[j]),
-                   acts_now = own_now || !both_now ? 0.0 : acts(group_now(i), group_now(j));
-      jump += (changed[j] ? 0.5 : 1.0) * (acts_now - acted) * kernels.core.energy(r);
-    }
-    const bool counts = sums(group[i]), counts_now = sums(group_now(i));
-    if (!numbers || (before == after && counts == counts_now)) continue;
-    const EquationOfState equation = liquid::state_of(n, group[i], rest[i], clamps);
-    const auto energy = [&](double delta) {
-      return compression_energy(equation, m[i], m[i] * delta / n.lattice_density);
-    };
-    jump += (counts_now ? energy(after) : 0.0) - (counts ? energy(before) : 0.0);
-  }
-  return jump;
+  const bool stores = state.scene.mode_of(term::pressure) == Mode::corrected ||
+                      state.scene.mode_of(term::density) == Mode::corrected;
+  if (!state.neighbours || state.neighbours->rebuilds() == 0 || !stores) return 0.0;
+  return Jump(state, n, kernels, group_now, back)();
 }
 
 }  // namespace tripoint::pressure

@@ -78,16 +78,53 @@ void WallPatches::share_exposed(const State& state) {
   }
 }
 
+namespace {
+
+/// Number density of a wall's particle over its own wall: at the places as they are, and as its lattice has
+/// them [1/m3]
+struct WallAround {
+  double as_it_is, from_lattice;
+};
+
+/// @param frames of each body. The sum has one order on any number of processes.
+WallAround wall_around(const State& state, const std::vector<int>& frames, const PairKernels& kernels,
+                       std::size_t i) {
+  const Particles& p = state.particles;
+  const auto group = p[field::group];
+  const auto body = p[field::body], source = p[field::source], id = p[field::id];
+  const auto frame_of = [&](std::size_t row) { return frames[static_cast<std::size_t>(body[row])]; };
+  const auto x = positions(p);
+  const double dx = state.scene.spacing;
+  std::vector<Share> shares;
+  for (const Entry e : state.neighbours->of(i)) {
+    const std::size_t j = e.row();
+    if (j == i || group[j] != wall_group || frame_of(i) != frame_of(j)) continue;
+    const Vec3 away = (x.at(j) - x.at(i)) + state.neighbours->shift(e.image());
+    const double as_it_is = kernels.wendland.value(norm(away));
+    if (as_it_is > 0.0)
+      shares.push_back(
+          {id[j], as_it_is,
+           source[i] == source[j] ? kernels.wendland.value(dx * norm(liquid::laid(away / dx))) : as_it_is});
+  }
+  std::ranges::sort(shares);
+  WallAround sum{kernels.wendland.value(0.0), kernels.wendland.value(0.0)};
+  for (const Share& s : shares) {
+    sum.as_it_is += s.as_it_is;
+    sum.from_lattice += s.from_lattice;
+  }
+  return sum;
+}
+
+}  // namespace
+
 /// Which particles lie at a face: those whose number density can in part be other than wall. And what jitter
 /// adds to the part that is fixed wall. Behind the face, where no velocity is mirrored and nothing jittered,
 /// no step reads the values of a wall.
 void WallPatches::find_exposed(State& state, const liquid::SceneNumbers& n, const PairKernels& kernels) {
   const Particles& p = state.particles;
   const auto group = p[field::group];
-  const auto body = p[field::body], source = p[field::source], id = p[field::id];
-  const auto x = positions(p);
+  const auto body = p[field::body], id = p[field::id];
   const std::vector<int> frames = frames_of(state);
-  const auto frame_of = [&](std::size_t row) { return frames[static_cast<std::size_t>(body[row])]; };
   const double dx = state.scene.spacing, full = n.lattice_density / std::pow(dx, 3);
   const bool jittered = liquid::has_laid_walls(state.scene);
   const std::vector<char> known = recall_exposed(state);
@@ -97,26 +134,10 @@ void WallPatches::find_exposed(State& state, const liquid::SceneNumbers& n, cons
 #pragma omp parallel for schedule(static) num_threads(state.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (group[i] != wall_group || known[static_cast<std::size_t>(id[i])] || !state.owns(i)) continue;
-    std::vector<Share> shares;
-    for (const Entry e : state.neighbours->of(i)) {
-      const std::size_t j = e.row();
-      if (j == i || group[j] != wall_group || frame_of(i) != frame_of(j)) continue;
-      const Vec3 away = (x.at(j) - x.at(i)) + state.neighbours->shift(e.image());
-      const double as_it_is = kernels.wendland.value(norm(away));
-      if (as_it_is > 0.0)
-        shares.push_back(
-            {id[j], as_it_is,
-             source[i] == source[j] ? kernels.wendland.value(dx * norm(liquid::laid(away / dx))) : as_it_is});
-    }
-    std::ranges::sort(shares);
-    double wall = kernels.wendland.value(0.0), from_lattice = wall;
-    for (const Share& s : shares) {
-      wall += s.as_it_is;
-      from_lattice += s.from_lattice;
-    }
+    const auto [wall, from_lattice] = wall_around(state, frames, kernels, i);
     const bool exposed = wall < (1.0 - n.least_exposure) * full;
     at_face_[static_cast<std::size_t>(id[i])] = exposed ? 1 : 0;
-    if (jittered && frame_of(i) == fixed_frame)
+    if (jittered && frames[static_cast<std::size_t>(body[i])] == fixed_frame)
       excess_[static_cast<std::size_t>(id[i])] = liquid::to_a_millionth((wall - from_lattice) / full);
   }
   share_exposed(state);
