@@ -74,6 +74,21 @@ TEST(AuditOfMotion, FindsPlacesThatAreNotThoseOfTheVelocities) {
   }
 }
 
+/// Frames of 0.1 rad: a turn of one frame would be within what the spin of that frame lets it be.
+TEST(AuditOfMotion, FindsASpinThatLeavesTheOthersForOneFrame) {
+  const Trial fine{block({1, 2, 3}, 1.0, 40), "torque_free"};
+  EXPECT_EQ(changed(fine, [](BodyState&, double) {}), "");
+  for (const std::size_t frame : {std::size_t{1}, std::size_t{20}, std::size_t{38}}) {
+    const double at = fine.run.frames[frame].time;
+    const auto why =
+        changed(fine, [&](BodyState& b, double t) { b.angular_velocity *= t == at ? -1.0 : 1.0; });
+    EXPECT_TRUE(has(why, "contradicts itself")) << frame << ": " << why;
+    const auto other =
+        changed(fine, [&](BodyState& b, double t) { b.angular_velocity.y *= t == at ? -1.0 : 1.0; });
+    EXPECT_TRUE(has(other, "the angular velocity of `block` leaves those")) << frame << ": " << other;
+  }
+}
+
 TEST(AuditOfMotion, FindsTurnsThatAreNotThoseOfTheSpin) {
   const std::pair<const char*, std::function<void(BodyState&, double)>> ways[] = {
       {"wrong sign", [](BodyState& b, double) { b.angular_velocity *= -1.0; }},

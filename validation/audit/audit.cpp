@@ -53,7 +53,7 @@ std::string audit(const Job& job, const InitialState& initial, const Trajectory&
   const Audited run{job, initial, held, trajectory, frames.list};
   if (auto why = unsound_frames(run); !why.empty()) return why;
   for (const auto& check : {another_start, frozen, apart, moves_against_its_velocity, turns_against_its_spin,
-                            gauges_against_particles, sums_against_particles})
+                            leaves_for_one_frame, gauges_against_particles, sums_against_particles})
     if (auto why = check(run); !why.empty()) return why;
   return {};
 }

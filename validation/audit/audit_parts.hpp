@@ -50,6 +50,9 @@ struct Audited {
 [[nodiscard]] std::string moves_against_its_velocity(const Audited&);
 /// Orientations that change by another turn than the angular velocities say.
 [[nodiscard]] std::string turns_against_its_spin(const Audited&);
+/// Velocities and angular velocities of a free body that leave those of the frames before and after for one
+/// frame.
+[[nodiscard]] std::string leaves_for_one_frame(const Audited&);
 /// A gauge that says something else than the particles of the same run.
 [[nodiscard]] std::string gauges_against_particles(const Audited&);
 /// Sums that the engine states (mass, momentum, angular momentum, kinetic energy) and the same of its

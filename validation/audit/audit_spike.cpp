@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <utility>
+
+#include "validation/audit/audit_rates.hpp"
+
+namespace tripoint {
+namespace {
+
+/// How far a rate at one frame is from the mean of its neighbours, and how far it may be.
+struct Spike {
+  double found = 0.0, allowed = 0.0;
+};
+
+/// A rate that bends shows it in the frames around, too. The frame itself has no voice in what is allowed.
+Spike spike_at(const std::vector<Vec3>& rate, std::size_t n) {
+  constexpr double two_digits = 0.02;
+  const Vec3 &before = rate[n - 1], &after = rate[n + 1];
+  double bend = 0.0;
+  if (n >= 3) bend = norm(rate[n - 3] - 2.0 * before + after);
+  if (n + 3 < rate.size()) bend = std::max(bend, norm(before - 2.0 * after + rate[n + 3]));
+  return {norm(rate[n] - 0.5 * (before + after)), bend + two_digits * std::max(norm(before), norm(after))};
+}
+
+bool is_free_about(const Audited& run, std::size_t body, std::size_t n) {
+  return !contact_of(run, body, n - 1).touches && !contact_of(run, body, n).touches;
+}
+
+/// The rate of a body in all frames; empty where it is not there in one.
+std::vector<Vec3> rates_of(const Audited& run, const JobBody& body, Vec3 BodyState::*rate) {
+  std::vector<Vec3> all;
+  const auto row = static_cast<std::size_t>(body.index);
+  for (const auto* s : run.frames) {
+    if (row >= s->bodies.size() || !is_there(s->bodies[row])) return {};
+    all.push_back(s->bodies[row].*rate);
+  }
+  return all;
+}
+
+/// Whether frames follow the turn: where a body turns far between them, they say nothing of it.
+bool is_seen(const Audited& run, const std::vector<Vec3>& spin, std::size_t n) {
+  constexpr double far = 0.5;  // [rad]
+  const double time = run.frames[n + 1]->time - run.frames[n]->time;
+  return std::max(norm(spin[n - 1]), norm(spin[n + 1])) * time < far;
+}
+
+std::string spike_in(const Audited& run, std::size_t body, Vec3 BodyState::*member, const char* what) {
+  const auto& b = run.job.bodies[body];
+  const auto rate = rates_of(run, b, member);
+  constexpr std::size_t enough = 6;
+  for (std::size_t n = 1; rate.size() >= enough && n + 1 < rate.size(); ++n) {
+    const Spike spike = spike_at(rate, n);
+    if (spike.found <= spike.allowed || !is_free_about(run, body, n) ||
+        (member == &BodyState::angular_velocity && !is_seen(run, rate, n)))
+      continue;
+    return "contradicts itself: the " + std::string(what) + " of `" + b.name +
+           "` leaves those before and after it" + at_time(*run.frames[n]) + " by " + figure(spike.found) +
+           ", where " + figure(spike.allowed) + " may be";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string leaves_for_one_frame(const Audited& run) {
+  if (!keeps_bodies(run.job)) return {};
+  for (std::size_t b = 0; b < run.job.bodies.size(); ++b) {
+    const auto& body = run.job.bodies[b];
+    if (body.index < 0 || body.phase != Phase::rigid || body.motion != Motion::free) continue;
+    for (const auto& [member, what] : {std::pair(&BodyState::velocity, "velocity"),
+                                       std::pair(&BodyState::angular_velocity, "angular velocity")})
+      if (auto why = spike_in(run, b, member, what); !why.empty()) return why;
+  }
+  return {};
+}
+
+}  // namespace tripoint
