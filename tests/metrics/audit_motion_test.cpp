@@ -139,6 +139,11 @@ TEST(AuditOfMotion, FindsBodiesThatChangePlaces) {
       << why;
 }
 
+TEST(AuditOfMotion, FindsARowThatIsHeavierThanItsParticles) {
+  const auto why = changed(flight(), [](BodyState& b, double) { b.mass *= 1.001; });
+  EXPECT_TRUE(has(why, "`block` has another mass than its particles")) << why;
+}
+
 TEST(AuditOfMotion, TheFirstFrameHasTheJobsVelocitiesAndSpin) {
   auto t = flight();
   t.run.frames[0].bodies[0].angular_velocity = {3, 2, 1};
@@ -157,7 +162,7 @@ TEST(AuditOfMotion, FindsLiquidThatContradictsItself) {
   for (auto& frame : moving.run.frames) {
     for (auto& x : frame.position) x.x += frame.time;
     for (auto& b : frame.bodies) {
-      b.mass = 1.0;
+      b.mass = 64.0;
       b.velocity = {1.0, 0.0, 0.0};
       b.position.x += frame.time;
     }

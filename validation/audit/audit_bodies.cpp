@@ -59,6 +59,18 @@ std::string apart_from_the_mean(const Audited& run, const Snapshot& s, const std
   return {};
 }
 
+/// A row has the mass of its particles, to what single precision leaves of a sum.
+std::string heavier_than_its_particles(const Audited& run, const Snapshot& s, const std::vector<Sum>& sums) {
+  for (const auto& b : run.job.bodies) {
+    const auto row = static_cast<std::size_t>(b.index);
+    if (b.index < 0 || b.motion != Motion::free || row >= sums.size() || !is_there(s.bodies[row])) continue;
+    if (const double mass = sums[row].mass; mass > 0.0 && std::abs(s.bodies[row].mass - mass) > 1e-4 * mass)
+      return row_name(run, row) + " has another mass than its particles: " + figure(s.bodies[row].mass) +
+             " kg beside " + figure(mass) + " kg" + at_time(s);
+  }
+  return {};
+}
+
 /// A rigid body's particles stand around its centre as its orientation says, and turn by its angular
 /// velocity.
 std::string apart_from_its_turn(const Audited& run, const Snapshot& s, const std::vector<Sum>& sums) {
@@ -90,7 +102,9 @@ std::string apart_from_its_particles(const Audited& run, const Snapshot& s) {
   if (!of || mass.size() != s.position.size()) return {};
   const auto sums = sums_of(run, s, *of, mass);
   if (auto why = apart_from_the_mean(run, s, sums); !why.empty()) return why;
-  return keeps_bodies(run.job) ? apart_from_its_turn(run, s, sums) : "";
+  if (!keeps_bodies(run.job)) return {};
+  if (auto why = heavier_than_its_particles(run, s, sums); !why.empty()) return why;
+  return apart_from_its_turn(run, s, sums);
 }
 
 }  // namespace tripoint
