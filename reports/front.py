@@ -53,9 +53,9 @@ def count(number, noun):
 def verdict_words(results):
     """One sentence of the verdict; how many cases have each word that is not plain green; known defects by name."""
     gates = [gate for case in results.cases for engine in case.engines for gate in engine.gates]
-    told = [[word for word in summary.headline(case) if is_told(word)] for case in results.cases]
-    words = summary.tally(summary.DEFECT if summary.is_defect(word) else word for case in told for word in case)
-    names = Counter(name for case in told for word in case for name in defect_names(word))
+    headlines = [[word for word in summary.headline(case) if is_reported(word)] for case in results.cases]
+    words = summary.tally(summary.DEFECT if summary.is_defect(word) else word for case in headlines for word in case)
+    names = Counter(name for case in headlines for word in case for name in defect_names(word))
     return gates_sentence(gates, count(len(results.cases), "case")), words, names.most_common()
 
 
@@ -65,7 +65,7 @@ def defect_names(word):
     return [name.replace("-", " ") for name in listed.split(", ") if name]
 
 
-def is_told(word):
+def is_reported(word):
     return word in (summary.DIVERGENCE, summary.UNJUDGED, summary.RIGHT, summary.WRONG) or summary.is_defect(word)
 
 

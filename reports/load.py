@@ -41,8 +41,8 @@ def load(path):
         f"the file has no {key}" for key in ("tool", "command", "profile", "verdict", "exit_code") if key not in raw
     ]
     cases = [read_case(row, index) for index, row in enumerate(rows(raw["cases"]))]
-    past, told = history.read(path.resolve().parent / (text(raw.get("history")) or "history.jsonl"))
-    notes += told
+    past, remarks = history.read(path.resolve().parent / (text(raw.get("history")) or "history.jsonl"))
+    notes += remarks
     for case in cases:
         case.history = past.get(case.id, [])
     name(cases)

@@ -309,7 +309,7 @@ def render_case(results, case, pictures, notes):
         case=case,
         declared={metric.get("name"): metric for metric in case.metrics},
         drawings=pictures,
-        told=notes,
+        figure_notes=notes,
         before=before,
         after=after,
         up="../",

@@ -172,8 +172,8 @@ def other_pages(results, out):
         speed.main([str(results.folder / "speed.json"), str(out / "speed.html")])
         beside.append(("speed.html", "Speed beside other codes"))
     beside = chosen_pages(results, out) + beside
-    found, told = headlines.pages(results, out)
-    results.notes.extend(told)
+    found, notes = headlines.pages(results, out)
+    results.notes.extend(notes)
     for headline in found:
         if headline.file != "upgrade.html":
             write(out / headline.file, page.render_headline(results, headline, found))

@@ -3,7 +3,7 @@
 # What CI asks beside the tests of the ordinary build, each in a folder of its own; exits with the first that fails.
 #   tools/checks.sh format       every C++ file is as .clang-format says
 #   tools/checks.sh scorecard    the checks of OpenSSF Scorecard that a checkout can answer
-#   tools/checks.sh tidy         clang-tidy on most of the solver and on what reads files of strangers (docs/ci.md); a finding of clang-analyzer or bugprone fails
+#   tools/checks.sh tidy         clang-tidy on most of the solver and on what reads third-party files (docs/ci.md); a finding of clang-analyzer or bugprone fails
 #   tools/checks.sh clang        clang-16 compiles the libraries and runs the tests of the rooms
 #   tools/checks.sh asan-ubsan   the same rooms, and the corpus of the fuzz targets, under the address and undefined-behaviour sanitizers
 #   tools/checks.sh tsan         everything that shares memory between threads under the thread sanitizer

@@ -140,7 +140,7 @@ def hashes(program, steps, lanes, threads, environment=None):
         [str(word) for word in command], capture_output=True, text=True, check=True, env=own | (environment or {})
     )
     rows = [line.split(" ", 2) for line in done.stdout.strip().split("\n")]
-    return {f"{case} {mode}": told for case, mode, told in rows}
+    return {f"{case} {mode}": state for case, mode, state in rows}
 
 
 def differences(found, truth):
@@ -173,7 +173,7 @@ class Comparison:
         for line in others:
             print(f"            differs: {line}")
 
-    def told(self):
+    def report(self):
         """The exit code, and what is to do."""
         if self.different:
             print(
@@ -196,7 +196,7 @@ def write(path, steps, truth, reason):
         "[hashes]",
     ]
     path.write_text(
-        "\n".join(lines + [f"{json.dumps(state)} = {json.dumps(told)}" for state, told in truth.items()]) + "\n",
+        "\n".join(lines + [f"{json.dumps(state)} = {json.dumps(hashes)}" for state, hashes in truth.items()]) + "\n",
         encoding="utf-8",
     )
 
@@ -211,7 +211,7 @@ def compare_program(program, path, steps, reason):
     for lanes in widths():
         comparison.row("program", program, lanes, 1)
     comparison.row("program", program, widths()[-1], 3)
-    code = comparison.told()
+    code = comparison.report()
     if reason and code == 0:
         write(path, steps, comparison.truth, reason)
         print(f"{path}: {len(comparison.truth)} states are stored: {reason}")
@@ -239,7 +239,7 @@ def compare_builds(names, folder, path, steps, jobs):
                 comparison.row(name, program, lanes, threads)
     if program:
         comparison.row("no FMA", program, 1, 1, WITHOUT_FMA, "  (the C library's other functions; not promised)")
-    return comparison.told()
+    return comparison.report()
 
 
 def main():

@@ -58,8 +58,8 @@ class Root:
 
     @staticmethod
     def apt_settings():
-        told = subprocess.run(["apt-config", "dump"], capture_output=True, text=True).stdout
-        return [line for line in told.splitlines() if re.match(r"Acquire::(https?|Retries|Check-)", line)]
+        answer = subprocess.run(["apt-config", "dump"], capture_output=True, text=True).stdout
+        return [line for line in answer.splitlines() if re.match(r"Acquire::(https?|Retries|Check-)", line)]
 
     @staticmethod
     def sources():
@@ -208,20 +208,20 @@ class Image:
 
 def compiler_cache():
     """This machine's: what has been compiled here once is not compiled again, which only shortens the build."""
-    told = (
+    answer = (
         subprocess.run(["ccache", "--get-config", "cache_dir"], capture_output=True, text=True).stdout
         if shutil.which("ccache")
         else ""
     )
-    return Path(told.strip() or tempfile.gettempdir() + "/tripoint-image-ccache")
+    return Path(answer.strip() or tempfile.gettempdir() + "/tripoint-image-ccache")
 
 
 def size_of(folder):
     """Megabytes of the files in the root, without what is mounted there."""
-    told = subprocess.run(
+    answer = subprocess.run(
         ["du", "--summarize", "--one-file-system", "--block-size=1000000", str(folder)], capture_output=True, text=True
     ).stdout
-    return int(told.split()[0])
+    return int(answer.split()[0])
 
 
 def gate_in(root):

@@ -103,10 +103,10 @@ def loaded(build):
         }
         for file in foreign
     }
-    told = subprocess.run(
+    answer = subprocess.run(
         ["dpkg", "-S", *sorted(set().union(*places.values()))], capture_output=True, text=True, check=False
     ).stdout
-    owners = {line.rpartition(": ")[2]: line.partition(": ")[0].split(",")[0] for line in told.splitlines()}
+    owners = {line.rpartition(": ")[2]: line.partition(": ")[0].split(",")[0] for line in answer.splitlines()}
     names = set()
     for file in foreign:
         owner = next((owners[place] for place in sorted(places[file]) if place in owners), None)

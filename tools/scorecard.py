@@ -39,15 +39,15 @@ FOREIGN = re.compile(
 class Checkout:
     def __init__(self, root):
         self.root = root
-        told = subprocess.run(
+        answer = subprocess.run(
             ["git", "-C", root, "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
             capture_output=True,
             text=True,
             check=False,
         )
         inside = (
-            told.stdout.split("\0")
-            if told.returncode == 0
+            answer.stdout.split("\0")
+            if answer.returncode == 0
             else [str(p.relative_to(root)) for p in root.rglob("*") if p.is_file()]
         )
         self.files = sorted(

@@ -175,7 +175,7 @@ double LammpsHalo::reach_of(double longest_bond) {
 /// parts.
 void LammpsHalo::expect_known(const Bonds& bonds, const OwnPairs& own) const {
   if (known_changes_ != std::array{bonds.changes(), own.changes()})
-    throw EngineError("bonds or own pairs of a scene that is shared out have changed");
+    throw EngineError("bonds or excluded pairs of a scene that is shared out have changed");
 }
 
 /// Each rank sends how many particles it has, their numbers, then column by column, then the lengths of

@@ -36,7 +36,7 @@ class LammpsHalo : public Halo {
                  std::span<const double> cost) override;
   void share_lists(Bonds&, OwnPairs&) override;
   void begin_anew() override;
-  /// @throws EngineError where bonds or own pairs are not as the last call left them
+  /// @throws EngineError where bonds or excluded pairs are not as the last call left them
   [[nodiscard]] WholeScene gather(const Particles&, const Bonds&, const OwnPairs&) override;
   /// @throws EngineError as gather()
   void migrate(Particles&, Bonds&, OwnPairs&, const PeriodicBox&, std::span<const double> cost) override;
@@ -112,8 +112,8 @@ class LammpsHalo : public Halo {
   double exchanges_ = 0.0, numbers_a_copy_ = 0.0, collectives_ = 0.0;
   int columns_of_particle_ = 0;
   std::size_t own_at_start_ = 0, copies_at_start_ = 0;
-  bool has_lists_ = false;  ///< the scene has bonds or own pairs
-  /// Of bonds and of own pairs, as the last migration left them
+  bool has_lists_ = false;  ///< the scene has bonds or excluded pairs
+  /// Of bonds and of excluded pairs, as the last migration left them
   std::array<std::uint64_t, 2> known_changes_{};
   /// Of each id of this part, among the particles of all ranks
   std::vector<int> numbers_;

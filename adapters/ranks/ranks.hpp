@@ -40,7 +40,7 @@ class Ranks {
   [[nodiscard]] virtual std::size_t row(std::size_t atom) const = 0;
   /// Its numbers. @pre it has no row
   [[nodiscard]] virtual const double* arrived(std::size_t atom) const = 0;
-  /// Bonds and own pairs, as numbers that go with the atom; no more of them than make_room() was told.
+  /// Bonds and excluded pairs, as numbers that go with the atom; no more of them than make_room() was told.
   [[nodiscard]] virtual std::vector<double>& lists(std::size_t atom) const = 0;
   virtual void make_room(std::size_t lists) = 0;
   /// Cost of the atom in a step, in a unit of any kind: goes with it.

@@ -254,7 +254,7 @@ bool RanksEngine::stops(bool asked) {
 
 void RanksEngine::write_words() const {
   words_at_ = wall_seconds();
-  ranks::write_words(words_path_, fmt::format("t = {:.6g} s, step {}, {} particles of its own and {} copies",
+  ranks::write_words(words_path_, fmt::format("t = {:.6g} s, step {}, {} particles of its own and {} ghosts",
                                               simulation_->state().time, simulation_->steps(), halo_->owned(),
                                               simulation_->state().particles.size() - halo_->owned()));
 }

@@ -29,8 +29,7 @@ constexpr const char* recommend_description =
     "|value| + 2 u of the metric, in its own scaled unit.\n"
     "  tripoint recommend heat/cosine-mode --error 1%\n"
     "  tripoint recommend rigid/torque-free --error 1e-5 --engines tripoint\n"
-    "  tripoint recommend fluid/sound-wave --seconds 5 --from report/results.json   the front of "
-    "runs that were made before\n"
+    "  tripoint recommend fluid/sound-wave --seconds 5 --from report/results.json   by earlier runs\n"
     "Exit: 0 the run met the wish, 1 it did not, 3 no settings within twice of the measured ones promise\n"
     "it.";
 
@@ -290,11 +289,10 @@ void add_common(CLI::App& command, RecommendOptions& o, const std::string& name)
   command.add_option("--engines", o.engines, "only these engines, A,B");
   add_sandbox_flag(command, o.sandbox);
   command.add_option("--axis", o.axis, "only this axis")->check(CLI::IsMember(axis_words()));
-  command
-      .add_option("--levels", o.levels, "levels of the front in the place of the studies', coarse to fine")
+  command.add_option("--levels", o.levels, "levels instead of the studies', coarse to fine")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command.add_option("--from", o.from, "take the front from this results.json; run nothing for it");
+  command.add_option("--from", o.from, "take the measurements from this results.json; run nothing for them");
   command.add_option("--out", o.out, "folder of the runs (default: report-" + name + "/CASE)");
   command.add_option("--jobs", o.jobs, "engine processes at a time")
       ->check(CLI::Range(1, 1024))

@@ -18,8 +18,7 @@ using predict::Prediction;
 const std::vector<std::string>& assumptions() {
   static const std::vector<std::string> lines{
       "work: seconds fixed, a particle and a pair, fitted to CPU seconds on one rank here; a rank pays them "
-      "for its copies too, "
-      "as it computes them",
+      "for its ghosts too, as it computes them",
       "shares: the decomposition at the start; what moves later and is not balanced again is not seen",
       "every rank has a core of its own, and is as slow beside others as runs on one rank are that go at "
       "once on this machine, "
@@ -114,7 +113,7 @@ std::string head(const json& d) {
 
 std::string predicted_table(const json& rows) {
   std::string text = fmt::format("{:10} {:>7} {:>10} {:>11} {:>10} {:>11} {:>10} {:>12} {:>9}  {}\n",
-                                 "prediction", "ranks", "particles", "a rank", "copies/own", "ms a step",
+                                 "prediction", "ranks", "particles", "a rank", "ghosts/own", "ms a step",
                                  "efficiency", "part.-st./s", "GB a rank", "shares");
   for (const json& r : rows)
     text += fmt::format("{:10} {:7} {:10.4g} {:11.4g} {:10.3f} {:11.4g} {:10.3f} {:12.4g} {:9.3g}  {}\n",
@@ -158,7 +157,7 @@ std::string measured_table(const json& rows) {
          "eff. of "
          "that: what\n"
          "ranks have of what cores leave. Off by: the prediction over that time\n" +
-         fmt::format("{:29} | {:29} | {:51} | {:29} | copies\n", "", "prediction", "shortest parts",
+         fmt::format("{:29} | {:29} | {:51} | {:29} | ghosts\n", "", "prediction", "shortest parts",
                      "undisturbed") +
          fmt::format(
              "{:10} {:>7} {:>10} | {:>9} {:>10} {:>8} | {:>9} {:>8} {:>10} {:>8} {:>12} | {:>9} {:>8} {:>10} "

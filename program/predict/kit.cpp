@@ -23,13 +23,18 @@ std::string kit_script(const std::string& what, const std::vector<std::string>& 
   for (const auto& s : set) words += " --set " + quoted(s);
   for (const int n : ranks) list += (list.empty() ? "" : " ") + std::to_string(n);
   return fmt::format(R"(#!/bin/bash
-# What one scene costs on 1 to {most} ranks of this machine, beside what one rank predicts: strong (the scene as it is) and weak (as many particles a rank).
-#   sbatch THIS                          on a node of a Slurm cluster; set partition and account as your site asks
+# What one scene costs on 1 to {most} ranks of this machine, beside what one rank predicts: strong
+# (the scene as it is) and weak (as many particles a rank).
+#   sbatch THIS                          on a node of a Slurm cluster, with your partition and account
 #   bash THIS                            anywhere, with the mpiexec of the wheel
 #   tripoint predict --compare result.json    prints it, here or at home
-# It needs tripoint with the engine tripoint-mpi (TRIPOINT=path of the program, where it is not on PATH). RANKS="1 2 4", REPEATS=5, MOST_REPEATS=20 (where times still fall), PATIENCE=60 (seconds in all, for slow cores), SECONDS_A_RUN=5, OUT=result.json change it.
-# result.json holds the processor, its cores, MPI, times and counts; no name of a host, a user or a folder of yours. Runs are in a folder that is deleted at the end.
-# Several nodes: TRIPOINT_MPI_LAUNCHER=slurm hands the ranks to Slurm (tried on one node alone); the folder of runs must then be shared (TMPDIR).
+# It needs tripoint with the engine tripoint-mpi (TRIPOINT=path of the program, where it is not on
+# PATH). RANKS="1 2 4", REPEATS=5, MOST_REPEATS=20 (where times still fall), PATIENCE=60 (seconds in
+# all, for slow cores), SECONDS_A_RUN=5, OUT=result.json change it.
+# result.json holds the processor, its cores, MPI, times and counts; no name of a host, a user or a
+# folder of yours. Runs are in a folder that is deleted at the end.
+# Several nodes: TRIPOINT_MPI_LAUNCHER=slurm hands the ranks to Slurm (tried on one node alone); the
+# folder of runs must then be shared (TMPDIR).
 #SBATCH --job-name=tripoint-predict
 #SBATCH --nodes=1
 #SBATCH --ntasks-per-node={most}

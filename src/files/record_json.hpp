@@ -24,7 +24,6 @@ template <class Owner>
 Owner from_kind_json(const JsonObject&);
 
 // --- one value
-// --------------------------------------------------------------------------------------------------------
 
 /// Whether it is a list of words of one enumeration.
 template <class T>
@@ -170,7 +169,6 @@ void take(const Member& m, std::optional<T>& value) {
 }
 
 // --- a record
-// ---------------------------------------------------------------------------------------------------------
 
 /// Members by a record that is named. A key without a member has its place, and its owner fills it.
 template <class Owner, class Record>
@@ -209,7 +207,6 @@ void take_record(const JsonObject& o, Owner& owner) {
 }
 
 // --- shapes, and fields of the start
-// ----------------------------------------------------------------------------------
 
 template <class Owner>
 std::vector<std::string> kind_words() {

@@ -44,7 +44,6 @@ void take_effect_values(const JsonObject& o, std::string_view table, Owner& owne
 }
 
 // --- materials, bodies, events
-// ----------------------------------------------------------------------------------------
 
 json material_json(const Material& m) {
   json out =

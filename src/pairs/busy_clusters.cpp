@@ -36,8 +36,8 @@ Work work_of_fixed(const Clusters& c, std::size_t cluster, std::span<const doubl
   return any_moves ? density : density_is_still;
 }
 
-/// The work that a cluster needs. Two act on each other unless they are an own pair, or members of one group
-/// of 0 and above.
+/// The work that a cluster needs. Two act on each other unless they are an excluded pair, or members of one
+/// group of 0 and above.
 /// @param moving number of rows that may move @param acting of each entry of the cluster a bit, set where it
 /// acts on a member; zero until now
 Work work_of(const Clusters& c, std::size_t cluster, std::span<const double> group,

@@ -23,14 +23,14 @@ namespace tripoint {
 /// In a shared scene (State::copies) clusters of copies alone are left out too: their owners form their sums.
 class BusyClusters {
  public:
-  /// The lists, the groups, the own pairs or the motion of bodies have changed: all is found anew.
+  /// The lists, the groups, the excluded pairs or the motion of bodies have changed: all is found anew.
   void drop_clusters() {
     known_ = false;
     own_is_known_ = false;
   }
   /// Over all pairs, for this process's own particles.
   void sum_own(const PassFunction&, State&, const PairKernels&);
-  /// @param leaves_own whether the density terms leave own pairs out, as the corrected one does
+  /// @param leaves_own whether the density terms leave excluded pairs out, as the corrected one does
   void sum_density(const PassFunction&, State&, const PairKernels&, bool leaves_own);
   /// After sum_density() over the same lists.
   void sum_rates(const PassFunction&, State&, const PairKernels&) const;

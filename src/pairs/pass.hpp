@@ -32,7 +32,7 @@ struct PairGeometry {
   V per_r2;          ///< 1/r^2; where r is 0, a number that keeps products with dx, dy, dz and r at 0 [1/m2]
   V gradient;        ///< W'(r)/r of the Wendland kernel [1/m5]
   MaskOf<V> within;  ///< within the support
-  /// Within, and not an own pair, two members of one deformable body that meet through their bonds alone
+  /// Within, and not an excluded pair, two members of one deformable body that meet through their bonds alone
   MaskOf<V> apart;
   const PairKernels& kernels;
   [[nodiscard, gnu::always_inline]] VectorOf<V> d() const { return {dx, dy, dz}; }
@@ -55,7 +55,7 @@ struct PassTask {
   const std::size_t* start = nullptr;      ///< first entry of each cluster's list, and one past the last
   const std::uint32_t* entries = nullptr;  ///< row and image of j, as in Entry
   const std::uint8_t* near = nullptr;      ///< of each entry, bit l where it is near to member l
-  /// Of each entry, bit l where it is an own pair of member l; null where there is none
+  /// Of each entry, bit l where it is an excluded pair of member l; null where there is none
   const std::uint8_t* own = nullptr;
   std::uint64_t* within = nullptr;  ///< as Clusters::within; null: all entries are looked at
   /// Of each entry a bit, as in Clusters::within: whether it is looked at; null: all are

@@ -81,7 +81,7 @@ struct Passes::Impl {
   PassFunction density, without_held, rates, again;
   PairKernels kernels;
   bool meets_all;   ///< a term works on every pair, whatever meets there
-  bool leaves_own;  ///< the density leaves own pairs out
+  bool leaves_own;  ///< the density leaves excluded pairs out
   std::optional<double> sleeps_beyond;
   BusyClusters busy{};
 

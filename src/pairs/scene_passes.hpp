@@ -38,7 +38,7 @@ class Passes {
   /// @param steps from new lists to new lists
   [[nodiscard]] std::vector<double> cost(const State&, double steps) const;
   [[nodiscard]] std::vector<double> cost_at_start(const State&) const;
-  /// To be called when lists, own pairs, groups or the motion of bodies have changed: where a pass has work
+  /// To be called when lists, excluded pairs, groups or the motion of bodies have changed: work of a pass
   /// is found anew.
   void drop_clusters();
 

@@ -27,7 +27,7 @@ inline constexpr Field<double> group{"group", "1"};
 /// Transport velocity less velocity.
 inline constexpr VectorField<double> shift{"shift", "m/s"};
 
-/// sum of W(x_ij) over the own pairs of a member of a deformable body: a constant part of its number density
+/// sum of W(x_ij) over excluded pairs of a member of a deformable body: constant part of its number density
 /// (model 8.2)
 inline constexpr Field<double> own_density{"own_density", "1/m3"};
 

@@ -217,7 +217,7 @@ void Neighbours::make_room_within() {
 
 namespace {
 
-/// Marks the own pairs of one cluster, among its entries. @param id of each row
+/// Marks the excluded pairs of one cluster, among its entries. @param id of each row
 void mark_cluster(Clusters& c, std::size_t k, std::span<const int> id, const OwnPairs& own) {
   for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i) {
     if (own.of(static_cast<std::size_t>(id[i])).empty()) continue;

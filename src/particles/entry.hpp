@@ -6,7 +6,7 @@
 namespace tripoint {
 
 /// An entry of a neighbour list. The low 26 bits are the row of j. The bits from 27 on are the periodic image
-/// in which j is seen. Lists keep own pairs in a separate column (Clusters::own). RowEntries sets the bit
+/// in which j is seen. Lists keep excluded pairs in a separate column (Clusters::own). RowEntries sets it
 /// between the two while a caller walks the entries of one row.
 struct Entry {
   std::uint32_t bits;

@@ -70,7 +70,7 @@ int partner_in(const double* n) { return static_cast<int>(n[0] - of_twin * std::
 [[noreturn]] void refuse_lost(int number, int partner) {
   throw InputError("particle " + std::to_string(number) + " of the scene has a bond with particle " +
                    std::to_string(partner) +
-                   ", which is not among the copies of its process: their bond is longer than copies reach");
+                   ", which is not among the ghosts of its process: their bond is longer than ghosts reach");
 }
 
 /// @param bonds becomes the list of that id. Twins are those of whole lists, which particles of its own have

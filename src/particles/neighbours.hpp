@@ -36,7 +36,7 @@ struct Clusters {
   std::vector<std::uint32_t> entries;  ///< row and image, as in Entry
   /// Of each entry: bit l where it is near to member l; a particle is not near to itself
   std::vector<std::uint8_t> near;
-  /// Of each entry: bit l where it is an own pair of member l; empty where there is none
+  /// Of each entry: bit l where it is an excluded pair of member l; empty where there is none
   std::vector<std::uint8_t> own;
   /// One bit for each entry: whether it is within the support of a member now, not only near to it. Each
   /// cluster begins a word, at within_start(). The last finding pass sets them for the present places, as
@@ -188,7 +188,7 @@ class Neighbours {
   /// Threads from now on. They change neither lists nor their order.
   void use_threads(int threads) { threads_ = threads; }
 
-  /// Marks the entries of own pairs; to be called after a rebuild and after a change of these lists.
+  /// Marks the entries of excluded pairs; to be called after a rebuild and after a change of these lists.
   void mark_own(const Particles&, const OwnPairs&);
   /// Whether that was done since the last rebuild.
   [[nodiscard]] bool marked() const noexcept { return marked_; }

@@ -159,9 +159,9 @@ std::vector<std::uint32_t> disconnect(Bonds& bonds, std::uint32_t i, Ends ends) 
   return lost;
 }
 
-/// Makes i and j an own pair; nothing where they are one already.
+/// Makes i and j an excluded pair; nothing where they are one already.
 void make_own(OwnPairs&, std::uint32_t i, std::uint32_t j, double weight);
-/// Ends an own pair. @return its weight, 0 where they were none
+/// Ends an excluded pair. @return its weight, 0 where they were none
 double end_own(OwnPairs&, std::uint32_t i, std::uint32_t j);
 [[nodiscard]] bool are_own(const OwnPairs&, std::uint32_t i, std::uint32_t j);
 

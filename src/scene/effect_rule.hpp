@@ -193,7 +193,6 @@ struct EffectRule {
 [[nodiscard]] std::vector<CalledEffect> needed_effects(const Scene&);
 
 // --- what rules ask
-// ----------------------------------------------------------------------------------------------------
 
 /// "WHO: why", "" where nobody.
 [[nodiscard]] std::string because(const std::string& who, std::string_view why);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bonds and own pairs of the start.
+// Bonds and excluded pairs of the start.
 #include <algorithm>
 #include <cmath>
 
@@ -141,7 +141,7 @@ namespace {
 
 /// How far lists of a particle reach, and which it has.
 struct Connecting {
-  bool meets;  ///< without pressure own pairs have nothing to be kept from
+  bool meets;  ///< without pressure excluded pairs have nothing to be kept from
   bool paper;
   double reach;  ///< of bonds [m]
 
@@ -155,7 +155,7 @@ struct Connecting {
   [[nodiscard]] bool is_own(bool bonded) const { return meets && (bonded || !paper); }
 };
 
-/// Bonds and own pairs of candidate n.
+/// Bonds and excluded pairs of candidate n.
 void list_partners(State& state, const Joins& joined, const Candidates& found, const Neighbours& near,
                    const std::vector<char>& at_joint, const Connecting& how, std::size_t n) {
   const ElasticityKernel kernel = bond_kernel(state.scene);

@@ -38,7 +38,7 @@ using BeforeRelisting = std::function<void(std::uint32_t id)>;
 ///   prescribed body only members that the scene gave it count. A component that could keep several rows
 ///   keeps the driven one, else that of most members. Two driven bodies never unite. Other components become
 ///   new free bodies, "<parent>.<n>", in order of their lowest id.
-/// - Longer bonds, and own pairs, between different components end, unless the two are joined by a shorter
+/// - Longer bonds, and excluded pairs, of different components end, unless the two are joined by a shorter
 /// bond (rigid with deformable). The cost is that of the changed bodies, and of one look at the column of
 /// bodies.
 /// @param before computed ahead of the changes to lists of bonds, so that the caller can accumulate the

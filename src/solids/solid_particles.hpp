@@ -8,15 +8,15 @@
 #include "sph/solid.hpp"
 #include "state/body_table.hpp"
 
-/// Parts that elasticity, plasticity, fracture and change of phase share: bonds and own pairs of a state, and
-/// how its particles are deformed. Particles are named by id.
+/// Parts that elasticity, plasticity, fracture and change of phase share: bonds and excluded pairs, and
+/// how particles are deformed. Particles are named by id.
 namespace tripoint::solid {
 
 /// A bond with this reference vector x_ij = r_i - r_j [m] and its kernel (17); connect() sets its partner.
 [[nodiscard]] Bond bond_of(const ElasticityKernel&, const Vec3& x_ij);
 /// The kernel (17), with the support scene.bond_reach dx [m].
 [[nodiscard]] ElasticityKernel bond_kernel(const Scene&);
-/// W of the density kernel: the weight of an own pair [1/m3] (model 8.2). @param distance of its reference
+/// W of the density kernel: weight of an excluded pair [1/m3] (model 8.2). @param distance of its reference
 /// places [m]
 [[nodiscard]] double own_weight(const Scene&, double distance);
 /// A difference of places [m] as the nearest images have it.
@@ -29,7 +29,7 @@ namespace tripoint::solid {
 /// @param back a time [s]: places are r - back v, as they were so long before
 [[nodiscard]] Vec3 separation(const State&, std::size_t i, std::size_t j, double back = 0.0);
 
-/// Bonds and own pairs within each deformable body of the scene, and to bodies that it is joined to.
+/// Bonds and excluded pairs within each deformable body of the scene, and to bodies that it is joined to.
 /// @throws InputError when a periodic direction is too narrow for bonds to be told apart
 void connect_solids(State&);
 

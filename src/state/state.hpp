@@ -29,7 +29,7 @@ struct Change {
   std::vector<std::uint32_t> born;  ///< flowed in: new particles, whose columns are still zero
   std::vector<std::uint32_t> melted, frozen;
   std::vector<std::uint32_t> regrouped;  ///< of another phase or body than before
-  std::vector<std::uint32_t> relisted;   ///< with other bonds or own pairs than before
+  std::vector<std::uint32_t> relisted;   ///< with other bonds or excluded pairs than before
   /// Regrouped by phase change: row of the body before, -1 for liquid
   std::map<std::uint32_t, int> came_from;
   std::vector<std::size_t> bodies;  ///< rows of bodies that gained or lost members, ascending

@@ -190,7 +190,7 @@ void restore_all_pairs(State& state, const Checkpoint& kept) {
   const std::vector<std::int64_t>& pairs = take(kept.whole, "step/pairs", 2);
   if (pairs[0] != static_cast<std::int64_t>(state.bonds.pairs()) ||
       pairs[1] != static_cast<std::int64_t>(state.own.pairs()))
-    throw InputError("the checkpoint lacks some of its bonds or own pairs");
+    throw InputError("the checkpoint lacks some of its bonds or excluded pairs");
   refuse_strange_pairs(state);
 }
 

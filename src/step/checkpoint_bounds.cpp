@@ -61,7 +61,7 @@ bool has_twin(const Bonds& bonds, std::size_t id, const Bond& bond) {
 
 void refuse_strange_pairs(const State& state) {
   hold_partners(state.bonds, "bonds", state.particles.size());
-  hold_partners(state.own, "own pairs", state.particles.size());
+  hold_partners(state.own, "excluded pairs", state.particles.size());
   for (std::size_t id = 0; id < state.bonds.particles(); ++id)
     for (const Bond& bond : state.bonds.of(id))
       if (!has_twin(state.bonds, id, bond))

@@ -67,7 +67,7 @@ class Sharing {
   std::optional<Accumulated> accumulated_;  ///< none: nothing yet
   /// While this process holds the whole, after it held a part
   std::optional<Part> part_;
-  /// Changes of the whole's bonds and own pairs, as it was gathered
+  /// Changes of the whole's bonds and excluded pairs, as it was gathered
   std::array<std::uint64_t, 2> gathered_{};
   long steps_ = 0;                                      ///< since particles changed hands
   double steps_a_list_ = ParticleCost::guess_of_steps;  ///< how often they do, of late

@@ -32,7 +32,7 @@ struct Line {
       state.particles[field::source][i] = -1;
     }
   }
-  /// A body of ids first..last, bonded within `reach`, with all of them own pairs.
+  /// A body of ids first..last, bonded within `reach`, with all of them excluded pairs.
   std::size_t add(std::string_view name, std::uint32_t first, std::uint32_t last, double reach,
                   Phase phase = Phase::elastic) {
     const std::size_t b = add_body(state, name, phase);

@@ -13,7 +13,6 @@ namespace tripoint {
 namespace {
 
 // --- another value than the default, by type
-// ---------------------------------------------------------------------------
 
 void change(double& v) { v += 0.625; }
 void change(std::uint64_t& v) { v += 5; }
@@ -60,7 +59,6 @@ void change_all(Owner& owner) {
 }
 
 // --- the same value, by type
-// ------------------------------------------------------------------------------------------
 
 template <class Owner>
 std::string different(const Owner& a, const Owner& b);

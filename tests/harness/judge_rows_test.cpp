@@ -15,7 +15,6 @@ namespace tripoint {
 namespace {
 
 // --- who was asked for
-// --------------------------------------------------------------------------------------------------------
 
 EngineRow stone(Status status, std::vector<Status> runs = {}, bool judged = false) {
   EngineRow e;
@@ -115,7 +114,6 @@ TEST(JudgeAsked, TheStatusesThatAreNoProperEnd) {
 }
 
 // --- one gate on one engine
-// ---------------------------------------------------------------------------------------------------
 
 struct Tried {
   Applied applied;
@@ -311,7 +309,6 @@ TEST(JudgeOrder, ThatCouldNotBeFittedIsMissingWhereAStudyOwesIt) {
 }
 
 // --- a case and a suite
-// ---------------------------------------------------------------------------------------------------------
 
 TEST(JudgeCase, SaysWhatIsWrongWithItAndOfWhich) {
   struct Row {

@@ -181,14 +181,14 @@ TEST(GateEdges, AKnownDefectIsOneWordBeforeAColon) {
 }
 
 TEST(GateEdges, RoomIsOneNumberForEachKindOfGate) {
-  EXPECT_EQ(room_of(gate_of(0.5, {}, {})), 0.5);
-  EXPECT_EQ(room_of(gate_of({}, {}, std::array{-1.0, 2.0})), 1.5);
-  EXPECT_EQ(room_of(gate_of(0.5, 4.0, std::array{-1.0, 2.0})), 0.5);
-  EXPECT_EQ(room_of(gate_of(2.5, {}, std::array{-1.0, 2.0})), 1.5);
-  EXPECT_EQ(room_of(gate_of({}, 4.0, {})), 0.25);
-  EXPECT_EQ(room_of(gate_of({}, 0.5, {})), 2.0);
-  EXPECT_EQ(room_of(gate_of({}, 0.0, {})), infinity);
-  EXPECT_EQ(room_of(gate_of({}, -1.0, {})), infinity);
+  EXPECT_EQ(allowance_of(gate_of(0.5, {}, {})), 0.5);
+  EXPECT_EQ(allowance_of(gate_of({}, {}, std::array{-1.0, 2.0})), 1.5);
+  EXPECT_EQ(allowance_of(gate_of(0.5, 4.0, std::array{-1.0, 2.0})), 0.5);
+  EXPECT_EQ(allowance_of(gate_of(2.5, {}, std::array{-1.0, 2.0})), 1.5);
+  EXPECT_EQ(allowance_of(gate_of({}, 4.0, {})), 0.25);
+  EXPECT_EQ(allowance_of(gate_of({}, 0.5, {})), 2.0);
+  EXPECT_EQ(allowance_of(gate_of({}, 0.0, {})), infinity);
+  EXPECT_EQ(allowance_of(gate_of({}, -1.0, {})), infinity);
 }
 
 TEST(ExitCodes, EachHasItsWord) {

@@ -146,7 +146,9 @@ Results read_text(const std::string& text) {
 
 TEST(WholeResults, WhatIsAbsentIsTakenForTheLeastThatItCanMean) {
   const auto r = read_text(
-      R"({"format": 1, "only_engines": ["tripoint", 3], "cases": [{"engines": [{"runs": [{"metrics": {"error": {}}}]}], "metrics": [{}], "studies": [{}], "gates": [{}], "equivalence": [{}]}]})");
+      R"({"format": 1, "only_engines": ["tripoint", 3],
+     "cases": [{"engines": [{"runs": [{"metrics": {"error": {}}}]}], "metrics": [{}], "studies": [{}],
+     "gates": [{}], "equivalence": [{}]}]})");
   EXPECT_EQ(r.seed, 1u);
   EXPECT_EQ(r.exit_code, exit_missing);
   EXPECT_EQ(r.asked, (std::vector<std::string>{"tripoint"}));  // an older file does not say who was asked for
@@ -190,8 +192,11 @@ TEST(WholeResults, WhatIsAbsentIsTakenForTheLeastThatItCanMean) {
 
 TEST(WholeResults, PartsOfAnotherKindAreNoValues) {
   const auto r = read_text(
-      R"({"format": 1, "interrupted": true, "cases": [{"tags": ["a", 1], "hashes": {"scene": "s", "metrics": {"m": 5}}, "gates": [{"band": [1, 2, 3], "limit": "x"}, {"band": [1]}],
-    "metrics": [{"window": [1]}], "reference": {"args": {"a": null}}, "engines": [{"status": "ok", "runs": [{"status": "ok", "metrics": {"a": {"value": 3, "finite": false}, "b": {"value": 3, "uncertainty": 7, "series": [1, "x"]}}}]}]}]})");
+      R"({"format": 1, "interrupted": true, "cases": [{"tags": ["a", 1], "hashes": {"scene": "s",
+     "metrics": {"m": 5}}, "gates": [{"band": [1, 2, 3], "limit": "x"}, {"band": [1]}],
+    "metrics": [{"window": [1]}], "reference": {"args": {"a": null}}, "engines": [{"status": "ok",
+     "runs": [{"status": "ok", "metrics": {"a": {"value": 3, "finite": false}, "b": {"value": 3,
+     "uncertainty": 7, "series": [1, "x"]}}}]}]}]})");
   EXPECT_TRUE(r.interrupted);
   const auto& c = r.cases.at(0);
   EXPECT_EQ(c.tags, (std::vector<std::string>{"a"}));
@@ -217,27 +222,27 @@ TEST(WholeResults, AnUnknownWordIsAnErrorThatSaysWhereItStands) {
       return std::string(e.what());
     }
   };
-  for (
-      const auto& [cases, place] :
-      {std::pair{
-           R"([{"engines": [{"status": "ok"}, {"status": "ok", "runs": [{"status": "ok"}, {"status": "fine"}]}]}])",
-           "results.json: cases[0].engines[1].runs[1].status: `fine` is no status of a run"},
-       std::pair{R"([{}, {"engines": [{"status": "OK"}]}])",
-                 "results.json: cases[1].engines[0].status: `OK` is no status"},
-       std::pair{R"([{"expect": "fail"}])", "cases[0].expect: `fail` is no expectation"},
-       std::pair{R"([{"kind": "proof"}])", "cases[0].kind: `proof` is no kind of case"},
-       std::pair{R"([{"reference": {"kind": "exact"}}])",
-                 "cases[0].reference.kind: `exact` is no kind of reference"},
-       std::pair{R"([{"studies": [{"expect": "flat"}]}])",
-                 "cases[0].studies[0].expect: `flat` is no class of convergence"},
-       std::pair{R"([{"studies": [{"axis": "spacing+walkers"}]}])",
-                 "cases[0].studies[0].axis: `spacing+walkers` is no axis"},
-       std::pair{R"([{"gates": [{"mode": "printed"}]}])", "cases[0].gates[0].mode: `printed` is no mode"},
-       std::pair{R"([{"metrics": [{"norm": "L3"}]}])", "cases[0].metrics[0].norm: `L3` is no norm"},
-       std::pair{R"([{"engines": [{"runs": [{"levels": {"space": 1}}]}]}])",
-                 "cases[0].engines[0].runs[0].levels: `space` is no axis"},
-       std::pair{R"([{"equivalence": [{"verdict": "same"}]}])",
-                 "cases[0].equivalence[0].verdict: `same` is no verdict"}})
+  for (const auto& [cases, place] :
+       {std::pair{
+            R"([{"engines": [{"status": "ok"}, {"status": "ok", "runs": [{"status": "ok"},
+     {"status": "fine"}]}]}])",
+            "results.json: cases[0].engines[1].runs[1].status: `fine` is no status of a run"},
+        std::pair{R"([{}, {"engines": [{"status": "OK"}]}])",
+                  "results.json: cases[1].engines[0].status: `OK` is no status"},
+        std::pair{R"([{"expect": "fail"}])", "cases[0].expect: `fail` is no expectation"},
+        std::pair{R"([{"kind": "proof"}])", "cases[0].kind: `proof` is no kind of case"},
+        std::pair{R"([{"reference": {"kind": "exact"}}])",
+                  "cases[0].reference.kind: `exact` is no kind of reference"},
+        std::pair{R"([{"studies": [{"expect": "flat"}]}])",
+                  "cases[0].studies[0].expect: `flat` is no class of convergence"},
+        std::pair{R"([{"studies": [{"axis": "spacing+walkers"}]}])",
+                  "cases[0].studies[0].axis: `spacing+walkers` is no axis"},
+        std::pair{R"([{"gates": [{"mode": "printed"}]}])", "cases[0].gates[0].mode: `printed` is no mode"},
+        std::pair{R"([{"metrics": [{"norm": "L3"}]}])", "cases[0].metrics[0].norm: `L3` is no norm"},
+        std::pair{R"([{"engines": [{"runs": [{"levels": {"space": 1}}]}]}])",
+                  "cases[0].engines[0].runs[0].levels: `space` is no axis"},
+        std::pair{R"([{"equivalence": [{"verdict": "same"}]}])",
+                  "cases[0].equivalence[0].verdict: `same` is no verdict"}})
     EXPECT_NE(why(cases).find(place), std::string::npos) << why(cases);
   EXPECT_NE(why(R"([], "verdict": "GREEN")").find("verdict: `GREEN` is no verdict of a case"),
             std::string::npos);

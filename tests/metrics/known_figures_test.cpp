@@ -25,7 +25,6 @@ using test::still_blocks;
 using test::value;
 
 // --- of one frame
-// ---------------------------------------------------------------------------------------------------------
 
 using Change = std::function<void(Snapshot& first, Snapshot& last)>;
 
@@ -244,7 +243,6 @@ TEST(KnownFigures, OfAProfileAndItsIsotherm) {
 }
 
 // --- of a series
-// ----------------------------------------------------------------------------------------------------------
 
 /// A single number in time: so many objects at t = 0, 0.25, 0.5, 0.75 and 1 s.
 Still counted(const std::vector<double>& objects) {
@@ -286,7 +284,6 @@ TEST(KnownFigures, OfANormInSpaceAreOfTheTimeThatIsAskedFor) {
 }
 
 // --- of a whole run
-// -------------------------------------------------------------------------------------------------------
 
 TEST(KnownFigures, OfASwayAreOneForAnyAxisAndAnyStart) {
   auto f = still_blocks(100);
@@ -335,7 +332,6 @@ TEST(KnownFigures, OfTogglesCountAChangeInTheFirstIntervalToo) {
 }
 
 // --- means of blocks
-// ------------------------------------------------------------------------------------------------------
 
 /// 1, 1, -1, -1 again and again: the mean of n samples is known to sqrt(1/(n - 1)), that of n/2 pairs to
 /// sqrt(1/(n/2 - 1)).

@@ -23,7 +23,6 @@ using test::pi;
 using test::Still;
 
 // --- norms in space
-// -------------------------------------------------------------------------------------------------------
 
 FrameError two_samples(bool with_errors) {
   FrameError e;
@@ -97,7 +96,6 @@ TEST(KnownNorms, TheFourKindsOfUncertaintyAddInSquares) {
 }
 
 // --- heat of a material
-// -----------------------------------------------------------------------------------------------------
 
 TEST(KnownHeat, OfASolidUpToItsMeltingAndOfALiquidFromThere) {
   Material water;
@@ -124,7 +122,6 @@ TEST(KnownHeat, OfASolidUpToItsMeltingAndOfALiquidFromThere) {
 }
 
 // --- a frequency
-// --------------------------------------------------------------------------------------------------------------
 
 using List = std::vector<double>;
 
@@ -199,7 +196,6 @@ TEST(KnownFrequency, OfASwingIsLookedForFromTwoFifthsToFiveHalves) {
 }
 
 // --- fits over levels
-// ---------------------------------------------------------------------------------------------------------
 
 TEST(KnownFits, StudentsFactorIsThatOfTheTables) {
   EXPECT_TRUE(std::isinf(student_95(0)));
@@ -311,7 +307,6 @@ TEST(KnownFits, EachClassOfAnOrderBeginsAtItsEdge) {
 }
 
 // --- a stationary mean
-// ------------------------------------------------------------------------------------------------------
 
 TEST(KnownMeans, CutWhatIsNotYetSteadyAndNoMoreThanHalf) {
   List x{9.0, 9.0, 9.0, 9.0};

@@ -20,7 +20,6 @@ using test::still_blocks;
 using test::value;
 
 // --- boxes
-// --------------------------------------------------------------------------------------------------------------------
 
 /// A box that is no more than one particle's place holds it, and none of its six faces may be moved beyond
 /// that place.
@@ -68,7 +67,6 @@ TEST(KnownBoxes, NeedTheBodyThatTheyFollow) {
 }
 
 // --- times
-// ------------------------------------------------------------------------------------------------------------------
 
 TEST(KnownTimes, AreMetWithinABillionthOfTheLast) {
   const auto position = metric("mass", "final");
@@ -122,7 +120,6 @@ TEST(KnownTimes, OfARunThatIsNoneAreNamed) {
 }
 
 // --- units
-// --------------------------------------------------------------------------------------------------------------------
 
 TEST(KnownUnits, OfAValueAreItsOwnOrThoseThatItsScaleGives) {
   struct Row {
@@ -156,7 +153,6 @@ TEST(KnownUnits, OfAValueAreItsOwnOrThoseThatItsScaleGives) {
 }
 
 // --- uncertainties over time
-// -----------------------------------------------------------------------------------------------
 
 /// Objects of 0, 1, 3, 0 and 1 at t = 0 to 1 s: mean 1, slope 0.4, squares left 6 - 0.1.
 TEST(KnownSeries, HaveTheUncertaintyOfTheirTrend) {
@@ -220,7 +216,6 @@ TEST(KnownSeries, TakeTheUncertaintyOfTheirDataWhereTheyTakeTheirValue) {
 }
 
 // --- events
-// -----------------------------------------------------------------------------------------------------------------
 
 TEST(KnownEvents, LieBetweenTwoFrames) {
   auto f = still_blocks();
@@ -272,7 +267,6 @@ TEST(KnownEvents, OfAModeOnAWarmingBarIsItsRateAlone) {
 }
 
 // --- heat
-// -------------------------------------------------------------------------------------------------------------------
 
 /// Layers of the left block at -0.35, -0.25, -0.15 and -0.05 m that hold 0, 4, 0, 0 K above 300 K and then 1,
 /// 2, 1, 0.
@@ -357,7 +351,6 @@ TEST(KnownHeat, OfALayerIsKnownAsItsParticlesAreOrAsTheirOneCount) {
 }
 
 // --- an audit
-// -------------------------------------------------------------------------------------------------------------
 
 using MiddleChange = std::function<void(Still&, Snapshot& middle)>;
 

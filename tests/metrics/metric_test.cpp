@@ -141,7 +141,6 @@ TEST(Metric, ShowsATrendOverTime) {
 }
 
 // --- walkers
-// ------------------------------------------------------------------------------------------------------------
 
 Trial noisy_bar(double bias, double sigma, unsigned seed, bool by_layers) {
   Trial t(test::warm_bar(), "cosine_mode");

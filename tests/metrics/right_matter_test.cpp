@@ -84,7 +84,6 @@ TEST(RightMatter, OfASumIsTheNamedBody) {
 }
 
 // --- frames that a norm needs
-// ---------------------------------------------------------------------------------------------
 
 TEST(RightFrames, OfAFinalValueAreTheLastAlone) {
   Still f(test::stefan_bar({}));
@@ -109,7 +108,6 @@ TEST(RightFrames, OfAChangeSinceTheStartIsTheFirstAlsoBesideAStatedValue) {
 }
 
 // --- events at the start
-// --------------------------------------------------------------------------------------------------
 
 /// A block that is heated above its melting point at 0 s, and is liquid from then on.
 Still melted_at_the_start() {
@@ -142,7 +140,6 @@ TEST(RightStart, OfAMergeAtZeroIsAnEvent) {
 }
 
 // --- numbers that a case states
-// -------------------------------------------------------------------------------------------
 
 TEST(StatedNumbers, OfABodyAreASizeOrAComponent) {
   Still f(test::blocks());

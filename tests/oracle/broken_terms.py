@@ -72,7 +72,7 @@ BROKEN = [
     ("elastic.reduced=1", "solids", "corrected", 2, [], "bond force of sheets and chains 8.7"),
     ("elastic.hourglass=1e-6", "solids", "corrected", 2, [], "hourglass energy 8.7"),
     ("elastic.bending=1e-6", "solids", "corrected", 2, ["scene.bending=0.8"], "gradients at surfaces 8.7"),
-    ("elastic.own_pairs=1e-6", "freezing", "corrected", 2, [], "own pairs 8.2"),
+    ("elastic.own_pairs=1e-6", "freezing", "corrected", 2, [], "excluded pairs 8.2"),
     ("elastic.paper.factor=1e-6", "solids", "paper", 2, [], "bond force (12)"),
     ("elastic.paper.stress=1e-6", "solids", "paper", 2, [], "elastic energy (10)"),
     ("plastic.elastic_limit=1e-6", "solids", "corrected", 2, [], "plastic strain 8.8"),

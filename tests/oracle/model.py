@@ -234,7 +234,7 @@ def density_printed(s):
 
 
 def number_density(s):
-    """S0 delta of 8.2: the particle itself, its own pairs by their constant weight, all others."""
+    """S0 delta of 8.2: the particle itself, its excluded pairs by their constant weight, all others."""
     total = np.where(s.own, 0.0, wendland(s.distance, s.h)).sum(axis=1) + wendland(0.0, s.h)
     if s.has("own_density"):
         total = total + s["own_density"]

@@ -30,7 +30,7 @@ LIMIT = 1e-13
 HERE = pathlib.Path(__file__).parent
 
 # What must have been compared when all scenes have run.
-TERMS = """density (4) | number density 8.2 | own pairs 8.2 | own density 8.2 | density of walls 8.4 | volume | \
+TERMS = """density (4) | number density 8.2 | excluded pairs 8.2 | own density 8.2 | density of walls 8.4 | volume | \
 pressure (9) | pressure 8.3 |
 bulk pressure 8.4 | pressure share 8.3 | pressure share of walls 8.4 | pressure force (7) | pressure force 8.3 | \
 compression energy 8.3 |
@@ -284,10 +284,10 @@ def compare_kernel_of_bond(out, s, i, j, kernel):
 def compare_own_pairs(out, s, own, kernel):
     printed, pairs = s.printed("density"), s.raw["own_pairs"]
     expected = own & (s.distance < (kernel if printed else max(kernel, s.h)))
-    out.same("own pairs 8.2", sorted((i, j) for i, j, _ in pairs), [tuple(p) for p in np.argwhere(expected)])
+    out.same("excluded pairs 8.2", sorted((i, j) for i, j, _ in pairs), [tuple(p) for p in np.argwhere(expected)])
     for i, j, weight in pairs:
         W = 0.0 if printed else kernels.wendland(s.distance[i, j], s.h)
-        out.compare("own pairs 8.2", [weight], [W], kernels.wendland(0.5 * s.h, s.h))
+        out.compare("excluded pairs 8.2", [weight], [W], kernels.wendland(0.5 * s.h, s.h))
 
 
 def compare_solids(out, s, before):

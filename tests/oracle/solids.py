@@ -14,7 +14,7 @@ REACH = 2.12  # of bonds and of (17), in spacings
 def first_bonds(s):
     """Chapter 11: pairs of one deformable body, or of two that are joined, nearer than 2.12 spacings; within a rigid
     body pairs with a member that is itself that near to a deformable body it is joined to; and, within a rigid body
-    that can melt, pairs nearer than the merging distance. @return which pairs are bonded, and which can be own pairs,
+    that can melt, pairs nearer than the merging distance. @return the bonded pairs, and those that can be excluded,
     by [i, j]"""
     solid = [b for b in s.scene["bodies"] if b["phase"] != "liquid"]
     n = len(solid)

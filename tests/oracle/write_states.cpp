@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// States of a scene as the solver has them, for oracle.py to compute again: the particles that it starts
-/// with, then all columns, bonds, own pairs and the ledger before the first step and around a later one, as
-/// one JSON document.
+/// with, then all columns, bonds, excluded pairs and the ledger before the first step and around a later one,
+/// as one JSON document.
 ///   write-states CASE.toml MODE STEPS [KEY=VALUE...]
 ///   write-states --terms    the name of every pair term that is compiled, one a line
 #include <nlohmann/json.hpp>

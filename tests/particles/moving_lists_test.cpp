@@ -9,7 +9,7 @@
 namespace tripoint {
 namespace {
 
-/// A chain 0 - 1 - 2 - 3 with bonds of length 1 and own pairs, all numbers of a bond different.
+/// A chain 0 - 1 - 2 - 3 with bonds of length 1 and excluded pairs, all numbers of a bond different.
 struct Chain {
   Chain() {
     for (std::uint32_t i = 0; i < 3; ++i) {
@@ -79,7 +79,7 @@ TEST(MovingLists, RefuseByNumberAPartnerThatIsNotThere) {
   }
 }
 
-/// Own pairs meet at every image; bonds are with one of them.
+/// Excluded pairs meet at every image; bonds are with one of them.
 TEST(MovingLists, KnowImagesOfOneParticle) {
   const Chain chain;
   Bonds bonds;

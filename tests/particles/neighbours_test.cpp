@@ -195,7 +195,7 @@ TEST(Neighbours, ContinueTheSameListFromTheirBuildPositions) {
   }
 }
 
-/// Lists of rows that are asked for, in no order, without own pairs and with.
+/// Lists of rows that are asked for, in no order, without excluded pairs and with.
 TEST(Neighbours, ThatAreMadeWhereSomebodyAsksAreTheSame) {
   const PeriodicBox box{{true, false, false}, {}, {4.0, 3.0, 3.0}};
   Particles p = cloud(600, {4.0, 3.0, 3.0}, true);

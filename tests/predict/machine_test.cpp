@@ -49,7 +49,9 @@ TEST(Machine, AMistakeIsNamedWithItsPlace) {
 }
 
 constexpr const char* probed =
-    R"({"ranks": 2, "mpi": "MPICH 5.0.2", "exchanges": [{"bytes": 8, "seconds": 1e-6}, {"bytes": 1048576, "seconds": 5.25288e-4}], "allreduce": [{"doubles": 1, "seconds": 2e-6}, {"doubles": 1024, "seconds": 6e-6}], "pack_rate": 3e9})";
+    R"({"ranks": 2, "mpi": "MPICH 5.0.2", "exchanges": [{"bytes": 8, "seconds": 1e-6},
+     {"bytes": 1048576, "seconds": 5.25288e-4}], "allreduce": [{"doubles": 1, "seconds": 2e-6},
+     {"doubles": 1024, "seconds": 6e-6}], "pack_rate": 3e9})";
 
 TEST(Machine, AProbeGivesLatencyAndBandwidth) {
   const Machine m = machine_of_probe(probed, 8);

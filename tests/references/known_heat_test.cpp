@@ -25,7 +25,6 @@ using test::Prepared;
 using test::made;
 
 // --- heat
-// -------------------------------------------------------------------------------------------------------------------
 
 TEST(KnownHeat, EachPhaseHasItsOwnValues) {
   auto s = test::stefan_bar({});
@@ -166,7 +165,6 @@ TEST(KnownHeat, AnEventThatOnlyReachesAThresholdChangesNothing) {
 }
 
 // --- bars
-// -------------------------------------------------------------------------------------------------------------------
 
 TEST(KnownBars, TheModulusIsThatOfTheHeldSides) {
   for (const auto& [periodic, modulus] :
@@ -286,7 +284,6 @@ TEST(KnownBars, FlowKeepsItsStrainWithinTheLimits) {
 }
 
 // --- tables
-// -----------------------------------------------------------------------------------------------------------------
 
 TEST(KnownTables, AreReadBetweenTheirRowsAndNotBeyond) {
   const std::string head =

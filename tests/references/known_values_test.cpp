@@ -25,7 +25,6 @@ void expect_near(const Vec3& a, const Vec3& b, double tolerance, const std::stri
 }
 
 // --- places
-// ---------------------------------------------------------------------------------------------------------------
 
 TEST(KnownPlaces, OnTheSurfaceOfARegionAreInIt) {
   Shape box, ball, tube, half, both, hollow;
@@ -134,7 +133,6 @@ TEST(KnownPlaces, TheLongAxisIsTheFirstOfTheLongestThatAreOpen) {
 }
 
 // --- liquids
-// ----------------------------------------------------------------------------------------------------------------
 
 TEST(KnownLiquids, ABlockFloatsByItsDensityWhicheverWayIsUp) {
   for (const double up : {1.0, -1.0}) {
@@ -307,7 +305,6 @@ TEST(KnownLiquids, AColumnsFrontIsKnownAtNineteenTimes) {
 }
 
 // --- bodies
-// -----------------------------------------------------------------------------------------------------------------
 
 TEST(KnownBodies, ABoxBouncesWhicheverWayIsUp) {
   for (const double up : {1.0, -1.0}) {

@@ -328,7 +328,6 @@ TEST(IdleKeys, FindLimitsThatCannotFailOrCannotPass) {
 }
 
 // --- refused by the reader
-// --------------------------------------------------------------------------------------------------
 
 TEST(Refusals, OfKeysThatAnEventOfThisKindDoesNotRead) {
   const auto two = cube() + body("other", "brick", "rigid", 1.0);

@@ -38,8 +38,8 @@ TEST(Preflight, FindsBodiesThatOverlap) {
   const auto a = steel_box("a", "[0,0,0]", "[0.5,0.5,0.5]");
   EXPECT_EQ(told(scene_with(a + steel_box("b", "[0.5,0,0]", "[1,0.5,0.5]")), "overlap"), "") << "they touch";
   EXPECT_EQ(told(scene_with(a + steel_box("b", "[0.4,0,0]", "[1,0.5,0.5]")), "overlap"), "error");
-  EXPECT_EQ(told(scene_with(a + steel_box("b", "[0.47,0.03,0.02]", "[1,0.5,0.5]")), "share room"), "error");
-  EXPECT_EQ(told(scene_with(a + steel_box("b", "[0.45,0,0]", "[0.95,0.5,0.5]")), "share room up to 0.05 m"),
+  EXPECT_EQ(told(scene_with(a + steel_box("b", "[0.47,0.03,0.02]", "[1,0.5,0.5]")), "share space"), "error");
+  EXPECT_EQ(told(scene_with(a + steel_box("b", "[0.45,0,0]", "[0.95,0.5,0.5]")), "share space up to 0.05 m"),
             "error")
       << "half a lattice";
   EXPECT_EQ(told(scene_with(a + steel_box("b", "[0.49999999999999994,0,0]", "[1,0.5,0.5]")), "overlap"), "")
@@ -90,9 +90,9 @@ TEST(Preflight, FindsTheOverlapOfEveryPairOfKinds) {
   };
   for (const auto& a : below)
     for (int kind = 0; kind < 6; ++kind) {
-      EXPECT_EQ(told_of(a, above(kind, 1.0)).find("share room"), std::string::npos)
+      EXPECT_EQ(told_of(a, above(kind, 1.0)).find("share space"), std::string::npos)
           << a << " touches " << above(kind, 1.0);
-      EXPECT_NE(told_of(a, above(kind, 0.95)).find("share room"), std::string::npos)
+      EXPECT_NE(told_of(a, above(kind, 0.95)).find("share space"), std::string::npos)
           << a << " meets " << above(kind, 0.95);
     }
 }
@@ -113,7 +113,7 @@ TEST(Preflight, NamesTheShiftThatPutsACutOutBodyOnTheLattice) {
   EXPECT_EQ(told(scene(0.65), "cut out for it alike, by (0, 0, -0.05) m"), "warning");
   EXPECT_EQ(told(scene(0.67), "do not overlap"), "error");
   EXPECT_EQ(told(scene(0.67), "cut out for it alike, by (0, 0, 0.03) m"), "error");
-  EXPECT_EQ(told(scene(0.67), "share room"), "");
+  EXPECT_EQ(told(scene(0.67), "share space"), "");
   EXPECT_EQ(told(scene(0.70), "overlap"), "") << "moved as it says";
 }
 

@@ -49,9 +49,9 @@ double spread_of_temperature(const Snapshot& s) {
   return *high - *low;
 }
 
-/// A tenth of what the quantity has room for: particles are one spacing apart, and a field's own value is
+/// A tenth of the range of the quantity: particles are one spacing apart, and a field's own value is
 /// finer.
-double room_of_gauge(const Audited& run, const JobGauge& gauge, const std::vector<double>& shown) {
+double tolerance_of_gauge(const Audited& run, const JobGauge& gauge, const std::vector<double>& shown) {
   const auto is_of = [&](const char* what) { return gauge.quantity.find(what) != std::string::npos; };
   double most = 0.0;
   for (const double value : shown) most = std::max(most, std::abs(value));
@@ -64,7 +64,7 @@ double room_of_gauge(const Audited& run, const JobGauge& gauge, const std::vecto
 }
 
 std::string gauge_contradicts(const Audited& run, const JobGauge& gauge, const std::vector<double>& shown) {
-  const double allowed = room_of_gauge(run, gauge, shown);
+  const double allowed = tolerance_of_gauge(run, gauge, shown);
   for (std::size_t n = 0; n < run.frames.size(); ++n) {
     const auto own = run.frames[n]->gauges.find(gauge.metric);
     if (own == run.frames[n]->gauges.end() || std::abs(own->second - shown[n]) <= allowed) continue;

@@ -120,7 +120,7 @@ struct Squares {
 constexpr double vibrates = 1e-2;
 
 /// One particle among many may be thrown between two frames; all of a body together may not. So one has three
-/// times the room, and the largest speed of all.
+/// times the tolerance, and the largest speed of all.
 std::string particle_contradicts(const Audited& run, std::size_t i, const Intervals& intervals,
                                  Squares& sums) {
   const Track track = track_of_particle(run, i);

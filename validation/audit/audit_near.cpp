@@ -23,19 +23,19 @@ Box united(Box box, const Box& other) {
   return box;
 }
 
-bool meet(const Box& a, const Box& b, double room) {
+bool meet(const Box& a, const Box& b, double reach) {
   if (a.empty || b.empty) return false;
   for (std::size_t k = 0; k < 3; ++k)
-    if (a.low[k] - room > b.high[k] || b.low[k] - room > a.high[k]) return false;
+    if (a.low[k] - reach > b.high[k] || b.low[k] - reach > a.high[k]) return false;
   return true;
 }
 
-bool meet(const Box& box, const Shape& half_space, double room) {
+bool meet(const Box& box, const Shape& half_space, double reach) {
   if (box.empty) return false;
   const Vec3 n = (1.0 / norm(half_space.normal)) * half_space.normal;
   Vec3 lowest = box.low;
   for (std::size_t k = 0; k < 3; ++k) lowest[k] = n[k] > 0.0 ? box.low[k] : box.high[k];
-  return dot(lowest - half_space.point, n) < room;
+  return dot(lowest - half_space.point, n) < reach;
 }
 
 /// Boxes of all bodies in one frame.
@@ -78,12 +78,12 @@ std::vector<std::size_t> near_bodies(const Audited& run, std::size_t body, std::
   const auto& scene = run.job.scene;
   const bool unknown = scene.periodic[0] || scene.periodic[1] || scene.periodic[2] || !scene.inflows.empty();
   const Box own = swept(run, body, interval);
-  const double room = 3.0 * scene.spacing;
+  const double reach = 3.0 * scene.spacing;
   std::vector<std::size_t> near;
   for (std::size_t b = 0; b < run.job.bodies.size(); ++b) {
     const bool is_plane = b < scene.bodies.size() && scene.bodies[b].shape.kind == Shape::Kind::half_space;
     const bool meets =
-        meet(own, swept(run, b, interval), room) || (is_plane && meet(own, scene.bodies[b].shape, room));
+        meet(own, swept(run, b, interval), reach) || (is_plane && meet(own, scene.bodies[b].shape, reach));
     if (b != body && (unknown || meets)) near.push_back(b);
   }
   return near;

@@ -48,14 +48,14 @@ bool has_rigid_matter(const Audited& run) {
                      [](const Snapshot* s) { return std::ranges::count(s->phase, 2) > 0; });
 }
 
-/// Shares by which sound sums may differ from those of the particles. A rigid body may turn with moments that
-/// are not those of its particles, as metrics then show; a place that was wrapped says nothing of the moment
-/// of its momentum.
-struct Room {
+/// Fractions by which sound sums may differ from those of the particles. A rigid body may turn with moments
+/// that are not those of its particles, as metrics then show; a place that was wrapped says nothing of the
+/// moment of its momentum.
+struct Tolerance {
   double sums, kinetic, angular;
 };
 
-Room room_of(const Audited& run) {
+Tolerance tolerance_of(const Audited& run) {
   const double rounding = run.is_single() ? 1e-4 : 1e-6;
   const auto& periodic = run.job.scene.periodic;
   const bool rigid = has_rigid_matter(run), wraps = periodic[0] || periodic[1] || periodic[2];
@@ -81,7 +81,7 @@ std::string sums_against_particles(const Audited& run) {
   const bool has_momentum = has_mass || states(run, &Snapshot::momentum);
   const bool has_angular = has_mass || states(run, &Snapshot::angular_momentum);
   if (!has_momentum && !has_angular) return {};
-  const auto room = room_of(run);
+  const auto tolerance = tolerance_of(run);
   std::vector<Sums> shown;
   Sums most;
   for (const auto* s : run.frames) {
@@ -97,16 +97,17 @@ std::string sums_against_particles(const Audited& run) {
   for (std::size_t n = 0; n < run.frames.size(); ++n) {
     const Snapshot& s = *run.frames[n];
     const Sums& of = shown[n];
-    if (has_mass && apart(std::abs(s.total_mass - of.mass), most.mass, room.sums))
+    if (has_mass && apart(std::abs(s.total_mass - of.mass), most.mass, tolerance.sums))
       return differ(s, "mass", s.total_mass, of.mass);
     if (s.velocity.empty()) continue;
-    if (has_momentum && apart(norm(s.momentum - of.momentum), most.momentum_size, room.sums))
+    if (has_momentum && apart(norm(s.momentum - of.momentum), most.momentum_size, tolerance.sums))
       return differ(s, "momentum", s.momentum, of.momentum);
-    if (has_angular && apart(norm(s.angular_momentum - of.angular_momentum), most.angular_size, room.angular))
+    if (has_angular &&
+        apart(norm(s.angular_momentum - of.angular_momentum), most.angular_size, tolerance.angular))
       return differ(s, "angular_momentum", s.angular_momentum, of.angular_momentum);
     const auto kinetic = s.energy.find("kinetic");
     if (kinetic != s.energy.end() &&
-        apart(std::abs(kinetic->second - of.kinetic), most.kinetic, room.kinetic))
+        apart(std::abs(kinetic->second - of.kinetic), most.kinetic, tolerance.kinetic))
       return differ(s, "energy_kinetic", kinetic->second, of.kinetic);
   }
   return {};

@@ -78,7 +78,7 @@ bool states_turning(const Audited& run, std::size_t row) {
   });
 }
 
-/// Room of a norm of 1: roundings of an engine's own precision, over all its steps.
+/// Tolerance of a norm of 1: roundings of an engine's own precision, over all its steps.
 std::string wrong_body(const Audited& run, const Snapshot& s, std::size_t row) {
   const BodyState& b = s.bodies[row];
   const std::string of = " of " + row_name(run, row) + " is ";

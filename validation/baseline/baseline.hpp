@@ -18,7 +18,7 @@ struct AcceptedGate {
   std::string metric, engine, preset, allows;  ///< allows: "limit 0.01", as the gate describes itself
   JudgedMode mode = JudgedMode::none;
   std::optional<double> level;
-  double room = 0.0;                           ///< how much it lets pass, one number: room_of()
+  double room = 0.0;                           ///< how much it lets pass, one number: allowance_of()
   double value = 0.0, uncertainty = 0.0;       ///< in the row that uses most of it
   std::optional<FitClass> fit_class;           ///< of an order
   double first_room = 0.0, first_value = 0.0;  ///< of the first baseline: against creep
@@ -90,9 +90,9 @@ struct Baseline {
 [[nodiscard]] Baseline read_baseline(const std::string& file);
 [[nodiscard]] std::string baseline_text(const Baseline&);
 
-/// The room that a gate leaves: its limit; half the width of a band; 1/at_least (of an order, and of anything
+/// The allowance of a gate: its limit; half the width of a band; 1/at_least (of an order, and of anything
 /// else).
-[[nodiscard]] double room_of(const Gate&);
+[[nodiscard]] double allowance_of(const Gate&);
 
 /// Which edge of `now` lets pass what `old` did not: both ends of a band count, and an edge that is gone.
 /// Empty = none.

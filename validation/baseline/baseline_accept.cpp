@@ -20,7 +20,7 @@ namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
 
-/// A floor and a band have no room in common: only their edges are compared.
+/// A floor and a band have no measure in common: only their edges are compared.
 bool has_edges_alike(const AcceptedGate& a, const AcceptedGate& b) {
   return a.band.has_value() == b.band.has_value() && a.at_least.has_value() == b.at_least.has_value();
 }

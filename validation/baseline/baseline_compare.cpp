@@ -19,12 +19,12 @@
 namespace tripoint {
 namespace fs = std::filesystem;
 
-double room_of(const Gate& gate) {
-  double room = gate.limit.value_or(std::numeric_limits<double>::infinity());
-  if (gate.band) room = std::min(room, 0.5 * ((*gate.band)[1] - (*gate.band)[0]));
-  if (!std::isfinite(room) && gate.at_least)
-    room = *gate.at_least > 0.0 ? 1.0 / *gate.at_least : std::numeric_limits<double>::infinity();
-  return room;
+double allowance_of(const Gate& gate) {
+  double allowance = gate.limit.value_or(std::numeric_limits<double>::infinity());
+  if (gate.band) allowance = std::min(allowance, 0.5 * ((*gate.band)[1] - (*gate.band)[0]));
+  if (!std::isfinite(allowance) && gate.at_least)
+    allowance = *gate.at_least > 0.0 ? 1.0 / *gate.at_least : std::numeric_limits<double>::infinity();
+  return allowance;
 }
 
 namespace {

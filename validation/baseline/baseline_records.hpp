@@ -35,7 +35,8 @@ inline constexpr auto record<AcceptedGate> = std::make_tuple(
     unless(
         &AcceptedGate::allows, "allows", [](auto& g) { return describe(edges_of(g)); }, "the gate in words"),
     unless(
-        &AcceptedGate::room, "room", [](auto& g) { return room_of(edges_of(g)); }, "headroom, one number"),
+        &AcceptedGate::room, "room", [](auto& g) { return allowance_of(edges_of(g)); },
+        "allowance, one number"),
     held(&AcceptedGate::value, "value", "measured, in the row that uses most of the limit"),
     unless(&AcceptedGate::uncertainty, "uncertainty", nothing_counted, "of the value"),
     held(&AcceptedGate::fit_class, "class", "of an order"),

@@ -31,7 +31,7 @@ AcceptedGate gate_of(const EngineRow& e, const GateRow& row, const std::optional
   g.mode = row.mode;
   g.level = row.level;
   g.allows = row.expect ? fmt::format("class {}", *row.expect) : describe(row.gate);
-  g.room = row.expect ? 1.0 : room_of(row.gate);
+  g.room = row.expect ? 1.0 : allowance_of(row.gate);
   g.value = row.value;
   g.uncertainty = row.uncertainty;
   g.fit_class = row.fit_class;

@@ -161,8 +161,8 @@ void settle_unlimited(MetricChange& c, double again) {
 void settle(MetricChange& c, const Gate& base_gate, const Gate& head_gate, double again) {
   if (!c.base || !c.head) return static_cast<void>(c.trend = c.head ? Trend::appeared : Trend::gone);
   c.limit_changed = c.base->allows != c.head->allows;
-  c.looser =
-      c.limit_changed && (c.head->allows.empty() || room_of(head_gate) > room_of(base_gate) * (1.0 + 1e-9));
+  c.looser = c.limit_changed &&
+             (c.head->allows.empty() || allowance_of(head_gate) > allowance_of(base_gate) * (1.0 + 1e-9));
   if (c.base->fit_class && std::isnan(c.base->used) && std::isnan(c.head->used)) return settle_class(c);
   // a change that loosens a limit is measured by the limit that was there
   const Gate& gate = c.base->allows.empty() ? head_gate : base_gate;

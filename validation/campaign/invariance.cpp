@@ -20,7 +20,6 @@ constexpr SignedAxes next_axis{{2, 0, 1}, {1.0, 1.0, 1.0}, 1.0};
 constexpr Units other_units{1024.0, 16.0, 4096.0};
 
 // --- who refuses what
-// -----------------------------------------------------------------------------------------------------
 
 std::string always(const Scene&) { return {}; }
 
@@ -57,7 +56,6 @@ std::string has_other_numbers(const Scene& s) {
 }
 
 // --- order, threads, ulp
-// --------------------------------------------------------------------------------------------------
 
 void as_it_is(const ChangedScene&, Trajectory&) {}
 
@@ -128,7 +126,6 @@ void nudge(ChangedScene& changed) {
 }
 
 // --- space, time and units
-// ------------------------------------------------------------------------------------------------
 
 void mirror(ChangedScene& changed) { turn(mirror_x, changed); }
 void mirror_back(const ChangedScene&, Trajectory& run) {
@@ -195,7 +192,7 @@ const InvarianceChange& invariance_change(std::string_view name) {
   std::vector<std::string_view> words;
   for (const auto& c : all) words.push_back(c.name);
   throw InputError(
-      fmt::format("no harmless change is named \"{}\": write one of {}", name, fmt::join(words, " ")));
+      fmt::format("no invariance test is named \"{}\": write one of {}", name, fmt::join(words, " ")));
 }
 
 }  // namespace tripoint

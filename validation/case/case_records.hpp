@@ -125,7 +125,7 @@ inline constexpr auto of_gate = std::make_tuple(
     Key{"gate", "limits", settings, "", any, "", "none", "",
         "instead of level and limit, one gate for each: { LEVEL = LIMIT, ... }"},
     kept(&Gate::drift, {"gate", "drift", number, "", positive, "", "a tenth, and it warns only", "",
-                        "share by which the value may move from its baseline before the gate is red"}),
+                        "fraction by which the value may move from its baseline before the gate is red"}),
     kept(&Gate::reason,
          {"gate", "reason", text, "", any, "!", "", "",
           "reason of the limit. \"known defect NAME: ...\" in a band of a named engine excuses it from the "

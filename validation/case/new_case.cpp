@@ -53,7 +53,8 @@ std::string new_case_text(const std::string& id, const std::string& from) {
 
 std::string new_case_text(const std::string& id) {
   return fmt::format(
-      R"(# A case of tripoint. `tripoint explain FILE` prints what each key and default means, `tripoint schema --page` all keys.
+      R"(# A case of tripoint. `tripoint explain FILE` prints the meaning of each key and default,
+# `tripoint schema --page` all keys.
 # Numbers are SI, or texts with a unit: "3 mm", "20 degC".
 format = 1
 
@@ -90,7 +91,8 @@ engine = "tripoint"
 limit = 1e-10
 reason = "kick-drift-kick is exact in a uniform field, but for round-off"
 
-# A gate without engine judges every engine that runs, yours too (--engine PATH). `tripoint gate adopt` writes tighter ones for it.
+# A gate without engine judges every engine that runs, yours too (--engines all,PATH). `tripoint gate
+# adopt` writes tighter ones for it.
 [[gate]]
 metric = "position"
 limit = 0.05

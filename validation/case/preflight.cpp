@@ -59,13 +59,14 @@ class Preflight {
   }
 
   void overlaps() {
-    for (const auto& o : shared_rooms(scene_, state_)) {
+    for (const auto& o : shared_spaces(scene_, state_)) {
       overlapping_.insert({o.a, o.b});
-      error(scene_.bodies[o.b].place, fmt::format("bodies \"{}\" and \"{}\" overlap: their shapes share room "
-                                                  "up to {:.3g} m thick, at ({:.4g}, {:.4g}, "
-                                                  "{:.4g}) m; move them apart or cut one by a difference",
-                                                  scene_.bodies[o.a].name, scene_.bodies[o.b].name,
-                                                  o.thickness, o.place.x, o.place.y, o.place.z));
+      error(scene_.bodies[o.b].place,
+            fmt::format("bodies \"{}\" and \"{}\" overlap: their shapes share space "
+                        "up to {:.3g} m thick, at ({:.4g}, {:.4g}, "
+                        "{:.4g}) m; move them apart or cut one by a difference",
+                        scene_.bodies[o.a].name, scene_.bodies[o.b].name, o.thickness, o.place.x, o.place.y,
+                        o.place.z));
     }
     const double near = least_distance(0.45) * scene_.spacing;
     if (!(near > 0.0)) return;
@@ -78,7 +79,7 @@ class Preflight {
     return std::min(share, 0.99 * (1.0 - 2.0 * scene_.jitter));
   }
 
-  /// Shapes that share no room, and particles that do: their lattices do not fit.
+  /// Shapes that share no space, and particles that do: their lattices do not fit.
   void stand_too_near(const Overlap& o, double near) {
     const auto& a = scene_.bodies[o.a];
     const auto& b = scene_.bodies[o.b];
@@ -282,7 +283,7 @@ class Preflight {
   const Scene& scene_;
   const InitialState& state_;
   std::vector<Finding> findings_;
-  std::set<std::pair<std::size_t, std::size_t>> overlapping_;  ///< rows of bodies whose shapes share room
+  std::set<std::pair<std::size_t, std::size_t>> overlapping_;  ///< rows of bodies whose shapes share space
 };
 
 }  // namespace

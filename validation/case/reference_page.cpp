@@ -86,15 +86,25 @@ title = "A tower of four"
 end_time = "2 s"
 ```
 
-- The name is a file of the same folder, a path below the folder `cases` (`"../heat/cosine-mode.toml"`), or the name of a case (`"heat/cosine-mode"`). A chain has at most 8 files.
-- Tables are merged key by key. A table that gives `kind` or `function` anew (a shape, a velocity, a reference) replaces the old one. `id` is not handed on.
-- Tables of an array are merged by `name`, or `[[input]]` by `key`. `[[gate]]` goes by `metric`, `engine`, `mode`, `preset` and `level`, `[[study]]` by `axis`, `engine`, `mode` and `metric`. Others are added at the end.
+- The name is a file of the same folder, a path below the folder `cases`
+  (`"../heat/cosine-mode.toml"`), or the name of a case (`"heat/cosine-mode"`). A chain has at most
+  8 files.
+- Tables are merged key by key. A table that gives `kind` or `function` anew (a shape, a velocity, a
+  reference) replaces the old one. `id` is not handed on.
+- Tables of an array are merged by `name`, or `[[input]]` by `key`. `[[gate]]` goes by `metric`,
+  `engine`, `mode`, `preset` and `level`, `[[study]]` by `axis`, `engine`, `mode` and `metric`.
+  Others are added at the end.
 - `[[event]]`, `[[inflow]]` and other arrays without names replace all of the other case's.
 - A gate that gives `limit`, `at_least` or `band` replaces any bound of the gate that it meets.
-- `remove` first takes out keys and tables: `"scene.jitter"`, `"engines.lammps"`, `"body.lid.velocity"`, `"metric.overlap"` with its gates, `"gate.overlap"`, or all of a kind: `"study"`, `"gate"`, `"metric"`.
-- Data and meshes of the other case are found beside that case. Errors and gates name the file and line where the key stands. A gate added to the other case later holds in its variants too.
+- `remove` first takes out keys and tables: `"scene.jitter"`, `"engines.lammps"`,
+  `"body.lid.velocity"`, `"metric.overlap"` with its gates, `"gate.overlap"`, or all of a kind:
+  `"study"`, `"gate"`, `"metric"`.
+- Data and meshes of the other case are found beside that case. Errors and gates name the file and
+  line where the key stands. A gate added to the other case later holds in its variants too.
 
-**Gates within their metric.** `gates` of a `[[metric]]` holds its gates, one a line, without the key `metric`; `limits` is one limit a level of a study. The last gate below judges the metric's order.
+**Gates within their metric.** `gates` of a `[[metric]]` holds its gates, one a line, without the
+key `metric`; `limits` is one limit a level of a study. The last gate below judges the metric's
+order.
 
 ```toml
 [[metric]]
@@ -108,7 +118,8 @@ gates = [
 ]
 ```
 
-**Invariants.** `[invariants]` names quantities that each run must keep; each line is a metric and its gate. A plain number is the limit of every engine.
+**Invariants.** `[invariants]` names quantities that each run must keep; each line is a metric and
+its gate. A plain number is the limit of every engine.
 
 ```toml
 [invariants]
@@ -117,7 +128,8 @@ momentum = { scale = 12.5, unit = "of that of the fall", engine = "tripoint", li
 body_count = { value = 2, limit = 0, reason = "nothing breaks" }
 ```
 
-`tripoint explain CASE --resolved` prints the whole case, with nothing extended and every gate in a table of its own. `--set` uses the names printed there.
+`tripoint explain CASE --resolved` prints the whole case, with nothing extended and every gate in a
+table of its own. `--set` uses the names printed there.
 
 )";
 

@@ -12,7 +12,7 @@
 namespace tripoint {
 namespace {
 
-// Of each body of a pair: room that is shared along a face is found from far fewer
+// Of each body of a pair: space that is shared along a face is found from far fewer
 constexpr std::size_t most_starts = 5000;
 
 bool has_mesh(const Shape& s) {
@@ -21,9 +21,9 @@ bool has_mesh(const Shape& s) {
 }
 
 /// A body's shape with its images in periodic directions.
-class Room {
+class Extent {
  public:
-  Room(const Scene& s, const Body& b)
+  Extent(const Scene& s, const Body& b)
       : spacing_(s.spacing),
         distance_(distance_of(b.shape, s.spacing)),
         bounds_(bounds(b.shape)),
@@ -35,7 +35,7 @@ class Room {
     }
   }
   /// False where the bounds are apart; periodic images may meet anywhere.
-  [[nodiscard]] bool may_meet(const Room& other) const {
+  [[nodiscard]] bool may_meet(const Extent& other) const {
     for (std::size_t a = 0; a < 3; ++a)
       if (!(width_[a] > 0.0) &&
           (bounds_.max[a] < other.bounds_.min[a] || other.bounds_.max[a] < bounds_.min[a]))
@@ -82,7 +82,7 @@ std::vector<Vec3> directions() {
 
 /// Goes from a place to where the nearer of both surfaces is deepest: steps that are halved where none of
 /// them helps.
-double deepest(const Room& a, const Room& b, Vec3& place, double spacing) {
+double deepest(const Extent& a, const Extent& b, Vec3& place, double spacing) {
   static const auto ways = directions();
   const auto depth = [&](const Vec3& r) { return -std::max(a(r), b(r)); };
   double best = depth(place);
@@ -105,7 +105,7 @@ double deepest(const Room& a, const Room& b, Vec3& place, double spacing) {
 }
 
 /// Particles of one body that are within a spacing of the other one's shape, thinned out.
-std::vector<Vec3> starts(const std::vector<Vec3>& particles, const Room& other, double spacing) {
+std::vector<Vec3> starts(const std::vector<Vec3>& particles, const Extent& other, double spacing) {
   std::vector<Vec3> near;
   for (const auto& r : particles)
     if (other(r) < 0.95 * spacing) near.push_back(r);
@@ -117,27 +117,28 @@ std::vector<Vec3> starts(const std::vector<Vec3>& particles, const Room& other, 
 
 }  // namespace
 
-std::vector<SharedRoom> shared_rooms(const Scene& s, const InitialState& state) {
+std::vector<SharedSpace> shared_spaces(const Scene& s, const InitialState& state) {
   if (s.bodies.size() < 2) return {};
-  std::vector<Room> rooms;
-  for (const auto& b : s.bodies) rooms.emplace_back(s, b);
+  std::vector<Extent> extents;
+  for (const auto& b : s.bodies) extents.emplace_back(s, b);
   std::vector<std::vector<Vec3>> particles(s.bodies.size());
   for (std::size_t i = 0; i < state.size(); ++i)
     particles[static_cast<std::size_t>(state.source[i])].push_back(state.position[i]);
-  std::vector<SharedRoom> found;
-  for (std::size_t a = 0; a < rooms.size(); ++a)
-    for (std::size_t b = a + 1; b < rooms.size(); ++b) {
-      if (!rooms[a].may_meet(rooms[b])) continue;
-      const double thin = (rooms[a].is_mesh || rooms[b].is_mesh ? 0.25 : 0.02) * s.spacing;
-      SharedRoom room{a, b, 0.0, {}};
+  std::vector<SharedSpace> found;
+  for (std::size_t a = 0; a < extents.size(); ++a)
+    for (std::size_t b = a + 1; b < extents.size(); ++b) {
+      if (!extents[a].may_meet(extents[b])) continue;
+      const double thin = (extents[a].is_mesh || extents[b].is_mesh ? 0.25 : 0.02) * s.spacing;
+      SharedSpace shared{a, b, 0.0, {}};
       for (const auto& list :
-           {starts(particles[a], rooms[b], s.spacing), starts(particles[b], rooms[a], s.spacing)})
+           {starts(particles[a], extents[b], s.spacing), starts(particles[b], extents[a], s.spacing)})
         for (Vec3 place : list)
-          if (const double d = 2.0 * deepest(rooms[a], rooms[b], place, s.spacing); d > room.thickness) {
-            room.thickness = d;
-            room.place = place;
+          if (const double d = 2.0 * deepest(extents[a], extents[b], place, s.spacing);
+              d > shared.thickness) {
+            shared.thickness = d;
+            shared.place = place;
           }
-      if (room.thickness > thin) found.push_back(room);
+      if (shared.thickness > thin) found.push_back(shared);
     }
   return found;
 }

@@ -8,16 +8,16 @@ namespace tripoint {
 
 struct Scene;
 
-/// Two bodies (rows of Scene::bodies, a < b) whose shapes share room.
-struct SharedRoom {
+/// Two bodies (rows of Scene::bodies, a < b) whose shapes share space.
+struct SharedSpace {
   std::size_t a = 0, b = 0;
   double thickness = 0.0;  ///< across the thickest place of it that was found [m]
   Vec3 place;              ///< there [m]
 };
 
 /// Found from the shapes alone, of every pair of kinds; the particles only say where to look. Faces that
-/// touch share no room: what is thinner than a fiftieth of a spacing (a quarter of one beside a mesh, whose
+/// touch share no space: what is thinner than a fiftieth of a spacing (a quarter of one beside a mesh, whose
 /// field is no finer) does not count.
-[[nodiscard]] std::vector<SharedRoom> shared_rooms(const Scene&, const InitialState&);
+[[nodiscard]] std::vector<SharedSpace> shared_spaces(const Scene&, const InitialState&);
 
 }  // namespace tripoint

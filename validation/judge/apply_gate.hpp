@@ -26,13 +26,13 @@ Applied apply_expected_class(const CaseResult&, const Study&, EngineRow&);
 [[nodiscard]] Verdict verdict_of(const Gate&, double value, double uncertainty);
 [[nodiscard]] Verdict verdict_of(const Gate&, const Order&);
 
-/// Share of a gate's room that a value uses: 0 is best, 1 is at the edge, more is outside. It is the one rule
-/// of the program:
+/// Part of a gate's allowance that a value uses: 0 is best, 1 is at the edge, more is outside. It is the one
+/// rule of the program:
 ///   limit         |value| over it;
 ///   band with 0   the same, with the edge on the value's side;
 ///   other band    distance from its middle over half its width: the band states a figure;
 ///   at_least      it over the value; below it 2 - value/at_least.
-/// Of several edges the largest counts. An edge at 0 leaves no room: beyond it the share is 1 and the
+/// Of several edges the largest counts. An edge at 0 leaves no allowance: beyond it the part is 1 and the
 /// metric's own unit. NaN for a value that is no number, and for a gate without an edge.
 [[nodiscard]] double share_of_limit(const Gate&, double value);
 

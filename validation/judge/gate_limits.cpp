@@ -7,7 +7,7 @@
 
 #include "validation/judge/apply_gate.hpp"
 
-/// A value against the edges of a gate: the verdict, the share of the room that is used, and the edges in
+/// A value against the edges of a gate: the verdict, the used part of the allowance, and the edges in
 /// words.
 namespace tripoint {
 namespace {
@@ -31,8 +31,8 @@ Verdict interval_within(const Order& order, double lowest, double highest) {
   return order.high < lowest || order.low > highest ? Verdict::fail : Verdict::inconclusive;
 }
 
-/// Distance from zero in units of the edge on that side: 1 at the edge. An edge at zero leaves no room, and
-/// what is beyond it counts in the metric's own unit.
+/// Distance from zero in units of the edge on that side: 1 at the edge. An edge at zero leaves no allowance,
+/// and what is beyond it counts in the metric's own unit.
 double share_of_edge(double value, double edge) {
   if (value == 0.0 || edge * value < 0.0) return 0.0;
   return edge != 0.0 ? value / edge : 1.0 + std::abs(value);

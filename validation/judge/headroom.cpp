@@ -69,7 +69,7 @@ Remark remark_on(const CaseResult& c, const GateRow& row, double headroom, bool 
   r.excess = headroom;
   r.title = fmt::format("{}: the limit of {} is loose", c.id, row.metric);
   r.text = fmt::format(
-      "{} is asked, {:.3g} with standard uncertainty {:.2g} was measured: room by a factor of {:.3g}{}",
+      "{} is asked, {:.3g} with standard uncertainty {:.2g} was measured: headroom by a factor of {:.3g}{}",
       describe(row.gate), row.value, row.uncertainty, headroom,
       r.error               ? "; tighten it, or give the reason a date"
       : !is_dated(row.gate) ? ""

@@ -5,17 +5,17 @@
 
 #include "validation/judge/remarks.hpp"
 
-/// A limit far above the error that it judges guards nothing: a defect has that much room to hide in.
+/// A limit far above the error that it judges guards nothing: a defect can hide in that headroom.
 namespace tripoint {
 
 inline constexpr double headroom_warns = 3.0, headroom_fails = 10.0;
 
-/// Change of a metric that physically neutral changes may cause (docs/harness.md: harmless changes). A limit
+/// Change of a metric that physically neutral changes may cause (docs/harness.md: invariance tests). A limit
 /// that is not above it is one of round-off. Its values change with compiler and thread count, and the used
 /// share of it says nothing.
 inline constexpr double roundoff_limit = 1e-10;
 
-/// How many times the room of a gate is what one judged row uses: 1 over share_of_limit() of |value| + 2 u. A
+/// Allowance of a gate over the part that one judged row uses: 1 over share_of_limit() of |value| + 2 u. A
 /// band that states a figure is measured by its width: the larger of value over low and high over value. A
 /// count changes by whole numbers: half a count is the least it is compared with. Empty where nothing is to
 /// be asked: an order (its interval is judged), a limit of round-off, no value.

@@ -9,7 +9,7 @@
 /// Remarks of a gate about results, one sentence each, with the line of the case file that it is about.
 namespace tripoint {
 
-/// Excess of a remark that no limit bounds, room of a gate without an edge.
+/// Excess of a remark that no limit bounds, allowance of a gate without an edge.
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Remark {

@@ -21,7 +21,6 @@ std::string no_solids(const FramePair& f) {
 }
 
 // --- depth of one body in another
-// -----------------------------------------------------------------------------------------
 
 /// The particles of another body within two spacings, seen from one particle.
 struct Facing {
@@ -77,7 +76,6 @@ FrameError overlap(const FramePair& f) {
 }
 
 // --- two bodies
-// -----------------------------------------------------------------------------------------------------------
 
 std::pair<RigidBody, RigidBody> both(const FramePair& f) {
   return {motion_of(f.in, f.now, sampled(f.in, job_body(f.in))),
@@ -99,7 +97,6 @@ FrameError relative_motion(const FramePair& f) {
 }
 
 // --- objects
-// --------------------------------------------------------------------------------------------------------------
 
 std::size_t root(std::vector<std::size_t>& parent, std::size_t i) {
   while (parent[i] != i) i = parent[i] = parent[parent[i]];

@@ -73,7 +73,6 @@ MetricValue heat_power(const MetricInput& in, const Frames& frames) {
 }
 
 // --- diffusivity
-// ----------------------------------------------------------------------------------------------------------
 
 /// Mean square distance of the heat above the coldest place from its centre, along an axis, and its standard
 /// error [m2].

@@ -14,7 +14,6 @@ namespace tripoint {
 namespace {
 
 // --- energy
-// ---------------------------------------------------------------------------------------------------------------
 
 /// Kinetic and potential energy of the particles of free bodies that the metric takes [J].
 double free_energy(const MetricInput& in, const Snapshot& s) {
@@ -100,7 +99,6 @@ MetricValue energy_gain(const MetricInput& in, const Frames& frames) {
 }
 
 // --- depth
-// ----------------------------------------------------------------------------------------------------------------
 
 double lowest(const Shape& shape, const Vec3& centre, const BodyState& at, const Vec3& up);
 

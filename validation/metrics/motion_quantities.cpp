@@ -40,7 +40,6 @@ Line fit(const std::vector<double>& t, const std::vector<double>& y) {
 }
 
 // --- a body's motion along an axis
-// ----------------------------------------------------------------------------------------
 
 /// Speeds of the metric's body along the reference's axis; the reason why there are none, or an empty text.
 std::string speeds(const MetricInput& in, const Frames& frames, std::vector<double>& t,
@@ -90,7 +89,6 @@ MetricValue touch_time(const MetricInput& in, const Frames& frames) {
 }
 
 // --- a standing wave
-// ------------------------------------------------------------------------------------------------------
 
 /// Which way the particles of a standing wave swing: as the reference says, else along the wave vector.
 Vec3 swing_direction(const MetricInput& in, const Vec3& k) {
@@ -143,7 +141,6 @@ MetricValue frequency_squared(const MetricInput& in, const Frames& frames) {
 }
 
 // --- a spinning liquid
-// ----------------------------------------------------------------------------------------------------
 
 double spin_of(const MetricInput& in, const Snapshot& s) {
   double mass = 0.0;

@@ -27,7 +27,6 @@ FrameError mass_of_phase(const FramePair& f) {
 }
 
 // --- mass in a box
-// --------------------------------------------------------------------------------------------------------
 
 /// A box at rest, or one that moves and turns with a body from where that body began.
 struct Box {
@@ -69,7 +68,6 @@ FrameError mass_in_region(const FramePair& f) {
 }
 
 // --- a front
-// --------------------------------------------------------------------------------------------------------------
 
 /// Volume that has changed phase over the bar's cross-section: finer than a particle where it holds a liquid
 /// fraction.
@@ -105,7 +103,6 @@ FrameError front_ratio(const FramePair& f) {
 }
 
 // --- back and forth
-// -------------------------------------------------------------------------------------------------------
 
 /// How often each particle changes between liquid and solid; empty when a frame has no phases.
 std::vector<long> changes(const MetricInput& in, const std::vector<std::vector<int>>& phases) {

@@ -105,7 +105,6 @@ FrameError probe(const FramePair& f, Of what, const char* quantity) {
 }
 
 // --- means
-// ----------------------------------------------------------------------------------------------------------------
 
 /// Whether a place is in the stated box; everywhere is where none is stated.
 bool in_region(const MetricInput& in, const Vec3& r) {
@@ -179,7 +178,6 @@ FrameError depth_at(const FramePair& f) {
 }
 
 // --- places
-// ---------------------------------------------------------------------------------------------------------------
 
 /// Way of a point of matter since the start, along the stated axis: read from the particles that began around
 /// it.

@@ -9,7 +9,6 @@ namespace tripoint {
 namespace {
 
 // --- decay rate
-// ---------------------------------------------------------------------------------------------------------
 
 /// Amplitude of the mode in one frame [K], least squares with volume weights, and its standard error.
 struct Amplitude {
@@ -80,7 +79,6 @@ MetricValue decay_rate(const MetricInput& in, const Frames& frames) {
 }
 
 // --- events
-// -------------------------------------------------------------------------------------------------------------
 
 /// Spin of a body along its middle principal axis and its rate by Euler's equation.
 struct MiddleSpin {

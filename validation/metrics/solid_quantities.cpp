@@ -51,7 +51,6 @@ FrameError spin_ratio(const FramePair& f) {
 }
 
 // --- over a run
-// -----------------------------------------------------------------------------------------------------------
 
 /// Times and deflections of the frames; the reason why there are none, or an empty text.
 std::string deflections(const MetricInput& in, const Frames& frames, std::vector<double>& t,

@@ -51,7 +51,7 @@ SeedOutcome& outcome_for(const CaseResult& c, const EngineRow& e, const GateRow&
 }
 
 /// Distance from a value to the nearest edge of the gate.
-double room(const Gate& gate, double value) {
+double headroom(const Gate& gate, double value) {
   double least = std::numeric_limits<double>::infinity();
   if (gate.limit) least = std::min(least, *gate.limit - std::abs(value));
   if (gate.at_least) least = std::min(least, value - *gate.at_least);
@@ -60,7 +60,7 @@ double room(const Gate& gate, double value) {
 }
 
 /// "-" where the seed changes nothing, or nothing but round-off.
-std::string room_of(const SeedOutcome& g) {
+std::string headroom_text(const SeedOutcome& g) {
   constexpr double round_off = 1e5;
   return std::isfinite(g.distance) && g.distance < round_off ? fmt::format("{:.1f}", g.distance) : "-";
 }
@@ -99,7 +99,7 @@ void settle(SeedsOutcome& all) {
     for (const double v : g.values) squares += (v - sum) * (v - sum);
     g.mean = sum;
     g.deviation = n > 1.0 ? std::sqrt(squares / (n - 1.0)) : not_a_number;
-    g.distance = g.deviation > 0.0 ? room(g.gate, g.mean) / g.deviation : not_a_number;
+    g.distance = g.deviation > 0.0 ? headroom(g.gate, g.mean) / g.deviation : not_a_number;
     alarm = alarm || !g.alarms.empty();
   }
   all.exit_code = alarm ? exit_selftest : exit_pass;
@@ -140,18 +140,18 @@ SeedsOutcome try_seeds(const std::vector<Case>& cases, const std::vector<EngineE
 
 std::string seeds_table(const SeedsOutcome& all) {
   std::string text = fmt::format(
-      "{} other seeds; `room` is from the mean to the nearest edge of what is allowed, in standard "
+      "{} other seeds; `headroom` is from the mean to the nearest edge of what is allowed, in standard "
       "deviations over seeds\n",
       all.seeds);
-  text += fmt::format("{:6} {:24} {:18} {:10} {:24} {:>10} {:>9} {:>6}  {}\n", "", "case", "engine", "mode",
-                      "metric", "mean", "deviation", "room", "allowed");
+  text += fmt::format("{:6} {:24} {:18} {:10} {:24} {:>10} {:>9} {:>8}  {}\n", "", "case", "engine", "mode",
+                      "metric", "mean", "deviation", "headroom", "allowed");
   std::size_t alarms = 0;
   for (const auto& g : all.gates) {
     alarms += g.alarms.size();
     text += one_line(fmt::format(
-                "{:6} {:24} {:18} {:10} {:24} {:10.4g} {:9.2g} {:>6}  {}{}{}",
+                "{:6} {:24} {:18} {:10} {:24} {:10.4g} {:9.2g} {:>8}  {}{}{}",
                 g.alarms.empty() ? "quiet" : "ALARM", g.case_id, g.engine, g.mode, g.metric, g.mean,
-                g.deviation, room_of(g), g.allows, g.level ? fmt::format(" at {:g}", *g.level) : "",
+                g.deviation, headroom_text(g), g.allows, g.level ? fmt::format(" at {:g}", *g.level) : "",
                 g.alarms.empty() ? ""
                                  : fmt::format("  {} of {}: seeds {} ({})", g.alarms.size(), g.values.size(),
                                                fmt::join(g.alarms, ", "), to_string(g.gate.place)))) +

@@ -126,7 +126,7 @@ SelftestOutcome run_selftest(const SelftestOptions& options) {
   if (outcome.defects.empty() && outcome.harmless.empty() && outcome.smallest.empty())
     outcome.problems.push_back(options.only_smallest
                                    ? "no case states the smallest size of a defect: nothing was sought"
-                                   : "no case declares a defect or a harmless change: nothing was proven");
+                                   : "no case declares a defect or an invariance test: nothing was proven");
   outcome.exit_code = survived || !outcome.problems.empty() ? exit_selftest : exit_pass;
   return outcome;
 }

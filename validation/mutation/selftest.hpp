@@ -67,7 +67,7 @@ struct SelftestOutcome {
 };
 
 /// Runs each case once without and once with each of its defects. Every metric in killed_by must be green
-/// without, and red with it. Also runs it once with each of its harmless changes: every gate must stay green,
+/// without, and red with it. Also runs it once with each of its invariance tests: every gate must stay green,
 /// and no metric may change by more than round-off. Where a defect states a `smallest` size, bisection finds
 /// the present one: it may not have grown by more than a quarter.
 /// @throws EngineError when the test build is missing
@@ -86,7 +86,7 @@ struct SelftestOutcome {
 [[nodiscard]] std::vector<SmallestOutcome> try_smallest(const Case&, const EngineEntry&,
                                                         const SelftestOptions&);
 
-/// The case's own resolution in each of its modes, with and without each harmless change that the case names.
+/// The case's own resolution in each of its modes, with and without each invariance test of the case.
 [[nodiscard]] std::vector<InvarianceOutcome> try_invariance(const Case&, const EngineEntry&,
                                                             const SelftestOptions&);
 /// Effect of a change on the results of a case: both hold the same runs.

@@ -56,7 +56,7 @@ std::string selftest_table(const SelftestOutcome& outcome) {
   const auto held = std::count_if(outcome.smallest.begin(), outcome.smallest.end(),
                                   [](const auto& s) { return s.holds(); });
   return text + fmt::format(
-                    "{} of {} defects killed, {} of {} harmless changes borne, {} of {} smallest visible "
+                    "{} of {} defects killed, {} of {} invariance tests passed, {} of {} smallest visible "
                     "sizes held, exit {}\n",
                     killed, outcome.defects.size(), borne, outcome.harmless.size(), held,
                     outcome.smallest.size(), outcome.exit_code);

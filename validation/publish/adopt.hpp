@@ -60,10 +60,10 @@ struct Measured {
 /// the measurement
 [[nodiscard]] Gate adopted_gate(const std::string& metric, const Measured&, double margin, double round_off);
 
-/// Chance must not become room: says so where the noise exceeds the value itself. Empty = it does not.
+/// Noise must not become headroom: says so where the noise exceeds the value itself. Empty = it does not.
 [[nodiscard]] std::string noise_exceeds_value(const std::string& metric, const Measured&, double round_off);
 
-/// A band around a fitted order that holds its 95 % interval with room.
+/// A band around a fitted order that holds its 95 % interval with headroom.
 [[nodiscard]] Gate adopted_order_gate(const OrderRow&);
 
 /// The case for one engine alone. It keeps its scene, every setting and study, and the limits that hold for

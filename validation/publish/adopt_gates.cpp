@@ -62,7 +62,7 @@ Gate adopted_gate(const std::string& metric, const Measured& m, double margin, d
   }
   const double low = size / margin - noise, high = size * margin + noise;
   gate.band = s.mean > 0.0 ? std::array{low, high} : std::array{-high, -low};
-  gate.reason = fmt::format("{}; room by a factor of {:g} to either side{}", measured, margin,
+  gate.reason = fmt::format("{}; headroom by a factor of {:g} to either side{}", measured, margin,
                             noise > 0.0 ? fmt::format(", and {:.2g} for the noise", noise) : "");
   return gate;
 }
@@ -72,9 +72,9 @@ Gate adopted_order_gate(const OrderRow& order) {
   const auto& o = order.order;
   gate.metric = order.metric + ".order";
   gate.band = std::array{o.low - order_headroom, o.high + order_headroom};
-  gate.reason =
-      fmt::format("adopted: observed order {:.3g}, 95 % interval {:.3g} to {:.3g}; room of {:g} beyond it",
-                  o.value, o.low, o.high, order_headroom);
+  gate.reason = fmt::format(
+      "adopted: observed order {:.3g}, 95 % interval {:.3g} to {:.3g}; headroom of {:g} beyond it", o.value,
+      o.low, o.high, order_headroom);
   return gate;
 }
 

@@ -85,7 +85,8 @@ exec "$TRIPOINT" merge "$DIR"
 std::string parallel(const Queue& queue, const EmitOptions& o) {
   return "#!/bin/bash\n" + head(queue, o) +
          fmt::format(
-             R"(# JOBS=8 bash THIS: eight shards at a time (2 where nothing is said). Other machines: PARALLEL="--sshloginfile hosts" where the folder is shared.
+             R"(# JOBS=8 bash THIS: eight shards at a time (2 where nothing is said). Other machines:
+# PARALLEL="--sshloginfile hosts" where the folder is shared.
 set -u
 {names}parallel --jobs "${{JOBS:-2}}" --quote --retries 3 --ungroup "$TRIPOINT" suite work "$DIR" --shard "{{}}/{shards}" ::: {numbers}
 exec "$TRIPOINT" merge "$DIR"
@@ -104,8 +105,9 @@ std::string python_word(const std::string& word) {
 std::string snakemake(const Queue& queue, const EmitOptions& o) {
   return head(queue, o) +
          fmt::format(
-             R"(# snakemake --snakefile THIS --cores 2        (--executor slurm and others send the same rules to a cluster)
-# A shard that was killed is made again by --retries 2, or by the same line once more; what is done in it is skipped.
+             R"(# snakemake --snakefile THIS --cores 2        (--executor slurm sends the rules to a cluster)
+# A shard that was killed is made again by --retries 2, or by the same line once more; what is done
+# in it is skipped.
 import os
 
 TRIPOINT = os.environ.get("TRIPOINT", {program})
@@ -116,7 +118,8 @@ rule merge:
     input:
         expand(os.path.join(DIR, "shards", "{{k}}-of-{shards}"), k=[{numbers}]),
     shell:
-        # A gate that fails is a result, not a rule that broke: `tripoint gate DIR` ends with the verdict's code.
+        # A gate that fails is a result, not a rule that broke: `tripoint gate DIR` ends with the
+        # verdict's code.
         "{{TRIPOINT:q}} merge {{DIR:q}} || test $? -ne 2 -a -f {{DIR:q}}/results.json"
 
 
@@ -150,8 +153,10 @@ std::string make_command(const Queue& queue, const EmitOptions& o) {
 std::string github(const Queue& queue, const EmitOptions& o) {
   return head(queue, o) +
          fmt::format(
-             R"(# Runners share no folder: each plans the suite anew. Ids are hashes of what a run is, so that all come to the same jobs and shards.
-# Put the step that installs tripoint in the place of the one that is marked, in both jobs. Program and engines must be the same builds on every runner.
+             R"(# Runners share no folder: each plans the suite anew. Ids are hashes of runs, so that all
+# come to the same jobs and shards.
+# Put the step that installs tripoint in the place of the one that is marked, in both jobs. Program
+# and engines must be the same builds on every runner.
 name: suite
 on: workflow_dispatch
 permissions:

@@ -121,7 +121,7 @@ ReferenceEntry hydrostatic_entry() {
            "analytic",
            "Archimedes, Pascal: the pressure is the weight of the liquid above",
            "liquid at rest, in layers stacked along gravity",
-           {{"factor", "1", "share of the pressure that a printed equation of state must show; default 1"},
+           {{"factor", "1", "fraction of the pressure that a printed equation of state must show; default 1"},
             {"compressed", "true or false",
              "each layer is compressed by its weight, at its speed of sound; default false",
              ArgumentType::flag}}},

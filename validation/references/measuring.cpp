@@ -43,7 +43,7 @@ std::vector<ReferenceArgument> measuring_arguments() {
            ArgumentType::word, true},
           {"axis", "", "x, y or z", ArgumentType::axis, true},
           {"other", "", "name of the second body of a pair", ArgumentType::word},
-          {"gauge", "", "middle share of the body's length over which a stretch is measured; default 1"},
+          {"gauge", "", "middle fraction of the body's length over which a stretch is measured; default 1"},
           {"min", "m", "low corner of a box", ArgumentType::vector, true},
           {"max", "m", "high corner of a box", ArgumentType::vector, true},
           {"outside", "", "true: what is not in the box; default false", ArgumentType::flag, true},

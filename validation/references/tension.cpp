@@ -183,7 +183,8 @@ ReferenceEntry tension_entry() {
         {"form", "", "paper or corrected; default the run's mode of the elastic term", ArgumentType::word},
         {"support_ratio", "", "h/dx of the printed form; default the run's"},
         {"gauge", "",
-         "middle share of the length over which stretches are measured; default 0.5 for the modulus, 1 for "
+         "middle fraction of the length over which stretches are measured; default 0.5 for the modulus, 1 "
+         "for "
          "others"}}},
       make_tension};
 }

@@ -16,19 +16,22 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view introduction = R"(# results.json
 
-Written by `tripoint schema --results --page` from the records that write and read the file; without `--page` it prints the JSON Schema.
+Written by `tripoint schema --results --page` from the records that write and read the file; without
+`--page` it prints the JSON Schema.
 
-`tripoint validate` leaves `results.json` in the folder of the report. It holds every number, limit and verdict. Pages, `junit.xml` and `summary.md`
+`tripoint validate` leaves `results.json` in the folder of the report. It holds every number, limit
+and verdict. Pages, `junit.xml` and `summary.md`
 are made from it. `tripoint validate --json` prints it.
 
     tripoint validate rigid/ballistic --no-report --out numbers
-    tripoint export numbers/results.json --to csv --out tables    # cases.csv, gates.csv, metrics.csv, orders.csv
-    tripoint gate numbers/results.json                         # the verdicts once more from the numbers; runs nothing
+    tripoint export numbers/results.json --to csv --out tables    # cases.csv, gates.csv ...
+    tripoint gate numbers/results.json                         # the verdicts once more; runs nothing
 
 Rules for readers:
 
 - `format` is 1. New keys may appear; none is renamed or removed.
-- A number that is not finite is `null`, with `"finite": false` beside it where the key is called `value`. It never passes. A number that does not exist is `null` alone.
+- A number that is not finite is `null`, with `"finite": false` beside it where the key is called
+  `value`. It never passes. A number that does not exist is `null` alone.
 - Units are SI, except for metrics: their unit is that of the metric, after its scale.
 - An uncertainty is one standard deviation.
 - Optional keys are marked *opt*. They are left out where they would be empty.

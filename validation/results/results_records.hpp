@@ -146,7 +146,7 @@ template <class Get>
           "at_least", [gate](auto& r) -> auto& { return gate(r).at_least; }, "value - 2 u is at least this"),
       reached(
           "drift", [gate](auto& r) -> auto& { return gate(r).drift; },
-          "part by which the value may move from its baseline"),
+          "fraction by which the value may move from its baseline"),
       reached(
           "reason", [gate](auto& r) -> auto& { return gate(r).reason; },
           "reason of the limit, its author and its day"),
@@ -201,7 +201,8 @@ inline constexpr auto record<GateRow> = std::tuple_cat(
         reached(
             "defect", [](auto& r) { return IfAny{r.defect}; }, "name of the defect that the gate declares"),
         reached(
-            "used", [](auto& r) { return NumberOrNull{r.used}; }, "part of its limit: 0 is best, 1 the edge"),
+            "used", [](auto& r) { return NumberOrNull{r.used}; },
+            "fraction of its limit: 0 is best, 1 the edge"),
         held(&GateRow::why, "why", "one sentence where it is not pass")));
 
 /// Orders that say something: value and interval are numbers.

@@ -14,7 +14,7 @@ namespace {
 /// no more.
 double roundings(const Readback& held) { return held.precision == "single" ? 1e-6 : 1e-9; }
 
-bool same(double a, double b, double room) { return std::abs(a - b) <= room; }
+bool same(double a, double b, double tolerance) { return std::abs(a - b) <= tolerance; }
 
 std::string text(const Vec3& v) { return fmt::format("({:g}, {:g}, {:g})", v.x, v.y, v.z); }
 

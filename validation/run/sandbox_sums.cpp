@@ -57,7 +57,7 @@ double memory_of(const std::vector<pid_t>& all, double most) {
   return shared_out;
 }
 
-/// Files that have lost their names, and whose room is taken while a process has them open.
+/// Files that have lost their names, and whose space is taken while a process has them open.
 double nameless_bytes(const std::vector<pid_t>& all) {
   double sum = 0.0;
   for (const pid_t pid : all) {
@@ -87,17 +87,17 @@ bool all_stand_still(const std::vector<pid_t>& all) {
 std::size_t files_in_memory(pid_t inside) {
   std::size_t files = 0;
   for (const char* folder : {"tmp", "dev/shm"}) {
-    struct statvfs room {};
-    if (::statvfs(fmt::format("/proc/{}/root/{}", inside, folder).c_str(), &room) == 0)
-      files += room.f_files - room.f_ffree;
+    struct statvfs disk {};
+    if (::statvfs(fmt::format("/proc/{}/root/{}", inside, folder).c_str(), &disk) == 0)
+      files += disk.f_files - disk.f_ffree;
   }
   return files;
 }
 
-double free_room(const std::string& folder) {
-  struct statvfs room {};
-  return ::statvfs(folder.c_str(), &room) == 0
-             ? static_cast<double>(room.f_bavail) * static_cast<double>(room.f_frsize)
+double free_space(const std::string& folder) {
+  struct statvfs disk {};
+  return ::statvfs(folder.c_str(), &disk) == 0
+             ? static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize)
              : 0.0;
 }
 
@@ -136,9 +136,9 @@ SandboxWatch::SandboxWatch(const SandboxSums& most, std::string folder)
   for (fs::directory_iterator at(folder_, none), end; !none && at != end; at.increment(none))
     at_start_.insert(at->path().filename().string());
   if (most_.files > 0) most_.files += sums_of_folder(folder_, without_bound).entries;
-  free_room_at_start_ = free_room(folder_);
-  if (most_.bytes > 0.0 && free_room_at_start_ > 0.0)
-    most_.bytes = std::min(most_.bytes, share * free_room_at_start_ / most_.at_once);
+  free_space_at_start_ = free_space(folder_);
+  if (most_.bytes > 0.0 && free_space_at_start_ > 0.0)
+    most_.bytes = std::min(most_.bytes, share * free_space_at_start_ / most_.at_once);
 }
 
 std::string SandboxWatch::passed(pid_t outermost) {
@@ -167,7 +167,7 @@ std::string SandboxWatch::of_files(const std::vector<pid_t>& all) const {
   const double sum = taken.bytes + nameless_bytes(all);
   if (sum > most_.bytes)
     return fmt::format("{:.0f} MB of files, and {:.0f} MB are allowed", sum / mega, most_.bytes / mega);
-  if (const double left = free_room(folder_); left < low * free_room_at_start_ && sum > much * most_.bytes)
+  if (const double left = free_space(folder_); left < low * free_space_at_start_ && sum > much * most_.bytes)
     return fmt::format("{:.0f} MB of files, and the disk has {:.0f} MB left", sum / mega, left / mega);
   return {};
 }

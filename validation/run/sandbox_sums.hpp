@@ -33,7 +33,7 @@ inline constexpr unsigned sandbox_user = 65534;
 /// Looks at all processes below one, and at a folder, a few times a second.
 class SandboxWatch {
  public:
-  /// At most three quarters of the disk's free room are given away, in parts to all that run at once.
+  /// At most three quarters of the disk's free space are given away, in parts to all that run at once.
   SandboxWatch(const SandboxSums& most, std::string folder);
   /// @return why it must end: "the sandbox has ..."; empty while nothing is passed, or where it is no time to
   /// look again
@@ -52,8 +52,8 @@ class SandboxWatch {
   SandboxSums most_;
   bool is_sandbox_;
   std::string folder_;
-  std::set<std::string> at_start_;                                ///< what the folder held
-  double free_memory_at_start_ = 0.0, free_room_at_start_ = 0.0;  ///< [bytes]
+  std::set<std::string> at_start_;                                 ///< what the folder held
+  double free_memory_at_start_ = 0.0, free_space_at_start_ = 0.0;  ///< [bytes]
   Clock::time_point next_{}, last_look_{};
   Clock::duration still_for_{};  ///< for how long nothing of it has run
 };

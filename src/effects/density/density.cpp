@@ -49,7 +49,7 @@ void Density::load(State& state, const InitialState&) {
   for (std::size_t i = 0; i < state.particles.size(); ++i) set_own_density(state, i);
 }
 
-/// Sum that the own pairs of a particle add to its number density, once and for all (model 8.2).
+/// Sum that the excluded pairs of a particle add to its number density, once and for all (model 8.2).
 void Density::set_own_density(State& state, std::size_t row) const {
   if (!state.particles.has(field::own_density)) return;
   double sum = 0.0;

@@ -18,7 +18,7 @@ struct DensityPaper {
 };
 
 /// Number density (model 8.2) [Solenthaler & Pajarola 2008]: delta_i = sum_j W(r_ij) [1/m3]. The particle
-/// itself and its own pairs are added before the pass. The division by the kernel's lattice sum follows it.
+/// itself and its excluded pairs are added before the pass. The division by the kernel's lattice sum follows.
 struct NumberDensity {
   static constexpr std::string_view name = "NumberDensity";
   static constexpr bool zero_beyond = true;

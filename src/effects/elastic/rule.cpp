@@ -45,7 +45,8 @@ std::vector<EffectKey> keys() {
         "the paper's support, about 40 neighbours", "",
         "reach of bonds and support of the kernel (17), in spacings, whatever support_ratio is"}},
       {{"scene", "bending", number, "", fraction, "1", "bars bend and twist by their own stiffness", "",
-        "share of the bending correction, which makes gradients at surfaces exact for curved displacements "
+        "fraction of the bending correction, which makes gradients at surfaces exact for curved "
+        "displacements "
         "(model 8.7); 0: none. "
         "Only where elasticity is corrected"},
        {},

@@ -32,7 +32,8 @@ std::vector<EffectKey> keys() {
   using enum Range;
   return {
       {{"scene", "face_pressure", number, "", fraction, "0", "bodies of many particles hardly need it", "",
-        "share of the pressure on an elastic solid that acts at its face, not at its outer particles (model "
+        "fraction of the pressure on an elastic solid that acts at its face, not at its outer particles "
+        "(model "
         "8.3). Only where "
         "density, pressure, state and elasticity are corrected, nothing freezes and no solid can break"},
        {},

@@ -38,7 +38,8 @@ std::vector<EffectKey> keys() {
   using enum Range;
   return {
       {{"scene", "interface_weight", number, "", fraction, "0", "only layers of two liquids need it", "",
-        "share of the energy of unlike pairs that corrects the pressure at a level interface of two liquids "
+        "fraction of the energy of unlike pairs that corrects the pressure at a level interface of two "
+        "liquids "
         "(model 8.3). Only "
         "where density, pressure and state are corrected, the scene clamps, nothing freezes, and "
         "liquids of two densities have a weight"},

@@ -6,7 +6,7 @@
 #include "sph/kernels.hpp"
 #include "state/state.hpp"
 
-/// Bonds and own pairs of freezing particles (model 8.9).
+/// Bonds and excluded pairs of freezing particles (model 8.9).
 namespace tripoint::phase {
 
 /// A pair that becomes body neighbours.

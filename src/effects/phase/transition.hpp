@@ -26,7 +26,7 @@ struct Events {
 /// is seen.
 void connect_rigid_bodies(State&);
 
-/// Ends bonds and own pairs of melting particles, and keeps those of turning ones. Bonds freezing particles
+/// Ends bonds and excluded pairs of melting particles, and keeps those of turning ones. Bonds freezing ones
 /// to those that they touch. Makes bodies of connected particles, and writes it all to State::change.
 /// Neighbour lists must be of the present places.
 void carry_out(State&, const Events&, ReleasedEnergy&);

@@ -7,7 +7,7 @@
 
 namespace tripoint::pressure {
 
-/// Change of the energy of compression and core [J] when State::change ends and makes own pairs and groups.
+/// Change of energy of compression and core [J] when State::change ends and makes excluded pairs and groups.
 /// It is summed over the changed particles and their pairs. @pre the columns `group` and `own_density` and
 /// the marks of the neighbour lists are those of before the change. @param group_now group of a row after the
 /// change @param back time before now at which energies are compared [s]. It is half a drift: the kick before

@@ -25,7 +25,7 @@
 namespace tripoint::pressure {
 namespace {
 
-/// Energy of compression that changes of phase and of own pairs let go [J].
+/// Energy of compression that changes of phase and of excluded pairs let go [J].
 constexpr EnergyAccount compression_released{"compression_released"};
 
 void set_material(State& state, std::size_t row) {

@@ -105,7 +105,8 @@ std::vector<EffectKey> pressure_keys() {
        no_core},
       {{"scene", "surface_weight", number, "", not_negative, "0.5",
         "half of its own weight lies above the middle of a layer", "",
-        "share of its weight that the topmost layer of a liquid bears as pressure (model 8.3); 0: none. Only "
+        "fraction of its weight that the topmost layer of a liquid bears as pressure (model 8.3); 0: none. "
+        "Only "
         "where the scene "
         "clamps, density, pressure and state are corrected, nothing freezes, and no body is free"},
        {},

@@ -42,7 +42,7 @@ std::vector<EffectKey> keys() {
        no_transport_velocity},
       {{"scene", "mean_pressure", number, "", fraction, "0",
         "pressure is that of each particle's own density", "",
-        "share of the neighbours' mean in the pressure of a liquid (model 8.3). Only with "
+        "fraction of the neighbours' mean in the pressure of a liquid (model 8.3). Only with "
         "transport_velocity, where density, "
         "pressure and state are corrected"},
        {},

@@ -40,7 +40,8 @@ std::vector<EffectKey> viscosity_keys() {
        no_form_of_viscosity},
       {{"scene", "isotropic_shear", number, "", fraction, "0",
         "most flows soon leave the lattice of the start", "",
-        "share of the weights that make the lattice's resistance to shear isotropic (model 8.5). Only where "
+        "fraction of the weights that make the lattice's resistance to shear isotropic (model 8.5). Only "
+        "where "
         "viscosity is "
         "corrected and central"},
        {},
