@@ -9,6 +9,7 @@
 #include "liquids/fields.hpp"
 #include "liquids/predicted_velocities.hpp"
 #include "liquids/scene_numbers.hpp"
+#include "state/fill.hpp"
 
 /// Viscosity of liquids and friction of solids that touch, (8): the force, and its bound of the step
 /// (model 8.5).
@@ -22,6 +23,7 @@ class Viscosity : public Effect {
         has_own_form_(!scene.has_brought_form(term::viscosity)),
         solid_viscosity_(scene) {}
   void load(State&, const InitialState&) override;
+  void start_sums(State&, PassName, const Rows&) override;
   void state(State&, const Rows&) override;
   void after_states(State&, const Rows&) override;
   void happen(State& state, const Happening&) override { forget_bound(state); }
@@ -73,6 +75,13 @@ void Viscosity::adopt(State& state) {
   for (const std::uint32_t id : state.change.born) set_material(state, state.particles.row(id));
   for (const std::uint32_t id : state.change.regrouped) set_material(state, state.particles.row(id));
   forget_bound(state);
+}
+
+/// A form that another effect brings may add to the force without a pair term, to which the pass is blind.
+void Viscosity::start_sums(State& state, PassName pass, const Rows& rows) {
+  if (pass != PassName::rates || has_own_form_) return;
+  for (const Field<double>* f : columns_of(field::viscous_force))
+    fill(part(state.particles[*f], rows), 0.0, state.threads);
 }
 
 void Viscosity::state(State& state, const Rows&) {
