@@ -247,15 +247,16 @@ def numbers(values):
 
 def summary(values, all_rows=False):
     lines = ["| case | number | with | corrected | as printed |", "|---|---|---|---|---|"]
-    left = []
+    left = {}
     for case, metric, axis, words, has_order in numbers(values):
         if has_order or all_rows:
             lines.append(
                 f"| `{case}` | {metric} | {AXES[axis]} | " + " | ".join(words.get(mode, "-") for mode in NAMES) + " |"
             )
         else:
-            left.append(f"{case.split('/')[1]} {metric} ({AXES[axis]})")
-    return lines + (["", "No order is seen in:", "", *(f"- {name}" for name in left)] if left else [])
+            left.setdefault((case.split("/")[1], AXES[axis]), []).append(metric)
+    names = [f"- {case}, {axis}: {', '.join(metrics)}" for (case, axis), metrics in left.items()]
+    return lines + (["", "No order is seen in:", "", *names] if left else [])
 
 
 def in_order(paths):
