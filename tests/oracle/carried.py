@@ -6,7 +6,7 @@
 import numpy as np
 
 import model
-from kernels import wendland, wendland_slope
+from kernels import isotropic_shear, wendland, wendland_slope
 
 FORMS = {  # pair of pressures, damping
     "adjoint": ("own", "residue"),
@@ -142,18 +142,20 @@ def viscous_force(s):
         np.where(p.wall, sticks, 0.0)[:, None] * mu[None, :] + np.where(p.wall, sticks, 0.0)[None, :] * mu[:, None]
     )
     along = np.einsum("ijk,ijk->ij", seen[None, :] - seen[:, None], p.D) / s.r2
-    k = 10 / s.M * p.f * p.V[:, None] * p.V[None, :] * np.where(p.liquids, mean, at_wall) * along
+    c, square = isotropic_shear(s.scene["support_ratio"])
+    weight = c + square * (np.where(np.isfinite(s.distance), s.distance, 0.0) / s.scene["spacing"]) ** 2
+    k = 10 / s.M * weight * p.f * p.V[:, None] * p.V[None, :] * np.where(p.liquids, mean, at_wall) * along
     return model.summed(s, k[..., None] * p.D)
 
 
 def parting(p, damping):
     """Rate at which a pair parts [1/s], and the part of it that linear reconstruction leaves."""
-    s, v = p.s, p.s.vector("velocity")
+    s, v = p.s, p.s.vector("predicted_velocity")
     rate = np.einsum("ijk,ijk->ij", v[None, :] - v[:, None], p.D) / s.r2
     if damping == "limited":
         return rate, rate
-    A = np.array([[s[f"velocity_gradient.{a}{b}"] for b in "xyz"] for a in "xyz"]).transpose(2, 0, 1)
-    both = A[:, None] + A[None, :]
+    E = s.symmetric("strain_rate")
+    both = E[:, None] + E[None, :]
     return rate, rate - 0.5 * np.einsum("ijk,ijkl,ijl->ij", p.D, both, p.D) / s.r2
 
 
@@ -250,9 +252,8 @@ def compare_sound(out, s):
     for name, (twin, scale) in zip(("divergence", "wall_share"), sound_rate(s)):
         out.compare("sound rate 8.12", s[name][known], twin[known], scale[known])
     out.compare("sound force 8.12", s.vector("force")[wet], *(one[wet] for one in pressure_force(s, "own")))
-    if s.holds_viscosity:
-        return
-    out.compare("sound force 8.12", s.vector("viscous_force")[wet], *(one[wet] for one in viscous_force(s)))
+    for name, twin in (("viscous_force", viscous_force(s)), ("residue_force", residue_force(s, "residue"))):
+        out.compare("sound force 8.12", s.vector(name)[wet], *(one[wet] for one in twin))
 
 
 def compare(out, s, before):
@@ -272,6 +273,7 @@ def compare(out, s, before):
     found = np.array([[s[f"velocity_gradient.{a}{b}"] for b in "xyz"] for a in "xyz"]).transpose(2, 0, 1)
     for solver, twin in (
         (found, A),
+        (s.symmetric("strain_rate"), ((A[0] + A[0].transpose(0, 2, 1)) / 2, A[1])),
         (s.vector("density_gradient"), slope),
         (s.vector("unevenness"), uneven),
         (s["divergence"], divergence),

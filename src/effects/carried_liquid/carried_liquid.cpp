@@ -30,7 +30,8 @@ namespace tripoint::carried_liquid {
 namespace {
 
 constexpr StepNumber kick_length{"carried_half_step", 0.0};            ///< length of the last kick [s]
-constexpr EnergyAccount compression_released{"compression_released"};  ///< as the effect of contact has it
+constexpr EnergyAccount compression_released{"compression_released"};  ///< as the effect of pressure has it
+constexpr EnergyAccount start_compression{"start_compression"};        ///< the same
 /// Steps that have taken the present corrections, -1: none are there
 constexpr StepNumber held_for{"carried_steps_held", -1.0};
 constexpr EnergyAccount taken_by_diffusion{"taken_by_diffusion"}, taken_by_shift{"taken_by_shift"};
@@ -74,6 +75,8 @@ Numbers numbers_of(const Scene& scene) {
 PairKernels kernels_of(const Scene& scene, const Numbers& n) {
   PairKernels kernels(scene.support_ratio * scene.spacing);
   kernels.per_gradient_moment = 1.0 / n.lattice.gradient;
+  const ShearWeight weight = isotropic_shear(scene.support_ratio);
+  kernels.shear = {weight.constant, weight.square / (scene.spacing * scene.spacing)};
   return kernels;
 }
 
@@ -124,17 +127,6 @@ class CarriedLiquid : public Effect {
   void run(State&, const PairTerm&, const Rows&) const;
   void correct_gradients(State&) const;
   void correct_velocity_gradients(State&) const;
-  void form_corrections(State&) const;
-  /// Whether the viscous force changes little while corrections are held. Where solids meet, its column is
-  /// not held.
-  [[nodiscard]] bool holds_viscosity(const State& state) const {
-    return !solids_meet_ && scheme_.hold * sound_step(state) * numbers_.greatest_nu <
-                                viscous_share * std::pow(state.scene.spacing, 2);
-  }
-  /// Bound of the step where nothing moves [s].
-  [[nodiscard]] double sound_step(const State& state) const {
-    return scheme_.courant * state.support() / numbers_.sound_speed;
-  }
   void move_density(State&) const;
   void set_pressure(State&) const;
   void set_shift(State&) const;
@@ -180,26 +172,29 @@ void CarriedLiquid::load(State& state, const InitialState&) {
   }
 }
 
+/// What is born has its density before the energies of a change are taken.
 void CarriedLiquid::adopt(State& state) {
   state.step_numbers[held_for] = -1.0;
   const Change& change = state.change;
+  for (const std::uint32_t id : change.born) set_material(state, state.particles.row(id));
+  take_pressure_around(state, equation_, kernels_, change.born);
   const std::vector<std::size_t> touched = touched_rows(state, change.regrouped);
   const double before = energy_of(state, equation_, kernels_, touched, 0.5 * drifted_);
-  for (const auto* list : {&change.born, &change.regrouped})
-    for (const std::uint32_t id : *list) {
-      const std::size_t i = state.particles.row(id);
-      const bool was_liquid = state.particles[field::impedance][i] != 0.0;
-      set_material(state, i);
-      keep_pressure(state, i, was_liquid);
-    }
+  for (const std::uint32_t id : change.regrouped) {
+    const std::size_t i = state.particles.row(id);
+    const bool was_liquid = state.particles[field::impedance][i] != 0.0;
+    set_material(state, i);
+    keep_pressure(state, i, was_liquid);
+  }
   set_groups(state);
-  take_pressure_around(state, equation_, kernels_, change.born);
   if (!touched.empty())
     state.accumulated[compression_released] +=
         before - energy_of(state, equation_, kernels_, touched, 0.5 * drifted_);
-  const CompressionEnergy energy(state, equation_);
-  for (const std::uint32_t id : change.born)
-    state.accumulated[account::inflow] += energy(state.particles.row(id));
+  std::vector<std::size_t> born;
+  for (const std::uint32_t id : change.born) born.push_back(state.particles.row(id));
+  const double brought = energy_of(state, equation_, kernels_, born, 0.5 * drifted_);
+  state.accumulated[account::inflow] += brought;
+  state.accumulated[start_compression] += brought;
 }
 
 /// The shift of the last rates acts in this drift.
@@ -256,13 +251,16 @@ void CarriedLiquid::correct_velocity_gradients(State& state) const {
   Particles& p = state.particles;
   const auto n = symmetric_columns(p, field::own_moment);
   const auto a = matrix_columns(p, field::velocity_gradient);
+  const auto strain = symmetric_columns(p, field::strain_rate);
   const auto slope = triple(p, field::density_gradient);
   const auto z = p[field::impedance];
 #pragma omp parallel for schedule(static) num_threads(state.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (z[i] == 0.0) continue;
     const Symmetric inverse = blended_inverse(n.at(i), own_full_rank, 0.0);
-    a.set(i, a.at(i) * inverse);
+    const Matrix3 gradient = a.at(i) * inverse;
+    a.set(i, gradient);
+    strain.set(i, symmetric_part(gradient));
     slope.set(i, inverse * slope.at(i));
   }
 }
@@ -366,32 +364,25 @@ void CarriedLiquid::state(State& state, const Rows&) {
   const bool renewed = first || held + 1.0 >= scheme_.hold || drifted_ == 0.0;
   held = renewed ? 0.0 : held + 1.0;
   if (first) set_pressure(state);
-  if (renewed)
-    form_corrections(state);
-  else
+  run(state, pair_term<Moments>, all_rows(state));
+  correct_gradients(state);
+  if (renewed) {
+    run(state, scheme_.gradients, all_rows(state));
+    correct_velocity_gradients(state);
+  } else {
     run(state, pair_term<SoundRate>, all_rows(state));
+  }
   move_density(state);
   set_pressure(state);
   if (renewed) set_shift(state);
-  if (renewed || !holds_viscosity(state))
-    liquid::predict_velocities(state, state.step_numbers[kick_length], field::predicted);
+  liquid::predict_velocities(state, state.step_numbers[kick_length], field::predicted);
   drifted_ = 0.0;
 }
 
-/// All that is held between renewals, and the divergence.
-void CarriedLiquid::form_corrections(State& state) const {
-  run(state, pair_term<Moments>, all_rows(state));
-  correct_gradients(state);
-  run(state, scheme_.gradients, all_rows(state));
-  correct_velocity_gradients(state);
-}
-
-/// The viscous forces, the damping and the diffusion of the last renewal hold until the next.
+/// The diffusion of the last renewal holds until the next.
 void CarriedLiquid::bonds(State& state, const Rows& rows) {
-  if (state.step_numbers[held_for] > 0.0 && !state.forms_fixed)
-    return run(state, holds_viscosity(state) ? pair_term<SoundForce<false>> : pair_term<SoundForce<true>>,
-               rows);
-  run(state, scheme_.forces, rows);
+  const bool held = state.step_numbers[held_for] > 0.0 && !state.forms_fixed;
+  run(state, held ? pair_term<SoundForce> : scheme_.forces, rows);
   if (scheme_.damping != Damping::residue) return;
   const double scale = scheme_.beta * 0.5 * state.support();
   for (const Field<double>* f : columns_of(field::residue_force))
@@ -443,7 +434,7 @@ fields::List owned(bool solids_meet) {
   add_read(AllForces::reads::list);
   add({{&field::exposed, &field::squeeze}});
   add_read(AllGradients::reads::list);
-  add(SoundForce<true>::reads::list);
+  add(SoundForce::reads::list);
   const fields::List both = shared();
   std::erase_if(list, [&](const FieldInfo& f) { return std::ranges::find(both, f) != both.end(); });
   if (!solids_meet) list.insert(list.end(), both.begin(), both.end());
@@ -452,7 +443,7 @@ fields::List owned(bool solids_meet) {
 
 std::vector<Force> forces_of(bool solids_meet) {
   Force pressure{field::force, {"pressure_work"}, EnergyAccount{"wall_pressure_work"}};
-  pressure.stored = StoredEnergy{{"compression"}, {"start_compression"}, {}, ""};
+  pressure.stored = StoredEnergy{{"compression"}, start_compression, {}, ""};
   Force viscous{field::viscous_force, {"viscous_work"}, EnergyAccount{"wall_viscous_work"}};
   viscous.entry = "viscous";
   Force residue{field::residue_force, {"residue_work"}, EnergyAccount{"wall_residue_work"}};

@@ -78,8 +78,29 @@ template <class V>
 template <class V>
 [[gnu::always_inline]] inline VectorOf<V> shear(const PairGeometry<V>& g, V k, const VectorOf<V>& v) {
   const V along = dot(v, g.d()) * g.per_r2;
-  const V size = (10.0 * g.kernels.per_gradient_moment) * k * along;
+  const V size = g.kernels.shear.weighted((10.0 * g.kernels.per_gradient_moment) * k * along, g.r * g.r);
   return size * g.d();
+}
+
+/// Coefficient of the viscosity of the residue along d, of which that of `residue` lacks the factor beta h.
+/// @param ff f V V @param v velocity of j less that of i
+template <Damping damping, class V>
+[[gnu::always_inline]] inline V damped(const PairGeometry<V>& g, V ff, const auto& i, const auto& j,
+                                       const VectorOf<V>& v) {
+  const V z_i = i(field::impedance), z_j = j(field::impedance);
+  const V rest_i = i(field::liquid_rest_density), rest_j = j(field::liquid_rest_density);
+  const VectorOf<V> d = g.d();
+  const V parting = dot(v, d) * g.per_r2;  // [1/s], below 0 where the pair approaches
+  V left = parting;
+  if constexpr (damping != Damping::limited)
+    left -= (0.5 * g.per_r2) * dot((i(field::strain_rate) + j(field::strain_rate)) * d, d);
+  const MaskOf<V> liquids = !((z_i == 0.0) | (z_j == 0.0));
+  const V z = where<V>(liquids, 2.0 * z_i * z_j / (z_i + z_j + 1e-300));
+  if constexpr (damping == Damping::residue)
+    return where<V>(rest_i == rest_j, ff * z * left);  // unlike liquids slip along each other
+  const V u = g.r * (parting > left ? -parting : -left),
+          mach = 3.0 * u * (rest_i + rest_j) / (z_i + z_j + 1e-300);
+  return where<V>(u > 0.0, -(ff * z) * u * (mach < 1.0 ? mach : every_lane<V>(1.0)));
 }
 
 /// Kernel sum of the number density.
@@ -162,10 +183,10 @@ struct Forces {
                                     third = damping_words[static_cast<std::size_t>(damping)];
   static constexpr std::string_view name = JoinedName<first, second, third>::value;
   static constexpr bool zero_beyond = true;
-  using reads = Keys<field::carried_volume, field::impedance, field::liquid_rest_density, field::density,
-                     field::liquid_viscosity, field::slips, field::correction, field::velocity,
-                     field::velocity_gradient, field::density_gradient, field::predicted,
-                     field::carried_pressure, field::wall_pressure>;
+  using reads =
+      Keys<field::carried_volume, field::impedance, field::liquid_rest_density, field::density,
+           field::liquid_viscosity, field::slips, field::correction, field::strain_rate,
+           field::density_gradient, field::predicted, field::carried_pressure, field::wall_pressure>;
   using adds = Keys<field::force, field::viscous_force, field::residue_force, field::diffused>;
   template <class V>
   static void pair(const PairGeometry<V>& g, const auto& i, const auto& j, auto& sum) {
@@ -178,24 +199,9 @@ struct Forces {
     const V p_i = i(field::carried_pressure), p_j = j(field::carried_pressure);
     const auto [X, Y] = sides<form, V>(i(field::correction) * d, j(field::correction) * d, z_i, z_j);
     sum(field::force) += -ff * (p_i * X + p_j * Y + push_out<V>(i, j, z_i, z_j) * d);
-    const V mu = viscosity_between<V>(i, j);
-    sum(field::viscous_force) += shear<V>(g, ff * mu, j(field::predicted) - i(field::predicted));
-    // damping
-    // [1/s], below 0 where the pair approaches
-    const V parting = dot(j(field::velocity) - i(field::velocity), d) * g.per_r2;
-    V left = parting;
-    if constexpr (damping != Damping::limited)
-      left -= (0.5 * g.per_r2) * dot((i(field::velocity_gradient) + j(field::velocity_gradient)) * d, d);
-    const V z = where<V>(liquids, 2.0 * z_i * z_j / (z_i + z_j + 1e-300));
-    V k;
-    if constexpr (damping == Damping::residue) {
-      k = where<V>(rest_i == rest_j, ff * z * left);  // times beta h; unlike liquids slip along each other
-    } else {
-      const V u = g.r * (parting > left ? -parting : -left),
-              mach = 3.0 * u * (rest_i + rest_j) / (z_i + z_j + 1e-300);
-      k = where<V>(u > 0.0, -(ff * z) * u * (mach < 1.0 ? mach : every_lane<V>(1.0)));
-    }
-    sum(field::residue_force) += k * d;
+    const VectorOf<V> v = j(field::predicted) - i(field::predicted);
+    sum(field::viscous_force) += shear<V>(g, ff * viscosity_between<V>(i, j), v);
+    sum(field::residue_force) += damped<damping, V>(g, ff, i, j, v) * d;
     // diffusion of density
     if constexpr (damping == Damping::limited) {
       const V jump = p_j - p_i;

@@ -17,6 +17,8 @@ inline constexpr Field<double> wall_pressure{"wall_pressure", "Pa"};
 /// B, the inverse of the moment, blended into the identity where neighbours are few.
 inline constexpr SymmetricField correction{"correction", "1"};
 inline constexpr MatrixField velocity_gradient{"velocity_gradient", "1/s"};
+/// Symmetric part of the gradient of velocity.
+inline constexpr SymmetricField strain_rate{"strain_rate", "1/s"};
 inline constexpr VectorField<double> density_gradient{"density_gradient", "kg/m4"};
 /// Force over volume of a uniform pressure of 1: 0 where particles are spread evenly.
 inline constexpr VectorField<double> unevenness{"unevenness", "1/m"};

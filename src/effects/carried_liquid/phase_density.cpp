@@ -27,13 +27,35 @@ double CarriedState::wall_energy(double mass, double rest, double share) const {
   return 0.5 * modulus * mass / rest * inside * inside;
 }
 
+namespace {
+
+/// Calls visit(j, d) for each row j in reach of row i, d = r_j - r_i at the time `back` ago. Where particles
+/// have been born the rows of the lists are no longer those of the particles, and all are looked at.
+template <class Visit>
+void each_near(const State& state, std::size_t i, double back, Visit visit) {
+  const auto x = positions(state.particles), v = velocities(state.particles);
+  const auto past = [&](std::size_t j, const Vec3& d) { visit(j, d - back * (v.at(j) - v.at(i))); };
+  if (state.change.born.empty()) {
+    for (const Entry e : state.neighbours->of(i))
+      past(e.row(), (x.at(e.row()) - x.at(i)) + state.neighbours->shift(e.image()));
+    return;
+  }
+  const double reach = 1.2 * state.support();
+  for (std::size_t j = 0; j < state.particles.size(); ++j) {
+    const Vec3 d = solid::nearest_image(state.box, x.at(j) - x.at(i));
+    if (j != i && dot(d, d) < reach * reach) past(j, d);
+  }
+}
+
+}  // namespace
+
 std::vector<std::size_t> touched_rows(const State& state, const std::vector<std::uint32_t>& ids) {
   const Particles& p = state.particles;
   const auto id = p[field::id];
   std::vector<std::uint32_t> all = ids;
   for (const std::uint32_t one : ids)
-    for (const Entry e : state.neighbours->of(p.row(one)))
-      all.push_back(static_cast<std::uint32_t>(id[e.row()]));
+    each_near(state, p.row(one), 0.0,
+              [&](std::size_t j, const Vec3&) { all.push_back(static_cast<std::uint32_t>(id[j])); });
   std::ranges::sort(all);
   all.erase(std::unique(all.begin(), all.end()), all.end());
   std::vector<std::size_t> rows;
@@ -58,19 +80,15 @@ double energy_of(const State& state, const CarriedState& equation, const PairKer
                  const std::vector<std::size_t>& rows, double back) {
   const Particles& p = state.particles;
   const auto z = p[field::impedance], m = p[field::mass], rest = p[field::liquid_rest_density];
-  const auto x = positions(p), v = velocities(p);
   const CompressionEnergy energy(state, equation);
   double sum = 0.0;
   for (const std::size_t i : rows) {
     sum += energy(i);
     if (z[i] == 0.0) continue;
     double share = 0.0;
-    for (const Entry e : state.neighbours->of(i)) {
-      const std::size_t j = e.row();
-      if (z[j] != 0.0) continue;
-      const Vec3 d = (x.at(j) - x.at(i)) + state.neighbours->shift(e.image()) - back * (v.at(j) - v.at(i));
-      share += m[j] / rest[j] * kernels.wendland.value(norm(d));
-    }
+    each_near(state, i, back, [&](std::size_t j, const Vec3& d) {
+      if (z[j] == 0.0) share += m[j] / rest[j] * kernels.wendland.value(norm(d));
+    });
     sum += equation.wall_energy(m[i], rest[i], share);
   }
   return sum;

@@ -39,6 +39,7 @@ Scheme limited() {
   s.strength = 2.0;
   s.tie = Tie::none;
   s.follows = true;
+  s.hold = 1;  // a step of sound damps as `residue`
   return s;
 }
 

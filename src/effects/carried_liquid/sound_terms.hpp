@@ -20,29 +20,26 @@ struct SoundRate {
   }
 };
 
-/// Force of the pressure by the pair `own`; the stress is p V B.
-/// @tparam viscous with the viscous force, where it is too stiff to be held
-template <bool viscous>
+/// Forces of a step of sound: of the pressure by the pair `own` with the held B, where the stress is p V B,
+/// of viscosity, and of the residue that the held strain rates leave.
 struct SoundForce {
-  static constexpr std::string_view name = viscous ? "SoundForceViscous" : "SoundForce";
+  static constexpr std::string_view name = "SoundForce";
   static constexpr bool zero_beyond = true;
-  using Inviscid = Keys<field::carried_volume, field::impedance, field::stress, field::wall_pressure>;
-  using Viscous = Keys<field::carried_volume, field::impedance, field::stress, field::wall_pressure,
-                       field::liquid_viscosity, field::slips, field::predicted>;
-  using reads = std::conditional_t<viscous, Viscous, Inviscid>;
-  using adds = std::conditional_t<viscous, Keys<field::force, field::viscous_force>, Keys<field::force>>;
+  using reads = Keys<field::carried_volume, field::impedance, field::stress, field::wall_pressure,
+                     field::liquid_viscosity, field::slips, field::predicted, field::strain_rate,
+                     field::liquid_rest_density>;
+  using adds = Keys<field::force, field::viscous_force, field::residue_force>;
   template <class V>
   static void pair(const PairGeometry<V>& g, const auto& i, const auto& j, auto& sum) {
     const V z_i = i(field::impedance), z_j = j(field::impedance), f = slope_of<V>(g, z_i, z_j);
     const V a = weight<V>(z_i, z_j) * j(field::carried_volume),
             b = weight<V>(z_j, z_i) * i(field::carried_volume);
-    const V both = i(field::carried_volume) * j(field::carried_volume);
-    const VectorOf<V> d = g.d(), t = (a * i(field::stress) + b * j(field::stress)) * d;
+    const V both = i(field::carried_volume) * j(field::carried_volume), ff = f * both;
+    const VectorOf<V> d = g.d(), t = (a * i(field::stress) + b * j(field::stress)) * d,
+                      v = j(field::predicted) - i(field::predicted);
     sum(field::force) += -f * (t + (both * push_out<V>(i, j, z_i, z_j)) * d);
-    if constexpr (viscous) {
-      const V mu = viscosity_between<V>(i, j);
-      sum(field::viscous_force) += shear<V>(g, f * both * mu, j(field::predicted) - i(field::predicted));
-    }
+    sum(field::viscous_force) += shear<V>(g, ff * viscosity_between<V>(i, j), v);
+    sum(field::residue_force) += damped<Damping::residue, V>(g, ff, i, j, v) * d;
   }
 };
 
