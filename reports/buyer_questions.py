@@ -64,7 +64,7 @@ def energy_changes(results, cell):
 def spins(cells, results):
     found = [(change, cell) for cell in cells if (change := energy_changes(results, cell))]
     found.sort(key=lambda entry: entry[0][0])
-    keepers = [cell for change, cell in found if change[0] <= LOSES]
+    keeping = [cell for change, cell in found if change[0] <= LOSES]
     lost = join(
         [
             f"{with_preset(cell.engine, cell.preset)} {share:.0%} in {case.split('/')[-1]}"
@@ -72,7 +72,7 @@ def spins(cells, results):
             if share > LOSES
         ]
     )
-    kept = f"These keep the energy of a free spin to 1 %, the best first: {named(keepers)}." if keepers else ""
+    kept = f"These keep the energy of a free spin to 1 %, the best first: {named(keeping)}." if keeping else ""
     return f"{kept} Others change it by: {lost}.".strip() if lost else kept
 
 

@@ -278,11 +278,13 @@ class Children(Suite):
     more = "[engines.tripoint]\nrequired = true\n[engines.fake]\nrequired = true\n"
 
     def prepare(self, scratch):
-        stranger = scratch / "strangers/engine-fake"
-        stranger.parent.mkdir()
-        stranger.write_text(f'#!/bin/sh\nexec /usr/bin/python3 -S -B {HERE.parent / "harness/fake/engine.py"} "$@"\n')
-        stranger.chmod(0o755)
-        self.environment = {"TRIPOINT_ENGINE_PATH": str(stranger.parent)}
+        third_party = scratch / "third-party/engine-fake"
+        third_party.parent.mkdir()
+        third_party.write_text(
+            f'#!/bin/sh\nexec /usr/bin/python3 -S -B {HERE.parent / "harness/fake/engine.py"} "$@"\n'
+        )
+        third_party.chmod(0o755)
+        self.environment = {"TRIPOINT_ENGINE_PATH": str(third_party.parent)}
 
 
 def those_left(folder):
