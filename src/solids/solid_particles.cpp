@@ -19,6 +19,11 @@ namespace {
 /// Members of rigid bodies without energy: their lists need no special form
 constexpr int no_energy_rank = 3;
 
+double stiffness_of_joints(const Scene& scene, const Material& m) {
+  const bool lets_go = m.t_melt || m.elastic_limit || m.fracture_stretch || m.fracture_distance;
+  return lets_go || scene.mode_of(term::elastic) == Mode::paper ? soft_joint_stiffness : joint_stiffness;
+}
+
 /// Which material's constants a particle's energy has, and how many times. They are its own; a member of a
 /// rigid body has those of the elastic partner with the lowest id.
 void set_stiffness(State& state, const ElasticParticles& is_elastic, std::uint32_t id) {
@@ -32,7 +37,8 @@ void set_stiffness(State& state, const ElasticParticles& is_elastic, std::uint32
     if (is_elastic(p.row(b.other))) lowest = std::min(lowest, b.other);
   if (lowest == std::numeric_limits<std::uint32_t>::max()) return;
   p[field::solid_material][i] = p[field::material][p.row(lowest)];
-  p[field::solid_stiffness][i] = joint_stiffness;
+  const Material& partner = state.material_of(p.row(lowest));
+  p[field::solid_stiffness][i] = stiffness_of_joints(state.scene, partner);
 }
 
 /// v_i [m3]: m/rho0; printed (11) m_i / sum_j m_j W(x_ij), for particles that have all their body neighbours

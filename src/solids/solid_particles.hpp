@@ -47,8 +47,9 @@ class ElasticParticles {
 /// Stiffness of a member of a rigid body over that of the elastic partner that it is bonded to [1]. Such
 /// members own strain energy too, since the stress on both sides of a cut carries the force. Without theirs
 /// the joint bears twice the strain, and gives way as 2.5 spacings more of the bar would. With 1 it gives way
-/// as 0.9 spacings would, with 4 as 0.2, with 10 as none. A stiffer joint needs a shorter time step.
-inline constexpr double joint_stiffness = 4.0;
+/// as 0.9 spacings would, with 4 as 0.2, with 10 as none (decision 008). As printed, and of matter that
+/// melts, flows or breaks, it has 4: what a joint stores there is let go.
+inline constexpr double joint_stiffness = 10.0, soft_joint_stiffness = 4.0;
 
 /// Tells of rows whether they own strain energy: particles of deformable bodies, and members of rigid ones
 /// that are bonded to such. Valid as the lists were when shapes were last refreshed.

@@ -115,7 +115,7 @@ TEST(ElasticMotion, StaysBoundedAtItsTimeStepWhateverRingsInABlockThatIsHeld) {
     lab.add({.name = "clamp",
              .corner = {-2.0 * dx, 0.0, 0.0},
              .count = {2, 4, 4},
-             .phase = Phase::elastic,
+             .phase = Phase::rigid,
              .motion = Motion::fixed});
     lab.scene.bodies[0].joined_to = {"clamp"};
     std::mt19937_64 random(5);

@@ -321,12 +321,16 @@ def solid_form(s, words, printed):
 
 
 def joints(s, deformable):
-    """(stiffness, material) of each particle: a rigid one that is bonded to a deformable one is four times as stiff."""
+    """(stiffness, material) of each particle: a rigid one that is bonded to a deformable one is ten times as stiff, four
+    times as printed or where the deformable one melts, flows or breaks."""
+    lets_go = ("t_melt", "elastic_limit", "fracture_stretch", "fracture_distance")
     stiffness, material = np.where(deformable, 1.0, 0.0), s["material"].copy()
     for i in np.flatnonzero(~deformable & (s.body >= 0)):
         soft = [j for j, *_ in s.bonds[i] if deformable[j]]
         if soft:
-            stiffness[i], material[i] = 4.0, s["material"][min(soft)]
+            material[i] = s["material"][min(soft)]
+            weak = s.printed("elastic") or any(s.materials[material[i]].get(key) is not None for key in lets_go)
+            stiffness[i] = 4.0 if weak else 10.0
     return stiffness, material
 
 
