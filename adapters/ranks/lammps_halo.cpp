@@ -56,7 +56,7 @@ PeriodicBox LammpsHalo::split_of(const PeriodicBox& box) const {
 
 /// Every rank has all particles, and takes those that LAMMPS has put into its part of the box. Particles that
 /// flowed in have no atoms yet: then all are made anew, which also evens out the parts.
-void LammpsHalo::share_out(Particles& particles, Bonds& bonds, OwnPairs& own, const PeriodicBox& box,
+void LammpsHalo::share_out(Particles& particles, Bonds& bonds, ExcludedPairs& own, const PeriodicBox& box,
                            std::span<const Vec3> places, std::span<const double> cost) {
   const std::size_t lists = most_list_numbers(bonds, own);
   has_lists_ = lists > 0;
@@ -94,7 +94,7 @@ void LammpsHalo::share_out(Particles& particles, Bonds& bonds, OwnPairs& own, co
   hand_over(particles, bonds, own);
 }
 
-void LammpsHalo::share_lists(Bonds& bonds, OwnPairs& own) {
+void LammpsHalo::share_lists(Bonds& bonds, ExcludedPairs& own) {
   const std::size_t lists = most_list_numbers(bonds, own);
   has_lists_ = lists > 0;
   ranks_->make_room(lists);
@@ -110,7 +110,7 @@ void LammpsHalo::begin_anew() {
   known_changes_ = {never, never};
 }
 
-void LammpsHalo::migrate(Particles& particles, Bonds& bonds, OwnPairs& own, const PeriodicBox& box,
+void LammpsHalo::migrate(Particles& particles, Bonds& bonds, ExcludedPairs& own, const PeriodicBox& box,
                          std::span<const double> cost) {
   if (ranks_->size() == 1) {  // its part is the whole; requests that more ranks would make are counted
     collectives_ += has_lists_ ? 1.0 : 0.0;
@@ -149,7 +149,7 @@ void LammpsHalo::balance(double allowed) {
   ranks_->balance(allowed);
 }
 
-void LammpsHalo::hand_over(Particles& particles, Bonds& bonds, OwnPairs& own) {
+void LammpsHalo::hand_over(Particles& particles, Bonds& bonds, ExcludedPairs& own) {
   begin_call();
   ranks_->migrate(reach_now_);
   end_part();
@@ -173,14 +173,14 @@ double LammpsHalo::reach_of(double longest_bond) {
 
 /// Lists are written down as the scene is shared out, where ids are numbers. Nobody changes the lists of its
 /// parts.
-void LammpsHalo::expect_known(const Bonds& bonds, const OwnPairs& own) const {
+void LammpsHalo::expect_known(const Bonds& bonds, const ExcludedPairs& own) const {
   if (known_changes_ != std::array{bonds.changes(), own.changes()})
     throw EngineError("bonds or excluded pairs of a scene that is shared out have changed");
 }
 
 /// Each rank sends how many particles it has, their numbers, then column by column, then the lengths of
 /// lists, and the lists.
-WholeScene LammpsHalo::gather(const Particles& particles, const Bonds& bonds, const OwnPairs& own) {
+WholeScene LammpsHalo::gather(const Particles& particles, const Bonds& bonds, const ExcludedPairs& own) {
   expect_known(bonds, own);
   ++gatherings_;
   const std::size_t count = owned();
@@ -223,7 +223,7 @@ WholeScene LammpsHalo::gather(const Particles& particles, const Bonds& bonds, co
   return whole;
 }
 
-void LammpsHalo::unpack_lists(Bonds& bonds, OwnPairs& own) {
+void LammpsHalo::unpack_lists(Bonds& bonds, ExcludedPairs& own) {
   if (!has_lists_) {
     bonds = {};
     own = {};
@@ -259,7 +259,7 @@ void LammpsHalo::pack(const Particles& particles, const PeriodicBox& box,
   }
 }
 
-/// Copies of one particle at several images are one here, and so are copies of this rank's own particles.
+/// Ghosts of one particle at several images are one here, and so are ghosts of this rank's own particles.
 /// Lists find them across a periodic boundary by themselves.
 void LammpsHalo::number_atoms() {
   const auto owned = static_cast<std::uint32_t>(ranks_->owned()),
@@ -267,21 +267,21 @@ void LammpsHalo::number_atoms() {
   numbers_.clear();
   atoms_here_.clear();
   id_of_atom_.resize(all);
-  std::vector<std::pair<int, std::uint32_t>> copies;  // number and atom
-  for (std::uint32_t atom = owned; atom < all; ++atom) copies.emplace_back(ranks_->id(atom), atom);
-  std::ranges::sort(copies);
+  std::vector<std::pair<int, std::uint32_t>> ghosts;  // number and atom
+  for (std::uint32_t atom = owned; atom < all; ++atom) ghosts.emplace_back(ranks_->id(atom), atom);
+  std::ranges::sort(ghosts);
   // By the last bits of a number: few share them
-  std::vector<char> may_be_copied(std::bit_ceil(16 * copies.size() + 1), 0);
+  std::vector<char> may_be_copied(std::bit_ceil(16 * ghosts.size() + 1), 0);
   const auto last_bits = [&](int number) {
     return static_cast<std::size_t>(number) & (may_be_copied.size() - 1);
   };
-  for (const auto& [number, atom] : copies) may_be_copied[last_bits(number)] = 1;
+  for (const auto& [number, atom] : ghosts) may_be_copied[last_bits(number)] = 1;
 
   std::vector<std::uint32_t> first(all - owned);  // of each copy the first atom with its number
-  for (std::size_t k = 0; k < copies.size(); ++k)
-    first[copies[k].second - owned] = k > 0 && copies[k].first == copies[k - 1].first
-                                          ? first[copies[k - 1].second - owned]
-                                          : copies[k].second;
+  for (std::size_t k = 0; k < ghosts.size(); ++k)
+    first[ghosts[k].second - owned] = k > 0 && ghosts[k].first == ghosts[k - 1].first
+                                          ? first[ghosts[k - 1].second - owned]
+                                          : ghosts[k].second;
   for (std::uint32_t atom = 0; atom < owned; ++atom) {
     const int number = ranks_->id(atom);
     id_of_atom_[atom] = atom;
@@ -289,7 +289,7 @@ void LammpsHalo::number_atoms() {
     atoms_here_.push_back(atom);
     if (!may_be_copied[last_bits(number)]) continue;
     for (const auto& one :
-         std::ranges::equal_range(copies, number, {}, &std::pair<int, std::uint32_t>::first))
+         std::ranges::equal_range(ghosts, number, {}, &std::pair<int, std::uint32_t>::first))
       first[one.second - owned] = atom;
   }
   for (std::uint32_t atom = owned; atom < all; ++atom) {

@@ -22,7 +22,7 @@ class LammpsHalo : public Halo {
     /// Other atoms for those that there are, by number [m]
     std::function<void(const std::vector<Vec3>& places)> renew;
   };
-  /// @param reach of a neighbour list [m]: copies reach as far, or as the longest bond does   @param
+  /// @param reach of a neighbour list [m]: ghosts reach as far, or as the longest bond does   @param
   /// owners_above as of Halo
   LammpsHalo(std::array<bool, 3> splits, double reach, std::size_t atoms, bool is_first,
              std::size_t owners_above, Host host)
@@ -32,14 +32,14 @@ class LammpsHalo : public Halo {
         is_first_(is_first),
         owners_above_(owners_above),
         host_(std::move(host)) {}
-  void share_out(Particles&, Bonds&, OwnPairs&, const PeriodicBox&, std::span<const Vec3> places,
+  void share_out(Particles&, Bonds&, ExcludedPairs&, const PeriodicBox&, std::span<const Vec3> places,
                  std::span<const double> cost) override;
-  void share_lists(Bonds&, OwnPairs&) override;
+  void share_lists(Bonds&, ExcludedPairs&) override;
   void begin_anew() override;
   /// @throws EngineError where bonds or excluded pairs are not as the last call left them
-  [[nodiscard]] WholeScene gather(const Particles&, const Bonds&, const OwnPairs&) override;
+  [[nodiscard]] WholeScene gather(const Particles&, const Bonds&, const ExcludedPairs&) override;
   /// @throws EngineError as gather()
-  void migrate(Particles&, Bonds&, OwnPairs&, const PeriodicBox&, std::span<const double> cost) override;
+  void migrate(Particles&, Bonds&, ExcludedPairs&, const PeriodicBox&, std::span<const double> cost) override;
   [[nodiscard]] std::array<bool, 3> splits() const override { return splits_; }
   [[nodiscard]] std::size_t owned() const override { return ranks_->owned(); }
   [[nodiscard]] std::span<const int> numbers() const override { return numbers_; }
@@ -88,15 +88,15 @@ class LammpsHalo : public Halo {
   void end_part() const {
     if (times_) times_->end_part();
   }
-  void hand_over(Particles&, Bonds&, OwnPairs&);
+  void hand_over(Particles&, Bonds&, ExcludedPairs&);
   [[nodiscard]] std::vector<std::uint32_t> follow_rows(const Particles&);
   void balance(double allowed);
   void pack(const Particles&, const PeriodicBox& split, const std::vector<std::size_t>& rows,
             std::span<const Vec3> places = {});
   void unpack(Particles&);
   void number_atoms();
-  void unpack_lists(Bonds&, OwnPairs&);
-  void expect_known(const Bonds&, const OwnPairs&) const;
+  void unpack_lists(Bonds&, ExcludedPairs&);
+  void expect_known(const Bonds&, const ExcludedPairs&) const;
   [[nodiscard]] double reach_of(double longest_bond);
   [[nodiscard]] PeriodicBox split_of(const PeriodicBox&) const;
 
@@ -117,7 +117,7 @@ class LammpsHalo : public Halo {
   std::array<std::uint64_t, 2> known_changes_{};
   /// Of each id of this part, among the particles of all ranks
   std::vector<int> numbers_;
-  std::vector<std::uint32_t> id_of_atom_;  ///< of each of LAMMPS's atoms, copies too
+  std::vector<std::uint32_t> id_of_atom_;  ///< of each of LAMMPS's atoms, ghosts too
   std::vector<std::uint32_t> atoms_here_;  ///< of each id the atom that it was made of
   std::vector<double*> columns_;           ///< likewise
 };

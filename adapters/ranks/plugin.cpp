@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
 // The plugin of LAMMPS: the fix `tripoint/halo`, which keeps the solver's columns with LAMMPS's atoms. LAMMPS
-// decomposes the box, moves atoms between ranks and says which copies each rank needs; nothing of the model
+// decomposes the box, moves atoms between ranks and says which ghosts each rank needs; nothing of the model
 // is here.
 #include <lammps/atom.h>
 #include <lammps/comm.h>

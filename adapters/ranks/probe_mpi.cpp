@@ -51,7 +51,7 @@ double allreduce(int count) {
   return best_of([&] { MPI_Allreduce(in.data(), out.data(), count, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD); });
 }
 
-/// Bytes a second of numbers that are gathered from scattered places, as the columns of copies are.
+/// Bytes a second of numbers that are gathered from scattered places, as the columns of ghosts are.
 double pack_rate() {
   constexpr std::size_t count = 1 << 16, apart = 7;
   std::vector<double> from(count * apart, 1.0), to(count);

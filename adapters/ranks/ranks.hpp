@@ -24,8 +24,8 @@ class Ranks {
  public:
   [[nodiscard]] virtual int rank() const = 0;
   [[nodiscard]] virtual int size() const = 0;
-  [[nodiscard]] virtual std::size_t owned() const = 0;       ///< atoms of its own; copies follow them
-  [[nodiscard]] virtual std::size_t all() const = 0;         ///< with copies
+  [[nodiscard]] virtual std::size_t owned() const = 0;       ///< atoms of its own; ghosts follow them
+  [[nodiscard]] virtual std::size_t all() const = 0;         ///< with ghosts
   [[nodiscard]] virtual int id(std::size_t atom) const = 0;  ///< of all ranks, from 0
   /// From now on the atom carries that particle: its place, row and lists are to be written.
   virtual void set_id(std::size_t atom, int id) = 0;
@@ -50,10 +50,10 @@ class Ranks {
   virtual void balance(double allowed) = 0;
   [[nodiscard]] virtual long cuts_moved() const = 0;  ///< how often that was
   /// Atoms go to the rank that has their place, and are copied to those that it is near to. @param reach of
-  /// copies [m]
+  /// ghosts [m]
   /// @throws EngineError when LAMMPS has lost one
   virtual void migrate(double reach) = 0;
-  /// Columns that copies take from their owners; a row has one number in each.
+  /// Columns that ghosts take from their owners; a row has one number in each.
   struct Columns {
     double* const* first;  ///< number of row 0 in each column
     int count;
@@ -73,7 +73,7 @@ class Ranks {
       const std::vector<std::vector<double>>& to) = 0;
   /// Numbers of all ranks, one rank after the other, on rank 0 alone; nothing on others.
   [[nodiscard]] virtual std::vector<double> gather(const std::vector<double>& own) = 0;
-  [[nodiscard]] virtual double bytes_sent() const = 0;  ///< by this rank for copies, so far
+  [[nodiscard]] virtual double bytes_sent() const = 0;  ///< by this rank for ghosts, so far
 
  protected:
   ~Ranks() = default;  // LAMMPS ends it

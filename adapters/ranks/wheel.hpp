@@ -34,7 +34,7 @@ class Lammps {
   Lammps& operator=(const Lammps&) = delete;
 
   /// The box around these particles, split into parts with as many of them as possible each, and an atom for
-  /// each. @param reach of copies [m]
+  /// each. @param reach of ghosts [m]
   /// @return the directions that are split
   std::array<bool, 3> create(const Scene&, const InitialState&, double reach);
   /// Other atoms in place of all that there are, in a box around them that is split anew. @param places by

@@ -16,7 +16,7 @@
 namespace tripoint {
 
 /// Columns of which a stage forms the values of own particles alone, as sums over pairs and bonds are. The
-/// step hands them to the copies that other processes have, when the effect has run.
+/// step hands them to the ghosts that other processes have, when the effect has run.
 struct OwnSums {
   std::vector<const Field<double>*> densities{}, state{}, bonds{};
 };
@@ -111,7 +111,7 @@ class Effect {
   virtual void form_fixed(State&, const Rows& /*rows*/) {}
   /// Whether change() has anything to decide. Changes that depend on one particle's state alone are made here
   /// first. Each process that shares the scene is asked, about its own particles and about the known values
-  /// of copies.
+  /// of ghosts.
   [[nodiscard]] virtual bool wants_change(State&) { return false; }
   /// Decides what melts, freezes or breaks, changes bonds, phases and bodies, and tells it in State::change.
   /// It is called where wants_change() said so, in any of the processes that share the scene; each of them

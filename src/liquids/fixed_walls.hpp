@@ -48,7 +48,7 @@ inline constexpr double laid_jitter_limit = 0.25;
 
 /// Whether the jitter of a scene leaves two particles of one lattice nearer to their own places of it than to
 /// others. Fixed walls then press from their lattice. Walls that do not jitter are there already.
-[[nodiscard]] inline bool has_laid_walls(const Scene& scene) {
+[[nodiscard]] inline bool has_lattice_walls(const Scene& scene) {
   const auto is_smooth = [](const Body& b) { return b.motion == Motion::fixed && !b.jitters; };
   const auto is_rough = [](const Body& b) { return b.motion == Motion::fixed && b.jitters; };
   const bool all_smooth =

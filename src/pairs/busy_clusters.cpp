@@ -101,7 +101,7 @@ std::vector<char> fixed_rows(const State& state, std::size_t rows) {
 void BusyClusters::find_own(const State& state) {
   own_is_known_ = true;
   own_.reset();
-  if (state.copies.empty()) return;
+  if (state.ghosts.empty()) return;
   own_.emplace();
   const Clusters& c = state.neighbours->clusters();
   c.each([&](std::uint32_t k) {

@@ -20,7 +20,7 @@ namespace tripoint {
 /// stays as first computed for these lists. The class helps only where no term works on every pair; heat
 /// conduction does.
 ///
-/// In a shared scene (State::copies) clusters of copies alone are left out too: their owners form their sums.
+/// In a shared scene (State::ghosts) clusters of ghosts alone are left out too: their owners form their sums.
 class BusyClusters {
  public:
   /// The lists, the groups, the excluded pairs or the motion of bodies have changed: all is found anew.
@@ -39,7 +39,7 @@ class BusyClusters {
   void sum_fixed_density(const PassFunction&, State&, const PairKernels&) const;
   void sum_fixed_rates(const PassFunction&, State&, const PairKernels&) const;
   /// Cost of lists, a density and a rates pass for each row in a step, weighed as in ParticleCost. It is
-  /// shared among the members of a cluster; copies cost nothing. @param steps from new lists to new lists
+  /// shared among the members of a cluster; ghosts cost nothing. @param steps from new lists to new lists
   /// @param all no pair is left out
   /// @pre has_entries()
   [[nodiscard]] std::vector<double> cost_by_row(const State&, double steps, bool all) const;
@@ -55,7 +55,7 @@ class BusyClusters {
   void put_back(const PassFunction&, Particles&) const;
 
   bool own_is_known_ = false;
-  std::optional<ChosenClusters> own_;  ///< with a member that is no copy; none: there are no copies
+  std::optional<ChosenClusters> own_;  ///< with a member that is no ghost; none: there are no ghosts
   bool known_ = false;
   ChosenClusters in_density_, in_rates_;
   std::vector<std::uint32_t> still_;  ///< rows of the clusters whose density is kept

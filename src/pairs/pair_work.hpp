@@ -15,7 +15,7 @@ struct PairWork {
   std::vector<PairTerm> terms{};  ///< that the passes of density and rates sum
   /// Its terms add nothing to pairs that do not act on each other (Clusters::acting)
   bool where_it_acts = false;
-  bool leaves_own_pairs = false;  ///< its density leaves excluded pairs out
+  bool leaves_excluded_pairs = false;  ///< its density leaves excluded pairs out
   /// Of its density terms those that are left out where State::holds_sums says so
   std::vector<PairTerm> held{};
   /// Its rates are computed a second time in each step, without those of others

@@ -17,7 +17,7 @@ struct AllWork {
   std::vector<PairTerm> terms, again, held;
   bool any_acts = false;   ///< an effect's terms add something where pairs act on each other alone
   bool meets_all = false;  ///< a term works on every pair, whatever meets there
-  bool leaves_own_pairs = false;
+  bool leaves_excluded_pairs = false;
   const PairKernels* kernels = nullptr;
   double awake_around = 0.0;  ///< [m]
 
@@ -27,7 +27,7 @@ struct AllWork {
     if (w.again) again.insert(again.end(), w.terms.begin(), w.terms.end());
     any_acts = any_acts || w.where_it_acts;
     meets_all = meets_all || (!w.terms.empty() && !w.where_it_acts);
-    leaves_own_pairs = leaves_own_pairs || w.leaves_own_pairs;
+    leaves_excluded_pairs = leaves_excluded_pairs || w.leaves_excluded_pairs;
     if (w.kernels) kernels = w.kernels;
     awake_around = std::max(awake_around, w.awake_around);
   }
@@ -98,7 +98,7 @@ Passes::Passes(const Scene& scene, const std::vector<EffectPairWork>& effects, i
   const PairPasses passes = pair_passes(lanes);
   impl_ = std::make_unique<Impl>(Impl{lanes, passes.density(work.terms), passes.density(work.without_held()),
                                       passes.rates(work.terms), passes.rates(work.again), kernels,
-                                      sums_all || work.meets_all, work.leaves_own_pairs,
+                                      sums_all || work.meets_all, work.leaves_excluded_pairs,
                                       sums_all ? std::nullopt : tripoint::sleeps_beyond(work, effects)});
 }
 Passes::~Passes() = default;

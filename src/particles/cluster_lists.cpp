@@ -218,7 +218,7 @@ void Neighbours::make_room_within() {
 namespace {
 
 /// Marks the excluded pairs of one cluster, among its entries. @param id of each row
-void mark_cluster(Clusters& c, std::size_t k, std::span<const int> id, const OwnPairs& own) {
+void mark_cluster(Clusters& c, std::size_t k, std::span<const int> id, const ExcludedPairs& own) {
   for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i) {
     if (own.of(static_cast<std::size_t>(id[i])).empty()) continue;
     const unsigned lane = i - c.first[k];
@@ -233,7 +233,7 @@ void mark_cluster(Clusters& c, std::size_t k, std::span<const int> id, const Own
 
 }  // namespace
 
-void Neighbours::mark_own(const Particles& particles, const OwnPairs& own) {
+void Neighbours::mark_own(const Particles& particles, const ExcludedPairs& own) {
   marked_ = true;
   if (asked_) {
     asked_->own = own;

@@ -20,13 +20,13 @@ struct PeriodicBox;
 struct WholeScene {
   Particles particles;
   Bonds bonds;
-  OwnPairs own;
+  ExcludedPairs own;
 };
 
 /// The other processes, as seen by a simulation that holds a part of its scene (decision 021). Its rows are
-/// its own particles, then copies of particles of other processes within reach of them. A change of a
+/// its own particles, then ghosts of particles of other processes within reach of them. A change of a
 /// particle by itself is made by every process that has it, with the same bits. Sums over pairs are complete
-/// at the owner only, which sends them to the copies. All processes make every call, in the same order.
+/// at the owner only, which sends them to the ghosts. All processes make every call, in the same order.
 class Halo {
  public:
   virtual ~Halo() = default;
@@ -36,23 +36,24 @@ class Halo {
   /// empty: the present positions
   /// @param cost cost of each particle in one step, by number, any unit. If given, the parts are recut so
   /// that each has the same cost. Empty: the parts of space stay
-  virtual void share_out(Particles&, Bonds&, OwnPairs&, const PeriodicBox&, std::span<const Vec3> places,
+  virtual void share_out(Particles&, Bonds&, ExcludedPairs&, const PeriodicBox&, std::span<const Vec3> places,
                          std::span<const double> cost) = 0;
-  /// Gives each process the lists of the particles that it has, own ones and copies. On entry they are those
+  /// Gives each process the lists of the particles that it has, own ones and ghosts. On entry they are those
   /// of the whole, by number.
-  virtual void share_lists(Bonds&, OwnPairs&) = 0;
+  virtual void share_lists(Bonds&, ExcludedPairs&) = 0;
   /// The scene that is shared out next is another state: where its particles are, and what they hang on, has
   /// nothing to do with the last.
   virtual void begin_anew() {}
   /// The whole scene, for each process, as share_out() takes it again. Parts stay as they are.
-  [[nodiscard]] virtual WholeScene gather(const Particles&, const Bonds&, const OwnPairs&) = 0;
-  /// Particles go to the process that owns their part of space, and each process gets copies of particles
+  [[nodiscard]] virtual WholeScene gather(const Particles&, const Bonds&, const ExcludedPairs&) = 0;
+  /// Particles go to the process that owns their part of space, and each process gets ghosts of particles
   /// within reach of its own. Ids are renumbered 0..size()-1, own particles first. Every column, bond and own
   /// pair goes with its particle (moving_lists.hpp). The bond partners of own particles are always among the
-  /// copies, at any distance. Nobody may change lists of a shared scene. Each particle is here once, at the
+  /// ghosts, at any distance. Nobody may change lists of a shared scene. Each particle is here once, at the
   /// position that its owner has. Across a periodic boundary it is seen as in a run of one process.
   /// @param cost cost of each own particle, by id, as in share_out()
-  virtual void migrate(Particles&, Bonds&, OwnPairs&, const PeriodicBox&, std::span<const double> cost) = 0;
+  virtual void migrate(Particles&, Bonds&, ExcludedPairs&, const PeriodicBox&,
+                       std::span<const double> cost) = 0;
   /// Number of each particle here, by id, among the particles of all processes.
   /// @pre the scene is shared out
   [[nodiscard]] virtual std::span<const int> numbers() const = 0;

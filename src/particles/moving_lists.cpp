@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t of_counts = 2, of_bond = 8, of_own = 2;  ///< numbers
 
-/// The ids here of a particle, by its number: an own particle before its copies. There is one copy for each
+/// The ids here of a particle, by its number: an own particle before its ghosts. There is one ghost for each
 /// image that is near.
 class Ids {
   using Pair = std::pair<int, std::uint32_t>;
@@ -88,16 +88,16 @@ void take_bonds(const Share& share, const Ids& ids, std::size_t id, std::vector<
   }
 }
 
-std::vector<OwnPair> own_of(const Share& share, const Ids& ids, std::size_t id) {
+std::vector<ExcludedPair> own_of(const Share& share, const Ids& ids, std::size_t id) {
   const std::span<const double> numbers = share.lists(id);
-  std::vector<OwnPair> own;
+  std::vector<ExcludedPair> own;
   if (numbers.empty()) return own;
   const auto before = static_cast<std::size_t>(numbers[0]), count = static_cast<std::size_t>(numbers[1]);
   for (std::size_t k = 0; k < count; ++k) {
     const double* const one = numbers.data() + of_counts + before * of_bond + k * of_own;
     for (const auto& [number, other] : ids.of(static_cast<int>(one[0]))) own.push_back({other, one[1]});
   }
-  std::ranges::sort(own, {}, &OwnPair::other);
+  std::ranges::sort(own, {}, &ExcludedPair::other);
   return own;
 }
 
@@ -118,7 +118,7 @@ void set_twins_of_copies(Bonds& bonds, std::size_t owned) {
 
 }  // namespace
 
-std::vector<double> lists_as_numbers(const Bonds& bonds, const OwnPairs& own, std::size_t id) {
+std::vector<double> lists_as_numbers(const Bonds& bonds, const ExcludedPairs& own, std::size_t id) {
   const auto b = bonds.of(id);
   const auto o = own.of(id);
   std::vector<double> numbers{static_cast<double>(b.size()), static_cast<double>(o.size())};
@@ -126,11 +126,12 @@ std::vector<double> lists_as_numbers(const Bonds& bonds, const OwnPairs& own, st
   for (const Bond& one : b)
     numbers.insert(numbers.end(), {one.other + of_twin * one.twin, one.x.x, one.x.y, one.x.z, one.gradient.x,
                                    one.gradient.y, one.gradient.z, one.weight});
-  for (const OwnPair& one : o) numbers.insert(numbers.end(), {static_cast<double>(one.other), one.weight});
+  for (const ExcludedPair& one : o)
+    numbers.insert(numbers.end(), {static_cast<double>(one.other), one.weight});
   return numbers;
 }
 
-std::size_t most_list_numbers(const Bonds& bonds, const OwnPairs& own) {
+std::size_t most_list_numbers(const Bonds& bonds, const ExcludedPairs& own) {
   if (bonds.empty() && own.empty()) return 0;
   std::size_t most = 0;
   for (std::size_t id = 0; id < std::max(bonds.particles(), own.particles()); ++id)
@@ -138,7 +139,7 @@ std::size_t most_list_numbers(const Bonds& bonds, const OwnPairs& own) {
   return of_counts + most;
 }
 
-void take_lists(const Share& share, Bonds& bonds, OwnPairs& own) {
+void take_lists(const Share& share, Bonds& bonds, ExcludedPairs& own) {
   const Ids ids(share.number);
   const std::size_t count = share.number.size();
   bonds = {};
@@ -151,7 +152,7 @@ void take_lists(const Share& share, Bonds& bonds, OwnPairs& own) {
     take_bonds(share, ids, id, list);
     if (!list.empty()) bonds.lay(id, list);
     if (id >= share.owned) continue;
-    if (const std::vector<OwnPair> pairs = own_of(share, ids, id); !pairs.empty()) own.lay(id, pairs);
+    if (const std::vector<ExcludedPair> pairs = own_of(share, ids, id); !pairs.empty()) own.lay(id, pairs);
   }
   set_twins_of_copies(bonds, share.owned);
 }

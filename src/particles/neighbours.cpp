@@ -212,7 +212,7 @@ void Neighbours::sort_all(Particles& particles, Grid& grid) {
   grid_.reset();
 }
 
-/// In a shared scene the rows of this process's own particles come before the rows of copies, each in order
+/// In a shared scene the rows of this process's own particles come before the rows of ghosts, each in order
 /// of (cell, number). A cluster then has members of one kind. Copies need no lists, because their owners form
 /// their sums.
 /// @param order of each place the row that it was, and then of each row

@@ -132,8 +132,8 @@ struct Resting {
 struct Whole {
   Vec3 low, high;             ///< corners of all places that are listed [m]
   std::size_t particles = 0;  ///< of the whole
-  std::vector<int> numbers;   ///< in the whole, of each id of the part, copies too
-  std::size_t own = 0;        ///< ids below it are no copies
+  std::vector<int> numbers;   ///< in the whole, of each id of the part, ghosts too
+  std::size_t own = 0;        ///< ids below it are no ghosts
 };
 
 /// Full directed lists: every i has all its j within support + skin, ordered by (cell, id) at the last
@@ -189,7 +189,7 @@ class Neighbours {
   void use_threads(int threads) { threads_ = threads; }
 
   /// Marks the entries of excluded pairs; to be called after a rebuild and after a change of these lists.
-  void mark_own(const Particles&, const OwnPairs&);
+  void mark_own(const Particles&, const ExcludedPairs&);
   /// Whether that was done since the last rebuild.
   [[nodiscard]] bool marked() const noexcept { return marked_; }
 
@@ -318,13 +318,13 @@ class Neighbours {
   struct Asked {
     AlignedVector<double> x, y, z;                  ///< places to list from, by row [m]
     std::vector<int> id;                            ///< of each row
-    OwnPairs own;                                   ///< to mark
+    ExcludedPairs own;                              ///< to mark
     mutable std::map<std::size_t, Clusters> lists;  ///< one cluster each, by its number
   };
   std::optional<Asked> asked_;
   /// Rows that lists name, in order of (cell, id); empty: all rows are in that order.
   std::vector<std::uint32_t> order_;
-  std::vector<std::uint32_t> own_first_;  ///< the row of each place, where there are copies; else empty
+  std::vector<std::uint32_t> own_first_;  ///< the row of each place, where there are ghosts; else empty
   /// Of each of these rows, whether something that moves can reach it; empty as above
   std::vector<char> meets_;
   /// Of the last lists, by places in order_; null where that is empty

@@ -118,12 +118,12 @@ using Bonds = PairLists<Bond>;
 
 /// Two members of one body, which exert no pressure and no viscous force on each other (model 8.2). Lists are
 /// in order of id.
-struct OwnPair {
+struct ExcludedPair {
   std::uint32_t other = 0;
   /// W(x_ij) of the density kernel where the pair began, a constant part of both number densities [1/m3]
   double weight = 0.0;
 };
-using OwnPairs = PairLists<OwnPair>;
+using ExcludedPairs = PairLists<ExcludedPair>;
 
 /// Adds the bond of i and j to both lists. @param of_i,of_j x, gradient and weight of each; other and twin
 /// are set here
@@ -160,9 +160,9 @@ std::vector<std::uint32_t> disconnect(Bonds& bonds, std::uint32_t i, Ends ends) 
 }
 
 /// Makes i and j an excluded pair; nothing where they are one already.
-void make_own(OwnPairs&, std::uint32_t i, std::uint32_t j, double weight);
+void make_own(ExcludedPairs&, std::uint32_t i, std::uint32_t j, double weight);
 /// Ends an excluded pair. @return its weight, 0 where they were none
-double end_own(OwnPairs&, std::uint32_t i, std::uint32_t j);
-[[nodiscard]] bool are_own(const OwnPairs&, std::uint32_t i, std::uint32_t j);
+double end_own(ExcludedPairs&, std::uint32_t i, std::uint32_t j);
+[[nodiscard]] bool are_own(const ExcludedPairs&, std::uint32_t i, std::uint32_t j);
 
 }  // namespace tripoint

@@ -43,12 +43,12 @@ std::vector<std::array<int, 3>> grids_by_area(int ranks, const ToShareOut& what)
   return grids;
 }
 
-/// The greatest number of copies of a part along one direction.
+/// The greatest number of ghosts of a part along one direction.
 double most_copies(const ToShareOut& what, const Cuts& cuts, std::size_t a) {
   if (!cuts.cut(a)) return 0.0;
   const std::vector<double>& at = cuts.at[a];
   const int parts = cuts.grid[a];
-  std::vector<double> copies(static_cast<std::size_t>(parts), 0.0);
+  std::vector<double> ghosts(static_cast<std::size_t>(parts), 0.0);
   const double width = at.back() - at.front();
   const auto bound = [&](int n) {  // of part n from below, and beyond the ends of a periodic direction
     const int turn = n >= 0 ? n / parts : -((parts - 1 - n) / parts);
@@ -56,14 +56,14 @@ double most_copies(const ToShareOut& what, const Cuts& cuts, std::size_t a) {
   };
   const auto add = [&](int n) {
     if (what.periodic[a] || (n >= 0 && n < parts))
-      copies[static_cast<std::size_t>((n % parts + parts) % parts)] += 1.0;
+      ghosts[static_cast<std::size_t>((n % parts + parts) % parts)] += 1.0;
   };
   for (const Vec3& r : what.places) {
     const auto part = static_cast<int>(std::upper_bound(at.begin() + 1, at.end() - 1, r[a]) - at.begin()) - 1;
     for (int n = part - 1; n > part - parts && r[a] - bound(n + 1) < what.reach; --n) add(n);
     for (int n = part + 1; n < part + parts && bound(n) - r[a] < what.reach; ++n) add(n);
   }
-  return std::ranges::max(copies);
+  return std::ranges::max(ghosts);
 }
 
 /// Predicted cost of a step, in entries.
@@ -75,9 +75,9 @@ double predicted_step(const ToShareOut& what, const Cuts& cuts) {
     rows[rank] += 1.0;
     entries[rank] += what.is_idle(i) ? 0.0 : ParticleCost::busy_at_start - ParticleCost::idle_at_start;
   }
-  double copies = 0.0;
-  for (std::size_t a = 0; a < 3; ++a) copies += most_copies(what, cuts, a) * cuts.grid[a] / ranks;
-  return ParticleCost::at_start(true) * std::ranges::max(rows) + ParticleCost::of_row() * copies +
+  double ghosts = 0.0;
+  for (std::size_t a = 0; a < 3; ++a) ghosts += most_copies(what, cuts, a) * cuts.grid[a] / ranks;
+  return ParticleCost::at_start(true) * std::ranges::max(rows) + ParticleCost::of_row() * ghosts +
          std::ranges::max(entries);
 }
 

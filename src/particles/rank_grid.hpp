@@ -38,7 +38,7 @@ struct ToShareOut {
   std::span<const Vec3> places;    ///< [m]
   std::span<const char> idle;      ///< of each, 1 as in ParticleCost; empty: none is
   double spacing = 0.0;            ///< [m]
-  double reach = 0.0;              ///< of copies [m]
+  double reach = 0.0;              ///< of ghosts [m]
   std::array<bool, 3> periodic{};  ///< a direction that is split has then a cut at its ends too
   Vec3 min{}, max{};               ///< the domain, used in periodic directions only [m]
   [[nodiscard]] bool is_idle(std::size_t i) const { return !idle.empty() && idle[i] != 0; }
@@ -64,7 +64,7 @@ inline constexpr int most_bisections = 20;
 [[nodiscard]] Cuts cuts_of(const ToShareOut&, const std::array<int, 3>& grid);
 
 /// How many ranks lie along each direction: of all ways, the one whose step is predicted to be the shortest
-/// (decision 038). The time of a step is the greatest cost of rows of any rank, copies included, plus the
+/// (decision 038). The time of a step is the greatest cost of rows of any rank, ghosts included, plus the
 /// greatest cost of entries. They add, because loops over rows and passes over pairs wait for each other.
 /// Sharing a scene out and predicting its cost both use this function.
 /// @param ranks > 0

@@ -163,7 +163,7 @@ void list_partners(State& state, const Joins& joined, const Candidates& found, c
   const auto place = found.places[field::id];
   const std::size_t i = state.particles.row(found.ids[n]);
   std::vector<Bond> bonds;
-  std::vector<OwnPair> own;
+  std::vector<ExcludedPair> own;
   for (const Entry e : near.of(found.places.row(n))) {
     const auto other = static_cast<std::size_t>(place[e.row()]);
     const std::size_t j = state.particles.row(found.ids[other]);
@@ -180,7 +180,7 @@ void list_partners(State& state, const Joins& joined, const Candidates& found, c
       own.push_back({found.ids[other], how.paper ? 0.0 : own_weight(state.scene, r)});
   }
   std::ranges::sort(bonds, {}, &Bond::other);
-  std::ranges::sort(own, {}, &OwnPair::other);
+  std::ranges::sort(own, {}, &ExcludedPair::other);
   state.bonds.replace(found.ids[n], bonds);
   if (how.meets) state.own.replace(found.ids[n], own);
 }

@@ -242,7 +242,7 @@ void Grouping::end_pairs(const BeforeRelisting& before) {
   change.relisted.insert(change.relisted.end(), losers.begin(), losers.end());
   for (const Node& node : nodes_) {
     std::vector<std::uint32_t> ends;
-    for (const OwnPair& pair : std::as_const(state_.own).of(node.id))
+    for (const ExcludedPair& pair : std::as_const(state_.own).of(node.id))
       if (!holds(node.id, pair.other)) ends.push_back(pair.other);
     for (const std::uint32_t j : ends) {
       end_own(state_.own, node.id, j);

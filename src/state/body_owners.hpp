@@ -12,7 +12,7 @@ struct State;
 
 /// Who keeps which body of a scene that processes share (decision 044). Few bodies are kept, that is moved,
 /// by every process. Of many each has an owner, found by a hash of its row: it is kept by its owner and by
-/// those that have members of it, copies too. Others have it as it was when the scene was shared out. All
+/// those that have members of it, ghosts too. Others have it as it was when the scene was shared out. All
 /// processes make every call that takes a State.
 class BodyOwners {
  public:

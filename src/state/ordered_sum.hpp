@@ -52,7 +52,7 @@ template <std::size_t n, class Add>
 
 namespace detail {
 
-/// add() works on every row, copies too, and of these its sums are left out: they are their owners'. Rows go
+/// add() works on every row, ghosts too, and of these its sums are left out: they are their owners'. Rows go
 /// by runs of one kind, so that the loop over each asks nothing of a row.
 template <std::size_t n, class Add>
 [[nodiscard]] std::array<double, n> ordered_sums_of_own(const State& state,
@@ -84,7 +84,7 @@ template <std::size_t n, class Add>
 [[nodiscard]] std::array<double, n> ordered_sums(const State& state,
                                                  std::vector<std::array<double, n>>& blocks, Add add) {
   const Particles& p = state.particles;
-  if (!state.copies.empty()) return detail::ordered_sums_of_own(state, blocks, add);
+  if (!state.ghosts.empty()) return detail::ordered_sums_of_own(state, blocks, add);
   if (p.moving() == p.size()) return ordered_sums(p.size(), state.threads, blocks, add);
   const std::span<const std::uint32_t> first = state.neighbours->row_blocks();
   blocks.assign(first.size() - 1, {});
@@ -103,7 +103,7 @@ template <std::size_t n, class Add>
 [[nodiscard]] std::array<double, n> ordered_sums_of_all(const State& state,
                                                         std::vector<std::array<double, n>>& blocks, Add add) {
   const Particles& p = state.particles;
-  if (!state.copies.empty()) return detail::ordered_sums_of_own(state, blocks, add);
+  if (!state.ghosts.empty()) return detail::ordered_sums_of_own(state, blocks, add);
   if (p.moving() == p.size()) return ordered_sums(p.size(), state.threads, blocks, add);
   const std::vector<std::uint32_t> rows = state.neighbours->rows_in_order(p);
   return ordered_sums(rows.size(), state.threads, blocks,

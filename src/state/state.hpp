@@ -55,7 +55,7 @@ struct State {
   std::vector<std::string> body_names;  ///< of each row
   PeriodicBox box;
   Bonds bonds;                           ///< body neighbours of the members of solids
-  OwnPairs own;                          ///< members of deformable bodies that meet through their bonds alone
+  ExcludedPairs own;                     ///< members of deformable bodies that meet through their bonds alone
   Change change;                         ///< of this step
   std::optional<Neighbours> neighbours;  ///< none where no effect has pairs
   EnergyAccounts accumulated;
@@ -96,11 +96,11 @@ struct State {
   Halo* halo = nullptr;
   BodyOwners body_owners;  ///< none where this process holds all
   /// Of each row, 1 where it is a copy of another's particle; empty where this process holds all
-  std::vector<char> copies;
+  std::vector<char> ghosts;
 
   [[nodiscard]] double support() const { return scene.support_ratio * scene.spacing; }
   /// Whether a row is this process's own: sums over particles are sums over these.
-  [[nodiscard]] bool owns(std::size_t row) const { return copies.empty() || copies[row] == 0; }
+  [[nodiscard]] bool owns(std::size_t row) const { return ghosts.empty() || ghosts[row] == 0; }
   /// Whether this process reports values that all hold alike.
   [[nodiscard]] bool is_first() const { return !halo || halo->is_first(); }
   /// Whether this process, among those that keep the body, reports its energies.

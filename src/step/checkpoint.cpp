@@ -22,10 +22,10 @@ std::vector<double> plain(std::span<const T> values) {
   return out;
 }
 /// The bytes between its two members are nobody's: kept as zeros, so that equal states are equal files.
-std::vector<double> plain(std::span<const OwnPair> list) {
-  static_assert(std::endian::native == std::endian::little && sizeof(OwnPair) == 2 * sizeof(double));
+std::vector<double> plain(std::span<const ExcludedPair> list) {
+  static_assert(std::endian::native == std::endian::little && sizeof(ExcludedPair) == 2 * sizeof(double));
   std::vector<double> out;
-  for (const OwnPair& pair : list)
+  for (const ExcludedPair& pair : list)
     out.insert(out.end(), {std::bit_cast<double>(std::uint64_t{pair.other}), pair.weight});
   return out;
 }

@@ -18,7 +18,7 @@ void for_each_effect(const State& state, const std::vector<Active>& effects, Vis
   }
 }
 
-/// The same for a stage whose sums the copies of other processes take (EffectSpec::own_sums).
+/// The same for a stage whose sums the ghosts of other processes take (EffectSpec::own_sums).
 template <class Visit>
 void for_each_effect(State& state, const std::vector<Active>& effects,
                      std::vector<const Field<double>*> OwnSums::*sums, Visit visit) {

@@ -192,7 +192,7 @@ Sharing::Part Sharing::hold_whole(State& state) const {
             std::exchange(state.own, std::move(whole.own)),
             {}};
   state.halo = nullptr;
-  state.copies.clear();
+  state.ghosts.clear();
   if (!state.neighbours) return part;
   const long rebuilds = state.neighbours->rebuilds();
   Neighbours lists = state.neighbours->anew(state.box);
@@ -308,12 +308,12 @@ void Sharing::follow(State& state, const std::vector<Active>& effects, const Pas
 }
 
 void mark_copies(State& state) {
-  state.copies.clear();
+  state.ghosts.clear();
   if (!splits(*state.halo)) return;
   const auto id = state.particles[field::id];
   const std::size_t owned = state.halo->owned();
-  state.copies.resize(id.size());
-  for (std::size_t i = 0; i < id.size(); ++i) state.copies[i] = static_cast<std::size_t>(id[i]) >= owned;
+  state.ghosts.resize(id.size());
+  for (std::size_t i = 0; i < id.size(); ++i) state.ghosts[i] = static_cast<std::size_t>(id[i]) >= owned;
 }
 
 }  // namespace tripoint

@@ -54,7 +54,7 @@ class Sharing {
   struct Part {
     Particles particles;
     Bonds bonds;
-    OwnPairs own;
+    ExcludedPairs own;
     std::optional<Neighbours> neighbours;  ///< none: they are not those of the whole
   };
   Part hold_whole(State&) const;

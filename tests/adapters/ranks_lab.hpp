@@ -118,7 +118,7 @@ inline void expect_equal_on_ranks(const Prepared& p, double owners_above = few_b
     EXPECT_EQ(many.result.extra.at("ranks"), count);
     for (const Snapshot& frame : many.trajectory.frames) EXPECT_EQ(frame.counts.at("processes"), count);
     EXPECT_EQ(many.result.extra.at("bytes_a_step_from_rank_0") > 0.0, count > 1)
-        << "several ranks share something, one has no copies";
+        << "several ranks share something, one has no ghosts";
   }
 }
 

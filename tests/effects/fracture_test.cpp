@@ -60,7 +60,7 @@ TEST(Fracture, MakesBodiesOfTheParts) {
   for (std::uint32_t id = 0; id < w.particles.size(); ++id) {
     const int own = body[w.particles.row(id)];
     for (const Bond& b : w.bonds.of(id)) EXPECT_EQ(body[w.particles.row(b.other)], own);
-    for (const OwnPair& pair : w.own.of(id)) EXPECT_EQ(body[w.particles.row(pair.other)], own);
+    for (const ExcludedPair& pair : w.own.of(id)) EXPECT_EQ(body[w.particles.row(pair.other)], own);
   }
 }
 

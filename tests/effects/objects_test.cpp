@@ -61,8 +61,8 @@ struct Line {
   /// The particle becomes liquid, as phase change does it.
   void melt(std::uint32_t i) {
     disconnect(state.bonds, i, [](const Bond&) { return true; });
-    const std::vector<OwnPair> pairs(state.own.of(i).begin(), state.own.of(i).end());
-    for (const OwnPair& p : pairs) end_own(state.own, i, p.other);
+    const std::vector<ExcludedPair> pairs(state.own.of(i).begin(), state.own.of(i).end());
+    for (const ExcludedPair& p : pairs) end_own(state.own, i, p.other);
     state.particles[field::body][i] = -1;
     state.particles[field::phase][i] = 0;
   }

@@ -273,7 +273,7 @@ def pressure(s):
     return p, scale
 
 
-def laid_walls(s):
+def lattice_walls(s):
     """Particles of fixed walls, where jitter leaves each nearest to its own place of the lattice."""
     if not 0 < s.scene["jitter"] < 0.25:
         return np.zeros(s.n, dtype=bool)
@@ -283,8 +283,8 @@ def laid_walls(s):
 def from_lattice(s):
     """Pairs of liquid and wall that are felt from the lattice of 8.4, and r_i - r_j with the wall particle there."""
     moves, x = np.zeros((s.n, 3)), s.r / s.dx
-    for source in np.unique(s["source"][laid_walls(s)]):
-        wall = laid_walls(s) & (s["source"] == source)
+    for source in np.unique(s["source"][lattice_walls(s)]):
+        wall = lattice_walls(s) & (s["source"] == source)
         place = x[wall] - np.angle(np.exp(2j * np.pi * x[wall]).sum(axis=0)) / (2 * np.pi)
         moves[wall] = s.dx * np.round((np.round(place) - place) * 2.0**20) / 2.0**20
     liquid = s.group == LIQUID
@@ -294,8 +294,8 @@ def from_lattice(s):
 def jitter_of_walls(s):
     """What jitter adds to the part of a fixed wall particle's density that is wall, over the rest density: 8.4."""
     of_one_lattice = (
-        laid_walls(s)[:, None]
-        & laid_walls(s)[None, :]
+        lattice_walls(s)[:, None]
+        & lattice_walls(s)[None, :]
         & (s["source"][:, None] == s["source"][None, :])
         & (s.distance < s.h)
     )

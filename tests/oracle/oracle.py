@@ -266,7 +266,7 @@ def compare_bonds_of_the_start(out, s):
     for i, j in pairs:
         compare_kernel_of_bond(out, s, i, j, kernel)
     if s.has("force.x"):
-        compare_own_pairs(out, s, own, kernel)
+        compare_excluded_pairs(out, s, own, kernel)
 
 
 def compare_kernel_of_bond(out, s, i, j, kernel):
@@ -280,7 +280,7 @@ def compare_kernel_of_bond(out, s, i, j, kernel):
     out.compare(term, [W], [expected], kernels.elasticity(0.5 * kernel, kernel))
 
 
-def compare_own_pairs(out, s, own, kernel):
+def compare_excluded_pairs(out, s, own, kernel):
     printed, pairs = s.printed("density"), s.raw["own_pairs"]
     expected = own & (s.distance < (kernel if printed else max(kernel, s.h)))
     out.same("excluded pairs 8.2", sorted((i, j) for i, j, _ in pairs), [tuple(p) for p in np.argwhere(expected)])

@@ -34,10 +34,10 @@ Json lists_of_bonds(const State& state) {
   return lists;
 }
 
-Json lists_of_own_pairs(const State& state) {
+Json lists_of_excluded_pairs(const State& state) {
   Json lists = Json::array();
   for (std::size_t id = 0; id < state.own.particles(); ++id)
-    for (const OwnPair& pair : state.own.of(id)) lists.push_back({id, pair.other, pair.weight});
+    for (const ExcludedPair& pair : state.own.of(id)) lists.push_back({id, pair.other, pair.weight});
   return lists;
 }
 
@@ -83,7 +83,7 @@ Json state_of(Simulation& s) {
           {"particles", columns_of(state.particles)},
           {"bodies", columns_of(state.bodies)},
           {"bonds", lists_of_bonds(state)},
-          {"own_pairs", lists_of_own_pairs(state)},
+          {"own_pairs", lists_of_excluded_pairs(state)},
           {"ledger", s.ledger().energy}};
 }
 

@@ -208,7 +208,7 @@ Sums run(const PassFunction& pass, Particles p, int lanes) {
   const PeriodicBox box{{true, false, true}, {}, {0.6, 0.0, 1.0}};
   Neighbours n(0.2, 0.02, box, 2, lanes);
   n.update(p, 0.0);
-  OwnPairs own;
+  ExcludedPairs own;
   for (std::uint32_t i = 0; i < 100; ++i)
     for (std::uint32_t j = 0; j < i; ++j)
       if ((i + j) % 3 == 0) make_own(own, i, j, 0.5);

@@ -27,15 +27,15 @@ struct Chain {
             }};
   }
   Bonds bonds;
-  OwnPairs own;
+  ExcludedPairs own;
   std::vector<std::vector<double>> numbers;
 };
 
 TEST(MovingLists, ArriveWithAllThatABondHas) {
   const Chain chain;
   Bonds bonds;
-  OwnPairs own;
-  take_lists(chain.share(2, {2, 1, 0, 3}), bonds, own);  // 2 and 1 are its own, 0 and 3 are copies
+  ExcludedPairs own;
+  take_lists(chain.share(2, {2, 1, 0, 3}), bonds, own);  // 2 and 1 are its own, 0 and 3 are ghosts
   ASSERT_EQ(bonds.of(0).size(), 2u);
   ASSERT_EQ(bonds.of(1).size(), 2u);
   for (const auto& [id, number] : {std::pair{0u, 2u}, {1u, 1u}}) {
@@ -58,7 +58,7 @@ TEST(MovingLists, ArriveWithAllThatABondHas) {
 TEST(MovingLists, OfACopyAreThoseWithItsOwn) {
   const Chain chain;
   Bonds bonds;
-  OwnPairs own;
+  ExcludedPairs own;
   take_lists(chain.share(1, {0, 1, 2}), bonds, own);
   ASSERT_EQ(bonds.of(1).size(), 1u) << "1 with 0; what it has with 2 is formed elsewhere";
   EXPECT_EQ(bonds.of(1)[0].other, 0u);
@@ -68,7 +68,7 @@ TEST(MovingLists, OfACopyAreThoseWithItsOwn) {
 TEST(MovingLists, RefuseByNumberAPartnerThatIsNotThere) {
   const Chain chain;
   Bonds bonds;
-  OwnPairs own;
+  ExcludedPairs own;
   try {
     take_lists(chain.share(2, {1, 2, 3}), bonds, own);
     FAIL() << "1 has a bond with 0, which is not there";
@@ -83,7 +83,7 @@ TEST(MovingLists, RefuseByNumberAPartnerThatIsNotThere) {
 TEST(MovingLists, KnowImagesOfOneParticle) {
   const Chain chain;
   Bonds bonds;
-  OwnPairs own;
+  ExcludedPairs own;
   take_lists(chain.share(1, {0, 1, 1}), bonds, own);
   EXPECT_EQ(bonds.of(0)[0].other, 1u);
   EXPECT_TRUE(bonds.of(2).empty());

@@ -201,7 +201,7 @@ TEST(Neighbours, ThatAreMadeWhereSomebodyAsksAreTheSame) {
   Particles p = cloud(600, {4.0, 3.0, 3.0}, true);
   Neighbours all(0.7, 0.1, box, 1, 4);
   all.update(p, 0.0);
-  OwnPairs own;
+  ExcludedPairs own;
   const auto id = p[field::id];
   for (std::size_t row = 0; row < p.size(); row += 3)
     for (const Entry e : all.of(row))
@@ -212,7 +212,7 @@ TEST(Neighbours, ThatAreMadeWhereSomebodyAsksAreTheSame) {
   asked.list_when_asked();
   asked.rebuild_from(same, all.build_positions(), 0.0);
   EXPECT_EQ(asked.entries(), 0u) << "none was asked for";
-  for (const OwnPairs& pairs : {OwnPairs{}, own}) {
+  for (const ExcludedPairs& pairs : {ExcludedPairs{}, own}) {
     all.mark_own(p, pairs);
     asked.mark_own(same, pairs);
     for (const std::size_t row : {7u, 599u, 0u, 6u, 7u, 301u, 2u, 100u, 101u, 102u, 103u}) {
@@ -404,17 +404,17 @@ TEST(Neighbours, OfAPartHaveTheOrderOfTheWhole) {
   Neighbours all(support, skin, {}, 1, 4);
   all.update(whole, 0.0);
   Whole known{whole.position(0), whole.position(0), whole.size(), {}, 0};
-  std::vector<std::size_t> number, copies;  // of each id of the part, descending; its own come first
+  std::vector<std::size_t> number, ghosts;  // of each id of the part, descending; its own come first
   for (std::size_t id = whole.size(); id-- > 0;) {
     const Vec3 r = whole.position(whole.row(id));
     for (std::size_t a = 0; a < 3; ++a) {
       known.low[a] = std::min(known.low[a], r[a]);
       known.high[a] = std::max(known.high[a], r[a]);
     }
-    if (r.x > border - support - skin) (r.x > border ? number : copies).push_back(id);
+    if (r.x > border - support - skin) (r.x > border ? number : ghosts).push_back(id);
   }
   known.own = number.size();
-  number.insert(number.end(), copies.begin(), copies.end());
+  number.insert(number.end(), ghosts.begin(), ghosts.end());
   Particles part(number.size(), common_fields(false));
   for (std::size_t id = 0; id < number.size(); ++id)
     positions(part).set(id, whole.position(whole.row(number[id])));

@@ -39,7 +39,7 @@ class Meeting {
 /// Slabs along x between given planes. Every number goes to everybody; who needs it picks it out.
 class SlabHalo : public Halo {
  public:
-  /// @param forgets a column that neither copies are handed nor a particle keeps on its way, or bonds, or
+  /// @param forgets a column that neither ghosts are handed nor a particle keeps on its way, or bonds, or
   /// deformation, as a defect; empty: none
   SlabHalo(Meeting& meeting, std::size_t rank, std::vector<double> planes, double reach, std::string forgets)
       : meeting_(meeting),
@@ -49,7 +49,7 @@ class SlabHalo : public Halo {
         forgets_(std::move(forgets)) {}
 
   /// At first all is the first rank's.
-  void share_out(Particles& p, Bonds& bonds, OwnPairs& pairs, const PeriodicBox& box,
+  void share_out(Particles& p, Bonds& bonds, ExcludedPairs& pairs, const PeriodicBox& box,
                  std::span<const Vec3> places, std::span<const double>) override {
     places_ = places;
     ++shares;
@@ -65,7 +65,7 @@ class SlabHalo : public Halo {
     places_ = {};
   }
   [[nodiscard]] std::span<const int> numbers() const override { return numbers_; }
-  void share_lists(Bonds& bonds, OwnPairs& pairs) override {
+  void share_lists(Bonds& bonds, ExcludedPairs& pairs) override {
     longest_list_ = most_list_numbers(bonds, pairs);
     for (std::size_t id = 0; id < numbers_.size(); ++id)
       lists_[id] = lists_as_numbers(bonds, pairs, static_cast<std::size_t>(numbers_[id]));
@@ -75,7 +75,7 @@ class SlabHalo : public Halo {
       take_lists({owned_, numbers_, [this](std::size_t id) { return std::span<const double>(lists_[id]); }},
                  bonds, pairs);
   }
-  WholeScene gather(const Particles& p, const Bonds&, const OwnPairs&) override {
+  WholeScene gather(const Particles& p, const Bonds&, const ExcludedPairs&) override {
     std::vector<Row> rows;
     for (const std::vector<double>& of : meeting_.exchange(rank_, own_rows(p)))
       for (std::size_t at = 0; at < of.size(); at += width(p))
@@ -90,7 +90,7 @@ class SlabHalo : public Halo {
     ++gatherings;
     return whole;
   }
-  void migrate(Particles& p, Bonds& bonds, OwnPairs& pairs, const PeriodicBox&,
+  void migrate(Particles& p, Bonds& bonds, ExcludedPairs& pairs, const PeriodicBox&,
                std::span<const double>) override {
     std::vector<Row> own, near;
     // amply

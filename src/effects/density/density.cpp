@@ -53,7 +53,7 @@ void Density::load(State& state, const InitialState&) {
 void Density::set_own_density(State& state, std::size_t row) const {
   if (!state.particles.has(field::own_density)) return;
   double sum = 0.0;
-  for (const OwnPair& pair :
+  for (const ExcludedPair& pair :
        std::as_const(state.own).of(static_cast<std::size_t>(state.particles[field::id][row])))
     sum += pair.weight;
   state.particles[field::own_density][row] = sum;
@@ -100,7 +100,7 @@ PairWork Density::pair_work(const Scene&) const {
                  : of_solids_ ? pair_term<SolidNumberDensity>
                               : pair_term<NumberDensity>}};
   work.where_it_acts = flows_;
-  work.leaves_own_pairs = !printed_;
+  work.leaves_excluded_pairs = !printed_;
   return work;
 }
 

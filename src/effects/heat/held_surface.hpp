@@ -67,7 +67,7 @@ class HeldSurfaces {
 
   std::optional<SurfaceSources> sources_;
   std::vector<Near> all_;   ///< of the whole scene, by number, ascending
-  std::vector<Near> near_;  ///< of these the ones that this process has, copies too, by id, ascending
+  std::vector<Near> near_;  ///< of these the ones that this process has, ghosts too, by id, ascending
 };
 
 }  // namespace tripoint::heat

@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "effects/effect.hpp"
-#include "effects/lattice_walls/laid_walls.hpp"
+#include "effects/lattice_walls/lattice_sums.hpp"
 #include "liquids/changes.hpp"
 #include "liquids/fields.hpp"
 
@@ -13,17 +13,17 @@ namespace {
 class LatticeWalls : public Effect {
  public:
   explicit LatticeWalls(const Scene& scene) : kernels_(liquid::pair_kernels(scene)) {}
-  void densities(State& state, const Rows&) override { laid_.lay_densities(state, kernels_); }
-  void bonds(State& state, const Rows& rows) override { laid_.lay_forces(state, kernels_, rows); }
+  void densities(State& state, const Rows&) override { sums_.lay_densities(state, kernels_); }
+  void bonds(State& state, const Rows& rows) override { sums_.lay_forces(state, kernels_, rows); }
   void adopt(State& state) override {
-    if (liquid::groups_changed(state)) laid_.clear();
+    if (liquid::groups_changed(state)) sums_.clear();
   }
-  void happen(State&, const Happening&) override { laid_.clear(); }
-  void renumber(State&) override { laid_.clear(); }
+  void happen(State&, const Happening&) override { sums_.clear(); }
+  void renumber(State&) override { sums_.clear(); }
 
  private:
   PairKernels kernels_;
-  LaidWalls laid_;
+  LatticeSums sums_;
 };
 
 }  // namespace

@@ -6,7 +6,7 @@ namespace {
 
 std::string called_for(const Scene& s) {
   return calls_for(s, "pressure") && liquid::averages_walls(s) && liquid::can_have_walls(s) &&
-                 liquid::has_laid_walls(s)
+                 liquid::has_lattice_walls(s)
              ? "fixed walls jitter, and liquid lies on their lattice"
              : "";
 }

@@ -79,7 +79,7 @@ void bond(State& state, const std::vector<Joint>& joints) {
   }
 }
 
-void make_own_pairs(State& state, const std::vector<std::uint32_t>& frozen) {
+void make_excluded_pairs(State& state, const std::vector<std::uint32_t>& frozen) {
   Particles& p = state.particles;
   if (!p.has(field::own_density.name) && !(has_deformable(state) && p.has(field::force))) return;
   const solid::ElasticParticles is_elastic(state);

@@ -27,6 +27,6 @@ void bond(State&, const std::vector<Joint>&);
 void take_present_vectors(State&, const ElasticityKernel&, std::uint32_t id);
 
 /// From now on frozen deformable particles meet the near members of their body through their bonds alone.
-void make_own_pairs(State&, const std::vector<std::uint32_t>& frozen);
+void make_excluded_pairs(State&, const std::vector<std::uint32_t>& frozen);
 
 }  // namespace tripoint::phase

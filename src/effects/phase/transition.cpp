@@ -90,8 +90,8 @@ void Transition::melt(std::uint32_t id) {
   const std::vector<std::uint32_t> lost = disconnect(state_.bonds, id, [](const Bond&) { return true; });
   change.relisted.insert(change.relisted.end(), lost.begin(), lost.end());
   const auto own = std::as_const(state_.own).of(id);
-  const std::vector<OwnPair> pairs(own.begin(), own.end());
-  for (const OwnPair& pair : pairs) {
+  const std::vector<ExcludedPair> pairs(own.begin(), own.end());
+  for (const ExcludedPair& pair : pairs) {
     end_own(state_.own, id, pair.other);
     change.relisted.push_back(pair.other);
   }
@@ -144,7 +144,7 @@ void Transition::end_pairs_of_rigid(const std::vector<std::uint32_t>& ids) {
   for (const std::uint32_t id : ids) {
     if (!is_rigid(id)) continue;
     const auto own = std::as_const(state_.own).of(id);
-    for (const OwnPair& pair : std::vector<OwnPair>(own.begin(), own.end())) {
+    for (const ExcludedPair& pair : std::vector<ExcludedPair>(own.begin(), own.end())) {
       if (!is_rigid(pair.other)) continue;
       end_own(state_.own, id, pair.other);
       state_.change.relisted.push_back(pair.other);
@@ -182,7 +182,7 @@ void Transition::freeze(const std::vector<std::uint32_t>& ids) {
 void Transition::regroup_bodies(const std::vector<std::uint32_t>& frozen) {  // and turned
   changed_.frozen = frozen;
   regroup(state_, changed_, [&](std::uint32_t id) { released_.touch(id); });
-  make_own_pairs(state_, frozen);
+  make_excluded_pairs(state_, frozen);
 }
 
 void Transition::record(const Events& events) {

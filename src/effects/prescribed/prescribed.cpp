@@ -77,7 +77,7 @@ void Prescribed::drift(State& state, double dt) {
 /// A part of a shared scene does not know the layers of its particles. It checks whether as many have entered
 /// as should have, and whether one is about to leave the shape.
 bool Prescribed::wants_change(State& state) {
-  if (entrances_.empty() || state.copies.empty()) return !entrances_.empty();
+  if (entrances_.empty() || state.ghosts.empty()) return !entrances_.empty();
   const auto driven = std::as_const(state.particles)[field::driven];
   std::vector<double> there(entrances_.size(), 0.0);
   bool leaves = false;

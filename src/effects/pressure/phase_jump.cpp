@@ -71,7 +71,7 @@ class Jump {
     before_ = after_ = kernels_.wendland.value(0.0);
     const Particles& p = state_.particles;
     if (sums_density_ && p.has(field::own_density)) before_ += p[field::own_density][i];
-    for (const OwnPair& pair : state_.own.of(id(i))) after_ += pair.weight;
+    for (const ExcludedPair& pair : state_.own.of(id(i))) after_ += pair.weight;
   }
   void add_pair(std::size_t i, const Entry& e) {
     const std::size_t j = e.row();

@@ -50,7 +50,7 @@ void hand_to_copies(const State& state, std::vector<T>& by_id) {
 std::vector<char> WallPatches::recall_exposed(const State& state) {
   std::vector<char> known(state.particles.size(), 0);
   at_face_.resize(known.size());
-  if (liquid::has_laid_walls(state.scene)) excess_.assign(known.size(), 0.0);
+  if (liquid::has_lattice_walls(state.scene)) excess_.assign(known.size(), 0.0);
   if (!state.halo || exposures_.empty()) return known;
   const std::span<const int> number = state.halo->numbers();
   for (std::size_t id = 0; id < known.size(); ++id) {
@@ -126,7 +126,7 @@ void WallPatches::find_exposed(State& state, const liquid::SceneNumbers& n, cons
   const auto body = p[field::body], id = p[field::id];
   const std::vector<int> frames = frames_of(state);
   const double dx = state.scene.spacing, full = n.lattice_density / std::pow(dx, 3);
-  const bool jittered = liquid::has_laid_walls(state.scene);
+  const bool jittered = liquid::has_lattice_walls(state.scene);
   const std::vector<char> known = recall_exposed(state);
   state.unread.assign(jittered ? 0 : p.size(), 0);
   const auto stick = p[field::stick];

@@ -17,7 +17,7 @@ namespace tripoint::lattice_walls {
 /// wall never moves, so nothing evens out the jitter. Without this the first layer of liquid would lie on
 /// rough ground, and all layers above would bear its pattern. The pair passes see walls where they are; the
 /// difference due to the lattice places is added after them.
-class LaidWalls {
+class LatticeSums {
  public:
   /// After the pass of densities: adds W(|d'|) - W(|d|) to each pair of liquid and fixed wall within the
   /// support. d = r_j - r_i, and d' is that from the lattice place of the wall particle. The wall's own part

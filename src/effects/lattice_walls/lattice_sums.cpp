@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "effects/lattice_walls/laid_walls.hpp"
+#include "effects/lattice_walls/lattice_sums.hpp"
 
 #include "liquids/fields.hpp"
 
@@ -17,7 +17,7 @@ bool is_liquid(double group) { return group == liquid_group; }
 /// Where the lattices of fixed walls lie: the mean, as of angles, of the places of each wall over the
 /// spacing. The mean jitter of all particles of a wall stays in it, which moves the wall as a whole and is no
 /// roughness.
-void LaidWalls::find_moves(State& state) {
+void LatticeSums::find_moves(State& state) {
   using std::numbers::pi;
   const Particles& p = state.particles;
   const auto group = p[field::group];
@@ -47,7 +47,7 @@ void LaidWalls::find_moves(State& state) {
     }
 }
 
-void LaidWalls::find(State& state) {
+void LatticeSums::find(State& state) {
   if (!pairs_.renew(state.neighbours->rebuilds())) return;
   if (moves_.empty()) find_moves(state);
   const Particles& p = state.particles;
@@ -69,7 +69,7 @@ void LaidWalls::find(State& state) {
 /// Calls give(i, j, d, d') for the pairs of each row within the support, in the order of its list. d' is d
 /// plus the lattice's part.
 template <class Give>
-void LaidWalls::each_pair(const State& state, Give give) const {
+void LatticeSums::each_pair(const State& state, Give give) const {
   const auto x = positions(state.particles);
   const double support = state.support();
   pairs_.each_row(state.threads, [&](std::size_t n) {
@@ -81,7 +81,7 @@ void LaidWalls::each_pair(const State& state, Give give) const {
   });
 }
 
-void LaidWalls::lay_densities(State& state, const PairKernels& kernels) {
+void LatticeSums::lay_densities(State& state, const PairKernels& kernels) {
   find(state);
   const auto delta = state.particles[field::number_density];
   each_pair(state, [&](std::size_t i, std::size_t, const Vec3& d, const Vec3& from_lattice) {
@@ -89,7 +89,7 @@ void LaidWalls::lay_densities(State& state, const PairKernels& kernels) {
   });
 }
 
-void LaidWalls::lay_forces(State& state, const PairKernels& kernels, const Rows& rows) {
+void LatticeSums::lay_forces(State& state, const PairKernels& kernels, const Rows& rows) {
   Particles& p = state.particles;
   const auto share = std::as_const(p)[field::pressure_share];
   const auto F = triple(p, field::force);
