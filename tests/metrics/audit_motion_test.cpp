@@ -89,6 +89,15 @@ TEST(AuditOfMotion, FindsASpinThatLeavesTheOthersForOneFrame) {
   }
 }
 
+TEST(AuditOfMotion, TakesTheRoundingsOfABodyAtRest) {
+  const Trial still{block({1, 2, 3}, 1.0, 40), "torque_free"};
+  const auto noisy = [](double size) {
+    return [size](BodyState& b, double t) { b.velocity.x += size * std::sin(1e4 * t); };
+  };
+  EXPECT_EQ(changed(still, noisy(1e-16)), "");
+  EXPECT_TRUE(has(changed(still, noisy(1e-3)), "contradicts itself"));
+}
+
 TEST(AuditOfMotion, FindsTurnsThatAreNotThoseOfTheSpin) {
   const std::pair<const char*, std::function<void(BodyState&, double)>> ways[] = {
       {"wrong sign", [](BodyState& b, double) { b.angular_velocity *= -1.0; }},

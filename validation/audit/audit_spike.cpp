@@ -44,12 +44,21 @@ bool is_seen(const Audited& run, const std::vector<Vec3>& spin, std::size_t n) {
   return std::max(norm(spin[n - 1]), norm(spin[n + 1])) * time < far;
 }
 
+/// What roundings of places and turns leave of a rate: noise of a body at rest is no spike.
+double rounding_at(const Audited& run, std::size_t body, Vec3 BodyState::*member, std::size_t n) {
+  const double time = run.frames[n + 1]->time - run.frames[n]->time;
+  if (member == &BodyState::angular_velocity) return rounding_rate(run, 1.0, 1e-6, time);
+  const auto row = static_cast<std::size_t>(run.job.bodies[body].index);
+  return rounding_rate(run, norm(run.frames[n]->bodies[row].position), 1e-6 * run.job.scene.spacing, time);
+}
+
 std::string spike_in(const Audited& run, std::size_t body, Vec3 BodyState::*member, const char* what) {
   const auto& b = run.job.bodies[body];
   const auto rate = rates_of(run, b, member);
   constexpr std::size_t enough = 6;
   for (std::size_t n = 1; rate.size() >= enough && n + 1 < rate.size(); ++n) {
-    const Spike spike = spike_at(rate, n);
+    Spike spike = spike_at(rate, n);
+    spike.allowed += rounding_at(run, body, member, n);
     if (spike.found <= spike.allowed || !is_free_about(run, body, n) ||
         (member == &BodyState::angular_velocity && !is_seen(run, rate, n)))
       continue;
