@@ -8,6 +8,8 @@
 #include <regex>
 #include <set>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -66,39 +68,49 @@ std::map<std::string, std::set<std::string>> owners() {
 }
 
 /// The text of every file that declares fields: those that several rooms know, those of liquids, and all
-/// files of an effect.
+/// files of an effect. Names of scratch memory, which is no column, are left out.
 std::string declarations() {
+  static const std::regex scratch("no column of a scene\n[^;]*;");
   const fs::path src = fs::path(TRIPOINT_SOURCE_DIR) / "src";
   std::string text = text_of(src / "particles/catalogue.hpp");
   for (const char* room : {"liquids", "effects"})
     for (const auto& file : fs::recursive_directory_iterator(src / room))
       if (file.path().extension() == ".hpp" || file.path().extension() == ".cpp")
         text += text_of(file.path());
-  return text;
+  return std::regex_replace(text, scratch, "");
+}
+
+/// Endings of the columns of a field of this kind.
+std::vector<std::string> endings(const std::string& kind) {
+  if (kind == "Vector") return {".x", ".y", ".z"};
+  if (kind == "Symmetric") return {".xx", ".yy", ".zz", ".yz", ".xz", ".xy"};
+  if (kind == "Matrix") return {".xx", ".xy", ".xz", ".yx", ".yy", ".yz", ".zx", ".zy", ".zz"};
+  return {""};
 }
 
 /// The fields that they declare.
 Dictionary catalogue() {
-  static const std::regex declaration("Field<(\\w+)> ([^;]*);"),
+  static const std::regex declaration("\\b(Vector|Symmetric|Matrix|)Field(?:<(\\w+)>)? ([^;]*);"),
       one("\\w+\\{\"([^\"]+)\", \"([^\"]+)\"(,\\s+Per::(\\w+))?\\}");
   const std::string text = declarations();
   const auto owned_by = owners();
   Dictionary all;
   for (std::sregex_iterator line(text.begin(), text.end(), declaration), end; line != end; ++line) {
-    const std::string type = (*line)[1], list = (*line)[2];
-    for (std::sregex_iterator field(list.begin(), list.end(), one); field != end; ++field) {
-      const std::string name = (*field)[1];
-      const auto [group, component] = split(name);
-      const auto owner = owned_by.find(name);
-      const Entry entry{component == "1" && (type == "Vec3" || type == "Quaternion") ? type : component,
-                        (*field)[4].matched ? (*field)[4].str() : "particle", (*field)[2],
-                        owner == owned_by.end() ? "nobody" : joined(owner->second)};
-      const auto [at, first] = all.try_emplace(group, entry);
-      if (first) continue;
-      EXPECT_EQ(at->second.unit, entry.unit) << name;
-      EXPECT_EQ(at->second.owners, entry.owners) << name;
-      at->second.components += "," + component;
-    }
+    const std::string kind = (*line)[1], type = (*line)[2], list = (*line)[3];
+    for (std::sregex_iterator field(list.begin(), list.end(), one); field != end; ++field)
+      for (const std::string& ending : endings(kind)) {
+        const std::string name = (*field)[1].str() + ending;
+        const auto [group, component] = split(name);
+        const auto owner = owned_by.find(name);
+        const Entry entry{component == "1" && (type == "Vec3" || type == "Quaternion") ? type : component,
+                          (*field)[4].matched ? (*field)[4].str() : "particle", (*field)[2],
+                          owner == owned_by.end() ? "nobody" : joined(owner->second)};
+        const auto [at, first] = all.try_emplace(group, entry);
+        if (first) continue;
+        EXPECT_EQ(at->second.unit, entry.unit) << name;
+        EXPECT_EQ(at->second.owners, entry.owners) << name;
+        at->second.components += "," + component;
+      }
   }
   return all;
 }
