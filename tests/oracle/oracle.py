@@ -321,8 +321,8 @@ def solid_form(s, words, printed):
 
 
 def joints(s, deformable):
-    """(stiffness, material) of each particle: a rigid one that is bonded to a deformable one is ten times as stiff, four
-    times as printed or where the deformable one melts, flows or breaks."""
+    """(stiffness, material) of each particle. A rigid one that is bonded to a deformable one is ten times as stiff, or
+    four times as printed or where the deformable one melts, flows or breaks."""
     lets_go = ("t_melt", "elastic_limit", "fracture_stretch", "fracture_distance")
     stiffness, material = np.where(deformable, 1.0, 0.0), s["material"].copy()
     for i in np.flatnonzero(~deformable & (s.body >= 0)):
