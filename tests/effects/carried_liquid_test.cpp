@@ -153,7 +153,7 @@ TEST(CarriedLiquid, RateIsExactForLinearVelocities) {
 }
 
 /// A step without forces along the velocities of a turn spreads places by 1 + (omega dt)^2, and the density
-/// follows. The corrections that are held leave 1 % of it.
+/// follows. What is held leaves 1 % of it.
 TEST(CarriedLiquid, DensityFollowsAStepExactly) {
   lab::Lab lab = blob(4);
   lab.scene.materials[0].viscosity = 0.0;

@@ -32,7 +32,7 @@ namespace {
 constexpr StepNumber kick_length{"carried_half_step", 0.0};            ///< length of the last kick [s]
 constexpr EnergyAccount compression_released{"compression_released"};  ///< as the effect of pressure has it
 constexpr EnergyAccount start_compression{"start_compression"};        ///< the same
-/// Steps that have taken the present corrections, -1: none are there
+/// Steps that have taken the present gradients, -1: none are there
 constexpr StepNumber held_for{"carried_steps_held", -1.0};
 constexpr EnergyAccount taken_by_diffusion{"taken_by_diffusion"}, taken_by_shift{"taken_by_shift"};
 constexpr double relax_of_solids = 0.1;                  ///< of a squeeze, over c/support [1]

@@ -20,7 +20,7 @@ struct Scheme {
   Tie tie;          ///< of the density to the summed one
   double relax;     ///< rate of the relaxed tie over c/support [1]
   bool follows;     ///< density and velocity follow the shift
-  int hold;         ///< steps of sound that take the same corrections
+  int hold;         ///< steps of sound that take the same gradients
   double courant;   ///< share of support/(c + v) that a step takes [1]
 };
 

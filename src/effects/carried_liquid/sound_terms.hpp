@@ -2,7 +2,7 @@
 #pragma once
 #include "effects/carried_liquid/carried_terms.hpp"
 
-/// Pair terms of a step of sound, which takes the corrections that an earlier step has formed.
+/// Pair terms of a step of sound, which takes the gradients that an earlier step has formed.
 namespace tripoint::carried_liquid {
 
 /// Divergence of the velocity by the pair `own`, and the share of solids.
@@ -20,7 +20,7 @@ struct SoundRate {
   }
 };
 
-/// Forces of a step of sound: of the pressure by the pair `own` with the held B, where the stress is p V B,
+/// Forces of a step of sound: of the pressure by the pair `own`, where the stress is p V B,
 /// of viscosity, and of the residue that the held strain rates leave.
 struct SoundForce {
   static constexpr std::string_view name = "SoundForce";
