@@ -173,6 +173,39 @@ def at_time(own, times, t):
     return [t, a[1], *x, *v, *flight.product(flight.scaled(between, s), a[8:12]), *w]
 
 
+PLACES, VELOCITIES, SPINS = slice(2, 5), slice(5, 8), slice(12, 15)
+
+
+def late(columns, steps):
+    """These columns of each row are those of so many steps before."""
+
+    def all_rows(job, rows):
+        step = job["resolution"].get("time_step") or STEP
+        for body in sorted({row[1] for row in rows}):
+            own = [row for row in rows if row[1] == body]
+            times = [row[0] for row in own]
+            for row in own[:1] + [list(row) for row in own[1:]]:
+                if row[0] > times[0]:
+                    row[columns] = at_time(own, times, row[0] - steps * step)[columns]
+                yield row
+
+    return lambda job, rows: list(all_rows(job, rows))
+
+
+def fast(job, row):
+    row[VELOCITIES] = [1.0005 * c for c in row[VELOCITIES]]
+    return row
+
+
+def turned_back_once(columns, when):
+    def change(job, row):
+        if abs(row[0] - when) < 1e-9:
+            row[columns] = [-c for c in row[columns]]
+        return row
+
+    return moved(change)
+
+
 def right_for_half_a_second(job, row):
     late = max(0.0, row[0] - 0.5)
     for i, g in enumerate(job["scene"]["gravity"]):
@@ -235,6 +268,22 @@ FAULTS = {
     ),
     "late": Fault(
         "everything a step late", "rigid/ballistic", ("velocity",), rows=lambda job, rows: list(a_step_late(job, rows))
+    ),
+    "late spin": Fault("angular velocities a step late", "rigid/torque-free", ("audit",), rows=late(SPINS, 1.0)),
+    "half late spin": Fault(
+        "angular velocities half a step late", "rigid/precession", ("audit",), rows=late(SPINS, 0.5)
+    ),
+    "late places": Fault("places a step late", "contact/slide-to-rest", ("audit",), rows=late(PLACES, 1.0)),
+    "half late velocities": Fault(
+        "velocities half a step late", "contact/slide-to-rest", ("audit",), rows=late(VELOCITIES, 0.5)
+    ),
+    "late velocities": Fault("velocities a step late", "contact/conveyor", ("audit",), rows=late(VELOCITIES, 1.0)),
+    "fast": Fault("velocities 0.05 % large", "contact/slide-to-rest", ("audit",), rows=moved(fast)),
+    "spin back": Fault(
+        "the spin is reversed in one frame", "contact/roll-down-slope", ("audit",), rows=turned_back_once(SPINS, 0.4)
+    ),
+    "velocity back": Fault(
+        "the velocity is reversed in one frame", "contact/conveyor", ("audit",), rows=turned_back_once(VELOCITIES, 0.4)
     ),
     "moment": Fault("largest moment 1 % large", "rigid/flip-time", ("flip",), job=moment(2)),
     "least moment": Fault("least moment 1 % small", "rigid/flip-time", ("flip",), job=moment(0, 1.0 - PER_CENT)),

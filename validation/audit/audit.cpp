@@ -52,8 +52,9 @@ std::string audit(const Job& job, const InitialState& initial, const Trajectory&
   if (!frames.problem.empty()) return frames.problem;
   const Audited run{job, initial, held, trajectory, frames.list};
   if (auto why = unsound_frames(run); !why.empty()) return why;
-  for (const auto& check : {another_start, frozen, apart, moves_against_its_velocity, turns_against_its_spin,
-                            leaves_for_one_frame, gauges_against_particles, sums_against_particles})
+  for (const auto& check :
+       {another_start, frozen, apart, moves_against_its_velocity, turns_against_its_spin,
+        leaves_for_one_frame, lags_behind_its_rate, gauges_against_particles, sums_against_particles})
     if (auto why = check(run); !why.empty()) return why;
   return {};
 }

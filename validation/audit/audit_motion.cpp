@@ -209,6 +209,16 @@ double speed_about(const Track& track, std::size_t n) {
   return most;
 }
 
+/// What slides, rolls or lies has the speed that its frames show. A body that came of others is not followed.
+bool is_hit_about(const Audited& run, std::size_t row, std::size_t n) {
+  const auto& bodies = run.job.bodies;
+  const auto body = std::ranges::find(bodies, static_cast<int>(row), &JobBody::index);
+  if (body == bodies.end() || !is_followed(run, *body)) return true;
+  for (std::size_t k = n > 0 ? n - 1 : n; k < std::min(n + 2, run.frames.size() - 1); ++k)
+    if (is_hit(run, *body, k)) return true;
+  return false;
+}
+
 std::string bodies_contradict(const Audited& run) {
   for (std::size_t row = 0; row < run.frames.back()->bodies.size(); ++row) {
     const Track track = track_of_row(run, row);
@@ -219,7 +229,9 @@ std::string bodies_contradict(const Audited& run) {
       if (const auto free = way_difference(run, track, n, {}); free.found <= free.allowed) continue;
       const Contact contact = contact_of_row(run, row, n);
       auto d = way_difference(run, track, n, contact);
-      if (contact.touches) d.allowed += pushed_out * greatest_speed(track) + speed_about(track, n);
+      if (contact.touches)
+        d.allowed +=
+            pushed_out * greatest_speed(track) + (is_hit_about(run, row, n) ? speed_about(track, n) : 0.0);
       if (d.found > d.allowed) return reported(run, row_name(run, row), n, d);
     }
   }

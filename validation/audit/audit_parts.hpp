@@ -50,6 +50,8 @@ struct Audited {
 [[nodiscard]] std::string moves_against_its_velocity(const Audited&);
 /// Orientations that change by another turn than the angular velocities say.
 [[nodiscard]] std::string turns_against_its_spin(const Audited&);
+/// Places or turns that all frames show late, or all rates too large.
+[[nodiscard]] std::string lags_behind_its_rate(const Audited&);
 /// Velocities and angular velocities of a free body that leave those of the frames before and after for one
 /// frame.
 [[nodiscard]] std::string leaves_for_one_frame(const Audited&);

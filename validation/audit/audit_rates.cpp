@@ -38,6 +38,43 @@ bool is_interrupted(const Job& job, const Snapshot& a, const Snapshot& b) {
   return std::any_of(job.scene.events.begin(), job.scene.events.end(), takes_hold);
 }
 
+bool is_followed(const Audited& run, const JobBody& b) {
+  return b.index >= 0 && b.phase == Phase::rigid && b.motion == Motion::free &&
+         std::all_of(run.frames.begin(), run.frames.end(), [&](const Snapshot* s) {
+           const auto row = static_cast<std::size_t>(b.index);
+           return row < s->bodies.size() && is_there(s->bodies[row]);
+         });
+}
+
+bool is_hit(const Audited& run, const JobBody& b, std::size_t interval) {
+  const Snapshot &first = *run.frames[interval], &last = *run.frames[interval + 1];
+  const auto row = static_cast<std::size_t>(b.index);
+  const BodyState &from = first.bodies[row], &to = last.bodies[row];
+  const double change = std::max(norm(to.velocity - from.velocity),
+                                 gyration_radius(b) * norm(to.angular_velocity - from.angular_velocity));
+  return change > weight_and_friction * norm(run.job.scene.gravity) * (last.time - first.time);
+}
+
+double gyration_radius(const JobBody& b) {
+  return std::sqrt(std::max(b.properties.principal_inertia.x, 0.0) / b.properties.mass);
+}
+
+Quaternion linear_turn(const Vec3& first, const Vec3& last, double time) {
+  constexpr int parts = 64;
+  Quaternion turn;
+  for (int k = 0; k < parts; ++k) {
+    const double s = (k + 0.5) / parts;
+    turn = from_rotation_vector((time / parts) * ((1.0 - s) * first + s * last)) * turn;
+  }
+  return turn;
+}
+
+Vec3 rotation_vector(const Quaternion& turn) {
+  const Vec3 axis = (turn.w < 0.0 ? -1.0 : 1.0) * Vec3{turn.x, turn.y, turn.z};
+  const double sine = norm(axis);
+  return (sine > 0.0 ? 2.0 * std::atan2(sine, std::abs(turn.w)) / sine : 0.0) * axis;
+}
+
 double allowed_difference(const Rates& rates, bool touches) {
   return (touches ? rough_share_in_contact : rough_share) * rates.roughness() +
          five_digits * rates.greatest();

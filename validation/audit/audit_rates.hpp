@@ -36,6 +36,20 @@ struct Contact {
 };
 [[nodiscard]] Contact contact_of(const Audited&, std::size_t body, std::size_t interval);
 
+/// A body that is rigid, free and whole in every frame.
+[[nodiscard]] bool is_followed(const Audited&, const JobBody&);
+/// Acceleration that weight and friction give without a hit, in gravities.
+inline constexpr double weight_and_friction = 1.5;
+/// Whether a body is hit in an interval: its velocities change by more than weight and friction can give.
+[[nodiscard]] bool is_hit(const Audited&, const JobBody&, std::size_t interval);
+/// Least radius of gyration: at it contact turns the body [m].
+[[nodiscard]] double gyration_radius(const JobBody&);
+
+/// Turn in an interval whose angular velocity changes linearly.
+[[nodiscard]] Quaternion linear_turn(const Vec3& first, const Vec3& last, double time);
+/// Rotation vector of a turn by the shorter way [rad].
+[[nodiscard]] Vec3 rotation_vector(const Quaternion&);
+
 /// Largest difference between a mean rate over an interval and the mean of its ends: the error of the
 /// trapezoidal rule where the rate bends or jumps in between, and five digits.
 /// @param touches whether contact may act: it jumps more than once in an interval

@@ -26,6 +26,52 @@ bool is_free_about(const Audited& run, std::size_t body, std::size_t n) {
   return !contact_of(run, body, n - 1).touches && !contact_of(run, body, n).touches;
 }
 
+/// Mean rate by places or orientations, from the frame before one to the frame after it.
+Vec3 rate_about(const Audited& run, const JobBody& body, Vec3 BodyState::*member, std::size_t n) {
+  const auto row = static_cast<std::size_t>(body.index);
+  const Snapshot &before = *run.frames[n - 1], &after = *run.frames[n + 1];
+  const BodyState &from = before.bodies[row], &to = after.bodies[row];
+  const Vec3 change = member == &BodyState::velocity
+                          ? displacement(run.job.scene, to.position, from.position)
+                          : rotation_vector(to.orientation * conjugate(from.orientation));
+  return (1.0 / (after.time - before.time)) * change;
+}
+
+/// A hit that turns a body throws it, too, and one that throws it turns it.
+bool is_hit_by_the_other(const Audited& run, const JobBody& b, Vec3 BodyState::*member, std::size_t n) {
+  const bool turns = member == &BodyState::angular_velocity;
+  const auto row = static_cast<std::size_t>(b.index);
+  const Vec3 BodyState::*other = turns ? &BodyState::velocity : &BodyState::angular_velocity;
+  const auto jump = [&](std::size_t from, std::size_t to) {
+    return norm(run.frames[to]->bodies[row].*other - run.frames[from]->bodies[row].*other) *
+           (turns ? 1.0 : gyration_radius(b));
+  };
+  const double weight = norm(run.job.scene.gravity) * (run.frames[n + 1]->time - run.frames[n]->time);
+  return std::max(jump(n - 1, n), jump(n, n + 1)) > weight_and_friction * weight;
+}
+
+/// Speed that contact may give and take again, by the frames around one that may be wrong.
+double hidden_about(const Audited& run, std::size_t body, std::size_t n) {
+  double most = 0.0;
+  if (n >= 2) most = contact_of(run, body, n - 2).hidden_speed;
+  if (n + 2 < run.frames.size()) most = std::max(most, contact_of(run, body, n + 1).hidden_speed);
+  return most;
+}
+
+/// In contact a body may be hit and hit back. Then its way or turn is not that of the frames before and
+/// after.
+bool is_denied(const Audited& run, std::size_t body, Vec3 BodyState::*member, const std::vector<Vec3>& rate,
+               std::size_t n, const Spike& spike) {
+  if (is_free_about(run, body, n)) return true;
+  const auto& b = run.job.bodies[body];
+  const double hidden =
+      hidden_about(run, body, n) / (member == &BodyState::velocity ? 1.0 : gyration_radius(b));
+  const double large = 0.5 * std::max(norm(rate[n - 1]), norm(rate[n + 1]));
+  const double off = norm(rate_about(run, b, member, n) - 0.5 * (rate[n - 1] + rate[n + 1]));
+  return spike.found > spike.allowed + hidden + large && off < 0.25 * spike.found &&
+         !is_hit_by_the_other(run, b, member, n);
+}
+
 /// The rate of a body in all frames; empty where it is not there in one.
 std::vector<Vec3> rates_of(const Audited& run, const JobBody& body, Vec3 BodyState::*rate) {
   std::vector<Vec3> all;
@@ -59,7 +105,7 @@ std::string spike_in(const Audited& run, std::size_t body, Vec3 BodyState::*memb
   for (std::size_t n = 1; rate.size() >= enough && n + 1 < rate.size(); ++n) {
     Spike spike = spike_at(rate, n);
     spike.allowed += rounding_at(run, body, member, n);
-    if (spike.found <= spike.allowed || !is_free_about(run, body, n) ||
+    if (spike.found <= spike.allowed || !is_denied(run, body, member, rate, n, spike) ||
         (member == &BodyState::angular_velocity && !is_seen(run, rate, n)))
       continue;
     return "contradicts itself: the " + std::string(what) + " of `" + b.name +

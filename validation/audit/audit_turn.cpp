@@ -26,33 +26,17 @@ struct TurnDifference {
 /// nothing touches must turn as a free one [rad].
 constexpr double freely_at_most = 0.25;
 
-/// Turn in an interval whose angular velocity changes linearly.
-Quaternion linear_turn(const Vec3& first, const Vec3& last, double time) {
-  constexpr int parts = 64;
-  Quaternion turn;
-  for (int k = 0; k < parts; ++k) {
-    const double s = (k + 0.5) / parts;
-    turn = from_rotation_vector((time / parts) * ((1.0 - s) * first + s * last)) * turn;
-  }
-  return turn;
-}
-
 /// What a scheme of first or second order leaves of each of its steps: (w h)^2/12 of the turn.
 double scheme_error(const Audited& run, double rate, double time) {
   const double turn_a_step = rate * run.step(time);
   return 0.15 * turn_a_step * turn_a_step * rate * time;
 }
 
-/// Radius at which contact turns the body: its least radius of gyration [m].
-double radius(const JobBody& b) {
-  return std::sqrt(std::max(b.properties.principal_inertia.x, 0.0) / b.properties.mass);
-}
-
 TurnDifference by_linear_change(const Audited& run, const Spin& spin, std::size_t n, const Quaternion& turn,
                                 const Contact& contact) {
   const Rates w = rates_at(spin.angular_velocity, n);
   const double time = run.frames[n + 1]->time - run.frames[n]->time, rate = w.greatest();
-  const double of_contact = contact.touches ? contact.hidden_speed / radius(spin.body) : 0.0;
+  const double of_contact = contact.touches ? contact.hidden_speed / gyration_radius(spin.body) : 0.0;
   const double of_rates = allowed_difference(w, contact.touches) + norm(largest_lag(run, w, time)) +
                           rounding_rate(run, 1.0, 1e-6, time) + of_contact;
   const double most = contact.touches ? std::numeric_limits<double>::infinity() : freely_at_most;
@@ -92,15 +76,6 @@ std::string turn_contradicts(const Audited& run, const Spin& spin, std::size_t n
   return "contradicts itself: `" + spin.body.name + "` turns otherwise than its angular velocity says" +
          between(*run.frames[n], *run.frames[n + 1]) + ": by " + figure(linear.found) + " rad, where " +
          figure(linear.allowed) + " rad may be";
-}
-
-/// A body that is rigid, free and whole in every frame.
-bool is_followed(const Audited& run, const JobBody& b) {
-  return b.index >= 0 && b.phase == Phase::rigid && b.motion == Motion::free &&
-         std::all_of(run.frames.begin(), run.frames.end(), [&](const Snapshot* s) {
-           const auto row = static_cast<std::size_t>(b.index);
-           return row < s->bodies.size() && is_there(s->bodies[row]);
-         });
 }
 
 Spin spin_of(const Audited& run, const JobBody& b) {
