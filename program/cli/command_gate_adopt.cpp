@@ -96,9 +96,14 @@ EngineEntry engine_of(const GateAdoptOptions& o, std::vector<EngineEntry>& engin
   return *found;
 }
 
-/// Files that this call wrote, with what was there before: where the new gates do not hold, that comes back.
+/// Files that this call wrote, with what was there before: unless they are kept, that comes back.
 class WrittenFiles {
  public:
+  WrittenFiles() = default;
+  WrittenFiles(const WrittenFiles&) = delete;
+  WrittenFiles& operator=(const WrittenFiles&) = delete;
+  ~WrittenFiles() { take_back(); }
+  void keep() { files_.clear(); }
   void write(const fs::path& file, const std::string& text) {
     std::optional<std::string> before;
     if (fs::exists(file)) before = text_of_file(file.string());
@@ -106,7 +111,8 @@ class WrittenFiles {
     write_durably(file.string(), text);
     files_.emplace_back(file, before);
   }
-  void take_back() const {
+ private:
+  void take_back() noexcept try {
     for (const auto& [file, before] : files_) {
       if (before) {
         write_durably(file.string(), *before);
@@ -118,9 +124,10 @@ class WrittenFiles {
            folder = folder.parent_path())
         fs::remove(folder, none);
     }
+  } catch (const std::exception& e) {
+    say(std::string("tripoint: what was there before is not written back: ") + e.what());
   }
 
- private:
   std::vector<std::pair<fs::path, std::optional<std::string>>> files_;
 };
 
@@ -184,7 +191,7 @@ std::string reason_of(const GateAdoptOptions& o, const EngineEntry& engine) {
 /// The written gates judge a run of their own before anything is accepted.
 int accept_written(const GateAdoptOptions& o, const std::vector<std::string>& files,
                    const std::vector<EngineEntry>& engines, const EngineEntry& engine,
-                   const WrittenFiles& written) {
+                   WrittenFiles& written) {
   CaseFilter filter;
   filter.what = files;
   SuiteOptions suite;
@@ -198,14 +205,13 @@ int accept_written(const GateAdoptOptions& o, const std::vector<std::string>& fi
   write_results(results, suite.out);
   for (const auto& c : results.cases) print(case_line(c) + "\n");
   if (results.exit_code != exit_pass) {
-    written.take_back();
     say("tripoint: the gates that were just written do not hold on a second look; they are taken back, and "
-        "no baseline was "
-        "accepted: is the engine deterministic?");
+        "no baseline was accepted: is the engine deterministic, and is there room in --margin?");
     return results.exit_code;
   }
   fs::create_directories(baseline_folder(files.front()));
   print(accept(results, {}, {results.date, results.tool.commit, reason_of(o, engine)}));
+  written.keep();
   return exit_pass;
 }
 
@@ -233,8 +239,9 @@ int adopt(GateAdoptOptions o) {
     throw EngineError(
         fmt::format("{} ran none of {} cases: there is nothing to gate", engine.name, cases.size()));
   if (files.empty()) return first_of(codes);
-  codes.insert(accept_written(o, files, engines, engine, written));
-  say_what_comes_next(o, files, cases.size());
+  const int second_look = accept_written(o, files, engines, engine, written);
+  codes.insert(second_look);
+  if (second_look == exit_pass) say_what_comes_next(o, files, cases.size());
   return first_of(codes);
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdlib>
 #include <sstream>
 
 #include "core/limits.hpp"
@@ -50,6 +52,19 @@ void keep_one_list_of_exit_codes(CLI::App& app) {
   }
 }
 
+/// Ranges of the library let nan pass.
+void expect_finite_numbers(CLI::App& app) {
+  const auto finite = [](const std::string& word) {
+    char* end = nullptr;
+    const double value = std::strtod(word.c_str(), &end);
+    return *end == '\0' && !std::isfinite(value) ? word + " is no finite number" : std::string();
+  };
+  for (auto* option : app.get_options())
+    if (option->get_type_name().starts_with("FLOAT")) option->check(finite, "");
+  for (auto* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    expect_finite_numbers(*command);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -76,6 +91,7 @@ int main(int argc, char** argv) {
         add_engines, add_engine,   add_releases, add_bench,     add_export})
     add(app, exit_code);
   keep_one_list_of_exit_codes(app);
+  expect_finite_numbers(app);
   if (const auto wrong = mistyped_word(app, argc, argv); !wrong.empty()) {
     say("tripoint: " + wrong);
     return exit_bad_input;

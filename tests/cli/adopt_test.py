@@ -101,6 +101,17 @@ class Adopted(unittest.TestCase):
         self.assertIn("--overwrite", done.stderr)
         self.assertEqual((self.path / "cases/rigid/ballistic.toml").read_text(), before)
 
+    def test_what_does_not_hold_on_a_second_look_is_taken_back(self):
+        for word, code, names in (("nan", 2, ()), ("1", 1, ()), ("1.5", 4, ('"name": "toy"', '"name": "all"'))):
+            with self.subTest(word):
+                self.engine(*([names] if names else []))
+                done = self.call(
+                    "gate", "adopt", "--engine", "./engine-toy", "--margin", word, "--out", "lost/cases", CASES[0]
+                )
+                self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+                self.assertFalse((self.path / "lost").exists())
+                self.assertNotIn("cases adopted", done.stdout + done.stderr)
+
     def test_an_engine_that_runs_nothing_has_nothing_to_gate(self):
         self.engine()
         done = self.call("gate", "adopt", "--engine", "./engine-toy", "--out", "none", "heat/cosine-mode")

@@ -86,6 +86,9 @@ EngineEntry with_info(EngineEntry entry, const std::string& printed) {
     entry.name = name_before;
     return unavailable(entry, "its name is not 1 to 64 letters, digits, '-', '_' or '.'");
   }
+  if (entry.name == "all")
+    return unavailable(entry,
+                       "calls itself all, which is the word for all engines: give it a name of its own");
   for (const auto& preset : entry.presets)
     if (!is_plain(preset))
       return unavailable(
