@@ -33,6 +33,7 @@ RESTITUTION = (
     "contact/box-restitution-100",
     "contact/tumble-elastic",
 )
+MERGES = ("rigid/merge-in-flight", "rigid/merge-three", "rigid/split-in-flight")
 TOUCHLESS = (
     "contact/conveyor",
     "contact/moving-board",
@@ -118,8 +119,12 @@ class Ranks(unittest.TestCase):
             RESTITUTION,
         )
 
+    def test_an_engine_whose_bodies_never_merge_or_split(self):
+        rows = self.scores(MERGES, TOYS / "engine-changed", CHANGED_INNER=str(BULLET), CHANGED="events 0")
+        self.has_no_rank(rows, MERGES)
+
     def test_the_same_engine_unchanged_has_ranks(self):
-        for cases, preset in ((FRICTION, "default"), (RESTITUTION, "impact")):
+        for cases, preset in ((FRICTION, "default"), (RESTITUTION, "impact"), (MERGES, "default")):
             rows = self.scores(cases, TOYS / "engine-changed", CHANGED_INNER=str(BULLET), CHANGED_PRESET=preset)
             for case in cases:
                 self.assertGreater(rows[case]["rank"], 0, rows[case])

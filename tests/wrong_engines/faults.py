@@ -33,6 +33,10 @@ def gravity(job):
     job["scene"]["gravity"] = [(1.0 - PER_CENT) * c for c in job["scene"]["gravity"]]
 
 
+def no_gravity(job):
+    job["scene"]["gravity"] = [0.0, 0.0, 0.0]
+
+
 def gravity_is_down(job):
     job["scene"]["gravity"] = [0.0, 0.0, -math.hypot(*job["scene"]["gravity"])]
 
@@ -254,6 +258,7 @@ FAULTS = {
     "gravity is down": Fault(
         "gravity acts along z, whatever the scene says", "contact/slope-slip", ("velocity",), job=gravity_is_down
     ),
+    "no gravity": Fault("nothing falls", "contact/tumble-elastic", ("fall",), job=no_gravity),
     "half a second": Fault(
         "right for the first half second, gravity 1 % small after it",
         "rigid/ballistic",
