@@ -22,6 +22,7 @@ class Fault:
     job: Optional[Callable] = None  # changes the job that the inner engine runs
     rows: Optional[Callable] = None  # (job, rows of bodies) -> rows
     heat: Optional[Callable] = None  # (job, time, places, temperatures) -> temperatures
+    gauges: Optional[Callable] = None  # (job, gauge) -> what gauges.csv says of it at the end
     walkers: float = 0.0  # heat by so many of LAMMPS's walkers, where the job says no number
     preset: str = ""  # of Bullet, instead of the one that suits the case
 
@@ -92,11 +93,15 @@ def turned_tensor(job):
         body["principal_axes"] = list(flight.product(turn, tuple(body["principal_axes"])))
 
 
-def conductivity(job):
+def conductivity(job, factor=1.0 + PER_CENT):
     for material in job["scene"]["materials"]:
         for key in ("conductivity", "solid_conductivity"):
             if material.get(key) is not None:
-                material[key] *= 1.0 + PER_CENT
+                material[key] *= factor
+
+
+def much_conductivity(job):
+    conductivity(job, 1.05)
 
 
 def sizes(job):
@@ -350,6 +355,13 @@ FAULTS = {
         ("diffusivity",),
         job=conductivity,
         walkers=2e6,
+    ),
+    "told diffusivity": Fault(
+        "conductivity 5 % large, and the gauge says the right diffusivity",
+        "heat/spreading-two-million",
+        ("audit",),
+        job=much_conductivity,
+        gauges=lambda job, gauge: 1e-6,
     ),
     "heat capacity": Fault("heat capacity 1 % large", "heat/cosine-fine", ("rate",), job=of_materials("heat_capacity")),
     "latent heat": Fault("latent heat 1 % large", "phase/heat-of-fusion", ("metal",), job=of_materials("latent_heat")),
