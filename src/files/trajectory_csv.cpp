@@ -89,7 +89,7 @@ Snapshot empty_frame(double time, const InitialState& initial, std::size_t bodie
   s.bodies.assign(
       bodies,
       BodyState{
-          nan, nan, nan, {not_a_number, not_a_number, not_a_number, not_a_number}, not_a_number, {}, {}});
+          nan, nan, nan, {not_a_number, not_a_number, not_a_number, not_a_number}, not_a_number, nan, nan});
   return s;
 }
 

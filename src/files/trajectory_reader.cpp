@@ -165,7 +165,11 @@ void read_bodies(Reader& in, Frames& frames) {
   if (!in.has("particles/bodies/position")) return;
   const auto vectors = [&](const char* name, const char* unit, Vec3 BodyState::*member, bool needed) {
     const std::string element = std::string("particles/bodies/") + name;
-    if (!needed && !in.has(element)) return;
+    if (!needed && !in.has(element)) {  // not shown is not zero
+      for (auto& frame : frames)
+        for (BodyState& b : frame.bodies) b.*member = {not_a_number, not_a_number, not_a_number};
+      return;
+    }
     const h5::Block b = in.real(element, 3, unit);
     for (std::size_t f = 0; f < frames.size(); ++f) {
       if (frames[f].bodies.empty()) frames[f].bodies.resize(b.shape[1]);

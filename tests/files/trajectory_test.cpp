@@ -107,6 +107,7 @@ TEST_F(Io, ACsvOfBodiesWithoutTurningDoesNotTurn) {
   std::ofstream(path("trajectory.csv")) << "time,body,x,y,z,vx,vy,vz\n0,0,0.5,0,0,1,2,3\n";
   const auto frame = read_trajectory_csv(path("trajectory.csv"), initial, 1).frames.at(0);
   EXPECT_EQ(frame.bodies[0].angular_velocity, Vec3{});
+  EXPECT_TRUE(std::isnan(frame.bodies[0].force.x + frame.bodies[0].torque.x)) << "not shown is not 0";
   EXPECT_EQ(frame.velocity[1], (Vec3{1, 2, 3}));
 }
 

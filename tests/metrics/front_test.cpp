@@ -104,6 +104,20 @@ TEST(Front, SpeedIsThatBetweenTheFirstAndTheLastMeasuredPlace) {
   EXPECT_NEAR(speed.uncertainty.data, 1.5 * std::hypot(0.05 * 1.1, 0.05 * 2.0) / 0.9, 1e-12);
 }
 
+TEST(Front, OfSeveralLiquidsIsThatOfANamedOne) {
+  Dam dam;
+  dam.move(measured);
+  const auto of_all = [&] {
+    return evaluate(metric("front_lead", "final"), dam.s.job, dam.s.initial, dam.run, *dam.truth);
+  };
+  EXPECT_NEAR(of_all().value, 0.0, 1e-12);
+  dam.s.job.bodies.push_back(dam.s.job.bodies.front());
+  dam.s.job.bodies.back().name = "bed";
+  EXPECT_TRUE(std::isnan(of_all().value));
+  EXPECT_EQ(of_all().note, "the scene has several liquids: name the body whose front it is");
+  EXPECT_NEAR(dam.value("front_lead").value, 0.0, 1e-12);
+}
+
 TEST(Front, IsNotADropThatFliesAlone) {
   Dam dam;
   dam.move(measured);

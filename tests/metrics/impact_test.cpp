@@ -119,6 +119,18 @@ TEST(ImpactMetrics, LetAnElasticBodyGiveBackWhatItStored) {
   EXPECT_NEAR(f.of(metric("energy_gain", "max"), "invariant").value, 5.0, 1e-12);
 }
 
+/// What pushes a body gives it energy, and no engine makes it.
+TEST(ImpactMetrics, KnowNoGainWhereSomethingPushes) {
+  Still pushed = block_above_floor();
+  pushed.s.job.scene.forces.emplace_back();
+  EXPECT_TRUE(std::isnan(pushed.of(metric("energy_gain", "max"), "invariant").value));
+  Still led = block_above_floor();
+  led.s.job.bodies[1].motion = Motion::prescribed;
+  EXPECT_EQ(led.of(metric("energy_gain", "max"), "invariant").value, 0.0) << "it stands";
+  led.s.job.bodies[1].velocity = {1, 0, 0};
+  EXPECT_TRUE(std::isnan(led.of(metric("energy_gain", "max"), "invariant").value));
+}
+
 TEST(ImpactMetrics, CallAFallNoGain) {
   Still f = block_above_floor();
   for (auto& frame : f.run.frames) {

@@ -167,6 +167,10 @@ TEST(StatedNumbers, OfABodyAreASizeOrAComponent) {
   EXPECT_TRUE(std::isnan(of("position", 0.0))) << "a place has no size";
   EXPECT_TRUE(std::isnan(f.stated(metric("force", "mean"), {{"value", 1.0}}))) << "of which body?";
   EXPECT_TRUE(std::isnan(f.stated(metric("force", "mean", "left"), {})));
+  for (auto& frame : f.run.frames) frame.bodies[0].force = {not_a_number, not_a_number, not_a_number};
+  const auto none = f.of(metric("force", "mean", "left"), "stated", {{"value", 0.0}});
+  EXPECT_TRUE(std::isnan(none.value)) << "what an engine does not show is not 0";
+  EXPECT_EQ(none.note, "the engine shows no force on the body");
 }
 
 TEST(StatedNumbers, OfParticlesAreOneForAll) {

@@ -61,6 +61,7 @@ FrameError stated_vector(const FramePair& f, Vec3 BodyState::*what, const char* 
   if (!body) return problem("the trajectory does not have the body");
   if (what == &BodyState::position && !axis)
     return problem("a stated position needs its axis: args = {axis = \"x\", value = ...}");
+  if (!finite(body->*what)) return problem(std::string("the engine shows no ") + name + " on the body");
   return against_truth(f, name, axis ? (body->*what)[*axis] : norm(body->*what));
 }
 

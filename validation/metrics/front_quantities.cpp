@@ -39,6 +39,12 @@ struct Fronts {
   std::string problem;
 };
 
+bool has_several_liquids(const Job& job) {
+  return std::ranges::count_if(job.bodies, [](const JobBody& b) {
+           return b.phase == Phase::liquid && b.motion == Motion::free;
+         }) > 1;
+}
+
 /// The front at a time, by a straight line between two frames; none beyond the first and the last.
 std::optional<double> front_at(const MetricInput& in, const std::vector<double>& t,
                                const std::vector<double>& x, double time) {
@@ -56,6 +62,8 @@ Fronts fronts(const MetricInput& in, const std::vector<const Snapshot*>& frames)
   const auto* curve = in.reference.measured("front");
   if (!axis || !curve)
     return {{}, {}, {}, {}, "the reference has no measured front, or names no axis along which it runs"};
+  if (in.choice.body.empty() && has_several_liquids(in.job))  // the farthest is not the one that runs
+    return {{}, {}, {}, {}, "the scene has several liquids: name the body whose front it is"};
   std::vector<double> t, x;
   for (const auto* s : frames) {
     t.push_back(s->time);

@@ -72,6 +72,15 @@ std::vector<bool> bounds_later(const MetricInput& in, const Frames& frames) {
   return bounds;
 }
 
+/// What gives energy to free bodies, beside gravity: empty where nothing does.
+std::string giver_of_energy(const MetricInput& in) {
+  if (!in.job.scene.forces.empty()) return "a force of the scene";
+  for (const JobBody& b : in.job.bodies)
+    if (b.motion == Motion::prescribed && (norm(b.velocity) > 0.0 || b.keyframes.size() > 1))
+      return "the led body " + b.name;
+  return {};
+}
+
 /// Gravity and hits can only take energy. An excess of a frame over all bounds before it is made by the
 /// engine.
 MetricValue energy_gain(const MetricInput& in, const Frames& frames) {
@@ -79,6 +88,8 @@ MetricValue energy_gain(const MetricInput& in, const Frames& frames) {
   for (const auto* s : frames)
     if (s->position.size() < in.initial.size() || s->velocity.size() < in.initial.size())
       return not_formed("the trajectory has no positions and velocities");
+  if (const auto giver = giver_of_energy(in); !giver.empty())
+    return not_formed(giver + " gives energy, so that a gain is no error");
   const auto bounds = bounds_later(in, frames);
   MetricValue v;
   v.value = 0.0;
@@ -173,11 +184,12 @@ const std::vector<Quantity>& impact_quantities() {
 }
 
 const std::vector<RunQuantity>& impact_run_quantities() {
-  static const std::vector<RunQuantity> list{{{"energy_gain", "J",
-                                               "largest rise of the kinetic and potential energy of free "
-                                               "bodies over the least of earlier frames outside hits. Of "
-                                               "elastic bodies, over the start. It needs no reference"},
-                                              energy_gain}};
+  static const std::vector<RunQuantity> list{
+      {{"energy_gain", "J",
+        "largest rise of the kinetic and potential energy of free "
+        "bodies over the least of earlier frames outside hits. Of "
+        "elastic bodies, over the start. None where a force or a moving body gives energy"},
+       energy_gain}};
   return list;
 }
 

@@ -79,7 +79,8 @@ FrameError axial_torque(const FramePair& f) {
   const long row = body_row(f.in);
   if (row < 0 || static_cast<std::size_t>(row) >= f.now.bodies.size())
     return problem("axial_torque: the metric must name a solid body");
-  return single(f.now.bodies[static_cast<std::size_t>(row)].torque[*axis] - *truth);
+  const double torque = f.now.bodies[static_cast<std::size_t>(row)].torque[*axis];
+  return std::isfinite(torque) ? single(torque - *truth) : problem("the engine shows no torque on the body");
 }
 
 /// Half the extent of the liquid along the axis, half a spacing included at each end, minus the true half
