@@ -228,7 +228,8 @@ class Cases:
                 first.append(case)
         return first + [c for c in touched if c not in first]
 
-    def passes(self, case, engine, out, tree=None):
+    def judged(self, case, engine, out, tree=None):
+        """(verdict, exit code), and why: an engine that no longer answers leaves the verdict and changes the code."""
         engines = sorted(e for e in self.cases[case]["engines"] if e.startswith(engine))
         results = pathlib.Path(out) / "results.json"
         results.unlink(missing_ok=True)
@@ -255,20 +256,22 @@ class Cases:
                 130,
             ):  # the command was refused, or stopped: the mutant is not judged
                 sys.exit(f"draw_mutants: {case} was not run: {done.stderr.strip()[-300:]}")
-            return False, "timed out" if done is None else f"exit {done.returncode}"
+            return ("none", -1), "timed out" if done is None else f"exit {done.returncode}"
         verdict = json.loads(results.read_text())["cases"][0]["verdict"]
-        return verdict == "PASS", next(
-            (x.strip() for x in (done.stdout + done.stderr).split("\n") if x.startswith("     ")), verdict
+        return (verdict, done.returncode), next(
+            (x.strip() for x in (done.stdout + done.stderr).split("\n") if x.startswith("     ")),
+            f"{verdict}, exit {done.returncode}",
         )[:200]
 
     def red(self, case, engine, out):
         """Why the mutant fails the case; empty where it passes, or where the sound tree fails it too."""
-        good, why = self.passes(case, engine, out)
-        if good:
+        end, why = self.judged(case, engine, out)
+        if end == ("PASS", 0):
             return ""
         if (case, engine) not in self.known:
-            self.known[case, engine] = self.passes(case, engine, out + "-sound", self.sound)[0]
-        return f"{case}: {why}" if self.known[case, engine] else ""
+            self.known[case, engine] = self.judged(case, engine, out + "-sound", self.sound)[0]
+        sound = self.known[case, engine]
+        return f"{case}: {why}" if sound[0] == "PASS" and end != sound else ""
 
 
 LAMMPS_SUITES = (
