@@ -285,7 +285,7 @@ FAULTS = {
     ),
     "late places": Fault("places a step late", "contact/slide-to-rest", ("audit",), rows=late(PLACES, 1.0)),
     "half late velocities": Fault(
-        "velocities half a step late", "contact/slide-to-rest", ("audit",), rows=late(VELOCITIES, 0.5)
+        "velocities half a step late", "contact/roll-down-slope", ("audit",), rows=late(VELOCITIES, 0.5)
     ),
     "late velocities": Fault("velocities a step late", "contact/conveyor", ("audit",), rows=late(VELOCITIES, 1.0)),
     "fast": Fault("velocities 0.05 % large", "contact/slide-to-rest", ("audit",), rows=moved(fast)),
