@@ -70,11 +70,11 @@ double tolerance_of_gauge(const Audited& run, const JobGauge& gauge, const std::
   const auto is_of = [&](const char* what) { return gauge.quantity.find(what) != std::string::npos; };
   double most = 0.0;
   for (const double value : shown) most = std::max(most, std::abs(value));
-  if (is_of("mean_temperature")) return 0.01 * largest(run, spread_of_temperature) + 1e-6 * most;
-  if (is_of("temperature")) return 0.1 * largest(run, spread_of_temperature) + 1e-6 * most;
-  if (is_of("velocity")) return 0.1 * largest(run, fastest_of_all);
-  if (is_of("pressure")) return 0.1 * largest(run, largest_pressure);
-  if (is_of("density")) return 0.1 * most;
+  const double share = gauge.quantity.starts_with("mean_") ? 0.01 : 0.1;
+  if (is_of("temperature")) return share * largest(run, spread_of_temperature) + 1e-6 * most;
+  if (is_of("velocity")) return share * largest(run, fastest_of_all);
+  if (is_of("pressure")) return share * largest(run, largest_pressure);
+  if (is_of("density")) return share * most;
   if (gauge.quantity == "centre") return (is_rigid(run, gauge.body) ? 1e-3 : 0.1) * run.job.scene.spacing;
   return 0.02 * most + 1e-3 * run.job.scene.spacing;  // displacement
 }
