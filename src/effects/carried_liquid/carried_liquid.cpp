@@ -13,6 +13,7 @@
 #include "effects/carried_liquid/scheme.hpp"
 #include "effects/carried_liquid/solid_pressure.hpp"
 #include "effects/carried_liquid/sound_terms.hpp"
+#include "effects/carried_liquid/surface_fill.hpp"
 #include "liquids/changes.hpp"
 #include "liquids/groups.hpp"
 #include "liquids/predicted_velocities.hpp"
@@ -35,7 +36,7 @@ constexpr EnergyAccount start_compression{"start_compression"};        ///< the 
 /// Steps that have taken the present gradients, -1: none are there
 constexpr StepNumber held_for{"carried_steps_held", -1.0};
 constexpr EnergyAccount taken_by_diffusion{"taken_by_diffusion"}, taken_by_shift{"taken_by_shift"};
-constexpr double relax_of_solids = 0.1;                  ///< of a squeeze, over c/support [1]
+constexpr double relax_of_solids = 1.0;                  ///< of a squeeze, over c/support [1]
 constexpr double viscous_share = 0.03;                   ///< of dx^2/nu that a step takes
 constexpr double full_rank = 0.5, own_full_rank = 0.02;  ///< determinant below which an inverse is blended
 constexpr double exposed_below = 2.25;  ///< trace of the moment of a particle at a free surface
@@ -93,6 +94,7 @@ class CarriedLiquid : public Effect {
       : numbers_(numbers_of(scene)),
         kernels_(kernels_of(scene, numbers_)),
         scheme_(scheme_of(scene)),
+        fill_(scene.support_ratio),
         equation_{numbers_.stiffness * numbers_.reference, scene.clamps()},
         solids_meet_(calls_for(scene, "pressure")) {}
   void load(State&, const InitialState&) override;
@@ -102,8 +104,10 @@ class CarriedLiquid : public Effect {
   }
   void drift(State& state, double dt) override;
   void start_sums(State& state, PassName pass, const Rows& rows) override {
-    if (pass == PassName::density)
-      fill(part(state.particles[field::summed_density], rows), kernels_.wendland.value(0.0), state.threads);
+    if (pass != PassName::density) return;
+    fill(part(state.particles[field::summed_density], rows), kernels_.wendland.value(0.0), state.threads);
+    for (const Field<double>* f : columns_of(field::summed_slope))
+      fill(part(state.particles[*f], rows), 0.0, state.threads);
   }
   void state(State&, const Rows&) override;
   void bonds(State&, const Rows&) override;
@@ -127,6 +131,7 @@ class CarriedLiquid : public Effect {
   void run(State&, const PairTerm&, const Rows&) const;
   void correct_gradients(State&) const;
   void correct_velocity_gradients(State&) const;
+  void set_velocities_of_way(State&) const;
   void move_density(State&) const;
   void set_pressure(State&) const;
   void set_shift(State&) const;
@@ -134,6 +139,7 @@ class CarriedLiquid : public Effect {
   Numbers numbers_;
   PairKernels kernels_;
   Scheme scheme_;
+  SurfaceFill fill_;
   CarriedState equation_;
   bool solids_meet_;      ///< another effect has their forces, and the columns that both write to
   double drifted_ = 0.0;  ///< since the last forces, within a step [s]
@@ -271,6 +277,8 @@ void CarriedLiquid::move_density(State& state) const {
   const auto a = matrix_columns(p, field::velocity_gradient);
   const auto slope = triple(p, field::density_gradient);
   const auto w = triple(std::as_const(p), field::shift);
+  const auto sum_slope = triple(std::as_const(p), field::summed_slope);
+  const auto share = p[field::wall_share];
   const auto z = p[field::impedance], rho = p[field::density], rest = p[field::liquid_rest_density],
              mass = p[field::mass], divergence = p[field::divergence], diffused = p[field::diffused],
              near = p[field::exposed_near], exposed = p[field::exposed], summed = p[field::summed_density],
@@ -283,6 +291,7 @@ void CarriedLiquid::move_density(State& state) const {
   const auto taken = ordered_sums_of_all(state, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
     if (z[i] == 0.0) {
       squeeze[i] = squeezes.next(i, equation_.modulus, dt, relax_of_solids * c / state.support(), sum[0]);
+      share[i] = 0.0;  // which solids are looked at here depends on the clusters
       return;
     }
     const Matrix3 A = a.at(i);
@@ -290,19 +299,50 @@ void CarriedLiquid::move_density(State& state) const {
         determinant(identity3 - dt * A) + dt * (A.xx + A.yy + A.zz);  // 1 + terms of higher order
     const double carried = std::clamp(exact - dt * divergence[i], 0.5, 2.0) * rho[i];
     const double sum_now = mass[i] * summed[i] / numbers_.lattice.density;
+    double tied_to = sum_now;
+    if ((exposed[i] != 0.0 || near[i] != 0.0) && sum_now < carried) {
+      // At a free surface the tie may take pressure away and make none
+      const double steep = state.support() * norm(sum_slope.at(i)) / summed[i];
+      tied_to = std::min(carried, std::max(sum_now / fill_(steep), rest[i]));
+    }
     double extra = dt * diffusion * diffused[i];
     if (scheme_.follows) extra += dt * dot(w.at(i), slope.at(i));
-    if (scheme_.tie == Tie::relaxed && ((exposed[i] == 0.0 && near[i] == 0.0) || sum_now > carried))
-      extra += dt * relax * (sum_now - carried);
-    if (scheme_.tie == Tie::summed && drifted_ > 0.0) {
-      const bool open = exposed[i] != 0.0 || near[i] != 0.0;
-      extra += 0.2 * ((open ? std::max(sum_now, rest[i]) : sum_now) - carried);
-    }
+    if (scheme_.tie == Tie::relaxed) extra += dt * relax * (tied_to - carried);
+    if (scheme_.tie == Tie::summed && drifted_ > 0.0) extra += 0.2 * (tied_to - carried);
     const double next = std::max(carried + extra, 0.5 * rest[i]);
-    sum[0] += mass[i] * equation_.pressure(carried, rest[i]) / (carried * carried) * (next - carried);
+    // The forces of the pressure that comes of both work in this step, half of them by what diffusion adds
+    const double p_carried = equation_.pressure(carried, rest[i]), p_next = equation_.pressure(next, rest[i]);
+    const double of_mean = p_carried / (carried * carried) + p_next / (next * next);
+    sum[0] += 0.5 * mass[i] *
+              (of_mean * (next - carried) - (p_next - p_carried) / (carried * carried) * (carried - rho[i]));
     rho[i] = next;
   });
   state.accumulated[taken_by_diffusion] -= taken[0];
+}
+
+/// The velocities with which all has come where it is. Members of rigid bodies have those at the start of the
+/// drift still: the mean with those at its end.
+void CarriedLiquid::set_velocities_of_way(State& state) const {
+  Particles& p = state.particles;
+  const auto way = triple(p, field::predicted);
+  const auto x = positions(std::as_const(p)), v = velocities(std::as_const(p));
+  const auto body = p[field::body];
+  const RigidMembers is_member(state);
+  const auto of_bodies = [&](const Field<Vec3>& f) {
+    return state.bodies.size() > 0 ? std::as_const(state.bodies)[f] : std::span<const Vec3>{};
+  };
+  const auto centre = of_bodies(field::body_centre), velocity = of_bodies(field::body_velocity),
+             omega = of_bodies(field::body_angular_velocity);
+  const auto of_member = [&](std::size_t i) {
+    const auto b = static_cast<std::size_t>(body[i]);
+    const Vec3 arm = (state.box.any() ? state.unwrapped(i) : x.at(i)) - centre[b];
+    way.set(i, 0.5 * (v.at(i) + (velocity[b] + cross(omega[b], arm))));
+  };
+  const auto of_others = [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) way.set(i, v.at(i));
+  };
+  each_block(p.size(), state.threads,
+             [&](std::size_t from, std::size_t to) { is_member.each_run(from, to, of_member, of_others); });
 }
 
 void CarriedLiquid::set_pressure(State& state) const {
@@ -364,6 +404,7 @@ void CarriedLiquid::state(State& state, const Rows&) {
   const bool renewed = first || held + 1.0 >= scheme_.hold || drifted_ == 0.0;
   held = renewed ? 0.0 : held + 1.0;
   if (first) set_pressure(state);
+  set_velocities_of_way(state);
   run(state, pair_term<Moments>, all_rows(state));
   correct_gradients(state);
   if (renewed) {

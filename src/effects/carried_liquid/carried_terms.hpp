@@ -103,15 +103,16 @@ template <Damping damping, class V>
   return where<V>(u > 0.0, -(ff * z) * u * (mach < 1.0 ? mach : every_lane<V>(1.0)));
 }
 
-/// Kernel sum of the number density.
+/// Kernel sum of the number density, and its slope.
 struct SummedDensity {
   static constexpr std::string_view name = "SummedDensity";
   static constexpr bool zero_beyond = true;
   using reads = Keys<>;
-  using adds = Keys<field::summed_density>;
+  using adds = Keys<field::summed_density, field::summed_slope>;
   template <class V>
   static void pair(const PairGeometry<V>& g, const auto&, const auto&, auto& sum) {
     sum(field::summed_density) += where(g.within, g.kernels.wendland.value_inside(g.r));
+    sum(field::summed_slope) += where<V>(g.within, -g.gradient) * g.d();
   }
 };
 
@@ -139,7 +140,7 @@ struct Gradients {
   static constexpr bool zero_beyond = true;
   using reads =
       Keys<field::carried_volume, field::impedance, field::liquid_rest_density, field::density,
-           field::velocity, field::correction, field::exposed, field::carried_pressure, field::pull>;
+           field::predicted, field::correction, field::exposed, field::carried_pressure, field::pull>;
   using adds = Keys<field::own_moment, field::touching, field::pressed, field::velocity_gradient,
                     field::density_gradient, field::unevenness, field::exposed_near, field::nearby_speed2,
                     field::divergence, field::wall_share>;
@@ -147,7 +148,7 @@ struct Gradients {
   static void pair(const PairGeometry<V>& g, const auto& i, const auto& j, auto& sum) {
     const V z_i = i(field::impedance), z_j = j(field::impedance);
     const V f = slope_of<V>(g, z_i, z_j) * j(field::carried_volume);
-    const VectorOf<V> d = g.d(), v = j(field::velocity) - i(field::velocity);
+    const VectorOf<V> d = g.d(), v = j(field::predicted) - i(field::predicted);
     const V same =
         where<V>((i(field::liquid_rest_density) == j(field::liquid_rest_density)) & (z_j != 0.0), f);
     const V jump = j(field::density) - i(field::density);

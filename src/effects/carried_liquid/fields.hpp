@@ -48,5 +48,6 @@ inline constexpr VectorField<double> residue_force{"residue_force", "N"};
 /// p V B, of which a step of sound takes its forces.
 inline constexpr SymmetricField stress{"stress", "J"};
 inline constexpr Field<double> summed_density{"summed_density", "1/m3"};
+inline constexpr VectorField<double> summed_slope{"summed_slope", "1/m4"};
 
 }  // namespace tripoint::field

@@ -21,8 +21,10 @@ double Squeezes::next(std::size_t i, double modulus, double dt, double rate, dou
   if (before < 0.0) return wanted;
   const double carried = (1.0 + before) * std::clamp(1.0 - dt * divergence_[i], 0.5, 2.0);
   const double s = std::max(carried - 1.0, 0.0), next = s + std::min(rate * dt, 1.0) * (wanted - s);
-  const double volume = mass_[i] / rest_[i];
-  taken += modulus * volume * s / ((1.0 + s) * (1.0 + s)) * (next - s);
+  const double volume = mass_[i] / rest_[i], of_s = 1.0 / ((1.0 + s) * (1.0 + s)),
+               of_next = 1.0 / ((1.0 + next) * (1.0 + next));
+  // As of a liquid: the mean of both pressures works, half of it by what the draw adds.
+  taken += 0.5 * modulus * volume * (s * of_s + next * of_next - of_s * (s - before)) * (next - s);
   return next;
 }
 

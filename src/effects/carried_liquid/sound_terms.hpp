@@ -9,13 +9,14 @@ namespace tripoint::carried_liquid {
 struct SoundRate {
   static constexpr std::string_view name = "SoundRate";
   static constexpr bool zero_beyond = true;
-  using reads = Keys<field::carried_volume, field::impedance, field::velocity, field::correction>;
+  using reads = Keys<field::carried_volume, field::impedance, field::predicted, field::correction>;
   using adds = Keys<field::divergence, field::wall_share>;
   template <class V>
   static void pair(const PairGeometry<V>& g, const auto& i, const auto& j, auto& sum) {
     const V z_i = i(field::impedance), z_j = j(field::impedance);
     const V f = slope_of<V>(g, z_i, z_j) * j(field::carried_volume) * weight<V>(z_i, z_j);
-    sum(field::divergence) += f * dot(j(field::velocity) - i(field::velocity), i(field::correction) * g.d());
+    sum(field::divergence) +=
+        f * dot(j(field::predicted) - i(field::predicted), i(field::correction) * g.d());
     sum(field::wall_share) += solid_share<V>(g, z_j, j(field::carried_volume));
   }
 };
