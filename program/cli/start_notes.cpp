@@ -2,6 +2,7 @@
 #include "program/cli/start_notes.hpp"
 #include "scene/initial_state.hpp"
 #include "scene/scene.hpp"
+#include "scene/shared_terms.hpp"
 
 #include <fmt/format.h>
 
@@ -48,7 +49,8 @@ std::vector<Finding> start_notes(const Scene& s, const InitialState& state) {
   const auto any = [&](Motion motion) {
     return std::ranges::any_of(s.bodies, [&](const Body& b) { return is_solid(b, motion); });
   };
-  if (s.settle || g == 0.0 || any(Motion::free) || !any(Motion::fixed)) return {};
+  if (s.settle || g == 0.0 || s.has_brought_form(term::pressure) || any(Motion::free) || !any(Motion::fixed))
+    return {};
   for (std::size_t n = 0; n < s.bodies.size(); ++n) {
     const Body& b = s.bodies[n];
     if (b.phase != Phase::liquid) continue;

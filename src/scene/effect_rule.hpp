@@ -104,6 +104,7 @@ struct ModelChoice {
 struct BroughtForm {
   Term term;
   ModelForm form;
+  bool leads = false;  ///< taken where the file names no form of the term and the effect would act
 };
 
 /// An entry of the ledger of energy, and what it holds: a row of docs/case-file.md.

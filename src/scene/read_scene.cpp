@@ -7,6 +7,7 @@
 #include "scene/defaults.hpp"
 #include "scene/effect_keys.hpp"
 #include "scene/geometry.hpp"
+#include "scene/leading_form.hpp"
 #include "scene/model.hpp"
 #include "scene/scene_keys.hpp"
 #include "scene/scene_records.hpp"
@@ -69,6 +70,8 @@ void read_model(TableReader& top, TableReader& in, Scene& s, Reading& reading) {
                                            ? "clamp"
                                            : "modes." + std::string(t.term->name)));
     choose(s, t, form);
+    // A run in another mode than the file's has every term in that one
+    if (t.term && s.modes_given[*t.term] == s.mode) s.modes_given.erase(*t.term);
     for (const auto& [key, number] : form.values) {
       if (in.has(key))
         model.refuse(t.name, fmt::format("scene.{} gives the form too: remove one of them", key));
@@ -130,12 +133,19 @@ std::string show_form(const Scene& s, const ModelTerm& t) {
   return form ? fmt::format("\"{}\"", form->word) : "by the keys of [scene]";
 }
 
-void resolve_modes(TableReader& in, Scene& s, RecordReader<Scene>& read) {
+void resolve_modes(TableReader& top, TableReader& in, Scene& s, RecordReader<Scene>& read) {
   s.resolve_modes();
-  for (const ModelTerm& t : model_terms())
-    if (t.term && !s.modes_given.contains(*t.term))
-      in.decisions().push_back(
-          {fmt::format("model.{}", t.name), show_form(s, t), "as scene.mode", false, {}});
+  const auto reasons = take_leading_forms(top, in, s);
+  const TomlNode* model = top.composite("model");
+  for (const ModelTerm& t : model_terms()) {
+    if (!t.term || s.modes_given.contains(*t.term) || (model && model->find(t.name))) continue;
+    const auto reason = reasons.find(t.name);
+    in.decisions().push_back({fmt::format("model.{}", t.name),
+                              show_form(s, t),
+                              reason == reasons.end() ? "as scene.mode" : reason->second,
+                              false,
+                              {}});
+  }
   if (!in.has("clamp")) in.ruled("clamp", s.clamps() ? "true" : "false", "as modes.clamp");
   const bool paper = s.all_printed();
   if (!read("support_ratio")) {
@@ -147,7 +157,9 @@ void resolve_modes(TableReader& in, Scene& s, RecordReader<Scene>& read) {
     s.support_ratio = s.default_support_ratio();
     in.ruled("support_ratio", show(s.support_ratio),
              paper ? std::string("every term is paper: about 40 neighbours by volume, as the paper has")
-                   : fmt::format("some term is corrected: {} for its Wendland kernel", corrected_support));
+             : s.has_brought_form(term::pressure)
+                 ? fmt::format("liquid flows: at {} no lattice of it resists shear", flowing_support)
+                 : fmt::format("some term is corrected: {} for its Wendland kernel", corrected_support));
   }
   if (!read("merge_distance")) {
     s.merge_distance_given = true;
@@ -211,7 +223,6 @@ Scene read_scene(TableReader& top, Reading& reading) {
   for (const auto* node : top.tables("body")) s.bodies.push_back(read_body(*node, s.materials, reading));
   if (s.bodies.empty()) top.refuse("body", "the scene has no body: add a [[body]]");
   resolve_spacing(in, s, read);
-  resolve_modes(in, s, read);
   std::size_t n = 0;
   for (const auto* node : top.tables("event")) s.events.push_back(read_event(*node, ++n, reading));
   n = 0;
@@ -225,6 +236,7 @@ Scene read_scene(TableReader& top, Reading& reading) {
   n = 0;
   for (const auto* node : top.tables("source"))
     s.sources.push_back(read_source(*node, ++n, s.end_time, reading));
+  resolve_modes(top, in, s, read);
   const bool flows = !s.inflows.empty() || std::any_of(s.bodies.begin(), s.bodies.end(), [](const Body& b) {
     return b.phase == Phase::liquid;
   });

@@ -178,8 +178,9 @@ struct HeatSource {
 };
 
 /// Support radius h/dx where a file says nothing. Where every term is as printed it is that of the paper,
-/// about 40 neighbours by volume. Else it is that of the Wendland kernel, about 74.
-inline constexpr double printed_support = 2.12, corrected_support = 2.6;
+/// about 40 neighbours by volume. Else it is that of the Wendland kernel, about 74; where liquid carries its
+/// density about 140, since no lattice of it then resists shear.
+inline constexpr double printed_support = 2.12, corrected_support = 2.6, flowing_support = 3.2;
 /// Reach over nearest and diagonal neighbours of the lattice [spacings].
 inline constexpr double lattice_reach = 1.5;
 
@@ -243,9 +244,7 @@ struct Scene {
   void resolve_modes();
   /// Every term in one form.
   void set_all_modes(Mode);
-  [[nodiscard]] double default_support_ratio() const {
-    return all_printed() ? printed_support : corrected_support;
-  }
+  [[nodiscard]] double default_support_ratio() const;
   /// @throws InputError when no material (body) of that name is there
   [[nodiscard]] const Material& material(std::string_view name) const;
   [[nodiscard]] const Body& body(std::string_view name) const;

@@ -80,6 +80,11 @@ bool Scene::all_printed() const {
   });
 }
 
+double Scene::default_support_ratio() const {
+  if (all_printed()) return printed_support;
+  return has_brought_form(term::pressure) ? flowing_support : corrected_support;
+}
+
 void Scene::resolve_modes() {
   modes.clear();
   for (const DeclaredTerm& one : declared_terms()) {

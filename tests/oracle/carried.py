@@ -61,6 +61,11 @@ def summed_density(s):
     return W.sum(axis=1) + own, (s.condition * W).sum(axis=1) + own
 
 
+def summed_slope(s):
+    f = np.where(s.distance < s.h, -s.slope_over_r, 0.0)
+    return total(s, f[..., None] * -s.d)
+
+
 def moments(s):
     """M of all neighbours, M of the same liquid, and the share of solids."""
     p = Pairs(s)
@@ -259,6 +264,7 @@ def compare_sound(out, s):
 def compare(out, s, before):
     """Most at a start alone: later the density has moved on since the volumes were taken."""
     out.compare("carried sum 8.12", s["summed_density"], *summed_density(s))
+    out.compare("slope of the sum 8.12", s.vector("summed_slope"), *summed_slope(s))
     pair, damping = FORMS[s.form_of_pressure]
     if before is not None:
         if s.raw["step_numbers"]["carried_steps_held"] > 0:

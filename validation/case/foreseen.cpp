@@ -65,8 +65,9 @@ bool is_endless(const Scene& s, std::size_t axis) { return s.periodic[axis]; }
 
 void thin_walls(const Scene& s, const InitialState& state, std::vector<Finding>& found) {
   const WallCells cells(s, state);
-  const int enough = static_cast<int>(std::ceil(s.support_ratio - 1e-9));
-  std::map<int, std::pair<long, int>> thin;  // by body: particles, and the least layers
+  const int enough =
+      static_cast<int>(std::ceil(s.support_ratio - 0.5 - 1e-9));  // liquid ends half a spacing off
+  std::map<int, std::pair<long, int>> thin;                       // by body: particles, and the least layers
   for (std::size_t i = 0; i < state.size(); ++i) {
     const Body& b = s.bodies[static_cast<std::size_t>(state.source[i])];
     if (!is_wall(b) || is_turned(b.shape)) continue;  // rows of a turned body run along no axis
@@ -80,14 +81,15 @@ void thin_walls(const Scene& s, const InitialState& state, std::vector<Finding>&
   }
   for (const auto& [source, what] : thin) {
     const Body& b = s.bodies[static_cast<std::size_t>(source)];
-    found.push_back({false,
-                     fmt::format("body \"{}\" is {} layer{} of particles thick in places ({} of its "
-                                 "particles): liquid leaks through "
-                                 "walls thinner than the support of {:.3g} m; make them {} layers, {:.3g} m, "
-                                 "or refine scene.spacing",
-                                 b.name, what.second, what.second == 1 ? "" : "s", what.first,
-                                 s.support_ratio * s.spacing, enough, enough * s.spacing),
-                     b.place});
+    found.push_back(
+        {false,
+         fmt::format("body \"{}\" is {} layer{} of particles thick in places ({} of its "
+                     "particles): liquid leaks through "
+                     "walls that its support of {:.3g} m reaches through; make them {} layers, {:.3g} m, "
+                     "or refine scene.spacing",
+                     b.name, what.second, what.second == 1 ? "" : "s", what.first,
+                     s.support_ratio * s.spacing, enough, enough * s.spacing),
+         b.place});
   }
 }
 

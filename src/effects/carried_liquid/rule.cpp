@@ -26,7 +26,7 @@ std::string left_out(const Scene&) { return "liquids take their density from the
 
 std::vector<BroughtForm> forms() {
   const auto form = [](std::string_view word, std::string_view meaning) {
-    return BroughtForm{term::pressure, {word, meaning}};
+    return BroughtForm{term::pressure, {word, meaning}, word == "adjoint"};
   };
   return {
       form("adjoint",

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/leading_form.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scene/effect_rule.hpp"
+#include "scene/model.hpp"
+
+namespace tripoint {
+namespace {
+
+/// The scene as it is where every term takes its corrected form, and this one leads.
+Scene led(Scene s, const BroughtForm& lead) {
+  s.mode = Mode::corrected;
+  s.forms[lead.term] = lead.form.word;
+  s.resolve_modes();
+  return s;
+}
+
+/// Whether no term with an equation of the paper that the rule's forms read is as printed.
+bool none_printed(const Scene& s, const EffectRule& rule) {
+  return std::ranges::none_of(declared_terms(), [&](const DeclaredTerm& one) {
+    return one.has_equation && s.mode_of(one.term) == Mode::paper &&
+           std::ranges::find(rule.terms_shared, one.term) != rule.terms_shared.end();
+  });
+}
+
+/// Whether [model] names a form that sets the key.
+bool set_by_form(const TomlNode* model, std::string_view key) {
+  if (!model) return false;
+  for (const ModelTerm& t : model_terms()) {
+    const TomlNode* word = model->find(t.name);
+    if (!word) continue;
+    const ModelForm* form = form_of_word(t, word->text);
+    if (form && std::ranges::find(form->values, key, &std::pair<std::string_view, double>::first) !=
+                    form->values.end())
+      return true;
+  }
+  return false;
+}
+
+/// A given key that acts in the term's own form alone; empty where there is none.
+std::string_view key_of_own_form(const TableReader& in, const TomlNode* model, const Scene& own,
+                                 const Scene& with) {
+  for (const EffectRule& rule : effect_rules())
+    for (const EffectKey& key : rule.keys)
+      if (key.row.table == "scene" && key.idle &&
+          (in.has(key.row.name) || set_by_form(model, key.row.name)) && key.idle(own).empty() &&
+          !key.idle(with).empty())
+        return key.row.name;
+  return "";
+}
+
+}  // namespace
+
+std::map<std::string_view, std::string> take_leading_forms(TableReader& top, const TableReader& in,
+                                                           Scene& s) {
+  std::map<std::string_view, std::string> reasons;
+  const TomlNode* model = top.composite("model");
+  for (const EffectRule& rule : effect_rules())
+    for (const BroughtForm& lead : rule.forms) {
+      if (!lead.leads || s.forms.contains(lead.term) || (model && model->find(lead.term.name))) continue;
+      const Scene with = led(s, lead);
+      if (!with.has_brought_form(lead.term) || !none_printed(with, rule) || rule.called_for(with).empty())
+        continue;
+      Scene own = with;
+      own.forms.erase(lead.term);
+      const std::string_view key = key_of_own_form(in, model, own, with);
+      if (key.empty()) s.forms[lead.term] = lead.form.word;
+      reasons[lead.term.name] =
+          key.empty() ? "leads where liquid flows" : fmt::format("scene.{} is of this form", key);
+    }
+  return reasons;
+}
+
+}  // namespace tripoint
