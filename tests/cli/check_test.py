@@ -11,6 +11,7 @@ from pathlib import Path
 
 TRIPOINT = sys.argv[1]
 BALL = '[[material]]\nname = "gum"\ndensity = 1000.0\nyoung_modulus = 1e6\npoisson_ratio = 0.3\n'
+SUM = '[model]\npressure = "conservative"\n'  # liquid that sums its density
 STONE = '[[material]]\nname = "stone"\ndensity = 1000.0\n'
 WARM = STONE + "conductivity = 1.0\nheat_capacity = 1000.0\n"
 INVARIANT = '[reference]\nkind = "invariant"\n'
@@ -194,11 +195,12 @@ class Check(unittest.TestCase):
         )
         block = body("block", "stone", [0.0, 0.0, 1.0], [0.4, 0.4, 1.4])
         told = {
-            "still": (True, scene(domain) + thin + STONE + pool + tank),
-            "settled": (False, scene(domain + "settle = true") + thin + STONE + pool + tank),
-            "held back": (False, scene(domain) + thick + STONE + pool + tank),
-            "moves": (False, scene(domain) + thin + STONE + stream + tank),
-            "with a free block": (False, scene(domain) + thin + STONE + pool + tank + block),
+            "still": (True, scene(domain) + SUM + thin + STONE + pool + tank),
+            "under its weight": (False, scene(domain) + thin + STONE + pool + tank),
+            "settled": (False, scene(domain + "settle = true") + SUM + thin + STONE + pool + tank),
+            "held back": (False, scene(domain) + SUM + thick + STONE + pool + tank),
+            "moves": (False, scene(domain) + SUM + thin + STONE + stream + tank),
+            "with a free block": (False, scene(domain) + SUM + thin + STONE + pool + tank + block),
             "weightless": (
                 False,
                 scene(domain.replace("-9.81", "0.0")) + thin + "stiffness = 200.0\n" + STONE + pool + tank,
@@ -254,8 +256,8 @@ class Explain(unittest.TestCase):
         wet = pool.replace("phase", "temperature = 300.0\nphase")
         with tempfile.TemporaryDirectory() as folder:
             alone = self.idle(scene(falls) + BALL + bar + INVARIANT + LEDGER, folder)
-            water = self.idle(scene(falls) + STONE + pool + INVARIANT + LEDGER, folder)
-            ice = self.idle(scene(falls) + STONE + heat + ICE + wet + frozen + hot + INVARIANT + LEDGER, folder)
+            water = self.idle(scene(falls) + SUM + STONE + pool + INVARIANT + LEDGER, folder)
+            ice = self.idle(scene(falls) + SUM + STONE + heat + ICE + wet + frozen + hot + INVARIANT + LEDGER, folder)
         self.assertNotIn("scene.bending", alone)
         self.assertIn("scene.bulk_viscosity", alone)
         self.assertEqual(water["scene.bending"], "nothing is elastic")
