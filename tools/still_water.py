@@ -132,7 +132,7 @@ def run_cell(cell, seconds, args, folder):
         "10",
         args.tripoint,
         "run",
-        "fluid/still-water",
+        "fluid/still-water-conservative",
         "--json",
         "--quiet",
         "--out",

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/leading_form.hpp"
 
 #include <fmt/format.h>
 
@@ -67,6 +66,12 @@ std::map<std::string_view, std::string> take_leading_forms(TableReader& top, con
         continue;
       Scene own = with;
       own.forms.erase(lead.term);
+      const auto brought =
+          std::ranges::find_if(rule.terms_shared, [&](const Term& t) { return s.forms.contains(t); });
+      if (brought != rule.terms_shared.end()) {
+        reasons[lead.term.name] = fmt::format("model.{} is another effect's form", brought->name);
+        continue;
+      }
       const std::string_view key = key_of_own_form(in, model, own, with);
       if (key.empty()) s.forms[lead.term] = lead.form.word;
       reasons[lead.term.name] =

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <map>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "scene/effect_rule.hpp"
+#include "scene/value_reader.hpp"
 
 /// The table [model]: every term of the model with its forms, each by a word. The reader, the schema, the
 /// page, jobs, `explain` and `ablate` go over this one list.
@@ -34,5 +37,10 @@ void choose(Scene&, const ModelTerm&, const ModelForm&);
 
 /// The rows of the table.
 [[nodiscard]] std::vector<Key> model_keys();
+
+/// Takes the form of a term that leads, where the file names none, its effect would act, and no given key is
+/// one of the term's own form. @param top the case file   @param in its table [scene]
+/// @pre all of the scene but its modes is read   @return why each of those terms has its form
+std::map<std::string_view, std::string> take_leading_forms(TableReader& top, const TableReader& in, Scene&);
 
 }  // namespace tripoint

@@ -7,7 +7,6 @@
 #include "scene/defaults.hpp"
 #include "scene/effect_keys.hpp"
 #include "scene/geometry.hpp"
-#include "scene/leading_form.hpp"
 #include "scene/model.hpp"
 #include "scene/scene_keys.hpp"
 #include "scene/scene_records.hpp"

@@ -206,59 +206,63 @@ TEST(IdleKeys, FindKeysOfTheSceneThatNoEffectReads) {
                           "modes.elastic = 'paper'"})
     EXPECT_EQ(found(scene(key) + cube(), "changes nothing"), "warning") << key;
   const auto pool = ink + body("pool", "ink", "liquid", 0.0);
+  const auto summed = [](const std::string& keys) {  // of liquid that sums its density
+    const bool printed = keys.find("paper") != std::string::npos && keys.find("walls") == std::string::npos;
+    return scene(keys) + (printed ? "" : "[model]\npressure = 'conservative'\n");
+  };
   for (const char* key : {"viscosity_form = 'laplacian'", "clamp = false", "modes.walls = 'paper'"})
-    EXPECT_EQ(found(scene(key) + pool, "changes nothing"), "") << key;
+    EXPECT_EQ(found(summed(key) + pool, "changes nothing"), "") << key;
   for (const char* key : {"viscosity_form = 'laplacian'", "transport_velocity = true"})
-    EXPECT_EQ(found(scene(std::string("mode = 'paper'\n") + key) + pool, "changes nothing"), "warning")
+    EXPECT_EQ(found(summed(std::string("mode = 'paper'\n") + key) + pool, "changes nothing"), "warning")
         << key;
   for (const std::string key : {"mean_pressure = 1", "sound_damping = 0.2"}) {
-    EXPECT_EQ(found(scene(key) + pool, "changes nothing"), "warning") << key;
+    EXPECT_EQ(found(summed(key) + pool, "changes nothing"), "warning") << key;
     const std::string moved = key + "\ntransport_velocity = true\nclamp = false";
-    EXPECT_EQ(found(scene(moved) + pool, "changes nothing"), "") << key;
-    EXPECT_EQ(found(scene(moved + "\nmodes.state = 'paper'") + pool, "changes nothing"), "warning") << key;
+    EXPECT_EQ(found(summed(moved) + pool, "changes nothing"), "") << key;
+    EXPECT_EQ(found(summed(moved + "\nmodes.state = 'paper'") + pool, "changes nothing"), "warning") << key;
   }
-  EXPECT_EQ(found(scene("bulk_viscosity = 0.1") + pool, "changes nothing"), "");
+  EXPECT_EQ(found(summed("bulk_viscosity = 0.1") + pool, "changes nothing"), "");
   for (const char* key : {"mode = 'paper'", "clamp = false", "modes.pressure = 'paper'"})
-    EXPECT_EQ(found(scene(std::string("bulk_viscosity = 0.1\n") + key) + pool, "changes nothing"), "warning")
+    EXPECT_EQ(found(summed(std::string("bulk_viscosity = 0.1\n") + key) + pool, "changes nothing"), "warning")
         << key;
-  EXPECT_EQ(found(scene("surface_weight = 0.4\ngravity = [0, 0, -9.81]") + pool, "changes nothing"), "");
-  EXPECT_EQ(found(scene("surface_weight = 0.4") + pool, "changes nothing"), "warning");
+  EXPECT_EQ(found(summed("surface_weight = 0.4\ngravity = [0, 0, -9.81]") + pool, "changes nothing"), "");
+  EXPECT_EQ(found(summed("surface_weight = 0.4") + pool, "changes nothing"), "warning");
   EXPECT_EQ(
-      found(scene("surface_weight = 0.4\ngravity = [0, 0, -9.81]\nclamp = false") + pool, "changes nothing"),
+      found(summed("surface_weight = 0.4\ngravity = [0, 0, -9.81]\nclamp = false") + pool, "changes nothing"),
       "warning");
-  EXPECT_EQ(found(scene("contact_stiffness = 3") + pool, "changes nothing"), "warning");
-  EXPECT_EQ(found(scene("contact_stiffness = 3") + pool + brick + body("block", "brick", "rigid", 0.5),
+  EXPECT_EQ(found(summed("contact_stiffness = 3") + pool, "changes nothing"), "warning");
+  EXPECT_EQ(found(summed("contact_stiffness = 3") + pool + brick + body("block", "brick", "rigid", 0.5),
                   "changes nothing"),
             "");
   const auto hit = pool + brick + body("block", "brick", "rigid", 0.5);
-  EXPECT_EQ(found(scene("contact_step = 0.3") + hit, "changes nothing"), "");
-  EXPECT_EQ(found(scene("contact_step = 0.3") + pool, "changes nothing"), "warning");
+  EXPECT_EQ(found(summed("contact_step = 0.3") + hit, "changes nothing"), "");
+  EXPECT_EQ(found(summed("contact_step = 0.3") + pool, "changes nothing"), "warning");
   for (const char* key : {"time_step = 1e-3", "clamp = false", "modes.density = 'paper'",
                           "modes.pressure = 'paper'", "modes.state = 'paper'"})
-    EXPECT_EQ(found(scene(std::string("contact_step = 0.3\n") + key) + hit, "changes nothing"), "warning")
+    EXPECT_EQ(found(summed(std::string("contact_step = 0.3\n") + key) + hit, "changes nothing"), "warning")
         << key;
-  EXPECT_EQ(found(scene("core_reach = 0.6") + pool, "changes nothing"), "");
+  EXPECT_EQ(found(summed("core_reach = 0.6") + pool, "changes nothing"), "");
   EXPECT_EQ(found(scene("core_reach = 0.6\nmode = 'paper'") + pool, "changes nothing"), "warning");
-  EXPECT_EQ(found(scene("isotropic_shear = 1") + pool, "changes nothing"), "");
+  EXPECT_EQ(found(summed("isotropic_shear = 1") + pool, "changes nothing"), "");
   const auto block = jelly + body("block", "jelly", "elastic", 0.5);
-  EXPECT_EQ(found(scene("face_pressure = 1") + pool + block, "changes nothing"), "");
-  EXPECT_EQ(found(scene("face_pressure = 1") + pool, "changes nothing"), "warning");
+  EXPECT_EQ(found(summed("face_pressure = 1") + pool + block, "changes nothing"), "");
+  EXPECT_EQ(found(summed("face_pressure = 1") + pool, "changes nothing"), "warning");
   for (const char* term : {"density", "pressure", "state", "elastic"})
-    EXPECT_EQ(found(scene("face_pressure = 1\nmodes." + std::string(term) + " = 'paper'") + pool + block,
+    EXPECT_EQ(found(summed("face_pressure = 1\nmodes." + std::string(term) + " = 'paper'") + pool + block,
                     "changes nothing"),
               "warning")
         << term;
-  EXPECT_EQ(found(scene("face_pressure = 1") + pool + jelly + "fracture_stretch = 1.5\n" +
+  EXPECT_EQ(found(summed("face_pressure = 1") + pool + jelly + "fracture_stretch = 1.5\n" +
                       body("block", "jelly", "elastic", 0.5),
                   "changes nothing"),
             "warning");
   const auto oil = "[[material]]\nname = 'oil'\ndensity = 800\n" + body("oil", "oil", "liquid", 0.5);
-  EXPECT_EQ(found(scene("interface_weight = 1\ngravity = [0, 0, -9.81]") + pool + oil, "changes nothing"),
+  EXPECT_EQ(found(summed("interface_weight = 1\ngravity = [0, 0, -9.81]") + pool + oil, "changes nothing"),
             "");
-  EXPECT_EQ(found(scene("interface_weight = 1") + pool + oil, "changes nothing"), "warning");
-  EXPECT_EQ(found(scene("interface_weight = 1\ngravity = [0, 0, -9.81]") + pool, "changes nothing"),
+  EXPECT_EQ(found(summed("interface_weight = 1") + pool + oil, "changes nothing"), "warning");
+  EXPECT_EQ(found(summed("interface_weight = 1\ngravity = [0, 0, -9.81]") + pool, "changes nothing"),
             "warning");
-  EXPECT_EQ(found(scene("interface_weight = 1\ngravity = [0, 0, -9.81]\nclamp = false") + pool + oil,
+  EXPECT_EQ(found(summed("interface_weight = 1\ngravity = [0, 0, -9.81]\nclamp = false") + pool + oil,
                   "changes nothing"),
             "warning");
   for (const char* key : {"mode = 'paper'", "viscosity_form = 'laplacian'"})

@@ -126,8 +126,9 @@ TEST(Model, NotesEachOldKeyThatAWordSays) {
 }
 
 TEST(Model, PutsATermBackToItsLastAndItsUsualForm) {
-  const Case plain = corrected(read_text(pool()).value),
-             isotropic = corrected(read_text(pool("", "viscosity = 'isotropic'")).value);
+  const Case plain = corrected(read_text(pool("", "pressure = 'conservative'")).value),
+             isotropic =
+                 corrected(read_text(pool("", "pressure = 'conservative'\nviscosity = 'isotropic'")).value);
   const auto rows = [](const Case& value) {
     std::set<std::string> names;
     for (const Correction& one : corrections())

@@ -339,8 +339,8 @@ TEST(CalledEffects, FollowFromWhatTheBodiesAre) {
   EXPECT_EQ(names(one("steel", "motion='fixed'\ntemperature=300")), "heat")
       << "what is held in place only conducts";
   EXPECT_EQ(names(one("steel", "temperature=300")), "rigid heat");
-  EXPECT_EQ(names(one("water")), "pressure viscosity");
-  EXPECT_EQ(names(one("water", "temperature=300")), "pressure viscosity heat");
+  EXPECT_EQ(names(one("water")), "carried_liquid");
+  EXPECT_EQ(names(one("water", "temperature=300")), "carried_liquid heat");
   EXPECT_EQ(names(one("rubber")), "elastic");
   EXPECT_EQ(names(one("ice", "temperature=250\nmotion='fixed'")), "heat")
       << "nothing in the scene is above its melting point";

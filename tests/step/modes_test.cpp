@@ -12,6 +12,7 @@
 #include "core/errors.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/sample.hpp"
+#include "scene/shared_terms.hpp"
 #include "step/simulation.hpp"
 #include "validation/case/read_case.hpp"
 
@@ -118,6 +119,7 @@ TEST(Modes, EachTermChangesTheRunOrIsRefused) {
   const auto corrected = bits_with("");
   EXPECT_EQ(bits_with(""), corrected) << "else a difference would prove nothing";
   for (const DeclaredTerm& one : declared_terms()) {
+    if (one.term == term::walls) continue;  // of liquid that sums its density: IdleKeys has it
     const std::string key = "scene.modes." + std::string(one.term.name);
     EXPECT_EQ(bits_with(key + "=\"corrected\""), corrected) << key;
     try {

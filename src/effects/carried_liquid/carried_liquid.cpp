@@ -14,6 +14,7 @@
 #include "effects/carried_liquid/solid_pressure.hpp"
 #include "effects/carried_liquid/sound_terms.hpp"
 #include "effects/carried_liquid/surface_fill.hpp"
+#include "effects/carried_liquid/way.hpp"
 #include "liquids/changes.hpp"
 #include "liquids/groups.hpp"
 #include "liquids/predicted_velocities.hpp"
@@ -131,7 +132,6 @@ class CarriedLiquid : public Effect {
   void run(State&, const PairTerm&, const Rows&) const;
   void correct_gradients(State&) const;
   void correct_velocity_gradients(State&) const;
-  void set_velocities_of_way(State&) const;
   void move_density(State&) const;
   void set_pressure(State&) const;
   void set_shift(State&) const;
@@ -320,31 +320,6 @@ void CarriedLiquid::move_density(State& state) const {
   state.accumulated[taken_by_diffusion] -= taken[0];
 }
 
-/// The velocities with which all has come where it is. Members of rigid bodies have those at the start of the
-/// drift still: the mean with those at its end.
-void CarriedLiquid::set_velocities_of_way(State& state) const {
-  Particles& p = state.particles;
-  const auto way = triple(p, field::predicted);
-  const auto x = positions(std::as_const(p)), v = velocities(std::as_const(p));
-  const auto body = p[field::body];
-  const RigidMembers is_member(state);
-  const auto of_bodies = [&](const Field<Vec3>& f) {
-    return state.bodies.size() > 0 ? std::as_const(state.bodies)[f] : std::span<const Vec3>{};
-  };
-  const auto centre = of_bodies(field::body_centre), velocity = of_bodies(field::body_velocity),
-             omega = of_bodies(field::body_angular_velocity);
-  const auto of_member = [&](std::size_t i) {
-    const auto b = static_cast<std::size_t>(body[i]);
-    const Vec3 arm = (state.box.any() ? state.unwrapped(i) : x.at(i)) - centre[b];
-    way.set(i, 0.5 * (v.at(i) + (velocity[b] + cross(omega[b], arm))));
-  };
-  const auto of_others = [&](std::size_t from, std::size_t to) {
-    for (std::size_t i = from; i < to; ++i) way.set(i, v.at(i));
-  };
-  each_block(p.size(), state.threads,
-             [&](std::size_t from, std::size_t to) { is_member.each_run(from, to, of_member, of_others); });
-}
-
 void CarriedLiquid::set_pressure(State& state) const {
   Particles& p = state.particles;
   const auto z = p[field::impedance], rho = p[field::density], rest = p[field::liquid_rest_density],
@@ -404,7 +379,7 @@ void CarriedLiquid::state(State& state, const Rows&) {
   const bool renewed = first || held + 1.0 >= scheme_.hold || drifted_ == 0.0;
   held = renewed ? 0.0 : held + 1.0;
   if (first) set_pressure(state);
-  set_velocities_of_way(state);
+  set_velocities_of_way(state, field::predicted);
   run(state, pair_term<Moments>, all_rows(state));
   correct_gradients(state);
   if (renewed) {

@@ -5,6 +5,7 @@
 
 #include "effects/effect.hpp"
 #include "scene/effect_rule.hpp"
+#include "scene/shared_terms.hpp"
 #include "scene/start_temperature.hpp"
 #include "solids/solid_particles.hpp"
 #include "state/ordered_sum.hpp"
