@@ -46,8 +46,9 @@ strain of sheets and chains 8.7 | bond force (12) | bond force 8.7 | bond force 
 energy (10) | elastic energy 8.7 |
 hourglass energy 8.7 | plastic strain 8.8 | plastic strain of sheets and chains 8.8 | broken bonds (12) | broken bonds \
 8.8 |
-carried sum 8.12 | slope of the sum 8.12 | carried moments 8.12 | carried gradients 8.12 | carried pressure force 8.12 | \
-carried viscous force 8.12 | carried damping 8.12 | carried diffusion 8.12 | sound rate 8.12 | sound force 8.12 | \
+carried sum 8.12 | slope of the sum 8.12 | carried moments 8.12 | carried gradients 8.12 | \
+carried pressure force 8.12 | carried viscous force 8.12 | carried damping 8.12 | carried diffusion 8.12 | \
+sound rate 8.12 | sound force 8.12 | \
 number density of solids 8.12 | pressure force of solids 8.12"""
 TERMS = [t.strip() for t in TERMS.replace("\n", " ").split("|")]
 
@@ -434,7 +435,9 @@ def summed_liquid(mode, changes):
 
 def states_of(writer, scene, mode, steps, changes):
     text = subprocess.run(
-        [writer, HERE / "scenes" / f"{scene}.toml", mode, str(steps), *summed_liquid(mode, changes)], check=True, stdout=subprocess.PIPE
+        [writer, HERE / "scenes" / f"{scene}.toml", mode, str(steps), *summed_liquid(mode, changes)],
+        check=True,
+        stdout=subprocess.PIPE,
     ).stdout
     read = json.loads(text)
     return [model.State(read["scene"], state) for state in read["states"]]
