@@ -41,6 +41,13 @@ inline Quaternion from_rotation_vector(const Vec3& a) noexcept {
   return {std::cos(0.5 * angle), s * a.x, s * a.y, s * a.z};
 }
 
+/// Its inverse, by the shorter way [rad].
+inline Vec3 rotation_vector(const Quaternion& turn) noexcept {
+  const Vec3 axis = (turn.w < 0.0 ? -1.0 : 1.0) * Vec3{turn.x, turn.y, turn.z};
+  const double sine = norm(axis);
+  return (sine > 0.0 ? 2.0 * std::atan2(sine, std::abs(turn.w)) / sine : 0.0) * axis;
+}
+
 /// Angle [rad] in 0..pi between two orientations, blind to the quaternion's sign: 2 atan2(|vec|, |scal|) of
 /// a* b. NaN where one is zero, which is no orientation.
 inline double angle_between(const Quaternion& a, const Quaternion& b) noexcept {

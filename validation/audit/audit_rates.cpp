@@ -69,12 +69,6 @@ Quaternion linear_turn(const Vec3& first, const Vec3& last, double time) {
   return turn;
 }
 
-Vec3 rotation_vector(const Quaternion& turn) {
-  const Vec3 axis = (turn.w < 0.0 ? -1.0 : 1.0) * Vec3{turn.x, turn.y, turn.z};
-  const double sine = norm(axis);
-  return (sine > 0.0 ? 2.0 * std::atan2(sine, std::abs(turn.w)) / sine : 0.0) * axis;
-}
-
 double allowed_difference(const Rates& rates, bool touches) {
   return (touches ? rough_share_in_contact : rough_share) * rates.roughness() +
          five_digits * rates.greatest();

@@ -47,8 +47,6 @@ inline constexpr double weight_and_friction = 1.5;
 
 /// Turn in an interval whose angular velocity changes linearly.
 [[nodiscard]] Quaternion linear_turn(const Vec3& first, const Vec3& last, double time);
-/// Rotation vector of a turn by the shorter way [rad].
-[[nodiscard]] Vec3 rotation_vector(const Quaternion&);
 
 /// Largest difference between a mean rate over an interval and the mean of its ends: the error of the
 /// trapezoidal rule where the rate bends or jumps in between, and five digits.

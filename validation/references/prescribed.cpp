@@ -1,18 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "validation/references/prescribed.hpp"
 
-#include <cmath>
-
 namespace tripoint {
 namespace {
-
-/// Rotation vector [rad] of a unit quaternion, along the shorter way.
-Vec3 rotation_vector(Quaternion q) {
-  if (q.w < 0.0) q = {-q.w, -q.x, -q.y, -q.z};
-  const Vec3 v{q.x, q.y, q.z};
-  const double sine = norm(v);
-  return sine < 1e-12 ? 2.0 * v : (2.0 * std::atan2(sine, q.w) / sine) * v;
-}
 
 BodyState at_rest(const Keyframe& key) {
   BodyState state;
