@@ -8,4 +8,8 @@ namespace tripoint::liquid {
 /// half a step [s]
 void predict_velocities(State&, double ahead, const VectorField<double>& target);
 
+/// The velocities with which all has come where it is. Members of rigid bodies have those at the start of the
+/// drift still: the mean with those at its end.
+void velocities_of_way(State&, const VectorField<double>& target);
+
 }  // namespace tripoint::liquid

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "scene/effect_rule.hpp"
 #include "scene/model.hpp"
+#include "scene/value_reader.hpp"
 
 namespace tripoint {
 namespace {
@@ -21,8 +21,7 @@ Scene led(Scene s, const BroughtForm& lead) {
 /// Whether no term with an equation of the paper that the rule's forms read is as printed.
 bool none_printed(const Scene& s, const EffectRule& rule) {
   return std::ranges::none_of(declared_terms(), [&](const DeclaredTerm& one) {
-    return one.has_equation && s.mode_of(one.term) == Mode::paper &&
-           std::ranges::find(rule.terms_shared, one.term) != rule.terms_shared.end();
+    return one.has_equation && s.mode_of(one.term) == Mode::paper && reads_term(rule, one.term);
   });
 }
 
@@ -64,14 +63,14 @@ std::map<std::string_view, std::string> take_leading_forms(TableReader& top, con
       const Scene with = led(s, lead);
       if (!with.has_brought_form(lead.term) || !none_printed(with, rule) || rule.called_for(with).empty())
         continue;
-      Scene own = with;
-      own.forms.erase(lead.term);
       const auto brought =
           std::ranges::find_if(rule.terms_shared, [&](const Term& t) { return s.forms.contains(t); });
       if (brought != rule.terms_shared.end()) {
         reasons[lead.term.name] = fmt::format("model.{} is another effect's form", brought->name);
         continue;
       }
+      Scene own = with;
+      own.forms.erase(lead.term);
       const std::string_view key = key_of_own_form(in, model, own, with);
       if (key.empty()) s.forms[lead.term] = lead.form.word;
       reasons[lead.term.name] =

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "scene/effect_rule.hpp"
-#include "scene/value_reader.hpp"
 
 /// The table [model]: every term of the model with its forms, each by a word. The reader, the schema, the
 /// page, jobs, `explain` and `ablate` go over this one list.

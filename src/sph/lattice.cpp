@@ -9,18 +9,26 @@
 namespace tripoint {
 namespace {
 
-/// Calls visit(r) for the lattice points of spacing 1 with 0 < |r| < q.
+/// Calls visit(r) for the lattice points of spacing 1 with |r| < q.
 template <class Visit>
-void for_lattice(double q, Visit visit) {
+void for_all_lattice(double q, Visit visit) {
   const int n = static_cast<int>(std::ceil(q));
   for (int z = -n; z <= n; ++z) {
     for (int y = -n; y <= n; ++y) {
       for (int x = -n; x <= n; ++x) {
         const Vec3 r{static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
-        if (norm(r) > 0.0 && norm(r) < q) visit(r);
+        if (norm(r) < q) visit(r);
       }
     }
   }
+}
+
+/// The same but for the origin.
+template <class Visit>
+void for_lattice(double q, Visit visit) {
+  for_all_lattice(q, [&](const Vec3& r) {
+    if (norm(r) > 0.0) visit(r);
+  });
 }
 
 template <class Value, class Derivative, class Laplacian>
@@ -69,6 +77,22 @@ LatticeMoments wendland_moments(double q) {
   const WendlandC2 w(q);
   return moments(
       q, w.value(0.0), [&](double r) { return w.value(r); }, [&](double r) { return w.derivative(r); }, none);
+}
+
+LatticeLayer layer_under_surface(double q, int above) {
+  const WendlandC2 kernel(q);
+  double full = 0.0;
+  LatticeLayer layer;
+  for_all_lattice(q, [&](const Vec3& d) {
+    const double r = norm(d), w = kernel.value(r);
+    full += w;
+    if (d.z > above) return;
+    layer.sum += w;
+    layer.slope += kernel.derivative_over_r(r) * d.z;
+  });
+  layer.slope = q * std::abs(layer.slope) / layer.sum;
+  layer.sum /= full;
+  return layer;
 }
 
 ShearModuli shear_moduli(double q, const ShearWeight& weight) {

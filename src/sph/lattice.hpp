@@ -27,6 +27,14 @@ struct LatticeMoments {
 [[nodiscard]] LatticeMoments elasticity_moments(double q);  ///< density, layer, gradient
 [[nodiscard]] LatticeMoments wendland_moments(double q);    ///< density, layer, gradient
 
+/// Sums of the Wendland kernel over the lattice under a flat surface.
+struct LatticeLayer {
+  double sum = 0.0;    ///< S over S0 inside [1]
+  double slope = 0.0;  ///< h |grad S|/S [1]
+};
+/// @param q support ratio, > 1 [spacings]   @param above layers between the particle and the surface
+[[nodiscard]] LatticeLayer layer_under_surface(double q, int above);
+
 /// How much the lattice resists shear by `central` viscosity, over the exact resistance [1] (model 8.5).
 struct ShearModuli {
   double axes = 0.0;       ///< along its axes: velocity along x, changing along y

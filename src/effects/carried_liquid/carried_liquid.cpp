@@ -14,7 +14,6 @@
 #include "effects/carried_liquid/solid_pressure.hpp"
 #include "effects/carried_liquid/sound_terms.hpp"
 #include "effects/carried_liquid/surface_fill.hpp"
-#include "effects/carried_liquid/way.hpp"
 #include "liquids/changes.hpp"
 #include "liquids/groups.hpp"
 #include "liquids/predicted_velocities.hpp"
@@ -379,7 +378,7 @@ void CarriedLiquid::state(State& state, const Rows&) {
   const bool renewed = first || held + 1.0 >= scheme_.hold || drifted_ == 0.0;
   held = renewed ? 0.0 : held + 1.0;
   if (first) set_pressure(state);
-  set_velocities_of_way(state, field::predicted);
+  liquid::velocities_of_way(state, field::predicted);
   run(state, pair_term<Moments>, all_rows(state));
   correct_gradients(state);
   if (renewed) {
