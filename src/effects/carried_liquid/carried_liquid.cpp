@@ -289,7 +289,7 @@ void CarriedLiquid::move_density(State& state) const {
   const Squeezes squeezes(state);
   const auto taken = ordered_sums_of_all(state, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
     if (z[i] == 0.0) {
-      squeeze[i] = squeezes.next(i, equation_.modulus, dt, relax_of_solids * c / state.support(), sum[0]);
+      squeeze[i] = squeezes.next(i, equation_, dt, relax_of_solids * c / state.support(), sum[0]);
       share[i] = 0.0;  // which solids are looked at here depends on the clusters
       return;
     }
@@ -309,11 +309,7 @@ void CarriedLiquid::move_density(State& state) const {
     if (scheme_.tie == Tie::relaxed) extra += dt * relax * (tied_to - carried);
     if (scheme_.tie == Tie::summed && drifted_ > 0.0) extra += 0.2 * (tied_to - carried);
     const double next = std::max(carried + extra, 0.5 * rest[i]);
-    // The forces of the pressure that comes of both work in this step, half of them by what diffusion adds
-    const double p_carried = equation_.pressure(carried, rest[i]), p_next = equation_.pressure(next, rest[i]);
-    const double of_mean = p_carried / (carried * carried) + p_next / (next * next);
-    sum[0] += 0.5 * mass[i] *
-              (of_mean * (next - carried) - (p_next - p_carried) / (carried * carried) * (carried - rho[i]));
+    sum[0] += equation_.added(mass[i], rest[i], {rho[i], carried, next});
     rho[i] = next;
   });
   state.accumulated[taken_by_diffusion] -= taken[0];

@@ -22,6 +22,14 @@ double CarriedState::energy(double mass, double rho, double rest) const {
   return clamp && s <= 1.0 ? 0.0 : modulus * mass / rest * (std::log(s) + 1.0 / s - 1.0);
 }
 
+double CarriedState::added(double mass, double rest, const DensityStep& rho) const {
+  const double p_moved = pressure(rho.moved, rest), p_next = pressure(rho.next, rest);
+  const double of_mean = p_moved / (rho.moved * rho.moved) + p_next / (rho.next * rho.next);
+  return 0.5 * mass *
+         (of_mean * (rho.next - rho.moved) -
+          (p_next - p_moved) / (rho.moved * rho.moved) * (rho.moved - rho.before));
+}
+
 double CarriedState::wall_energy(double mass, double rest, double share) const {
   const double inside = std::max(share - inside_wall, 0.0);
   return 0.5 * modulus * mass / rest * inside * inside;

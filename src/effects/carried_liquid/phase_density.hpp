@@ -10,6 +10,11 @@
 /// Density of what becomes liquid, and the energy of compression that comes and goes with it.
 namespace tripoint::carried_liquid {
 
+/// A density at the start of a step, after its rate, and after what else moves it [kg/m3].
+struct DensityStep {
+  double before, moved, next;
+};
+
 /// p = modulus (rho/rho0 - 1), and what depends on it.
 struct CarriedState {
   double modulus = 0.0;  ///< k rho_ref, of all liquids [Pa]
@@ -17,6 +22,9 @@ struct CarriedState {
   [[nodiscard]] double pressure(double rho, double rest) const;
   /// m e(rho), de = p/rho^2 drho, from the rest density [J].
   [[nodiscard]] double energy(double mass, double rho, double rest) const;
+  /// Energy that `moved` to `next` adds [J]. The forces of the mean pressure of a step work on what its rate
+  /// moves, so half of what is added there is theirs.
+  [[nodiscard]] double added(double mass, double rest, const DensityStep&) const;
   /// Of a liquid whose neighbourhood solids fill by `share` [J].
   [[nodiscard]] double wall_energy(double mass, double rest, double share) const;
 };

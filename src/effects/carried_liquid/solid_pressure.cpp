@@ -15,16 +15,15 @@ Squeezes::Squeezes(const State& state)
       mass_(state.particles[field::mass]),
       rest_(state.particles[field::liquid_rest_density]) {}
 
-double Squeezes::next(std::size_t i, double modulus, double dt, double rate, double& taken) const {
+double Squeezes::next(std::size_t i, const CarriedState& equation, double dt, double rate,
+                      double& taken) const {
   const double before = squeeze_[i], touching = touching_[i];
-  const double wanted = touching > 1e-12 ? std::max(pressed_[i] / touching, 0.0) / modulus : 0.0;
+  const double wanted = touching > 1e-12 ? std::max(pressed_[i] / touching, 0.0) / equation.modulus : 0.0;
   if (before < 0.0) return wanted;
   const double carried = (1.0 + before) * std::clamp(1.0 - dt * divergence_[i], 0.5, 2.0);
   const double s = std::max(carried - 1.0, 0.0), next = s + std::min(rate * dt, 1.0) * (wanted - s);
-  const double volume = mass_[i] / rest_[i], of_s = 1.0 / ((1.0 + s) * (1.0 + s)),
-               of_next = 1.0 / ((1.0 + next) * (1.0 + next));
-  // As of a liquid: the mean of both pressures works, half of it by what the draw adds.
-  taken += 0.5 * modulus * volume * (s * of_s + next * of_next - of_s * (s - before)) * (next - s);
+  const double rest = rest_[i];
+  taken += equation.added(mass_[i], rest, {rest * (1.0 + before), rest * (1.0 + s), rest * (1.0 + next)});
   return next;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <span>
 
+#include "effects/carried_liquid/phase_density.hpp"
 #include "state/state.hpp"
 
 /// Pressure of a solid where liquid touches it: p_s = modulus squeeze. The liquid changes it by the rate that
@@ -14,7 +15,8 @@ class Squeezes {
   explicit Squeezes(const State&);
   /// At the end of the drift, drawn towards the pressure that the liquid has there; at the start that
   /// pressure. @param rate of the draw [1/s] @param taken energy that the draw adds [J]
-  [[nodiscard]] double next(std::size_t row, double modulus, double dt, double rate, double& taken) const;
+  [[nodiscard]] double next(std::size_t row, const CarriedState&, double dt, double rate,
+                            double& taken) const;
 
  private:
   std::span<const double> squeeze_, touching_, pressed_, divergence_, mass_, rest_;
