@@ -8,8 +8,8 @@
 #include <set>
 
 #include "assembly/plan.hpp"
+#include "liquids/carried_density.hpp"
 #include "program/bench/trial.hpp"
-#include "scene/shared_terms.hpp"
 #include "validation/case/case.hpp"
 #include "validation/case/engine_names.hpp"
 #include "validation/results/escaped_text.hpp"
@@ -50,7 +50,7 @@ std::string start_of(const Scene& scene) {
   if (scene.gravity == Vec3{} || std::none_of(scene.bodies.begin(), scene.bodies.end(),
                                               [](const Body& b) { return b.phase == Phase::liquid; }))
     return "";
-  if (scene.has_brought_form(term::pressure))
+  if (liquid::carries_density(scene))
     return "liquids lie on a lattice, under the pressure of their own weight";
   return "liquids lie on a lattice, which sinks by a tenth of a spacing and breaks up; settle = true lets "
          "them down first, where "

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "program/cli/start_notes.hpp"
+#include "liquids/carried_density.hpp"
 #include "scene/initial_state.hpp"
 #include "scene/scene.hpp"
-#include "scene/shared_terms.hpp"
 
 #include <fmt/format.h>
 
@@ -49,7 +49,7 @@ std::vector<Finding> start_notes(const Scene& s, const InitialState& state) {
   const auto any = [&](Motion motion) {
     return std::ranges::any_of(s.bodies, [&](const Body& b) { return is_solid(b, motion); });
   };
-  if (s.settle || g == 0.0 || s.has_brought_form(term::pressure) || any(Motion::free) || !any(Motion::fixed))
+  if (s.settle || g == 0.0 || liquid::carries_density(s) || any(Motion::free) || !any(Motion::fixed))
     return {};
   for (std::size_t n = 0; n < s.bodies.size(); ++n) {
     const Body& b = s.bodies[n];

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <string>
+
 #include "particles/catalogue.hpp"
 #include "scene/scene.hpp"
 #include "scene/shared_terms.hpp"
@@ -10,6 +12,11 @@ namespace tripoint::liquid {
 /// solids among each other.
 [[nodiscard]] inline bool carries_density(const Scene& scene) {
   return scene.has_brought_form(term::pressure);
+}
+
+/// Why no pressure by the sum acts, where its effect is left out.
+[[nodiscard]] inline std::string why_none_summed(const Scene& scene) {
+  return carries_density(scene) ? "liquids carry their density" : "nothing flows or touches";
 }
 
 /// Tells of groups whether their particles take their pressure from the sum (4).

@@ -65,9 +65,9 @@ bool is_endless(const Scene& s, std::size_t axis) { return s.periodic[axis]; }
 
 void thin_walls(const Scene& s, const InitialState& state, std::vector<Finding>& found) {
   const WallCells cells(s, state);
-  const int enough =
-      static_cast<int>(std::ceil(s.support_ratio - 0.5 - 1e-9));  // liquid ends half a spacing off
-  std::map<int, std::pair<long, int>> thin;                       // by body: particles, and the least layers
+  // Liquid ends half a spacing off
+  const int enough = static_cast<int>(std::ceil(s.support_ratio - 0.5 - 1e-9));
+  std::map<int, std::pair<long, int>> thin;  // by body: particles, and the least layers
   for (std::size_t i = 0; i < state.size(); ++i) {
     const Body& b = s.bodies[static_cast<std::size_t>(state.source[i])];
     if (!is_wall(b) || is_turned(b.shape)) continue;  // rows of a turned body run along no axis

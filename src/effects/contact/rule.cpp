@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vector>
 
+#include "liquids/carried_density.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/shared_terms.hpp"
 
@@ -35,7 +36,7 @@ std::string called_for(const Scene& s) {
 }
 
 std::string left_out(const Scene& s) {
-  if (!calls_for(s, "pressure")) return "nothing flows or touches";
+  if (!calls_for(s, "pressure")) return liquid::why_none_summed(s);
   const std::string why = no_contact_stiffness(s);
   return why.empty() ? "scene.contact_stiffness and scene.contact_step are 0" : why;
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "liquids/carried_density.hpp"
 #include "liquids/compression_energy.hpp"
 #include "liquids/pressing_gravity.hpp"
 #include "scene/effect_rule.hpp"
@@ -28,7 +29,7 @@ std::string called_for(const Scene& s) {
 }
 
 std::string left_out(const Scene& s) {
-  if (!calls_for(s, "pressure")) return "nothing flows or touches";
+  if (!calls_for(s, "pressure")) return liquid::why_none_summed(s);
   const std::string why = no_interface_weight(s);
   return why.empty() ? "scene.interface_weight is 0" : why;
 }

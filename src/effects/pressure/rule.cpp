@@ -60,6 +60,7 @@ std::string called_for(const Scene& s) {
 }
 
 std::string left_out(const Scene& s) {
+  if (liquid::carries_density(s)) return "liquids carry their density, and nothing else can touch";
   if (any_body(s, liquid::is_liquid)) return "every liquid is held in place, and nothing can touch";
   if (!s.contact) return "nothing is liquid, and the scene says contact = \"none\"";
   if (!any_material(s, has_stiffness))

@@ -28,7 +28,7 @@ std::string called_for(const Scene& s) {
 }
 
 std::string left_out(const Scene& s) {
-  if (!calls_for(s, "pressure")) return "nothing flows or touches";
+  if (!calls_for(s, "pressure")) return liquid::why_none_summed(s);
   return s.transport_velocity ? no_transport_velocity(s) : "scene.transport_velocity is false";
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "liquids/carried_density.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/shared_terms.hpp"
 
@@ -9,7 +10,7 @@ std::string called_for(const Scene& s) {
   return calls_for(s, "pressure") ? "what flows or touches can be viscous" : "";
 }
 
-std::string left_out(const Scene&) { return "nothing flows or touches"; }
+std::string left_out(const Scene& s) { return liquid::why_none_summed(s); }
 
 std::string no_form_of_viscosity(const Scene& s) {
   return s.mode_of(term::viscosity) == Mode::paper ? "viscosity as printed has one form" : "";
