@@ -126,5 +126,18 @@ TEST(AuditOfLag, FindsLagsFactorsAndJumpsInContact) {
     EXPECT_TRUE(says(sliding(way), words)) << words << ": " << sliding(way);
 }
 
+/// A block that is hit back and forth within two frames shows it by its places. Without them it is a fault.
+TEST(AuditOfLag, LetsABlockInContactBeHitBackAndForth) {
+  const auto hit = [](double shown) {
+    return sliding([shown](BodyState& b, double t) {
+      if (std::abs(t - 0.3) > 1e-6) return;
+      b.velocity *= -1.0;
+      b.position.x += shown;
+    });
+  };
+  EXPECT_EQ(hit(-0.004), "");
+  EXPECT_TRUE(says(hit(0.0), "the velocity of `block` leaves those before and after it"));
+}
+
 }  // namespace
 }  // namespace tripoint

@@ -26,10 +26,10 @@ bool is_free_about(const Audited& run, std::size_t body, std::size_t n) {
   return !contact_of(run, body, n - 1).touches && !contact_of(run, body, n).touches;
 }
 
-/// Mean rate by places or orientations, from the frame before one to the frame after it.
-Vec3 rate_about(const Audited& run, const JobBody& body, Vec3 BodyState::*member, std::size_t n) {
+/// Mean rate over an interval by its places or orientations.
+Vec3 mean_rate(const Audited& run, const JobBody& body, Vec3 BodyState::*member, std::size_t interval) {
   const auto row = static_cast<std::size_t>(body.index);
-  const Snapshot &before = *run.frames[n - 1], &after = *run.frames[n + 1];
+  const Snapshot &before = *run.frames[interval], &after = *run.frames[interval + 1];
   const BodyState &from = before.bodies[row], &to = after.bodies[row];
   const Vec3 change = member == &BodyState::velocity
                           ? displacement(run.job.scene, to.position, from.position)
@@ -58,8 +58,8 @@ double hidden_about(const Audited& run, std::size_t body, std::size_t n) {
   return most;
 }
 
-/// In contact a body may be hit and hit back. Then its way or turn is not that of the frames before and
-/// after.
+/// In contact a body may be hit and hit back. Then its ways or turns to this frame and from it are not those
+/// of the frames before and after.
 bool is_denied(const Audited& run, std::size_t body, Vec3 BodyState::*member, const std::vector<Vec3>& rate,
                std::size_t n, const Spike& spike) {
   if (is_free_about(run, body, n)) return true;
@@ -67,8 +67,10 @@ bool is_denied(const Audited& run, std::size_t body, Vec3 BodyState::*member, co
   const double hidden =
       hidden_about(run, body, n) / (member == &BodyState::velocity ? 1.0 : gyration_radius(b));
   const double large = 0.5 * std::max(norm(rate[n - 1]), norm(rate[n + 1]));
-  const double off = norm(rate_about(run, b, member, n) - 0.5 * (rate[n - 1] + rate[n + 1]));
-  return spike.found > spike.allowed + hidden + large && off < 0.25 * spike.found &&
+  const Vec3 smooth = 0.5 * (rate[n - 1] + rate[n + 1]);
+  const double off =
+      std::max(norm(mean_rate(run, b, member, n - 1) - smooth), norm(mean_rate(run, b, member, n) - smooth));
+  return spike.found > spike.allowed + hidden + large && off < 0.1 * spike.found &&
          !is_hit_by_the_other(run, b, member, n);
 }
 
