@@ -47,6 +47,8 @@ def by_harmonic_mean(wanted: dict[Pair, float]) -> dict[str, float] | None:
     inverse: dict[str, float] = {}
 
     def follow(name: str) -> None:
+        if inverse[name] == inf:  # without friction whatever the other surface is
+            return
         for (a, b), mu in wanted.items():
             other = b if a == name else a if b == name else name
             if other not in inverse:

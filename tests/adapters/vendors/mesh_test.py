@@ -126,6 +126,9 @@ class Pairs(unittest.TestCase):
     def test_where_none_have_there_is_no_answer(self):
         self.assertIsNone(by_least({("a", "a"): 0.1, ("b", "b"): 0.1, ("a", "b"): 0.5}))
         self.assertIsNone(by_harmonic_mean({("a", "a"): 0.1, ("b", "b"): 0.1, ("a", "b"): 0.5}))
+        self.assertEqual(by_harmonic_mean({("a", "a"): 0.0, ("b", "b"): 0.0, ("a", "b"): 0.0}), {"a": 0.0, "b": 0.0})
+        self.assertEqual(by_harmonic_mean({("a", "a"): 0.0, ("a", "b"): 0.0, ("b", "b"): 0.3})["a"], 0.0)
+        self.assertEqual(by_harmonic_mean({("a", "b"): 0.0, ("b", "b"): 0.3})["a"], 0.0)
 
     def test_drake_and_dart_refuse_a_table_that_their_rule_cannot_give(self):
         two = [body(), floor(material="other", shape={"kind": "box", "min": [-1, -1, -1], "max": [1, 1, 0]})]
