@@ -8,6 +8,7 @@
 #include "solids/body_forces.hpp"
 #include "solids/objects.hpp"
 #include "solids/solid_particles.hpp"
+#include "state/left_numbers.hpp"
 
 namespace tripoint {
 namespace {
@@ -25,6 +26,34 @@ std::vector<int> by_id(const Particles& p, const Field<int>& f) {
   std::vector<int> values(p.size());
   for (std::size_t id = 0; id < p.size(); ++id) values[id] = column[p.row(id)];
   return values;
+}
+
+/// Values by id become values by the number of the trajectory's row.
+template <class T>
+void spread(std::vector<T>& values, const std::vector<int>& number, std::size_t rows, const T& none) {
+  if (values.empty()) return;
+  std::vector<T> by_number(rows, none);
+  for (std::size_t id = 0; id < values.size(); ++id)
+    by_number[static_cast<std::size_t>(number[id])] = values[id];
+  values = std::move(by_number);
+}
+
+/// Particles that have left keep their rows, without values.
+void show_left(const State& state, Snapshot& s) {
+  const std::vector<int> number = by_id(state.particles, field::number);
+  const StepNumbers& numbers = state.step_numbers;
+  const auto rows = static_cast<std::size_t>(numbers[left_numbers::ever]);
+  constexpr Vec3 nowhere{not_a_number, not_a_number, not_a_number};
+  s.id = number;
+  spread(s.id, number, rows, -1);
+  spread(s.position, number, rows, nowhere);
+  spread(s.velocity, number, rows, nowhere);
+  for (auto* column : {&s.temperature, &s.density, &s.pressure, &s.liquid_fraction, &s.mass})
+    spread(*column, number, rows, not_a_number);
+  for (auto* column : {&s.phase, &s.material}) spread(*column, number, rows, 0);
+  spread(s.body, number, rows, -1);
+  s.counts["left"] = numbers[left_numbers::left];
+  s.counts["mass_left"] = numbers[left_numbers::mass];
 }
 
 BodyState body_state(const State& state, std::size_t b) {
@@ -94,6 +123,7 @@ Snapshot snapshot_of(Simulation& simulation) {
         s.heat_given[state.body_names[b]] = state.bodies[field::body_heat][b];
   if (calls_for(state.scene, &EffectRule::has_bonds))
     s.counts["objects"] = static_cast<double>(count_objects(state));
+  if (p.has(field::number)) show_left(state, s);
   if (state.scene.recovers) s.counts["recoveries"] = static_cast<double>(simulation.recovery().count());
   return s;
 }

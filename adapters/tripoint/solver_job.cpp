@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adapters/tripoint/solver_job.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <utility>
+
+#include "state/left_numbers.hpp"
 
 namespace tripoint {
 namespace {
@@ -62,6 +67,21 @@ void report_recoveries(const Recovery& recovery, Result& result) {
   if (result.message.empty())
     result.message = "recovered " + std::to_string(recovery.count()) +
                      (recovery.count() == 1 ? " time" : " times") + ", last when " + recovery.last();
+}
+
+void report_left(const State& state, Result& result) {
+  if (!state.particles.has(field::number)) return;
+  const StepNumbers& n = state.step_numbers;
+  using namespace left_numbers;
+  for (const auto& [name, number] : {std::pair{"left", left},
+                                     {"mass_left", mass},
+                                     {"momentum_left_x", px},
+                                     {"momentum_left_y", py},
+                                     {"momentum_left_z", pz}})
+    result.extra[name] = n[number];
+  if (n[left] > 0.0 && result.message.empty())
+    result.message = fmt::format("{:.0f} particles of {:.0f} have left the scene, with {:.4g} kg", n[left],
+                                 n[ever], n[mass]);
 }
 
 }  // namespace tripoint

@@ -36,5 +36,7 @@ T setting(const Job& job, const std::string& name, T otherwise) {
 [[nodiscard]] Readback readback_of(const State&, const TimeStepBound&);
 /// How often a guard sent the run back, and why the last time; nothing where none did.
 void report_recoveries(const Recovery&, Result&);
+/// How many particles have left, and what they took; nothing where none can.
+void report_left(const State&, Result&);
 
 }  // namespace tripoint

@@ -66,6 +66,7 @@ EngineInfo TripointEngine::info() const {
                        "contact",
                        "force",
                        "source",
+                       "outflow",
                        "torque",
                        "viscosity",
                        "walls",
@@ -143,6 +144,7 @@ void TripointEngine::account(Result& result) const {
   result.extra["time_step"] = simulation_->time_step();
   if (std::isfinite(simulation_->bound().dt)) result.extra["time_step_bound"] = simulation_->bound().dt;
   report_recoveries(simulation_->recovery(), result);
+  report_left(simulation_->state(), result);
   if (const auto& lists = simulation_->state().neighbours)
     result.extra["neighbour_rebuilds"] = static_cast<double>(lists->rebuilds());
 }

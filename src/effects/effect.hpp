@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -117,6 +118,9 @@ class Effect {
   /// It is called where wants_change() said so, in any of the processes that share the scene; each of them
   /// then holds all of it.
   virtual void change(State&) {}
+  /// Particles are about to leave the scene: accumulates as outflow the energy that the effect counts of
+  /// them. @param rows of these particles, in order of id
+  virtual void lose(State&, std::span<const std::size_t> /*rows*/) {}
   /// Follows State::change in the columns that the effect owns.
   virtual void adopt(State&) {}
   /// Settles what State::change cost or set free, when all have adopted it.

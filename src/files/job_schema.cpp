@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "files/job_schema.hpp"
 
+#include <set>
+#include <string>
+
 #include <nlohmann/json.hpp>
 
 #include "files/job_records.hpp"
@@ -181,12 +184,13 @@ json named(const char* title, json whole) {
 json scene_schema() {
   json scene = object_of(record<Scene>);
   add_effect_keys<Scene>(scene, "scene");
-  for (const char* list : {"materials", "bodies", "events", "inflows", "contacts", "forces", "sources"}) {
+  const std::set<std::string> optional{"outflows", "contacts", "forces", "sources"};
+  for (const char* list :
+       {"materials", "bodies", "events", "inflows", "outflows", "contacts", "forces", "sources"}) {
     const std::string one =
         std::string(list) == "bodies" ? "body" : std::string(list, std::char_traits<char>::length(list) - 1);
     scene["properties"][list] = list_of(table(one));
-    if (std::string(list) != "contacts" && std::string(list) != "forces" && std::string(list) != "sources")
-      scene["required"].push_back(list);
+    if (!optional.contains(list)) scene["required"].push_back(list);
   }
   scene["properties"]["model"] = table("model");
   return scene;
@@ -222,6 +226,7 @@ json job_schema() {
   tables["body"] = object_of(record<Body>, records::of_job_body, records::of_mass);
   tables["event"] = object_of(record<Event>);
   tables["inflow"] = object_of(record<Inflow>);
+  tables["outflow"] = object_of(record<Outflow>);
   tables["contact"] = object_of(record<ContactLaw>);
   tables["force"] = object_of(record<AppliedForce>);
   tables["source"] = object_of(record<HeatSource>);

@@ -145,6 +145,7 @@ json scene_to_json(const Scene& s, const std::vector<JobBody>& bodies) {
     out["bodies"].push_back(body_json(s.bodies[k], bodies.at(k)));
   for (const Event& e : s.events) out["events"].push_back(event_json(e));
   for (const Inflow& f : s.inflows) put_record(f, out["inflows"].emplace_back(json::object()));
+  for (const Outflow& f : s.outflows) put_record(f, out["outflows"].emplace_back(json::object()));
   for (const ContactLaw& law : s.contact_laws) put_record(law, out["contacts"].emplace_back(json::object()));
   for (const AppliedForce& f : s.forces) put_record(f, out["forces"].emplace_back(json::object()));
   for (const HeatSource& h : s.sources) put_record(h, out["sources"].emplace_back(json::object()));
@@ -163,6 +164,7 @@ void scene_from_json(const json& value, Scene& s, std::vector<JobBody>& bodies) 
   for (const JsonObject& b : o.objects("bodies")) body_from(b, s, bodies);
   take_list(o, "events", s.events);
   take_list(o, "inflows", s.inflows);
+  if (o.has("outflows")) take_list(o, "outflows", s.outflows);
   if (o.has("contacts")) take_list(o, "contacts", s.contact_laws);  // came after the first jobs
   if (o.has("forces")) take_list(o, "forces", s.forces);
   if (o.has("sources")) take_list(o, "sources", s.sources);

@@ -34,6 +34,8 @@ inline constexpr Field<double> own_density{"own_density", "1/m3"};
 /// Code of the agent that moves this particle in place of forces: 0 none, else one of the codes at the end of
 /// this file.
 inline constexpr Field<int> driven{"driven", "1"};
+/// Row in the trajectory, where particles can leave: ids are of those that are there.
+inline constexpr Field<int> number{"number", "1"};
 
 // elastic solids (10)-(17)
 /// A_i = pinv M_i of the reference list (model 8.7), symmetric, and its rank: 3 solid, 2 sheet, 1 chain, 0

@@ -115,7 +115,12 @@ void Columns::gather(std::span<const std::uint32_t> from) {
 void Columns::append_row() {
   ++rows_;
   for (Column& c : columns_) {
-    std::visit([&](auto& values) { values.resize(rows_ + padding); }, c.values);
+    std::visit(
+        [&](auto& values) {
+          values.resize(rows_ + padding);
+          values[rows_ - 1] = {};  // it was padding, where earlier rows may have left values
+        },
+        c.values);
   }
 }
 

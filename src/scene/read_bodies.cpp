@@ -238,6 +238,14 @@ Inflow read_inflow(const TomlNode& node, std::size_t number, double end_time, Re
   return f;
 }
 
+Outflow read_outflow(const TomlNode& node, std::size_t number, Reading& reading) {
+  TableReader in(node, "outflow", fmt::format("outflow.{}", number), reading.decisions, scene_keys());
+  Outflow f;
+  f.place = node.place;
+  RecordReader(in, f, reading).all();
+  return f;
+}
+
 ContactLaw read_contact_law(const TomlNode& node, std::size_t number, Reading& reading) {
   TableReader in(node, "contact", fmt::format("contact.{}", number), reading.decisions, scene_keys());
   ContactLaw law;

@@ -80,6 +80,8 @@ void read_model(TableReader& top, TableReader& in, Scene& s, Reading& reading) {
 }
 
 void check_domain(const TableReader& in, const Scene& s) {
+  if (s.removes_escaped && !(s.min && s.max))
+    in.refuse("on_escape", "what leaves is known where there is a domain: give scene.min and scene.max");
   if (s.min.has_value() != s.max.has_value())
     in.refuse(s.min ? "min" : "max",
               fmt::format("a domain has two corners: give scene.{} too", s.min ? "max" : "min"));
@@ -114,6 +116,7 @@ void read_scene_table(TableReader& in, Scene& s, RecordReader<Scene>& read, Read
   read("min");
   read("max");
   read("periodic");
+  read("on_escape");
   check_domain(in, s);
   if (read("output_interval"))
     in.ruled("output_interval", show(s.output_interval = s.end_time / 20.0), "a twentieth of end_time");
@@ -227,6 +230,8 @@ Scene read_scene(TableReader& top, Reading& reading) {
   n = 0;
   for (const auto* node : top.tables("inflow"))
     s.inflows.push_back(read_inflow(*node, ++n, s.end_time, reading));
+  n = 0;
+  for (const auto* node : top.tables("outflow")) s.outflows.push_back(read_outflow(*node, ++n, reading));
   n = 0;
   for (const auto* node : top.tables("contact"))
     s.contact_laws.push_back(read_contact_law(*node, ++n, reading));

@@ -141,6 +141,8 @@ struct Inflow {
   std::optional<double> temperature;
   double start = 0.0, stop = 0.0;
   std::optional<double> rate;  ///< [m3/s]
+  std::string profile;         ///< formula of x, y, z: factor on velocity; empty = 1
+  double ramp = 0.0;           ///< time in which velocity grows from 0 [s]
 };
 
 /// Laws of contact of a pair of materials, [[contact]]. A pair that no table names has neither.
@@ -148,6 +150,12 @@ struct ContactLaw {
   std::vector<std::string> materials;  ///< two; the same one twice for bodies of one material
   /// Coulomb's coefficient, ratio of speeds after and before a hit [1]
   std::optional<double> friction, restitution;
+  SourcePlace place;
+};
+
+/// Where liquid leaves the scene, [[outflow]].
+struct Outflow {
+  Shape shape;
   SourcePlace place;
 };
 
@@ -213,12 +221,14 @@ struct Scene {
   bool contact = true;  ///< false: solids pass through each other (contact = "none")
   /// a guard that trips sends the run back to a good state, with half the step
   bool recovers = false;
+  bool removes_escaped = false;      ///< liquid that leaves min..max is dropped (on_escape = "remove")
   std::vector<GuardName> unguarded;  ///< guards that are off
   EffectValues values;               ///< of keys that effects bring (scene/effect_rule.hpp)
   std::vector<Material> materials;
   std::vector<Body> bodies;
   std::vector<Event> events;
   std::vector<Inflow> inflows;
+  std::vector<Outflow> outflows;
   std::vector<ContactLaw> contact_laws;
   std::vector<AppliedForce> forces;
   std::vector<HeatSource> sources;

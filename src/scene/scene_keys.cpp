@@ -23,6 +23,7 @@ constexpr auto top_keys = std::to_array<Key>({
     {"", "body", tables, "", any, "!", "", "body", "bodies, in the order of their rows"},
     {"", "event", tables, "", any, "=", "nothing happens on the way", "event", "what happens at a time"},
     {"", "inflow", tables, "", any, "=", "nothing flows in", "inflow", "liquid that flows in"},
+    {"", "outflow", tables, "", any, "=", "nothing flows out", "outflow", "where liquid flows out"},
     {"", "contact", tables, "", any, "=", "no friction; restitution as each engine's preset has it",
      "contact", "friction and restitution by pairs of materials"},
     {"", "force", tables, "", any, "=", "gravity alone", "force", "forces and torques on rigid bodies"},
@@ -55,6 +56,7 @@ constexpr auto tables_of_scene = std::to_array<TableInfo>({
     {"velocity.expression", "velocity = {kind = \"expression\", ...}", "Formulas."},
     {"event", "[[event]]", "An event at a time."},
     {"inflow", "[[inflow]]", "Liquid that flows in."},
+    {"outflow", "[[outflow]]", "Where liquid flows out: what comes in is dropped and counted (model 8.14)."},
     {"contact", "[[contact]]", "Friction and restitution of a pair of materials."},
     {"force", "[[force]]", "A force or a torque on a rigid body, constant from its start to its stop."},
     {"source", "[[source]]",
@@ -84,6 +86,7 @@ std::vector<Key> all_keys() {
   add_rows_of_kinds(list, kinds<VelocityField>);
   add_rows(list, record<Event>);
   add_rows(list, record<Inflow>);
+  add_rows(list, record<Outflow>);
   add_rows(list, record<ContactLaw>);
   add_rows(list, record<AppliedForce>);
   add_rows(list, record<HeatSource>);

@@ -62,6 +62,12 @@ inline constexpr auto of_scene = std::make_tuple(
           "action of a guard that trips. stop: exit code 7. recover: back to the last good state and on with "
           "half the step"},
          {.yes = "recover"}),
+    kept(&Scene::removes_escaped,
+         {"scene", "on_escape", word, "", any, "\"stop\"", "what leaves the domain is a fault of the run",
+          "stop remove",
+          "where a particle leaves min..max. stop: the guard escape trips. remove: liquid is dropped and "
+          "counted (model 8.14); of a solid the guard trips"},
+         {.yes = "remove", .later = true}),
     kept(&Scene::unguarded,
          {"scene", "unguarded", words, "", any, "[]", "every guard is on", words_of_optional_guards,
           "guards that are off: det F <= 0, more than two coinciding layers, a particle outside min..max, "
@@ -159,7 +165,18 @@ inline constexpr auto of_inflow = std::make_tuple(
     kept(&Inflow::stop,
          {"inflow", "stop", number, "s", positive, "=", "end_time", "", "time at which the inflow ends"}),
     kept(&Inflow::rate, {"inflow", "rate", number, "m3/s", positive, "", "by the speed", "",
-                         "volume per second; replaces the magnitude of velocity"}));
+                         "volume per second; replaces the magnitude of velocity"}),
+    kept(&Inflow::profile,
+         {"inflow", "profile", text, "", any, "\"\"", "the same velocity everywhere", "",
+          "formula of x, y, z: factor on velocity, 0 to 1"},
+         {.later = true}),
+    kept(&Inflow::ramp,
+         {"inflow", "ramp", number, "s", not_negative, "0", "full velocity from the start", "",
+          "time in which the velocity grows from 0"},
+         {.later = true}));
+
+inline constexpr auto of_outflow = std::make_tuple(kept(
+    &Outflow::shape, {"outflow", "shape", shape, "", any, "!", "", "", "region in which liquid is removed"}));
 
 inline constexpr auto of_contact_law = std::make_tuple(
     kept(&ContactLaw::materials,
@@ -227,6 +244,8 @@ template <>
 inline constexpr auto record<Event> = records::of_event;
 template <>
 inline constexpr auto record<Inflow> = records::of_inflow;
+template <>
+inline constexpr auto record<Outflow> = records::of_outflow;
 template <>
 inline constexpr auto record<ContactLaw> = records::of_contact_law;
 template <>

@@ -34,6 +34,7 @@ inline constexpr EnergyAccount rotation_drift{"rotation_drift"};
 /// Elastic and hourglass energy that events turned into heat, plastic or fracture entries
 inline constexpr EnergyAccount deformation_released{"deformation_released"};
 inline constexpr EnergyAccount inflow{"inflow"};    ///< kinetic, potential and thermal energy that flowed in
+inline constexpr EnergyAccount outflow{"outflow"};  ///< the same that flowed out
 inline constexpr EnergyAccount merging{"merging"};  ///< kinetic energy lost as bodies became one
 inline constexpr EnergyAccount walls{"walls"};  ///< taken by bodies held, fixed or prescribed from outside
 }  // namespace account

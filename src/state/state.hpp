@@ -27,6 +27,9 @@ namespace tripoint {
 /// effects follow it. Ids, each once, ascending; in a shared scene those of the whole scene.
 struct Change {
   std::vector<std::uint32_t> born;  ///< flowed in: new particles, whose columns are still zero
+  /// About to leave the scene; empty again where they have left
+  std::vector<std::uint32_t> leaving;
+  bool left = false;  ///< particles have left: rows and ids are others than before
   std::vector<std::uint32_t> melted, frozen;
   std::vector<std::uint32_t> regrouped;  ///< of another phase or body than before
   std::vector<std::uint32_t> relisted;   ///< with other bonds or excluded pairs than before
@@ -36,11 +39,12 @@ struct Change {
   /// Body row -> kinetic energy that joining cost [J], as the rigid effect finds it
   std::map<std::size_t, double> kinetic_lost;
   [[nodiscard]] bool empty() const {
-    return born.empty() && regrouped.empty() && relisted.empty() && bodies.empty();
+    return born.empty() && regrouped.empty() && relisted.empty() && bodies.empty() && !left;
   }
   /// Forgets all, and keeps the memory of the lists.
   void clear() {
-    for (auto* list : {&born, &melted, &frozen, &regrouped, &relisted}) list->clear();
+    for (auto* list : {&born, &leaving, &melted, &frozen, &regrouped, &relisted}) list->clear();
+    left = false;
     came_from.clear();
     bodies.clear();
     kinetic_lost.clear();

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "state/drop_particles.hpp"
 #include "step/checkpoint_bounds.hpp"
 #include "step/simulation.hpp"
 
@@ -276,8 +277,13 @@ void Simulation::restore(const Checkpoint& kept) {
   schedule_.restore(static_cast<std::size_t>(n[1]), {t[5], t[6], n[2], n[3]});
   restore_accumulated(state_.accumulated, kept);
   // Particles that had flowed in
-  if (const auto ids = kept.whole.find("particles/id"); ids != kept.whole.end())
+  if (const auto ids = kept.whole.find("particles/id"); ids != kept.whole.end()) {
     while (state_.particles.size() < ids->second.size()) state_.particles.append();
+    if (state_.particles.size() > ids->second.size()) {  // and that had flowed out
+      keep_particles(state_, ids->second.size());
+      for (const Active& a : effects_) a.effect->renumber(state_);
+    }
+  }
   const std::vector<std::uint32_t> order = row_order(kept, state_.particles.size());
   state_.particles.permute(order);  // rows were in order of id
   restore_all_pairs(state_, kept);

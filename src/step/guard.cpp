@@ -171,6 +171,7 @@ void check_escape(const State& state, const Enclosure& domain) {
     const double low = domain.box.min[a], high = domain.box.max[a];
     for (std::size_t i = 0; i < state.particles.moving(); ++i) {
       if ((r[a][i] >= low && r[a][i] <= high) || !movable(i)) continue;
+      if (s.removes_escaped && state.particles[field::body][i] < 0) continue;  // it is about to be dropped
       const std::string where =
           domain.given ? fmt::format("{:.6g} m .. {:.6g} m", (*s.min)[a], (*s.max)[a])
                        : fmt::format(

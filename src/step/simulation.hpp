@@ -86,6 +86,7 @@ class Simulation {
   void form_rates();
   void form_fixed();
   void change();
+  void let_go();
   [[nodiscard]] bool wants_change(const Active&);
   void find_neighbours();
   void correct();

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The step: kick, drift, kick (docs/model.md, chapter 9). What a stage does is in the effects; here is the
 // order.
+#include <utility>
+
 #include "scene/shared_terms.hpp"
+#include "state/drop_particles.hpp"
 #include "step/each_effect.hpp"
 #include "step/guard.hpp"
 #include "step/ledger_sum.hpp"
@@ -134,13 +137,28 @@ void Simulation::change() {
   state_.change.clear();
   for (const Active& a : effects_) {
     if (!a.spec.changes || !wants_change(a)) continue;
-    const DeclaredView view(state_, a);
-    a.effect->change(state_);
+    {
+      const DeclaredView view(state_, a);
+      a.effect->change(state_);
+    }
+    if (!state_.change.leaving.empty()) let_go();
   }
   if (state_.change.empty()) return;
   for_each_effect(state_, effects_, [&](Effect& effect) { effect.adopt(state_); });
   for_each_effect(state_, effects_, [&](Effect& effect) { effect.settle(state_); });
   state_.moved = true;
+}
+
+/// Particles leave the scene: their energies are accumulated, and the others are numbered and listed anew.
+void Simulation::let_go() {
+  const std::vector<std::uint32_t> leaving = std::exchange(state_.change.leaving, {});
+  std::vector<std::size_t> rows;
+  for (const std::uint32_t id : leaving) rows.push_back(state_.particles.row(id));
+  for_each_effect(state_, effects_, [&](Effect& effect) { effect.lose(state_, rows); });
+  drop_particles(state_, leaving);
+  for (const Active& a : effects_) a.effect->renumber(state_);
+  state_.change.left = true;
+  find_neighbours();
 }
 
 /// Whether an effect has something to decide, in any of the processes that share the scene. Each then holds

@@ -107,8 +107,10 @@ std::string values_outside_their_set(const Audited& run, const Snapshot& s) {
 
 std::string lost_matter(const Audited& run, const Snapshot& s) {
   const auto& initial = run.initial;
+  const bool may_leave = run.job.scene.removes_escaped || !run.job.scene.outflows.empty();
   for (std::size_t i = 0; i < std::min(s.id.size(), initial.size()); ++i)
-    if (dead(s, i)) return "particle " + std::to_string(i) + " is lost" + at_time(s);
+    if (dead(s, i) && !(may_leave && initial.body[i] < 0))
+      return "particle " + std::to_string(i) + " is lost" + at_time(s);
   if (!s.mass.empty() && s.mass.size() < initial.size()) return "masses are missing" + at_time(s);
   for (std::size_t i = 0; i < std::min(s.mass.size(), initial.size()); ++i)
     if (!dead(s, i) && !(std::abs(s.mass[i] - initial.mass[i]) <= 1e-12 * initial.mass[i]))

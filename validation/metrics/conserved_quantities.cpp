@@ -192,6 +192,13 @@ FrameError recoveries(const FramePair& f) {
   return single(count->second - f.in.reference.number("value").value_or(0.0));
 }
 
+FrameError left(const FramePair& f, const char* what) {
+  const auto count = f.now.counts.find(what);
+  if (count == f.now.counts.end())
+    return problem("nothing can leave: the scene has on_escape = \"remove\" or an [[outflow]] where it may");
+  return against_truth(f, what, count->second);
+}
+
 FrameError processes(const FramePair& f) {
   const auto count = f.now.counts.find("processes");
   if (count == f.now.counts.end()) return problem("the engine does not say over how many processes it ran");
@@ -217,6 +224,10 @@ const std::vector<Quantity>& conserved_quantities() {
        bonded_objects},
       {{"recoveries", "1", "how often a guard sent the run back to a good state, minus the stated value"},
        recoveries},
+      {{"left", "1", "particles that have left the scene, minus the stated value"},
+       [](const FramePair& f) { return left(f, "left"); }},
+      {{"mass_left", "kg", "mass that has left the scene, minus the stated value"},
+       [](const FramePair& f) { return left(f, "mass_left"); }},
       {{"processes", "1",
         "processes that the run was shared out to, as the engine counts them, minus the stated value"},
        processes},

@@ -58,6 +58,7 @@ struct ReferenceEntry {
 [[nodiscard]] ReferenceEntry hysteresis_entry();
 [[nodiscard]] ReferenceEntry elastic_wave_entry();
 [[nodiscard]] ReferenceEntry stated_entry();
+[[nodiscard]] ReferenceEntry self_entry();
 [[nodiscard]] ReferenceEntry expression_entry();
 [[nodiscard]] ReferenceEntry table_entry();
 [[nodiscard]] ReferenceEntry experiment_entry();

@@ -49,6 +49,7 @@ const std::vector<ReferenceEntry>& all_references() {
                                                    stefan_entry(),
                                                    hysteresis_entry(),
                                                    stated_entry(),
+                                                   self_entry(),
                                                    expression_entry(),
                                                    table_entry(),
                                                    experiment_entry(),
@@ -70,7 +71,8 @@ namespace {
 /// An exact solution that leaves a force out would be no truth. What a case states itself may hold with one.
 void refuse_forces(const std::string& function, const Scene& scene) {
   static constexpr std::array knows{
-      "ballistic", "ballistic_semi_implicit", "stated", "expression", "table", "experiment", "invariant"};
+      "ballistic", "ballistic_semi_implicit", "stated", "self", "expression", "table", "experiment",
+      "invariant"};
   if (scene.forces.empty() || std::ranges::find(knows, function) != knows.end()) return;
   throw InputError(scene.forces.front().place,
                    function + " does not know forces: use ballistic, or a reference that you state");

@@ -15,7 +15,23 @@ std::unique_ptr<Reference> make_stated(const ReferenceInput& in) {
   return std::make_unique<Stated>(std::move(n), stated_measuring(in, "stated"));
 }
 
+/// No truth is known: a metric is the value itself.
+std::unique_ptr<Reference> make_self(const ReferenceInput& in) {
+  Numbers n = stated_numbers(in, "self");
+  n["value"] = 0.0;
+  return std::make_unique<Stated>(std::move(n), stated_measuring(in, "self"));
+}
+
 }  // namespace
+
+ReferenceEntry self_entry() {
+  return {{"self", "self", "the run itself, by `tripoint converge`",
+           "no truth is known: metrics are the values themselves, and `tripoint converge CASE --metric M` "
+           "says how "
+           "far the finest is from its limit",
+           measuring_arguments()},
+          make_self};
+}
 
 ReferenceEntry stated_entry() {
   std::vector<ReferenceArgument> args{{"value", "", "what the quantity is compared with, in its unit"}};

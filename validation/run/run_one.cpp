@@ -273,7 +273,7 @@ Outcome read_back(const RunRequest& request, const ProcessEnd& end) {
                     (r.message.empty() ? "status error" : r.message) + last_words(end.log_tail));
     if (end.how != How::exited || end.code != 0)
       return failed(outcome, Status::error, "says ok but " + describe(end) + last_words(end.log_tail));
-    if (r.extra.contains("recoveries")) outcome.reason = r.message;
+    if (r.extra.contains("recoveries") || r.extra.contains("left")) outcome.reason = r.message;
     return read_trajectory_of(request, outcome);
   } catch (const std::exception& e) {
     return failed(outcome, Status::error, e.what());
@@ -296,6 +296,8 @@ std::string not_handed_over(const RunRequest& request) {
   if (std::ranges::any_of(scene.forces, [](const AppliedForce& f) { return f.has_no_potential(); }) &&
       lacks("torque"))
     return "no torque, and no [[force]] that begins or ends, is handed to it (capability torque)";
+  if ((scene.removes_escaped || !scene.outflows.empty()) && lacks("outflow"))
+    return "it removes no particles: no [[outflow]] and no on_escape = \"remove\" (capability outflow)";
   if (!scene.sources.empty() && lacks("source"))
     return "no [[source]] of heat is handed to it (capability source)";
   return {};

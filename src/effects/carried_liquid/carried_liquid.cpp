@@ -116,6 +116,7 @@ class CarriedLiquid : public Effect {
     set_groups(state);
     state.step_numbers[held_for] = -1.0;
   }
+  void lose(State&, std::span<const std::size_t> rows) override;
   [[nodiscard]] TimeStepBound max_dt(const State&) const override;
   void add_to(const State&, Ledger&) const override;
   [[nodiscard]] PairWork pair_work(const Scene&) const override {
@@ -200,6 +201,12 @@ void CarriedLiquid::adopt(State& state) {
   const double brought = energy_of(state, equation_, kernels_, born, 0.5 * drifted_);
   state.accumulated[account::inflow] += brought;
   state.accumulated[start_compression] += brought;
+}
+
+void CarriedLiquid::lose(State& state, std::span<const std::size_t> rows) {
+  const double taken = energy_of(state, equation_, kernels_, {rows.begin(), rows.end()}, 0.5 * drifted_);
+  state.accumulated[account::outflow] += taken;
+  state.accumulated[start_compression] -= taken;
 }
 
 /// The shift of the last rates acts in this drift.

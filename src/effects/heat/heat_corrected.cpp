@@ -161,6 +161,10 @@ void CorrectedHeat::adopt(State& state) {
   }
 }
 
+void CorrectedHeat::lose(State& state, std::span<const std::size_t> rows) {
+  for (const std::size_t i : rows) state.accumulated[account::outflow] += state.particles[field::enthalpy][i];
+}
+
 /// First stage: an Euler step with the rates of the old time, which are kept for the second.
 void CorrectedHeat::drift(State& state, double dt) {
   state.step_numbers[b_held_for] += 1.0;

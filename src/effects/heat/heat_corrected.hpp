@@ -24,6 +24,7 @@ class CorrectedHeat : public Effect {
   [[nodiscard]] TimeStepBound max_dt(const State&) const override;
   void add_to(const State&, Ledger&) const override;
   void adopt(State&) override;
+  void lose(State&, std::span<const std::size_t> rows) override;
   void renumber(State& state) override { surfaces_.renumber(state); }
   [[nodiscard]] PairWork pair_work(const Scene&) const override;
 

@@ -29,6 +29,10 @@ void EqualHeat::adopt(State& state) {
     state.accumulated[account::inflow] += heat_at(state, state.particles.row(id), temperature_);
 }
 
+void EqualHeat::lose(State& state, std::span<const std::size_t> rows) {
+  for (const std::size_t i : rows) state.accumulated[account::outflow] += heat_at(state, i, temperature_);
+}
+
 void EqualHeat::add_to(const State& state, Ledger& ledger) const {
   std::vector<std::array<double, 1>> blocks;
   const auto sums = ordered_sums_of_all(state, blocks, [&](std::size_t i, std::array<double, 1>& sum) {

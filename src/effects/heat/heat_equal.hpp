@@ -10,6 +10,7 @@ class EqualHeat : public Effect {
  public:
   explicit EqualHeat(double temperature) : temperature_(temperature) {}
   void load(State&, const InitialState&) override;
+  void lose(State&, std::span<const std::size_t> rows) override;
   void adopt(State&) override;
   void add_to(const State&, Ledger&) const override;
 

@@ -60,6 +60,10 @@ void PaperHeat::adopt(State& state) {
   }
 }
 
+void PaperHeat::lose(State& state, std::span<const std::size_t> rows) {
+  for (const std::size_t i : rows) state.accumulated[account::outflow] += printed_heat(state, i);
+}
+
 void PaperHeat::drift(State& state, double dt) {
   Particles& p = state.particles;
   const auto T = p[field::temperature], rate = p[field::temperature_rate], m = p[field::mass],

@@ -12,6 +12,7 @@ class PaperHeat : public Effect {
   void happen(State&, const Happening&) override;
   [[nodiscard]] TimeStepBound max_dt(const State&) const override;
   void add_to(const State&, Ledger&) const override;
+  void lose(State&, std::span<const std::size_t> rows) override;
   void adopt(State&) override;
   [[nodiscard]] PairWork pair_work(const Scene&) const override;
 

@@ -44,6 +44,7 @@ class FreeMotion : public Effect {
   void drift(State&, double dt) override;
   [[nodiscard]] TimeStepBound max_dt(const State&) const override;
   void add_to(const State&, Ledger&) const override;
+  void lose(State&, std::span<const std::size_t> rows) override;
 
  private:
   std::vector<std::array<double, works>> blocks_;  ///< memory that is used again
@@ -122,6 +123,16 @@ void FreeMotion::add_to(const State& state, Ledger& ledger) const {
   ledger.angular_momentum += {sums[angular], sums[angular + 1], sums[angular + 2]};
   ledger.energy[ledger_entry::kinetic] += sums[kinetic];
   ledger.energy[ledger_entry::potential] += sums[potential];
+}
+
+void FreeMotion::lose(State& state, std::span<const std::size_t> rows) {
+  const auto m = state.particles[field::mass];
+  for (const std::size_t i : rows) {
+    const Vec3 v = state.particles.velocity(i);
+    const double potential = -m[i] * dot(state.scene.gravity, state.unwrapped(i));
+    state.accumulated[account::outflow] += 0.5 * m[i] * dot(v, v) + potential;
+    state.accumulated[account::driven_potential] -= potential;
+  }
 }
 
 }  // namespace

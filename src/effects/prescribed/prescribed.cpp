@@ -63,8 +63,9 @@ void Prescribed::drift(State& state, double dt) {
     const std::size_t i = p.row(id);
     if (driven[i] == 0 || driven[i] == driven_still || is_member(i)) continue;
     if (driven[i] == driven_in) {
-      const Vec3 v = entrances_[static_cast<std::size_t>(inflow_of(state, i))].velocity();
-      guide(state, i, state.unwrapped(i) + dt * v, v);
+      const Entrance& e = entrances_[static_cast<std::size_t>(inflow_of(state, i))];
+      const Vec3 r = state.unwrapped(i), v = e.velocity(e.column_of(r));
+      guide(state, i, r + e.way(state.time, state.next_time, dt) * v, e.opening(state.next_time) * v);
     } else {
       const Event& grip = state.scene.events[static_cast<std::size_t>(driven[i] - driven_grip)];
       const PrescribedState s = carried(grip, p.vector(i, field::grip), state.next_time);
@@ -90,8 +91,7 @@ bool Prescribed::wants_change(State& state) {
   }
   state.add_up(there);
   for (std::size_t n = 0; n < entrances_.size(); ++n)
-    leaves = leaves || there[n] < static_cast<double>(entrances_[n].layers_until(state.time)) *
-                                      static_cast<double>(entrances_[n].section().size());
+    leaves = leaves || there[n] < static_cast<double>(entrances_[n].particles_until(state.time));
   return leaves;
 }
 
@@ -101,14 +101,21 @@ void Prescribed::change(State& state) {
   let_in(state, entrances_);
   Particles& p = state.particles;
   const auto driven = p[field::driven];
-  std::vector<long> order(entrances_.size(), 0);
-  for (std::size_t id = 0; id < p.size(); ++id) {
+  // The last that came in are the last of their columns, whatever has left the scene since
+  std::vector<std::vector<long>> layer;
+  for (const Entrance& e : entrances_) {
+    layer.emplace_back();
+    for (std::size_t k = 0; k < e.section().size(); ++k)
+      layer.back().push_back(e.layers_until(state.time, k));
+  }
+  for (std::size_t id = p.size(); id-- > 0;) {
     const std::size_t i = p.row(id);
     const int from = inflow_of(state, i);
-    if (from < 0) continue;
-    const Entrance& e = entrances_[static_cast<std::size_t>(from)];
-    const long layer = order[static_cast<std::size_t>(from)]++ / static_cast<long>(e.section().size());
-    if (driven[i] == driven_in && !e.inside(layer, state.time)) driven[i] = 0;
+    if (from < 0 || driven[i] != driven_in) continue;
+    const auto n = static_cast<std::size_t>(from);
+    const Entrance& e = entrances_[n];
+    const std::size_t column = e.column_of(state.unwrapped(i));
+    if (!e.inside(--layer[n][column], column, state.time)) driven[i] = 0;
   }
 }
 
@@ -209,6 +216,7 @@ EffectSpec spec(const Scene& scene) {
                   return static_cast<std::size_t>(driven_grip) + w.scene.events.size();
                 }}};
   s.reads_if_there = fields::image();
+  if (!scene.inflows.empty()) s.step_numbers = {let_in_until};
   s.changes = !scene.inflows.empty();
   s.skips_sleeping = true;
   s.guarded_entries = {{"inflow", EntryRole::apart}};

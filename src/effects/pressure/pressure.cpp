@@ -8,6 +8,7 @@
 #include "effects/pressure/compression_ledger.hpp"
 #include "effects/pressure/phase_jump.hpp"
 #include "effects/pressure/pressure_state.hpp"
+#include "effects/pressure/pressure_terms.hpp"
 #include "liquids/carried_density.hpp"
 #include "liquids/changes.hpp"
 #include "liquids/fields.hpp"
