@@ -37,10 +37,10 @@ std::string conclusion(const OrderRow& row, const std::string& unit) {
         r.index, unit, share);
   return fmt::format(
       "| | |\n|---|---|\n| observed order | {:.3f} |\n| extrapolated value | {:.6g} {} |\n"
-      "| grid convergence index of the finest value | {:.3g} {} ({:.3g} %) |\n| factor of safety | {:.2f} |\n"
-      "| the two indices over r^p (1: steps are small enough) | {:.3f} |\n\n"
+      "| grid convergence index of the finest value | {:.3g} {} ({:.3g} %) |\n| factor of safety | {:.2f} "
+      "|\n\n"
       "The value is {:.6g} {} +- {:.2g} {} [Roache 1994].\n",
-      r.order, r.limit, unit, r.index, unit, share, r.factor, r.asymptotic, finest, unit, r.index, unit);
+      r.order, r.limit, unit, r.index, unit, share, r.factor, finest, unit, r.index, unit);
 }
 
 }  // namespace

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The error that a ladder leaves at step 0, on errors that are known by hand.
 #include "validation/metrics/ladder_limit.hpp"
+#include "core/errors.hpp"
+
+#include "validation/metrics/roache.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "core/errors.hpp"
+#include "validation/metrics/roache.hpp"
 
 namespace tripoint {
 namespace {
@@ -69,4 +75,22 @@ TEST(LadderLimit, OfTooFewLevelsIsNotKnown) {
 }
 
 }  // namespace
+TEST(RoacheIndex, FindsOrderAndLimitOfAPowerLawOnUnequalRatios) {
+  const std::vector<double> h{0.4, 0.25, 0.1};
+  std::vector<double> f;
+  for (const double one : h) f.push_back(2.0 - 3.0 * std::pow(one, 1.7));
+  const RoacheIndex r = roache_index(h, f);
+  EXPECT_TRUE(r.monotone);
+  EXPECT_NEAR(r.order, 1.7, 1e-9);  // to the bracket of the root
+  EXPECT_NEAR(r.limit, 2.0, 1e-9);
+  EXPECT_NEAR(r.index, 1.25 * 3.0 * std::pow(0.1, 1.7), 1e-9);
+}
+
+TEST(RoacheIndex, ClaimsNoOrderOfValuesThatGoUpAndDown) {
+  const RoacheIndex r = roache_index({0.4, 0.2, 0.1}, {1.0, 1.2, 1.1});
+  EXPECT_FALSE(r.monotone);
+  EXPECT_DOUBLE_EQ(r.index, 3.0 * (1.2 - 1.0));  // three times the largest change
+  EXPECT_THROW((void)roache_index({0.2, 0.1}, {1.0, 1.2}), InputError);
+}
+
 }  // namespace tripoint

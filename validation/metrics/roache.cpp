@@ -45,15 +45,13 @@ RoacheIndex roache_index(const std::vector<double>& step, const std::vector<doub
   r.monotone = std::isfinite(r.order);
   if (!r.monotone) {  // no order: three times the largest difference
     r.factor = 3.0;
-    r.limit = r.asymptotic = none;
+    r.limit = none;
     r.index = r.factor * std::max(std::abs(f1 - f2), std::abs(f2 - f3));
     return r;
   }
   r.factor = 1.25;
-  const double refined = std::pow(h2 / h1, r.order) - 1.0, coarser = std::pow(h3 / h2, r.order) - 1.0;
-  r.limit = f1 + (f1 - f2) / refined;
+  r.limit = f1 + (f1 - f2) / (std::pow(h2 / h1, r.order) - 1.0);
   r.index = r.factor * std::abs(r.limit - f1);
-  r.asymptotic = std::abs(f2 - f3) / coarser / (std::abs(f1 - f2) / refined) / std::pow(h2 / h1, r.order);
   return r;
 }
 

@@ -12,8 +12,6 @@ struct RoacheIndex {
   double limit = 0.0;   ///< f1 + (f1 - f2)/(r^p - 1), extrapolated to step 0
   double index = 0.0;   ///< grid convergence index of the finest value, in its unit: factor |limit - f1|
   double factor = 0.0;  ///< of safety: 1.25 where an order was observed, else 3
-  /// Ratio of the indices of the two finest pairs over r^p: 1 where the steps are small enough
-  double asymptotic = 0.0;
 };
 
 /// @param step coarse to fine, falling, at least three   @param value at each step
