@@ -101,6 +101,20 @@ TEST(AcceptanceOrder, OfRoundOffIsNoneAndHoldsForEveryEngineAlone) {
   EXPECT_EQ(exit_of(r), exit_fail);
 }
 
+TEST(AcceptanceOrder, OfAnErrorFarBelowTheLimitOfTheLadderIsNoneAndHolds) {
+  const auto with_limit = [](double most) {
+    auto r = study_of({5e-5, 3e-6, 4e-7, 6e-7});  // fourth order down to single precision
+    r.cases[0].gates[0].at_least = 0.8;
+    r.cases[0].gates.push_back(limit("error.limit", most));
+    return r;
+  };
+  EXPECT_EQ(exit_of(with_limit(1e-2)), exit_pass);
+  EXPECT_NE(exit_of(with_limit(1e-4)), exit_pass);
+  auto alone = with_limit(1e-2);
+  alone.cases[0].gates.pop_back();
+  EXPECT_NE(exit_of(alone), exit_pass);
+}
+
 /// An inertia that is 1 % off: the errors fall to a floor, and a power law through what is above it has the
 /// order 4.
 std::vector<double> floored() { return {0.0376231689, 0.0376231639, 0.0376231636, 0.0376231636}; }

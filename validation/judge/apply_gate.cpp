@@ -137,19 +137,28 @@ bool level_is_due(const CaseResult& result, const Gate& gate, const EngineRow& e
   });
 }
 
-/// An engine that is exact has no order to show: where any engine is asked for one at least, errors of
-/// round-off will do.
-bool needs_no_order(const Gate& gate, const Order& order) {
-  return gate.engine.empty() && gate.at_least && !gate.band && !gate.limit &&
-         order.fit_class == FitClass::roundoff;
+/// Whether the finest error is at most a thousandth of where any engine's ladder may end.
+bool has_arrived(const CaseResult& result, const OrderRow& ladder) {
+  return std::any_of(result.gates.begin(), result.gates.end(), [&](const Gate& g) {
+    return g.engine.empty() && g.limit && is_of_ladder(g.metric) && !is_order(g.metric) &&
+           fitted_metric(g.metric) == ladder.metric && std::abs(ladder.error.back()) <= 1e-3 * *g.limit;
+  });
 }
 
-void judge_order(GateRow& row, const Order& order) {
+/// An engine that is exact has no order to show: where any engine is asked for one at least, errors of
+/// round-off will do, in single precision too.
+bool needs_no_order(const CaseResult& result, const Gate& gate, const OrderRow& ladder) {
+  return gate.engine.empty() && gate.at_least && !gate.band && !gate.limit &&
+         (ladder.order.fit_class == FitClass::roundoff || has_arrived(result, ladder));
+}
+
+void judge_order(const CaseResult& result, GateRow& row, const OrderRow& ladder) {
+  const Order& order = ladder.order;
   row.value = order.value;
   row.low = order.low;
   row.high = order.high;
   row.fit_class = order.fit_class;
-  row.verdict = needs_no_order(row.gate, order) ? Verdict::pass : verdict_of(row.gate, order);
+  row.verdict = needs_no_order(result, row.gate, ladder) ? Verdict::pass : verdict_of(row.gate, order);
   if (row.verdict == Verdict::pass) return;
   row.why = fmt::format("order {:.3g}, 95 % interval {:.3g} to {:.3g}, {}, {}", row.value, *row.low,
                         *row.high, *row.fit_class, describe(row.gate));
@@ -172,7 +181,7 @@ Applied judge_ladder(const CaseResult& result, const Gate& gate, EngineRow& engi
     if (ladder.metric != fitted_metric(gate.metric) || !fits_mode(gate, ladder.mode)) continue;
     auto row = new_row(gate, ladder.mode);
     if (is_order(gate.metric))
-      judge_order(row, ladder.order);
+      judge_order(result, row, ladder);
     else
       judge_limit_of_ladder(row, ladder.limit);
     engine.gates.push_back(row);
