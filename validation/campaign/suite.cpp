@@ -2,6 +2,7 @@
 #include "validation/campaign/suite.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <atomic>
 #include <chrono>
@@ -142,6 +143,7 @@ class Suite {
     const std::lock_guard lock(mutex_);
     slots_[c].result = std::move(result);
     slots_[c].runs.reset();
+    ::malloc_trim(0);  // frames of many engines: else the allocator keeps what every worker has freed
     for (; announced_ < slots_.size() && slots_[announced_].result; ++announced_)
       if (options_.on_case) options_.on_case(*slots_[announced_].result);
   }
