@@ -103,7 +103,7 @@ end_time = "2 s"
   line where the key stands. A gate added to the other case later holds in its variants too.
 
 **Gates within their metric.** `gates` of a `[[metric]]` holds its gates, one a line, without the
-key `metric`; `limits` is one limit a level of a study. The last gate below judges the metric's
+key `metric`. `limits` is one limit a level of a study. The last gate below judges the metric's
 order.
 
 ```toml

@@ -53,7 +53,7 @@ std::vector<EffectKey> keys() {
        {},
        no_contact_stiffness},
       {{"scene", "contact_step", number, "", fraction, "0", "the contact bound always holds", "",
-        "fraction of the contact bound of the step, used only while a free solid is pressed or about to be "
+        "fraction of the contact bound of the step while a free solid is pressed or about to be "
         "(model 8.10). 0: the "
         "bound always holds. Only where the scene clamps without time_step, density, pressure and state are "
         "corrected, nothing "
