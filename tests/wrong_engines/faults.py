@@ -5,6 +5,7 @@ or the audit that see it there."""
 import bisect
 import math
 import os
+import struct
 from dataclasses import dataclass
 from typing import Callable, Optional
 
@@ -18,10 +19,11 @@ STEP = 0.01  # of a fault in time, where the job says none [s]
 class Fault:
     words: str
     case: str
-    seen_by: tuple  # metrics with a red limit of any engine; "audit": the run is no result, by name
+    seen_by: tuple  # metrics with a red limit of any engine; "audit": the run is no result; "inconclusive": exit 3
     job: Optional[Callable] = None  # changes the job that the inner engine runs
     rows: Optional[Callable] = None  # (job, rows of bodies) -> rows
     heat: Optional[Callable] = None  # (job, time, places, temperatures) -> temperatures
+    columns: Optional[Callable] = None  # changes the group of particles of trajectory.h5 where there is heat
     gauges: Optional[Callable] = None  # (job, gauge) -> what gauges.csv says of it at the end
     walkers: float = 0.0  # heat by so many of LAMMPS's walkers, where the job says no number
     preset: str = ""  # of Bullet, instead of the one that suits the case
@@ -229,6 +231,52 @@ def swapped(job, rows):
     return [row if row[0] == start else [row[0], other.get(row[1], row[1]), *row[2:]] for row in rows]
 
 
+def damped(job, row):
+    """The velocity falls by 0.1 % a second, as if by air."""
+    rate, t = 1e-3, row[0]
+    first = next(b for b in job["scene"]["bodies"] if b["index"] == row[1])
+    fade = -math.expm1(-rate * t) / rate
+    for i, (x, v, g) in enumerate(zip(first["centre"], first["velocity"], job["scene"]["gravity"])):
+        row[2 + i] = x + fade * v + g * (t - fade) / rate
+        row[5 + i] = math.exp(-rate * t) * v + g * fade
+    return row
+
+
+def damped_spin(job, rows):
+    """The angular momentum falls by 0.1 % a second: the free motion, which takes place later and later."""
+    rate = 1e-3
+    for body in sorted({row[1] for row in rows}):
+        own = [row for row in rows if row[1] == body]
+        times = [row[0] for row in own]
+        for row in own:
+            then = at_time(own, times, -math.expm1(-rate * row[0]) / rate)
+            yield [*row[:8], *then[8:12], *(math.exp(-rate * row[0]) * c for c in then[12:15])]
+
+
+def sideways(job, row):
+    """All that moves drifts aside with 0.02 m/s2."""
+    if math.hypot(*row[5:8]) > 0.1:
+        row[3] += 0.01 * row[0] ** 2
+        row[6] += 0.02 * row[0]
+    return row
+
+
+def lifted(job, row):
+    """All that moves rises from the ground, up to 50 mm, and is back at the end."""
+    if math.hypot(*row[5:8]) > 0.1:
+        way = math.pi * row[0] / job["times"][-1]
+        row[4] += 0.05 * math.sin(way) ** 2
+        row[7] += 0.05 * math.pi / job["times"][-1] * math.sin(2.0 * way)
+    return row
+
+
+def swapped_turns(job, rows):
+    """The first two bodies have each other's orientation and spin."""
+    turn = {(row[0], row[1]): row[8:15] for row in rows}
+    for row in rows:
+        yield [*row[:8], *turn[row[0], {0: 1, 1: 0}.get(row[1], row[1])]]
+
+
 def copied(job, rows):
     """The second body moves as the first does."""
     centre = {b["index"]: b["centre"] for b in job["scene"]["bodies"]}
@@ -240,6 +288,61 @@ def copied(job, rows):
 
 
 # --- heat -------------------------------------------------------------------------------------------------------------
+
+
+def of_column(name, change):
+    """One dataset of the particles, changed in all its frames."""
+
+    def columns(particles):
+        particles[name][...] = change(particles[name][...])
+
+    return columns
+
+
+def frame_late():
+    """Temperatures are those of the frame before."""
+    before = []
+
+    def change(job, t, where, T):
+        before.append(T.copy())
+        return before[-2] if len(before) > 1 else T
+
+    return change
+
+
+def arithmetic_mean():
+    """Layers along x whose pairs conduct by the arithmetic mean of their conductivities."""
+    state = {}
+
+    def change(job, t, where, T):
+        import numpy
+
+        scene = job["scene"]
+        dx = scene["spacing"]
+        layer = numpy.round((where[:, 0] - where[:, 0].min()) / dx).astype(int)
+        if not state:
+            material = {m["name"]: m for m in scene["materials"]}
+            state.update(t=0.0, T=numpy.array([T[layer == n].mean() for n in range(layer.max() + 1)]))
+            jump = numpy.argmax(numpy.abs(numpy.diff(state["T"]))) + 1
+            bodies = sorted(scene["bodies"], key=lambda b: b["centre"][0])
+            k, C = (
+                numpy.where(
+                    numpy.arange(len(state["T"])) < jump,
+                    *(numpy.prod([material[b["material"]][key] for key in keys]) for b in bodies),
+                )
+                for keys in (("conductivity",), ("density", "heat_capacity"))
+            )
+            state.update(k=0.5 * (k[1:] + k[:-1]) / dx**2, C=C)
+            return T
+        steps = int(numpy.ceil((t - state["t"]) / (0.2 * state["C"].min() / state["k"].max())))
+        for _ in range(steps):
+            flow = state["k"] * numpy.diff(state["T"]) * (t - state["t"]) / steps
+            state["T"][:-1] += flow / state["C"][:-1]
+            state["T"][1:] -= flow / state["C"][1:]
+        state["t"] = t
+        return state["T"][layer]
+
+    return change
 
 
 def shifted(spacings_a_step, step):
@@ -294,6 +397,24 @@ FAULTS = {
     ),
     "velocity back": Fault(
         "the velocity is reversed in one frame", "contact/conveyor", ("audit",), rows=turned_back_once(VELOCITIES, 0.4)
+    ),
+    "damped": Fault("velocities fall by 0.1 % a second", "rigid/ballistic", ("velocity",), rows=moved(damped)),
+    "damped spin": Fault(
+        "angular momenta fall by 0.1 % a second",
+        "rigid/torque-free",
+        ("angle.limit", "energy"),
+        rows=lambda job, rows: list(damped_spin(job, rows)),
+    ),
+    "sideways": Fault("a sliding block drifts aside", "contact/turned-slope", ("aside",), rows=moved(sideways)),
+    "lifted": Fault("a sliding block rises and comes back", "contact/turned-slope", ("down",), rows=moved(lifted)),
+    "rolls backwards": Fault(
+        "a ball rolls the other way round", "contact/roll-down-slope", ("spin",), rows=moved(other_way_round)
+    ),
+    "swapped turns": Fault(
+        "orientations and spins of two bodies swapped",
+        "contact/oblique-hit",
+        ("steep_spin", "middle_spin"),
+        rows=lambda job, rows: list(swapped_turns(job, rows)),
     ),
     "moment": Fault("largest moment 1 % large", "rigid/flip-time", ("flip",), job=moment(2)),
     "least moment": Fault("least moment 1 % small", "rigid/flip-time", ("flip",), job=moment(0, 1.0 - PER_CENT)),
@@ -365,6 +486,44 @@ FAULTS = {
     ),
     "heat capacity": Fault("heat capacity 1 % large", "heat/cosine-fine", ("rate",), job=of_materials("heat_capacity")),
     "latent heat": Fault("latent heat 1 % large", "phase/heat-of-fusion", ("metal",), job=of_materials("latent_heat")),
+    "melting point": Fault("melting point 1 % high", "phase/stefan", ("front",), job=of_materials("t_melt")),
+    "late heat": Fault("temperatures a frame late", "heat/cosine-fine", ("rate",), heat=frame_late()),
+    "error below 0": Fault(
+        "a standard error below 0",
+        "heat/step-walkers",
+        ("audit",),
+        columns=of_column("temperature_error/value", lambda u: -u),
+        walkers=1e5,
+    ),
+    "no error": Fault(
+        "a standard error that is no number",
+        "heat/step-walkers",
+        ("audit",),
+        columns=of_column("temperature_error/value", lambda u: u * math.nan),
+        walkers=1e5,
+    ),
+    "great error": Fault(
+        "a standard error of a million kelvin",
+        "heat/step-walkers",
+        ("inconclusive",),
+        columns=of_column("temperature_error/value", lambda u: u + 1e6),
+        walkers=1e5,
+    ),
+    "other times": Fault(
+        "temperatures of other times than places",
+        "heat/cosine-fine",
+        ("audit",),
+        columns=of_column("temperature/time", lambda t: 0.5 * t),
+    ),
+    "doubled id": Fault(
+        "two particles of one id",
+        "heat/cosine-fine",
+        ("audit",),
+        columns=of_column("id/value", lambda n: n - (n == n.max())),
+    ),
+    "arithmetic mean": Fault(
+        "pairs conduct by the arithmetic mean", "heat/two-conductivities", ("worst",), heat=arithmetic_mean()
+    ),
     "turned tensor": Fault(
         "moments about axes that are 0.01 rad off",
         "rigid/torque-free",
@@ -377,5 +536,33 @@ FAULTS = {
         ("left_half",),
         heat=shifted(1e-3, 1.0 / 24.0),
         walkers=1e5,
+    ),
+}
+
+
+# --- ways to write that change nothing --------------------------------------------------------------------------------
+
+
+def other_sign(job, rows):
+    """Each second frame has -q in place of q, which is the same orientation."""
+    odd = {t for n, t in enumerate(job["times"]) if n % 2}
+    return [row[:8] + [-c for c in row[8:12]] + row[12:] if row[0] in odd else row for row in map(list, rows)]
+
+
+def single_precision(job, rows):
+    return [row[:2] + [struct.unpack("f", struct.pack("f", c))[0] for c in row[2:]] for row in map(list, rows)]
+
+
+HARMLESS = {
+    "other sign": Fault("-q in each second frame", "rigid/precession", (), rows=other_sign),
+    "other sign in contact": Fault("-q in each second frame", "contact/oblique-hit", (), rows=other_sign),
+    "single precision": Fault("single precision", "rigid/ballistic", (), rows=single_precision),
+    "single precision of turns": Fault("single precision", "rigid/torque-free", (), rows=single_precision),
+    "single precision in contact": Fault("single precision", "contact/slide-to-rest", (), rows=single_precision),
+    "last row first": Fault(
+        "bodies of a frame in another order",
+        "contact/oblique-hit",
+        (),
+        rows=lambda job, rows: sorted(rows, key=lambda row: (row[0], -row[1])),
     ),
 }
