@@ -117,11 +117,20 @@ def disagreement(document):
     }
 
 
+def hero(document, engines):
+    """(heading, its tone): the gate's verdict, and how often an engine of a PASS is off by a known defect."""
+    verdict, defects = text(document.get("verdict")), sum(e["totals"]["known defect"] for e in engines)
+    if document.get("exit_code") != 0:
+        return verdict, "fail"
+    return (f"gate {verdict}; physics known defect in {defects} rows", "defect") if defects else (verdict, "pass")
+
+
 def render(document):
     """@return HTML"""
     own = own_engines(SimpleNamespace(command=text(document.get("command"))))
     engines = [engine(e, own) for e in rows(document.get("engines"))]
     engines.sort(key=lambda e: not e["own"])
+    heading, tone = hero(document, engines)
     columns = [
         name for name in COLUMNS if name in ("pass", "fail", "refused") or any(e["totals"][name] for e in engines)
     ]  # of the others only what there is
@@ -129,6 +138,8 @@ def render(document):
         "scorecard.html.j2",
         SimpleNamespace(tool={}, profile=""),
         document=document,
+        heading=heading,
+        tone=tone,
         engines=engines,
         columns=columns,
         meaning=page.EXITS.get(text(document.get("exit_code"))),

@@ -207,6 +207,13 @@ class Scorecards(unittest.TestCase):
         self.assertIn("exit 4: a required engine, reference or metric is missing", text)
         self.assertIn("jolt: crashed in contact/b.", text)
 
+    def test_no_green_stands_beside_known_defects(self):
+        card = {"verdict": "PASS", "exit_code": 0, "engines": [{"label": "jolt", "totals": {"pass": 3}, "rows": []}]}
+        self.assertIn('<span class="badge pass">PASS</span>', scorecard.render(card))
+        card["engines"][0]["totals"]["known defect"] = 2
+        html = scorecard.render(card)
+        self.assertIn('<span class="badge defect">gate PASS; physics known defect in 2 rows</span>', html)
+
     def test_the_users_own_engine_is_first(self):
         engines = [{"engine": name, "label": name, "rows": []} for name in ("bullet", "mine")]
         html = scorecard.render({"command": "tripoint validate --engines all,./engine-mine", "engines": engines})
