@@ -120,7 +120,7 @@ class Adopted(unittest.TestCase):
 
     def test_noise_widens_the_room(self):
         self.engine(
-            ("NOISE = 0.0", "NOISE = 3e-4"), ("GRAVITY = 1.0", "GRAVITY = 0.9997")
+            ("NOISE = 0.0", "NOISE = 1e-6"), ("GRAVITY = 1.0", "GRAVITY = 0.999999")
         )  # an error that the noise does not exceed
         done = self.call("gate", "adopt", "--engine", "./engine-toy", "--out", "noisy/cases", "rigid/ballistic")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
