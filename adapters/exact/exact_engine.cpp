@@ -13,8 +13,8 @@ EngineInfo ExactEngine::info() const {
   info.name = "exact";
   info.version = "1";
   info.build = "closed forms in double and long double";
-  info.capabilities = {"rigid-free-flight",  "gravity", "force", "merge", "split", "prescribed", "heat",
-                       "surface-temperature"};
+  info.capabilities = {"rigid-free-flight",   "gravity", "force", "merge", "split", "prescribed", "heat",
+                       "surface-temperature", "plane"};
   return info;
 }
 

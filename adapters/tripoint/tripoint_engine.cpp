@@ -73,7 +73,8 @@ EngineInfo TripointEngine::info() const {
                        "transport-velocity",
                        "elastic",
                        "phase",
-                       "surface-temperature"};
+                       "surface-temperature",
+                       "plane"};
   info.presets = {"default"};
   for (const char* axes : {"012", "021", "102", "120", "201", "210"})
     info.presets.push_back(std::string(no_squish) + axes);

@@ -58,7 +58,7 @@ double least_density(const Scene& scene) {
 ShearWeight shear_weight(const Scene& scene) {
   const double share = acting_number(scene, "isotropic_shear");
   if (share == 0.0) return {};
-  const ShearWeight isotropic = isotropic_shear(scene.support_ratio);
+  const ShearWeight isotropic = isotropic_shear(scene.support_ratio, scene.space());
   return {1.0 + share * (isotropic.constant - 1.0),
           share * isotropic.square / (scene.spacing * scene.spacing)};
 }
@@ -91,10 +91,10 @@ SceneNumbers numbers_of(const Scene& scene) {
   n.bulk_viscosity = acting_number(scene, "bulk_viscosity");
   n.mean_pressure = acting_number(scene, "mean_pressure");
   n.sound_damping = acting_number(scene, "sound_damping");
-  n.rest_volume = scene.spacing * scene.spacing * scene.spacing;
+  n.rest_volume = scene.cell();
   const bool paper = scene.mode_of(term::state) == Mode::paper;
   n.sound_speed = paper ? std::sqrt(n.stiffness) : sound_speed(state_of(n, liquid_group, lightest, false));
-  const LatticeMoments moments = wendland_moments(scene.support_ratio);
+  const LatticeMoments moments = wendland_moments(scene.support_ratio, scene.space());
   n.lattice_density = moments.density;
   n.overlap_density = 1.0 + moments.layer / moments.density;
   n.gradient_moment = moments.gradient;
@@ -123,7 +123,7 @@ SceneNumbers numbers_of(const Scene& scene) {
 
 PairKernels pair_kernels(const Scene& scene) {
   const SceneNumbers n = numbers_of(scene);
-  PairKernels kernels(scene.support_ratio * scene.spacing);
+  PairKernels kernels(scene.support_ratio * scene.spacing, scene.space());
   kernels.core = {n.core_stiffness, n.core_reach};
   kernels.per_gradient_moment = 1.0 / n.gradient_moment;
   kernels.shear = shear_weight(scene);

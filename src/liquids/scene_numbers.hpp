@@ -21,7 +21,7 @@ struct SceneNumbers {
   double bulk_viscosity = 0.0;   ///< zeta of the numerical bulk viscosity of liquids, 0 = none [1]
   double mean_pressure = 0.0;    ///< scene.mean_pressure, 0 where it changes nothing [1]
   double sound_damping = 0.0;    ///< scene.sound_damping, 0 where it changes nothing [1]
-  double rest_volume = 0.0;      ///< dx^3 [m3]
+  double rest_volume = 0.0;      ///< of a cell of the lattice [m3]
   double lattice_density = 1.0;  ///< S0 of the kernel at the scene's h/dx
   /// Of a particle in the outermost layer of two bodies that overlap by one spacing, over its rest density
   double overlap_density = 2.0;

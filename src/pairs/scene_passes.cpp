@@ -93,7 +93,8 @@ struct Passes::Impl {
 
 Passes::Passes(const Scene& scene, const std::vector<EffectPairWork>& effects, int lanes, bool sums_all) {
   const AllWork work = work_of(effects);
-  const PairKernels kernels = work.kernels ? *work.kernels : PairKernels(scene.support_ratio * scene.spacing);
+  const PairKernels kernels =
+      work.kernels ? *work.kernels : PairKernels(scene.support_ratio * scene.spacing, scene.space());
   if (lanes == 0) lanes = work.terms.empty() ? 1 : best_lanes();
   const PairPasses passes = pair_passes(lanes);
   impl_ = std::make_unique<Impl>(Impl{lanes, passes.density(work.terms), passes.density(work.without_held()),

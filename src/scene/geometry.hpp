@@ -48,4 +48,22 @@ struct Bounds {
 /// overlap.
 [[nodiscard]] std::optional<double> volume(const Shape&);
 
+// --- the plane of x and z, scene.dimensions = 2
+
+/// A shape without its y: what it covers of the plane of x and z, as a slab 1 m deep about y = 0.
+/// @throws InputError where it has no such form: turned out of the plane, or a mesh
+[[nodiscard]] Shape planar(const Shape&);
+
+/// Whether what happens is the same all along a direction: it repeats, or is left out.
+[[nodiscard]] inline bool is_endless(const Scene& s, std::size_t axis) {
+  return s.periodic[axis] || (axis == 1 && s.is_planar());
+}
+
+/// Extent of a particle along y [m].
+[[nodiscard]] inline double cell_depth(const Scene& s) { return s.is_planar() ? layer_depth : s.spacing; }
+
+/// Puts the bodies, events, inflows and sources of a scene into the plane y = 0.
+/// @throws InputError naming what points out of it
+void make_planar(Scene&);
+
 }  // namespace tripoint

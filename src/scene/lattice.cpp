@@ -31,6 +31,7 @@ Span cells_between(double origin, double low, double high, double dx) {
 
 Span along(const Scene& s, const Body& b, const Bounds& box, std::size_t a) {
   const double dx = s.spacing, low = box.min[a], high = box.max[a];
+  if (a == 1 && s.is_planar()) return {-0.5 * dx, 0.0, 1.0};
   if (s.periodic[a]) {
     const double cells = ((*s.max)[a] - (*s.min)[a]) / dx;
     if (std::abs(cells - std::round(cells)) > on_lattice * std::max(1.0, cells))
@@ -78,7 +79,7 @@ Lattice lattice_of(const Scene& s, const Body& b) {
           fmt::format(
               "body \"{}\" has no end along {}: cut it by a difference, or give scene.min and scene.max",
               b.name, "xyz"[a]));
-    cells *= std::max(0.0, (box.max[a] - box.min[a]) / s.spacing + 2.0);
+    if (!(a == 1 && s.is_planar())) cells *= std::max(0.0, (box.max[a] - box.min[a]) / s.spacing + 2.0);
     if (!(cells <= max_cells))
       throw InputError(
           b.place,

@@ -86,6 +86,7 @@ void check_domain(const TableReader& in, const Scene& s) {
     in.refuse(s.min ? "min" : "max",
               fmt::format("a domain has two corners: give scene.{} too", s.min ? "max" : "min"));
   for (std::size_t a = 0; a < 3; ++a) {
+    if (a == 1 && s.is_planar()) continue;
     if (s.periodic[a] && !(s.min && s.max))
       in.refuse("periodic",
                 fmt::format("direction {} repeats over the domain: give scene.min and scene.max", "xyz"[a]));
@@ -98,7 +99,12 @@ void check_domain(const TableReader& in, const Scene& s) {
 /// [scene], but for spacing, which its bodies decide where it is not given.
 void read_scene_table(TableReader& in, Scene& s, RecordReader<Scene>& read, Reading& reading) {
   read("end_time");
+  read("dimensions");
+  if (s.dimensions != 2 && s.dimensions != 3)
+    in.refuse("dimensions", "write 2 for one layer in the plane of x and z, or 3");
   read("gravity");
+  if (s.is_planar() && s.gravity.y != 0.0)
+    in.refuse("gravity", "scene.dimensions = 2 has x and z alone: leave its y 0");
   read("mode");
   read_modes(in, s);
   read_clamp(in, s);
@@ -117,6 +123,8 @@ void read_scene_table(TableReader& in, Scene& s, RecordReader<Scene>& read, Read
   read("max");
   read("periodic");
   read("on_escape");
+  if (s.is_planar() && s.periodic[1])
+    in.refuse("periodic", "scene.dimensions = 2 has x and z alone: leave y out");
   check_domain(in, s);
   if (read("output_interval"))
     in.ruled("output_interval", show(s.output_interval = s.end_time / 20.0), "a twentieth of end_time");
@@ -153,8 +161,10 @@ void resolve_modes(TableReader& top, TableReader& in, Scene& s, RecordReader<Sce
   if (!read("support_ratio")) {
     s.support_ratio_given = true;
     if (s.support_ratio > 10.0)
-      in.refuse("support_ratio", fmt::format("{} spacings reach some {:.0f} neighbours: at most 10",
-                                             s.support_ratio, 4.19 * std::pow(s.support_ratio, 3)));
+      in.refuse("support_ratio",
+                fmt::format("{} spacings reach some {:.0f} neighbours: at most 10", s.support_ratio,
+                            s.is_planar() ? 3.14 * std::pow(s.support_ratio, 2)
+                                          : 4.19 * std::pow(s.support_ratio, 3)));
   } else {
     s.support_ratio = s.default_support_ratio();
     in.ruled("support_ratio", show(s.support_ratio),
@@ -180,7 +190,7 @@ void resolve_spacing(TableReader& in, Scene& s, RecordReader<Scene>& read) {
   for (const auto& b : s.bodies) {
     const Vec3 e = bounds(b.shape).extent();
     for (std::size_t a = 0; a < 3; ++a)
-      if (e[a] < least) {
+      if (e[a] < least && !(a == 1 && s.is_planar())) {
         least = e[a];
         which = b.name;
       }
@@ -224,7 +234,6 @@ Scene read_scene(TableReader& top, Reading& reading) {
   read_model(top, in, s, reading);
   for (const auto* node : top.tables("body")) s.bodies.push_back(read_body(*node, s.materials, reading));
   if (s.bodies.empty()) top.refuse("body", "the scene has no body: add a [[body]]");
-  resolve_spacing(in, s, read);
   std::size_t n = 0;
   for (const auto* node : top.tables("event")) s.events.push_back(read_event(*node, ++n, reading));
   n = 0;
@@ -240,6 +249,15 @@ Scene read_scene(TableReader& top, Reading& reading) {
   n = 0;
   for (const auto* node : top.tables("source"))
     s.sources.push_back(read_source(*node, ++n, s.end_time, reading));
+  if (s.is_planar()) {
+    make_planar(s);
+    reading.decisions.push_back({"scene.depth",
+                                 fmt::format("{}", layer_depth),
+                                 "m along y, however deep shapes are drawn",
+                                 false,
+                                 {}});
+  }
+  resolve_spacing(in, s, read);
   resolve_modes(top, in, s, read);
   const bool flows = !s.inflows.empty() || std::any_of(s.bodies.begin(), s.bodies.end(), [](const Body& b) {
     return b.phase == Phase::liquid;

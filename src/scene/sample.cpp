@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/not_a_number.hpp"
+#include "scene/geometry.hpp"
 #include "scene/lattice.hpp"
 #include "scene/motion.hpp"
 #include "scene/sample.hpp"
@@ -47,7 +48,7 @@ class TemperatureAt {
 
 class VelocityAt {
  public:
-  explicit VelocityAt(const VelocityField& f) : field_(f) {
+  VelocityAt(const VelocityField& f, bool planar) : field_(f), planar_(planar) {
     if (f.kind == VelocityField::Kind::expression)
       for (const auto& text : f.expression) expressions_.emplace_back(text);
   }
@@ -62,9 +63,10 @@ class VelocityAt {
         return {dot(field_.gradient[0], d), dot(field_.gradient[1], d), dot(field_.gradient[2], d)};
       }
       case VelocityField::Kind::taylor_green: {
-        const double k = 2.0 * std::numbers::pi / field_.wavelength;
-        return {-field_.speed * std::cos(k * r.x) * std::sin(k * r.y),
-                field_.speed * std::sin(k * r.x) * std::cos(k * r.y), 0.0};
+        const double k = 2.0 * std::numbers::pi / field_.wavelength, second = planar_ ? r.z : r.y;
+        const double along = -field_.speed * std::cos(k * r.x) * std::sin(k * second),
+                     across = field_.speed * std::sin(k * r.x) * std::cos(k * second);
+        return planar_ ? Vec3{along, 0.0, across} : Vec3{along, across, 0.0};
       }
       case VelocityField::Kind::expression:
         return {expressions_[0](r), expressions_[1](r), expressions_[2](r)};
@@ -74,18 +76,19 @@ class VelocityAt {
 
  private:
   const VelocityField& field_;
+  bool planar_;
   std::vector<Expression> expressions_;
 };
 
 /// Velocity of each particle of a body: its field and its spin about the centre of mass, or its prescribed
 /// motion.
-std::vector<Vec3> velocities(const Body& b, const std::vector<Vec3>& centres) {
+std::vector<Vec3> velocities(const Scene& s, const Body& b, const std::vector<Vec3>& centres) {
   std::vector<Vec3> out(centres.size());
   if (b.motion == Motion::fixed) return out;
   Vec3 centre;
   for (const auto& r : centres) centre += r;
   centre = centre / static_cast<double>(centres.size());  // equal masses
-  const VelocityAt field(b.velocity);
+  const VelocityAt field(b.velocity, s.is_planar());
   const auto start = b.keyframes.empty() ? PrescribedState{centre, {}, b.angular_velocity, {}}
                                          : prescribed_state(b.keyframes, centre, {}, {}, 0.0);
   for (std::size_t i = 0; i < centres.size(); ++i) {
@@ -94,6 +97,10 @@ std::vector<Vec3> velocities(const Body& b, const std::vector<Vec3>& centres) {
     if (!finite(out[i]))
       throw InputError(b.place, fmt::format("body \"{}\": its velocity is not finite at ({}, {}, {}) m",
                                             b.name, centres[i].x, centres[i].y, centres[i].z));
+    if (s.is_planar() && out[i].y != 0.0)
+      throw InputError(b.place, fmt::format("body \"{}\" has a velocity along y: scene.dimensions = 2 has x "
+                                            "and z alone",
+                                            b.name));
   }
   return out;
 }
@@ -143,6 +150,7 @@ void disturb(const Scene& s, const Body& b, std::size_t first, std::vector<Vec3>
   for (std::size_t i = 0; i < centres.size(); ++i) {
     Vec3 shift;
     for (std::size_t a = 0; a < 3; ++a) shift[a] = s.jitter * s.spacing * counter_noise(s.seed, first + i, a);
+    if (s.is_planar()) shift.y = 0.0;
     centres[i] += shift;
     mean += shift / static_cast<double>(centres.size());
   }
@@ -160,14 +168,14 @@ InitialState laid(const Scene& s) {
     const Body& b = s.bodies[n];
     const auto material = std::find_if(s.materials.begin(), s.materials.end(),
                                        [&](const Material& m) { return m.name == b.material; });
-    const double mass = s.material(b.material).density * s.spacing * s.spacing * s.spacing;
+    const double mass = s.material(b.material).density * s.spacing * s.spacing * cell_depth(s);
     auto centres = fill(s, b);
     if (out.size() + centres.size() > max_particles)
       throw InputError(b.place, fmt::format("more than {} particles by body \"{}\": coarsen scene.spacing",
                                             max_particles, b.name));
     refuse_lost_spin(s, b, centres);
     if (s.jitter > 0.0 && b.jitters) disturb(s, b, out.size(), centres);
-    const auto velocity = velocities(b, centres);
+    const auto velocity = velocities(s, b, centres);
     std::optional<TemperatureAt> temperature;
     if (b.temperature) temperature.emplace(*b.temperature);
     for (std::size_t i = 0; i < centres.size(); ++i) {

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/dimensions.hpp"
 #include "core/errors.hpp"
 #include "core/quaternion.hpp"
 #include "core/vec3.hpp"
@@ -198,6 +199,7 @@ inline constexpr double most_steps = 1e12;
 struct Scene {
   double end_time = 0.0;                     ///< [s]
   Vec3 gravity;                              ///< [m/s2]
+  std::uint64_t dimensions = 3;              ///< 2: one layer in the plane y = 0
   double spacing = 0.0;                      ///< dx [m]
   double support_ratio = corrected_support;  ///< h/dx
   Mode mode = Mode::corrected;
@@ -233,6 +235,10 @@ struct Scene {
   std::vector<AppliedForce> forces;
   std::vector<HeatSource> sources;
 
+  [[nodiscard]] Dimensions space() const { return static_cast<Dimensions>(dimensions); }
+  [[nodiscard]] bool is_planar() const { return space() == Dimensions::two; }
+  /// Volume of a particle at rest [m3].
+  [[nodiscard]] double cell() const { return cell_volume(spacing, space()); }
   /// A look-up: a loop over particles or bodies asks for its values before it begins. @throws UndeclaredTerm
   [[nodiscard]] Mode mode_of(const Term& t) const {
     const auto at = modes.find(t);

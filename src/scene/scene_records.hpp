@@ -16,6 +16,11 @@ inline constexpr auto of_scene = std::make_tuple(
     kept(&Scene::gravity,
          {"scene", "gravity", vector, "m/s2", any, "[0, 0, 0]", "free space: a case says when bodies fall",
           "", "acceleration of every free particle"}),
+    kept(&Scene::dimensions,
+         {"scene", "dimensions", integer, "", positive, "3", "matter fills space", "",
+          "2: one layer of particles in the plane of x and z. Shapes lose their y, and masses and forces are "
+          "those of a layer 1 m deep"},
+         {.later = true}),
     kept(&Scene::spacing,
          {"scene", "spacing", number, "m", positive, "=", "a tenth of the smallest extent of a body", "",
           "distance dx of the particles, the same in the whole scene"}),

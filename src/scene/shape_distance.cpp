@@ -63,10 +63,13 @@ std::optional<Filled> by_formula(const Shape& s) {
 // Of a sum over a shape's bounds; its error is of second order in their size
 constexpr double cells_across = 64.0;
 
-/// The sum over cells, each with its filled share at its centre.
-MassProperties by_cells(const Shape& s, double density, double spacing, const Bounds& b) {
-  const Vec3 L = b.extent();
-  const double side = std::max({L.x, L.y, L.z}) / cells_across;
+/// The sum over cells, each with its filled share at its centre; in the plane over one layer of them.
+MassProperties by_cells(const Shape& s, double density, double spacing, Bounds b, Dimensions d) {
+  Vec3 L = b.extent();
+  if (d == Dimensions::two) L.y = 0.0;
+  double side = std::max({L.x, L.y, L.z}) / cells_across;
+  if (d == Dimensions::two) side = std::min(side, layer_depth);
+  if (d == Dimensions::two) b.min.y = -0.5 * side;
   const auto count = [&](double length) {
     return std::max(1L, static_cast<long>(std::ceil(length / side - 1e-9)));
   };
@@ -80,7 +83,7 @@ MassProperties by_cells(const Shape& s, double density, double spacing, const Bo
         const double filled = share(r);
         if (!(filled > 0.0)) continue;
         place.push_back(r);
-        mass.push_back(filled * density * side * side * side);
+        mass.push_back(filled * density * cell_volume(side, d));
       }
   return mass_properties(place, mass);
 }
@@ -137,7 +140,12 @@ PlaceFunction filled_share(const Shape& s, double side, double spacing) {
   };
 }
 
-std::optional<MassProperties> mass_of_shape(const Shape& s, double density, double spacing) {
+std::optional<MassProperties> mass_of_shape(const Shape& s, double density, double spacing, Dimensions d) {
+  if (d == Dimensions::two) {
+    const Bounds b = bounds(s);
+    if (!finite(b.min) || !finite(b.max)) return {};
+    return by_cells(s, density, spacing, b, d);
+  }
   if (is_turned(s)) {
     auto p = mass_of_shape(not_turned(s), density, spacing);
     if (!p) return p;
@@ -159,7 +167,7 @@ std::optional<MassProperties> mass_of_shape(const Shape& s, double density, doub
   const Bounds b = bounds(s);
   if (!finite(b.min) || !finite(b.max)) return {};
   if (s.kind == Kind::mesh) return mass_properties(read_mesh(s.file, s.scale), density);
-  return by_cells(s, density, spacing, b);
+  return by_cells(s, density, spacing, b, d);
 }
 
 }  // namespace tripoint

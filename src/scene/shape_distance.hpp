@@ -21,7 +21,8 @@ using PlaceFunction = std::function<double(const Vec3&)>;
 [[nodiscard]] PlaceFunction filled_share(const Shape&, double side, double spacing);
 
 /// Mass, centre and moments of the shape, filled with one density; empty where the shape has no finite
-/// bounds.
-[[nodiscard]] std::optional<MassProperties> mass_of_shape(const Shape&, double density, double spacing);
+/// bounds. In the plane those of the layer y = 0, 1 m deep, as its particles have them.
+[[nodiscard]] std::optional<MassProperties> mass_of_shape(const Shape&, double density, double spacing,
+                                                          Dimensions = Dimensions::three);
 
 }  // namespace tripoint

@@ -113,7 +113,7 @@ void set_twins(Bonds& bonds, std::span<const std::uint32_t> ids) {
 }  // namespace
 
 ElasticityKernel bond_kernel(const Scene& scene) {
-  return ElasticityKernel(bond_reach(scene) * scene.spacing);
+  return ElasticityKernel(bond_reach(scene) * scene.spacing, scene.space());
 }
 
 Bond bond_of(const ElasticityKernel& kernel, const Vec3& x) {
@@ -126,7 +126,7 @@ Bond bond_of(const ElasticityKernel& kernel, const Vec3& x) {
 }
 
 double own_weight(const Scene& scene, double distance) {
-  return WendlandC2(scene.support_ratio * scene.spacing).value(distance);
+  return WendlandC2(scene.support_ratio * scene.spacing, scene.space()).value(distance);
 }
 
 Vec3 separation(const State& state, std::size_t i, std::size_t j, double back) {

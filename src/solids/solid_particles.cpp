@@ -52,10 +52,11 @@ double volume_of(const State& state, bool paper, bool owns, std::uint32_t id) {
   return m[i] / sum;
 }
 
-/// M_i = sum_j v_j gradW(x_ij)(x_j - x_i)^T
+/// M_i = sum_j v_j gradW(x_ij)(x_j - x_i)^T; in the plane 1 along y, where nothing strains
 Symmetric moment_of(const State& state, std::uint32_t id) {
   const auto volume = state.particles[field::solid_volume];
   Symmetric M;
+  if (state.scene.is_planar() && !state.bonds.of(id).empty()) M.yy = 1.0;
   for (const Bond& b : state.bonds.of(id))
     M = M + symmetric_part(-volume[state.particles.row(b.other)] * outer(b.gradient, b.x));
   return M;

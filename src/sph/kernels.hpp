@@ -4,9 +4,11 @@
 #include <cmath>
 #include <numbers>
 
-/// Smoothing kernels in three dimensions. h is the support radius, h > 0 [m]: W = 0 for r >= h. r is a
-/// distance, r >= 0 [m]. Each integrates to 1 over space: tests/sph/kernels_test.cpp. Constants are formed
-/// once, so that a pair pass only multiplies.
+#include "core/dimensions.hpp"
+
+/// Smoothing kernels. h is the support radius, h > 0 [m]: W = 0 for r >= h. r is a distance, r >= 0 [m].
+/// Each integrates to 1 over space, or over the plane times a depth of 1 m: tests/sph/kernels_test.cpp.
+/// Printed factors are of three dimensions. Constants are formed once, so that a pair pass only multiplies.
 /// `..._inside` is for r <= h alone, where no check is needed that r is within the support. A pass leaves out
 /// the pairs beyond it in one place. Such a function has the unit of the one without `_inside`.
 namespace tripoint {
@@ -15,7 +17,10 @@ namespace tripoint {
 /// r^2)^3.
 class Poly6 {
  public:
-  explicit Poly6(double h) noexcept : h_(h), c_(315.0 / (64.0 * std::numbers::pi * std::pow(h, 9))) {
+  explicit Poly6(double h, Dimensions d = Dimensions::three) noexcept
+      : h_(h),
+        c_(d == Dimensions::three ? 315.0 / (64.0 * std::numbers::pi * std::pow(h, 9))
+                                  : 4.0 / (std::numbers::pi * std::pow(h, 8) * layer_depth)) {
     assert(h > 0.0);
   }
   /// W(r) [1/m3]
@@ -38,7 +43,10 @@ class Poly6 {
 /// r)^3.
 class Spiky {
  public:
-  explicit Spiky(double h) noexcept : h_(h), c_(15.0 / (std::numbers::pi * std::pow(h, 6))) {
+  explicit Spiky(double h, Dimensions d = Dimensions::three) noexcept
+      : h_(h),
+        c_(d == Dimensions::three ? 15.0 / (std::numbers::pi * std::pow(h, 6))
+                                  : 10.0 / (std::numbers::pi * std::pow(h, 5) * layer_depth)) {
     assert(h > 0.0);
   }
   /// W(r) [1/m3]
@@ -66,16 +74,23 @@ class Spiky {
 };
 
 /// Viscosity kernel [Mueller, Charypar, Gross 2003, (22)], the paper's kernel of viscosity (8) and heat (21).
-/// W(r) = 15/(2 pi h^3) (-q^3/2 + q^2 + 1/(2q) - 1), q = r/h.
+/// W(r) = 15/(2 pi h^3) (-q^3/2 + q^2 + 1/(2q) - 1), q = r/h; in the plane that of the same Laplacian but for
+/// its factor, 40/(pi h^2) (q^2/4 - q^3/9 - ln(q)/6 - 5/36).
 class ViscosityKernel {
  public:
-  explicit ViscosityKernel(double h) noexcept : h_(h), c_(45.0 / (std::numbers::pi * std::pow(h, 6))) {
+  explicit ViscosityKernel(double h, Dimensions d = Dimensions::three) noexcept
+      : h_(h),
+        c_(d == Dimensions::three ? 45.0 / (std::numbers::pi * std::pow(h, 6))
+                                  : 40.0 / (std::numbers::pi * std::pow(h, 5) * layer_depth)),
+        d_(d) {
     assert(h > 0.0);
   }
   /// W(r) [1/m3]; infinite at r = 0
   [[nodiscard]] double value(double r) const noexcept {
     if (r >= h_) return 0.0;
     const double q = r / h_;
+    if (d_ == Dimensions::two)
+      return c_ * h_ * h_ * h_ * (q * q / 4.0 - q * q * q / 9.0 - std::log(q) / 6.0 - 5.0 / 36.0);
     return 15.0 / (2.0 * std::numbers::pi * h_ * h_ * h_) * (-0.5 * q * q * q + q * q + 0.5 / q - 1.0);
   }
   /// lap W(r) = 45/(pi h^6) (h - r) [1/m5]
@@ -90,13 +105,17 @@ class ViscosityKernel {
 
  private:
   double h_, c_;
+  Dimensions d_;
 };
 
 /// Elasticity kernel (17), made for solids of as few as two particles.
 /// W(r) = c (2h/pi) (cos((r + h) pi/(2h)) + 1), c = pi / (8 h^4 (pi/3 - 8/pi + 16/pi^2)).
 class ElasticityKernel {
  public:
-  explicit ElasticityKernel(double h) noexcept : h_(h), c_(constant(h)) { assert(h > 0.0); }
+  explicit ElasticityKernel(double h, Dimensions d = Dimensions::three) noexcept
+      : h_(h), c_(d == Dimensions::three ? constant(h) : planar_constant(h)) {
+    assert(h > 0.0);
+  }
   /// W(r) [1/m3]
   [[nodiscard]] double value(double r) const noexcept {
     using std::numbers::pi;
@@ -113,6 +132,10 @@ class ElasticityKernel {
     using std::numbers::pi;
     return pi / (8.0 * std::pow(h, 4) * (pi / 3.0 - 8.0 / pi + 16.0 / (pi * pi)));
   }
+  static double planar_constant(double h) noexcept {
+    using std::numbers::pi;
+    return 1.0 / (4.0 * h * h * h * (0.5 - 4.0 / (pi * pi)) * layer_depth);
+  }
   double h_, c_;
 };
 
@@ -120,11 +143,13 @@ class ElasticityKernel {
 /// W(r) = 21/(2 pi h^3) (1 - q)^4 (1 + 4q), q = r/h.
 class WendlandC2 {
  public:
-  explicit WendlandC2(double h) noexcept
+  explicit WendlandC2(double h, Dimensions d = Dimensions::three) noexcept
       : h_(h),
         per_h_(1.0 / h),
-        c_(21.0 / (2.0 * std::numbers::pi * h * h * h)),
-        g_(210.0 / (std::numbers::pi * std::pow(h, 5))) {
+        c_(d == Dimensions::three ? 21.0 / (2.0 * std::numbers::pi * h * h * h)
+                                  : 7.0 / (std::numbers::pi * h * h * layer_depth)),
+        g_(d == Dimensions::three ? 210.0 / (std::numbers::pi * std::pow(h, 5))
+                                  : 140.0 / (std::numbers::pi * std::pow(h, 4) * layer_depth)) {
     assert(h > 0.0);
   }
   /// W(r) [1/m3]
@@ -190,13 +215,18 @@ struct ShearWeight {
 /// The kernels at one support radius, and the scene's numbers that pair terms share, handed to every pair.
 struct PairKernels {
   /// @param support radius h [m]
-  explicit PairKernels(double support) noexcept
-      : poly6(support), spiky(support), viscosity(support), wendland(support) {}
+  explicit PairKernels(double support, Dimensions d = Dimensions::three) noexcept
+      : poly6(support, d),
+        spiky(support, d),
+        viscosity(support, d),
+        wendland(support, d),
+        central(2.0 * (number_of(d) + 2.0)) {}
   Poly6 poly6;
   Spiky spiky;
   ViscosityKernel viscosity;
   WendlandC2 wendland;
   Core core;                         ///< none unless a scene sets it
+  double central;                    ///< factor of central viscosity, 10 or in the plane 8 [1]
   double per_gradient_moment = 1.0;  ///< 1 over the lattice moment of -2 W'/r at the scene's h/dx [1]
   ShearWeight shear;                 ///< 1 unless a scene sets it
 };

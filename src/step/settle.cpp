@@ -77,7 +77,7 @@ void shake(const Scene& s, InitialState& at) {
   for (std::size_t id = 0; id < at.size(); ++id) {
     if (at.body[id] >= 0) continue;
     for (std::size_t a = 0; a < 3; ++a)
-      at.position[id][a] += shaken * s.spacing * counter_noise(s.seed, id, a);
+      if (!(a == 1 && s.is_planar())) at.position[id][a] += shaken * s.spacing * counter_noise(s.seed, id, a);
     at.position[id] = wrapped(s, at.position[id]);
   }
 }

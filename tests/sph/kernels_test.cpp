@@ -28,7 +28,11 @@ double integral(const std::function<double(double)>& f) {
 double over_space(const std::function<double(double)>& f) {
   return integral([&](double r) { return 4.0 * std::numbers::pi * r * r * f(r); });
 }
+double over_plane(const std::function<double(double)>& f) {
+  return integral([&](double r) { return 2.0 * std::numbers::pi * r * f(r) * layer_depth; });
+}
 constexpr double quadrature = 1e-12;
+constexpr Dimensions plane = Dimensions::two;
 
 TEST(Kernels, IntegrateToOneOverSpace) {
   EXPECT_NEAR(over_space([](double r) { return Poly6(h).value(r); }), 1.0, quadrature);
@@ -36,6 +40,24 @@ TEST(Kernels, IntegrateToOneOverSpace) {
   EXPECT_NEAR(over_space([](double r) { return ViscosityKernel(h).value(r); }), 1.0, quadrature);
   EXPECT_NEAR(over_space([](double r) { return ElasticityKernel(h).value(r); }), 1.0, quadrature);
   EXPECT_NEAR(over_space([](double r) { return WendlandC2(h).value(r); }), 1.0, quadrature);
+}
+
+TEST(Kernels, IntegrateToOneOverThePlane) {
+  EXPECT_NEAR(over_plane([](double r) { return Poly6(h, plane).value(r); }), 1.0, quadrature);
+  EXPECT_NEAR(over_plane([](double r) { return Spiky(h, plane).value(r); }), 1.0, quadrature);
+  // its logarithm takes the quadrature more
+  EXPECT_NEAR(over_plane([](double r) { return ViscosityKernel(h, plane).value(r); }), 1.0, 1e-7);
+  EXPECT_NEAR(over_plane([](double r) { return ElasticityKernel(h, plane).value(r); }), 1.0, quadrature);
+  EXPECT_NEAR(over_plane([](double r) { return WendlandC2(h, plane).value(r); }), 1.0, quadrature);
+}
+
+TEST(Kernels, HaveASecondMomentOfTheLaplacianOfOneInThePlane) {
+  // 1/4 int r^2 lap W dA = 1
+  EXPECT_NEAR(over_plane([](double r) { return r * r / 4.0 * ViscosityKernel(h, plane).laplacian(r); }), 1.0,
+              quadrature);
+  EXPECT_NEAR(
+      over_plane([](double r) { return r * r / 4.0 * -2.0 * WendlandC2(h, plane).derivative_over_r(r); }),
+      1.0, quadrature);
 }
 
 TEST(Kernels, HaveASecondMomentOfTheLaplacianOfOne) {

@@ -115,5 +115,32 @@ TEST(Lattice, LeavesTheLayersBesideAnInterfaceAtRest) {
   }
 }
 
+TEST(LatticeOfThePlane, HasTheNeighboursOfALayer) {
+  EXPECT_EQ(wendland_moments(2.6, Dimensions::two).neighbours, 20);
+  EXPECT_EQ(wendland_moments(3.2, Dimensions::two).neighbours, 36);
+}
+
+/// A support of many spacings leaves the integrals over the plane.
+TEST(LatticeOfThePlane, TendsToTheContinuum) {
+  constexpr double many = 40.0;
+  for (const LatticeMoments& m :
+       {poly6_moments(many, Dimensions::two), spiky_moments(many, Dimensions::two),
+        elasticity_moments(many, Dimensions::two), wendland_moments(many, Dimensions::two)})
+    EXPECT_NEAR(m.density, 1.0, 1e-3);
+  EXPECT_NEAR(wendland_moments(many, Dimensions::two).gradient, 1.0, 1e-3);
+  EXPECT_NEAR(spiky_moments(many, Dimensions::two).gradient, 1.0, 1e-3);
+  EXPECT_NEAR(viscosity_moments(many, Dimensions::two).laplacian, 1.0, 1e-3);
+  const ShearModuli shear = shear_moduli(many, {1.0, 0.0}, Dimensions::two);
+  EXPECT_NEAR(shear.axes, 1.0, 1e-3);
+  EXPECT_NEAR(shear.diagonals, 1.0, 1e-3);
+}
+
+TEST(LatticeOfThePlane, ResistsAllShearsAlikeByItsWeight) {
+  for (const double q : {2.6, 3.0, 3.2}) {
+    const ShearModuli shear = shear_moduli(q, isotropic_shear(q, Dimensions::two), Dimensions::two);
+    EXPECT_NEAR(0.5 * (shear.axes + shear.diagonals), 1.0, 1e-12) << q;
+  }
+}
+
 }  // namespace
 }  // namespace tripoint

@@ -60,9 +60,6 @@ class WallCells {
   std::unordered_set<std::uint64_t> cells_;
 };
 
-/// A row that leaves through a periodic side of the domain has no end there.
-bool is_endless(const Scene& s, std::size_t axis) { return s.periodic[axis]; }
-
 void thin_walls(const Scene& s, const InitialState& state, std::vector<Finding>& found) {
   const WallCells cells(s, state);
   // Liquid ends half a spacing off

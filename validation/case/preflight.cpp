@@ -161,6 +161,7 @@ class Preflight {
       }
     }
     for (std::size_t a = 0; a < 3; ++a) {
+      if (a == 1 && scene_.is_planar()) continue;
       const long across = std::lround((high[a] - low[a]) / scene_.spacing) + 1;
       if (scene_.periodic[a] &&
           static_cast<double>(across) * scene_.spacing >= 0.999 * ((*scene_.max)[a] - (*scene_.min)[a]))

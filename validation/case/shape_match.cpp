@@ -29,20 +29,20 @@ struct Difference {
   double of_cells = 0.0;            ///< the same, each particle with the moment of its own cell
 };
 
-/// @param own added to each principal moment [kg m2]
-double moments_off(const MassProperties& particles, const MassProperties& shape, double own) {
+/// @param own added to each principal moment [kg m2]   @param planar of a layer the greatest, about y, counts
+double moments_off(const MassProperties& particles, const MassProperties& shape, double own, bool planar) {
   double worst = 0.0;
-  for (std::size_t k = 0; k < 3; ++k) {
+  for (std::size_t k = planar ? 2 : 0; k < 3; ++k) {
     const double off = (particles.principal_inertia[k] + own) / shape.principal_inertia[k] - 1.0;
     if (std::abs(off) > std::abs(worst)) worst = off;
   }
   return worst;
 }
 
-Difference difference(const MassProperties& particles, const MassProperties& shape, double spacing) {
+Difference difference(const MassProperties& particles, const MassProperties& shape, const Scene& s) {
   return {particles.mass / shape.mass - 1.0, norm(particles.centre - shape.centre),
-          moments_off(particles, shape, 0.0),
-          moments_off(particles, shape, particles.mass * spacing * spacing / 6.0)};
+          moments_off(particles, shape, 0.0, s.is_planar()),
+          moments_off(particles, shape, particles.mass * s.spacing * s.spacing / 6.0, s.is_planar())};
 }
 
 /// In words; empty where the particles fill their shape.
@@ -99,7 +99,7 @@ void for_each_free(const Scene& s, const InitialState& state, F f) {
   for (std::size_t n = 0; n < s.bodies.size(); ++n) {
     const Body& b = s.bodies[n];
     if (b.motion != Motion::free || s.jitter > 0.0) continue;
-    const auto shape = mass_of_shape(b.shape, s.material(b.material).density, s.spacing);
+    const auto shape = mass_of_shape(b.shape, s.material(b.material).density, s.spacing, s.space());
     if (shape && shape->mass > 0.0) f(b, mass_properties(bodies[n].place, bodies[n].mass), *shape);
   }
 }
@@ -111,8 +111,9 @@ std::vector<MeshBody> mesh_bodies(const Scene& s, const InitialState& state) {
   for (std::size_t n = 0; n < s.bodies.size(); ++n) {
     const Body& b = s.bodies[n];
     const auto triangles = triangles_of(b.shape);
-    const auto shape =
-        triangles > 0 ? mass_of_shape(b.shape, s.material(b.material).density, s.spacing) : std::nullopt;
+    const auto shape = triangles > 0
+                           ? mass_of_shape(b.shape, s.material(b.material).density, s.spacing, s.space())
+                           : std::nullopt;
     if (!shape) continue;
     MeshBody m{n, triangles, bounds(b.shape).extent(), *shape, 0.0};
     for (std::size_t i = 0; i < state.size(); ++i)
@@ -145,7 +146,7 @@ std::vector<Finding> unlike_their_shapes(const Scene& s, const InitialState& sta
   for_each_free(s, state, [&](const Body& b, const MassProperties& particles, const MassProperties& shape) {
     const Bounds reach = bounds(b.shape);
     const Vec3 extent = reach.extent();
-    Difference d = difference(particles, shape, s.spacing);
+    Difference d = difference(particles, shape, s);
     if (b.phase == Phase::liquid || crosses_periodic_side(s, reach)) d = {d.mass, 0.0, 0.0, 0.0};
     const auto what = in_words(d, particles, shape, std::min({extent.x, extent.y, extent.z}));
     if (!what.empty())
@@ -158,7 +159,7 @@ std::vector<Finding> unlike_their_shapes(const Scene& s, const InitialState& sta
 std::vector<Finding> moment_notes(const Scene& s, const InitialState& state) {
   std::vector<Finding> notes;
   for_each_free(s, state, [&](const Body& b, const MassProperties& particles, const MassProperties& shape) {
-    const Difference d = difference(particles, shape, s.spacing);
+    const Difference d = difference(particles, shape, s);
     if (b.phase != Phase::rigid || std::abs(d.moments) <= most || std::abs(d.of_cells) > most ||
         std::abs(d.mass) > most)
       return;

@@ -40,7 +40,7 @@ std::unique_ptr<Reference> make_archimedes(const ReferenceInput& in) {
   double pool = 1.0, area = 1.0;
   for (std::size_t k = 0; k < 3; ++k) {
     if (k == axis) continue;
-    if (!job.scene.periodic[k]) throw InputError("archimedes: the pool must be periodic across gravity");
+    if (!is_endless(job.scene, k)) throw InputError("archimedes: the pool must be periodic across gravity");
     const auto box = body_along(k, block, job, in.initial);
     pool *= (*job.scene.max)[k] - (*job.scene.min)[k];
     area *= box.length();

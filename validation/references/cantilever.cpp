@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "files/job.hpp"
+#include "scene/geometry.hpp"
 #include "validation/references/beam.hpp"
 #include "validation/references/heat_scene.hpp"
 #include "validation/references/number_table.hpp"
@@ -37,7 +38,8 @@ std::size_t deflected_axis(const ReferenceInput& in, std::size_t bar, std::size_
   if (norm(in.job.scene.gravity) > 0.0) return axis_of(in.job.scene.gravity, "cantilever: gravity");
   const auto size = extents(in, bar);
   const std::size_t a = (axis + 1) % 3, b = (axis + 2) % 3;
-  if (in.job.scene.periodic[a] != in.job.scene.periodic[b]) return in.job.scene.periodic[a] ? b : a;
+  const auto endless = [&](std::size_t k) { return is_endless(in.job.scene, k); };
+  if (endless(a) != endless(b)) return endless(a) ? b : a;
   return size[a] < size[b] ? a : b;
 }
 
@@ -88,7 +90,7 @@ std::unique_ptr<Reference> make_cantilever(const ReferenceInput& in) {
   const auto third = 3 - axis - across;
   const auto size = extents(in, bar);
   const double end = free_end(in, bar, axis), length = in.args.number("length").value_or(size[axis]);
-  const bool plane_strain = in.args.flag("plane_strain").value_or(in.job.scene.periodic[third]);
+  const bool plane_strain = in.args.flag("plane_strain").value_or(is_endless(in.job.scene, third));
   const auto material = elastic_constants(in.job, bar);
   const double kappa = in.args.number("shear_coefficient")
                            .value_or(rectangular_shear_coefficient(material.poisson_ratio, plane_strain));

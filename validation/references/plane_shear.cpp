@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "validation/references/plane_shear.hpp"
 #include "files/job.hpp"
+#include "scene/geometry.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -33,7 +34,7 @@ class PlaneShear : public LiquidReference {
 std::size_t open_axis(const Job& job, const char* function) {
   std::size_t axis = 0, count = 0;
   for (std::size_t k = 0; k < 3; ++k)
-    if (!job.scene.periodic[k]) {
+    if (!is_endless(job.scene, k)) {
       axis = k;
       ++count;
     }

@@ -2,6 +2,7 @@
 #include "validation/references/solid_scene.hpp"
 
 #include "files/job.hpp"
+#include "scene/geometry.hpp"
 #include "scene/shared_terms.hpp"
 #include "tables/nearest.hpp"
 #include "validation/references/heat_scene.hpp"
@@ -46,8 +47,9 @@ std::array<double, 3> extents(const ReferenceInput& in, std::size_t body) {
   std::array<double, 3> size{};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto& scene = in.job.scene;
-    size[k] = scene.periodic[k] && scene.min && scene.max ? (*scene.max)[k] - (*scene.min)[k]
-                                                          : body_along(k, body, in.job, in.initial).length();
+    size[k] = is_endless(scene, k) && scene.min && scene.max
+                  ? (*scene.max)[k] - (*scene.min)[k]
+                  : body_along(k, body, in.job, in.initial).length();
   }
   return size;
 }
@@ -56,7 +58,7 @@ std::size_t long_axis(const ReferenceInput& in, std::size_t body) {
   const auto size = extents(in, body);
   std::size_t axis = 3;
   for (std::size_t k = 0; k < 3; ++k)
-    if (!in.job.scene.periodic[k] && (axis == 3 || size[k] > size[axis])) axis = k;
+    if (!is_endless(in.job.scene, k) && (axis == 3 || size[k] > size[axis])) axis = k;
   if (axis == 3)
     throw InputError("body `" + in.job.bodies[body].name + "` has no end: every direction is periodic");
   return axis;
@@ -68,7 +70,7 @@ BarSides bar_sides(const ReferenceInput& in, std::size_t axis) {
     throw InputError("argument `sides` must be \"free\", \"plane_strain\" or \"confined\"");
   }
   int held = 0;
-  for (std::size_t k = 0; k < 3; ++k) held += k != axis && in.job.scene.periodic[k] ? 1 : 0;
+  for (std::size_t k = 0; k < 3; ++k) held += k != axis && is_endless(in.job.scene, k) ? 1 : 0;
   return held == 0 ? BarSides::free : held == 1 ? BarSides::plane_strain : BarSides::confined;
 }
 

@@ -15,7 +15,8 @@ struct Vortices {
   Vec3 origin, carried;
 };
 
-/// u = U (-cos kx sin ky, sin kx cos ky) exp(-2 nu k^2 t), x and y from the origin, which moves along.
+/// u = U (-cos kx sin ky, sin kx cos ky) exp(-2 nu k^2 t), x and y from the origin, which moves along. In two
+/// dimensions z has the place of y.
 /// Numbers: velocity_rate, at which it decays [1/s].
 class TaylorGreen : public LiquidReference {
  public:
@@ -23,7 +24,8 @@ class TaylorGreen : public LiquidReference {
       : LiquidReference(in.job, in.initial),
         vortices_(v),
         rate_(2.0 * viscosity * v.k * v.k),
-        density_(density) {}
+        density_(density),
+        planar_(in.job.scene.is_planar()) {}
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
     if (quantity == "velocity_rate") return rate_;
     return {};
@@ -34,15 +36,18 @@ class TaylorGreen : public LiquidReference {
     const double U = vortices_.speed * std::exp(-rate_ * time), k = vortices_.k;
     const Vec3 r = place - vortices_.origin - time * vortices_.carried;
     LiquidState s;
-    s.velocity = vortices_.carried + Vec3{-U * std::cos(k * r.x) * std::sin(k * r.y),
-                                          U * std::sin(k * r.x) * std::cos(k * r.y), 0.0};
-    s.pressure = -0.25 * density_ * U * U * (std::cos(2.0 * k * r.x) + std::cos(2.0 * k * r.y));
+    const double second = planar_ ? r.z : r.y;
+    const double along = -U * std::cos(k * r.x) * std::sin(k * second),
+                 across = U * std::sin(k * r.x) * std::cos(k * second);
+    s.velocity = vortices_.carried + (planar_ ? Vec3{along, 0.0, across} : Vec3{along, across, 0.0});
+    s.pressure = -0.25 * density_ * U * U * (std::cos(2.0 * k * r.x) + std::cos(2.0 * k * second));
     return s;
   }
 
  private:
   Vortices vortices_;
   double rate_, density_;
+  bool planar_;
 };
 
 Vortices vortices_of(const ReferenceInput& in, const VelocityField& v) {
@@ -58,8 +63,9 @@ Vortices vortices_of(const ReferenceInput& in, const VelocityField& v) {
 
 std::unique_ptr<Reference> make_vortices(const ReferenceInput& in) {
   const auto liquid = only_liquid(in.job, "taylor_green");
-  if (!in.job.scene.periodic[0] || !in.job.scene.periodic[1])
-    throw InputError("taylor_green is periodic in x and y");
+  const bool planar = in.job.scene.is_planar();
+  if (!in.job.scene.periodic[0] || !in.job.scene.periodic[planar ? 2 : 1])
+    throw InputError(planar ? "taylor_green is periodic in x and z" : "taylor_green is periodic in x and y");
   const auto v = vortices_of(in, in.job.scene.bodies.at(liquid).velocity);
   auto flow = std::make_unique<TaylorGreen>(in, v, kinematic_viscosity(in.job, liquid),
                                             material_of_body(in.job, liquid).density);

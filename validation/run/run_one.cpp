@@ -300,6 +300,7 @@ std::string not_handed_over(const RunRequest& request) {
     return "it removes no particles: no [[outflow]] and no on_escape = \"remove\" (capability outflow)";
   if (!scene.sources.empty() && lacks("source"))
     return "no [[source]] of heat is handed to it (capability source)";
+  if (scene.is_planar() && lacks("plane")) return "not comparable in two dimensions (capability plane)";
   return {};
 }
 

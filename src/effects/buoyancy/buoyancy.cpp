@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "effects/effect.hpp"
-#include "scene/start_temperature.hpp"
+#include "scene/temperatures.hpp"
 
 /// Thermal buoyancy of liquids [Boussinesq 1903]: F = -m b (T - T0) g on each liquid particle (model 8.13), b
 /// of its material. The density in all other terms stays that of T0.

@@ -39,7 +39,7 @@ constexpr EnergyAccount taken_by_diffusion{"taken_by_diffusion"}, taken_by_shift
 constexpr double relax_of_solids = 1.0;                  ///< of a squeeze, over c/support [1]
 constexpr double viscous_share = 0.03;                   ///< of dx^2/nu that a step takes
 constexpr double full_rank = 0.5, own_full_rank = 0.02;  ///< determinant below which an inverse is blended
-constexpr double exposed_below = 2.25;  ///< trace of the moment of a particle at a free surface
+constexpr double exposed_below = 0.75;  ///< mean of the moment over directions, at a free surface
 
 struct Numbers {
   double stiffness = 0.0, reference = 0.0;  ///< k [m2/s2], rho_ref [kg/m3]
@@ -69,14 +69,14 @@ Numbers numbers_of(const Scene& scene) {
     n.greatest_nu = std::max(n.greatest_nu, m->viscosity / m->density);
   }
   n.sound_speed = std::sqrt(n.stiffness * n.reference / least);
-  n.lattice = wendland_moments(scene.support_ratio);
+  n.lattice = wendland_moments(scene.support_ratio, scene.space());
   return n;
 }
 
 PairKernels kernels_of(const Scene& scene, const Numbers& n) {
-  PairKernels kernels(scene.support_ratio * scene.spacing);
+  PairKernels kernels(scene.support_ratio * scene.spacing, scene.space());
   kernels.per_gradient_moment = 1.0 / n.lattice.gradient;
-  const ShearWeight weight = isotropic_shear(scene.support_ratio);
+  const ShearWeight weight = isotropic_shear(scene.support_ratio, scene.space());
   kernels.shear = {weight.constant, weight.square / (scene.spacing * scene.spacing)};
   return kernels;
 }
@@ -84,6 +84,13 @@ PairKernels kernels_of(const Scene& scene, const Numbers& n) {
 /// Columns that the effect of contact owns where solids meet.
 fields::List shared() {
   return {field::density, field::volume, field::pressure, field::group, field::force, field::viscous_force};
+}
+
+/// Inverse of a moment, of which nothing is known along y in the plane.
+Symmetric blended(Symmetric moment, double full, double rest, bool planar) {
+  if (!planar) return blended_inverse(moment, full, rest);
+  moment.yy = 1.0;
+  return blended_inverse(moment, std::cbrt(full * full), rest);
 }
 
 Rows all_rows(const State& state) { return {0, state.particles.size()}; }
@@ -94,7 +101,7 @@ class CarriedLiquid : public Effect {
       : numbers_(numbers_of(scene)),
         kernels_(kernels_of(scene, numbers_)),
         scheme_(scheme_of(scene)),
-        fill_(scene.support_ratio),
+        fill_(scene.support_ratio, scene.space()),
         equation_{numbers_.stiffness * numbers_.reference, scene.clamps()},
         solids_meet_(calls_for(scene, "pressure")) {}
   void load(State&, const InitialState&) override;
@@ -244,6 +251,8 @@ void CarriedLiquid::correct_gradients(State& state) const {
   Particles& p = state.particles;
   const auto m = symmetric_columns(p, field::moment), b = symmetric_columns(p, field::correction);
   const auto z = p[field::impedance], exposed = p[field::exposed];
+  const bool planar = state.scene.is_planar();
+  const double least_trace = exposed_below * number_of(state.scene.space());
 #pragma omp parallel for schedule(static) num_threads(state.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
     Symmetric inverse;
@@ -252,8 +261,8 @@ void CarriedLiquid::correct_gradients(State& state) const {
       inverse = {1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
     } else {
       const Symmetric moment = m.at(i);
-      inverse = blended_inverse(moment, full_rank, 1.0);
-      exposed[i] = trace(moment) < exposed_below ? 1.0 : 0.0;
+      inverse = blended(moment, full_rank, 1.0, planar);
+      exposed[i] = trace(moment) < least_trace ? 1.0 : 0.0;
     }
     b.set(i, inverse);
   }
@@ -266,10 +275,11 @@ void CarriedLiquid::correct_velocity_gradients(State& state) const {
   const auto strain = symmetric_columns(p, field::strain_rate);
   const auto slope = triple(p, field::density_gradient);
   const auto z = p[field::impedance];
+  const bool planar = state.scene.is_planar();
 #pragma omp parallel for schedule(static) num_threads(state.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (z[i] == 0.0) continue;
-    const Symmetric inverse = blended_inverse(n.at(i), own_full_rank, 0.0);
+    const Symmetric inverse = blended(n.at(i), own_full_rank, 0.0, planar);
     const Matrix3 gradient = a.at(i) * inverse;
     a.set(i, gradient);
     strain.set(i, symmetric_part(gradient));

@@ -78,7 +78,8 @@ template <class V>
 template <class V>
 [[gnu::always_inline]] inline VectorOf<V> shear(const PairGeometry<V>& g, V k, const VectorOf<V>& v) {
   const V along = dot(v, g.d()) * g.per_r2;
-  const V size = g.kernels.shear.weighted((10.0 * g.kernels.per_gradient_moment) * k * along, g.r * g.r);
+  const V size =
+      g.kernels.shear.weighted((g.kernels.central * g.kernels.per_gradient_moment) * k * along, g.r * g.r);
   return size * g.d();
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "core/dimensions.hpp"
 
 namespace tripoint::carried_liquid {
 
@@ -9,7 +10,7 @@ namespace tripoint::carried_liquid {
 class SurfaceFill {
  public:
   /// @param support_ratio h/dx
-  explicit SurfaceFill(double support_ratio);
+  SurfaceFill(double support_ratio, Dimensions);
   /// @param r h |grad S|/S, 0 inside   @return (0, 1]
   [[nodiscard]] double operator()(double r) const noexcept {
     const double bound = r < steepest ? r : steepest;

@@ -28,7 +28,8 @@ class Density : public Effect {
       : flows_(calls_for(scene, "pressure")),
         printed_(is_printed(scene)),
         of_solids_(liquid::carries_density(scene)),
-        kernels_(flows_ ? liquid::pair_kernels(scene) : PairKernels(scene.support_ratio * scene.spacing)),
+        kernels_(flows_ ? liquid::pair_kernels(scene)
+                        : PairKernels(scene.support_ratio * scene.spacing, scene.space())),
         scale_(printed_ ? 1.0 : 1.0 / liquid::numbers_of(scene).lattice_density) {}
   void load(State&, const InitialState&) override;
   void start_sums(State&, PassName, const Rows&) override;

@@ -6,7 +6,7 @@
 #include "effects/effect.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/shared_terms.hpp"
-#include "scene/start_temperature.hpp"
+#include "scene/temperatures.hpp"
 #include "solids/solid_particles.hpp"
 #include "state/ordered_sum.hpp"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/effect_rule.hpp"
-#include "scene/start_temperature.hpp"
 #include "scene/temperatures.hpp"
 
 namespace tripoint::expansion {

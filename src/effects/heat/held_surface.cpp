@@ -103,11 +103,11 @@ struct Beyond {
 };
 
 /// Steps of the lattice that the support reaches [spacings].
-std::vector<Vec3> steps_within(double support_ratio) {
-  const int most = static_cast<int>(support_ratio);
+std::vector<Vec3> steps_within(double support_ratio, Dimensions d) {
+  const int most = static_cast<int>(support_ratio), deep = d == Dimensions::three ? most : 0;
   std::vector<Vec3> steps;
   for (int x = -most; x <= most; ++x)
-    for (int y = -most; y <= most; ++y)
+    for (int y = -deep; y <= deep; ++y)
       for (int z = -most; z <= most; ++z) {
         const Vec3 step{double(x), double(y), double(z)};
         if (const double r = norm(step); r > 0.0 && r < support_ratio) steps.push_back(step);
@@ -268,7 +268,7 @@ void HeldSurfaces::load(State& state, const InitialState& initial) {
   if (!has_held_surfaces(scene)) return;
   sources_.emplace(scene);
   const Laid laid(initial, scene);
-  const std::vector<Vec3> steps = steps_within(scene.support_ratio);
+  const std::vector<Vec3> steps = steps_within(scene.support_ratio, scene.space());
   const double dx = scene.spacing;
   Particles& p = state.particles;
   std::vector<Inside> insides(scene.bodies.size());
@@ -311,8 +311,8 @@ HeldSurfaces::Near& HeldSurfaces::alike(const Near& near, std::size_t first) {
 
 void HeldSurfaces::add_place(const State& state, std::size_t row, const Vec3& away, double within,
                              Near& near) {
-  const WendlandC2 kernel(state.support());
-  const double dx = state.scene.spacing, volume = dx * dx * dx;
+  const WendlandC2 kernel(state.support(), state.scene.space());
+  const double volume = state.scene.cell();
   const double own = state.particles[field::mass][row] / state.material_of(row).density;
   const double r = norm(away), K = -2.0 * kernel.derivative_over_r(r);
   const auto rr = outer(away);

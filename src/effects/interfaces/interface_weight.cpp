@@ -20,9 +20,9 @@ bool are_unlike(double group_i, double rest_i, double group_j, double rest_j) {
 InterfaceWeight::InterfaceWeight(const Scene& scene) : gravity_(liquid::pressing_gravity(scene)) {
   const double share = acting_number(scene, "interface_weight");
   if (share == 0.0) return;
-  const double dx = scene.spacing, V0 = dx * dx * dx;
-  factor_ = 0.5 * share * V0 * V0 / wendland_moments(scene.support_ratio).gradient;
-  kernel_ = interface_kernel(scene.support_ratio);
+  const double dx = scene.spacing, V0 = scene.cell();
+  factor_ = 0.5 * share * V0 * V0 / wendland_moments(scene.support_ratio, scene.space()).gradient;
+  kernel_ = interface_kernel(scene.support_ratio, scene.space());
   kernel_.square /= dx * dx;
 }
 

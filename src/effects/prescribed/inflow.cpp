@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "scene/geometry.hpp"
 #include "scene/lattice.hpp"
 #include "tables/expression.hpp"
 
@@ -38,12 +39,12 @@ Entrance::Entrance(const Scene& scene, std::size_t inflow)
     if (sign * r[along] < first + 0.5 * spacing_) section_.push_back(r);
   depth_ = last - first + spacing_;
   across_ = {(along + 1) % 3, (along + 2) % 3};
-  set_speeds(in);
+  set_speeds(in, cell_depth(scene));
   index_columns();
 }
 
 /// Full velocity of each column; those that the profile stops are left out.
-void Entrance::set_speeds(const Inflow& in) {
+void Entrance::set_speeds(const Inflow& in, double depth) {
   std::vector<double> share(section_.size(), 1.0);
   if (!in.profile.empty()) {
     const Expression formula(in.profile);
@@ -56,7 +57,7 @@ void Entrance::set_speeds(const Inflow& in) {
   }
   double sum = 0.0;
   for (const double one : share) sum += one;
-  const double v = norm(in.velocity), full = in.rate ? *in.rate / (sum * spacing_ * spacing_) : v;
+  const double v = norm(in.velocity), full = in.rate ? *in.rate / (sum * spacing_ * depth) : v;
   std::vector<Vec3> moving;
   for (std::size_t k = 0; k < section_.size(); ++k) {
     if (!(share[k] > 0.0)) continue;
@@ -133,8 +134,8 @@ void append(State& state, std::size_t inflow, const Vec3& place, const Vec3& vel
       std::ranges::find(state.scene.materials, in.material, &Material::name) - state.scene.materials.begin();
   positions(p).set(row, place);
   velocities(p).set(row, velocity);
-  const double m =
-      state.scene.materials[static_cast<std::size_t>(material)].density * std::pow(state.scene.spacing, 3);
+  const double m = state.scene.materials[static_cast<std::size_t>(material)].density *
+                   std::pow(state.scene.spacing, number_of(state.scene.space()));
   p[field::mass][row] = m;
   p[field::phase][row] = static_cast<int>(Phase::liquid);
   p[field::body][row] = -1;

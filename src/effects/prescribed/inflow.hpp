@@ -48,7 +48,7 @@ class Entrance {
   [[nodiscard]] std::size_t column_of(const Vec3& place) const;
 
  private:
-  void set_speeds(const Inflow&);
+  void set_speeds(const Inflow&, double depth);
   void index_columns();
   std::vector<Vec3> section_, velocity_;
   std::vector<double> speed_;

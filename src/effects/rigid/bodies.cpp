@@ -16,6 +16,7 @@ namespace {
 /// State axes that the body may turn about: one that reaches through a periodic box turns about that axis
 /// only.
 Vec3 turning_axes(const State& state, const std::vector<std::size_t>& rows) {
+  if (state.scene.is_planar()) return {0.0, 1.0, 0.0};
   Vec3 turns{1.0, 1.0, 1.0};
   for (std::size_t a = 0; a < 3; ++a) {
     if (!state.box.periodic[a] || rows.empty()) continue;

@@ -94,7 +94,7 @@ struct ViscosityCentralOf {
     const V V_i = i(field::volume), group_i = i(field::group);
     const V V_j = j(field::volume), group_j = j(field::group);
     const V mu = pair_viscosity<V>(i, j);
-    const V share = (10.0 * g.kernels.per_gradient_moment * V_i) * (V_j * mu);
+    const V share = (g.kernels.central * g.kernels.per_gradient_moment * V_i) * (V_j * mu);
     return where(g.apart & acts(group_i, group_j), share * shear_weighted<weighted>(g));
   }
   template <class V>

@@ -125,7 +125,7 @@ void WallPatches::find_exposed(State& state, const liquid::SceneNumbers& n, cons
   const auto group = p[field::group];
   const auto body = p[field::body], id = p[field::id];
   const std::vector<int> frames = frames_of(state);
-  const double dx = state.scene.spacing, full = n.lattice_density / std::pow(dx, 3);
+  const double full = n.lattice_density / std::pow(state.scene.spacing, number_of(state.scene.space()));
   const bool jittered = liquid::has_lattice_walls(state.scene);
   const std::vector<char> known = recall_exposed(state);
   state.unread.assign(jittered ? 0 : p.size(), 0);
