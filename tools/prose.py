@@ -35,11 +35,11 @@ BANNED = [
 ]
 BANNED = [(re.compile(pattern), advice) for pattern, advice in BANNED]
 
-# A full stop after these does not end a sentence.
+# A full stop after these does not end a sentence, nor does that of a bold title.
 ABBREVIATIONS = (
     r"(?<!\be\.g)(?<!\bi\.e)(?<!\bal)(?<!\bFig)(?<!\bEq)(?<!\bNo)(?<!\bvs)(?<!\bcf)(?<!\bca)(?<!\bSec)(?<!\b[A-Z])"
 )
-END = re.compile(ABBREVIATIONS + r"[.!?][)\"*_]*\s+(?=[\"'(*_\[]*[A-Z0-9`])")
+END = re.compile(ABBREVIATIONS + r"[.!?](?!\*\*)[)\"*_]*\s+(?=[\"'(*_\[]*[A-Z0-9`])")
 
 
 class Finding(NamedTuple):

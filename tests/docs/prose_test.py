@@ -124,6 +124,11 @@ class Sentences(unittest.TestCase):
     def lines(self, text: str) -> list[tuple[int, str]]:
         return [row for block in prose.blocks(text) for row in prose.sentences(block)]
 
+    def test_a_bold_title_is_a_part_of_its_sentence(self):
+        for words, found in ((22, 0), (23, 1)):
+            text = "**Title of three.** " + " ".join(["Word"] + ["word"] * (words - 1)) + ". Next.\n"
+            self.assertEqual(len(prose.findings("page.md", text)), found)
+
     def test_abbreviations_and_numbers_do_not_end_a_sentence(self):
         text = "See Fig. 5, e.g. The one by B. Solenthaler et al. 2007 at 0.5 m. Next."
         self.assertEqual([row[1] for row in self.lines(text)], [text[:-6], "Next."])
