@@ -67,6 +67,7 @@ EngineInfo TripointEngine::info() const {
                        "force",
                        "source",
                        "outflow",
+                       "spring",
                        "torque",
                        "viscosity",
                        "walls",

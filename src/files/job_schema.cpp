@@ -184,9 +184,9 @@ json named(const char* title, json whole) {
 json scene_schema() {
   json scene = object_of(record<Scene>);
   add_effect_keys<Scene>(scene, "scene");
-  const std::set<std::string> optional{"outflows", "contacts", "forces", "sources"};
+  const std::set<std::string> optional{"outflows", "contacts", "forces", "springs", "sources"};
   for (const char* list :
-       {"materials", "bodies", "events", "inflows", "outflows", "contacts", "forces", "sources"}) {
+       {"materials", "bodies", "events", "inflows", "outflows", "contacts", "forces", "springs", "sources"}) {
     const std::string one =
         std::string(list) == "bodies" ? "body" : std::string(list, std::char_traits<char>::length(list) - 1);
     scene["properties"][list] = list_of(table(one));
@@ -229,6 +229,7 @@ json job_schema() {
   tables["outflow"] = object_of(record<Outflow>);
   tables["contact"] = object_of(record<ContactLaw>);
   tables["force"] = object_of(record<AppliedForce>);
+  tables["spring"] = object_of(record<Spring>);
   tables["source"] = object_of(record<HeatSource>);
   tables["keyframe"] = object_of(record<Keyframe>);
   tables["shape"] = kinds_of<Shape>({});

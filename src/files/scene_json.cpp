@@ -148,6 +148,7 @@ json scene_to_json(const Scene& s, const std::vector<JobBody>& bodies) {
   for (const Outflow& f : s.outflows) put_record(f, out["outflows"].emplace_back(json::object()));
   for (const ContactLaw& law : s.contact_laws) put_record(law, out["contacts"].emplace_back(json::object()));
   for (const AppliedForce& f : s.forces) put_record(f, out["forces"].emplace_back(json::object()));
+  for (const Spring& one : s.springs) put_record(one, out["springs"].emplace_back(json::object()));
   for (const HeatSource& h : s.sources) put_record(h, out["sources"].emplace_back(json::object()));
   return out;
 }
@@ -167,6 +168,7 @@ void scene_from_json(const json& value, Scene& s, std::vector<JobBody>& bodies) 
   if (o.has("outflows")) take_list(o, "outflows", s.outflows);
   if (o.has("contacts")) take_list(o, "contacts", s.contact_laws);  // came after the first jobs
   if (o.has("forces")) take_list(o, "forces", s.forces);
+  if (o.has("springs")) take_list(o, "springs", s.springs);
   if (o.has("sources")) take_list(o, "sources", s.sources);
 }
 

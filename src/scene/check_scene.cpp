@@ -27,6 +27,8 @@ class Checker : NameChecks {
     events();
     contact_laws();
     forces();
+    springs();
+    weights();
     sources();
     kernel();
     printed_heat();
@@ -212,6 +214,48 @@ class Checker : NameChecks {
         throw InputError(place(path, force.place),
                          "a force acts on a body that stays one: remove the events of merge and split, or "
                          "t_melt of its material");
+    }
+  }
+
+  void springs() const {
+    for (std::size_t n = 0; n < scene_.springs.size(); ++n) {
+      const Spring& s = scene_.springs[n];
+      const auto path = fmt::format("spring.{}", n + 1);
+      known_body(scene_, s.body, path + ".body", s.place);
+      if (s.other != "world") known_body(scene_, s.other, path + ".other", s.place);
+      for (const auto& b : scene_.bodies) {
+        if (b.name != s.body && b.name != s.other) continue;
+        if (b.phase != Phase::rigid || (b.name == s.body && b.motion != Motion::free))
+          throw InputError(
+              place(path, s.place),
+              fmt::format("\"{}\" is {}: a spring holds a free rigid body to a rigid one or to "
+                          "the world",
+                          b.name, b.phase == Phase::rigid ? to_string(b.motion) : to_string(b.phase)));
+      }
+      if (std::ranges::any_of(scene_.events, [](const Event& e) {
+            return e.kind == Event::Kind::merge || e.kind == Event::Kind::split;
+          }))
+        throw InputError(
+            place(path, s.place),
+            "a spring holds bodies that stay what they are: remove the events of merge and split");
+    }
+  }
+
+  /// Masses and moments that are given.
+  void weights() const {
+    for (const auto& b : scene_.bodies) {
+      const bool given = b.mass || b.centre || b.inertia;
+      if (!given && !b.shape_mass) continue;
+      const auto refuse = [&](const std::string& why) {
+        throw InputError(b.place, fmt::format("body \"{}\" {}", b.name, why));
+      };
+      if (b.phase != Phase::rigid)
+        refuse("is not rigid: mass, centre, inertia and shape_mass are of rigid bodies");
+      if (b.mass &&
+          std::ranges::any_of(scene_.bodies, [](const Body& one) { return one.phase == Phase::liquid; }))
+        refuse("has a mass beside liquid, which feels a body by its density: give its material the density");
+      if (scene_.jitter > 0.0 && b.jitters)
+        refuse("has a given mass and particles that are shifted at random: write jitters = false");
     }
   }
 

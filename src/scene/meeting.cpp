@@ -102,7 +102,9 @@ Path own_path(const Scene& s, const Body& b) {
     p.spread = greatest_speed(b);
   }
   if (free) p.acceleration = point(s.gravity);
-  if (std::ranges::any_of(s.forces, [&](const AppliedForce& f) { return f.body == b.name; })) p.lost = 0.0;
+  if (std::ranges::any_of(s.forces, [&](const AppliedForce& f) { return f.body == b.name; }) ||
+      std::ranges::any_of(s.springs, [&](const Spring& f) { return f.body == b.name || f.other == b.name; }))
+    p.lost = 0.0;
   if (free && breaks(b, m)) p.spread += p.rim;
   if (p.turns) p.box = around(p.box, stretched(b, m, p.box));
   return p;

@@ -272,6 +272,19 @@ AppliedForce read_force(const TomlNode& node, std::size_t number, Reading& readi
   return force;
 }
 
+Spring read_spring(const TomlNode& node, std::size_t number, Reading& reading) {
+  TableReader in(node, "spring", fmt::format("spring.{}", number), reading.decisions, scene_keys());
+  Spring s;
+  s.place = node.place;
+  RecordReader(in, s, reading).all();
+  if (s.stiffness == 0.0 && s.damping == 0.0)
+    in.refuse("", "it does nothing: give stiffness, damping or both");
+  if (s.body == s.other) in.refuse("other", "it holds a body to itself: name another, or \"world\"");
+  if (norm(s.point - s.other_point) == 0.0)
+    in.refuse("other_point", "the points coincide at the start, and the force has no direction: part them");
+  return s;
+}
+
 HeatSource read_source(const TomlNode& node, std::size_t number, double end_time, Reading& reading) {
   TableReader in(node, "source", fmt::format("source.{}", number), reading.decisions, scene_keys());
   HeatSource s;

@@ -247,6 +247,8 @@ Scene read_scene(TableReader& top, Reading& reading) {
   n = 0;
   for (const auto* node : top.tables("force")) s.forces.push_back(read_force(*node, ++n, reading));
   n = 0;
+  for (const auto* node : top.tables("spring")) s.springs.push_back(read_spring(*node, ++n, reading));
+  n = 0;
   for (const auto* node : top.tables("source"))
     s.sources.push_back(read_source(*node, ++n, s.end_time, reading));
   if (s.is_planar()) {

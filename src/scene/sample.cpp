@@ -11,6 +11,8 @@
 #include "scene/lattice.hpp"
 #include "scene/motion.hpp"
 #include "scene/sample.hpp"
+
+#include "scene/particle_masses.hpp"
 #include "tables/expression.hpp"
 
 /// Particles of a scene at time 0: places on the lattice, mass rho0 dx^3, velocity and temperature by their
@@ -82,12 +84,17 @@ class VelocityAt {
 
 /// Velocity of each particle of a body: its field and its spin about the centre of mass, or its prescribed
 /// motion.
-std::vector<Vec3> velocities(const Scene& s, const Body& b, const std::vector<Vec3>& centres) {
+std::vector<Vec3> velocities(const Scene& s, const Body& b, const std::vector<Vec3>& centres,
+                             const std::vector<double>& mass) {
   std::vector<Vec3> out(centres.size());
   if (b.motion == Motion::fixed) return out;
   Vec3 centre;
-  for (const auto& r : centres) centre += r;
-  centre = centre / static_cast<double>(centres.size());  // equal masses
+  if (carries_given_mass(b)) {
+    centre = mass_properties(centres, mass).centre;
+  } else {
+    for (const auto& r : centres) centre += r;
+    centre = centre / static_cast<double>(centres.size());  // equal masses
+  }
   const VelocityAt field(b.velocity, s.is_planar());
   const auto start = b.keyframes.empty() ? PrescribedState{centre, {}, b.angular_velocity, {}}
                                          : prescribed_state(b.keyframes, centre, {}, {}, 0.0);
@@ -168,20 +175,20 @@ InitialState laid(const Scene& s) {
     const Body& b = s.bodies[n];
     const auto material = std::find_if(s.materials.begin(), s.materials.end(),
                                        [&](const Material& m) { return m.name == b.material; });
-    const double mass = s.material(b.material).density * s.spacing * s.spacing * cell_depth(s);
     auto centres = fill(s, b);
     if (out.size() + centres.size() > max_particles)
       throw InputError(b.place, fmt::format("more than {} particles by body \"{}\": coarsen scene.spacing",
                                             max_particles, b.name));
     refuse_lost_spin(s, b, centres);
     if (s.jitter > 0.0 && b.jitters) disturb(s, b, out.size(), centres);
-    const auto velocity = velocities(s, b, centres);
+    const std::vector<double> mass = particle_masses(s, b, centres);
+    const auto velocity = velocities(s, b, centres, mass);
     std::optional<TemperatureAt> temperature;
     if (b.temperature) temperature.emplace(*b.temperature);
     for (std::size_t i = 0; i < centres.size(); ++i) {
       out.position.push_back(wrapped(s, centres[i]));
       out.velocity.push_back(velocity[i]);
-      out.mass.push_back(mass);
+      out.mass.push_back(mass[i]);
       out.phase.push_back(static_cast<int>(b.phase));
       out.body.push_back(rows[n]);
       out.material.push_back(static_cast<int>(material - s.materials.begin()));

@@ -121,6 +121,11 @@ struct Body {
   bool jitters = true;
   bool joins = false;
   std::vector<std::string> joined_to;
+  std::optional<double> mass;   ///< of a rigid body, in place of its particles' [kg]
+  std::optional<Vec3> centre;   ///< of mass, the same [m]
+  std::optional<Vec3> inertia;  ///< about it: xx, yy, zz [kg m2]
+  Vec3 products;                ///< of inertia, beside it: xy, xz, yz [kg m2]
+  bool shape_mass = false;      ///< particles weigh what the shape does
   SourcePlace place;
 };
 
@@ -172,6 +177,15 @@ struct AppliedForce {
   [[nodiscard]] bool is_timed() const { return start > 0.0 || stop; }
   /// Whether its work depends on the way: it has no potential.
   [[nodiscard]] bool has_no_potential() const { return is_timed() || torque != Vec3{}; }
+};
+
+/// A spring and a damper between points of two rigid bodies, or of one and the world, [[spring]].
+struct Spring {
+  std::string body, other = "world";
+  Vec3 point, other_point;                ///< where they are at the start [m]
+  double stiffness = 0.0, damping = 0.0;  ///< [N/m], [N s/m]
+  std::optional<double> length;           ///< at which it has no force; empty = that of the start [m]
+  SourcePlace place;
 };
 
 /// Heat from outside, [[source]]: into the volume of matter, or through outer surfaces of fixed bodies.
@@ -233,6 +247,7 @@ struct Scene {
   std::vector<Outflow> outflows;
   std::vector<ContactLaw> contact_laws;
   std::vector<AppliedForce> forces;
+  std::vector<Spring> springs;
   std::vector<HeatSource> sources;
 
   [[nodiscard]] Dimensions space() const { return static_cast<Dimensions>(dimensions); }

@@ -27,6 +27,8 @@ constexpr auto top_keys = std::to_array<Key>({
     {"", "contact", tables, "", any, "=", "no friction; restitution as each engine's preset has it",
      "contact", "friction and restitution by pairs of materials"},
     {"", "force", tables, "", any, "=", "gravity alone", "force", "forces and torques on rigid bodies"},
+    {"", "spring", tables, "", any, "=", "nothing holds bodies together", "spring",
+     "springs and dampers between points of rigid bodies"},
     {"", "source", tables, "", any, "=", "no heat comes from outside", "source", "heat from outside"},
 });
 
@@ -59,6 +61,8 @@ constexpr auto tables_of_scene = std::to_array<TableInfo>({
     {"outflow", "[[outflow]]", "Where liquid flows out: what comes in is dropped and counted (model 8.14)."},
     {"contact", "[[contact]]", "Friction and restitution of a pair of materials."},
     {"force", "[[force]]", "A force or a torque on a rigid body, constant from its start to its stop."},
+    {"spring", "[[spring]]",
+     "A spring and a damper between points of two rigid bodies, or of one and the world (model 8.16)."},
     {"source", "[[source]]",
      "Heat from outside: into the volume of bodies, or through outer surfaces of fixed ones, where they "
      "touch no body. Several "
@@ -89,6 +93,7 @@ std::vector<Key> all_keys() {
   add_rows(list, record<Outflow>);
   add_rows(list, record<ContactLaw>);
   add_rows(list, record<AppliedForce>);
+  add_rows(list, record<Spring>);
   add_rows(list, record<HeatSource>);
   for (const EffectRule& rule : effect_rules()) {
     for (const EffectKey& key : rule.keys) {

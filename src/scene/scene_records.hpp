@@ -125,7 +125,27 @@ inline constexpr auto of_body = std::make_tuple(
     kept(&Body::joins, {"body", "joins", flag, "", any, "=", "true where the material melts", "",
                         "true: matter that freezes in contact with the body joins it"}),
     kept(&Body::joined_to, {"body", "joined_to", texts, "", any, "[]", "bonded to nothing", "",
-                            "bodies that the body is bonded to from the start"}));
+                            "bodies that the body is bonded to from the start"}),
+    kept(&Body::mass,
+         {"body", "mass", number, "kg", positive, "", "that of its particles", "",
+          "mass of a rigid body, by the masses of its particles; not in a scene with liquid"},
+         {.in_job = "given_mass", .later = true}),
+    kept(&Body::centre,
+         {"body", "centre", vector, "m", any, "", "that of its particles", "",
+          "its centre of mass at the start, the same way"},
+         {.in_job = "given_centre", .later = true}),
+    kept(&Body::inertia,
+         {"body", "inertia", vector, "kg m2", any, "", "that of its particles", "",
+          "its moments xx, yy, zz about that centre at the start, the same way"},
+         {.in_job = "given_inertia", .later = true}),
+    kept(&Body::products,
+         {"body", "products", vector, "kg m2", any, "[0, 0, 0]", "x, y and z are principal axes", "",
+          "xy, xz, yz of the tensor whose diagonal is `inertia`"},
+         {.later = true}),
+    kept(&Body::shape_mass,
+         {"body", "shape_mass", flag, "", any, "false", "each particle weighs density times spacing cubed",
+          "", "true: the particles of a rigid body have the mass, centre and moments of its shape"},
+         {.later = true}));
 
 inline constexpr auto of_keyframe = std::make_tuple(
     kept(&Keyframe::time, {"keyframe", "time", number, "s", not_negative, "!", "", "",
@@ -208,6 +228,21 @@ inline constexpr auto of_force = std::make_tuple(
     kept(&AppliedForce::stop,
          {"force", "stop", number, "s", positive, "", "to the end", "", "time at which it ends"}));
 
+inline constexpr auto of_spring = std::make_tuple(
+    kept(&Spring::body, {"spring", "body", text, "", any, "!", "", "", "name of a free rigid body"}),
+    kept(&Spring::point, {"spring", "point", vector, "m", any, "!", "", "",
+                          "point of the body, where it is at the start; it moves with the body"}),
+    kept(&Spring::other, {"spring", "other", text, "", any, "\"world\"", "a fixed point", "",
+                          "name of another rigid body, or world"}),
+    kept(&Spring::other_point,
+         {"spring", "other_point", vector, "m", any, "!", "", "", "point of the other, likewise"}),
+    kept(&Spring::stiffness, {"spring", "stiffness", number, "N/m", not_negative, "0", "a damper alone", "",
+                              "force per length beyond `length`, along the line of the points"}),
+    kept(&Spring::damping, {"spring", "damping", number, "N s/m", not_negative, "0", "undamped", "",
+                            "force per speed at which the points part"}),
+    kept(&Spring::length, {"spring", "length", number, "m", not_negative, "", "distance at the start", "",
+                           "distance of the points at which the spring has no force"}));
+
 inline constexpr auto of_source = std::make_tuple(
     kept(&HeatSource::bodies,
          {"source", "bodies", texts, "", any, "[]", "all in the region", "", "bodies that it heats"}),
@@ -255,6 +290,8 @@ template <>
 inline constexpr auto record<ContactLaw> = records::of_contact_law;
 template <>
 inline constexpr auto record<AppliedForce> = records::of_force;
+template <>
+inline constexpr auto record<Spring> = records::of_spring;
 template <>
 inline constexpr auto record<HeatSource> = records::of_source;
 

@@ -64,8 +64,8 @@ const std::vector<Absent> not_simulated{
      "joints are not simulated; joined_to bonds bodies to each other, and motion = \"prescribed\" with "
      "keyframes or an "
      "angular_velocity leads a body about an axis"},
-    {{"spring", "tendon", "muscle"},
-     "springs are not simulated; an elastic body between two others, bonded by joined_to, is one"},
+    {{"springs", "damper", "tendon", "muscle"},
+     "a [[spring]] holds two rigid bodies, or one and the world, by a spring and a damper"},
     {{"rope", "cable", "chain", "cloth", "shell"},
      "ropes and sheets are not simulated as such; an elastic body of three particles or more across is the "
      "thinnest"},
@@ -92,8 +92,7 @@ const std::vector<Absent> not_simulated{
     {{"dimension", "plane_strain", "axisymmetric"},
      "scenes have three dimensions; a slab of five layers between periodic sides stands for a plane"},
     {{"outlet", "outflow", "on_escape"},
-     "nothing flows out: what leaves scene.min..max ends the run, unless `unguarded` has \"escape\"; let it "
-     "fall into a basin"},
+     "an [[outflow]] removes liquid in its shape, scene.on_escape = \"remove\" what leaves scene.min..max"},
     {{"mass", "inertia"},
      "a body weighs what its particles do, density times their volume: choose the density, and `tripoint "
      "check` says what "

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "core/errors.hpp"
+#include "scene/particle_masses.hpp"
 #include "scene/sample.hpp"
 
 namespace tripoint {
@@ -87,6 +89,64 @@ TEST(MassProperties, OfASheetObeyThePerpendicularAxisTheorem) {
 }
 
 TEST(MassProperties, OfNothingAreZero) { EXPECT_EQ(of({}).mass, 0.0); }
+
+/// A cube of 4 x 4 x 4 particles of 500 kg/m3.
+std::vector<Vec3> cube_places() {
+  std::vector<Vec3> places;
+  for (int i = 0; i < 64; ++i)
+    places.push_back({0.25 * (i % 4) - 0.375, 0.25 * (i / 4 % 4) - 0.375, 0.25 * (i / 16) - 0.375});
+  return places;
+}
+
+Scene wooden() {
+  Scene s;
+  s.spacing = 0.25;
+  s.materials.emplace_back();
+  s.materials.back().density = 500.0;
+  return s;
+}
+
+TEST(GivenMass, ParticlesCarryMassCentreAndTensorThatAreGiven) {
+  Body b;
+  b.name = "top";
+  b.mass = 3.0;
+  b.centre = Vec3{0.02, 0.0, -0.01};
+  b.inertia = Vec3{0.42, 0.45, 0.54};
+  const auto places = cube_places();
+  const MassProperties p = mass_properties(places, particle_masses(wooden(), b, places));
+  EXPECT_NEAR(p.mass, 3.0, 1e-12);  // round-off of ten equations
+  EXPECT_NEAR(norm(p.centre - *b.centre), 0.0, 1e-12);
+  EXPECT_NEAR(norm(p.principal_inertia - *b.inertia), 0.0, 1e-12);
+}
+
+TEST(GivenMass, ProductsTurnThePrincipalAxes) {
+  Body b;
+  b.inertia = Vec3{80.0, 80.0, 80.0};
+  b.products = Vec3{5.0, 0.0, 0.0};
+  const auto places = cube_places();
+  const MassProperties p = mass_properties(places, particle_masses(wooden(), b, places));
+  EXPECT_NEAR(p.principal_inertia.x, 75.0, 1e-9);
+  EXPECT_NEAR(p.principal_inertia.z, 85.0, 1e-9);
+}
+
+TEST(GivenMass, AShapeOfOddSizeWeighsWhatItDoesAndNotWhatItsParticlesDo) {
+  Body b;
+  b.shape.kind = Shape::Kind::box;
+  b.shape.min = {-0.45, -0.45, -0.45};
+  b.shape.max = {0.45, 0.45, 0.45};
+  b.shape_mass = true;
+  const auto places = cube_places();
+  const MassProperties p = mass_properties(places, particle_masses(wooden(), b, places));
+  EXPECT_NEAR(p.mass, 500.0 * 0.729, 1e-9);
+  EXPECT_NEAR(p.principal_inertia.x, p.mass * 0.81 / 6.0, 1e-9);  // M side^2/6
+}
+
+TEST(GivenMass, WhatParticlesCannotCarryIsRefusedByName) {
+  Body b;
+  b.name = "rod";
+  b.inertia = Vec3{1e4, 1e4, 1e4};  // beyond its corners
+  EXPECT_THROW((void)particle_masses(wooden(), b, cube_places()), InputError);
+}
 
 }  // namespace
 }  // namespace tripoint

@@ -8,6 +8,7 @@
 
 #include "mesh/mesh.hpp"
 #include "scene/geometry.hpp"
+#include "scene/particle_masses.hpp"
 #include "scene/sample.hpp"
 #include "scene/shape_distance.hpp"
 
@@ -69,8 +70,11 @@ std::string help(const Shape& shape, double spacing) {
                       return std::abs(n - std::round(n)) < 1e-6;
                     });
   return shape.kind != Shape::Kind::box || fits
-             ? "refine scene.spacing"
-             : fmt::format("make its sides multiples of scene.spacing = {:g} m, or refine it", spacing);
+             ? "refine scene.spacing, or write shape_mass = true where it is rigid"
+             : fmt::format(
+                   "make its sides multiples of scene.spacing = {:g} m, refine it, or write shape_mass = "
+                   "true where it is rigid",
+                   spacing);
 }
 
 bool crosses_periodic_side(const Scene& s, const Bounds& b) {
@@ -98,7 +102,7 @@ void for_each_free(const Scene& s, const InitialState& state, F f) {
   }
   for (std::size_t n = 0; n < s.bodies.size(); ++n) {
     const Body& b = s.bodies[n];
-    if (b.motion != Motion::free || s.jitter > 0.0) continue;
+    if (b.motion != Motion::free || s.jitter > 0.0 || carries_given_mass(b)) continue;
     const auto shape = mass_of_shape(b.shape, s.material(b.material).density, s.spacing, s.space());
     if (shape && shape->mass > 0.0) f(b, mass_properties(bodies[n].place, bodies[n].mass), *shape);
   }

@@ -73,6 +73,9 @@ void refuse_forces(const std::string& function, const Scene& scene) {
   static constexpr std::array knows{
       "ballistic", "ballistic_semi_implicit", "stated", "self", "expression", "table", "experiment",
       "invariant"};
+  if (!scene.springs.empty() && std::ranges::find(knows.begin() + 2, knows.end(), function) == knows.end())
+    throw InputError(scene.springs.front().place,
+                     function + " does not know springs: use a reference that you state");
   if (scene.forces.empty() || std::ranges::find(knows, function) != knows.end()) return;
   throw InputError(scene.forces.front().place,
                    function + " does not know forces: use ballistic, or a reference that you state");

@@ -20,7 +20,8 @@ EffectRule rule() {
   return {.name = "motion",
           .needed_for = needed_for,
           .ledger_entries = {{ledger_entry::kinetic, "motion, of bodies with their spin"},
-                             {ledger_entry::potential, "height in gravity, and against constant forces"}},
+                             {ledger_entry::potential,
+                              "height in gravity, against constant forces, and in springs"}},
           .over_processes = true};
 }
 

@@ -11,6 +11,7 @@
 #include "effects/rigid/fields.hpp"
 #include "effects/rigid/merge_split.hpp"
 #include "effects/rigid/rotation.hpp"
+#include "effects/rigid/springs.hpp"
 #include "effects/rigid/terms.hpp"
 #include "scene/geometry.hpp"
 #include "scene/ledger_entry.hpp"
@@ -198,6 +199,7 @@ void RigidBodies::kick(State& state, double dt) {
                                          : accumulate_wall_work(state, b, forces_, dt);
     if (pushes && motion_now(state, b) == Motion::free) push_by_applied_forces(state, b, dt);
   });
+  if (!state.scene.springs.empty()) pull_by_springs(state, dt);
   if (any) give_velocities(state);
 }
 
@@ -329,6 +331,7 @@ TimeStepBound RigidBodies::max_dt(const State& state) const {
     const double a = state.scene.forces.empty() ? g : g + applied_acceleration(state, b);
     if (a > 0.0) tighten(bound, acceleration_step(state.support(), a), "acceleration");
   });
+  if (!state.scene.springs.empty()) tighten(bound, spring_step(state), "spring");
   return bound;
 }
 
@@ -346,6 +349,7 @@ void RigidBodies::add_to(const State& state, Ledger& ledger) const {
     ledger.energy[ledger_entry::kinetic] += kinetic_energy(state, b);
     ledger.energy[ledger_entry::potential] += potential_energy(state, b);
   }
+  if (!state.scene.springs.empty()) ledger.energy[ledger_entry::potential] += spring_energy(state);
   if (state.accumulated.has(account::applied_work))
     ledger.energy["applied_force"] -= state.accumulated[account::applied_work];
   if (state.is_first()) ledger.angular_momentum += state.accumulated.undelivered_spin;
@@ -362,7 +366,8 @@ EffectSpec spec(const Scene& scene) {
   s.reads_if_there = fields::image();
   s.sums_forces = true;
   s.skips_sleeping = true;
-  if (has_forces_without_potential(scene)) s.accounts = {account::applied_work};
+  const bool damps = std::ranges::any_of(scene.springs, [](const Spring& one) { return one.damping > 0.0; });
+  if (damps || has_forces_without_potential(scene)) s.accounts = {account::applied_work};
   return s;
 }
 

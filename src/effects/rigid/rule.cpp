@@ -38,7 +38,8 @@ EffectRule rule() {
           .terms = {{term::rotation, {{"splitting", "of second order (20)"}}, TermKind::time}},
           .ledger_entries = {{ledger_entry::kinetic},
                              {ledger_entry::potential},
-                             {"applied_force", "minus the work of torques, and of forces that begin or end"}},
+                             {"applied_force",
+                              "minus the work of torques, of dampers, and of forces that begin or end"}},
           .over_processes = true};
 }
 
