@@ -132,8 +132,13 @@ std::string limits_of(const Case& value, const EnginePlan& plan, const RunPlan& 
       text += fmt::format("  limit {:.4g} ({:.3g} % of it)", *g.limit, 100.0 * size / *g.limit);
     else if (g.limit)
       text += fmt::format("  limit {:.4g}", *g.limit);  // a share of nothing is no number
-    if (g.at_least) text += fmt::format("  at least {:.4g}", *g.at_least);
-    if (g.band) text += fmt::format("  band {:.4g} to {:.4g}", (*g.band)[0], (*g.band)[1]);
+    if (g.at_least)
+      text += fmt::format("  {} {:.4g}", m.value < *g.at_least ? "BELOW the least" : "at least", *g.at_least);
+    if (g.band) {
+      const auto [low, high] = *g.band;
+      text += fmt::format("  {} {:.4g} to {:.4g}",
+                          m.value < low || m.value > high ? "OUTSIDE the band" : "band", low, high);
+    }
   }
   return text;
 }
