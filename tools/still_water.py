@@ -10,10 +10,10 @@
     from folders
     tools/still_water.py table --out FILE [FILE ...]                           prints every cell of them
 
-Each cell is the case fluid/still-water-conservative with another spacing, tank, viscosity or slip, set on the command line of
-`tripoint run`, on one thread. The short side of the tank is 0.2 m. A cell runs for 60 s, or for 20, 5 or 1 s where its
-cost would be above the budget (CPU seconds, estimated from particles and steps), or not at all; the table says how long
-each ran."""
+Each cell is the case fluid/still-water-conservative with another spacing, tank, viscosity or slip, set on the command
+line of `tripoint run`, on one thread. The short side of the tank is 0.2 m. A cell runs for 60 s, or for 20, 5 or 1 s
+where its cost would be above the budget (CPU seconds, estimated from particles and steps), or not at all; the table
+says how long each ran."""
 
 import argparse
 import json
@@ -279,8 +279,8 @@ def keep(args):
 
 INTRODUCTION = """# Still water
 
-Water at rest in an open tank must stay at rest. `tools/still_water.py` runs `fluid/still-water-conservative` in 72 other tanks. \
-They have 5, 10 and 20 particles along the short side of 0.2 m, and
+Water at rest in an open tank must stay at rest. `tools/still_water.py` runs `fluid/still-water-conservative` in 72 \
+other tanks. They have 5, 10 and 20 particles along the short side of 0.2 m, and
 depths of 1:4 to 8:1 of the width. Viscosities are 0, 0.001 and 1 Pa s, and walls have slip or not. Tanks whose cost \
 was above the budget ran shorter, or not at all. Without viscosity both kinds of wall give the same bits.
 
