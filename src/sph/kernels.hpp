@@ -229,6 +229,7 @@ struct PairKernels {
   double central;                    ///< factor of central viscosity, 10 or in the plane 8 [1]
   double per_gradient_moment = 1.0;  ///< 1 over the lattice moment of -2 W'/r at the scene's h/dx [1]
   ShearWeight shear;                 ///< 1 unless a scene sets it
+  double half_step = 0.0;            ///< half of the drift, for terms that look halfway back [s]
 };
 
 }  // namespace tripoint

@@ -58,6 +58,8 @@ BROKEN = [
     ("fluid.mean_pressure=1e-6", "vortices", "corrected", 2, ["scene.mean_pressure=0.8"], "pressure 8.3"),
     ("fluid.sound_damping=1e-6", "vortices", "corrected", 2, ["scene.sound_damping=0.2"], "damping of sound 8.3"),
     ("carried.viscosity=1e-6", "basin", "corrected", 2, ["model.pressure='adjoint'"], "carried viscous force 8.12"),
+    ("carried.wall_rate=1e-6", "basin", "corrected", 2, ["model.pressure='adjoint'"], "wall rate 8.12"),
+    ("carried.wall_weight=1e-6", "basin", "corrected", 2, ["model.pressure='adjoint'"], "wall pressure 8.12"),
     ("heat.paper.diffusivity=1e-6", "mixture", "paper", 2, [], "heat (21)"),
     ("heat.moment=1", "freezing", "corrected", 2, [], "moment 8.6"),
     ("heat.harmonic_mean=1", "freezing", "corrected", 2, [], "heat flow 8.6"),

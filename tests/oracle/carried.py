@@ -56,9 +56,7 @@ def total(s, pairs):
 
 
 def summed_density(s):
-    W = wendland(s.distance, s.h)
-    own = wendland(0.0, s.h)
-    return W.sum(axis=1) + own, (s.condition * W).sum(axis=1) + own
+    return total(s, wendland(s.distance, s.h))
 
 
 def summed_slope(s):
@@ -89,16 +87,16 @@ def blended(M, full):
 
 
 def gradients(s, pair):
-    """Of velocity and density; the unevenness; the divergence."""
+    """Of velocity and pressure; the unevenness; the divergence."""
     p = Pairs(s)
-    v, rho = s.vector("velocity"), s["density"]
+    v, P = s.vector("velocity"), s["carried_pressure"]
     dv = v[None, :] - v[:, None]
     f = p.f * p.V[None, :]
     G = np.where(p.same, f, 0.0)[..., None] * p.D
     inverse = blended(s.symmetric("own_moment"), 0.02)
     size = np.abs(inverse).max(axis=(1, 2)) * 3
     A, A_size = total(s, dv[..., :, None] * G[..., None, :])
-    slope, slope_size = total(s, (rho[None, :] - rho[:, None])[..., None] * G)
+    slope, slope_size = total(s, (P[None, :] - P[:, None])[..., None] * G)
     X, Y = p.sides(pair)
     along = p.w[..., None] * p.D if pair == "reverse plain" else X
     return [
@@ -119,12 +117,16 @@ def greatest_near(s):
     return near, np.where(liquid, speed2, 0.0).max(axis=1)
 
 
-def touch(s):
-    """Of solids: sum V W over liquids, and the same of the pressure that these would have at the solid."""
+def at_solids(s):
+    """Of solids: sums V W over liquids, of 1, of their pressure, and of the weight between them and the solid."""
     p = Pairs(s)
     share = np.where(p.wall[:, None] & ~p.wall[None, :], p.V[None, :] * wendland(s.distance, s.h), 0.0)
     lean = np.einsum("ik,ijk->ij", s.vector("pull"), p.D)
-    return total(s, share), total(s, share * (s["carried_pressure"][None, :] - s["density"][None, :] * lean))
+    return (
+        total(s, share),
+        total(s, share * s["carried_pressure"][None, :]),
+        total(s, -share * s["density"][None, :] * lean),
+    )
 
 
 def pressure_force(s, pair):
@@ -174,7 +176,9 @@ def residue_force(s, damping):
     with np.errstate(invalid="ignore"):
         ff = np.where(p.liquids, p.f * p.V[:, None] * p.V[None, :] * 2 * z_i * z_j / both, 0.0)
         if damping == "residue":
-            k = way * np.where(p.rest[:, None] == p.rest[None, :], ff * left, 0.0)
+            pressed = s["carried_pressure"] != 0
+            holds = (pressed[:, None] | pressed[None, :]) & (p.rest[:, None] == p.rest[None, :])
+            k = way * np.where(holds, ff * left, 0.0)
         else:
             u = r * np.where(rate > left, -rate, -left)
             mach = 3 * u * (p.rest[:, None] + p.rest[None, :]) / both
@@ -185,17 +189,15 @@ def residue_force(s, damping):
 
 def diffused(s, damping):
     p = Pairs(s)
-    rho, P = s["density"], s["pressure"]
+    P = s["pressure"]
     if damping == "limited":
         r = np.where(np.isfinite(s.distance), s.distance, 0.0)
         z = p.z[:, None] + p.z[None, :] + 1e-300
-        return total(
-            s, np.where(p.liquids, 2 * p.V[None, :] * rho[:, None] * (P[None, :] - P[:, None]) * p.f * r / z, 0.0)
-        )
-    slope = s.vector("density_gradient")
+        return total(s, np.where(p.liquids, 2 * p.V[None, :] * (P[None, :] - P[:, None]) * p.f * r / z, 0.0))
+    slope = s.vector("pressure_gradient")
     linear = 0.5 * np.einsum("ijk,ijk->ij", slope[:, None] + slope[None, :], p.D)
     same = p.liquids & (p.rest[:, None] == p.rest[None, :])
-    jump = rho[None, :] - rho[:, None]
+    jump = P[None, :] - P[:, None]
     terms = np.where(same, p.f * p.V[None, :], 0.0)
     sums = (terms * (jump - linear)).sum(axis=1)
     return sums, (s.condition * terms * (np.abs(jump) + np.abs(linear))).sum(axis=1)
@@ -238,24 +240,46 @@ def half_step_velocity(s):
     return s.vector("velocity") - np.where((s["impedance"] != 0)[:, None], kick, 0.0)
 
 
-def sound_rate(s):
-    """Divergence and share of solids of a step of sound."""
-    p = Pairs(s)
-    v = half_step_velocity(s)
-    X, _ = p.sides("own")
-    rate = p.f * p.V[None, :] * np.einsum("ijk,ijk->ij", v[None, :] - v[:, None], X)
-    share = np.where(p.wall[None, :], p.V[None, :] * wendland(s.distance, s.h), 0.0)
-    return total(s, rate), total(s, share)
+class Halfway:
+    """Velocities, distances and slopes -W'/r amid the last drift, of pairs within reach at its end."""
+
+    def __init__(self, s, half_step):
+        p, within = Pairs(s), s.distance < s.h
+        v = half_step_velocity(s)
+        self.v = v[None, :] - v[:, None]
+        self.D = p.D - half_step * self.v
+        r = np.sqrt((self.D**2).sum(axis=2))
+        self.f = np.where(within & ~both_solid(s), -wendland_slope(r, s.h) / np.where(within, r, 1.0), 0.0)
+        self.W = np.where(within, wendland(r, s.h), 0.0)
 
 
-def compare_sound(out, s):
-    """A step that takes the corrections that an earlier one has formed."""
+def sound_rate(s, half_step):
+    """Divergence, share of liquids at solids, and what solids add to the divergence."""
+    p, amid = Pairs(s), Halfway(s, half_step)
+    X = p.w[..., None] * np.einsum("ikl,ijl->ijk", s.symmetric("correction_halfway"), amid.D)
+    rate = amid.f * p.V[None, :] * np.einsum("ijk,ijk->ij", amid.v, X)
+    touching = np.where(p.wall[:, None] & ~p.wall[None, :], amid.W * p.V[None, :], 0.0)
+    added = np.where(p.wall[None, :] & ~p.wall[:, None], amid.W * s["displaced"][None, :], 0.0)
+    return total(s, rate), total(s, touching), total(s, added)
+
+
+def compare_rate(out, s, half_step):
     wet = s["impedance"] != 0
     # The velocity of a solid that moves is not known at the middle of the step: its neighbours are left out.
     moves = ~wet & (s.vector("velocity") != 0).any(axis=1)
-    known = wet & ~((s.distance < s.h) & moves[None, :]).any(axis=1)
-    for name, (twin, scale) in zip(("divergence", "wall_share"), sound_rate(s)):
-        out.compare("sound rate 8.12", s[name][known], twin[known], scale[known])
+    known = ~moves & ~((s.distance < s.h) & moves[None, :]).any(axis=1)
+    divergence, touching, added = sound_rate(s, half_step)
+    of = lambda name, rows, twin: (s[name][rows], twin[0][rows], twin[1][rows])
+    out.compare("sound rate 8.12", *of("divergence", known, divergence))
+    out.compare("sound rate 8.12", *of("touching_halfway", known & ~wet, touching))
+    out.compare("wall rate 8.12", *of("wall_rate", known & wet, added))
+
+
+def compare_sound(out, s):
+    """A step that takes the gradients that an earlier one has formed."""
+    wet = s["impedance"] != 0
+    share = moments(s)[2]
+    out.compare("sound rate 8.12", s["wall_share"][wet], share[0][wet], share[1][wet])
     out.compare("sound force 8.12", s.vector("force")[wet], *(one[wet] for one in pressure_force(s, "own")))
     for name, twin in (("viscous_force", viscous_force(s)), ("residue_force", residue_force(s, "residue"))):
         out.compare("sound force 8.12", s.vector(name)[wet], *(one[wet] for one in twin))
@@ -263,15 +287,21 @@ def compare_sound(out, s):
 
 def compare(out, s, before):
     """Most at a start alone: later the density has moved on since the volumes were taken."""
-    out.compare("carried sum 8.12", s["summed_density"], *summed_density(s))
-    out.compare("slope of the sum 8.12", s.vector("summed_slope"), *summed_slope(s))
     pair, damping = FORMS[s.form_of_pressure]
+    wet = s["impedance"] != 0
+    at = lambda pair_of: (pair_of[0][wet], pair_of[1][wet])
+    dry = lambda pair_of: (pair_of[0][~wet], pair_of[1][~wet])
+    if before is None or s.raw["step_numbers"]["carried_steps_held"] == 0:
+        out.compare("carried sum 8.12", s["summed_density"][wet], *at(summed_density(s)))
+        out.compare("slope of the sum 8.12", s.vector("summed_slope")[wet], *at(summed_slope(s)))
+    for name, twin in zip(("touching", "pressed", "weighed"), at_solids(s)):
+        out.compare("wall pressure 8.12", s[name][~wet], *dry(twin))
     if before is not None:
+        if pair == "own":
+            compare_rate(out, s, s.raw["step_numbers"]["carried_half_step"])
         if s.raw["step_numbers"]["carried_steps_held"] > 0:
             compare_sound(out, s)
         return
-    wet = s["impedance"] != 0
-    at = lambda pair_of: (pair_of[0][wet], pair_of[1][wet])
     for name, moment in zip(("moment", "own_moment"), moments(s)):
         out.compare("carried moments 8.12", s.symmetric(name)[wet], *at(moment))
     out.compare("carried moments 8.12", s["wall_share"][wet], *at(moments(s)[2]))
@@ -280,14 +310,12 @@ def compare(out, s, before):
     for solver, twin in (
         (found, A),
         (s.symmetric("strain_rate"), ((A[0] + A[0].transpose(0, 2, 1)) / 2, A[1])),
-        (s.vector("density_gradient"), slope),
+        (s.vector("pressure_gradient"), slope),
         (s.vector("unevenness"), uneven),
         (s["divergence"], divergence),
     ):
         out.compare("carried gradients 8.12", solver[wet], *at(twin))
-    dry = lambda pair_of: (pair_of[0][~wet], pair_of[1][~wet])
-    for name, twin in (("divergence", divergence), *zip(("touching", "pressed"), touch(s))):
-        out.compare("carried gradients 8.12", s[name][~wet], *dry(twin))
+    out.compare("carried gradients 8.12", s["divergence"][~wet], *dry(divergence))
     near, speed2 = greatest_near(s)
     out.compare("carried gradients 8.12", s["exposed_near"][wet], near[wet], 1.0)
     out.compare("carried gradients 8.12", s["nearby_speed2"][wet], speed2[wet], speed2[wet])

@@ -48,7 +48,7 @@ hourglass energy 8.7 | plastic strain 8.8 | plastic strain of sheets and chains 
 8.8 |
 carried sum 8.12 | slope of the sum 8.12 | carried moments 8.12 | carried gradients 8.12 | \
 carried pressure force 8.12 | carried viscous force 8.12 | carried damping 8.12 | carried diffusion 8.12 | \
-sound rate 8.12 | sound force 8.12 | \
+sound rate 8.12 | sound force 8.12 | wall rate 8.12 | wall pressure 8.12 | \
 number density of solids 8.12 | pressure force of solids 8.12"""
 TERMS = [t.strip() for t in TERMS.replace("\n", " ").split("|")]
 
@@ -78,16 +78,17 @@ PAIR_TERMS = {
     "HeatMoment": ["moment 8.6"],
     "HeatFlowPaper": ["heat (21)", "exchange (21)"],
     "HeatFlowCorrected": ["heat flow 8.6", "conductance 8.6"],
-    "SummedDensity": ["carried sum 8.12"],
     "CarriedMoments": ["carried moments 8.12"],
     "SolidNumberDensity": ["number density of solids 8.12"],
     "PressureOfSolids": ["pressure force of solids 8.12"],
+    "CarriedWallRate": ["wall rate 8.12"],
+    "CarriedWallPressure": ["wall pressure 8.12"],
     "SoundRate": ["sound rate 8.12"],
     "SoundForce": ["sound force 8.12"],
 }
 CARRIED_FORCES = [f"carried {what} 8.12" for what in ("pressure force", "viscous force", "damping", "diffusion")]
 for pair, damping in set(carried.FORMS.values()):
-    PAIR_TERMS[f"CarriedGradients {pair}"] = ["carried gradients 8.12"]
+    PAIR_TERMS[f"CarriedGradients {pair}"] = ["carried gradients 8.12", "carried sum 8.12", "slope of the sum 8.12"]
     PAIR_TERMS[f"CarriedForces {pair} {damping}"] = CARRIED_FORCES
 
 # Scene, form, steps, changes to the scene.

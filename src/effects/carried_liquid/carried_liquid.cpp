@@ -9,6 +9,7 @@
 #include "effects/carried_liquid/blended_inverse.hpp"
 #include "effects/carried_liquid/fields.hpp"
 #include "effects/carried_liquid/hydrostatic_start.hpp"
+#include "effects/carried_liquid/owned_columns.hpp"
 #include "effects/carried_liquid/phase_density.hpp"
 #include "effects/carried_liquid/scheme.hpp"
 #include "effects/carried_liquid/solid_pressure.hpp"
@@ -36,9 +37,9 @@ constexpr EnergyAccount start_compression{"start_compression"};        ///< the 
 /// Steps that have taken the present gradients, -1: none are there
 constexpr StepNumber held_for{"carried_steps_held", -1.0};
 constexpr EnergyAccount taken_by_diffusion{"taken_by_diffusion"}, taken_by_shift{"taken_by_shift"};
-constexpr double relax_of_solids = 1.0;                  ///< of a squeeze, over c/support [1]
-constexpr double viscous_share = 0.03;                   ///< of dx^2/nu that a step takes
+constexpr double viscous_share = 0.1;                    ///< of dx^2/nu that a step takes
 constexpr double full_rank = 0.5, own_full_rank = 0.02;  ///< determinant below which an inverse is blended
+constexpr double rarest = 0.95;         ///< over the rest density, that the tie asks for at a free surface
 constexpr double exposed_below = 0.75;  ///< mean of the moment over directions, at a free surface
 
 struct Numbers {
@@ -81,11 +82,6 @@ PairKernels kernels_of(const Scene& scene, const Numbers& n) {
   return kernels;
 }
 
-/// Columns that the effect of contact owns where solids meet.
-fields::List shared() {
-  return {field::density, field::volume, field::pressure, field::group, field::force, field::viscous_force};
-}
-
 /// Inverse of a moment, of which nothing is known along y in the plane.
 Symmetric blended(Symmetric moment, double full, double rest, bool planar) {
   if (!planar) return blended_inverse(moment, full, rest);
@@ -112,8 +108,8 @@ class CarriedLiquid : public Effect {
   void drift(State& state, double dt) override;
   void start_sums(State& state, PassName pass, const Rows& rows) override {
     if (pass != PassName::density) return;
-    fill(part(state.particles[field::summed_density], rows), kernels_.wendland.value(0.0), state.threads);
-    for (const Field<double>* f : columns_of(field::summed_slope))
+    set_volumes(state);
+    for (const Field<double>* f : Moments::adds::list)
       fill(part(state.particles[*f], rows), 0.0, state.threads);
   }
   void state(State&, const Rows&) override;
@@ -127,7 +123,7 @@ class CarriedLiquid : public Effect {
   [[nodiscard]] TimeStepBound max_dt(const State&) const override;
   void add_to(const State&, Ledger&) const override;
   [[nodiscard]] PairWork pair_work(const Scene&) const override {
-    PairWork work{{pair_term<SummedDensity>}};
+    PairWork work{{pair_term<Moments>}};
     work.where_it_acts = true;
     if (!solids_meet_) work.kernels = &kernels_;
     return work;
@@ -136,11 +132,13 @@ class CarriedLiquid : public Effect {
  private:
   void set_material(State&, std::size_t) const;
   void set_groups(State&) const;
-  void run(State&, const PairTerm&, const Rows&) const;
-  void correct_gradients(State&) const;
+  void set_volumes(State&) const;
+  void run(State&, const PairTerm&, const Rows&, std::span<const double> where = {}) const;
+  void correct_gradients(State&, bool fresh) const;
   void correct_velocity_gradients(State&) const;
   void move_density(State&) const;
   void set_pressure(State&) const;
+  void set_stress(State&) const;
   void set_shift(State&) const;
 
   Numbers numbers_;
@@ -181,7 +179,9 @@ void CarriedLiquid::load(State& state, const InitialState&) {
     const double share =
         p[field::body][i] < 0 ? pressure[i] / (numbers_.stiffness * numbers_.reference) : 0.0;
     p[field::density][i] = p[field::liquid_rest_density][i] * (1.0 + share);
-    p[field::squeeze][i] = -1.0;
+    if (p[field::body][i] < 0)
+      p[field::carried_pressure][i] =
+          equation_.pressure(p[field::density][i], p[field::liquid_rest_density][i]);
   }
 }
 
@@ -197,12 +197,13 @@ void CarriedLiquid::adopt(State& state) {
     const std::size_t i = state.particles.row(id);
     const bool was_liquid = state.particles[field::impedance][i] != 0.0;
     set_material(state, i);
-    keep_pressure(state, i, was_liquid);
+    keep_pressure(state, equation_, i, was_liquid);
   }
   set_groups(state);
   if (!touched.empty())
     state.accumulated[compression_released] +=
         before - energy_of(state, equation_, kernels_, touched, 0.5 * drifted_);
+  set_pressure(state);
   std::vector<std::size_t> born;
   for (const std::uint32_t id : change.born) born.push_back(state.particles.row(id));
   const double brought = energy_of(state, equation_, kernels_, born, 0.5 * drifted_);
@@ -228,8 +229,9 @@ void CarriedLiquid::drift(State& state, double dt) {
   state.accumulated[taken_by_shift] += dt * work[0];
 }
 
-/// Sums of a term over the clusters of these rows.
-void CarriedLiquid::run(State& state, const PairTerm& term, const Rows& formed) const {
+/// Sums of a term over the clusters of these rows. @param where  0 in rows whose sums are 0; empty: nowhere
+void CarriedLiquid::run(State& state, const PairTerm& term, const Rows& formed,
+                        std::span<const double> where) const {
   Particles& p = state.particles;
   const PassFunction pass = alone_pass(state, term);
   const fields::List both = shared();
@@ -241,15 +243,19 @@ void CarriedLiquid::run(State& state, const PairTerm& term, const Rows& formed) 
   std::erase_if(chosen.clusters, [&](std::uint32_t k) {
     if (c.first[k] < formed.from || c.first[k] >= formed.to) return true;
     for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i)
-      if (state.owns(i)) return false;
+      if (state.owns(i) && (where.empty() || where[i] != 0.0)) return false;
     return true;
   });
-  add_alone(state, pass, kernels_, chosen);
+  PairKernels kernels = kernels_;
+  kernels.half_step = 0.5 * drifted_;
+  add_alone(state, pass, kernels, chosen);
 }
 
-void CarriedLiquid::correct_gradients(State& state) const {
+/// @param fresh  there is no correction of the start of the drift
+void CarriedLiquid::correct_gradients(State& state, bool fresh) const {
   Particles& p = state.particles;
-  const auto m = symmetric_columns(p, field::moment), b = symmetric_columns(p, field::correction);
+  const auto m = symmetric_columns(p, field::moment), b = symmetric_columns(p, field::correction),
+             halfway = symmetric_columns(p, field::correction_halfway);
   const auto z = p[field::impedance], exposed = p[field::exposed];
   const bool planar = state.scene.is_planar();
   const double least_trace = exposed_below * number_of(state.scene.space());
@@ -264,6 +270,7 @@ void CarriedLiquid::correct_gradients(State& state) const {
       inverse = blended(moment, full_rank, 1.0, planar);
       exposed[i] = trace(moment) < least_trace ? 1.0 : 0.0;
     }
+    halfway.set(i, fresh ? inverse : 0.5 * (b.at(i) + inverse));
     b.set(i, inverse);
   }
 }
@@ -273,7 +280,7 @@ void CarriedLiquid::correct_velocity_gradients(State& state) const {
   const auto n = symmetric_columns(p, field::own_moment);
   const auto a = matrix_columns(p, field::velocity_gradient);
   const auto strain = symmetric_columns(p, field::strain_rate);
-  const auto slope = triple(p, field::density_gradient);
+  const auto slope = triple(p, field::pressure_gradient);
   const auto z = p[field::impedance];
   const bool planar = state.scene.is_planar();
 #pragma omp parallel for schedule(static) num_threads(state.threads)
@@ -287,42 +294,41 @@ void CarriedLiquid::correct_velocity_gradients(State& state) const {
   }
 }
 
-/// The density at the end of the drift: exact where velocities are linear, since x before = (1 - dt A) x now.
+/// The density at the end of the drift, to second order.
 void CarriedLiquid::move_density(State& state) const {
   Particles& p = state.particles;
-  const auto a = matrix_columns(p, field::velocity_gradient);
-  const auto slope = triple(p, field::density_gradient);
+  const auto slope = triple(p, field::pressure_gradient);
   const auto w = triple(std::as_const(p), field::shift);
-  const auto sum_slope = triple(std::as_const(p), field::summed_slope);
+  const auto sum_slope = triple(p, field::summed_slope);
   const auto share = p[field::wall_share];
   const auto z = p[field::impedance], rho = p[field::density], rest = p[field::liquid_rest_density],
              mass = p[field::mass], divergence = p[field::divergence], diffused = p[field::diffused],
-             near = p[field::exposed_near], exposed = p[field::exposed], summed = p[field::summed_density],
-             squeeze = p[field::squeeze];
+             near = p[field::exposed_near], exposed = p[field::exposed], summed = p[field::summed_density];
   const double h = 0.5 * state.support(), c = numbers_.sound_speed, dt = drifted_;
-  const double diffusion = scheme_.damping == Damping::limited ? scheme_.delta : 2.0 * scheme_.delta * h * c;
-  const double relax = scheme_.relax * c / state.support();
+  const bool limited = scheme_.damping == Damping::limited;
+  const double diffusion = limited ? scheme_.delta : 2.0 * scheme_.delta * h * c / equation_.modulus;
+  const double relax = scheme_.relax * c / state.support(), own = kernels_.wendland.value(0.0);
   std::vector<std::array<double, 1>> blocks;
-  const Squeezes squeezes(state);
+  const auto wall_rate = p[field::wall_rate], displaced = p[field::displaced], weighed = p[field::weighed];
   const auto taken = ordered_sums_of_all(state, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
     if (z[i] == 0.0) {
-      squeeze[i] = squeezes.next(i, equation_, dt, relax_of_solids * c / state.support(), sum[0]);
-      share[i] = 0.0;  // which solids are looked at here depends on the clusters
+      sum[0] += dt * displaced[i] * weighed[i];
+      share[i] = summed[i] = 0.0;  // which solids are looked at here depends on the clusters
+      sum_slope.set(i, {});
       return;
     }
-    const Matrix3 A = a.at(i);
-    const double exact =
-        determinant(identity3 - dt * A) + dt * (A.xx + A.yy + A.zz);  // 1 + terms of higher order
-    const double carried = std::clamp(exact - dt * divergence[i], 0.5, 2.0) * rho[i];
-    const double sum_now = mass[i] * summed[i] / numbers_.lattice.density;
+    const double half = 0.5 * dt * (divergence[i] + wall_rate[i]);
+    const double carried = std::clamp((1.0 - half) / (1.0 + half), 0.5, 2.0) * rho[i];
+    const double kernels = summed[i] + own, sum_now = mass[i] * kernels / numbers_.lattice.density;
+    const bool at_surface = exposed[i] != 0.0 || near[i] != 0.0;
     double tied_to = sum_now;
-    if ((exposed[i] != 0.0 || near[i] != 0.0) && sum_now < carried) {
-      // At a free surface the tie may take pressure away and make none
-      const double steep = state.support() * norm(sum_slope.at(i)) / summed[i];
-      tied_to = std::min(carried, std::max(sum_now / fill_(steep), rest[i]));
+    if (at_surface && sum_now < carried) {
+      // There the tie may take pressure away and make none
+      const double steep = state.support() * norm(sum_slope.at(i)) / kernels;
+      tied_to = std::min(carried, std::max(sum_now / fill_(steep), rarest * rest[i]));
     }
-    double extra = dt * diffusion * diffused[i];
-    if (scheme_.follows) extra += dt * dot(w.at(i), slope.at(i));
+    double extra = dt * diffusion * diffused[i] * (limited ? rho[i] : rest[i]);
+    if (scheme_.follows) extra += dt * dot(w.at(i), slope.at(i)) * rest[i] / equation_.modulus;
     if (scheme_.tie == Tie::relaxed) extra += dt * relax * (tied_to - carried);
     if (scheme_.tie == Tie::summed && drifted_ > 0.0) extra += 0.2 * (tied_to - carried);
     const double next = std::max(carried + extra, 0.5 * rest[i]);
@@ -332,21 +338,27 @@ void CarriedLiquid::move_density(State& state) const {
   state.accumulated[taken_by_diffusion] -= taken[0];
 }
 
+/// Of the liquids.
 void CarriedLiquid::set_pressure(State& state) const {
   Particles& p = state.particles;
   const auto z = p[field::impedance], rho = p[field::density], rest = p[field::liquid_rest_density],
-             pressure = p[field::pressure], V = p[field::carried_volume], squeeze = p[field::squeeze],
-             carried = p[field::carried_pressure], share = p[field::wall_share],
-             out = p[field::wall_pressure];
-  const auto b = symmetric_columns(p, field::correction), stress = symmetric_columns(p, field::stress);
+             pressure = p[field::pressure], carried = p[field::carried_pressure],
+             share = p[field::wall_share], out = p[field::wall_pressure];
 #pragma omp parallel for schedule(static) num_threads(state.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const bool liquid = z[i] != 0.0;
-    if (liquid) pressure[i] = equation_.pressure(rho[i], rest[i]);
-    carried[i] = liquid ? pressure[i] : equation_.modulus * std::max(squeeze[i], 0.0);
-    out[i] = liquid ? equation_.modulus * std::max(share[i] - inside_wall, 0.0) * rho[i] / rest[i] : 0.0;
-    stress.set(i, (carried[i] * V[i]) * b.at(i));
+    out[i] = 0.0;
+    if (z[i] == 0.0) continue;
+    pressure[i] = carried[i] = equation_.pressure(rho[i], rest[i]);
+    out[i] = equation_.modulus * std::max(share[i] - inside_wall, 0.0) * rho[i] / rest[i];
   }
+}
+
+void CarriedLiquid::set_stress(State& state) const {
+  Particles& p = state.particles;
+  const auto pressure = p[field::carried_pressure], V = p[field::carried_volume];
+  const auto b = symmetric_columns(p, field::correction), stress = symmetric_columns(p, field::stress);
+#pragma omp parallel for schedule(static) num_threads(state.threads)
+  for (std::size_t i = 0; i < p.size(); ++i) stress.set(i, (pressure[i] * V[i]) * b.at(i));
 }
 
 void CarriedLiquid::set_shift(State& state) const {
@@ -377,31 +389,37 @@ void CarriedLiquid::set_shift(State& state) const {
   }
 }
 
-void CarriedLiquid::state(State& state, const Rows&) {
+/// Moments, rates and forces of one state take the same volumes: those before the step.
+void CarriedLiquid::set_volumes(State& state) const {
   Particles& p = state.particles;
   const auto rho = p[field::density], m = p[field::mass], V = p[field::carried_volume],
-             rest = p[field::liquid_rest_density], z = p[field::impedance], squeeze = p[field::squeeze];
-  // Moments, rates and forces of one state take the same volumes: those before the step.
+             rest = p[field::liquid_rest_density], z = p[field::impedance];
 #pragma omp parallel for schedule(static) num_threads(state.threads)
-  for (std::size_t i = 0; i < p.size(); ++i)
-    V[i] = m[i] / (z[i] != 0.0 ? rho[i] : rest[i] * (1.0 + std::max(squeeze[i], 0.0)));
+  for (std::size_t i = 0; i < p.size(); ++i) V[i] = m[i] / (z[i] != 0.0 ? rho[i] : rest[i]);
   if (!solids_meet_) std::ranges::copy(V, p[field::volume].begin());
+}
+
+void CarriedLiquid::state(State& state, const Rows&) {
+  Particles& p = state.particles;
   double& held = state.step_numbers[held_for];
-  const bool first = held < 0.0;
-  const bool renewed = first || held + 1.0 >= scheme_.hold || drifted_ == 0.0;
+  const bool fresh = held < 0.0 || drifted_ == 0.0;
+  const bool renewed = fresh || held + 1.0 >= scheme_.hold;
   held = renewed ? 0.0 : held + 1.0;
-  if (first) set_pressure(state);
   liquid::velocities_of_way(state, field::predicted);
-  run(state, pair_term<Moments>, all_rows(state));
-  correct_gradients(state);
+  correct_gradients(state, fresh);
   if (renewed) {
     run(state, scheme_.gradients, all_rows(state));
     correct_velocity_gradients(state);
   } else {
     run(state, pair_term<SoundRate>, all_rows(state));
   }
+  set_displaced(state);
+  run(state, pair_term<WallRate>, all_rows(state), p[field::wall_share]);
   move_density(state);
   set_pressure(state);
+  run(state, pair_term<WallPressure>, all_rows(state), p[field::touching]);
+  set_solid_pressure(state);
+  set_stress(state);
   if (renewed) set_shift(state);
   liquid::predict_velocities(state, state.step_numbers[kick_length], field::predicted);
   drifted_ = 0.0;
@@ -441,32 +459,6 @@ void CarriedLiquid::add_to(const State& state, Ledger& ledger) const {
   ledger.energy["compression"] += sums[0];
   ledger.energy["diffusion"] += state.accumulated[taken_by_diffusion];
   ledger.energy["shifting"] += state.accumulated[taken_by_shift];
-}
-
-fields::List owned(bool solids_meet) {
-  fields::List list{field::shift};
-  const auto add = [&](std::span<const Field<double>* const> some) {
-    for (const Field<double>* f : some)
-      if (std::ranges::find(list, FieldInfo(*f)) == list.end()) list.emplace_back(*f);
-  };
-  using AllGradients = Gradients<Pair::own>;
-  using AllForces = Forces<Pair::own, Damping::residue>;
-  add(SummedDensity::adds::list);
-  add(Moments::adds::list);
-  add(AllGradients::adds::list);
-  add(AllForces::adds::list);
-  const auto add_read = [&](std::span<const Field<double>* const> some) {
-    for (const Field<double>* f : some)
-      if (f != &field::velocity.x && f != &field::velocity.y && f != &field::velocity.z) add({{f}});
-  };
-  add_read(AllForces::reads::list);
-  add({{&field::exposed, &field::squeeze}});
-  add_read(AllGradients::reads::list);
-  add(SoundForce::reads::list);
-  const fields::List both = shared();
-  std::erase_if(list, [&](const FieldInfo& f) { return std::ranges::find(both, f) != both.end(); });
-  if (!solids_meet) list.insert(list.end(), both.begin(), both.end());
-  return list;
 }
 
 std::vector<Force> forces_of(bool solids_meet) {

@@ -50,11 +50,39 @@ template <class V>
   return where<V>(g.within & ((z_i != 0.0) | (z_j != 0.0)), -g.gradient);
 }
 
+/// A pair in the middle of the drift. What the rate does there is the mean of what the forces of its two ends
+/// do, to second order.
+template <class V>
+struct Halfway {
+  VectorOf<V> d;
+  V r;
+  /// @param v velocity along the drift of j less that of i
+  [[gnu::always_inline]] Halfway(const PairGeometry<V>& g, const VectorOf<V>& v)
+      : d(g.d() - every_lane<V>(g.kernels.half_step) * v), r(root(dot(d, d))) {}
+  /// -W'/r, as slope_of
+  [[nodiscard, gnu::always_inline]] V slope(const PairGeometry<V>& g, V z_i, V z_j) const {
+    const MaskOf<V> wet = g.within & ((z_i != 0.0) | (z_j != 0.0));
+    return where<V>(wet, -g.kernels.wendland.derivative_over_r(r));
+  }
+  /// Value times W where i is solid and j liquid
+  [[nodiscard, gnu::always_inline]] V liquid_share(const PairGeometry<V>& g, V z_i, V z_j, V value) const {
+    const MaskOf<V> touch = g.within & (z_i == 0.0) & (z_j != 0.0);
+    return any(touch) ? where<V>(touch, value * g.kernels.wendland.value(r)) : V{};
+  }
+};
+
 /// Share of the neighbourhood of i that j fills where it is solid.
 template <class V>
 [[gnu::always_inline]] inline V solid_share(const PairGeometry<V>& g, V z_j, V V_j) {
   const MaskOf<V> wall = g.within & (z_j == 0.0);
   return any(wall) ? where<V>(wall, V_j * g.kernels.wendland.value_inside(g.r)) : V{};
+}
+
+/// Value times W where i is solid and j liquid.
+template <class V>
+[[gnu::always_inline]] inline V liquid_share(const PairGeometry<V>& g, V z_i, V z_j, V value) {
+  const MaskOf<V> touch = g.within & (z_i == 0.0) & (z_j != 0.0);
+  return any(touch) ? where<V>(touch, value * g.kernels.wendland.value_inside(g.r)) : V{};
 }
 
 /// Pressure with which solids push out a liquid, of a pair of the two.
@@ -84,10 +112,11 @@ template <class V>
 }
 
 /// Coefficient of the viscosity of the residue along d, of which that of `residue` lacks the factor beta h.
-/// @param ff f V V @param v velocity of j less that of i
+/// @param ff f V V @param pressed whether one of them has a pressure: what parts freely is not held back
+/// @param v velocity of j less that of i
 template <Damping damping, class V>
-[[gnu::always_inline]] inline V damped(const PairGeometry<V>& g, V ff, const auto& i, const auto& j,
-                                       const VectorOf<V>& v) {
+[[gnu::always_inline]] inline V damped(const PairGeometry<V>& g, V ff, MaskOf<V> pressed, const auto& i,
+                                       const auto& j, const VectorOf<V>& v) {
   const V z_i = i(field::impedance), z_j = j(field::impedance);
   const V rest_i = i(field::liquid_rest_density), rest_j = j(field::liquid_rest_density);
   const VectorOf<V> d = g.d();
@@ -98,24 +127,11 @@ template <Damping damping, class V>
   const MaskOf<V> liquids = !((z_i == 0.0) | (z_j == 0.0));
   const V z = where<V>(liquids, 2.0 * z_i * z_j / (z_i + z_j + 1e-300));
   if constexpr (damping == Damping::residue)
-    return where<V>(rest_i == rest_j, ff * z * left);  // unlike liquids slip along each other
+    return where<V>(pressed & (rest_i == rest_j), ff * z * left);  // unlike liquids slip along each other
   const V u = g.r * (parting > left ? -parting : -left),
           mach = 3.0 * u * (rest_i + rest_j) / (z_i + z_j + 1e-300);
   return where<V>(u > 0.0, -(ff * z) * u * (mach < 1.0 ? mach : every_lane<V>(1.0)));
 }
-
-/// Kernel sum of the number density, and its slope.
-struct SummedDensity {
-  static constexpr std::string_view name = "SummedDensity";
-  static constexpr bool zero_beyond = true;
-  using reads = Keys<>;
-  using adds = Keys<field::summed_density, field::summed_slope>;
-  template <class V>
-  static void pair(const PairGeometry<V>& g, const auto&, const auto&, auto& sum) {
-    sum(field::summed_density) += where(g.within, g.kernels.wendland.value_inside(g.r));
-    sum(field::summed_slope) += where<V>(g.within, -g.gradient) * g.d();
-  }
-};
 
 /// Moments sum V d (x) G of all neighbours.
 struct Moments {
@@ -131,8 +147,38 @@ struct Moments {
   }
 };
 
-/// First derivatives: raw ones of velocity and density in the same liquid, the unevenness sum V_j (X + Y),
-/// the greatest velocity difference; of a solid the pressure that liquids have there.
+/// What the rates of the solids around a liquid add to its own: the adjoint of the pressure of a solid.
+struct WallRate {
+  static constexpr std::string_view name = "CarriedWallRate";
+  static constexpr bool zero_beyond = true;
+  using reads = Keys<field::impedance, field::displaced, field::predicted>;
+  using adds = Keys<field::wall_rate>;
+  template <class V>
+  static void pair(const PairGeometry<V>& g, const auto& i, const auto& j, auto& sum) {
+    const Halfway<V> middle(g, j(field::predicted) - i(field::predicted));
+    sum(field::wall_rate) +=
+        middle.liquid_share(g, j(field::impedance), i(field::impedance), j(field::displaced));
+  }
+};
+
+/// Pressure that liquids have at a solid, over their share.
+struct WallPressure {
+  static constexpr std::string_view name = "CarriedWallPressure";
+  static constexpr bool zero_beyond = true;
+  using reads =
+      Keys<field::carried_volume, field::impedance, field::density, field::carried_pressure, field::pull>;
+  using adds = Keys<field::pressed, field::weighed>;
+  template <class V>
+  static void pair(const PairGeometry<V>& g, const auto& i, const auto& j, auto& sum) {
+    const V share = liquid_share<V>(g, i(field::impedance), j(field::impedance), j(field::carried_volume));
+    sum(field::pressed) += share * j(field::carried_pressure);
+    sum(field::weighed) -= share * j(field::density) * dot(i(field::pull), g.d());
+  }
+};
+
+/// First derivatives: raw ones of velocity and pressure in the same liquid, the unevenness sum V_j (X + Y),
+/// the greatest velocity difference; the share of liquids at a solid; the kernel sum of the number density
+/// without the own kernel, and its slope.
 template <Pair form>
 struct Gradients {
   static constexpr std::string_view first = "CarriedGradients ",
@@ -140,11 +186,11 @@ struct Gradients {
   static constexpr std::string_view name = JoinedName<first, second>::value;
   static constexpr bool zero_beyond = true;
   using reads =
-      Keys<field::carried_volume, field::impedance, field::liquid_rest_density, field::density,
-           field::predicted, field::correction, field::exposed, field::carried_pressure, field::pull>;
-  using adds = Keys<field::own_moment, field::touching, field::pressed, field::velocity_gradient,
-                    field::density_gradient, field::unevenness, field::exposed_near, field::nearby_speed2,
-                    field::divergence, field::wall_share>;
+      Keys<field::carried_volume, field::impedance, field::liquid_rest_density, field::carried_pressure,
+           field::predicted, field::correction, field::correction_halfway, field::exposed>;
+  using adds = Keys<field::own_moment, field::touching, field::touching_halfway, field::velocity_gradient,
+                    field::pressure_gradient, field::unevenness, field::exposed_near, field::nearby_speed2,
+                    field::divergence, field::wall_share, field::summed_density, field::summed_slope>;
   template <class V>
   static void pair(const PairGeometry<V>& g, const auto& i, const auto& j, auto& sum) {
     const V z_i = i(field::impedance), z_j = j(field::impedance);
@@ -152,10 +198,12 @@ struct Gradients {
     const VectorOf<V> d = g.d(), v = j(field::predicted) - i(field::predicted);
     const V same =
         where<V>((i(field::liquid_rest_density) == j(field::liquid_rest_density)) & (z_j != 0.0), f);
-    const V jump = j(field::density) - i(field::density);
+    const V jump = j(field::carried_pressure) - i(field::carried_pressure);
+    sum(field::summed_density) += where<V>(g.within, g.kernels.wendland.value_inside(g.r));
+    sum(field::summed_slope) += where<V>(g.within, -g.gradient) * d;
     sum(field::own_moment) += same * square(d);
     sum(field::velocity_gradient) += outer<V>(v, same * d);
-    sum(field::density_gradient) += jump * (same * d);
+    sum(field::pressure_gradient) += jump * (same * d);
     const auto [X, Y] = sides<form, V>(i(field::correction) * d, j(field::correction) * d, z_i, z_j);
     sum(field::unevenness) += f * (X + Y);
     const V close = where<V>(g.within, j(field::exposed)),
@@ -163,16 +211,17 @@ struct Gradients {
     V &near = sum(field::exposed_near), &greatest = sum(field::nearby_speed2);
     near = close > near ? close : near;
     greatest = speed2 > greatest ? speed2 : greatest;
+    const Halfway<V> middle(g, v);
+    const V F = middle.slope(g, z_i, z_j) * j(field::carried_volume);
     if constexpr (form == Pair::reverse_plain)
-      sum(field::divergence) += (weight<V>(z_i, z_j) * f) * dot(v, d);
+      sum(field::divergence) += (weight<V>(z_i, z_j) * F) * dot(v, middle.d);
     else
-      sum(field::divergence) += f * dot(v, X);
+      sum(field::divergence) += F * dot(v, sides<form, V>(i(field::correction_halfway) * middle.d,
+                                                          j(field::correction_halfway) * middle.d, z_i, z_j)
+                                               .first);
+    sum(field::touching) += liquid_share<V>(g, z_i, z_j, j(field::carried_volume));
+    sum(field::touching_halfway) += middle.liquid_share(g, z_i, z_j, j(field::carried_volume));
     sum(field::wall_share) += solid_share<V>(g, z_j, j(field::carried_volume));
-    const MaskOf<V> touch = g.within & (z_i == 0.0) & (z_j != 0.0);
-    if (!any(touch)) return;
-    const V share = where<V>(touch, j(field::carried_volume) * g.kernels.wendland.value_inside(g.r));
-    sum(field::touching) += share;
-    sum(field::pressed) += share * (j(field::carried_pressure) - j(field::density) * dot(i(field::pull), d));
   }
 };
 
@@ -186,14 +235,13 @@ struct Forces {
   static constexpr std::string_view name = JoinedName<first, second, third>::value;
   static constexpr bool zero_beyond = true;
   using reads =
-      Keys<field::carried_volume, field::impedance, field::liquid_rest_density, field::density,
-           field::liquid_viscosity, field::slips, field::correction, field::strain_rate,
-           field::density_gradient, field::predicted, field::carried_pressure, field::wall_pressure>;
+      Keys<field::carried_volume, field::impedance, field::liquid_rest_density, field::liquid_viscosity,
+           field::slips, field::correction, field::strain_rate, field::pressure_gradient, field::predicted,
+           field::carried_pressure, field::wall_pressure>;
   using adds = Keys<field::force, field::viscous_force, field::residue_force, field::diffused>;
   template <class V>
   static void pair(const PairGeometry<V>& g, const auto& i, const auto& j, auto& sum) {
     const V z_i = i(field::impedance), z_j = j(field::impedance), V_j = j(field::carried_volume);
-    const V rho_i = i(field::density), rho_j = j(field::density);
     const V rest_i = i(field::liquid_rest_density), rest_j = j(field::liquid_rest_density);
     const MaskOf<V> wall_i = z_i == 0.0, wall_j = z_j == 0.0, liquids = !(wall_i | wall_j);
     const V f = slope_of<V>(g, z_i, z_j), ff = f * (i(field::carried_volume) * V_j);
@@ -203,14 +251,14 @@ struct Forces {
     sum(field::force) += -ff * (p_i * X + p_j * Y + push_out<V>(i, j, z_i, z_j) * d);
     const VectorOf<V> v = j(field::predicted) - i(field::predicted);
     sum(field::viscous_force) += shear<V>(g, ff * viscosity_between<V>(i, j), v);
-    sum(field::residue_force) += damped<damping, V>(g, ff, i, j, v) * d;
+    sum(field::residue_force) += damped<damping, V>(g, ff, (p_i != 0.0) | (p_j != 0.0), i, j, v) * d;
     // diffusion of density
     if constexpr (damping == Damping::limited) {
-      const V jump = p_j - p_i;
-      sum(field::diffused) += where<V>(liquids, (2.0 * V_j) * rho_i * jump * f * g.r / (z_i + z_j + 1e-300));
+      const V jump = (2.0 * V_j) * (p_j - p_i) * f;
+      sum(field::diffused) += where<V>(liquids, jump * g.r / (z_i + z_j + 1e-300));
     } else {
-      const V linear = 0.5 * dot(i(field::density_gradient) + j(field::density_gradient), d);
-      sum(field::diffused) += where<V>(liquids & (rest_i == rest_j), f * V_j * (rho_j - rho_i - linear));
+      const V linear = 0.5 * dot(i(field::pressure_gradient) + j(field::pressure_gradient), d);
+      sum(field::diffused) += where<V>(liquids & (rest_i == rest_j), f * V_j * (p_j - p_i - linear));
     }
   }
 };

@@ -16,23 +16,27 @@ inline constexpr Field<double> wall_share{"wall_share", "1"};  ///< sum V W over
 inline constexpr Field<double> wall_pressure{"wall_pressure", "Pa"};
 /// B, the inverse of the moment, blended into the identity where neighbours are few.
 inline constexpr SymmetricField correction{"correction", "1"};
+/// Mean of those at both ends of the drift.
+inline constexpr SymmetricField correction_halfway{"correction_halfway", "1"};
 inline constexpr MatrixField velocity_gradient{"velocity_gradient", "1/s"};
 /// Symmetric part of the gradient of velocity.
 inline constexpr SymmetricField strain_rate{"strain_rate", "1/s"};
-inline constexpr VectorField<double> density_gradient{"density_gradient", "kg/m4"};
+inline constexpr VectorField<double> pressure_gradient{"pressure_gradient", "Pa/m"};
 /// Force over volume of a uniform pressure of 1: 0 where particles are spread evenly.
 inline constexpr VectorField<double> unevenness{"unevenness", "1/m"};
 /// Greatest square of a velocity difference
 inline constexpr Field<double> nearby_speed2{"nearby_speed2", "m2/s2"};
-/// Of the velocity, by the form's own pair
+/// Of the velocity, by the form's own pair amid the drift
 inline constexpr Field<double> divergence{"divergence", "1/s"};
 /// Sum of the density diffusion, before its coefficient
-inline constexpr Field<double> diffused{"diffused", "kg/m5"};
-/// Of a solid: by how much the liquid that touches it has pressed it, p_s = modulus squeeze; -1 before the
-/// start is known.
-inline constexpr Field<double> squeeze{"squeeze", "1"};
+inline constexpr Field<double> diffused{"diffused", "Pa/m2"};
 inline constexpr Field<double> touching{"touching", "1"};  ///< sum V W over liquids, of a solid
-inline constexpr Field<double> pressed{"pressed", "Pa"};   ///< sum V W (p - rho g.d) over liquids, of a solid
+inline constexpr Field<double> touching_halfway{"touching_halfway", "1"};  ///< the same amid the drift
+inline constexpr Field<double> pressed{"pressed", "Pa"};  ///< sum V W p over liquids, of a solid
+inline constexpr Field<double> weighed{"weighed", "Pa"};  ///< -sum V W rho g.d over liquids, of a solid
+/// Of a solid: V div v over `touching`, 0 where it has no pressure
+inline constexpr Field<double> displaced{"displaced", "m3/s"};
+inline constexpr Field<double> wall_rate{"wall_rate", "1/s"};  ///< what solids add to the divergence
 /// Of liquids and of what they touch
 inline constexpr Field<double> carried_pressure{"carried_pressure", "Pa"};
 /// Gravity at a solid; 0 of liquids.
@@ -47,6 +51,7 @@ inline constexpr Field<double> carried_volume{"carried_volume", "m3"};
 inline constexpr VectorField<double> residue_force{"residue_force", "N"};
 /// p V B, of which a step of sound takes its forces.
 inline constexpr SymmetricField stress{"stress", "J"};
+/// Of the number density, at the last renewal, without the own kernel; and its slope.
 inline constexpr Field<double> summed_density{"summed_density", "1/m3"};
 inline constexpr VectorField<double> summed_slope{"summed_slope", "1/m4"};
 

@@ -6,9 +6,9 @@
 namespace tripoint::carried_liquid {
 
 struct PairSlots : NoPairTerms {
-  using density = OneTermOf<SummedDensity>;
+  using density = OneTermOf<Moments>;
   using alone =
-      OneTermOf<Moments, SoundRate, SoundForce, Gradients<Pair::own>, Gradients<Pair::mean>,
+      OneTermOf<WallRate, WallPressure, SoundRate, SoundForce, Gradients<Pair::own>, Gradients<Pair::mean>,
                 Gradients<Pair::reverse>, Gradients<Pair::reverse_plain>, Forces<Pair::own, Damping::residue>,
                 Forces<Pair::own, Damping::limited_residue>, Forces<Pair::mean, Damping::residue>,
                 Forces<Pair::reverse, Damping::limited_residue>,

@@ -76,12 +76,10 @@ CompressionEnergy::CompressionEnergy(const State& state, const CarriedState& equ
       impedance_(state.particles[field::impedance]),
       mass_(state.particles[field::mass]),
       density_(state.particles[field::density]),
-      rest_(state.particles[field::liquid_rest_density]),
-      squeeze_(state.particles[field::squeeze]) {}
+      rest_(state.particles[field::liquid_rest_density]) {}
 
 double CompressionEnergy::operator()(std::size_t i) const {
-  const double rho = impedance_[i] != 0.0 ? density_[i] : rest_[i] * (1.0 + std::max(squeeze_[i], 0.0));
-  return equation_.energy(mass_[i], rho, rest_[i]);
+  return impedance_[i] != 0.0 ? equation_.energy(mass_[i], density_[i], rest_[i]) : 0.0;
 }
 
 double energy_of(const State& state, const CarriedState& equation, const PairKernels& kernels,

@@ -42,7 +42,7 @@ class CompressionEnergy {
 
  private:
   CarriedState equation_;
-  std::span<const double> impedance_, mass_, density_, rest_, squeeze_;
+  std::span<const double> impedance_, mass_, density_, rest_;
 };
 
 /// Energy of compression of these rows [J]. @param back time since the places

@@ -9,14 +9,17 @@ namespace tripoint::carried_liquid {
 struct SoundRate {
   static constexpr std::string_view name = "SoundRate";
   static constexpr bool zero_beyond = true;
-  using reads = Keys<field::carried_volume, field::impedance, field::predicted, field::correction>;
-  using adds = Keys<field::divergence, field::wall_share>;
+  using reads = Keys<field::carried_volume, field::impedance, field::predicted, field::correction_halfway>;
+  using adds = Keys<field::divergence, field::wall_share, field::touching, field::touching_halfway>;
   template <class V>
   static void pair(const PairGeometry<V>& g, const auto& i, const auto& j, auto& sum) {
     const V z_i = i(field::impedance), z_j = j(field::impedance);
-    const V f = slope_of<V>(g, z_i, z_j) * j(field::carried_volume) * weight<V>(z_i, z_j);
-    sum(field::divergence) +=
-        f * dot(j(field::predicted) - i(field::predicted), i(field::correction) * g.d());
+    const VectorOf<V> v = j(field::predicted) - i(field::predicted);
+    const Halfway<V> middle(g, v);
+    const V f = middle.slope(g, z_i, z_j) * j(field::carried_volume) * weight<V>(z_i, z_j);
+    sum(field::divergence) += f * dot(v, i(field::correction_halfway) * middle.d);
+    sum(field::touching) += liquid_share<V>(g, z_i, z_j, j(field::carried_volume));
+    sum(field::touching_halfway) += middle.liquid_share(g, z_i, z_j, j(field::carried_volume));
     sum(field::wall_share) += solid_share<V>(g, z_j, j(field::carried_volume));
   }
 };
@@ -40,7 +43,8 @@ struct SoundForce {
                       v = j(field::predicted) - i(field::predicted);
     sum(field::force) += -f * (t + (both * push_out<V>(i, j, z_i, z_j)) * d);
     sum(field::viscous_force) += shear<V>(g, ff * viscosity_between<V>(i, j), v);
-    sum(field::residue_force) += damped<Damping::residue, V>(g, ff, i, j, v) * d;
+    const MaskOf<V> pressed = (i(field::stress).xx != 0.0) | (j(field::stress).xx != 0.0);
+    sum(field::residue_force) += damped<Damping::residue, V>(g, ff, pressed, i, j, v) * d;
   }
 };
 
