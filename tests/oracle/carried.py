@@ -285,9 +285,8 @@ def compare_sound(out, s):
         out.compare("sound force 8.12", s.vector(name)[wet], *(one[wet] for one in twin))
 
 
-def compare(out, s, before):
-    """Most at a start alone: later the density has moved on since the volumes were taken."""
-    pair, damping = FORMS[s.form_of_pressure]
+def compare_always(out, s, before):
+    """What the state after any step tells."""
     wet = s["impedance"] != 0
     at = lambda pair_of: (pair_of[0][wet], pair_of[1][wet])
     dry = lambda pair_of: (pair_of[0][~wet], pair_of[1][~wet])
@@ -296,6 +295,15 @@ def compare(out, s, before):
         out.compare("slope of the sum 8.12", s.vector("summed_slope")[wet], *at(summed_slope(s)))
     for name, twin in zip(("touching", "pressed", "weighed"), at_solids(s)):
         out.compare("wall pressure 8.12", s[name][~wet], *dry(twin))
+
+
+def compare(out, s, before):
+    """Most at a start alone: later the density has moved on since the volumes were taken."""
+    pair, damping = FORMS[s.form_of_pressure]
+    wet = s["impedance"] != 0
+    at = lambda pair_of: (pair_of[0][wet], pair_of[1][wet])
+    dry = lambda pair_of: (pair_of[0][~wet], pair_of[1][~wet])
+    compare_always(out, s, before)
     if before is not None:
         if pair == "own":
             compare_rate(out, s, s.raw["step_numbers"]["carried_half_step"])

@@ -81,11 +81,9 @@ PAIR_TERMS = {
     "CarriedMoments": ["carried moments 8.12"],
     "SolidNumberDensity": ["number density of solids 8.12"],
     "PressureOfSolids": ["pressure force of solids 8.12"],
-    "CarriedWallRate": ["wall rate 8.12"],
-    "CarriedWallPressure": ["wall pressure 8.12"],
-    "SoundRate": ["sound rate 8.12"],
-    "SoundForce": ["sound force 8.12"],
 }
+PAIR_TERMS |= {"CarriedWallRate": ["wall rate 8.12"], "CarriedWallPressure": ["wall pressure 8.12"]}
+PAIR_TERMS |= {"SoundRate": ["sound rate 8.12"], "SoundForce": ["sound force 8.12"]}
 CARRIED_FORCES = [f"carried {what} 8.12" for what in ("pressure force", "viscous force", "damping", "diffusion")]
 for pair, damping in set(carried.FORMS.values()):
     PAIR_TERMS[f"CarriedGradients {pair}"] = ["carried gradients 8.12", "carried sum 8.12", "slope of the sum 8.12"]

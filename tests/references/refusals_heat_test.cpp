@@ -121,7 +121,7 @@ TEST(Refusals, OfHeat) {
         {"has no bodies", [](Prepared& s, Settings&) { s.job.bodies.clear(); }}});
   hold("cosine_mode_lattice", warm(true, 0.7), {{"support_ratio", 2.5}},
        {as_it_is,
-        {"all three directions periodic", [](Prepared& s, Settings&) { s.job.scene.periodic[2] = false; }},
+        {"make all directions periodic", [](Prepared& s, Settings&) { s.job.scene.periodic[2] = false; }},
         {"without jitter", [](Prepared& s, Settings&) { s.job.scene.jitter = 0.1; }},
         {"\"paper\" or \"corrected\"", [](Prepared&, Settings& a) { a["form"] = std::string("other"); }},
         {"", [](Prepared&, Settings& a) { a["form"] = std::string("paper"); }},

@@ -54,12 +54,11 @@ TEST(StrangeCase, AskingForFrictionLearnsWhatThereIs) {
   for (const auto& [table, answer] :
        std::vector<std::pair<std::string, std::string>>{{"joint", "joints are not simulated"},
                                                         {"hinge", "joints are not simulated"},
-                                                        {"spring", "springs are not simulated"},
                                                         {"motor", "motors are not simulated"},
                                                         {"thrust", "a [[force]] pushes a rigid body"},
                                                         {"cable", "ropes and sheets"},
                                                         {"radiation", "a [[source]] gives heat"},
-                                                        {"outlet", "nothing flows out"}})
+                                                        {"outlet", "an [[outflow]] removes liquid"}})
     expect_refused(with("", "[[" + table + "]]\nname = 'x'\n"), {"unknown key `" + table + "`", answer});
   expect_refused(with("", "[[hose]]\nname = 'x'\n"), {"unknown key `hose`"});
 }

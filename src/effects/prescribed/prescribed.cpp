@@ -63,7 +63,9 @@ void Prescribed::drift(State& state, double dt) {
     const std::size_t i = p.row(id);
     if (driven[i] == 0 || driven[i] == driven_still || is_member(i)) continue;
     if (driven[i] == driven_in) {
-      const Entrance& e = entrances_[static_cast<std::size_t>(inflow_of(state, i))];
+      const int from = inflow_of(state, i);
+      if (from < 0) continue;  // a checkpoint whose columns do not agree
+      const Entrance& e = entrances_[static_cast<std::size_t>(from)];
       const Vec3 r = state.unwrapped(i), v = e.velocity(e.column_of(r));
       guide(state, i, r + e.way(state.time, state.next_time, dt) * v, e.opening(state.next_time) * v);
     } else {
