@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "assembly/plan.hpp"
+#include "program/cli/case_summary.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
-#include "program/cli/start_notes.hpp"
 #include "scene/sample.hpp"
 #include "validation/campaign/case_names.hpp"
 #include "validation/campaign/suite.hpp"

@@ -4,7 +4,6 @@
 
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
-#include "program/cli/hand_over.hpp"
 #include "program/cli/options.hpp"
 
 namespace tripoint {

@@ -6,7 +6,6 @@
 
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
-#include "program/cli/hand_over.hpp"
 
 namespace tripoint {
 namespace {

@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <filesystem>
 #include <sstream>
@@ -18,8 +20,10 @@
 #include "core/errors.hpp"
 #include "core/limits.hpp"
 #include "step/settle.hpp"
+#include "tables/library.hpp"
 #include "tables/nearest.hpp"
 #include "validation/case/read_case.hpp"
+#include "validation/publish/report_files.hpp"
 #include "validation/results/escaped_text.hpp"
 #include "validation/results/verdict.hpp"
 
@@ -233,6 +237,21 @@ Plan plan_of(const CaseReading& reading) {
     if (!e.place().file.empty()) throw;
     throw InputError({reading.value.file, 0, 0}, e.what());
   }
+}
+
+void hand_over(const std::string& program, const std::vector<std::string>& options,
+               const std::vector<std::string>& operands) {
+  const std::filesystem::path file = std::filesystem::path(share_folder()) / "reports" / program;
+  if (!std::filesystem::exists(file)) throw EngineError("the program " + file.string() + " is missing");
+  std::vector<std::string> words{python_program(), "-B", file.string()};
+  words.insert(words.end(), options.begin(), options.end());
+  words.emplace_back("--");
+  words.insert(words.end(), operands.begin(), operands.end());
+  std::vector<char*> pointers;
+  for (auto& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  ::execv(words.front().c_str(), pointers.data());
+  throw EngineError(fmt::format("{} cannot be started: {}", words.front(), std::strerror(errno)));
 }
 
 }  // namespace tripoint
