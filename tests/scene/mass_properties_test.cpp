@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.hpp"
-#include "scene/particle_masses.hpp"
 #include "scene/sample.hpp"
 
 namespace tripoint {

@@ -8,7 +8,6 @@
 
 #include "mesh/mesh.hpp"
 #include "scene/geometry.hpp"
-#include "scene/particle_masses.hpp"
 #include "scene/sample.hpp"
 #include "scene/shape_distance.hpp"
 
