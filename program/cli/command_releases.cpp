@@ -10,6 +10,7 @@
 #include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
+#include "program/cli/one_case.hpp"
 #include "tables/library.hpp"
 #include "validation/campaign/suite.hpp"
 #include "validation/case/read_case.hpp"
@@ -81,14 +82,6 @@ EngineEntry release_of(const ReleasesOptions& o, const std::string& version) {
   auto engine = ask_engine(fs::absolute(path).string());
   if (!engine.available) throw EngineError(path + ": " + engine.reason);
   return engine;
-}
-
-Case one_case(const std::string& what) {
-  CaseFilter filter;
-  filter.what = {what};
-  auto cases = select_cases(filter);
-  if (cases.size() != 1) throw InputError(what + ": names more than one case");
-  return cases.front();
 }
 
 Release run_release(const ReleasesOptions& o, const Case& value, const EngineEntry& engine) {
