@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pairs/alone.hpp"
 
+#include <stdexcept>
+#include <string>
+
 #include "pairs/pair_passes.hpp"
 #include "state/fill.hpp"
 
 namespace tripoint {
 
 PassFunction alone_pass(const State& state, const PairTerm& term) {
-  return pair_passes(state.neighbours->clusters().lanes).alone(term);
+  const PassFunction pass = pair_passes(state.neighbours->clusters().lanes).alone(term);
+  if (!pass.run)
+    throw std::logic_error("the pair term " + std::string(term.name) +
+                           " has no pass of its own: PairSlots::alone of its effect lacks it");
+  return pass;
 }
 
 void sum_alone(State& state, const PairTerm& term, const PairKernels& kernels) {

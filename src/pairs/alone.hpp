@@ -7,7 +7,7 @@
 /// Terms that have a pass of their own (PairSlots::alone).
 namespace tripoint {
 
-/// The pass of a term, as wide as the clusters of the scene.
+/// The pass of a term, as wide as the clusters of the scene. @throws std::logic_error where it has none
 [[nodiscard]] PassFunction alone_pass(const State&, const PairTerm&);
 
 /// Sums over all clusters, from 0 on.

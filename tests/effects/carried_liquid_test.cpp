@@ -8,7 +8,9 @@
 #include <cstring>
 
 #include "effects/carried_liquid/fields.hpp"
+#include "effects/carried_liquid/sound_terms.hpp"
 #include "effects/fluid_lab.hpp"
+#include "pairs/alone.hpp"
 #include "scene/shared_terms.hpp"
 
 namespace tripoint {
@@ -46,6 +48,15 @@ lab::Lab pressed(int form) {
 
 class Forms : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(CarriedLiquid, Forms, testing::Range(1, forms + 1));
+
+/// A sum that is asked for and never formed would be 0 without a word.
+TEST(CarriedLiquid, ATermWithoutAPassOfItsOwnIsAnError) {
+  const lab::Lab lab = blob(1);
+  const Simulation s(lab.scene, lab.initial);
+  EXPECT_TRUE(alone_pass(s.state(), pair_term<carried_liquid::SoundRate>).run);
+  EXPECT_THROW(static_cast<void>(alone_pass(s.state(), pair_term<carried_liquid::Moments>)),
+               std::logic_error);
+}
 
 TEST_P(Forms, KeepMomentumToRoundOff) {
   lab::Lab lab = blob(GetParam());
