@@ -64,11 +64,6 @@ struct Halfway {
     const MaskOf<V> wet = g.within & ((z_i != 0.0) | (z_j != 0.0));
     return where<V>(wet, -g.kernels.wendland.derivative_over_r(r));
   }
-  /// Value times W where i is solid and j liquid
-  [[nodiscard, gnu::always_inline]] V liquid_share(const PairGeometry<V>& g, V z_i, V z_j, V value) const {
-    const MaskOf<V> touch = g.within & (z_i == 0.0) & (z_j != 0.0);
-    return any(touch) ? where<V>(touch, value * g.kernels.wendland.value(r)) : V{};
-  }
 };
 
 /// Share of the neighbourhood of i that j fills where it is solid.
@@ -78,11 +73,20 @@ template <class V>
   return any(wall) ? where<V>(wall, V_j * g.kernels.wendland.value_inside(g.r)) : V{};
 }
 
-/// Value times W where i is solid and j liquid.
+/// Value times W(r) where i is solid and j liquid.
 template <class V>
-[[gnu::always_inline]] inline V liquid_share(const PairGeometry<V>& g, V z_i, V z_j, V value) {
+[[gnu::always_inline]] inline V liquid_share(const PairGeometry<V>& g, V r, V z_i, V z_j, V value) {
   const MaskOf<V> touch = g.within & (z_i == 0.0) & (z_j != 0.0);
-  return any(touch) ? where<V>(touch, value * g.kernels.wendland.value_inside(g.r)) : V{};
+  return any(touch) ? where<V>(touch, value * g.kernels.wendland.value(r)) : V{};
+}
+
+/// What solids fill around a liquid, and liquids around a solid, there now and amid the drift.
+template <class V>
+[[gnu::always_inline]] inline void add_shares(const PairGeometry<V>& g, const Halfway<V>& middle, V z_i,
+                                              V z_j, V V_j, auto& sum) {
+  sum(field::wall_share) += solid_share<V>(g, z_j, V_j);
+  sum(field::touching) += liquid_share<V>(g, g.r, z_i, z_j, V_j);
+  sum(field::touching_halfway) += liquid_share<V>(g, middle.r, z_i, z_j, V_j);
 }
 
 /// Pressure with which solids push out a liquid, of a pair of the two.
@@ -157,7 +161,7 @@ struct WallRate {
   static void pair(const PairGeometry<V>& g, const auto& i, const auto& j, auto& sum) {
     const Halfway<V> middle(g, j(field::predicted) - i(field::predicted));
     sum(field::wall_rate) +=
-        middle.liquid_share(g, j(field::impedance), i(field::impedance), j(field::displaced));
+        liquid_share<V>(g, middle.r, j(field::impedance), i(field::impedance), j(field::displaced));
   }
 };
 
@@ -170,7 +174,8 @@ struct WallPressure {
   using adds = Keys<field::pressed, field::weighed>;
   template <class V>
   static void pair(const PairGeometry<V>& g, const auto& i, const auto& j, auto& sum) {
-    const V share = liquid_share<V>(g, i(field::impedance), j(field::impedance), j(field::carried_volume));
+    const V share =
+        liquid_share<V>(g, g.r, i(field::impedance), j(field::impedance), j(field::carried_volume));
     sum(field::pressed) += share * j(field::carried_pressure);
     sum(field::weighed) -= share * j(field::density) * dot(i(field::pull), g.d());
   }
@@ -219,9 +224,7 @@ struct Gradients {
       sum(field::divergence) += F * dot(v, sides<form, V>(i(field::correction_halfway) * middle.d,
                                                           j(field::correction_halfway) * middle.d, z_i, z_j)
                                                .first);
-    sum(field::touching) += liquid_share<V>(g, z_i, z_j, j(field::carried_volume));
-    sum(field::touching_halfway) += middle.liquid_share(g, z_i, z_j, j(field::carried_volume));
-    sum(field::wall_share) += solid_share<V>(g, z_j, j(field::carried_volume));
+    add_shares<V>(g, middle, z_i, z_j, j(field::carried_volume), sum);
   }
 };
 

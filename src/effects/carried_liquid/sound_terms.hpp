@@ -18,9 +18,7 @@ struct SoundRate {
     const Halfway<V> middle(g, v);
     const V f = middle.slope(g, z_i, z_j) * j(field::carried_volume) * weight<V>(z_i, z_j);
     sum(field::divergence) += f * dot(v, i(field::correction_halfway) * middle.d);
-    sum(field::touching) += liquid_share<V>(g, z_i, z_j, j(field::carried_volume));
-    sum(field::touching_halfway) += middle.liquid_share(g, z_i, z_j, j(field::carried_volume));
-    sum(field::wall_share) += solid_share<V>(g, z_j, j(field::carried_volume));
+    add_shares<V>(g, middle, z_i, z_j, j(field::carried_volume), sum);
   }
 };
 
