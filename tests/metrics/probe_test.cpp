@@ -167,6 +167,20 @@ TEST(Depth, IsVolumeByArea) {
     EXPECT_NEAR(f.stated(metric("depth_at", "final"), at(x, 0.2, 0.0, 0.4)), 0.0, 1e-12) << x;
 }
 
+/// In two dimensions a particle's mass is that of a layer 1 m deep, and the gauge stands anywhere along y.
+TEST(Depth, OfALayerIsAreaByLength) {
+  test::Prepared s;
+  s.job.scene.spacing = 0.1;
+  s.job.scene.dimensions = 2;
+  test::add_matter(s, "pool", Phase::liquid, {{8, 1, 4}, 0.1, {-0.4, -0.05, 0.0}, 1.0}, {}, 1000.0);
+  for (double& m : s.initial.mass) m = 1000.0 * 0.1 * 0.1;  // times 1 m
+  test::set_times(s, 1.0, 4);
+  const Still f(std::move(s));
+  for (const double x : {-0.01, 0.0, 0.013})
+    for (const double y : {0.0, 0.5})
+      EXPECT_NEAR(f.stated(metric("depth_at", "final"), at(x, y, 0.0, 0.4)), 0.0, 1e-12) << x << ", " << y;
+}
+
 TEST(Displacement, FollowsAPointOfMatter) {
   Still f(test::blocks());
   auto& last = f.run.frames.back();

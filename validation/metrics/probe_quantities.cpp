@@ -158,7 +158,8 @@ FrameError extreme(const FramePair& f, Of what, const char* quantity, double sig
 }
 
 /// Depth of liquid in an upright column at the stated point: volume by area. The column's weight falls to 0
-/// at two spacings to each side, so that a lattice has its own depth wherever the point lies.
+/// at two spacings to each side, so that a lattice has its own depth wherever the point lies. In two
+/// dimensions the column is as deep along y as the layer.
 FrameError depth_at(const FramePair& f) {
   const auto point = f.in.reference.measuring().point;
   if (!point)
@@ -166,15 +167,16 @@ FrameError depth_at(const FramePair& f) {
         "depth_at needs the place of its gauge: reference = {function = \"stated\", args = {point = "
         "[x, y, z], value = ...}}");
   const double reach = 2.0 * f.in.job.scene.spacing;
+  const bool plane = f.in.job.scene.space() == Dimensions::two;
   long double volume = 0;
   for (std::size_t i = 0; i < f.now.position.size(); ++i) {
     if (!takes(f.in, i) || !is_alive(f.now, i) || f.now.phase[i] != static_cast<int>(Phase::liquid)) continue;
     const Vec3 d = displacement(f.in.job.scene, f.now.position[i], *point);
-    const double weight =
-        std::max(0.0, 1.0 - std::abs(d.x) / reach) * std::max(0.0, 1.0 - std::abs(d.y) / reach);
+    const double weight = std::max(0.0, 1.0 - std::abs(d.x) / reach) *
+                          (plane ? 1.0 : std::max(0.0, 1.0 - std::abs(d.y) / reach));
     if (weight > 0.0) volume += weight * (i < f.in.initial.size() ? rest_volume(f.in, i) : 0.0);
   }
-  return against_truth(f, "depth_at", double(volume) / (reach * reach));
+  return against_truth(f, "depth_at", double(volume) / (reach * (plane ? layer_depth : reach)));
 }
 
 // --- places
