@@ -82,28 +82,80 @@ Terms sums_of(const Wanted& w, const Vec3& origin, double spacing) {
 
 bool carries_given_mass(const Body& b) { return b.mass || b.centre || b.inertia || b.shape_mass; }
 
+namespace {
+
+constexpr double carried_to = 1e-9;  ///< of the given numbers
+
+/// Factors of the masses that are a quadratic function of place, the smallest change; empty where it does
+/// not carry the sums, or not by masses above 0.
+std::vector<double> quadratic_factors(const std::vector<Terms>& at, double mass, const Terms& sums) {
+  Eigen::Matrix<double, terms, terms> A = Eigen::Matrix<double, terms, terms>::Zero();
+  for (const Terms& t : at) A += mass * t * t.transpose();
+  const Terms factor = A.completeOrthogonalDecomposition().solve(sums);
+  bool carried = (A * factor - sums).norm() <= carried_to * sums.norm();
+  std::vector<double> factors;
+  for (const Terms& t : at) {
+    factors.push_back(factor.dot(t));
+    carried = carried && factors.back() > 0.0;
+  }
+  return carried ? factors : std::vector<double>{};
+}
+
+/// Factors that are the exponential of such a function, always above 0: the masses of greatest entropy, which
+/// exist wherever any masses carry the sums. Newton's method on the convex function sum m exp(f.t) - f.sums;
+/// empty where it finds no least value.
+std::vector<double> exponential_factors(const std::vector<Terms>& at, double mass, const Terms& sums) {
+  constexpr int most_steps = 100;
+  constexpr double near = 1e-4;  // of the sums: from there on Newton's whole step lands
+  Terms f = Terms::Zero();
+  const auto value = [&](const Terms& trial) {
+    double sum = -trial.dot(sums);
+    for (const Terms& t : at) sum += mass * std::exp(trial.dot(t));
+    return sum;
+  };
+  for (int n = 0; n < most_steps; ++n) {
+    Terms slope = -sums;
+    Eigen::Matrix<double, terms, terms> H = Eigen::Matrix<double, terms, terms>::Zero();
+    for (const Terms& t : at) {
+      const double m = mass * std::exp(f.dot(t));
+      slope += m * t;
+      H += m * t * t.transpose();
+    }
+    if (!slope.allFinite() || !H.allFinite()) return {};
+    const double off = slope.norm() / sums.norm();
+    if (off <= 1e-14 || (n + 1 == most_steps && off <= carried_to)) {
+      std::vector<double> factors;
+      for (const Terms& t : at) factors.push_back(std::exp(f.dot(t)));
+      return factors;
+    }
+    const Terms step = H.completeOrthogonalDecomposition().solve(slope);
+    double part = 1.0;
+    const double now = value(f), fall = slope.dot(step);
+    while (off > near && part > 1e-10 && !(value(f - part * step) <= now - 1e-4 * part * fall)) part *= 0.5;
+    f -= part * step;
+  }
+  return {};
+}
+
+}  // namespace
+
 std::vector<double> particle_masses(const Scene& s, const Body& b, const std::vector<Vec3>& places) {
   const double spacing = s.spacing, density = s.material(b.material).density;
   std::vector<double> mass(places.size(), density * spacing * spacing * cell_depth(s));
   if (!carries_given_mass(b)) return mass;
   const MassProperties own = mass_properties(places, mass);
   const Wanted wanted = wanted_of(b, before_given(s, b, own, density));
-  const auto at = [&](const Vec3& r) { return terms_at((r - own.centre) / spacing); };
-  Eigen::Matrix<double, terms, terms> A = Eigen::Matrix<double, terms, terms>::Zero();
-  for (std::size_t i = 0; i < places.size(); ++i) A += mass[i] * at(places[i]) * at(places[i]).transpose();
+  std::vector<Terms> at;
+  for (const Vec3& r : places) at.push_back(terms_at((r - own.centre) / spacing));
   const Terms sums = sums_of(wanted, own.centre, spacing);
-  const Terms factor = A.completeOrthogonalDecomposition().solve(sums);
-  const Terms missed = A * factor - sums;
-  bool carried = missed.norm() <= 1e-9 * sums.norm();
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    mass[i] *= factor.dot(at(places[i]));
-    carried = carried && mass[i] > 0.0;
-  }
-  if (!carried)
+  auto factors = quadratic_factors(at, mass.front(), sums);
+  if (factors.empty()) factors = exponential_factors(at, mass.front(), sums);
+  if (factors.empty())
     throw InputError(b.place, fmt::format("body \"{}\": its {} particles cannot carry the mass, centre and "
                                           "moments that are given: refine scene.spacing, or give what its "
                                           "shape can have",
                                           b.name, places.size()));
+  for (std::size_t i = 0; i < places.size(); ++i) mass[i] *= factors[i];
   return mass;
 }
 

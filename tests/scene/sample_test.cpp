@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,6 +24,12 @@ Scene scene_of(const std::string& body, const std::string& scene = "") {
                    {});
 }
 
+/// Moments of a box about its centre.
+Vec3 box_inertia(double mass, const Vec3& side) {
+  const Vec3 q{side.x * side.x, side.y * side.y, side.z * side.z};
+  return (mass / 12.0) * Vec3{q.y + q.z, q.x + q.z, q.x + q.y};
+}
+
 TEST(Sample, FillsABoxWithParticlesHalfASpacingInside) {
   for (const double corner : {0.0, 0.3, -0.7, 0.0123, 1e-3, 100.05}) {
     const auto s = sample(scene_of("shape={kind='box',min=[" + std::to_string(corner) + ",0,0],max=[" +
@@ -33,6 +40,30 @@ TEST(Sample, FillsABoxWithParticlesHalfASpacingInside) {
     EXPECT_NEAR(s.position[4].y, 0.15, 1e-12) << "x runs fastest";
     EXPECT_NEAR(s.position[12].z, 0.15, 1e-12) << "z runs slowest";
   }
+}
+
+/// A club with a light handle and a heavy head: masses that are a quadratic function of place would be below
+/// 0.
+TEST(Sample, CarriesGivenMomentsWhereverMassesAboveZeroCan) {
+  const std::string club =
+      "phase='rigid'\nshape={kind='union',of=[{kind='box',min=[0,0,0],max=[0.2,0.2,1.6]},{kind='box',min=[-0."
+      "2,"
+      "-0.2,1.6],max=[0.4,0.4,2.0]}]}\n";
+  const auto handle = box_inertia(64.0, {0.2, 0.2, 1.6}), head = box_inertia(1440.0, {0.6, 0.6, 0.4});
+  const double mass = 64.0 + 1440.0, z = (64.0 * 0.8 + 1440.0 * 1.8) / mass;
+  const double arms = 64.0 * (z - 0.8) * (z - 0.8) + 1440.0 * (1.8 - z) * (1.8 - z);
+  const Vec3 moments{handle.x + head.x + arms, handle.y + head.y + arms, handle.z + head.z};
+  const auto given = [&](double factor) {
+    return scene_of(club + fmt::format("mass={}\ncentre=[0.1,0.1,{}]\ninertia=[{},{},{}]", mass, z,
+                                       factor * moments.x, factor * moments.y, moments.z));
+  };
+  const auto s = sample(given(1.0));
+  const auto p = mass_properties(s.position, s.mass);
+  EXPECT_NEAR(p.mass / mass, 1.0, 1e-9);
+  EXPECT_NEAR(p.centre.z, z, 1e-9);
+  EXPECT_NEAR(p.principal_inertia.z / moments.y, 1.0, 1e-8);
+  for (const double m : s.mass) EXPECT_GT(m, 0.0);
+  EXPECT_THROW((void)sample(given(9.0)), InputError);  // farther from the centre than the shape reaches
 }
 
 TEST(Sample, LaysNothingWhereRoundOffIsMoreThanThePlaceOfAParticle) {
