@@ -32,6 +32,9 @@ from rotation import Quaternion, Vector, add, product, quaternion, rotate, vecto
 os.environ.setdefault("MUJOCO_GL", "disable")  # nothing is drawn here, so no window library is wanted
 
 
+CONES = ("elliptic", "pyramidal")  # of friction, the first by default
+
+
 def words(values: tuple[float, ...]) -> str:
     """Numbers of an MJCF attribute, without loss."""
     return " ".join(map(repr, values))
@@ -69,18 +72,21 @@ def integrator_of(job: Job) -> str:
     return "implicitfast" if job.preset == "hard-contact" else job.preset
 
 
+def stated_stiffness(settings: dict[str, Any]) -> str:
+    """How stiff contacts are; "" is MuJoCo's default."""
+    return "".join(f' {key}="{settings[key]}"' for key in ("solref", "solimp") if key in settings)
+
+
 def contact_text(job: Job, dt: float) -> str:
     mu = coulomb(job)
     steps = job.settings.get("timeconst_steps")
-    chosen = job.settings.get("solref", f"{float(steps) * dt!r} 1" if steps else "")
-    solref = f' solref="{chosen}"' if chosen else ""
-    solimp = f' solimp="{job.settings["solimp"]}"' if "solimp" in job.settings else ""
-    return f'friction="{mu!r} 0 0" condim="{3 if mu > 0.0 else 1}"{solref}{solimp}'
+    chosen = {"solref": f"{float(steps) * dt!r} 1"} if steps else {}
+    return f'friction="{mu!r} 0 0" condim="{3 if mu > 0.0 else 1}"{stated_stiffness(chosen | job.settings)}'
 
 
 def pairs_text(job: Job, bodies: list[Body]) -> str:
     """A pair of geoms for each pair of pieces whose materials state a law; MuJoCo then asks neither geom for its
-    own."""
+    own. A case's own solref and solimp hold for pairs, those of a preset do not."""
     laws = PairLaws(job)
     text = []
     for a, one in enumerate(bodies):
@@ -90,7 +96,7 @@ def pairs_text(job: Job, bodies: list[Body]) -> str:
             mu, _ = laws.of(one.material, other.material)
             text += [
                 f'<pair geom1="{a}.{i}" geom2="{b}.{k}" condim="{3 if mu > 0.0 else 1}" friction="{mu!r} {mu!r} 0 0 '
-                '0"/>'
+                f'0"{stated_stiffness(job.document.get("settings") or {})}/>'
                 for i in range(len(one.pieces))
                 for k in range(len(other.pieces))
             ]
@@ -105,7 +111,7 @@ def model_text(job: Job, bodies: list[Body], dt: float) -> str:
     text = [
         f'<mujoco><compiler boundmass="0" boundinertia="0" balanceinertia="false"/>'
         f'<option timestep="{dt!r}" integrator="{integrator_of(job)}" gravity="{gravity}" '
-        f'cone="elliptic"/>{meshes_text(bodies)}<worldbody>'
+        f'cone="{job.settings.get("cone", CONES[0])}"/>{meshes_text(bodies)}<worldbody>'
     ]
     for number, body in enumerate(bodies):
         names = [(f"{number}.{k}", piece) for k, piece in enumerate(body.pieces)]
@@ -190,6 +196,7 @@ class Mujoco(RigidEngine):
         "solref": "time constant and damping ratio of contacts, MuJoCo's default 0.02 1; "
         "negative: stiffness and damping",
         "timeconst_steps": "time constant of contacts in time steps, at a damping ratio of 1; solref goes before it",
+        "cone": "elliptic or pyramidal cones of friction, default elliptic",
         "solimp": "impedance of contacts, MuJoCo's default 0.9 0.95 0.001 0.5 2",
     }
     default_step = 0.002  # MuJoCo's own
@@ -205,6 +212,8 @@ class Mujoco(RigidEngine):
         for key in ("solref", "solimp"):
             if key in job.settings and not isinstance(job.settings[key], str):
                 return f'mujoco: the setting {key} is a text of numbers, for example "0.02 1"'
+        if job.settings.get("cone", CONES[0]) not in CONES:
+            return f"mujoco: the setting cone is {' or '.join(CONES)}"
         grows = why_it_grows(job, self.default_step) if job.preset == "Euler" else ""
         if grows:
             return "MuJoCo's Euler " + grows
