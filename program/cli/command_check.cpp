@@ -48,6 +48,7 @@ int check(const std::string& file, const std::vector<std::string>& set) {
   for (const auto& f : mesh_notes(scene, state)) say("note: " + with_place(f));
   for (const auto& f : moment_notes(scene, state)) say("note: " + with_place(f));
   for (const auto& f : start_notes(scene, state)) say("note: " + with_place(f));
+  for (const auto& f : data_after_the_end(reading.value)) say("note: " + with_place(f));
   for (const auto& f : foreseen(scene)) say("note: " + with_place(f));
   if (scene.settle)
     say("note: nothing is run here: liquids are not let down into equilibrium (scene.settle), and the "

@@ -28,6 +28,7 @@ void add_check(CLI::App& app, int& exit_code);
 void add_explain(CLI::App& app, int& exit_code);
 void add_list(CLI::App& app, int& exit_code);
 void add_new(CLI::App& app, int& exit_code);
+void add_import(CLI::App& app, int& exit_code);
 void add_schema(CLI::App& app, int& exit_code);
 void add_engines(CLI::App& app, int& exit_code);
 void add_engine(CLI::App& app, int& exit_code);

@@ -85,10 +85,10 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   int exit_code = exit_pass;
   for (const auto add :
-       {add_run,     add_validate, add_merge,    add_suite,     add_status, add_compare, add_report,
-        add_render,  add_view,     add_converge, add_recommend, add_plan,   add_predict, add_ablate,
-        add_gate,    add_summary,  add_check,    add_explain,   add_list,   add_new,     add_schema,
-        add_engines, add_engine,   add_releases, add_bench,     add_export})
+       {add_run,    add_validate, add_merge,    add_suite,     add_status, add_compare, add_report,
+        add_render, add_view,     add_converge, add_recommend, add_plan,   add_predict, add_ablate,
+        add_gate,   add_summary,  add_check,    add_explain,   add_list,   add_new,     add_import,
+        add_schema, add_engines,  add_engine,   add_releases,  add_bench,  add_export})
     add(app, exit_code);
   keep_one_list_of_exit_codes(app);
   expect_finite_numbers(app);

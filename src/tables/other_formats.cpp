@@ -25,6 +25,8 @@ constexpr auto formats = std::to_array<Format>({
     {"{", "", "a JSON file"},
     {"", "atom_style", "an input script of LAMMPS"},
     {"", "pair_style", "an input script of LAMMPS"},
+    {"", "\nlattice ", "an input script of LAMMPS"},
+    {"", "\nread_data ", "an input script of LAMMPS"},
     {"*", "*NODE", "a model of CalculiX or Abaqus"},
 });
 

@@ -247,9 +247,11 @@ TomlNode parse_toml(const std::string& text, const std::string& file, double lim
       throw InputError(
           {file, 0, 0},
           fmt::format(
-              "this is {}, and a case is TOML: `tripoint new NAME` writes one, whose bodies, shapes and "
-              "materials take what this file says (docs/case-file.md)",
-              format));
+              "this is {}, and a case is TOML: {}", format,
+              format.find("MJCF") != format.npos || format.find("URDF") != format.npos
+                  ? fmt::format("`tripoint import {}` makes one of it", file)
+                  : "`tripoint new NAME` writes one, whose bodies, shapes and materials take what this "
+                    "file says (docs/case-file.md)"));
     throw InputError(place_of(error.source(), file),
                      fmt::format("no valid TOML: {}; write key = value, texts in quotes, [a, b] for lists",
                                  printable(error.description(), 300)));

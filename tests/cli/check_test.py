@@ -51,6 +51,17 @@ BAR = (
         'phase = "rigid"\nmotion = "fixed"\ntemperature = 300.0\ntemperature_held = true',
     )
 )
+# a text of another program -> words of the answer
+FOREIGN = {
+    '<?xml version="1.0"?>\n<!-- a scene -->\n<mujoco model="x"><worldbody/></mujoco>': ["(MJCF)", "tripoint import"],
+    '<robot name="x"><link name="base"/></robot>': ["(URDF)", "tripoint import"],
+    '<?xml version="1.0" ?>\n<sdf version="1.9"><world name="x"/></sdf>': ["(SDF)"],
+    '<?xml version="1.0"?>\n<case app="x">\n<casedef><constantsdef/></casedef></case>': ["DualSPHysics"],
+    '{ "Configuration": { "particleRadius": 0.025 }, "FluidBlocks": [] }': ["SPlisHSPlasH"],
+    '{ "RigidBodies": [ { "geometryFile": "box.obj" } ] }': ["SPlisHSPlasH"],
+    "# a melt\nunits lj\natom_style atomic\npair_style lj/cut 2.5\nrun 100\n": ["LAMMPS"],
+    "dimension 3\nunits si\nlattice fcc 0.8442\nregion box block 0 10 0 10 0 10\n": ["LAMMPS"],
+}
 # what is wrong -> (case, words of the error that check must give)
 WRONG = {
     "a periodic width too small for bonds": (
@@ -269,6 +280,17 @@ class Run(unittest.TestCase):
     def run_case(self, text, folder, *more):
         done = call("run", text, folder, "--out", Path(folder) / "out", "--json", *more)
         return done, json.loads(done.stdout) if done.stdout.startswith("{") else None
+
+    def test_files_of_other_programs_are_answered_by_a_sentence(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for text, words in FOREIGN.items():
+                path = Path(folder) / "scene.xml"
+                path.write_text(text, encoding="utf-8")
+                for command in ("check", "explain", "run"):
+                    done = subprocess.run([TRIPOINT, command, path], capture_output=True, text=True, cwd=folder)
+                    self.assertEqual(done.returncode, 2, done.stderr)
+                    for word in ["scene.xml", *words]:
+                        self.assertIn(word, done.stderr, command)
 
     def test_says_what_check_would_warn_of(self):
         wall = body("wall", "stone", [-0.36, 0.0, 0.0], [0.0, 0.4, 0.4], 'motion = "fixed"')

@@ -4,6 +4,8 @@
 #include "references/measured.hpp"
 #include "references/scenes.hpp"
 #include "validation/case/case.hpp"
+#include "validation/case/preflight.hpp"
+#include "validation/references/measured_table.hpp"
 
 namespace tripoint {
 namespace {
@@ -113,6 +115,53 @@ TEST(Experiment, SaysAtOnceAllThatATableLacks) {
   EXPECT_NE(refusal("time [furlong],front\n1,2\n").find("furlong"), std::string::npos);
 }
 
+/// The same tables, and what flags say of them.
+TEST(MeasuredTable, BecomesADataFileByFlags) {
+  TableWords words;
+  words.source = "a report, figure 4";
+  words.uncertainties = {{"front", "2 %"}};
+  for (const std::string table :
+       {"t [ms],front [mm]\n500,1.5\n1000,2.5\n",
+        "\xef\xbb\xbfTime (ms);front (mm)\r\n500;1,5\r\n1000;2,5\r\n",
+        "Front of a dam\n# by hand\n\ntime / ms\tfront / mm\n500\t1.5\n1000\t2.5\n"}) {
+    const DataFile file(reference_table("x.csv", table, words));
+    const auto read = read_experiment(file.path());
+    EXPECT_EQ(read.source, words.source);
+    EXPECT_DOUBLE_EQ(read.curves.at("front").time[0], 0.5) << table;
+    EXPECT_DOUBLE_EQ(read.curves.at("front").value[1], 0.0025) << table;
+    EXPECT_DOUBLE_EQ(read.curves.at("front").uncertainty[1], 0.00005) << table;
+  }
+  words.columns = {"time", "front"};
+  words.units = {{"time", "s"}, {"front", "cm"}};
+  const DataFile file(reference_table("x.csv", "0.5, 1.5\n1.0, 2.5\n", words));  // WebPlotDigitizer
+  EXPECT_DOUBLE_EQ(read_experiment(file.path()).curves.at("front").value[1], 0.025);
+}
+
+TEST(MeasuredTable, SaysInOneMessageAllThatItDoesNotSay) {
+  const auto what = [](const std::string& table, const TableWords& words = {}) -> std::string {
+    try {
+      return reference_table("x.csv", table, words);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+  };
+  const auto all = what("time,front\n1,2\n");
+  for (const char* flag :
+       {"--unit time=UNIT", "--unit front=UNIT", "--uncertainty front='2 %'", "--source TEXT"})
+    EXPECT_NE(all.find(flag), std::string::npos) << all;
+  EXPECT_NE(what("1 2\n3 4\n").find("--columns time,NAME"), std::string::npos);
+  EXPECT_NE(what("day [h],front [mm]\n1,2\n").find("`day`"), std::string::npos);
+  EXPECT_NE(what("time [furlong],front [mm]\n1,2\n").find("furlong"), std::string::npos);
+  EXPECT_NE(what("nothing\n").find("no row"), std::string::npos);
+  TableWords three;
+  three.columns = {"time", "a", "b"};
+  EXPECT_NE(what("1 2\n3 4\n", three).find("3 columns are named"), std::string::npos);
+  TableWords known;
+  known.source = "x";
+  known.uncertainties = {{"front", "1"}};
+  EXPECT_NE(what("time [s],front [m]\n2,1\n1,1\n", known).find("must rise"), std::string::npos);
+}
+
 TEST(Experiment, IsAReferenceThatKnowsWhatItsFileHoldsAndNoMore) {
   const DataFile file(sealed(data));
   const auto block = test::block({1, 2, 3}, 1.0, 4);
@@ -125,6 +174,21 @@ TEST(Experiment, IsAReferenceThatKnowsWhatItsFileHoldsAndNoMore) {
   EXPECT_EQ(
       with_source_of_file(test::experiment(file)).source,
       "A. Author, Journal 1 (1952) 1; standard uncertainty of depth: 3; standard uncertainty of front: 2 %");
+}
+
+TEST(Experiment, ThatGoesOnAfterTheEndOfTheRunIsNoted) {
+  const DataFile file(sealed(data));  // its last time is 1.25 s
+  Case value;
+  value.reference = test::experiment(file);
+  value.scene.end_time = 2.0;
+  EXPECT_TRUE(data_after_the_end(value).empty());
+  value.scene.end_time = 1.0;
+  ASSERT_EQ(data_after_the_end(value).size(), 1U);
+  EXPECT_NE(data_after_the_end(value)[0].what.find("go on until 1.25 s"), std::string::npos);
+  value.metrics.emplace_back();
+  value.metrics[0].reference = std::move(value.reference);
+  value.reference = {};
+  EXPECT_EQ(data_after_the_end(value).size(), 1U);
 }
 
 TEST(Experiment, IsReadBeforeAnythingRunsAlsoWhereOnlyAMetricComparesWithIt) {

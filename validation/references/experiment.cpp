@@ -10,11 +10,13 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
 #include "tables/nearest.hpp"
 #include "validation/case/case.hpp"
+#include "validation/case/preflight.hpp"
 #include "validation/references/functions.hpp"
 #include "validation/references/measured_cells.hpp"
 
@@ -276,9 +278,11 @@ std::string experiment_hash(const std::string& text) {
 
 ExperimentFile read_experiment(const std::string& path) { return Reader(path, {"time"}).read(text_of(path)); }
 
-ExperimentFile read_table(const std::string& path) {
-  return Reader(path, {"time", "x", "y", "z"}).read(text_of(path));
+ExperimentFile read_table_text(const std::string& path, const std::string& text) {
+  return Reader(path, {"time", "x", "y", "z"}).read(text);
 }
+
+ExperimentFile read_table(const std::string& path) { return read_table_text(path, text_of(path)); }
 
 void check_data_files(const Case& value) {
   const auto check = [](const ReferenceChoice& choice) {
@@ -290,6 +294,31 @@ void check_data_files(const Case& value) {
   check(value.reference);
   for (const auto& m : value.metrics)
     if (m.reference) check(*m.reference);
+}
+
+std::vector<Finding> data_after_the_end(const Case& value) {
+  std::vector<Finding> found;
+  std::set<std::string> seen;
+  const double end = value.scene.end_time;
+  const auto look = [&](const ReferenceChoice& choice, const SourcePlace& place) {
+    if (choice.file.empty() || !seen.insert(choice.file).second) return;
+    const ExperimentFile file =
+        choice.function == "table" ? read_table(choice.file) : read_experiment(choice.file);
+    const double last = file.curves.begin()->second.time.back();
+    if (file.first == "time" && last > end * (1.0 + 1e-9))
+      found.push_back({false,
+                       fmt::format("the data go on until {} s, and the run ends at end_time = {} s: what was "
+                                   "measured later is compared with nothing",
+                                   last, end),
+                       place});
+  };
+  const auto measured = [](const ReferenceChoice& c) {
+    return c.function == "table" || c.kind == ReferenceKind::experiment;
+  };
+  if (measured(value.reference)) look(value.reference, {value.file, 0, 0});
+  for (const auto& m : value.metrics)
+    if (m.reference && measured(*m.reference)) look(*m.reference, m.place);
+  return found;
 }
 
 ReferenceChoice with_source_of_file(ReferenceChoice choice) {

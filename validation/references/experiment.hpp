@@ -23,6 +23,7 @@
 namespace tripoint {
 
 struct Case;
+struct Finding;
 
 /// A data file as read.
 struct ExperimentFile {
@@ -39,6 +40,9 @@ struct ExperimentFile {
 /// Likewise of a table whose first column is time, x, y or z; the curves' `time` is then that column.
 [[nodiscard]] ExperimentFile read_table(const std::string& path);
 
+/// Likewise of a text. @param path for messages
+[[nodiscard]] ExperimentFile read_table_text(const std::string& path, const std::string& text);
+
 /// FNV-1a over the lines without the one that begins with "# hash:" and without carriage returns, as it
 /// stands in the file.
 [[nodiscard]] std::string experiment_hash(const std::string& text);
@@ -46,6 +50,9 @@ struct ExperimentFile {
 /// Reads the data files of a case's references, so that nothing runs against data that cannot be used.
 /// @throws InputError as read_experiment does
 void check_data_files(const Case&);
+
+/// Notes on data whose times go on after the end of the scene: those rows are compared with nothing.
+[[nodiscard]] std::vector<Finding> data_after_the_end(const Case&);
 
 /// The choice of a case with the source that its data file states, where the case names none and the file can
 /// be read.
