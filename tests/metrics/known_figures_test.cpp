@@ -322,6 +322,55 @@ TEST(KnownFigures, OfASwingAreItsAmplitudeFrequencyAndSag) {
   EXPECT_NEAR(value(f, metric("sag", "final"), numbers, bar).value, 0.5, 1e-6);
 }
 
+TEST(KnownFigures, OfAForceAreItsMeanItsSwingAndItsFrequencyOverAWindow) {
+  auto f = still_blocks(200);
+  for (auto& frame : f.run.frames) {
+    const double grows = frame.time < 0.2 ? 10.0 : 0.0, sine = std::sin(2.0 * pi * 5.0 * frame.time);
+    frame.bodies[1].force = {3.0 + 2.0 * sine + grows, 0.0, 0.0};
+    frame.bodies[1].torque = {0.0, -frame.bodies[1].force.x, 0.0};
+  }
+  const auto of = [&](const char* quantity, const char* norm, const char* axis, const char* key,
+                      double stated) {
+    auto choice = metric(quantity, norm, "right");
+    choice.window = {0.2, 1.0};
+    return f.stated(choice, {{"axis", std::string(axis)}, {key, stated}});
+  };
+  EXPECT_NEAR(of("force", "mean", "x", "value", 2.5), 0.5, 1e-12);
+  EXPECT_NEAR(of("force", "swing", "x", "amplitude", 1.5), 0.5, 1e-12);
+  EXPECT_NEAR(of("force", "frequency", "x", "frequency", 4.0), 1.0, 1e-6);
+  EXPECT_NEAR(of("torque", "mean", "y", "value", -2.5), -0.5, 1e-12);
+  EXPECT_NEAR(of("torque", "swing", "y", "amplitude", 1.5), 0.5, 1e-12);
+  EXPECT_NEAR(of("torque", "frequency", "y", "frequency", 4.0), 1.0, 1e-6);
+  EXPECT_TRUE(std::isnan(of("force", "swing", "x", "value", 1.5)));  // no amplitude is stated
+  EXPECT_NEAR(f.of(metric("force", "swing", "right"), "self", {{"axis", std::string("x")}}).value,
+              0.5 * (15.0 - 1.0), 1e-2);
+}
+
+TEST(KnownFigures, OfAnAverageAreThoseOfTheTimesAroundEachOutput) {
+  auto f = still_blocks(100);
+  double sign = 1.0;
+  for (auto& frame : f.run.frames) f.shift(frame, 1, {0.03 * (sign = -sign), 0.0, 0.0});
+  const auto of = [&](const char* norm, double average, const char* at = "end") {
+    auto choice = metric("centre", norm, "right");
+    choice.average = average;
+    choice.at = at;
+    return f.of(choice, "stated", {{"axis", std::string("x")}, {"value", 0.2}});
+  };
+  EXPECT_NEAR(of("max", 0.0).value, 0.03, 1e-12);
+  EXPECT_NEAR(of("max", 0.02).value, 0.01, 1e-12);          // one of three is left
+  EXPECT_NEAR(of("final", 0.02).value, 0.0, 1e-12);         // of two, at the end
+  EXPECT_NEAR(of("Linf", 0.02, "0.5").value, 0.01, 1e-12);  // at a time
+  EXPECT_NE(of("max", 0.01).note.find("shorten scene.output_interval"), std::string::npos);
+  EXPECT_NE(of("chi", 0.02).note.find("every norm but"), std::string::npos);
+  auto many = metric("velocity", "max");
+  many.average = 0.02;
+  EXPECT_NE(value(f, many).note.find("of a single number"), std::string::npos);
+  auto whole = metric("touch_time", "final", "right");
+  whole.average = 0.02;
+  EXPECT_NE(value(f, whole, {{"touch_time", 0.5}}, along(1)).note.find("of the whole run"),
+            std::string::npos);
+}
+
 TEST(KnownFigures, OfTogglesCountAChangeInTheFirstIntervalToo) {
   auto f = still_blocks();
   f.run.frames[1].phase[3] = 0;  // melts in the first interval and freezes in the second

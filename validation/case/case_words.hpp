@@ -58,18 +58,22 @@ enum class Norm {
   final,
   drift,
   frequency,
+  swing,
   slope
 };
-constexpr WordTable<14> word_table(Norm) {
+constexpr WordTable<15> word_table(Norm) {
   return {"norm of a metric",
           {"L1", "L2", "L2raw", "Linf", "chi", "max", "rms", "L2mean", "mean", "stationary", "final", "drift",
-           "frequency", "slope"}};
+           "frequency", "swing", "slope"}};
 }
 /// Whether a norm is of one frame (then `at` chooses it), or over time (then `window` does).
 [[nodiscard]] constexpr bool is_spatial(Norm norm) {
   return norm == Norm::L1 || norm == Norm::L2 || norm == Norm::L2raw || norm == Norm::Linf ||
          norm == Norm::chi;
 }
+
+/// Whether a norm looks at how a single number swings: it then does not matter what is subtracted from it.
+[[nodiscard]] constexpr bool swings(Norm norm) { return norm == Norm::frequency || norm == Norm::swing; }
 
 /// For a run: the form of the model that our solver made it in; none for a foreign engine. For a gate or a
 /// study: the runs that it judges. none = all; not paper = every engine's but ours in the printed form. In

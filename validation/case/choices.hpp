@@ -28,6 +28,7 @@ struct MetricChoice {
   std::string name, quantity, body, at = "end";
   Norm norm = Norm::max;
   std::array<double, 2> window{0.0, 0.0};    ///< [s]; {0, 0} = all
+  double average = 0.0;                      ///< around each output time [s]; 0 = none
   double scale = 1.0;                        ///< error is divided by it
   std::string unit;                          ///< of the scaled value, for people
   std::optional<ReferenceChoice> reference;  ///< overrides the case's

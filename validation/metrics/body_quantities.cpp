@@ -68,7 +68,7 @@ FrameError stated_vector(const FramePair& f, Vec3 BodyState::*what, const char* 
 /// A vector of bodies against those of the reference, else against the number that the case states.
 Quantity vector_of_bodies(const char* name, const char* unit, const char* meaning, Vec3 BodyState::*what) {
   return {{name, unit, meaning}, [=](const FramePair& f) {
-            if (f.truth.bodies.empty()) return stated_vector(f, what, name);
+            if (f.truth.bodies.empty() || swings(f.in.choice.norm)) return stated_vector(f, what, name);
             return over_bodies(f, [&](const BodyState& a, const BodyState& b) {
               return norm(what == &BodyState::position ? displacement(f.in.job.scene, a.position, b.position)
                                                        : a.*what - b.*what);

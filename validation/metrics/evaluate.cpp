@@ -7,13 +7,12 @@
 #include "files/gauge_error.hpp"
 #include "tables/nearest.hpp"
 #include "tables/units.hpp"
-#include "validation/metrics/dominant_frequency.hpp"
 #include "validation/metrics/frame_error.hpp"
 #include "validation/metrics/frames.hpp"
 #include "validation/metrics/impact_quantities.hpp"
 #include "validation/metrics/members.hpp"
 #include "validation/metrics/norms.hpp"
-#include "validation/metrics/statistics.hpp"
+#include "validation/metrics/series.hpp"
 
 namespace tripoint {
 namespace {
@@ -101,111 +100,6 @@ void refuse_another_unit(const MetricChoice& choice) {
                                        ": write scale = " + number_text(factor) + ", or another unit");
 }
 
-/// Errors of all chosen frames under one norm in space, and their norm in time.
-struct Series {
-  std::vector<double> times, value, uncertainty;
-  std::vector<long> worst;
-};
-
-double rms_over_time(const Series& s) {
-  if (s.value.size() == 1) return std::abs(s.value[0]);
-  double integral = 0.0;
-  for (std::size_t n = 1; n < s.value.size(); ++n)
-    integral +=
-        0.5 * (s.times[n] - s.times[n - 1]) * (s.value[n] * s.value[n] + s.value[n - 1] * s.value[n - 1]);
-  return std::sqrt(integral / (s.times.back() - s.times.front()));
-}
-
-double mean_over_time(const Series& s) {
-  if (s.value.size() == 1) return s.value[0];
-  double integral = 0.0;
-  for (std::size_t n = 1; n < s.value.size(); ++n)
-    integral += 0.5 * (s.times[n] - s.times[n - 1]) * (s.value[n] + s.value[n - 1]);
-  return integral / (s.times.back() - s.times.front());
-}
-
-/// Trend of the error [unit/s] and its standard error.
-std::pair<double, double> slope_over_time(const Series& s) {
-  const double n = static_cast<double>(s.value.size());
-  double t0 = 0.0, y0 = 0.0, tt = 0.0, ty = 0.0, rest = 0.0;
-  for (std::size_t i = 0; i < s.value.size(); ++i) {
-    t0 += s.times[i] / n;
-    y0 += s.value[i] / n;
-  }
-  for (std::size_t i = 0; i < s.value.size(); ++i) {
-    tt += (s.times[i] - t0) * (s.times[i] - t0);
-    ty += (s.times[i] - t0) * (s.value[i] - y0);
-  }
-  for (std::size_t i = 0; i < s.value.size(); ++i)
-    rest += std::pow(s.value[i] - y0 - ty / tt * (s.times[i] - t0), 2);
-  return {ty / tt, n > 2.0 ? std::sqrt(rest / (n - 2.0) / tt) : not_a_number};
-}
-
-/// Mean after the burn-in with the error that blocks of it show; a series too short for a plateau has no
-/// value.
-MetricValue stationary(const Series& s, MetricValue v) {
-  const auto m = stationary_mean(s.value);
-  if (!std::isfinite(m.value))
-    return unformed("a stationary mean needs eight finite output times or more in its window");
-  v.value = m.value;
-  v.uncertainty.statistical =
-      std::max(m.uncertainty, *std::max_element(s.uncertainty.begin(), s.uncertainty.end()));
-  v.note = std::to_string(m.burn_in) + " samples of burn-in cut, " +
-           std::to_string(static_cast<long>(m.effective)) + " independent ones left" +
-           (m.plateau ? "" : ", no plateau yet");
-  return v;
-}
-
-/// The dominant frequency less the one that the case states: of a damped or uneven swing as of a sine.
-MetricValue frequency(const MetricInput& in, const Series& s) {
-  MetricValue v;
-  v.times = s.times;
-  v.series = s.value;
-  const auto truth = in.reference.number("stated_frequency");
-  if (!truth)
-    return unformed(
-        "the norm frequency needs the true one in Hz: reference = {function = \"stated\", args = {frequency "
-        "= ...}}");
-  const auto found = dominant_frequency(s.times, s.value);
-  if (!found.problem.empty()) return unformed(found.problem);
-  v.value = found.frequency - *truth;
-  v.uncertainty.numerical = found.uncertainty;
-  v.note = std::to_string(found.frequency) + " Hz against " + std::to_string(*truth) + ", amplitude " +
-           std::to_string(found.amplitude) + ", " + std::to_string(100.0 * found.share) +
-           " % of the variance";
-  return v;
-}
-
-MetricValue over_time(Norm norm, const Series& s) {
-  MetricValue v;
-  v.times = s.times;
-  v.series = s.value;
-  std::size_t k = s.value.size() - 1;
-  if (norm == Norm::rms) {
-    v.value = rms_over_time(s);
-    v.uncertainty.statistical = *std::max_element(s.uncertainty.begin(), s.uncertainty.end());
-    return v;
-  }
-  if (norm == Norm::mean) {
-    v.value = mean_over_time(s);
-    v.uncertainty.statistical = *std::max_element(s.uncertainty.begin(), s.uncertainty.end());
-    return v;
-  }
-  if (norm == Norm::stationary) return stationary(s, v);
-  if (norm == Norm::slope) {
-    if (s.value.size() < 2) return unformed("a slope needs two output times or more");
-    std::tie(v.value, v.uncertainty.numerical) = slope_over_time(s);
-    return v;
-  }
-  if (norm != Norm::final)  // the largest in time: max, drift, and a norm in space at all times
-    for (std::size_t n = 0; n < s.value.size(); ++n) k = std::abs(s.value[n]) > std::abs(s.value[k]) ? n : k;
-  v.value = norm == Norm::final ? s.value[k] : std::abs(s.value[k]);
-  v.uncertainty.statistical = s.uncertainty[k];
-  v.note = "at t = " + std::to_string(s.times[k]) + " s" +
-           (s.worst[k] >= 0 ? ", row " + std::to_string(s.worst[k]) : "");
-  return v;
-}
-
 /// Each sample's mean error over the window first, then L2: the error that is left when a settling medium
 /// still swings.
 MetricValue l2_of_means(const MetricInput& in, const Quantity& quantity, const Frames& all,
@@ -238,25 +132,53 @@ void subtract_start(FrameError& now, const Quantity& quantity, const MetricInput
   if (start.problem.empty()) now.error[0] -= start.error[0];
 }
 
+/// Whether a value is one number in time; a frequency or an average of many samples has no meaning.
+std::string one_number_trouble(const MetricInput& in, const FrameError& error) {
+  const bool swing = swings(in.choice.norm);
+  if ((!swing && !(in.choice.average > 0.0)) || error.error.size() == 1) return {};
+  return (swing ? "the norm " + std::string(to_string(in.choice.norm)) : std::string("`average`")) +
+         " is of a single number in time, and " + in.choice.quantity +
+         " is of many: choose a probe, a mean or a body";
+}
+
+/// The frames that an average around the chosen ones takes in.
+Frames frames_seen(const MetricInput& in, const Frames& all, const Frames& chosen) {
+  if (!(in.choice.average > 0.0)) return chosen;
+  const double reach = 0.5 * in.choice.average + time_tolerance(in.job);
+  Frames seen;
+  for (const auto* f : all)
+    if (f->time >= chosen.front()->time - reach && f->time <= chosen.back()->time + reach) seen.push_back(f);
+  return seen;
+}
+
+MetricValue norm_in_time(const MetricInput& in, const Series& series) {
+  if (in.choice.norm == Norm::frequency) return frequency_of(in, series);
+  if (in.choice.norm == Norm::swing) return swing_of(in, series);
+  return over_time(in.choice.norm, series);
+}
+
 MetricValue of_frames(const MetricInput& in, const Quantity& quantity, const Frames& all,
                       const Frames& chosen) {
   const Norm norm = in.choice.norm;
+  const bool averages = in.choice.average > 0.0;
+  if (averages && (norm == Norm::L2mean || norm == Norm::chi))
+    return unformed("`average` goes with every norm but L2mean and chi");
   if (norm == Norm::L2mean) return l2_of_means(in, quantity, all, chosen);
-  const Norm in_space = is_spatial(norm) ? norm : norm == Norm::rms ? Norm::L2 : Norm::Linf;
+  const bool signed_values = averages || !(is_spatial(norm) || norm == Norm::rms);
+  const Norm in_space = signed_values ? Norm::Linf : norm == Norm::rms ? Norm::L2 : norm;
   Series series;
-  for (const auto* now : chosen) {
+  for (const auto* now : frames_seen(in, all, chosen)) {
     const bool no_state = norm == Norm::drift || norm == Norm::frequency || now->gauges_only();
     const Snapshot truth = no_state ? *all.front() : in.reference.truth_for(*now);
     auto error = quantity.error({in, *now, truth, *all.front()});
     if (norm == Norm::drift) subtract_start(error, quantity, in, *all.front());
     // It needs the last frame alone
-    if (!error.problem.empty() && norm == Norm::final && now != chosen.back()) continue;
+    const bool unasked = norm == Norm::final && !averages && now != chosen.back();
+    if (!error.problem.empty() && unasked) continue;
     if (!error.problem.empty()) return unformed(error.problem);
-    if (norm == Norm::frequency && error.error.size() != 1)
-      return unformed("the norm frequency is of a single number in time, and " + in.choice.quantity +
-                      " is of many: choose a probe, a mean or a body");
+    if (const auto why = one_number_trouble(in, error); !why.empty()) return unformed(why);
     const auto value = spatial_norm(in_space, error);
-    if (!std::isfinite(value.value) && norm == Norm::final && now != chosen.back()) continue;
+    if (!std::isfinite(value.value) && unasked) continue;
     if (!std::isfinite(value.value))
       return unformed("no finite value at t = " + std::to_string(now->time) + " s");
     series.times.push_back(now->time);
@@ -264,7 +186,13 @@ MetricValue of_frames(const MetricInput& in, const Quantity& quantity, const Fra
     series.uncertainty.push_back(value.uncertainty);
     series.worst.push_back(value.worst);
   }
-  MetricValue v = norm == Norm::frequency ? frequency(in, series) : over_time(norm, series);
+  if (averages) {
+    std::vector<double> kept;
+    for (const auto* now : chosen) kept.push_back(now->time);
+    if (const auto why = average_over(series, in.choice.average, kept, time_tolerance(in.job)); !why.empty())
+      return unformed(why);
+  }
+  MetricValue v = norm_in_time(in, series);
   for (const auto* now : chosen)  // that of the last frame for the last value, else the largest
     if (norm != Norm::final || now == chosen.back())
       v.uncertainty.data =
@@ -348,6 +276,9 @@ MetricValue evaluate(const MetricChoice& choice, const Job& job, const InitialSt
   if (gauged || chosen.back()->gauges_only()) {
     value = of_gauges(in, frames.list, chosen);
   } else if (const auto* whole = find_run_quantity(choice)) {
+    if (choice.average > 0.0)
+      return unformed("`average` is of a quantity at output times, and " + choice.quantity +
+                      " is of the whole run");
     value = whole->value(in, frames_in_window(choice, job, frames.list));
     if (choice.norm != Norm::final) value.value = std::abs(value.value);
   } else {
@@ -361,7 +292,7 @@ MetricValue evaluate(const MetricChoice& choice, const Job& job, const InitialSt
 
 std::optional<double> value_of_series(const MetricChoice& choice, const MetricValue& stored) {
   if (stored.series.empty() || stored.series.size() != stored.times.size() || choice.norm == Norm::L2mean ||
-      choice.norm == Norm::frequency || find_run_quantity(choice))
+      swings(choice.norm) || find_run_quantity(choice))
     return {};
   const std::vector<double> nothing(stored.series.size(), 0.0);
   return over_time(choice.norm,
@@ -422,6 +353,8 @@ const std::vector<MetricWord>& metric_norms() {
        "frequency of the best-fitting sine of a single number, minus the stated `frequency`; its numerical "
        "uncertainty is the "
        "fit's"},
+      {word(Norm::swing), "",
+       "half of greatest minus least of a single number over the window, minus the stated `amplitude`"},
       {word(Norm::slope), "1/s", "trend of the largest error over time, least squares"}};
   return words;
 }

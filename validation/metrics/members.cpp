@@ -4,9 +4,9 @@
 namespace tripoint {
 
 std::optional<double> truth_of(const MetricInput& in, const char* quantity, double time) {
-  // a frequency and a change since the start do not depend on where from they are counted
+  // a frequency, a swing and a change since the start do not depend on where from they are counted
   const auto norm = in.choice.norm;
-  if (norm == Norm::frequency || norm == Norm::drift) return 0.0;
+  if (swings(norm) || norm == Norm::drift) return 0.0;
   const auto named = in.reference.number_at(quantity, time);
   return named ? named : in.reference.number_at("value", time);
 }

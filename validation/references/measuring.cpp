@@ -53,6 +53,7 @@ std::vector<ReferenceArgument> measuring_arguments() {
           {"point", "m", "place of a probe; for a displacement the place at the start", ArgumentType::vector,
            true},
           {"frequency", "Hz", "true frequency, for the norm frequency"},
+          {"amplitude", "", "true amplitude, for the norm swing"},
           {"diffusivity", "m2/s", "true diffusivity, for the quantity of that name"}};
 }
 
@@ -76,6 +77,7 @@ Numbers stated_numbers(const ReferenceInput& in, const std::string& function) {
       throw InputError("argument `frequency` of reference function " + function + " must be greater than 0");
     n["stated_frequency"] = *value;
   }
+  if (const auto value = in.args.number("amplitude")) n["stated_amplitude"] = *value;
   if (const auto value = in.args.number("diffusivity")) n["diffusivity"] = *value;
   return n;
 }

@@ -15,7 +15,8 @@ namespace tripoint {
 /// The case's statement of the place and the object of the measurement. @throws InputError naming the
 /// function and the argument that is wrong
 [[nodiscard]] Measuring stated_measuring(const ReferenceInput&, const std::string& function);
-/// Numbers: gauge [1], stated_frequency [Hz], diffusivity [m2/s]. @throws InputError likewise
+/// Numbers: gauge [1], stated_frequency [Hz], stated_amplitude, diffusivity [m2/s]. @throws InputError
+/// likewise
 [[nodiscard]] Numbers stated_numbers(const ReferenceInput&, const std::string& function);
 
 }  // namespace tripoint

@@ -19,6 +19,8 @@ std::unique_ptr<Reference> make_stated(const ReferenceInput& in) {
 std::unique_ptr<Reference> make_self(const ReferenceInput& in) {
   Numbers n = stated_numbers(in, "self");
   n["value"] = 0.0;
+  n.emplace("stated_frequency", 0.0);
+  n.emplace("stated_amplitude", 0.0);
   return std::make_unique<Stated>(std::move(n), stated_measuring(in, "self"));
 }
 
