@@ -308,6 +308,8 @@ TEST(IdleKeys, FindWhatTheJudgeDoesNotRead) {
   EXPECT_EQ(found(scene() + cube() + truth + metric("norm = 'max'\nat = '0.5'"), "reads no `at`"), "warning");
   EXPECT_EQ(found(scene() + cube() + truth + metric("norm = 'L2'\nwindow = [0.1, 0.5]"), "reads no window"),
             "warning");
+  EXPECT_EQ(found(scene() + cube() + truth + metric("window = [0.1, 9.0]"), "lasts until 9 s"), "warning");
+  EXPECT_EQ(found(scene() + cube() + truth + metric("window = [0.1, 0.5]"), "lasts until"), "");
   EXPECT_EQ(found(scene() + cube() + truth + metric("") +
                       "[[study]]\naxis = 'time_step'\nlevels = [0.2, 0.1]\nseeds = 3\n",
                   "nothing is random"),

@@ -131,6 +131,13 @@ TEST(Preflight, WarnsOfWallsThinnerThanTheSupport) {
   EXPECT_EQ(told(scene_with(tank("0.3"), "gravity=[0,0,-9.81]"), "layer"), "");
 }
 
+TEST(Preflight, WarnsOfAWallThatTheSpacingDoesNotDivide) {
+  EXPECT_EQ(told(scene_with(tank("0.36"), "gravity=[0,0,-9.81]"), "does not divide the 0.36 m"), "warning");
+  EXPECT_EQ(told(scene_with(tank("0.3"), "gravity=[0,0,-9.81]"), "does not divide"), "");
+  const auto dry = steel_box("floor", "[0,0,-0.36]", "[1,1,0]", "motion='fixed'");
+  EXPECT_EQ(told(scene_with(dry + steel_box("block", "[0,0,0]", "[0.5,0.5,0.5]")), "does not divide"), "");
+}
+
 TEST(Preflight, WarnsOfALiquidThatItsOwnWeightPressesTogether) {
   const auto with = [](const std::string& speed) {
     return scene_with(tank("0.3"), "gravity=[0,0,-9.81]\n[[material]]\nname='water'\nsound_speed=" + speed);

@@ -90,6 +90,54 @@ void thin_walls(const Scene& s, const InitialState& state, std::vector<Finding>&
   }
 }
 
+/// Whether a shape is made of boxes along the axes alone, which rows of particles can fill to their faces.
+bool is_of_boxes(const Shape& shape) {
+  if (is_turned(shape)) return false;
+  if (shape.kind == Shape::Kind::box) return true;
+  const bool made = shape.kind == Shape::Kind::unite || shape.kind == Shape::Kind::difference;
+  return made && std::ranges::all_of(shape.of, is_of_boxes);
+}
+
+/// Greatest share of a spacing by which a wall's face may lie off its rows: a choice.
+constexpr double face_off = 0.05;
+
+/// Faces of the boxes of a wall, in spacings off the rows of its particles; the largest one.
+struct OffRows {
+  double off = 0.0, length = 0.0;
+  std::size_t axis = 0;
+};
+
+/// @param wall  bounds of the wall: its rows begin at the low corner, and a cut may reach beyond the others
+void look_at_faces(const Scene& s, const Shape& shape, const Bounds& wall, OffRows& worst) {
+  for (const Shape& part : shape.of) look_at_faces(s, part, wall, worst);
+  if (shape.kind != Shape::Kind::box) return;
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (is_endless(s, a) || (a == 1 && s.is_planar())) continue;
+    for (const double face : {shape.min[a], shape.max[a]}) {
+      const double length = face - wall.min[a], rows = length / s.spacing;
+      const double off = std::abs(rows - std::round(rows));
+      if (length > 0.0 && face <= wall.max[a] && off > worst.off) worst = {off, length, a};
+    }
+  }
+}
+
+/// Liquid meets a wall where its rows end, not where its face is drawn.
+void faces_off_rows(const Scene& s, std::vector<Finding>& found) {
+  for (const Body& b : s.bodies) {
+    if (!is_wall(b) || !is_of_boxes(b.shape)) continue;
+    OffRows worst;
+    look_at_faces(s, b.shape, bounds(b.shape), worst);
+    if (worst.off <= face_off) continue;
+    found.push_back(
+        {false,
+         fmt::format("body \"{}\": scene.spacing = {:g} m does not divide the {:.4g} m from its low "
+                     "side to a face along {}: its particles end {:.2g} m off that face; make the "
+                     "length a multiple of the spacing",
+                     b.name, s.spacing, worst.length, "xyz"[worst.axis], worst.off * s.spacing),
+         b.place});
+  }
+}
+
 /// Density at the foot of a column over that at its top, minus 1, where liquid counts as too soft. A choice:
 /// ten times what the default stiffness gives.
 constexpr double too_soft = 0.05;
@@ -232,6 +280,7 @@ std::vector<Finding> weak_containers(const Scene& s, const InitialState& state) 
   std::vector<Finding> found;
   if (!is_wet(s)) return found;
   thin_walls(s, state, found);
+  faces_off_rows(s, found);
   soft_liquids(s, found);
   return found;
 }

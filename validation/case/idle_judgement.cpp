@@ -70,6 +70,17 @@ void unread_time(IdleSearch& in, const MetricChoice& m) {
             m.name, m.norm, m.at));
 }
 
+/// A run has no output after its end.
+void measured_after_the_end(IdleSearch& in, const MetricChoice& m) {
+  const double end = in.scene.end_time;
+  if (m.window[1] > end * (1.0 + 1e-9))
+    in.warn(
+        in.given("metric." + m.name + ".window"),
+        fmt::format("metric \"{}\": its window lasts until {} s, and the run ends at end_time = {} s: run "
+                    "longer, or shorten the window",
+                    m.name, m.window[1], end));
+}
+
 /// Runs that differ by their seed alone differ in nothing where nothing is random.
 void unread_seeds(IdleSearch& in, const Study& s) {
   const auto may_be_random = [](const EngineChoice& e) {
@@ -90,7 +101,10 @@ void unread_seeds(IdleSearch& in, const Study& s) {
 
 void find_idle_judgement(IdleSearch& in) {
   unread_reference(in);
-  for (const MetricChoice& m : in.value.metrics) unread_time(in, m);
+  for (const MetricChoice& m : in.value.metrics) {
+    unread_time(in, m);
+    measured_after_the_end(in, m);
+  }
   for (const Gate& g : in.value.gates) can_fail(in, g);
   for (const Study& s : in.value.studies) unread_seeds(in, s);
 }
