@@ -18,29 +18,28 @@ MEANS = {
     "pressure": "pressure force as the gradient of an energy (7)",
     "density": "number density at walls and between liquids (4)",
     "state": "equation of state, not clamped where it must pull (9)",
+    "clamp": "no pressure below zero, which the paper does not have",
     "viscosity": "viscosity that keeps angular momentum (8)",
     "walls": "walls that press by the mean density of their face, and mirror the velocity",
-    "elastic": "strain in the turned frame (11)",
+    "elasticity": "strain in the turned frame (11), gradients at surfaces exact for curved displacements (8.7)",
     "hourglass": "energy against zero-energy modes (12)",
     "heat": "conduction with equal and opposite flows and a moment factor (21)",
     "phase": "latent heat and hysteresis (Fig. 5)",
     "rotation": "splitting of the free top (19)-(20)",
     "time": "kick-drift-kick, two-stage heat",
     "bulk_viscosity": "numerical bulk viscosity of liquids (8.4), which the paper does not have",
-    "bending": "gradients at surfaces that are exact for curved displacements (8.7), which the paper does not have",
     "contact_step": "steps that are short where solids touch alone (8.10), which the paper does not have",
-    "contact_stiffness": "solids that are stiffer than liquids where they touch (8.3), which the paper does not have",
-    "core_reach": "core that keeps pairs apart where the clamp leaves no pressure (8.3), which the paper does not have",
-    "face_pressure": "pressure on elastic solids at their face and not at the middles of their outer particles (8.3), "
+    "contact": "solids that are stiffer than liquids where they touch (8.3), which the paper does not have",
+    "core": "core that keeps pairs apart where the clamp leaves no pressure (8.3), which the paper does not have",
+    "contact_face": "pressure on elastic solids at their face and not at the middles of their outer particles (8.3), "
     "which the paper does not have",
-    "interface_weight": "pressure that is right on both sides of a level interface (8.3), which the paper does not "
-    "have",
-    "isotropic_shear": "central viscosity that resists shear alike in all directions of the lattice (8.5), which the "
-    "paper does not have",
+    "interface": "pressure that is right on both sides of a level interface (8.3), which the paper does not have",
+    "transport": "particles that a background pressure moves (8.3), which the paper does not have",
     "mean_pressure": "pressure of transported liquid as the mean over its neighbours (8.3), which the paper does not "
     "have",
     "sound_damping": "numerical bulk viscosity of liquid that nothing clamps (8.3), which the paper does not have",
-    "surface_weight": "pressure of half a layer's weight at a free surface (8.3), which the paper does not have",
+    "surface": "pressure of half a layer's weight at a free surface (8.3), which the paper does not have",
+    "heat_surface": "surfaces that exchange heat where they lie (8.6), which the paper does not have",
 }
 
 

@@ -29,7 +29,7 @@ namespace {
 constexpr const char* ablate_description =
     "Shows the effect of each correction. Each term in turn gets its printed form, and the metrics of\n"
     "each case are printed beside those of the corrected model. A term that the paper does not have is\n"
-    "left out instead, and its row has the name of its key (bulk_viscosity). OUT/ablation.json holds the\n"
+    "left out instead, and its row has its name in [model] (bulk_viscosity). OUT/ablation.json holds the\n"
     "table. In the folder of a report, its page \"what each correction buys\" shows it.\n"
     "  tripoint ablate                            the cases of the commit profile that run corrected\n"
     "  tripoint ablate heat/cosine-mode solid/rotation --out report";

@@ -16,10 +16,12 @@
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
 #include "scene/effect_rule.hpp"
+#include "scene/model.hpp"
 #include "scene/sample.hpp"
 #include "validation/campaign/case_names.hpp"
 #include "validation/campaign/suite.hpp"
 #include "validation/case/case_document.hpp"
+#include "validation/case/preflight.hpp"
 #include "validation/case/read_case.hpp"
 #include "validation/case/shape_match.hpp"
 #include "validation/results/json_text.hpp"
@@ -48,9 +50,26 @@ std::string origin(const Decision& d, const std::string& file) {
                               : fmt::format("given, {}:{}", d.place.file, d.place.line);
 }
 
-/// Why the number of an effect's key changes nothing in this scene; "" = it acts, is not set, or no effect
-/// brings it.
+/// Whether an effect of the scene has the form, or a form that stands for it.
+bool is_read(const Scene& scene, const ModelTerm& t) {
+  return std::ranges::any_of(effect_rules(), [&](const EffectRule& rule) {
+    return (&rule == t.rule || (t.term && reads_term(rule, *t.term))) && calls_for(scene, rule.name);
+  });
+}
+
+/// Why the form of a term changes nothing in this scene; "" = it acts, or leaves the term out.
+std::string why_idle(const Scene& scene, const ModelTerm& t) {
+  const ModelForm* form = form_in(scene, t);
+  if (!t.rule || !form || form == &t.forms.back()) return "";
+  if (is_read(scene, t)) return why_idle(scene, t, *form);
+  return t.rule->left_out ? t.rule->left_out(scene) : "";
+}
+
+/// Why a form of a term or the number of an effect's key changes nothing in this scene; "" = it acts, is not
+/// set, or no effect brings it.
 std::string why_idle(const Scene& scene, const Decision& d) {
+  for (const ModelTerm& t : model_terms())
+    if (d.key == fmt::format("model.{}", t.name)) return why_idle(scene, t);
   for (const EffectRule& rule : effect_rules())
     for (const EffectKey& key : rule.keys) {
       if (key.row.table != "scene" || d.key != fmt::format("scene.{}", key.row.name)) continue;
@@ -193,6 +212,7 @@ int explain(const ExplainOptions& options) {
     print(resolved_case(reading, options.set));
     return 0;
   }
+  for (const auto& f : old_keys(reading)) say("note: " + with_place(f));
   const Plan planned = plan_of(reading);
   const Scene scene = scene_for(reading.value, {});
   const auto trial = [&](long steps) {

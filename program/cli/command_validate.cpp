@@ -17,6 +17,8 @@
 #include "validation/campaign/timing.hpp"
 #include "validation/case/case.hpp"
 #include "validation/case/engine_names.hpp"
+#include "validation/case/preflight.hpp"
+#include "validation/case/read_case.hpp"
 #include "validation/judge/headroom.hpp"
 #include "validation/judge/judge.hpp"
 #include "validation/publish/report_files.hpp"
@@ -25,6 +27,7 @@
 #include "validation/results/interrupt.hpp"
 #include "validation/results/verdict.hpp"
 #include "validation/run/sandbox.hpp"
+#include "validation/run/trial.hpp"
 
 namespace tripoint {
 namespace {
@@ -213,6 +216,8 @@ int validate(ValidateOptions o) {
       o.suite.selection.engines.empty() ? engines.size() : o.suite.selection.engines.size();
   say(fmt::format("{} case{}, {} engine{}, into {}", cases.size(), cases.size() == 1 ? "" : "s", asked,
                   asked == 1 ? "" : "s", o.suite.out));
+  for (const Case& c : cases)
+    for (const Finding& f : old_keys(read_case(c.file))) say("note: " + with_place(f));
   o.suite.say = [](const std::string& line) { say(line); };
   if (!o.json) o.suite.on_case = [](const CaseResult& c) { print(case_line(c) + "\n"); };
   auto results = run_all(cases, engines, o);

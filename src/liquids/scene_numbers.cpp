@@ -71,9 +71,8 @@ bool uses_transport_velocity(const Scene& scene) {
       scene.bodies, [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; });
   if (free_bodies || scene.clamps())
     throw InputError(
-        "scene.transport_velocity is for liquid that fills its space, between walls at most: it needs clamp "
-        "= false and no free "
-        "body");
+        "the transport velocity is for liquid that fills its space, between walls at most: it needs "
+        "model.clamp = \"paper\" and no free body");
   return true;
 }
 

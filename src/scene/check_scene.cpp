@@ -70,8 +70,8 @@ class Checker : NameChecks {
                      "each term brings the kernel of its form (as printed poly6, spiky and the viscosity "
                      "kernel, corrected "
                      "Wendland C2), and none can have another: "
-                     "set the terms that are meant (modes.density, modes.pressure, modes.viscosity, "
-                     "modes.heat), or remove it");
+                     "set the terms that are meant (model.density, model.pressure, model.viscosity, "
+                     "model.heat), or remove it");
   }
 
   /// (21) and Fig. 5 as printed know one conductivity and one heat capacity of a material.
@@ -89,8 +89,8 @@ class Checker : NameChecks {
                   b.place),
             fmt::format("heat as printed knows one conductivity and one heat capacity of a material, and "
                         "\"{}\" has others when "
-                        "solid: write modes.{} = \"corrected\", or leave solid_conductivity and "
-                        "solid_heat_capacity out",
+                        "solid: let model.{} be corrected in every mode of case.modes, or leave "
+                        "solid_conductivity and solid_heat_capacity out",
                         m.name, one.name));
       }
     }

@@ -35,11 +35,14 @@ void each_effect_key(Owner& owner, std::string_view table, Visit visit) {
   }
 }
 
-/// Reads the keys that effects have in a table. @throws InputError as TableReader does
+/// Reads the keys that effects have in a table; old ones where they are given. @throws InputError as
+/// TableReader does
 template <class Owner>
 void read_effect_keys(TableReader& in, std::string_view table, Owner& owner, Reading& reading) {
   ValueReader read(in, reading);
-  each_effect_key(owner, table, [&](const Key& key, auto& value) { read(key, value); });
+  each_effect_key(owner, table, [&](const Key& key, auto& value) {
+    if (!key.old || in.has(key.name)) read(key, value);
+  });
 }
 
 }  // namespace tripoint

@@ -57,6 +57,12 @@ struct EffectKey {
   bool limit = false;
 };
 
+/// The row of a number of [scene] that old files have: a word of [model] says it now, or nothing does.
+[[nodiscard]] constexpr Key old_key(std::string_view name, Range range, std::string_view fallback,
+                                    std::string_view meaning) {
+  return {"scene", name, ValueType::number, "", range, fallback, "", "", meaning, true};
+}
+
 /// A key of [scene] that stands with those of no effect (scene_records.hpp), and acts where its effect is on.
 struct SceneKey {
   std::string_view name;
@@ -98,6 +104,7 @@ struct DeclaredTerm {
 struct ModelChoice {
   std::string_view name;
   std::vector<ModelForm> forms;
+  std::string_view why;  ///< reason of its default
 };
 
 /// A form that an effect brings to a term of another effect.

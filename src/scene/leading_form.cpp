@@ -25,29 +25,29 @@ bool none_printed(const Scene& s, const EffectRule& rule) {
   });
 }
 
-/// Whether [model] names a form that sets the key.
-bool set_by_form(const TomlNode* model, std::string_view key) {
-  if (!model) return false;
+/// The term of [model] whose given form sets the key; none where no word does.
+const ModelTerm* set_by_form(const TomlNode* model, std::string_view key) {
+  if (!model) return nullptr;
   for (const ModelTerm& t : model_terms()) {
     const TomlNode* word = model->find(t.name);
     if (!word) continue;
     const ModelForm* form = form_of_word(t, word->text);
     if (form && std::ranges::find(form->values, key, &std::pair<std::string_view, double>::first) !=
                     form->values.end())
-      return true;
+      return &t;
   }
-  return false;
+  return nullptr;
 }
 
-/// A given key that acts in the term's own form alone; empty where there is none.
-std::string_view key_of_own_form(const TableReader& in, const TomlNode* model, const Scene& own,
-                                 const Scene& with) {
+/// A given word or old key that acts in the term's own form alone; empty where there is none.
+std::string word_of_own_form(const TableReader& in, const TomlNode* model, const Scene& own,
+                             const Scene& with) {
   for (const EffectRule& rule : effect_rules())
-    for (const EffectKey& key : rule.keys)
-      if (key.row.table == "scene" && key.idle &&
-          (in.has(key.row.name) || set_by_form(model, key.row.name)) && key.idle(own).empty() &&
-          !key.idle(with).empty())
-        return key.row.name;
+    for (const EffectKey& key : rule.keys) {
+      if (key.row.table != "scene" || !key.idle || !key.idle(own).empty() || key.idle(with).empty()) continue;
+      if (in.has(key.row.name)) return fmt::format("scene.{}", key.row.name);
+      if (const ModelTerm* t = set_by_form(model, key.row.name)) return fmt::format("model.{}", t->name);
+    }
   return "";
 }
 
@@ -71,10 +71,10 @@ std::map<std::string_view, std::string> take_leading_forms(TableReader& top, con
       }
       Scene own = with;
       own.forms.erase(lead.term);
-      const std::string_view key = key_of_own_form(in, model, own, with);
-      if (key.empty()) s.forms[lead.term] = lead.form.word;
+      const std::string word = word_of_own_form(in, model, own, with);
+      if (word.empty()) s.forms[lead.term] = lead.form.word;
       reasons[lead.term.name] =
-          key.empty() ? "leads where liquid flows" : fmt::format("scene.{} is of this form", key);
+          word.empty() ? "leads where liquid flows" : fmt::format("{} is of this form", word);
     }
   return reasons;
 }

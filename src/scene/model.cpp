@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "scene/effect_keys.hpp"
+#include "scene/shared_terms.hpp"
 
 namespace tripoint {
 namespace {
@@ -23,7 +24,12 @@ const EffectRule* owner_of(const Term& t) {
 }
 
 ModelTerm term_of(const DeclaredTerm& one) {
-  ModelTerm t{one.name.empty() ? one.term.name : one.name, one.term, one.forms, owner_of(one.term)};
+  ModelTerm t{one.name.empty() ? one.term.name : one.name,
+              one.term,
+              one.forms,
+              owner_of(one.term),
+              "",
+              one.has_equation};
   for (const EffectRule& rule : effect_rules())
     for (const BroughtForm& brought : rule.forms)
       if (brought.term == one.term) t.forms.push_back(brought.form);
@@ -35,7 +41,7 @@ std::vector<ModelTerm> collected_terms() {
   std::vector<ModelTerm> list;
   for (const DeclaredTerm& one : declared_terms()) list.push_back(term_of(one));
   for (const EffectRule& rule : effect_rules())
-    for (const ModelChoice& one : rule.choices) list.push_back({one.name, {}, one.forms, &rule});
+    for (const ModelChoice& one : rule.choices) list.push_back({one.name, {}, one.forms, &rule, one.why});
   return list;
 }
 
@@ -128,11 +134,23 @@ std::string why_idle(const Scene& scene, const ModelTerm& t, const ModelForm& fo
   return why;
 }
 
-std::string shown(const Key& row, double number) {
-  if (row.type == ValueType::word)
-    return fmt::format("\"{}\"", split_words(row.words).at(static_cast<std::size_t>(number)));
-  if (row.type == ValueType::flag) return number != 0.0 ? "true" : "false";
-  return fmt::format("{}", number);
+std::vector<std::string> old_keys_of(const ModelTerm& t) {
+  std::vector<std::string> keys;
+  if (t.term) keys.push_back(fmt::format("modes.{}", t.term->name));
+  if (t.term == term::clamp) keys.emplace_back("clamp");
+  for (const ModelForm& form : t.forms)
+    for (const auto& [key, number] : form.values)
+      if (std::ranges::find(keys, key) == keys.end()) keys.emplace_back(key);
+  return keys;
+}
+
+const ModelTerm* term_of_old_key(std::string_view key) {
+  const auto has = [&](const ModelTerm& t) {
+    const auto keys = old_keys_of(t);
+    return std::ranges::find(keys, key) != keys.end();
+  };
+  const auto found = std::ranges::find_if(model_terms(), has);
+  return found == model_terms().end() ? nullptr : &*found;
 }
 
 std::vector<Key> model_keys() {
@@ -146,7 +164,9 @@ std::vector<Key> model_keys() {
       if (form.meaning.empty()) continue;
       meaning += fmt::format("{}`{}`: {}", meaning.empty() ? "" : ". ", form.word, form.meaning);
     }
-    const std::string_view note = t.term ? "by scene.mode and scene.modes" : "by the keys of [scene]";
+    const ModelForm* usual = t.term ? nullptr : form_in(Scene{}, t);
+    const std::string_view note =
+        usual ? kept(fmt::format("`{}`, {}", usual->word, t.why)) : "as scene.mode says";
     rows.push_back({"model", t.name, ValueType::word, "", Range::any, "=", note, kept(words), kept(meaning)});
   }
   return rows;

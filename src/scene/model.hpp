@@ -18,6 +18,8 @@ struct ModelTerm {
   std::optional<Term> term;          ///< of those with a printed form, whose last form is "paper"
   std::vector<ModelForm> forms;      ///< the last has no correction
   const EffectRule* rule = nullptr;  ///< whose term it is; none of the kernel and of time
+  std::string_view why{};            ///< reason of its default; none of those with a printed form
+  bool has_equation = true;          ///< that the paper prints (DeclaredTerm)
 };
 /// All that effects declare: those with a printed form first.
 [[nodiscard]] std::span<const ModelTerm> model_terms();
@@ -31,8 +33,10 @@ void choose(Scene&, const ModelTerm&, const ModelForm&);
 /// Why a form changes nothing in a scene, as none of its keys acts there; "" where it acts.
 [[nodiscard]] std::string why_idle(const Scene&, const ModelTerm&, const ModelForm&);
 
-/// The value of a key that a form sets, as a case file has it.
-[[nodiscard]] std::string shown(const Key& row, double number);
+/// Keys of [scene] by which old files say the form of a term: "core_reach", "modes.heat", "clamp".
+[[nodiscard]] std::vector<std::string> old_keys_of(const ModelTerm&);
+/// The term that an old key is of; none where no term has it.
+[[nodiscard]] const ModelTerm* term_of_old_key(std::string_view key);
 
 /// The rows of the table.
 [[nodiscard]] std::vector<Key> model_keys();

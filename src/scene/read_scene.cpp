@@ -45,17 +45,18 @@ void read_clamp(TableReader& in, Scene& s) {
     in.refuse("clamp", "scene.modes.clamp says the same: remove one of them");
 }
 
-/// The decision on a key of [scene] becomes that of the form that sets it.
-void decide_by_form(Reading& reading, std::string_view key, double number, std::string_view name) {
-  for (Decision& d : reading.decisions) {
-    if (d.key != fmt::format("scene.{}", key)) continue;
-    d.value = shown(key_row("scene", key), number);
-    d.reason = fmt::format("as model.{} says", name);
-  }
+/// The old key of [scene] that gives the form of a term; empty where none does.
+std::string given_old_key(const TableReader& in, const Scene& s, const ModelTerm& t) {
+  const auto keys = old_keys_of(t);
+  const auto given = std::ranges::find_if(keys, [&](const std::string& key) {
+    return in.has(key) || (key.starts_with("modes.") && s.modes_given.contains(*t.term) &&
+                           !(t.term == term::clamp && in.has("clamp")));
+  });
+  return given == keys.end() ? "" : *given;
 }
 
 /// [model]. @pre the keys of [scene] are read
-void read_model(TableReader& top, TableReader& in, Scene& s, Reading& reading) {
+void read_model(TableReader& top, const TableReader& in, Scene& s, Reading& reading) {
   const auto* node = top.composite("model");
   if (!node) return;
   TableReader model(*node, "model", "model", reading.decisions, scene_keys());
@@ -63,19 +64,13 @@ void read_model(TableReader& top, TableReader& in, Scene& s, Reading& reading) {
     const auto word = model.maybe_text(t.name);
     if (!word) continue;
     const ModelForm& form = *form_of_word(t, *word);
-    if (t.term && s.modes_given.contains(*t.term))
-      model.refuse(t.name, fmt::format("scene.{} gives the form too: remove one of them",
-                                       *t.term == term::clamp && in.has("clamp")
-                                           ? "clamp"
-                                           : "modes." + std::string(t.term->name)));
+    const std::string key = given_old_key(in, s, t);
+    const auto is_number = [&](const auto& one) { return one.first == key; };
+    if ((t.term && s.modes_given.contains(*t.term)) || std::ranges::any_of(form.values, is_number))
+      model.refuse(t.name, fmt::format("scene.{} gives the form too: remove one of them", key));
     choose(s, t, form);
-    // A run in another mode than the file's has every term in that one
-    if (t.term && s.modes_given[*t.term] == s.mode) s.modes_given.erase(*t.term);
-    for (const auto& [key, number] : form.values) {
-      if (in.has(key))
-        model.refuse(t.name, fmt::format("scene.{} gives the form too: remove one of them", key));
-      decide_by_form(reading, key, number, t.name);
-    }
+    // A run in another mode than the file's has every term of the paper in that one
+    if (t.term && t.has_equation && s.modes_given[*t.term] == s.mode) s.modes_given.erase(*t.term);
   }
 }
 
@@ -138,25 +133,29 @@ void read_scene_table(TableReader& in, Scene& s, RecordReader<Scene>& read, Read
   read.rest();
 }
 
-std::string show_form(const Scene& s, const ModelTerm& t) {
-  const ModelForm* form = form_in(s, t);
-  return form ? fmt::format("\"{}\"", form->word) : "by the keys of [scene]";
+/// The form of each term that [model] does not name, with its reason.
+void decide_forms(TableReader& top, TableReader& in, Scene& s) {
+  const auto reasons = take_leading_forms(top, in, s);
+  const TomlNode* model = top.composite("model");
+  for (const ModelTerm& t : model_terms()) {
+    if (model && model->find(t.name)) continue;
+    const ModelForm* form = form_in(s, t);
+    const auto reason = reasons.find(t.name);
+    const std::string key = given_old_key(in, s, t);
+    in.decisions().push_back({fmt::format("model.{}", t.name),
+                              form ? fmt::format("\"{}\"", form->word) : "between its words",
+                              !key.empty()              ? fmt::format("as scene.{} says", key)
+                              : reason != reasons.end() ? reason->second
+                              : t.term                  ? "as scene.mode"
+                                                        : std::string(t.why),
+                              false,
+                              {}});
+  }
 }
 
 void resolve_modes(TableReader& top, TableReader& in, Scene& s, RecordReader<Scene>& read) {
   s.resolve_modes();
-  const auto reasons = take_leading_forms(top, in, s);
-  const TomlNode* model = top.composite("model");
-  for (const ModelTerm& t : model_terms()) {
-    if (!t.term || s.modes_given.contains(*t.term) || (model && model->find(t.name))) continue;
-    const auto reason = reasons.find(t.name);
-    in.decisions().push_back({fmt::format("model.{}", t.name),
-                              show_form(s, t),
-                              reason == reasons.end() ? "as scene.mode" : reason->second,
-                              false,
-                              {}});
-  }
-  if (!in.has("clamp")) in.ruled("clamp", s.clamps() ? "true" : "false", "as modes.clamp");
+  decide_forms(top, in, s);
   const bool paper = s.all_printed();
   if (!read("support_ratio")) {
     s.support_ratio_given = true;

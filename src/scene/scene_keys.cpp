@@ -17,7 +17,7 @@ using enum Range;
 
 constexpr auto top_keys = std::to_array<Key>({
     {"", "scene", table, "", any, "!", "", "scene", "the simulated scene"},
-    {"", "model", table, "", any, "=", "the forms that scene.mode says", "model",
+    {"", "model", table, "", any, "=", "the forms that scene.mode and the defaults say", "model",
      "form of each term of the model"},
     {"", "material", tables, "", any, "=", "materials of the library serve by name", "material", "matter"},
     {"", "body", tables, "", any, "!", "", "body", "bodies, in the order of their rows"},
@@ -36,8 +36,8 @@ constexpr auto tables_of_scene = std::to_array<TableInfo>({
     {"scene", "[scene]", "The simulated scene."},
     {"model", "[model]",
      "The form of each term of the model, by a word that holds in every mode: `viscosity = \"morris\"`; "
-     "paper: as the "
-     "paper prints it. `mode`, `modes`, `clamp` and numbers of [scene] fill what is not given here."},
+     "paper: as the paper prints it. `scene.mode` says the form of a term of the paper that is not named "
+     "here."},
     {"material", "[[material]]", "A material. Names of the library bring the library's values."},
     {"body", "[[body]]", "A body."},
     {"keyframe", "keyframes = [{time, position, rotation}]", "Position and rotation at a time."},

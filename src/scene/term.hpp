@@ -14,7 +14,7 @@ namespace tripoint {
 
 enum class Mode { corrected, paper };
 
-/// `modes.NAME` of a case file.
+/// `model.NAME` of a case file, and `modes.NAME` of old ones.
 struct Term {
   std::string_view name;  ///< of text that lasts as long as the program
   std::uint64_t key = key_of(name);

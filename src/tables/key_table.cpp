@@ -46,14 +46,20 @@ std::vector<const Key*> KeyTable::of(std::string_view table) const {
 
 std::vector<std::string> KeyTable::names(std::string_view table) const {
   std::vector<std::string> names;
-  for (const auto* k : of(table)) names.emplace_back(k->name);
+  for (const auto* k : of(table))
+    if (!k->old) names.emplace_back(k->name);
   return names;
 }
 
-const Key& KeyTable::row(std::string_view table, std::string_view name) const {
+const Key* KeyTable::find(std::string_view table, std::string_view name) const {
   const auto found = std::find_if(rows_.begin(), rows_.end(),
                                   [&](const Key& k) { return k.table == table && k.name == name; });
-  assert(found != rows_.end());
+  return found == rows_.end() ? nullptr : &*found;
+}
+
+const Key& KeyTable::row(std::string_view table, std::string_view name) const {
+  const Key* found = find(table, name);
+  assert(found);
   return *found;
 }
 

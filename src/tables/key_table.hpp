@@ -42,6 +42,7 @@ struct Key {
   std::string_view note;     ///< reason of the fallback (or, where nothing is set, what that means)
   std::string_view words;    ///< allowed words, separated by blanks; of a table: its name in this list
   std::string_view meaning;  ///< one line
+  bool old = false;          ///< read in old files, and on no page: a word of [model] says it now
 
   [[nodiscard]] bool required() const { return fallback == "!"; }
 };
@@ -60,11 +61,15 @@ class KeyTable {
   [[nodiscard]] const std::vector<TableInfo>& tables() const { return tables_; }
   /// Rows of one table. Empty = no such table.
   [[nodiscard]] std::vector<const Key*> of(std::string_view table) const;
+  /// Names of one table that a new file may have.
   [[nodiscard]] std::vector<std::string> names(std::string_view table) const;
+  [[nodiscard]] bool has(std::string_view table, std::string_view name) const { return find(table, name); }
   /// @pre the key exists
   [[nodiscard]] const Key& row(std::string_view table, std::string_view name) const;
 
  private:
+  [[nodiscard]] const Key* find(std::string_view table, std::string_view name) const;
+
   std::vector<Key> rows_;
   std::vector<TableInfo> tables_;
 };

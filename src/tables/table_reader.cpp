@@ -153,7 +153,7 @@ TableReader::TableReader(const TomlNode& node, std::string_view table, std::stri
   auto known = keys.names(table);
   known.insert(known.begin(), extra.begin(), extra.end());
   for (const auto& [key, value] : node.members)
-    if (std::find(known.begin(), known.end(), key) == known.end()) {
+    if (std::find(known.begin(), known.end(), key) == known.end() && !keys.has(table, key)) {
       const auto taught = what_there_is_instead(key);
       throw InputError(value.key_place,
                        fmt::format("unknown key `{}`{}{}", printable(key),

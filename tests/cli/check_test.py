@@ -269,11 +269,11 @@ class Explain(unittest.TestCase):
             alone = self.idle(scene(falls) + BALL + bar + INVARIANT + LEDGER, folder)
             water = self.idle(scene(falls) + SUM + STONE + pool + INVARIANT + LEDGER, folder)
             ice = self.idle(scene(falls) + SUM + STONE + heat + ICE + wet + frozen + hot + INVARIANT + LEDGER, folder)
-        self.assertNotIn("scene.bending", alone)
-        self.assertIn("scene.bulk_viscosity", alone)
-        self.assertEqual(water["scene.bending"], "nothing is elastic")
-        self.assertNotIn("scene.bulk_viscosity", water)
-        self.assertIn("melts or freezes", ice["scene.bulk_viscosity"])
+        self.assertNotIn("model.elasticity", alone)
+        self.assertIn("model.bulk_viscosity", alone)
+        self.assertEqual(water["model.elasticity"], "nothing is elastic")
+        self.assertNotIn("model.bulk_viscosity", water)
+        self.assertIn("melts or freezes", ice["model.bulk_viscosity"])
 
 
 class Run(unittest.TestCase):

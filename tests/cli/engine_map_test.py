@@ -76,8 +76,10 @@ def block(keys, dt, end, size):
     """A periodic block of matter whose numbers are all 1, spacing 1."""
     domain = CUBE.format(*size).replace(", max", "\nmax")
     return (
-        f"[scene]\nspacing = 1.0\ntime_step = {dt!r}\nend_time = {end!r}\noutput_interval = {end!r}\nclamp = "
-        f'false\n{domain}\nperiodic = ["x", "y", "z"]\n' + keys + f'shape = {{ kind = "box", {CUBE.format(*size)} }}\n'
+        f"[scene]\nspacing = 1.0\ntime_step = {dt!r}\nend_time = {end!r}\noutput_interval = {end!r}\n"
+        f'{domain}\nperiodic = ["x", "y", "z"]\n[model]\nclamp = "paper"\n'
+        + keys
+        + f'shape = {{ kind = "box", {CUBE.format(*size)} }}\n'
     )
 
 

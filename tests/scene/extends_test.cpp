@@ -95,7 +95,7 @@ TEST_F(Extends, TakesFromTheOtherCaseWhatItDoesNotSay) {
 
 TEST_F(Extends, MergesTablesKeyByKey) {
   const auto r = variant(
-      "[scene]\nend_time = 2.0\n[scene.modes]\nheat = \"paper\"\n[engines.bullet]\nrequired = "
+      "[scene]\nend_time = 2.0\n[model]\nheat = \"paper\"\n[engines.bullet]\nrequired = "
       "true\n[case]\ntitle = "
       "\"Another\"\n");
   EXPECT_EQ(r.value.scene.end_time, 2.0);

@@ -8,9 +8,11 @@
 #include <set>
 
 #include "case_file.hpp"
+#include "scene/scene_keys.hpp"
 #include "scene/shared_terms.hpp"
 #include "validation/case/ablation.hpp"
 #include "validation/case/preflight.hpp"
+#include "validation/case/schema.hpp"
 
 namespace tripoint::test {
 namespace {
@@ -80,6 +82,10 @@ TEST(Model, SaysWhatTheKeysOfTheSceneSay) {
   same("bulk_viscosity = 0", "bulk_viscosity = 'none'");
   same("mean_pressure = 1\nsound_damping = 0.2", "mean_pressure = 'neighbours'\nsound_damping = 'bulk'");
   same("surface_exchange = 0", "heat_surface = 'held'");
+  same("bulk_viscosity = 1", "bulk_viscosity = 'thick'");
+  same("contact_step = 0.3", "contact_step = 'short-at-touch'");
+  same("clamp = false\ntransport_velocity = true", "clamp = 'paper'\ntransport = 'background'");
+  same("hourglass = 1", "hourglass = 'energy'");
 }
 
 TEST(Model, HoldsInEveryMode) {
@@ -96,10 +102,21 @@ TEST(Model, IsFilledByModeAndExplained) {
   const Decision* viscosity = decision(reading, "model.viscosity");
   ASSERT_TRUE(viscosity);
   EXPECT_TRUE(viscosity->given);
-  const Decision* form = decision(reading, "scene.viscosity_form");
-  ASSERT_TRUE(form);
-  EXPECT_EQ(form->value, "\"laplacian\"");
-  EXPECT_EQ(form->reason, "as model.viscosity says");
+  EXPECT_EQ(decision(reading, "scene.viscosity_form"), nullptr) << "an old key that is not given";
+  const Decision* core = decision(reading, "model.core");
+  ASSERT_TRUE(core);
+  EXPECT_EQ(core->value, "\"repulsive\"");
+  EXPECT_EQ(core->reason, "keeps pairs apart where the clamp leaves no pressure");
+}
+
+TEST(Model, SaysTheClampInEveryModeAsThePaperPrintsNone) {
+  const Case both =
+      read_text("[case]\nmodes = ['corrected', 'paper']\n" + pool("", "clamp = 'clamped'")).value;
+  for (const Mode mode : {Mode::corrected, Mode::paper}) {
+    RunChoice run;
+    run.mode = mode;
+    EXPECT_TRUE(scene_for(both, run).clamps()) << to_string(mode);
+  }
 }
 
 TEST(Model, RefusesAFormThatIsGivenTwiceAndAWordThatIsNone) {
@@ -120,9 +137,40 @@ TEST(Model, NotesEachOldKeyThatAWordSays) {
     return all;
   };
   EXPECT_EQ(notes("core_reach = 0\nisotropic_shear = 1"),
-            "scene.isotropic_shear = 1 is read for one more version: write model.viscosity = \"isotropic\"\n"
-            "scene.core_reach = 0 is read for one more version: write model.core = \"none\"\n");
-  EXPECT_EQ(notes("bulk_viscosity = 0.7\nviscosity_form = 'laplacian'"), "") << "a coefficient has no word";
+            "scene.core_reach = 0 is now model.core = \"none\"\n"
+            "scene.isotropic_shear = 1 is now model.viscosity = \"isotropic\"\n");
+  EXPECT_EQ(notes("clamp = false"), "scene.clamp = false is now model.clamp = \"paper\"\n");
+  EXPECT_EQ(notes("modes.heat = 'paper'"), "scene.modes.heat = \"paper\" is now model.heat = \"paper\"\n");
+  EXPECT_EQ(notes("transport_velocity = true\nclamp = false"),
+            "scene.clamp = false is now model.clamp = \"paper\"\n"
+            "scene.transport_velocity = true is now model.transport = \"background\"\n");
+  EXPECT_EQ(notes("bulk_viscosity = 0.7"),
+            "scene.bulk_viscosity = 0.7 acts, and no word of model.bulk_viscosity says it: numerical, thick, "
+            "none\n");
+  EXPECT_EQ(notes("bond_reach = 2.5"), "scene.bond_reach = 2.5 acts, and no word of [model] says it\n");
+  EXPECT_EQ(notes("contact_viscosity = 1"), "") << "a property, and no form of a term";
+}
+
+TEST(Model, TakesThePlaceOfWhatAnOldKeySaysInTheBaseAndTheOtherWayRound) {
+  const auto word = [](const std::string& base, const std::string& set, const char* name) {
+    return word_in(scene_for(read_text(base, {set}).value, {}), name);
+  };
+  EXPECT_EQ(word(pool("", "viscosity = 'morris'"), "scene.viscosity_form=central", "viscosity"), "central");
+  EXPECT_EQ(word(pool("viscosity_form = 'laplacian'"), "model.viscosity=isotropic", "viscosity"),
+            "isotropic");
+  EXPECT_EQ(word(pool("", "clamp = 'paper'"), "scene.clamp=true", "clamp"), "clamped");
+  EXPECT_EQ(word(pool("", "heat = 'paper'"), "scene.modes.heat=corrected", "heat"), "conservative");
+  EXPECT_EQ(word(pool("modes.heat = 'paper'"), "model.heat=conservative", "heat"), "conservative");
+}
+
+TEST(Model, HasNoOldKeyOnThePageNorInSuggestions) {
+  for (const ModelTerm& t : model_terms())
+    for (const std::string& key : old_keys_of(t))
+      if (scene_keys().has("scene", key)) {
+        EXPECT_TRUE(key_row("scene", key).old) << key;
+        EXPECT_EQ(case_reference_page().find("- `" + key + "`: number"), std::string::npos) << key;
+      }
+  EXPECT_EQ(refusal(pool("core_reech = 0")).find("core_reach"), std::string::npos);
 }
 
 TEST(Model, PutsATermBackToItsLastAndItsUsualForm) {

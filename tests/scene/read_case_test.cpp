@@ -212,8 +212,8 @@ TEST(ReadCase, RefusesPhasesThatCannotDiffer) {
                  {"case.toml:11", "would take up heat, 4000 J/kg"});
   const std::string unlike = melts + "t_melt=300\nlatent_heat=1000\nsolid_conductivity=2\n" + body;
   expect_refused("[case]\nmodes=['corrected','paper']\n" + unlike,
-                 {"case.toml:12", "heat as printed knows one conductivity", "modes.heat"});
-  EXPECT_NE(refusal(unlike, {"scene.modes.phase='paper'"}).find("modes.phase"), std::string::npos);
+                 {"case.toml:12", "heat as printed knows one conductivity", "model.heat"});
+  EXPECT_NE(refusal(unlike, {"model.phase='paper'"}).find("model.phase"), std::string::npos);
 }
 
 TEST(ReadCase, TakesNoSolidOfTheLibraryBesideAValueOfItsOwn) {
@@ -266,7 +266,7 @@ TEST(ReadCase, SurvivesFilesThatBreakParsers) {
 TEST(Overrides, ReplaceAnyKeyByTheSameChecks) {
   const auto r = read_text(
       six_lines, {"scene.spacing=0.1", "body.block.velocity=[1, 2, 3]", "material.steel.density=8000",
-                  "scene.gravity=[0,0,-9.81]", "scene.modes.heat='paper'"});
+                  "scene.gravity=[0,0,-9.81]", "model.heat='paper'"});
   EXPECT_EQ(r.value.scene.spacing, 0.1);
   EXPECT_EQ(r.value.scene.bodies[0].velocity.value, (Vec3{1, 2, 3}));
   EXPECT_EQ(r.value.scene.material("steel").density, 8000.0);
@@ -321,7 +321,7 @@ TEST(SceneFor, WhatFreezesJoinsAllThatItsBondsReachWherePhaseIsPrintedAndNearest
   const auto c = read_text(six_lines).value;
   EXPECT_EQ(scene_for(c, {}).merge_distance, 1.5);
   EXPECT_EQ(scene_for(c, paper).merge_distance, 2.12);
-  const auto printed = read_text(six_lines, {"scene.modes.phase=paper"});
+  const auto printed = read_text(six_lines, {"model.phase=paper"});
   EXPECT_EQ(printed.value.scene.merge_distance, 2.12);
   EXPECT_FALSE(decision(printed, "scene.merge_distance")->given);
   EXPECT_EQ(scene_for(read_text(six_lines, {"scene.merge_distance=1.2"}).value, paper).merge_distance, 1.2)
@@ -329,7 +329,7 @@ TEST(SceneFor, WhatFreezesJoinsAllThatItsBondsReachWherePhaseIsPrintedAndNearest
 }
 
 TEST(SceneFor, ResolvesModesAndSupportRatioForEachRun) {
-  const auto c = read_text(six_lines, {"scene.modes.heat=paper"}).value;
+  const auto c = read_text(six_lines, {"model.heat=paper"}).value;
   RunChoice paper;
   paper.mode = Mode::paper;
   paper.spacing = 0.1;
@@ -349,7 +349,7 @@ TEST(SceneFor, ResolvesModesAndSupportRatioForEachRun) {
 /// What the transport velocity moves is refused where it clamps.
 TEST(Ablation, KeepsTheClampOfACaseWhoseParticlesMoveByTheTransportVelocity) {
   for (const bool moves : {true, false}) {
-    auto c = read_text(six_lines, {"scene.clamp=false", "scene.modes.time=paper"}).value;
+    auto c = read_text(six_lines, {"model.clamp=paper", "model.time=paper"}).value;
     c.scene.transport_velocity = moves;
     const Scene s = scene_for(corrected(c), {});
     EXPECT_EQ(s.clamps(), !moves);

@@ -19,7 +19,7 @@ from scenes import SCENES
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("TRIPOINT", str(ROOT / "build/bin/tripoint"))
-BARE = {"scene.core_reach": 0, "scene.surface_weight": 0, "scene.bulk_viscosity": 0}
+BARE = {"model.core": "none", "model.surface": "none", "model.bulk_viscosity": "none"}
 SCHEMES = {
     "adjoint-wide": {"model.pressure": "adjoint", "scene.support_ratio": 3.2},
     "today": {},

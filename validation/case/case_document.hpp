@@ -46,6 +46,13 @@ void merge_case(TomlNode& base, TomlNode own);
 /// "metric.overlap", "study".
 void remove_keys(TomlNode& document, const TomlNode& remove);
 
+/// Whether a path is that of a key of [scene] that a word of [model] has replaced: "scene.core_reach".
+[[nodiscard]] bool is_old_key(std::string_view path);
+/// Erases what `base` says of the form of each term that `own` says anew, be it by a word or by an old key.
+void forget_forms(TomlNode& base, TomlNode& own);
+/// Erases an old key, and the word that says the same; nothing where neither is given. @pre is_old_key(path)
+void remove_form(TomlNode& document, std::string_view path);
+
 /// `invariants` become tables of `metric` and `gate`.
 void write_out_invariants(TomlNode& document);
 

@@ -154,7 +154,10 @@ void remove_item(TomlNode& document, const std::string& array, const std::string
 
 }  // namespace
 
-void merge_case(TomlNode& base, TomlNode own) { merge_table(base, std::move(own), ""); }
+void merge_case(TomlNode& base, TomlNode own) {
+  forget_forms(base, own);
+  merge_table(base, std::move(own), "");
+}
 
 void remove_keys(TomlNode& document, const TomlNode& remove) {
   if (remove.kind != Kind::array)
@@ -164,6 +167,10 @@ void remove_keys(TomlNode& document, const TomlNode& remove) {
     if (path.kind != Kind::text || path.text.empty())
       throw InputError(path.place,
                        "`remove` is an array of texts: write [\"scene.jitter\", \"engines.lammps\"]");
+    if (is_old_key(path.text)) {
+      remove_form(document, path.text);
+      continue;
+    }
     TomlNode* at = &document;
     std::string rest = path.text;
     for (auto dot = rest.find('.'); dot != std::string::npos && at->kind == Kind::table;

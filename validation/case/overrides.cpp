@@ -90,6 +90,18 @@ TomlNode& entry(TomlNode& array, const std::string& part, const std::string& tab
                                    : suggestion(part, names)));
 }
 
+/// A word of [model] or an old key that --set gives takes the place of the other.
+void forget_other_way(TomlNode& document, const std::vector<std::string>& parts, const TomlNode& value) {
+  if (parts.front() != "scene" && parts.front() != "model") return;
+  TomlNode own = value;
+  for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
+    TomlNode around;
+    around.members.emplace_back(*part, std::move(own));
+    own = std::move(around);
+  }
+  forget_forms(document, own);
+}
+
 }  // namespace
 
 void apply_override(TomlNode& document, const std::string& set) {
@@ -102,6 +114,7 @@ void apply_override(TomlNode& document, const std::string& set) {
   text.erase(0, std::min(text.find_first_not_of(' '), text.size()));
   const auto parts = split_path(path, set);
   TomlNode value = parse_value(text, set);
+  forget_other_way(document, parts, value);
   TomlNode* at = &document;
   for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
     auto* next = at->find(parts[i]);

@@ -30,7 +30,7 @@ struct Finding {
 /// from it.
 [[nodiscard]] std::vector<Finding> library_values(const CaseReading&);
 
-/// One note for each number of [scene] that a word of [model] says.
+/// One note for each given key of [scene] that is old, with the word of [model] that says the same.
 [[nodiscard]] std::vector<Finding> old_keys(const CaseReading&);
 
 /// Warnings of what the case's gates leave open. Nothing judges the case, so that `validate` would pass it

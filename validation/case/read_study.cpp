@@ -207,7 +207,7 @@ UncertainInput read_input(const TomlNode& node, std::size_t number, Reading& rea
   u.place = node.place;
   RecordReader(in, u, reading).each({"key", "low", "high"});
   if (u.key.find('.') == std::string::npos || u.key.find('=') != std::string::npos)
-    in.refuse("key", "write a key as --set takes it: scene.viscosity_form, material.water.viscosity");
+    in.refuse("key", "write a key as --set takes it: model.viscosity, material.water.viscosity");
   if (u.low == u.high) in.refuse("high", "low and high are the same: that is an exact input");
   return u;
 }

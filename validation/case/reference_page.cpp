@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include "scene/effect_rule.hpp"
+#include "scene/model.hpp"
 #include "scene/scene.hpp"
 #include "tables/text_table.hpp"
 #include "tables/units.hpp"
@@ -38,9 +39,9 @@ std::string type_words(const Key& k) {
   return fmt::format("{}: `{}`", text, fmt::join(split_words(k.words), "` `"));
 }
 
-/// None of [model]: the lines above its list say it of all.
+/// None of a term that follows scene.mode: the lines above its list say it of all.
 std::string default_words(const Key& k) {
-  if (k.required() || k.table == "model") return "";
+  if (k.required() || k.note == "as scene.mode says") return "";
   if (k.fallback.empty()) return fmt::format(" Not set: {}.", k.note);
   if (k.fallback == "=") return fmt::format(" Default: {}.", k.note);
   return fmt::format(" Default `{}`: {}.", k.fallback, k.note);
@@ -58,6 +59,7 @@ std::string begun(std::string_view meaning) {
 /// Keys that are not printed: tables of the file, which have a part of their own; names and keys that another
 /// part lists.
 bool is_elsewhere(const Key& k) {
+  if (k.old) return true;
   if (k.table.empty()) return k.type == ValueType::table || k.type == ValueType::tables;
   return k.table == "invariants" || k.table == "gates" || (k.table == "invariant" && k.name != "value");
 }
@@ -150,6 +152,24 @@ std::string ledger_page() {
          table.markdown() + "\n";
 }
 
+/// What keys of [scene] of old files are now.
+std::string old_keys_page() {
+  std::string out =
+      "`kernel` can only say what `scene.mode` says: each term brings the kernel of its form.\n\n"
+      "**Old keys of `[scene]`** act as they did, and a note says the word that says the same:\n";
+  for (const char* between = ""; const Key* k : case_keys().of("scene")) {
+    if (!k->old) continue;
+    const ModelTerm* t = term_of_old_key(k->name);
+    out += fmt::format("{}`{}`{}", between, k->name,
+                       k->name == "modes"   ? " (`modes.TERM` is the word of TERM)"
+                       : !t                 ? " (no word)"
+                       : t->name == k->name ? ""
+                                            : fmt::format(" (`{}`)", t->name));
+    between = ", ";
+  }
+  return out + ".\n\n";
+}
+
 }  // namespace
 
 std::string case_reference_page() {
@@ -170,14 +190,7 @@ std::string case_reference_page() {
   for (const auto& t : case_keys().tables()) {
     out += table_page(t);
     if (t.name == "invariants") out += invariants_page() + ledger_page();
-    if (t.name == "scene") {
-      out += "`modes.TERM` sets one term: `modes.heat = \"paper\"`. TERM: ";
-      for (const char* between = ""; const DeclaredTerm& one : declared_terms()) {
-        out += fmt::format("{}`{}`", between, one.term.name);
-        between = " ";
-      }
-      out += ".\n`kernel` can only say what `mode` says: each term brings the kernel of its form.\n\n";
-    }
+    if (t.name == "model") out += old_keys_page();
   }
   return out;
 }

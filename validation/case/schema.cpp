@@ -120,6 +120,7 @@ json key_schema(const Key& k) {
             std::string(k.fallback.empty() || k.fallback == "=" ? "" : std::string(k.fallback) + ", ") +
             std::string(k.note);
   s["description"] = text;
+  if (k.old) s["deprecated"] = true;
   return s;
 }
 

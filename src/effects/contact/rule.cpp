@@ -38,47 +38,45 @@ std::string called_for(const Scene& s) {
 std::string left_out(const Scene& s) {
   if (!calls_for(s, "pressure")) return liquid::why_none_summed(s);
   const std::string why = no_contact_stiffness(s);
-  return why.empty() ? "scene.contact_stiffness and scene.contact_step are 0" : why;
+  return why.empty() ? "contacts are as stiff as liquids, and their bound of the step always holds" : why;
 }
 
 std::vector<EffectKey> keys() {
-  using enum ValueType;
   using enum Range;
   return {
-      {{"scene", "contact_stiffness", number, "", not_negative, "0",
-        "contacts are as stiff as the scene's liquids", "",
-        "extra stiffness of solid contact: contacts use (1 + contact_stiffness) k (model 8.3). Only where "
-        "the state is "
-        "corrected, nothing freezes, and a solid is free"},
+      {old_key("contact_stiffness", not_negative, "0",
+               "extra stiffness of solid contact: contacts use (1 + contact_stiffness) k (model 8.3)"),
        {},
        no_contact_stiffness},
-      {{"scene", "contact_step", number, "", fraction, "0", "the contact bound always holds", "",
-        "fraction of the contact bound of the step while a free solid is pressed or about to be "
-        "(model 8.10). 0: the "
-        "bound always holds. Only where the scene clamps without time_step, density, pressure and state are "
-        "corrected, nothing "
-        "freezes, and a solid is free"},
+      {old_key("contact_step", fraction, "0",
+               "fraction of the contact bound of the step while a free solid is pressed or about to be "
+               "(model 8.10); 0: the bound always holds"),
        {},
        no_contact_step},
   };
 }
 
+std::vector<ModelChoice> choices() {
+  return {{"contact",
+           {{"stiff", "solids are 25 times as stiff where they touch (8.3)", {{"contact_stiffness", 24.0}}},
+            {"common", "as stiff as the scene's liquids", {{"contact_stiffness", 0.0}}}},
+           "a stiffer contact needs shorter steps"},
+          {"contact_step",
+           {{"at-touch", "the bound of contact holds near a touch alone (8.10)", {{"contact_step", 1.0}}},
+            {"short-at-touch", "0.3 of that bound", {{"contact_step", 0.3}}},
+            {"always", "it holds in every step", {{"contact_step", 0.0}}}},
+           "steps are those of the contact"}};
+}
+
 }  // namespace
 
 EffectRule rule() {
-  return {
-      .name = "contact",
-      .called_for = called_for,
-      .left_out = left_out,
-      .choices =
-          {{"contact",
-            {{"stiff", "solids are 25 times as stiff where they touch (8.3)", {{"contact_stiffness", 24.0}}},
-             {"common", "as stiff as the scene's liquids", {{"contact_stiffness", 0.0}}}}},
-           {"contact_step",
-            {{"at-touch", "the bound of contact holds near a touch alone (8.10)", {{"contact_step", 1.0}}},
-             {"always", "it holds in every step", {{"contact_step", 0.0}}}}}},
-      .keys = keys(),
-      .over_processes = true};
+  return {.name = "contact",
+          .called_for = called_for,
+          .left_out = left_out,
+          .choices = choices(),
+          .keys = keys(),
+          .over_processes = true};
 }
 
 }  // namespace tripoint::contact

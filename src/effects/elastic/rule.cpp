@@ -37,20 +37,12 @@ std::vector<EffectKey> keys() {
   using enum Range;
   static const std::string papers_support = fmt::format("{}", printed_support);
   return {
-      {{"scene", "hourglass", number, "", not_negative, "1", "holds 1.5 % at jitter 0.1", "",
-        "coefficient of the energy against zero-energy modes"},
+      {old_key("hourglass", not_negative, "1", "coefficient of the energy against zero-energy modes"),
        {},
        no_hourglass},
-      {{"scene", "bond_reach", number, "", above_one, papers_support,
-        "the paper's support, about 40 neighbours", "",
-        "reach of bonds and support of the kernel (17), in spacings, whatever support_ratio is"}},
-      {{"scene", "bending", number, "", fraction, "1", "bars bend and twist by their own stiffness", "",
-        "fraction of the bending correction, which makes gradients at surfaces exact for curved "
-        "displacements "
-        "(model 8.7); 0: none. "
-        "Only where elasticity is corrected"},
-       {},
-       no_bending},
+      {old_key("bond_reach", above_one, papers_support,
+               "reach of bonds and support of the kernel (17), in spacings")},
+      {old_key("bending", fraction, "1", "fraction of the bending correction (model 8.7)"), {}, no_bending},
       {{"material", "young_modulus", number, "Pa", positive, "", "not elastic", "", "E of the solid"},
        &Material::young_modulus},
       {{"material", "poisson_ratio", number, "", poisson, "", "not elastic", "", "of the solid, below 0.5"},
@@ -64,7 +56,8 @@ std::vector<DeclaredTerm> terms() {
       {{"second-order", "gradients at surfaces exact for curved displacements too (8.7)", {{"bending", 1.0}}},
        {"first-order", "exact for linear ones", {{"bending", 0.0}}}}};
   elasticity.name = "elasticity";
-  return {elasticity, {term::hourglass, {{"energy", "energy against modes without energy (8.7)"}}}};
+  return {elasticity,
+          {term::hourglass, {{"energy", "energy against modes without energy (8.7)", {{"hourglass", 1.0}}}}}};
 }
 
 void settle_material(TableReader& in, Material& m) {

@@ -8,6 +8,8 @@
 namespace tripoint::faces {
 namespace {
 
+constexpr const char* centres = "pressure acts at the middles of outer particles";
+
 std::string no_face_pressure(const Scene& s) {
   const std::string printed = printed_among(s, {term::density, term::pressure, term::state, term::elastic});
   if (!printed.empty()) return printed;
@@ -18,25 +20,20 @@ std::string no_face_pressure(const Scene& s) {
 
 std::string called_for(const Scene& s) {
   return calls_for(s, "pressure") && acting_number(s, "face_pressure") > 0.0
-             ? "scene.face_pressure: pressure acts at the faces of elastic solids"
+             ? "pressure acts at the faces of elastic solids"
              : "";
 }
 
 std::string left_out(const Scene& s) {
   if (!calls_for(s, "pressure")) return liquid::why_none_summed(s);
   const std::string why = no_face_pressure(s);
-  return why.empty() ? "scene.face_pressure is 0" : why;
+  return why.empty() ? centres : why;
 }
 
 std::vector<EffectKey> keys() {
-  using enum ValueType;
-  using enum Range;
   return {
-      {{"scene", "face_pressure", number, "", fraction, "0", "bodies of many particles hardly need it", "",
-        "fraction of the pressure on an elastic solid that acts at its face, not at its outer particles "
-        "(model "
-        "8.3). Only where "
-        "density, pressure, state and elasticity are corrected, nothing freezes and no solid can break"},
+      {old_key("face_pressure", Range::fraction, "0",
+               "fraction of the pressure on an elastic solid that acts at its face (model 8.3)"),
        {},
        no_face_pressure},
   };
@@ -51,7 +48,8 @@ EffectRule rule() {
       .left_out = left_out,
       .choices = {{"contact_face",
                    {{"face", "pressure acts at the faces of elastic solids (8.3)", {{"face_pressure", 1.0}}},
-                    {"centres", "at the middles of their outer particles", {{"face_pressure", 0.0}}}}}},
+                    {"centres", "at the middles of their outer particles", {{"face_pressure", 0.0}}}},
+                   "bodies of many particles hardly need it"}},
       .keys = keys(),
       .over_processes = true};
 }

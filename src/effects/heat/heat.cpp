@@ -21,9 +21,9 @@ void refuse_printed(const Scene& scene) {
   if (scene.mode_of(term::heat) != Mode::paper && scene.mode_of(term::phase) != Mode::paper) return;
   for (const Body& b : scene.bodies) {
     if (!b.temperature || !has_two_phases(scene.material(b.material))) continue;
-    throw InputError(
-        "heat as printed knows one conductivity and one heat capacity of a material, and " + b.material +
-        " has others when solid: write modes.heat = \"corrected\" and modes.phase = \"corrected\"");
+    throw InputError("heat as printed knows one conductivity and one heat capacity of a material, and " +
+                     b.material +
+                     " has others when solid: let both be corrected (model.heat, model.phase, case.modes)");
   }
 }
 

@@ -211,8 +211,8 @@ namespace {
 /// Why heat cannot pass the surface of a body, and what to write instead; empty = it can.
 std::string surface_refusal(const Scene& scene, const Body& b) {
   if (scene.mode_of(term::heat) == Mode::paper)
-    return "and heat as printed knows no surfaces: write modes.heat = \"corrected\", or hold a body beside "
-           "it";
+    return "and heat as printed knows no surfaces: let heat be corrected (model.heat, case.modes), or hold a "
+           "body beside it";
   if (b.motion != Motion::fixed || b.phase == Phase::liquid)
     return "and such a surface stays where it was laid: write motion = \"fixed\" for a solid body";
   if (scene.material(b.material).t_melt && calls_for(scene, "phase"))

@@ -47,7 +47,7 @@ std::vector<EffectKey> keys() {
   return {
       {{"scene", "heat_constant", number, "m2/s", not_negative, "0",
         "each material has its own, conductivity/(density heat_capacity)", "",
-        "the constant c of (21) of all matter, only where modes.heat is paper; 0: a constant for each "
+        "the constant c of (21) of all matter, only where model.heat is paper; 0: a constant for each "
         "material"},
        {},
        no_constant},
@@ -66,8 +66,8 @@ std::vector<EffectKey> keys() {
         "specific heat of the solid; `heat_capacity` is then the liquid's, `latent_heat` that at t_melt; a "
         "correction"},
        &Material::solid_heat_capacity},
-      {{"scene", "surface_exchange", number, "", not_negative, "1", "surfaces exchange heat where they lie",
-        "", "1: surface_temperature acts at the surface (model 8.6); 0: it holds the outermost particles"},
+      {old_key("surface_exchange", not_negative, "1",
+               "1: surface_temperature acts at the surface (model 8.6); 0: it holds the outermost particles"),
        {},
        no_held_surface},
       {{"material", "surface_temperature", number, "K", not_negative, "0", "nothing passes through surfaces",
@@ -125,7 +125,8 @@ EffectRule rule() {
                        {{"exchange",
                          "a held surface exchanges heat where it lies (8.6)",
                          {{"surface_exchange", 1.0}}},
-                        {"held", "its outermost particles are held", {{"surface_exchange", 0.0}}}}}},
+                        {"held", "its outermost particles are held", {{"surface_exchange", 0.0}}}},
+                       "surfaces exchange heat where they lie"}},
           .keys = keys(),
           .settle_material = settle_material,
           .ledger_entries = {{"thermal", "heat"}, {"latent", "heat of fusion"}},

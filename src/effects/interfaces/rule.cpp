@@ -24,26 +24,20 @@ std::string no_interface_weight(const Scene& scene) {
 
 std::string called_for(const Scene& s) {
   return calls_for(s, "pressure") && acting_number(s, "interface_weight") > 0.0
-             ? "scene.interface_weight: liquids of two densities have a weight"
+             ? "liquids of two densities have a weight"
              : "";
 }
 
 std::string left_out(const Scene& s) {
   if (!calls_for(s, "pressure")) return liquid::why_none_summed(s);
   const std::string why = no_interface_weight(s);
-  return why.empty() ? "scene.interface_weight is 0" : why;
+  return why.empty() ? "the scene asks for no right pressure at an interface" : why;
 }
 
 std::vector<EffectKey> keys() {
-  using enum ValueType;
-  using enum Range;
   return {
-      {{"scene", "interface_weight", number, "", fraction, "0", "only layers of two liquids need it", "",
-        "fraction of the energy of unlike pairs that corrects the pressure at a level interface of two "
-        "liquids "
-        "(model 8.3). Only "
-        "where density, pressure and state are corrected, the scene clamps, nothing freezes, and "
-        "liquids of two densities have a weight"},
+      {old_key("interface_weight", Range::fraction, "0",
+               "fraction of the energy of unlike pairs at an interface (model 8.3)"),
        {},
        no_interface_weight},
   };
@@ -59,7 +53,8 @@ EffectRule rule() {
                        {{"weighted",
                          "pressure is right on both sides of a level interface (8.3)",
                          {{"interface_weight", 1.0}}},
-                        {"none", "", {{"interface_weight", 0.0}}}}}},
+                        {"none", "", {{"interface_weight", 0.0}}}},
+                       "only layers of two liquids need it"}},
           .keys = keys(),
           .over_processes = true};
 }

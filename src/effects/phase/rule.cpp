@@ -43,7 +43,7 @@ std::vector<EffectKey> keys() {
         "", "heat of fusion"},
        &Material::latent_heat},
       {{"material", "softens", flag, "", any, "false", "full stiffness up to melting", "",
-        "stiffness falls with the liquid fraction. With solid = \"rigid\", young_modulus and modes.phase = "
+        "stiffness falls with the liquid fraction. With solid = \"rigid\", young_modulus and model.phase = "
         "\"paper\": elastic "
         "between t_solid and t_melt (Fig. 5)"},
        &Material::softens},

@@ -86,30 +86,20 @@ std::string no_core(const Scene& scene) {
   return scene.mode_of(term::pressure) == Mode::paper ? "the pressure is as printed, and has no core" : "";
 }
 
-/// Keys of the terms beside the equation of state of liquids (model 8.3, 8.4).
+/// Numbers of the terms beside the equation of state of liquids (model 8.3, 8.4).
 std::vector<EffectKey> pressure_keys() {
-  using enum ValueType;
   using enum Range;
   return {
-      {{"scene", "bulk_viscosity", number, "", not_negative, "0.2",
-        "damps the sound that a liquid's start emits", "",
-        "numerical bulk viscosity of liquids over rho0 c h, h the support (model 8.4); 0: none. Only where "
-        "the scene clamps, "
-        "density, pressure and state are corrected, and nothing freezes"},
+      {old_key("bulk_viscosity", not_negative, "0.2",
+               "numerical bulk viscosity of liquids over rho0 c h, h the support (model 8.4)"),
        {},
        liquid::no_compression_energy},
-      {{"scene", "core_reach", number, "", fraction, "0.9",
-        "keeps pairs apart where the clamp leaves no pressure", "",
-        "distance in spacings below which pressing pairs repel (model 8.3); 0: none. Only where the "
-        "pressure is corrected"},
+      {old_key("core_reach", fraction, "0.9",
+               "distance in spacings below which pressing pairs repel (model 8.3)"),
        {},
        no_core},
-      {{"scene", "surface_weight", number, "", not_negative, "0.5",
-        "half of its own weight lies above the middle of a layer", "",
-        "fraction of its weight that the topmost layer of a liquid bears as pressure (model 8.3); 0: none. "
-        "Only "
-        "where the scene "
-        "clamps, density, pressure and state are corrected, nothing freezes, and no body is free"},
+      {old_key("surface_weight", not_negative, "0.5",
+               "fraction of its weight that the topmost layer of a liquid bears as pressure (model 8.3)"),
        {},
        no_surface_weight},
   };
@@ -148,13 +138,17 @@ std::vector<DeclaredTerm> terms() {
 std::vector<ModelChoice> choices() {
   return {{"bulk_viscosity",
            {{"numerical", "of liquids, 0.2 rho0 c h (8.4)", {{"bulk_viscosity", 0.2}}},
-            {"none", "", {{"bulk_viscosity", 0.0}}}}},
+            {"thick", "rho0 c h", {{"bulk_viscosity", 1.0}}},
+            {"none", "", {{"bulk_viscosity", 0.0}}}},
+           "damps the sound that a liquid's start emits"},
           {"core",
            {{"repulsive", "pairs repel below 0.9 spacings (8.3)", {{"core_reach", 0.9}}},
-            {"none", "", {{"core_reach", 0.0}}}}},
+            {"none", "", {{"core_reach", 0.0}}}},
+           "keeps pairs apart where the clamp leaves no pressure"},
           {"surface",
            {{"weighted", "the topmost layer bears half of its weight (8.3)", {{"surface_weight", 0.5}}},
-            {"none", "", {{"surface_weight", 0.0}}}}}};
+            {"none", "", {{"surface_weight", 0.0}}}},
+           "half of its own weight lies above the middle of a layer"}};
 }
 
 void settle_material(TableReader& in, Material& m) {

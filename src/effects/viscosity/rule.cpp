@@ -31,20 +31,14 @@ std::string no_isotropic_shear(const Scene& s) {
 
 /// How liquids resist shear (model 8.5).
 std::vector<EffectKey> viscosity_keys() {
-  using enum ValueType;
   using enum Range;
+  Key form = old_key("viscosity_form", any, "\"central\"", "corrected viscosity");
+  form.type = ValueType::word;
+  form.words = "laplacian central";
   return {
-      {{"scene", "viscosity_form", word, "", any, "\"central\"",
-        "keeps angular momentum; right wherever a surface or body is free", "laplacian central",
-        "corrected viscosity; laplacian for wall-bounded shear only"},
-       &Scene::viscosity_form,
-       no_form_of_viscosity},
-      {{"scene", "isotropic_shear", number, "", fraction, "0",
-        "most flows soon leave the lattice of the start", "",
-        "fraction of the weights that make the lattice's resistance to shear isotropic (model 8.5). Only "
-        "where "
-        "viscosity is "
-        "corrected and central"},
+      {form, &Scene::viscosity_form, no_form_of_viscosity},
+      {old_key("isotropic_shear", fraction, "0",
+               "fraction of the weights that make the lattice's resistance to shear isotropic (model 8.5)"),
        {},
        no_isotropic_shear},
   };
@@ -68,7 +62,7 @@ std::vector<EffectKey> material_keys() {
   return {
       {{"material", "solid_viscosity", number, "Pa s", not_negative, "0",
         "a solid has scene.contact_viscosity", "",
-        "dynamic viscosity of the solid in (8), only where modes.viscosity is paper. With modes.phase paper "
+        "dynamic viscosity of the solid in (8), only where model.viscosity is paper. With model.phase paper "
         "it goes linearly to "
         "viscosity between t_solid and t_melt (Fig. 5)"},
        {},
