@@ -92,21 +92,21 @@ for pair, damping in set(carried.FORMS.values()):
 # Scene, form, steps, changes to the scene.
 RUNS = [
     ("mixture", "corrected", 3, []),
-    ("mixture", "corrected", 2, ["scene.viscosity_form='laplacian'"]),
-    ("mixture", "corrected", 2, ["scene.contact_stiffness=3"]),
-    ("mixture", "corrected", 3, ["scene.face_pressure=0.8", "scene.interface_weight=0.7"]),
+    ("mixture", "corrected", 2, ["model.viscosity='morris'"]),
+    ("mixture", "corrected", 2, ["model.contact='stiff'"]),
+    ("mixture", "corrected", 3, ["model.contact_face='face'", "model.interface='weighted'"]),
     ("mixture", "paper", 3, []),
     ("mixture", "corrected", 2, ["scene.modes={pressure='paper', heat='paper'}"]),
     ("mixture", "corrected", 2, ["model.pressure='adjoint'"]),
     ("basin", "corrected", 3, []),
-    ("basin", "corrected", 2, ["scene.viscosity_form='laplacian'"]),
-    ("basin", "corrected", 2, ["scene.isotropic_shear=0.7", "scene.core_reach=0.7"]),
+    ("basin", "corrected", 2, ["model.viscosity='morris'"]),
+    ("basin", "corrected", 2, ["scene.isotropic_shear=0.7", "scene.core_reach=0.7"]),  # numbers of old files
     ("basin", "paper", 2, []),
     ("vortices", "corrected", 3, []),
-    ("vortices", "corrected", 3, ["scene.mean_pressure=0.8", "scene.sound_damping=0.2"]),
+    ("vortices", "corrected", 3, ["model.mean_pressure='neighbours'", "model.sound_damping='bulk'"]),
     ("solids", "corrected", 5, []),  # a body splits
     ("solids", "corrected", 12, []),
-    ("solids", "corrected", 12, ["scene.bending=0.8"]),
+    ("solids", "corrected", 12, ["model.elasticity='first-order'"]),
     ("solids", "paper", 12, []),
     ("freezing", "corrected", 12, []),
     ("freezing", "paper", 12, []),
