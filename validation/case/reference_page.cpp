@@ -156,18 +156,14 @@ std::string ledger_page() {
 std::string old_keys_page() {
   std::string out =
       "`kernel` can only say what `scene.mode` says: each term brings the kernel of its form.\n\n"
-      "**Old keys of `[scene]`** act as they did, and a note says the word that says the same:\n";
-  for (const char* between = ""; const Key* k : case_keys().of("scene")) {
-    if (!k->old) continue;
+      "**Old keys of `[scene]`** act as they did, and a note says the word to write. They are now:\n\n"
+      "- `modes.TERM`: the word of TERM\n";
+  for (const Key* k : case_keys().of("scene")) {
+    if (!k->old || k->name == "modes") continue;
     const ModelTerm* t = term_of_old_key(k->name);
-    out += fmt::format("{}`{}`{}", between, k->name,
-                       k->name == "modes"   ? " (`modes.TERM` is the word of TERM)"
-                       : !t                 ? " (no word)"
-                       : t->name == k->name ? ""
-                                            : fmt::format(" (`{}`)", t->name));
-    between = ", ";
+    out += fmt::format("- `{}`: {}\n", k->name, t ? code(t->name) : "no word");
   }
-  return out + ".\n\n";
+  return out + "\n";
 }
 
 }  // namespace
