@@ -8,6 +8,10 @@
 #include <fstream>
 
 #include "files/job.hpp"
+#include "scene/model.hpp"
+#include "scene/scene_keys.hpp"
+#include "scene/shared_terms.hpp"
+#include "tables/table_reader.hpp"
 #include "validation/case/read_case.hpp"
 
 namespace tripoint {
@@ -25,6 +29,34 @@ std::string text_of(const fs::path& file) {
   if (!none && size > most_read) return "more than is read: " + std::to_string(size);
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// The number of a form, as an old key of [scene] said it; empty for a number that is the default.
+std::string line_of_number(const Key& row, double number) {
+  const std::string begin = "scene." + std::string(row.name) + "=";
+  if (row.type == ValueType::word)
+    return begin + "\"" + split_words(row.words).at(static_cast<std::size_t>(number)) + "\"\n";
+  if (row.type == ValueType::flag) return number != 0.0 ? begin + "true\n" : "";
+  return number == kept_number({}, row) ? "" : begin + show(number) + "\n";
+}
+
+/// A word of [model] as old files said it, so that a case that is only worded anew keeps its hash. Empty
+/// where they had no other way.
+std::vector<std::string> old_lines_of(const Decision& d) {
+  for (const ModelTerm& t : model_terms()) {
+    if (d.key != "model." + std::string(t.name)) continue;
+    const ModelForm* form = form_of_word(t, std::string_view(d.value).substr(1, d.value.size() - 2));
+    if (t.term == term::clamp)
+      return {form == &t.forms.back() ? "scene.clamp=false\n" : "scene.clamp=true\n"};
+    if (t.term && form == &t.forms.back())
+      return {"scene.modes." + std::string(t.term->name) + "=" + d.value + "\n"};
+    std::vector<std::string> lines;
+    for (const auto& [key, number] : form->values)
+      if (std::string line = line_of_number(key_row("scene", key), number); !line.empty())
+        lines.push_back(line);
+    return lines;
+  }
+  return {};
 }
 
 /// One key with its value, and with the contents of the file that it names.
@@ -66,8 +98,11 @@ std::optional<CaseHashes> case_hashes(const std::string& file) {
   const auto hash = [&](const auto& wanted) {
     std::vector<std::string> lines;
     for (const auto& d : reading.decisions)
-      if ((d.given || d.reason.starts_with("library, ")) && wanted(d.key))
-        lines.push_back(line_of(d, folder));
+      if ((d.given || d.reason.starts_with("library, ")) && wanted(d.key)) {
+        auto old = old_lines_of(d);
+        if (old.empty()) old.push_back(line_of(d, folder));
+        lines.insert(lines.end(), old.begin(), old.end());
+      }
     return hash_of(std::move(lines));
   };
   CaseHashes hashes;
