@@ -158,12 +158,8 @@ class State:
         )
 
 
-def faces(s):
-    """Pairs with an elastic particle whose pressure acts at its face (8.3), r_i - r_j measured there (d*) and its
-    length, and F^-1 of each particle: the identity of what is not elastic. None where the scene does not ask for it."""
-    share = s.scene["face_pressure"]
-    if share == 0 or not s.has("shape_rank") or any(s.printed(t) for t in ("density", "pressure", "state", "elastic")):
-        return None
+def inverse_deformations(s):
+    """Which particles are elastic and bonded in all directions, and F^-1 of each: the identity of all others."""
     elastic = (s.group == DEFORMABLE) & (s["shape_rank"] == 3)
     inverse, A = np.tile(np.eye(3), (s.n, 1, 1)), s.symmetric("shape_inverse")
     for i in np.flatnonzero(elastic):
@@ -172,6 +168,25 @@ def faces(s):
             for j, x, gradient, _ in s.bonds[i]
         )
         inverse[i] = np.linalg.inv(np.eye(3) + sum_of @ A[i])
+    return elastic, inverse
+
+
+def add_bond_load(s, k, T, size, force, scale):
+    """Adds what the load T on particle k does to its bonds."""
+    for j, _, gradient, _ in s.bonds[k]:
+        f = s["solid_volume"][j] * T @ gradient
+        force[k] += f
+        force[j] -= f
+        scale[[k, j]] += s["solid_volume"][j] * size * np.linalg.norm(gradient)
+
+
+def faces(s):
+    """Pairs with an elastic particle whose pressure acts at its face (8.3), r_i - r_j measured there (d*) and its
+    length, and F^-1 of each particle: the identity of what is not elastic. None where the scene does not ask for it."""
+    share = s.scene["face_pressure"]
+    if share == 0 or not s.has("shape_rank") or any(s.printed(t) for t in ("density", "pressure", "state", "elastic")):
+        return None
+    elastic, inverse = inverse_deformations(s)
     D = 0.5 * share * (np.einsum("iba,ibc->iac", inverse, inverse) - np.eye(3))
     at_face = s.d + np.einsum("iab,ijb->ija", D, s.d) + np.einsum("jab,ijb->ija", D, s.d)
     distance = np.sqrt(np.einsum("ijk,ijk->ij", s.d, at_face))
@@ -195,28 +210,36 @@ def face_forces(s):
         y = s.d[k] @ inverse[k].T
         load = -0.5 * s.scene["face_pressure"] * np.einsum("j,ja,jb->ab", pressure[k] * there[k], y, y)
         T = inverse[k].T @ load @ A[k]
-        size = np.abs(load).max() * np.abs(A[k]).max()
-        for j, _, gradient, _ in s.bonds[k]:
-            f = s["solid_volume"][j] * T @ gradient
-            force[k] += f
-            force[j] -= f
-            scale[[k, j]] += s["solid_volume"][j] * size * np.linalg.norm(gradient)
+        add_bond_load(s, k, T, np.abs(load).max() * np.abs(A[k]).max(), force, scale)
     return force, scale
 
 
-def interfaces(s):
+def interface_share(s):
+    """s of 8.3 where liquids sum their density."""
+    corrected = s.clamps and not any(s.printed(t) for t in ("density", "pressure", "state"))
+    return s.scene["interface_weight"] * (corrected and not s.has("liquid_fraction"))
+
+
+def interfaces(s, share):
     """a of 8.3 for pairs of unlike liquids [i, j], g.d with d = r_j - r_i, K and K'/r."""
     c, square = interface_kernel(s.scene["support_ratio"])
-    corrected = s.clamps and not any(s.printed(t) for t in ("density", "pressure", "state"))
-    on = corrected and not s.has("liquid_fraction")
     rho0, liquid = s.material("density"), s.group == LIQUID
     unlike = liquid[:, None] & liquid[None, :] & (s.distance < s.h)
-    a = np.where(unlike, 0.5 * s.scene["interface_weight"] * on * (rho0[:, None] - rho0[None, :]) * s.dx**6 / s.M, 0.0)
+    a = np.where(unlike, 0.5 * share * (rho0[:, None] - rho0[None, :]) * s.dx**6 / s.M, 0.0)
     g = np.array(s.scene["gravity"], dtype=float)
     g[s.periodic] = 0.0
     r2 = np.where(np.isfinite(s.r2), s.r2, 0.0)
     W, weight = wendland(s.distance, s.h), c + square * r2 / s.dx**2
     return a, g, -s.d @ g, weight * W, weight * s.slope_over_r + 2 * square / s.dx**2 * W
+
+
+def interface_force(s, share):
+    """The force of the energy of unlike pairs, and the sum of its magnitudes."""
+    a, g, along, K, K_slope = interfaces(s, share)
+    force = (a * K).sum(axis=1)[:, None] * g - ((a * along * K_slope)[..., None] * s.d).sum(axis=1)
+    distance = np.where(np.isfinite(s.distance), s.distance, 0.0)
+    size = np.abs(a) * (np.abs(K) * np.linalg.norm(g) + np.abs(along * K_slope) * distance)
+    return force, (s.condition * size).sum(axis=1)
 
 
 def summed(s, pairs):
@@ -378,14 +401,10 @@ def pressure_force(s):
             there[..., None] * d / np.where(laid, distance, 1.0)[..., None] - size[..., None] * away,
             0.0,
         ).sum(axis=1)
-    a, g, along, K, K_slope = interfaces(s)
-    total = total + (a * K).sum(axis=1)[:, None] * g - ((a * along * K_slope)[..., None] * s.d).sum(axis=1)
+    of_interfaces, interface_scale = interface_force(s, interface_share(s))
+    total = total + of_interfaces
     at_faces, scale = face_forces(s)
-    scale = scale + (
-        s.condition
-        * np.abs(a)
-        * (np.abs(K) * np.linalg.norm(g) + np.abs(along * K_slope) * np.where(np.isfinite(s.distance), s.distance, 0.0))
-    ).sum(axis=1)
+    scale = scale + interface_scale
     return total + at_faces, scale + (s.condition * np.where(s.acts, np.abs(size) + core, 0.0)).sum(axis=1)
 
 
@@ -406,7 +425,7 @@ def compression_energy(s):
     core = np.where(
         s.acts & (s.distance < reach), 0.25 * kappa * (reach - np.minimum(s.distance, reach)) ** 2, 0.0
     ).sum()
-    a, _, along, K, _ = interfaces(s)
+    a, _, along, K, _ = interfaces(s, interface_share(s))
     return U.sum() + core + 0.5 * (a * along * K).sum(), size.sum() + core + np.abs(a * along * K).sum()
 
 

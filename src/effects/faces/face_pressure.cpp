@@ -9,6 +9,7 @@
 #include "liquids/acting_pairs.hpp"
 #include "liquids/fields.hpp"
 #include "scene/effect_rule.hpp"
+#include "solids/bond_loads.hpp"
 #include "solids/solid_particles.hpp"
 
 namespace tripoint::faces {
@@ -142,27 +143,7 @@ void FacePressure::add_forces(State& state, const Rows& rows) {
                    shape.at(i);
   });
   state.hand_to_ghosts(load_);
-  load_bonds(state, rows);
-}
-
-/// As the force of strain energy, (12): F = -v_l T gradW(x_kl) on l and the opposite on k, T = dU/dF A of k.
-void FacePressure::load_bonds(State& state, const Rows& rows) const {
-  Particles& p = state.particles;
-  const auto id = p[field::id];
-  const auto volume = std::as_const(p)[field::solid_volume];
-  const auto F = triple(p, field::force);
-#pragma omp parallel for schedule(static) num_threads(state.threads)
-  for (std::size_t n = 0; n < bonded_.size(); ++n) {
-    const std::size_t i = bonded_[n];
-    if (!rows.has(i) || !state.owns(i)) continue;
-    const auto own = static_cast<std::size_t>(id[i]);
-    Vec3 f;
-    for (const Bond& b : state.bonds.of(own)) {
-      f += volume[p.row(b.other)] * (load_[own] * b.gradient);
-      f -= volume[i] * (load_[b.other] * state.bonds.of(b.other)[b.twin].gradient);
-    }
-    F.set(i, F.at(i) + f);
-  }
+  solid::add_bond_loads(state, rows, bonded_, load_);
 }
 
 }  // namespace tripoint::faces

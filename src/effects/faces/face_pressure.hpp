@@ -39,7 +39,6 @@ class FacePressure {
   void deform(State&);
   std::vector<char> find_pressed(const State&);
   void find_bonded(const State&, const std::vector<char>& pressed);
-  void load_bonds(State&, const Rows&) const;
   /// (I + D_i + D_j) d. @param i,j ids
   [[nodiscard]] Vec3 seen_at_face(std::size_t i, std::size_t j, const Vec3& d) const {
     return d + (measure_[i] + measure_[j]) * d;

@@ -4,20 +4,36 @@
 #include <vector>
 
 #include "effects/effect.hpp"
-#include "effects/interfaces/interface_weight.hpp"
 #include "liquids/changes.hpp"
 #include "liquids/fields.hpp"
+#include "liquids/interface_weight.hpp"
 #include "liquids/scene_numbers.hpp"
+#include "scene/effect_rule.hpp"
 #include "state/ordered_sum.hpp"
 
 /// Pressure is right on both sides of a level interface of two liquids (model 8.3).
 namespace tripoint::interfaces {
 namespace {
 
+double share_of(const Scene& scene) {
+  const double share = acting_number(scene, "interface_weight");
+  return share;
+}
+
+std::vector<double> densities_of_liquids(const State& state) {
+  const auto group = state.particles[field::group], rest = state.particles[field::rest_density];
+  std::vector<double> density(group.size());
+  for (std::size_t i = 0; i < group.size(); ++i) density[i] = group[i] == liquid_group ? rest[i] : 0.0;
+  return density;
+}
+
 class Interfaces : public Effect {
  public:
-  explicit Interfaces(const Scene& scene) : kernels_(liquid::pair_kernels(scene)), weight_(scene) {}
-  void bonds(State& state, const Rows& rows) override { weight_.add_forces(state, kernels_, rows); }
+  explicit Interfaces(const Scene& scene)
+      : kernels_(liquid::pair_kernels(scene)), weight_(scene, share_of(scene)) {}
+  void bonds(State& state, const Rows& rows) override {
+    weight_.add_forces(state, kernels_, densities_of_liquids(state), rows);
+  }
   void adopt(State& state) override {
     if (liquid::groups_changed(state)) weight_.clear();
   }
@@ -25,15 +41,16 @@ class Interfaces : public Effect {
   void renumber(State&) override { weight_.clear(); }
   void add_to(const State& state, Ledger& ledger) const override {
     std::vector<std::array<double, 1>> blocks;
+    const std::vector<double> density = densities_of_liquids(state);
     const auto energy = ordered_sums_of_all(state, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
-      if (i < state.neighbours->rows()) sum[0] += weight_.energy(state, kernels_, i);
+      if (i < state.neighbours->rows()) sum[0] += weight_.energy(state, kernels_, density, i);
     });
     ledger.energy["compression"] += energy[0];
   }
 
  private:
   PairKernels kernels_;
-  InterfaceWeight weight_;
+  liquid::InterfaceWeight weight_;
 };
 
 }  // namespace
