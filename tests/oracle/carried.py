@@ -26,10 +26,6 @@ class Pairs:
         self.z, self.rest, self.V = s["impedance"], s["liquid_rest_density"], s["carried_volume"]
         self.wall = self.z == 0
         self.f = np.where((s.distance < s.h) & ~both_solid(s), -s.slope_over_r, 0.0)
-        z_i, z_j = self.z[:, None], self.z[None, :]
-        with np.errstate(divide="ignore", invalid="ignore"):
-            between = np.where(z_i == z_j, 1.0, 2 * z_j / (z_i + z_j))
-        self.w = np.where((z_i == 0) | (z_j == 0), 1.0, between)
         self.same = (self.rest[:, None] == self.rest[None, :]) & ~self.wall[None, :]
         self.liquids = ~self.wall[:, None] & ~self.wall[None, :]
         B = s.symmetric("correction")
@@ -38,14 +34,13 @@ class Pairs:
 
     def sides(self, pair):
         """X and Y over f."""
-        w_i, w_j = self.w[..., None], self.w.T[..., None]
         if pair == "own":
-            return w_i * self.of_i, w_j * self.of_j
+            return self.of_i, self.of_j
         own = 0.5 if pair == "mean" else 0.0
-        X = w_i * (own * self.of_i + (1 - own) * self.of_j)
-        Y = w_j * (own * self.of_j + (1 - own) * self.of_i)
-        X[:, self.wall] = (w_i * self.of_i)[:, self.wall]
-        Y[self.wall] = (w_j * self.of_j)[self.wall]
+        X = own * self.of_i + (1 - own) * self.of_j
+        Y = own * self.of_j + (1 - own) * self.of_i
+        X[:, self.wall] = self.of_i[:, self.wall]
+        Y[self.wall] = self.of_j[self.wall]
         return X, Y
 
 
@@ -71,7 +66,7 @@ def moments(s):
     f = p.f * p.V[None, :]
     share = np.where(p.wall[None, :], p.V[None, :] * wendland(s.distance, s.h), 0.0)
     return [
-        total(s, (p.w * f)[..., None, None] * outer),
+        total(s, f[..., None, None] * outer),
         total(s, np.where(p.same, f, 0.0)[..., None, None] * outer),
         total(s, share),
     ]
@@ -98,7 +93,11 @@ def gradients(s, pair):
     A, A_size = total(s, dv[..., :, None] * G[..., None, :])
     slope, slope_size = total(s, (P[None, :] - P[:, None])[..., None] * G)
     X, Y = p.sides(pair)
-    along = p.w[..., None] * p.D if pair == "reverse plain" else X
+    along = p.D if pair == "reverse plain" else X
+    if s.has("face_rate.xx"):
+        e = s.symmetric("face_rate")
+        meet = (p.wall[:, None] != p.wall[None, :])[..., None]
+        dv = dv - np.where(meet, 0.5 * np.einsum("ijkl,ijl->ijk", e[:, None] + e[None, :], p.D), 0.0)
     return [
         (A @ inverse, A_size * size),
         (np.einsum("ikl,il->ik", inverse, slope), slope_size * size),
@@ -136,7 +135,32 @@ def pressure_force(s, pair):
     out = s["wall_pressure"]
     push = np.where(p.wall[None, :], out[:, None], 0.0) + np.where(p.wall[:, None], out[None, :], 0.0)
     inner = P[:, None, None] * X + P[None, :, None] * Y + push[..., None] * p.D
-    return model.summed(s, -(p.f * p.V[:, None] * p.V[None, :])[..., None] * inner)
+    pairs = model.summed(s, -(p.f * p.V[:, None] * p.V[None, :])[..., None] * inner)
+    return [sum(parts) for parts in zip(pairs, model.interface_force(s, 1.0), face_force(s))]
+
+
+def face_load(s):
+    """Of elastic particles that liquid touches: half the sum of f (x) d + d (x) f over liquids, f the force of pressure
+    on the solid."""
+    p = Pairs(s)
+    stress = (s["carried_pressure"] * p.V)[:, None, None] * s.symmetric("correction")
+    T = p.V[None, :, None, None] * stress[:, None] + p.V[:, None, None, None] * stress[None, :]
+    f = -np.where(p.wall[:, None] & ~p.wall[None, :], p.f, 0.0)[..., None] * np.einsum("ijkl,ijl->ijk", T, p.D)
+    fd = f[..., :, None] * p.D[..., None, :]
+    return total(s, 0.5 * (fd + fd.transpose(0, 1, 3, 2)))
+
+
+def face_force(s):
+    """What the loads do to bonds."""
+    force, scale = np.zeros((s.n, 3)), np.zeros(s.n)
+    if not s.has("face_load.xx"):
+        return force, scale
+    A, load = s.symmetric("shape_inverse"), s.symmetric("face_load")
+    elastic, inverse = model.inverse_deformations(s)
+    for k in np.flatnonzero(elastic & (s["touching"] > 0)):
+        size = np.abs(load[k]).max() * np.abs(A[k]).max()
+        model.add_bond_load(s, k, -0.5 * load[k] @ inverse[k].T @ A[k], size, force, scale)
+    return force, scale
 
 
 def viscous_force(s):
@@ -256,7 +280,7 @@ class Halfway:
 def sound_rate(s, half_step):
     """Divergence, share of liquids at solids, and what solids add to the divergence."""
     p, amid = Pairs(s), Halfway(s, half_step)
-    X = p.w[..., None] * np.einsum("ikl,ijl->ijk", s.symmetric("correction_halfway"), amid.D)
+    X = np.einsum("ikl,ijl->ijk", s.symmetric("correction_halfway"), amid.D)
     rate = amid.f * p.V[None, :] * np.einsum("ijk,ijk->ij", amid.v, X)
     touching = np.where(p.wall[:, None] & ~p.wall[None, :], amid.W * p.V[None, :], 0.0)
     added = np.where(p.wall[None, :] & ~p.wall[:, None], amid.W * s["displaced"][None, :], 0.0)
@@ -295,6 +319,10 @@ def compare_always(out, s, before):
         out.compare("slope of the sum 8.12", s.vector("summed_slope")[wet], *at(summed_slope(s)))
     for name, twin in zip(("touching", "pressed", "weighed"), at_solids(s)):
         out.compare("wall pressure 8.12", s[name][~wet], *dry(twin))
+    if s.has("face_load.xx"):
+        solid = ~wet & (s["touching"] > 0)
+        sums, scale = face_load(s)
+        out.compare("load of faces 8.12", s.symmetric("face_load")[solid], sums[solid], scale[solid])
 
 
 def compare(out, s, before):

@@ -48,7 +48,7 @@ hourglass energy 8.7 | plastic strain 8.8 | plastic strain of sheets and chains 
 8.8 |
 carried sum 8.12 | slope of the sum 8.12 | carried moments 8.12 | carried gradients 8.12 | \
 carried pressure force 8.12 | carried viscous force 8.12 | carried damping 8.12 | carried diffusion 8.12 | \
-sound rate 8.12 | sound force 8.12 | wall rate 8.12 | wall pressure 8.12 | \
+sound rate 8.12 | sound force 8.12 | load of faces 8.12 | wall rate 8.12 | wall pressure 8.12 | \
 number density of solids 8.12 | pressure force of solids 8.12"""
 TERMS = [t.strip() for t in TERMS.replace("\n", " ").split("|")]
 
@@ -83,6 +83,7 @@ PAIR_TERMS = {
     "PressureOfSolids": ["pressure force of solids 8.12"],
 }
 PAIR_TERMS |= {"CarriedWallRate": ["wall rate 8.12"], "CarriedWallPressure": ["wall pressure 8.12"]}
+PAIR_TERMS |= {"FaceRate": ["carried gradients 8.12"], "FaceLoad": ["load of faces 8.12"]}
 PAIR_TERMS |= {"SoundRate": ["sound rate 8.12"], "SoundForce": ["sound force 8.12"]}
 CARRIED_FORCES = [f"carried {what} 8.12" for what in ("pressure force", "viscous force", "damping", "diffusion")]
 for pair, damping in set(carried.FORMS.values()):

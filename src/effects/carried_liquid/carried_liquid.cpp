@@ -7,6 +7,7 @@
 #include "core/errors.hpp"
 #include "core/matrix3.hpp"
 #include "effects/carried_liquid/blended_inverse.hpp"
+#include "effects/carried_liquid/elastic_faces.hpp"
 #include "effects/carried_liquid/fields.hpp"
 #include "effects/carried_liquid/hydrostatic_start.hpp"
 #include "effects/carried_liquid/owned_columns.hpp"
@@ -17,6 +18,7 @@
 #include "effects/carried_liquid/surface_fill.hpp"
 #include "liquids/changes.hpp"
 #include "liquids/groups.hpp"
+#include "liquids/interface_weight.hpp"
 #include "liquids/predicted_velocities.hpp"
 #include "liquids/pressing_gravity.hpp"
 #include "liquids/scene_numbers.hpp"
@@ -89,6 +91,14 @@ Symmetric blended(Symmetric moment, double full, double rest, bool planar) {
   return blended_inverse(moment, std::cbrt(full * full), rest);
 }
 
+/// Of an interface between liquids, the share that its energy has.
+double interface_share(const Scene& scene) {
+  const std::vector<const Material*> all = liquids_of(scene);
+  const bool unlike =
+      std::ranges::any_of(all, [&](const Material* m) { return m->density != all.front()->density; });
+  return unlike ? 1.0 : 0.0;
+}
+
 Rows all_rows(const State& state) { return {0, state.particles.size()}; }
 
 class CarriedLiquid : public Effect {
@@ -99,7 +109,9 @@ class CarriedLiquid : public Effect {
         scheme_(scheme_of(scene)),
         fill_(scene.support_ratio, scene.space()),
         equation_{numbers_.stiffness * numbers_.reference, scene.clamps()},
-        solids_meet_(calls_for(scene, "pressure")) {}
+        solids_meet_(calls_for(scene, "pressure")),
+        elastic_(calls_for(scene, "elastic")),
+        interfaces_(scene, interface_share(scene)) {}
   void load(State&, const InitialState&) override;
   void kick(State& state, double dt) override {
     drifted_ = 0.0;
@@ -115,7 +127,9 @@ class CarriedLiquid : public Effect {
   void state(State&, const Rows&) override;
   void bonds(State&, const Rows&) override;
   void adopt(State&) override;
+  void renumber(State&) override { interfaces_.clear(); }
   void happen(State& state, const Happening&) override {
+    interfaces_.clear();
     set_groups(state);
     state.step_numbers[held_for] = -1.0;
   }
@@ -134,6 +148,7 @@ class CarriedLiquid : public Effect {
   void set_groups(State&) const;
   void set_volumes(State&) const;
   void run(State&, const PairTerm&, const Rows&, std::span<const double> where = {}) const;
+  void add(State&, const PairTerm&, const Rows&, std::span<const double> where = {}) const;
   void correct_gradients(State&, bool fresh) const;
   void correct_velocity_gradients(State&) const;
   void move_density(State&) const;
@@ -146,7 +161,10 @@ class CarriedLiquid : public Effect {
   Scheme scheme_;
   SurfaceFill fill_;
   CarriedState equation_;
-  bool solids_meet_;      ///< another effect has their forces, and the columns that both write to
+  bool solids_meet_;  ///< another effect has their forces, and the columns that both write to
+  bool elastic_;      ///< solids are elastic
+  ElasticFaces faces_;
+  liquid::InterfaceWeight interfaces_;
   double drifted_ = 0.0;  ///< since the last forces, within a step [s]
 };
 
@@ -187,12 +205,13 @@ void CarriedLiquid::load(State& state, const InitialState&) {
 
 /// What is born has its density before the energies of a change are taken.
 void CarriedLiquid::adopt(State& state) {
+  interfaces_.clear();
   state.step_numbers[held_for] = -1.0;
   const Change& change = state.change;
   for (const std::uint32_t id : change.born) set_material(state, state.particles.row(id));
   take_pressure_around(state, equation_, kernels_, change.born);
   const std::vector<std::size_t> touched = touched_rows(state, change.regrouped);
-  const double before = energy_of(state, equation_, kernels_, touched, 0.5 * drifted_);
+  const double before = energy_of(state, equation_, interfaces_, kernels_, touched, 0.5 * drifted_);
   for (const std::uint32_t id : change.regrouped) {
     const std::size_t i = state.particles.row(id);
     const bool was_liquid = state.particles[field::impedance][i] != 0.0;
@@ -202,17 +221,18 @@ void CarriedLiquid::adopt(State& state) {
   set_groups(state);
   if (!touched.empty())
     state.accumulated[compression_released] +=
-        before - energy_of(state, equation_, kernels_, touched, 0.5 * drifted_);
+        before - energy_of(state, equation_, interfaces_, kernels_, touched, 0.5 * drifted_);
   set_pressure(state);
   std::vector<std::size_t> born;
   for (const std::uint32_t id : change.born) born.push_back(state.particles.row(id));
-  const double brought = energy_of(state, equation_, kernels_, born, 0.5 * drifted_);
+  const double brought = energy_of(state, equation_, interfaces_, kernels_, born, 0.5 * drifted_);
   state.accumulated[account::inflow] += brought;
   state.accumulated[start_compression] += brought;
 }
 
 void CarriedLiquid::lose(State& state, std::span<const std::size_t> rows) {
-  const double taken = energy_of(state, equation_, kernels_, {rows.begin(), rows.end()}, 0.5 * drifted_);
+  const double taken =
+      energy_of(state, equation_, interfaces_, kernels_, {rows.begin(), rows.end()}, 0.5 * drifted_);
   state.accumulated[account::outflow] += taken;
   state.accumulated[start_compression] -= taken;
 }
@@ -238,6 +258,13 @@ void CarriedLiquid::run(State& state, const PairTerm& term, const Rows& formed,
   for (const Field<double>* f : pass.adds())
     if (!solids_meet_ || std::ranges::find(both, FieldInfo(*f)) == both.end())
       fill(part(p[*f], formed), 0.0, state.threads);
+  add(state, term, formed, where);
+}
+
+/// The same, added to what is there.
+void CarriedLiquid::add(State& state, const PairTerm& term, const Rows& formed,
+                        std::span<const double> where) const {
+  const PassFunction pass = alone_pass(state, term);
   const Clusters& c = state.neighbours->clusters();
   ChosenClusters chosen{c.listed, {}};
   std::erase_if(chosen.clusters, [&](std::uint32_t k) {
@@ -413,6 +440,10 @@ void CarriedLiquid::state(State& state, const Rows&) {
   } else {
     run(state, pair_term<SoundRate>, all_rows(state));
   }
+  if (elastic_) {
+    faces_.set_rates(state, 0.5 * drifted_);
+    add(state, pair_term<FaceRate>, all_rows(state));
+  }
   set_displaced(state);
   run(state, pair_term<WallRate>, all_rows(state), p[field::wall_share]);
   move_density(state);
@@ -420,6 +451,10 @@ void CarriedLiquid::state(State& state, const Rows&) {
   run(state, pair_term<WallPressure>, all_rows(state), p[field::touching]);
   set_solid_pressure(state);
   set_stress(state);
+  if (elastic_) {
+    run(state, pair_term<FaceLoad>, all_rows(state), p[field::touching]);
+    faces_.set_loads(state);
+  }
   if (renewed) set_shift(state);
   liquid::predict_velocities(state, state.step_numbers[kick_length], field::predicted);
   drifted_ = 0.0;
@@ -429,6 +464,8 @@ void CarriedLiquid::state(State& state, const Rows&) {
 void CarriedLiquid::bonds(State& state, const Rows& rows) {
   const bool held = state.step_numbers[held_for] > 0.0 && !state.forms_fixed;
   run(state, held ? pair_term<SoundForce> : scheme_.forces, rows);
+  if (elastic_) faces_.add_forces(state, rows);
+  if (interfaces_.acts()) interfaces_.add_forces(state, kernels_, densities_of_liquids(state), rows);
   if (scheme_.damping != Damping::residue) return;
   const double scale = scheme_.beta * 0.5 * state.support();
   for (const Field<double>* f : columns_of(field::residue_force))
@@ -451,9 +488,13 @@ void CarriedLiquid::add_to(const State& state, Ledger& ledger) const {
   const auto z = p[field::impedance], m = p[field::mass], rest = p[field::liquid_rest_density],
              share = p[field::wall_share];
   const CompressionEnergy energy(state, equation_);
+  const std::vector<double> density =
+      interfaces_.acts() ? densities_of_liquids(state) : std::vector<double>{};
   std::vector<std::array<double, 1>> blocks;
   const auto sums = ordered_sums_of_all(state, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
     sum[0] += energy(i);
+    if (interfaces_.acts() && i < state.neighbours->rows())
+      sum[0] += interfaces_.energy(state, kernels_, density, i);
     if (z[i] != 0.0) sum[0] += equation_.wall_energy(m[i], rest[i], share[i]);
   });
   ledger.energy["compression"] += sums[0];
@@ -481,6 +522,10 @@ EffectSpec spec(const Scene& scene) {
                                {field::id, field::mass, field::body, field::material, field::source}})};
   s.reads_if_there = fields::joined({fields::image(), {field::driven}});
   if (solids_meet) s.reads = fields::joined({s.reads, shared()});
+  if (calls_for(scene, "elastic")) {
+    s.owns = fields::joined({s.owns, {field::face_rate, field::face_load}});
+    s.reads = fields::joined({s.reads, fields::deformation()});
+  }
   s.sums_forces = true;
   s.forces = forces_of(solids_meet);
   s.numerical = {taken_by_diffusion, taken_by_shift};

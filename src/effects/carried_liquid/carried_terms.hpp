@@ -20,27 +20,17 @@ enum class Damping : int { residue, limited_residue, limited };
 inline constexpr std::array<std::string_view, 4> pair_words{"own", "mean", "reverse", "reverse plain"};
 inline constexpr std::array<std::string_view, 3> damping_words{" residue", " limited residue", " limited"};
 
-/// Weight of the own pressure of i in a pair: 2 Z_j/(Z_i + Z_j) between liquids, 1 at a solid.
-template <class V>
-[[gnu::always_inline]] inline V weight(V z_i, V z_j) noexcept {
-  const MaskOf<V> differ = z_i != z_j;
-  const V one = every_lane<V>(1.0);
-  if (!any(differ)) return one;
-  const V liquids = differ ? 2.0 * z_j / (z_i + z_j) : one;
-  return (z_i == 0.0) | (z_j == 0.0) ? one : liquids;
-}
-
-/// X and Y of a pair over -W'/r, with the weights of the impedances.
+/// X and Y of a pair over -W'/r.
 template <Pair form, class V>
 [[gnu::always_inline]] inline std::pair<VectorOf<V>, VectorOf<V>> sides(const VectorOf<V>& of_i,
                                                                         const VectorOf<V>& of_j, V z_i,
                                                                         V z_j) {
-  const V w_i = weight<V>(z_i, z_j), w_j = weight<V>(z_j, z_i), none{};
-  if constexpr (form == Pair::own) return {w_i * of_i, w_j * of_j};
+  if constexpr (form == Pair::own) return {of_i, of_j};
+  const V one = every_lane<V>(1.0), none{};
   const MaskOf<V> wall_j = z_j == 0.0, wall_i = z_i == 0.0;
   const V own = form == Pair::mean ? every_lane<V>(0.5) : none, other = 1.0 - own;
-  const V a = wall_j ? w_i : w_i * own, b = wall_j ? none : w_i * other;
-  const V c = wall_i ? w_j : w_j * own, d = wall_i ? none : w_j * other;
+  const V a = wall_j ? one : own, b = wall_j ? none : other;
+  const V c = wall_i ? one : own, d = wall_i ? none : other;
   return {a * of_i + b * of_j, c * of_j + d * of_i};
 }
 
@@ -146,8 +136,7 @@ struct Moments {
   template <class V>
   static void pair(const PairGeometry<V>& g, const auto& i, const auto& j, auto& sum) {
     const V z_i = i(field::impedance), z_j = j(field::impedance);
-    sum(field::moment) +=
-        (slope_of<V>(g, z_i, z_j) * j(field::carried_volume) * weight<V>(z_i, z_j)) * square(g.d());
+    sum(field::moment) += (slope_of<V>(g, z_i, z_j) * j(field::carried_volume)) * square(g.d());
   }
 };
 
@@ -219,7 +208,7 @@ struct Gradients {
     const Halfway<V> middle(g, v);
     const V F = middle.slope(g, z_i, z_j) * j(field::carried_volume);
     if constexpr (form == Pair::reverse_plain)
-      sum(field::divergence) += (weight<V>(z_i, z_j) * F) * dot(v, middle.d);
+      sum(field::divergence) += F * dot(v, middle.d);
     else
       sum(field::divergence) += F * dot(v, sides<form, V>(i(field::correction_halfway) * middle.d,
                                                           j(field::correction_halfway) * middle.d, z_i, z_j)

@@ -37,6 +37,10 @@ inline constexpr Field<double> weighed{"weighed", "Pa"};  ///< -sum V W rho g.d 
 /// Of a solid: V div v over `touching`, 0 where it has no pressure
 inline constexpr Field<double> displaced{"displaced", "m3/s"};
 inline constexpr Field<double> wall_rate{"wall_rate", "1/s"};  ///< what solids add to the divergence
+/// Rate of strain of an elastic particle amid the drift, 0 of all else
+inline constexpr SymmetricField face_rate{"face_rate", "1/s"};
+/// Of an elastic particle: sum of f (x) d over liquids, f the force of pressure on it
+inline constexpr SymmetricField face_load{"face_load", "J"};
 /// Of liquids and of what they touch
 inline constexpr Field<double> carried_pressure{"carried_pressure", "Pa"};
 /// Gravity at a solid; 0 of liquids.

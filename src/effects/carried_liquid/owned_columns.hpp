@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "particles/columns.hpp"
+#include "state/field_groups.hpp"
 
 namespace tripoint::carried_liquid {
 

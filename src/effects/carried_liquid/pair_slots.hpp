@@ -8,10 +8,10 @@ namespace tripoint::carried_liquid {
 struct PairSlots : NoPairTerms {
   using density = OneTermOf<Moments>;
   using alone =
-      OneTermOf<WallRate, WallPressure, SoundRate, SoundForce, Gradients<Pair::own>, Gradients<Pair::mean>,
-                Gradients<Pair::reverse>, Gradients<Pair::reverse_plain>, Forces<Pair::own, Damping::residue>,
-                Forces<Pair::own, Damping::limited_residue>, Forces<Pair::mean, Damping::residue>,
-                Forces<Pair::reverse, Damping::limited_residue>,
+      OneTermOf<WallRate, WallPressure, FaceRate, FaceLoad, SoundRate, SoundForce, Gradients<Pair::own>,
+                Gradients<Pair::mean>, Gradients<Pair::reverse>, Gradients<Pair::reverse_plain>,
+                Forces<Pair::own, Damping::residue>, Forces<Pair::own, Damping::limited_residue>,
+                Forces<Pair::mean, Damping::residue>, Forces<Pair::reverse, Damping::limited_residue>,
                 Forces<Pair::reverse_plain, Damping::limited>>;
 };
 

@@ -82,8 +82,15 @@ double CompressionEnergy::operator()(std::size_t i) const {
   return impedance_[i] != 0.0 ? equation_.energy(mass_[i], density_[i], rest_[i]) : 0.0;
 }
 
-double energy_of(const State& state, const CarriedState& equation, const PairKernels& kernels,
-                 const std::vector<std::size_t>& rows, double back) {
+std::vector<double> densities_of_liquids(const State& state) {
+  const auto z = state.particles[field::impedance], rest = state.particles[field::liquid_rest_density];
+  std::vector<double> density(z.size());
+  for (std::size_t i = 0; i < z.size(); ++i) density[i] = z[i] != 0.0 ? rest[i] : 0.0;
+  return density;
+}
+
+double energy_of(const State& state, const CarriedState& equation, const liquid::InterfaceWeight& interfaces,
+                 const PairKernels& kernels, const std::vector<std::size_t>& rows, double back) {
   const Particles& p = state.particles;
   const auto z = p[field::impedance], m = p[field::mass], rest = p[field::liquid_rest_density];
   const CompressionEnergy energy(state, equation);
@@ -93,7 +100,10 @@ double energy_of(const State& state, const CarriedState& equation, const PairKer
     if (z[i] == 0.0) continue;
     double share = 0.0;
     each_near(state, i, back, [&](std::size_t j, const Vec3& d) {
-      if (z[j] == 0.0) share += m[j] / rest[j] * kernels.wendland.value(norm(d));
+      if (z[j] == 0.0)
+        share += m[j] / rest[j] * kernels.wendland.value(norm(d));
+      else
+        sum += 0.5 * interfaces.energy(kernels, d, rest[i], rest[j]);
     });
     sum += equation.wall_energy(m[i], rest[i], share);
   }

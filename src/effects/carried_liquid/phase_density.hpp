@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "liquids/interface_weight.hpp"
 #include "sph/kernels.hpp"
 #include "state/state.hpp"
 
@@ -45,10 +46,13 @@ class CompressionEnergy {
   std::span<const double> impedance_, mass_, density_, rest_;
 };
 
+/// Rest density of each row that is liquid, 0 of all others [kg/m3].
+[[nodiscard]] std::vector<double> densities_of_liquids(const State&);
+
 /// Energy of compression of these rows [J]. @param back time since the places
 /// meant [s]
-[[nodiscard]] double energy_of(const State&, const CarriedState&, const PairKernels&,
-                               const std::vector<std::size_t>& rows, double back);
+[[nodiscard]] double energy_of(const State&, const CarriedState&, const liquid::InterfaceWeight&,
+                               const PairKernels&, const std::vector<std::size_t>& rows, double back);
 
 /// What flows in takes the pressure of the liquid around it; alone it is at rest density.
 /// @param ids of new liquids   @pre their materials are set, and those of all others too
