@@ -62,7 +62,7 @@ Results whole_results() {
       "a book",
       {{"a", 36.0}, {"b", true}, {"c", std::string("word")}, {"d", std::vector<double>{37.0, 38.0}}},
       39.0};
-  c.metrics = {{"error", "position", "cube", "all", Norm::L2, {0.40, 0.41}, 42.0, "mm", {}, {}}};
+  c.metrics = {{"error", "position", "cube", "all", Norm::L2, {0.40, 0.41}, 0.5, 42.0, "mm", {}, {}}};
   Study s;
   s.axes = {Axis::spacing, true, false};
   s.levels = {0.2, 0.1};
