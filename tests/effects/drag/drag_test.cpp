@@ -138,7 +138,7 @@ TEST(AddedEffect, BringsItsTermToTheReaderTheJobTheSchemaAndThePage) {
   EXPECT_EQ(words_of_modes(received), order)
       << "those of the program stay in the order that jobs have had from the start";
 
-  EXPECT_NE(case_reference_page().find("`phase` `drag` `rotation`"), std::string::npos);
+  EXPECT_NE(case_reference_page().find("\n- `drag`: word"), std::string::npos);
   const auto schema = nlohmann::json::parse(case_schema());
   EXPECT_TRUE(schema["$defs"]["modes"]["properties"].contains("drag"));
 }
