@@ -165,20 +165,20 @@ class Newcomer(unittest.TestCase):
         self.assertFalse((self.path / "other.toml").exists())
 
     def test_a_file_of_another_program_is_called_by_its_name(self):
-        for text, name in (
-            ("<mujoco><worldbody/></mujoco>", "MuJoCo"),
-            ('<?xml version="1.0"?><robot name="arm"/>', "URDF"),
-            ("<case><casedef/></case>", "DualSPHysics"),
-            ('<sdf version="1.6"/>', "SDF"),
-            ('{"Configuration": {}, "RigidBodies": []}', "SPlisHSPlasH"),
-            ("units si\natom_style sph\n", "LAMMPS"),
+        for text, name, next_command in (
+            ("<mujoco><worldbody/></mujoco>", "MuJoCo", "tripoint import"),
+            ('<?xml version="1.0"?><robot name="arm"/>', "URDF", "tripoint import"),
+            ("<case><casedef/></case>", "DualSPHysics", "tripoint new"),
+            ('<sdf version="1.6"/>', "SDF", "tripoint new"),
+            ('{"Configuration": {}, "RigidBodies": []}', "SPlisHSPlasH", "tripoint new"),
+            ("units si\natom_style sph\n", "LAMMPS", "tripoint new"),
         ):
             with self.subTest(name):
                 (self.path / "scene.txt").write_text(text)
                 done = self.call("check", "scene.txt")
                 self.assertEqual(done.returncode, 2)
                 self.assertIn(name, done.stderr)
-                self.assertIn("tripoint new", done.stderr)
+                self.assertIn(next_command, done.stderr)
 
     def test_gate_from_another_folder_says_in_which_one_to_call_it(self):
         self.assertEqual(self.call("new", "my-case").returncode, 0)
