@@ -26,6 +26,7 @@ COMMENT_OR_TEXT = re.compile(r'//.*|"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])\'')
 HOUSEKEEPING = re.compile(r"\brefresh\(|\bhand_to_ghosts\(|\bhalo\b|\bforms_fixed\b|\bformed\(\)")
 KEEP_HOUSE = {
     "carried_liquid/carried_liquid.cpp",
+    "carried_liquid/elastic_faces.cpp",
     "elastic/bond_forces.cpp",
     "faces/face_pressure.cpp",
     "heat/held_surface.cpp",

@@ -10,6 +10,7 @@
 #include "effects/carried_liquid/elastic_faces.hpp"
 #include "effects/carried_liquid/fields.hpp"
 #include "effects/carried_liquid/hydrostatic_start.hpp"
+#include "effects/carried_liquid/numbers.hpp"
 #include "effects/carried_liquid/owned_columns.hpp"
 #include "effects/carried_liquid/phase_density.hpp"
 #include "effects/carried_liquid/scheme.hpp"
@@ -21,10 +22,8 @@
 #include "liquids/interface_weight.hpp"
 #include "liquids/predicted_velocities.hpp"
 #include "liquids/pressing_gravity.hpp"
-#include "liquids/scene_numbers.hpp"
 #include "pairs/alone.hpp"
 #include "scene/effect_rule.hpp"
-#include "sph/lattice.hpp"
 #include "state/body_table.hpp"
 #include "state/fill.hpp"
 #include "state/free_rows.hpp"
@@ -44,59 +43,11 @@ constexpr double full_rank = 0.5, own_full_rank = 0.02;  ///< determinant below 
 constexpr double rarest = 0.95;         ///< over the rest density, that the tie asks for at a free surface
 constexpr double exposed_below = 0.75;  ///< mean of the moment over directions, at a free surface
 
-struct Numbers {
-  double stiffness = 0.0, reference = 0.0;  ///< k [m2/s2], rho_ref [kg/m3]
-  double sound_speed = 0.0;                 ///< greatest [m/s]
-  double greatest_nu = 0.0;                 ///< [m2/s]
-  LatticeMoments lattice;
-};
-
-/// Materials that are liquid, or can be.
-std::vector<const Material*> liquids_of(const Scene& scene) {
-  std::vector<const Material*> list;
-  for (const Body& b : scene.bodies)
-    if (const Material& m = scene.material(b.material); b.phase == Phase::liquid || m.t_melt)
-      list.push_back(&m);
-  for (const Inflow& f : scene.inflows) list.push_back(&scene.material(f.material));
-  return list;
-}
-
-Numbers numbers_of(const Scene& scene) {
-  const liquid::SceneNumbers all = liquid::numbers_of(scene);
-  Numbers n;
-  n.stiffness = all.stiffness;
-  n.reference = all.reference_density;
-  double least = n.reference;
-  for (const Material* m : liquids_of(scene)) {
-    least = std::min(least, m->density);
-    n.greatest_nu = std::max(n.greatest_nu, m->viscosity / m->density);
-  }
-  n.sound_speed = std::sqrt(n.stiffness * n.reference / least);
-  n.lattice = wendland_moments(scene.support_ratio, scene.space());
-  return n;
-}
-
-PairKernels kernels_of(const Scene& scene, const Numbers& n) {
-  PairKernels kernels(scene.support_ratio * scene.spacing, scene.space());
-  kernels.per_gradient_moment = 1.0 / n.lattice.gradient;
-  const ShearWeight weight = isotropic_shear(scene.support_ratio, scene.space());
-  kernels.shear = {weight.constant, weight.square / (scene.spacing * scene.spacing)};
-  return kernels;
-}
-
 /// Inverse of a moment, of which nothing is known along y in the plane.
 Symmetric blended(Symmetric moment, double full, double rest, bool planar) {
   if (!planar) return blended_inverse(moment, full, rest);
   moment.yy = 1.0;
   return blended_inverse(moment, std::cbrt(full * full), rest);
-}
-
-/// Of an interface between liquids, the share that its energy has.
-double interface_share(const Scene& scene) {
-  const std::vector<const Material*> all = liquids_of(scene);
-  const bool unlike =
-      std::ranges::any_of(all, [&](const Material* m) { return m->density != all.front()->density; });
-  return unlike ? 1.0 : 0.0;
 }
 
 Rows all_rows(const State& state) { return {0, state.particles.size()}; }
