@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -61,23 +60,10 @@ int import_model(const ImportChoices& choices) {
   throw EngineError(fmt::format("{} {}: {}", argv.front(), script, std::strerror(errno)));
 }
 
-/// In one act: no other file can slip in.
-void write_new(const std::string& path, const std::string& text) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (file < 0)
-    throw InputError({path, 0, 0},
-                     errno == EEXIST
-                         ? std::string("exists already, and is left as it is: choose another by --out")
-                         : fmt::format("cannot be written: {}", std::strerror(errno)));
-  const bool whole = ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  if (::close(file) != 0 || !whole)
-    throw InputError({path, 0, 0}, "could not be written whole: is the disk full?");
-}
-
 int import_table(const ImportChoices& choices, const std::string& text) {
   const std::string out =
       choices.out.empty() ? fs::path(choices.file).replace_extension(".ref.csv").string() : choices.out;
-  write_new(out, reference_table(choices.file, text, choices.table));
+  write_new_file(out, reference_table(choices.file, text, choices.table), "choose another by --out");
   print_line(fmt::format("wrote {}", out));
   say(fmt::format("next: reference = {{ kind = \"experiment\", function = \"table\", file = \"{}\" }}",
                   fs::path(out).filename().string()));

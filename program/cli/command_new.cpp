@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <CLI/CLI.hpp>
-#include <cstring>
 #include <filesystem>
 #include <memory>
 
@@ -41,16 +37,7 @@ int create(const std::string& name, const std::string& from) {
   if (!fs::is_directory(folder, error))
     throw InputError({path.string(), 0, 0}, "its folder does not exist: make it first");
   const auto text = from.empty() ? new_case_text("my/" + stem) : new_case_text("my/" + stem, from);
-  // In one act: no other file can slip in
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (file < 0)
-    throw InputError({path.string(), 0, 0},
-                     errno == EEXIST
-                         ? std::string("exists already, and is left as it is: choose another name")
-                         : fmt::format("cannot be written: {}", std::strerror(errno)));
-  const bool whole = ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  if (::close(file) != 0 || !whole)
-    throw InputError({path.string(), 0, 0}, "could not be written whole: is the disk full?");
+  write_new_file(path.string(), text, "choose another name");
   print_line(fmt::format("wrote {}", path.string()));
   say(fmt::format("next: tripoint explain {0}; tripoint run {0}", path.string()));
   return 0;

@@ -134,6 +134,17 @@ bool output_arrived() {
 
 void print_line(const std::string& line) { print(one_line(line) + "\n"); }
 
+void write_new_file(const std::string& path, const std::string& text, const char* otherwise) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (file < 0)
+    throw InputError({path, 0, 0}, errno == EEXIST
+                                       ? fmt::format("exists already, and is left as it is: {}", otherwise)
+                                       : fmt::format("cannot be written: {}", std::strerror(errno)));
+  const bool whole = ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  if (::close(file) != 0 || !whole)
+    throw InputError({path, 0, 0}, "could not be written whole: is the disk full?");
+}
+
 std::vector<std::string> split(const std::string& list, char separator) {
   std::vector<std::string> parts;
   std::istringstream stream(list);

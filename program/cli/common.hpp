@@ -39,6 +39,10 @@ void print_line(const std::string& line);
 /// Workflow commands for a runner, as annotations_text() makes them.
 void print_commands(const std::string& text);
 
+/// Writes a file that is not there yet, in one act: no other can slip in. @param otherwise what to do where
+/// one is there, as "choose another name" @throws InputError naming the path
+void write_new_file(const std::string& path, const std::string& text, const char* otherwise);
+
 /// "A,B" -> {"A", "B"}.
 [[nodiscard]] std::vector<std::string> split(const std::string& list, char separator = ',');
 
