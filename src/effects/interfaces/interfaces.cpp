@@ -15,10 +15,7 @@
 namespace tripoint::interfaces {
 namespace {
 
-double share_of(const Scene& scene) {
-  const double share = acting_number(scene, "interface_weight");
-  return share;
-}
+double share_of(const Scene& scene) { return acting_number(scene, "interface_weight"); }
 
 std::vector<double> densities_of_liquids(const State& state) {
   const auto group = state.particles[field::group], rest = state.particles[field::rest_density];
