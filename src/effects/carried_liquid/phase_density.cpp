@@ -94,6 +94,8 @@ double energy_of(const State& state, const CarriedState& equation, const liquid:
   const Particles& p = state.particles;
   const auto z = p[field::impedance], m = p[field::mass], rest = p[field::liquid_rest_density];
   const CompressionEnergy energy(state, equation);
+  std::vector<char> is_among(p.size(), 0);
+  for (const std::size_t i : rows) is_among[i] = 1;
   double sum = 0.0;
   for (const std::size_t i : rows) {
     sum += energy(i);
@@ -103,7 +105,7 @@ double energy_of(const State& state, const CarriedState& equation, const liquid:
       if (z[j] == 0.0)
         share += m[j] / rest[j] * kernels.wendland.value(norm(d));
       else
-        sum += 0.5 * interfaces.energy(kernels, d, rest[i], rest[j]);
+        sum += (is_among[j] ? 0.5 : 1.0) * interfaces.energy(kernels, d, rest[i], rest[j]);
     });
     sum += equation.wall_energy(m[i], rest[i], share);
   }

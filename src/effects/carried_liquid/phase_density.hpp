@@ -49,8 +49,8 @@ class CompressionEnergy {
 /// Rest density of each row that is liquid, 0 of all others [kg/m3].
 [[nodiscard]] std::vector<double> densities_of_liquids(const State&);
 
-/// Energy of compression of these rows [J]. @param back time since the places
-/// meant [s]
+/// Energy of compression of these rows, and of their pairs with all others [J]. @param back time since the
+/// places meant [s]
 [[nodiscard]] double energy_of(const State&, const CarriedState&, const liquid::InterfaceWeight&,
                                const PairKernels&, const std::vector<std::size_t>& rows, double back);
 
