@@ -393,7 +393,7 @@ void CarriedLiquid::state(State& state, const Rows&) {
   }
   if (elastic_) {
     faces_.set_rates(state, 0.5 * drifted_);
-    add(state, pair_term<FaceRate>, all_rows(state));
+    add(state, pair_term<FaceRate>, all_rows(state), ElasticFaces::where_they_meet(state));
   }
   set_displaced(state);
   run(state, pair_term<WallRate>, all_rows(state), p[field::wall_share]);

@@ -53,6 +53,14 @@ class Faces {
 
 }  // namespace
 
+std::vector<double> ElasticFaces::where_they_meet(const State& state) {
+  const Particles& p = state.particles;
+  const auto z = p[field::impedance], solids = p[field::wall_share], liquids = p[field::touching];
+  std::vector<double> meet(p.size());
+  for (std::size_t i = 0; i < p.size(); ++i) meet[i] = z[i] != 0.0 ? solids[i] : liquids[i];
+  return meet;
+}
+
 void ElasticFaces::set_rates(State& state, double half_step) const {
   const auto rate = symmetric_columns(state.particles, field::face_rate);
   const Faces is_face(state);

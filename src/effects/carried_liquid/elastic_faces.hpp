@@ -13,6 +13,8 @@ namespace tripoint::carried_liquid {
 /// particles that are bonded in all directions have one.
 class ElasticFaces {
  public:
+  /// Of each row, above 0 where it is liquid that a solid touches, or a solid that liquid touches.
+  [[nodiscard]] static std::vector<double> where_they_meet(const State&);
   /// Rates of strain of the elastic particles amid the drift. @param half_step half of the drift [s]
   void set_rates(State&, double half_step) const;
   /// Loads of the pressure on bonds, by the sums of FaceLoad.
