@@ -85,6 +85,19 @@ TEST(Audit, LetsABodyLieThatCreepsByLessThanItsCoordinatesResolve) {
   EXPECT_NE(stopped(0.1, 1e-3).sound().find("yet they have velocities"), std::string::npos);
 }
 
+/// A step of single precision adds less than half a unit, so that a body creeps by its velocity alone.
+TEST(Audit, LetsABodyOfSinglePrecisionCreepByLessThanAStepAdds) {
+  Trial t = stopped(0.1, 3e-6);
+  t.s.job.resolution.time_step = 0.01;
+  const auto says = [&](const char* precision) {
+    Readback held;
+    held.precision = precision;
+    return audit(t.s.job, t.s.initial, t.run, held);
+  };
+  EXPECT_NE(says("double").find("yet they have velocities"), std::string::npos);
+  EXPECT_EQ(says("single").find("yet they have velocities"), std::string::npos);
+}
+
 TEST(Audit, FindsABodyThatHangsInTheAirWhateverSpeedItSays) {
   for (const double speed : {0.0, 1e-9, 1e-3})
     EXPECT_NE(stopped(1.0, speed).sound().find("frozen"), std::string::npos) << speed;

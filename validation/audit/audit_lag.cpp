@@ -75,14 +75,17 @@ double least_rate(const History& h, std::size_t n) {
   return 100.0 * rounding_rate(h.run, size, output, h.time(n));
 }
 
+bool touches(const History& h, std::size_t n) {
+  return contact_of(h.run, static_cast<std::size_t>(&h.body - h.run.job.bodies.data()), n).touches;
+}
+
 /// Whether no hit changes the rates in an interval. In contact the body is faster than bodies at rest
 /// tremble, too.
 bool is_smooth(const History& h, std::size_t n) {
   if (is_interrupted(h.run.job, *h.run.frames[n], *h.run.frames[n + 1])) return false;
   const double rate = std::min(norm(h.at(n)), norm(h.at(n + 1)));
   if (rate < least_rate(h, n)) return false;
-  const auto row = static_cast<std::size_t>(&h.body - h.run.job.bodies.data());
-  if (!contact_of(h.run, row, n).touches) return true;
+  if (!touches(h, n)) return true;
   return !is_hit(h.run, h.body, n) && rate * h.length > norm(h.run.job.scene.gravity) * h.time(n);
 }
 
@@ -91,10 +94,23 @@ Vec3 bend(const History& h, std::size_t n) {
   return (1.0 / 24.0) * (h.at(n) + h.at(n + 1) - h.at(n - 1) - h.at(n + 2));
 }
 
+/// A change of rate that says nothing of a lag, nor of a factor.
+double known_rate(const History& h, std::size_t n) { return 1e-4 * norm(h.at(n)); }
+
+/// Whether a rate changes evenly about an interval. A force that starts, ends or trembles within one says
+/// nothing of a lag: the way depends on when.
+bool is_even(const History& h, std::size_t n) {
+  const Vec3 change = h.at(n + 1) - h.at(n);
+  const double uneven =
+      std::max(norm(change - (h.at(n) - h.at(n - 1))), norm(h.at(n + 2) - h.at(n + 1) - change));
+  return uneven <= 0.25 * norm(change) + known_rate(h, n);
+}
+
 /// Whether the frames are fine enough to show a quarter of a step.
 bool is_resolved(const History& h, std::size_t n) {
+  if ((touches(h, n - 1) || touches(h, n) || touches(h, n + 1)) && !is_even(h, n)) return false;
   const double quarter_step = 0.25 * h.step(n) / h.time(n) * norm(h.at(n + 1) - h.at(n));
-  return norm(bend(h, n)) <= quarter_step + 1e-4 * norm(h.at(n));
+  return norm(bend(h, n)) <= quarter_step + known_rate(h, n);
 }
 
 /// Mean rate by the way or turn of an interval, less that by the rates of its frames.
@@ -109,13 +125,32 @@ Vec3 off_rate(const History& h, std::size_t n) {
   return (1.0 / time) * rotation_vector(turn * conjugate(linear_turn(first, last, time)));
 }
 
-Fit fit_of(const History& h) {
+/// Intervals that say something of a lag.
+std::vector<std::size_t> telling_intervals(const History& h) {
   const std::size_t intervals = h.run.frames.size() - 1;
   std::vector<char> smooth;
   for (std::size_t n = 0; n < intervals; ++n) smooth.push_back(is_smooth(h, n) ? 1 : 0);
-  Fit fit;
+  std::vector<std::size_t> list;
   for (std::size_t n = 1; n + 1 < intervals; ++n)
-    if (smooth[n - 1] != 0 && smooth[n] != 0 && smooth[n + 1] != 0 && is_resolved(h, n))
+    if (smooth[n - 1] != 0 && smooth[n] != 0 && smooth[n + 1] != 0 && is_resolved(h, n)) list.push_back(n);
+  return list;
+}
+
+/// Whether all that the places show otherwise than the rates in contact may be a push out of other bodies.
+bool may_be_pushed_out(const History& h, const std::vector<std::size_t>& intervals) {
+  double way = 0.0;
+  for (const std::size_t n : intervals)
+    if (touches(h, n)) way += norm(off_rate(h, n)) * h.time(n) * h.length;
+  const auto body = static_cast<std::size_t>(&h.body - h.run.job.bodies.data());
+  return way > 0.0 && way <= depth_of_hits(h.run, body) + depth_at_start(h.run, body);
+}
+
+Fit fit_of(const History& h) {
+  const auto intervals = telling_intervals(h);
+  const bool in_flight_alone = may_be_pushed_out(h, intervals);
+  Fit fit;
+  for (const std::size_t n : intervals)
+    if (!in_flight_alone || !touches(h, n))
       fit.take(off_rate(h, n), (1.0 / h.time(n)) * (h.at(n + 1) - h.at(n)), 0.5 * (h.at(n) + h.at(n + 1)));
   return fit;
 }
@@ -127,9 +162,8 @@ Vec3 angular_momentum(const BodyState& b, const MassProperties& p, const Vec3& s
 }
 
 bool never_touches(const History& h) {
-  const auto row = static_cast<std::size_t>(&h.body - h.run.job.bodies.data());
   for (std::size_t n = 0; n + 1 < h.run.frames.size(); ++n)
-    if (contact_of(h.run, row, n).touches) return false;
+    if (touches(h, n)) return false;
   return true;
 }
 

@@ -219,10 +219,20 @@ bool is_hit_about(const Audited& run, std::size_t row, std::size_t n) {
   return false;
 }
 
+/// What pushes the body of a row out of others; none of a row that is not followed.
+std::optional<PushOut> push_out_of(const Audited& run, std::size_t row) {
+  const auto& bodies = run.job.bodies;
+  const auto body = std::ranges::find(bodies, static_cast<int>(row), &JobBody::index);
+  if (body == bodies.end() || !keeps_bodies(run.job) || !is_followed(run, *body)) return {};
+  return PushOut(run, static_cast<std::size_t>(body - bodies.begin()));
+}
+
 std::string bodies_contradict(const Audited& run) {
   for (std::size_t row = 0; row < run.frames.back()->bodies.size(); ++row) {
     const Track track = track_of_row(run, row);
+    auto push_out = push_out_of(run, row);
     for (std::size_t n = 0; n + 1 < run.frames.size(); ++n) {
+      if (push_out) push_out->enter(n);
       if (is_interrupted(run.job, *run.frames[n], *run.frames[n + 1]) || is_led_otherwise(run, row, n) ||
           !same_mass(run, row, n))
         continue;
@@ -232,7 +242,9 @@ std::string bodies_contradict(const Audited& run) {
       if (contact.touches)
         d.allowed +=
             pushed_out * greatest_speed(track) + (is_hit_about(run, row, n) ? speed_about(track, n) : 0.0);
-      if (d.found > d.allowed) return reported(run, row_name(run, row), n, d);
+      const double time = run.frames[n + 1]->time - run.frames[n]->time;
+      if (d.found > d.allowed && !(push_out && push_out->allows(n, (d.found - d.allowed) * time)))
+        return reported(run, row_name(run, row), n, d);
     }
   }
   return {};

@@ -100,7 +100,8 @@ Contact contact_of(const Audited& run, std::size_t body, std::size_t interval) {
     const auto* row = row_of(run.job.bodies[body], s);
     return row ? row->velocity : Vec3{};
   };
-  Contact contact{true, 0.4 * norm(run.job.scene.gravity) * (b.time - a.time)};
+  const double time = b.time - a.time;
+  Contact contact{true, norm(run.job.scene.gravity) * std::max(0.4 * time, run.step(time))};
   double pushed = 0.0;  // what stands still gives no speed
   for (const std::size_t other : near)
     for (const auto* s : {&a, &b})

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <optional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "files/job.hpp"
 #include "files/result.hpp"
 #include "files/trajectory.hpp"
+#include "validation/case/shape_overlap.hpp"
 #include "validation/metrics/frames.hpp"
 #include "validation/metrics/near_pairs.hpp"
 
@@ -29,6 +32,8 @@ struct Audited {
 
   /// Of each body in each frame, made when first asked for
   mutable std::vector<std::vector<Box>> boxes = {};
+  /// Space that shapes share at the start, found when first asked for
+  mutable std::optional<std::vector<SharedSpace>> overlaps = {};
 
   [[nodiscard]] bool is_single() const { return held.precision == "single"; }
   /// Time step of the engine, at most the interval: the larger of the job's and of what it read back [s].

@@ -13,6 +13,22 @@ constexpr Vec3 no_value{not_a_number, not_a_number, not_a_number};
 constexpr double rough_share = 0.75, rough_share_in_contact = 4.0;
 constexpr double five_digits = 1e-5;
 
+/// Largest change of a body's velocity and, at its radius of gyration, of its spin [m/s].
+double change_of_speed(const Audited& run, const JobBody& b, std::size_t interval) {
+  const auto row = static_cast<std::size_t>(b.index);
+  const BodyState &from = run.frames[interval]->bodies[row], &to = run.frames[interval + 1]->bodies[row];
+  return std::max(norm(to.velocity - from.velocity),
+                  gyration_radius(b) * norm(to.angular_velocity - from.angular_velocity));
+}
+
+/// Way of a body in a step of the hit within an interval; 0 where it is not hit [m].
+double depth_of_hit(const Audited& run, std::size_t body, std::size_t interval) {
+  const JobBody& b = run.job.bodies[body];
+  const double time = run.frames[interval + 1]->time - run.frames[interval]->time, step = run.step(time);
+  if (!contact_of(run, body, interval).touches || !is_hit(run, b, interval)) return 0.0;
+  return (step > 0.0 ? step : time) * change_of_speed(run, b, interval);
+}
+
 }  // namespace
 
 double Rates::greatest() const { return std::max(norm(first), norm(last)); }
@@ -47,12 +63,35 @@ bool is_followed(const Audited& run, const JobBody& b) {
 }
 
 bool is_hit(const Audited& run, const JobBody& b, std::size_t interval) {
-  const Snapshot &first = *run.frames[interval], &last = *run.frames[interval + 1];
-  const auto row = static_cast<std::size_t>(b.index);
-  const BodyState &from = first.bodies[row], &to = last.bodies[row];
-  const double change = std::max(norm(to.velocity - from.velocity),
-                                 gyration_radius(b) * norm(to.angular_velocity - from.angular_velocity));
-  return change > weight_and_friction * norm(run.job.scene.gravity) * (last.time - first.time);
+  const double time = run.frames[interval + 1]->time - run.frames[interval]->time;
+  return change_of_speed(run, b, interval) > weight_and_friction * norm(run.job.scene.gravity) * time;
+}
+
+double depth_at_start(const Audited& run, std::size_t body) {
+  constexpr double fineness = 0.01;
+  if (!run.overlaps) run.overlaps = shared_spaces(run.job.scene, run.initial, fineness);
+  double most = 0.0;
+  for (const SharedSpace& s : *run.overlaps)
+    if (s.a == body || s.b == body) most = std::max(most, s.thickness);
+  return most;
+}
+
+double depth_of_hits(const Audited& run, std::size_t body) {
+  double all = 0.0;
+  for (std::size_t n = 0; n + 1 < run.frames.size(); ++n) all += depth_of_hit(run, body, n);
+  return all;
+}
+
+void PushOut::enter(std::size_t interval) { depth_ = std::max(depth_, depth_of_hit(run_, body_, interval)); }
+
+bool PushOut::allows(std::size_t interval, double excess) {
+  if (!contact_of(run_, body_, interval).touches) return false;
+  if (excess > depth_ && !knows_start_) {
+    knows_start_ = true;
+    depth_ += depth_at_start(run_, body_);
+  }
+  depth_ -= excess;
+  return depth_ >= 0.0;
 }
 
 double gyration_radius(const JobBody& b) {

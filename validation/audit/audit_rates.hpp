@@ -31,7 +31,8 @@ struct Rates {
 /// three spacings.
 struct Contact {
   bool touches = false;
-  /// That contact may give and take again, unseen by the frames: gravity's, and that of others [m/s]
+  /// That contact may give and take again, unseen by the frames: gravity's of a step at least, and that of
+  /// others [m/s]
   double hidden_speed = 0.0;
 };
 [[nodiscard]] Contact contact_of(const Audited&, std::size_t body, std::size_t interval);
@@ -44,6 +45,29 @@ inline constexpr double weight_and_friction = 1.5;
 [[nodiscard]] bool is_hit(const Audited&, const JobBody&, std::size_t interval);
 /// Least radius of gyration: at it contact turns the body [m].
 [[nodiscard]] double gyration_radius(const JobBody&);
+
+/// Depth to which a body overlaps others at the start [m].
+[[nodiscard]] double depth_at_start(const Audited&, std::size_t body);
+/// Depths to which it sinks in others within a step of each hit, summed [m].
+[[nodiscard]] double depth_of_hits(const Audited&, std::size_t body);
+
+/// How far an engine may push one body out of others by places alone, which no velocity shows: by as much as
+/// it overlaps them at the start, or sank in a hit within a step.
+class PushOut {
+ public:
+  PushOut(const Audited& run, std::size_t body) : run_(run), body_(body) {}
+  /// Interval by interval, in order. @param excess way that the velocities do not show [m]
+  /// @return whether the depths so far allow it, which are used up by it
+  [[nodiscard]] bool allows(std::size_t interval, double excess);
+  /// To be called for each interval first
+  void enter(std::size_t interval);
+
+ private:
+  const Audited& run_;
+  std::size_t body_;
+  double depth_ = 0.0;  // [m]
+  bool knows_start_ = false;
+};
 
 /// Turn in an interval whose angular velocity changes linearly.
 [[nodiscard]] Quaternion linear_turn(const Vec3& first, const Vec3& last, double time);

@@ -67,12 +67,15 @@ bool turns_freely(const Audited& run, const Spin& spin, std::size_t n, const Qua
   }
 }
 
-std::string turn_contradicts(const Audited& run, const Spin& spin, std::size_t n) {
+std::string turn_contradicts(const Audited& run, const Spin& spin, std::size_t n, PushOut& push_out) {
+  push_out.enter(n);
   const Quaternion turn = spin.orientation[n + 1] * conjugate(spin.orientation[n]);
   if (!by_linear_change(run, spin, n, turn, {}).too_large()) return {};
   const auto row = static_cast<std::size_t>(&spin.body - run.job.bodies.data());
   const TurnDifference linear = by_linear_change(run, spin, n, turn, contact_of(run, row, n));
-  if (!linear.too_large() || turns_freely(run, spin, n, turn)) return {};
+  if (!linear.too_large() || turns_freely(run, spin, n, turn) ||
+      push_out.allows(n, (linear.found - linear.allowed) * gyration_radius(spin.body)))
+    return {};
   return "contradicts itself: `" + spin.body.name + "` turns otherwise than its angular velocity says" +
          between(*run.frames[n], *run.frames[n + 1]) + ": by " + figure(linear.found) + " rad, where " +
          figure(linear.allowed) + " rad may be";
@@ -95,8 +98,9 @@ std::string turns_against_its_spin(const Audited& run) {
   for (const auto& b : run.job.bodies) {
     if (!is_followed(run, b)) continue;
     const Spin spin = spin_of(run, b);
+    PushOut push_out(run, static_cast<std::size_t>(&b - run.job.bodies.data()));
     for (std::size_t n = 0; n + 1 < run.frames.size(); ++n)
-      if (auto why = turn_contradicts(run, spin, n); !why.empty()) return why;
+      if (auto why = turn_contradicts(run, spin, n, push_out); !why.empty()) return why;
   }
   return {};
 }

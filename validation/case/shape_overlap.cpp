@@ -82,11 +82,11 @@ std::vector<Vec3> directions() {
 
 /// Goes from a place to where the nearer of both surfaces is deepest: steps that are halved where none of
 /// them helps.
-double deepest(const Extent& a, const Extent& b, Vec3& place, double spacing) {
+double deepest(const Extent& a, const Extent& b, Vec3& place, double spacing, double last_step) {
   static const auto ways = directions();
   const auto depth = [&](const Vec3& r) { return -std::max(a(r), b(r)); };
   double best = depth(place);
-  for (double step = 0.5 * spacing; step > spacing / 200.0;) {
+  for (double step = 0.5 * spacing; step > last_step;) {
     Vec3 next = place;
     for (const auto& way : ways) {
       const Vec3 r = place + step * way;
@@ -117,7 +117,7 @@ std::vector<Vec3> starts(const std::vector<Vec3>& particles, const Extent& other
 
 }  // namespace
 
-std::vector<SharedSpace> shared_spaces(const Scene& s, const InitialState& state) {
+std::vector<SharedSpace> shared_spaces(const Scene& s, const InitialState& state, double fineness) {
   if (s.bodies.size() < 2) return {};
   std::vector<Extent> extents;
   for (const auto& b : s.bodies) extents.emplace_back(s, b);
@@ -128,12 +128,13 @@ std::vector<SharedSpace> shared_spaces(const Scene& s, const InitialState& state
   for (std::size_t a = 0; a < extents.size(); ++a)
     for (std::size_t b = a + 1; b < extents.size(); ++b) {
       if (!extents[a].may_meet(extents[b])) continue;
-      const double thin = (extents[a].is_mesh || extents[b].is_mesh ? 0.25 : 0.02) * s.spacing;
+      const double thin = (extents[a].is_mesh || extents[b].is_mesh ? 0.25 : 0.02) * fineness * s.spacing;
       SharedSpace shared{a, b, 0.0, {}};
       for (const auto& list :
            {starts(particles[a], extents[b], s.spacing), starts(particles[b], extents[a], s.spacing)})
         for (Vec3 place : list)
-          if (const double d = 2.0 * deepest(extents[a], extents[b], place, s.spacing);
+          if (const double d =
+                  2.0 * deepest(extents[a], extents[b], place, s.spacing, fineness * s.spacing / 200.0);
               d > shared.thickness) {
             shared.thickness = d;
             shared.place = place;

@@ -18,6 +18,8 @@ struct SharedSpace {
 /// Found from the shapes alone, of every pair of kinds; the particles only say where to look. Faces that
 /// touch share no space: what is thinner than a fiftieth of a spacing (a quarter of one beside a mesh, whose
 /// field is no finer) does not count.
-[[nodiscard]] std::vector<SharedSpace> shared_spaces(const Scene&, const InitialState&);
+/// @param fineness factor of these and of the search's last steps, 1 or less
+[[nodiscard]] std::vector<SharedSpace> shared_spaces(const Scene&, const InitialState&,
+                                                     double fineness = 1.0);
 
 }  // namespace tripoint
