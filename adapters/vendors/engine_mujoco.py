@@ -72,21 +72,21 @@ def integrator_of(job: Job) -> str:
     return "implicitfast" if job.preset == "hard-contact" else job.preset
 
 
-def stated_stiffness(settings: dict[str, Any]) -> str:
-    """How stiff contacts are; "" is MuJoCo's default."""
+def stated_stiffness(job: Job, dt: float) -> str:
+    """How stiff contacts are by preset and settings; "" is MuJoCo's default."""
+    steps = job.settings.get("timeconst_steps")
+    settings = ({"solref": f"{float(steps) * dt!r} 1"} if steps else {}) | job.settings
     return "".join(f' {key}="{settings[key]}"' for key in ("solref", "solimp") if key in settings)
 
 
 def contact_text(job: Job, dt: float) -> str:
     mu = coulomb(job)
-    steps = job.settings.get("timeconst_steps")
-    chosen = {"solref": f"{float(steps) * dt!r} 1"} if steps else {}
-    return f'friction="{mu!r} 0 0" condim="{3 if mu > 0.0 else 1}"{stated_stiffness(chosen | job.settings)}'
+    return f'friction="{mu!r} 0 0" condim="{3 if mu > 0.0 else 1}"{stated_stiffness(job, dt)}'
 
 
-def pairs_text(job: Job, bodies: list[Body]) -> str:
+def pairs_text(job: Job, bodies: list[Body], dt: float) -> str:
     """A pair of geoms for each pair of pieces whose materials state a law; MuJoCo then asks neither geom for its
-    own. A case's own solref and solimp hold for pairs, those of a preset do not."""
+    own, so that each pair repeats the stiffness."""
     laws = PairLaws(job)
     text = []
     for a, one in enumerate(bodies):
@@ -96,7 +96,7 @@ def pairs_text(job: Job, bodies: list[Body]) -> str:
             mu, _ = laws.of(one.material, other.material)
             text += [
                 f'<pair geom1="{a}.{i}" geom2="{b}.{k}" condim="{3 if mu > 0.0 else 1}" friction="{mu!r} {mu!r} 0 0 '
-                f'0"{stated_stiffness(job.document.get("settings") or {})}/>'
+                f'0"{stated_stiffness(job, dt)}/>'
                 for i in range(len(one.pieces))
                 for k in range(len(other.pieces))
             ]
@@ -124,7 +124,7 @@ def model_text(job: Job, bodies: list[Body], dt: float) -> str:
         )
         text += [geom_text(name, piece, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0), contact) for name, piece in names]
         text.append("</body>")
-    return "".join(text) + f"</worldbody>{pairs_text(job, bodies)}</mujoco>"
+    return "".join(text) + f"</worldbody>{pairs_text(job, bodies, dt)}</mujoco>"
 
 
 class MujocoWorld(World):

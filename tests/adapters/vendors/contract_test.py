@@ -212,12 +212,14 @@ class Surfaces(unittest.TestCase):
 class Presets(unittest.TestCase):
     def test_a_preset_is_its_settings_and_the_jobs_own_go_before(self):
         texts = {}
+        laws = [{"materials": ["stuff", "stuff"], "friction": 0.3, "restitution": None}]
         for words, settings in (("preset", {}), ("own", {"solimp": "0.9 0.9 0.001 0.5 2"})):
             seen = []
             engine = engine_mujoco.Mujoco()
             engine.open = lambda given, bodies, dt: seen.append(model_text(given, bodies, dt))
             path = Path(tempfile.mkdtemp()) / "job.json"
-            path.write_text(json.dumps(job([body(), floor()], preset="hard-contact", settings=settings)))
+            scene = job([body(), floor()], preset="hard-contact", settings=settings, contacts=laws)
+            path.write_text(json.dumps(scene))
             self.addCleanup(shutil.rmtree, path.parent)
             with self.assertRaises(AttributeError):  # there is no world to go on with
                 engine.run(read_job(str(path)))
@@ -228,7 +230,9 @@ class Presets(unittest.TestCase):
             'solimp="0.99 0.999 0.001 0.5 2"',
         ):  # two steps of 10 ms
             self.assertIn(words, texts["preset"])
-        self.assertIn('solimp="0.9 0.9 0.001 0.5 2"', texts["own"])
+        for pair in (text[text.index("<pair ") :] for text in texts.values()):
+            self.assertIn('solref="0.02 1" solimp=', pair)
+        self.assertEqual(texts["own"].count('solimp="0.9 0.9 0.001 0.5 2"'), 3)  # of two geoms and their pair
 
     def test_presets_that_cost_settings_are_presets_of_the_engine(self):
         for engine in (engine_mujoco.Mujoco, Jolt, Rapier, Drake):
