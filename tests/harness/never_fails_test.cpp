@@ -151,6 +151,8 @@ TEST(NeverFails, Way15AnEmptySuiteAShadowedIdAndATagOfNothingAreErrors) {
   EXPECT_THROW((void)select_cases(filter), InputError);
   filter.what = {folder / "a"};
   EXPECT_EQ(select_cases(filter).size(), 1u);
+  write_text(folder / "a/test/baselines/flight.toml", "case_hash = \"1\"\n");  // of that case
+  EXPECT_EQ(select_cases(filter).size(), 1u);
   filter.tag = "no-such-tag";
   EXPECT_THROW((void)select_cases(filter), InputError);
 }

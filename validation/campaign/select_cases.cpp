@@ -23,17 +23,21 @@ struct Found {
   bool by_name = false;  ///< a file or id that was asked for, whatever its profile
 };
 
-/// Not a case: reference data beside a case (NAME.ref.*), and the material library.
-bool is_case(const fs::path& file) {
+/// Not a case: reference data beside a case (NAME.ref.*), the material library, and baselines, which lie
+/// among cases where their folder has another name than `cases`.
+bool is_case(const fs::path& file, const fs::path& folder) {
+  const auto below = file.lexically_relative(folder).parent_path();
   return file.extension() == ".toml" && file.filename().string().find(".ref.") == std::string::npos &&
-         file.parent_path().filename() != "materials";
+         file.parent_path().filename() != "materials" &&
+         std::find(below.begin(), below.end(), "baselines") == below.end();
 }
 
 std::vector<Found> files_below(const fs::path& folder) {
   std::vector<Found> files;
   for (const auto& entry :
        fs::recursive_directory_iterator(folder, fs::directory_options::follow_directory_symlink))
-    if (entry.is_regular_file() && is_case(entry.path())) files.push_back({entry.path().string(), false});
+    if (entry.is_regular_file() && is_case(entry.path(), folder))
+      files.push_back({entry.path().string(), false});
   return files;
 }
 
