@@ -102,6 +102,23 @@ def sizes(job):
                 shape[corner] = [c + (1.0 + PER_CENT) * (x - c) for x, c in zip(shape[corner], centre)]
 
 
+def large_meshes(job):
+    for body in job["scene"]["bodies"]:
+        if body["motion"] == "free" and body["shape"]["kind"] == "mesh":
+            body["shape"]["scale"] = (1.0 + PER_CENT) * (body["shape"].get("scale") or 1.0)
+
+
+def fast_belt(job):
+    for body in job["scene"]["bodies"]:
+        if body["motion"] == "prescribed":
+            body["velocity"] = [(1.0 + PER_CENT) * c for c in body["velocity"]]
+
+
+def fast_clock(job):
+    job["times"] = [(1.0 + PER_CENT) * t for t in job["times"]]
+    job["scene"]["end_time"] *= 1.0 + PER_CENT
+
+
 # --- trajectories -----------------------------------------------------------------------------------------------------
 
 
@@ -112,6 +129,33 @@ def moved(change):
         return [row if row[0] == job["times"][0] else change(job, list(row)) for row in rows]
 
     return all_rows
+
+
+def by_the_fast_clock(job, rows):
+    """Rows at the times of the job, with the rates that such a clock shows after the start."""
+    for row in rows:
+        row = list(row)
+        row[0] = min(job["times"], key=lambda t: abs((1.0 + PER_CENT) * t - row[0]))
+        for k in range(5, 8) if row[0] > job["times"][0] else ():
+            row[k], row[k + 7] = (1.0 + PER_CENT) * row[k], (1.0 + PER_CENT) * row[k + 7]
+        yield row
+
+
+def mirrored(job, row):
+    """The world seen in a mirror across y."""
+    y = next(b["centre"][1] for b in job["scene"]["bodies"] if b["index"] == row[1])
+    row[3] = 2.0 * y - row[3]
+    for k in (6, 9, 11, 12, 14):
+        row[k] = -row[k]
+    return row
+
+
+def stale(job, rows):
+    """The frame in the middle repeats the one before it."""
+    rows = list(rows)
+    middle = len(job["times"]) // 2
+    before = {row[1]: list(row[2:]) for row in rows if row[0] == job["times"][middle - 1]}
+    return [[row[0], row[1], *before[row[1]]] if row[0] == job["times"][middle] else row for row in rows]
 
 
 def spin_in_the_body(job, row):
