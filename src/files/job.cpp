@@ -67,6 +67,9 @@ Readback readback_from(const JsonObject& o) {
     body.friction = body.restitution = not_a_number;
     take_by(records::of_readback_body, b, body);
   }
+  if (o.has("joints"))
+    for (const JsonObject& j : o.objects("joints"))
+      take_by(records::of_readback_joint, j, r.joints.emplace_back());
   return r;
 }
 
@@ -74,6 +77,8 @@ json readback_json(const Readback& r) {
   json out = object_by(records::of_readback, r);
   out["bodies"] = json::array();
   for (const ReadbackBody& b : r.bodies) out["bodies"].push_back(object_by(records::of_readback_body, b));
+  out["joints"] = json::array();
+  for (const ReadbackJoint& j : r.joints) out["joints"].push_back(object_by(records::of_readback_joint, j));
   return out;
 }
 

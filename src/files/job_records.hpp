@@ -130,7 +130,27 @@ inline constexpr auto of_readback = std::make_tuple(
          {"readback", "time_step", number, "s", any, "0", "", "", "time step; 0 = none"}, {.later = true}),
     kept(&Readback::precision, {"readback", "precision", text, "", any, "\"double\"", "", "",
                                 "double or single: how near the values must be"}),
-    Key{"readback", "bodies", tables, "", any, "[]", "", "readback.body", "the solid bodies"});
+    Key{"readback", "bodies", tables, "", any, "[]", "", "readback.body", "the solid bodies"},
+    Key{"readback", "joints", tables, "", any, "[]", "", "readback.joint", "laws of the joints"});
+
+inline constexpr auto of_readback_joint = std::make_tuple(
+    kept(&ReadbackJoint::name,
+         {"readback.joint", "name", text, "", any, "!", "", "", "name of the joint in the job"}),
+    kept(&ReadbackJoint::damping,
+         {"readback.joint", "damping", number, "N m s/rad or N s/m", any, "0", "", "",
+          "that the engine holds"},
+         {.later = true}),
+    kept(&ReadbackJoint::friction,
+         {"readback.joint", "friction", number, "N m or N", any, "0", "", "", "that the engine holds"},
+         {.later = true}),
+    kept(&ReadbackJoint::stiffness,
+         {"readback.joint", "stiffness", number, "N m/rad or N/m", any, "0", "", "",
+          "of a spring that it holds"},
+         {.later = true}),
+    kept(&ReadbackJoint::armature,
+         {"readback.joint", "armature", number, "kg m2 or kg", any, "0", "", "",
+          "inertia that the job does not have"},
+         {.later = true}));
 
 inline constexpr auto of_readback_body = std::make_tuple(
     kept(&ReadbackBody::name,

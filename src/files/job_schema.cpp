@@ -37,8 +37,14 @@ template <>
 inline constexpr std::string_view table_of<TemperatureField> = "temperature";
 template <>
 inline constexpr std::string_view table_of<VelocityField> = "velocity_field";
+template <>
+inline constexpr std::string_view table_of<JointSpring> = "joint.spring";
+template <>
+inline constexpr std::string_view table_of<JointMotor> = "joint.motor";
 template <class T>
 inline constexpr int numbers_of = 0;
+template <>
+inline constexpr int numbers_of<std::array<double, 2>> = 2;
 template <>
 inline constexpr int numbers_of<Vec3> = 3;
 template <>
@@ -184,9 +190,9 @@ json named(const char* title, json whole) {
 json scene_schema() {
   json scene = object_of(record<Scene>);
   add_effect_keys<Scene>(scene, "scene");
-  const std::set<std::string> optional{"outflows", "contacts", "forces", "springs", "sources"};
-  for (const char* list :
-       {"materials", "bodies", "events", "inflows", "outflows", "contacts", "forces", "springs", "sources"}) {
+  const std::set<std::string> optional{"outflows", "contacts", "forces", "springs", "joints", "sources"};
+  for (const char* list : {"materials", "bodies", "events", "inflows", "outflows", "contacts", "forces",
+                           "springs", "joints", "sources"}) {
     const std::string one =
         std::string(list) == "bodies" ? "body" : std::string(list, std::char_traits<char>::length(list) - 1);
     scene["properties"][list] = list_of(table(one));
@@ -230,6 +236,9 @@ json job_schema() {
   tables["contact"] = object_of(record<ContactLaw>);
   tables["force"] = object_of(record<AppliedForce>);
   tables["spring"] = object_of(record<Spring>);
+  tables["joint"] = object_of(record<Joint>);
+  tables["joint.spring"] = object_of(record<JointSpring>);
+  tables["joint.motor"] = object_of(record<JointMotor>);
   tables["source"] = object_of(record<HeatSource>);
   tables["keyframe"] = object_of(record<Keyframe>);
   tables["shape"] = kinds_of<Shape>({});
@@ -245,6 +254,7 @@ json result_schema() {
   tables["seconds"] = object_of(records::of_seconds);
   tables["readback"] = object_of(records::of_readback);
   tables["readback.body"] = object_of(records::of_readback_body);
+  tables["readback.joint"] = object_of(records::of_readback_joint);
   tables["divergence"] = object_of(records::of_divergence);
   return out;
 }

@@ -75,6 +75,14 @@ inline json put(const Key&, std::string_view, const std::vector<Keyframe>& value
   return list;
 }
 template <class T>
+requires std::is_same_v<T, JointSpring> || std::is_same_v<T, JointMotor> json put(const Key&,
+                                                                                  std::string_view,
+                                                                                  const T& value) {
+  json out = json::object();
+  put_record(value, out);
+  return out;
+}
+template <class T>
 json put(const Key& key, std::string_view yes, const std::optional<T>& value) {
   return value ? put(key, yes, *value) : json(nullptr);
 }
@@ -140,6 +148,14 @@ template <class Start>
 requires std::is_same_v<Start, TemperatureField> || std::is_same_v<Start, VelocityField>
 void take(const Member& m, Start& value) {
   if (m.o.has(m.name)) value = from_kind_json<Start>(m.o.object(m.name));
+}
+template <class T>
+requires std::is_same_v<T, JointSpring> || std::is_same_v<T, JointMotor>
+void take(const Member& m, T& value) { take_record(m.o.object(m.name), value); }
+inline void take(const Member& m, std::array<double, 2>& value) {
+  const std::vector<double> pair = m.o.numbers(m.name);
+  if (pair.size() != 2) throw InputError(m.o.path() + "." + m.name + ": expected 2 numbers");
+  std::ranges::copy(pair, value.begin());
 }
 inline void take(const Member& m, std::vector<std::string>& value) { value = m.o.texts(m.name); }
 template <class E>

@@ -18,11 +18,19 @@ struct ReadbackBody {
   double friction = 0.0, restitution = 0.0, linear_damping = 0.0, angular_damping = 0.0;
 };
 
+/// Laws of a joint as the engine holds them: those that a vendor has as it comes belong to no scene.
+struct ReadbackJoint {
+  std::string name;
+  double damping = 0.0, friction = 0.0, stiffness = 0.0;  ///< as [[joint]] has them
+  double armature = 0.0;                                  ///< inertia added to its coordinate [kg m2] or [kg]
+};
+
 struct Readback {
   Vec3 gravity;
   double time_step = 0.0;
   std::string precision = "double";
   std::vector<ReadbackBody> bodies;
+  std::vector<ReadbackJoint> joints;
 };
 
 struct Divergence {

@@ -149,6 +149,7 @@ json scene_to_json(const Scene& s, const std::vector<JobBody>& bodies) {
   for (const ContactLaw& law : s.contact_laws) put_record(law, out["contacts"].emplace_back(json::object()));
   for (const AppliedForce& f : s.forces) put_record(f, out["forces"].emplace_back(json::object()));
   for (const Spring& one : s.springs) put_record(one, out["springs"].emplace_back(json::object()));
+  for (const Joint& one : s.joints) put_record(one, out["joints"].emplace_back(json::object()));
   for (const HeatSource& h : s.sources) put_record(h, out["sources"].emplace_back(json::object()));
   return out;
 }
@@ -169,6 +170,7 @@ void scene_from_json(const json& value, Scene& s, std::vector<JobBody>& bodies) 
   if (o.has("contacts")) take_list(o, "contacts", s.contact_laws);  // came after the first jobs
   if (o.has("forces")) take_list(o, "forces", s.forces);
   if (o.has("springs")) take_list(o, "springs", s.springs);
+  if (o.has("joints")) take_list(o, "joints", s.joints);
   if (o.has("sources")) take_list(o, "sources", s.sources);
 }
 

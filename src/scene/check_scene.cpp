@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene/geometry.hpp"
+#include "scene/joint_checks.hpp"
 #include "scene/name_checks.hpp"
 #include "scene/phase_values.hpp"
 #include "scene/readers.hpp"
@@ -18,7 +19,7 @@ namespace {
 class Checker : NameChecks {
  public:
   Checker(const Scene& scene, const std::vector<Mode>& runs, const Reading& reading)
-      : NameChecks(reading), scene_(scene), runs_(runs) {}
+      : NameChecks(reading), scene_(scene), runs_(runs), reading_(reading) {}
 
   void check() {
     unique(scene_.materials, "material");
@@ -28,6 +29,7 @@ class Checker : NameChecks {
     contact_laws();
     forces();
     springs();
+    JointChecks(scene_, reading_).check();
     weights();
     sources();
     kernel();
@@ -293,6 +295,7 @@ class Checker : NameChecks {
 
   const Scene& scene_;
   const std::vector<Mode>& runs_;
+  const Reading& reading_;
 };
 
 }  // namespace

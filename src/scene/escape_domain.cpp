@@ -93,6 +93,7 @@ Bounds escape_domain(const Scene& s, const InitialState& initial) {
   Bounds start = nothing();
   for (const Vec3& r : initial.position) include(start, r);
   for (const Inflow& f : s.inflows) include(start, bounds(f.shape), {}, 0.0);
+  for (const Joint& j : s.joints) include(start, j.other_point.value_or(j.point));  // bodies swing about it
   const double room = 2.0 * std::max(norm(start.extent()), 10.0 * s.spacing);
   Bounds all = nothing();
   include(all, start, {}, 0.0);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "scene/joints.hpp"
 #include "scene/motion.hpp"
 #include "tables/expression.hpp"
 
@@ -103,7 +104,10 @@ Path own_path(const Scene& s, const Body& b) {
   }
   if (free) p.acceleration = point(s.gravity);
   if (std::ranges::any_of(s.forces, [&](const AppliedForce& f) { return f.body == b.name; }) ||
-      std::ranges::any_of(s.springs, [&](const Spring& f) { return f.body == b.name || f.other == b.name; }))
+      std::ranges::any_of(s.springs,
+                          [&](const Spring& f) { return f.body == b.name || f.other == b.name; }) ||
+      std::ranges::any_of(
+          s.joints, [&](const Joint& j) { return std::ranges::find(j.bodies, b.name) != j.bodies.end(); }))
     p.lost = 0.0;
   if (free && breaks(b, m)) p.spread += p.rim;
   if (p.turns) p.box = around(p.box, stretched(b, m, p.box));
@@ -301,7 +305,7 @@ std::vector<Meeting> meetings(const Scene& s) {
   for (std::size_t i = 0; i < paths.size(); ++i)
     for (std::size_t j = i + 1; j < paths.size(); ++j) {
       const Body &a = s.bodies[i], &b = s.bodies[j];
-      if ((!can_be_free(s, a) && !can_be_free(s, b)) || is_joined(a, b) ||
+      if ((!can_be_free(s, a) && !can_be_free(s, b)) || is_joined(a, b) || has_joint(s, a.name, b.name) ||
           !meet(s, paths[i], paths[j], apart_until(s, a, b)))
         continue;
       Box v;

@@ -247,6 +247,7 @@ Scene read_scene(TableReader& top, Reading& reading) {
   for (const auto* node : top.tables("force")) s.forces.push_back(read_force(*node, ++n, reading));
   n = 0;
   for (const auto* node : top.tables("spring")) s.springs.push_back(read_spring(*node, ++n, reading));
+  for (const auto* node : top.tables("joint")) s.joints.push_back(read_joint(*node, reading));
   n = 0;
   for (const auto* node : top.tables("source"))
     s.sources.push_back(read_source(*node, ++n, s.end_time, reading));

@@ -30,6 +30,7 @@ struct Reading {
 [[nodiscard]] ContactLaw read_contact_law(const TomlNode&, std::size_t number, Reading&);
 [[nodiscard]] AppliedForce read_force(const TomlNode&, std::size_t number, Reading&);
 [[nodiscard]] Outflow read_outflow(const TomlNode&, std::size_t number, Reading&);
+[[nodiscard]] Joint read_joint(const TomlNode&, Reading&);
 [[nodiscard]] Spring read_spring(const TomlNode&, std::size_t number, Reading&);
 [[nodiscard]] HeatSource read_source(const TomlNode&, std::size_t number, double end_time, Reading&);
 

@@ -188,6 +188,40 @@ struct Spring {
   SourcePlace place;
 };
 
+/// A spring along the coordinate of a joint.
+struct JointSpring {
+  double stiffness = 0.0;  ///< [N m/rad] or [N/m]
+  double rest = 0.0;       ///< coordinate at which it has no force [rad] or [m]
+};
+
+/// A motor along the coordinate of a joint: one of both.
+struct JointMotor {
+  std::optional<double> effort;  ///< on the first body, its opposite on the second [N m] or [N]
+  std::optional<double> speed;   ///< that it keeps, whatever it needs [rad/s] or [m/s]
+};
+
+/// What holds two rigid bodies, or one and the world, to each other, [[joint]]. Places and axes are those of
+/// the start, and move with their bodies.
+struct Joint {
+  enum class Kind { hinge, ball, slider, fixed, distance, universal } kind = Kind::hinge;
+  std::string name;
+  std::vector<std::string> bodies;  ///< two; one of them may be "world"
+  Vec3 point;                       ///< of both bodies; of a distance, of the first [m]
+  std::optional<Vec3> other_point;  ///< of a distance: point of the second [m]
+  std::optional<Vec3> axis;         ///< hinge, slider; of a universal that of the first: unit vector
+  std::optional<Vec3> other_axis;   ///< of a universal: that of the second, unit vector
+  /// Range of its coordinate: the angle or way of the first body against the second, 0 at the start [rad] or
+  /// [m]
+  std::optional<std::array<double, 2>> limits;
+  double friction = 0.0;  ///< Coulomb's [N m] or [N]
+  double damping = 0.0;   ///< [N m s/rad] or [N s/m]
+  std::optional<JointSpring> spring;
+  std::optional<JointMotor> motor;
+  SourcePlace place;
+  /// Whether its coordinate is an angle or a length that forces act along.
+  [[nodiscard]] bool has_coordinate() const { return kind == Kind::hinge || kind == Kind::slider; }
+};
+
 /// Heat from outside, [[source]]: into the volume of matter, or through outer surfaces of fixed bodies.
 struct HeatSource {
   std::vector<std::string> bodies;      ///< empty = all
@@ -248,6 +282,7 @@ struct Scene {
   std::vector<ContactLaw> contact_laws;
   std::vector<AppliedForce> forces;
   std::vector<Spring> springs;
+  std::vector<Joint> joints;
   std::vector<HeatSource> sources;
 
   [[nodiscard]] Dimensions space() const { return static_cast<Dimensions>(dimensions); }

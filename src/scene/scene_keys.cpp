@@ -29,6 +29,7 @@ constexpr auto top_keys = std::to_array<Key>({
     {"", "force", tables, "", any, "=", "gravity alone", "force", "forces and torques on rigid bodies"},
     {"", "spring", tables, "", any, "=", "nothing holds bodies together", "spring",
      "springs and dampers between points of rigid bodies"},
+    {"", "joint", tables, "", any, "=", "bodies are free of each other", "joint", "joints of rigid bodies"},
     {"", "source", tables, "", any, "=", "no heat comes from outside", "source", "heat from outside"},
 });
 
@@ -63,6 +64,11 @@ constexpr auto tables_of_scene = std::to_array<TableInfo>({
     {"force", "[[force]]", "A force or a torque on a rigid body, constant from its start to its stop."},
     {"spring", "[[spring]]",
      "A spring and a damper between points of two rigid bodies, or of one and the world (model 8.16)."},
+    {"joint", "[[joint]]",
+     "A joint of two rigid bodies, or of one and the world; loops are allowed. Engines take it that name the "
+     "capability `joint`."},
+    {"joint.spring", "spring = {stiffness, rest}", "A spring along the coordinate of a hinge or slider."},
+    {"joint.motor", "motor = {effort} or {speed}", "A motor along it."},
     {"source", "[[source]]",
      "Heat from outside: into the volume of bodies, or through outer surfaces of fixed ones, where they "
      "touch no body. Several "
@@ -94,6 +100,9 @@ std::vector<Key> all_keys() {
   add_rows(list, record<ContactLaw>);
   add_rows(list, record<AppliedForce>);
   add_rows(list, record<Spring>);
+  add_rows(list, record<Joint>);
+  add_rows(list, record<JointSpring>);
+  add_rows(list, record<JointMotor>);
   add_rows(list, record<HeatSource>);
   for (const EffectRule& rule : effect_rules()) {
     for (const EffectKey& key : rule.keys) {

@@ -241,6 +241,47 @@ inline constexpr auto of_spring = std::make_tuple(
     kept(&Spring::length, {"spring", "length", number, "m", not_negative, "", "distance at the start", "",
                            "distance of the points at which the spring has no force"}));
 
+inline constexpr auto of_joint = std::make_tuple(
+    kept(&Joint::name,
+         {"joint", "name", text, "", any, "!", "", "", "name of the joint, which metrics refer to"}),
+    kept(&Joint::kind, {"joint", "kind", word, "", any, "!", "", "hinge ball slider fixed distance universal",
+                        "freedom that it leaves: a hinge turns about the axis, a ball at will, a universal "
+                        "about two axes, and a "
+                        "slider slides"}),
+    kept(&Joint::bodies, {"joint", "bodies", texts, "", any, "!", "", "",
+                          "two rigid bodies, or one and \"world\". They do not touch each other"}),
+    kept(&Joint::point, {"joint", "place", vector, "m", any, "!", "", "", "point of the joint at the start"}),
+    kept(&Joint::other_point, {"joint", "other_place", vector, "m", any, "", "of a distance alone", "",
+                               "point of the second body; `place` is that of the first"}),
+    kept(&Joint::axis, {"joint", "axis", vector, "", any, "", "of a hinge, slider or universal", "",
+                        "direction of the axis at the start; of a universal, that of the first body"}),
+    kept(&Joint::other_axis, {"joint", "other_axis", vector, "", any, "", "of a universal alone", "",
+                              "axis of the second body, across `axis`"}),
+    kept(&Joint::limits,
+         {"joint", "limits", numbers, "rad or m", any, "", "none", "",
+          "range [low, high] of its coordinate: the angle or way of the first body against the "
+          "second, 0 at the start"}),
+    kept(&Joint::friction, {"joint", "friction", number, "N m or N", not_negative, "0", "none", "",
+                            "greatest torque or force of Coulomb's friction"}),
+    kept(&Joint::damping, {"joint", "damping", number, "N m s/rad or N s/m", not_negative, "0", "undamped",
+                           "", "torque per rate of turn, or force per speed"}),
+    kept(&Joint::spring,
+         {"joint", "spring", table, "", any, "", "none", "joint.spring", "along its coordinate"}),
+    kept(&Joint::motor,
+         {"joint", "motor", table, "", any, "", "none", "joint.motor", "along its coordinate"}));
+
+inline constexpr auto of_joint_spring = std::make_tuple(
+    kept(&JointSpring::stiffness,
+         {"joint.spring", "stiffness", number, "N m/rad or N/m", positive, "!", "", "", "of the spring"}),
+    kept(&JointSpring::rest, {"joint.spring", "rest", number, "rad or m", any, "0", "as at the start", "",
+                              "coordinate at which it has no force"}));
+
+inline constexpr auto of_joint_motor = std::make_tuple(
+    kept(&JointMotor::effort, {"joint.motor", "effort", number, "N m or N", any, "", "with a speed", "",
+                               "constant, on the first body; its opposite acts on the second"}),
+    kept(&JointMotor::speed, {"joint.motor", "speed", number, "rad/s or m/s", any, "", "with an effort", "",
+                              "that it keeps, whatever it needs"}));
+
 inline constexpr auto of_source = std::make_tuple(
     kept(&HeatSource::bodies,
          {"source", "bodies", texts, "", any, "[]", "all in the region", "", "bodies that it heats"}),
@@ -290,6 +331,12 @@ template <>
 inline constexpr auto record<AppliedForce> = records::of_force;
 template <>
 inline constexpr auto record<Spring> = records::of_spring;
+template <>
+inline constexpr auto record<Joint> = records::of_joint;
+template <>
+inline constexpr auto record<JointSpring> = records::of_joint_spring;
+template <>
+inline constexpr auto record<JointMotor> = records::of_joint_motor;
 template <>
 inline constexpr auto record<HeatSource> = records::of_source;
 

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 
+#include "scene/scene_keys.hpp"
+#include "scene/scene_records.hpp"
+
 namespace tripoint {
 namespace {
 
@@ -127,6 +130,30 @@ bool ValueReader::operator()(const Key& key, VelocityField& value) {
 
 bool ValueReader::operator()(const Key& key, std::vector<Keyframe>& value) {
   value = read_keyframes(in_, key, reading_);
+  return false;
+}
+
+bool ValueReader::operator()(const Key& key, std::optional<std::array<double, 2>>& value) {
+  const auto pair = in_.maybe_numbers(key.name);
+  if (!pair) return true;
+  if (pair->size() != 2) in_.refuse(key.name, "write two numbers: [low, high]");
+  value = {(*pair)[0], (*pair)[1]};
+  return false;
+}
+
+bool ValueReader::operator()(const Key& key, std::optional<JointSpring>& value) {
+  return sub_table(key, value);
+}
+bool ValueReader::operator()(const Key& key, std::optional<JointMotor>& value) {
+  return sub_table(key, value);
+}
+
+template <class T>
+bool ValueReader::sub_table(const Key& key, std::optional<T>& value) {
+  const auto* node = in_.composite(key.name);
+  if (!node) return true;
+  TableReader in(*node, key.words, path_of(key), reading_.decisions, scene_keys());
+  RecordReader(in, value.emplace(), reading_).all();
   return false;
 }
 

@@ -47,6 +47,9 @@ class ValueReader {
   bool operator()(const Key&, std::optional<TemperatureField>&);
   bool operator()(const Key&, VelocityField&);
   bool operator()(const Key&, std::vector<Keyframe>&);
+  bool operator()(const Key&, std::optional<std::array<double, 2>>&);
+  bool operator()(const Key&, std::optional<JointSpring>&);
+  bool operator()(const Key&, std::optional<JointMotor>&);
   /// One of the row's words, in the order of the enumeration.
   template <class E>
   requires std::is_enum_v<E>
@@ -65,6 +68,9 @@ class ValueReader {
   }
 
  private:
+  /// A table of its own rows, named by the words of the key.
+  template <class T>
+  bool sub_table(const Key&, std::optional<T>&);
   [[nodiscard]] std::optional<std::size_t> word_number(const Key&);
   [[nodiscard]] std::vector<std::size_t> word_numbers(const Key&);
   [[nodiscard]] std::string path_of(const Key& key) const { return in_.path() + "." + std::string(key.name); }

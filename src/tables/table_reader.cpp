@@ -61,16 +61,16 @@ struct Absent {
 const std::vector<Absent> not_simulated{
     {{"surface_tension", "cohesion", "contact_angle", "wetting"}, "surface tension is not simulated"},
     {{"joint", "hinge", "slider", "constraint", "revolute", "prismatic", "ball_socket"},
-     "joints are not simulated; joined_to bonds bodies to each other, and motion = \"prescribed\" with "
-     "keyframes or an "
-     "angular_velocity leads a body about an axis"},
+     "a [[joint]] of kind hinge, ball, slider, fixed, distance or universal holds rigid bodies"},
     {{"springs", "damper", "tendon", "muscle"},
      "a [[spring]] holds two rigid bodies, or one and the world, by a spring and a damper"},
     {{"rope", "cable", "chain", "cloth", "shell"},
      "ropes and sheets are not simulated as such; an elastic body of three particles or more across is the "
      "thinnest"},
     {{"motor", "actuator", "controller"},
-     "motors are not simulated; motion = \"prescribed\" with keyframes leads a body, an event of kind "
+     "a [[joint]] has a motor with an effort or a speed; motion = \"prescribed\" with keyframes leads a "
+     "body, an "
+     "event of kind "
      "\"grip\" moves those in a "
      "region"},
     {{"external_force", "body_force", "thrust", "applied_force", "force", "applied_load", "torque"},

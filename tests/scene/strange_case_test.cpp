@@ -52,9 +52,9 @@ TEST(StrangeCase, AskingForFrictionLearnsWhatThereIs) {
                  {"unknown key `friction`", "no law of Coulomb", "scene.contact_viscosity"});
   expect_refused(with("restitution = 0.3"), {"unknown key `restitution`", "scene.contact_viscosity"});
   for (const auto& [table, answer] :
-       std::vector<std::pair<std::string, std::string>>{{"joint", "joints are not simulated"},
-                                                        {"hinge", "joints are not simulated"},
-                                                        {"motor", "motors are not simulated"},
+       std::vector<std::pair<std::string, std::string>>{{"revolute", "a [[joint]] of kind hinge"},
+                                                        {"hinge", "a [[joint]] of kind hinge"},
+                                                        {"motor", "a [[joint]] has a motor"},
                                                         {"thrust", "a [[force]] pushes a rigid body"},
                                                         {"cable", "ropes and sheets"},
                                                         {"radiation", "a [[source]] gives heat"},

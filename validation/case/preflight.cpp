@@ -8,6 +8,7 @@
 
 #include "scene/effect_rule.hpp"
 #include "scene/geometry.hpp"
+#include "scene/joints.hpp"
 #include "scene/phase_values.hpp"
 #include "scene/shared_terms.hpp"
 #include "validation/case/case.hpp"
@@ -61,17 +62,28 @@ class Preflight {
   void overlaps() {
     for (const auto& o : shared_spaces(scene_, state_)) {
       overlapping_.insert({o.a, o.b});
+      const std::string &a = scene_.bodies[o.a].name, &b = scene_.bodies[o.b].name;
+      if (has_joint(scene_, a, b)) {
+        warn(
+            scene_.bodies[o.b].place,
+            fmt::format(
+                "bodies \"{}\" and \"{}\" have a joint, so that they do not touch, but share space up to "
+                "{:.3g} m thick, whose mass counts twice: draw them apart, and give mass, centre and inertia",
+                a, b, o.thickness));
+        continue;
+      }
       error(scene_.bodies[o.b].place,
             fmt::format("bodies \"{}\" and \"{}\" overlap: their shapes share space "
                         "up to {:.3g} m thick, at ({:.4g}, {:.4g}, "
                         "{:.4g}) m; move them apart or cut one by a difference",
-                        scene_.bodies[o.a].name, scene_.bodies[o.b].name, o.thickness, o.place.x, o.place.y,
-                        o.place.z));
+                        a, b, o.thickness, o.place.x, o.place.y, o.place.z));
     }
     const double near = least_distance(0.45) * scene_.spacing;
     if (!(near > 0.0)) return;
     for (const auto& o : find_overlaps(scene_, state_, near))
-      if (!overlapping_.contains({o.a, o.b})) stand_too_near(o, near);
+      if (!overlapping_.contains({o.a, o.b}) &&
+          !has_joint(scene_, scene_.bodies[o.a].name, scene_.bodies[o.b].name))
+        stand_too_near(o, near);
   }
 
   /// A share of the spacing, or less: neighbours of one lattice come as near as 1 - 2 jitter by themselves.

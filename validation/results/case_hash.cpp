@@ -68,9 +68,9 @@ std::string line_of(const Decision& d, const fs::path& folder) {
 }
 
 bool is_of_the_scene(const std::string& key) {
-  static constexpr std::array<std::string_view, 10> rooms{"scene.", "spring.", "model.",  "material.",
-                                                          "body.",  "event.",  "inflow.", "outflow.",
-                                                          "study.", "input."};
+  static constexpr std::array<std::string_view, 11> rooms{"scene.",    "spring.", "joint.", "model.",
+                                                          "material.", "body.",   "event.", "inflow.",
+                                                          "outflow.",  "study.",  "input."};
   if (key == "case.modes" || key == "case.expect") return true;
   // Part of the judgement, not of the question
   if (key.starts_with("engines.")) return !key.ends_with(".required") && !key.ends_with(".refuses");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "files/job.hpp"
 #include "validation/run/run_one.hpp"
@@ -50,6 +51,18 @@ std::string audit_contact(const Settings& asked, const ReadbackBody& held, doubl
   return {};
 }
 
+/// Laws that a vendor's joints have as they come are laws of another scene.
+std::string audit_joint(const Joint& given, const ReadbackJoint& held, double share) {
+  const double stiffness = given.spring ? given.spring->stiffness : 0.0;
+  for (const auto& [law, found, asked] : {std::tuple{"damping", held.damping, given.damping},
+                                          {"friction", held.friction, given.friction},
+                                          {"stiffness", held.stiffness, stiffness},
+                                          {"armature", held.armature, 0.0}})
+    if (!same(found, asked, share * asked))
+      return fmt::format("{} of joint {} is {:.6g}, given was {:.6g}", law, given.name, found, asked);
+  return {};
+}
+
 }  // namespace
 
 std::string audit_scene(const Job& job, const Readback& held) {
@@ -67,6 +80,12 @@ std::string audit_scene(const Job& job, const Readback& held) {
       return other;
     if (job.bodies.size() < 2) continue;  // alone: it touches nothing
     if (const auto other = audit_contact(job.settings, body, roundings(held)); !other.empty()) return other;
+  }
+  for (const ReadbackJoint& joint : held.joints) {
+    const auto given = std::ranges::find(job.scene.joints, joint.name, &Joint::name);
+    if (given == job.scene.joints.end())
+      return fmt::format("it holds a joint {} that the scene does not have", joint.name);
+    if (const auto other = audit_joint(*given, joint, roundings(held)); !other.empty()) return other;
   }
   return {};
 }

@@ -297,6 +297,7 @@ std::string not_handed_over(const RunRequest& request) {
       lacks("torque"))
     return "no torque, and no [[force]] that begins or ends, is handed to it (capability torque)";
   if (!scene.springs.empty() && lacks("spring")) return "no [[spring]] is handed to it (capability spring)";
+  if (!scene.joints.empty() && lacks("joint")) return "no [[joint]] is handed to it (capability joint)";
   if ((scene.removes_escaped || !scene.outflows.empty()) && lacks("outflow"))
     return "it removes no particles: no [[outflow]] and no on_escape = \"remove\" (capability outflow)";
   if (!scene.sources.empty() && lacks("source"))
