@@ -14,7 +14,7 @@ EngineInfo ExactEngine::info() const {
   info.version = "1";
   info.build = "closed forms in double and long double";
   info.capabilities = {"rigid-free-flight",   "gravity", "force", "merge", "split", "prescribed", "heat",
-                       "surface-temperature", "plane"};
+                       "surface-temperature", "plane",   "joint", "spring"};
   return info;
 }
 

@@ -46,7 +46,7 @@ const Quantity* find_quantity(const MetricInput& input) {
   if (of_body) return of_body;
   for (const auto* list :
        {&conserved_quantities(), &liquid_quantities(), &solid_quantities(), &contact_quantities(),
-        &impact_quantities(), &phase_quantities(), &probe_quantities()})
+        &joint_quantities(), &impact_quantities(), &phase_quantities(), &probe_quantities()})
     if (const auto* q = in(*list, choice.quantity)) return q;
   return in(profile_quantities(), choice.quantity);
 }
@@ -305,8 +305,8 @@ const std::vector<MetricWord>& metric_quantities() {
     std::vector<MetricWord> list;
     for (const auto* group :
          {&particle_quantities(), &body_quantities(), &conserved_quantities(), &liquid_quantities(),
-          &solid_quantities(), &contact_quantities(), &impact_quantities(), &phase_quantities(),
-          &profile_quantities(), &probe_quantities()})
+          &solid_quantities(), &contact_quantities(), &joint_quantities(), &impact_quantities(),
+          &phase_quantities(), &profile_quantities(), &probe_quantities()})
       for (const auto& q : *group)
         if (!q.word.meaning.empty()) list.push_back(q.word);
     for (const auto* group :

@@ -75,6 +75,7 @@ struct Quantity {
 [[nodiscard]] const std::vector<Quantity>& liquid_quantities();
 [[nodiscard]] const std::vector<Quantity>& solid_quantities();
 [[nodiscard]] const std::vector<Quantity>& contact_quantities();
+[[nodiscard]] const std::vector<Quantity>& joint_quantities();
 [[nodiscard]] const std::vector<Quantity>& phase_quantities();
 [[nodiscard]] const std::vector<Quantity>& probe_quantities();
 

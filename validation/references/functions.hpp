@@ -57,6 +57,7 @@ struct ReferenceEntry {
 [[nodiscard]] ReferenceEntry stefan_entry();
 [[nodiscard]] ReferenceEntry hysteresis_entry();
 [[nodiscard]] ReferenceEntry elastic_wave_entry();
+[[nodiscard]] ReferenceEntry jointed_entry();
 [[nodiscard]] ReferenceEntry stated_entry();
 [[nodiscard]] ReferenceEntry self_entry();
 [[nodiscard]] ReferenceEntry expression_entry();

@@ -48,6 +48,7 @@ const std::vector<ReferenceEntry>& all_references() {
                                                    elastic_wave_entry(),
                                                    stefan_entry(),
                                                    hysteresis_entry(),
+                                                   jointed_entry(),
                                                    stated_entry(),
                                                    self_entry(),
                                                    expression_entry(),
@@ -70,13 +71,20 @@ namespace {
 
 /// An exact solution that leaves a force out would be no truth. What a case states itself may hold with one.
 void refuse_forces(const std::string& function, const Scene& scene) {
-  static constexpr std::array knows{
-      "ballistic", "ballistic_semi_implicit", "stated", "self", "expression", "table", "experiment",
-      "invariant"};
-  if (!scene.springs.empty() && std::ranges::find(knows.begin() + 2, knows.end(), function) == knows.end())
+  static constexpr std::array knows{"ballistic", "ballistic_semi_implicit",
+                                    "jointed",   "stated",
+                                    "self",      "expression",
+                                    "table",     "experiment",
+                                    "invariant"};
+  const auto at = std::ranges::find(knows, function);
+  const bool knows_ties = at != knows.end() && at - knows.begin() >= 2;
+  if (!scene.springs.empty() && !knows_ties)
     throw InputError(scene.springs.front().place,
-                     function + " does not know springs: use a reference that you state");
-  if (scene.forces.empty() || std::ranges::find(knows, function) != knows.end()) return;
+                     function + " does not know springs: use jointed, or a reference that you state");
+  if (!scene.joints.empty() && !knows_ties)
+    throw InputError(scene.joints.front().place,
+                     function + " does not know joints: use jointed, or a reference that you state");
+  if (scene.forces.empty() || at != knows.end()) return;
   throw InputError(scene.forces.front().place,
                    function + " does not know forces: use ballistic, or a reference that you state");
 }
