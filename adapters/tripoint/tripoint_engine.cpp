@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "adapters/tripoint/solver_job.hpp"
+#include "scene/meeting.hpp"
 #include "tables/nearest.hpp"
 
 namespace tripoint {
@@ -68,6 +69,7 @@ EngineInfo TripointEngine::info() const {
                        "source",
                        "outflow",
                        "spring",
+                       "joint",
                        "torque",
                        "viscosity",
                        "walls",
@@ -91,9 +93,23 @@ EngineInfo TripointEngine::info() const {
   return info;
 }
 
+/// Laws of joints that the step has no form of.
+static std::string refuse_joints(const Scene& scene) {
+  for (const Joint& j : scene.joints) {
+    if (j.limits || j.friction > 0.0 || j.damping > 0.0 || (j.motor && j.motor->speed))
+      return "limits, friction, damping and the speed of a motor are not simulated, and joint " + j.name +
+             " has one";
+    const bool of_two = j.bodies[0] != "world" && j.bodies[1] != "world";
+    if (of_two && scene.contact && !meetings(scene).empty())
+      return "bodies with a joint would touch each other where others touch: write scene.contact = \"none\"";
+  }
+  return {};
+}
+
 std::string TripointEngine::refusal(const Job& job) const {
   if (const std::string missing = missing_effect(job.scene); !missing.empty())
     return "tripoint: the " + missing + " effect is not in this build";
+  if (const std::string why = refuse_joints(job.scene); !why.empty()) return "tripoint: " + why;
   if (job.ranks != 1)
     return "tripoint: runs in one process, ranks = " + std::to_string(job.ranks) + " is not possible";
   return refuse_settings(job, info());

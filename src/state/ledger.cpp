@@ -48,7 +48,7 @@ void accumulate_start(State& state, const Ledger& start) {
 
 void close_ledger(const State& state, Ledger& sum) {
   const EnergyAccounts& accumulated = state.accumulated;
-  if (!state.forces.empty() || !state.scene.springs.empty()) {
+  if (!state.forces.empty() || !state.scene.springs.empty() || !state.scene.joints.empty()) {
     report_common_entries(state, sum);
     double made = -0.0, on_driven = 0.0;  // -0.0 less nothing is -0.0, as the entry always began
     for (const EnergyAccount& a : state.numerical) made -= accumulated[a];

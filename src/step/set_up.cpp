@@ -36,7 +36,7 @@ bool is_static(const Scene& scene, const InitialState& initial) {
   const bool none_prescribed =
       std::ranges::none_of(scene.bodies, [](const Body& b) { return b.motion == Motion::prescribed; });
   return none_prescribed && at_rest(scene.gravity) && std::ranges::all_of(initial.velocity, at_rest) &&
-         scene.events.empty() && scene.forces.empty() && scene.springs.empty();
+         scene.events.empty() && scene.forces.empty() && scene.springs.empty() && scene.joints.empty();
 }
 
 /// Whether the scene has only liquids and fixed bodies, laid at rest.

@@ -224,6 +224,29 @@ Journey hit() {
   return {lab, {0.3, 0.5}};
 }
 
+/// Two blocks in a chain that hangs from the world, with a spring and a motor in one hinge.
+Journey chain_of_joints() {
+  lab::Lab lab = lab::asymmetric_block({0.0, 0.0, 0.0});
+  lab.scene.gravity = {0.0, 0.0, -9.81};
+  lab.scene.time_step = 0.01;
+  lab.scene.contact = false;
+  lab.add({.name = "second", .corner = {2.0, 0.0, 0.0}, .count = {3, 3, 3}});
+  Joint hinge;
+  hinge.name = "hinge";
+  hinge.bodies = {"block", "world"};
+  hinge.point = {-0.5, 0.0, 0.0};
+  hinge.axis = Vec3{0.0, 1.0, 0.0};
+  hinge.spring = JointSpring{3.0, 0.2};
+  hinge.motor = JointMotor{1.5, {}};
+  Joint ball;
+  ball.kind = Joint::Kind::ball;
+  ball.name = "ball";
+  ball.bodies = {"second", "block"};
+  ball.point = {1.0, 0.1, 0.0};
+  lab.scene.joints = {hinge, ball};
+  return {lab, {0.25, 0.5, 1.0}};
+}
+
 /// 10 random cuts; every one continued on 1 and on 2 threads, whatever the unbroken run had.
 void expect_same_bits(const Journey& j, unsigned seed) {
   const Course whole = unbroken(j, 1);
@@ -243,6 +266,8 @@ void expect_same_bits(const Journey& j, unsigned seed) {
 }
 
 TEST(Restart, OfBodiesThatMergeAndSplitIsTheUnbrokenRun) { expect_same_bits(bodies_only(), 1); }
+
+TEST(Restart, OfBodiesWithJointsIsTheUnbrokenRun) { expect_same_bits(chain_of_joints(), 11); }
 
 TEST(Restart, OfBodiesThatConductWhileTheyMoveMergeAndSplitIsTheUnbrokenRun) {
   for (const Mode mode : {Mode::corrected, Mode::paper}) {

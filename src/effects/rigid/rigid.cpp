@@ -9,6 +9,7 @@
 #include "effects/rigid/applied_force.hpp"
 #include "effects/rigid/bodies.hpp"
 #include "effects/rigid/fields.hpp"
+#include "effects/rigid/joints.hpp"
 #include "effects/rigid/merge_split.hpp"
 #include "effects/rigid/rotation.hpp"
 #include "effects/rigid/springs.hpp"
@@ -104,24 +105,28 @@ bool at_rest(const State& state, std::size_t b) {
 }
 
 /// Turns a free body by its angular momentum; the one that reaches through a periodic box about that axis.
-void turn(State& state, std::size_t b, double dt, bool as_printed) {
-  Columns& t = state.bodies;
+Quaternion turned(const State& state, std::size_t b, double dt, bool as_printed) {
+  const Columns& t = state.bodies;
   const Vec3 L = t[field::body_angular_momentum][b];
-  if (L == Vec3{}) return;
-  Quaternion& orientation = t[field::body_orientation][b];
-  if (t[field::body_turns][b] != Vec3{1.0, 1.0, 1.0}) {
-    orientation = normalised(from_rotation_vector(dt * t[field::body_angular_velocity][b]) * orientation);
-    return;
-  }
+  const Quaternion orientation = t[field::body_orientation][b];
+  if (L == Vec3{}) return orientation;
+  if (t[field::body_turns][b] != Vec3{1.0, 1.0, 1.0})
+    return normalised(from_rotation_vector(dt * t[field::body_angular_velocity][b]) * orientation);
   const Quaternion q = principal_to_world(state, b);
   const Vec3 I = t[field::body_inertia][b];
-  const auto turned = [&] {
+  const auto rotated = [&] {
     if (as_printed) return rotated_paper(q, I, L, dt);
     return state.axis_order ? rotated_no_squish(q, I, L, dt, *state.axis_order)
                             : rotated_corrected(q, I, L, dt);
   };
-  orientation = turned() * conjugate(t[field::body_axes][b]);
-  update_spin(state, b);
+  return rotated() * conjugate(t[field::body_axes][b]);
+}
+
+void turn(State& state, std::size_t b, double dt, bool as_printed) {
+  Columns& t = state.bodies;
+  if (t[field::body_angular_momentum][b] == Vec3{}) return;
+  t[field::body_orientation][b] = turned(state, b, dt, as_printed);
+  if (t[field::body_turns][b] == Vec3{1.0, 1.0, 1.0}) update_spin(state, b);
 }
 
 /// v += dt (F/m + g), L += dt tau (18)-(19); the work of each force is accumulated by its own formula
@@ -183,6 +188,7 @@ void RigidBodies::load(State& state, const InitialState& initial) {
     refuse_blocked_spin(state, b);
     if (body.motion == Motion::prescribed) drive(state, b, state.time);
   }
+  if (!state.scene.joints.empty()) check_joints_at_start(state);
   give_velocities(state);
 }
 
@@ -200,11 +206,16 @@ void RigidBodies::kick(State& state, double dt) {
     if (pushes && motion_now(state, b) == Motion::free) push_by_applied_forces(state, b, dt);
   });
   if (!state.scene.springs.empty()) pull_by_springs(state, dt);
+  if (!state.scene.joints.empty()) {
+    pull_by_joint_laws(state, dt);
+    if (!(state.time < state.next_time)) still_joints(state, dt);
+  }
   if (any) give_velocities(state);
 }
 
 void RigidBodies::drift(State& state, double dt) {
   Columns& t = state.bodies;
+  if (!state.scene.joints.empty()) close_joints(state, dt, turned, turns_as_printed_);
   bool any = state.body_owners.any();  // this process does not know whether another has one that moves
   each_kept_body(state, [&](std::size_t b) {
     if (!is_alive(state, b) || !is_rigid(state, b) || motion_now(state, b) == Motion::fixed) return;
@@ -332,6 +343,7 @@ TimeStepBound RigidBodies::max_dt(const State& state) const {
     if (a > 0.0) tighten(bound, acceleration_step(state.support(), a), "acceleration");
   });
   if (!state.scene.springs.empty()) tighten(bound, spring_step(state), "spring");
+  if (!state.scene.joints.empty()) tighten(bound, joint_step(state), "joint");
   return bound;
 }
 
@@ -350,6 +362,7 @@ void RigidBodies::add_to(const State& state, Ledger& ledger) const {
     ledger.energy[ledger_entry::potential] += potential_energy(state, b);
   }
   if (!state.scene.springs.empty()) ledger.energy[ledger_entry::potential] += spring_energy(state);
+  if (!state.scene.joints.empty()) ledger.energy[ledger_entry::potential] += joint_energy(state);
   if (state.accumulated.has(account::applied_work))
     ledger.energy["applied_force"] -= state.accumulated[account::applied_work];
   if (state.is_first()) ledger.angular_momentum += state.accumulated.undelivered_spin;
@@ -367,7 +380,8 @@ EffectSpec spec(const Scene& scene) {
   s.sums_forces = true;
   s.skips_sleeping = true;
   const bool damps = std::ranges::any_of(scene.springs, [](const Spring& one) { return one.damping > 0.0; });
-  if (damps || has_forces_without_potential(scene)) s.accounts = {account::applied_work};
+  if (damps || has_joint_effort(scene) || has_forces_without_potential(scene))
+    s.accounts = {account::applied_work};
   return s;
 }
 
