@@ -91,10 +91,19 @@ std::vector<std::size_t> near_bodies(const Audited& run, std::size_t body, std::
 
 }  // namespace
 
+bool is_tied(const Scene& scene, const std::string& body) {
+  return std::ranges::any_of(
+             scene.joints,
+             [&](const Joint& j) { return std::ranges::find(j.bodies, body) != j.bodies.end(); }) ||
+         std::ranges::any_of(scene.springs,
+                             [&](const Spring& s) { return s.body == body || s.other == body; });
+}
+
 Contact contact_of(const Audited& run, std::size_t body, std::size_t interval) {
-  if (run.job.bodies.size() < 2) return {};
+  const bool tied = is_tied(run.job.scene, run.job.bodies[body].name);
+  if (run.job.bodies.size() < 2 && !tied) return {};
   const auto near = near_bodies(run, body, interval);
-  if (near.empty()) return {};
+  if (near.empty() && !tied) return {};
   const Snapshot &a = *run.frames[interval], &b = *run.frames[interval + 1];
   const auto velocity = [&](const Snapshot& s) {
     const auto* row = row_of(run.job.bodies[body], s);
@@ -108,6 +117,10 @@ Contact contact_of(const Audited& run, std::size_t body, std::size_t interval) {
       if (run.job.bodies[other].motion != Motion::fixed)
         pushed = std::max(pushed, fastest_beside(run, other, *s, velocity(*s)));
   contact.hidden_speed += pushed;
+  if (tied) {  // engines may return bodies to a joint by places alone
+    const auto *from = row_of(run.job.bodies[body], a), *to = row_of(run.job.bodies[body], b);
+    if (from && to) contact.hidden_speed += norm(to->velocity - from->velocity);
+  }
   return contact;
 }
 

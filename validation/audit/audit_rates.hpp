@@ -35,6 +35,8 @@ struct Contact {
   /// others [m/s]
   double hidden_speed = 0.0;
 };
+/// Whether a joint or a spring holds the body: it pushes as contact does.
+[[nodiscard]] bool is_tied(const Scene&, const std::string& body);
 [[nodiscard]] Contact contact_of(const Audited&, std::size_t body, std::size_t interval);
 
 /// A body that is rigid, free and whole in every frame.
