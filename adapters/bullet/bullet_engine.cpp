@@ -44,7 +44,7 @@ EngineInfo BulletEngine::info() const {
   info.build = "float64";
   info.library_path = World::library_path();
   info.capabilities = {"rigid-free-flight", "gravity",       "fixed", "prescribed", "merge", "split",
-                       "contact",           "contact-pairs", "force"};
+                       "contact",           "contact-pairs", "force", "joint"};
   info.presets = preset_names();
   info.settings = setting_help();
   return info;
@@ -64,6 +64,12 @@ void BulletEngine::load(const Job& job, const InitialState& state) {
     rows_.back().pieces = start_pieces(rows_.back(), body);
     enter(rows_.back(), start_motion(rows_.back(), body));
   }
+  const auto handle = [&](const std::string& name) {
+    const auto row = std::ranges::find(rows_, name, &Row::name);
+    return row == rows_.end() ? -1 : row->handle;
+  };
+  for (const Joint& joint : job.scene.joints)
+    world_->join(joint, handle(joint.bodies[0]), handle(joint.bodies[1]));
   events_ = job.scene.events;
   std::stable_sort(events_.begin(), events_.end(),
                    [](const Event& a, const Event& b) { return a.time < b.time; });

@@ -45,8 +45,21 @@ std::string refuse_scene(const Scene& scene) {
   if (std::any_of(scene.periodic.begin(), scene.periodic.end(), [](bool p) { return p; }))
     return "Bullet has no periodic directions";
   if (!scene.inflows.empty()) return "Bullet has no inflow";
-  if (!scene.contact && scene.bodies.size() > 1)
-    return "Bullet's bodies meet, and the scene says contact = \"none\"";
+  return {};
+}
+
+/// Why a joint or its laws have no constraint of Bullet.
+std::string refuse_joints(const Scene& scene) {
+  if (!scene.joints.empty() && std::ranges::any_of(scene.events, [](const Event&) { return true; }))
+    return "joints are handed to Bullet in scenes without events";
+  for (const Joint& j : scene.joints) {
+    if (j.kind == Joint::Kind::distance)
+      return fmt::format("Bullet has no constraint of a distance, and {} is one", j.name);
+    if (j.friction > 0.0 || j.damping > 0.0 || j.spring || (j.motor && j.motor->effort))
+      return fmt::format(
+          "friction, damping, springs and efforts of joints are not handed to Bullet, and {} has some",
+          j.name);
+  }
   return {};
 }
 
@@ -73,8 +86,8 @@ std::string refuse_settings(const Job& job) {
 }  // namespace
 
 std::string why_not(const Job& job) {
-  for (const std::string& reason :
-       {refuse_settings(job), refuse_scene(job.scene), refuse_bodies(job), refuse_events(job)})
+  for (const std::string& reason : {refuse_settings(job), refuse_scene(job.scene), refuse_joints(job.scene),
+                                    refuse_bodies(job), refuse_events(job)})
     if (!reason.empty()) return reason;
   return refuse_spin(job);
 }

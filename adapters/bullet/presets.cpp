@@ -118,6 +118,7 @@ Preset preset_for(const Job& job) {
           fmt::format("bullet: no setting '{}'; there are {}, time_step", key, words(entries())));
     entry->second.apply(preset, key, value);
   }
+  if (!job.scene.contact) preset.collision = Collision::none;
   if (job.resolution.iterations) preset.iterations = static_cast<int>(*job.resolution.iterations);
   return preset;
 }

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "adapters/bullet/constraints.hpp"
 #include "adapters/engine/loaded_library.hpp"
 
 namespace tripoint::bullet {
@@ -79,10 +80,12 @@ struct World::Impl {
   btSequentialImpulseConstraintSolver solver;
   btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
   std::vector<Solid> solids;
+  std::vector<std::unique_ptr<btTypedConstraint>> constraints;
   double contact_points = 0.0;
 
   explicit Impl(const Preset& p) : preset(p) {}
   ~Impl() {
+    for (const auto& c : constraints) world.removeConstraint(c.get());
     for (Solid& s : solids)
       if (s.body) world.removeRigidBody(s.body.get());
   }
@@ -202,6 +205,14 @@ int World::add(const RigidPart& part) {
 void World::remove(int handle) {
   impl_->world.removeRigidBody(&impl_->at(handle));
   impl_->solids[static_cast<std::size_t>(handle)] = Solid{};
+}
+
+void World::join(const Joint& joint, int one, int other) {
+  btRigidBody& ground = btTypedConstraint::getFixedBody();
+  auto made = constraint_of(joint, one < 0 ? ground : impl_->at(one), other < 0 ? ground : impl_->at(other));
+  if (!made) return;
+  impl_->world.addConstraint(made.get(), true);
+  impl_->constraints.push_back(std::move(made));
 }
 
 void World::drive(int handle, const Vec3& centre, const Quaternion& orientation) {

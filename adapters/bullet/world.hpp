@@ -10,7 +10,11 @@
 #include "core/quaternion.hpp"
 #include "core/vec3.hpp"
 
-/// Bullet's world behind plain data; the only file pair that includes Bullet's headers.
+/// Bullet's world behind plain data; with constraints.cpp all that includes Bullet's headers.
+namespace tripoint {
+struct Joint;
+}
+
 namespace tripoint::bullet {
 
 /// One part of a body, in the body's principal frame.
@@ -73,6 +77,8 @@ class World {
   /// bits.
   [[nodiscard]] int add(const RigidPart&);
   void remove(int handle);
+  /// Holds a body to another one; to the world where `other` is -1. They do not touch.
+  void join(const Joint&, int one, int other);
   /// Where a kinematic body will be at the end of the next step.
   void drive(int handle, const Vec3& centre, const Quaternion& orientation);
   /// A force [N] in the next step, on a point given from the centre of mass [m], in the world's axes.

@@ -14,6 +14,8 @@ from pathlib import Path
 from typing import Any
 
 from contract import Job, file_of, serve
+from dart_joints import KINDS, LAWS, LOOPS, Ties
+from joints import WORLD
 from pair_fit import by_least, stated_friction
 from rigid import (
     SHARED_SETTINGS,
@@ -51,7 +53,12 @@ class DartWorld(World):
         self.friction = coulomb(job)
         self.restitution = math.sqrt(bounciness(job))  # a pair's value is the product of both
         self.mu = by_least(stated_friction(job, [body.material for body in bodies])) or {}
-        self.nodes = {number: self.add(body) for number, body in enumerate(bodies)}
+        self.ties = Ties(job, bodies, self.transform)
+        self.nodes: dict[int, Any] = {}
+        for number, body in enumerate(bodies):
+            if number not in self.ties.tree or not body.free:
+                self.nodes[number] = self.add(body)
+        self.add_trees(bodies)
         forces = [(self.nodes[number], forces_on(job, body)) for number, body in enumerate(bodies) if body.free]
         self.pushed = [(node, np.array(force)) for node, force in forces if any(force)]
 
@@ -61,15 +68,40 @@ class DartWorld(World):
         whole.set_translation(self.np.array(at))
         return whole
 
+    def add_trees(self, bodies: list[Body]) -> None:
+        """Bodies that joints hold: a skeleton for each that is free of the others or hangs on the world."""
+        skeletons: dict[int, Any] = {}
+        for link in self.ties.links:
+            number = link.number
+            if number not in self.ties.tree:
+                continue
+            fresh = link.parent == WORLD
+            skeleton = skeletons[number] = (
+                self.dart.dynamics.Skeleton(f"body {bodies[number].index}") if fresh else skeletons[link.parent]
+            )
+            if link.joint is None:
+                self.nodes[number] = self.add_free(skeleton, bodies[number])
+            else:
+                self.nodes[number] = self.ties.add(skeleton, link, self.nodes)
+                self.give_mass(self.nodes[number], bodies[number])
+        for skeleton in dict.fromkeys(skeletons.values()):
+            self.world.addSkeleton(skeleton)
+
+    def give_mass(self, node: Any, body: Body) -> None:
+        node.setInertia(self.dart.dynamics.Inertia(body.mass, self.np.zeros(3), self.np.diag(body.inertia)))
+
+    def add_free(self, skeleton: Any, body: Body) -> Any:
+        joint, node = skeleton.createFreeJointAndBodyNodePair()
+        self.give_mass(node, body)
+        joint.setTransform(self.transform(body.centre, body.frame))
+        joint.setLinearVelocity(self.np.array(body.velocity))
+        joint.setAngularVelocity(self.np.array(body.spin))
+        return node
+
     def add(self, body: Body) -> Any:
-        np, dynamics = self.np, self.dart.dynamics
-        skeleton = dynamics.Skeleton(f"body {body.index}")
+        skeleton = self.dart.dynamics.Skeleton(f"body {body.index}")
         if body.free:
-            joint, node = skeleton.createFreeJointAndBodyNodePair()
-            node.setInertia(dynamics.Inertia(body.mass, np.zeros(3), np.diag(body.inertia)))
-            joint.setTransform(self.transform(body.centre, body.frame))
-            joint.setLinearVelocity(np.array(body.velocity))
-            joint.setAngularVelocity(np.array(body.spin))
+            node = self.add_free(skeleton, body)
         else:
             joint, node = skeleton.createWeldJointAndBodyNodePair()
             joint.setTransformFromParentBodyNode(self.transform(body.centre, body.frame))
@@ -100,6 +132,7 @@ class DartWorld(World):
         for _ in range(count):
             for node, force in self.pushed:  # DART forgets forces after each step
                 node.addExtForce(force, self.np.zeros(3), False, True)
+            self.ties.push()
             self.world.step()
 
     def state(self, number: int) -> State:
@@ -120,13 +153,17 @@ class DartWorld(World):
             self.restitution * self.restitution,
         )
 
+    def joint_laws(self) -> list[dict[str, Any]]:
+        return self.ties.held()
+
     def gravity(self) -> Vector:
         return vector(self.world.getGravity())
 
 
 class Dart(RigidEngine):
     name, title = "dart", "DART"
-    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact", "contact-pairs", "force")
+    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact", "contact-pairs", "force", "joint")
+    joint_kinds, joint_laws, joint_loops = KINDS, LAWS, LOOPS
     presets = ("BulletCollisionDetector", "default")
     settings = SHARED_SETTINGS
     default_step = 0.001  # DART's own

@@ -13,11 +13,14 @@ from pathlib import Path
 from typing import Any
 
 from contract import Job, serve
+from drake_joints import KINDS, LAWS, LOOPS, Ties, refuse_continuous
 from pair_fit import by_harmonic_mean, stated_friction
 from rigid import (
     SHARED_SETTINGS,
     Body,
     Held,
+    bodies_of,
+    can_touch,
     Piece,
     RigidEngine,
     State,
@@ -73,7 +76,7 @@ class DrakeWorld(World):
             },
         )
 
-    def build(self, dt: float, states: dict[int, State]) -> None:
+    def build(self, dt: float, states: dict[int, State], coordinates: Any = None) -> None:
         """A plant of this step with the bodies in these states; Drake's discrete plants cannot change their step."""
         from pydrake.geometry import SceneGraphConfig
         from pydrake.math import RigidTransform
@@ -95,6 +98,7 @@ class DrakeWorld(World):
         self.plant, _ = AddMultibodyPlant(plant, scene, builder)
         self.plant.mutable_gravity_field().set_gravity_vector(list(self.job.scene["gravity"]))
         self.rigid = {number: self.add(number) for number in self.free}
+        self.ties = Ties(self.job, self.bodies, self.plant, self.rigid)
         for body in self.bodies:
             for piece in () if body.free else body.pieces:
                 self.surface(self.plant.world_body(), piece, body.centre, body.frame, body.material)
@@ -102,12 +106,15 @@ class DrakeWorld(World):
         self.simulator = Simulator(builder.Build())
         self.context = self.plant.GetMyMutableContextFromRoot(self.simulator.get_mutable_context())
         for number, state in states.items():
+            if number in self.ties.held_by_joints:
+                continue
             self.plant.SetFreeBodyPose(
                 self.context, self.rigid[number], self.pose(state.centre, state.orientation, RigidTransform)
             )
             self.plant.SetFreeBodySpatialVelocity(
                 self.context, self.rigid[number], SpatialVelocity(list(state.spin), list(state.velocity))
             )
+        self.ties.start(self.context, coordinates)
         self.push()
         if not discrete:
             config = SimulatorConfig()
@@ -172,7 +179,7 @@ class DrakeWorld(World):
 
     def step(self, dt: float, count: int) -> None:
         if abs(dt / self.dt - 1.0) > 1e-9:
-            self.build(dt, {number: self.state(number) for number in self.free})
+            self.build(dt, {number: self.state(number) for number in self.free}, self.ties.coordinates(self.context))
         self.ticks += count
         self.simulator.AdvanceTo(self.ticks * self.dt)
 
@@ -196,14 +203,18 @@ class DrakeWorld(World):
             coulomb(self.job),
         )
 
+    def joint_laws(self) -> list[dict[str, Any]]:
+        return self.ties.held()
+
     def gravity(self) -> Vector:
         return vector(self.plant.gravity_field().gravity_vector())
 
 
 class Drake(RigidEngine):
     name, title = "drake", "Drake"
-    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact", "contact-pairs", "force")
-    presets = (*DISCRETE, "runge_kutta2", "runge_kutta3", "semi_explicit_euler")
+    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact", "contact-pairs", "force", "joint", "spring")
+    joint_kinds, joint_laws, joint_loops = KINDS, LAWS, LOOPS
+    presets = (*DISCRETE, "runge_kutta2", "runge_kutta3", "semi_explicit_euler", "runge_kutta5")
     preset_words = {
         "hydroelastic": '"The contact force between two deformed bodies is distributed over a contact patch" '
         "(Drake, Hydroelastic Contact User Guide)",
@@ -244,7 +255,9 @@ class Drake(RigidEngine):
         bounce = max([bounciness(job), *(law["restitution"] or 0.0 for law in job.scene.get("contacts", ()))])
         if bounce > 0.0:
             return f"Drake's contact has no coefficient of restitution, and {bounce:g} is asked for"
-        if job.preset not in DISCRETE and len(job.bodies) > 1:
+        if job.preset not in DISCRETE and (why := refuse_continuous(job, bodies_of(job))):
+            return why
+        if job.preset not in DISCRETE and can_touch(job):
             return (
                 "Drake's continuous contact is stiff, and its integrators run here with a fixed step: contact is "
                 f"handed to {' and '.join(DISCRETE)} alone"

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from contract import Job, serve
+from joints import Joint, across_of, joints_of
 from rigid import (
     SHARED_SETTINGS,
     Body,
@@ -25,6 +26,7 @@ from rigid import (
     World,
     body_words,
     bounciness,
+    can_touch,
     coulomb,
     upright,
 )
@@ -47,6 +49,10 @@ def piece_words(piece: Piece) -> dict[str, Any]:
     return upright(piece)._asdict()
 
 
+def joint_words(joint: Joint) -> dict[str, Any]:
+    return {**joint._asdict(), "numbers": joint.numbers, "across": across_of(joint)}
+
+
 class JoltWorld(World):
     """Lives in a process of node, which ends with its stdin."""
 
@@ -61,6 +67,8 @@ class JoltWorld(World):
             "friction": coulomb(job),
             "restitution": bounciness(job),
             "rounded": float(job.settings.get("mConvexRadius", 0.05)),
+            "touches": can_touch(job),
+            "joints": [joint_words(joint) for joint in joints_of(job, bodies)],
             "bodies": [body_words(job, body, piece_words) for body in bodies],
             "laws": PairLaws(job).pairs([body.material for body in bodies]),
             "settings": {key: job.settings[key] for key in WORLD_SETTINGS if key in job.settings},
@@ -101,6 +109,9 @@ class JoltWorld(World):
             held["angular_damping"],
         )
 
+    def joint_laws(self) -> list[dict[str, Any]]:
+        return self.opened.get("joints", [])
+
     def gravity(self) -> Vector:
         return vector(self.opened["gravity"])
 
@@ -112,7 +123,9 @@ class JoltWorld(World):
 
 class Jolt(RigidEngine):
     name, title = "jolt", "Jolt"
-    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact", "contact-pairs", "force")
+    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact", "contact-pairs", "force", "joint")
+    joint_kinds = ("hinge", "ball", "slider", "fixed", "distance")
+    joint_laws = ("limits", "friction")
     presets = ("many-iterations", "default", "mApplyGyroscopicForce")
     preset_settings = {
         "many-iterations": {

@@ -13,6 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from contract import Diverged, Job, file_of, serve
+from joints import WORLD, Link
+from mujoco_joints import KINDS, LAWS, LOOPS, Ties, pose_under, words
 from rigid import (
     SHARED_SETTINGS,
     Body,
@@ -27,7 +29,7 @@ from rigid import (
     forces_on,
     why_it_grows,
 )
-from rotation import Quaternion, Vector, add, product, quaternion, rotate, vector
+from rotation import IDENTITY, Quaternion, Vector, add, product, quaternion, rotate, vector
 
 os.environ.setdefault("MUJOCO_GL", "disable")  # nothing is drawn here, so no window library is wanted
 
@@ -35,9 +37,7 @@ os.environ.setdefault("MUJOCO_GL", "disable")  # nothing is drawn here, so no wi
 CONES = ("elliptic", "pyramidal")  # of friction, the first by default
 
 
-def words(values: tuple[float, ...]) -> str:
-    """Numbers of an MJCF attribute, without loss."""
-    return " ".join(map(repr, values))
+ORIGIN = (0.0, 0.0, 0.0)
 
 
 def geom_text(name: str, piece: Piece, at: Vector, turn: Quaternion, contact: str) -> str:
@@ -108,42 +108,70 @@ def model_text(job: Job, bodies: list[Body], dt: float) -> str:
     world."""
     contact = contact_text(job, dt)
     gravity = words(vector(job.scene["gravity"]))
+    ties = Ties(job, bodies, dt)
     text = [
-        f'<mujoco><compiler boundmass="0" boundinertia="0" balanceinertia="false"/>'
+        f'<mujoco><compiler angle="radian" boundmass="0" boundinertia="0" balanceinertia="false"/>'
         f'<option timestep="{dt!r}" integrator="{integrator_of(job)}" gravity="{gravity}" '
-        f'cone="{job.settings.get("cone", CONES[0])}"/>{meshes_text(bodies)}<worldbody>'
+        f'cone="{job.settings.get("cone", CONES[0])}"/>{meshes_text(bodies)}<worldbody>{ties.sites_of(WORLD)}'
     ]
     for number, body in enumerate(bodies):
-        names = [(f"{number}.{k}", piece) for k, piece in enumerate(body.pieces)]
         if not body.free:
-            text += [geom_text(name, piece, body.centre, body.frame, contact) for name, piece in names]
-            continue
-        text.append(
-            f'<body pos="{words(body.centre)}" quat="{words(body.frame)}"><freejoint/>'
-            f'<inertial pos="0 0 0" mass="{body.mass!r}" diaginertia="{words(body.inertia)}"/>'
+            text.append(fixed_text(number, body, ties, contact))
+        elif ties.root(number).parent == WORLD:
+            text += free_text(ties.root(number), ties, contact)
+    return "".join(text) + f"</worldbody>{pairs_text(job, bodies, dt)}{ties.closing_text()}</mujoco>"
+
+
+def named_pieces(number: int, body: Body) -> list[tuple[str, Piece]]:
+    return [(f"{number}.{k}", piece) for k, piece in enumerate(body.pieces)]
+
+
+def fixed_text(number: int, body: Body, ties: Ties, contact: str) -> str:
+    """Geoms of the world; of a body of its own where a joint holds it, so that the pair can be left out."""
+    if not ties.is_tied(number):
+        return "".join(
+            geom_text(name, piece, body.centre, body.frame, contact) for name, piece in named_pieces(number, body)
         )
-        text += [geom_text(name, piece, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0), contact) for name, piece in names]
-        text.append("</body>")
-    return "".join(text) + f"</worldbody>{pairs_text(job, bodies, dt)}</mujoco>"
+    geoms = [geom_text(name, piece, ORIGIN, IDENTITY, contact) for name, piece in named_pieces(number, body)]
+    return f'<body name="b{number}" pos="{words(body.centre)}" quat="{words(body.frame)}">{"".join(geoms)}</body>'
+
+
+def free_text(link: Link, ties: Ties, contact: str) -> list[str]:
+    """A body with those that hang on it."""
+    body = ties.bodies[link.number]
+    centre, frame = pose_under(ties.bodies, link)
+    text = [
+        f'<body name="b{link.number}" pos="{words(centre)}" quat="{words(frame)}">{ties.joint_text(link)}'
+        f'<inertial pos="0 0 0" mass="{body.mass!r}" diaginertia="{words(body.inertia)}"/>{ties.sites_of(link.number)}'
+    ]
+    text += [geom_text(name, piece, ORIGIN, IDENTITY, contact) for name, piece in named_pieces(link.number, body)]
+    for child in ties.children(link.number):
+        text += free_text(child, ties, contact)
+    return [*text, "</body>"]
 
 
 class MujocoWorld(World):
-    def __init__(self, engine: Any, text: str, job: Job, bodies: list[Body]) -> None:
+    def __init__(self, engine: Any, text: str, job: Job, bodies: list[Body], dt: float) -> None:
         self.engine = engine
         self.model = engine.MjModel.from_xml_string(text)
         self.data = engine.MjData(self.model)
-        self.rows: dict[int, int] = {}  # number of a body -> number among the free ones
-        for number, body in enumerate(bodies):
-            if not body.free:
-                continue
-            free = self.rows[number] = len(self.rows)
-            # MuJoCo's qvel holds a free joint's spin in the body frame.
-            spin = rotate((body.frame[0], -body.frame[1], -body.frame[2], -body.frame[3]), body.spin)
-            self.data.qvel[6 * free : 6 * free + 6] = [*body.velocity, *spin]
-            if any(force := forces_on(job, body)):
-                self.data.xfrc_applied[free + 1][0:3] = force  # 0 is the world
+        self.ties = Ties(job, bodies, dt)
+        self.ties.start(self.model, self.data)
+        self.free = {link.number for link in self.ties.links if link.joint is None}  # whose states are coordinates
+        self.ids = {number: self.model.body(f"b{number}").id for number, body in enumerate(bodies) if body.free}
+        for number, row in self.ids.items():
+            if any(force := forces_on(job, bodies[number])):
+                self.data.xfrc_applied[row][0:3] = force
         self.touched = 0.0
         self.time = 0.0  # MuJoCo's own starts again when it begins anew
+        self.place()
+
+    def place(self) -> None:
+        """Poses and velocities of bodies from coordinates: a step ends without them."""
+        if len(self.free) < len(self.ids):
+            self.engine.mj_kinematics(self.model, self.data)
+            self.engine.mj_comPos(self.model, self.data)
+            self.engine.mj_comVel(self.model, self.data)
 
     def step(self, dt: float, count: int) -> None:
         self.model.opt.timestep = dt
@@ -158,19 +186,35 @@ class MujocoWorld(World):
         for kind in (warning.mjWARN_BADQPOS, warning.mjWARN_BADQVEL, warning.mjWARN_BADQACC):
             if self.data.warning[int(kind)].number > 0:  # it has then begun anew from its reference state, at rest
                 raise Diverged("MuJoCo found its state not finite or huge, and began anew", 0, self.time)
+        self.place()
 
     def state(self, number: int) -> State:
-        free = self.rows[number]
-        q = self.data.qpos[7 * free : 7 * free + 7]
-        v = self.data.qvel[6 * free : 6 * free + 6]
+        row = self.ids[number]
+        if number not in self.free:
+            import numpy as np
+
+            velocity = np.zeros(6)
+            self.engine.mj_objectVelocity(self.model, self.data, self.engine.mjtObj.mjOBJ_BODY, row, velocity, 0)
+            return State(
+                vector(self.data.xipos[row]),
+                vector(velocity[3:6]),
+                quaternion(self.data.xquat[row]),
+                vector(velocity[0:3]),
+            )
+        joint = int(self.model.body_jntadr[row])
+        at, dof = int(self.model.jnt_qposadr[joint]), int(self.model.jnt_dofadr[joint])
+        q, v = self.data.qpos[at : at + 7], self.data.qvel[dof : dof + 6]
         orientation = quaternion(q[3:7])
         return State(vector(q[0:3]), vector(v[0:3]), orientation, rotate(orientation, vector(v[3:6])))
 
     def held(self, number: int) -> Held:
-        body = self.rows[number] + 1  # 0 is the world
+        body = self.ids[number]
         geom = int(self.model.body_geomadr[body])
         friction = float(self.model.geom_friction[geom][0]) if geom >= 0 else None
         return Held(float(self.model.body_mass[body]), vector(self.model.body_inertia[body]), friction)
+
+    def joint_laws(self) -> list[dict[str, Any]]:
+        return self.ties.held(self.model)
 
     def gravity(self) -> Vector:
         return vector(self.model.opt.gravity)
@@ -181,7 +225,9 @@ class MujocoWorld(World):
 
 class Mujoco(RigidEngine):
     name, title = "mujoco", "MuJoCo"
-    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact", "contact-pairs", "force")
+    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact", "contact-pairs", "force", "joint", "spring")
+    joints_touch = True
+    joint_kinds, joint_laws, joint_loops = KINDS, LAWS, LOOPS
     presets = ("hard-contact", "Euler", "implicitfast", "implicit", "RK4")
     preset_settings = {"hard-contact": {"timeconst_steps": 2, "solimp": "0.99 0.999 0.001 0.5 2"}}
     preset_words = {
@@ -198,6 +244,8 @@ class Mujoco(RigidEngine):
         "timeconst_steps": "time constant of contacts in time steps, at a damping ratio of 1; solref goes before it",
         "cone": "elliptic or pyramidal cones of friction, default elliptic",
         "solimp": "impedance of contacts, MuJoCo's default 0.9 0.95 0.001 0.5 2",
+        "joint_solref": "solref of loops, limits and friction of joints, two time steps and 1 by default",
+        "joint_solimp": "solimp of loops, MuJoCo's default 0.9 0.95 0.001 0.5 2",
     }
     default_step = 0.002  # MuJoCo's own
 
@@ -228,7 +276,7 @@ class Mujoco(RigidEngine):
     def open(self, job: Job, bodies: list[Body], dt: float) -> World:
         import mujoco  # here, because --info and --check need no engine
 
-        return MujocoWorld(mujoco, model_text(job, bodies, dt), job, bodies)
+        return MujocoWorld(mujoco, model_text(job, bodies, dt), job, bodies, dt)
 
 
 def _has(name: str) -> bool:

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from contract import Job, serve
+from ode_joints import KINDS, LAWS, Ties
 from ode_library import APPROX_1, BOUNCE, Contact, Mass, Near, load, reals
 from rigid import (
     SHARED_SETTINGS,
@@ -68,6 +69,7 @@ class OdeWorld(World):
             for number, body in enumerate(bodies)
             if body.free and any(force := forces_on(job, body))
         ]
+        self.ties = Ties(ode, self.world, job, bodies, self.bodies)
         self.surfaces = sum(len(body.pieces) for body in bodies)
         for body in bodies:
             if moves(body):
@@ -161,6 +163,7 @@ class OdeWorld(World):
                 self.ode.dSpaceCollide(self.space, None, self.near)
             for handle, force in self.pushed:  # ODE forgets forces after each step
                 self.ode.dBodyAddForce(handle, *force)
+            self.ties.push()
             self.advance(self.world, dt)
             self.ode.dJointGroupEmpty(self.joints)
 
@@ -185,6 +188,9 @@ class OdeWorld(World):
             self.ode.dBodyGetAngularDamping(handle),
         )
 
+    def joint_laws(self) -> list[dict[str, Any]]:
+        return self.ties.held()
+
     def gravity(self) -> Vector:
         found = reals((0.0,) * 4)
         self.ode.dWorldGetGravity(self.world, found)
@@ -196,7 +202,8 @@ class OdeWorld(World):
 
 class Ode(RigidEngine):
     name, title = "ode", "ODE"
-    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact", "contact-pairs", "force")
+    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact", "contact-pairs", "force", "joint")
+    joint_kinds, joint_laws = KINDS, LAWS
     presets = ("dWorldStep", "dWorldQuickStep")
     settings = SHARED_SETTINGS | {
         "gyroscopic": "gyroscopic term, true (ODE's default) or false",

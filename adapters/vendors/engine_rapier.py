@@ -11,6 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from contract import Job, file_of, serve
+from joints import joints_of, tree_of
+from rapier_joints import KINDS, LAWS, REDUCED, Ties
 from rigid import (
     SHARED_SETTINGS,
     Body,
@@ -20,6 +22,7 @@ from rigid import (
     RigidEngine,
     State,
     World,
+    bodies_of,
     bounciness,
     coulomb,
     forces_on,
@@ -108,6 +111,7 @@ class RapierWorld(World):
             )
         self.job = job
         self.handles = {number: self.add(number, body) for number, body in enumerate(bodies)}
+        self.ties = Ties(rapier, self.world, job, bodies, self.handles, self.isometry)
 
     def isometry(self, at: Vector, turn: Quaternion) -> Any:
         return self.rapier.Isometry3(at, self.rapier.Rotation3.from_quaternion(*turn))
@@ -176,14 +180,18 @@ class RapierWorld(World):
             float(body.angular_damping),
         )
 
+    def joint_laws(self) -> list[dict[str, Any]]:
+        return self.ties.held()
+
     def gravity(self) -> Vector:
         return xyz(self.world.gravity)
 
 
 class Rapier(RigidEngine):
     name, title = "rapier", "Rapier"
-    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact", "contact-pairs", "force")
-    presets = ("stiff-contact", "SIMPLIFIED", "COULOMB")
+    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact", "contact-pairs", "force", "joint")
+    joint_kinds, joint_laws = KINDS, LAWS
+    presets = ("stiff-contact", "SIMPLIFIED", "COULOMB", *REDUCED)
     preset_settings = {
         "stiff-contact": {"contact_natural_frequency": 1000.0, "static_contact_natural_frequency": 1000.0}
     }
@@ -209,11 +217,23 @@ class Rapier(RigidEngine):
     def refuse(self, job: Job) -> str:
         if not isinstance(job.settings.get("gyroscopic_forces", True), bool):
             return "rapier: the setting gyroscopic_forces is true or false"
+        if job.preset in REDUCED and (why := self.refuse_reduced(job)):
+            return why
         for body in job.bodies:
             turn = norm(vector(body["angular_velocity"])) * self.wanted_step(job)
             if body["motion"] == "free" and turn > FASTEST_TURN:
                 return f"{body['name']} turns by {turn:.3g} rad a step, and Rapier slows down a spin above pi/4 a step"
         return ""
+
+    def refuse_reduced(self, job: Job) -> str:
+        bodies = bodies_of(job)
+        joints = joints_of(job, bodies)
+        if not joints:
+            return f"the preset {job.preset} is of joints, and the scene has none"
+        for joint in tree_of(bodies, joints)[1]:
+            return f"{joint.name} closes a loop, and a multibody of Rapier has none"
+        moving = [body.name for body in bodies if norm(body.velocity) + norm(body.spin) > 0.0]
+        return f"a multibody of Rapier starts at rest, and {moving[0]} moves" if moving else ""
 
     def open(self, job: Job, bodies: list[Body], dt: float) -> World:
         import rapier3d  # here, because --info and --check need no engine

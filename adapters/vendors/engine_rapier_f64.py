@@ -15,6 +15,7 @@ from typing import Any
 
 from contract import Job, serve
 from engine_rapier import WORLD_SETTINGS, Rapier, friction_model
+from rapier_joints import REDUCED
 from rigid import Body, Held, PairLaws, Piece, State, World, body_words, bounciness, coulomb, upright
 from rotation import Vector, quaternion, vector
 
@@ -89,6 +90,9 @@ class DoubleWorld(World):
 
 class RapierDouble(Rapier):
     name = "rapier-f64"
+    capabilities = tuple(word for word in Rapier.capabilities if word != "joint")
+    presets = tuple(word for word in Rapier.presets if word not in REDUCED)
+    joint_kinds = ()
     precision = "double"
 
     def version(self) -> str:

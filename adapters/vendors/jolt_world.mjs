@@ -1,29 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Jolt Physics on node: a world that engine_jolt.py drives. One JSON document a line on stdin, one answer a line on stdout.
-//   {"open": {gravity, gyroscopic, friction, restitution, laws, rounded, settings, bodies}} -> {gravity, bodies: [{mass, inertia, ...}]}
+//   {"open": {gravity, gyroscopic, friction, restitution, laws, rounded, touches, settings, bodies, joints}} -> {gravity, bodies: [{mass, inertia, ...}]}
 //   {"step": [dt, count]}                                                    -> [[x, y, z, vx, vy, vz, qw, qx, qy, qz, wx, wy, wz], ...]
 // SI units; bodies are in their principal frames. Only free bodies are answered for, in the order of `bodies`.
 import { createInterface } from 'node:readline';
 import { pathToFileURL } from 'node:url';
 
 const J = await (await import(pathToFileURL(process.argv[2]))).default();
-const FIXED = 0, FREE = 1; // layers; two fixed bodies never meet
+const FIXED = 0, FREE = 1, NOWHERE = 2; // layers; two fixed bodies never meet, and nothing meets the last
 
 const vec = (v) => new J.Vec3(v[0], v[1], v[2]);
+const vec3r = (v) => new J.RVec3(v[0], v[1], v[2]);
 const quat = (q) => new J.Quat(q[1], q[2], q[3], q[0]);
 const xyz = (v) => [v.GetX(), v.GetY(), v.GetZ()];
 
-function openWorld(settings) {
+function openWorld(settings, touches) {
   const jolt = new J.JoltSettings();
   jolt.mMaxWorkerThreads = 0;
-  const pairs = new J.ObjectLayerPairFilterTable(2);
-  pairs.EnableCollision(FIXED, FREE);
-  pairs.EnableCollision(FREE, FREE);
-  const layers = new J.BroadPhaseLayerInterfaceTable(2, 2);
-  for (const layer of [FIXED, FREE]) layers.MapObjectToBroadPhaseLayer(layer, new J.BroadPhaseLayer(layer));
+  const pairs = new J.ObjectLayerPairFilterTable(3);
+  if (touches) pairs.EnableCollision(FIXED, FREE);
+  if (touches) pairs.EnableCollision(FREE, FREE);
+  const layers = new J.BroadPhaseLayerInterfaceTable(3, 3);
+  for (const layer of [FIXED, FREE, NOWHERE]) layers.MapObjectToBroadPhaseLayer(layer, new J.BroadPhaseLayer(layer));
   jolt.mObjectLayerPairFilter = pairs;
   jolt.mBroadPhaseLayerInterface = layers;
-  jolt.mObjectVsBroadPhaseLayerFilter = new J.ObjectVsBroadPhaseLayerFilterTable(layers, 2, pairs, 2);
+  jolt.mObjectVsBroadPhaseLayerFilter = new J.ObjectVsBroadPhaseLayerFilterTable(layers, 3, pairs, 3);
   const world = new J.JoltInterface(jolt);
   const system = world.GetPhysicsSystem();
   const physics = system.GetPhysicsSettings();
@@ -138,17 +139,70 @@ function listen(system, laws, bodies, scene) {
   system.SetContactListener(listener);
 }
 
+/// The angle or way of a constraint is that of its second body against the first: the job's first against its second.
+function constraintOf(joint) {
+  if (joint.kind === 'hinge') {
+    const c = new J.HingeConstraintSettings();
+    c.mPoint1 = c.mPoint2 = vec3r(joint.place);
+    c.mHingeAxis1 = c.mHingeAxis2 = vec(joint.axis);
+    c.mNormalAxis1 = c.mNormalAxis2 = vec(joint.across);
+    if (joint.limits) [c.mLimitsMin, c.mLimitsMax] = joint.limits;
+    c.mMaxFrictionTorque = joint.friction;
+    return c;
+  }
+  if (joint.kind === 'slider') {
+    const c = new J.SliderConstraintSettings();
+    c.mPoint1 = c.mPoint2 = vec3r(joint.place);
+    c.mSliderAxis1 = c.mSliderAxis2 = vec(joint.axis);
+    c.mNormalAxis1 = c.mNormalAxis2 = vec(joint.across);
+    if (joint.limits) [c.mLimitsMin, c.mLimitsMax] = joint.limits;
+    c.mMaxFrictionForce = joint.friction;
+    return c;
+  }
+  if (joint.kind === 'fixed') {
+    const c = new J.FixedConstraintSettings();
+    c.mPoint1 = c.mPoint2 = vec3r(joint.place);
+    return c;
+  }
+  const c = joint.kind === 'ball' ? new J.PointConstraintSettings() : new J.DistanceConstraintSettings();
+  c.mPoint1 = vec3r(joint.other_place);
+  c.mPoint2 = vec3r(joint.place);
+  return c;
+}
+
+/// A body that stays: Jolt's own of the world has no orientation, and angles of hinges are wrong against it.
+function ground(interface_) {
+  const c = new J.BodyCreationSettings(made(new J.SphereShapeSettings(0.5)), new J.RVec3(0, 0, 0), quat([1, 0, 0, 0]), J.EMotionType_Static, NOWHERE);
+  const body = interface_.CreateBody(c);
+  interface_.AddBody(body.GetID(), J.EActivation_DontActivate);
+  return body;
+}
+
+/// @returns what Jolt itself holds of each joint
+function addJoints(system, joints, bodies) {
+  const world = joints.some((joint) => Math.min(...joint.numbers) < 0) ? ground(system.GetBodyInterface()) : null;
+  return joints.map((joint) => {
+    const end = (number) => (number < 0 ? world : bodies[number]);
+    const made = constraintOf(joint).Create(end(joint.numbers[1]), end(joint.numbers[0]));
+    system.AddConstraint(made);
+    const hinge = joint.kind === 'hinge' ? J.castObject(made, J.HingeConstraint).GetMaxFrictionTorque() : 0;
+    const slider = joint.kind === 'slider' ? J.castObject(made, J.SliderConstraint).GetMaxFrictionForce() : 0;
+    return { name: joint.name, friction: hinge + slider };
+  });
+}
+
 let world = null, free = [], pushed = [];
 const calls = {
   open(scene) {
-    world = openWorld(scene.settings);
+    world = openWorld(scene.settings, scene.touches);
     const system = world.GetPhysicsSystem();
     system.SetGravity(vec(scene.gravity));
     const bodies = scene.bodies.map((given) => addBody(system.GetBodyInterface(), given, scene));
     listen(system, scene.laws, bodies, scene);
+    const joints = addJoints(system, scene.joints, bodies);
     free = bodies.filter((_, k) => scene.bodies[k].free);
     pushed = bodies.map((body, k) => [body, scene.bodies[k].force]).filter(([, force]) => Math.hypot(...force) > 0).map(([body, force]) => [body, vec(force)]);
-    return { gravity: xyz(system.GetGravity()), bodies: free.map(heldBy), states: free.map(stateOf) };
+    return { gravity: xyz(system.GetGravity()), bodies: free.map(heldBy), joints, states: free.map(stateOf) };
   },
   step([dt, count]) {
     for (let k = 0; k < count; ++k) {

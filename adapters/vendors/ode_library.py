@@ -74,6 +74,26 @@ _FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {  # name -> result, argume
     "dJointGroupEmpty": (None, (_V,)),
     "dJointCreateContact": (_V, (_V, _V, POINTER(Contact))),
     "dJointAttach": (None, (_V, _V, _V)),
+    **{f"dJointCreate{kind}": (_V, (_V, _V)) for kind in ("Hinge", "Ball", "Slider", "Fixed", "DBall", "Universal")},
+    **{
+        f"dJointSet{what}": (None, (_V, _D, _D, _D))
+        for what in (
+            "HingeAnchor",
+            "HingeAxis",
+            "BallAnchor",
+            "SliderAxis",
+            "DBallAnchor1",
+            "DBallAnchor2",
+            "UniversalAnchor",
+            "UniversalAxis1",
+            "UniversalAxis2",
+        )
+    },
+    "dJointSetFixed": (None, (_V,)),
+    **{f"dJointSet{kind}Param": (None, (_V, _I, _D)) for kind in ("Hinge", "Slider")},
+    **{f"dJointGet{kind}Param": (_D, (_V, _I)) for kind in ("Hinge", "Slider")},
+    "dJointAddHingeTorque": (None, (_V, _D)),
+    "dJointAddSliderForce": (None, (_V, _D)),
     "dBodyCreate": (_V, (_V,)),
     "dBodySetKinematic": (None, (_V,)),
     "dBodySetMass": (None, (_V, POINTER(Mass))),

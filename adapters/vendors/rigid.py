@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
+from joints import refuse_joints
 from contract import BODY_COLUMNS, Diverged, Engine, Job, Outcome, Row, write_trajectory
 from mesh import Face, is_convex, read_mesh
 from rotation import (
@@ -115,6 +116,10 @@ class World:
         """[m/s2], as the engine holds it"""
         raise NotImplementedError
 
+    def joint_laws(self) -> list[dict[str, Any]]:
+        """name, damping, friction, stiffness, armature of each joint, as the engine itself holds them."""
+        return []
+
     def contacts(self) -> float:
         """Contact points that were worked on, summed over steps; 0 where the engine does not say."""
         return 0.0
@@ -207,8 +212,12 @@ def body_of(body: dict[str, Any], touchable: bool) -> Body:
 
 
 def bodies_of(job: Job) -> list[Body]:
-    """A body that is alone gets no surface: it can touch nothing."""
-    return [body_of(body, len(job.bodies) > 1) for body in job.bodies]
+    """A body that is alone, or in a scene without contact, gets no surface: it can touch nothing."""
+    return [body_of(body, can_touch(job)) for body in job.bodies]
+
+
+def can_touch(job: Job) -> bool:
+    return len(job.bodies) > 1 and job.scene.get("contact") != "none"
 
 
 def _refuse_body(body: dict[str, Any], engine: str, alone: bool) -> str:
@@ -246,7 +255,7 @@ def refuse_scene(job: Job, engine: str) -> str:
         return f"events are not handed to {engine}"
     if any(force["place"] is not None for force in scene.get("forces", ())):
         return f"forces are handed to {engine} at centres of mass only, and one has a place"
-    reasons = (_refuse_body(body, engine, len(job.bodies) == 1) for body in job.bodies)
+    reasons = (_refuse_body(body, engine, not can_touch(job)) for body in job.bodies)
     return next((reason for reason in reasons if reason), "")
 
 
@@ -264,6 +273,10 @@ class RigidEngine(Engine):
         str, ...
     ] = ()  # motions of the bodies whose meshes need not be convex: fixed, free, prescribed
     preset_settings: dict[str, dict[str, Any]] = {}  # preset -> settings that it stands for; the job's own go before
+    joint_kinds: tuple[str, ...] = ()  # kinds of [[joint]] that are handed over
+    joint_laws: tuple[str, ...] = ()  # limits, friction, damping, spring, effort, speed, of hinges and sliders
+    joints_touch = False  # whether joints are handed over in scenes with contact
+    joint_loops = "any"  # kinds that may close a loop; "any" where bodies are not a tree
     default_step: float  # [s], where neither the scene nor the settings say one
 
     @abstractmethod
@@ -275,7 +288,7 @@ class RigidEngine(Engine):
         """A world with these bodies. @param dt first step [s]"""
 
     def refuse_meshes(self, job: Job) -> str:
-        for body in job.bodies if len(job.bodies) > 1 else ():
+        for body in job.bodies if can_touch(job) else ():
             pieces = pieces_of(body["shape"], (0.0, 0.0, 0.0), IDENTITY) or ()
             if body["motion"] not in self.dented_meshes and any(piece.kind == "surface" for piece in pieces):
                 held = f" or {self.dented_meshes[0]}" if self.dented_meshes else ""
@@ -297,7 +310,19 @@ class RigidEngine(Engine):
         moved = [body["name"] for body in job.bodies if body["motion"] == "prescribed"]
         if moved and not self.moves_bodies:
             return f"prescribed motion is not handed to {self.title}, and {moved[0]} has one"
-        return refuse_scene(job, self.title) or self.refuse_meshes(job) or self.refuse(job)
+        return refuse_scene(job, self.title) or self.refuse_meshes(job) or self.refuse_ties(job) or self.refuse(job)
+
+    def refuse_ties(self, job: Job) -> str:
+        """Joints and springs between bodies that this engine does not have."""
+        if job.scene.get("springs") and "spring" not in self.capabilities:
+            return f"springs between points are not handed to {self.title}"
+        if not job.scene.get("joints"):
+            return ""
+        if not self.joint_kinds:
+            return f"joints are not handed to {self.title}"
+        if can_touch(job) and not self.joints_touch:
+            return f'joints are handed to {self.title} where nothing touches: write contact = "none"'
+        return refuse_joints(job, bodies_of(job), self.title, self.joint_kinds, self.joint_laws, self.joint_loops)
 
     def run(self, job: Job) -> Outcome:
         began = time.process_time()
@@ -317,6 +342,7 @@ class RigidEngine(Engine):
             "time_step": first,
             "precision": self.precision,
             "bodies": [_readback(body, h) for body, h in held],
+            "joints": world.joint_laws(),
         }
         outcome.state_hash = write_trajectory(job, BODY_COLUMNS, _rows(job, bodies, world, limit, outcome))
         outcome.pairs = world.contacts()

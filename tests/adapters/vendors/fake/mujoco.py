@@ -27,6 +27,12 @@ class MjModel:
         )
         model.body_mass = [0.0] + [float(b.find("inertial").get("mass")) for b in bodies]
         model.body_inertia = [[0.0, 0.0, 0.0]] + [_numbers(b.find("inertial").get("diaginertia")) for b in bodies]
+        ids = {b.get("name"): number + 1 for number, b in enumerate(bodies)}
+        model.body = lambda name: SimpleNamespace(id=ids[name])
+        model.body_dofadr = [-1] + [6 * number for number in range(len(bodies))]
+        model.body_jntadr = [-1] + list(range(len(bodies)))
+        model.jnt_qposadr = [7 * number for number in range(len(bodies))]
+        model.jnt_dofadr = [6 * number for number in range(len(bodies))]
         model.ngeom = len(root.findall(".//geom"))
         geoms = [[geom.get("friction") for geom in b.findall("geom")] for b in bodies]
         model.geom_friction = [_numbers(words) for own in geoms for words in own]
