@@ -134,8 +134,8 @@ std::string key_table(const std::string& title, const json& table) {
 /// case file.
 std::string key_tables(const json& schema, const std::string& title) {
   std::string out = key_table(title, schema);
-  for (const char* name :
-       {"resolution", "body", "gauge", "counters", "seconds", "readback", "readback.body", "divergence"})
+  for (const char* name : {"resolution", "body", "gauge", "counters", "seconds", "readback", "readback.body",
+                           "readback.joint", "divergence"})
     if (schema["$defs"].contains(name)) out += key_table(fmt::format("`{}`", name), schema["$defs"][name]);
   return out;
 }
