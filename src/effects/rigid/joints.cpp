@@ -17,10 +17,10 @@
 namespace tripoint::rigid {
 namespace {
 
-constexpr double share_of_swing = 0.1;  ///< of 1/omega that a step takes [1]
-constexpr double rank = 1e-11;          ///< of the largest pivot: below it a row says what others say
-constexpr double closed = 1e-13;        ///< gap of a joint over its distance from the origin and its size [1]
-constexpr double open = 1e-9;           ///< gap at which a step has failed, in the same measure
+constexpr double share_of_joint_swing = 0.1;  ///< of 1/omega that a step takes [1]
+constexpr double rank = 1e-11;                ///< of the largest pivot: below it a row says what others say
+constexpr double closed = 1e-13;  ///< gap of a joint over its distance from the origin and its size [1]
+constexpr double open = 1e-9;     ///< gap at which a step has failed, in the same measure
 constexpr int most_passes = 30;
 
 /// A point of a body or a direction of it, or of the world: it turns by cross(spin, arm).
@@ -361,8 +361,8 @@ double joint_step(const State& state) {
   for (const Joint& j : state.scene.joints) {
     if (!j.spring) continue;
     const std::vector<Row> row{law_of(state, j).row};
-    least_step = std::min(least_step,
-                          share_of_swing / std::sqrt(j.spring->stiffness * mobility(state, row, row)(0, 0)));
+    least_step = std::min(
+        least_step, share_of_joint_swing / std::sqrt(j.spring->stiffness * mobility(state, row, row)(0, 0)));
   }
   return least_step;
 }
