@@ -255,18 +255,22 @@ class Drake(RigidEngine):
         bounce = max([bounciness(job), *(law["restitution"] or 0.0 for law in job.scene.get("contacts", ()))])
         if bounce > 0.0:
             return f"Drake's contact has no coefficient of restitution, and {bounce:g} is asked for"
-        if job.preset not in DISCRETE and (why := refuse_continuous(job, bodies_of(job))):
+        if job.preset not in DISCRETE and (why := self.refuse_continuous(job)):
             return why
-        if job.preset not in DISCRETE and can_touch(job):
-            return (
-                "Drake's continuous contact is stiff, and its integrators run here with a fixed step: contact is "
-                f"handed to {' and '.join(DISCRETE)} alone"
-            )
         for body in job.bodies:
             moments = sorted(body["principal_inertia"])
             if body["motion"] == "free" and moments[0] + moments[1] < moments[2] * (1.0 - 1e-12):
                 return f"Drake refuses moments of inertia that no body can have, and those of {body['name']} are such"
         return ""
+
+    def refuse_continuous(self, job: Job) -> str:
+        """What the continuous plants leave out, or are too stiff for."""
+        if can_touch(job):
+            return (
+                "Drake's continuous contact is stiff, and its integrators run here with a fixed step: contact is "
+                f"handed to {' and '.join(DISCRETE)} alone"
+            )
+        return refuse_continuous(job, bodies_of(job))
 
     def open(self, job: Job, bodies: list[Body], dt: float) -> World:
         return DrakeWorld(job, bodies, dt)

@@ -87,13 +87,19 @@ void include_driven(Bounds& all, const Scene& s, const Body& b, const Bounds& bo
     include(all, box, s.end_time * b.velocity.value, turning);
 }
 
-}  // namespace
-
-Bounds escape_domain(const Scene& s, const InitialState& initial) {
+/// All particles, where liquid flows in, and points of joints: bodies swing about them.
+Bounds start_of(const Scene& s, const InitialState& initial) {
   Bounds start = nothing();
   for (const Vec3& r : initial.position) include(start, r);
   for (const Inflow& f : s.inflows) include(start, bounds(f.shape), {}, 0.0);
-  for (const Joint& j : s.joints) include(start, j.other_point.value_or(j.point));  // bodies swing about it
+  for (const Joint& j : s.joints) include(start, j.other_point.value_or(j.point));
+  return start;
+}
+
+}  // namespace
+
+Bounds escape_domain(const Scene& s, const InitialState& initial) {
+  const Bounds start = start_of(s, initial);
   const double room = 2.0 * std::max(norm(start.extent()), 10.0 * s.spacing);
   Bounds all = nothing();
   include(all, start, {}, 0.0);

@@ -27,18 +27,22 @@ class MjModel:
         )
         model.body_mass = [0.0] + [float(b.find("inertial").get("mass")) for b in bodies]
         model.body_inertia = [[0.0, 0.0, 0.0]] + [_numbers(b.find("inertial").get("diaginertia")) for b in bodies]
-        ids = {b.get("name"): number + 1 for number, b in enumerate(bodies)}
-        model.body = lambda name: SimpleNamespace(id=ids[name])
-        model.body_dofadr = [-1] + [6 * number for number in range(len(bodies))]
-        model.body_jntadr = [-1] + list(range(len(bodies)))
-        model.jnt_qposadr = [7 * number for number in range(len(bodies))]
-        model.jnt_dofadr = [6 * number for number in range(len(bodies))]
+        model.number(bodies)
         model.ngeom = len(root.findall(".//geom"))
         geoms = [[geom.get("friction") for geom in b.findall("geom")] for b in bodies]
         model.geom_friction = [_numbers(words) for own in geoms for words in own]
         model.body_geomadr = [-1] + [sum(map(len, geoms[:n])) if own else -1 for n, own in enumerate(geoms)]
         model.start = [number for b in bodies for number in _numbers(b.get("pos")) + _numbers(b.get("quat"))]
         return model
+
+    def number(self, bodies):
+        """Joints of MuJoCo's own numbering: each body has a free one."""
+        ids = {b.get("name"): number + 1 for number, b in enumerate(bodies)}
+        self.body = lambda name: SimpleNamespace(id=ids[name])
+        self.body_dofadr = [-1] + [6 * number for number in range(len(bodies))]
+        self.body_jntadr = [-1] + list(range(len(bodies)))
+        self.jnt_qposadr = [7 * number for number in range(len(bodies))]
+        self.jnt_dofadr = [6 * number for number in range(len(bodies))]
 
 
 class mjtWarning:
