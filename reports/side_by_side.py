@@ -21,6 +21,7 @@ class Cell:
     verdict: str = ""
     physics: str = ""
     best: bool = False
+    off: bool = False  # the engine is wrong in this case, or has a known defect there: nothing of it is green or bold
 
 
 @dataclass
@@ -86,13 +87,15 @@ def costs(sound, floor):
 
 
 def metric_row(metric, shown):
-    """(name, unit, {label: Cell}), the smallest errors marked; None where no engine has a number."""
+    """(name, unit, {label: Cell}), the smallest error of the engines that are right marked; None where no engine has a
+    number."""
     name = text(metric.get("name"))
     cells = {label: cell(engine, mode, run, name) for label, (engine, mode, run) in shown.items()}
     known = [c for c in cells.values() if is_number(c.value)]
-    sizes = [abs(c.value) for c in known]
-    for c in known:
-        c.best = len(sizes) > 1 and abs(c.value) <= min(sizes) and max(sizes) > 1e-12
+    sound = [c for c in known if not c.off]
+    least = min((abs(c.value) for c in sound), default=0.0)
+    for c in sound:
+        c.best = len(known) > 1 and abs(c.value) <= least and max(abs(other.value) for other in known) > 1e-12
     return (name, text(metric.get("unit")), cells) if known else None
 
 
@@ -106,4 +109,5 @@ def cell(engine, mode, run, name):
         metric.u if metric else None,
         summary.worst(gate.verdict for gate in gates),
         summary.physics_of(gates),
+        off=any(gate.physics in (summary.WRONG, summary.DEFECT) for gate in engine.gates if gate.mode in ("", mode)),
     )

@@ -214,6 +214,15 @@ class SideBySide(Pages):
         )
         self.assertAlmostEqual(found[0].cost["tripoint, corrected"][1], 1000.0)
 
+    def test_nothing_of_an_engine_that_is_wrong_in_a_case_is_green_or_bold(self):
+        gate = {"mode": "corrected", "value": 0.01, "limit": 1.0, "verdict": "pass", "physics": "right", "reason": "r"}
+        gates = [{**gate, "metric": "error"}, {**gate, "metric": "spin", "verdict": "fail", "physics": "wrong"}]
+        mine, other = ladder(2.0, 5.0, name="mine", gates=gates), ladder(1.0, 2.0, gates=[{**gate, "metric": "error"}])
+        results = self.load(case([mine, other]))
+        cells = side_by_side.read(results)[0].metrics[0][2]
+        self.assertEqual([(c.best, c.off) for c in cells.values()], [(False, True), (True, False)])
+        self.assertEqual(page.render_side_by_side(results).count("within its limit"), 1)
+
     def test_a_ratio_inside_the_noise_floor_is_not_resolved_and_without_one_that_is_said(self):
         engines = [ladder(2.0, 5.0), ladder(1.0, 4.99, name="bullet")]
         self.write(case(engines, timing={"rounds": 5, "noise_floor": 1.1}))
