@@ -37,6 +37,10 @@ constexpr EnergyAccount compression_released{"compression_released"};  ///< as t
 constexpr EnergyAccount start_compression{"start_compression"};        ///< the same
 /// Steps that have taken the present gradients, -1: none are there
 constexpr StepNumber held_for{"carried_steps_held", -1.0};
+/// Of the compression of the start, the share that the places lack still, and the time in which it falls by e [s]
+constexpr StepNumber lacking{"carried_compression_lacking", 0.0}, lacking_for{"carried_compression_time", 0.0};
+/// That time over the time that sound takes down the liquid: so slow that nothing swings
+constexpr double slow = 30.0;
 constexpr EnergyAccount taken_by_diffusion{"taken_by_diffusion"}, taken_by_shift{"taken_by_shift"};
 constexpr double viscous_share = 0.1;                    ///< of dx^2/nu that a step takes
 constexpr double full_rank = 0.5, own_full_rank = 0.02;  ///< determinant below which an inverse is blended
@@ -144,14 +148,21 @@ void CarriedLiquid::load(State& state, const InitialState&) {
   for (std::size_t i = 0; i < p.size(); ++i) set_material(state, i);
   set_groups(state);
   const std::vector<double> pressure = hydrostatic_start(state);
+  double greatest = 0.0;  // g H/c^2
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double share =
         p[field::body][i] < 0 ? pressure[i] / (numbers_.stiffness * numbers_.reference) : 0.0;
+    p[field::compression_at_start][i] = share;
+    greatest = std::max(greatest, share);
     p[field::density][i] = p[field::liquid_rest_density][i] * (1.0 + share);
     if (p[field::body][i] < 0)
       p[field::carried_pressure][i] =
           equation_.pressure(p[field::density][i], p[field::liquid_rest_density][i]);
   }
+  if (greatest == 0.0) return;
+  state.step_numbers[lacking] = 1.0;
+  state.step_numbers[lacking_for] =
+      slow * greatest * numbers_.sound_speed / norm(liquid::pressing_gravity(state.scene));
 }
 
 /// What is born has its density before the energies of a change are taken.
@@ -198,6 +209,8 @@ void CarriedLiquid::drift(State& state, double dt) {
   const auto work = ordered_sums(
       state, blocks, [&](std::size_t i, std::array<double, 1>& sum) { sum[0] += m[i] * dot(g, w.at(i)); });
   state.accumulated[taken_by_shift] += dt * work[0];
+  if (double& left = state.step_numbers[lacking]; left != 0.0)
+    left *= std::exp(-dt / state.step_numbers[lacking_for]);
 }
 
 /// Sums of a term over the clusters of these rows. @param where  0 in rows whose sums are 0; empty: nowhere
@@ -286,6 +299,8 @@ void CarriedLiquid::move_density(State& state) const {
   const bool limited = scheme_.damping == Damping::limited;
   const double diffusion = limited ? scheme_.delta : 2.0 * scheme_.delta * h * c / equation_.modulus;
   const double relax = scheme_.relax * c / state.support(), own = kernels_.wendland.value(0.0);
+  const double lacks = state.step_numbers[lacking];
+  const auto compression = p[field::compression_at_start];
   std::vector<std::array<double, 1>> blocks;
   const auto wall_rate = p[field::wall_rate], displaced = p[field::displaced], weighed = p[field::weighed];
   const auto taken = ordered_sums_of_all(state, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
@@ -297,7 +312,8 @@ void CarriedLiquid::move_density(State& state) const {
     }
     const double half = 0.5 * dt * (divergence[i] + wall_rate[i]);
     const double carried = std::clamp((1.0 - half) / (1.0 + half), 0.5, 2.0) * rho[i];
-    const double kernels = summed[i] + own, sum_now = mass[i] * kernels / numbers_.lattice.density;
+    const double kernels = summed[i] + own;
+    const double sum_now = mass[i] * kernels / numbers_.lattice.density * (1.0 + lacks * compression[i]);
     const bool at_surface = exposed[i] != 0.0 || near[i] != 0.0;
     double tied_to = sum_now;
     if (at_surface && sum_now < carried) {
@@ -480,7 +496,7 @@ EffectSpec spec(const Scene& scene) {
   s.sums_forces = true;
   s.forces = forces_of(solids_meet);
   s.numerical = {taken_by_diffusion, taken_by_shift};
-  s.step_numbers = {kick_length, held_for};
+  s.step_numbers = {kick_length, held_for, lacking, lacking_for};
   if (solids_meet) return s;
   s.guards = {{field::density, "density", Written::density}};
   s.positive = {field::density};

@@ -58,5 +58,7 @@ inline constexpr SymmetricField stress{"stress", "J"};
 /// Of the number density, at the last renewal, without the own kernel; and its slope.
 inline constexpr Field<double> summed_density{"summed_density", "1/m3"};
 inline constexpr VectorField<double> summed_slope{"summed_slope", "1/m4"};
+/// Compression of a liquid by its pressure at the start, where its places are those of no pressure
+inline constexpr Field<double> compression_at_start{"compression_at_start", "1"};
 
 }  // namespace tripoint::field

@@ -13,7 +13,7 @@ fields::List shared() {
 }
 
 fields::List owned(bool solids_meet) {
-  fields::List list{field::shift};
+  fields::List list{field::shift, field::compression_at_start};
   const auto add = [&](std::span<const Field<double>* const> some) {
     for (const Field<double>* f : some)
       if (std::ranges::find(list, FieldInfo(*f)) == list.end()) list.emplace_back(*f);
