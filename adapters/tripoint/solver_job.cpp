@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "scene/contact_law.hpp"
 #include "state/left_numbers.hpp"
 
 namespace tripoint {
@@ -51,12 +52,14 @@ Readback readback_of(const State& state, const TimeStepBound& bound) {
   held.time_step = state.scene.time_step.value_or(bound.dt);
   const auto of_scene = static_cast<std::size_t>(
       std::ranges::count_if(state.scene.bodies, [](const Body& b) { return b.phase != Phase::liquid; }));
+  const CommonContact common = common_contact(state.scene);
+  const bool rubs = !state.scene.contact_laws.empty();
   // Matter that is cold from the start has frozen to bodies of its own by now
   for (std::size_t b = 0; b < of_scene; ++b) {
     held.bodies.push_back({state.body_names[b], state.bodies[field::body_mass][b],
-                           state.bodies[field::body_centre][b],
-                           // Elastic by its energy, without friction
-                           state.bodies[field::body_inertia][b], 0.0, 1.0, 0.0, 0.0});
+                           state.bodies[field::body_centre][b], state.bodies[field::body_inertia][b],
+                           common.friction.value_or(0.0), common.restitution.value_or(rubs ? 0.0 : 1.0), 0.0,
+                           0.0});
   }
   return held;
 }

@@ -2,7 +2,6 @@
 #include "adapters/tripoint/tripoint_engine.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include "adapters/tripoint/solver_job.hpp"
@@ -20,21 +19,14 @@ std::string refuse_settings(const Job& job, const EngineInfo& info) {
   for (const auto& [name, meaning] : info.settings) known.push_back(name);
   for (const auto& [name, value] : job.settings) {
     if (std::ranges::find(known, name) != known.end()) continue;
-    // For all engines: contact is the gradient of an energy, which gives back the energy that it took
-    if (name == "restitution") {
-      if (const double* e = std::get_if<double>(&value); e && *e == 1.0) continue;
-      return "tripoint: contact in the particle model is elastic by its energy: restitution is no setting, "
-             "and only 1 is what it "
-             "does";
+    if (name == "friction" || name == "restitution") {
+      // Where all pairs have one law it comes as a setting too
+      const double* number = std::get_if<double>(&value);
+      if (!job.scene.contact_laws.empty() || (number && *number == (name == "friction" ? 0.0 : 1.0)))
+        continue;
+      return "tripoint: the particle solver has " + name +
+             " by pairs of materials: write a [[contact]] of the scene, for all engines";
     }
-    if (name == "friction") {
-      // Which is what its contact does
-      if (const double* mu = std::get_if<double>(&value); mu && *mu == 0.0) continue;
-    }
-    if (name.find("friction") != std::string::npos)
-      return "tripoint: the particle model meets by pressure and viscosity alone and has no law of "
-             "Coulomb: " +
-             name + " is no setting; scene.contact_viscosity brakes solids that slide on each other";
     return "tripoint: no setting is named " + printable(name) + suggestion(name, known);
   }
   return {};
@@ -65,6 +57,7 @@ EngineInfo TripointEngine::info() const {
                        "restart",
                        "liquid",
                        "contact",
+                       "contact-pairs",
                        "force",
                        "source",
                        "outflow",

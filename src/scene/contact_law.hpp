@@ -7,6 +7,11 @@
 
 namespace tripoint {
 
+/// Whether a law does something that contact without it does not: friction, or a loss in hits.
+[[nodiscard]] inline bool acts(const ContactLaw& law) {
+  return law.friction.value_or(0.0) > 0.0 || law.restitution.value_or(0.0) < 1.0;
+}
+
 /// The law of a pair of materials, in either order; null where no [[contact]] names it.
 [[nodiscard]] const ContactLaw* contact_law_of(const Scene&, std::string_view material,
                                                std::string_view other);

@@ -21,6 +21,13 @@ bool moves(const State& state, std::size_t b) {
 struct Felt {
   std::size_t number;
   Triple<const double> force;
+  std::optional<Triple<const double>> couple;
+
+  /// Of the force on a member, about the centre of its body. @param arm of the member
+  [[nodiscard]] Vec3 torque(std::size_t row, const Vec3& arm) const {
+    const Vec3 of_force = cross(arm, force.at(row));
+    return couple ? of_force + couple->at(row) : of_force;
+  }
 };
 
 std::vector<Felt> felt_forces(const State& state) {
@@ -28,7 +35,8 @@ std::vector<Felt> felt_forces(const State& state) {
   for (std::size_t k = 0; k < state.forces.size(); ++k) {
     const Force& f = state.forces[k];
     if (f.feels != Feels::all) continue;
-    list.push_back({k, triple(state.particles, f.field.get())});
+    list.push_back({k, triple(state.particles, f.field.get()), {}});
+    if (f.couple) list.back().couple = triple(state.particles, f.couple->get());
   }
   return list;
 }
@@ -74,6 +82,7 @@ void sum_forces(const State& state, const std::vector<char>& asked, std::span<co
       const Vec3 force = f.force.at(i);
       sums[b].forces[f.number] += force;
       sums[b].torques[f.number] += cross(arm, force);
+      if (f.couple) sums[b].torques[f.number] += f.couple->at(i);
     }
   });
 }
@@ -127,7 +136,7 @@ std::vector<double> reported_members(const State& state, const std::vector<char>
       return;
     reported.insert(reported.end(), {static_cast<double>(number[static_cast<std::size_t>(p[field::id][i])]),
                                      static_cast<double>(b)});
-    for (const Felt& f : felt) put(reported, f.force.at(i), cross(arm, f.force.at(i)));
+    for (const Felt& f : felt) put(reported, f.force.at(i), f.torque(i, arm));
   });
   if (std::ranges::any_of(counts, [](std::size_t count) { return count > most_reported; })) {
     each_kept_body(state,

@@ -32,6 +32,8 @@ struct Force {
   std::optional<StoredEnergy> stored{};
   std::string_view entry{};  ///< of the ledger, that takes the work of a force which no energy stores
   Feels feels = Feels::all;
+  /// Its moment about each particle, which rigid bodies feel beside that of the force on its centre [J]
+  std::optional<std::reference_wrapper<const VectorField<double>>> couple{};
 };
 
 /// Where the work on bodies that the scene moves is accumulated.

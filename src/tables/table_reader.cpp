@@ -102,18 +102,10 @@ const std::vector<Absent> not_simulated{
 /// For words that other programs have: why this one has not, and what serves.
 std::string what_there_is_instead(std::string_view key) {
   const auto holds = [&](std::string_view word) { return key.find(word) != key.npos; };
-  if (holds("friction"))
-    return "engines that have Coulomb's law take it from [[contact]], by pairs of materials; in the particle "
-           "solver "
-           "solids meet by pressure and viscosity alone, there is no law of Coulomb; scene.contact_viscosity "
-           "[Pa s] brakes "
-           "solids that slide on each other, joined_to bonds them";
-  if (holds("restitution"))
-    return "engines that have it take it from [[contact]], by pairs of materials; in the particle solver "
-           "contact is "
-           "elastic by its energy, and nothing sets what a hit gives back; scene.contact_viscosity [Pa s] "
-           "takes energy from a "
-           "contact";
+  if (holds("friction") || holds("restitution"))
+    return "friction and restitution belong to pairs of materials: write a [[contact]] with materials, "
+           "friction and "
+           "restitution; joined_to bonds bodies";
   if (holds("damping"))
     return "no term damps a motion; scene.contact_viscosity [Pa s] takes energy where solids touch, "
            "viscosity [Pa s] in a liquid";

@@ -49,7 +49,7 @@ TEST(StrangeCase, WithAWallLimitThatIsNoNumberIsRefused) {
 
 TEST(StrangeCase, AskingForFrictionLearnsWhatThereIs) {
   expect_refused(with("", "friction = 0.3\n"),
-                 {"unknown key `friction`", "no law of Coulomb", "scene.contact_viscosity"});
+                 {"unknown key `friction`", "pairs of materials", "[[contact]]"});
   expect_refused(with("restitution = 0.3"), {"unknown key `restitution`", "scene.contact_viscosity"});
   for (const auto& [table, answer] :
        std::vector<std::pair<std::string, std::string>>{{"revolute", "a [[joint]] of kind hinge"},

@@ -37,8 +37,10 @@ constexpr EnergyAccount compression_released{"compression_released"};  ///< as t
 constexpr EnergyAccount start_compression{"start_compression"};        ///< the same
 /// Steps that have taken the present gradients, -1: none are there
 constexpr StepNumber held_for{"carried_steps_held", -1.0};
-/// Of the compression of the start, the share that the places lack still, and the time in which it falls by e [s]
-constexpr StepNumber lacking{"carried_compression_lacking", 0.0}, lacking_for{"carried_compression_time", 0.0};
+/// Of the compression of the start, the share that the places lack still, and the time in which it falls by e
+/// [s]
+constexpr StepNumber lacking{"carried_compression_lacking", 0.0},
+    lacking_for{"carried_compression_time", 0.0};
 /// That time over the time that sound takes down the liquid: so slow that nothing swings
 constexpr double slow = 30.0;
 constexpr EnergyAccount taken_by_diffusion{"taken_by_diffusion"}, taken_by_shift{"taken_by_shift"};

@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "effects/effect.hpp"
+#include "effects/friction/fields.hpp"
+#include "liquids/changes.hpp"
+#include "liquids/fields.hpp"
+#include "liquids/predicted_velocities.hpp"
+#include "liquids/scene_numbers.hpp"
+#include "scene/contact_law.hpp"
+#include "state/body_table.hpp"
+#include "state/fill.hpp"
+
+/// Coulomb's friction and Newton's law of impact of solids that touch, by pairs of materials (model 8.18).
+namespace tripoint::friction {
+namespace {
+
+/// Stiffness of the spring of a particle that sticks, over k rho_ref dx [1]: half the frequency of sound in
+/// it, so that no step is shorter by it.
+constexpr double spring_share = 0.25;
+constexpr double spring_damping = 0.5;  ///< over the critical one of a particle [1]
+/// Speed of parting from which on a contact loses its share in full: over the speed of sound, and over what
+/// gravity gives in a step of sound [1]. Below it what rests does not tremble.
+constexpr double parting_of_sound = 2e-4, parting_of_fall = 2.0;
+
+double parting_of(const Scene& scene, const liquid::SceneNumbers& n) {
+  const double step = n.courant * scene.support_ratio * scene.spacing / n.contact_speed;
+  return std::max(parting_of_sound * n.contact_speed, parting_of_fall * norm(scene.gravity) * step);
+}
+
+struct Law {
+  double friction = 0.0;  ///< mu
+  double returned = 1.0;  ///< e^2: share of the energy of a hit
+};
+
+bool moves(const State& state, std::size_t row) { return row < state.particles.moving(); }
+
+/// Where the face of a body looks at a particle: the slope of the kernel sum S over the body, which points
+/// out of it. Edges and corners look askew, and S is smaller there: its power leaves the word to what is
+/// flat.
+struct Outward {
+  double sum = 0.0;
+  Vec3 slope;
+  void add(const PairKernels& kernels, const Vec3& d, double r) {
+    sum += kernels.wendland.value(r);
+    slope += kernels.wendland.derivative_over_r(r) * d;
+  }
+  /// @param whole  S within a body
+  [[nodiscard]] Vec3 direction(double whole) const {
+    const double share2 = (sum / whole) * (sum / whole);
+    return (share2 * share2 * share2) * slope;
+  }
+};
+
+/// A pair of solids that press each other.
+struct Contact {
+  std::uint32_t other;
+  bool moves;     ///< the other is looked at too, and each has half of the traction of both
+  Vec3 d, force;  ///< r_j - r_i, the force on i
+  Law law;
+};
+
+class Friction : public Effect {
+ public:
+  explicit Friction(const Scene&);
+  void load(State&, const InitialState&) override;
+  void drift(State&, double dt) override { drifted_ = dt; }
+  void state(State&, const Rows&) override;
+  void bonds(State&, const Rows&) override;
+  void adopt(State&) override;
+  void add_to(const State&, Ledger&) const override {}
+
+ private:
+  void find(State&, std::size_t row, std::vector<Contact>&) const;
+  void press(State&, std::size_t row) const;
+  void share(State&, std::size_t row) const;
+
+  void weigh(State&, std::size_t row) const;
+  void set_accelerations(const State&);
+  [[nodiscard]] double acceleration(const State&, std::size_t row) const;
+
+  liquid::SceneNumbers numbers_;
+  PairKernels kernels_;
+  std::vector<Law> laws_;  ///< of materials, a row each
+  std::size_t materials_;
+  double stiffness_, parting_;
+  double whole_;                                ///< kernel sum within a body, without the own particle [1/m3]
+  double drifted_ = 0.0;                        ///< since the last forces, within a step [s]
+  std::vector<double> accelerations_;           ///< of bodies, by their contacts [m/s2]
+  std::vector<std::vector<Contact>> contacts_;  ///< of each row; memory that is used again
+};
+
+Friction::Friction(const Scene& scene)
+    : numbers_(liquid::numbers_of(scene)),
+      kernels_(liquid::pair_kernels(scene)),
+      materials_(scene.materials.size()),
+      stiffness_(spring_share * numbers_.stiffness * numbers_.reference_density * scene.spacing),
+      parting_(parting_of(scene, numbers_)),
+      whole_(numbers_.lattice_density / scene.cell() - kernels_.wendland.value(0.0)) {
+  for (const Material& a : scene.materials)
+    for (const Material& b : scene.materials) {
+      Law law;
+      if (const ContactLaw* one = contact_law_of(scene, a.name, b.name)) {
+        const double e = one->restitution.value_or(0.0);
+        law = {one->friction.value_or(0.0), e * e};
+      }
+      laws_.push_back(law);
+    }
+}
+
+/// Where fixed faces look is known once for all: no step lists what is fixed.
+void Friction::load(State& state, const InitialState&) {
+  const Particles& p = std::as_const(state.particles);
+  const auto x = positions(p);
+  const auto body = p[field::body];
+  std::vector<Outward> out(p.size());
+  const double support = state.support();
+  const auto cell_of = [&](const Vec3& r) {
+    const auto of = [&](double v) { return std::lround(std::floor(v / support)); };
+    return std::array{of(r.x), of(r.y), of(r.z)};
+  };
+  std::map<std::array<long, 3>, std::vector<std::size_t>> cells;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (body[i] >= 0) cells[cell_of(x.at(i))].push_back(i);
+  for (const auto& [at, rows] : cells)
+    for (long n = 0; n < 27; ++n) {
+      const auto near = cells.find({at[0] + n % 3 - 1, at[1] + n / 3 % 3 - 1, at[2] + n / 9 - 1});
+      if (near == cells.end()) continue;
+      for (const std::size_t i : rows)
+        for (const std::size_t j : near->second) {
+          const Vec3 d = x.at(j) - x.at(i);
+          if (i == j || body[i] != body[j] || !(norm(d) < support)) continue;
+          out[i].add(kernels_, d, norm(d));
+        }
+    }
+  const auto outward = triple(state.particles, field::outward);
+  for (std::size_t i = 0; i < out.size(); ++i) outward.set(i, out[i].direction(whole_));
+}
+
+void Friction::adopt(State& state) {
+  for (const std::uint32_t id : state.change.regrouped)
+    triple(state.particles, field::slip).set(state.particles.row(id), {});
+}
+
+void Friction::state(State& state, const Rows&) {
+  liquid::predict_velocities(state, state.step_numbers[liquid::half_step], field::contact_velocity);
+}
+
+/// The solids that press on a solid.
+void Friction::find(State& state, std::size_t i, std::vector<Contact>& found) const {
+  const Particles& p = std::as_const(state.particles);
+  const auto x = positions(p);
+  const auto group = p[field::group], share = p[field::pressure_share];
+  const auto body = p[field::body], material = p[field::material];
+  found.clear();
+  if (group[i] == liquid_group) return;
+  const double support2 = state.support() * state.support();
+  Outward out;
+  for (const Entry e : state.neighbours->of(i)) {
+    const std::size_t j = e.row();
+    if (group[j] == liquid_group) continue;
+    const Vec3 d = (x.at(j) - x.at(i)) + state.neighbours->shift(e.image());
+    const double r2 = dot(d, d);
+    if (!(r2 < support2) || r2 == 0.0) continue;
+    const double r = std::sqrt(r2);
+    if (body[i] == body[j]) {
+      out.add(kernels_, d, r);
+      continue;
+    }
+    const double f = (share[i] + share[j]) * kernels_.wendland.derivative_over_r(r) -
+                     kernels_.core.force_over_r(r, 1.0 / r2);
+    if (!(f < 0.0)) continue;
+    found.push_back(
+        {static_cast<std::uint32_t>(j), moves(state, j), d, f * d,
+         laws_[static_cast<std::size_t>(material[i]) * materials_ + static_cast<std::size_t>(material[j])]});
+  }
+  if (moves(state, i)) triple(state.particles, field::outward).set(i, out.direction(whole_));
+}
+
+/// Velocity of a particle less that of another, of both bodies halfway between them.
+Vec3 relative_velocity(const State& state, Triple<const double> v, std::size_t i, const Contact& c) {
+  const auto body = state.particles[field::body];
+  const auto turns = [&](std::size_t row) {
+    const auto b = static_cast<std::size_t>(body[row]);
+    return is_rigid(state, b) ? cross(state.bodies[field::body_angular_velocity][b], 0.5 * c.d) : Vec3{};
+  };
+  return (v.at(i) + turns(i)) - (v.at(c.other) - turns(c.other));
+}
+
+/// Part of a pair force that presses.
+double part_along(const Contact& c, const Vec3& n) { return std::max(dot(c.force, n), 0.0); }
+
+/// Of the step whose kicks the present forces make, the share in which a contact parts.
+/// @param before  speed of parting ahead of the step   @param after  at its end, where nothing is lost
+double share_parting(double before, double after) {
+  if (before >= 0.0) return 1.0;
+  return after > 0.0 ? after / (after - before) : 0.0;
+}
+
+/// Whether gravity moves a particle.
+bool falls(const State& state, std::size_t i) {
+  const auto b = static_cast<std::size_t>(state.particles[field::body][i]);
+  return !is_rigid(state, b) || state.bodies[field::body_motion][b] == static_cast<int>(Motion::free);
+}
+
+/// The normal of the face at a particle, and the load along it.
+void Friction::weigh(State& state, std::size_t i) const {
+  Particles& p = state.particles;
+  const auto normal = triple(p, field::contact_normal);
+  const auto out = triple(std::as_const(p), field::outward);
+  const auto load = p[field::contact_load];
+  load[i] = 0.0;
+  Vec3 face;
+  for (const Contact& c : contacts_[i]) face += norm(c.force) * (out.at(c.other) - out.at(i));
+  const double steep = norm(face);
+  if (steep == 0.0) return;
+  const Vec3 n = (1.0 / steep) * face;
+  normal.set(i, n);
+  for (const Contact& c : contacts_[i]) load[i] += part_along(c, n);
+}
+
+/// Of each rigid body that forces move, the loads on its particles over its mass; in order of id.
+void Friction::set_accelerations(const State& state) {
+  const Particles& p = state.particles;
+  const auto body = p[field::body];
+  const auto load = p[field::contact_load];
+  accelerations_.assign(state.bodies.size(), 0.0);
+  for (std::size_t id = 0; id < p.size(); ++id)
+    if (const std::size_t i = p.row(id); moves(state, i) && body[i] >= 0 && load[i] > 0.0)
+      accelerations_[static_cast<std::size_t>(body[i])] += load[i];
+  for (std::size_t b = 0; b < accelerations_.size(); ++b) {
+    const bool free = state.bodies[field::body_motion][b] == static_cast<int>(Motion::free);
+    accelerations_[b] = free ? accelerations_[b] / state.bodies[field::body_mass][b] : 0.0;
+  }
+}
+
+/// By the loads, of a particle or of the body that it is a member of.
+double Friction::acceleration(const State& state, std::size_t i) const {
+  const auto b = static_cast<std::size_t>(state.particles[field::body][i]);
+  if (is_rigid(state, b)) return accelerations_[b];
+  return state.particles[field::contact_load][i] / state.particles[field::mass][i];
+}
+
+/// The traction of a particle: friction against its slip, and what a parting contact does not give back.
+void Friction::press(State& state, std::size_t i) const {
+  Particles& p = state.particles;
+  const auto slip = triple(p, field::slip), traction = triple(p, field::traction);
+  const double size = p[field::contact_load][i];
+  traction.set(i, {});
+  if (size == 0.0) return slip.set(i, {});
+  const Vec3 n = triple(std::as_const(p), field::contact_normal).at(i);
+  const auto predicted = triple(std::as_const(p), field::contact_velocity),
+             now = velocities(std::as_const(p));
+  Vec3 sum, u, before;  // amid the step whose kicks this force makes, and ahead of it
+  Law law{0.0, 0.0};
+  double push = 0.0;  // acceleration by the loads and, beside what does not fall, by gravity
+  for (const Contact& c : contacts_[i]) {
+    const double part = part_along(c, n);
+    sum += c.force;
+    u += part * relative_velocity(state, predicted, i, c);
+    before += part * relative_velocity(state, now, i, c);
+    push +=
+        part * (acceleration(state, c.other) + (falls(state, c.other) ? 0.0 : dot(state.scene.gravity, n)));
+    law.friction += part * c.law.friction;
+    law.returned += part * c.law.returned;
+  }
+  u = (1.0 / size) * u;
+  law.friction /= size;
+  law.returned /= size;
+  const double dt = 2.0 * state.step_numbers[liquid::half_step];
+  const double start = dot(before, n) / size, end = start + dt * (acceleration(state, i) + push / size);
+  const double slow = std::clamp((start < 0.0 ? end : start) / parting_, 0.0, 1.0);
+  const double lost = (1.0 - law.returned) * share_parting(start, end) * slow;
+  // Faces of particles are rough: what they push along themselves is lost where they part straight alone
+  const double straight = dot(u, u) > 0.0 ? dot(u, n) * dot(u, n) / dot(u, u) : 0.0;
+  Vec3 T = -lost * (straight * sum + (1.0 - straight) * dot(sum, n) * n);
+  if (law.friction > 0.0) {
+    const Vec3 along = u - dot(u, n) * n;
+    Vec3 s = slip.at(i) + drifted_ * along;
+    s -= dot(s, n) * n;
+    const double damping = 2.0 * spring_damping * std::sqrt(stiffness_ * p[field::mass][i]);
+    Vec3 held = -stiffness_ * s - damping * along;
+    const double most = law.friction * (1.0 - lost) * size, asked = norm(held);
+    if (asked > most) {
+      held = (most / asked) * held;
+      s = (-1.0 / stiffness_) * held;
+    }
+    slip.set(i, s);
+    T += held;
+  } else {
+    slip.set(i, {});
+  }
+  traction.set(i, T);
+}
+
+/// The forces of the pairs of a particle: each has its share of the tractions of both.
+void Friction::share(State& state, std::size_t i) const {
+  Particles& p = state.particles;
+  const auto force = triple(p, field::friction_force), couple = triple(p, field::friction_couple);
+  const auto traction = triple(std::as_const(p), field::traction),
+             normal = triple(std::as_const(p), field::contact_normal);
+  const auto load = p[field::contact_load];
+  Vec3 sum, moment;
+  const double of_other = moves(state, i) ? 0.5 : 1.0;
+  for (const Contact& c : contacts_[i]) {
+    const std::size_t j = c.other;
+    const double own = c.moves ? 0.5 : 1.0, others = c.moves ? of_other : 0.0;
+    Vec3 f;
+    if (load[i] > 0.0) f += (own * part_along(c, normal.at(i)) / load[i]) * traction.at(i);
+    if (load[j] > 0.0) f -= (others * std::max(-dot(c.force, normal.at(j)), 0.0) / load[j]) * traction.at(j);
+    sum += f;
+    moment += cross(0.5 * c.d, f);
+  }
+  force.set(i, sum);
+  couple.set(i, moment);
+}
+
+/// Fixed particles have no traction of their own, and feel those of others where somebody asks.
+void Friction::bonds(State& state, const Rows& rows) {
+  contacts_.resize(std::max(contacts_.size(), state.particles.size()));
+  for (const VectorField<double>* f : {&field::friction_force, &field::friction_couple})
+    for (const Field<double>* one : columns_of(*f))
+      fill(part(state.particles[*one], rows), 0.0, state.threads);
+  const Clusters& c = state.neighbours->clusters();
+  const auto each = [&](auto visit) {
+#pragma omp parallel for schedule(dynamic, 16) num_threads(state.threads)
+    for (std::size_t n = 0; n < c.listed.size(); ++n)
+      for (std::uint32_t i = c.first[c.listed[n]]; i < c.first[c.listed[n] + 1]; ++i)
+        if (i >= rows.from && i < rows.to) visit(i);
+  };
+  each([&](std::size_t i) {
+    find(state, i, contacts_[i]);
+    if (moves(state, i)) weigh(state, i);
+  });
+  if (!state.forms_fixed) {
+    set_accelerations(state);
+    each([&](std::size_t i) { press(state, i); });
+  }
+  each([&](std::size_t i) { share(state, i); });
+  drifted_ = 0.0;
+}
+
+}  // namespace
+
+EffectSpec spec(const Scene&) {
+  EffectSpec s{
+      "friction",
+      Mode::corrected,
+      {field::friction_force, field::friction_couple, field::slip, field::traction, field::outward,
+       field::contact_normal, field::contact_load, field::contact_velocity},
+      fields::joined({fields::position(),
+                      fields::velocity(),
+                      {field::mass, field::body, field::material, field::group, field::pressure_share}})};
+  s.reads_if_there = fields::image();
+  s.sums_forces = true;
+  s.skips_sleeping = true;
+  Force friction{field::friction_force, {"friction_work"}, EnergyAccount{"wall_friction_work"}};
+  friction.entry = "friction";
+  friction.couple = field::friction_couple;
+  s.forces = {friction};
+  return s;
+}
+
+std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<Friction>(scene); }
+
+}  // namespace tripoint::friction
