@@ -10,6 +10,7 @@
 #include <map>
 #include <unordered_set>
 
+#include "scene/contact_law.hpp"
 #include "scene/defaults.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/geometry.hpp"
@@ -176,15 +177,18 @@ bool slopes(const Scene& s, const Body& b) {
 void slippery(const Scene& s, std::vector<Finding>& found) {
   if (!(norm(s.gravity) > 0.0) || !s.contact) return;
   const auto ramp = std::ranges::find_if(s.bodies, [&](const Body& b) { return slopes(s, b); });
-  const auto slider = std::ranges::find_if(
-      s.bodies, [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; });
-  if (ramp == s.bodies.end() || slider == s.bodies.end()) return;
-  found.push_back({false,
-                   fmt::format("body \"{}\" slopes, and the particle solver has no friction: \"{}\" slides "
-                               "on it as on ice. Engines "
-                               "that have Coulomb's law take it from [[contact]]",
-                               ramp->name, slider->name),
-                   ramp->place});
+  if (ramp == s.bodies.end()) return;
+  const auto slider = std::ranges::find_if(s.bodies, [&](const Body& b) {
+    return b.phase != Phase::liquid && b.motion == Motion::free &&
+           !contact_law_of(s, b.material, ramp->material);
+  });
+  if (slider == s.bodies.end()) return;
+  found.push_back(
+      {false,
+       fmt::format("body \"{}\" slopes, and no [[contact]] gives its material and that of \"{}\" a "
+                   "friction: it slides as on ice",
+                   ramp->name, slider->name),
+       ramp->place});
 }
 
 /// How far heat spreads in a run [m]: sqrt(4 D t).

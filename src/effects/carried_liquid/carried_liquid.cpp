@@ -41,6 +41,7 @@ constexpr StepNumber held_for{"carried_steps_held", -1.0};
 /// [s]
 constexpr StepNumber lacking{"carried_compression_lacking", 0.0},
     lacking_for{"carried_compression_time", 0.0};
+constexpr double not_measured = -1.0;  ///< share that the places lack, before the first sums
 /// That time over the time that sound takes down the liquid: so slow that nothing swings
 constexpr double slow = 30.0;
 constexpr EnergyAccount taken_by_diffusion{"taken_by_diffusion"}, taken_by_shift{"taken_by_shift"};
@@ -162,7 +163,7 @@ void CarriedLiquid::load(State& state, const InitialState&) {
           equation_.pressure(p[field::density][i], p[field::liquid_rest_density][i]);
   }
   if (greatest == 0.0) return;
-  state.step_numbers[lacking] = 1.0;
+  state.step_numbers[lacking] = not_measured;
   state.step_numbers[lacking_for] =
       slow * greatest * numbers_.sound_speed / norm(liquid::pressing_gravity(state.scene));
 }
@@ -211,7 +212,7 @@ void CarriedLiquid::drift(State& state, double dt) {
   const auto work = ordered_sums(
       state, blocks, [&](std::size_t i, std::array<double, 1>& sum) { sum[0] += m[i] * dot(g, w.at(i)); });
   state.accumulated[taken_by_shift] += dt * work[0];
-  if (double& left = state.step_numbers[lacking]; left != 0.0)
+  if (double& left = state.step_numbers[lacking]; left > 0.0)
     left *= std::exp(-dt / state.step_numbers[lacking_for]);
 }
 
@@ -301,6 +302,8 @@ void CarriedLiquid::move_density(State& state) const {
   const bool limited = scheme_.damping == Damping::limited;
   const double diffusion = limited ? scheme_.delta : 2.0 * scheme_.delta * h * c / equation_.modulus;
   const double relax = scheme_.relax * c / state.support(), own = kernels_.wendland.value(0.0);
+  const bool measures = state.step_numbers[lacking] == not_measured;
+  if (measures) state.step_numbers[lacking] = 1.0;
   const double lacks = state.step_numbers[lacking];
   const auto compression = p[field::compression_at_start];
   std::vector<std::array<double, 1>> blocks;
@@ -315,7 +318,10 @@ void CarriedLiquid::move_density(State& state) const {
     const double half = 0.5 * dt * (divergence[i] + wall_rate[i]);
     const double carried = std::clamp((1.0 - half) / (1.0 + half), 0.5, 2.0) * rho[i];
     const double kernels = summed[i] + own;
-    const double sum_now = mass[i] * kernels / numbers_.lattice.density * (1.0 + lacks * compression[i]);
+    const double by_places = mass[i] * kernels / numbers_.lattice.density;
+    // Places may have it already, as where the liquid has settled
+    if (measures) compression[i] = std::clamp(rho[i] / by_places - 1.0, 0.0, compression[i]);
+    const double sum_now = by_places * (1.0 + lacks * compression[i]);
     const bool at_surface = exposed[i] != 0.0 || near[i] != 0.0;
     double tied_to = sum_now;
     if (at_surface && sum_now < carried) {
