@@ -110,8 +110,10 @@ void check_bounds(const std::vector<Active>& effects) {
 void set_declared(std::vector<Active>& effects) {
   std::vector<FieldInfo> forces;
   for (const Active& a : effects)
-    for (const Force& f : a.spec.forces)
+    for (const Force& f : a.spec.forces) {
       forces.insert(forces.end(), {f.field.get().x, f.field.get().y, f.field.get().z});
+      if (f.couple) forces.insert(forces.end(), {f.couple->get().x, f.couple->get().y, f.couple->get().z});
+    }
   for (Active& a : effects) {
     a.declared.who = a.name;
     const auto add = [&](const std::vector<FieldInfo>& fields) {
