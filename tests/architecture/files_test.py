@@ -29,6 +29,7 @@ KEEP_HOUSE = {
     "carried_liquid/elastic_faces.cpp",
     "elastic/bond_forces.cpp",
     "faces/face_pressure.cpp",
+    "friction/friction.cpp",
     "heat/held_surface.cpp",
     "phase/softening.cpp",
     "walls/wall_patches.cpp",

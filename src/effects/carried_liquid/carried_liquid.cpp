@@ -14,6 +14,7 @@
 #include "effects/carried_liquid/owned_columns.hpp"
 #include "effects/carried_liquid/phase_density.hpp"
 #include "effects/carried_liquid/scheme.hpp"
+#include "effects/carried_liquid/shift.hpp"
 #include "effects/carried_liquid/solid_pressure.hpp"
 #include "effects/carried_liquid/sound_terms.hpp"
 #include "effects/carried_liquid/surface_fill.hpp"
@@ -112,7 +113,6 @@ class CarriedLiquid : public Effect {
   void move_density(State&) const;
   void set_pressure(State&) const;
   void set_stress(State&) const;
-  void set_shift(State&) const;
 
   Numbers numbers_;
   PairKernels kernels_;
@@ -363,34 +363,6 @@ void CarriedLiquid::set_stress(State& state) const {
   for (std::size_t i = 0; i < p.size(); ++i) stress.set(i, (pressure[i] * V[i]) * b.at(i));
 }
 
-void CarriedLiquid::set_shift(State& state) const {
-  Particles& p = state.particles;
-  const auto w = triple(p, field::shift);
-  const auto s = triple(std::as_const(p), field::unevenness);
-  const auto z = p[field::impedance], near = p[field::exposed_near], exposed = p[field::exposed],
-             speed2 = p[field::nearby_speed2];
-  const double h = 0.5 * state.support();
-  const auto driven = p.has(field::driven.name) ? p[field::driven] : std::span<int>{};
-#pragma omp parallel for schedule(static) num_threads(state.threads)
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const bool inside =
-        z[i] != 0.0 && (driven.empty() || driven[i] == 0) && exposed[i] == 0.0 && near[i] == 0.0;
-    if (!inside || scheme_.shift == Shift::none) {
-      w.set(i, {});
-      continue;
-    }
-    const Vec3 e = s.at(i);
-    const double size2 = h * h * dot(e, e);
-    if (scheme_.shift == Shift::at_rest) {
-      w.set(i, (-scheme_.strength * numbers_.sound_speed * h * std::min(100.0 * size2, 1.0)) * e);
-    } else {
-      const double u = std::sqrt(speed2[i]), way = scheme_.strength * h * u;
-      const double most = 0.25 * u, length = way * norm(e);
-      w.set(i, (-way * (length > most ? most / length : 1.0)) * e);
-    }
-  }
-}
-
 /// Moments, rates and forces of one state take the same volumes: those before the step.
 void CarriedLiquid::set_volumes(State& state) const {
   Particles& p = state.particles;
@@ -430,7 +402,7 @@ void CarriedLiquid::state(State& state, const Rows&) {
     run(state, pair_term<FaceLoad>, all_rows(state), p[field::touching]);
     faces_.set_loads(state);
   }
-  if (renewed) set_shift(state);
+  if (renewed) set_shift(state, scheme_, numbers_.sound_speed);
   liquid::predict_velocities(state, state.step_numbers[kick_length], field::predicted);
   drifted_ = 0.0;
 }

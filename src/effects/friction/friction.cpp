@@ -334,11 +334,9 @@ void Friction::bonds(State& state, const Rows& rows) {
       for (std::uint32_t i = c.first[c.listed[n]]; i < c.first[c.listed[n] + 1]; ++i)
         if (i >= rows.from && i < rows.to) visit(i);
   };
-  each([&](std::size_t i) {
-    find(state, i, contacts_[i]);
-    if (moves(state, i)) weigh(state, i);
-  });
+  each([&](std::size_t i) { find(state, i, contacts_[i]); });
   if (!state.forms_fixed) {
+    each([&](std::size_t i) { weigh(state, i); });
     set_accelerations(state);
     each([&](std::size_t i) { press(state, i); });
   }
