@@ -444,18 +444,15 @@ def states_of(writer, scene, mode, steps, changes):
 
 
 def compare_all(writer, runs=RUNS, of_start=True):
-    """@param of_start  compare the state of the start too
-    @return term -> (greatest difference, where, numbers compared)
-    """
+    """@return term -> (greatest difference, where, numbers compared), of the start of each run too where asked"""
     out, broken = Differences(), 0
     for scene, mode, steps, changes in runs:
         start, before, after = states_of(writer, scene, mode, steps, changes)
         for state in (start, after):
             state.form_of_pressure = "".join(changes[:1]).removeprefix("model.pressure=").strip("'")
         out.where = " ".join([scene, mode, *changes])
-        if of_start:
-            compare_state(out, start, None)
-        compare_state(out, after, before)
+        for state, earlier in [(start, None), (after, before)][not of_start :]:
+            compare_state(out, state, earlier)
         if any(m.get("fracture_stretch") for m in start.materials):
             compare_fracture(out, after, before)
             broken += len(start.raw["bonds"]) - len(after.raw["bonds"])
