@@ -32,6 +32,19 @@ std::string refuse_settings(const Job& job, const EngineInfo& info) {
   return {};
 }
 
+/// Laws of joints that the step has no form of.
+std::string refuse_joints(const Scene& scene) {
+  for (const Joint& j : scene.joints) {
+    if (j.limits || j.friction > 0.0 || j.damping > 0.0 || (j.motor && j.motor->speed))
+      return "limits, friction, damping and the speed of a motor are not simulated, and joint " + j.name +
+             " has one";
+    const bool of_two = j.bodies[0] != "world" && j.bodies[1] != "world";
+    if (of_two && scene.contact && !meetings(scene).empty())
+      return "bodies with a joint would touch each other where others touch: write scene.contact = \"none\"";
+  }
+  return {};
+}
+
 }  // namespace
 
 EngineInfo TripointEngine::info() const {
@@ -84,19 +97,6 @@ EngineInfo TripointEngine::info() const {
        "seconds of simulated time between checkpoints; they change no bit; default none"}};
   info.deterministic = true;
   return info;
-}
-
-/// Laws of joints that the step has no form of.
-static std::string refuse_joints(const Scene& scene) {
-  for (const Joint& j : scene.joints) {
-    if (j.limits || j.friction > 0.0 || j.damping > 0.0 || (j.motor && j.motor->speed))
-      return "limits, friction, damping and the speed of a motor are not simulated, and joint " + j.name +
-             " has one";
-    const bool of_two = j.bodies[0] != "world" && j.bodies[1] != "world";
-    if (of_two && scene.contact && !meetings(scene).empty())
-      return "bodies with a joint would touch each other where others touch: write scene.contact = \"none\"";
-  }
-  return {};
 }
 
 std::string TripointEngine::refusal(const Job& job) const {

@@ -7,8 +7,8 @@
 
 namespace tripoint {
 
-/// Whether a law does something that contact without it does not: friction, or a loss in hits.
-[[nodiscard]] inline bool acts(const ContactLaw& law) {
+/// Whether a law has friction, or a loss in hits, which contact without a law has not.
+[[nodiscard]] inline bool takes_energy(const ContactLaw& law) {
   return law.friction.value_or(0.0) > 0.0 || law.restitution.value_or(0.0) < 1.0;
 }
 

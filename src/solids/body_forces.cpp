@@ -23,11 +23,8 @@ struct Felt {
   Triple<const double> force;
   std::optional<Triple<const double>> couple;
 
-  /// Of the force on a member, about the centre of its body. @param arm of the member
-  [[nodiscard]] Vec3 torque(std::size_t row, const Vec3& arm) const {
-    const Vec3 of_force = cross(arm, force.at(row));
-    return couple ? of_force + couple->at(row) : of_force;
-  }
+  /// Moment about a member, beside that of the force on its centre.
+  [[nodiscard]] Vec3 couple_at(std::size_t row) const { return couple ? couple->at(row) : Vec3{}; }
 };
 
 std::vector<Felt> felt_forces(const State& state) {
@@ -81,8 +78,7 @@ void sum_forces(const State& state, const std::vector<char>& asked, std::span<co
     for (const Felt& f : felt) {
       const Vec3 force = f.force.at(i);
       sums[b].forces[f.number] += force;
-      sums[b].torques[f.number] += cross(arm, force);
-      if (f.couple) sums[b].torques[f.number] += f.couple->at(i);
+      sums[b].torques[f.number] += cross(arm, force) + f.couple_at(i);
     }
   });
 }
@@ -136,7 +132,7 @@ std::vector<double> reported_members(const State& state, const std::vector<char>
       return;
     reported.insert(reported.end(), {static_cast<double>(number[static_cast<std::size_t>(p[field::id][i])]),
                                      static_cast<double>(b)});
-    for (const Felt& f : felt) put(reported, f.force.at(i), f.torque(i, arm));
+    for (const Felt& f : felt) put(reported, f.force.at(i), cross(arm, f.force.at(i)) + f.couple_at(i));
   });
   if (std::ranges::any_of(counts, [](std::size_t count) { return count > most_reported; })) {
     each_kept_body(state,

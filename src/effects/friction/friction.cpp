@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -69,18 +67,15 @@ struct Contact {
 class Friction : public Effect {
  public:
   explicit Friction(const Scene&);
-  void load(State&, const InitialState&) override;
   void drift(State&, double dt) override { drifted_ = dt; }
   void state(State&, const Rows&) override;
   void bonds(State&, const Rows&) override;
   void adopt(State&) override;
-  void add_to(const State&, Ledger&) const override {}
 
  private:
   void find(State&, std::size_t row, std::vector<Contact>&) const;
   void press(State&, std::size_t row) const;
   void share(State&, std::size_t row) const;
-
   void weigh(State&, std::size_t row) const;
   void set_accelerations(const State&);
   [[nodiscard]] double acceleration(const State&, std::size_t row) const;
@@ -114,35 +109,6 @@ Friction::Friction(const Scene& scene)
     }
 }
 
-/// Where fixed faces look is known once for all: no step lists what is fixed.
-void Friction::load(State& state, const InitialState&) {
-  const Particles& p = std::as_const(state.particles);
-  const auto x = positions(p);
-  const auto body = p[field::body];
-  std::vector<Outward> out(p.size());
-  const double support = state.support();
-  const auto cell_of = [&](const Vec3& r) {
-    const auto of = [&](double v) { return std::lround(std::floor(v / support)); };
-    return std::array{of(r.x), of(r.y), of(r.z)};
-  };
-  std::map<std::array<long, 3>, std::vector<std::size_t>> cells;
-  for (std::size_t i = 0; i < p.size(); ++i)
-    if (body[i] >= 0) cells[cell_of(x.at(i))].push_back(i);
-  for (const auto& [at, rows] : cells)
-    for (long n = 0; n < 27; ++n) {
-      const auto near = cells.find({at[0] + n % 3 - 1, at[1] + n / 3 % 3 - 1, at[2] + n / 9 - 1});
-      if (near == cells.end()) continue;
-      for (const std::size_t i : rows)
-        for (const std::size_t j : near->second) {
-          const Vec3 d = x.at(j) - x.at(i);
-          if (i == j || body[i] != body[j] || !(norm(d) < support)) continue;
-          out[i].add(kernels_, d, norm(d));
-        }
-    }
-  const auto outward = triple(state.particles, field::outward);
-  for (std::size_t i = 0; i < out.size(); ++i) outward.set(i, out[i].direction(whole_));
-}
-
 void Friction::adopt(State& state) {
   for (const std::uint32_t id : state.change.regrouped)
     triple(state.particles, field::slip).set(state.particles.row(id), {});
@@ -152,7 +118,8 @@ void Friction::state(State& state, const Rows&) {
   liquid::predict_velocities(state, state.step_numbers[liquid::half_step], field::contact_velocity);
 }
 
-/// The solids that press on a solid.
+/// The solids that press on a solid, and where its face looks. The first lists are whole: fixed faces know it
+/// from then on.
 void Friction::find(State& state, std::size_t i, std::vector<Contact>& found) const {
   const Particles& p = std::as_const(state.particles);
   const auto x = positions(p);

@@ -12,7 +12,7 @@ namespace {
 std::string called_for(const Scene& s) {
   if (!calls_for(s, "pressure") || !printed_among(s, {term::density, term::pressure, term::state}).empty())
     return "";
-  const auto law = std::ranges::find_if(s.contact_laws, [](const ContactLaw& one) { return acts(one); });
+  const auto law = std::ranges::find_if(s.contact_laws, takes_energy);
   return law == s.contact_laws.end() ? ""
                                      : "materials " + law->materials[0] + " and " + law->materials[1] +
                                            " rub, or lose energy in hits";
