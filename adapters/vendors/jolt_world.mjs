@@ -141,22 +141,17 @@ function listen(system, laws, bodies, scene) {
 
 /// The angle or way of a constraint is that of its second body against the first: the job's first against its second.
 function constraintOf(joint) {
-  if (joint.kind === 'hinge') {
-    const c = new J.HingeConstraintSettings();
+  if (joint.kind === 'hinge' || joint.kind === 'slider') {
+    const turns = joint.kind === 'hinge';
+    const c = turns ? new J.HingeConstraintSettings() : new J.SliderConstraintSettings();
     c.mPoint1 = c.mPoint2 = vec3r(joint.place);
-    c.mHingeAxis1 = c.mHingeAxis2 = vec(joint.axis);
     c.mNormalAxis1 = c.mNormalAxis2 = vec(joint.across);
     if (joint.limits) [c.mLimitsMin, c.mLimitsMax] = joint.limits;
-    c.mMaxFrictionTorque = joint.friction;
-    return c;
-  }
-  if (joint.kind === 'slider') {
-    const c = new J.SliderConstraintSettings();
-    c.mPoint1 = c.mPoint2 = vec3r(joint.place);
-    c.mSliderAxis1 = c.mSliderAxis2 = vec(joint.axis);
-    c.mNormalAxis1 = c.mNormalAxis2 = vec(joint.across);
-    if (joint.limits) [c.mLimitsMin, c.mLimitsMax] = joint.limits;
-    c.mMaxFrictionForce = joint.friction;
+    const [axis1, axis2, friction] = turns
+      ? ['mHingeAxis1', 'mHingeAxis2', 'mMaxFrictionTorque']
+      : ['mSliderAxis1', 'mSliderAxis2', 'mMaxFrictionForce'];
+    c[axis1] = c[axis2] = vec(joint.axis);
+    c[friction] = joint.friction;
     return c;
   }
   if (joint.kind === 'fixed') {
