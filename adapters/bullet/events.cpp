@@ -7,8 +7,8 @@
 #include <algorithm>
 
 #include "adapters/bullet/bullet_engine.hpp"
+#include "sampling/sample.hpp"
 #include "scene/geometry.hpp"
-#include "scene/sample.hpp"
 
 namespace tripoint::bullet {
 namespace {

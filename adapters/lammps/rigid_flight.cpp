@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "adapters/lammps/body_fit.hpp"
+#include "sampling/sample.hpp"
 #include "scene/geometry.hpp"
-#include "scene/sample.hpp"
 
 namespace tripoint::lammps {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "program/bench/clock.hpp"
 #include "program/bench/memory.hpp"
-#include "scene/sample.hpp"
+#include "sampling/sample.hpp"
 #include "step/simulation.hpp"
 
 namespace tripoint::bench {

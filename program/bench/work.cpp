@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/sample.hpp"
+#include "sampling/sample.hpp"
 #include "validation/case/read_case.hpp"
 
 namespace tripoint::bench {

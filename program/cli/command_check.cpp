@@ -8,7 +8,7 @@
 #include "program/cli/case_summary.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
-#include "scene/sample.hpp"
+#include "sampling/sample.hpp"
 #include "validation/campaign/case_names.hpp"
 #include "validation/campaign/suite.hpp"
 #include "validation/case/idle_keys.hpp"

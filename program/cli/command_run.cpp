@@ -17,7 +17,7 @@
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
 #include "program/cli/run_progress.hpp"
-#include "scene/sample.hpp"
+#include "sampling/sample.hpp"
 #include "tables/units.hpp"
 #include "validation/campaign/case_names.hpp"
 #include "validation/campaign/suite.hpp"

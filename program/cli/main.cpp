@@ -9,7 +9,7 @@
 #include "program/cli/common.hpp"
 #include "program/cli/gate_judge.hpp"
 #include "program/cli/options.hpp"
-#include "scene/sample.hpp"
+#include "sampling/sample.hpp"
 #include "step/settle.hpp"
 #include "validation/results/interrupt.hpp"
 #include "validation/results/verdict.hpp"

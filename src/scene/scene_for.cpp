@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-
 #include "scene/defaults.hpp"
 #include "scene/effect_rule.hpp"
-#include "scene/sample.hpp"
 #include "scene/shared_terms.hpp"
 
 namespace tripoint {
@@ -29,13 +26,6 @@ Scene scene_for(Scene s, const RunChoice& choice) {
     for (Material& m : s.materials) m.stiffness = stiffness->value;
   }
   return s;
-}
-
-std::vector<int> body_rows(const Scene& s) {
-  std::vector<int> rows;
-  int next = 0;
-  for (const auto& b : s.bodies) rows.push_back(b.phase == Phase::liquid ? -1 : next++);
-  return rows;
 }
 
 }  // namespace tripoint

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "core/errors.hpp"
+#include "sampling/sample.hpp"
 #include "scene/effect_rule.hpp"
-#include "scene/sample.hpp"
 
 namespace tripoint {
 

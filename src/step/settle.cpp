@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
-#include "scene/lattice.hpp"
+#include "sampling/lattice.hpp"
 #include "step/simulation.hpp"
 
 namespace tripoint {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "files/job.hpp"
-#include "scene/sample.hpp"
+#include "sampling/sample.hpp"
 
 /// Jobs as the harness makes them: the scene's own sampler, mass properties from the particles.
 namespace tripoint::test {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "assembly/plan.hpp"
-#include "scene/sample.hpp"
+#include "sampling/sample.hpp"
 #include "step/settle.hpp"
 #include "step/simulation.hpp"
 #include "validation/case/read_case.hpp"

@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "sampling/sample.hpp"
 #include "scene/effect_rule.hpp"
-#include "scene/sample.hpp"
 #include "step/settle.hpp"
 #include "step/simulation.hpp"
 #include "validation/case/read_case.hpp"

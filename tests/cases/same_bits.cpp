@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/machine.hpp"
-#include "scene/sample.hpp"
+#include "sampling/sample.hpp"
 #include "state_after.hpp"
 #include "step/settle.hpp"
 #include "validation/case/read_case.hpp"

@@ -21,7 +21,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/sample.hpp"
+#include "sampling/sample.hpp"
 #include "step/settle.hpp"
 #include "step/simulation.hpp"
 #include "validation/case/read_case.hpp"

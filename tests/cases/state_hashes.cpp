@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "scene/sample.hpp"
+#include "sampling/sample.hpp"
 #include "state_after.hpp"
 #include "step/settle.hpp"
 #include "validation/case/read_case.hpp"

@@ -5,8 +5,8 @@
 #include <functional>
 
 #include "assembly/plan.hpp"
+#include "sampling/sample.hpp"
 #include "scene/initial_state.hpp"
-#include "scene/sample.hpp"
 #include "step/simulation.hpp"
 
 /// Small scenes built by hand, for tests of effects and of the step loop.

@@ -2,8 +2,8 @@
 // A case file: read, resolved, asked for its effects, and where it is small sampled and checked.
 #include "core/errors.hpp"
 #include "fuzz/input.hpp"
+#include "sampling/sample.hpp"
 #include "scene/effect_rule.hpp"
-#include "scene/sample.hpp"
 #include "validation/case/preflight.hpp"
 #include "validation/case/read_case.hpp"
 

@@ -7,7 +7,7 @@
 #include "files/job.hpp"
 #include "files/trajectory.hpp"
 #include "harness/fakes.hpp"
-#include "scene/sample.hpp"
+#include "sampling/sample.hpp"
 #include "validation/run/run_one.hpp"
 
 namespace tripoint {

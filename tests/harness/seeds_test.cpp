@@ -4,7 +4,7 @@
 #include "core/errors.hpp"
 #include "harness/fakes.hpp"
 #include "harness/judged.hpp"
-#include "scene/sample.hpp"
+#include "sampling/sample.hpp"
 #include "validation/mutation/seeds.hpp"
 
 namespace tripoint {

@@ -16,7 +16,7 @@
 
 #include "files/scene_json.hpp"
 #include "pairs/pair_passes.hpp"
-#include "scene/sample.hpp"
+#include "sampling/sample.hpp"
 #include "step/simulation.hpp"
 #include "validation/case/read_case.hpp"
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.hpp"
-#include "scene/sample.hpp"
+#include "sampling/sample.hpp"
 
 namespace tripoint {
 namespace {

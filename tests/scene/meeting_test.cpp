@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "case_file.hpp"
-#include "scene/sample.hpp"
+#include "sampling/sample.hpp"
 
 namespace tripoint::test {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "case_file.hpp"
 #include "mesh/mesh.hpp"
-#include "scene/sample.hpp"
+#include "sampling/sample.hpp"
 
 namespace tripoint::test {
 namespace {

@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "case_file.hpp"
+#include "sampling/sample.hpp"
+#include "sampling/shape_distance.hpp"
 #include "scene/geometry.hpp"
-#include "scene/sample.hpp"
-#include "scene/shape_distance.hpp"
 
 namespace tripoint::test {
 namespace {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "case_file.hpp"
+#include "sampling/sample.hpp"
 #include "scene/effect_rule.hpp"
-#include "scene/sample.hpp"
 #include "validation/case/preflight.hpp"
 #include "validation/case/shape_match.hpp"
 

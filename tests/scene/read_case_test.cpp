@@ -3,7 +3,7 @@
 
 #include "case_file.hpp"
 #include "full_case.hpp"
-#include "scene/sample.hpp"
+#include "sampling/sample.hpp"
 #include "scene/shared_terms.hpp"
 #include "validation/case/ablation.hpp"
 

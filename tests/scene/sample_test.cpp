@@ -7,8 +7,8 @@
 #include <set>
 
 #include "case_file.hpp"
-#include "scene/lattice.hpp"
-#include "scene/sample.hpp"
+#include "sampling/lattice.hpp"
+#include "sampling/sample.hpp"
 
 namespace tripoint::test {
 namespace {

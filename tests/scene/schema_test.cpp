@@ -5,7 +5,7 @@
 #include <set>
 
 #include "case_file.hpp"
-#include "scene/sample.hpp"
+#include "sampling/sample.hpp"
 #include "tables/key_table.hpp"
 #include "validation/case/case_keys.hpp"
 #include "validation/case/preflight.hpp"

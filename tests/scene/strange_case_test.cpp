@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "case_file.hpp"
-#include "scene/sample.hpp"
+#include "sampling/sample.hpp"
 #include "validation/case/preflight.hpp"
 
 namespace tripoint::test {

@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "case_file.hpp"
+#include "sampling/sample.hpp"
 #include "scene/contact_law.hpp"
 #include "scene/geometry.hpp"
-#include "scene/sample.hpp"
 
 namespace tripoint::test {
 namespace {

@@ -10,8 +10,8 @@
 #include <fstream>
 
 #include "core/errors.hpp"
+#include "sampling/sample.hpp"
 #include "scene/effect_rule.hpp"
-#include "scene/sample.hpp"
 #include "scene/shared_terms.hpp"
 #include "step/simulation.hpp"
 #include "validation/case/read_case.hpp"

@@ -2,8 +2,8 @@
 // One layer of particles: nothing leaves the plane, whatever acts.
 #include <gtest/gtest.h>
 
+#include "sampling/sample.hpp"
 #include "scene/case_file.hpp"
-#include "scene/sample.hpp"
 #include "step/simulation.hpp"
 
 namespace tripoint {

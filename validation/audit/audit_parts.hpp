@@ -8,7 +8,7 @@
 #include "files/job.hpp"
 #include "files/result.hpp"
 #include "files/trajectory.hpp"
-#include "validation/case/shape_overlap.hpp"
+#include "sampling/shape_overlap.hpp"
 #include "validation/metrics/frames.hpp"
 #include "validation/metrics/near_pairs.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "scene/sample.hpp"
+#include "sampling/sample.hpp"
 #include "validation/campaign/invariance.hpp"
 #include "validation/case/case.hpp"
 #include "validation/case/engine_names.hpp"

@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
+#include "sampling/lattice.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/geometry.hpp"
-#include "scene/lattice.hpp"
 #include "validation/case/idle_search.hpp"
 
 /// Bodies and inflows that say what nothing of the scene can do.

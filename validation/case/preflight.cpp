@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "sampling/shape_overlap.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/geometry.hpp"
 #include "scene/joints.hpp"
@@ -16,7 +17,6 @@
 #include "validation/case/overlap.hpp"
 #include "validation/case/preflight.hpp"
 #include "validation/case/shape_match.hpp"
-#include "validation/case/shape_overlap.hpp"
 
 /// Checks of a scene before anything runs.
 namespace tripoint {

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "mesh/mesh.hpp"
+#include "sampling/sample.hpp"
+#include "sampling/shape_distance.hpp"
 #include "scene/geometry.hpp"
-#include "scene/sample.hpp"
-#include "scene/shape_distance.hpp"
 
 namespace tripoint {
 namespace {

@@ -15,7 +15,7 @@
 #include "files/foreign_file.hpp"
 #include "files/job.hpp"
 #include "files/trajectory.hpp"
-#include "scene/sample.hpp"
+#include "sampling/sample.hpp"
 #include "validation/case/read_case.hpp"
 #include "validation/run/run_one.hpp"
 #include "validation/run/sandbox.hpp"

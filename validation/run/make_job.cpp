@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "files/job.hpp"
+#include "sampling/sample.hpp"
 #include "scene/contact_law.hpp"
-#include "scene/sample.hpp"
 #include "validation/case/case.hpp"
 #include "validation/metrics/metric.hpp"
 #include "validation/references/measuring.hpp"

@@ -13,8 +13,8 @@
 
 #include "core/errors.hpp"
 #include "files/job.hpp"
+#include "sampling/sample.hpp"
 #include "scene/effect_rule.hpp"
-#include "scene/sample.hpp"
 #include "tables/nearest.hpp"
 #include "validation/case/case.hpp"
 #include "validation/case/engine_names.hpp"

@@ -11,10 +11,10 @@
 
 #include "effects/heat/fields.hpp"
 #include "effects/heat/heat_terms.hpp"
+#include "sampling/shape_distance.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/geometry.hpp"
 #include "scene/scene_keys.hpp"
-#include "scene/shape_distance.hpp"
 #include "scene/shared_terms.hpp"
 #include "sph/kernels.hpp"
 #include "state/ordered_sum.hpp"

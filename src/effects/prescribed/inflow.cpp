@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "sampling/lattice.hpp"
 #include "scene/geometry.hpp"
-#include "scene/lattice.hpp"
 #include "tables/expression.hpp"
 
 namespace tripoint::prescribed {

@@ -7,7 +7,7 @@
 #include "effects/rigid/applied_force.hpp"
 #include "effects/rigid/fields.hpp"
 #include "effects/rigid/rotation.hpp"
-#include "scene/sample.hpp"
+#include "sampling/sample.hpp"
 #include "state/rows_loop.hpp"
 
 namespace tripoint::rigid {

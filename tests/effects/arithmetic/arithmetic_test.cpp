@@ -8,8 +8,8 @@
 
 #include "assembly/plan.hpp"
 #include "files/scene_json.hpp"
+#include "sampling/sample.hpp"
 #include "scene/model.hpp"
-#include "scene/sample.hpp"
 #include "scene/shared_terms.hpp"
 #include "step/simulation.hpp"
 #include "validation/case/ablation.hpp"

@@ -9,11 +9,11 @@
 
 #include "core/errors.hpp"
 #include "core/not_a_number.hpp"
+#include "sampling/lattice.hpp"
+#include "sampling/sample.hpp"
+#include "sampling/shape_distance.hpp"
 #include "scene/geometry.hpp"
-#include "scene/lattice.hpp"
 #include "scene/motion.hpp"
-#include "scene/sample.hpp"
-#include "scene/shape_distance.hpp"
 
 #include "tables/expression.hpp"
 
@@ -355,6 +355,13 @@ InitialState sample(const Scene& s) {
   if (!s.settle) return laid(s);
   if (!settler) throw InputError("settle = true needs the solver, and this program has none");
   return settler(s, laid(s));
+}
+
+std::vector<int> body_rows(const Scene& s) {
+  std::vector<int> rows;
+  int next = 0;
+  for (const auto& b : s.bodies) rows.push_back(b.phase == Phase::liquid ? -1 : next++);
+  return rows;
 }
 
 }  // namespace tripoint

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/lattice.hpp"
+#include "sampling/lattice.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/shape_distance.hpp"
+#include "sampling/shape_distance.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "mesh/mesh.hpp"
+#include "sampling/sample.hpp"
 #include "scene/geometry.hpp"
-#include "scene/sample.hpp"
 
 namespace tripoint {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "validation/case/shape_overlap.hpp"
+#include "sampling/shape_overlap.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "sampling/shape_distance.hpp"
 #include "scene/geometry.hpp"
-#include "scene/shape_distance.hpp"
 
 namespace tripoint {
 namespace {

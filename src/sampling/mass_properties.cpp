@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 
 #include "mesh/mesh.hpp"
-#include "scene/sample.hpp"
+#include "sampling/sample.hpp"
 
 namespace tripoint {
 namespace {
