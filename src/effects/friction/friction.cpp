@@ -37,8 +37,6 @@ struct Law {
   double returned = 1.0;  ///< e^2: share of the energy of a hit
 };
 
-bool moves(const State& state, std::size_t row) { return row < state.particles.moving(); }
-
 /// Where the face of a body looks at a particle: the slope of the kernel sum S over the body, which points
 /// out of it. Edges and corners look askew, and S is smaller there: its power leaves the word to what is
 /// flat.
@@ -59,7 +57,6 @@ struct Outward {
 /// A pair of solids that press each other.
 struct Contact {
   std::uint32_t other;
-  bool moves;     ///< the other is looked at too, and each has half of the traction of both
   Vec3 d, force;  ///< r_j - r_i, the force on i
   Law law;
 };
@@ -144,10 +141,10 @@ void Friction::find(State& state, std::size_t i, std::vector<Contact>& found) co
                      kernels_.core.force_over_r(r, 1.0 / r2);
     if (!(f < 0.0)) continue;
     found.push_back(
-        {static_cast<std::uint32_t>(j), moves(state, j), d, f * d,
+        {static_cast<std::uint32_t>(j), d, f * d,
          laws_[static_cast<std::size_t>(material[i]) * materials_ + static_cast<std::size_t>(material[j])]});
   }
-  if (moves(state, i)) triple(state.particles, field::outward).set(i, out.direction(whole_));
+  if (i < state.particles.moving()) triple(state.particles, field::outward).set(i, out.direction(whole_));
 }
 
 /// Velocity of a particle less that of another, of both bodies halfway between them.
@@ -199,7 +196,7 @@ void Friction::set_accelerations(const State& state) {
   const auto load = p[field::contact_load];
   accelerations_.assign(state.bodies.size(), 0.0);
   for (std::size_t id = 0; id < p.size(); ++id)
-    if (const std::size_t i = p.row(id); moves(state, i) && body[i] >= 0 && load[i] > 0.0)
+    if (const std::size_t i = p.row(id); body[i] >= 0 && load[i] > 0.0)
       accelerations_[static_cast<std::size_t>(body[i])] += load[i];
   for (std::size_t b = 0; b < accelerations_.size(); ++b) {
     const bool free = state.bodies[field::body_motion][b] == static_cast<int>(Motion::free);
@@ -226,14 +223,14 @@ void Friction::press(State& state, std::size_t i) const {
              now = velocities(std::as_const(p));
   Vec3 sum, u, before;  // amid the step whose kicks this force makes, and ahead of it
   Law law{0.0, 0.0};
-  double push = 0.0;  // acceleration by the loads and, beside what does not fall, by gravity
+  double push = 0.0;  // acceleration by the loads and, where one of two falls, by gravity
+  const auto weight = [&](std::size_t row) { return falls(state, row) ? dot(state.scene.gravity, n) : 0.0; };
   for (const Contact& c : contacts_[i]) {
     const double part = part_along(c, n);
     sum += c.force;
     u += part * relative_velocity(state, predicted, i, c);
     before += part * relative_velocity(state, now, i, c);
-    push +=
-        part * (acceleration(state, c.other) + (falls(state, c.other) ? 0.0 : dot(state.scene.gravity, n)));
+    push += part * (acceleration(state, c.other) + weight(i) - weight(c.other));
     law.friction += part * c.law.friction;
     law.returned += part * c.law.returned;
   }
@@ -266,7 +263,7 @@ void Friction::press(State& state, std::size_t i) const {
   traction.set(i, T);
 }
 
-/// The forces of the pairs of a particle: each has its share of the tractions of both.
+/// The forces of the pairs of a particle: each has half of the tractions of both.
 void Friction::share(State& state, std::size_t i) const {
   Particles& p = state.particles;
   const auto force = triple(p, field::friction_force), couple = triple(p, field::friction_couple);
@@ -274,13 +271,11 @@ void Friction::share(State& state, std::size_t i) const {
              normal = triple(std::as_const(p), field::contact_normal);
   const auto load = p[field::contact_load];
   Vec3 sum, moment;
-  const double of_other = moves(state, i) ? 0.5 : 1.0;
   for (const Contact& c : contacts_[i]) {
     const std::size_t j = c.other;
-    const double own = c.moves ? 0.5 : 1.0, others = c.moves ? of_other : 0.0;
     Vec3 f;
-    if (load[i] > 0.0) f += (own * part_along(c, normal.at(i)) / load[i]) * traction.at(i);
-    if (load[j] > 0.0) f -= (others * std::max(-dot(c.force, normal.at(j)), 0.0) / load[j]) * traction.at(j);
+    if (load[i] > 0.0) f += (0.5 * part_along(c, normal.at(i)) / load[i]) * traction.at(i);
+    if (load[j] > 0.0) f -= (0.5 * std::max(-dot(c.force, normal.at(j)), 0.0) / load[j]) * traction.at(j);
     sum += f;
     moment += cross(0.5 * c.d, f);
   }
@@ -288,7 +283,7 @@ void Friction::share(State& state, std::size_t i) const {
   couple.set(i, moment);
 }
 
-/// Fixed particles have no traction of their own, and feel those of others where somebody asks.
+/// Fixed faces have tractions too: their particles in reach of what moves have lists.
 void Friction::bonds(State& state, const Rows& rows) {
   contacts_.resize(std::max(contacts_.size(), state.particles.size()));
   for (const VectorField<double>* f : {&field::friction_force, &field::friction_couple})
@@ -298,16 +293,22 @@ void Friction::bonds(State& state, const Rows& rows) {
   const auto each = [&](auto visit) {
 #pragma omp parallel for schedule(dynamic, 16) num_threads(state.threads)
     for (std::size_t n = 0; n < c.listed.size(); ++n)
-      for (std::uint32_t i = c.first[c.listed[n]]; i < c.first[c.listed[n] + 1]; ++i)
-        if (i >= rows.from && i < rows.to) visit(i);
+      for (std::uint32_t i = c.first[c.listed[n]]; i < c.first[c.listed[n] + 1]; ++i) visit(i);
   };
-  each([&](std::size_t i) { find(state, i, contacts_[i]); });
+  const auto formed = [&](std::size_t i) { return i >= rows.from && i < rows.to; };
   if (!state.forms_fixed) {
+    each([&](std::size_t i) { find(state, i, contacts_[i]); });
     each([&](std::size_t i) { weigh(state, i); });
     set_accelerations(state);
     each([&](std::size_t i) { press(state, i); });
+  } else {
+    each([&](std::size_t i) {
+      if (formed(i)) find(state, i, contacts_[i]);
+    });
   }
-  each([&](std::size_t i) { share(state, i); });
+  each([&](std::size_t i) {
+    if (formed(i)) share(state, i);
+  });
   drifted_ = 0.0;
 }
 
