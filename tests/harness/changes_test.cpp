@@ -99,10 +99,43 @@ TEST(Changes, TheJudgedRunHasNoWordInItsOwnNoise) {
   };
   EXPECT_EQ(only(compare_results(with(0.0, 0.0), with(0.003, 0.0), "base")).trend, Trend::worse);
   EXPECT_EQ(only(compare_results(with(0.0, 0.0), with(0.003, 0.003), "base")).trend, Trend::worse);
-  // It was accepted with that
-  EXPECT_EQ(only(compare_results(with(0.0, 0.003), with(0.003, 0.0), "base")).trend, Trend::same);
-  EXPECT_EQ(only(compare_results(with(0.0, 0.003), with(0.003, 0.0), "base")).noise_from,
-            "stated by the base");
+}
+
+/// One run with the limit 0.01 and a stated standard error.
+Results stated_as(double v, double stated) {
+  auto r = measured_as({v}, 0.01);
+  engine(r).runs[0].metrics.at("error").uncertainty.statistical = stated;
+  judge(r);
+  return r;
+}
+
+TEST(Changes, AStatedErrorOfTheBaseCountsAsFarAsASecondRunBearsItOut) {
+  const auto base = stated_as(0.001, 0.003), head = stated_as(0.004, 0.003);
+  EXPECT_EQ(only(compare_results(base, head, "base")).trend, Trend::worse) << "nobody has measured it";
+  const auto same = base, nearly = stated_as(0.00101, 0.003), other = stated_as(0.0035, 0.003);
+  EXPECT_EQ(only(compare_results(base, head, "base", &same)).trend, Trend::worse);
+  EXPECT_EQ(only(compare_results(base, head, "base", &nearly)).trend, Trend::worse);
+  const auto c = only(compare_results(base, head, "base", &other));
+  EXPECT_EQ(c.trend, Trend::same);
+  EXPECT_NEAR(c.noise, 2.0 * std::sqrt(2.0) * 0.3, 1e-12);
+  EXPECT_EQ(c.noise_from, "A/A");
+}
+
+TEST(Changes, StatedErrorsOfSeedsAreNotTheirScatter) {
+  auto base = measured_as({0.03, 0.03, 0.03}), head = measured_as({0.05, 0.05, 0.05});
+  for (auto* r : {&base, &head}) {
+    for (auto& run : engine(*r).runs) run.metrics.at("error").uncertainty.statistical = 0.1;
+    judge(*r);
+  }
+  EXPECT_EQ(only(compare_results(base, head, "base")).trend, Trend::worse);
+}
+
+TEST(Changes, AScatterThatAppearsIsWorseThoughTheMeanStays) {
+  const auto base = measured_as({0.04, 0.04, 0.04}), head = measured_as({0.01, 0.04, 0.07});
+  const auto c = only(compare_results(base, head, "base"));
+  EXPECT_EQ(c.trend, Trend::worse);
+  EXPECT_EQ(c.noise_from, "none known, now 0.49");
+  EXPECT_EQ(only(compare_results(head, base, "base")).trend, Trend::same);
 }
 
 TEST(Changes, ManySeedsOfTheJudgedRunHideNothingEither) {

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "validation/baseline/baseline.hpp"
 #include "validation/case/engine_names.hpp"
@@ -48,18 +50,31 @@ ComparedRow new_row(const CaseResult& c, const EngineRow& e, JudgedMode mode, co
   return row;
 }
 
-/// Runs that differ by seed only, of which the row's value is the mean.
-int seeds_of(const EngineRow& e, const GateRow& g) {
-  std::map<std::string, int> groups;
-  int most = 1;
+/// Values of the runs that differ by seed only, of which the row's value is the mean.
+std::vector<double> values_of_seeds(const EngineRow& e, const GateRow& g) {
+  std::map<std::string, std::vector<double>> groups;
+  std::vector<double> most;
   for (const auto& run : e.runs) {
     const bool at_level = g.level ? std::any_of(run.levels.begin(), run.levels.end(),
                                                 [&](const auto& l) { return same_level(l.second, *g.level); })
                                   : run.levels.empty() || run.base;
-    if (run.knobs.mode == g.mode && run.input.empty() && at_level && !run.group.empty())
-      most = std::max(most, ++groups[run.group]);
+    const auto v = measured(run, g.metric);
+    if (run.knobs.mode != g.mode || !run.input.empty() || !at_level || run.group.empty() || !v) continue;
+    auto& group = groups[run.group];
+    group.push_back(v->value);
+    if (group.size() > most.size()) most = group;
   }
   return most;
+}
+
+/// Standard error of the mean of several values, 0 of one.
+double error_of_mean(const std::vector<double>& values) {
+  const double n = static_cast<double>(values.size());
+  if (values.size() < 2) return 0.0;
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+  double squares = 0.0;
+  for (const double v : values) squares += (v - mean) * (v - mean);
+  return std::sqrt(squares / (n - 1.0) / n);
 }
 
 ComparedRow row_of(const CaseResult& c, const EngineRow& e, const GateRow& g) {
@@ -71,11 +86,13 @@ ComparedRow row_of(const CaseResult& c, const EngineRow& e, const GateRow& g) {
   s.value = g.value;
   s.verdict = g.verdict;
   s.fit_class = g.fit_class;
-  s.seeds = seeds_of(e, g);
+  const auto values = values_of_seeds(e, g);
+  s.seeds = std::max(1, static_cast<int>(values.size()));
   s.allows = g.expect ? fmt::format("class {}", *g.expect) : describe(g.gate);
   s.used = g.used;
   // a 95 % interval is four standard deviations wide
-  s.noise = g.low && g.high ? 0.25 * (*g.high - *g.low) : g.budget.statistical;
+  s.noise = g.low && g.high ? 0.25 * (*g.high - *g.low) : error_of_mean(values);
+  s.stated = g.low && g.high ? 0.0 : g.budget.statistical;
   return row;
 }
 
@@ -91,7 +108,7 @@ void add_unjudged(const CaseResult& c, const EngineRow& e, std::vector<ComparedR
       auto row = new_row(c, e, run.knobs.mode, name);
       row.standing.value = value.value;
       row.standing.used = not_a_number;
-      row.standing.noise = value.uncertainty.statistical;
+      row.standing.stated = value.uncertainty.statistical;
       rows.push_back(row);
     }
   }
@@ -115,24 +132,24 @@ std::vector<ComparedRow> rows_of(const Results& r) {
   return rows;
 }
 
-/// Two standard uncertainties, by chance, of the difference between two runs that are as sure as the base.
-double chance_between(const MetricStanding& base) { return 2.0 * std::sqrt(2.0) * base.noise; }
+/// Two standard uncertainties of the difference between two runs that are each known so well.
+double between_two(double uncertainty) { return 2.0 * std::sqrt(2.0) * uncertainty; }
+
+/// An uncertainty that the base states counts up to so many times what the base differed from itself when it
+/// ran again. By chance two runs are nearer to each other than that once in twelve.
+constexpr double borne_out = 20.0;
 
 bool is_roundoff(const Gate& g) { return g.limit && *g.limit <= roundoff_limit; }
 
-/// Where the larger part of the noise is from.
-std::string source_of_noise(const MetricStanding& base, bool is_order, double again) {
-  if (again > chance_between(base)) return "A/A";
-  if (!(base.noise > 0.0)) return "none known";
-  if (is_order) return "interval of the fit";
-  return base.seeds > 1 ? fmt::format("{} seeds", base.seeds) : "stated by the base";
-}
-
-/// Noise of head less base, in the metric's unit. The base tells how much two runs of one code differ: by the
-/// chance that was accepted with it, or by what it differed from itself when it ran again. The judged run has
-/// no word in it.
-double noise_between(const MetricStanding& base, double again) {
-  return std::max(chance_between(base), again);
+/// Noise of head less base, in the metric's unit, and where it is from. It is measured: by seeds of the base,
+/// or by what the base differed from itself when it ran again. No run has a word in it that nothing bears
+/// out.
+std::pair<double, std::string> noise_between(const MetricStanding& base, bool is_order, double again) {
+  const double chance = between_two(base.noise),
+               stated = std::min(between_two(base.stated), borne_out * again);
+  if (std::max(again, stated) > chance) return {std::max(again, stated), "A/A"};
+  if (!(chance > 0.0)) return {0.0, "none known"};
+  return {chance, is_order ? "interval of the fit" : fmt::format("{} seeds", base.seeds)};
 }
 
 /// The most that this noise moves the share of the limit that a value uses.
@@ -152,8 +169,21 @@ void settle_class(MetricChange& c) {
 void settle_unlimited(MetricChange& c, double again) {
   const double size = std::abs(c.base->value), difference = std::abs(c.head->value - c.base->value);
   c.change = difference > 0.0 ? difference / (size > 0.0 ? size : 1.0) : 0.0;
-  c.noise = noise_between(*c.base, again) / (size > 0.0 ? size : 1.0);
-  c.noise_from = source_of_noise(*c.base, false, again);
+  const auto [noise, from] = noise_between(*c.base, false, again);
+  c.noise = noise / (size > 0.0 ? size : 1.0);
+  c.noise_from = from;
+}
+
+/// A head whose seeds scatter by so much more than the base's has got worse, wherever its mean lies: the next
+/// change could hide in it.
+constexpr double scatters_more = 10.0;
+
+void settle_scatter(MetricChange& c, const Gate& gate) {
+  if (c.base->seeds < 2 || c.head->seeds < 2 || c.base->fit_class || is_roundoff(gate)) return;
+  const double now = noise_of_share(gate, c.head->value, between_two(c.head->noise));
+  if (!(now > std::max(scatters_more * c.noise, least_change))) return;
+  c.trend = Trend::worse;
+  c.noise_from += fmt::format(", now {:.2g}", now);
 }
 
 /// @param again how far the same code was seen to differ from itself (A/A), in the metric's unit; 0 = not
@@ -173,8 +203,9 @@ void settle(MetricChange& c, const Gate& base_gate, const Gate& head_gate, doubl
     c.noise_from = "no value";
   } else {
     c.change = now - before;
-    c.noise = noise_of_share(gate, c.base->value, noise_between(*c.base, again));
-    c.noise_from = source_of_noise(*c.base, c.base->fit_class.has_value(), again);
+    const auto [noise, from] = noise_between(*c.base, c.base->fit_class.has_value(), again);
+    c.noise = noise_of_share(gate, c.base->value, noise);
+    c.noise_from = from;
     if (is_roundoff(gate) && c.noise < 1.0) {
       c.noise = 1.0;
       c.noise_from = "round-off";
@@ -182,6 +213,7 @@ void settle(MetricChange& c, const Gate& base_gate, const Gate& head_gate, doubl
   }
   if (std::abs(c.change) > std::max(c.noise, least_change))
     c.trend = c.change > 0.0 ? Trend::worse : Trend::better;
+  settle_scatter(c, gate);
 }
 
 /// Worse and better first, by their size; then unchanged ones; then new, then gone.

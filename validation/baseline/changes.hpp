@@ -19,11 +19,12 @@ enum class Trend { better, worse, same, appeared, gone };
 
 /// One metric in one of the two results.
 struct MetricStanding {
-  double value = 0.0;  ///< in the metric's unit; NaN where there is none
-  double used = 0.0;   ///< in units of the limit, share_of_limit(); NaN where no gate judges the metric
-  double noise = 0.0;  ///< standard uncertainty by chance, in the metric's unit
-  int seeds = 1;       ///< runs that the value is the mean of
-  std::string allows;  ///< "limit 0.01"; empty = no gate
+  double value = 0.0;   ///< in the metric's unit; NaN where there is none
+  double used = 0.0;    ///< in units of the limit, share_of_limit(); NaN where no gate judges the metric
+  double noise = 0.0;   ///< standard uncertainty that seeds or the fit show, in the metric's unit
+  double stated = 0.0;  ///< that the run states of itself, in the same unit
+  int seeds = 1;        ///< runs that the value is the mean of
+  std::string allows;   ///< "limit 0.01"; empty = no gate
   Verdict verdict = Verdict::missing;
   std::optional<FitClass> fit_class;
 };
@@ -38,9 +39,9 @@ struct MetricChange {
   /// Head less base in units of the limit, above 0 = worse; without a limit as a share of the base, of no
   /// sign
   double change = 0.0;
-  /// Of that difference, in the same unit: of the base and of A/A, never by the word of the judged run
+  /// Of that difference, in the same unit: of the base's seeds and of A/A, never by the word of a run
   double noise = 0.0;
-  /// "5 seeds", "A/A", "stated by the base", "round-off", "interval of the fit", "none known"
+  /// "5 seeds", "A/A", "round-off", "interval of the fit", "none known"
   std::string noise_from;
   Trend trend = Trend::same;
   bool limit_changed = false, looser = false;
@@ -55,7 +56,8 @@ struct Comparison {
 };
 
 /// @param repeat the base once more (A/A): the difference between the two is noise of its own, the larger one
-/// counts @pre both are judged
+/// counts, and bears out what
+/// the base states of its uncertainty @pre both are judged
 [[nodiscard]] Comparison compare_results(const Results& base, const Results& head,
                                          const std::string& base_name, const Results* repeat = nullptr);
 
