@@ -18,7 +18,7 @@ constexpr double push_step = 1e-3, interval = 2e-3;  // [s]
 /// A block on a floor, so deep in it at the start. `make` shows it in frames of two steps, if not said
 /// otherwise.
 std::string on_floor(double depth, const std::function<void(BodyState&, double)>& make,
-                     double step = push_step) {
+                     double step = push_step, const std::function<void(BodyState&)>& of_floor = {}) {
   Prepared s;
   s.job.scene.spacing = 0.1;
   s.job.scene.gravity = {0, 0, -9.81};
@@ -30,12 +30,15 @@ std::string on_floor(double depth, const std::function<void(BodyState&, double)>
   for (auto& f : still.run.frames) {
     BodyState& b = f.bodies.back();
     if (f.time > 0.0) make(b, f.time);
-    for (std::size_t i = 0; i < s.initial.size(); ++i)
-      if (s.initial.source[i] == 1) {
-        const Vec3 arm = rotate(b.orientation, s.initial.position[i] - s.job.bodies[1].properties.centre);
-        f.position[i] = b.position + arm;
-        f.velocity[i] = b.velocity + cross(b.angular_velocity, arm);
-      }
+    if (f.time > 0.0 && of_floor) of_floor(f.bodies.front());
+    for (std::size_t i = 0; i < s.initial.size(); ++i) {
+      const auto source = static_cast<std::size_t>(s.initial.source[i]);
+      const BodyState& own = f.bodies[source];
+      const Vec3 arm =
+          rotate(own.orientation, s.initial.position[i] - s.job.bodies[source].properties.centre);
+      f.position[i] = own.position + arm;
+      f.velocity[i] = own.velocity + cross(own.angular_velocity, arm);
+    }
   }
   return audit(s.job, s.initial, still.run);
 }
@@ -79,6 +82,39 @@ TEST(AuditOfPushOut, LetsASpinningBodyTremble) {
         from_rotation_vector({interval * turn[n], 0.0, 0.0}) * from_rotation_vector({0.0, 0.0, 3.0 * t});
   };
   EXPECT_EQ(on_floor(0.0, tremble, 0.1 * interval), "");
+}
+
+void lies(BodyState&, double) {}
+
+/// Contact hides a speed in one interval: gravity gives it and takes it. It does not in the mean.
+TEST(AuditOfMean, ABodyThatLiesStatesNoSpeedInAllFrames) {
+  const auto states = [&](double speed) {
+    return on_floor(0.0, [=](BodyState& b, double) { b.velocity.x = speed; });
+  };
+  EXPECT_EQ(states(1e-3), "");
+  EXPECT_NE(states(0.15), "");
+  const auto trembles = on_floor(
+      0.0, [](BodyState& b, double t) { b.velocity.z = std::lround(t / interval) % 2 == 0 ? 0.01 : -0.01; });
+  EXPECT_EQ(trembles, "");
+}
+
+TEST(AuditOfGiven, AFixedBodyStays) {
+  const auto with = [](const std::function<void(BodyState&)>& of_floor) {
+    return on_floor(0.0, lies, push_step, of_floor);
+  };
+  EXPECT_EQ(with([](BodyState& b) { b.position.z -= 1e-5; }), "") << "digits of an output";
+  EXPECT_EQ(with([](BodyState& b) { b.position.z -= 1e-3; }),
+            "`floor` is fixed, and lies 0.001 m from its place at t = 0.002000 s");
+  EXPECT_NE(with([](BodyState& b) {
+              b.orientation = from_rotation_vector({0.01, 0, 0});
+            }).find("`floor` is fixed, and is turned by 0.01 rad"),
+            std::string::npos);
+  EXPECT_NE(with([](BodyState& b) { b.velocity.x = 0.1; }).find("`floor` is fixed, and has a velocity"),
+            std::string::npos);
+  EXPECT_NE(with([](BodyState& b) {
+              b.angular_velocity.z = 0.1;
+            }).find("`floor` is fixed, and has an angular velocity"),
+            std::string::npos);
 }
 
 }  // namespace

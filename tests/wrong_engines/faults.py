@@ -22,6 +22,7 @@ from spoil import (
     fast,
     fast_belt,
     fast_clock,
+    floor_sinks,
     frame_late,
     gravity,
     gravity_is_down,
@@ -40,6 +41,7 @@ from spoil import (
     of_materials,
     other_sign,
     other_way_round,
+    rests_at_a_speed,
     right_for_half_a_second,
     setting,
     shifted,
@@ -147,6 +149,10 @@ FAULTS = {
         ("fall",),
         job=fast_clock,
         rows=lambda job, rows: list(by_the_fast_clock(job, rows)),
+    ),
+    "floor": Fault("a fixed floor sinks by 1 mm", "contact/tower-1", ("audit",), rows=moved(floor_sinks)),
+    "speed at rest": Fault(
+        "one of five cubes at rest states 0.3 m/s", "contact/tower-1", ("audit",), rows=moved(rests_at_a_speed)
     ),
     "stale": Fault("a frame repeats the one before", "contact/roll-down-slope", ("audit",), rows=stale),
     "belt": Fault("a belt 1 % fast", "contact/conveyor", ("velocity",), job=fast_belt),

@@ -150,6 +150,21 @@ def mirrored(job, row):
     return row
 
 
+def floor_sinks(job, row):
+    """What is fixed lies 1 mm lower."""
+    if next(b for b in job["scene"]["bodies"] if b["index"] == row[1])["motion"] == "fixed":
+        row[4] -= 1e-3
+    return row
+
+
+def rests_at_a_speed(job, row):
+    """The first free body states 0.3 m/s where it lies still."""
+    first = next(b for b in job["scene"]["bodies"] if b["motion"] == "free")
+    if row[1] == first["index"] and math.hypot(*row[5:8]) < 1e-2:
+        row[5] += 0.3
+    return row
+
+
 def stale(job, rows):
     """The frame in the middle repeats the one before it."""
     rows = list(rows)

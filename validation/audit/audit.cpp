@@ -53,8 +53,9 @@ std::string audit(const Job& job, const InitialState& initial, const Trajectory&
   const Audited run{job, initial, held, trajectory, frames.list};
   if (auto why = unsound_frames(run); !why.empty()) return why;
   for (const auto& check :
-       {another_start, frozen, apart, moves_against_its_velocity, turns_against_its_spin,
-        leaves_for_one_frame, lags_behind_its_rate, gauges_against_particles, sums_against_particles})
+       {another_start, frozen, apart, moves_otherwise_than_given, moves_against_its_velocity,
+        turns_against_its_spin, rests_at_a_rate, leaves_for_one_frame, lags_behind_its_rate,
+        gauges_against_particles, sums_against_particles})
     if (auto why = check(run); !why.empty()) return why;
   return {};
 }

@@ -51,12 +51,16 @@ struct Audited {
 [[nodiscard]] std::string frozen(const Audited&);
 /// A body's row must be where its particles are, move as they do and turn as they do.
 [[nodiscard]] std::string apart_from_its_particles(const Audited&, const Snapshot&);
+/// A fixed body that does not stay, or one that is led by the job and is elsewhere.
+[[nodiscard]] std::string moves_otherwise_than_given(const Audited&);
 /// Places that change by another way than the velocities say.
 [[nodiscard]] std::string moves_against_its_velocity(const Audited&);
 /// Orientations that change by another turn than the angular velocities say.
 [[nodiscard]] std::string turns_against_its_spin(const Audited&);
 /// Places or turns that all frames show late, or all rates too large.
 [[nodiscard]] std::string lags_behind_its_rate(const Audited&);
+/// A body in contact that states a rate in all frames and does not move by it.
+[[nodiscard]] std::string rests_at_a_rate(const Audited&);
 /// Velocities and angular velocities of a free body that leave those of the frames before and after for one
 /// frame.
 [[nodiscard]] std::string leaves_for_one_frame(const Audited&);
