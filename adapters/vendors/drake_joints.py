@@ -13,6 +13,7 @@ from rotation import IDENTITY, Quaternion, Vector, add, dot, rotate, scaled, sub
 KINDS = ("hinge", "ball", "slider", "fixed", "distance", "universal")
 LAWS = ("limits", "damping", "spring", "effort")
 LOOPS = "hinge ball fixed distance"
+PITCH = 0.8  # of a ball joint, beyond which its axes are chosen anew [rad]
 
 
 def refuse_continuous(job: Job, bodies: list[Body]) -> str:
@@ -32,11 +33,31 @@ def transform(at: Vector, turn: Quaternion) -> Any:
     return RigidTransform(Turn([c / length for c in turn]), list(at))
 
 
-class Ties:
-    """@param plant not yet finalised   @param rigid Drake's bodies by the number of the body"""
+def first_direction(vectors: list[Any]) -> Any:
+    """The first that is no zero, as a unit vector."""
+    sizes = [float(v @ v) ** 0.5 for v in vectors]
+    return next(v / size for v, size in zip(vectors, sizes) if size > 1e-9 * max(sizes))
 
-    def __init__(self, job: Job, bodies: list[Body], plant: Any, rigid: dict[int, Any]) -> None:
-        self.bodies, self.plant, self.rigid = bodies, plant, rigid
+
+def axes_about(directions: list[Any]) -> Any:
+    """Columns x, y, z of a frame, x along the first direction that is no zero."""
+    import numpy as np
+
+    x = first_direction([*directions, np.eye(3)[0]])
+    z = first_direction([v - x * (x @ v) for v in (*directions[1:], *np.eye(3))])
+    return np.column_stack([x, np.cross(z, x), z])
+
+
+def vector_of(values: Any) -> Vector:
+    return (float(values[0]), float(values[1]), float(values[2]))
+
+
+class Ties:
+    """@param plant not yet finalised   @param rigid Drake's bodies by the number of the body
+    @param balls axes of ball joints at parent and child, at the start in the world's frame; made where they lack"""
+
+    def __init__(self, job: Job, bodies: list[Body], plant: Any, rigid: dict[int, Any], balls: dict[str, Any]) -> None:
+        self.bodies, self.plant, self.rigid, self.balls = bodies, plant, rigid, balls
         self.links, self.loops = tree_of(bodies, joints_of(job, bodies))
         self.springs: dict[str, Any] = {}
         self.held_by_joints = {link.number for link in self.links if link.joint}
@@ -82,7 +103,9 @@ class Ties:
         elif joint.kind == "slider":
             made = tree.PrismaticJoint(joint.name, *ends, axis, damping=joint.damping)
         elif joint.kind == "ball":
-            made = tree.BallRpyJoint(joint.name, *ends)
+            both = self.balls.setdefault(joint.name, (self.axes_of_ball(link.number, joint),) * 2)
+            numbers = (link.parent, link.number)
+            made = tree.BallRpyJoint(joint.name, *(self.turned(n, joint, axes) for n, axes in zip(numbers, both)))
         elif joint.kind == "fixed":
             made = tree.WeldJoint(joint.name, *ends, transform((0.0, 0.0, 0.0), IDENTITY))
         else:
@@ -98,20 +121,53 @@ class Ties:
     def universal(self, link: Link, joint: Joint) -> Any:
         """Drake's first axis is x of the parent's frame, its second y of the child's."""
         import numpy as np
-        from pydrake.math import RigidTransform, RotationMatrix
-        from pydrake.multibody.tree import FixedOffsetFrame, UniversalJoint
+        from pydrake.multibody.tree import UniversalJoint
 
         first, second = (joint.other_axis, joint.axis) if link.sign > 0.0 else (joint.axis, joint.other_axis)
         axes = np.column_stack([first, second, np.cross(first, second)])
-        ends = []
-        for number, name in ((link.parent, "x"), (link.number, "y")):
-            number = number if number in self.rigid else WORLD
-            pose = transform(*pose_in(self.bodies, number, joint.place, IDENTITY))
-            turned = pose @ RigidTransform(RotationMatrix(axes), [0.0, 0.0, 0.0])
-            ends.append(
-                self.plant.AddFrame(FixedOffsetFrame(f"{joint.name} {name}", self.body(number).body_frame(), turned))
-            )
-        return UniversalJoint(joint.name, *ends, damping=0.0)
+        return UniversalJoint(
+            joint.name, *(self.turned(n, joint, axes) for n in (link.parent, link.number)), damping=0.0
+        )
+
+    def turned(self, number: int, joint: Joint, axes: Any) -> Any:
+        """A frame of a body at the joint. @param axes columns, at the start in the world's frame"""
+        from pydrake.math import RigidTransform, RotationMatrix
+        from pydrake.multibody.tree import FixedOffsetFrame
+
+        own = number if number in self.rigid else WORLD
+        pose = transform(*pose_in(self.bodies, own, joint.place, IDENTITY))
+        frame = pose @ RigidTransform(RotationMatrix(axes), [0.0, 0.0, 0.0])
+        return self.plant.AddFrame(
+            FixedOffsetFrame(f"{joint.name} axes of {number}", self.body(own).body_frame(), frame)
+        )
+
+    def axes_of_ball(self, number: int, joint: Joint) -> Any:
+        """x along the angular velocity at the start, else the axis about which weight swings the body."""
+        import numpy as np
+
+        body, down = self.bodies[number], np.array(self.plant.gravity_field().gravity_vector())
+        arm = np.subtract(body.centre, joint.place)
+        return axes_about([np.array(body.spin), np.cross(arm, down), arm])
+
+    def turn_balls(self, context: Any) -> dict[str, Vector]:
+        """BallRpyJoint counts roll, pitch and yaw about x, y and z, and has no coordinates at a pitch of 90 degrees.
+
+        Chooses axes anew for each ball whose pitch is large. @return angular velocities about these axes, by joint"""
+        import numpy as np
+
+        found = {}
+        for link, made in self.joints:
+            if not link.joint or link.joint.kind != "ball" or abs(made.get_angles(context)[1]) < PITCH:
+                continue
+            parent, child = self.balls[link.joint.name]
+            ends = (made.frame_on_parent(), made.frame_on_child())
+            now = [end.CalcPoseInWorld(context).rotation().matrix() for end in ends]
+            turn_of_parent, turn_of_child = now[0] @ parent.T, now[1] @ child.T
+            spin = turn_of_parent.T @ now[0] @ np.array(made.get_angular_velocity(context))
+            axes = axes_about([spin, parent[:, 0]])
+            self.balls[link.joint.name] = (axes, turn_of_child.T @ turn_of_parent @ axes)
+            found[link.joint.name] = vector_of(axes.T @ spin)
+        return found
 
     def close(self, joint: Joint) -> None:
         one, other = (self.rigid.get(side.number) or self.ground() for side in (joint.one, joint.other))
@@ -154,15 +210,20 @@ class Ties:
         """Of joints and bodies, to go on with in a plant of another step."""
         return self.plant.GetPositionsAndVelocities(context) if self.joints else None
 
-    def start(self, context: Any, coordinates: Any) -> None:
+    def start(self, context: Any, coordinates: Any, turned: dict[str, Vector]) -> None:
+        """@param turned  angular velocities of the balls whose axes are new"""
         if coordinates is not None:
             self.plant.SetPositionsAndVelocities(context, coordinates)
+        for link, made in self.joints:
+            if link.joint and link.joint.name in turned:
+                made.set_angles(context, [0.0, 0.0, 0.0])
+                made.set_angular_velocity(context, list(turned[link.joint.name]))
         for link, made in self.joints if coordinates is None else ():
             joint = link.joint
             assert joint
             turn = subtract(self.bodies[link.number].spin, spin_of(self.bodies, link.parent))
             if joint.kind == "ball":
-                made.set_angular_velocity(context, list(turn))
+                made.set_angular_velocity(context, [dot(turn, tuple(axis)) for axis in self.balls[joint.name][0].T])
             elif joint.kind == "universal":
                 axes = (joint.other_axis, joint.axis) if link.sign > 0.0 else (joint.axis, joint.other_axis)
                 made.set_angular_rates(context, [dot(turn, axis) for axis in axes])

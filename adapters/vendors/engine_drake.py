@@ -68,6 +68,7 @@ class DrakeWorld(World):
         self.job, self.bodies = job, bodies
         self.mu = by_harmonic_mean(stated_friction(job, [body.material for body in bodies])) or {}
         self.free = [number for number, body in enumerate(bodies) if body.free]
+        self.balls: dict[str, Any] = {}
         self.build(
             dt,
             {
@@ -76,7 +77,9 @@ class DrakeWorld(World):
             },
         )
 
-    def build(self, dt: float, states: dict[int, State], coordinates: Any = None) -> None:
+    def build(
+        self, dt: float, states: dict[int, State], coordinates: Any = None, turned: dict[str, Vector] | None = None
+    ) -> None:
         """A plant of this step with the bodies in these states; Drake's discrete plants cannot change their step."""
         from pydrake.geometry import SceneGraphConfig
         from pydrake.math import RigidTransform
@@ -98,7 +101,7 @@ class DrakeWorld(World):
         self.plant, _ = AddMultibodyPlant(plant, scene, builder)
         self.plant.mutable_gravity_field().set_gravity_vector(list(self.job.scene["gravity"]))
         self.rigid = {number: self.add(number) for number in self.free}
-        self.ties = Ties(self.job, self.bodies, self.plant, self.rigid)
+        self.ties = Ties(self.job, self.bodies, self.plant, self.rigid, self.balls)
         for body in self.bodies:
             for piece in () if body.free else body.pieces:
                 self.surface(self.plant.world_body(), piece, body.centre, body.frame, body.material)
@@ -114,7 +117,7 @@ class DrakeWorld(World):
             self.plant.SetFreeBodySpatialVelocity(
                 self.context, self.rigid[number], SpatialVelocity(list(state.spin), list(state.velocity))
             )
-        self.ties.start(self.context, coordinates)
+        self.ties.start(self.context, coordinates, turned or {})
         self.push()
         if not discrete:
             config = SimulatorConfig()
@@ -179,9 +182,17 @@ class DrakeWorld(World):
 
     def step(self, dt: float, count: int) -> None:
         if abs(dt / self.dt - 1.0) > 1e-9:
-            self.build(dt, {number: self.state(number) for number in self.free}, self.ties.coordinates(self.context))
-        self.ticks += count
-        self.simulator.AdvanceTo(self.ticks * self.dt)
+            self.build_again(dt, {})
+        for part in [1] * count if self.balls else [count]:
+            self.ticks += part
+            self.simulator.AdvanceTo(self.ticks * self.dt)
+            if turned := self.ties.turn_balls(self.context):
+                self.build_again(dt, turned)
+
+    def build_again(self, dt: float, turned: dict[str, Vector]) -> None:
+        """With everything where it is. @param turned as of Ties.start"""
+        states = {number: self.state(number) for number in self.free}
+        self.build(dt, states, self.ties.coordinates(self.context), turned)
 
     def state(self, number: int) -> State:
         rigid = self.rigid[number]
