@@ -138,7 +138,7 @@ class Engine(ABC):
         """Runs the job and writes trajectory.csv into its folder. @raise Diverged"""
 
     def build(self) -> str:
-        return f"Python {platform.python_version()}, {self.precision} precision"
+        return f"Python {platform.python_version()}, {self.precision} precision, adapter {adapter_hash()[:12]}"
 
     def info(self) -> dict[str, Any]:
         library = self.library()
@@ -167,6 +167,15 @@ def file_hash(path: Path) -> str:
     """SHA-256 of a file, as hex digits."""
     with open(path, "rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def adapter_hash() -> str:
+    """SHA-256 of the files of this folder: a run by another adapter is not kept by `validate --resume`."""
+    digest = hashlib.sha256()
+    for path in sorted(Path(__file__).resolve().parent.iterdir()):
+        if path.suffix in (".py", ".mjs"):
+            digest.update(path.name.encode() + path.read_bytes())
+    return digest.hexdigest()
 
 
 def write_trajectory(job: Job, columns: str, rows: Iterable[Row]) -> str:

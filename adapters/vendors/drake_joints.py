@@ -215,24 +215,29 @@ class Ties:
         if coordinates is not None:
             self.plant.SetPositionsAndVelocities(context, coordinates)
         for link, made in self.joints:
-            if link.joint and link.joint.name in turned:
+            assert link.joint
+            if link.joint.name in turned:
                 made.set_angles(context, [0.0, 0.0, 0.0])
                 made.set_angular_velocity(context, list(turned[link.joint.name]))
-        for link, made in self.joints if coordinates is None else ():
-            joint = link.joint
-            assert joint
-            turn = subtract(self.bodies[link.number].spin, spin_of(self.bodies, link.parent))
-            if joint.kind == "ball":
-                made.set_angular_velocity(context, [dot(turn, tuple(axis)) for axis in self.balls[joint.name][0].T])
-            elif joint.kind == "universal":
-                axes = (joint.other_axis, joint.axis) if link.sign > 0.0 else (joint.axis, joint.other_axis)
-                made.set_angular_rates(context, [dot(turn, axis) for axis in axes])
-            elif joint.kind == "hinge":
-                made.set_angular_rate(context, start_rate(joint, self.bodies))
-            elif joint.kind == "slider":
-                made.set_translation_rate(context, start_rate(joint, self.bodies))
+            elif coordinates is None:
+                self.start_joint(context, link, made)
         if self.motors:
             self.plant.get_actuation_input_port().FixValue(context, [effort for _, effort in self.motors])
+
+    def start_joint(self, context: Any, link: Link, made: Any) -> None:
+        """Gives a joint the rates of its bodies at the start."""
+        joint = link.joint
+        assert joint
+        turn = subtract(self.bodies[link.number].spin, spin_of(self.bodies, link.parent))
+        if joint.kind == "ball":
+            made.set_angular_velocity(context, [dot(turn, tuple(axis)) for axis in self.balls[joint.name][0].T])
+        elif joint.kind == "universal":
+            axes = (joint.other_axis, joint.axis) if link.sign > 0.0 else (joint.axis, joint.other_axis)
+            made.set_angular_rates(context, [dot(turn, axis) for axis in axes])
+        elif joint.kind == "hinge":
+            made.set_angular_rate(context, start_rate(joint, self.bodies))
+        elif joint.kind == "slider":
+            made.set_translation_rate(context, start_rate(joint, self.bodies))
 
     def held(self) -> list[dict[str, Any]]:
         """Laws of the joints, as Drake holds them."""
