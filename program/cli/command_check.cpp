@@ -56,8 +56,8 @@ int check(const std::string& file, const std::vector<std::string>& set) {
         "it");
   if (const auto seconds = cpu_seconds(scene, state))
     say(fmt::format(
-        "note: a run of the particle solver takes about {:.2g} CPU seconds (within a factor of three)",
-        *seconds));
+        "note: a run of the particle solver takes about {:.2g} CPU seconds (within a factor of three){}",
+        *seconds, *seconds > 600.0 ? "; `tripoint explain` says what bounds its steps" : ""));
   for (const auto& f : findings) {
     errors += f.error ? 1 : 0;
     say((f.error ? "error: " : "warning: ") + with_place(f));

@@ -185,6 +185,22 @@ TEST(Preflight, ForetellsTheCostWithinAFactorOfThree) {
   EXPECT_NEAR(*seconds, 1000 * 100 * 0.6e-6, 1e-12);
 }
 
+/// A drop of wax freezes: 0.5 dx/c, c^2 = E/rho where Poisson's ratio is 0.
+TEST(Preflight, ForetellsTheCostOfMatterThatFreezesElastic) {
+  const auto c =
+      read_text(scene_with("[[material]]\nname='m'\nsound_speed=10\ndensity=1000\nyoung_modulus=1e9\n"
+                           "poisson_ratio=0\nconductivity=1\nheat_capacity=1000\nt_melt=300\n"
+                           "[[body]]\nname='hot'\nmaterial='m'\ntemperature=310\n"
+                           "shape={kind='box',min=[0,0,0],max=[1,1,1]}\n"
+                           "[[body]]\nname='cold'\nmaterial='m'\nmotion='fixed'\ntemperature=290\n"
+                           "shape={kind='box',min=[0,0,-1],max=[1,1,0]}\n"))
+          .value;
+  const auto scene = scene_for(c, {});
+  const auto seconds = cpu_seconds(scene, sample(scene));
+  ASSERT_TRUE(seconds);
+  EXPECT_NEAR(*seconds, 2000 * 1000.0 / (0.5 * 0.1) * 0.6e-6, 1e-6);
+}
+
 TEST(Preflight, FindsOverlapAcrossAPeriodicSide) {
   const std::string domain = "min=[0,0,0]\nmax=[1,1,1]\nperiodic=['x']";
   EXPECT_EQ(told(scene_with(steel_box("a", "[0,0,0]", "[0.3,0.3,0.3]") +
