@@ -80,7 +80,7 @@ def run(given: argparse.Namespace) -> int:
             raise Unreadable("there is no such file")
         if target.exists():
             raise Unreadable(f"{target} exists already, and is left as it is: choose another name by --out")
-        model = read_model(source, given.key, given.base, given.joints == "lock")
+        model = read_model(source, given.key, given.base, given.joints)
         if not model.links:
             raise Unreadable("it has no body with a shape")
         with tempfile.TemporaryDirectory() as folder:
@@ -93,7 +93,7 @@ def run(given: argparse.Namespace) -> int:
         say(f"{error.filename}: {error.strerror}")
         return 2
     free = sum(link.free for link in model.links)
-    print(f"wrote {target}: {free} free and {len(model.links) - free} fixed bodies")
+    print(f"wrote {target}: {free} free and {len(model.links) - free} fixed bodies, {len(model.joints)} joints")
     for line in model.left_out:
         print(f"left out: {line}")
     for line in model.notes + notes:
@@ -110,7 +110,7 @@ def main(words: list[str]) -> int:
     parser.add_argument("--spacing", type=float, default=0.0)
     parser.add_argument("--key", default="")
     parser.add_argument("--base", choices=("", "free", "fixed"), default="")
-    parser.add_argument("--joints", choices=("free", "lock"), default="free")
+    parser.add_argument("--joints", choices=("keep", "free", "lock"), default="keep")
     parser.add_argument("--program", default="")
     given = parser.parse_args(words)
     enter_environment()

@@ -294,7 +294,7 @@ def case_text(model: Model, source: str, stem: str, choices: Choices) -> tuple[s
         f'format = 1\n\n[case]\ntitle = "{model.name}, imported"\nkind = "comparison"\n',
         f"[scene]\nend_time = {number(choices.end)} # a choice: the model has none",
         f"gravity = {numbers(model.gravity)}\nspacing = {number(spacing)}\ntime_step = {number(model.time_step)}",
-        f"output_interval = {number(choices.end / 50.0)}\n",
+        f"output_interval = {number(choices.end / 50.0)}\n" + ("" if model.touches else 'contact = "none"\n'),
     ]
     for name, density in materials.density.items():
         lines.append(f'[[material]]\nname = "{name}"\ndensity = {number(density)}\n')
@@ -303,6 +303,7 @@ def case_text(model: Model, source: str, stem: str, choices: Choices) -> tuple[s
             lines.append(f'[[contact]]\nmaterials = ["{a}", "{b}"]\nfriction = {number(mu)}\n')
     for link in links:
         lines.append(body_text(link, shapes, materials.of[link.name], link.name in choices.particles_alone))
+    lines += [joint.text() for joint in model.joints]
     lines += engines_text(model, shared)
     lines.append("[invariants]\nmass = 1e-12")
     if free:

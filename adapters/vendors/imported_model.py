@@ -16,6 +16,7 @@ os.environ.setdefault("MUJOCO_GL", "disable")  # nothing is drawn here
 
 import mujoco
 import numpy as np
+from imported_joints import Joint, Joints
 
 INTEGRATORS = {"EULER": "Euler", "RK4": "RK4", "IMPLICIT": "implicit", "IMPLICITFAST": "implicitfast"}  # presets
 DEFAULT_SOLREF, DEFAULT_SOLIMP = (0.02, 1.0), (0.9, 0.95, 0.001, 0.5, 2.0)
@@ -63,6 +64,8 @@ class Model:
     solref: str  # "" is MuJoCo's default
     solimp: str
     links: list[Link]
+    joints: list[Joint]
+    touches: bool  # whether any geom can touch another
     pairs: dict[frozenset[str], float]  # friction of pairs of links that the model states itself
     left_out: list[str]
     notes: list[str]
@@ -217,6 +220,10 @@ def touches(model: Any, geom: int) -> bool:
     return bool(model.geom_contype[geom] or model.geom_conaffinity[geom])
 
 
+def can_touch(model: Any) -> bool:
+    return any(touches(model, geom) for geom in range(model.ngeom))
+
+
 def friction_of(model: Any, geoms: list[int], name: str, notes: list[str]) -> float:
     found = {float(model.geom_friction[g][0]) for g in geoms}
     if len(found) > 1:
@@ -233,6 +240,7 @@ class Links:
         self.model, self.data, self.locked, self.left_out, self.notes = model, data, locked, left_out, notes
         self.links: list[Link] = []
         self.of_geom: dict[int, str] = {}
+        self.of_body: list[str | None] = [None] * model.nbody
 
     def made(self) -> list[Link]:
         for geom in self.geoms_of([0]):
@@ -244,6 +252,8 @@ class Links:
             elif roots[body] == body:
                 members = [b for b, root in enumerate(roots) if root == body]
                 self.add(name_of(self.model, "body", body), self.geoms_of(members), members)
+        by_root = {roots[body]: name for body, name in enumerate(self.of_body) if name}
+        self.of_body = ["world" if root == 0 else by_root.get(root) for root in roots]
         return self.links
 
     def root_of(self, body: int) -> int:
@@ -276,12 +286,13 @@ class Links:
             if members:
                 self.left_out.append(f"body {name}: it has mass and no shape")
             return
-        if not solid:
+        if not solid and can_touch(self.model):
             self.notes.append(f"body {name}: its geoms touch nothing in MuJoCo; here they can")
         link = Link(self.unused(name), bool(members), parts, friction_of(self.model, solid, name, self.notes))
         link.slick = all(self.model.geom_condim[g] == 1 for g in solid)
         if members:
             self.give_motion(link, members)
+            self.of_body[members[0]] = link.name
         self.links.append(link)
 
     def unused(self, name: str) -> str:
@@ -305,31 +316,6 @@ class Links:
         mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_XBODY, root, both, 0)
         link.spin = both[:3]
         link.velocity = both[3:] + np.cross(link.spin, link.centre - np.array(data.xpos[root]))
-
-
-def joints_left_out(model: Any, data: Any) -> list[str]:
-    """Each joint but free ones, with what a later case would need of it."""
-    lines = []
-    for joint in range(model.njnt):
-        kind = mujoco.mjtJoint(model.jnt_type[joint]).name.removeprefix("mjJNT_").lower()
-        body = int(model.jnt_bodyid[joint])
-        name = name_of(model, "body", body)
-        dofs = range(model.jnt_dofadr[joint], model.jnt_dofadr[joint] + {"free": 6, "ball": 3}.get(kind, 1))
-        forces = ("damping", "armature", "frictionloss")
-        others = [what for what in forces if any(getattr(model, f"dof_{what}")[d] != 0.0 for d in dofs)]
-        if kind == "free":
-            lines += [f"{' and '.join(others)} of the free joint of body {name}"] if others else []
-            continue
-        parent = int(model.body_parentid[body])
-        other = name_of(model, "body", parent) if parent else "world"
-        text = f"joint {name_of(model, 'joint', joint)}: {kind} between {name} and {other}"
-        text += f", at ({', '.join(f'{x:.6g}' for x in data.xanchor[joint])}) m"
-        if kind != "ball":
-            text += f", axis ({', '.join(f'{x:.6g}' for x in data.xaxis[joint])})"
-        if model.jnt_limited[joint]:
-            text += f", limits {text_of(model.jnt_range[joint])}"
-        lines.append(text + (f", with {' and '.join(others)}" if others else ""))
-    return lines
 
 
 COUNTED = {
@@ -399,15 +385,19 @@ def pairs_of(model: Any, of_geom: dict[int, str]) -> dict[frozenset[str], float]
     return stated
 
 
-def read_model(path: Path, key: str, base: str, locked: bool) -> Model:
+def read_model(path: Path, key: str, base: str, joints: str) -> Model:
     """@param key name or number of a keyframe, none, or "" for the first   @param base free, fixed or "" (of a URDF)
-    @param locked joints hold what they connect as it stands   @raise Unreadable"""
+    @param joints keep; free leaves them out; lock holds what they connect as it stands   @raise Unreadable"""
     left_out: list[str] = []
     notes: list[str] = []
     model = compiled(path, base, notes)
     data = started(model, key, notes)
-    links = Links(model, data, locked, left_out, notes)
+    links = Links(model, data, joints == "lock", left_out, notes)
     made = links.made()
+    joined = Joints(model, data, links.of_body, lambda *of: plain(name_of(*of)))
+    if joints != "keep":
+        left_out[:0] = [f"joint {one.name}: {one.kind} between {' and '.join(one.bodies)}" for one in joined.made]
+        joined.made = []
     return Model(
         plain(path.stem),
         tuple(float(g) for g in model.opt.gravity),
@@ -417,7 +407,9 @@ def read_model(path: Path, key: str, base: str, locked: bool) -> Model:
         common(model, "solref", DEFAULT_SOLREF, left_out),
         common(model, "solimp", DEFAULT_SOLIMP, left_out),
         made,
+        joined.made,
+        can_touch(model),
         pairs_of(model, links.of_geom),
-        [one_line(line) for line in joints_left_out(model, data) + left_out + others_left_out(model)],
+        [one_line(line) for line in joined.left_out + left_out + others_left_out(model)],
         [one_line(line) for line in notes],
     )

@@ -26,9 +26,9 @@ namespace {
 
 constexpr const char* import_description =
     "Makes a case file of a model in MJCF or URDF, or reference data of a measured table.\n"
-    "Of a model it takes bodies, shapes, masses, places, velocities, gravity and friction. MuJoCo's own\n"
-    "parser reads it (tripoint engine install mujoco). Joints and all else that is left out are printed,\n"
-    "and stand in a comment of the file. Meshes are written beside it.\n"
+    "Of a model it takes bodies, shapes, masses, places, velocities, joints, gravity and friction.\n"
+    "MuJoCo's own parser reads it (tripoint engine install mujoco). It prints all that is left out, in a\n"
+    "comment of the file too. Meshes are written beside it.\n"
     "A table may have tabs, semicolons, decimal commas, a title, units in its header, or no header.\n"
     "  tripoint import scene.xml                      writes scene.toml; a file that exists stays\n"
     "  tripoint import arm.urdf --joints lock         bodies that joints connect are one\n"
@@ -114,9 +114,10 @@ void add_import(CLI::App& app, int& exit_code) {
   command->add_option("--base", choices->base, "model: the base link of a URDF is free (default) or fixed")
       ->check(CLI::IsMember({"free", "fixed"}));
   command
-      ->add_option("--joints", choices->joints,
-                   "model: free leaves joints out (default), lock makes one body of those that they connect")
-      ->check(CLI::IsMember({"free", "lock"}));
+      ->add_option(
+          "--joints", choices->joints,
+          "model: keep (default), free leaves joints out, lock makes one body of those that they connect")
+      ->check(CLI::IsMember({"keep", "free", "lock"}));
   command->add_option("--columns", choices->table.columns, "table: names of its columns, as time,front")
       ->delimiter(',');
   command->add_option("--source", choices->table.source, "table: where it comes from");
