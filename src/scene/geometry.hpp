@@ -59,6 +59,11 @@ struct Bounds {
   return s.periodic[axis] || (axis == 1 && s.is_planar());
 }
 
+/// Whether solids cannot strain along a direction either.
+[[nodiscard]] inline bool is_held_across(const Scene& s, std::size_t axis) {
+  return is_endless(s, axis) && !(axis == 1 && s.plane_stress);
+}
+
 /// Extent of a particle along y [m].
 [[nodiscard]] inline double cell_depth(const Scene& s) { return s.is_planar() ? layer_depth : s.spacing; }
 

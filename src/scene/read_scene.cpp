@@ -97,6 +97,9 @@ void read_scene_table(TableReader& in, Scene& s, RecordReader<Scene>& read, Read
   read("dimensions");
   if (s.dimensions != 2 && s.dimensions != 3)
     in.refuse("dimensions", "write 2 for one layer in the plane of x and z, or 3");
+  read("plane");
+  if (s.plane_stress && !s.is_planar())
+    in.refuse("plane", "it says how a layer strains: write dimensions = 2 too, or remove it");
   read("gravity");
   if (s.is_planar() && s.gravity.y != 0.0)
     in.refuse("gravity", "scene.dimensions = 2 has x and z alone: leave its y 0");

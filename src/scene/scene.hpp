@@ -248,6 +248,7 @@ struct Scene {
   double end_time = 0.0;                     ///< [s]
   Vec3 gravity;                              ///< [m/s2]
   std::uint64_t dimensions = 3;              ///< 2: one layer in the plane y = 0
+  bool plane_stress = false;                 ///< in the plane: elastic matter is free to strain along y
   double spacing = 0.0;                      ///< dx [m]
   double support_ratio = corrected_support;  ///< h/dx
   Mode mode = Mode::corrected;

@@ -21,6 +21,10 @@ inline constexpr auto of_scene = std::make_tuple(
           "2: one layer of particles in the plane of x and z. Shapes lose their y, and masses and forces are "
           "those of a layer 1 m deep"},
          {.later = true}),
+    kept(&Scene::plane_stress,
+         {"scene", "plane", word, "", any, "\"strain\"", "held", "strain stress",
+          "elastic solids in two dimensions: held across the plane, or free as sheets are"},
+         {.yes = "stress", .later = true}),
     kept(&Scene::spacing,
          {"scene", "spacing", number, "m", positive, "=", "a tenth of the smallest extent of a body", "",
           "distance dx of the particles, the same in the whole scene"}),

@@ -52,15 +52,18 @@ double volume_of(const State& state, bool paper, bool owns, std::uint32_t id) {
   return m[i] / sum;
 }
 
-/// M_i = sum_j v_j gradW(x_ij)(x_j - x_i)^T; in the plane 1 along y, where nothing strains
+/// M_i = sum_j v_j gradW(x_ij)(x_j - x_i)^T; in plane strain 1 along y, where nothing strains
 Symmetric moment_of(const State& state, std::uint32_t id) {
   const auto volume = state.particles[field::solid_volume];
   Symmetric M;
-  if (state.scene.is_planar() && !state.bonds.of(id).empty()) M.yy = 1.0;
+  if (state.scene.is_planar() && !state.scene.plane_stress && !state.bonds.of(id).empty()) M.yy = 1.0;
   for (const Bond& b : state.bonds.of(id))
     M = M + symmetric_part(-volume[state.particles.row(b.other)] * outer(b.gradient, b.x));
   return M;
 }
+
+/// Of a particle whose neighbours lie in every direction that counts.
+int full_rank(const Scene& scene) { return scene.plane_stress ? 2 : 3; }
 
 /// Sets the gradients of a list. @param to called as to(bond), its gradient [1/m4]
 template <class To>
@@ -223,7 +226,7 @@ void refresh_shapes(State& state, std::span<const std::uint32_t> ids, bool first
       if (forms.bending() != 0.0) set_kernel_gradients(state, kernel, id);
       const Symmetric moment = moment_of(state, id);
       shape = shape_inverse(moment);
-      if (forms.bending() != 0.0 && shape.rank == 3)
+      if (forms.bending() != 0.0 && shape.rank == full_rank(state.scene))
         correct_for_bending(state, id, forms.bending(), moment, shape.inverse);
     }
     shape_inverses(p).set(i, shape.inverse);

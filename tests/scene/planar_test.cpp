@@ -67,6 +67,8 @@ TEST(Planar, RefusesWhatPointsOutOfThePlane) {
   EXPECT_TRUE(says("shape={kind='cylinder',base=[0,0,0],axis=[0,1,1],length=3,radius=0.2}"));
   EXPECT_FALSE(says(slab, "gravity = [0, 0, -9.81]"));
   EXPECT_NE(refusal("[scene]\nend_time = 1\ndimensions = 4\n"), "");
+  EXPECT_NE(refusal("[scene]\nend_time = 1\nplane = 'stress'\n").find("write dimensions = 2 too"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -245,14 +245,14 @@ void slow_heat(const Scene& s, std::vector<Finding>& found) {
 /// Measured of liquids, elastic bodies and heat: 0.3 to 1.4 [s].
 constexpr double cpu_of_a_particle_step = 0.6e-6;
 
-/// Greatest step that the matter of a body allows, frozen too [s]: shares of the bounds of model 8.10 as runs have shown
-/// them.
+/// Greatest step that the matter of a body allows, frozen too [s]: shares of the bounds of model 8.10 as runs
+/// have shown them.
 double step_of(const Scene& s, const Body& b, double liquid_sound) {
   const Material& m = s.material(b.material);
   double dt = std::numeric_limits<double>::infinity();
   if (b.phase == Phase::liquid && liquid_sound > 0.0) dt = std::min(dt, 1.0 * s.spacing / liquid_sound);
-  const bool freezes_elastic = calls_for(s, "phase") && calls_for(s, "elastic") && m.t_melt &&
-                               m.solid == SolidKind::elastic;
+  const bool freezes_elastic =
+      calls_for(s, "phase") && calls_for(s, "elastic") && m.t_melt && m.solid == SolidKind::elastic;
   if ((b.phase == Phase::elastic || freezes_elastic) && m.young_modulus && m.poisson_ratio) {
     const double nu = *m.poisson_ratio,
                  modulus = *m.young_modulus * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));

@@ -90,7 +90,7 @@ std::unique_ptr<Reference> make_cantilever(const ReferenceInput& in) {
   const auto third = 3 - axis - across;
   const auto size = extents(in, bar);
   const double end = free_end(in, bar, axis), length = in.args.number("length").value_or(size[axis]);
-  const bool plane_strain = in.args.flag("plane_strain").value_or(is_endless(in.job.scene, third));
+  const bool plane_strain = in.args.flag("plane_strain").value_or(is_held_across(in.job.scene, third));
   const auto material = elastic_constants(in.job, bar);
   const double kappa = in.args.number("shear_coefficient")
                            .value_or(rectangular_shear_coefficient(material.poisson_ratio, plane_strain));

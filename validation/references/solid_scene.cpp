@@ -70,7 +70,7 @@ BarSides bar_sides(const ReferenceInput& in, std::size_t axis) {
     throw InputError("argument `sides` must be \"free\", \"plane_strain\" or \"confined\"");
   }
   int held = 0;
-  for (std::size_t k = 0; k < 3; ++k) held += k != axis && is_endless(in.job.scene, k) ? 1 : 0;
+  for (std::size_t k = 0; k < 3; ++k) held += k != axis && is_held_across(in.job.scene, k) ? 1 : 0;
   return held == 0 ? BarSides::free : held == 1 ? BarSides::plane_strain : BarSides::confined;
 }
 
