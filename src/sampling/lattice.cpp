@@ -129,17 +129,6 @@ std::vector<Vec3> fill(const Scene& s, const Body& b) {
   return centres;
 }
 
-double counter_noise(std::uint64_t seed, std::uint64_t particle, std::uint64_t axis) {
-  std::uint64_t z = seed * 0x9e3779b97f4a7c15ULL + (3 * particle + axis + 1) * 0xbf58476d1ce4e5b9ULL;
-  for (int round = 0; round < 2; ++round) {
-    z += 0x9e3779b97f4a7c15ULL;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    z ^= z >> 31;
-  }
-  return static_cast<double>(z >> 11) * 0x1.0p-52 - 1.0;
-}
-
 Vec3 wrapped(const Scene& s, Vec3 r) {
   for (std::size_t a = 0; a < 3; ++a) {
     if (!s.periodic[a]) continue;

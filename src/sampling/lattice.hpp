@@ -35,10 +35,6 @@ struct Lattice {
 /// when there is none
 [[nodiscard]] std::vector<Vec3> fill(const Scene&, const Body&);
 
-/// Uniform in [-1, 1) from a counter: the same number for the same (seed, particle, axis) on every machine
-/// (splitmix64).
-[[nodiscard]] double counter_noise(std::uint64_t seed, std::uint64_t particle, std::uint64_t axis);
-
 /// A place at most one width outside the domain, put back into it where a direction is periodic [m].
 [[nodiscard]] Vec3 wrapped(const Scene&, Vec3 r);
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/counter_noise.hpp"
 #include "core/errors.hpp"
 #include "core/not_a_number.hpp"
 #include "sampling/lattice.hpp"

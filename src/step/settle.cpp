@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/counter_noise.hpp"
 #include "core/errors.hpp"
 #include "sampling/lattice.hpp"
 #include "step/simulation.hpp"

@@ -16,7 +16,7 @@ Scheme made() {
   s.damping = damping;
   s.beta = 0.1;
   s.delta = 0.1;
-  s.shift = Shift::at_rest;
+  s.shift = Shift::by_sound;
   s.strength = 0.16;
   s.tie = Tie::relaxed;
   s.relax = 0.02;

@@ -7,7 +7,7 @@
 /// The named forms, each with one setting for all scenes.
 namespace tripoint::carried_liquid {
 
-enum class Shift : int { none, at_rest, by_speed };
+enum class Shift : int { none, by_sound, by_speed };
 enum class Tie : int { none, relaxed, summed };
 
 struct Scheme {
