@@ -6,6 +6,7 @@
 #include "effects/effect.hpp"
 #include "effects/pressure/bulk_viscosity.hpp"
 #include "effects/pressure/compression_ledger.hpp"
+#include "effects/pressure/let_out.hpp"
 #include "effects/pressure/phase_jump.hpp"
 #include "effects/pressure/pressure_state.hpp"
 #include "effects/pressure/pressure_terms.hpp"
@@ -26,7 +27,8 @@
 namespace tripoint::pressure {
 namespace {
 
-/// Energy of compression that changes of phase and of excluded pairs let go [J].
+/// Energy of compression that changes of phase and of excluded pairs let go, and that letting solids out puts
+/// in [J].
 constexpr EnergyAccount compression_released{"compression_released"};
 
 void set_material(State& state, std::size_t row) {
@@ -47,7 +49,8 @@ class Pressure : public Effect {
   explicit Pressure(const Scene& scene)
       : numbers_(liquid::numbers_of(scene)),
         kernels_(liquid::pair_kernels(scene)),
-        damps_(numbers_.bulk_viscosity > 0.0) {}
+        damps_(numbers_.bulk_viscosity > 0.0),
+        lets_out_(lets_solids_out(scene)) {}
   void load(State&, const InitialState&) override;
   void kick(State&, double dt) override;
   void drift(State&, double dt) override;
@@ -60,6 +63,7 @@ class Pressure : public Effect {
   [[nodiscard]] TimeStepBound max_dt(const State&) const override;
   void add_to(const State& state, Ledger& ledger) const override {
     if (liquid::stores_compression(state.scene)) add_compression(state, numbers_, kernels_, ledger);
+    if (lets_out_ && holds_some(state)) ledger.energy["phase_work"] += 0.0;  // from the first frame on
     if (damps_) ledger.energy["bulk_viscous"] += state.accumulated[taken_by_bulk_viscosity];
   }
   [[nodiscard]] PairWork pair_work(const Scene&) const override;
@@ -69,6 +73,7 @@ class Pressure : public Effect {
   PairKernels kernels_;
   double drifted_ = 0.0;  ///< since the last forces, within a step [s]
   bool damps_;            ///< liquids have a numerical bulk viscosity
+  bool lets_out_;         ///< solids may be pressed at the start
 };
 
 void Pressure::load(State& state, const InitialState&) {
@@ -91,9 +96,13 @@ void Pressure::kick(State& state, double dt) {
   state.step_numbers[liquid::half_step] = dt;
 }
 
-void Pressure::drift(State&, double dt) { drifted_ = dt; }
+void Pressure::drift(State& state, double dt) {
+  drifted_ = dt;
+  if (lets_out_) state.accumulated[compression_released] -= let_out(state, numbers_, dt);
+}
 
 void Pressure::state(State& state, const Rows& rows) {
+  if (lets_out_ && state.step_numbers[let_out_for] < 0.0) take_as_rest(state, rows);
   set_pressure(state, numbers_, rows);
   if (damps_ && state.moved) set_bulk_pressure(state, numbers_);
 }
@@ -166,6 +175,7 @@ EffectSpec spec(const Scene& scene) {
   s.forces = {force_of(scene)};
   s.accounts = {compression_released};
   s.step_numbers = {liquid::half_step};
+  if (lets_solids_out(scene)) s.step_numbers.push_back(let_out_for);
   if (!liquid::stores_compression(scene))
     s.guarded_entries = {
         {"pressure_work", EntryRole::unbacked, "the printed pressure, which no energy stands behind"}};
