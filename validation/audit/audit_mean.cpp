@@ -52,7 +52,7 @@ std::string mean_of_all_contradicts(const Audited& run, const Beyond& all, const
   const double step = run.step(interval) > 0.0 ? run.step(interval) : interval;
   const double of_contact = steps_of_gravity * norm(run.job.scene.gravity) * step + depth / all.time;
   const double allowed = 5.0 * all.standard_error() + step * norm(all.change) / all.time +
-                         share_known * all.greatest + of_contact / length;
+                         share_known * all.greatest + (of_contact > 0.0 ? of_contact / length : 0.0);
   if (all.mean() <= allowed) return {};
   return "contradicts itself: " + words + " in the mean of " + figure(all.count) + " intervals: by " +
          figure(all.mean()) + ", where " + figure(allowed) + " may be";
