@@ -26,7 +26,7 @@ bool has_liquid(const Scene& s) {
 bool lets_solids_out(const Scene& s) {
   const auto corrected = [&](const Term& t) { return s.mode_of(t) == Mode::corrected; };
   return corrected(term::density) && corrected(term::pressure) && corrected(term::state) &&
-         (liquid::carries_density(s) || !has_liquid(s));
+         liquid::clamps(s) && (liquid::carries_density(s) || !has_liquid(s));
 }
 
 void take_as_rest(State& state, const Rows& rows) {

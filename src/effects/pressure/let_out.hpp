@@ -7,7 +7,7 @@
 /// rest density is that of the start, and falls back to the material's.
 namespace tripoint::pressure {
 
-/// Whether a density is a sum over solids alone, by the corrected forms.
+/// Whether a density is a sum over solids alone, by the corrected forms, and contact does not pull.
 [[nodiscard]] bool lets_solids_out(const Scene&);
 
 /// Time since the start [s]; -1 before the first drift
