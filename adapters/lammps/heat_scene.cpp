@@ -194,18 +194,4 @@ Range range_of(const TemperatureField& f, const std::vector<double>& values) {
   return {*least, *greatest};
 }
 
-std::optional<double> value_at(const TemperatureField& f, const Vec3& r) {
-  switch (f.kind) {
-    case TemperatureField::Kind::constant:
-      return f.value;
-    case TemperatureField::Kind::cosine:
-      return f.mean + f.amplitude * std::cos(dot(f.wave_vector, r) + f.phase);
-    case TemperatureField::Kind::step:
-      return dot(r - f.point, f.normal) < 0.0 ? f.behind : f.ahead;
-    case TemperatureField::Kind::expression:
-      break;
-  }
-  return {};
-}
-
 }  // namespace tripoint::lammps

@@ -50,7 +50,5 @@ struct Range {
   double least, greatest;
 };
 [[nodiscard]] Range range_of(const TemperatureField&, const std::vector<double>& particle_values);
-/// The field at a place; empty for an expression, whose particle values serve then. [K]
-[[nodiscard]] std::optional<double> value_at(const TemperatureField&, const Vec3&);
 
 }  // namespace tripoint::lammps

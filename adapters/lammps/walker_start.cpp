@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/errors.hpp"
+#include "scene/temperatures.hpp"
 
 namespace tripoint::lammps {
 

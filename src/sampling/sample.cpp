@@ -9,12 +9,12 @@
 
 #include "core/counter_noise.hpp"
 #include "core/errors.hpp"
-#include "core/not_a_number.hpp"
 #include "sampling/lattice.hpp"
 #include "sampling/sample.hpp"
 #include "sampling/shape_distance.hpp"
 #include "scene/geometry.hpp"
 #include "scene/motion.hpp"
+#include "scene/temperatures.hpp"
 
 #include "tables/expression.hpp"
 
@@ -171,19 +171,7 @@ class TemperatureAt {
   explicit TemperatureAt(const TemperatureField& f) : field_(f) {
     if (f.kind == TemperatureField::Kind::expression) expression_.emplace(f.expression);
   }
-  double operator()(const Vec3& r) const {
-    switch (field_.kind) {
-      case TemperatureField::Kind::constant:
-        return field_.value;
-      case TemperatureField::Kind::cosine:
-        return field_.mean + field_.amplitude * std::cos(dot(field_.wave_vector, r) + field_.phase);
-      case TemperatureField::Kind::step:
-        return dot(r - field_.point, field_.normal) < 0.0 ? field_.behind : field_.ahead;
-      case TemperatureField::Kind::expression:
-        return (*expression_)(r);
-    }
-    return not_a_number;
-  }
+  double operator()(const Vec3& r) const { return expression_ ? (*expression_)(r) : *value_at(field_, r); }
 
  private:
   const TemperatureField& field_;

@@ -2,6 +2,7 @@
 #include "scene/temperatures.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "scene/effect_rule.hpp"
 
@@ -65,6 +66,20 @@ std::optional<double> equal_temperature(const Scene& s) {
   if (!bodies || !inflows) return {};
   if (calls_for(s, &EffectRule::changes_temperatures)) return {};
   return range.least;
+}
+
+std::optional<double> value_at(const TemperatureField& f, const Vec3& r) {
+  switch (f.kind) {
+    case TemperatureField::Kind::constant:
+      return f.value;
+    case TemperatureField::Kind::cosine:
+      return f.mean + f.amplitude * std::cos(dot(f.wave_vector, r) + f.phase);
+    case TemperatureField::Kind::step:
+      return dot(r - f.point, f.normal) < 0.0 ? f.behind : f.ahead;
+    case TemperatureField::Kind::expression:
+      break;
+  }
+  return {};
 }
 
 }  // namespace tripoint

@@ -19,6 +19,9 @@ struct TemperatureRange {
 };
 [[nodiscard]] TemperatureRange temperatures_of(const Scene&);
 
+/// Temperature of a field at a place [K]; empty where its expression must be evaluated.
+[[nodiscard]] std::optional<double> value_at(const TemperatureField&, const Vec3&);
+
 /// Whether heat can flow in and out of a body: it has a temperature, and its material conducts.
 [[nodiscard]] bool has_heat(const Body&, const Material&);
 
