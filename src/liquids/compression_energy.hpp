@@ -12,7 +12,7 @@ namespace tripoint::liquid {
 
 /// Why the pressure of liquids is not that of an energy of compression (model 8.3) alone; "" where it is.
 [[nodiscard]] inline std::string no_compression_energy(const Scene& scene) {
-  if (scene.inflows.empty() && !any_body(scene, is_liquid)) return "nothing is liquid";
+  if (!scene.has_liquid()) return "nothing is liquid";
   if (carries_density(scene)) return "liquids carry their density";
   if (calls_for(scene, "phase")) return "where matter melts or freezes, densities change at once";
   const std::string printed = printed_among(scene, {term::density, term::pressure, term::state});

@@ -30,13 +30,10 @@ constexpr double courant_printed = 0.7;
 /// rounded down.
 constexpr double courant_transported = 0.35;
 
-bool any_body(const Scene& scene, bool (*is)(const Body&)) { return std::ranges::any_of(scene.bodies, is); }
-
 /// Largest rest density of the materials that liquids (or, without liquids, any bodies) are made of, those
 /// that flow in too.
 double reference_density(const Scene& scene) {
-  const bool wet =
-      !scene.inflows.empty() || any_body(scene, [](const Body& b) { return b.phase == Phase::liquid; });
+  const bool wet = scene.has_liquid();
   double most = 0.0;
   for (const Body& b : scene.bodies)
     if (!wet || b.phase == Phase::liquid) most = std::max(most, scene.material(b.material).density);

@@ -135,8 +135,7 @@ double stiffness_of_solids(const Scene& s, const Neighbourhood& near) {
 /// (model 8.3).
 double common_stiffness(const Scene& s, const std::vector<Meeting>& meetings, bool flows) {
   const std::vector<Neighbourhood> all = neighbourhoods(s, meetings);
-  const bool wet =
-      !s.inflows.empty() || std::ranges::any_of(s.bodies, [](const Body& b) { return is_wet(&b); });
+  const bool wet = s.has_liquid();
   double reference = 0.0, most = 0.0;
   for (const Neighbourhood& near : all) reference = std::max(reference, densest(s, near, wet));
   for (const Neighbourhood& near : all) {

@@ -264,10 +264,7 @@ Scene read_scene(TableReader& top, Reading& reading) {
   }
   resolve_spacing(in, s, read);
   resolve_modes(top, in, s, read);
-  const bool flows = !s.inflows.empty() || std::any_of(s.bodies.begin(), s.bodies.end(), [](const Body& b) {
-    return b.phase == Phase::liquid;
-  });
-  if (!s.contact && flows)
+  if (!s.contact && s.has_liquid())
     in.refuse("contact",
               "a liquid meets every solid by the same forces as solids meet each other: remove it");
   if (const auto stiffness = default_stiffness(s))

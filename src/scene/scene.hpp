@@ -303,6 +303,8 @@ struct Scene {
   [[nodiscard]] bool takes_form(const Term& t, std::string_view word) const {
     return has_brought_form(t) && forms.at(t) == word;
   }
+  /// Whether a body is liquid at the start, or an inflow brings liquid.
+  [[nodiscard]] bool has_liquid() const;
   /// Whether pressure (9) below zero counts as zero. The paper prints no clamp: it is a correction.
   [[nodiscard]] bool clamps() const;
   /// Whether every term that has printed equations is as printed.

@@ -72,6 +72,11 @@ Mode Scene::mode_of_unresolved(const Term& t) {
   return Mode::corrected;
 }
 
+bool Scene::has_liquid() const {
+  return !inflows.empty() ||
+         std::ranges::any_of(bodies, [](const Body& b) { return b.phase == Phase::liquid; });
+}
+
 bool Scene::clamps() const { return mode_of(term::clamp) == Mode::corrected; }
 
 bool Scene::all_printed() const {

@@ -56,8 +56,7 @@ struct Comparison {
 };
 
 /// @param repeat the base once more (A/A): the difference between the two is noise of its own, the larger one
-/// counts, and bears out what
-/// the base states of its uncertainty @pre both are judged
+/// counts, and bears out what the base states of its uncertainty @pre both are judged
 [[nodiscard]] Comparison compare_results(const Results& base, const Results& head,
                                          const std::string& base_name, const Results* repeat = nullptr);
 

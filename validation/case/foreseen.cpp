@@ -22,10 +22,6 @@ namespace tripoint {
 namespace {
 
 bool is_wall(const Body& b) { return b.phase != Phase::liquid && b.motion != Motion::free; }
-bool is_wet(const Scene& s) {
-  return !s.inflows.empty() ||
-         std::ranges::any_of(s.bodies, [](const Body& b) { return b.phase == Phase::liquid; });
-}
 
 /// Cells of one spacing that hold particles of walls.
 class WallCells {
@@ -284,7 +280,7 @@ std::optional<double> cpu_seconds(const Scene& s, const InitialState& state) {
 
 std::vector<Finding> weak_containers(const Scene& s, const InitialState& state) {
   std::vector<Finding> found;
-  if (!is_wet(s)) return found;
+  if (!s.has_liquid()) return found;
   thin_walls(s, state, found);
   faces_off_rows(s, found);
   soft_liquids(s, found);

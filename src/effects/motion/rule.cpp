@@ -6,11 +6,8 @@ namespace tripoint::motion {
 namespace {
 
 std::string needed_for(const Scene& s, const Called& called) {
-  const bool wet =
-      any_body(s, [](const Scene&, const Body& b, const Material&) { return b.phase == Phase::liquid; }) ||
-      !s.inflows.empty();
-  const bool moves =
-      (wet && (called("pressure") || called("carried_liquid"))) || called("elastic") || called("phase");
+  const bool moves = (s.has_liquid() && (called("pressure") || called("carried_liquid"))) ||
+                     called("elastic") || called("phase");
   return moves ? "liquids and deformable solids move by the forces on their particles" : "";
 }
 

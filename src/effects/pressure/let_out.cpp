@@ -16,17 +16,12 @@ namespace {
 constexpr double slow = 50.0;     ///< supports that sound passes until 1/e of an excess is left [1]
 constexpr double at_last = 20.0;  ///< such times, after which none is left [1]
 
-bool has_liquid(const Scene& s) {
-  return std::ranges::any_of(s.bodies, [](const Body& b) { return b.phase == Phase::liquid; }) ||
-         !s.inflows.empty();
-}
-
 }  // namespace
 
 bool lets_solids_out(const Scene& s) {
   const auto corrected = [&](const Term& t) { return s.mode_of(t) == Mode::corrected; };
   return corrected(term::density) && corrected(term::pressure) && corrected(term::state) &&
-         liquid::clamps(s) && (liquid::carries_density(s) || !has_liquid(s));
+         liquid::clamps(s) && (liquid::carries_density(s) || !s.has_liquid());
 }
 
 void take_as_rest(State& state, const Rows& rows) {
