@@ -13,8 +13,8 @@ namespace {
 
 constexpr double full_strain = 0.05;  ///< h |strain rate|/c from which the shift has its full strength [1]
 /// A lattice that is strained along its own axes lies evenly by symmetry, until it is strings. So straining
-/// sets each particle off by this share of h.
-constexpr double set_off = 0.04;
+/// sets each particle off by this share of h, where h |e| is less.
+constexpr double set_off = 0.05;
 
 double size_of(const Symmetric& a) { return std::sqrt(2.0 * contraction(a, a)); }
 
@@ -51,7 +51,8 @@ void set_shift(State& state, const Scheme& scheme, double sound_speed) {
           std::min(h * size_of(deviator(strain.at(i))) / (full_strain * sound_speed), 1.0);
       const double most = scheme.strength * sound_speed;
       w.set(i, (-most * h * std::max(std::min(100.0 * size2, 1.0), strained)) * e +
-                   (most * strained * set_off) * own_direction(static_cast<std::size_t>(id[i]), planar));
+                   (most * strained * std::max(set_off - std::sqrt(size2), 0.0)) *
+                       own_direction(static_cast<std::size_t>(id[i]), planar));
     } else {
       const double u = std::sqrt(speed2[i]), way = scheme.strength * h * u;
       const double most = 0.25 * u, length = way * norm(e);
