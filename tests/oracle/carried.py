@@ -29,8 +29,8 @@ class Pairs:
         self.same = (self.rest[:, None] == self.rest[None, :]) & ~self.wall[None, :]
         self.liquids = ~self.wall[:, None] & ~self.wall[None, :]
         B = s.symmetric("correction")
-        self.of_i = np.einsum("ikl,ijl->ijk", B, self.D)
-        self.of_j = np.einsum("jkl,ijl->ijk", B, self.D)
+        self.of_i = self.D @ B.swapaxes(1, 2)
+        self.of_j = (self.D.swapaxes(0, 1) @ B.swapaxes(1, 2)).swapaxes(0, 1)
 
     def sides(self, pair):
         """X and Y over f."""
@@ -187,7 +187,7 @@ def parting(p, damping):
         return rate, rate
     E = s.symmetric("strain_rate")
     both = E[:, None] + E[None, :]
-    return rate, rate - 0.5 * np.einsum("ijk,ijkl,ijl->ij", p.D, both, p.D) / s.r2
+    return rate, rate - 0.5 * np.einsum("ijk,ijkl,ijl->ij", p.D, both, p.D, optimize=True) / s.r2
 
 
 def residue_force(s, damping):

@@ -90,7 +90,7 @@ def viscous_bound(s):
     """8.10 [s], of all but walls."""
     G, free = viscous_coefficient(s), s.group != WALL
     if is_central(s):
-        tensor = np.einsum("ij,ijk,ijl->ikl", G / s.r2, s.d, s.d)
+        tensor = np.einsum("ij,ijk,ijl->ikl", G / s.r2, s.d, s.d, optimize=True)
         rate = np.linalg.eigvalsh(tensor)[:, 2]
     else:
         rate = G.sum(axis=1)
@@ -119,7 +119,7 @@ def conduction_sums(s):
     w = V[None, :] * (s["conductivity"] > 0)[None, :] * -s.slope_over_r
     pairs = [(0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1)]
     dd = np.stack([s.d[..., a] * s.d[..., b] * (1 if a == b else 2**0.5) for a, b in pairs], -1)
-    return np.einsum("ij,ijk,ijl->ikl", w / s.distance**2, dd, dd), np.einsum("ij,ijk->ik", 2 * w, s.d)
+    return np.einsum("ij,ijk,ijl->ikl", w / s.distance**2, dd, dd, optimize=True), np.einsum("ij,ijk->ik", 2 * w, s.d)
 
 
 def conduction_tensor(Q, S, dx):
@@ -159,7 +159,9 @@ def heat_corrected(s):
     """dH_i/dt of 8.6, what its magnitudes sum to, and the sum of G_ij."""
     V, k, T, B = s.m / s.material("density"), s["conductivity"], s["temperature"], s.symmetric("moment_inverse")
     e = s.d / s.distance[..., None]
-    along = 0.5 * np.maximum(np.einsum("ijk,ikl,ijl->ij", e, B, e) + np.einsum("ijk,jkl,ijl->ij", e, B, e), 0)
+    along = 0.5 * np.maximum(
+        np.einsum("ijk,ikl,ijl->ij", e, B, e, optimize=True) + np.einsum("ijk,jkl,ijl->ij", e, B, e, optimize=True), 0
+    )
     G = V[:, None] * V[None, :] * 2 * k[:, None] * k[None, :] / (k[:, None] + k[None, :]) * along * -2 * s.slope_over_r
     return (
         (G * (T[None, :] - T[:, None])).sum(axis=1),

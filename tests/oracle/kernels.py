@@ -23,12 +23,14 @@ def viscosity_laplacian(r, h):
 
 def wendland(r, h):
     """[Wendland 1995], C2 in three dimensions."""
-    return np.where(r < h, 21 / (2 * np.pi * h**3) * (1 - r / h) ** 4 * (1 + 4 * r / h), 0.0)
+    x = np.minimum(r / h, 1.0)
+    return 21 / (2 * np.pi * h**3) * np.square(np.square(1 - x)) * (1 + 4 * x)
 
 
 def wendland_slope(r, h):
     """W'."""
-    return np.where(r < h, -210 / (np.pi * h**5) * r * (1 - r / h) ** 3, 0.0)
+    x = np.minimum(r / h, 1.0)
+    return -210 / (np.pi * h**4) * x * np.square(1 - x) * (1 - x)
 
 
 def _elasticity_constant(h):
