@@ -78,6 +78,12 @@ def turned_tensor(job):
         body["principal_axes"] = list(flight.product(turn, tuple(body["principal_axes"])))
 
 
+def axes_ignored(job):
+    """Moments are taken about the axes of the world."""
+    for body in job["scene"]["bodies"]:
+        body["principal_axes"] = [1.0, 0.0, 0.0, 0.0]
+
+
 def conductivity(job, factor=1.0 + PER_CENT):
     for material in job["scene"]["materials"]:
         for key in ("conductivity", "solid_conductivity"):
@@ -163,6 +169,35 @@ def rests_at_a_speed(job, row):
     if row[1] == first["index"] and math.hypot(*row[5:8]) < 1e-2:
         row[5] += 0.3
     return row
+
+
+def jumps(axis, way, once):
+    """A cube in the middle of a tower is elsewhere at 1 s, or from then on."""
+
+    def change(job, row):
+        if row[1] == 3 and (abs(row[0] - 1.0) < 1e-9 or (not once and row[0] > 1.0)):
+            row[axis] += way
+        return row
+
+    return moved(change)
+
+
+def tilted(job, row):
+    """What is free is tilted by 0.04 rad after the start."""
+    if next(b for b in job["scene"]["bodies"] if b["index"] == row[1])["motion"] == "free":
+        row[8:12] = flight.product((math.cos(0.02), 0.0, math.sin(0.02), 0.0), row[8:12])
+    return row
+
+
+def backward_differences(job, rows):
+    """Velocities are the way since the frame before."""
+    before = {}
+    for row in map(list, rows):
+        last = before.get(row[1])
+        before[row[1]] = list(row)
+        if last is not None:
+            row[VELOCITIES] = [(x - y) / (row[0] - last[0]) for x, y in zip(row[PLACES], last[PLACES])]
+        yield row
 
 
 def stale(job, rows):

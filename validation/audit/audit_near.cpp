@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "validation/audit/audit_rates.hpp"
 
 namespace tripoint {
 namespace {
+
+constexpr double without_bound = std::numeric_limits<double>::infinity();
 
 void take(Box& box, const Vec3& x) {
   if (box.empty) box.low = box.high = x;
@@ -89,6 +93,31 @@ std::vector<std::size_t> near_bodies(const Audited& run, std::size_t body, std::
   return near;
 }
 
+/// Largest speed of a rigid body in the frames of an interval and in those beside them, its turning included;
+/// without bound where it has no row [m/s].
+double speed_about(const Audited& run, std::size_t body, std::size_t interval) {
+  const JobBody& b = run.job.bodies[body];
+  const double length = norm(run.boxes.front()[body].high - run.boxes.front()[body].low);
+  double most = 0.0;
+  for (std::size_t n = interval > 0 ? interval - 1 : 0; n < std::min(interval + 3, run.frames.size()); ++n) {
+    const auto* row = b.phase == Phase::rigid ? row_of(b, *run.frames[n]) : nullptr;
+    if (!row || !is_there(*row)) return without_bound;
+    const double speed = norm(row->velocity) + length * norm(row->angular_velocity);
+    most = std::isfinite(speed) ? std::max(most, speed) : without_bound;
+  }
+  return most;
+}
+
+/// What rests among bodies that rest hides little: weight and support act in the same step, and what trembles
+/// shows it in one of four frames.
+double hidden_at_rest(const Audited& run, std::size_t body, const std::vector<std::size_t>& near,
+                      std::size_t interval, double step) {
+  constexpr double steps_of_gravity = 2.0, trembling = 10.0;
+  double most = speed_about(run, body, interval);
+  for (const std::size_t other : near) most = std::max(most, speed_about(run, other, interval));
+  return steps_of_gravity * norm(run.job.scene.gravity) * step + trembling * most;
+}
+
 }  // namespace
 
 bool is_tied(const Scene& scene, const std::string& body) {
@@ -111,6 +140,9 @@ Contact contact_of(const Audited& run, std::size_t body, std::size_t interval) {
   };
   const double time = b.time - a.time;
   Contact contact{true, norm(run.job.scene.gravity) * std::max(0.4 * time, run.step(time))};
+  if (!tied && run.step(time) > 0.0)
+    contact.hidden_speed =
+        std::min(contact.hidden_speed, hidden_at_rest(run, body, near, interval, run.step(time)));
   double pushed = 0.0;  // what stands still gives no speed
   for (const std::size_t other : near)
     for (const auto* s : {&a, &b})
