@@ -107,20 +107,29 @@ void say(const std::string& line) {
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
-void print_commands(const std::string& text) {
-  std::fwrite(text.data(), 1, text.size(), stdout);
-  std::fflush(stdout);
+namespace {
+
+int output_error = 0;  ///< of the first write to standard output that failed
+bool output_was_closed = false;
+
+void write_out(const std::string& text) {
+  errno = 0;
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if ((std::fflush(stdout) != 0 || !written) && output_error == 0) output_error = errno;
 }
+
+}  // namespace
+
+void print_commands(const std::string& text) { write_out(text); }
 
 void print(const std::string& plain) {
   static const bool coloured = wants_colour();
-  const std::string text = without_commands(coloured ? all_painted(plain) : plain);
-  std::fwrite(text.data(), 1, text.size(), stdout);
-  std::fflush(stdout);
+  write_out(without_commands(coloured ? all_painted(plain) : plain));
 }
 
 void hold_standard_streams() {
   constexpr std::array<const char*, 3> instead{"/dev/null", "/dev/full", "/dev/null"};
+  output_was_closed = ::fcntl(STDOUT_FILENO, F_GETFD) == -1;
   for (int stream = 0; stream < 3; ++stream)
     if (::fcntl(stream, F_GETFD) == -1 && ::open(instead[static_cast<std::size_t>(stream)], O_RDWR) != stream)
       std::abort();
@@ -128,7 +137,9 @@ void hold_standard_streams() {
 
 bool output_arrived() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
-  say("tripoint: what it printed could not be written (standard output is closed, or the disk is full)");
+  const int error = output_error != 0 ? output_error : errno;
+  say("tripoint: what it printed could not be written: " +
+      (output_was_closed ? "standard output is closed" : with_limit(std::strerror(error))));
   return false;
 }
 

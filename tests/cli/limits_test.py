@@ -71,6 +71,17 @@ class Limits(unittest.TestCase):
             self.assertEqual(done.returncode, 4, done.stderr)
             self.assertIn("ulimit -f unlimited", done.stdout + done.stderr)
 
+    def test_a_text_that_cannot_be_printed_has_its_own_reason(self):
+        for shell, words in (
+            ("ulimit -f 1; exec > table; ", "ulimit -f unlimited"),
+            ("exec > /dev/full; ", "No space left on device"),
+            ("exec >&-; ", "standard output is closed"),
+        ):
+            done = self.call("schema", shell=shell)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("could not be written: ", done.stderr)
+            self.assertIn(words, done.stderr)
+
     def test_a_small_stack_is_a_sentence_or_made_greater(self):
         done = self.call("run", "rigid/ballistic", "--out", "run", shell="ulimit -s 100; ")
         self.assertEqual(done.returncode, 2)
