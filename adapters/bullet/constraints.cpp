@@ -14,11 +14,13 @@ btTransform frame_of(const btRigidBody& body, const Vec3& place, const btVector3
   return body.getCenterOfMassTransform().inverse() * world;
 }
 
+/// Bullet's angle is that of the first of its bodies.
 std::unique_ptr<btTypedConstraint> hinge(const Joint& j, btRigidBody& one, btRigidBody& other) {
   const btVector3 z(0, 0, 1);
-  auto made = std::make_unique<btHingeConstraint>(other, one, frame_of(other, j.point, z, *j.axis),
-                                                  frame_of(one, j.point, z, *j.axis));
-  if (j.limits) made->setLimit((*j.limits)[0], (*j.limits)[1]);
+  auto made = std::make_unique<btHingeConstraint>(one, other, frame_of(one, j.point, z, *j.axis),
+                                                  frame_of(other, j.point, z, *j.axis));
+  constexpr double softness = 0.9, bias = 0.3;  // as they come; a relaxation of 1 would throw it back
+  if (j.limits) made->setLimit((*j.limits)[0], (*j.limits)[1], softness, bias, 0.0);
   if (j.motor && j.motor->speed) made->enableAngularMotor(true, *j.motor->speed, 1e30);
   return made;
 }

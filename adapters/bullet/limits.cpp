@@ -55,9 +55,12 @@ std::string refuse_joints(const Scene& scene) {
   for (const Joint& j : scene.joints) {
     if (j.kind == Joint::Kind::distance)
       return fmt::format("Bullet has no constraint of a distance, and {} is one", j.name);
-    if (j.friction > 0.0 || j.damping > 0.0 || j.spring || (j.motor && j.motor->effort))
+    if (j.restitution > 0.0 || j.friction > 0.0 || j.damping > 0.0 || j.spring ||
+        (j.motor && j.motor->effort))
       return fmt::format(
-          "friction, damping, springs and efforts of joints are not handed to Bullet, and {} has some",
+          "restitution, friction, damping, springs and efforts of joints are not handed to Bullet, and {} "
+          "has "
+          "some",
           j.name);
   }
   return {};

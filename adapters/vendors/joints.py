@@ -26,7 +26,7 @@ from rotation import (
 )
 
 WORLD = -1  # number of a side that no body has
-LAWS = ("limits", "friction", "damping", "spring", "motor")  # keys beside the kind
+LAWS = ("limits", "restitution", "friction", "damping", "spring", "motor")  # keys beside the kind
 AGREE = 1e-9  # to which bodies start with the velocities that a joint allows, of the greatest of them
 
 
@@ -52,6 +52,7 @@ class Joint(NamedTuple):
     axis: Vector  # unit; of the first body where the other has its own
     other_axis: Vector
     limits: tuple[float, float] | None
+    restitution: float  # of the limits
     friction: float
     damping: float
     stiffness: float
@@ -98,6 +99,7 @@ def joints_of(job: Job, bodies: Sequence[Any]) -> list[Joint]:
                 axis,
                 second,
                 (float(limits[0]), float(limits[1])) if limits else None,
+                float(given["restitution"]),
                 float(given["friction"]),
                 float(given["damping"]),
                 float(spring.get("stiffness") or 0.0),
@@ -110,9 +112,10 @@ def joints_of(job: Job, bodies: Sequence[Any]) -> list[Joint]:
 
 
 def laws_of(joint: Joint) -> list[str]:
-    """The keys that the joint has beside its kind: limits, friction, damping, spring, effort, speed."""
+    """The keys that the joint has beside its kind: limits, restitution, friction, damping, spring, effort, speed."""
     has = {
         "limits": joint.limits is not None,
+        "restitution": joint.restitution > 0.0,
         "friction": joint.friction > 0.0,
         "damping": joint.damping > 0.0,
         "spring": joint.stiffness > 0.0,

@@ -10,10 +10,10 @@ from joints import WORLD, Joint, joints_of
 from rigid import Body
 
 KINDS = ("hinge", "ball", "slider", "fixed", "distance", "universal")
-LAWS = ("limits", "friction", "effort", "speed")
+LAWS = ("limits", "restitution", "friction", "effort", "speed")
 WORDS = {"hinge": "Hinge", "ball": "Ball", "slider": "Slider", "fixed": "Fixed", "distance": "DBall"}
 WORDS["universal"] = "Universal"
-LOW, HIGH, SPEED, MOST = 0, 1, 2, 5  # dParamLoStop, dParamHiStop, dParamVel, dParamFMax
+LOW, HIGH, SPEED, MOST, BOUNCE = 0, 1, 2, 5, 7  # dParamLoStop, dParamHiStop, dParamVel, dParamFMax, dParamBounce
 ENDLESS = 1e30  # effort of a motor that keeps its speed [N m] or [N]
 
 
@@ -53,6 +53,7 @@ class Ties:
         if joint.limits:
             give(made, LOW, joint.limits[0])
             give(made, HIGH, joint.limits[1])
+            give(made, BOUNCE, joint.restitution)
         if joint.speed is not None or joint.friction > 0.0:
             give(made, SPEED, joint.speed or 0.0)
             give(made, MOST, ENDLESS if joint.speed is not None else joint.friction)

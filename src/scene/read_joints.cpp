@@ -74,6 +74,9 @@ Joint read_joint(const TomlNode& node, Reading& reading) {
     in.refuse("limits", "the coordinate is 0 at the start: write [low, high] with low <= 0 <= high");
   if (j.motor && j.motor->effort.has_value() == j.motor->speed.has_value())
     in.refuse("motor", "write motor = { effort = ... } or motor = { speed = ... }");
+  if (j.motor && j.motor->speed && j.limits)
+    in.refuse("limits", "the motor keeps its speed, also beyond them: write motor = { effort = ... }");
+  if (j.restitution > 0.0 && !j.limits) in.refuse("restitution", "it is that of limits, and there are none");
   return j;
 }
 

@@ -213,8 +213,9 @@ struct Joint {
   /// Range of its coordinate: the angle or way of the first body against the second, 0 at the start [rad] or
   /// [m]
   std::optional<std::array<double, 2>> limits;
-  double friction = 0.0;  ///< Coulomb's [N m] or [N]
-  double damping = 0.0;   ///< [N m s/rad] or [N s/m]
+  double restitution = 0.0;  ///< of its limits: rate after a hit over that before [1]
+  double friction = 0.0;     ///< Coulomb's [N m] or [N]
+  double damping = 0.0;      ///< [N m s/rad] or [N s/m]
   std::optional<JointSpring> spring;
   std::optional<JointMotor> motor;
   SourcePlace place;

@@ -265,6 +265,8 @@ inline constexpr auto of_joint = std::make_tuple(
          {"joint", "limits", numbers, "rad or m", any, "", "none", "",
           "range [low, high] of its coordinate: the angle or way of the first body against the "
           "second, 0 at the start"}),
+    kept(&Joint::restitution, {"joint", "restitution", number, "", fraction, "0", "none", "",
+                               "of its limits: rate after a hit over that before"}),
     kept(&Joint::friction, {"joint", "friction", number, "N m or N", not_negative, "0", "none", "",
                             "greatest torque or force of Coulomb's friction"}),
     kept(&Joint::damping, {"joint", "damping", number, "N m s/rad or N s/m", not_negative, "0", "undamped",

@@ -26,7 +26,8 @@ ENGINES = (Mujoco, Drake, Dart, Ode, Rapier, Jolt)
 
 
 def joint(name, kind, first, second, place, axis=None, **laws):
-    plain = {"other_place": None, "other_axis": None, "limits": None, "friction": 0.0, "damping": 0.0}
+    plain = {"other_place": None, "other_axis": None, "limits": None}
+    laws = {"restitution": 0.0, "friction": 0.0, "damping": 0.0, **laws}
     whole = {"name": name, "kind": kind, "bodies": [first, second], "place": place, "axis": axis}
     return {**plain, "spring": None, "motor": None, **whole, **laws}
 
