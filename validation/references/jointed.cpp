@@ -42,6 +42,7 @@ std::string question(const Job& job) {
     text += fmt::format("{} {} {} ", static_cast<int>(j.kind), j.bodies[0], j.bodies[1]);
     for (const auto& v : {std::optional(j.point), j.other_point, j.axis, j.other_axis})
       point(v.value_or(Vec3{}));
+    add({j.friction, j.restitution, j.limits ? (*j.limits)[0] : 1e99, j.limits ? (*j.limits)[1] : 1e99});
     add({j.damping, j.spring ? j.spring->stiffness : 0.0, j.spring ? j.spring->rest : 0.0,
          j.motor ? j.motor->effort.value_or(0.0) : 0.0, j.motor ? j.motor->speed.value_or(1e99) : 0.0});
   }
@@ -102,17 +103,17 @@ class Jointed : public Reference {
 }  // namespace
 
 ReferenceEntry jointed_entry() {
-  return {
-      {"jointed",
-       "analytic",
-       "equations of Newton and Euler with constraints, by extrapolation [Hairer, Norsett & Wanner 1993, "
-       "II.9]",
-       "rigid bodies with joints, springs and constant forces, as the scene has them, to 1e-10; no friction, "
-       "limits or contact",
-       {}},
-      [](const ReferenceInput& in) -> std::unique_ptr<Reference> {
-        return std::make_unique<Jointed>(in.job, in.initial);
-      }};
+  return {{"jointed",
+           "analytic",
+           "equations of Newton and Euler with constraints, by extrapolation [Hairer, Norsett & Wanner 1993, "
+           "II.9]",
+           "rigid bodies with joints and their laws, springs and constant forces, as the scene has them, to "
+           "1e-10; "
+           "no contact",
+           {}},
+          [](const ReferenceInput& in) -> std::unique_ptr<Reference> {
+            return std::make_unique<Jointed>(in.job, in.initial);
+          }};
 }
 
 }  // namespace tripoint

@@ -4,22 +4,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "core/errors.hpp"
 
 namespace tripoint {
 namespace {
 
-constexpr double rank = 1e-11;        ///< of the largest pivot: below it a row says what others say
-constexpr double step_error = 1e-12;  ///< of place and motion in a step [m], [rad], [m/s], [rad/s]
-constexpr int columns = 8;            ///< of the extrapolation: order 16
+constexpr double rank = 1e-11;                 ///< of the largest pivot: below it a row says what others say
+constexpr double step_error = 1e-12;           ///< of place and motion in a step [m], [rad], [m/s], [rad/s]
+constexpr int columns = 8;                     ///< of the extrapolation: order 16
+constexpr double most_between_events = 0.005;  ///< step of a motion that has events [s]
+constexpr double half_turn = std::numbers::pi;
 
 Eigen::Vector3d eigen(const Vec3& v) { return {v.x, v.y, v.z}; }
 Vec3 vec(const Eigen::VectorXd& v, Eigen::Index at) { return {v[at], v[at + 1], v[at + 2]}; }
-
-void refuse(const Joint& j, const std::string& what) {
-  throw InputError(j.place, "jointed: joint `" + j.name + "` has " + what + ", which it does not know");
-}
 
 /// Two unit vectors across the axis.
 std::array<Vec3, 2> across(const Vec3& axis) {
@@ -54,12 +53,16 @@ JointedMotion::JointedMotion(const Job& job) : job_(job) {
   if (!job_.scene.events.empty()) throw InputError("jointed knows no events");
   for (const AppliedForce& f : job_.scene.forces)
     if (f.is_timed()) throw InputError(f.place, "jointed knows forces that act from the start to the end");
+  for (const Joint& j : job_.scene.joints)
+    if (j.kind == Joint::Kind::hinge && j.limits && std::max(-(*j.limits)[0], (*j.limits)[1]) >= half_turn)
+      throw InputError(j.place, "jointed: joint `" + j.name + "` has limits of half a turn or more");
   for (const Joint& j : job_.scene.joints) {
-    if (j.friction > 0.0) refuse(j, "friction");
-    if (j.limits) refuse(j, "limits");
+    const double rate = j.friction > 0.0 ? coordinate(start, j).rate : 0.0;
+    modes_.push_back({rate > 0.0 ? 1 : rate < 0.0 ? -1 : 0, 0});
   }
   project(start);
-  known_[0.0] = start;
+  if (has_events()) pass_event(start);
+  known_[0.0] = {start, modes_};
 }
 
 int JointedMotion::number_of(const std::string& body) const {
@@ -128,6 +131,7 @@ void JointedMotion::add_row(Rows& rows, const Sum& x, const Sum& y, double targe
   rows.value.push_back(dot(X.value, Y.value) - target);
   rows.bias.push_back(dot(X.bias, Y.value) + 2.0 * dot(X.rate, Y.rate) + dot(X.value, Y.bias));
   rows.gradient.push_back(g);
+  rows.joint.push_back(-1);
 }
 
 void JointedMotion::add_joint(Rows& rows, const State& s, const Joint& j) const {
@@ -150,18 +154,13 @@ void JointedMotion::add_joint(Rows& rows, const State& s, const Joint& j) const 
     for (std::size_t k = 0; k < 3; ++k) add_row(rows, on(e.a, world[k]), on(e.b, world[(k + 1) % 3]), 0.0);
 }
 
-JointedMotion::Rows JointedMotion::rows(const State& s, bool speeds) const {
-  Rows all;
-  for (const Joint& j : job_.scene.joints) add_joint(all, s, j);
-  for (const Joint& j : job_.scene.joints) {
-    if (!speeds || !j.motor || !j.motor->speed) continue;
-    const Ends e = ends(s, j);
-    const Mark axis = direction(s, e.b, *j.axis);
-    if (j.kind == Joint::Kind::slider) {
-      add_row(all, e.way(), {{1.0, axis}}, 0.0);
-      all.value.back() = -*j.motor->speed;
-      continue;
-    }
+void JointedMotion::add_coordinate(Rows& all, const State& s, std::size_t joint, double speed) const {
+  const Joint& j = job_.scene.joints[joint];
+  const Ends e = ends(s, j);
+  const Mark axis = direction(s, e.b, *j.axis);
+  if (j.kind == Joint::Kind::slider) {
+    add_row(all, e.way(), {{1.0, axis}}, 0.0);
+  } else {
     Vector g = Vector::Zero(6 * static_cast<Eigen::Index>(free_.size()));
     Vec3 turning;
     if (e.a >= 0) {
@@ -172,9 +171,23 @@ JointedMotion::Rows JointedMotion::rows(const State& s, bool speeds) const {
       g.segment<3>(6 * e.b + 3) -= eigen(axis.value);
       turning -= vec(s.motion, 6 * e.b + 3);
     }
-    all.value.push_back(-*j.motor->speed);
+    all.value.push_back(0.0);
     all.bias.push_back(dot(turning, axis.rate));
     all.gradient.push_back(g);
+    all.joint.push_back(-1);
+  }
+  all.value.back() = -speed;
+  all.joint.back() = static_cast<int>(joint);
+}
+
+JointedMotion::Rows JointedMotion::rows(const State& s, bool speeds) const {
+  Rows all;
+  const auto& joints = job_.scene.joints;
+  for (const Joint& j : joints) add_joint(all, s, j);
+  for (std::size_t n = 0; n < joints.size() && speeds; ++n) {
+    const bool led = joints[n].motor && joints[n].motor->speed;
+    const bool rubs = joints[n].friction > 0.0 && modes_[n].slides == 0;
+    if (led || rubs || modes_[n].limit != 0) add_coordinate(all, s, n, led ? *joints[n].motor->speed : 0.0);
   }
   return all;
 }
@@ -198,26 +211,30 @@ void JointedMotion::push(Vector& f, const State& s, int body, const Vec3& value,
   f.segment<3>(6 * body + 3) += eigen(cross(at - vec(s.place, 7 * body), value));
 }
 
-/// Spring, damper and motor along the coordinate of a joint.
-void JointedMotion::joint_forces(Vector& f, const State& s, const Joint& j) const {
-  const double effort = j.motor ? j.motor->effort.value_or(0.0) : 0.0;
-  if (!j.spring && j.damping == 0.0 && effort == 0.0) return;
+JointedMotion::Coordinate JointedMotion::coordinate(const State& s, const Joint& j) const {
   const Ends e = ends(s, j);
   const Mark axis = direction(s, e.b, *j.axis);
   const auto spin = [&](int body) { return body < 0 ? Vec3{} : vec(s.motion, 6 * body + 3); };
-  double coordinate = 0.0, rate = 0.0;
   if (j.kind == Joint::Kind::slider) {
     const Vec3 way = e.on_a.value - e.on_b.value;
-    coordinate = dot(way, axis.value);
-    rate = dot(e.on_a.rate - e.on_b.rate, axis.value) + dot(way, axis.rate);
-  } else {
-    const Vec3 u = across(*j.axis)[0], on_a = direction(s, e.a, u).value, on_b = direction(s, e.b, u).value;
-    coordinate = std::atan2(dot(cross(on_b, on_a), axis.value), dot(on_a, on_b));
-    rate = dot(spin(e.a) - spin(e.b), axis.value);
+    return {dot(way, axis.value), dot(e.on_a.rate - e.on_b.rate, axis.value) + dot(way, axis.rate)};
   }
-  double force = effort - j.damping * rate;
-  if (j.spring) force -= j.spring->stiffness * (coordinate - j.spring->rest);
-  const Vec3 along = force * axis.value;
+  const Vec3 u = across(*j.axis)[0], on_a = direction(s, e.a, u).value, on_b = direction(s, e.b, u).value;
+  return {std::atan2(dot(cross(on_b, on_a), axis.value), dot(on_a, on_b)),
+          dot(spin(e.a) - spin(e.b), axis.value)};
+}
+
+/// Spring, damper, friction and motor along the coordinate of a joint.
+void JointedMotion::joint_forces(Vector& f, const State& s, std::size_t joint) const {
+  const Joint& j = job_.scene.joints[joint];
+  const double effort = j.motor ? j.motor->effort.value_or(0.0) : 0.0;
+  const double rub = j.friction * modes_[joint].slides;
+  if (!j.spring && j.damping == 0.0 && effort == 0.0 && rub == 0.0) return;
+  const Ends e = ends(s, j);
+  const Coordinate now = coordinate(s, j);
+  double force = effort - rub - j.damping * now.rate;
+  if (j.spring) force -= j.spring->stiffness * (now.value - j.spring->rest);
+  const Vec3 along = force * direction(s, e.b, *j.axis).value;
   if (j.kind == Joint::Kind::slider) {
     push(f, s, e.a, along, e.on_a.value);
     return push(f, s, e.b, -along, e.on_a.value);
@@ -253,11 +270,12 @@ JointedMotion::Vector JointedMotion::forces(const State& s) const {
     f.segment<3>(6 * body + 3) += eigen(one.torque);
   }
   for (const Spring& one : job_.scene.springs) spring_force(f, s, one);
-  for (const Joint& j : job_.scene.joints) joint_forces(f, s, j);
+  for (std::size_t n = 0; n < job_.scene.joints.size(); ++n) joint_forces(f, s, n);
   return f;
 }
 
-JointedMotion::Vector JointedMotion::correction(const State& s, const Rows& rows, const Vector& right) const {
+JointedMotion::Vector JointedMotion::correction(const State& s, const Rows& rows, const Vector& right,
+                                                Vector* lambda) const {
   const auto m = static_cast<Eigen::Index>(rows.gradient.size());
   Matrix G(m, s.motion.size()), MG(s.motion.size(), m);
   for (Eigen::Index k = 0; k < m; ++k) {
@@ -267,7 +285,9 @@ JointedMotion::Vector JointedMotion::correction(const State& s, const Rows& rows
   Eigen::CompleteOrthogonalDecomposition<Matrix> schur;
   schur.setThreshold(rank);
   schur.compute(G * MG);
-  return MG * schur.solve(right);
+  const Vector solved = schur.solve(right);
+  if (lambda) *lambda = solved;
+  return MG * solved;
 }
 
 JointedMotion::State JointedMotion::rate(const State& s) const {
@@ -330,49 +350,61 @@ void JointedMotion::project(State& s) const {
   s.motion += correction(s, all, right);
 }
 
-/// Extrapolation of midpoint rules, [Hairer, Norsett & Wanner 1993, II.9]; steps as the last two columns
-/// differ.
+/// Extrapolation of midpoint rules, [Hairer, Norsett & Wanner 1993, II.9].
+double JointedMotion::step(State& s, double H) const {
+  const State r = rate(s);
+  for (;;) {
+    std::vector<State> row;
+    for (int j = 0; j < columns; ++j) {
+      std::vector<State> next{midpoint(s, r, H, 2 * (j + 1))};
+      for (int k = 1; k <= j; ++k) {
+        const double ratio = double(j + 1) / double(j + 1 - k), factor = 1.0 / (ratio * ratio - 1.0);
+        const State &fine = next.back(), &coarse = row[static_cast<std::size_t>(k - 1)];
+        next.push_back({fine.place + factor * (fine.place - coarse.place),
+                        fine.motion + factor * (fine.motion - coarse.motion)});
+      }
+      row = std::move(next);
+    }
+    const State &best = row.back(), &second = row[row.size() - 2];
+    const double off = std::max(
+        (best.place - second.place).cwiseAbs().maxCoeff(),
+        (best.motion - second.motion).cwiseAbs().maxCoeff() / (1.0 + s.motion.cwiseAbs().maxCoeff()));
+    if (off <= step_error || H < 1e-7) {
+      s = best;
+      project(s);
+      return H;
+    }
+    if (!(H > 1e-12)) throw InputError("jointed: the motion has no state that follows");
+    H *= 0.5;
+  }
+}
+
 void JointedMotion::advance(State& s, double interval) const {
   double left = interval;
+  const bool events = has_events();
   while (left > 1e-14 * interval) {
     double H = std::min(left, step_ > 0.0 ? step_ : 0.01);
-    const State r = rate(s);
-    for (;;) {
-      std::vector<State> row;
-      double off = 0.0;
-      for (int j = 0; j < columns; ++j) {
-        std::vector<State> next{midpoint(s, r, H, 2 * (j + 1))};
-        for (int k = 1; k <= j; ++k) {
-          const double ratio = double(j + 1) / double(j + 1 - k), factor = 1.0 / (ratio * ratio - 1.0);
-          const State &fine = next.back(), &coarse = row[static_cast<std::size_t>(k - 1)];
-          next.push_back({fine.place + factor * (fine.place - coarse.place),
-                          fine.motion + factor * (fine.motion - coarse.motion)});
-        }
-        row = std::move(next);
-      }
-      const State &best = row.back(), &second = row[row.size() - 2];
-      off = std::max(
-          (best.place - second.place).cwiseAbs().maxCoeff(),
-          (best.motion - second.motion).cwiseAbs().maxCoeff() / (1.0 + s.motion.cwiseAbs().maxCoeff()));
-      if (off <= step_error || H < 1e-7) {
-        s = best;
-        break;
-      }
-      if (!(H > 1e-12)) throw InputError("jointed: the motion has no state that follows");
-      H *= 0.5;
+    if (events) H = std::min(H, most_between_events);
+    const State before = s;
+    const double made = step(s, H);
+    if (events && margin(s) < -event_error) {
+      s = before;
+      left -= to_event(s, made);
+      pass_event(s);
+      continue;
     }
-    project(s);
-    left -= H;
-    step_ = H < left && H == step_ ? 1.3 * H : H;
+    left -= made;
+    step_ = made < left && made == step_ ? 1.3 * made : made;
   }
 }
 
 std::vector<BodyState> JointedMotion::at(double time) const {
   const auto found = std::prev(known_.upper_bound(std::max(0.0, time)));
-  State s = found->second;
+  State s = found->second.state;
   if (time > found->first) {
+    modes_ = found->second.modes;
     advance(s, time - found->first);
-    known_[time] = s;
+    known_[time] = {s, modes_};
   }
   std::vector<BodyState> out;
   for (const JobBody& b : job_.bodies) {
