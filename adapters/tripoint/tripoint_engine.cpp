@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <numbers>
 
 #include "adapters/tripoint/solver_job.hpp"
 #include "scene/meeting.hpp"
@@ -32,12 +33,13 @@ std::string refuse_settings(const Job& job, const EngineInfo& info) {
   return {};
 }
 
-/// Laws of joints that the step has no form of.
+constexpr double half_turn = std::numbers::pi;
+
+/// What the step has no form of.
 std::string refuse_joints(const Scene& scene) {
   for (const Joint& j : scene.joints) {
-    if (j.limits || j.friction > 0.0 || j.damping > 0.0 || (j.motor && j.motor->speed))
-      return "limits, friction, damping and the speed of a motor are not simulated, and joint " + j.name +
-             " has one";
+    if (j.kind == Joint::Kind::hinge && j.limits && !(std::max(-(*j.limits)[0], (*j.limits)[1]) < half_turn))
+      return "limits of a hinge are simulated within half a turn, and joint " + j.name + " has others";
     const bool of_two = j.bodies[0] != "world" && j.bodies[1] != "world";
     if (of_two && scene.contact && !meetings(scene).empty())
       return "bodies with a joint would touch each other where others touch: write scene.contact = \"none\"";

@@ -269,6 +269,14 @@ TEST(Restart, OfBodiesThatMergeAndSplitIsTheUnbrokenRun) { expect_same_bits(bodi
 
 TEST(Restart, OfBodiesWithJointsIsTheUnbrokenRun) { expect_same_bits(chain_of_joints(), 11); }
 
+TEST(Restart, OfJointsThatRubAndHitTheirLimitsIsTheUnbrokenRun) {
+  Journey j = chain_of_joints();
+  Joint& hinge = j.lab.scene.joints[0];
+  hinge.limits = {-0.1, 0.3};
+  hinge.restitution = hinge.friction = hinge.damping = 0.5;
+  expect_same_bits(j, 12);
+}
+
 TEST(Restart, OfBodiesThatConductWhileTheyMoveMergeAndSplitIsTheUnbrokenRun) {
   for (const Mode mode : {Mode::corrected, Mode::paper}) {
     const Journey j = flight_with_events(mode);

@@ -4,213 +4,30 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-
-#include <Eigen/Dense>
 
 #include "core/errors.hpp"
 #include "effects/rigid/applied_force.hpp"
 #include "effects/rigid/bodies.hpp"
+#include "effects/rigid/joint_rows.hpp"
 
 namespace tripoint::rigid {
 namespace {
 
-constexpr double share_of_joint_swing = 0.1;  ///< of 1/omega that a step takes [1]
-constexpr double rank = 1e-11;                ///< of the largest pivot: below it a row says what others say
+constexpr double share_of_joint_swing = 0.1;    ///< of 1/omega that a step takes [1]
+constexpr double share_of_joint_damping = 0.2;  ///< of m/c that a step takes [1]
 constexpr double closed = 1e-13;  ///< gap of a joint over its distance from the origin and its size [1]
 constexpr double open = 1e-9;     ///< gap at which a step has failed, in the same measure
 constexpr int most_passes = 30;
+constexpr double at_limit = 1e-9;     ///< from its limit, a joint touches it [rad] or [m]
+constexpr double past_limit = 1e-12;  ///< beyond its limit, a joint has hit it [rad] or [m]
+constexpr int most_parts = 200;       ///< of a step, by hits of limits
+constexpr int most_halvings = 80;     ///< in the search for a hit
+constexpr double endless = std::numeric_limits<double>::infinity();
 
-/// A point of a body or a direction of it, or of the world: it turns by cross(spin, arm).
-struct Mark {
-  Vec3 value, arm;
-  long body = -1;      ///< row of a free body; -1: it stays
-  bool point = false;  ///< moves with the centre too
-};
-
-/// Where a body is, in place of its row: the end of a drift.
-struct Pose {
-  Vec3 centre;
-  Quaternion turn;
-};
-using Poses = std::vector<Pose>;
-
-/// One constraint: its value, and what changes it by velocity and spin of at most two free bodies.
-struct Row {
-  struct End {
-    long body = -1;
-    Vec3 linear, angular;
-  };
-  double value = 0.0;
-  std::array<End, 2> ends;
-};
-
-Poses present_poses(const State& state) {
-  const Columns& t = state.bodies;
-  Poses poses(t.size());
-  for (std::size_t b = 0; b < t.size(); ++b)
-    poses[b] = {t[field::body_centre][b], t[field::body_orientation][b]};
-  return poses;
-}
-
-long free_row(const State& state, const std::string& body) {
-  if (body == "world") return -1;
-  const std::size_t b = body_row(state, body);
-  return is_free(state, b) ? static_cast<long>(b) : -1;
-}
-
-Mark direction_of(const Poses& poses, long body, const Vec3& at_start) {
-  if (body < 0) return {at_start, {}, -1, false};
-  const Vec3 now = rotate(poses[static_cast<std::size_t>(body)].turn, at_start);
-  return {now, now, body, false};
-}
-
-Mark point_of(const State& state, const Poses& poses, long body, const Vec3& at_start) {
-  if (body < 0) return {at_start, {}, -1, false};
-  const auto b = static_cast<std::size_t>(body);
-  const Vec3 arm = rotate(poses[b].turn, at_start - state.bodies[field::body_start_centre][b]);
-  return {poses[b].centre + arm, arm, body, true};
-}
-
-/// Two unit vectors across an axis.
-std::array<Vec3, 2> across(const Vec3& axis) {
-  const Vec3 least = std::abs(axis.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-  const Vec3 u = cross(axis, least) / norm(cross(axis, least));
-  return {u, cross(axis, u)};
-}
-
-/// The two sides of a joint.
-struct Sides {
-  long a, b;
-  Mark on_a, on_b;
-  [[nodiscard]] Vec3 way() const { return on_a.value - on_b.value; }
-};
-
-Sides sides_of(const State& state, const Poses& poses, const Joint& j) {
-  const long a = free_row(state, j.bodies[0]), b = free_row(state, j.bodies[1]);
-  return {a, b, point_of(state, poses, a, j.point),
-          point_of(state, poses, b, j.other_point.value_or(j.point))};
-}
-
-void add_to(Row& row, const Mark& mark, const Vec3& other, double sign) {
-  if (mark.body < 0) return;
-  for (Row::End& end : row.ends) {
-    if (end.body >= 0 && end.body != mark.body) continue;
-    end.body = mark.body;
-    if (mark.point) end.linear += sign * other;
-    end.angular += sign * cross(mark.arm, other);
-    return;
-  }
-}
-
-/// The way between the points along a direction of the second body or of the world.
-Row along(const Sides& s, const Mark& direction, double target) {
-  Row row;
-  row.value = dot(s.way(), direction.value) - target;
-  add_to(row, s.on_a, direction.value, 1.0);
-  add_to(row, s.on_b, direction.value, -1.0);
-  add_to(row, direction, s.way(), 1.0);
-  return row;
-}
-
-/// The cosine of two directions.
-Row cosine(const Mark& x, const Mark& y) {
-  Row row;
-  row.value = dot(x.value, y.value);
-  add_to(row, x, y.value, 1.0);
-  add_to(row, y, x.value, 1.0);
-  return row;
-}
-
-void add_rows(std::vector<Row>& rows, const State& state, const Poses& poses, const Joint& j) {
-  using Kind = Joint::Kind;
-  const Sides s = sides_of(state, poses, j);
-  const std::array<Vec3, 3> world{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
-  const auto on = [&](long body, const Vec3& v) { return direction_of(poses, body, v); };
-  if (j.kind == Kind::distance) {  // along the line of the points
-    const double length = norm(s.way());
-    rows.push_back(along(s, {s.way() / length, {}, -1, false}, norm(j.point - *j.other_point)));
-    return;
-  }
-  if (j.kind == Kind::slider)
-    for (const Vec3& u : across(*j.axis)) rows.push_back(along(s, on(s.b, u), 0.0));
-  else
-    for (const Vec3& u : world) rows.push_back(along(s, on(-1, u), 0.0));
-  if (j.kind == Kind::hinge)
-    for (const Vec3& u : across(*j.axis)) rows.push_back(cosine(on(s.a, *j.axis), on(s.b, u)));
-  if (j.kind == Kind::universal) rows.push_back(cosine(on(s.a, *j.axis), on(s.b, *j.other_axis)));
-  if (j.kind == Kind::slider || j.kind == Kind::fixed)
-    for (std::size_t k = 0; k < 3; ++k)
-      rows.push_back(cosine(on(s.a, world[k]), on(s.b, world[(k + 1) % 3])));
-}
-
-std::vector<Row> rows_of(const State& state, const Poses& poses) {
-  std::vector<Row> rows;
-  for (const Joint& j : state.scene.joints) add_rows(rows, state, poses, j);
-  return rows;
-}
-
-Vec3 spin_of(const State& state, std::size_t b, const Vec3& L) {
-  const Quaternion q = principal_to_world(state, b);
-  Vec3 w = rotate_back(q, L);
-  const Vec3 I = state.bodies[field::body_inertia][b];
-  for (std::size_t k = 0; k < 3; ++k) w[k] = I[k] > 0.0 ? w[k] / I[k] : 0.0;
-  return rotate(q, w);
-}
-
-/// left M^-1 right', with the inertia of the present places.
-Eigen::MatrixXd mobility(const State& state, const std::vector<Row>& left, const std::vector<Row>& right) {
-  Eigen::MatrixXd A =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(left.size()), static_cast<Eigen::Index>(right.size()));
-  for (std::size_t n = 0; n < right.size(); ++n)
-    for (const Row::End& of : right[n].ends) {
-      if (of.body < 0) continue;
-      const auto b = static_cast<std::size_t>(of.body);
-      const Vec3 v = of.linear / state.bodies[field::body_mass][b], w = spin_of(state, b, of.angular);
-      for (std::size_t m = 0; m < left.size(); ++m)
-        for (const Row::End& end : left[m].ends)
-          if (end.body == of.body)
-            A(static_cast<Eigen::Index>(m), static_cast<Eigen::Index>(n)) +=
-                dot(end.linear, v) + dot(end.angular, w);
-    }
-  return A;
-}
-
-/// Solution of least norm: rows that say the same share it.
-Eigen::VectorXd least(const Eigen::MatrixXd& A, const Eigen::VectorXd& right) {
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
-  solver.setThreshold(rank);
-  solver.compute(A);
-  return solver.solve(right);
-}
-
-Eigen::VectorXd rates(const State& state, const std::vector<Row>& rows) {
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows.size()));
-  for (std::size_t n = 0; n < rows.size(); ++n)
-    for (const Row::End& end : rows[n].ends) {
-      if (end.body < 0) continue;
-      const BodyMotion m = motion_of(state, static_cast<std::size_t>(end.body));
-      out[static_cast<Eigen::Index>(n)] += dot(end.linear, m.velocity) + dot(end.angular, m.omega);
-    }
-  return out;
-}
-
-/// Adds impulses; a row's multiplier is theirs along it.
-void give(State& state, const std::vector<Row>& rows, const Eigen::VectorXd& impulse) {
-  Columns& t = state.bodies;
-  for (std::size_t n = 0; n < rows.size(); ++n)
-    for (const Row::End& end : rows[n].ends) {
-      if (end.body < 0) continue;
-      const auto b = static_cast<std::size_t>(end.body);
-      const double size = impulse[static_cast<Eigen::Index>(n)];
-      t[field::body_velocity][b] += size / t[field::body_mass][b] * end.linear;
-      t[field::body_angular_momentum][b] += size * end.angular;
-    }
-  for (std::size_t b = 0; b < t.size(); ++b)
-    if (is_free(state, b)) update_spin(state, b);
-}
+/// The coordinates at which joints stay through a drift; none where they move.
+using Held = std::vector<std::optional<double>>;
 
 double kinetic_of_all(const State& state) {
   double sum = 0.0;
@@ -219,26 +36,37 @@ double kinetic_of_all(const State& state) {
   return sum;
 }
 
-/// Impulses in half a step of dt. What they change of the kinetic energy is an error of the step: a joint
-/// does no work.
-void push_bodies(State& state, const std::vector<Row>& rows, const Eigen::VectorXd& impulse, double dt) {
+/// Impulses in half a step of dt. Rows along coordinates do work; what the others change of the kinetic
+/// energy is an error of the step.
+void push_bodies(State& state, const JointRows& rows, const Eigen::VectorXd& impulse, double dt) {
   Columns& t = state.bodies;
   const auto v = t[field::body_velocity], w = t[field::body_angular_velocity];
   const std::vector<Vec3> v_before(v.begin(), v.end()), w_before(w.begin(), w.end());
   const double before = kinetic_of_all(state);
+  const bool works = std::ranges::any_of(rows, [](const JointRow& row) { return row.joint >= 0; });
+  const Eigen::VectorXd rate_before = works ? rates(state, rows) : Eigen::VectorXd();
   give(state, rows, impulse);
   for (std::size_t b = 0; b < t.size(); ++b) {
     if (!is_free(state, b)) continue;
     t[field::body_acceleration][b] += (1.0 / dt) * (v[b] - v_before[b]);
     t[field::body_angular_acceleration][b] += (1.0 / dt) * (w[b] - w_before[b]);
   }
-  state.accumulated[account::rotation_drift] += kinetic_of_all(state) - before;
+  double work = 0.0;
+  if (works) {
+    const Eigen::VectorXd mean = 0.5 * (rate_before + rates(state, rows));
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+      const auto at = static_cast<Eigen::Index>(n);
+      if (rows[n].joint >= 0) work += impulse[at] * mean[at];
+    }
+    state.accumulated[account::applied_work] += work;
+  }
+  state.accumulated[account::rotation_drift] += kinetic_of_all(state) - before - work;
 }
 
 /// Where a drift of dt leads with these impulses before it.
 /// @param state put back as it was
-Poses after_drift(State& state, const std::vector<Row>& rows, const Eigen::VectorXd& impulse, double dt,
-                  Turned turned, bool as_printed) {
+Poses after_drift(State& state, const JointRows& rows, const Eigen::VectorXd& impulse, double dt,
+                  const JointDrift& how) {
   const auto v = state.bodies[field::body_velocity], L = state.bodies[field::body_angular_momentum];
   const auto w = state.bodies[field::body_angular_velocity];
   const std::vector<Vec3> v0(v.begin(), v.end()), L0(L.begin(), L.end()), w0(w.begin(), w.end());
@@ -247,7 +75,7 @@ Poses after_drift(State& state, const std::vector<Row>& rows, const Eigen::Vecto
   for (std::size_t b = 0; b < poses.size(); ++b) {
     if (!is_free(state, b)) continue;
     poses[b].centre += dt * v[b];
-    poses[b].turn = turned(state, b, dt, as_printed);
+    poses[b].turn = how.turned(state, b, dt, how.as_printed);
   }
   std::ranges::copy(v0, v.begin());
   std::ranges::copy(L0, L.begin());
@@ -256,38 +84,251 @@ Poses after_drift(State& state, const std::vector<Row>& rows, const Eigen::Vecto
 }
 
 /// Gaps over the size of the scene about the origin.
-double worst_of(const std::vector<Row>& rows, const State& state) {
+double worst_of(const JointRows& rows, const State& state) {
   double size = 1.0, worst = 0.0;
   for (const Joint& j : state.scene.joints) size = std::max(size, norm(j.point));
-  for (const Row& row : rows) worst = std::max(worst, std::abs(row.value));
+  for (const JointRow& row : rows) worst = std::max(worst, std::abs(row.value));
   return worst / size;
 }
 
-/// Angle or way of a joint with a coordinate, the row that it changes by, and the force along it.
-struct Law {
-  double coordinate = 0.0;
-  Row row;
-};
-
-Law law_of(const State& state, const Joint& j) {
-  const Poses poses = present_poses(state);
-  const Sides s = sides_of(state, poses, j);
-  const Mark axis = direction_of(poses, s.b, *j.axis);
-  Law law;
-  if (j.kind == Joint::Kind::slider) {
-    law.row = along(s, axis, 0.0);
-    law.coordinate = law.row.value;
-    return law;
-  }
-  const Vec3 u = across(*j.axis)[0], a = direction_of(poses, s.a, u).value,
-             b = direction_of(poses, s.b, u).value;
-  law.coordinate = std::atan2(dot(cross(b, a), axis.value), dot(a, b));
-  law.row.ends[0] = {s.a, {}, axis.value};
-  law.row.ends[1] = {s.b, {}, -axis.value};
-  return law;
+bool keeps_speed(const Joint& j) { return j.motor && j.motor->speed; }
+bool pulls(const Joint& j) { return j.spring || (j.motor && j.motor->effort.value_or(0.0) != 0.0); }
+bool has_ranges(const State& state) {
+  return std::ranges::any_of(state.scene.joints, [](const Joint& j) { return j.limits || j.friction > 0.0; });
 }
 
-bool has_law(const Joint& j) { return j.spring || (j.motor && j.motor->effort.value_or(0.0) != 0.0); }
+/// Calls visit(joint, number) for each that has it.
+template <class Has, class Visit>
+void each_joint(const State& state, Has has, Visit visit) {
+  const auto& joints = state.scene.joints;
+  for (std::size_t n = 0; n < joints.size(); ++n)
+    if (has(joints[n])) visit(joints[n], n);
+}
+
+/// Constraints, and the coordinates that motors lead or that stay: their values at a time.
+JointRows held_rows(const State& state, const Poses& poses, const Held& held, double time) {
+  JointRows rows = rows_of(state, poses);
+  each_joint(state, keeps_speed, [&](const Joint& j, std::size_t n) {
+    rows.push_back(coordinate_row(state, poses, n, *j.motor->speed * time));
+  });
+  for (std::size_t n = 0; n < held.size(); ++n)
+    if (held[n]) rows.push_back(coordinate_row(state, poses, n, *held[n]));
+  return rows;
+}
+
+/// Constraints and motors that keep a speed, as rates.
+JointRows led_rows(const State& state, const Poses& poses) {
+  JointRows rows = rows_of(state, poses);
+  each_joint(state, keeps_speed, [&](const Joint& j, std::size_t n) {
+    rows.push_back(coordinate_row(state, poses, n));
+    rows.back().target = *j.motor->speed;
+  });
+  return rows;
+}
+
+/// Adds joints that touch a limit: an impulse of one sign, after which they do not go beyond it.
+void add_touched(JointRows& rows, const State& state, const Poses& poses) {
+  each_joint(
+      state, [](const Joint& j) { return j.limits.has_value(); },
+      [&](const Joint& j, std::size_t n) {
+        JointRow row = coordinate_row(state, poses, n);
+        const auto [low, high] = *j.limits;
+        if (row.value > low + at_limit && row.value < high - at_limit) return;
+        (row.value <= low + at_limit ? row.low : row.high) = 0.0;
+        rows.push_back(row);
+      });
+}
+
+/// Adds friction, at most its impulse in dt.
+void add_friction(JointRows& rows, const State& state, const Poses& poses, double dt) {
+  each_joint(
+      state, [](const Joint& j) { return j.friction > 0.0; },
+      [&](const Joint& j, std::size_t n) {
+        rows.push_back(coordinate_row(state, poses, n));
+        rows.back().high = j.friction * dt;
+        rows.back().low = -rows.back().high;
+      });
+}
+
+bool is_limit(const JointRow& row) { return row.low == 0.0 || row.high == 0.0; }
+bool rubs(const JointRow& row) { return !is_limit(row) && std::isfinite(row.high); }
+double limit_of(const State& state, const JointRow& row) {
+  return (*state.scene.joints[static_cast<std::size_t>(row.joint)].limits)[row.low == 0.0 ? 0 : 1];
+}
+
+/// Impulses after which each row has its rate. @return them
+Eigen::VectorXd settle(State& state, const JointRows& rows, double dt) {
+  const Eigen::VectorXd impulse = ranged(mobility(state, rows, rows), rates(state, rows), rows);
+  push_bodies(state, rows, impulse, dt);
+  return impulse;
+}
+
+/// Friction of the first half step. @return the joints that it holds, and those that a limit may hold
+Held hold_joints(State& state, double dt) {
+  Held held(state.scene.joints.size());
+  if (!has_ranges(state)) return held;
+  const Poses poses = present_poses(state);
+  JointRows rows = led_rows(state, poses);
+  add_friction(rows, state, poses, dt);
+  add_touched(rows, state, poses);
+  Eigen::VectorXd impulse = ranged(mobility(state, rows, rows), rates(state, rows), rows);
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    const JointRow& row = rows[n];
+    double& size = impulse[static_cast<Eigen::Index>(n)];
+    const bool inside = size > row.low && size < row.high;
+    const auto joint = static_cast<std::size_t>(row.joint);
+    if (row.joint >= 0 && inside && rubs(row)) held[joint] = row.value;
+    if (row.joint >= 0 && inside && is_limit(row)) held[joint] = limit_of(state, row);
+    if (!rubs(row)) size = 0.0;  // the drift finds it
+  }
+  push_bodies(state, rows, impulse, dt);
+  return held;
+}
+
+/// Impulses before a drift, and where it leads.
+struct Closing {
+  JointRows rows;
+  Eigen::VectorXd impulse;
+  Poses poses;
+};
+
+Closing closing_of(State& state, double dt, double end, const Held& held, const JointDrift& how) {
+  Closing c{held_rows(state, present_poses(state), held, state.time), {}, {}};
+  c.impulse = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(c.rows.size()));
+  double gap = endless;
+  for (int pass = 0; pass < most_passes; ++pass) {
+    c.poses = after_drift(state, c.rows, c.impulse, dt, how);
+    const JointRows then = held_rows(state, c.poses, held, end);
+    const double before = gap;
+    gap = worst_of(then, state);
+    if (gap <= closed || (gap < open && gap >= 0.5 * before)) break;
+    Eigen::VectorXd values(c.impulse.size());
+    for (std::size_t n = 0; n < then.size(); ++n) values[static_cast<Eigen::Index>(n)] = -then[n].value;
+    c.impulse += least(dt * mobility(state, then, c.rows), values);
+  }
+  if (!(gap <= open))
+    throw Diverged(-1, -1, "position", "joints", state.time,
+                   "no impulses close the joints in this step: take a smaller time step");
+  return c;
+}
+
+/// Lets go of the joints that their limit would have to pull through a drift.
+void release(State& state, double dt, Held& held, const JointDrift& how) {
+  for (std::size_t left = held.size(); left > 0; --left) {
+    const Closing c = closing_of(state, dt, state.next_time, held, how);
+    bool any = false;
+    for (std::size_t n = 0; n < c.rows.size() && !any; ++n) {
+      if (c.rows[n].joint < 0) continue;
+      const auto joint = static_cast<std::size_t>(c.rows[n].joint);
+      const auto& limits = state.scene.joints[joint].limits;
+      if (!held[joint] || !limits) continue;
+      const double size = c.impulse[static_cast<Eigen::Index>(n)];
+      any = (*held[joint] == (*limits)[0] && size < 0.0) || (*held[joint] == (*limits)[1] && size > 0.0);
+      if (any) held[joint].reset();
+    }
+    if (!any) return;
+  }
+}
+
+/// How far a joint is beyond its nearer limit [rad] or [m].
+double beyond(const State& state, const Poses& poses, std::size_t joint) {
+  const double value = coordinate_row(state, poses, joint).value;
+  const auto [low, high] = *state.scene.joints[joint].limits;
+  return std::max(low - value, value - high);
+}
+
+/// Time in a drift of dt, which ends at `end`, at which the first joint hits a limit; dt if none does.
+/// @param passed joints that hit in this step and were let go
+double first_hit(State& state, double dt, double end, const Held& held, const std::vector<bool>& passed,
+                 const JointDrift& how, const Poses& poses) {
+  double first = dt;
+  each_joint(
+      state, [](const Joint& j) { return j.limits.has_value(); },
+      [&](const Joint&, std::size_t n) {
+        double far_off = beyond(state, poses, n);
+        if (held[n] || passed[n] || far_off <= past_limit) return;
+        double near = 0.0, far = dt, near_off = beyond(state, present_poses(state), n);
+        if (near_off >= -past_limit) near_off = far = 0.0;
+        for (int k = 0; k < most_halvings && near < far && far_off > past_limit; ++k) {
+          const double share = k % 4 == 3 ? 0.5 : near_off / (near_off - far_off);
+          const double middle = near + share * (far - near);
+          const double off = beyond(state, closing_of(state, middle, end - dt + middle, held, how).poses, n);
+          if (off >= -past_limit) {
+            far = middle;
+            far_off = off;
+          } else {
+            near = middle;
+            near_off = off;
+          }
+        }
+        first = std::min(first, far);
+      });
+  return first;
+}
+
+/// Dampers and friction by the present rates.
+void lose(State& state, double dt, bool rub) {
+  JointRows rows;
+  each_joint(
+      state, [&](const Joint& j) { return j.damping > 0.0 || (rub && j.friction > 0.0); },
+      [&](const Joint&, std::size_t n) { rows.push_back(coordinate_row(state, present_poses(state), n)); });
+  if (rows.empty()) return;
+  const Eigen::VectorXd rate = rates(state, rows);
+  Eigen::VectorXd impulse(rate.size());
+  for (Eigen::Index k = 0; k < rate.size(); ++k) {
+    const Joint& j = state.scene.joints[static_cast<std::size_t>(rows[static_cast<std::size_t>(k)].joint)];
+    const double direction = rate[k] > 0.0 ? 1.0 : rate[k] < 0.0 ? -1.0 : 0.0;
+    impulse[k] = -dt * (j.damping * rate[k] + (rub ? j.friction * direction : 0.0));
+  }
+  push_bodies(state, rows, impulse, dt);
+}
+
+/// What happened to each joint in a step: it has hit its limit, and was let go after.
+struct Hits {
+  std::vector<bool> hit, passed;
+};
+
+/// All forces for a time.
+void push_all(State& state, double dt, const JointDrift& how) {
+  if (dt == 0.0) return;
+  how.kick(dt);
+  pull_by_joint_laws(state, dt);
+  lose(state, dt, true);
+}
+
+/// Joints that touch a limit hit it: their rate turns by the restitution, once in a step. Forces act until
+/// the time of the hit, and take it back after.
+/// @param left of the step of dt
+/// @param still nothing has moved since the last hit: what touches a limit stays there
+void hit_limits(State& state, double dt, double left, bool still, const JointDrift& how, Held& held,
+                Hits& hits) {
+  const double lead = 0.5 * dt - left;
+  push_all(state, lead, how);
+  const Poses poses = present_poses(state);
+  JointRows rows = led_rows(state, poses);
+  settle(state, rows, endless);
+  add_touched(rows, state, poses);
+  const Eigen::VectorXd rate = rates(state, rows);
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    JointRow& row = rows[n];
+    const double before = rate[static_cast<Eigen::Index>(n)];
+    if ((row.low != 0.0 || before >= 0.0) && (row.high != 0.0 || before <= 0.0)) continue;
+    const auto joint = static_cast<std::size_t>(row.joint);
+    if (!hits.hit[joint]) row.target = -state.scene.joints[joint].restitution * before;
+    hits.hit[joint] = true;
+  }
+  const Eigen::VectorXd impulse = settle(state, rows, endless);
+  held.assign(held.size(), {});
+  for (std::size_t n = 0; n < rows.size(); ++n)
+    if (is_limit(rows[n]) && rows[n].target == 0.0 && (still || impulse[static_cast<Eigen::Index>(n)] != 0.0))
+      held[static_cast<std::size_t>(rows[n].joint)] = limit_of(state, rows[n]);
+  if (still) return push_all(state, -lead, how);
+  const Held before = held;
+  push_all(state, 0.5 * left, how);
+  release(state, left, held, how);
+  for (std::size_t n = 0; n < held.size(); ++n) hits.passed[n] = hits.passed[n] || (before[n] && !held[n]);
+  push_all(state, -lead - 0.5 * left, how);
+}
 
 }  // namespace
 
@@ -296,10 +337,13 @@ void check_joints_at_start(const State& state) {
   for (std::size_t b = 0; b < state.bodies.size(); ++b)
     fastest = std::max(fastest, norm(state.bodies[field::body_velocity][b]) +
                                     norm(state.bodies[field::body_angular_velocity][b]));
-  for (const Joint& j : state.scene.joints) {
-    std::vector<Row> rows;
-    add_rows(rows, state, present_poses(state), j);
-    if (const double rate = rates(state, rows).cwiseAbs().maxCoeff(); rate > open * fastest)
+  const Poses poses = present_poses(state);
+  for (std::size_t n = 0; n < state.scene.joints.size(); ++n) {
+    const Joint& j = state.scene.joints[n];
+    double rate = rates(state, rows_of(state, poses, j)).cwiseAbs().maxCoeff();
+    if (keeps_speed(j))
+      rate = std::max(rate, std::abs(rates(state, {coordinate_row(state, poses, n)})[0] - *j.motor->speed));
+    if (rate > open * fastest)
       throw InputError(
           j.place,
           fmt::format("the velocities at the start break joint \"{}\" at {:.3g} m/s or rad/s: give both "
@@ -308,68 +352,87 @@ void check_joints_at_start(const State& state) {
   }
 }
 
+void damp_joints(State& state, double dt) { lose(state, dt, false); }
+
 void pull_by_joint_laws(State& state, double dt) {
-  for (const Joint& j : state.scene.joints) {
-    if (!has_law(j)) continue;
-    const Law law = law_of(state, j);
+  each_joint(state, pulls, [&](const Joint& j, std::size_t n) {
+    const JointRow row = coordinate_row(state, present_poses(state), n);
     const double effort = j.motor ? j.motor->effort.value_or(0.0) : 0.0;
-    const double pull = j.spring ? -j.spring->stiffness * (law.coordinate - j.spring->rest) : 0.0;
-    const double before = rates(state, {law.row})[0];
-    give(state, {law.row}, Eigen::VectorXd::Constant(1, dt * (pull + effort)));
-    const double way = dt * 0.5 * (before + rates(state, {law.row})[0]);
+    const double pull = j.spring ? -j.spring->stiffness * (row.value - j.spring->rest) : 0.0;
+    const double before = rates(state, {row})[0];
+    give(state, {row}, Eigen::VectorXd::Constant(1, dt * (pull + effort)));
+    const double way = dt * 0.5 * (before + rates(state, {row})[0]);
     state.accumulated[account::gravity_work] += pull * way;
     if (effort != 0.0) state.accumulated[account::applied_work] += effort * way;
-  }
+  });
 }
 
-void close_joints(State& state, double dt, Turned turned, bool as_printed) {
-  const std::vector<Row> now = rows_of(state, present_poses(state));
-  Eigen::VectorXd impulse = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(now.size()));
-  double gap = std::numeric_limits<double>::infinity();
-  for (int pass = 0; pass < most_passes; ++pass) {
-    const std::vector<Row> then = rows_of(state, after_drift(state, now, impulse, dt, turned, as_printed));
-    const double before = gap;
-    gap = worst_of(then, state);
-    if (gap <= closed || (gap < open && gap >= 0.5 * before)) break;
-    Eigen::VectorXd values(impulse.size());
-    for (std::size_t n = 0; n < then.size(); ++n) values[static_cast<Eigen::Index>(n)] = -then[n].value;
-    impulse += least(dt * mobility(state, then, now), values);
+void drift_with_joints(State& state, double dt, const JointDrift& how) {
+  Held held = hold_joints(state, 0.5 * dt);
+  Hits hits{std::vector<bool>(held.size(), false), std::vector<bool>(held.size(), false)};
+  if (has_ranges(state)) release(state, dt, held, how);
+  double left = dt;
+  for (int parts = 0; parts < most_parts; ++parts) {
+    const double end = state.next_time;
+    Closing closing = closing_of(state, left, end, held, how);
+    const double part = first_hit(state, left, end, held, hits.passed, how, closing.poses);
+    if (part < left && part > 0.0) closing = closing_of(state, part, end - left + part, held, how);
+    if (part > 0.0) {
+      push_bodies(state, closing.rows, closing.impulse, 0.5 * dt);
+      how.move(part);
+    }
+    if (part == left) return;
+    left -= part;
+    hit_limits(state, dt, left, part == 0.0, how, held, hits);
   }
-  if (!(gap <= open))
-    throw Diverged(-1, -1, "position", "joints", state.time,
-                   "no impulses close the joints in this step: take a smaller time step");
-  push_bodies(state, now, impulse, 0.5 * dt);
+  throw Diverged(-1, -1, "position", "joints", state.time,
+                 "joints hit their limits without end in this step: take a smaller time step");
 }
 
 void still_joints(State& state, double dt) {
-  const std::vector<Row> now = rows_of(state, present_poses(state));
-  push_bodies(state, now, least(mobility(state, now, now), -rates(state, now)), dt);
+  const Poses poses = present_poses(state);
+  JointRows rows = led_rows(state, poses);
+  each_joint(
+      state, [](const Joint& j) { return j.damping > 0.0; },
+      [&](const Joint& j, std::size_t n) {
+        rows.push_back(coordinate_row(state, poses, n));
+        rows.back().compliance = 1.0 / (j.damping * dt);
+      });
+  add_friction(rows, state, poses, dt);
+  add_touched(rows, state, poses);
+  settle(state, rows, dt);
 }
 
 double joint_energy(const State& state) {
   double sum = 0.0;
-  for (const Joint& j : state.scene.joints) {
-    if (!j.spring) continue;
-    const double stretch = law_of(state, j).coordinate - j.spring->rest;
-    sum += 0.5 * j.spring->stiffness * stretch * stretch;
-  }
+  each_joint(
+      state, [](const Joint& j) { return j.spring.has_value(); },
+      [&](const Joint& j, std::size_t n) {
+        const double stretch = coordinate_row(state, present_poses(state), n).value - j.spring->rest;
+        sum += 0.5 * j.spring->stiffness * stretch * stretch;
+      });
   return sum;
 }
 
 double joint_step(const State& state) {
-  double least_step = std::numeric_limits<double>::infinity();
-  for (const Joint& j : state.scene.joints) {
-    if (!j.spring) continue;
-    const std::vector<Row> row{law_of(state, j).row};
-    least_step = std::min(
-        least_step, share_of_joint_swing / std::sqrt(j.spring->stiffness * mobility(state, row, row)(0, 0)));
-  }
+  double least_step = endless;
+  each_joint(
+      state, [](const Joint& j) { return j.spring || j.damping > 0.0; },
+      [&](const Joint& j, std::size_t n) {
+        const JointRows row{coordinate_row(state, present_poses(state), n)};
+        const double mobile = mobility(state, row, row)(0, 0);
+        if (j.spring)
+          least_step = std::min(least_step, share_of_joint_swing / std::sqrt(j.spring->stiffness * mobile));
+        if (j.damping > 0.0) least_step = std::min(least_step, share_of_joint_damping / (j.damping * mobile));
+      });
   return least_step;
 }
 
-bool has_joint_effort(const Scene& scene) {
-  return std::ranges::any_of(scene.joints,
-                             [](const Joint& j) { return j.motor && j.motor->effort.value_or(0.0) != 0.0; });
+bool has_joint_work(const Scene& scene) {
+  return std::ranges::any_of(scene.joints, [](const Joint& j) {
+    return j.limits || j.friction > 0.0 || j.damping > 0.0 || keeps_speed(j) ||
+           (j.motor && j.motor->effort.value_or(0.0) != 0.0);
+  });
 }
 
 }  // namespace tripoint::rigid

@@ -36,6 +36,8 @@ class RigidBodies : public Effect {
   void add_to(const State&, Ledger&) const override;
 
  private:
+  void push_free(State&, double dt);
+
   std::vector<BodyForces> forces_;  ///< memory that is used again from kick to kick
   bool turns_as_printed_;
 };
@@ -193,6 +195,8 @@ void RigidBodies::load(State& state, const InitialState& initial) {
 }
 
 void RigidBodies::kick(State& state, double dt) {
+  const bool first = state.time < state.next_time, joined = !state.scene.joints.empty();
+  if (joined && first) damp_joints(state, dt);
   const Vec3 g = state.scene.gravity;
   forces_on_moving_bodies(state, forces_);
   static const BodyForces none;
@@ -206,36 +210,65 @@ void RigidBodies::kick(State& state, double dt) {
     if (pushes && motion_now(state, b) == Motion::free) push_by_applied_forces(state, b, dt);
   });
   if (!state.scene.springs.empty()) pull_by_springs(state, dt);
-  if (!state.scene.joints.empty()) {
-    pull_by_joint_laws(state, dt);
-    if (!(state.time < state.next_time)) still_joints(state, dt);
-  }
+  if (joined) pull_by_joint_laws(state, dt);
+  if (joined && !first) still_joints(state, dt);
   if (any) give_velocities(state);
 }
 
-void RigidBodies::drift(State& state, double dt) {
+/// Free bodies by their velocities. @return whether any moved
+bool move_free(State& state, double dt, bool as_printed) {
   Columns& t = state.bodies;
-  if (!state.scene.joints.empty()) close_joints(state, dt, turned, turns_as_printed_);
-  bool any = state.body_owners.any();  // this process does not know whether another has one that moves
+  bool any = false;
   each_kept_body(state, [&](std::size_t b) {
-    if (!is_alive(state, b) || !is_rigid(state, b) || motion_now(state, b) == Motion::fixed) return;
-    if (motion_now(state, b) == Motion::free) {
-      if (at_rest(state, b)) return;
-      t[field::body_centre][b] += dt * t[field::body_velocity][b];
-      const double before = kinetic_energy(state, b);
-      turn(state, b, dt, turns_as_printed_);
-      if (state.reports(b)) state.accumulated[account::rotation_drift] += kinetic_energy(state, b) - before;
-    } else {
-      const double kinetic = kinetic_energy(state, b), potential = potential_energy(state, b);
-      drive(state, b, state.next_time);
-      const double raised = potential_energy(state, b) - potential;
-      if (state.reports(b)) {
-        state.accumulated[account::driven_potential] += raised;
-        state.accumulated[account::walls] -= kinetic_energy(state, b) - kinetic + raised;
-      }
+    if (!is_alive(state, b) || !is_rigid(state, b) || !is_free(state, b) || at_rest(state, b)) return;
+    t[field::body_centre][b] += dt * t[field::body_velocity][b];
+    const double before = kinetic_energy(state, b);
+    turn(state, b, dt, as_printed);
+    if (state.reports(b)) state.accumulated[account::rotation_drift] += kinetic_energy(state, b) - before;
+    any = true;
+  });
+  return any;
+}
+
+/// Driven bodies to the end of the step. @return whether there are any
+bool move_driven(State& state) {
+  bool any = false;
+  each_kept_body(state, [&](std::size_t b) {
+    if (!is_alive(state, b) || !is_rigid(state, b) || motion_now(state, b) == Motion::fixed ||
+        is_free(state, b))
+      return;
+    const double kinetic = kinetic_energy(state, b), potential = potential_energy(state, b);
+    drive(state, b, state.next_time);
+    const double raised = potential_energy(state, b) - potential;
+    if (state.reports(b)) {
+      state.accumulated[account::driven_potential] += raised;
+      state.accumulated[account::walls] -= kinetic_energy(state, b) - kinetic + raised;
     }
     any = true;
   });
+  return any;
+}
+
+/// All forces but those of joints, which stay as they were at the last kick.
+void RigidBodies::push_free(State& state, double dt) {
+  static const BodyForces none;
+  each_kept_body(state, [&](std::size_t b) {
+    if (!is_alive(state, b) || !is_rigid(state, b) || !is_free(state, b)) return;
+    push(state, b, forces_.empty() ? none : forces_[b], state.scene.gravity, dt);
+    if (!state.scene.forces.empty()) push_by_applied_forces(state, b, dt);
+  });
+  if (!state.scene.springs.empty()) pull_by_springs(state, dt);
+}
+
+void RigidBodies::drift(State& state, double dt) {
+  bool any = state.body_owners.any();  // this process does not know whether another has one that moves
+  const auto move = [&](double part) { any = move_free(state, part, turns_as_printed_) || any; };
+  if (state.scene.joints.empty())
+    move(dt);
+  else
+    drift_with_joints(state, dt,
+                      {turned, turns_as_printed_, [&](double part) { push_free(state, part); }, move});
+  any = move_driven(state) || any;
   if (!any) return;
   place_members(state);
   state.moved = true;
@@ -380,7 +413,7 @@ EffectSpec spec(const Scene& scene) {
   s.sums_forces = true;
   s.skips_sleeping = true;
   const bool damps = std::ranges::any_of(scene.springs, [](const Spring& one) { return one.damping > 0.0; });
-  if (damps || has_joint_effort(scene) || has_forces_without_potential(scene))
+  if (damps || has_joint_work(scene) || has_forces_without_potential(scene))
     s.accounts = {account::applied_work};
   return s;
 }
