@@ -5,6 +5,7 @@
 #include "case_file.hpp"
 #include "scene/joints.hpp"
 #include "scene/meeting.hpp"
+#include "validation/case/preflight.hpp"
 
 namespace tripoint::test {
 namespace {
@@ -75,6 +76,41 @@ TEST(JointKeys, KeepBodiesThatTheyHoldFromTouching) {
   const Scene apart = read_text(two_bodies("kind='ball'\nbodies=['b','world']\n")).value.scene;
   EXPECT_FALSE(has_joint(apart, "a", "b"));
   EXPECT_FALSE(meetings(apart).empty()) << "one of them no longer flies straight";
+}
+
+TEST(JointKeys, RefuseLimitsThatNothingKeeps) {
+  const std::string hinge = "kind='hinge'\nbodies=['a','b']\naxis=[0,1,0]\n";
+  expect_refused(two_bodies(hinge + "limits=[-1,1]\nmotor={speed=2}\n"), {"effort"});
+  expect_refused(two_bodies(hinge + "restitution=0.5\n"), {"restitution"});
+  EXPECT_EQ(joint_of(hinge + "limits=[-1,1]\nrestitution=0.5\n").restitution, 0.5);
+}
+
+std::string warned(const std::string& joints) {
+  std::string all, text = two_bodies(joints);
+  text.replace(text.find("[[material]]"), 0, "contact='none'\n");
+  for (const Finding& f : joint_findings(read_text(text).value.scene)) all += f.what + "\n";
+  return all;
+}
+
+TEST(JointFindings, NameJointsThatLeaveNoFreedom) {
+  const std::string hinge = "kind='hinge'\nbodies=['a','world']\naxis=[0,1,0]\n",
+                    next = "[[joint]]\nname='k'\nkind='hinge'\nplace=[0.5,0.1,0.1]\nbodies=['b','a']\n";
+  EXPECT_EQ(warned(hinge + next + "axis=[0,1,0]\n"), "");
+  const std::string back = "[[joint]]\nname='l'\nkind='hinge'\nbodies=['b','world']\n";
+  EXPECT_EQ(warned(hinge + next + "axis=[0,1,0]\n" + back + "place=[0.35,0.9,0.1]\naxis=[0,1,0]\n"), "")
+      << "a and b turn together about one line";
+  EXPECT_NE(warned(hinge + next + "axis=[0,1,0]\n" + back + "place=[0.9,0.1,0.1]\naxis=[1,0,0]\n")
+                .find("\"j\", \"k\", \"l\" leave no freedom"),
+            std::string::npos);
+}
+
+TEST(JointFindings, NameMotorsThatFightAndBodiesThatNothingHolds) {
+  const std::string pair =
+      "kind='hinge'\nbodies=['a','b']\naxis=[0,1,0]\nmotor={speed=2}\n[[joint]]\nname='k'\n"
+      "kind='hinge'\nplace=[0.35,0.7,0.1]\nbodies=['b','a']\naxis=[0,1,0]\n";
+  EXPECT_EQ(warned(pair + "motor={speed=-2}\n"), "");
+  EXPECT_NE(warned(pair + "motor={speed=2}\n").find("turn against each other"), std::string::npos);
+  EXPECT_NE(warned("kind='ball'\nbodies=['a','world']\n").find("holds body \"b\""), std::string::npos);
 }
 
 }  // namespace

@@ -36,6 +36,7 @@ class Preflight {
     }
     for (auto& f : unlike_their_shapes(scene_, state_)) findings_.push_back(std::move(f));
     for (auto& f : weak_containers(scene_, state_)) findings_.push_back(std::move(f));
+    for (auto& f : joint_findings(scene_)) findings_.push_back(std::move(f));
     outside();
     time_steps();
     dates();

@@ -46,6 +46,10 @@ struct Finding {
 /// weight.
 [[nodiscard]] std::vector<Finding> weak_containers(const Scene&, const InitialState&);
 
+/// Warnings of joints: none of their bodies can move, motors that turn against each other, a free body that
+/// no joint, spring or contact holds beside others that joints hold.
+[[nodiscard]] std::vector<Finding> joint_findings(const Scene&);
+
 /// Notes of what a run will not show: friction on a slope, heat and melting that need longer than end_time.
 [[nodiscard]] std::vector<Finding> foreseen(const Scene&);
 
