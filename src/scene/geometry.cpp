@@ -183,6 +183,37 @@ std::function<bool(const Vec3&)> inside_of(const Shape& s, double spacing) {
   return {};
 }
 
+Vec3 put_back(const Scene& scene, Vec3 point) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (!scene.periodic[a]) continue;
+    const double width = (*scene.max)[a] - (*scene.min)[a];
+    point[a] -= width * std::floor((point[a] - (*scene.min)[a]) / width);
+  }
+  return point;
+}
+
+std::function<bool(const Vec3&)> inside_region(const Scene& scene, const Shape& region) {
+  auto inside = inside_of(region, scene.spacing);
+  if (std::ranges::find(scene.periodic, true) == scene.periodic.end()) return inside;
+  const Bounds reach = bounds(region);
+  std::vector<Vec3> images{{}};
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (!scene.periodic[a] || !std::isfinite(reach.max[a] - reach.min[a])) continue;
+    const double low = (*scene.min)[a], high = (*scene.max)[a];
+    const std::size_t count = images.size();
+    for (std::size_t n = 0; n < count; ++n)
+      for (const int side : {-1, 1}) {
+        if (side < 0 ? reach.min[a] >= low : reach.max[a] <= high) continue;
+        images.push_back(images[n]);
+        images.back()[a] += side * (high - low);
+      }
+  }
+  return [inside, images, &scene](const Vec3& r) {
+    const Vec3 within = put_back(scene, r);
+    return std::ranges::any_of(images, [&](const Vec3& image) { return inside(within + image); });
+  };
+}
+
 std::optional<double> volume(const Shape& s) {
   using std::numbers::pi;
   switch (s.kind) {

@@ -44,6 +44,13 @@ struct Bounds {
 /// Whether a point lies in the shape. @param spacing of the lattice [m]: a mesh is voxelised finer than it
 [[nodiscard]] std::function<bool(const Vec3&)> inside_of(const Shape&, double spacing);
 
+/// A point's image within periodic sides.
+[[nodiscard]] Vec3 put_back(const Scene&, Vec3 point);
+
+/// Whether an image of a point lies in a region of the scene. One that ends beyond a periodic side goes on
+/// within.
+[[nodiscard]] std::function<bool(const Vec3&)> inside_region(const Scene&, const Shape&);
+
 /// Volume [m3] by formula or, for a mesh, the divergence theorem; empty for a union or difference, which may
 /// overlap.
 [[nodiscard]] std::optional<double> volume(const Shape&);

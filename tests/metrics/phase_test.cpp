@@ -43,6 +43,20 @@ TEST(PhaseMetrics, WeighWhatIsInABoxOrOutsideIt) {
   EXPECT_TRUE(std::isnan(f.stated(metric("mass_in_region", "final"), {{"value", 0.0}})));
 }
 
+TEST(PhaseMetrics, KnowMatterInABoxByItsImages) {
+  auto scene = test::blocks();
+  scene.job.scene.min = {-10, -10, -10};
+  scene.job.scene.max = {10, 10, 10};
+  scene.job.scene.periodic = {true, false, false};
+  Still f(std::move(scene));
+  const Settings box{
+      {"min", std::vector<double>{0, 0, 0}}, {"max", std::vector<double>{0.4, 0.4, 0.2}}, {"value", 32.0}};
+  for (auto& r : f.run.frames.back().position) r.x += 40.0;
+  EXPECT_NEAR(f.stated(metric("mass_in_region", "final"), box), 0.0, 1e-12);
+  for (auto& r : f.run.frames.back().position) r.y += 40.0;
+  EXPECT_NEAR(f.stated(metric("mass_in_region", "final"), box), -32.0, 1e-12);
+}
+
 TEST(PhaseMetrics, LetABoxMoveAndTurnWithABody) {
   Still f(test::blocks());
   auto& last = f.run.frames.back();

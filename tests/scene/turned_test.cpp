@@ -117,6 +117,27 @@ TEST(ContactLaw, OfNoMaterialOrWrittenTwiceIsRefused) {
                  {"from 0 to 1"});
 }
 
+TEST(Region, HoldsImagesOfAPointBeyondPeriodicSidesAlone) {
+  Scene s = turned_scene(ingot);
+  s.min = {0, 0, 0};
+  s.max = {2, 4, 4};
+  s.periodic = {true, false, false};
+  Shape slab, left;
+  slab.kind = Shape::Kind::box;
+  slab.min = {-0.1, 0, 0};
+  slab.max = {0.1, 4, 4};
+  left.kind = Shape::Kind::half_space;
+  left.point = {1, 0, 0};
+  left.normal = {1, 0, 0};
+  const auto about_a_side = inside_region(s, slab);
+  for (const double x : {0.05, 1.95, 4.05, -2.05}) EXPECT_TRUE(about_a_side({x, 1, 1})) << x;
+  for (const double x : {0.15, 1.85, 5.0}) EXPECT_FALSE(about_a_side({x, 1, 1})) << x;
+  EXPECT_FALSE(about_a_side({0.05, 5, 1}));  // y is open
+  const auto half = inside_region(s, left);
+  for (const double x : {0.5, 2.5, -1.5}) EXPECT_TRUE(half({x, 1, 1})) << x;
+  for (const double x : {1.5, -0.5, 3.5}) EXPECT_FALSE(half({x, 1, 1})) << x;
+}
+
 TEST(Force, ActsOnAFreeRigidBodyThatStaysOne) {
   EXPECT_EQ(refusal(three_bodies + "[[force]]\nbody='a'\nvalue=[1,0,0]\n"), "");
   expect_refused(three_bodies + "[[force]]\nbody='floor'\nvalue=[1,0,0]\n",

@@ -23,7 +23,7 @@ bool stays(const Body& b) {
 
 /// Whether the event would act on a particle at the start.
 bool finds_something(const IdleSearch& in, const Event& e) {
-  const auto inside = inside_of(*e.region, in.scene.spacing);
+  const auto inside = inside_region(in.scene, *e.region);
   std::vector<long> within(in.scene.bodies.size(), 0), all(in.scene.bodies.size(), 0);
   for (std::size_t i = 0; i < in.state.size(); ++i) {
     const auto source = static_cast<std::size_t>(in.state.source[i]);

@@ -94,6 +94,8 @@ struct RunQuantity {
 
 /// r - r0 by the nearest image in periodic directions [m].
 [[nodiscard]] Vec3 displacement(const Scene&, const Vec3& r, const Vec3& r0);
+/// Whether an image of a place in periodic directions lies in the box, its faces included.
+[[nodiscard]] bool in_box(const Scene&, const Vec3& r, const Vec3& low, const Vec3& high);
 /// Rest volume m/rho0 of a particle [m3]; its mass where the scene has no materials.
 [[nodiscard]] double rest_volume(const MetricInput&, std::size_t particle);
 /// Whether the metric takes a particle: all, or those of its body as sampled.

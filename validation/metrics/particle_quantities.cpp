@@ -153,6 +153,15 @@ Vec3 displacement(const Scene& scene, const Vec3& r, const Vec3& r0) {
   return d;
 }
 
+bool in_box(const Scene& scene, const Vec3& r, const Vec3& low, const Vec3& high) {
+  const Vec3 middle = 0.5 * (low + high), image = middle + displacement(scene, r, middle);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double at = scene.periodic[k] && std::isfinite(middle[k]) ? image[k] : r[k];
+    if (at < low[k] || at > high[k]) return false;
+  }
+  return true;
+}
+
 double rest_volume(const MetricInput& in, std::size_t i) {
   if (i >= in.initial.size()) return 0.0;
   const auto material = static_cast<std::size_t>(in.initial.material[i]);

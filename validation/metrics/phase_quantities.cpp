@@ -33,9 +33,10 @@ struct Box {
   Vec3 low, high;
   const BodyState* body = nullptr;  // it follows
   Vec3 start;                       // that body's first centre
-  [[nodiscard]] bool holds(const Vec3& place) const {
-    const Vec3 r = body ? start + rotate_back(body->orientation, place - body->position) : place;
-    return r.x >= low.x && r.y >= low.y && r.z >= low.z && r.x <= high.x && r.y <= high.y && r.z <= high.z;
+  [[nodiscard]] bool holds(const Scene& scene, const Vec3& place) const {
+    if (!body) return in_box(scene, place, low, high);
+    const Vec3 away = displacement(scene, place, body->position);
+    return in_box({}, start + rotate_back(body->orientation, away), low, high);
   }
 };
 
@@ -63,7 +64,8 @@ FrameError mass_in_region(const FramePair& f) {
   if (auto why = box_of(f, box); !why.empty()) return problem(why);
   const bool outside = f.in.reference.measuring().outside;
   return against_truth(f, "mass_in_region", mass_where(f, [&](std::size_t i) {
-                         return (box.body || takes(f.in, i)) && box.holds(f.now.position[i]) != outside;
+                         return (box.body || takes(f.in, i)) &&
+                                box.holds(f.in.job.scene, f.now.position[i]) != outside;
                        }));
 }
 

@@ -110,10 +110,7 @@ FrameError probe(const FramePair& f, Of what, const char* quantity) {
 bool in_region(const MetricInput& in, const Vec3& r) {
   const auto measuring = in.reference.measuring();
   if (!measuring.box) return true;
-  const auto& [low, high] = *measuring.box;
-  bool inside = true;
-  for (std::size_t k = 0; k < 3; ++k) inside = inside && r[k] >= low[k] && r[k] <= high[k];
-  return inside != measuring.outside;
+  return in_box(in.job.scene, r, measuring.box->low, measuring.box->high) != measuring.outside;
 }
 
 FrameError mean(const FramePair& f, Of what, const char* quantity) {

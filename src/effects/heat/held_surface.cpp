@@ -38,16 +38,6 @@ bool acts(const Scene& scene) {
   return kept_number(scene.values, key_row("scene", "surface_exchange")) != 0.0;
 }
 
-/// A place beyond a periodic side, where it is in the domain.
-Vec3 put_back(const Scene& scene, Vec3 place) {
-  for (std::size_t a = 0; a < 3; ++a) {
-    if (!scene.periodic[a]) continue;
-    const double width = (*scene.max)[a] - (*scene.min)[a];
-    place[a] -= width * std::floor((place[a] - (*scene.min)[a]) / width);
-  }
-  return place;
-}
-
 /// Particles as they were laid, by cells of one spacing.
 class Laid {
  public:

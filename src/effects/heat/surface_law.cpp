@@ -29,7 +29,7 @@ SurfaceSources::SurfaceSources(const Scene& scene) {
     const HeatSource& s = scene.sources[n];
     if (!s.is_of_surfaces()) continue;
     One one{n,
-            s.region ? inside_of(*s.region, scene.spacing) : [](const Vec3&) { return true; },
+            s.region ? inside_region(scene, *s.region) : [](const Vec3&) { return true; },
             s.flux.value_or(0.0),
             s.transfer_coefficient.value_or(0.0),
             stefan_boltzmann * s.emissivity.value_or(0.0),

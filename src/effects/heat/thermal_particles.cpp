@@ -80,7 +80,7 @@ void hold_temperature(State& state, const Happening& now, SetTemperature set) {
   Particles& p = state.particles;
   const auto held = p[field::held];
   const auto inside =
-      now.event.region ? inside_of(*now.event.region, state.scene.spacing) : [](const Vec3&) { return true; };
+      now.event.region ? inside_region(state.scene, *now.event.region) : [](const Vec3&) { return true; };
   for (std::size_t id = 0; id < p.size(); ++id) {
     const std::size_t i = p.row(id);
     const auto source = static_cast<std::size_t>(p[field::source][i]);

@@ -37,7 +37,7 @@ double volume_at_start(const Heater& h, const Scene& scene, const InitialState& 
 
 Heater heater_of(const HeatSource& source, const Scene& scene, const InitialState& initial) {
   Heater h;
-  h.inside = source.region ? inside_of(*source.region, scene.spacing) : [](const Vec3&) { return true; };
+  h.inside = source.region ? inside_region(scene, *source.region) : [](const Vec3&) { return true; };
   h.heats.assign(scene.bodies.size() + scene.inflows.size(), source.bodies.empty() ? 1 : 0);
   for (std::size_t n = 0; n < scene.bodies.size(); ++n)
     if (std::ranges::find(source.bodies, scene.bodies[n].name) != source.bodies.end()) h.heats[n] = 1;

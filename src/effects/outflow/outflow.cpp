@@ -35,7 +35,7 @@ class Leaving : public Effect {
 
 void Leaving::load(State& state, const InitialState&) {
   inside_.clear();
-  for (const Outflow& f : state.scene.outflows) inside_.push_back(inside_of(f.shape, state.scene.spacing));
+  for (const Outflow& f : state.scene.outflows) inside_.push_back(inside_region(state.scene, f.shape));
   const auto number = state.particles[field::number];
   std::iota(number.begin(), number.end(), 0);
   state.step_numbers[ever] = static_cast<double>(number.size());

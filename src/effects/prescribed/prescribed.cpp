@@ -150,7 +150,7 @@ void begin_grip(State& state, const Event& event, int number) {
   Particles& p = state.particles;
   const auto driven = p[field::driven], body = p[field::body];
   const auto place = triple(p, field::grip);
-  const auto inside = inside_of(*event.region, state.scene.spacing);
+  const auto inside = inside_region(state.scene, *event.region);
   each_loose(state, [&](std::size_t i) {
     if (body[i] < 0 || !inside(state.unwrapped(i))) return;
     driven[i] = number;

@@ -64,7 +64,7 @@ std::vector<std::size_t> bodies_of(const State& state, const Event& event) {
 /// Particles of the event's bodies that lie in its region become members of the body `born`. @return the
 /// bodies that lost some
 std::vector<std::size_t> cut_off(State& state, const Event& event, std::size_t born) {
-  const auto inside = inside_of(*event.region, state.scene.spacing);
+  const auto inside = inside_region(state.scene, *event.region);
   const auto body = state.particles[field::body];
   std::vector<std::size_t> losers;
   for (const std::size_t b : bodies_of(state, event)) {

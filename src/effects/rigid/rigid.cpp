@@ -294,7 +294,7 @@ void set_motion(State& state, std::size_t b, Motion motion) {
 
 /// Free bodies with most of their members in the region are driven by the grip from now on.
 void grip(State& state, const Event& event) {
-  const auto inside = inside_of(*event.region, state.scene.spacing);
+  const auto inside = inside_region(state.scene, *event.region);
   Columns& t = state.bodies;
   for (std::size_t b = 0; b < t.size(); ++b) {
     if (!is_free(state, b)) continue;
