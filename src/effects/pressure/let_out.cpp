@@ -16,6 +16,13 @@ namespace {
 constexpr double slow = 50.0;     ///< supports that sound passes until 1/e of an excess is left [1]
 constexpr double at_last = 20.0;  ///< such times, after which none is left [1]
 
+bool holds_some(const State& state) {
+  const auto rest = state.particles[field::rest_density];
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    if (rest[i] > state.material_of(i).density) return true;
+  return false;
+}
+
 }  // namespace
 
 bool lets_solids_out(const Scene& s) {
@@ -35,6 +42,7 @@ void take_as_rest(State& state, const Rows& rows) {
 double let_out(State& state, const liquid::SceneNumbers& n, double dt) {
   const double all = slow * state.support() / n.sound_speed;
   double& time = state.step_numbers[let_out_for];
+  if (time < 0.0 && !holds_some(state)) time = none_let_out;
   if (time >= at_last * all) return 0.0;
   time = std::max(time, 0.0) + dt;
   const double kept = time < at_last * all ? std::exp(-dt / all) : 0.0;
@@ -55,11 +63,9 @@ double let_out(State& state, const liquid::SceneNumbers& n, double dt) {
   })[0];
 }
 
-bool holds_some(const State& state) {
-  const auto rest = state.particles[field::rest_density];
-  for (std::size_t i = 0; i < rest.size(); ++i)
-    if (rest[i] > state.material_of(i).density) return true;
-  return false;
+bool has_let_out(const State& state) {
+  const double time = state.step_numbers[let_out_for];
+  return time < 0.0 ? holds_some(state) : time < none_let_out;
 }
 
 }  // namespace tripoint::pressure

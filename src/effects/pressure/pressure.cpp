@@ -63,7 +63,7 @@ class Pressure : public Effect {
   [[nodiscard]] TimeStepBound max_dt(const State&) const override;
   void add_to(const State& state, Ledger& ledger) const override {
     if (liquid::stores_compression(state.scene)) add_compression(state, numbers_, kernels_, ledger);
-    if (lets_out_ && holds_some(state)) ledger.energy["phase_work"] += 0.0;  // from the first frame on
+    if (lets_out_ && has_let_out(state)) ledger.energy["phase_work"] += 0.0;  // in every frame
     if (damps_) ledger.energy["bulk_viscous"] += state.accumulated[taken_by_bulk_viscosity];
   }
   [[nodiscard]] PairWork pair_work(const Scene&) const override;
