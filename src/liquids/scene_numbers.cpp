@@ -8,6 +8,7 @@
 #include "liquids/fixed_walls.hpp"
 #include "liquids/pressing_gravity.hpp"
 #include "scene/effect_rule.hpp"
+#include "scene/geometry.hpp"
 #include "scene/shared_terms.hpp"
 #include "sph/lattice.hpp"
 
@@ -100,7 +101,7 @@ SceneNumbers numbers_of(const Scene& scene) {
   n.least_exposure = 0.25 * (1.0 - moments.layer / moments.density);
   if (scene.mode_of(term::pressure) == Mode::corrected)
     n.pressure_work = n.lattice_density / n.gradient_moment;
-  n.core_stiffness = core_stiffness_share * n.stiffness * n.reference_density * scene.spacing;
+  n.core_stiffness = core_stiffness_share * n.stiffness * n.reference_density * cell_depth(scene);
   n.core_reach = acting_number(scene, "core_reach") * scene.spacing;
   n.averages_walls = averages_walls(scene);
   // Half of a wall particle's neighbourhood is wall, which does not move: it reads half of the strain of the

@@ -12,6 +12,7 @@
 #include "liquids/predicted_velocities.hpp"
 #include "liquids/scene_numbers.hpp"
 #include "scene/contact_law.hpp"
+#include "scene/geometry.hpp"
 #include "state/body_table.hpp"
 #include "state/fill.hpp"
 
@@ -92,7 +93,7 @@ Friction::Friction(const Scene& scene)
     : numbers_(liquid::numbers_of(scene)),
       kernels_(liquid::pair_kernels(scene)),
       materials_(scene.materials.size()),
-      stiffness_(spring_share * numbers_.stiffness * numbers_.reference_density * scene.spacing),
+      stiffness_(spring_share * numbers_.stiffness * numbers_.reference_density * cell_depth(scene)),
       parting_(parting_of(scene, numbers_)),
       whole_(numbers_.lattice_density / scene.cell() - kernels_.wendland.value(0.0)) {
   for (const Material& a : scene.materials)
