@@ -86,6 +86,11 @@ TEST(Sliding, TakesSlopeAndFrictionFromTheJob) {
       make_reference(test::function("sliding"), sticks.job, sticks.initial)->at(1.0).bodies[0].velocity.x,
       0.0)
       << "tan 30 = 0.577 is below 0.6";
+  const double steep = test::pi / 3.0;  // gravity points along the slope more than into it
+  const auto falls = on_slope(steep, 0.3);
+  EXPECT_NEAR(
+      make_reference(test::function("sliding"), falls.job, falls.initial)->at(1.0).bodies[0].velocity.x,
+      g * (std::sin(steep) - 0.3 * std::cos(steep)), 1e-14);
 }
 
 TEST(Sliding, RefusesWhatItsLawDoesNotHold) {

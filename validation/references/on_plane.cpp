@@ -39,6 +39,20 @@ Vec3 middle(const Shape& shape) {
   return shape.kind == Shape::Kind::sphere ? shape.centre : 0.5 * (shape.min + shape.max);
 }
 
+/// Axis along which a body lies on its ground and gravity presses it there: the steepest, where there are
+/// more.
+std::optional<std::size_t> touching_axis(const Shape& shape, const Shape& ground, const Vec3& g) {
+  std::optional<std::size_t> found;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (g[k] == 0.0 || (found && std::abs(g[k]) <= std::abs(g[*found]))) continue;
+    const Vec3 up = unit(k, g[k] > 0.0 ? -1.0 : 1.0);
+    const double height = half_along(shape, up);
+    const double gap = dot(middle(shape) - middle(ground), up) - height - half_along(ground, up);
+    if (std::abs(gap) <= round_off * height) found = k;
+  }
+  return found;
+}
+
 }  // namespace
 
 std::optional<double> law_of_contact(const Job& job, const std::string& name) {
@@ -61,23 +75,20 @@ BodyOnPlane body_on_plane(const ReferenceInput& in, const char* function) {
       norm(plane.angular_velocity) > 0.0)
     throw InputError(name +
                      " needs one free body, and one that is fixed or prescribed with a constant velocity");
-  std::size_t axis = 0;
-  for (std::size_t k = 1; k < 3; ++k) axis = std::abs(g[k]) > std::abs(g[axis]) ? k : axis;
-  s.up = unit(axis, g[axis] > 0.0 ? -1.0 : 1.0);
   const Shape &shape = in.job.scene.body(body.name).shape, &ground = in.job.scene.body(plane.name).shape;
   s.shape = shape.kind;
   if ((!is_upright_box(shape) && shape.kind != Shape::Kind::sphere) || !is_upright_box(ground))
     throw InputError(name + " holds for a box or a ball on a box, none of them turned: turn gravity");
+  const auto axis = touching_axis(shape, ground, g);
+  if (!axis) throw InputError(name + ": the body must touch the plane at the start");
+  s.up = unit(*axis, g[*axis] > 0.0 ? -1.0 : 1.0);
   s.height = half_along(shape, s.up);
-  const double gap = dot(middle(shape) - middle(ground), s.up) - s.height - half_along(ground, s.up);
-  if (std::abs(gap) > round_off * s.height)
-    throw InputError(name + ": the body must touch the plane at the start");
   if (plane.motion == Motion::prescribed) s.plane_velocity = plane.velocity;
   const Vec3 relative = body.velocity - s.plane_velocity, pull = in_plane(g, s.up);
   if (std::abs(dot(relative, s.up)) > 0.0)
     throw InputError(name + ": the body leaves the plane, or is pushed by it");
   s.along = line_of(relative, pull, name);
-  if (norm(s.along) == 0.0) s.along = unit((axis + 1) % 3, 1.0);
+  if (norm(s.along) == 0.0) s.along = unit((*axis + 1) % 3, 1.0);
   const Vec3 about = cross(s.up, s.along);
   s.spin = dot(body.angular_velocity, about);
   if (norm(body.angular_velocity - s.spin * about) > round_off * norm(body.angular_velocity))
