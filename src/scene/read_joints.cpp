@@ -50,6 +50,16 @@ void refuse_forces_without_coordinate(const TableReader& in, const Joint& j) {
       in.refuse(key, "only a hinge and a slider have one angle or way that it acts along: remove it");
 }
 
+void check_limits_and_motor(const TableReader& in, const Joint& j) {
+  if (j.limits && !((*j.limits)[0] <= 0.0 && 0.0 <= (*j.limits)[1] && (*j.limits)[0] < (*j.limits)[1]))
+    in.refuse("limits", "the coordinate is 0 at the start: write [low, high] with low <= 0 <= high");
+  if (j.motor && j.motor->effort.has_value() == j.motor->speed.has_value())
+    in.refuse("motor", "write motor = { effort = ... } or motor = { speed = ... }");
+  if (j.motor && j.motor->speed && j.limits)
+    in.refuse("limits", "the motor keeps its speed, also beyond them: write motor = { effort = ... }");
+  if (j.restitution > 0.0 && !j.limits) in.refuse("restitution", "it is that of limits, and there are none");
+}
+
 }  // namespace
 
 Joint read_joint(const TomlNode& node, Reading& reading) {
@@ -70,13 +80,7 @@ Joint read_joint(const TomlNode& node, Reading& reading) {
   if (distance && norm(*j.other_point - j.point) == 0.0)
     in.refuse("other_place", "the points coincide: write a joint of kind ball");
   refuse_forces_without_coordinate(in, j);
-  if (j.limits && !((*j.limits)[0] <= 0.0 && 0.0 <= (*j.limits)[1] && (*j.limits)[0] < (*j.limits)[1]))
-    in.refuse("limits", "the coordinate is 0 at the start: write [low, high] with low <= 0 <= high");
-  if (j.motor && j.motor->effort.has_value() == j.motor->speed.has_value())
-    in.refuse("motor", "write motor = { effort = ... } or motor = { speed = ... }");
-  if (j.motor && j.motor->speed && j.limits)
-    in.refuse("limits", "the motor keeps its speed, also beyond them: write motor = { effort = ... }");
-  if (j.restitution > 0.0 && !j.limits) in.refuse("restitution", "it is that of limits, and there are none");
+  check_limits_and_motor(in, j);
   return j;
 }
 
