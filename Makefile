@@ -37,7 +37,7 @@ validate: setup build  ## run the validation suite, write the report, print the 
 test:  ## install the test tools too, build and run every test
 	@tools/setup.sh test
 	@tools/build.sh --tests $(JOBS)
-	@ctest --test-dir build --output-on-failure --parallel $(JOBS) $(CTEST_ARGS)
+	@OMP_WAIT_POLICY=passive ctest --test-dir build --output-on-failure --parallel $(JOBS) $(CTEST_ARGS)
 
 test-fresh:  ## make validate, then make test, in a bare Debian 12 root (needs root and mmdebstrap; KEEP=1 keeps it)
 	@tools/test-fresh.sh
