@@ -208,8 +208,12 @@ std::function<bool(const Vec3&)> inside_region(const Scene& scene, const Shape& 
         images.back()[a] += side * (high - low);
       }
   }
-  return [inside, images, &scene](const Vec3& r) {
-    const Vec3 within = put_back(scene, r);
+  Scene sides;  // what the function keeps: the scene may move away
+  sides.min = scene.min;
+  sides.max = scene.max;
+  sides.periodic = scene.periodic;
+  return [inside, images, sides](const Vec3& r) {
+    const Vec3 within = put_back(sides, r);
     return std::ranges::any_of(images, [&](const Vec3& image) { return inside(within + image); });
   };
 }
