@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <Eigen/Dense>
 #include <unordered_map>
 #include <utility>
 
@@ -33,6 +34,11 @@ constexpr double same_place = 0.75;
 /// Least share, within the body, of the way to a place beyond the surface [1]. Jitter may have put the
 /// particle outside the shape, where the share would be 0. A choice, small beside least_distance.
 constexpr double least_way = 1e-3;
+
+/// Faces that meet at less than 45 degrees count as one that is curved [1]. A choice.
+constexpr double one_face = 0.707;
+/// Slope of the distance on a plane face is 1, and at an edge less [1]. A choice.
+constexpr double clean_slope = 0.9;
 
 bool acts(const Scene& scene) {
   return kept_number(scene.values, key_row("scene", "surface_exchange")) != 0.0;
@@ -92,15 +98,15 @@ struct Beyond {
   Vec3 exit;      ///< where the way leaves the body [m]
 };
 
-/// Steps of the lattice that the support reaches [spacings].
-std::vector<Vec3> steps_within(double support_ratio, Dimensions d) {
+/// Steps of the lattice that the support reaches [spacings]. That of a body that was laid turned is turned.
+std::vector<Vec3> steps_within(double support_ratio, Dimensions d, const Quaternion& turn) {
   const int most = static_cast<int>(support_ratio), deep = d == Dimensions::three ? most : 0;
   std::vector<Vec3> steps;
   for (int x = -most; x <= most; ++x)
     for (int y = -deep; y <= deep; ++y)
       for (int z = -most; z <= most; ++z) {
         const Vec3 step{double(x), double(y), double(z)};
-        if (const double r = norm(step); r > 0.0 && r < support_ratio) steps.push_back(step);
+        if (const double r = norm(step); r > 0.0 && r < support_ratio) steps.push_back(rotate(turn, step));
       }
   return steps;
 }
@@ -151,22 +157,88 @@ bool leaves_by_a_face(const std::vector<Beyond>& beyond, double spacing) {
   return std::ranges::any_of(beyond, [&](const Beyond& b) { return norm(b.away) < 1.1 * spacing; });
 }
 
-/// Normal of the surface of a shape, by differences of distance [1].
-Vec3 normal_at(const PlaceFunction& distance, const Vec3& r, double spacing) {
+/// Gradient of the distance from a surface, by differences [1].
+Vec3 gradient_at(const PlaceFunction& distance, const Vec3& r, double spacing) {
   const double step =
       0.05 * spacing;  // a choice: fields of meshes are linear between points half a spacing apart
   Vec3 n;
   for (std::size_t a = 0; a < 3; ++a) {
     Vec3 e;
     e[a] = step;
-    n[a] = distance(r + e) - distance(r - e);
+    n[a] = (distance(r + e) - distance(r - e)) / (2.0 * step);
   }
+  return n;
+}
+
+/// Normal of the surface of a shape [1].
+Vec3 normal_at(const PlaceFunction& distance, const Vec3& r, double spacing) {
+  const Vec3 n = gradient_at(distance, r, spacing);
   return norm(n) > 0.0 ? n / norm(n) : n;
 }
 
 /// How deep a particle lies below the plane through the exit of its way [m].
 double depth_below(const PlaceFunction& distance, const Beyond& b, double spacing) {
   return std::max(dot(normal_at(distance, b.exit, spacing), b.within * b.away), least_way * spacing);
+}
+
+/// A face of the surface between a particle and a place beyond.
+struct Face {
+  Vec3 exit;     ///< where a way passes it [m]
+  Vec3 normal;   ///< outwards [1]
+  double depth;  ///< of the particle below it [m]
+};
+
+bool is_another(const Vec3& n, const std::vector<Face>& known) {
+  return std::ranges::none_of(known, [&](const Face& f) { return dot(n, f.normal) > one_face; });
+}
+
+/// Normal of the face that a way passes: at an edge that of one of its faces, which is none of `known`.
+Vec3 normal_of_face(const PlaceFunction& distance, const Vec3& exit, double spacing,
+                    const std::vector<Face>& known) {
+  const auto slope = [&](const Vec3& r) { return gradient_at(distance, r, spacing); };
+  const Vec3 raw = slope(exit);
+  if (norm(raw) > clean_slope) return raw / norm(raw);
+  for (std::size_t a = 0; a < 3; ++a)
+    for (const double aside : {0.2 * spacing, -0.2 * spacing}) {
+      Vec3 r = exit;
+      r[a] += aside;
+      const Vec3 n = slope(r);
+      if (norm(n) > clean_slope && is_another(n / norm(n), known)) return n / norm(n);
+    }
+  return norm(raw) > 0.0 ? raw / norm(raw) : raw;
+}
+
+/// Faces between a particle and a place beyond: one, and at an edge or a corner two or three. The second is
+/// that through which the way leaves that goes along the first.
+std::vector<Face> faces_between(const Inside& inside, const PlaceFunction& distance, const Vec3& at,
+                                const Vec3& away, double spacing) {
+  std::vector<Face> faces;
+  std::vector<Vec3> across;  // an orthogonal frame of the normals
+  Vec3 way = away;
+  while (faces.size() < 3 && !inside(at + way)) {
+    const Vec3 to = way_within(inside, at, way) * way;
+    const Vec3 n = normal_of_face(distance, at + to, spacing, faces);
+    if (!is_another(n, faces)) break;
+    faces.push_back({at + to, n, std::max(dot(n, to), least_way * spacing)});
+    Vec3 own = n;
+    for (const Vec3& e : across) own = own - dot(own, e) * e;
+    across.push_back(own / norm(own));
+    way = way - dot(way, across.back()) * across.back();
+  }
+  return faces;
+}
+
+/// Shares s of the faces: where q_f flows in through face f, the temperature of the place is that of the
+/// particle + sum s_f q_f/k, in the linear field that has k n_f . grad T = q_f at each. [m]
+std::vector<double> ways_across(const std::vector<Face>& faces, const Vec3& away) {
+  const auto count = static_cast<Eigen::Index>(faces.size());
+  Eigen::MatrixXd normals(count, 3);
+  for (Eigen::Index f = 0; f < count; ++f)
+    for (Eigen::Index a = 0; a < 3; ++a)
+      normals(f, a) = faces[static_cast<std::size_t>(f)].normal[static_cast<std::size_t>(a)];
+  const Eigen::VectorXd s =
+      (normals * normals.transpose()).ldlt().solve(normals * Eigen::Vector3d(away.x, away.y, away.z));
+  return {s.begin(), s.end()};
 }
 
 /// The same function of places beyond periodic sides too.
@@ -177,6 +249,12 @@ Function across_sides(const Scene& scene, Function function) {
 
 bool has_sources(const Scene& scene, const Body& b) {
   return std::ranges::any_of(scene.sources, [&](const HeatSource& s) { return acts_on(s, b); });
+}
+
+/// w of a place at distance r, in the sums of model 8.6 [m]
+double weight(const State& state, double r) {
+  const double K = -2.0 * WendlandC2(state.support(), state.scene.space()).derivative_over_r(r);
+  return 0.5 * state.scene.cell() * K;
 }
 
 constexpr std::array<const Field<double>*, 6> inverse = columns_of(field::moment_inverse);
@@ -258,11 +336,11 @@ void HeldSurfaces::load(State& state, const InitialState& initial) {
   if (!has_held_surfaces(scene)) return;
   sources_.emplace(scene);
   const Laid laid(initial, scene);
-  const std::vector<Vec3> steps = steps_within(scene.support_ratio, scene.space());
   const double dx = scene.spacing;
   Particles& p = state.particles;
   std::vector<Inside> insides(scene.bodies.size());
   std::vector<PlaceFunction> distances(scene.bodies.size());
+  std::vector<std::vector<Vec3>> steps(scene.bodies.size());
   for (std::size_t i = 0; i < p.size(); ++i) {
     const auto source = static_cast<std::size_t>(p[field::source][i]);
     if (source >= scene.bodies.size()) continue;
@@ -270,20 +348,43 @@ void HeldSurfaces::load(State& state, const InitialState& initial) {
     const auto held_at = surface_temperature(scene, body);
     const bool heated = has_sources(scene, body);
     if (!held_at && !heated) continue;
-    if (!insides[source]) insides[source] = across_sides(scene, inside_of(body.shape, dx));
+    if (!insides[source]) {
+      insides[source] = across_sides(scene, inside_of(body.shape, dx));
+      steps[source] = steps_within(scene.support_ratio, scene.space(), body.shape.rotation);
+    }
     if (heated && !distances[source]) distances[source] = across_sides(scene, distance_of(body.shape, dx));
     const auto id = static_cast<std::uint32_t>(p[field::id][i]);
-    const auto beyond = places_beyond(scene, insides[source], initial.position[id], steps, laid);
+    const auto beyond = places_beyond(scene, insides[source], initial.position[id], steps[source], laid);
     if (!acts(scene) && held_at) {
       hold_at_a_face(p, i, beyond, dx, *held_at);
       continue;
     }
     const std::size_t first = all_.size();
+    const Vec3& at = initial.position[id];
     for (const Beyond& b : beyond) {
-      const std::uint32_t acting = heated ? sources_->acting(scene, body, b.exit) : 0;
-      if (acting == 0 && !held_at) continue;
-      const double depth = acting != 0 ? depth_below(distances[source], b, dx) : 0.0;
-      add_place(state, i, b.away, b.within, alike({id, held_at.value_or(0.0), acting, depth}, first));
+      const auto faces =
+          heated ? faces_between(insides[source], distances[source], at, b.away, dx) : std::vector<Face>{};
+      const auto acting = [&](const Vec3& exit) {
+        return heated ? sources_->acting(scene, body, exit) : std::uint32_t{0};
+      };
+      if (faces.size() > 1 && !held_at) {
+        if (std::ranges::any_of(faces, [&](const Face& f) { return acting(f.exit) == 0; })) continue;
+        const double nearer = b.within * norm(b.away) / norm(b.exit - at);
+        const auto ways = ways_across(faces, b.away);
+        for (std::size_t f = 0; f < faces.size(); ++f) {
+          const double depth = nearer * faces[f].depth;
+          Near& near = alike({id, 0.0, acting(faces[f].exit), depth}, first);
+          if (f == 0) add_moment(state, b.away, near);
+          add_exchange(state, i, b.away, depth / ways[f], near);
+        }
+        continue;
+      }
+      const std::uint32_t sources = acting(b.exit);
+      if (sources == 0 && !held_at) continue;
+      const double depth = sources != 0 ? depth_below(distances[source], b, dx) : 0.0;
+      Near& near = alike({id, held_at.value_or(0.0), sources, depth}, first);
+      add_moment(state, b.away, near);
+      add_exchange(state, i, b.away, b.within, near);
     }
   }
   std::ranges::stable_sort(all_, {}, &Near::id);
@@ -299,21 +400,21 @@ HeldSurfaces::Near& HeldSurfaces::alike(const Near& near, std::size_t first) {
   return all_.emplace_back(near);
 }
 
-void HeldSurfaces::add_place(const State& state, std::size_t row, const Vec3& away, double within,
-                             Near& near) {
-  const WendlandC2 kernel(state.support(), state.scene.space());
-  const double volume = state.scene.cell();
-  const double own = state.particles[field::mass][row] / state.material_of(row).density;
-  const double r = norm(away), K = -2.0 * kernel.derivative_over_r(r);
+void HeldSurfaces::add_moment(const State& state, const Vec3& away, Near& near) {
+  const double r = norm(away), w = weight(state, r);
   const auto rr = outer(away);
-  const double w = 0.5 * volume * K;
-  for (std::size_t c = 0; c < 6; ++c) {
-    near.moment[c] += w * rr[0] * rr[c] / (r * r);
-    near.exchange[c] += 2.0 * own * w * rr[c] / (r * r * within);
-  }
+  for (std::size_t c = 0; c < 6; ++c) near.moment[c] += w * rr[0] * rr[c] / (r * r);
   for (std::size_t c = 1; c < 6; ++c) near.moment[5 + c] += w * rr[1] * rr[c] / (r * r);
   for (std::size_t c = 2; c < 6; ++c) near.moment[9 + c] += w * rr[2] * rr[c] / (r * r);
   for (std::size_t c = 0; c < 3; ++c) near.moment[15 + c] += 2.0 * w * away[c];
+}
+
+void HeldSurfaces::add_exchange(const State& state, std::size_t row, const Vec3& away, double within,
+                                Near& near) {
+  const double own = state.particles[field::mass][row] / state.material_of(row).density;
+  const double r = norm(away), w = weight(state, r);
+  const auto rr = outer(away);
+  for (std::size_t c = 0; c < 6; ++c) near.exchange[c] += 2.0 * own * w * rr[c] / (r * r * within);
 }
 
 void HeldSurfaces::renumber(const State& state) {

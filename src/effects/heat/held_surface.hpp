@@ -60,7 +60,10 @@ class HeldSurfaces {
   };
   [[nodiscard]] Flow flow(const State&, std::size_t row, const Near&) const;
   Near& alike(const Near&, std::size_t first);
-  static void add_place(const State&, std::size_t row, const Vec3& away, double within, Near&);
+  /// A place beyond in the sums Q_i and S_i, and in the exchange: `within` is the share of the way there that
+  /// lies within the body.
+  static void add_moment(const State&, const Vec3& away, Near&);
+  static void add_exchange(const State&, std::size_t row, const Vec3& away, double within, Near&);
   /// Calls visit(row, heat) for each particle near a surface, with all that comes to it [W].
   template <class Visit>
   void each_particle(const State&, Visit visit) const;
