@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -62,6 +63,28 @@ struct Contact {
   Law law;
 };
 
+bool are_rigid(const State& state, std::size_t i, std::size_t j) {
+  const auto body = state.particles[field::body];
+  return is_rigid(state, static_cast<std::size_t>(body[i])) &&
+         is_rigid(state, static_cast<std::size_t>(body[j]));
+}
+
+std::pair<int, int> bodies_of(const State& state, std::size_t i, std::size_t j) {
+  const auto body = state.particles[field::body];
+  return std::minmax(static_cast<int>(body[i]), static_cast<int>(body[j]));
+}
+
+/// Speeds of parting of a pair over the step whose kicks the present forces make [m/s].
+struct Parting {
+  double start;  ///< ahead of the step
+  double end;    ///< at its end, if nothing is lost
+};
+
+/// What the contacts between two rigid bodies give back, in all and those that part alone [W].
+struct Returned {
+  double all = 0.0, parting = 0.0;
+};
+
 class Friction : public Effect {
  public:
   explicit Friction(const Scene&);
@@ -76,17 +99,21 @@ class Friction : public Effect {
   void share(State&, std::size_t row) const;
   void weigh(State&, std::size_t row) const;
   void set_accelerations(const State&);
-  [[nodiscard]] double acceleration(const State&, std::size_t row) const;
+  [[nodiscard]] Vec3 acceleration(const State&, std::size_t row) const;
+  [[nodiscard]] Parting parting(const State&, std::size_t row, const Contact&, const Vec3& n) const;
+  void set_returned(const State&);
+  [[nodiscard]] double share_returned(const State&, std::size_t row, const Contact&) const;
 
   liquid::SceneNumbers numbers_;
   PairKernels kernels_;
   std::vector<Law> laws_;  ///< of materials, a row each
   std::size_t materials_;
   double stiffness_, parting_;
-  double whole_;                                ///< kernel sum within a body, without the own particle [1/m3]
-  double drifted_ = 0.0;                        ///< since the last forces, within a step [s]
-  std::vector<double> accelerations_;           ///< of bodies, by their contacts [m/s2]
-  std::vector<std::vector<Contact>> contacts_;  ///< of each row; memory that is used again
+  double whole_;                     ///< kernel sum within a body, without the own particle [1/m3]
+  double drifted_ = 0.0;             ///< since the last forces, within a step [s]
+  std::vector<Vec3> accelerations_;  ///< of bodies, by loads and gravity [m/s2]
+  std::map<std::pair<int, int>, Returned> returned_;  ///< of pairs of rigid bodies, the lesser number first
+  std::vector<std::vector<Contact>> contacts_;        ///< of each row; memory that is used again
 };
 
 Friction::Friction(const Scene& scene)
@@ -168,12 +195,6 @@ double share_parting(double before, double after) {
   return after > 0.0 ? after / (after - before) : 0.0;
 }
 
-/// Whether gravity moves a particle.
-bool falls(const State& state, std::size_t i) {
-  const auto b = static_cast<std::size_t>(state.particles[field::body][i]);
-  return !is_rigid(state, b) || state.bodies[field::body_motion][b] == static_cast<int>(Motion::free);
-}
-
 /// The normal of the face at a particle, and the load along it.
 void Friction::weigh(State& state, std::size_t i) const {
   Particles& p = state.particles;
@@ -190,26 +211,62 @@ void Friction::weigh(State& state, std::size_t i) const {
   for (const Contact& c : contacts_[i]) load[i] += part_along(c, n);
 }
 
-/// Of each rigid body that forces move, the loads on its particles over its mass; in order of id.
+/// Of each rigid body that forces move, by the loads on its particles in order of id, and gravity.
 void Friction::set_accelerations(const State& state) {
   const Particles& p = state.particles;
   const auto body = p[field::body];
   const auto load = p[field::contact_load];
-  accelerations_.assign(state.bodies.size(), 0.0);
+  const auto normal = triple(p, field::contact_normal);
+  accelerations_.assign(state.bodies.size(), {});
   for (std::size_t id = 0; id < p.size(); ++id)
     if (const std::size_t i = p.row(id); body[i] >= 0 && load[i] > 0.0)
-      accelerations_[static_cast<std::size_t>(body[i])] += load[i];
+      accelerations_[static_cast<std::size_t>(body[i])] += load[i] * normal.at(i);
   for (std::size_t b = 0; b < accelerations_.size(); ++b) {
     const bool free = state.bodies[field::body_motion][b] == static_cast<int>(Motion::free);
-    accelerations_[b] = free ? accelerations_[b] / state.bodies[field::body_mass][b] : 0.0;
+    accelerations_[b] =
+        free ? (1.0 / state.bodies[field::body_mass][b]) * accelerations_[b] + state.scene.gravity : Vec3{};
   }
 }
 
-/// By the loads, of a particle or of the body that it is a member of.
-double Friction::acceleration(const State& state, std::size_t i) const {
-  const auto b = static_cast<std::size_t>(state.particles[field::body][i]);
+/// Of a particle, or of the body that it is a member of.
+Vec3 Friction::acceleration(const State& state, std::size_t i) const {
+  const Particles& p = state.particles;
+  const auto b = static_cast<std::size_t>(p[field::body][i]);
   if (is_rigid(state, b)) return accelerations_[b];
-  return state.particles[field::contact_load][i] / state.particles[field::mass][i];
+  return (p[field::contact_load][i] / p[field::mass][i]) * triple(p, field::contact_normal).at(i) +
+         state.scene.gravity;
+}
+
+Parting Friction::parting(const State& state, std::size_t i, const Contact& c, const Vec3& n) const {
+  const double start = dot(relative_velocity(state, velocities(state.particles), i, c), n);
+  const double dt = 2.0 * state.step_numbers[liquid::half_step];
+  return {start, start + dt * dot(acceleration(state, i) - acceleration(state, c.other), n)};
+}
+
+void Friction::set_returned(const State& state) {
+  const Particles& p = state.particles;
+  returned_.clear();
+  for (std::size_t id = 0; id < p.size(); ++id) {
+    const std::size_t i = p.row(id);
+    if (!(p[field::contact_load][i] > 0.0)) continue;
+    const Vec3 n = triple(p, field::contact_normal).at(i);
+    for (const Contact& c : contacts_[i]) {
+      if (!are_rigid(state, i, c.other)) continue;
+      const double power = part_along(c, n) * parting(state, i, c, n).end;
+      Returned& of = returned_[bodies_of(state, i, c.other)];
+      of.all += power;
+      of.parting += std::max(power, 0.0);
+    }
+  }
+}
+
+/// Share of what parting contacts give that the bodies get: all of it in a hit, and none where one rolls, for
+/// as much goes into the contacts ahead.
+double Friction::share_returned(const State& state, std::size_t i, const Contact& c) const {
+  if (!are_rigid(state, i, c.other)) return 1.0;
+  const auto found = returned_.find(bodies_of(state, i, c.other));
+  if (found == returned_.end() || !(found->second.parting > 0.0)) return 1.0;
+  return std::max(found->second.all / found->second.parting, 0.0);
 }
 
 /// The traction of a particle: friction against its slip, and what a parting contact does not give back.
@@ -220,28 +277,26 @@ void Friction::press(State& state, std::size_t i) const {
   traction.set(i, {});
   if (size == 0.0) return slip.set(i, {});
   const Vec3 n = triple(std::as_const(p), field::contact_normal).at(i);
-  const auto predicted = triple(std::as_const(p), field::contact_velocity),
-             now = velocities(std::as_const(p));
-  Vec3 sum, u, before;  // amid the step whose kicks this force makes, and ahead of it
+  const auto predicted = triple(std::as_const(p), field::contact_velocity);
+  Vec3 sum, u;  // amid the step whose kicks this force makes
   Law law{0.0, 0.0};
-  double push = 0.0;  // acceleration by the loads and, where one of two falls, by gravity
-  const auto weight = [&](std::size_t row) { return falls(state, row) ? dot(state.scene.gravity, n) : 0.0; };
+  double start = 0.0, end = 0.0, returned = 0.0;
   for (const Contact& c : contacts_[i]) {
     const double part = part_along(c, n);
     sum += c.force;
     u += part * relative_velocity(state, predicted, i, c);
-    before += part * relative_velocity(state, now, i, c);
-    push += part * (acceleration(state, c.other) + weight(i) - weight(c.other));
+    const Parting speed = parting(state, i, c, n);
+    start += (part / size) * speed.start;
+    end += (part / size) * speed.end;
+    returned += (part / size) * share_returned(state, i, c);
     law.friction += part * c.law.friction;
     law.returned += part * c.law.returned;
   }
   u = (1.0 / size) * u;
   law.friction /= size;
   law.returned /= size;
-  const double dt = 2.0 * state.step_numbers[liquid::half_step];
-  const double start = dot(before, n) / size, end = start + dt * (acceleration(state, i) + push / size);
   const double slow = std::clamp((start < 0.0 ? end : start) / parting_, 0.0, 1.0);
-  const double lost = (1.0 - law.returned) * share_parting(start, end) * slow;
+  const double lost = (1.0 - law.returned) * share_parting(start, end) * returned * slow;
   // Faces of particles are rough: what they push along themselves is lost where they part straight alone
   const double straight = dot(u, u) > 0.0 ? dot(u, n) * dot(u, n) / dot(u, u) : 0.0;
   Vec3 T = -lost * (straight * sum + (1.0 - straight) * dot(sum, n) * n);
@@ -301,6 +356,7 @@ void Friction::bonds(State& state, const Rows& rows) {
     each([&](std::size_t i) { find(state, i, contacts_[i]); });
     each([&](std::size_t i) { weigh(state, i); });
     set_accelerations(state);
+    set_returned(state);
     each([&](std::size_t i) { press(state, i); });
   } else {
     each([&](std::size_t i) {
