@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <Eigen/Dense>
 #include <unordered_map>
 #include <utility>
 
 #include "effects/heat/fields.hpp"
 #include "effects/heat/heat_terms.hpp"
+#include "effects/heat/surface_faces.hpp"
 #include "sampling/shape_distance.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/geometry.hpp"
@@ -30,15 +30,6 @@ constexpr double least_distance = 0.25;
 /// Another particle this near to a place of the lattice stands there [spacings]: jitter moves it by less, and
 /// two places are 1 apart.
 constexpr double same_place = 0.75;
-
-/// Least share, within the body, of the way to a place beyond the surface [1]. Jitter may have put the
-/// particle outside the shape, where the share would be 0. A choice, small beside least_distance.
-constexpr double least_way = 1e-3;
-
-/// Faces that meet at less than 45 degrees count as one that is curved [1]. A choice.
-constexpr double one_face = 0.707;
-/// Slope of the distance on a plane face is 1, and at an edge less [1]. A choice.
-constexpr double clean_slope = 0.9;
 
 bool acts(const Scene& scene) {
   return kept_number(scene.values, key_row("scene", "surface_exchange")) != 0.0;
@@ -111,19 +102,6 @@ std::vector<Vec3> steps_within(double support_ratio, Dimensions d, const Quatern
   return steps;
 }
 
-using Inside = std::function<bool(const Vec3&)>;
-
-/// Share of the way from a point in the shape to one outside at which it leaves the shape, by halving: to a
-/// billionth.
-double way_within(const Inside& inside, const Vec3& from, const Vec3& away) {
-  double in = 0.0, out = 1.0;
-  for (int n = 0; n < 30; ++n) {
-    const double middle = 0.5 * (in + out);
-    (inside(from + middle * away) ? in : out) = middle;
-  }
-  return 0.5 * (in + out);
-}
-
 /// There is nothing outside the domain. Where a side of the domain cuts a body, that side is a plane of
 /// symmetry.
 bool cut_off(const Scene& scene, const Vec3& place) {
@@ -157,88 +135,9 @@ bool leaves_by_a_face(const std::vector<Beyond>& beyond, double spacing) {
   return std::ranges::any_of(beyond, [&](const Beyond& b) { return norm(b.away) < 1.1 * spacing; });
 }
 
-/// Gradient of the distance from a surface, by differences [1].
-Vec3 gradient_at(const PlaceFunction& distance, const Vec3& r, double spacing) {
-  const double step =
-      0.05 * spacing;  // a choice: fields of meshes are linear between points half a spacing apart
-  Vec3 n;
-  for (std::size_t a = 0; a < 3; ++a) {
-    Vec3 e;
-    e[a] = step;
-    n[a] = (distance(r + e) - distance(r - e)) / (2.0 * step);
-  }
-  return n;
-}
-
-/// Normal of the surface of a shape [1].
-Vec3 normal_at(const PlaceFunction& distance, const Vec3& r, double spacing) {
-  const Vec3 n = gradient_at(distance, r, spacing);
-  return norm(n) > 0.0 ? n / norm(n) : n;
-}
-
 /// How deep a particle lies below the plane through the exit of its way [m].
 double depth_below(const PlaceFunction& distance, const Beyond& b, double spacing) {
   return std::max(dot(normal_at(distance, b.exit, spacing), b.within * b.away), least_way * spacing);
-}
-
-/// A face of the surface between a particle and a place beyond.
-struct Face {
-  Vec3 exit;     ///< where a way passes it [m]
-  Vec3 normal;   ///< outwards [1]
-  double depth;  ///< of the particle below it [m]
-};
-
-bool is_another(const Vec3& n, const std::vector<Face>& known) {
-  return std::ranges::none_of(known, [&](const Face& f) { return dot(n, f.normal) > one_face; });
-}
-
-/// Normal of the face that a way passes: at an edge that of one of its faces, which is none of `known`.
-Vec3 normal_of_face(const PlaceFunction& distance, const Vec3& exit, double spacing,
-                    const std::vector<Face>& known) {
-  const auto slope = [&](const Vec3& r) { return gradient_at(distance, r, spacing); };
-  const Vec3 raw = slope(exit);
-  if (norm(raw) > clean_slope) return raw / norm(raw);
-  for (std::size_t a = 0; a < 3; ++a)
-    for (const double aside : {0.2 * spacing, -0.2 * spacing}) {
-      Vec3 r = exit;
-      r[a] += aside;
-      const Vec3 n = slope(r);
-      if (norm(n) > clean_slope && is_another(n / norm(n), known)) return n / norm(n);
-    }
-  return norm(raw) > 0.0 ? raw / norm(raw) : raw;
-}
-
-/// Faces between a particle and a place beyond: one, and at an edge or a corner two or three. The second is
-/// that through which the way leaves that goes along the first.
-std::vector<Face> faces_between(const Inside& inside, const PlaceFunction& distance, const Vec3& at,
-                                const Vec3& away, double spacing) {
-  std::vector<Face> faces;
-  std::vector<Vec3> across;  // an orthogonal frame of the normals
-  Vec3 way = away;
-  while (faces.size() < 3 && !inside(at + way)) {
-    const Vec3 to = way_within(inside, at, way) * way;
-    const Vec3 n = normal_of_face(distance, at + to, spacing, faces);
-    if (!is_another(n, faces)) break;
-    faces.push_back({at + to, n, std::max(dot(n, to), least_way * spacing)});
-    Vec3 own = n;
-    for (const Vec3& e : across) own = own - dot(own, e) * e;
-    across.push_back(own / norm(own));
-    way = way - dot(way, across.back()) * across.back();
-  }
-  return faces;
-}
-
-/// Shares s of the faces: where q_f flows in through face f, the temperature of the place is that of the
-/// particle + sum s_f q_f/k, in the linear field that has k n_f . grad T = q_f at each. [m]
-std::vector<double> ways_across(const std::vector<Face>& faces, const Vec3& away) {
-  const auto count = static_cast<Eigen::Index>(faces.size());
-  Eigen::MatrixXd normals(count, 3);
-  for (Eigen::Index f = 0; f < count; ++f)
-    for (Eigen::Index a = 0; a < 3; ++a)
-      normals(f, a) = faces[static_cast<std::size_t>(f)].normal[static_cast<std::size_t>(a)];
-  const Eigen::VectorXd s =
-      (normals * normals.transpose()).ldlt().solve(normals * Eigen::Vector3d(away.x, away.y, away.z));
-  return {s.begin(), s.end()};
 }
 
 /// The same function of places beyond periodic sides too.
@@ -329,6 +228,63 @@ void hold_at_a_face(Particles& p, std::size_t row, const std::vector<Beyond>& be
 
 }  // namespace
 
+namespace {
+
+/// What a body's surface is made of; empty where nothing passes it.
+struct Surface {
+  std::optional<double> held_at;  ///< [K]
+  bool heated = false;
+  Inside inside;
+  PlaceFunction distance;
+  std::vector<Vec3> steps;  ///< of the lattice [spacings]
+  [[nodiscard]] bool passes() const { return held_at || heated; }
+};
+
+std::vector<Surface> surfaces_of(const Scene& scene) {
+  std::vector<Surface> all;
+  for (const Body& b : scene.bodies) {
+    Surface& s = all.emplace_back(Surface{surface_temperature(scene, b), has_sources(scene, b), {}, {}, {}});
+    if (!s.passes()) continue;
+    s.inside = across_sides(scene, inside_of(b.shape, scene.spacing));
+    s.distance = across_sides(scene, distance_of(b.shape, scene.spacing));
+    s.steps = steps_within(scene.support_ratio, scene.space(), b.shape.rotation);
+  }
+  return all;
+}
+
+/// Flow through one face on the way to a place beyond.
+struct Through {
+  std::uint32_t sources;  ///< that act there; 0: it is held
+  double depth, within;   ///< as of Near [m], and the share of the way in the body [1]
+};
+
+/// @param acting sources that act at a place of the surface @return none where one of the faces passes no
+/// heat
+template <class Acting>
+std::vector<Through> flows_to(const Surface& s, const Beyond& b, const Vec3& at, double dx, Acting acting) {
+  if (s.held_at) {
+    const std::uint32_t sources = s.heated ? acting(b.exit) : 0;
+    return {{sources, sources != 0 ? depth_below(s.distance, b, dx) : 0.0, b.within}};
+  }
+  const auto faces = faces_between(s.inside, s.distance, at, b.away, dx);
+  if (faces.size() < 2) {
+    const std::uint32_t sources = acting(b.exit);
+    if (sources == 0) return {};
+    return {{sources, depth_below(s.distance, b, dx), b.within}};
+  }
+  const double nearer = b.within * norm(b.away) / norm(b.exit - at);
+  const auto ways = ways_across(faces, b.away);
+  std::vector<Through> all;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const double depth = nearer * faces[f].depth;
+    all.push_back({acting(faces[f].exit), depth, depth / ways[f]});
+    if (all.back().sources == 0) return {};
+  }
+  return all;
+}
+
+}  // namespace
+
 void HeldSurfaces::load(State& state, const InitialState& initial) {
   all_.clear();
   near_.clear();
@@ -336,55 +292,28 @@ void HeldSurfaces::load(State& state, const InitialState& initial) {
   if (!has_held_surfaces(scene)) return;
   sources_.emplace(scene);
   const Laid laid(initial, scene);
-  const double dx = scene.spacing;
   Particles& p = state.particles;
-  std::vector<Inside> insides(scene.bodies.size());
-  std::vector<PlaceFunction> distances(scene.bodies.size());
-  std::vector<std::vector<Vec3>> steps(scene.bodies.size());
+  const std::vector<Surface> surfaces = surfaces_of(scene);
   for (std::size_t i = 0; i < p.size(); ++i) {
     const auto source = static_cast<std::size_t>(p[field::source][i]);
-    if (source >= scene.bodies.size()) continue;
-    const Body& body = scene.bodies[source];
-    const auto held_at = surface_temperature(scene, body);
-    const bool heated = has_sources(scene, body);
-    if (!held_at && !heated) continue;
-    if (!insides[source]) {
-      insides[source] = across_sides(scene, inside_of(body.shape, dx));
-      steps[source] = steps_within(scene.support_ratio, scene.space(), body.shape.rotation);
-    }
-    if (heated && !distances[source]) distances[source] = across_sides(scene, distance_of(body.shape, dx));
+    if (source >= surfaces.size() || !surfaces[source].passes()) continue;
+    const Surface& surface = surfaces[source];
     const auto id = static_cast<std::uint32_t>(p[field::id][i]);
-    const auto beyond = places_beyond(scene, insides[source], initial.position[id], steps[source], laid);
-    if (!acts(scene) && held_at) {
-      hold_at_a_face(p, i, beyond, dx, *held_at);
+    const Vec3& at = initial.position[id];
+    const auto beyond = places_beyond(scene, surface.inside, at, surface.steps, laid);
+    if (!acts(scene) && surface.held_at) {
+      hold_at_a_face(p, i, beyond, scene.spacing, *surface.held_at);
       continue;
     }
+    const auto acting = [&](const Vec3& exit) { return sources_->acting(scene, scene.bodies[source], exit); };
     const std::size_t first = all_.size();
-    const Vec3& at = initial.position[id];
     for (const Beyond& b : beyond) {
-      const auto faces =
-          heated ? faces_between(insides[source], distances[source], at, b.away, dx) : std::vector<Face>{};
-      const auto acting = [&](const Vec3& exit) {
-        return heated ? sources_->acting(scene, body, exit) : std::uint32_t{0};
-      };
-      if (faces.size() > 1 && !held_at) {
-        if (std::ranges::any_of(faces, [&](const Face& f) { return acting(f.exit) == 0; })) continue;
-        const double nearer = b.within * norm(b.away) / norm(b.exit - at);
-        const auto ways = ways_across(faces, b.away);
-        for (std::size_t f = 0; f < faces.size(); ++f) {
-          const double depth = nearer * faces[f].depth;
-          Near& near = alike({id, 0.0, acting(faces[f].exit), depth}, first);
-          if (f == 0) add_moment(state, b.away, near);
-          add_exchange(state, i, b.away, depth / ways[f], near);
-        }
-        continue;
+      bool counted = false;  // a place counts once in the moments, through however many faces heat comes
+      for (const Through& t : flows_to(surface, b, at, scene.spacing, acting)) {
+        Near& near = alike({id, surface.held_at.value_or(0.0), t.sources, t.depth}, first);
+        if (!std::exchange(counted, true)) add_moment(state, b.away, near);
+        add_exchange(state, i, b.away, t.within, near);
       }
-      const std::uint32_t sources = acting(b.exit);
-      if (sources == 0 && !held_at) continue;
-      const double depth = sources != 0 ? depth_below(distances[source], b, dx) : 0.0;
-      Near& near = alike({id, held_at.value_or(0.0), sources, depth}, first);
-      add_moment(state, b.away, near);
-      add_exchange(state, i, b.away, b.within, near);
     }
   }
   std::ranges::stable_sort(all_, {}, &Near::id);
