@@ -185,6 +185,12 @@ Vec3 relative_velocity(const State& state, Triple<const double> v, std::size_t i
   return (v.at(i) + turns(i)) - (v.at(c.other) - turns(c.other));
 }
 
+/// Velocity of the centre of the body that a particle is a member of; its own where that is not rigid.
+Vec3 carried_velocity(const State& state, Triple<const double> v, std::size_t i) {
+  const auto b = static_cast<std::size_t>(state.particles[field::body][i]);
+  return is_rigid(state, b) ? state.bodies[field::body_velocity][b] : v.at(i);
+}
+
 /// Part of a pair force that presses.
 double part_along(const Contact& c, const Vec3& n) { return std::max(dot(c.force, n), 0.0); }
 
@@ -278,13 +284,15 @@ void Friction::press(State& state, std::size_t i) const {
   if (size == 0.0) return slip.set(i, {});
   const Vec3 n = triple(std::as_const(p), field::contact_normal).at(i);
   const auto predicted = triple(std::as_const(p), field::contact_velocity);
-  Vec3 sum, u;  // amid the step whose kicks this force makes
+  Vec3 sum, u, carried;  // u amid the step whose kicks this force makes
   Law law{0.0, 0.0};
   double start = 0.0, end = 0.0, returned = 0.0;
   for (const Contact& c : contacts_[i]) {
     const double part = part_along(c, n);
     sum += c.force;
     u += part * relative_velocity(state, predicted, i, c);
+    carried +=
+        (part / size) * (carried_velocity(state, predicted, i) - carried_velocity(state, predicted, c.other));
     const Parting speed = parting(state, i, c, n);
     start += (part / size) * speed.start;
     end += (part / size) * speed.end;
@@ -296,12 +304,15 @@ void Friction::press(State& state, std::size_t i) const {
   law.friction /= size;
   law.returned /= size;
   const double slow = std::clamp((start < 0.0 ? end : start) / parting_, 0.0, 1.0);
-  const double lost = (1.0 - law.returned) * share_parting(start, end) * returned * slow;
+  // Where one slips it does not roll, and rubs by what presses it: no bounce of a part is given back
+  const Vec3 along = u - dot(u, n) * n, way = carried - dot(carried, n) * n;
+  const double slips = norm(along) < norm(way) ? norm(along) / norm(way) : 1.0;
+  const double given = returned + (1.0 - returned) * slips;
+  const double lost = (1.0 - law.returned) * share_parting(start, end) * given * slow;
   // Faces of particles are rough: what they push along themselves is lost where they part straight alone
   const double straight = dot(u, u) > 0.0 ? dot(u, n) * dot(u, n) / dot(u, u) : 0.0;
   Vec3 T = -lost * (straight * sum + (1.0 - straight) * dot(sum, n) * n);
   if (law.friction > 0.0) {
-    const Vec3 along = u - dot(u, n) * n;
     Vec3 s = slip.at(i) + drifted_ * along;
     s -= dot(s, n) * n;
     const double damping = 2.0 * spring_damping * std::sqrt(stiffness_ * p[field::mass][i]);
