@@ -56,11 +56,19 @@ struct Outward {
   }
 };
 
+/// Speeds of parting over the step whose kicks the present forces make [m/s].
+struct Parting {
+  double start = 0.0;  ///< ahead of the step
+  double end = 0.0;    ///< at its end, if nothing is lost
+};
+
 /// A pair of solids that press each other.
 struct Contact {
   std::uint32_t other;
   Vec3 d, force;  ///< r_j - r_i, the force on i
   Law law;
+  double part = 0.0;  ///< of the force that presses, along the normal of i [N]
+  Parting speed;
 };
 
 bool are_rigid(const State& state, std::size_t i, std::size_t j) {
@@ -73,12 +81,6 @@ std::pair<int, int> bodies_of(const State& state, std::size_t i, std::size_t j) 
   const auto body = state.particles[field::body];
   return std::minmax(static_cast<int>(body[i]), static_cast<int>(body[j]));
 }
-
-/// Speeds of parting of a pair over the step whose kicks the present forces make [m/s].
-struct Parting {
-  double start;  ///< ahead of the step
-  double end;    ///< at its end, if nothing is lost
-};
 
 /// What the contacts between two rigid bodies give back, in all and those that part alone [W].
 struct Returned {
@@ -97,10 +99,10 @@ class Friction : public Effect {
   void find(State&, std::size_t row, std::vector<Contact>&) const;
   void press(State&, std::size_t row) const;
   void share(State&, std::size_t row) const;
-  void weigh(State&, std::size_t row) const;
+  void weigh(State&, std::size_t row);
   void set_accelerations(const State&);
   [[nodiscard]] Vec3 acceleration(const State&, std::size_t row) const;
-  [[nodiscard]] Parting parting(const State&, std::size_t row, const Contact&, const Vec3& n) const;
+  void set_partings(const State&, std::size_t row);
   void set_returned(const State&);
   [[nodiscard]] double share_returned(const State&, std::size_t row, const Contact&) const;
 
@@ -111,6 +113,7 @@ class Friction : public Effect {
   double stiffness_, parting_;
   double whole_;                     ///< kernel sum within a body, without the own particle [1/m3]
   double drifted_ = 0.0;             ///< since the last forces, within a step [s]
+  std::vector<std::size_t> loaded_;  ///< rows with a load, in order of id
   std::vector<Vec3> accelerations_;  ///< of bodies, by loads and gravity [m/s2]
   std::map<std::pair<int, int>, Returned> returned_;  ///< of pairs of rigid bodies, the lesser number first
   std::vector<std::vector<Contact>> contacts_;        ///< of each row; memory that is used again
@@ -202,7 +205,7 @@ double share_parting(double before, double after) {
 }
 
 /// The normal of the face at a particle, and the load along it.
-void Friction::weigh(State& state, std::size_t i) const {
+void Friction::weigh(State& state, std::size_t i) {
   Particles& p = state.particles;
   const auto normal = triple(p, field::contact_normal);
   const auto out = triple(std::as_const(p), field::outward);
@@ -214,7 +217,10 @@ void Friction::weigh(State& state, std::size_t i) const {
   if (steep == 0.0) return;
   const Vec3 n = (1.0 / steep) * face;
   normal.set(i, n);
-  for (const Contact& c : contacts_[i]) load[i] += part_along(c, n);
+  for (Contact& c : contacts_[i]) {
+    c.part = part_along(c, n);
+    load[i] += c.part;
+  }
 }
 
 /// Of each rigid body that forces move, by the loads on its particles in order of id, and gravity.
@@ -224,9 +230,11 @@ void Friction::set_accelerations(const State& state) {
   const auto load = p[field::contact_load];
   const auto normal = triple(p, field::contact_normal);
   accelerations_.assign(state.bodies.size(), {});
+  loaded_.clear();
   for (std::size_t id = 0; id < p.size(); ++id)
-    if (const std::size_t i = p.row(id); body[i] >= 0 && load[i] > 0.0)
-      accelerations_[static_cast<std::size_t>(body[i])] += load[i] * normal.at(i);
+    if (const std::size_t i = p.row(id); load[i] > 0.0) loaded_.push_back(i);
+  for (const std::size_t i : loaded_)
+    if (body[i] >= 0) accelerations_[static_cast<std::size_t>(body[i])] += load[i] * normal.at(i);
   for (std::size_t b = 0; b < accelerations_.size(); ++b) {
     const bool free = state.bodies[field::body_motion][b] == static_cast<int>(Motion::free);
     accelerations_[b] =
@@ -243,27 +251,27 @@ Vec3 Friction::acceleration(const State& state, std::size_t i) const {
          state.scene.gravity;
 }
 
-Parting Friction::parting(const State& state, std::size_t i, const Contact& c, const Vec3& n) const {
-  const double start = dot(relative_velocity(state, velocities(state.particles), i, c), n);
+/// How fast the contacts of a particle part.
+void Friction::set_partings(const State& state, std::size_t i) {
+  if (!(state.particles[field::contact_load][i] > 0.0)) return;
+  const Vec3 n = triple(state.particles, field::contact_normal).at(i);
   const double dt = 2.0 * state.step_numbers[liquid::half_step];
-  return {start, start + dt * dot(acceleration(state, i) - acceleration(state, c.other), n)};
+  for (Contact& c : contacts_[i]) {
+    const double start = dot(relative_velocity(state, velocities(state.particles), i, c), n);
+    c.speed = {start, start + dt * dot(acceleration(state, i) - acceleration(state, c.other), n)};
+  }
 }
 
 void Friction::set_returned(const State& state) {
-  const Particles& p = state.particles;
   returned_.clear();
-  for (std::size_t id = 0; id < p.size(); ++id) {
-    const std::size_t i = p.row(id);
-    if (!(p[field::contact_load][i] > 0.0)) continue;
-    const Vec3 n = triple(p, field::contact_normal).at(i);
+  for (const std::size_t i : loaded_)
     for (const Contact& c : contacts_[i]) {
       if (!are_rigid(state, i, c.other)) continue;
-      const double power = part_along(c, n) * parting(state, i, c, n).end;
+      const double power = c.part * c.speed.end;
       Returned& of = returned_[bodies_of(state, i, c.other)];
       of.all += power;
       of.parting += std::max(power, 0.0);
     }
-  }
 }
 
 /// Share of what parting contacts give that the bodies get: all of it in a hit, and none where one rolls, for
@@ -288,14 +296,13 @@ void Friction::press(State& state, std::size_t i) const {
   Law law{0.0, 0.0};
   double start = 0.0, end = 0.0, returned = 0.0;
   for (const Contact& c : contacts_[i]) {
-    const double part = part_along(c, n);
+    const double part = c.part;
     sum += c.force;
     u += part * relative_velocity(state, predicted, i, c);
     carried +=
         (part / size) * (carried_velocity(state, predicted, i) - carried_velocity(state, predicted, c.other));
-    const Parting speed = parting(state, i, c, n);
-    start += (part / size) * speed.start;
-    end += (part / size) * speed.end;
+    start += (part / size) * c.speed.start;
+    end += (part / size) * c.speed.end;
     returned += (part / size) * share_returned(state, i, c);
     law.friction += part * c.law.friction;
     law.returned += part * c.law.returned;
@@ -367,6 +374,7 @@ void Friction::bonds(State& state, const Rows& rows) {
     each([&](std::size_t i) { find(state, i, contacts_[i]); });
     each([&](std::size_t i) { weigh(state, i); });
     set_accelerations(state);
+    each([&](std::size_t i) { set_partings(state, i); });
     set_returned(state);
     each([&](std::size_t i) { press(state, i); });
   } else {

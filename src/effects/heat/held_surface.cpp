@@ -226,10 +226,6 @@ void hold_at_a_face(Particles& p, std::size_t row, const std::vector<Beyond>& be
   p[field::temperature][row] = temperature;
 }
 
-}  // namespace
-
-namespace {
-
 /// What a body's surface is made of; empty where nothing passes it.
 struct Surface {
   std::optional<double> held_at;  ///< [K]
@@ -246,7 +242,7 @@ std::vector<Surface> surfaces_of(const Scene& scene) {
     Surface& s = all.emplace_back(Surface{surface_temperature(scene, b), has_sources(scene, b), {}, {}, {}});
     if (!s.passes()) continue;
     s.inside = across_sides(scene, inside_of(b.shape, scene.spacing));
-    s.distance = across_sides(scene, distance_of(b.shape, scene.spacing));
+    if (s.heated) s.distance = across_sides(scene, distance_of(b.shape, scene.spacing));
     s.steps = steps_within(scene.support_ratio, scene.space(), b.shape.rotation);
   }
   return all;
@@ -262,15 +258,11 @@ struct Through {
 /// heat
 template <class Acting>
 std::vector<Through> flows_to(const Surface& s, const Beyond& b, const Vec3& at, double dx, Acting acting) {
-  if (s.held_at) {
-    const std::uint32_t sources = s.heated ? acting(b.exit) : 0;
-    return {{sources, sources != 0 ? depth_below(s.distance, b, dx) : 0.0, b.within}};
-  }
-  const auto faces = faces_between(s.inside, s.distance, at, b.away, dx);
+  const auto faces = s.held_at ? std::vector<Face>{} : faces_between(s.inside, s.distance, at, b.away, dx);
   if (faces.size() < 2) {
-    const std::uint32_t sources = acting(b.exit);
-    if (sources == 0) return {};
-    return {{sources, depth_below(s.distance, b, dx), b.within}};
+    const std::uint32_t sources = s.heated ? acting(b.exit) : 0;
+    if (sources == 0 && !s.held_at) return {};
+    return {{sources, sources != 0 ? depth_below(s.distance, b, dx) : 0.0, b.within}};
   }
   const double nearer = b.within * norm(b.away) / norm(b.exit - at);
   const auto ways = ways_across(faces, b.away);
