@@ -269,7 +269,8 @@ std::vector<Through> flows_to(const Surface& s, const Beyond& b, const Vec3& at,
   std::vector<Through> all;
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const double depth = nearer * faces[f].depth;
-    all.push_back({acting(faces[f].exit), depth, depth / ways[f]});
+    // Below the particle, as a way may leave by the very edge
+    all.push_back({acting(at + faces[f].depth * faces[f].normal), depth, depth / ways[f]});
     if (all.back().sources == 0) return {};
   }
   return all;
