@@ -122,14 +122,14 @@ TEST(Region, HoldsImagesOfAPointBeyondPeriodicSidesAlone) {
   s.min = {0, 0, 0};
   s.max = {2, 4, 4};
   s.periodic = {true, false, false};
-  Shape slab, left;
-  slab.kind = Shape::Kind::box;
-  slab.min = {-0.1, 0, 0};
-  slab.max = {0.1, 4, 4};
+  Shape strip, left;
+  strip.kind = Shape::Kind::box;
+  strip.min = {-0.1, 0, 0};
+  strip.max = {0.1, 4, 4};
   left.kind = Shape::Kind::half_space;
   left.point = {1, 0, 0};
   left.normal = {1, 0, 0};
-  const auto about_a_side = inside_region(s, slab);
+  const auto about_a_side = inside_region(s, strip);
   for (const double x : {0.05, 1.95, 4.05, -2.05}) EXPECT_TRUE(about_a_side({x, 1, 1})) << x;
   for (const double x : {0.15, 1.85, 5.0}) EXPECT_FALSE(about_a_side({x, 1, 1})) << x;
   EXPECT_FALSE(about_a_side({0.05, 5, 1}));  // y is open

@@ -68,7 +68,7 @@ struct Contact {
   Vec3 d, force;  ///< r_j - r_i, the force on i
   Law law;
   double part = 0.0;  ///< of the force that presses, along the normal of i [N]
-  Parting speed;
+  Parting speed = {};
 };
 
 bool are_rigid(const State& state, std::size_t i, std::size_t j) {
