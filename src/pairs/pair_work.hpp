@@ -20,7 +20,8 @@ struct PairWork {
   std::vector<PairTerm> held{};
   /// Its rates are computed a second time in each step, without those of others
   bool again = false;
-  /// The kernels that all terms of the scene use; at most one effect may set them
+  /// The kernels that all terms of the scene use, of the effect, which outlives the passes; at most one has
+  /// them
   const PairKernels* kernels = nullptr;
   /// How far around what something can reach its sums read fixed particles [m]
   double awake_around = 0.0;

@@ -79,9 +79,10 @@ std::optional<double> sleeps_beyond(const AllWork& work, const std::vector<Effec
 struct Passes::Impl {
   int lanes;
   PassFunction density, without_held, rates, again;
-  PairKernels kernels;
-  bool meets_all;   ///< a term works on every pair, whatever meets there
-  bool leaves_own;  ///< the density leaves excluded pairs out
+  PairKernels plain;           ///< where no effect has its own
+  const PairKernels* kernels;  ///< of the effect that sets them, or the plain ones
+  bool meets_all;              ///< a term works on every pair, whatever meets there
+  bool leaves_own;             ///< the density leaves excluded pairs out
   std::optional<double> sleeps_beyond;
   BusyClusters busy{};
 
@@ -93,14 +94,14 @@ struct Passes::Impl {
 
 Passes::Passes(const Scene& scene, const std::vector<EffectPairWork>& effects, int lanes, bool sums_all) {
   const AllWork work = work_of(effects);
-  const PairKernels kernels =
-      work.kernels ? *work.kernels : PairKernels(scene.support_ratio * scene.spacing, scene.space());
+  const PairKernels plain(scene.support_ratio * scene.spacing, scene.space());
   if (lanes == 0) lanes = work.terms.empty() ? 1 : best_lanes();
   const PairPasses passes = pair_passes(lanes);
   impl_ = std::make_unique<Impl>(Impl{lanes, passes.density(work.terms), passes.density(work.without_held()),
-                                      passes.rates(work.terms), passes.rates(work.again), kernels,
+                                      passes.rates(work.terms), passes.rates(work.again), plain, work.kernels,
                                       sums_all || work.meets_all, work.leaves_excluded_pairs,
                                       sums_all ? std::nullopt : tripoint::sleeps_beyond(work, effects)});
+  if (!impl_->kernels) impl_->kernels = &impl_->plain;
 }
 Passes::~Passes() = default;
 Passes::Passes(Passes&&) noexcept = default;
@@ -139,9 +140,9 @@ std::vector<double> Passes::cost(const State& state, double steps) const {
 
 void Passes::run_fixed(PassName name, State& state) const {
   if (name == PassName::density)
-    impl_->busy.sum_fixed_density(impl_->density, state, impl_->kernels);
+    impl_->busy.sum_fixed_density(impl_->density, state, *impl_->kernels);
   else
-    impl_->busy.sum_fixed_rates(impl_->rates, state, impl_->kernels);
+    impl_->busy.sum_fixed_rates(impl_->rates, state, *impl_->kernels);
 }
 
 void Passes::start_sums(PassName name, State& state, const Rows& rows) const {
@@ -154,11 +155,11 @@ void Passes::run(PassName name, State& state) const {
   Impl& i = *impl_;
   const PassFunction& pass = i.pass(name, state);
   if (!i.meets_all && name == PassName::density)
-    i.busy.sum_density(pass, state, i.kernels, i.leaves_own);
+    i.busy.sum_density(pass, state, *i.kernels, i.leaves_own);
   else if (!i.meets_all && name == PassName::rates)
-    i.busy.sum_rates(pass, state, i.kernels);
+    i.busy.sum_rates(pass, state, *i.kernels);
   else
-    i.busy.sum_own(pass, state, i.kernels);
+    i.busy.sum_own(pass, state, *i.kernels);
   if (pass.run) state.refresh(pass.adds());
 }
 

@@ -10,6 +10,7 @@
 #include "effects/friction/fields.hpp"
 #include "liquids/changes.hpp"
 #include "liquids/fields.hpp"
+#include "liquids/let_out.hpp"
 #include "liquids/predicted_velocities.hpp"
 #include "liquids/scene_numbers.hpp"
 #include "scene/contact_law.hpp"
@@ -143,6 +144,7 @@ void Friction::adopt(State& state) {
 }
 
 void Friction::state(State& state, const Rows&) {
+  kernels_.core.stiffness = liquid::core_share(state, numbers_) * numbers_.core_stiffness;
   liquid::predict_velocities(state, state.step_numbers[liquid::half_step], field::contact_velocity);
 }
 

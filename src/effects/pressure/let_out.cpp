@@ -2,9 +2,9 @@
 #include "effects/pressure/let_out.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <string>
 
-#include "liquids/carried_density.hpp"
+#include "effects/pressure/compression_ledger.hpp"
 #include "liquids/fields.hpp"
 #include "scene/shared_terms.hpp"
 #include "state/ordered_sum.hpp"
@@ -13,10 +13,7 @@
 namespace tripoint::pressure {
 namespace {
 
-constexpr double slow = 50.0;     ///< supports that sound passes until 1/e of an excess is left [1]
-constexpr double at_last = 20.0;  ///< such times, after which none is left [1]
-
-bool holds_some(const State& state) {
+bool are_pressed(const State& state) {
   const auto rest = state.particles[field::rest_density];
   for (std::size_t i = 0; i < rest.size(); ++i)
     if (rest[i] > state.material_of(i).density) return true;
@@ -24,12 +21,6 @@ bool holds_some(const State& state) {
 }
 
 }  // namespace
-
-bool lets_solids_out(const Scene& s) {
-  const auto corrected = [&](const Term& t) { return s.mode_of(t) == Mode::corrected; };
-  return corrected(term::density) && corrected(term::pressure) && corrected(term::state) &&
-         liquid::clamps(s) && (liquid::carries_density(s) || !s.has_liquid());
-}
 
 void take_as_rest(State& state, const Rows& rows) {
   Particles& p = state.particles;
@@ -39,13 +30,24 @@ void take_as_rest(State& state, const Rows& rows) {
   });
 }
 
+bool has_let_out(const State& state, const liquid::SceneNumbers& n) {
+  const double time = state.step_numbers[liquid::let_out_for];
+  return time < 0.0 ? are_pressed(state) || core_energy(state, n, 1.0) > 0.0 : time < liquid::none_let_out;
+}
+
+void begin_letting_out(State& state, const liquid::SceneNumbers& n) {
+  double time = has_let_out(state, n) ? 0.0 : liquid::none_let_out;
+  std::string unused;
+  if (state.halo) state.halo->take_least(time, unused);
+  state.step_numbers[liquid::let_out_for] = time;
+}
+
 double let_out(State& state, const liquid::SceneNumbers& n, double dt) {
-  const double all = slow * state.support() / n.sound_speed;
-  double& time = state.step_numbers[let_out_for];
-  if (time < 0.0 && !holds_some(state)) time = none_let_out;
-  if (time >= at_last * all) return 0.0;
-  time = std::max(time, 0.0) + dt;
-  const double kept = time < at_last * all ? std::exp(-dt / all) : 0.0;
+  double& time = state.step_numbers[liquid::let_out_for];
+  const double before = liquid::overlap_left(state, n, time);
+  if (before == 0.0) return 0.0;
+  time += dt;
+  const double kept = liquid::overlap_left(state, n, time) / before;
   Particles& p = state.particles;
   const auto rho = p[field::density], rest = p[field::rest_density], m = p[field::mass],
              group = p[field::group];
@@ -57,15 +59,10 @@ double let_out(State& state, const liquid::SceneNumbers& n, double dt) {
     const auto stored = [&] {
       return compression_energy(liquid::state_of(n, group[i], rest[i], clamps), m[i], rho[i]);
     };
-    const double before = stored();
+    const double held = stored();
     rest[i] = of_material + kept * excess;
-    sum[0] += stored() - before;
+    sum[0] += stored() - held;
   })[0];
-}
-
-bool has_let_out(const State& state) {
-  const double time = state.step_numbers[let_out_for];
-  return time < 0.0 ? holds_some(state) : time < none_let_out;
 }
 
 }  // namespace tripoint::pressure

@@ -50,7 +50,7 @@ class Pressure : public Effect {
       : numbers_(liquid::numbers_of(scene)),
         kernels_(liquid::pair_kernels(scene)),
         damps_(numbers_.bulk_viscosity > 0.0),
-        lets_out_(lets_solids_out(scene)) {}
+        lets_out_(liquid::lets_solids_out(scene)) {}
   void load(State&, const InitialState&) override;
   void kick(State&, double dt) override;
   void drift(State&, double dt) override;
@@ -62,18 +62,21 @@ class Pressure : public Effect {
   void check(const State& state) const override { refuse_overlap(state, numbers_); }
   [[nodiscard]] TimeStepBound max_dt(const State&) const override;
   void add_to(const State& state, Ledger& ledger) const override {
-    if (liquid::stores_compression(state.scene)) add_compression(state, numbers_, kernels_, ledger);
-    if (lets_out_ && has_let_out(state)) ledger.energy["phase_work"] += 0.0;  // in every frame
+    if (liquid::stores_compression(state.scene)) add_compression(state, numbers_, ledger);
+    if (lets_out_ && has_let_out(state, numbers_)) ledger.energy["phase_work"] += 0.0;  // in every frame
     if (damps_) ledger.energy["bulk_viscous"] += state.accumulated[taken_by_bulk_viscosity];
   }
   [[nodiscard]] PairWork pair_work(const Scene&) const override;
 
  private:
+  void let_core_grow(State&, const Rows&);
+
   liquid::SceneNumbers numbers_;
   PairKernels kernels_;
-  double drifted_ = 0.0;  ///< since the last forces, within a step [s]
-  bool damps_;            ///< liquids have a numerical bulk viscosity
-  bool lets_out_;         ///< solids may be pressed at the start
+  double drifted_ = 0.0;      ///< since the last forces, within a step [s]
+  double core_before_ = 1.0;  ///< share of the core at the last forces, within a step [1]
+  bool damps_;                ///< liquids have a numerical bulk viscosity
+  bool lets_out_;             ///< solids may be pressed at the start
 };
 
 void Pressure::load(State& state, const InitialState&) {
@@ -98,13 +101,26 @@ void Pressure::kick(State& state, double dt) {
 
 void Pressure::drift(State& state, double dt) {
   drifted_ = dt;
-  if (lets_out_) state.accumulated[compression_released] -= let_out(state, numbers_, dt);
+  if (!lets_out_) return;
+  if (state.step_numbers[liquid::let_out_for] < 0.0) begin_letting_out(state, numbers_);
+  core_before_ = liquid::core_share(state, numbers_);
+  state.accumulated[compression_released] -= let_out(state, numbers_, dt);
 }
 
 void Pressure::state(State& state, const Rows& rows) {
-  if (lets_out_ && state.step_numbers[let_out_for] < 0.0) take_as_rest(state, rows);
+  if (lets_out_) let_core_grow(state, rows);
   set_pressure(state, numbers_, rows);
   if (damps_ && state.moved) set_bulk_pressure(state, numbers_);
+}
+
+/// The core of pairs as it is now, and the energy that its growth since the last forces puts in.
+void Pressure::let_core_grow(State& state, const Rows& rows) {
+  const double share = liquid::core_share(state, numbers_);
+  if (state.step_numbers[liquid::let_out_for] < 0.0) take_as_rest(state, rows);
+  if (share > core_before_)
+    state.accumulated[compression_released] -= core_energy(state, numbers_, share - core_before_);
+  core_before_ = share;
+  kernels_.core.stiffness = share * numbers_.core_stiffness;
 }
 
 void Pressure::after_states(State& state, const Rows& rows) {
@@ -175,7 +191,7 @@ EffectSpec spec(const Scene& scene) {
   s.forces = {force_of(scene)};
   s.accounts = {compression_released};
   s.step_numbers = {liquid::half_step};
-  if (lets_solids_out(scene)) s.step_numbers.push_back(let_out_for);
+  if (liquid::lets_solids_out(scene)) s.step_numbers.push_back(liquid::let_out_for);
   if (!liquid::stores_compression(scene))
     s.guarded_entries = {
         {"pressure_work", EntryRole::unbacked, "the printed pressure, which no energy stands behind"}};

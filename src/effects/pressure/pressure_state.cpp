@@ -17,10 +17,8 @@ namespace tripoint::pressure {
 void refuse_overlap(const State& state, const liquid::SceneNumbers& n) {
   const Particles& p = state.particles;
   if (!p.has(field::number_density) || is_off(state.scene, GuardName::overlap)) return;
-  const auto rho = p[field::density], group = p[field::group];
-  const auto pressed = [&](std::size_t i) {
-    return group[i] == wall_group ? 0.0 : rho[i] / state.material_of(i).density;
-  };
+  const auto rho = p[field::density], rest = p[field::rest_density], group = p[field::group];
+  const auto pressed = [&](std::size_t i) { return group[i] == wall_group ? 0.0 : rho[i] / rest[i]; };
   double most = 0.0;
 #pragma omp parallel for schedule(static) num_threads(state.threads) \
     reduction(max                                                    \
