@@ -35,8 +35,8 @@ bool has_let_out(const State& state, const liquid::SceneNumbers& n) {
   return time < 0.0 ? are_pressed(state) || core_energy(state, n, 1.0) > 0.0 : time < liquid::none_let_out;
 }
 
-void begin_letting_out(State& state, const liquid::SceneNumbers& n) {
-  double time = has_let_out(state, n) ? 0.0 : liquid::none_let_out;
+void begin_letting_out(State& state, bool here) {
+  double time = here ? 0.0 : liquid::none_let_out;
   std::string unused;
   if (state.halo) state.halo->take_least(time, unused);
   state.step_numbers[liquid::let_out_for] = time;

@@ -11,8 +11,9 @@ void take_as_rest(State&, const Rows&);
 
 /// Whether solids overlap at the start: before the first drift by what is there, then as all processes found.
 [[nodiscard]] bool has_let_out(const State&, const liquid::SceneNumbers&);
-/// Before the first drift: decides it for all processes.
-void begin_letting_out(State&, const liquid::SceneNumbers&);
+/// At the first drift: all processes know whether solids overlap at the start of one. @param here  of this
+/// one
+void begin_letting_out(State&, bool here);
 
 /// The rest densities after dt [s]. @returns energy of compression that this puts in [J]
 [[nodiscard]] double let_out(State&, const liquid::SceneNumbers&, double dt);

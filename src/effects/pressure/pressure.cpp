@@ -77,6 +77,7 @@ class Pressure : public Effect {
   double core_before_ = 1.0;  ///< share of the core at the last forces, within a step [1]
   bool damps_;                ///< liquids have a numerical bulk viscosity
   bool lets_out_;             ///< solids may be pressed at the start
+  bool overlap_ = false;      ///< they are
 };
 
 void Pressure::load(State& state, const InitialState&) {
@@ -102,7 +103,7 @@ void Pressure::kick(State& state, double dt) {
 void Pressure::drift(State& state, double dt) {
   drifted_ = dt;
   if (!lets_out_) return;
-  if (state.step_numbers[liquid::let_out_for] < 0.0) begin_letting_out(state, numbers_);
+  if (state.step_numbers[liquid::let_out_for] < 0.0) begin_letting_out(state, overlap_);
   core_before_ = liquid::core_share(state, numbers_);
   state.accumulated[compression_released] -= let_out(state, numbers_, dt);
 }
@@ -116,7 +117,10 @@ void Pressure::state(State& state, const Rows& rows) {
 /// The core of pairs as it is now, and the energy that its growth since the last forces puts in.
 void Pressure::let_core_grow(State& state, const Rows& rows) {
   const double share = liquid::core_share(state, numbers_);
-  if (state.step_numbers[liquid::let_out_for] < 0.0) take_as_rest(state, rows);
+  if (state.step_numbers[liquid::let_out_for] < 0.0) {
+    take_as_rest(state, rows);
+    overlap_ = has_let_out(state, numbers_);
+  }
   if (share > core_before_)
     state.accumulated[compression_released] -= core_energy(state, numbers_, share - core_before_);
   core_before_ = share;
