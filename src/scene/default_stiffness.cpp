@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 #include "scene/defaults.hpp"
 #include "scene/effect_rule.hpp"
@@ -59,11 +62,19 @@ std::vector<Neighbourhood> neighbourhoods(const Scene& s, const std::vector<Meet
   return found;
 }
 
-/// How far the bodies that a test picks reach along gravity [m]; 0 without gravity or such a body.
-template <class Test>
-double extent_along_gravity(const Scene& s, const Neighbourhood& near, Test test) {
-  const double g = norm(s.gravity);
+/// Heights below the origin, along gravity [m].
+struct Depths {
   double least = INFINITY, most = -INFINITY;
+  [[nodiscard]] double extent() const {
+    return most > least && std::isfinite(most - least) ? most - least : 0.0;
+  }
+};
+
+/// Of the bodies that a test picks; none without gravity or such a body.
+template <class Test>
+Depths depths_along_gravity(const Scene& s, const Neighbourhood& near, Test test) {
+  const double g = norm(s.gravity);
+  Depths of;
   for (const Body* b : near.bodies) {
     if (!(g > 0.0) || !test(*b)) continue;
     const bool turns =
@@ -72,12 +83,12 @@ double extent_along_gravity(const Scene& s, const Neighbourhood& near, Test test
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3 r{corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
                    corner & 4 ? box.max.z : box.min.z};
-      const double height = dot(s.gravity, turns ? turning(b->shape)(r) : r) / g;
-      least = std::min(least, height);
-      most = std::max(most, height);
+      const double depth = dot(s.gravity, turns ? turning(b->shape)(r) : r) / g;
+      of.least = std::min(of.least, depth);
+      of.most = std::max(of.most, depth);
     }
   }
-  return most > least && std::isfinite(most - least) ? most - least : 0.0;
+  return of;
 }
 
 bool is_wet(const Body* b) { return b->phase == Phase::liquid; }
@@ -92,14 +103,63 @@ double densest(const Scene& s, const Neighbourhood& near, bool liquids) {
   return most;
 }
 
-/// k = (10 v)^2 of bodies that flow: v the greatest speed that the file tells of, or that of the liquids'
-/// fall.
+std::function<bool(const Vec3&)> inside_any_solid_but(const Scene& s, const Body& one) {
+  std::vector<std::function<bool(const Vec3&)>> solids;
+  for (const Body& b : s.bodies)
+    if (&b != &one && !is_wet(&b)) solids.push_back(inside_of(b.shape, s.spacing));
+  return [solids = std::move(solids)](const Vec3& r) {
+    return std::ranges::any_of(solids, [&](const auto& inside) { return inside(r); });
+  };
+}
+
+/// How far a body can fall until it meets a solid, through liquid too [m]: that of its parts which falls
+/// farthest, of 27.
+double gap_below(const Scene& s, const Body& body) {
+  const double g = norm(s.gravity);
+  if (!(g > 0.0) || !(s.spacing > 0.0)) return 0.0;
+  const double farthest = 0.5 * g * s.end_time * s.end_time;
+  const Vec3 down = (1.0 / g) * s.gravity;
+  const auto within = inside_of(body.shape, s.spacing), meets = inside_any_solid_but(s, body);
+  const Bounds box = bounds(body.shape);
+  double most = 0.0;
+  for (int part = 0; part < 27; ++part) {
+    const Vec3 share{(2 * (part % 3) + 1) / 6.0, (2 * (part / 3 % 3) + 1) / 6.0, (2 * (part / 9) + 1) / 6.0};
+    Vec3 r = box.min;
+    for (std::size_t a = 0; a < 3; ++a) r[a] += share[a] * box.extent()[a];
+    if (!within(r)) continue;
+    double gap = 0.0;
+    while (gap < farthest && !meets(r)) {
+      r += 0.5 * s.spacing * down;
+      gap = within(r) ? 0.0 : gap + 0.5 * s.spacing;
+    }
+    if (gap < farthest) most = std::max(most, gap);
+  }
+  return most;
+}
+
+/// How far liquids reach along gravity, or the fall of a part of one or of a free solid beside them where
+/// that is farther by more than the support [m].
+double fall_of_liquids(const Scene& s, const Neighbourhood& near) {
+  const double extent = depths_along_gravity(s, near, [](const Body& b) { return is_wet(&b); }).extent();
+  if (extent == 0.0) return 0.0;
+  double most = extent;
+  for (const Body* b : near.bodies) {
+    if (b->motion != Motion::free) continue;
+    const Depths own = depths_along_gravity(s, near, [&](const Body& one) { return &one == b; });
+    most = std::max(most, gap_below(s, *b) + (is_wet(b) ? own.extent() : 0.0));
+  }
+  return most > extent + s.support_ratio * s.spacing ? most : extent;
+}
+
+/// k = (10 v)^2 of bodies that flow: v the greatest speed that the file tells of, or that of the fall of
+/// liquids, and of solids beside them.
 double stiffness_of_liquids(const Scene& s, const Neighbourhood& near) {
   double v = 0.0;
   for (const Body* b : near.bodies) v = std::max(v, greatest_speed(*b));
   for (const Inflow& f : s.inflows) v = std::max(v, norm(f.velocity));
-  const double depth = extent_along_gravity(s, near, [](const Body& b) { return b.phase == Phase::liquid; });
-  const double height = depth > 0.0 ? depth : extent_along_gravity(s, near, [](const Body&) { return true; });
+  const double depth = fall_of_liquids(s, near);
+  const double height =
+      depth > 0.0 ? depth : depths_along_gravity(s, near, [](const Body&) { return true; }).extent();
   v = std::max(v, std::sqrt(2.0 * norm(s.gravity) * height));
   return 100.0 * v * v;
 }
@@ -114,7 +174,7 @@ bool falls_freely(const Scene& s, const Neighbourhood& near) {
 /// meets another (see 004).
 double stiffness_of_solids(const Scene& s, const Neighbourhood& near) {
   const double g = falls_freely(s, near) ? 0.0 : norm(s.gravity);
-  const double fall = 2.0 * g * extent_along_gravity(s, near, [](const Body&) { return true; });
+  const double fall = 2.0 * g * depths_along_gravity(s, near, [](const Body&) { return true; }).extent();
   double speed = 0.0, modulus = 0.0;
   for (const Meeting& m : near.meetings) {
     const double bounded = std::min(m.speed + g * s.end_time, std::sqrt(m.speed * m.speed + fall));
@@ -158,7 +218,8 @@ std::optional<DefaultStiffness> default_stiffness(const Scene& s) {
   DefaultStiffness k;
   if (calls_for(s, &EffectRule::has_pressure)) {
     k = {common_stiffness(s, s.contact ? meetings(s) : std::vector<Meeting>{}, true),
-         "(10 v)^2, v the greatest of initial and prescribed speeds and sqrt(2 g depth of the liquids)"};
+         "(10 v)^2, v the greatest of initial and prescribed speeds and sqrt(2 g times the depth of the "
+         "liquids, or the fall of a body)"};
   } else if (const auto pairs = s.contact ? meetings(s) : std::vector<Meeting>{}; !pairs.empty()) {
     k = {common_stiffness(s, pairs, false),
          "solids can meet: (10 v)^2, v the greatest speed of approach with the fall by the scene's height, "

@@ -26,6 +26,39 @@ TEST(DefaultStiffness, MakesSoundTenTimesAsFastAsTheLiquidCanFall) {
   EXPECT_NEAR(default_stiffness(tank())->value, 100.0 * 40.0, 1e-9);
 }
 
+TEST(DefaultStiffness, CountsTheDropOfASolidAboveTheLiquid) {
+  Scene s = tank();
+  s.end_time = 2.0;
+  s.spacing = 0.1;
+  s.bodies.resize(3, s.bodies[0]);
+  s.bodies[1].name = "floor";
+  s.bodies[1].phase = s.bodies[2].phase = Phase::rigid;
+  s.bodies[1].motion = Motion::fixed;
+  s.bodies[1].shape.min = {0.0, 0.0, 0.0};
+  s.bodies[1].shape.max = {1.0, 1.0, 1.0};
+  s.bodies[2].name = "ball";
+  s.bodies[2].shape.min = {0.4, 0.4, 6.0};
+  s.bodies[2].shape.max = {0.6, 0.6, 6.2};
+  EXPECT_NEAR(default_stiffness(s)->value, 100.0 * 100.0, 300.0);  // 5 m to where the water is deepest
+  s.bodies[2].shape.min.z = 1.5;
+  EXPECT_NEAR(default_stiffness(s)->value, 100.0 * 40.0, 1e-9);
+}
+
+TEST(DefaultStiffness, CountsTheFallOfLiquidToAFloor) {
+  Scene s = tank();
+  s.end_time = 2.0;
+  s.spacing = 0.1;
+  s.bodies.resize(2, s.bodies[0]);
+  s.bodies[1].name = "floor";
+  s.bodies[1].phase = Phase::rigid;
+  s.bodies[1].motion = Motion::fixed;
+  s.bodies[1].shape.min = {0.0, 0.0, -1.0};
+  s.bodies[1].shape.max = {1.0, 1.0, 0.0};
+  EXPECT_NEAR(default_stiffness(s)->value, 100.0 * 60.0, 300.0);
+  s.end_time = 0.1;  // it does not get there
+  EXPECT_NEAR(default_stiffness(s)->value, 100.0 * 40.0, 1e-9);
+}
+
 TEST(DefaultStiffness, FollowsTheFastestBodyWhereThatIsFaster) {
   Scene s = tank();
   s.bodies.push_back(s.bodies[0]);
