@@ -62,20 +62,12 @@ std::vector<Neighbourhood> neighbourhoods(const Scene& s, const std::vector<Meet
   return found;
 }
 
-/// Heights below the origin, along gravity [m].
-struct Depths {
-  double least = INFINITY, most = -INFINITY;
-  [[nodiscard]] double extent() const {
-    return most > least && std::isfinite(most - least) ? most - least : 0.0;
-  }
-};
-
-/// Of the bodies that a test picks; none without gravity or such a body.
+/// How far the bodies that a test picks reach along gravity [m]; 0 without gravity or such a body.
 template <class Test>
-Depths depths_along_gravity(const Scene& s, const Neighbourhood& near, Test test) {
+double extent_along_gravity(const Scene& s, const std::vector<const Body*>& bodies, Test test) {
   const double g = norm(s.gravity);
-  Depths of;
-  for (const Body* b : near.bodies) {
+  double least = INFINITY, most = -INFINITY;
+  for (const Body* b : bodies) {
     if (!(g > 0.0) || !test(*b)) continue;
     const bool turns =
         b->shape.kind == Shape::Kind::box && is_turned(b->shape);  // its own corners, not those around it
@@ -83,12 +75,12 @@ Depths depths_along_gravity(const Scene& s, const Neighbourhood& near, Test test
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3 r{corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
                    corner & 4 ? box.max.z : box.min.z};
-      const double depth = dot(s.gravity, turns ? turning(b->shape)(r) : r) / g;
-      of.least = std::min(of.least, depth);
-      of.most = std::max(of.most, depth);
+      const double height = dot(s.gravity, turns ? turning(b->shape)(r) : r) / g;
+      least = std::min(least, height);
+      most = std::max(most, height);
     }
   }
-  return of;
+  return most > least && std::isfinite(most - least) ? most - least : 0.0;
 }
 
 bool is_wet(const Body* b) { return b->phase == Phase::liquid; }
@@ -103,24 +95,24 @@ double densest(const Scene& s, const Neighbourhood& near, bool liquids) {
   return most;
 }
 
-std::function<bool(const Vec3&)> inside_any_solid_but(const Scene& s, const Body& one) {
+std::function<bool(const Vec3&)> inside_any_solid_but(const Scene& s, const Shape& one) {
   std::vector<std::function<bool(const Vec3&)>> solids;
   for (const Body& b : s.bodies)
-    if (&b != &one && !is_wet(&b)) solids.push_back(inside_of(b.shape, s.spacing));
+    if (&b.shape != &one && !is_wet(&b)) solids.push_back(inside_of(b.shape, s.spacing));
   return [solids = std::move(solids)](const Vec3& r) {
     return std::ranges::any_of(solids, [&](const auto& inside) { return inside(r); });
   };
 }
 
-/// How far a body can fall until it meets a solid, through liquid too [m]: that of its parts which falls
-/// farthest, of 27.
-double gap_below(const Scene& s, const Body& body) {
+/// How far what fills a shape can fall until it meets a solid, through liquid too [m]: that of its parts
+/// which falls farthest, of 27. None where that is less than the support, as where it rests.
+double gap_below(const Scene& s, const Shape& shape) {
   const double g = norm(s.gravity);
   if (!(g > 0.0) || !(s.spacing > 0.0)) return 0.0;
   const double farthest = 0.5 * g * s.end_time * s.end_time;
   const Vec3 down = (1.0 / g) * s.gravity;
-  const auto within = inside_of(body.shape, s.spacing), meets = inside_any_solid_but(s, body);
-  const Bounds box = bounds(body.shape);
+  const auto within = inside_of(shape, s.spacing), meets = inside_any_solid_but(s, shape);
+  const Bounds box = bounds(shape);
   double most = 0.0;
   for (int part = 0; part < 27; ++part) {
     const Vec3 share{(2 * (part % 3) + 1) / 6.0, (2 * (part / 3 % 3) + 1) / 6.0, (2 * (part / 9) + 1) / 6.0};
@@ -134,33 +126,37 @@ double gap_below(const Scene& s, const Body& body) {
     }
     if (gap < farthest) most = std::max(most, gap);
   }
+  return most > s.support_ratio * s.spacing ? most : 0.0;
+}
+
+/// Greatest speed at which a free body or what flows in meets the solid that it falls on [m/s].
+double speed_of_fall(const Scene& s, const Neighbourhood& near) {
+  double most = 0.0;
+  const auto add = [&](const Shape& shape, double speed, double extent) {
+    if (const double gap = gap_below(s, shape); gap > 0.0)
+      most = std::max(most, std::sqrt(speed * speed + 2.0 * norm(s.gravity) * (gap + extent)));
+  };
+  for (const Body* b : near.bodies)
+    if (b->motion == Motion::free)
+      add(b->shape, greatest_speed(*b),
+          extent_along_gravity(s, {b}, [](const Body& one) { return is_wet(&one); }));
+  for (const Inflow& f : s.inflows) add(f.shape, norm(f.velocity), 0.0);
   return most;
 }
 
-/// How far liquids reach along gravity, or the fall of a part of one or of a free solid beside them where
-/// that is farther by more than the support [m].
-double fall_of_liquids(const Scene& s, const Neighbourhood& near) {
-  const double extent = depths_along_gravity(s, near, [](const Body& b) { return is_wet(&b); }).extent();
-  if (extent == 0.0) return 0.0;
-  double most = extent;
-  for (const Body* b : near.bodies) {
-    if (b->motion != Motion::free) continue;
-    const Depths own = depths_along_gravity(s, near, [&](const Body& one) { return &one == b; });
-    most = std::max(most, gap_below(s, *b) + (is_wet(b) ? own.extent() : 0.0));
-  }
-  return most > extent + s.support_ratio * s.spacing ? most : extent;
-}
-
-/// k = (10 v)^2 of bodies that flow: v the greatest speed that the file tells of, or that of the fall of
-/// liquids, and of solids beside them.
+/// k = (10 v)^2 of bodies that flow: v the greatest speed that the file tells of, or that of the liquids'
+/// fall; or that of what falls on them, where it would fall farther by more than the support.
 double stiffness_of_liquids(const Scene& s, const Neighbourhood& near) {
+  const double g = norm(s.gravity);
   double v = 0.0;
   for (const Body* b : near.bodies) v = std::max(v, greatest_speed(*b));
   for (const Inflow& f : s.inflows) v = std::max(v, norm(f.velocity));
-  const double depth = fall_of_liquids(s, near);
+  const double depth = extent_along_gravity(s, near.bodies, [](const Body& b) { return is_wet(&b); });
   const double height =
-      depth > 0.0 ? depth : depths_along_gravity(s, near, [](const Body&) { return true; }).extent();
-  v = std::max(v, std::sqrt(2.0 * norm(s.gravity) * height));
+      depth > 0.0 ? depth : extent_along_gravity(s, near.bodies, [](const Body&) { return true; });
+  v = std::max(v, std::sqrt(2.0 * g * height));
+  const double fall = speed_of_fall(s, near);
+  if (fall * fall > v * v + 2.0 * g * s.support_ratio * s.spacing) v = fall;
   return 100.0 * v * v;
 }
 
@@ -174,7 +170,7 @@ bool falls_freely(const Scene& s, const Neighbourhood& near) {
 /// meets another (see 004).
 double stiffness_of_solids(const Scene& s, const Neighbourhood& near) {
   const double g = falls_freely(s, near) ? 0.0 : norm(s.gravity);
-  const double fall = 2.0 * g * depths_along_gravity(s, near, [](const Body&) { return true; }).extent();
+  const double fall = 2.0 * g * extent_along_gravity(s, near.bodies, [](const Body&) { return true; });
   double speed = 0.0, modulus = 0.0;
   for (const Meeting& m : near.meetings) {
     const double bounded = std::min(m.speed + g * s.end_time, std::sqrt(m.speed * m.speed + fall));

@@ -55,6 +55,9 @@ TEST(DefaultStiffness, CountsTheFallOfLiquidToAFloor) {
   s.bodies[1].shape.min = {0.0, 0.0, -1.0};
   s.bodies[1].shape.max = {1.0, 1.0, 0.0};
   EXPECT_NEAR(default_stiffness(s)->value, 100.0 * 60.0, 300.0);
+  s.bodies[0].velocity.value = {0.0, 0.0, -5.0};
+  EXPECT_NEAR(default_stiffness(s)->value, 100.0 * 85.0, 300.0);
+  s.bodies[0].velocity.value = {};
   s.end_time = 0.1;  // it does not get there
   EXPECT_NEAR(default_stiffness(s)->value, 100.0 * 40.0, 1e-9);
 }
