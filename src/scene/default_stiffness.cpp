@@ -95,23 +95,41 @@ double densest(const Scene& s, const Neighbourhood& near, bool liquids) {
   return most;
 }
 
-std::function<bool(const Vec3&)> inside_any_solid_but(const Scene& s, const Shape& one) {
-  std::vector<std::function<bool(const Vec3&)>> solids;
-  for (const Body& b : s.bodies)
-    if (&b.shape != &one && !is_wet(&b)) solids.push_back(inside_of(b.shape, s.spacing));
-  return [solids = std::move(solids)](const Vec3& r) {
-    return std::ranges::any_of(solids, [&](const auto& inside) { return inside(r); });
-  };
-}
+/// What a shape may fall through or on: the other bodies.
+class Way {
+ public:
+  Way(const Scene& s, const Shape& falls, double density) {
+    for (const Body& b : s.bodies) {
+      if (&b.shape == &falls) continue;
+      const double share = std::max(0.0, 1.0 - s.material(b.material).density / density);
+      (is_wet(&b) ? liquids_ : solids_).push_back({inside_of(b.shape, s.spacing), share});
+    }
+  }
+  [[nodiscard]] bool is_blocked(const Vec3& r) const {
+    return std::ranges::any_of(solids_, [&](const Part& p) { return p.inside(r); });
+  }
+  /// Share of gravity that buoyancy leaves [1]
+  [[nodiscard]] double weight(const Vec3& r) const {
+    const auto found = std::ranges::find_if(liquids_, [&](const Part& p) { return p.inside(r); });
+    return found == liquids_.end() ? 1.0 : found->share;
+  }
 
-/// How far what fills a shape can fall until it meets a solid, through liquid too [m]: that of its parts
-/// which falls farthest, of 27. None where that is less than the support, as where it rests.
-double gap_below(const Scene& s, const Shape& shape) {
-  const double g = norm(s.gravity);
-  if (!(g > 0.0) || !(s.spacing > 0.0)) return 0.0;
+ private:
+  struct Part {
+    std::function<bool(const Vec3&)> inside;
+    double share;
+  };
+  std::vector<Part> solids_, liquids_;
+};
+
+/// How far what fills a shape can fall until it meets a solid [m], less by its buoyancy in liquid: that of
+/// its parts which falls farthest, of 27. None where that is less than the support, as where it rests.
+double gap_below(const Scene& s, const Shape& shape, double density) {
+  const double g = norm(s.gravity), step = 0.5 * s.spacing;
+  if (!(g > 0.0) || !(step > 0.0)) return 0.0;
   const double farthest = 0.5 * g * s.end_time * s.end_time;
-  const Vec3 down = (1.0 / g) * s.gravity;
-  const auto within = inside_of(shape, s.spacing), meets = inside_any_solid_but(s, shape);
+  const auto within = inside_of(shape, s.spacing);
+  const Way way(s, shape, density);
   const Bounds box = bounds(shape);
   double most = 0.0;
   for (int part = 0; part < 27; ++part) {
@@ -119,28 +137,34 @@ double gap_below(const Scene& s, const Shape& shape) {
     Vec3 r = box.min;
     for (std::size_t a = 0; a < 3; ++a) r[a] += share[a] * box.extent()[a];
     if (!within(r)) continue;
-    double gap = 0.0;
-    while (gap < farthest && !meets(r)) {
-      r += 0.5 * s.spacing * down;
-      gap = within(r) ? 0.0 : gap + 0.5 * s.spacing;
+    double passed = 0.0, gap = 0.0;
+    while (passed < farthest && !way.is_blocked(r)) {
+      r += (step / g) * s.gravity;
+      const bool own = within(r);
+      passed = own ? 0.0 : passed + step;
+      gap = own ? 0.0 : gap + step * way.weight(r);
     }
-    if (gap < farthest) most = std::max(most, gap);
+    if (passed < farthest) most = std::max(most, gap);
   }
   return most > s.support_ratio * s.spacing ? most : 0.0;
 }
 
-/// Greatest speed at which a free body or what flows in meets the solid that it falls on [m/s].
-double speed_of_fall(const Scene& s, const Neighbourhood& near) {
+/// k that what falls asks for, free bodies and what flows in [m2/s2]: (10 v)^2, v the speed at which it meets
+/// a solid, times the density over that of the liquids where it is heavier.
+double stiffness_of_falls(const Scene& s, const Neighbourhood& near) {
   double most = 0.0;
-  const auto add = [&](const Shape& shape, double speed, double extent) {
-    if (const double gap = gap_below(s, shape); gap > 0.0)
-      most = std::max(most, std::sqrt(speed * speed + 2.0 * norm(s.gravity) * (gap + extent)));
+  const double liquids = densest(s, near, true);
+  const auto add = [&](const Shape& shape, double speed, double density, double extent) {
+    const double gap = gap_below(s, shape, density), heavier = liquids > 0.0 ? density / liquids : 1.0;
+    if (gap > 0.0)
+      most = std::max(
+          most, 100.0 * std::max(1.0, heavier) * (speed * speed + 2.0 * norm(s.gravity) * (gap + extent)));
   };
   for (const Body* b : near.bodies)
     if (b->motion == Motion::free)
-      add(b->shape, greatest_speed(*b),
+      add(b->shape, greatest_speed(*b), s.material(b->material).density,
           extent_along_gravity(s, {b}, [](const Body& one) { return is_wet(&one); }));
-  for (const Inflow& f : s.inflows) add(f.shape, norm(f.velocity), 0.0);
+  for (const Inflow& f : s.inflows) add(f.shape, norm(f.velocity), s.material(f.material).density, 0.0);
   return most;
 }
 
@@ -155,9 +179,8 @@ double stiffness_of_liquids(const Scene& s, const Neighbourhood& near) {
   const double height =
       depth > 0.0 ? depth : extent_along_gravity(s, near.bodies, [](const Body&) { return true; });
   v = std::max(v, std::sqrt(2.0 * g * height));
-  const double fall = speed_of_fall(s, near);
-  if (fall * fall > v * v + 2.0 * g * s.support_ratio * s.spacing) v = fall;
-  return 100.0 * v * v;
+  const double of_falls = stiffness_of_falls(s, near);
+  return of_falls > 100.0 * (v * v + 2.0 * g * s.support_ratio * s.spacing) ? of_falls : 100.0 * v * v;
 }
 
 /// Whether all of it falls alike: gravity then brings no two of its bodies together.

@@ -166,18 +166,21 @@ void check_escape(const State& state, const Enclosure& domain) {
   const auto x = positions(state.particles);
   const std::array<std::span<const double>, 3> r{x.x, x.y, x.z};
   const Movable movable(state);
+  const auto body = state.particles[field::body];
   for (std::size_t a = 0; a < 3; ++a) {
     if (s.periodic[a]) continue;
     const double low = domain.box.min[a], high = domain.box.max[a];
     for (std::size_t i = 0; i < state.particles.moving(); ++i) {
       if ((r[a][i] >= low && r[a][i] <= high) || !movable(i)) continue;
-      if (s.removes_escaped && state.particles[field::body][i] < 0) continue;  // it is about to be dropped
+      const bool flows = body[i] < 0, rises = s.gravity[a] * (r[a][i] > high ? 1.0 : -1.0) < 0.0;
+      if (flows && s.removes_escaped) continue;       // it is about to be dropped
+      if (flows && !domain.given && rises) continue;  // spray, which falls back
       const std::string where =
           domain.given ? fmt::format("{:.6g} m .. {:.6g} m", (*s.min)[a], (*s.max)[a])
                        : fmt::format(
                              "{:.6g} m .. {:.6g} m, which was made from the scene: give scene.min and "
-                             "scene.max where it may, or unguarded = [\"escape\"]",
-                             low, high);
+                             "scene.max where it may{}, or unguarded = [\"escape\"]",
+                             low, high, flows ? ", with on_escape = \"remove\" where it may leave" : "");
       fail(state, GuardName::escape, i, "position", "drift",
            fmt::format("has left the domain: {} = {:.6g} m is outside {}", "xyz"[a], r[a][i], where));
     }

@@ -39,7 +39,12 @@ TEST(DefaultStiffness, CountsTheDropOfASolidAboveTheLiquid) {
   s.bodies[2].name = "ball";
   s.bodies[2].shape.min = {0.4, 0.4, 6.0};
   s.bodies[2].shape.max = {0.6, 0.6, 6.2};
-  EXPECT_NEAR(default_stiffness(s)->value, 100.0 * 100.0, 300.0);  // 5 m to where the water is deepest
+  EXPECT_NEAR(default_stiffness(s)->value, 100.0 * 60.0, 300.0);  // 3 m through air
+  s.materials.push_back(s.materials[0]);
+  s.materials[1].name = s.bodies[2].material = "steel";
+  s.materials[1].density = 8000.0;
+  EXPECT_NEAR(default_stiffness(s)->value, 800.0 * 95.0, 2400.0);
+  s.bodies[2].material = "water";
   s.bodies[2].shape.min.z = 1.5;
   EXPECT_NEAR(default_stiffness(s)->value, 100.0 * 40.0, 1e-9);
 }
