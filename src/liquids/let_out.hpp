@@ -10,8 +10,10 @@
 /// Solids that overlap at the start press against nothing at first, and are let out slowly (model 8.3).
 namespace tripoint::liquid {
 
-/// Time since the start [s]; -1 before the first drift, and none_let_out after it where nothing overlapped
+/// Time since the start [s]; -1 before the first forces, and none_let_out after them where nothing overlaps
 inline constexpr StepNumber let_out_for{"solids_let_out_for", -1.0, true};
+inline constexpr StepNumber core_let_out_for{"core_let_out_for", -1.0,
+                                             true};  ///< the same of the core of pairs [s]
 inline constexpr double none_let_out = std::numeric_limits<double>::max();
 
 /// Whether a density is a sum over solids alone, by the corrected forms, and contact does not pull.
@@ -30,11 +32,10 @@ inline constexpr double none_let_out = std::numeric_limits<double>::max();
   return time < at_last * all ? (1.0 + time / all) * std::exp(-time / all) : 0.0;
 }
 
-/// Share of the core of pairs that acts, at a time of letting out [s]: little until pressure has parted what
-/// overlaps.
+/// Share of the core of pairs that acts: little until pressure has parted what overlaps.
 [[nodiscard]] inline double core_share(const State& state, const SceneNumbers& n) {
   if (!lets_solids_out(state.scene)) return 1.0;
-  const double gone = 1.0 - overlap_left(state, n, state.step_numbers[let_out_for]);
+  const double gone = 1.0 - overlap_left(state, n, state.step_numbers[core_let_out_for]);
   const double gone2 = gone * gone, gone4 = gone2 * gone2;
   return gone4 * gone4;
 }

@@ -6,14 +6,14 @@
 /// start and falls back to the material's, and the core of pairs grows meanwhile.
 namespace tripoint::pressure {
 
-/// Before the first drift: the densities of these rows become their rest densities, where they are greater.
+/// At the first forces: the densities of these rows become their rest densities, where they are greater.
 void take_as_rest(State&, const Rows&);
 
-/// Whether solids overlap at the start: before the first drift by what is there, then as all processes found.
-[[nodiscard]] bool has_let_out(const State&, const liquid::SceneNumbers&);
-/// At the first drift: all processes know whether solids overlap at the start of one. @param here  of this
-/// one
-void begin_letting_out(State&, bool here);
+/// Whether solids overlap at the start.
+[[nodiscard]] bool has_let_out(const State&);
+/// At the first forces: all processes know whether solids overlap at the start of one, and whether the core
+/// of pairs is let out too: where a density is above halfway to that of two layers in one plane.
+void begin_letting_out(State&, const liquid::SceneNumbers&);
 
 /// The rest densities after dt [s]. @returns energy of compression that this puts in [J]
 [[nodiscard]] double let_out(State&, const liquid::SceneNumbers&, double dt);

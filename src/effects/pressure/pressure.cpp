@@ -63,7 +63,7 @@ class Pressure : public Effect {
   [[nodiscard]] TimeStepBound max_dt(const State&) const override;
   void add_to(const State& state, Ledger& ledger) const override {
     if (liquid::stores_compression(state.scene)) add_compression(state, numbers_, ledger);
-    if (lets_out_ && has_let_out(state, numbers_)) ledger.energy["phase_work"] += 0.0;  // in every frame
+    if (lets_out_ && has_let_out(state)) ledger.energy["phase_work"] += 0.0;  // in every frame
     if (damps_) ledger.energy["bulk_viscous"] += state.accumulated[taken_by_bulk_viscosity];
   }
   [[nodiscard]] PairWork pair_work(const Scene&) const override;
@@ -77,7 +77,6 @@ class Pressure : public Effect {
   double core_before_ = 1.0;  ///< share of the core at the last forces, within a step [1]
   bool damps_;                ///< liquids have a numerical bulk viscosity
   bool lets_out_;             ///< solids may be pressed at the start
-  bool overlap_ = false;      ///< they are
 };
 
 void Pressure::load(State& state, const InitialState&) {
@@ -103,7 +102,6 @@ void Pressure::kick(State& state, double dt) {
 void Pressure::drift(State& state, double dt) {
   drifted_ = dt;
   if (!lets_out_) return;
-  if (state.step_numbers[liquid::let_out_for] < 0.0) begin_letting_out(state, overlap_);
   core_before_ = liquid::core_share(state, numbers_);
   state.accumulated[compression_released] -= let_out(state, numbers_, dt);
 }
@@ -116,11 +114,11 @@ void Pressure::state(State& state, const Rows& rows) {
 
 /// The core of pairs as it is now, and the energy that its growth since the last forces puts in.
 void Pressure::let_core_grow(State& state, const Rows& rows) {
-  const double share = liquid::core_share(state, numbers_);
   if (state.step_numbers[liquid::let_out_for] < 0.0) {
     take_as_rest(state, rows);
-    overlap_ = has_let_out(state, numbers_);
+    begin_letting_out(state, numbers_);
   }
+  const double share = liquid::core_share(state, numbers_);
   if (share > core_before_)
     state.accumulated[compression_released] -= core_energy(state, numbers_, share - core_before_);
   core_before_ = share;
@@ -195,7 +193,8 @@ EffectSpec spec(const Scene& scene) {
   s.forces = {force_of(scene)};
   s.accounts = {compression_released};
   s.step_numbers = {liquid::half_step};
-  if (liquid::lets_solids_out(scene)) s.step_numbers.push_back(liquid::let_out_for);
+  if (liquid::lets_solids_out(scene))
+    s.step_numbers.insert(s.step_numbers.end(), {liquid::let_out_for, liquid::core_let_out_for});
   if (!liquid::stores_compression(scene))
     s.guarded_entries = {
         {"pressure_work", EntryRole::unbacked, "the printed pressure, which no energy stands behind"}};
