@@ -160,29 +160,43 @@ Enclosure enclosure_of(const Scene& s, const InitialState& initial) {
   return {{*s.min - around, *s.max + around}, true};
 }
 
+namespace {
+
+/// Liquid that is about to be dropped, or spray above a domain that was made from the scene: it falls back.
+bool may_be_outside(const State& state, const Enclosure& domain, std::size_t i, std::size_t axis,
+                    bool above) {
+  if (state.particles[field::body][i] >= 0) return false;
+  const double g = state.scene.gravity[axis];
+  return state.scene.removes_escaped || (!domain.given && (above ? g < 0.0 : g > 0.0));
+}
+
+std::string sides_of(const State& state, const Enclosure& domain, std::size_t i, std::size_t axis) {
+  const Scene& s = state.scene;
+  if (domain.given) return fmt::format("{:.6g} m .. {:.6g} m", (*s.min)[axis], (*s.max)[axis]);
+  return fmt::format(
+      "{:.6g} m .. {:.6g} m, which was made from the scene: give scene.min and "
+      "scene.max where it may{}, or unguarded = [\"escape\"]",
+      domain.box.min[axis], domain.box.max[axis],
+      state.particles[field::body][i] < 0 ? ", with on_escape = \"remove\" where it may leave" : "");
+}
+
+}  // namespace
+
 void check_escape(const State& state, const Enclosure& domain) {
   const Scene& s = state.scene;
   if (is_off(s, GuardName::escape) || (!domain.given && state.time > s.end_time)) return;
   const auto x = positions(state.particles);
   const std::array<std::span<const double>, 3> r{x.x, x.y, x.z};
   const Movable movable(state);
-  const auto body = state.particles[field::body];
   for (std::size_t a = 0; a < 3; ++a) {
     if (s.periodic[a]) continue;
     const double low = domain.box.min[a], high = domain.box.max[a];
     for (std::size_t i = 0; i < state.particles.moving(); ++i) {
       if ((r[a][i] >= low && r[a][i] <= high) || !movable(i)) continue;
-      const bool flows = body[i] < 0, rises = s.gravity[a] * (r[a][i] > high ? 1.0 : -1.0) < 0.0;
-      if (flows && s.removes_escaped) continue;       // it is about to be dropped
-      if (flows && !domain.given && rises) continue;  // spray, which falls back
-      const std::string where =
-          domain.given ? fmt::format("{:.6g} m .. {:.6g} m", (*s.min)[a], (*s.max)[a])
-                       : fmt::format(
-                             "{:.6g} m .. {:.6g} m, which was made from the scene: give scene.min and "
-                             "scene.max where it may{}, or unguarded = [\"escape\"]",
-                             low, high, flows ? ", with on_escape = \"remove\" where it may leave" : "");
+      if (may_be_outside(state, domain, i, a, r[a][i] > high)) continue;
       fail(state, GuardName::escape, i, "position", "drift",
-           fmt::format("has left the domain: {} = {:.6g} m is outside {}", "xyz"[a], r[a][i], where));
+           fmt::format("has left the domain: {} = {:.6g} m is outside {}", "xyz"[a], r[a][i],
+                       sides_of(state, domain, i, a)));
     }
   }
 }

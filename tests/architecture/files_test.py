@@ -32,6 +32,7 @@ KEEP_HOUSE = {
     "friction/friction.cpp",
     "heat/held_surface.cpp",
     "phase/softening.cpp",
+    "pressure/let_out.cpp",
     "walls/wall_patches.cpp",
 }
 MACHINE = re.compile(r"(?<![\w.}/-])/(?:home|root|work|mnt|Users|opt)/[A-Za-z0-9]")
