@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -95,41 +96,74 @@ double densest(const Scene& s, const Neighbourhood& near, bool liquids) {
   return most;
 }
 
-/// What a shape may fall through or on: the other bodies.
+/// Furthest that a box reaches along a direction [m].
+double depth_of(const Bounds& box, const Vec3& down) {
+  double most = 0.0;
+  for (std::size_t a = 0; a < 3; ++a)
+    if (down[a] != 0.0) most += std::max(down[a] * box.min[a], down[a] * box.max[a]);
+  return most;
+}
+
+/// Tells of points whether they lie in shapes of a scene; of each shape it finds out once how.
+class Insides {
+ public:
+  explicit Insides(double spacing) : spacing_(spacing) {}
+  using Test = std::function<bool(const Vec3&)>;
+  [[nodiscard]] const Test& of(const Shape& shape) {
+    auto& test = known_[&shape];
+    if (!test) test = inside_of(shape, spacing_);
+    return test;
+  }
+
+ private:
+  double spacing_;
+  std::map<const Shape*, Test> known_;
+};
+
+/// What a shape may fall through or on: the other bodies in its way.
 class Way {
  public:
-  Way(const Scene& s, const Shape& falls, double density) {
+  Way(const Scene& s, const Shape& falls, double density, Insides& insides) {
+    const Bounds box = bounds(falls);
+    const Vec3 down = (1.0 / norm(s.gravity)) * s.gravity;
     for (const Body& b : s.bodies) {
-      if (&b.shape == &falls) continue;
+      const Bounds other = bounds(b.shape);
+      if (&b.shape == &falls || !falls_onto(s, box, other)) continue;
       const double share = std::max(0.0, 1.0 - s.material(b.material).density / density);
-      (is_wet(&b) ? liquids_ : solids_).push_back({inside_of(b.shape, s.spacing), share});
+      (is_wet(&b) ? liquids_ : solids_).push_back({&insides.of(b.shape), share});
+      if (!is_wet(&b)) deepest_ = std::max(deepest_, depth_of(other, down));
     }
   }
+  /// Beyond it there is no solid [m]
+  [[nodiscard]] double deepest() const noexcept { return deepest_; }
   [[nodiscard]] bool is_blocked(const Vec3& r) const {
-    return std::ranges::any_of(solids_, [&](const Part& p) { return p.inside(r); });
+    return std::ranges::any_of(solids_, [&](const Part& p) { return (*p.inside)(r); });
   }
   /// Share of gravity that buoyancy leaves [1]
   [[nodiscard]] double weight(const Vec3& r) const {
-    const auto found = std::ranges::find_if(liquids_, [&](const Part& p) { return p.inside(r); });
+    const auto found = std::ranges::find_if(liquids_, [&](const Part& p) { return (*p.inside)(r); });
     return found == liquids_.end() ? 1.0 : found->share;
   }
 
  private:
   struct Part {
-    std::function<bool(const Vec3&)> inside;
+    const Insides::Test* inside;
     double share;
   };
   std::vector<Part> solids_, liquids_;
+  double deepest_ = -INFINITY;
 };
 
 /// How far what fills a shape can fall until it meets a solid [m], less by its buoyancy in liquid: that of
 /// its parts which falls farthest, of 27. None where that is less than the support, as where it rests.
-double gap_below(const Scene& s, const Shape& shape, double density) {
-  const double g = norm(s.gravity), step = 0.5 * s.spacing;
-  if (!(g > 0.0) || !(step > 0.0)) return 0.0;
+double gap_below(const Scene& s, const Shape& shape, double density, Insides& insides) {
+  constexpr double most_steps = 1e4;  // of a part, wherever the floor is
+  const double g = norm(s.gravity);
+  if (!(g > 0.0) || !(s.spacing > 0.0)) return 0.0;
+  const Vec3 down = (1.0 / g) * s.gravity;
   const double farthest = 0.5 * g * s.end_time * s.end_time;
-  const auto within = inside_of(shape, s.spacing);
-  const Way way(s, shape, density);
+  const auto& within = insides.of(shape);
+  const Way way(s, shape, density, insides);
   const Bounds box = bounds(shape);
   double most = 0.0;
   for (int part = 0; part < 27; ++part) {
@@ -137,14 +171,15 @@ double gap_below(const Scene& s, const Shape& shape, double density) {
     Vec3 r = box.min;
     for (std::size_t a = 0; a < 3; ++a) r[a] += share[a] * box.extent()[a];
     if (!within(r)) continue;
+    const double reach = std::min(way.deepest() - dot(down, r), norm(box.extent()) + farthest);
+    const double step = std::max(0.5 * s.spacing, reach / most_steps);
     double passed = 0.0, gap = 0.0;
-    while (passed < farthest && !way.is_blocked(r)) {
-      r += (step / g) * s.gravity;
-      const bool own = within(r);
-      passed = own ? 0.0 : passed + step;
-      gap = own ? 0.0 : gap + step * way.weight(r);
+    while (passed <= reach && !way.is_blocked(r)) {
+      r += step * down;
+      passed += step;
+      gap = within(r) ? 0.0 : gap + step * way.weight(r);
     }
-    if (passed < farthest) most = std::max(most, gap);
+    if (passed <= reach && gap < farthest) most = std::max(most, gap);
   }
   return most > s.support_ratio * s.spacing ? most : 0.0;
 }
@@ -154,8 +189,10 @@ double gap_below(const Scene& s, const Shape& shape, double density) {
 double stiffness_of_falls(const Scene& s, const Neighbourhood& near) {
   double most = 0.0;
   const double liquids = densest(s, near, true);
+  Insides insides(s.spacing);
   const auto add = [&](const Shape& shape, double speed, double density, double extent) {
-    const double gap = gap_below(s, shape, density), heavier = liquids > 0.0 ? density / liquids : 1.0;
+    const double gap = gap_below(s, shape, density, insides),
+                 heavier = liquids > 0.0 ? density / liquids : 1.0;
     if (gap > 0.0)
       most = std::max(
           most, 100.0 * std::max(1.0, heavier) * (speed * speed + 2.0 * norm(s.gravity) * (gap + extent)));

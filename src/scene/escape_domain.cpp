@@ -41,7 +41,8 @@ double depth(const Scene& s, const Bounds& box) {
   return most;
 }
 
-/// Whether a box that falls comes across another on its way. A wall that stands beside it stops nothing.
+}  // namespace
+
 bool falls_onto(const Scene& s, const Bounds& box, const Bounds& wall) {
   Bounds way = box;
   include(way, box, 0.5 * s.end_time * s.end_time * s.gravity, 0.0);
@@ -49,6 +50,8 @@ bool falls_onto(const Scene& s, const Bounds& box, const Bounds& wall) {
     if (way.max[a] < wall.min[a] || wall.max[a] < way.min[a]) return false;
   return true;
 }
+
+namespace {
 
 bool has_wall_below(const Scene& s, const std::vector<Bounds>& boxes, const Bounds& box) {
   for (std::size_t n = 0; n < s.bodies.size(); ++n)

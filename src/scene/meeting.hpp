@@ -25,6 +25,10 @@ struct Meeting {
 /// Greatest speed that a body starts with or is driven at, as far as the file tells without sampling [m/s].
 [[nodiscard]] double greatest_speed(const Body&);
 
+/// Whether a box that falls freely until the end comes across another on its way. A wall that stands beside
+/// it stops nothing.
+[[nodiscard]] bool falls_onto(const Scene&, const Bounds& box, const Bounds& wall);
+
 /// Box that holds a healthy run, where the scene gives no domain. It reaches twice the diagonal of the start
 /// beyond its particles, and to all places that bodies are driven to or can fly to. A body with a wall below
 /// it does not fall freely.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <string>
+
 #include "scene/defaults.hpp"
 #include "validation/case/read_case.hpp"
 
@@ -22,6 +25,17 @@ Scene tank() {
   return s;
 }
 
+/// Adds a rigid box of water's density.
+Body& add_box(Scene& s, const char* name, Motion motion, const Vec3& min, const Vec3& max) {
+  Body& b = s.bodies.emplace_back(s.bodies[0]);
+  b.name = name;
+  b.phase = Phase::rigid;
+  b.motion = motion;
+  b.shape.min = min;
+  b.shape.max = max;
+  return b;
+}
+
 TEST(DefaultStiffness, MakesSoundTenTimesAsFastAsTheLiquidCanFall) {
   EXPECT_NEAR(default_stiffness(tank())->value, 100.0 * 40.0, 1e-9);
 }
@@ -30,22 +44,15 @@ TEST(DefaultStiffness, CountsTheDropOfASolidAboveTheLiquid) {
   Scene s = tank();
   s.end_time = 2.0;
   s.spacing = 0.1;
-  s.bodies.resize(3, s.bodies[0]);
-  s.bodies[1].name = "floor";
-  s.bodies[1].phase = s.bodies[2].phase = Phase::rigid;
-  s.bodies[1].motion = Motion::fixed;
-  s.bodies[1].shape.min = {0.0, 0.0, 0.0};
-  s.bodies[1].shape.max = {1.0, 1.0, 1.0};
-  s.bodies[2].name = "ball";
-  s.bodies[2].shape.min = {0.4, 0.4, 6.0};
-  s.bodies[2].shape.max = {0.6, 0.6, 6.2};
+  add_box(s, "floor", Motion::fixed, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0});
+  Body& ball = add_box(s, "ball", Motion::free, {0.4, 0.4, 6.0}, {0.6, 0.6, 6.2});
   EXPECT_NEAR(default_stiffness(s)->value, 100.0 * 60.0, 300.0);  // 3 m through air
   s.materials.push_back(s.materials[0]);
-  s.materials[1].name = s.bodies[2].material = "steel";
+  s.materials[1].name = ball.material = "steel";
   s.materials[1].density = 8000.0;
   EXPECT_NEAR(default_stiffness(s)->value, 800.0 * 95.0, 2400.0);
-  s.bodies[2].material = "water";
-  s.bodies[2].shape.min.z = 1.5;
+  ball.material = "water";
+  ball.shape.min.z = 1.5;
   EXPECT_NEAR(default_stiffness(s)->value, 100.0 * 40.0, 1e-9);
 }
 
@@ -53,18 +60,28 @@ TEST(DefaultStiffness, CountsTheFallOfLiquidToAFloor) {
   Scene s = tank();
   s.end_time = 2.0;
   s.spacing = 0.1;
-  s.bodies.resize(2, s.bodies[0]);
-  s.bodies[1].name = "floor";
-  s.bodies[1].phase = Phase::rigid;
-  s.bodies[1].motion = Motion::fixed;
-  s.bodies[1].shape.min = {0.0, 0.0, -1.0};
-  s.bodies[1].shape.max = {1.0, 1.0, 0.0};
+  add_box(s, "floor", Motion::fixed, {0.0, 0.0, -1.0}, {1.0, 1.0, 0.0});
   EXPECT_NEAR(default_stiffness(s)->value, 100.0 * 60.0, 300.0);
   s.bodies[0].velocity.value = {0.0, 0.0, -5.0};
   EXPECT_NEAR(default_stiffness(s)->value, 100.0 * 85.0, 300.0);
   s.bodies[0].velocity.value = {};
   s.end_time = 0.1;  // it does not get there
   EXPECT_NEAR(default_stiffness(s)->value, 100.0 * 40.0, 1e-9);
+}
+
+TEST(DefaultStiffness, IsFoundAtOnceWhereNothingStopsAFallAndWhereMuchDoes) {
+  Scene s = tank();
+  s.spacing = 1e-3;
+  s.end_time = 1e6;
+  EXPECT_NEAR(default_stiffness(s)->value, 100.0 * 40.0, 1e-9);
+  for (int n = 0; n < 1000; ++n) {
+    const double x = 0.1 * (n % 10), y = 0.1 * (n / 10 % 10), z = 1.0 + 0.1 * (n / 100);
+    add_box(s, ("box" + std::to_string(n)).c_str(), Motion::free, {x, y, z}, {x + 0.09, y + 0.09, z + 0.09});
+  }
+  add_box(s, "floor", Motion::fixed, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0});
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_NEAR(default_stiffness(s)->value, 100.0 * 40.0, 1e-9);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
 }
 
 TEST(DefaultStiffness, FollowsTheFastestBodyWhereThatIsFaster) {

@@ -11,8 +11,8 @@ void take_as_rest(State&, const Rows&);
 
 /// Whether solids overlap at the start.
 [[nodiscard]] bool has_let_out(const State&);
-/// At the first forces: all processes know whether solids overlap at the start of one, and whether the core
-/// of pairs is let out too: where a density is above halfway to that of two layers in one plane.
+/// At the first forces: all processes know whether solids overlap at the start of one, and whether by so much
+/// that the core of pairs is let out too.
 void begin_letting_out(State&, const liquid::SceneNumbers&);
 
 /// The rest densities after dt [s]. @returns energy of compression that this puts in [J]
